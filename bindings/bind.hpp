@@ -1,0 +1,14 @@
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+/// The parts of the module, in the order in which they need each other.
+namespace ebac::python {
+
+void bind_core(pybind11::module_& m);
+void bind_model(pybind11::module_& m);
+void bind_simulation(pybind11::module_& m);
+void bind_controllers(pybind11::module_& m);
+void bind_python_law(pybind11::module_& m);
+
+}  // namespace ebac::python

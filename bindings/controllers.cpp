@@ -1,0 +1,17 @@
+#include "controllers.hpp"
+
+#include "bind.hpp"
+#include "ebac/control/laws.hpp"
+
+namespace ebac::python {
+
+/// A new law: its header above, one line here.
+void bind_controllers(py::module_& m) {
+  bind_controller<Direct>(m, "Direct");
+  bind_controller<Tca>(m, "TCA");
+  bind_controller<Eba>(m, "EBA");
+  bind_controller<EbacPrinted>(m, "EBACPrinted");
+  bind_controller<Ebac>(m, "EBAC");
+}
+
+}  // namespace ebac::python

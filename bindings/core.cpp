@@ -1,0 +1,57 @@
+#include <pybind11/native_enum.h>
+
+#include "bind.hpp"
+#include "ebac/core/device_facts.hpp"
+#include "ebac/core/sample.hpp"
+#include "ebac/core/timing.hpp"
+#include "fields.hpp"
+
+namespace ebac::python {
+
+namespace {
+
+void bind_field_info(py::module_& m) {
+  py::class_<FieldInfo>(m, "Field", "One parameter or column: name, unit, meaning, default, range.")
+      .def_readonly("name", &FieldInfo::name, "Name.")
+      .def_readonly("unit", &FieldInfo::unit, "SI unit; '1' for a pure number.")
+      .def_readonly("meaning", &FieldInfo::meaning, "What it is.")
+      .def_readonly("kind", &FieldInfo::kind, "Python type.")
+      .def_readonly("default", &FieldInfo::initial, "Default.")
+      .def_readonly("low", &FieldInfo::low, "Smallest value allowed.")
+      .def_readonly("high", &FieldInfo::high, "Largest value allowed.")
+      .def("__repr__", [](const FieldInfo& f) { return "Field(" + f.name + " [" + f.unit + "]: " + f.meaning + ")"; });
+}
+
+void bind_fault(py::module_& m) {
+  py::native_enum<Fault>(m, "Fault", "enum.IntEnum", "Why a loop stopped; the first one latches.")
+      .value("NONE", Fault::kNone)
+      .value("POSITION_NOT_FINITE", Fault::kPositionNotFinite)
+      .value("FORCE_NOT_FINITE", Fault::kForceNotFinite)
+      .value("ENVIRONMENT_NOT_FINITE", Fault::kEnvironmentNotFinite)
+      .value("LAW_NOT_FINITE", Fault::kLawNotFinite)
+      .value("TORQUE_NOT_FINITE", Fault::kTorqueNotFinite)
+      .value("DEVICE", Fault::kDevice)
+      .finalize();
+}
+
+/// A port is what a law reads, so a law written in Python, or stepped from there, needs to fill one in.
+void bind_port(py::module_& m) {
+  auto cls = bind_fields<Port>(m, "Port", "What a law sees of one axis in one tick.");
+  for (const auto& field : Port::fields()) {
+    const auto member = std::get<double Port::*>(field.member);
+    cls.def_readwrite(std::string(field.name).c_str(), member, describe(field).c_str());
+  }
+}
+
+}  // namespace
+
+void bind_core(py::module_& m) {
+  m.def("_rebuild", &rebuild);
+  bind_field_info(m);
+  bind_fault(m);
+  bind_port(m);
+  bind_fields<Timing>(m, "Timing", "What every law must know about time.");
+  bind_fields<DeviceFacts>(m, "DeviceFacts", "What a user can know about a device; laws are designed from it.");
+}
+
+}  // namespace ebac::python

@@ -1,0 +1,102 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string_view>
+
+#include "ebac/control/beta.hpp"
+#include "ebac/control/pending.hpp"
+#include "ebac/core/concepts.hpp"
+
+namespace ebac {
+
+/// The energy-bounding algorithm of Kim and Ryu, eq. (8), (9): quiet on any wall and too soft by design,
+/// because the stiffness it shows tends to c = 2 b / ((1 + 2 d) T).
+///
+/// Two bounds. The storage bound (E) is the law itself; the account (D) behind it holds for every history
+/// and every delay, and is what the stated passivity rests on.
+class Eba {
+ public:
+  static constexpr std::string_view kName = "eba";
+  static constexpr std::string_view kSummary = "eq. (8), (9) with the state-dependent energy bound";
+  static constexpr bool kPassive = true;
+
+  struct Params {
+    double damping = 2.0;      // N s/m
+    double share = 1.0;
+    double peak_force = 42.4;  // N
+
+    static constexpr Params design(const DeviceFacts& facts, Timing) {
+      return {.damping = facts.damping, .peak_force = facts.peak_force};
+    }
+    static constexpr auto fields() {
+      using F = Field<Params>;
+      return std::array{
+          F{"damping", &Params::damping, "N s/m", "lower bound of the device's physical damping, b",
+            0, 500},
+          F{"share", &Params::share, "1", "c over its largest value 2 b / ((1 + 2 d) T)", 1e-3, 1},
+          F{"peak_force", &Params::peak_force, "N", "largest command", 1e-3, 1e4},
+      };
+    }
+  };
+
+  struct State : BetaTrace {
+    double account = 0;    // J
+    bool clamped = false;
+
+    static constexpr auto fields() {
+      using F = Field<State>;
+      return std::array{
+          beta_field<State>(),
+          beta_min_field<State>(),
+          beta_max_field<State>(),
+          F{"account", &State::account, "J", "port work plus damping, on the force really applied"},
+          F{"clamped", &State::clamped, "1", "1 where the law gave less than the world asked"},
+      };
+    }
+  };
+
+  explicit Eba(const Params& params, const Timing& timing = {})
+      : params_(checked(params, "EBA")), timing_(checked(timing, "Timing")), pending_(timing.delay) {}
+
+  double step(const Port& port) EBAC_RT {
+    if (!(port.dt > 0)) return command_ = 0;
+    const double b = params_.damping / port.dt;                      // B = b/T
+    const double c = params_.share * 2 * b / (1 + 2 * timing_.delay);
+    const double dx = port.dx;
+
+    state_.account += (port.f_applied + b * dx) * dx;                // (D)
+    const double spare = 4 * b * state_.account - pending_.sum_of_squares();
+    const double bound = std::sqrt(
+        std::min(energy_bound_squared(command_, dx, c, b), std::max(spare, 0.0)));
+
+    const double before = command_;
+    const double most = std::min(bound, params_.peak_force);
+    command_ = std::clamp(port.f_env, -most, most);                  // eq. (8), (9), bounded
+    state_.clamped = command_ != port.f_env;
+    state_.tell(before, command_, dx, bound);
+    pending_.push(command_);
+    return command_;
+  }
+
+  void reset() EBAC_RT {
+    state_ = {};
+    command_ = 0;
+    pending_ = Pending(timing_.delay);
+  }
+  const State& state() const EBAC_RT { return state_; }
+  const Params& params() const EBAC_RT { return params_; }
+  const Timing& timing() const EBAC_RT { return timing_; }
+
+ private:
+  Params params_;
+  Timing timing_;
+  Pending pending_;
+  double command_ = 0;  // F_d(t-1)
+  State state_{};
+};
+
+static_assert(Controller<Eba>);
+
+}  // namespace ebac

@@ -1,0 +1,313 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string_view>
+
+#include "ebac/control/beta.hpp"
+#include "ebac/control/energy_ledger.hpp"
+#include "ebac/control/force_feedback.hpp"
+#include "ebac/control/motion_guard.hpp"
+#include "ebac/control/pending.hpp"
+#include "ebac/control/play_velocity.hpp"
+#include "ebac/core/concepts.hpp"
+#include "ebac/model/velocity.hpp"
+
+namespace ebac {
+
+/// The closed-loop energy-bounding algorithm, completed: eq. (8) to (10) while the device moves, and what the
+/// paper leaves open. In the order of `step`:
+///
+///   1. ledger      the energy the virtual side holds, on the force really applied
+///   2. motion      eq. (9), the continuity of eq. (10), and the bound last: stiffness up to c_h = 0.9 M_h w^2
+///   3. recovery    where dx = 0 and eq. (9) is undefined, F_d relaxes to F_e
+///   4. release     contact lost: F_d = 0, always admissible
+///   5. damping     B_v = M_h w on a play-filtered velocity, w = min(0.35/t_d, ...): what the loop can carry
+///   6. force loop  eq. (2), with a small K_p
+///   7. guard       the total command is held to what the ledger covers
+///
+/// Nothing is designed from the wall or the hand; both are met as they come.
+class Ebac {
+ public:
+  static constexpr std::string_view kName = "ebac";
+  static constexpr std::string_view kSummary =
+      "eq. (8) to (10) and (2), completed: recovery, damping, guard";
+  static constexpr bool kPassive = false;  // guarded, not proven: the guard's assumptions are in the docs
+
+  struct Params {
+    double damping = 2.0;         // N s/m
+    double mass = 0.25;           // kg
+    double current_lag = 3e-4;    // s
+    double count = 3.07e-5;       // m
+    double peak_force = 42.4;     // N
+    double growth = 1.2;
+    double decay = 0.8;
+    double kp = 0.1;
+    double kd = 0;                // s
+    double filter = 5e-3;         // s
+    double heaviest_hand = 1.5;   // kg
+    double pull = 20;             // N
+    double reserve = 0.010;       // J
+    bool continuity = true;
+    bool recovery = true;
+    bool injection = true;
+    bool guard = true;
+
+    static constexpr Params design(const DeviceFacts& facts, Timing) {
+      return {.damping = facts.damping,
+              .mass = facts.mass,
+              .current_lag = facts.current_lag,
+              .count = facts.count,
+              .peak_force = facts.peak_force};
+    }
+    static constexpr auto fields() {
+      using F = Field<Params>;
+      return std::array{
+          F{"damping", &Params::damping, "N s/m", "lower bound of the device's physical damping, b",
+            0.01, 500},
+          F{"mass", &Params::mass, "kg", "device mass at the handle, M_h; an under-estimate is safe",
+            1e-3, 100},
+          F{"current_lag", &Params::current_lag, "s", "time constant of the drive's current loop", 0,
+            0.1},
+          F{"count", &Params::count, "m", "one encoder count at the handle", 0, 0.01},
+          F{"peak_force", &Params::peak_force, "N", "largest command", 1e-3, 1e4},
+          F{"growth", &Params::growth, "1", "c1 of eq. (10)", 1, 1.2},
+          F{"decay", &Params::decay, "1", "c2 of eq. (10)", 0.8, 1},
+          F{"kp", &Params::kp, "1", "K_p of eq. (2); it divides the device's damping by 1 + K_p", 0, 0.5},
+          F{"kd", &Params::kd, "s", "K_d of eq. (2)", 0, 0.01},
+          F{"filter", &Params::filter, "s", "low-pass on the derivative of the force error", 0, 1},
+          F{"heaviest_hand", &Params::heaviest_hand, "kg", "heaviest hand the recovery is paced for", 0,
+            10},
+          F{"pull", &Params::pull, "N", "largest pull of a hand the guard counts with", 0, 1e3},
+          F{"reserve", &Params::reserve, "J", "energy lent at the start, e(0) of eq. (3)", 0, 1},
+          F{"continuity", &Params::continuity, "1", "ratio rows of eq. (10)", 0, 1},
+          F{"recovery", &Params::recovery, "1", "relaxation towards F_e at dx = 0", 0, 1},
+          F{"injection", &Params::injection, "1", "virtual damping while in contact", 0, 1},
+          F{"guard", &Params::guard, "1", "hold the command to what the ledger covers", 0, 1},
+      };
+    }
+  };
+
+  struct State : BetaTrace {
+    double f_d = 0;       // N
+    double injected = 0;  // N
+    double energy = 0;    // J
+    double slope = 0;     // N/m
+    double admitted = 1;
+    bool clamped = false;
+
+    static constexpr auto fields() {
+      using F = Field<State>;
+      return std::array{
+          beta_field<State>(),
+          beta_min_field<State>(),
+          beta_max_field<State>(),
+          F{"f_d", &State::f_d, "N", "F_d of eq. (8), before damping and force loop"},
+          F{"injected", &State::injected, "N", "force of the virtual damper"},
+          F{"energy", &State::energy, "J", "ledger: what the virtual side may give back"},
+          F{"slope", &State::slope, "N/m", "stiffness of the environment as seen"},
+          F{"admitted", &State::admitted, "1", "share of the command the guard let through"},
+          F{"clamped", &State::clamped, "1", "1 where the energy bound or the guard held the force"},
+      };
+    }
+  };
+
+  explicit Ebac(const Params& params, const Timing& timing = {})
+      : params_(checked(params, "EBAC")),
+        timing_(checked(timing, "Timing")),
+        design_(params, timing),
+        loop_(params.kp, params.kd, params.filter),
+        ledger_(params.damping, params.count, params.current_lag, params.reserve),
+        velocity_(params.count, design_.velocity_lag),
+        guard_(params.damping, params.mass, params.count, params.pull),
+        pending_(timing.delay) {
+    reset();
+  }
+
+  double step(const Port& port) EBAC_RT {
+    if (!(port.dt > 0)) return begin(port);
+    ledger_.take(port.f_applied, port.dx, port.dt);         // 1
+    const double v = velocity_.step(port.x, port.dt);
+    watch(port);
+    state_.clamped = false;
+    state_.admitted = 1;
+    if (port.f_env == 0) {
+      release();                                            // 4
+    } else if (port.dx != 0) {
+      move(port);                                           // 2
+    } else if (params_.recovery) {
+      recover(port);                                        // 3
+    }
+    state_.f_d = std::clamp(state_.f_d, -params_.peak_force, params_.peak_force);
+    const double wanted = port.f_env == 0 ? 0.0 : complete(port, v);  // 5, 6
+    const double command = params_.guard ? guarded(wanted, port) : wanted;  // 7
+    finish(command, port);
+    return command;
+  }
+
+  void reset() EBAC_RT {
+    loop_.reset();
+    ledger_ = EnergyLedger(params_.damping, params_.count, params_.current_lag, params_.reserve);
+    pending_ = Pending(timing_.delay);
+    readings_.clear();
+    state_ = {};
+    state_.energy = params_.reserve;
+    last_env_ = clock_ = time_ = 0;
+    pace_ = 1;
+    heading_ = 0;
+    contact_slope_ = kAnyHigh;
+    ratio_ = 0;
+  }
+
+  const State& state() const EBAC_RT { return state_; }
+  const Params& params() const EBAC_RT { return params_; }
+  const Timing& timing() const EBAC_RT { return timing_; }
+
+  double bandwidth() const EBAC_RT { return design_.bandwidth; }            // rad/s
+  double moving_stiffness() const EBAC_RT { return design_.stiffness; }     // N/m
+  double virtual_damping() const EBAC_RT { return design_.damping; }        // N s/m
+
+ private:
+  /// Everything that follows from device and timing.
+  struct Design {
+    double bandwidth;      // rad/s, w
+    double stiffness;      // N/m, c_h
+    double damping;        // N s/m, B_v
+    double velocity_lag;   // s
+    double recovery_time;  // s, T_r
+
+    Design(const Params& p, Timing timing) EBAC_RT {
+      constexpr double kPhaseLag = 0.35;    // rad of delay at w, against 0.8 rad of lead
+      constexpr double kCountForce = 1.0;   // N, largest force step one count may cause
+      constexpr double kVelocityTime = 1e-3;  // s
+      const double late = (timing.delay + 0.5) * timing.dt + p.current_lag;
+      const double smooth = kCountForce * std::max(timing.dt, kVelocityTime) / (p.count * p.mass);
+      bandwidth = std::min(kPhaseLag / late, smooth);
+      stiffness = 0.9 * p.mass * bandwidth * bandwidth;
+      damping = p.mass * bandwidth;
+      velocity_lag = std::max(0.0, kVelocityTime - timing.dt);
+      recovery_time = 2.2 * (p.heaviest_hand + p.mass) / damping;
+    }
+  };
+
+  double begin(const Port& port) EBAC_RT {
+    velocity_.start(port.x);
+    readings_.push(port.x, 0);
+    return 0;
+  }
+
+  /// The environment's slope, learnt while it is touched, and whether the contact swings.
+  void watch(const Port& port) EBAC_RT {
+    time_ += port.dt;
+    readings_.push(port.x, time_);
+    if (port.f_env == 0) {
+      state_.slope = clock_ = 0;
+      pace_ = 1;
+    } else {
+      clock_ += port.dt;
+      if (port.dx != 0) {
+        const double seen = std::abs((port.f_env - last_env_) / port.dx);
+        state_.slope = seen > state_.slope ? seen : state_.slope + 0.02 * (seen - state_.slope);
+        contact_slope_ = std::min(design_.stiffness, state_.slope);
+      }
+    }
+    const int direction = velocity_.direction();
+    if (direction != 0) {
+      if (direction == -heading_ && clock_ > 0.5) pace_ = std::max(0.3, 0.9 * pace_);
+      heading_ = direction;
+    }
+    last_env_ = port.f_env;
+  }
+
+  void release() EBAC_RT {
+    state_.f_d = 0;
+    ratio_ = 0;
+    state_.tell(0, 0, 0, 0);
+  }
+
+  void move(const Port& port) EBAC_RT {
+    const double dx = port.dx;
+    const double before = state_.f_d;
+    double rise = port.f_env - before;                                   // eq. (9): beta dx
+    const bool releasing = before * dx < 0 && std::abs(port.f_env) < std::abs(before);
+    if (params_.continuity && !releasing) {
+      const double least = 0.5 * design_.stiffness * std::abs(dx);       // the floor
+      const double grown = params_.growth * ratio_ * dx;                 // eq. (10), rows 3 and 4,
+      const double decayed = params_.decay * ratio_ * dx;                // sorted
+      rise = std::clamp(rise, std::min({grown, decayed, -least}), std::max({grown, decayed, least}));
+    }
+    const double bound = std::abs(before + design_.stiffness * dx);      // eq. (10), rows 1 and 2: last
+    state_.f_d = std::clamp(before + rise, -bound, bound);               // eq. (8)
+    state_.clamped = state_.f_d != before + rise;
+    state_.tell(before, state_.f_d, dx, bound);
+    ratio_ = state_.beta;
+  }
+
+  void recover(const Port& port) EBAC_RT {
+    const double excess = std::max(state_.slope / design_.stiffness - 1, 0.25);
+    const double time = design_.recovery_time / pace_ * excess;
+    state_.f_d += (port.f_env - state_.f_d) * port.dt / (time + port.dt);
+    state_.tell(0, 0, 0, 0);
+  }
+
+  double complete(const Port& port, double v) EBAC_RT {
+    double desired = state_.f_d;
+    state_.injected = 0;
+    if (params_.injection) {
+      desired += design_.damping * v;
+      desired = port.f_env > 0 ? std::max(desired, 0.0) : std::min(desired, 0.0);  // never sticks
+      state_.injected = desired - state_.f_d;
+    }
+    const double total = desired + loop_.step(desired, port.f_meas, port.dt);  // eq. (2)
+    return std::clamp(total, -params_.peak_force, params_.peak_force);
+  }
+
+  double guarded(double wanted, const Port& port) EBAC_RT {
+    const double energy = ledger_.energy();
+    if (guard_.surely_admits(wanted, pending_, energy, port.dt)) return wanted;
+    const double v = adaptive_slope(readings_, 16, params_.count);
+    const double command = guard_.admit(wanted, pending_, energy, v, port.dt);
+    if (command != wanted) {
+      state_.clamped = true;
+      state_.admitted = command / wanted;
+      const double size = std::abs(command);
+      if (std::abs(state_.f_d) > size) {
+        state_.f_d += (std::copysign(size, state_.f_d) - state_.f_d) * port.dt / (0.01 + port.dt);
+      }
+    }
+    return command;
+  }
+
+  void finish(double command, const Port& port) EBAC_RT {
+    if (port.f_env == 0) {
+      loop_.reset();
+      state_.injected = 0;
+    }
+    pending_.push(command);
+    ledger_.leak(command, contact_slope_, port.dt);
+    state_.energy = ledger_.energy();
+  }
+
+  Params params_;
+  Timing timing_;
+  Design design_;
+  ForceFeedback loop_;
+  EnergyLedger ledger_;
+  PlayVelocity velocity_;
+  MotionGuard guard_;
+  Pending pending_;
+  Readings readings_{};
+  State state_{};
+  double last_env_ = 0;             // N
+  double contact_slope_ = kAnyHigh;  // N/m, of the last contact, at most c_h
+  double clock_ = 0;                // s in contact
+  double time_ = 0;                 // s
+  double pace_ = 1;                 // of the recovery; falls while the contact swings
+  double ratio_ = 0;                // N/m, beta(t-1)
+  int heading_ = 0;                 // direction of the last motion
+};
+
+static_assert(Controller<Ebac>);
+
+}  // namespace ebac

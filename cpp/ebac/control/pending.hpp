@@ -1,0 +1,46 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "ebac/core/realtime.hpp"
+
+namespace ebac {
+
+inline constexpr int kMaxDelay = 8;  // samples, as Timing::delay
+
+/// Commands given but not yet acting: the last `delay` of them, oldest first.
+class Pending {
+ public:
+  explicit Pending(int delay) EBAC_RT : size_(delay) {}
+
+  int size() const EBAC_RT { return size_; }
+  double operator[](int j) const EBAC_RT { return force_[static_cast<std::size_t>(j)]; }
+
+  void push(double force) EBAC_RT {
+    if (size_ == 0) return;
+    for (int j = 1; j < size_; ++j) {
+      force_[static_cast<std::size_t>(j - 1)] = force_[static_cast<std::size_t>(j)];
+    }
+    force_[static_cast<std::size_t>(size_ - 1)] = force;
+  }
+
+  double largest() const EBAC_RT {
+    double most = 0;
+    for (int j = 0; j < size_; ++j) most = std::max(most, std::abs((*this)[j]));
+    return most;
+  }
+
+  double sum_of_squares() const EBAC_RT {
+    double sum = 0;
+    for (int j = 0; j < size_; ++j) sum += (*this)[j] * (*this)[j];
+    return sum;
+  }
+
+ private:
+  int size_;
+  std::array<double, kMaxDelay> force_{};
+};
+
+}  // namespace ebac

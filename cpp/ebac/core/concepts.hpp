@@ -1,0 +1,71 @@
+#pragma once
+
+#include <concepts>
+#include <span>
+#include <string_view>
+
+#include "ebac/core/check.hpp"
+#include "ebac/core/device_facts.hpp"
+#include "ebac/core/fields.hpp"
+#include "ebac/core/sample.hpp"
+#include "ebac/core/timing.hpp"
+
+namespace ebac {
+
+/// A law for one port: a cheap, copyable value. Parameters are checked by the constructor, which may
+/// throw; `step` runs inside the tick.
+template <class L>
+concept Controller =
+    std::copyable<L> && Described<typename L::Params> && Described<typename L::State> &&
+    std::constructible_from<L, typename L::Params, Timing> &&
+    requires(L law, const L& view, const Port& port, const DeviceFacts& facts, Timing timing) {
+      { L::kName } -> std::convertible_to<std::string_view>;
+      { L::kSummary } -> std::convertible_to<std::string_view>;
+      { L::Params::design(facts, timing) } -> std::same_as<typename L::Params>;
+      { law.step(port) } noexcept -> std::same_as<double>;
+      { law.reset() } noexcept;
+      { view.state() } noexcept -> std::same_as<const typename L::State&>;
+      { view.params() } noexcept -> std::same_as<const typename L::Params&>;
+      { view.timing() } noexcept -> std::same_as<const Timing&>;
+    };
+
+/// A law for all ports of a device at once: writes `f_cmd` of every axis.
+template <class L>
+concept AxesController = requires(L law, std::span<Axis> axes) {
+  typename L::State;
+  { law.step(axes) } noexcept;
+  { law.reset() } noexcept;
+};
+
+struct Command {
+  std::array<double, kMaxAxes> current{};  // A, computed in the last tick
+  double elapsed = 0;                      // s, since the last exchange; 0 in the first
+};
+
+struct Reading {
+  std::array<std::int64_t, kMaxAxes> counts{};  // raw, as wide as the counter
+  std::array<double, kMaxAxes> current_applied{};  // A, over the interval that ended now
+  std::array<double, kMaxAxes> force{};            // N, force sensor at the handle
+  Fault fault = Fault::kNone;
+};
+
+/// Hardware, or what stands for it. One call, because on a synchronous bus it is one event: send the
+/// currents of the last tick, latch the new counts and forces.
+template <class D>
+concept Device = requires(D device, const Command& command) {
+  { device.exchange(command) } noexcept -> std::same_as<Reading>;
+};
+
+struct Instant {
+  double t = 0;         // s, since the start
+  double dt = 0;        // s, since the last tick; 0 in the first
+  double lateness = 0;  // s
+};
+
+/// What the loop waits on.
+template <class C>
+concept Clock = requires(C clock) {
+  { clock.wait() } noexcept -> std::same_as<Instant>;
+};
+
+}  // namespace ebac

@@ -1,0 +1,106 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "ebac/core/fields.hpp"
+#include "ebac/core/realtime.hpp"
+
+/// A tick is a row. Each stage of the loop reads what stands to its left and writes what it knows.
+///
+/// Signs: x grows into the wall; a force is positive when it resists +x.
+/// Letters: q joint angle, dq its rate, tau joint torque; x handle position, v its rate, f force.
+namespace ebac {
+
+/// Why the loop stopped. The first fault latches; its force is zero from that tick on.
+enum class Fault : std::uint32_t {
+  kNone = 0,
+  kPositionNotFinite = 1,     // counts or kinematics gave no number
+  kForceNotFinite = 2,        // the force sensor gave no number
+  kEnvironmentNotFinite = 3,  // the virtual world asked for no number
+  kLawNotFinite = 4,          // the law answered no number
+  kTorqueNotFinite = 5,       // transpose or compensation gave no number
+  kDevice = 6,                // the device itself reported a fault
+};
+
+/// What the hardware has, one per motor.
+struct Joint {
+  std::int64_t counts = 0;       // encoder, unwrapped
+  double q = 0;                  // rad
+  double dq = 0;                 // rad/s
+  double tau = 0;                // N m, asked
+  double current = 0;            // A, asked
+  double current_applied = 0;    // A, acted over the last interval
+
+  static constexpr auto fields() {
+    using F = Field<Joint>;
+    return std::array{
+        F{"counts", &Joint::counts, "counts", "encoder reading, unwrapped"},
+        F{"q", &Joint::q, "rad", "joint angle"},
+        F{"dq", &Joint::dq, "rad/s", "joint rate, estimated"},
+        F{"tau", &Joint::tau, "N m", "joint torque asked, static compensation included"},
+        F{"current", &Joint::current, "A", "motor current asked"},
+        F{"current_applied", &Joint::current_applied, "A",
+          "motor current set by the drive over the last interval"},
+    };
+  }
+};
+
+/// What the theory has: the power-conjugate pair where hand and virtual world meet.
+struct Port {
+  double x = 0;          // m
+  double dx = 0;         // m, since the last tick
+  double v = 0;          // m/s
+  double dt = 0;         // s, since the last tick
+  double f_env = 0;      // N, what the virtual world asks (F_e)
+  double f_cmd = 0;      // N, what the law allows (F_d, force loop included)
+  double f_applied = 0;  // N, acted over the last interval: after limits, after the delay
+  double f_meas = 0;     // N, force sensor (F_M)
+  double work = 0;       // J, W_k = sum of f_applied dx
+  double damped = 0;     // J, sum of (b/dt) dx^2: what the device's own damping surely took
+
+  static constexpr auto fields() {
+    using F = Field<Port>;
+    return std::array{
+        F{"x", &Port::x, "m", "handle position; grows into the wall"},
+        F{"dx", &Port::dx, "m", "displacement since the last tick"},
+        F{"v", &Port::v, "m/s", "handle velocity, estimated"},
+        F{"dt", &Port::dt, "s", "time since the last tick"},
+        F{"f_env", &Port::f_env, "N", "force the virtual world asks for (F_e)"},
+        F{"f_cmd", &Port::f_cmd, "N", "force the law commands (F_d, force loop included)"},
+        F{"f_applied", &Port::f_applied, "N",
+          "force that acted over the last interval, after limits and delay"},
+        F{"f_meas", &Port::f_meas, "N", "force the F/T sensor measures (F_M)"},
+        F{"work", &Port::work, "J", "energy the virtual side absorbed, sum of f_applied dx"},
+        F{"damped", &Port::damped, "J",
+          "energy the device's known damping surely took, sum of (b/dt) dx^2"},
+    };
+  }
+};
+
+struct Axis {
+  Joint joint;
+  Port port;
+};
+
+/// One tick. A log row is the prefix of this struct that holds the axes in use.
+struct Sample {
+  std::int64_t tick = 0;
+  double t = 0;         // s
+  double lateness = 0;  // s, wake-up after the planned instant
+  std::int64_t axes = 1;
+  Fault fault = Fault::kNone;
+  std::array<Axis, kMaxAxes> axis{};
+
+  static constexpr auto fields() {
+    using F = Field<Sample>;
+    return std::array{
+        F{"tick", &Sample::tick, "1", "tick number"},
+        F{"t", &Sample::t, "s", "time since the start"},
+        F{"lateness", &Sample::lateness, "s", "wake-up after the planned instant"},
+        F{"fault", &Sample::fault, "1", "0, or why the loop stopped"},
+    };
+  }
+};
+
+}  // namespace ebac

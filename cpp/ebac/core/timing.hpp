@@ -1,0 +1,25 @@
+#pragma once
+
+#include <array>
+
+#include "ebac/core/fields.hpp"
+
+namespace ebac {
+
+/// What every law must know about time: the nominal tick, and how late a command acts.
+struct Timing {
+  double dt = 1e-3;  // s
+  int delay = 1;     // samples
+
+  /// A command computed in tick k acts over the interval that starts at tick k + delay.
+  static constexpr auto fields() {
+    using F = Field<Timing>;
+    return std::array{
+        F{"dt", &Timing::dt, "s", "sample time", 1e-5, 0.1},
+        F{"delay", &Timing::delay, "samples",
+          "ticks from computing a command to its acting; 1 is a synchronous CAN drive", 0, 8},
+    };
+  }
+};
+
+}  // namespace ebac

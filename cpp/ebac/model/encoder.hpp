@@ -1,0 +1,47 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+
+#include "ebac/core/fields.hpp"
+#include "ebac/core/realtime.hpp"
+
+namespace ebac {
+
+/// An incremental encoder on the motor shaft, read through a counter that wraps around.
+struct Encoder {
+  int counts_per_turn = 1024;  // counts, as counted (no quadrature in the paper)
+  int counter_bits = 32;       // bits
+
+  double count() const EBAC_RT { return 2 * std::numbers::pi / counts_per_turn; }  // rad, motor
+
+  /// What the counter shows at a motor angle, wrapped to `counter_bits`, signed. Zero lies in the middle of a
+  /// count, so that a handle resting at the origin does not toggle.
+  std::int64_t read(double angle) const EBAC_RT {
+    return wrap(static_cast<std::int64_t>(std::floor(angle / count() + 0.5)));
+  }
+
+  /// The unwrapped count nearest to `last` that the counter would show as `raw`.
+  std::int64_t unwrap(std::int64_t raw, std::int64_t last) const EBAC_RT {
+    return last + wrap(raw - last);
+  }
+
+  std::int64_t wrap(std::int64_t counts) const EBAC_RT {
+    const int spare = 64 - counter_bits;
+    return static_cast<std::int64_t>(static_cast<std::uint64_t>(counts) << spare) >> spare;
+  }
+
+  static constexpr auto fields() {
+    using F = Field<Encoder>;
+    return std::array{
+        F{"counts_per_turn", &Encoder::counts_per_turn, "counts",
+          "counts per motor turn, after any quadrature", 1, 1 << 26},
+        F{"counter_bits", &Encoder::counter_bits, "bits", "width of the drive's counter, which wraps", 8,
+          63},
+    };
+  }
+};
+
+}  // namespace ebac

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <vector>
+
+#include "ebac/model/device.hpp"
+#include "ebac/model/exact_axis.hpp"
+#include "ebac/model/hand.hpp"
+
+namespace ebac {
+
+/// Independent rigid axes with a hand on each, integrated exactly. For `Linear` devices without Stribeck
+/// friction, cable compliance and backlash; SteppedPlant does the rest.
+class ExactPlant {
+ public:
+  /// Throws std::invalid_argument when `device` is not such a device.
+  ExactPlant(const DeviceModel& device, const Hand& hand, double tick);
+
+  static bool covers(const DeviceModel& device);
+
+  /// Moves by `quanta` of 2^-20 tick from time `t` on, under the motor currents `current` [A].
+  void advance(const Axes& current, double t, std::int64_t quanta) EBAC_RT;
+
+  const AxisTruth& truth(std::size_t axis) const EBAC_RT { return axes_[axis].truth(); }
+  double motor_angle(std::size_t axis) const EBAC_RT { return angle_per_metre_ * truth(axis).x; }
+
+ private:
+  void let_go() EBAC_RT;
+
+  Hand hand_;
+  double tick_;
+  double force_per_amp_;
+  double angle_per_metre_;
+  std::vector<ExactAxis> axes_;
+  std::vector<ExactAxis> without_hand_;
+  bool released_ = false;
+};
+
+}  // namespace ebac

@@ -1,0 +1,125 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <variant>
+
+#include "ebac/core/fields.hpp"
+#include "ebac/core/realtime.hpp"
+
+/// The map between joints [rad, N m] and the handle [m, N]. A kinematics gives `axes`, `radius`, `limit`,
+/// `forward`, `inverse`, `jacobian`; the free functions below derive the rest.
+namespace ebac {
+
+/// Joints or ports of one device; entries beyond the axes in use are zero.
+using Axes = Eigen::Vector3d;
+using Jacobian = Eigen::Matrix3d;
+
+static_assert(Axes::SizeAtCompileTime == kMaxAxes);
+
+/// n independent axes: x = R q. The device of eq. (6).
+struct Linear {
+  int axes = 1;
+  double radius = 0.1;  // m
+  double limit = std::numbers::pi / 6;  // rad
+
+  Axes forward(const Axes& q) const EBAC_RT { return radius * q; }
+  Axes inverse(const Axes& x) const EBAC_RT { return x / radius; }
+  Jacobian jacobian(const Axes&) const EBAC_RT { return radius * Jacobian::Identity(); }
+  Axes weight(const Axes&, double newton) const EBAC_RT { return Axes::Constant(newton * radius); }
+
+  static constexpr auto fields() {
+    using F = Field<Linear>;
+    return std::array{
+        F{"axes", &Linear::axes, "1", "number of independent axes", 1, kMaxAxes},
+        F{"radius", &Linear::radius, "m", "lever radius: travel per joint angle", 1e-4, 10},
+        F{"limit", &Linear::limit, "rad", "largest joint angle either way", 1e-3, 1e3},
+    };
+  }
+};
+
+/// The paper's joystick: a lever of radius R on two crossed axes. q1 turns it about the base's y axis and
+/// moves the handle along x; q2 turns it about the moved x axis and moves the handle along y.
+/// The handle lies on a sphere: x = R sin q1 cos q2, y = R sin q2, z = R cos q1 cos q2 (upright: q = 0).
+struct Gimbal {
+  static constexpr int axes = 2;
+  double radius = 0.1;                  // m
+  double limit = std::numbers::pi / 6;  // rad, eq. (11)
+
+  Axes forward(const Axes& q) const EBAC_RT {
+    return {radius * std::sin(q[0]) * std::cos(q[1]), radius * std::sin(q[1]), 0};
+  }
+
+  /// Unique for |q| < 90 deg; a point outside the sphere gives the nearest on its rim.
+  Axes inverse(const Axes& x) const EBAC_RT {
+    const double q2 = std::asin(std::clamp(x[1] / radius, -1.0, 1.0));
+    const double reach = radius * std::cos(q2);
+    const double q1 = reach > 0 ? std::asin(std::clamp(x[0] / reach, -1.0, 1.0)) : 0.0;
+    return {q1, q2, 0};
+  }
+
+  double height(const Axes& q) const EBAC_RT { return radius * std::cos(q[0]) * std::cos(q[1]); }
+
+  Jacobian jacobian(const Axes& q) const EBAC_RT {
+    Jacobian j = Jacobian::Zero();
+    j(0, 0) = radius * std::cos(q[0]) * std::cos(q[1]);
+    j(0, 1) = -radius * std::sin(q[0]) * std::sin(q[1]);
+    j(1, 1) = radius * std::cos(q[1]);
+    return j;
+  }
+
+  Axes weight(const Axes& q, double newton) const EBAC_RT {
+    return newton * radius *
+           Axes{std::sin(q[0]) * std::cos(q[1]), std::cos(q[0]) * std::sin(q[1]), 0};
+  }
+
+  static constexpr auto fields() {
+    using F = Field<Gimbal>;
+    return std::array{
+        F{"radius", &Gimbal::radius, "m", "lever radius (paper, IV.A)", 1e-4, 10},
+        F{"limit", &Gimbal::limit, "rad", "largest angle of each joint either way, eq. (11)", 1e-3, 1.5},
+    };
+  }
+};
+
+using Kinematics = std::variant<Linear, Gimbal>;
+
+inline int axes(const Kinematics& kinematics) EBAC_RT {
+  return std::visit([](const auto& k) { return static_cast<int>(k.axes); }, kinematics);
+}
+inline double radius(const Kinematics& kinematics) EBAC_RT {
+  return std::visit([](const auto& k) { return k.radius; }, kinematics);
+}
+inline Axes forward(const Kinematics& kinematics, const Axes& q) EBAC_RT {
+  return std::visit([&](const auto& k) { return k.forward(q); }, kinematics);
+}
+inline Axes inverse(const Kinematics& kinematics, const Axes& x) EBAC_RT {
+  return std::visit([&](const auto& k) { return k.inverse(x); }, kinematics);
+}
+inline Jacobian jacobian(const Kinematics& kinematics, const Axes& q) EBAC_RT {
+  return std::visit([&](const auto& k) { return k.jacobian(q); }, kinematics);
+}
+/// Joint torque that shows the force `f` at the handle: tau = J(q)^T f.
+inline Axes transpose(const Kinematics& kinematics, const Axes& q, const Axes& f) EBAC_RT {
+  return jacobian(kinematics, q).transpose() * f;
+}
+/// Joint torque along +q of a weight [N] at the handle: along +x for Linear, down for Gimbal.
+inline Axes weight(const Kinematics& kinematics, const Axes& q, double newton) EBAC_RT {
+  return std::visit([&](const auto& k) { return k.weight(q, newton); }, kinematics);
+}
+/// Whether every joint lies within its limit.
+inline bool within_limits(const Kinematics& kinematics, const Axes& q) EBAC_RT {
+  return std::visit(
+      [&](const auto& k) {
+        for (int i = 0; i < k.axes; ++i) {
+          if (!(std::abs(q[i]) <= k.limit)) return false;
+        }
+        return true;
+      },
+      kinematics);
+}
+
+}  // namespace ebac

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+
+#include "ebac/core/realtime.hpp"
+
+namespace ebac {
+
+/// Time inside the plant is counted in quanta: a tick has 2^20 of them, about a nanosecond at 1 kHz. An event
+/// is found to the quantum; a jittered tick is a whole number of them.
+inline constexpr int kQuantaBits = 20;
+inline constexpr std::int64_t kQuanta = std::int64_t{1} << kQuantaBits;
+
+/// The exact flow of w' = A w over dyadic parts of a tick, and the exact integral of (row . w)^2 along it.
+///
+/// Level j moves by 2^-j ticks: w <- phi w, and the integral is w^T square w (Van Loan 1978). Everything is
+/// computed once per parameter set, by the matrix exponential.
+class LinearFlow {
+ public:
+  static constexpr int kSize = 6;
+  using Vector = Eigen::Matrix<double, kSize, 1>;
+  using Matrix = Eigen::Matrix<double, kSize, kSize>;
+
+  struct Step {
+    Matrix phi;
+    Matrix square;
+  };
+
+  LinearFlow(const Matrix& a, const Vector& row, double tick);
+
+  const Step& level(int j) const EBAC_RT { return levels_[static_cast<std::size_t>(j)]; }
+
+ private:
+  std::array<Step, kQuantaBits + 1> levels_;
+};
+
+}  // namespace ebac

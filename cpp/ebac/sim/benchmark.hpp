@@ -1,0 +1,51 @@
+#pragma once
+
+#include <algorithm>
+#include <chrono>
+#include <vector>
+
+#include "ebac/sim/simulate.hpp"
+
+/// Times without Python inside: nanoseconds per step, the best of several runs, since noise only adds.
+namespace ebac {
+
+template <class Work>
+double best_nanoseconds(int repeats, std::size_t steps, Work work) {
+  double best = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < repeats; ++i) {
+    const auto start = std::chrono::steady_clock::now();
+    work();
+    const std::chrono::duration<double, std::nano> taken = std::chrono::steady_clock::now() - start;
+    best = std::min(best, taken.count() / static_cast<double>(steps));
+  }
+  return best;
+}
+
+/// One law on the ports it met in a run of `setup`.
+template <Controller Law>
+double time_law(const Setup& setup, Law law, int repeats) {
+  const auto trace = simulate(setup, law);
+  std::vector<Port> ports;
+  for (std::size_t i = 0; i < trace->size(); ++i) ports.push_back(trace->sample(i).axis[0].port);
+  volatile double sink = 0;
+  return best_nanoseconds(repeats, ports.size(), [&] {
+    law.reset();
+    double sum = 0;
+    for (const Port& port : ports) sum += law.step(port);
+    sink = sum;
+  });
+}
+
+/// The whole closed loop: plant, device, rig, environment, account, law, row.
+template <Controller Law>
+double time_loop(const Setup& setup, const Law& law, int repeats) {
+  double best = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < repeats; ++i) {
+    auto loop = simulated_loop(setup, PerAxis<Law>(law));
+    const auto trace = loop.make_trace(row_count(setup));
+    best = std::min(best, best_nanoseconds(1, row_count(setup), [&] { loop.run(*trace); }));
+  }
+  return best;
+}
+
+}  // namespace ebac

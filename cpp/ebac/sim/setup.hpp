@@ -1,0 +1,23 @@
+#pragma once
+
+#include <cstdint>
+
+#include "ebac/core/timing.hpp"
+#include "ebac/model/device.hpp"
+#include "ebac/model/environment.hpp"
+#include "ebac/model/hand.hpp"
+
+namespace ebac {
+
+/// Everything of a simulated run but the law. The same setup gives the same bits on every run.
+struct Setup {
+  DeviceModel device{};
+  Hand hand{};
+  Environment environment{Wall{}};
+  Timing timing{};
+  double seconds = 6;      // s
+  double jitter = 0;       // of a tick
+  std::uint64_t seed = 1;
+};
+
+}  // namespace ebac

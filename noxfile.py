@@ -1,0 +1,82 @@
+"""The project's chores, each in its own environment: `nox -l` lists, `nox -s tests` runs one."""
+
+import re
+from pathlib import Path
+
+import nox
+
+nox.options.sessions = ["lint", "types", "cpp", "tests"]
+nox.options.default_venv_backend = "venv"
+
+
+def cpp_sources() -> list[str]:
+    roots = (Path("cpp"), Path("bindings"), Path("tests/cpp"), Path("examples"))
+    return [str(p) for r in roots for p in sorted(r.rglob("*")) if p.suffix in {".hpp", ".cpp"}]
+
+
+@nox.session
+def tests(session: nox.Session) -> None:
+    """Run the Python tests against the installed package."""
+    session.install(".[test]")
+    session.run("pytest", *session.posargs)
+
+
+@nox.session
+def lint(session: nox.Session) -> None:
+    """Check formatting and style of Python and C++; `nox -s lint -- fix` repairs what it can."""
+    session.install(".[dev]")
+    fix = "fix" in session.posargs
+    session.run("ruff", "format", *([] if fix else ["--check"]))
+    session.run("ruff", "check", *(["--fix"] if fix else []))
+    session.run("clang-format", *(["-i"] if fix else ["--dry-run", "-Werror"]), *cpp_sources())
+    session.run("cmake", "--workflow", "--preset", "tidy")
+
+
+@nox.session
+def types(session: nox.Session) -> None:
+    """Check the types of the Python package."""
+    session.install(".[dev,test]")
+    session.run("mypy")
+
+
+@nox.session
+def cpp(session: nox.Session) -> None:
+    """Run the C++ tests, plain and under the sanitizers; `-- asan` runs one preset."""
+    session.install("cmake", "ninja", "cmeel-eigen")
+    for preset in session.posargs or ["default", "asan", "tsan"]:
+        session.run("cmake", "--workflow", "--preset", preset)
+
+
+@nox.session
+def docs(session: nox.Session) -> None:
+    """Build the documentation into build/docs; every warning is an error."""
+    session.install(".[docs,notebook]")
+    session.run("sphinx-build", "-W", "--keep-going", "docs", "build/docs", *session.posargs)
+
+
+def repair_native_enums(stub: str) -> str:
+    """Keep of each enum its members alone, as mypy wants them; pybind11-stubgen does not yet."""
+    return re.sub(
+        r"^(class \w+\(enum\.\w+\):\n)((?:    .*\n)+)",
+        lambda c: (
+            c[1] + re.sub(r"^    (?:(\w+): typing\.ClassVar.*|.*)\n", member, c[2], flags=re.M)
+        ),
+        stub,
+        flags=re.M,
+    )
+
+
+def member(line: re.Match[str]) -> str:
+    return f"    {line[1]} = ...\n" if line[1] else ""
+
+
+@nox.session
+def stubs(session: nox.Session) -> None:
+    """Write python/ebac/_core.pyi anew from the compiled module."""
+    session.install(".[dev]")
+    out = Path(session.create_tmp())
+    session.run("pybind11-stubgen", "ebac._core", "--output-dir", str(out), "--exit-code")
+    stub = Path("python/ebac/_core.pyi")
+    stub.write_text(repair_native_enums((out / "ebac" / "_core.pyi").read_text()))
+    session.run("ruff", "check", "--fix-only", "--quiet", str(stub))
+    session.run("ruff", "format", str(stub))

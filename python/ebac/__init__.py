@@ -1,0 +1,1 @@
+from ebac._core import *
