@@ -90,8 +90,8 @@ bool set_field(T& target, const std::string& owner, const std::string& name, py:
                                         const std::vector<std::string>& known) {
   const py::list near = py::module_::import("difflib").attr("get_close_matches")(name, known, 1);
   std::string text = owner + " has no parameter '" + name + "'";
-  if (near.size() > 0) text += "; did you mean '" + py::cast<std::string>(near[0]) + "'?";
-  text += " It has: ";
+  if (near.size() > 0) text += ", did you mean '" + py::cast<std::string>(near[0]) + "'";
+  text += "; it has: ";
   for (std::size_t i = 0; i < known.size(); ++i) text += (i == 0 ? "" : ", ") + known[i];
   throw py::type_error(text);
 }

@@ -1,1 +1,112 @@
-from ebac._core import *
+"""Stable haptic rendering: laws, devices, hands and virtual walls, simulated at 1 kHz by a C++ core.
+
+A first look::
+
+    import ebac
+
+    trace = ebac.simulate(ebac.Scenario(), "ebac")
+    print(ebac.contact(trace))
+    trace.plot()
+"""
+
+from importlib.metadata import version as _version
+
+from ebac import presets
+from ebac._core import (
+    EBA,
+    EBAC,
+    TCA,
+    AdaptiveWindow,
+    BackwardDifference,
+    Capstan,
+    Compensation,
+    Corner,
+    Device,
+    DeviceFacts,
+    Direct,
+    Drive,
+    EBACPrinted,
+    Encoder,
+    ExactPlant,
+    Fault,
+    ForceSensor,
+    Free,
+    Gimbal,
+    Hand,
+    Linear,
+    LowPass,
+    Mechanics,
+    MinimumJerk,
+    Motor,
+    Port,
+    Recorded,
+    Sine,
+    Step,
+    SteppedPlant,
+    Tapping,
+    Timing,
+    Wall,
+    copley_current,
+    estimate_velocity,
+)
+from ebac.laws import LAWS, PythonLaw, design
+from ebac.metrics import Contact, contact, ideal_rest
+from ebac.scenario import Scenario
+from ebac.simulation import LoopFault, simulate
+from ebac.specs import Spec, spec_sheet
+from ebac.trace import ColumnInfo, Trace
+
+__version__ = _version("ebac")
+
+__all__ = [
+    "EBA",
+    "EBAC",
+    "LAWS",
+    "TCA",
+    "AdaptiveWindow",
+    "BackwardDifference",
+    "Capstan",
+    "ColumnInfo",
+    "Compensation",
+    "Contact",
+    "Corner",
+    "Device",
+    "DeviceFacts",
+    "Direct",
+    "Drive",
+    "EBACPrinted",
+    "Encoder",
+    "ExactPlant",
+    "Fault",
+    "ForceSensor",
+    "Free",
+    "Gimbal",
+    "Hand",
+    "Linear",
+    "LoopFault",
+    "LowPass",
+    "Mechanics",
+    "MinimumJerk",
+    "Motor",
+    "Port",
+    "PythonLaw",
+    "Recorded",
+    "Scenario",
+    "Sine",
+    "Spec",
+    "Step",
+    "SteppedPlant",
+    "Tapping",
+    "Timing",
+    "Trace",
+    "Wall",
+    "__version__",
+    "contact",
+    "copley_current",
+    "design",
+    "estimate_velocity",
+    "ideal_rest",
+    "presets",
+    "simulate",
+    "spec_sheet",
+]

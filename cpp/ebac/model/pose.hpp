@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cmath>
+
+#include "ebac/model/kinematics.hpp"
+
+namespace ebac {
+
+/// Where a lever is, and what its geometry does to a mass of 1 kg at the handle.
+struct Pose {
+  Axes x;         // m, handle
+  Jacobian j;     // m
+  Axes drift;     // m/s^2, J' dq: acceleration of the port at constant joint rates
+  Axes inertia;   // m^2, diagonal of the mass matrix
+  Axes coriolis;  // m^2/s^2, torque that the rates alone ask for
+  Axes weight;    // m, joint torque per newton of weight
+};
+
+inline Pose pose(const Linear& k, const Axes& q, const Axes&) EBAC_RT {
+  return {.x = k.forward(q),
+          .j = k.jacobian(q),
+          .drift = Axes::Zero(),
+          .inertia = Axes::Constant(k.radius * k.radius),
+          .coriolis = Axes::Zero(),
+          .weight = k.weight(q, 1)};
+}
+
+/// Lagrange's equations of T = R^2/2 (cos^2 q2 dq1^2 + dq2^2): the mass lies on the sphere, its height
+/// included, which the ports x and y do not show.
+inline Pose pose(const Gimbal& k, const Axes& q, const Axes& dq) EBAC_RT {
+  const double R = k.radius;
+  const double s1 = std::sin(q[0]), c1 = std::cos(q[0]);
+  const double s2 = std::sin(q[1]), c2 = std::cos(q[1]);
+  const double both = dq[0] * dq[1], first = dq[0] * dq[0], second = dq[1] * dq[1];
+  return {.x = k.forward(q),
+          .j = k.jacobian(q),
+          .drift = R * Axes{-s1 * c2 * (first + second) - 2 * c1 * s2 * both, -s2 * second, 0},
+          .inertia = R * R * Axes{c2 * c2, 1, 0},
+          .coriolis = R * R * s2 * c2 * Axes{-2 * both, first, 0},
+          .weight = k.weight(q, 1)};
+}
+
+inline Pose pose(const Kinematics& kinematics, const Axes& q, const Axes& dq) EBAC_RT {
+  return std::visit([&](const auto& k) { return pose(k, q, dq); }, kinematics);
+}
+
+}  // namespace ebac

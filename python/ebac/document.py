@@ -1,0 +1,104 @@
+"""Values of the core as plain tables, for TOML and JSON, and back.
+
+A part that may be of several types carries its type's name under `type`.
+"""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+from ebac import _core
+
+#: Types a part may have, by the name of the part; the first is the default.
+CHOICES: dict[str, tuple[type, ...]] = {
+    "kinematics": (_core.Linear, _core.Gimbal),
+    "velocity": (_core.BackwardDifference, _core.LowPass, _core.AdaptiveWindow),
+    "path": (_core.Step, _core.MinimumJerk, _core.Sine, _core.Tapping, _core.Recorded),
+    "environment": (_core.Wall, _core.Free, _core.Corner),
+    "device": (_core.Device,),
+    "hand": (_core.Hand,),
+    "timing": (_core.Timing,),
+    "motor": (_core.Motor,),
+    "drive": (_core.Drive,),
+    "encoder": (_core.Encoder,),
+    "capstan": (_core.Capstan,),
+    "mechanics": (_core.Mechanics,),
+    "sensor": (_core.ForceSensor,),
+    "compensation": (_core.Compensation,),
+    "first": (_core.Wall,),
+    "second": (_core.Wall,),
+}
+
+
+def to_document(value: Any) -> Any:
+    """Return a value of the core as nested plain tables, lists and numbers."""
+    if isinstance(value, (list, tuple)):
+        return [to_document(item) for item in value]
+    if not hasattr(value, "as_dict"):
+        return value
+    table = {name: to_document(part) for name, part in value.as_dict().items()}
+    several = any(type(value) in types for types in CHOICES.values() if len(types) > 1)
+    return {"type": type(value).__name__, **table} if several else table
+
+
+def from_document(name: str, item: Any, where: str) -> Any:
+    """Return the value of the core that `item` describes, where `name` tells what it may be.
+
+    Raises
+    ------
+    ValueError
+        For an unknown name or type or a number out of range; the message says where.
+    """
+    if name not in CHOICES:
+        return item
+    if isinstance(item, list):
+        return tuple(from_document(name, one, f"{where}[{i}]") for i, one in enumerate(item))
+    if not isinstance(item, Mapping):
+        raise ValueError(f"{where} = {item!r}: must be a table")
+    return _build(_chosen(name, item, where), item, where)
+
+
+def read_table(table: Mapping[str, Any], fields: Iterable[Any], where: str) -> dict[str, Any]:
+    """Return the keyword arguments of a dataclass with these `fields` from a table.
+
+    Raises
+    ------
+    ValueError
+        For an unknown name; the message suggests the nearest.
+    """
+    known = [f.name for f in fields]
+    for name in table:
+        if name not in known:
+            raise ValueError(unknown(f"{where}.{name}", name, known))
+    return {name: from_document(name, item, f"{where}.{name}") for name, item in table.items()}
+
+
+def unknown(where: str, name: str, known: list[str]) -> str:
+    """Return the message for a name nobody knows."""
+    near = difflib.get_close_matches(name, known, 1)
+    hint = f", did you mean {near[0]!r}" if near else ""
+    return f"{where}: no such name{hint}; there are: {', '.join(known)}"
+
+
+def _chosen(name: str, table: Mapping[str, Any], where: str) -> type:
+    types = {t.__name__: t for t in CHOICES[name]}
+    wanted = table.get("type", next(iter(types)))
+    if wanted not in types:
+        raise ValueError(f"{where}.type = {wanted!r}: must be one of {', '.join(types)}")
+    return types[wanted]
+
+
+def _build(cls: type, table: Mapping[str, Any], where: str) -> Any:
+    given = {
+        name: from_document(name, item, f"{where}.{name}")
+        for name, item in table.items()
+        if name != "type"
+    }
+    try:
+        return cls(**given)
+    except (ValueError, TypeError) as error:
+        raise ValueError(f"{where}: {error}") from None
+
+

@@ -1,0 +1,101 @@
+"""Devices and hands with a source. `indicative` means from memory of the literature, not confirmed."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import pi
+
+from ebac._core import Device, Gimbal, Hand, Mechanics, Step
+
+
+@dataclass(frozen=True, kw_only=True)
+class HandPreset:
+    """A hand and where its numbers come from."""
+
+    hand: Hand
+    source: str
+    indicative: bool
+
+
+@dataclass(frozen=True, kw_only=True)
+class DevicePreset:
+    """A device and where its numbers come from."""
+
+    device: Device
+    source: str
+
+
+#: Operators by name. Stiffness, damping and mass are those of eq. (4); the target is part of the task.
+HANDS: dict[str, HandPreset] = {
+    "reference": HandPreset(
+        hand=Hand(),
+        source="the reference hand of this project: 0.15 kg, 6 N s/m, 300 N/m, target 40 mm (paper, Fig. 5)",
+        indicative=False,
+    ),
+    "arm-hapticmaster": HandPreset(
+        hand=Hand(mass=0.554, damping=6.45, stiffness=135),
+        source="van Beek et al., Scientific Reports 2016, Fig. 3 (one trial on a HapticMaster)",
+        indicative=False,
+    ),
+    "arm-hogan": HandPreset(
+        hand=Hand(mass=0.8, damping=5.5, stiffness=568),
+        source="Hogan 1989",
+        indicative=True,
+    ),
+    "wall-study": HandPreset(
+        hand=Hand(mass=0.8, damping=5.5, stiffness=30, path=Step(target=0.08)),
+        source="parameters of a virtual-wall study in public code",
+        indicative=False,
+    ),
+    "finger": HandPreset(
+        hand=Hand(mass=0.006, damping=5.5, stiffness=600),
+        source="Hajian and Howe 1997, index finger, middle of the ranges",
+        indicative=True,
+    ),
+    "open": HandPreset(
+        hand=Hand(mass=0, damping=0, stiffness=0),
+        source="nobody holds the device",
+        indicative=False,
+    ),
+}
+
+#: Devices by name.
+DEVICES: dict[str, DevicePreset] = {
+    "reference": DevicePreset(
+        device=Device(),
+        source="one straight axis, 0.25 kg and 2 N s/m, from the paper's motor, encoder and capstan",
+    ),
+    "joystick": DevicePreset(
+        device=Device(
+            kinematics=Gimbal(radius=0.1, limit=pi / 6),
+            mechanics=Mechanics(handle_mass=0.114, damping=2.0, gravity=9.81),
+        ),
+        source="the paper's 2-DOF joystick: R = 100 mm, +-30 deg, eq. (11); masses as the reference",
+    ),
+}
+
+
+def hand(name: str) -> Hand:
+    """Return the hand of that name.
+
+    Raises
+    ------
+    KeyError
+        When there is none; the message lists the names.
+    """
+    if name not in HANDS:
+        raise KeyError(f"no hand is called {name!r}; there are: {', '.join(HANDS)}")
+    return HANDS[name].hand
+
+
+def device(name: str) -> Device:
+    """Return the device of that name.
+
+    Raises
+    ------
+    KeyError
+        When there is none; the message lists the names.
+    """
+    if name not in DEVICES:
+        raise KeyError(f"no device is called {name!r}; there are: {', '.join(DEVICES)}")
+    return DEVICES[name].device

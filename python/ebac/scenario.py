@@ -1,0 +1,142 @@
+"""A scenario: everything of a simulated run but the law."""
+
+from __future__ import annotations
+
+import dataclasses
+import tomllib
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, Self, TypeAlias
+
+from ebac import document
+from ebac._core import Corner, Device, Free, Hand, Setup, Timing, Wall
+
+Environment: TypeAlias = Free | Wall | Corner
+
+
+@dataclass(frozen=True, kw_only=True)
+class Scenario:
+    """Device, hand, virtual world and time of a simulated run. The same scenario gives the same bits.
+
+    Parameters
+    ----------
+    device : Device
+        The haptic device; default: one axis of 0.25 kg and 2 N s/m with the paper's drive train.
+    hand : Hand
+        Who holds it; default: 0.15 kg, 6 N s/m, 300 N/m, pulling to 40 mm.
+    environment : Free, Wall or Corner
+        What it touches; default: a wall of 10 kN/m at 0 m (paper, section IV.C).
+    timing : Timing
+        Sample time [s] and transport delay [samples]; default: 1 ms, 1 sample.
+    seconds : float
+        Length of the run [s], (0, 1e5].
+    jitter : float
+        Largest deviation of a tick from its instant, as a share of the sample time, [0, 0.45].
+    seed : int
+        Seed of sensor noise and jitter, [0, 2^63).
+
+    Raises
+    ------
+    ValueError
+        When a number is out of its range.
+    TypeError
+        When a part is of a wrong type.
+    """
+
+    device: Device = field(default_factory=Device)
+    hand: Hand = field(default_factory=Hand)
+    environment: Environment = field(default_factory=Wall)
+    timing: Timing = field(default_factory=Timing)
+    seconds: float = 6.0
+    jitter: float = 0.0
+    seed: int = 1
+
+    def __post_init__(self) -> None:
+        """Check types and ranges."""
+        parts: dict[str, tuple[type, ...]] = {
+            "device": (Device,),
+            "hand": (Hand,),
+            "environment": (Free, Wall, Corner),
+            "timing": (Timing,),
+            "seconds": (float, int),
+            "jitter": (float, int),
+            "seed": (int,),
+        }
+        for name, types in parts.items():
+            value = getattr(self, name)
+            if not isinstance(value, types) or isinstance(value, bool):
+                names = " or ".join(t.__name__ for t in types)
+                raise TypeError(f"Scenario.{name} = {value!r}: must be {names}")
+        if not 0 < self.seconds <= 1e5:
+            raise ValueError(f"Scenario.seconds = {self.seconds} s: must lie in (0, 100000] s")
+        if not 0 <= self.jitter <= 0.45:
+            raise ValueError(f"Scenario.jitter = {self.jitter}: must lie in [0, 0.45] of a sample")
+        if not 0 <= self.seed < 2**63:
+            raise ValueError(f"Scenario.seed = {self.seed}: must lie in [0, 2^63)")
+        if self.seconds < self.timing.dt:
+            raise ValueError(
+                f"Scenario.seconds = {self.seconds} s: must be at least one sample, {self.timing.dt} s"
+            )
+
+    def replace(self, **changes: Any) -> Self:
+        """Return a copy with some parts changed."""
+        return dataclasses.replace(self, **changes)
+
+    def to_toml(self) -> str:
+        """Return the scenario as TOML text, SI units throughout."""
+        import tomli_w
+
+        values = {f.name: getattr(self, f.name) for f in dataclasses.fields(self)}
+        numbers = {k: v for k, v in values.items() if isinstance(v, (int, float))}
+        parts = {k: document.to_document(v) for k, v in values.items() if k not in numbers}
+        return "# ebac scenario; SI units throughout\n" + tomli_w.dumps(numbers | parts)
+
+    @classmethod
+    def from_toml(cls, text: str) -> Self:
+        """Read a scenario from TOML text; what is not named keeps its default.
+
+        Raises
+        ------
+        ValueError
+            For a number out of range, an unknown name or a syntax error; the message says where.
+        """
+        try:
+            table = tomllib.loads(text)
+        except tomllib.TOMLDecodeError as error:
+            raise ValueError(f"not a TOML document: {error}") from None
+        try:
+            return cls(**document.read_table(table, dataclasses.fields(cls), "scenario"))
+        except TypeError as error:
+            raise ValueError(str(error)) from None
+
+    def save(self, path: str | Path) -> None:
+        """Write the scenario to a TOML file."""
+        Path(path).write_text(self.to_toml(), encoding="utf-8")
+
+    @classmethod
+    def load(cls, path: str | Path) -> Self:
+        """Read a scenario from a TOML file.
+
+        Raises
+        ------
+        FileNotFoundError
+            When there is no such file.
+        ValueError
+            As `from_toml`, with the file's name.
+        """
+        try:
+            return cls.from_toml(Path(path).read_text(encoding="utf-8"))
+        except ValueError as error:
+            raise ValueError(f"{path}: {error}") from None
+
+    def setup(self) -> Setup:
+        """Return what the C++ simulation takes."""
+        return Setup(
+            device=self.device,
+            hand=self.hand,
+            environment=self.environment,
+            timing=self.timing,
+            seconds=float(self.seconds),
+            jitter=float(self.jitter),
+            seed=self.seed,
+        )

@@ -1,0 +1,69 @@
+"""The spec sheet of a device, computed from its parts, beside the paper's figures."""
+
+from __future__ import annotations
+
+from dataclasses import asdict, dataclass
+from math import pi, sin
+
+from ebac._core import Device
+
+
+@dataclass(frozen=True, kw_only=True)
+class Spec:
+    """One line of a spec sheet, SI units."""
+
+    name: str
+    value: float
+    unit: str
+    paper: float | None
+    how: str
+    remark: str = ""
+
+    def row(self) -> dict[str, str | float | None]:
+        """Return it as a plain row."""
+        return asdict(self)
+
+
+def spec_sheet(device: Device) -> list[Spec]:
+    """Compute the spec sheet of a device.
+
+    Parameters
+    ----------
+    device : Device
+        Any device; the paper's column belongs to its joystick.
+
+    Returns
+    -------
+    list of Spec
+    """
+    radius, limit = device.radius, device.kinematics.limit
+    motor, drive = device.motor, device.drive
+    return [
+        Spec(name="resolution", value=device.count, unit="m", paper=0.03e-3,
+             how="2 pi / counts per turn, through capstan and lever"),
+        Spec(name="continuous force", value=device.continuous_force, unit="N", paper=10.6,
+             how="rated torque through capstan and lever",
+             remark="holds at the handle only if the cable's sector is as large as the lever"),
+        Spec(name="peak force", value=device.peak_force, unit="N", paper=42.4,
+             how=f"{drive.peak_ratio:g} times rated torque"),
+        Spec(name="continuous current", value=motor.current(motor.rated_torque), unit="A", paper=1.0,
+             how="rated torque over torque constant",
+             remark="the paper rounds the motor's continuous current to 1 A"),
+        Spec(name="peak current", value=drive.peak_current(motor), unit="A", paper=None,
+             how="peak torque over torque constant, at most the stall current"),
+        Spec(name="travel, chord", value=2 * radius * sin(limit), unit="m", paper=0.2,
+             how="2 R sin(limit)",
+             remark="the paper's 200 mm is the diameter of the sphere the handle moves on, not its reach"),
+        Spec(name="travel, arc", value=2 * radius * limit, unit="m", paper=None, how="2 R limit"),
+        Spec(name="joint range", value=2 * limit, unit="rad", paper=2 * pi / 6, how="eq. (11)"),
+        Spec(name="mass at the handle", value=device.mass, unit="kg", paper=None,
+             how="lever and handle plus reflected rotor",
+             remark="the paper's 1.7 kg is the weight of the whole device"),
+        Spec(name="of which rotor", value=device.reflected_mass, unit="kg", paper=None,
+             how="rotor inertia over squared drum radius, through the lever",
+             remark="rotor inertia is indicative"),
+        Spec(name="viscous damping", value=device.mechanics.damping, unit="N s/m", paper=None,
+             how="B_h of eq. (6)"),
+        Spec(name="Coulomb friction", value=device.mechanics.coulomb, unit="N", paper=None,
+             how="not given in the paper"),
+    ]  # fmt: skip

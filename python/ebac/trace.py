@@ -1,0 +1,240 @@
+"""A trace: named columns with units, one row per tick, without copies."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from dataclasses import dataclass
+from html import escape
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Self, overload
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ebac import _core
+from ebac.scenario import Scenario
+
+if TYPE_CHECKING:
+    import pandas as pd
+    from matplotlib.figure import Figure
+
+_KINDS = {"f": np.float64, "i": np.int64, "w": np.int32, "u": np.uint32, "b": np.bool_}
+
+
+@dataclass(frozen=True, kw_only=True)
+class ColumnInfo:
+    """Unit and meaning of a column."""
+
+    name: str
+    unit: str
+    meaning: str
+
+
+class Trace:
+    """The rows of a run: what every stage of the loop knew in every tick.
+
+    `trace["x"]` is a NumPy view of the rows as the loop wrote them, shape (rows,) for one axis and for
+    columns of the whole row, (rows, axes) otherwise. `trace[1.0:2.5]` is the part between two times [s], without a
+    copy. Columns `law.*` are the law's own state, columns `true.*` what only a simulation can know.
+    """
+
+    def __init__(
+        self,
+        *,
+        data: dict[str, NDArray[Any]],
+        columns: dict[str, ColumnInfo],
+        axes: int,
+        scenario: Scenario | None = None,
+        law: str = "",
+        law_repr: str = "",
+    ) -> None:
+        self._data = data
+        self.columns = columns
+        self.axes = axes
+        self.scenario = scenario
+        self.law = law
+        self.law_repr = law_repr
+
+    @classmethod
+    def from_rows(
+        cls, rows: _core.Rows, *, scenario: Scenario | None, law: str, law_repr: str
+    ) -> Self:
+        """Look at rows of the core."""
+        raw = rows.bytes()
+        data = {}
+        columns = {}
+        for c in rows.columns:
+            shape, strides = (len(rows),), (rows.row_bytes,)
+            if c.stride > 0 and rows.axes > 1:
+                shape, strides = (*shape, rows.axes), (*strides, c.stride)
+            view = np.ndarray(shape, _KINDS[c.kind], raw, c.offset, strides)
+            view.setflags(write=False)
+            data[c.name] = view
+            columns[c.name] = ColumnInfo(name=c.name, unit=c.unit, meaning=c.meaning)
+        return cls(
+            data=data,
+            columns=columns,
+            axes=rows.axes,
+            scenario=scenario,
+            law=law,
+            law_repr=law_repr,
+        )
+
+    def __len__(self) -> int:
+        """Return the number of rows."""
+        return len(self._data["t"])
+
+    def __contains__(self, name: object) -> bool:
+        """Whether there is a column of that name."""
+        return name in self._data
+
+    def __iter__(self) -> Iterator[str]:
+        """Iterate over the names of the columns."""
+        return iter(self._data)
+
+    @overload
+    def __getitem__(self, key: str) -> NDArray[Any]: ...
+    @overload
+    def __getitem__(self, key: slice) -> Self: ...
+    def __getitem__(self, key: str | slice) -> NDArray[Any] | Self:
+        """Return a column by name, or the part between two times [s]."""
+        if isinstance(key, slice):
+            return self.between(key.start, key.stop, key.step)
+        if key not in self._data:
+            raise KeyError(f"no column {key!r}; there are: {', '.join(self._data)}")
+        return self._data[key]
+
+    def axis(self, name: str, axis: int = 0) -> NDArray[Any]:
+        """Return one axis of a column, shape (rows,).
+
+        Raises
+        ------
+        ValueError
+            When the trace has no such axis.
+        """
+        if not 0 <= axis < self.axes:
+            raise ValueError(f"axis = {axis}: must lie in [0, {self.axes - 1}]")
+        values = self[name]
+        return values if values.ndim == 1 else values[:, axis]
+
+    def between(
+        self, start: float | None = None, stop: float | None = None, step: object = None
+    ) -> Self:
+        """Return the rows with start <= t < stop [s], as views."""
+        if step is not None:
+            raise ValueError("a trace is sliced by time [s]: trace[start:stop], without a step")
+        t = self._data["t"]
+        first = 0 if start is None else int(np.searchsorted(t, start))
+        last = len(t) if stop is None else int(np.searchsorted(t, stop))
+        part = {name: values[first:last] for name, values in self._data.items()}
+        return type(self)(
+            data=part,
+            columns=self.columns,
+            axes=self.axes,
+            scenario=self.scenario,
+            law=self.law,
+            law_repr=self.law_repr,
+        )
+
+    def flat(self) -> Iterator[tuple[str, ColumnInfo, NDArray[Any]]]:
+        """Yield every column as one-dimensional: `x`, or `x_0`, `x_1` with several axes."""
+        for name, values in self._data.items():
+            info = self.columns[name]
+            if values.ndim == 1:
+                yield name, info, values
+            else:
+                for axis in range(self.axes):
+                    yield f"{name}_{axis}", info, values[:, axis]
+
+    def to_pandas(self) -> pd.DataFrame:
+        """Return a DataFrame indexed by time [s]; units under `attrs["units"]`."""
+        import pandas as pd
+
+        columns = list(self.flat())
+        frame = pd.DataFrame({name: values for name, _, values in columns}).set_index("t")
+        frame.attrs["units"] = {name: info.unit for name, info, _ in columns}
+        return frame
+
+    def to_csv(self, path: str | Path) -> None:
+        """Write CSV with the unit in each heading, `x [m]`; numbers keep every digit."""
+        columns = list(self.flat())
+        heading = ",".join(
+            name if info.unit == "1" else f"{name} [{info.unit}]" for name, info, _ in columns
+        )
+        with Path(path).open("w", encoding="utf-8") as file:
+            file.write(heading + "\n")
+            lists = [values.tolist() for _, _, values in columns]
+            for row in zip(*lists, strict=True):
+                file.write(",".join(_text(value) for value in row) + "\n")
+
+    def to_npz(self, path: str | Path) -> None:
+        """Write a compressed NumPy archive: the columns, and units, scenario and law under `about`."""
+        about = {
+            "axes": self.axes,
+            "law": self.law,
+            "law_repr": self.law_repr,
+            "scenario": self.scenario.to_toml() if self.scenario else None,
+            "columns": {c.name: [c.unit, c.meaning] for c in self.columns.values()},
+        }
+        np.savez_compressed(path, about=np.array(json.dumps(about)), allow_pickle=False, **self._data)
+
+    @classmethod
+    def from_npz(cls, path: str | Path) -> Self:
+        """Read what `to_npz` wrote.
+
+        Raises
+        ------
+        FileNotFoundError
+            When there is no such file.
+        ValueError
+            When it is not such an archive.
+        """
+        try:
+            with np.load(path, allow_pickle=False) as archive:
+                about = json.loads(str(archive["about"]))
+                data = {name: archive[name] for name in about["columns"]}
+        except (KeyError, OSError, ValueError) as error:
+            if isinstance(error, FileNotFoundError):
+                raise
+            raise ValueError(f"{path}: not a trace written by to_npz ({error})") from None
+        return cls(
+            data=data,
+            columns={
+                name: ColumnInfo(name=name, unit=unit, meaning=meaning)
+                for name, (unit, meaning) in about["columns"].items()
+            },
+            axes=about["axes"],
+            scenario=Scenario.from_toml(about["scenario"]) if about["scenario"] else None,
+            law=about["law"],
+            law_repr=about["law_repr"],
+        )
+
+    def plot(self) -> Figure:
+        """Draw position, force, beta and energy over time."""
+        from ebac.plot import plot_trace
+
+        return plot_trace(self)
+
+    def __repr__(self) -> str:
+        """Return one line: law, rows, time, axes."""
+        t = self._data["t"]
+        span = f"{t[0]:.6g} to {t[-1]:.6g} s" if len(t) else "empty"
+        return f"<Trace of {self.law or 'a run'}: {len(self)} rows, {span}, {self.axes} axis(es)>"
+
+    def _repr_html_(self) -> str:
+        """Return a table of the columns for a notebook."""
+        head = "<tr><th>column</th><th>unit</th><th>first</th><th>last</th><th>least</th><th>most</th><th>meaning</th></tr>"
+        lines = [head, *(self._html_row(*column) for column in self.flat())]
+        return f"<p>{escape(repr(self))}</p><table>{''.join(lines)}</table>"
+
+    def _html_row(self, name: str, info: ColumnInfo, values: NDArray[Any]) -> str:
+        numbers = values.astype(float)
+        known = numbers[np.isfinite(numbers)]
+        shown = [numbers[0], numbers[-1], known.min(), known.max()] if len(known) else [float("nan")] * 4
+        cells = "".join(f"<td>{number:.6g}</td>" for number in shown)
+        return f"<tr><th>{escape(name)}</th><td>{info.unit}</td>{cells}<td>{escape(info.meaning)}</td></tr>"
+
+
+def _text(value: Any) -> str:
+    return str(int(value)) if isinstance(value, bool) else repr(value)
