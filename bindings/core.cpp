@@ -19,7 +19,9 @@ void bind_field_info(py::module_& m) {
       .def_readonly("default", &FieldInfo::initial, "Default.")
       .def_readonly("low", &FieldInfo::low, "Smallest value allowed.")
       .def_readonly("high", &FieldInfo::high, "Largest value allowed.")
-      .def("__repr__", [](const FieldInfo& f) { return "Field(" + f.name + " [" + f.unit + "]: " + f.meaning + ")"; });
+      .def("__repr__", [](const FieldInfo& f) {
+        return "Field(" + f.name + " [" + f.unit + "]: " + f.meaning + ")";
+      });
 }
 
 void bind_fault(py::module_& m) {
@@ -34,7 +36,8 @@ void bind_fault(py::module_& m) {
       .finalize();
 }
 
-/// A port is what a law reads, so a law written in Python, or stepped from there, needs to fill one in.
+/// A port is what a law reads, so a law written in Python, or stepped from there, needs to fill one
+/// in.
 void bind_port(py::module_& m) {
   auto cls = bind_fields<Port>(m, "Port", "What a law sees of one axis in one tick.");
   for (const auto& field : Port::fields()) {
@@ -51,7 +54,8 @@ void bind_core(py::module_& m) {
   bind_fault(m);
   bind_port(m);
   bind_fields<Timing>(m, "Timing", "What every law must know about time.");
-  bind_fields<DeviceFacts>(m, "DeviceFacts", "What a user can know about a device; laws are designed from it.");
+  bind_fields<DeviceFacts>(m, "DeviceFacts",
+                           "What a user can know about a device; laws are designed from it.");
 }
 
 }  // namespace ebac::python

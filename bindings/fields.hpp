@@ -11,7 +11,8 @@
 #include "ebac/core/check.hpp"
 #include "values.hpp"
 
-/// Python classes made from field lists: the one list gives names, units, ranges, errors and documentation.
+/// Python classes made from field lists: the one list gives names, units, ranges, errors and
+/// documentation.
 namespace ebac::python {
 
 /// One entry of a field list, as Python sees it.
@@ -55,8 +56,9 @@ std::vector<FieldInfo> field_infos() {
     std::visit(
         [&](auto member) {
           using Value = std::remove_cvref_t<decltype(initial.*member)>;
-          all.push_back({std::string(field.name), std::string(field.unit), std::string(field.meaning),
-                         python_type<Value>(), py::cast(initial.*member), field.low, field.high});
+          all.push_back({std::string(field.name), std::string(field.unit),
+                         std::string(field.meaning), python_type<Value>(),
+                         py::cast(initial.*member), field.low, field.high});
         },
         field.member);
   }
@@ -72,11 +74,13 @@ bool set_field(T& target, const std::string& owner, const std::string& name, py:
         [&](auto member) {
           using Value = std::remove_cvref_t<decltype(target.*member)>;
           try {
+            if (std::is_same_v<Value, bool> && !py::isinstance<py::bool_>(value))
+              throw py::cast_error();
             target.*member = value.cast<Value>();
           } catch (const py::cast_error&) {
-            throw py::type_error(owner + "." + name + " = " + py::cast<std::string>(py::repr(value)) +
-                                 ": must be " + python_type<Value>() +
-                                 (field.unit == "1" ? "" : " in " + std::string(field.unit)));
+            throw py::type_error(
+                owner + "." + name + " = " + py::cast<std::string>(py::repr(value)) + ": must be " +
+                python_type<Value>() + (field.unit == "1" ? "" : " in " + std::string(field.unit)));
           }
         },
         field.member);
@@ -92,7 +96,7 @@ bool set_field(T& target, const std::string& owner, const std::string& name, py:
   std::string text = owner + " has no parameter '" + name + "'";
   if (near.size() > 0) text += ", did you mean '" + py::cast<std::string>(near[0]) + "'";
   text += "; it has: ";
-  for (std::size_t i = 0; i < known.size(); ++i) text += (i == 0 ? "" : ", ") + known[i];
+  for (const std::string& one : known) text.append(&one == known.data() ? "" : ", ").append(one);
   throw py::type_error(text);
 }
 
@@ -113,7 +117,8 @@ std::string signature(const T& initial) {
           using Value = std::remove_cvref_t<decltype(initial.*member)>;
           std::string value = "...";
           const auto as_double = static_cast<double>(initial.*member);
-          if (std::isfinite(as_double)) value = py::cast<std::string>(py::repr(py::cast(initial.*member)));
+          if (std::isfinite(as_double))
+            value = py::cast<std::string>(py::repr(py::cast(initial.*member)));
           text += ", " + std::string(field.name) + ": " + python_type<Value>() + " = " + value;
         },
         field.member);
@@ -130,8 +135,8 @@ std::string parameter_table() {
     std::visit(
         [&](auto member) {
           using Value = std::remove_cvref_t<decltype(initial.*member)>;
-          text += std::string(field.name) + " : " + python_type<Value>() + "\n    " + describe(field) +
-                  ".\n";
+          text += std::string(field.name) + " : " + python_type<Value>() + "\n    " +
+                  describe(field) + ".\n";
         },
         field.member);
   }
@@ -139,10 +144,11 @@ std::string parameter_table() {
 }
 
 template <Described T>
-py::dict values_of(const T& value) {
-  py::dict values;
+Values values_of(const T& value) {
+  Values values;
   for (const auto& field : T::fields()) {
-    std::visit([&](auto member) { values[py::str(std::string(field.name))] = value.*member; }, field.member);
+    std::visit([&](auto member) { values[py::str(std::string(field.name))] = value.*member; },
+               field.member);
   }
   return values;
 }
@@ -154,14 +160,15 @@ void add_members(Class& cls, Get get) {
   for (const auto& field : T::fields()) {
     std::visit(
         [&](auto member) {
-          cls.def_property_readonly(std::string(field.name).c_str(),
-                                    [get, member](const Self& self) { return get(self).*member; },
-                                    describe(field).c_str());
+          cls.def_property_readonly(
+              std::string(field.name).c_str(),
+              [get, member](const Self& self) { return get(self).*member; },
+              describe(field).c_str());
         },
         field.member);
   }
   cls.def_static("fields", &field_infos<T>,
-                 "fields() -> list[Field]\n\nName, unit, meaning, default and range of every parameter.");
+                 "Name, unit, meaning, default and range of every parameter.");
 }
 
 /// A frozen, keyword-only Python class from the field list of T.
@@ -169,20 +176,21 @@ template <Described T>
 py::class_<T> bind_fields(py::module_& m, const char* name, const std::string& doc) {
   py::class_<T> cls(m, name, (doc + parameter_table<T>()).c_str());
   const std::string owner = name;
-  cls.def(py::init([owner](const py::kwargs& given) {
-            T value{};
-            for (const auto& [key, item] : given) {
-              const auto word = py::cast<std::string>(key);
-              if (!set_field(value, owner, word, item)) refuse_keyword(owner, word, field_names<T>());
-            }
-            check(value, owner);
-            return value;
-          }),
-          (field_names<T>().empty() ? std::string("__init__(self) -> None")
-                                    : "__init__(self, *" + signature(T{}) + ") -> None")
-              .c_str());
+  def_init(
+      cls,
+      [owner](const py::kwargs& given) {
+        T value{};
+        for (const auto& [key, item] : given) {
+          const auto word = py::cast<std::string>(key);
+          if (!set_field(value, owner, word, item)) refuse_keyword(owner, word, field_names<T>());
+        }
+        check(value, owner);
+        return value;
+      },
+      field_names<T>().empty() ? "__init__(self) -> None"
+                               : "__init__(self, *" + signature(T{}) + ") -> None");
   add_members<T>(cls, [](const T& self) -> const T& { return self; });
-  cls.def("as_dict", &values_of<T>, "as_dict(self) -> dict[str, typing.Any]\n\nParameters by name.");
+  cls.def("as_dict", &values_of<T>, "Parameters by name.");
   add_value_methods(cls);
   return cls;
 }

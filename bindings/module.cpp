@@ -2,8 +2,6 @@
 
 PYBIND11_MODULE(_core, m, pybind11::mod_gil_not_used()) {
   m.doc() = "The C++ core of ebac. Use it through the package `ebac`.";
-  pybind11::options options;
-  options.disable_function_signatures();
   ebac::python::bind_core(m);
   ebac::python::bind_model(m);
   ebac::python::bind_simulation(m);

@@ -12,8 +12,9 @@ namespace ebac::python {
 
 namespace {
 
-/// A law written in Python in the same loop, slowly: an object with `step(port) -> float` and `reset()`. What
-/// it raises becomes NaN, so the loop stops as for any law, and is raised again after the run.
+/// A law written in Python in the same loop, slowly: an object with `step(port) -> float` and
+/// `reset()`. What it raises becomes NaN, so the loop stops as for any law, and is raised again
+/// after the run.
 class PythonLaw {
  public:
   struct State {

@@ -24,24 +24,28 @@ void bind_trace(py::module_& m) {
       .def_property_readonly("axes", &Trace::axes, "Number of axes.")
       .def_property_readonly("row_bytes", &Trace::row_bytes, "Bytes per row.")
       .def_property_readonly("columns", &Trace::columns, "Columns in their order.")
-      .def("bytes",
-           [](const std::shared_ptr<Trace>& trace) {
-             const py::array_t<std::uint8_t> view(
-                 static_cast<py::ssize_t>(trace->size() * trace->row_bytes()),
-                 reinterpret_cast<const std::uint8_t*>(trace->data()), py::cast(trace));
-             view.attr("setflags")(py::arg("write") = false);
-             return view;
-           },
-           "bytes(self) -> numpy.typing.NDArray[numpy.uint8]\n\nEvery row, read-only, without a copy.")
-      .def("port",
-           [](const Trace& trace, std::size_t row, std::size_t axis) {
-             if (row >= trace.size() || axis >= static_cast<std::size_t>(trace.axes())) {
-               throw py::index_error("row " + std::to_string(row) + ", axis " + std::to_string(axis) + ": the trace has " +
-                                     std::to_string(trace.size()) + " rows and " + std::to_string(trace.axes()) + " axes");
-             }
-             return trace.sample(row).axis[axis].port;
-           },
-           py::arg("row"), py::arg("axis") = 0, "port(self, row: int, axis: int = 0) -> Port\n\nWhat the law saw in a tick.");
+      .def(
+          "bytes",
+          [](const std::shared_ptr<Trace>& trace) {
+            const py::array_t<std::uint8_t> view(
+                static_cast<py::ssize_t>(trace->size() * trace->row_bytes()),
+                reinterpret_cast<const std::uint8_t*>(trace->data()), py::cast(trace));
+            view.attr("setflags")(py::arg("write") = false);
+            return view;
+          },
+          "Every row, read-only, without a copy.")
+      .def(
+          "port",
+          [](const Trace& trace, std::size_t row, std::size_t axis) {
+            if (row >= trace.size() || axis >= static_cast<std::size_t>(trace.axes())) {
+              throw py::index_error("row " + std::to_string(row) + ", axis " +
+                                    std::to_string(axis) + ": the trace has " +
+                                    std::to_string(trace.size()) + " rows and " +
+                                    std::to_string(trace.axes()) + " axes");
+            }
+            return trace.sample(row).axis[axis].port;
+          },
+          py::arg("row"), py::arg("axis") = 0, "What the law saw in a tick.");
 }
 
 void bind_setup(py::module_& m) {
@@ -50,32 +54,34 @@ void bind_setup(py::module_& m) {
                        const Timing& timing, double seconds, double jitter, std::uint64_t seed) {
              return Setup{device, hand, environment, timing, seconds, jitter, seed};
            }),
-           py::kw_only(), py::arg("device"), py::arg("hand"), py::arg("environment"), py::arg("timing"),
-           py::arg("seconds"), py::arg("jitter"), py::arg("seed"),
-           "__init__(self, *, device: Device, hand: Hand, environment: Free | Wall | Corner, timing: Timing, "
-           "seconds: float, jitter: float, seed: int) -> None");
+           py::kw_only(), py::arg("device"), py::arg("hand"), py::arg("environment"),
+           py::arg("timing"), py::arg("seconds"), py::arg("jitter"), py::arg("seed"));
 }
 
 /// A plant alone, stepped from Python: for tests against other integrators.
 template <class Plant>
 void bind_plant(py::module_& m, const char* name, const char* doc) {
   py::class_<Plant>(m, name, doc)
-      .def(py::init<const DeviceModel&, const Hand&, double>(), py::kw_only(), py::arg("device"), py::arg("hand"),
-           py::arg("tick"), "__init__(self, *, device: Device, hand: Hand, tick: float) -> None")
-      .def("advance",
-           [](Plant& plant, const std::vector<double>& current, double t, double share) {
-             if (current.size() > static_cast<std::size_t>(kMaxAxes) || !(share > 0 && share <= 100)) {
-               throw std::invalid_argument("advance: current has at most 3 values, share lies in (0, 100]");
-             }
-             Axes amperes = Axes::Zero();
-             for (std::size_t i = 0; i < current.size(); ++i) amperes[static_cast<Eigen::Index>(i)] = current[i];
-             plant.advance(amperes, t, std::llround(share * static_cast<double>(kQuanta)));
-           },
-           py::arg("current"), py::arg("t"), py::arg("share") = 1.0,
-           "advance(self, current: typing.Sequence[float], t: float, share: float = 1.0) -> None\n\n"
-           "Moves by `share` of a tick from time t [s] on, under constant motor currents [A].")
-      .def("truth", [](const Plant& plant, std::size_t axis) { return plant.truth(axis); }, py::arg("axis") = 0,
-           "truth(self, axis: int = 0) -> AxisTruth\n\nThe state of one axis.");
+      .def(py::init<const DeviceModel&, const Hand&, double>(), py::kw_only(), py::arg("device"),
+           py::arg("hand"), py::arg("tick"))
+      .def(
+          "advance",
+          [](Plant& plant, const std::vector<double>& current, double t, double share) {
+            if (current.size() > static_cast<std::size_t>(kMaxAxes) ||
+                !(share > 0 && share <= 100)) {
+              throw std::invalid_argument(
+                  "advance: current has at most 3 values, share lies in (0, 100]");
+            }
+            Axes amperes = Axes::Zero();
+            for (std::size_t i = 0; i < current.size(); ++i)
+              amperes[static_cast<Eigen::Index>(i)] = current[i];
+            plant.advance(amperes, t, std::llround(share * static_cast<double>(kQuanta)));
+          },
+          py::arg("current"), py::arg("t"), py::arg("share") = 1.0,
+          "Moves by `share` of a tick from time t [s] on, under constant motor currents [A].")
+      .def(
+          "truth", [](const Plant& plant, std::size_t axis) { return plant.truth(axis); },
+          py::arg("axis") = 0, "The state of one axis.");
 }
 
 }  // namespace
@@ -84,8 +90,10 @@ void bind_simulation(py::module_& m) {
   bind_trace(m);
   bind_setup(m);
   bind_fields<AxisTruth>(m, "AxisTruth", "What only a simulation can know about an axis.");
-  bind_plant<ExactPlant>(m, "ExactPlant", "Independent rigid axes with a hand on each, integrated exactly.");
-  bind_plant<SteppedPlant>(m, "SteppedPlant", "Any device with a hand on it, integrated step by step.");
+  bind_plant<ExactPlant>(m, "ExactPlant",
+                         "Independent rigid axes with a hand on each, integrated exactly.");
+  bind_plant<SteppedPlant>(m, "SteppedPlant",
+                           "Any device with a hand on it, integrated step by step.");
 }
 
 }  // namespace ebac::python

@@ -100,5 +100,3 @@ def _build(cls: type, table: Mapping[str, Any], where: str) -> Any:
         return cls(**given)
     except (ValueError, TypeError) as error:
         raise ValueError(f"{where}: {error}") from None
-
-

@@ -2,13 +2,48 @@
 
 from __future__ import annotations
 
-from typing import Any, Protocol, TypeAlias, runtime_checkable
+from typing import Any, ClassVar, Protocol, TypeAlias, runtime_checkable
 
-from ebac._core import EBA, EBAC, TCA, Device, DeviceFacts, Direct, EBACPrinted, Port, Timing
+from ebac._core import (
+    EBA,
+    EBAC,
+    TCA,
+    Device,
+    DeviceFacts,
+    Direct,
+    EBACPrinted,
+    Port,
+    Rows,
+    Setup,
+    Timing,
+)
 
-CoreLaw: TypeAlias = Direct | TCA | EBA | EBACPrinted | EBAC
 
-#: Every law of the C++ core by its name.
+@runtime_checkable
+class CoreLaw(Protocol):
+    """A law written in C++: of this package, or bound out of tree by `bind_controller`."""
+
+    name: ClassVar[str]
+    summary: ClassVar[str]
+    passive: ClassVar[bool]
+
+    @staticmethod
+    def design(facts: DeviceFacts | Device, timing: Timing, **changes: Any) -> CoreLaw:
+        """Make the law for a device."""
+        ...
+
+    def step(self, port: Port) -> float:
+        """Return the force [N] for one tick of one axis."""
+        ...
+
+    def reset(self) -> None:
+        """Forget everything but the parameters."""
+        ...
+
+    def _simulate(self, setup: Setup) -> Rows: ...
+
+
+#: Every law of this package by its name.
 LAWS: dict[str, type[CoreLaw]] = {law.name: law for law in (Direct, TCA, EBA, EBACPrinted, EBAC)}
 
 
@@ -68,8 +103,10 @@ def design(
             raise KeyError(f"no law is called {law!r}; there are: {', '.join(LAWS)}")
         law = LAWS[law]
     if isinstance(law, type):
-        if law not in LAWS.values():
-            raise TypeError(f"{law.__name__} is a class: give an instance of it, {law.__name__}(...)")
+        if not hasattr(law, "_simulate"):
+            raise TypeError(
+                f"{law.__name__} is a class: give an instance of it, {law.__name__}(...)"
+            )
         return law.design(device, timing, **changes)
     if changes:
         raise TypeError(f"{law!r} is finished: make it with {', '.join(changes)}, or give its name")

@@ -110,7 +110,9 @@ def contact(trace: Trace, *, axis: int = 0) -> Contact:
     tail = slice(-max(2, round(TAIL_SHARE * len(trace))), None)
     rest = float(x[tail].mean())
     swing = float(np.ptp(x[tail]))
-    energy = trace["true.energy"].reshape(len(trace), -1).sum(axis=1) if "true.energy" in trace else None
+    energy = (
+        trace["true.energy"].reshape(len(trace), -1).sum(axis=1) if "true.energy" in trace else None
+    )
     return Contact(
         law=trace.law,
         rest_m=rest,
@@ -121,7 +123,9 @@ def contact(trace: Trace, *, axis: int = 0) -> Contact:
         peak_m=float(x.max()),
         limit_cycle_Hz=None if swing < QUIET_SWING else _frequency(t[tail], x[tail]),
         least_energy_J=None if energy is None else float(energy.min()),
-        clamped_share=float(trace.axis("law.clamped", axis).mean()) if "law.clamped" in trace else None,
+        clamped_share=float(trace.axis("law.clamped", axis).mean())
+        if "law.clamped" in trace
+        else None,
         count_m=trace.scenario.device.count if trace.scenario else None,
     )
 
@@ -135,13 +139,15 @@ def ideal_rest(scenario: Scenario) -> float | None:
     path = hand.path[0]
     if not isinstance(wall, Wall) or wall.angle != 0 or np.isfinite(hand.release_at):
         return None
-    if not isinstance(path, (Step, MinimumJerk)) or not isinstance(scenario.device.kinematics, Linear):
+    if not isinstance(path, (Step, MinimumJerk)) or not isinstance(
+        scenario.device.kinematics, Linear
+    ):
         return None
     mechanics, given = scenario.device.mechanics, scenario.device.compensation
     weight = (mechanics.handle_mass - given.gravity_mass) * mechanics.gravity
     pull = hand.stiffness * path.target + weight
     if hand.stiffness == 0 or pull <= hand.stiffness * wall.position:
-        return path.target if hand.stiffness > 0 else None
+        return pull / hand.stiffness if hand.stiffness > 0 else None
     return (pull + wall.stiffness * wall.position) / (hand.stiffness + wall.stiffness)
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from ebac import _core
-from ebac.laws import LAWS, AnyLaw, design, law_name
+from ebac.laws import AnyLaw, CoreLaw, design, law_name
 from ebac.scenario import Scenario
 from ebac.trace import Trace
 
@@ -58,11 +58,13 @@ def simulate(scenario: Scenario, law: AnyLaw = "ebac", **changes: Any) -> Trace:
     """
     finished = design(law, scenario.device, scenario.timing, **changes)
     setup = scenario.setup()
-    if isinstance(finished, tuple(LAWS.values())):
-        rows = _core._simulate(setup, finished)
+    if isinstance(finished, CoreLaw):
+        rows = finished._simulate(setup)
     else:
         rows = _core._simulate_python(setup, finished)
-    trace = Trace.from_rows(rows, scenario=scenario, law=law_name(finished), law_repr=repr(finished))
+    trace = Trace.from_rows(
+        rows, scenario=scenario, law=law_name(finished), law_repr=repr(finished)
+    )
     fault = _core.Fault(int(trace["fault"][-1]))
     if fault is not _core.Fault.NONE:
         raise LoopFault(fault, trace)

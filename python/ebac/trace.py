@@ -65,7 +65,8 @@ class Trace:
         data = {}
         columns = {}
         for c in rows.columns:
-            shape, strides = (len(rows),), (rows.row_bytes,)
+            shape: tuple[int, ...] = (len(rows),)
+            strides: tuple[int, ...] = (rows.row_bytes,)
             if c.stride > 0 and rows.axes > 1:
                 shape, strides = (*shape, rows.axes), (*strides, c.stride)
             view = np.ndarray(shape, _KINDS[c.kind], raw, c.offset, strides)
@@ -177,7 +178,9 @@ class Trace:
             "scenario": self.scenario.to_toml() if self.scenario else None,
             "columns": {c.name: [c.unit, c.meaning] for c in self.columns.values()},
         }
-        np.savez_compressed(path, about=np.array(json.dumps(about)), allow_pickle=False, **self._data)
+        with Path(path).open("wb") as file:  # a file, because NumPy appends .npz to a name
+            arrays: dict[str, Any] = {"about": np.array(json.dumps(about)), **self._data}
+            np.savez_compressed(file, **arrays)
 
     @classmethod
     def from_npz(cls, path: str | Path) -> Self:
@@ -224,14 +227,19 @@ class Trace:
 
     def _repr_html_(self) -> str:
         """Return a table of the columns for a notebook."""
-        head = "<tr><th>column</th><th>unit</th><th>first</th><th>last</th><th>least</th><th>most</th><th>meaning</th></tr>"
+        titles = ("column", "unit", "first", "last", "least", "most", "meaning")
+        head = "<tr>" + "".join(f"<th>{title}</th>" for title in titles) + "</tr>"
         lines = [head, *(self._html_row(*column) for column in self.flat())]
         return f"<p>{escape(repr(self))}</p><table>{''.join(lines)}</table>"
 
     def _html_row(self, name: str, info: ColumnInfo, values: NDArray[Any]) -> str:
         numbers = values.astype(float)
         known = numbers[np.isfinite(numbers)]
-        shown = [numbers[0], numbers[-1], known.min(), known.max()] if len(known) else [float("nan")] * 4
+        shown = (
+            [numbers[0], numbers[-1], known.min(), known.max()]
+            if len(known)
+            else [float("nan")] * 4
+        )
         cells = "".join(f"<td>{number:.6g}</td>" for number in shown)
         return f"<tr><th>{escape(name)}</th><td>{info.unit}</td>{cells}<td>{escape(info.meaning)}</td></tr>"
 

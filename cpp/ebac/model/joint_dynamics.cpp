@@ -28,67 +28,129 @@ double sign(double value) EBAC_RT { return value == 0 ? 0.0 : std::copysign(1.0,
 
 JointDynamics::JointDynamics(const DeviceModel& device, const Hand& hand)
     : kinematics_(device.kinematics),
-      mechanics_(device.mechanics),
+      friction_(device.mechanics),
+      cable_(device.mechanics),
+      axes_(device.axes()),
+      radius_(device.radius()),
+      handle_mass_(device.mechanics.handle_mass),
+      rotor_mass_(device.reflected_mass()),
+      damping_(device.mechanics.damping),
+      gravity_(device.mechanics.gravity),
       hand_mass_(hand.mass),
       hand_damping_(hand.damping),
       hand_stiffness_(hand.stiffness),
-      axes_(device.axes()),
-      radius_(device.radius()),
-      rotor_(device.motor.rotor_inertia * device.capstan.ratio() * device.capstan.ratio()),
-      damping_(device.mechanics.damping * radius_ * radius_),
-      static_torque_(std::max(device.mechanics.breakaway, device.mechanics.coulomb) * radius_),
-      cable_stiffness_(device.mechanics.cable_stiffness * radius_ * radius_),
-      cable_damping_(device.mechanics.cable_damping * radius_ * radius_),
-      half_play_(device.mechanics.backlash / 2 / radius_),
-      sticky_(static_torque_ > 0),
+      square_(radius_ * radius_),
       compliant_(device.mechanics.compliant()),
-      angle_(compliant_ ? kRotor : kQ),
       speed_(compliant_ ? kDrotor : kDq) {
-  if (compliant_ && !(rotor_ > 0)) {
+  if (compliant_ && !(rotor_mass_ > 0)) {
     throw std::invalid_argument(
         "Motor.rotor_inertia = 0 kg m^2: must be positive behind a cable that gives; set "
-        "Mechanics.cable_stiffness = 0 for a rigid one");
+        "Mechanics.cable_stiffness = 0 N/m for a rigid one");
   }
 }
 
-Motion JointDynamics::motion(const JointState& z, const Load& load, const Contact& contact) const EBAC_RT {
+Motion JointDynamics::motion(const JointState& z, const Load& load,
+                             const Contact& contact) const EBAC_RT {
   const Axes dq = z.col(kDq);
   const Axes speed = z.col(speed_);
   const Pose at = pose(kinematics_, z.col(kQ), dq);
   const auto unused = [&](int i) EBAC_RT { return i >= axes_; };
-  const auto stuck = [&](int i) EBAC_RT { return i >= axes_ || holds(contact, i); };
+  const auto at_rest = [&](int i) EBAC_RT { return i >= axes_ || stuck(contact, i); };
 
   Motion m;
   m.x = at.x;
   m.v = at.j * dq;
-  const Axes pull = hand_stiffness_ * (load.target - m.x) - hand_damping_ * m.v - hand_mass_ * at.drift;
-  const Axes slip = sliding_torque(speed, contact.slide);
-  const Axes motor = -load.torque - damping_ * speed - slip;
-  Axes lever = at.j.transpose() * pull +
-               mechanics_.handle_mass * (mechanics_.gravity * at.weight - at.coriolis);
+  const Axes pull =
+      hand_stiffness_ * (load.target - m.x) - hand_damping_ * m.v - hand_mass_ * at.drift;
+  const Axes lever = at.j.transpose() * pull + handle_mass_ * (gravity_ * at.weight - at.coriolis);
+  const Axes motor =
+      load.torque + square_ * damping_ * speed + sliding_torque(speed, contact.slide);
   Jacobian mass = hand_mass_ * at.j.transpose() * at.j;
-  mass.diagonal() += mechanics_.handle_mass * at.inertia;
+  mass.diagonal() += handle_mass_ * at.inertia;
 
-  Axes ddq;
-  m.rate.setZero();
   m.rate.col(kQ) = dq;
-  m.rate.col(kEnergy) = (load.torque + damping_ * speed + slip).cwiseProduct(speed);
+  m.rate.col(kEnergy) = motor.cwiseProduct(speed);
   if (compliant_) {
-    const Cable link = cable(z, contact.flank);
-    ddq = accelerate(mass, lever - link.torque, unused);
-    m.held = motor + link.torque;
+    const Axes cable = cable_torque(z, contact.flank);
+    m.rate.col(kDq) = accelerate(mass, lever - cable, unused);
+    m.held = cable - motor;
     m.rate.col(kRotor) = speed;
-    for (int i = 0; i < axes_; ++i) m.rate(i, kDrotor) = stuck(i) ? 0.0 : m.held[i] / rotor_;
-    m.rate.col(kEnergy) += link.loss;
+    for (int i = 0; i < axes_; ++i) {
+      m.rate(i, kDrotor) = at_rest(i) ? 0.0 : m.held[i] / (square_ * rotor_mass_);
+    }
+    m.rate.col(kEnergy) += cable_loss(z, contact.flank);
   } else {
-    mass.diagonal().array() += rotor_;
-    lever += motor;
-    ddq = accelerate(mass, lever, stuck);
-    m.held = lever - mass * ddq;
+    mass.diagonal().array() += square_ * rotor_mass_;
+    m.rate.col(kDq) = accelerate(mass, lever - motor, at_rest);
+    m.held = lever - motor - mass * m.rate.col(kDq);
   }
-  m.rate.col(kDq) = ddq;
-  m.f_hand = pull - hand_mass_ * (at.j * ddq);
+  m.f_hand = pull - hand_mass_ * (at.j * m.rate.col(kDq));
   return m;
+}
+
+Axes JointDynamics::sliding_torque(const Axes& dq, const Axes& slide) const EBAC_RT {
+  Axes torque = Axes::Zero();
+  if (!friction_.present()) return torque;
+  for (int i = 0; i < axes_; ++i)
+    torque[i] = slide[i] * radius_ * friction_.sliding(radius_ * dq[i]);
+  return torque;
+}
+
+Axes JointDynamics::cable_torque(const JointState& z, const Axes& flank) const EBAC_RT {
+  Axes torque = Axes::Zero();
+  for (int i = 0; i < axes_; ++i) {
+    if (flank[i] != 0) torque[i] = radius_ * cable_.force(gap(z, i), gap_rate(z, i), flank[i]);
+  }
+  return torque;
+}
+
+Axes JointDynamics::cable_loss(const JointState& z, const Axes& flank) const EBAC_RT {
+  Axes loss = Axes::Zero();
+  for (int i = 0; i < axes_; ++i) {
+    if (flank[i] != 0) loss[i] = cable_.damping * gap_rate(z, i) * gap_rate(z, i);
+  }
+  return loss;
+}
+
+double JointDynamics::margin(const JointState& z, const Motion& at,
+                             const Contact& contact) const EBAC_RT {
+  double least = 1;
+  for (int i = 0; i < axes_; ++i) {
+    if (stuck(contact, i)) {
+      least = std::min(least, radius_ * friction_.breakaway - std::abs(at.held[i]));
+    } else if (friction_.present()) {
+      least = std::min(least, contact.slide[i] * z(i, speed_));
+    }
+    if (compliant_)
+      least = std::min(least, cable_.margin(gap(z, i), gap_rate(z, i), contact.flank[i]));
+  }
+  return least;
+}
+
+Contact JointDynamics::settle(JointState& z, const Load& load, const Contact& before,
+                              Motion& after) const EBAC_RT {
+  Contact contact;
+  for (int i = 0; i < axes_; ++i) {
+    if (before.slide[i] * z(i, speed_) < 0) z(i, speed_) = 0;
+    if (friction_.present()) contact.slide[i] = sign(z(i, speed_));
+    if (compliant_) contact.flank[i] = cable_.flank(gap(z, i), gap_rate(z, i));
+  }
+  after = motion(z, load, contact);
+  for (int pass = 0; pass < axes_; ++pass) {  // one joint may free another: the weakest goes first
+    int weakest = 0;
+    double excess = 0;
+    for (int i = 0; i < axes_; ++i) {
+      if (!stuck(contact, i)) continue;
+      const double beyond = std::abs(after.held[i]) - radius_ * friction_.breakaway;
+      if (beyond <= excess) continue;  // not so for NaN, which must not hide behind friction
+      excess = beyond;
+      weakest = i;
+    }
+    if (excess == 0) break;
+    contact.slide[weakest] = sign(after.held[weakest]);
+    after = motion(z, load, contact);
+  }
+  return contact;
 }
 
 Axes JointDynamics::mean_hand_force(const Motion& from, const Motion& to, const Axes& target,
@@ -98,111 +160,15 @@ Axes JointDynamics::mean_hand_force(const Motion& from, const Motion& to, const 
          (hand_damping_ * (to.x - from.x) + hand_mass_ * (to.v - from.v)) / h;
 }
 
-double JointDynamics::friction(double speed) const EBAC_RT {
-  if (!mechanics_.stribeck()) return mechanics_.coulomb;
-  const double share = speed / mechanics_.stribeck_speed;
-  return mechanics_.coulomb + (mechanics_.breakaway - mechanics_.coulomb) * std::exp(-share * share);
-}
-
-Axes JointDynamics::sliding_torque(const Axes& dq, const Axes& slide) const EBAC_RT {
-  Axes torque = Axes::Zero();
-  for (int i = 0; sticky_ && i < axes_; ++i) torque[i] = slide[i] * radius_ * friction(radius_ * dq[i]);
-  return torque;
-}
-
-double JointDynamics::push(const JointState& z, int i, double flank) const EBAC_RT {
-  return cable_stiffness_ * (z(i, kQ) - z(i, kRotor) - flank * half_play_) +
-         cable_damping_ * (z(i, kDq) - z(i, kDrotor));
-}
-
-JointDynamics::Cable JointDynamics::cable(const JointState& z, const Axes& flank) const EBAC_RT {
-  Cable link{Axes::Zero(), Axes::Zero()};
-  for (int i = 0; i < axes_; ++i) {
-    if (flank[i] == 0) continue;
-    const double slip = z(i, kDq) - z(i, kDrotor);
-    link.torque[i] = push(z, i, flank[i]);
-    link.loss[i] = cable_damping_ * slip * slip;
-  }
-  return link;
-}
-
-/// A flank pushes and never pulls: the lever leaves it as soon as spring and damper together would pull.
-/// Without backlash the cable is preloaded, and the two flanks are one.
-double JointDynamics::flank(const JointState& z, int i) const EBAC_RT {
-  if (half_play_ == 0) return 1;
-  const double gap = z(i, kQ) - z(i, kRotor);
-  const double side = sign(gap);
-  return std::abs(gap) >= half_play_ && side * push(z, i, side) > 0 ? side : 0.0;
-}
-
-double JointDynamics::flank_margin(const JointState& z, int i, double flank) const EBAC_RT {
-  if (flank != 0) return flank * push(z, i, flank);
-  const double gap = z(i, kQ) - z(i, kRotor);
-  const double side = sign(gap);
-  return std::abs(gap) < half_play_ ? half_play_ - std::abs(gap) : -side * push(z, i, side);
-}
-
-double JointDynamics::margin(const JointState& z, const Motion& at,
-                             const Contact& contact) const EBAC_RT {
-  double least = 1;
-  for (int i = 0; i < axes_; ++i) {
-    if (sticky_) {
-      least = std::min(least, contact.slide[i] == 0 ? static_torque_ - std::abs(at.held[i])
-                                                    : contact.slide[i] * z(i, speed_));
-    }
-    if (compliant_ && half_play_ > 0) least = std::min(least, flank_margin(z, i, contact.flank[i]));
-  }
-  return least;
-}
-
-Contact JointDynamics::settle(JointState& z, const Load& load, const Contact& before,
-                              Motion& after) const EBAC_RT {
-  Contact contact;
-  for (int i = 0; i < axes_; ++i) {
-    if (sticky_ && before.slide[i] * z(i, speed_) < 0) z(i, speed_) = 0;
-    contact.slide[i] = sticky_ ? sign(z(i, speed_)) : 0.0;
-    contact.flank[i] = compliant_ ? flank(z, i) : 0.0;
-  }
-  after = motion(z, load, contact);
-  for (int pass = 0; sticky_ && pass < axes_; ++pass) {  // at most one joint breaks away in each
-    int weakest = 0;
-    double excess = 0;
-    for (int i = 0; i < axes_; ++i) {
-      const double beyond = holds(contact, i) ? std::abs(after.held[i]) - static_torque_ : 0.0;
-      if (beyond > excess) {
-        excess = beyond;
-        weakest = i;
-      }
-    }
-    if (excess == 0) break;
-    contact.slide[weakest] = sign(after.held[weakest]);
-    after = motion(z, load, contact);
-  }
-  return contact;
-}
-
 double JointDynamics::fastest_rate() const {
-  const double square = radius_ * radius_;
-  const double handle = mechanics_.handle_mass * square;
-  const double hand = hand_mass_ * square;
-  const double lever = handle + hand + (compliant_ ? 0.0 : rotor_);
-  double damping = hand_damping_ * square / lever;
-  double stiffness = (hand_stiffness_ + mechanics_.handle_mass * std::abs(mechanics_.gravity) / radius_) *
-                     square / lever;
-  if (compliant_) {
-    damping += damping_ / rotor_ + cable_damping_ * (1 / lever + 1 / rotor_);
-    stiffness += cable_stiffness_ * (1 / lever + 1 / rotor_);
-  } else {
-    damping += damping_ / lever;
+  const double lever = handle_mass_ + hand_mass_;
+  const double stiffness = hand_stiffness_ + handle_mass_ * std::abs(gravity_) / radius_;
+  if (!compliant_) {
+    return std::max((damping_ + hand_damping_) / mass(), std::sqrt(stiffness / mass()));
   }
-  return std::max(damping, std::sqrt(stiffness));
-}
-
-double JointDynamics::stribeck_rate() const {
-  if (!mechanics_.stribeck()) return 0;
-  const double fall = (mechanics_.breakaway - mechanics_.coulomb) / mechanics_.stribeck_speed;
-  const double rigid = mechanics_.handle_mass + hand_mass_ + rotor_ / (radius_ * radius_);
-  return fall / (compliant_ ? rotor_ / (radius_ * radius_) : rigid);
+  const double either = 1 / lever + 1 / rotor_mass_;
+  return std::max(damping_ / rotor_mass_ + hand_damping_ / lever + cable_.damping * either,
+                  std::sqrt(stiffness / lever + cable_.stiffness * either));
 }
 
 }  // namespace ebac

@@ -25,8 +25,8 @@ inline Pose pose(const Linear& k, const Axes& q, const Axes&) EBAC_RT {
           .weight = k.weight(q, 1)};
 }
 
-/// Lagrange's equations of T = R^2/2 (cos^2 q2 dq1^2 + dq2^2): the mass lies on the sphere, its height
-/// included, which the ports x and y do not show.
+/// Lagrange's equations of T = R^2/2 (cos^2 q2 dq1^2 + dq2^2): the mass lies on the sphere, its
+/// height included, which the ports x and y do not show.
 inline Pose pose(const Gimbal& k, const Axes& q, const Axes& dq) EBAC_RT {
   const double R = k.radius;
   const double s1 = std::sin(q[0]), c1 = std::cos(q[0]);

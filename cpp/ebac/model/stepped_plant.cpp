@@ -12,13 +12,15 @@ namespace ebac {
 
 namespace {
 
-constexpr double kAccurate = 1.0 / 16;  // time constants in a step; measured, see stepped_plant_test
-constexpr double kStable = 1.5;         // time constants in a step; the method diverges from 2.78 on
-constexpr double kLag = 1.0 / 4;        // lags in a step
-constexpr double kSteps = 64;           // a tick, that a lag or Stribeck friction may ask for
-constexpr double kUsualSteps = 1024;    // a tick, that accuracy may ask for
-constexpr double kMostSteps = 16384;    // a tick, that stability may ask for
-constexpr int kMostEvents = 256;        // located in one advance; later ones take effect at the end of their step
+constexpr double kAccurate =
+    1.0 / 16;                         // time constants in a step; measured, see stepped_plant_test
+constexpr double kStable = 1.5;       // time constants in a step; the method diverges from 2.78 on
+constexpr double kLag = 1.0 / 2;      // lags in a step
+constexpr double kSteps = 64;         // a tick, that a lag or Stribeck friction may ask for
+constexpr double kUsualSteps = 1024;  // a tick, that accuracy may ask for
+constexpr double kMostSteps = 16384;  // a tick, that stability may ask for
+constexpr int kMostEvents =
+    256;  // located in one advance; later ones take effect at the end of their step
 
 /// Longest step that is accurate where that is cheap, and stable everywhere.
 double longest_step(double rate, double soft_rate, double tick) {
@@ -41,6 +43,7 @@ double lag_rate(double lag) { return lag > 0 ? 1 / (kLag * lag) : 0.0; }
 
 SteppedPlant::SteppedPlant(const DeviceModel& device, const Hand& hand, double tick)
     : dynamics_(device, hand),
+      without_hand_(device, {.mass = 0, .damping = 0, .stiffness = 0}),
       hand_(hand),
       kinematics_(device.kinematics),
       tick_(tick),
@@ -53,21 +56,17 @@ SteppedPlant::SteppedPlant(const DeviceModel& device, const Hand& hand, double t
   double rate = dynamics_.fastest_rate();
   double stribeck = dynamics_.stribeck_rate();
   if (std::isfinite(hand.release_at)) {
-    without_hand_.emplace(device, Hand{.mass = 0, .damping = 0, .stiffness = 0});
-    rate = std::max(rate, without_hand_->fastest_rate());
-    stribeck = std::max(stribeck, without_hand_->stribeck_rate());
+    rate = std::max(rate, without_hand_.fastest_rate());
+    stribeck = std::max(stribeck, without_hand_.stribeck_rate());
   }
-  const double soft = std::max({stribeck / kAccurate, lag_rate(current_lag_), lag_rate(sensor_lag_)});
+  const double soft =
+      std::max({stribeck / kAccurate, lag_rate(current_lag_), lag_rate(sensor_lag_)});
   step_ = longest_step(rate, soft, tick);
   report();
 }
 
-void SteppedPlant::let_go() EBAC_RT {
-  dynamics_ = *without_hand_;
-  without_hand_.reset();
-}
-
-SteppedPlant::Interval SteppedPlant::interval(const Axes& current, double t, double time) const EBAC_RT {
+SteppedPlant::Interval SteppedPlant::interval(const Axes& current, double t,
+                                              double time) const EBAC_RT {
   Interval all{torque_per_amp_ * current, Axes::Zero(), Axes::Zero()};
   for (int i = 0; i < axes_; ++i) {
     const Target target = hand_.target(i, t, time);
@@ -79,7 +78,7 @@ SteppedPlant::Interval SteppedPlant::interval(const Axes& current, double t, dou
 
 void SteppedPlant::advance(const Axes& current, double t, std::int64_t quanta) EBAC_RT {
   if (quanta <= 0) return;
-  if (without_hand_ && t >= hand_.release_at) let_go();
+  if (t >= hand_.release_at) dynamics_ = without_hand_;
   const double time = tick_ * static_cast<double>(quanta) / static_cast<double>(kQuanta);
   interval_ = interval(current, t, time);
   if (current_lag_ == 0) now_.torque = interval_.setpoint;
@@ -106,7 +105,8 @@ double SteppedPlant::margin(const Instant& at) const EBAC_RT {
 /// Moves by `h`, from event to event.
 void SteppedPlant::move(double h, int& events) EBAC_RT {
   const double end = now_.time + h;
-  for (double left = h; left > 0; left = end - now_.time) {
+  while (now_.time < end) {
+    const double left = end - now_.time;
     const Instant next = step(now_, left);
     const bool broken = margin(next) < 0;
     if (broken && events > 0) {
@@ -120,7 +120,8 @@ void SteppedPlant::move(double h, int& events) EBAC_RT {
   }
 }
 
-/// The first instant beyond the event, to 1e-9 of the step, by the Illinois method (Dowell and Jarratt 1971).
+/// The first instant beyond the event, to 1e-9 of the step, by the Illinois method (Dowell and
+/// Jarratt 1971).
 SteppedPlant::Instant SteppedPlant::event(Instant beyond, double h) const EBAC_RT {
   constexpr int kMostTries = 50;
   double low = 0, high = h;

@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cstdint>
-#include <optional>
 
 #include "ebac/model/axis_truth.hpp"
 #include "ebac/model/device.hpp"
@@ -12,12 +11,13 @@
 
 namespace ebac {
 
-/// Any device, integrated step by step: a gimbal, Stribeck friction, a cable that gives, backlash. Where the
-/// exact plant applies too, each is the test of the other.
+/// Any device, integrated step by step: a gimbal, Stribeck friction, a cable that gives, backlash.
+/// Where the exact plant applies too, each is the test of the other.
 ///
-/// Runge and Kutta's classical method between events. An event (a joint stops, breaks away, a flank of the
-/// backlash meets or leaves) ends its step; it is found by doing the step again, shorter. The lags of current
-/// loop and sensor are followed in closed form, so only the mechanics bounds the step.
+/// Runge and Kutta's classical method between events. An event (a joint stops, breaks away, a flank
+/// of the backlash meets or leaves) ends its step; it is found by doing the step again, shorter.
+/// The lags of current loop and sensor are followed in closed form, so only the mechanics bounds
+/// the step.
 class SteppedPlant {
  public:
   /// Throws std::invalid_argument when a time constant is too short for the tick.
@@ -44,7 +44,6 @@ class SteppedPlant {
     Motion motion{};
   };
 
-  void let_go() EBAC_RT;
   Interval interval(const Axes& current, double t, double time) const EBAC_RT;
   Load load(double time, const Axes& torque) const EBAC_RT;
   void settle() EBAC_RT;
@@ -56,7 +55,7 @@ class SteppedPlant {
   void report() EBAC_RT;
 
   JointDynamics dynamics_;
-  std::optional<JointDynamics> without_hand_;
+  JointDynamics without_hand_;
   Hand hand_;
   Kinematics kinematics_;
   double tick_;

@@ -1,0 +1,2702 @@
+"""
+The C++ core of ebac. Use it through the package `ebac`.
+"""
+
+from __future__ import annotations
+
+import collections.abc
+import enum
+import typing
+
+import numpy
+import numpy.typing
+
+__all__: list[str] = [
+    "EBA",
+    "EBAC",
+    "TCA",
+    "AdaptiveWindow",
+    "AxisTruth",
+    "BackwardDifference",
+    "Capstan",
+    "Column",
+    "Compensation",
+    "Corner",
+    "Device",
+    "DeviceFacts",
+    "Direct",
+    "Drive",
+    "EBACPrinted",
+    "Encoder",
+    "ExactPlant",
+    "Fault",
+    "Field",
+    "ForceSensor",
+    "Free",
+    "Gimbal",
+    "Hand",
+    "Linear",
+    "LowPass",
+    "Mechanics",
+    "MinimumJerk",
+    "Motor",
+    "Port",
+    "Recorded",
+    "Rows",
+    "Setup",
+    "Sine",
+    "Step",
+    "SteppedPlant",
+    "Tapping",
+    "Timing",
+    "Wall",
+    "copley_current",
+    "estimate_velocity",
+]
+
+class Field:
+    """
+    One parameter or column: name, unit, meaning, default, range.
+    """
+    def __repr__(self) -> str: ...
+    @property
+    def default(self) -> typing.Any:
+        """
+        Default.
+        """
+    @property
+    def high(self) -> float:
+        """
+        Largest value allowed.
+        """
+    @property
+    def kind(self) -> str:
+        """
+        Python type.
+        """
+    @property
+    def low(self) -> float:
+        """
+        Smallest value allowed.
+        """
+    @property
+    def meaning(self) -> str:
+        """
+        What it is.
+        """
+    @property
+    def name(self) -> str:
+        """
+        Name.
+        """
+    @property
+    def unit(self) -> str:
+        """
+        SI unit; '1' for a pure number.
+        """
+
+class Fault(enum.IntEnum):
+    DEVICE = ...
+    ENVIRONMENT_NOT_FINITE = ...
+    FORCE_NOT_FINITE = ...
+    LAW_NOT_FINITE = ...
+    NONE = ...
+    POSITION_NOT_FINITE = ...
+    TORQUE_NOT_FINITE = ...
+
+class Port:
+    """
+    What a law sees of one axis in one tick.
+
+    Parameters
+    ----------
+    x : float
+        handle position; grows into the wall [m].
+    dx : float
+        displacement since the last tick [m].
+    v : float
+        handle velocity, estimated [m/s].
+    dt : float
+        time since the last tick [s].
+    f_env : float
+        force the virtual world asks for (F_e) [N].
+    f_cmd : float
+        force the law commands (F_d, force loop included) [N].
+    f_applied : float
+        force that acted over the last interval, after limits and delay [N].
+    f_meas : float
+        force the F/T sensor measures (F_M) [N].
+    work : float
+        energy the virtual side absorbed, sum of f_applied dx [J].
+    damped : float
+        energy the device's known damping surely took, sum of (b/dt) dx^2 [J].
+    """
+    @staticmethod
+    def fields() -> list[Field]:
+        """
+        Name, unit, meaning, default and range of every parameter.
+        """
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __init__(
+        self,
+        *,
+        x: float = 0.0,
+        dx: float = 0.0,
+        v: float = 0.0,
+        dt: float = 0.0,
+        f_env: float = 0.0,
+        f_cmd: float = 0.0,
+        f_applied: float = 0.0,
+        f_meas: float = 0.0,
+        work: float = 0.0,
+        damped: float = 0.0,
+    ) -> None: ...
+    def __reduce__(self) -> tuple[typing.Any, ...]: ...
+    def __repr__(self) -> str: ...
+    def as_dict(self) -> dict[str, typing.Any]:
+        """
+        Parameters by name.
+        """
+    def replace(self, **changes: typing.Any) -> typing.Self:
+        """
+        A copy with some parameters changed; checked as at construction.
+        """
+    @property
+    def damped(self) -> float:
+        """
+        energy the device's known damping surely took, sum of (b/dt) dx^2 [J]
+        """
+    @damped.setter
+    def damped(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def dt(self) -> float:
+        """
+        time since the last tick [s]
+        """
+    @dt.setter
+    def dt(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def dx(self) -> float:
+        """
+        displacement since the last tick [m]
+        """
+    @dx.setter
+    def dx(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def f_applied(self) -> float:
+        """
+        force that acted over the last interval, after limits and delay [N]
+        """
+    @f_applied.setter
+    def f_applied(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def f_cmd(self) -> float:
+        """
+        force the law commands (F_d, force loop included) [N]
+        """
+    @f_cmd.setter
+    def f_cmd(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def f_env(self) -> float:
+        """
+        force the virtual world asks for (F_e) [N]
+        """
+    @f_env.setter
+    def f_env(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def f_meas(self) -> float:
+        """
+        force the F/T sensor measures (F_M) [N]
+        """
+    @f_meas.setter
+    def f_meas(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def v(self) -> float:
+        """
+        handle velocity, estimated [m/s]
+        """
+    @v.setter
+    def v(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def work(self) -> float:
+        """
+        energy the virtual side absorbed, sum of f_applied dx [J]
+        """
+    @work.setter
+    def work(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def x(self) -> float:
+        """
+        handle position; grows into the wall [m]
+        """
+    @x.setter
+    def x(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+
+class Timing:
+    """
+    What every law must know about time.
+
+    Parameters
+    ----------
+    dt : float
+        sample time [s], 1e-05 to 0.1.
+    delay : int
+        ticks from computing a command to its acting; 1 is a synchronous CAN drive [samples], 0 to 8.
+    """
+    @staticmethod
+    def fields() -> list[Field]:
+        """
+        Name, unit, meaning, default and range of every parameter.
+        """
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __init__(self, *, dt: float = 0.001, delay: int = 1) -> None: ...
+    def __reduce__(self) -> tuple[typing.Any, ...]: ...
+    def __repr__(self) -> str: ...
+    def as_dict(self) -> dict[str, typing.Any]:
+        """
+        Parameters by name.
+        """
+    def replace(self, **changes: typing.Any) -> typing.Self:
+        """
+        A copy with some parameters changed; checked as at construction.
+        """
+    @property
+    def delay(self) -> int:
+        """
+        ticks from computing a command to its acting; 1 is a synchronous CAN drive [samples], 0 to 8
+        """
+    @property
+    def dt(self) -> float:
+        """
+        sample time [s], 1e-05 to 0.1
+        """
+
+class DeviceFacts:
+    """
+    What a user can know about a device; laws are designed from it.
+
+    Parameters
+    ----------
+    damping : float
+        lower bound of the physical viscous damping at the handle, after compensation [N s/m], -500 to 500.
+    mass : float
+        mass felt at the handle; an under-estimate is safe [kg], 0.001 to 100.
+    count : float
+        one encoder count at the handle [m], 0 to 0.01.
+    current_lag : float
+        time constant of the drive's current loop [s], 0 to 0.1.
+    peak_force : float
+        largest force the motor can give [N], 0.001 to 10000.
+    """
+    @staticmethod
+    def fields() -> list[Field]:
+        """
+        Name, unit, meaning, default and range of every parameter.
+        """
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __init__(
+        self,
+        *,
+        damping: float = 2.0,
+        mass: float = 0.25,
+        count: float = 3.07e-05,
+        current_lag: float = 0.0003,
+        peak_force: float = 42.4,
+    ) -> None: ...
+    def __reduce__(self) -> tuple[typing.Any, ...]: ...
+    def __repr__(self) -> str: ...
+    def as_dict(self) -> dict[str, typing.Any]:
+        """
+        Parameters by name.
+        """
+    def replace(self, **changes: typing.Any) -> typing.Self:
+        """
+        A copy with some parameters changed; checked as at construction.
+        """
+    @property
+    def count(self) -> float:
+        """
+        one encoder count at the handle [m], 0 to 0.01
+        """
+    @property
+    def current_lag(self) -> float:
+        """
+        time constant of the drive's current loop [s], 0 to 0.1
+        """
+    @property
+    def damping(self) -> float:
+        """
+        lower bound of the physical viscous damping at the handle, after compensation [N s/m], -500 to 500
+        """
+    @property
+    def mass(self) -> float:
+        """
+        mass felt at the handle; an under-estimate is safe [kg], 0.001 to 100
+        """
+    @property
+    def peak_force(self) -> float:
+        """
+        largest force the motor can give [N], 0.001 to 10000
+        """
+
+class Linear:
+    """
+    n independent axes, x = R q: the device of eq. (6).
+
+    Parameters
+    ----------
+    axes : int
+        number of independent axes, 1 to 3.
+    radius : float
+        lever radius: travel per joint angle [m], 0.0001 to 10.
+    limit : float
+        largest joint angle either way [rad], 0.001 to 1000.
+    """
+    @staticmethod
+    def fields() -> list[Field]:
+        """
+        Name, unit, meaning, default and range of every parameter.
+        """
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __init__(
+        self, *, axes: int = 1, radius: float = 0.1, limit: float = 0.5235987755982988
+    ) -> None: ...
+    def __reduce__(self) -> tuple[typing.Any, ...]: ...
+    def __repr__(self) -> str: ...
+    def as_dict(self) -> dict[str, typing.Any]:
+        """
+        Parameters by name.
+        """
+    def forward(
+        self, q: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex]
+    ) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
+        """
+        Handle position [m] at joint angles q [rad], shape (axes,).
+        """
+    def inverse(
+        self, x: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex]
+    ) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
+        """
+        Joint angles [rad] at handle position x [m], shape (axes,).
+        """
+    def jacobian(
+        self, q: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex]
+    ) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]:
+        """
+        dx/dq [m/rad] at q [rad], shape (axes, axes).
+        """
+    def replace(self, **changes: typing.Any) -> typing.Self:
+        """
+        A copy with some parameters changed; checked as at construction.
+        """
+    def transpose(
+        self,
+        q: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex],
+        f: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex],
+    ) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
+        """
+        Joint torques J^T f [N m] that show f [N] at the handle.
+        """
+    def within_limits(
+        self, q: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex]
+    ) -> bool:
+        """
+        Whether every joint is within its limit.
+        """
+    @property
+    def axes(self) -> int:
+        """
+        Number of axes.
+        """
+    @property
+    def limit(self) -> float:
+        """
+        largest joint angle either way [rad], 0.001 to 1000
+        """
+    @property
+    def radius(self) -> float:
+        """
+        lever radius: travel per joint angle [m], 0.0001 to 10
+        """
+
+class Gimbal:
+    """
+    The paper's joystick: a lever of radius R on two crossed axes.
+
+    x = R sin q1 cos q2, y = R sin q2, z = R cos q1 cos q2.
+
+    Parameters
+    ----------
+    radius : float
+        lever radius (paper, IV.A) [m], 0.0001 to 10.
+    limit : float
+        largest angle of each joint either way, eq. (11) [rad], 0.001 to 1.5.
+    """
+    @staticmethod
+    def fields() -> list[Field]:
+        """
+        Name, unit, meaning, default and range of every parameter.
+        """
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __init__(self, *, radius: float = 0.1, limit: float = 0.5235987755982988) -> None: ...
+    def __reduce__(self) -> tuple[typing.Any, ...]: ...
+    def __repr__(self) -> str: ...
+    def as_dict(self) -> dict[str, typing.Any]:
+        """
+        Parameters by name.
+        """
+    def forward(
+        self, q: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex]
+    ) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
+        """
+        Handle position [m] at joint angles q [rad], shape (axes,).
+        """
+    def height(
+        self, q: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex]
+    ) -> float:
+        """
+        z of the handle [m] above the joints.
+        """
+    def inverse(
+        self, x: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex]
+    ) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
+        """
+        Joint angles [rad] at handle position x [m], shape (axes,).
+        """
+    def jacobian(
+        self, q: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex]
+    ) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]:
+        """
+        dx/dq [m/rad] at q [rad], shape (axes, axes).
+        """
+    def replace(self, **changes: typing.Any) -> typing.Self:
+        """
+        A copy with some parameters changed; checked as at construction.
+        """
+    def transpose(
+        self,
+        q: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex],
+        f: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex],
+    ) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
+        """
+        Joint torques J^T f [N m] that show f [N] at the handle.
+        """
+    def within_limits(
+        self, q: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex]
+    ) -> bool:
+        """
+        Whether every joint is within its limit.
+        """
+    @property
+    def axes(self) -> int:
+        """
+        Number of axes.
+        """
+    @property
+    def limit(self) -> float:
+        """
+        largest angle of each joint either way, eq. (11) [rad], 0.001 to 1.5
+        """
+    @property
+    def radius(self) -> float:
+        """
+        lever radius (paper, IV.A) [m], 0.0001 to 10
+        """
+
+class Motor:
+    """
+    A brushed DC motor; defaults: the paper's Maxon RE 30.
+
+    Parameters
+    ----------
+    torque_constant : float
+        torque per current (paper, II.B) [N m/A], 1e-05 to 100.
+    rated_torque : float
+        continuous torque (paper, II.B) [N m], 1e-05 to 1000.
+    rated_current : float
+        largest continuous current (paper, II.A) [A], 0.001 to 1000.
+    stall_current : float
+        stall current (paper, II.A) [A], 0.001 to 10000.
+    rotor_inertia : float
+        rotor inertia (indicative: RE 30 data sheet, from memory) [kg m^2], 0 to 1.
+    """
+    @staticmethod
+    def fields() -> list[Field]:
+        """
+        Name, unit, meaning, default and range of every parameter.
+        """
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __init__(
+        self,
+        *,
+        torque_constant: float = 0.0538,
+        rated_torque: float = 0.053,
+        rated_current: float = 1.0,
+        stall_current: float = 7.45,
+        rotor_inertia: float = 3.4e-06,
+    ) -> None: ...
+    def __reduce__(self) -> tuple[typing.Any, ...]: ...
+    def __repr__(self) -> str: ...
+    def as_dict(self) -> dict[str, typing.Any]:
+        """
+        Parameters by name.
+        """
+    def current(self, torque: typing.SupportsFloat | typing.SupportsIndex) -> float:
+        """
+        Current [A] for a torque [N m], eq. (1) in SI.
+        """
+    def replace(self, **changes: typing.Any) -> typing.Self:
+        """
+        A copy with some parameters changed; checked as at construction.
+        """
+    def torque(self, current: typing.SupportsFloat | typing.SupportsIndex) -> float:
+        """
+        Torque [N m] of a current [A].
+        """
+    @property
+    def rated_current(self) -> float:
+        """
+        largest continuous current (paper, II.A) [A], 0.001 to 1000
+        """
+    @property
+    def rated_torque(self) -> float:
+        """
+        continuous torque (paper, II.B) [N m], 1e-05 to 1000
+        """
+    @property
+    def rotor_inertia(self) -> float:
+        """
+        rotor inertia (indicative: RE 30 data sheet, from memory) [kg m^2], 0 to 1
+        """
+    @property
+    def stall_current(self) -> float:
+        """
+        stall current (paper, II.A) [A], 0.001 to 10000
+        """
+    @property
+    def torque_constant(self) -> float:
+        """
+        torque per current (paper, II.B) [N m/A], 1e-05 to 100
+        """
+
+class Drive:
+    """
+    The drive in front of the motor.
+
+    Parameters
+    ----------
+    current_lag : float
+        time constant of the current loop [s], 0 to 0.1.
+    peak_ratio : float
+        peak over rated torque (42.4 N over 10.6 N), 0.01 to 10.
+    permille : bool
+        torque quantised to whole thousandths of rated (CiA 402, 0x6071), 0 to 1.
+    """
+    @staticmethod
+    def fields() -> list[Field]:
+        """
+        Name, unit, meaning, default and range of every parameter.
+        """
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __init__(
+        self, *, current_lag: float = 0.0003, peak_ratio: float = 4.0, permille: bool = False
+    ) -> None: ...
+    def __reduce__(self) -> tuple[typing.Any, ...]: ...
+    def __repr__(self) -> str: ...
+    def as_dict(self) -> dict[str, typing.Any]:
+        """
+        Parameters by name.
+        """
+    def peak_current(self, motor: Motor) -> float:
+        """
+        Largest current it sets [A].
+        """
+    def replace(self, **changes: typing.Any) -> typing.Self:
+        """
+        A copy with some parameters changed; checked as at construction.
+        """
+    @property
+    def current_lag(self) -> float:
+        """
+        time constant of the current loop [s], 0 to 0.1
+        """
+    @property
+    def peak_ratio(self) -> float:
+        """
+        peak over rated torque (42.4 N over 10.6 N), 0.01 to 10
+        """
+    @property
+    def permille(self) -> bool:
+        """
+        torque quantised to whole thousandths of rated (CiA 402, 0x6071), 0 to 1
+        """
+
+class Encoder:
+    """
+    An incremental encoder on the motor shaft, behind a counter that wraps.
+
+    Parameters
+    ----------
+    counts_per_turn : int
+        counts per motor turn, after any quadrature [counts], 1 to 6.71089e+07.
+    counter_bits : int
+        width of the drive's counter, which wraps [bits], 8 to 63.
+    """
+    @staticmethod
+    def fields() -> list[Field]:
+        """
+        Name, unit, meaning, default and range of every parameter.
+        """
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __init__(self, *, counts_per_turn: int = 1024, counter_bits: int = 32) -> None: ...
+    def __reduce__(self) -> tuple[typing.Any, ...]: ...
+    def __repr__(self) -> str: ...
+    def as_dict(self) -> dict[str, typing.Any]:
+        """
+        Parameters by name.
+        """
+    def read(self, angle: typing.SupportsFloat | typing.SupportsIndex) -> int:
+        """
+        What the counter shows at a motor angle [rad].
+        """
+    def replace(self, **changes: typing.Any) -> typing.Self:
+        """
+        A copy with some parameters changed; checked as at construction.
+        """
+    def unwrap(
+        self,
+        raw: typing.SupportsInt | typing.SupportsIndex,
+        last: typing.SupportsInt | typing.SupportsIndex,
+    ) -> int:
+        """
+        The unwrapped count nearest to `last` that the counter shows as `raw`.
+        """
+    @property
+    def count(self) -> float:
+        """
+        One count [rad] of the motor.
+        """
+    @property
+    def counter_bits(self) -> int:
+        """
+        width of the drive's counter, which wraps [bits], 8 to 63
+        """
+    @property
+    def counts_per_turn(self) -> int:
+        """
+        counts per motor turn, after any quadrature [counts], 1 to 6.71089e+07
+        """
+
+class Capstan:
+    """
+    A cable from the motor's drum to a sector on the lever.
+
+    Parameters
+    ----------
+    drum_radius : float
+        radius of the drum on the motor (paper, IV.D) [m], 0.0001 to 1.
+    sector_radius : float
+        radius of the sector on the lever; 42.4 N at the handle needs it equal to the lever [m], 0.0001 to 10.
+    """
+    @staticmethod
+    def fields() -> list[Field]:
+        """
+        Name, unit, meaning, default and range of every parameter.
+        """
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __init__(self, *, drum_radius: float = 0.005, sector_radius: float = 0.1) -> None: ...
+    def __reduce__(self) -> tuple[typing.Any, ...]: ...
+    def __repr__(self) -> str: ...
+    def as_dict(self) -> dict[str, typing.Any]:
+        """
+        Parameters by name.
+        """
+    def replace(self, **changes: typing.Any) -> typing.Self:
+        """
+        A copy with some parameters changed; checked as at construction.
+        """
+    @property
+    def drum_radius(self) -> float:
+        """
+        radius of the drum on the motor (paper, IV.D) [m], 0.0001 to 1
+        """
+    @property
+    def ratio(self) -> float:
+        """
+        Motor angle over joint angle.
+        """
+    @property
+    def sector_radius(self) -> float:
+        """
+        radius of the sector on the lever; 42.4 N at the handle needs it equal to the lever [m], 0.0001 to 10
+        """
+
+class BackwardDifference:
+    """
+    v = dx / dt: no lag, one count of noise.
+    """
+    @staticmethod
+    def fields() -> list[Field]:
+        """
+        Name, unit, meaning, default and range of every parameter.
+        """
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __init__(self) -> None: ...
+    def __reduce__(self) -> tuple[typing.Any, ...]: ...
+    def __repr__(self) -> str: ...
+    def as_dict(self) -> dict[str, typing.Any]:
+        """
+        Parameters by name.
+        """
+    def replace(self, **changes: typing.Any) -> typing.Self:
+        """
+        A copy with some parameters changed; checked as at construction.
+        """
+
+class LowPass:
+    """
+    Backward difference through a first-order low-pass.
+
+    Parameters
+    ----------
+    time_constant : float
+        time constant of the filter [s], 0 to 1.
+    """
+    @staticmethod
+    def fields() -> list[Field]:
+        """
+        Name, unit, meaning, default and range of every parameter.
+        """
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __init__(self, *, time_constant: float = 0.005) -> None: ...
+    def __reduce__(self) -> tuple[typing.Any, ...]: ...
+    def __repr__(self) -> str: ...
+    def as_dict(self) -> dict[str, typing.Any]:
+        """
+        Parameters by name.
+        """
+    def replace(self, **changes: typing.Any) -> typing.Self:
+        """
+        A copy with some parameters changed; checked as at construction.
+        """
+    @property
+    def time_constant(self) -> float:
+        """
+        time constant of the filter [s], 0 to 1
+        """
+
+class AdaptiveWindow:
+    """
+    First-order adaptive windowing (Janabi-Sharifi, Hayward, Chen 2000).
+
+    Parameters
+    ----------
+    longest : int
+        longest window [samples], 1 to 31.
+    band : float
+        largest distance of a reading from the line [counts], 0.5 to 100.
+    """
+    @staticmethod
+    def fields() -> list[Field]:
+        """
+        Name, unit, meaning, default and range of every parameter.
+        """
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __init__(self, *, longest: int = 16, band: float = 1.0) -> None: ...
+    def __reduce__(self) -> tuple[typing.Any, ...]: ...
+    def __repr__(self) -> str: ...
+    def as_dict(self) -> dict[str, typing.Any]:
+        """
+        Parameters by name.
+        """
+    def replace(self, **changes: typing.Any) -> typing.Self:
+        """
+        A copy with some parameters changed; checked as at construction.
+        """
+    @property
+    def band(self) -> float:
+        """
+        largest distance of a reading from the line [counts], 0.5 to 100
+        """
+    @property
+    def longest(self) -> int:
+        """
+        longest window [samples], 1 to 31
+        """
+
+class Mechanics:
+    """
+    What moves, told at the handle; every axis is built alike.
+
+    Parameters
+    ----------
+    handle_mass : float
+        mass of lever and handle, felt at the handle, without the rotor [kg], 0.001 to 100.
+    damping : float
+        viscous damping B_h of eq. (6) [N s/m], 0 to 500.
+    coulomb : float
+        Coulomb friction [N], 0 to 100.
+    breakaway : float
+        friction at standstill when above coulomb (Stribeck) [N], 0 to 100.
+    stribeck_speed : float
+        speed over which friction falls from breakaway to coulomb [m/s], 1e-05 to 10.
+    gravity : float
+        Linear: pulls the handle along +x; Gimbal: pulls it down, so that upright is unstable [m/s^2], -100 to 100.
+    cable_stiffness : float
+        cable between rotor and lever; 0 is rigid [N/m], 0 to 1e+08.
+    cable_damping : float
+        damping inside the cable [N s/m], 0 to 10000.
+    backlash : float
+        play of the cable, end to end; needs cable_stiffness [m], 0 to 0.1.
+    """
+    @staticmethod
+    def fields() -> list[Field]:
+        """
+        Name, unit, meaning, default and range of every parameter.
+        """
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __init__(
+        self,
+        *,
+        handle_mass: float = 0.114,
+        damping: float = 2.0,
+        coulomb: float = 0.0,
+        breakaway: float = 0.0,
+        stribeck_speed: float = 0.01,
+        gravity: float = 0.0,
+        cable_stiffness: float = 0.0,
+        cable_damping: float = 2.0,
+        backlash: float = 0.0,
+    ) -> None: ...
+    def __reduce__(self) -> tuple[typing.Any, ...]: ...
+    def __repr__(self) -> str: ...
+    def as_dict(self) -> dict[str, typing.Any]:
+        """
+        Parameters by name.
+        """
+    def replace(self, **changes: typing.Any) -> typing.Self:
+        """
+        A copy with some parameters changed; checked as at construction.
+        """
+    @property
+    def backlash(self) -> float:
+        """
+        play of the cable, end to end; needs cable_stiffness [m], 0 to 0.1
+        """
+    @property
+    def breakaway(self) -> float:
+        """
+        friction at standstill when above coulomb (Stribeck) [N], 0 to 100
+        """
+    @property
+    def cable_damping(self) -> float:
+        """
+        damping inside the cable [N s/m], 0 to 10000
+        """
+    @property
+    def cable_stiffness(self) -> float:
+        """
+        cable between rotor and lever; 0 is rigid [N/m], 0 to 1e+08
+        """
+    @property
+    def coulomb(self) -> float:
+        """
+        Coulomb friction [N], 0 to 100
+        """
+    @property
+    def damping(self) -> float:
+        """
+        viscous damping B_h of eq. (6) [N s/m], 0 to 500
+        """
+    @property
+    def gravity(self) -> float:
+        """
+        Linear: pulls the handle along +x; Gimbal: pulls it down, so that upright is unstable [m/s^2], -100 to 100
+        """
+    @property
+    def handle_mass(self) -> float:
+        """
+        mass of lever and handle, felt at the handle, without the rotor [kg], 0.001 to 100
+        """
+    @property
+    def stribeck_speed(self) -> float:
+        """
+        speed over which friction falls from breakaway to coulomb [m/s], 1e-05 to 10
+        """
+
+class ForceSensor:
+    """
+    A force/torque sensor between handle and hand.
+
+    Parameters
+    ----------
+    lag : float
+        time constant of its first-order lag [s], 0 to 0.1.
+    noise : float
+        standard deviation of its noise [N], 0 to 100.
+    quantum : float
+        one step of its reading; 0 for none [N], 0 to 100.
+    range : float
+        largest force it can show; it saturates [N], 0.001 to 100000.
+    """
+    @staticmethod
+    def fields() -> list[Field]:
+        """
+        Name, unit, meaning, default and range of every parameter.
+        """
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __init__(
+        self, *, lag: float = 0.0008, noise: float = 0.0, quantum: float = 0.0, range: float = 145.0
+    ) -> None: ...
+    def __reduce__(self) -> tuple[typing.Any, ...]: ...
+    def __repr__(self) -> str: ...
+    def as_dict(self) -> dict[str, typing.Any]:
+        """
+        Parameters by name.
+        """
+    def replace(self, **changes: typing.Any) -> typing.Self:
+        """
+        A copy with some parameters changed; checked as at construction.
+        """
+    @property
+    def lag(self) -> float:
+        """
+        time constant of its first-order lag [s], 0 to 0.1
+        """
+    @property
+    def noise(self) -> float:
+        """
+        standard deviation of its noise [N], 0 to 100
+        """
+    @property
+    def quantum(self) -> float:
+        """
+        one step of its reading; 0 for none [N], 0 to 100
+        """
+    @property
+    def range(self) -> float:
+        """
+        largest force it can show; it saturates [N], 0.001 to 100000
+        """
+
+class Compensation:
+    """
+    tau_static of eq. (2): gravity, friction and inertia given back to the hand.
+
+    Parameters
+    ----------
+    gravity_mass : float
+        mass whose weight is carried [kg], 0 to 100.
+    friction : float
+        Coulomb friction given back [N], 0 to 100.
+    friction_speed : float
+        speed at which friction is given back in full [m/s], 0.0001 to 10.
+    inertia : float
+        mass given back [kg], 0 to 100.
+    inertia_lag : float
+        filter on the acceleration it uses [s], 0.0001 to 1.
+    """
+    @staticmethod
+    def fields() -> list[Field]:
+        """
+        Name, unit, meaning, default and range of every parameter.
+        """
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __init__(
+        self,
+        *,
+        gravity_mass: float = 0.0,
+        friction: float = 0.0,
+        friction_speed: float = 0.02,
+        inertia: float = 0.0,
+        inertia_lag: float = 0.005,
+    ) -> None: ...
+    def __reduce__(self) -> tuple[typing.Any, ...]: ...
+    def __repr__(self) -> str: ...
+    def as_dict(self) -> dict[str, typing.Any]:
+        """
+        Parameters by name.
+        """
+    def damping_left(
+        self,
+        damping: typing.SupportsFloat | typing.SupportsIndex,
+        coulomb: typing.SupportsFloat | typing.SupportsIndex,
+    ) -> float:
+        """
+        Lower bound of the viscous damping left [N s/m], given real damping [N s/m] and friction [N].
+        """
+    def force(
+        self,
+        v: typing.SupportsFloat | typing.SupportsIndex,
+        a: typing.SupportsFloat | typing.SupportsIndex,
+    ) -> float:
+        """
+        Force [N] that helps a motion of v [m/s] and a [m/s^2]; positive resists +x.
+        """
+    def replace(self, **changes: typing.Any) -> typing.Self:
+        """
+        A copy with some parameters changed; checked as at construction.
+        """
+    @property
+    def friction(self) -> float:
+        """
+        Coulomb friction given back [N], 0 to 100
+        """
+    @property
+    def friction_speed(self) -> float:
+        """
+        speed at which friction is given back in full [m/s], 0.0001 to 10
+        """
+    @property
+    def gravity_mass(self) -> float:
+        """
+        mass whose weight is carried [kg], 0 to 100
+        """
+    @property
+    def inertia(self) -> float:
+        """
+        mass given back [kg], 0 to 100
+        """
+    @property
+    def inertia_lag(self) -> float:
+        """
+        filter on the acceleration it uses [s], 0.0001 to 1
+        """
+
+class Device:
+    """
+    One haptic device, part by part. The default is the reference device: one straight axis of 0.25 kg and
+    2 N s/m, built from the paper's motor, encoder and capstan.
+    """
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __init__(
+        self,
+        *,
+        kinematics: Linear | Gimbal = ...,
+        motor: Motor = ...,
+        drive: Drive = ...,
+        encoder: Encoder = ...,
+        capstan: Capstan = ...,
+        mechanics: Mechanics = ...,
+        sensor: ForceSensor = ...,
+        velocity: BackwardDifference | LowPass | AdaptiveWindow = ...,
+        compensation: Compensation = ...,
+    ) -> None: ...
+    def __reduce__(self) -> tuple[typing.Any, ...]: ...
+    def __repr__(self) -> str: ...
+    def as_dict(self) -> dict[str, typing.Any]:
+        """
+        Parts by name.
+        """
+    def force(self, current: typing.SupportsFloat | typing.SupportsIndex) -> float:
+        """
+        Handle force [N] of a current [A].
+        """
+    def replace(self, **changes: typing.Any) -> typing.Self:
+        """
+        A copy with some parameters changed; checked as at construction.
+        """
+    @property
+    def axes(self) -> int:
+        """
+        Number of axes.
+        """
+    @property
+    def capstan(self) -> Capstan:
+        """
+        Transmission of each axis.
+        """
+    @property
+    def compensation(self) -> Compensation:
+        """
+        Static compensation of eq. (2).
+        """
+    @property
+    def continuous_force(self) -> float:
+        """
+        Force at rated torque [N].
+        """
+    @property
+    def count(self) -> float:
+        """
+        One encoder count at the handle [m].
+        """
+    @property
+    def drive(self) -> Drive:
+        """
+        Drive of each axis.
+        """
+    @property
+    def encoder(self) -> Encoder:
+        """
+        Encoder of each axis.
+        """
+    @property
+    def facts(self) -> DeviceFacts:
+        """
+        What laws are designed from.
+        """
+    @property
+    def kinematics(self) -> Linear | Gimbal:
+        """
+        Joints to handle.
+        """
+    @property
+    def mass(self) -> float:
+        """
+        Mass at the handle, M_h [kg].
+        """
+    @property
+    def mechanics(self) -> Mechanics:
+        """
+        Masses, damping, friction.
+        """
+    @property
+    def motor(self) -> Motor:
+        """
+        Motor of each axis.
+        """
+    @property
+    def peak_force(self) -> float:
+        """
+        Largest force [N].
+        """
+    @property
+    def radius(self) -> float:
+        """
+        Lever radius [m].
+        """
+    @property
+    def reflected_mass(self) -> float:
+        """
+        Rotor's part of the mass [kg].
+        """
+    @property
+    def sensor(self) -> ForceSensor:
+        """
+        Force sensor.
+        """
+    @property
+    def velocity(self) -> BackwardDifference | LowPass | AdaptiveWindow:
+        """
+        Velocity estimator.
+        """
+
+class Step:
+    """
+    Wants to be at `target` from time `at` on.
+
+    Parameters
+    ----------
+    target : float
+        where the hand wants to be [m], -10 to 10.
+    at : float
+        from when on [s], 0 to 1e+06.
+    """
+    @staticmethod
+    def fields() -> list[Field]:
+        """
+        Name, unit, meaning, default and range of every parameter.
+        """
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __init__(self, *, target: float = 0.04, at: float = 0.0) -> None: ...
+    def __reduce__(self) -> tuple[typing.Any, ...]: ...
+    def __repr__(self) -> str: ...
+    def as_dict(self) -> dict[str, typing.Any]:
+        """
+        Parameters by name.
+        """
+    def replace(self, **changes: typing.Any) -> typing.Self:
+        """
+        A copy with some parameters changed; checked as at construction.
+        """
+    @property
+    def at(self) -> float:
+        """
+        from when on [s], 0 to 1e+06
+        """
+    @property
+    def target(self) -> float:
+        """
+        where the hand wants to be [m], -10 to 10
+        """
+
+class MinimumJerk:
+    """
+    Reaches `target` along the smoothest path (Flash and Hogan 1985).
+
+    Parameters
+    ----------
+    target : float
+        where the movement ends [m], -10 to 10.
+    at : float
+        when it starts [s], 0 to 1e+06.
+    duration : float
+        how long it takes [s], 0.001 to 1e+06.
+    """
+    @staticmethod
+    def fields() -> list[Field]:
+        """
+        Name, unit, meaning, default and range of every parameter.
+        """
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __init__(self, *, target: float = 0.04, at: float = 0.0, duration: float = 0.5) -> None: ...
+    def __reduce__(self) -> tuple[typing.Any, ...]: ...
+    def __repr__(self) -> str: ...
+    def as_dict(self) -> dict[str, typing.Any]:
+        """
+        Parameters by name.
+        """
+    def replace(self, **changes: typing.Any) -> typing.Self:
+        """
+        A copy with some parameters changed; checked as at construction.
+        """
+    @property
+    def at(self) -> float:
+        """
+        when it starts [s], 0 to 1e+06
+        """
+    @property
+    def duration(self) -> float:
+        """
+        how long it takes [s], 0.001 to 1e+06
+        """
+    @property
+    def target(self) -> float:
+        """
+        where the movement ends [m], -10 to 10
+        """
+
+class Sine:
+    """
+    Swings around a centre.
+
+    Parameters
+    ----------
+    centre : float
+        middle of the swing [m], -10 to 10.
+    amplitude : float
+        half of the swing [m], 0 to 10.
+    frequency : float
+        swings a second [Hz], 0 to 500.
+    phase : float
+        angle at time zero [rad], -10 to 10.
+    """
+    @staticmethod
+    def fields() -> list[Field]:
+        """
+        Name, unit, meaning, default and range of every parameter.
+        """
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __init__(
+        self,
+        *,
+        centre: float = 0.02,
+        amplitude: float = 0.02,
+        frequency: float = 1.0,
+        phase: float = 0.0,
+    ) -> None: ...
+    def __reduce__(self) -> tuple[typing.Any, ...]: ...
+    def __repr__(self) -> str: ...
+    def as_dict(self) -> dict[str, typing.Any]:
+        """
+        Parameters by name.
+        """
+    def replace(self, **changes: typing.Any) -> typing.Self:
+        """
+        A copy with some parameters changed; checked as at construction.
+        """
+    @property
+    def amplitude(self) -> float:
+        """
+        half of the swing [m], 0 to 10
+        """
+    @property
+    def centre(self) -> float:
+        """
+        middle of the swing [m], -10 to 10
+        """
+    @property
+    def frequency(self) -> float:
+        """
+        swings a second [Hz], 0 to 500
+        """
+    @property
+    def phase(self) -> float:
+        """
+        angle at time zero [rad], -10 to 10
+        """
+
+class Tapping:
+    """
+    Square tapping: half a period at `target`, half at `rest`.
+
+    Parameters
+    ----------
+    target : float
+        where it taps [m], -10 to 10.
+    rest : float
+        where it lifts to [m], -10 to 10.
+    frequency : float
+        taps a second [Hz], 0.001 to 100.
+    """
+    @staticmethod
+    def fields() -> list[Field]:
+        """
+        Name, unit, meaning, default and range of every parameter.
+        """
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __init__(
+        self, *, target: float = 0.04, rest: float = -0.01, frequency: float = 1.5
+    ) -> None: ...
+    def __reduce__(self) -> tuple[typing.Any, ...]: ...
+    def __repr__(self) -> str: ...
+    def as_dict(self) -> dict[str, typing.Any]:
+        """
+        Parameters by name.
+        """
+    def replace(self, **changes: typing.Any) -> typing.Self:
+        """
+        A copy with some parameters changed; checked as at construction.
+        """
+    @property
+    def frequency(self) -> float:
+        """
+        taps a second [Hz], 0.001 to 100
+        """
+    @property
+    def rest(self) -> float:
+        """
+        where it lifts to [m], -10 to 10
+        """
+    @property
+    def target(self) -> float:
+        """
+        where it taps [m], -10 to 10
+        """
+
+class Recorded:
+    """
+    A path from a log: straight between its points, constant beyond.
+    """
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __init__(
+        self,
+        *,
+        t: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex],
+        x: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex],
+    ) -> None:
+        """
+        Times [s], strictly rising, and positions [m], as many.
+        """
+    def __reduce__(self) -> tuple[typing.Any, ...]: ...
+    def __repr__(self) -> str: ...
+    def as_dict(self) -> dict[str, typing.Any]:
+        """
+        Parameters by name.
+        """
+    def replace(self, **changes: typing.Any) -> typing.Self:
+        """
+        A copy with some parameters changed; checked as at construction.
+        """
+    @property
+    def t(self) -> list[float]:
+        """
+        Times [s].
+        """
+    @property
+    def x(self) -> list[float]:
+        """
+        Positions [m].
+        """
+
+class Hand:
+    """
+    The operator of eq. (4), (5): mass, damper and spring pulled along an intended path.
+
+    `path` is one path, for the first axis, or one for each axis; the others stay at 0.
+
+    Parameters
+    ----------
+    mass : float
+        M0 of eq. (4) [kg], 0 to 10.
+    damping : float
+        B0 of eq. (4) [N s/m], 0 to 1000.
+    stiffness : float
+        K0 of eq. (4) [N/m], 0 to 100000.
+    tremor_amplitude : float
+        tremor on top of the path, on every axis [m], 0 to 0.1.
+    tremor_frequency : float
+        frequency of the tremor [Hz], 0 to 500.
+    release_at : float
+        when the hand lets go; inf for never [s], at least 0.
+    """
+    @staticmethod
+    def fields() -> list[Field]:
+        """
+        Name, unit, meaning, default and range of every parameter.
+        """
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __init__(
+        self,
+        *,
+        mass: float = 0.15,
+        damping: float = 6.0,
+        stiffness: float = 300.0,
+        tremor_amplitude: float = 0.0,
+        tremor_frequency: float = 9.0,
+        release_at: float = ...,
+        path: Step
+        | MinimumJerk
+        | Sine
+        | Tapping
+        | Recorded
+        | typing.Sequence[Step | MinimumJerk | Sine | Tapping | Recorded] = ...,
+    ) -> None: ...
+    def __reduce__(self) -> tuple[typing.Any, ...]: ...
+    def __repr__(self) -> str: ...
+    def as_dict(self) -> dict[str, typing.Any]:
+        """
+        Parameters by name.
+        """
+    def replace(self, **changes: typing.Any) -> typing.Self:
+        """
+        A copy with some parameters changed; checked as at construction.
+        """
+    def target(
+        self,
+        t: typing.SupportsFloat | typing.SupportsIndex,
+        axis: typing.SupportsInt | typing.SupportsIndex = 0,
+    ) -> float:
+        """
+        X0(t) [m], tremor included, at time t [s].
+        """
+    @property
+    def damping(self) -> float:
+        """
+        B0 of eq. (4) [N s/m], 0 to 1000
+        """
+    @property
+    def mass(self) -> float:
+        """
+        M0 of eq. (4) [kg], 0 to 10
+        """
+    @property
+    def path(
+        self,
+    ) -> tuple[
+        Step | MinimumJerk | Sine | Tapping | Recorded,
+        Step | MinimumJerk | Sine | Tapping | Recorded,
+        Step | MinimumJerk | Sine | Tapping | Recorded,
+    ]:
+        """
+        Intended path of each axis.
+        """
+    @property
+    def release_at(self) -> float:
+        """
+        when the hand lets go; inf for never [s], at least 0
+        """
+    @property
+    def stiffness(self) -> float:
+        """
+        K0 of eq. (4) [N/m], 0 to 100000
+        """
+    @property
+    def tremor_amplitude(self) -> float:
+        """
+        tremor on top of the path, on every axis [m], 0 to 0.1
+        """
+    @property
+    def tremor_frequency(self) -> float:
+        """
+        frequency of the tremor [Hz], 0 to 500
+        """
+
+class Free:
+    """
+    Nothing to touch.
+    """
+    @staticmethod
+    def fields() -> list[Field]:
+        """
+        Name, unit, meaning, default and range of every parameter.
+        """
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __init__(self) -> None: ...
+    def __reduce__(self) -> tuple[typing.Any, ...]: ...
+    def __repr__(self) -> str: ...
+    def as_dict(self) -> dict[str, typing.Any]:
+        """
+        Parameters by name.
+        """
+    def force(
+        self,
+        x: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex],
+        v: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex],
+    ) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
+        """
+        Force asked for [N] at x [m] and v [m/s], shape (axes,).
+        """
+    def replace(self, **changes: typing.Any) -> typing.Self:
+        """
+        A copy with some parameters changed; checked as at construction.
+        """
+
+class Wall:
+    """
+    A flat wall, eq. (12), that never pulls.
+
+    Parameters
+    ----------
+    stiffness : float
+        K of eq. (12) [N/m], 0 to 1e+07.
+    damping : float
+        B of eq. (12) [N s/m], 0 to 10000.
+    position : float
+        where its surface cuts the normal through the origin [m], -10 to 10.
+    angle : float
+        direction into the wall, from +x towards +y [rad], -3.2 to 3.2.
+    """
+    @staticmethod
+    def fields() -> list[Field]:
+        """
+        Name, unit, meaning, default and range of every parameter.
+        """
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __init__(
+        self,
+        *,
+        stiffness: float = 10000.0,
+        damping: float = 0.0,
+        position: float = 0.0,
+        angle: float = 0.0,
+    ) -> None: ...
+    def __reduce__(self) -> tuple[typing.Any, ...]: ...
+    def __repr__(self) -> str: ...
+    def as_dict(self) -> dict[str, typing.Any]:
+        """
+        Parameters by name.
+        """
+    def force(
+        self,
+        x: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex],
+        v: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex],
+    ) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
+        """
+        Force asked for [N] at x [m] and v [m/s], shape (axes,).
+        """
+    def replace(self, **changes: typing.Any) -> typing.Self:
+        """
+        A copy with some parameters changed; checked as at construction.
+        """
+    @property
+    def angle(self) -> float:
+        """
+        direction into the wall, from +x towards +y [rad], -3.2 to 3.2
+        """
+    @property
+    def damping(self) -> float:
+        """
+        B of eq. (12) [N s/m], 0 to 10000
+        """
+    @property
+    def position(self) -> float:
+        """
+        where its surface cuts the normal through the origin [m], -10 to 10
+        """
+    @property
+    def stiffness(self) -> float:
+        """
+        K of eq. (12) [N/m], 0 to 1e+07
+        """
+
+class Corner:
+    """
+    Two walls that meet: each pushes along its own normal.
+    """
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __init__(self, *, first: Wall = ..., second: Wall = ...) -> None: ...
+    def __reduce__(self) -> tuple[typing.Any, ...]: ...
+    def __repr__(self) -> str: ...
+    def as_dict(self) -> dict[str, typing.Any]:
+        """
+        Parameters by name.
+        """
+    def force(
+        self,
+        x: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex],
+        v: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex],
+    ) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
+        """
+        Force asked for [N] at x [m] and v [m/s], shape (axes,).
+        """
+    def replace(self, **changes: typing.Any) -> typing.Self:
+        """
+        A copy with some parameters changed; checked as at construction.
+        """
+    @property
+    def first(self) -> Wall:
+        """
+        One wall.
+        """
+    @property
+    def second(self) -> Wall:
+        """
+        The other wall.
+        """
+
+class Column:
+    """
+    Where a named quantity lies in a row.
+    """
+    @property
+    def kind(self) -> str:
+        """
+        f double, i int64, w int32, u uint32, b bool.
+        """
+    @property
+    def meaning(self) -> str:
+        """
+        What it is.
+        """
+    @property
+    def name(self) -> str:
+        """
+        Name.
+        """
+    @property
+    def offset(self) -> int:
+        """
+        Bytes from the start of the row to the first axis.
+        """
+    @property
+    def stride(self) -> int:
+        """
+        Bytes from axis to axis; 0 for one value per row.
+        """
+    @property
+    def unit(self) -> str:
+        """
+        SI unit; '1' for a pure number.
+        """
+
+class Rows:
+    """
+    The rows of a run, as the loop wrote them.
+    """
+    def __len__(self) -> int: ...
+    def bytes(self) -> numpy.typing.NDArray[numpy.uint8]:
+        """
+        Every row, read-only, without a copy.
+        """
+    def port(
+        self,
+        row: typing.SupportsInt | typing.SupportsIndex,
+        axis: typing.SupportsInt | typing.SupportsIndex = 0,
+    ) -> Port:
+        """
+        What the law saw in a tick.
+        """
+    @property
+    def axes(self) -> int:
+        """
+        Number of axes.
+        """
+    @property
+    def columns(self) -> list[Column]:
+        """
+        Columns in their order.
+        """
+    @property
+    def row_bytes(self) -> int:
+        """
+        Bytes per row.
+        """
+
+class Setup:
+    """
+    Everything of a simulated run but the law.
+    """
+    def __init__(
+        self,
+        *,
+        device: Device,
+        hand: Hand,
+        environment: Free | Wall | Corner,
+        timing: Timing,
+        seconds: typing.SupportsFloat | typing.SupportsIndex,
+        jitter: typing.SupportsFloat | typing.SupportsIndex,
+        seed: typing.SupportsInt | typing.SupportsIndex,
+    ) -> None: ...
+
+class AxisTruth:
+    """
+    What only a simulation can know about an axis.
+
+    Parameters
+    ----------
+    x : float
+        true handle position [m].
+    v : float
+        true handle velocity [m/s].
+    f_hand : float
+        force of the hand on the handle, towards +x [N].
+    f_motor : float
+        motor force behind the current loop; resists +x [N].
+    f_sensor : float
+        hand force behind the sensor's lag [N].
+    energy : float
+        physical port energy: integral of (f_motor v + b v^2 + friction |v|) dt [J].
+    """
+    @staticmethod
+    def fields() -> list[Field]:
+        """
+        Name, unit, meaning, default and range of every parameter.
+        """
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __init__(
+        self,
+        *,
+        x: float = 0.0,
+        v: float = 0.0,
+        f_hand: float = 0.0,
+        f_motor: float = 0.0,
+        f_sensor: float = 0.0,
+        energy: float = 0.0,
+    ) -> None: ...
+    def __reduce__(self) -> tuple[typing.Any, ...]: ...
+    def __repr__(self) -> str: ...
+    def as_dict(self) -> dict[str, typing.Any]:
+        """
+        Parameters by name.
+        """
+    def replace(self, **changes: typing.Any) -> typing.Self:
+        """
+        A copy with some parameters changed; checked as at construction.
+        """
+    @property
+    def energy(self) -> float:
+        """
+        physical port energy: integral of (f_motor v + b v^2 + friction |v|) dt [J]
+        """
+    @property
+    def f_hand(self) -> float:
+        """
+        force of the hand on the handle, towards +x [N]
+        """
+    @property
+    def f_motor(self) -> float:
+        """
+        motor force behind the current loop; resists +x [N]
+        """
+    @property
+    def f_sensor(self) -> float:
+        """
+        hand force behind the sensor's lag [N]
+        """
+    @property
+    def v(self) -> float:
+        """
+        true handle velocity [m/s]
+        """
+    @property
+    def x(self) -> float:
+        """
+        true handle position [m]
+        """
+
+class ExactPlant:
+    """
+    Independent rigid axes with a hand on each, integrated exactly.
+    """
+    def __init__(
+        self, *, device: Device, hand: Hand, tick: typing.SupportsFloat | typing.SupportsIndex
+    ) -> None: ...
+    def advance(
+        self,
+        current: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex],
+        t: typing.SupportsFloat | typing.SupportsIndex,
+        share: typing.SupportsFloat | typing.SupportsIndex = 1.0,
+    ) -> None:
+        """
+        Moves by `share` of a tick from time t [s] on, under constant motor currents [A].
+        """
+    def truth(self, axis: typing.SupportsInt | typing.SupportsIndex = 0) -> AxisTruth:
+        """
+        The state of one axis.
+        """
+
+class SteppedPlant:
+    """
+    Any device with a hand on it, integrated step by step.
+    """
+    def __init__(
+        self, *, device: Device, hand: Hand, tick: typing.SupportsFloat | typing.SupportsIndex
+    ) -> None: ...
+    def advance(
+        self,
+        current: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex],
+        t: typing.SupportsFloat | typing.SupportsIndex,
+        share: typing.SupportsFloat | typing.SupportsIndex = 1.0,
+    ) -> None:
+        """
+        Moves by `share` of a tick from time t [s] on, under constant motor currents [A].
+        """
+    def truth(self, axis: typing.SupportsInt | typing.SupportsIndex = 0) -> AxisTruth:
+        """
+        The state of one axis.
+        """
+
+class Direct:
+    """
+    no law: the command is what the virtual world asks.
+
+    Parameters
+    ----------
+    peak_force : float
+        largest command [N], 0.001 to 10000.
+    """
+    class State:
+        """
+        What the law remembers and a trace records.
+        """
+        @staticmethod
+        def fields() -> list[Field]:
+            """
+            Name, unit, meaning, default and range of every parameter.
+            """
+        def __repr__(self) -> str: ...
+        def as_dict(self) -> dict[str, typing.Any]:
+            """
+            Values by name.
+            """
+
+    name: typing.ClassVar[str] = "direct"
+    passive: typing.ClassVar[bool] = False
+    summary: typing.ClassVar[str] = "no law: the command is what the virtual world asks"
+    @staticmethod
+    def design(facts: DeviceFacts | Device, timing: Timing, **changes: typing.Any) -> Direct:
+        """
+        The law for a device: every parameter from what a user can know of it, changes on top.
+        """
+    @staticmethod
+    def fields() -> list[Field]:
+        """
+        Name, unit, meaning, default and range of every parameter.
+        """
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __init__(self, *, peak_force: float = 42.4, timing: Timing = ...) -> None: ...
+    def __reduce__(self) -> tuple[typing.Any, ...]: ...
+    def __repr__(self) -> str: ...
+    def _simulate(self, setup: Setup) -> Rows: ...
+    def _time_step(
+        self, setup: Setup, repeats: typing.SupportsInt | typing.SupportsIndex
+    ) -> float: ...
+    def _time_tick(
+        self, setup: Setup, repeats: typing.SupportsInt | typing.SupportsIndex
+    ) -> float: ...
+    def as_dict(self) -> dict[str, typing.Any]:
+        """
+        Parameters by name; not the state.
+        """
+    def copy(self) -> Direct:
+        """
+        An independent copy, state included.
+        """
+    def replace(self, **changes: typing.Any) -> typing.Self:
+        """
+        A copy with some parameters changed; checked as at construction.
+        """
+    def reset(self) -> None:
+        """
+        Forgets everything but its parameters.
+        """
+    def step(self, port: Port) -> float:
+        """
+        One tick of one axis: the force it commands [N].
+        """
+    @property
+    def peak_force(self) -> float:
+        """
+        largest command [N], 0.001 to 10000
+        """
+    @property
+    def state(self) -> Direct.State:
+        """
+        What the law remembers, as of the last step.
+        """
+    @property
+    def timing(self) -> Timing:
+        """
+        Sample time and delay the law counts with.
+        """
+
+class TCA:
+    """
+    eq. (2): desired force plus PD feedback of the F/T sensor.
+
+    Parameters
+    ----------
+    kp : float
+        K_p of eq. (2), 0 to 10.
+    kd : float
+        K_d of eq. (2) [s], 0 to 1.
+    filter : float
+        low-pass on the derivative of the force error [s], 0 to 1.
+    peak_force : float
+        largest command [N], 0.001 to 10000.
+    """
+    class State:
+        """
+        What the law remembers and a trace records.
+        """
+        @staticmethod
+        def fields() -> list[Field]:
+            """
+            Name, unit, meaning, default and range of every parameter.
+            """
+        def __repr__(self) -> str: ...
+        def as_dict(self) -> dict[str, typing.Any]:
+            """
+            Values by name.
+            """
+        @property
+        def feedback(self) -> float:
+            """
+            PD part of eq. (2) [N]
+            """
+
+    name: typing.ClassVar[str] = "tca"
+    passive: typing.ClassVar[bool] = False
+    summary: typing.ClassVar[str] = "eq. (2): desired force plus PD feedback of the F/T sensor"
+    @staticmethod
+    def design(facts: DeviceFacts | Device, timing: Timing, **changes: typing.Any) -> TCA:
+        """
+        The law for a device: every parameter from what a user can know of it, changes on top.
+        """
+    @staticmethod
+    def fields() -> list[Field]:
+        """
+        Name, unit, meaning, default and range of every parameter.
+        """
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __init__(
+        self,
+        *,
+        kp: float = 0.5,
+        kd: float = 0.0,
+        filter: float = 0.005,
+        peak_force: float = 42.4,
+        timing: Timing = ...,
+    ) -> None: ...
+    def __reduce__(self) -> tuple[typing.Any, ...]: ...
+    def __repr__(self) -> str: ...
+    def _simulate(self, setup: Setup) -> Rows: ...
+    def _time_step(
+        self, setup: Setup, repeats: typing.SupportsInt | typing.SupportsIndex
+    ) -> float: ...
+    def _time_tick(
+        self, setup: Setup, repeats: typing.SupportsInt | typing.SupportsIndex
+    ) -> float: ...
+    def as_dict(self) -> dict[str, typing.Any]:
+        """
+        Parameters by name; not the state.
+        """
+    def copy(self) -> TCA:
+        """
+        An independent copy, state included.
+        """
+    def replace(self, **changes: typing.Any) -> typing.Self:
+        """
+        A copy with some parameters changed; checked as at construction.
+        """
+    def reset(self) -> None:
+        """
+        Forgets everything but its parameters.
+        """
+    def step(self, port: Port) -> float:
+        """
+        One tick of one axis: the force it commands [N].
+        """
+    @property
+    def filter(self) -> float:
+        """
+        low-pass on the derivative of the force error [s], 0 to 1
+        """
+    @property
+    def kd(self) -> float:
+        """
+        K_d of eq. (2) [s], 0 to 1
+        """
+    @property
+    def kp(self) -> float:
+        """
+        K_p of eq. (2), 0 to 10
+        """
+    @property
+    def peak_force(self) -> float:
+        """
+        largest command [N], 0.001 to 10000
+        """
+    @property
+    def state(self) -> TCA.State:
+        """
+        What the law remembers, as of the last step.
+        """
+    @property
+    def timing(self) -> Timing:
+        """
+        Sample time and delay the law counts with.
+        """
+
+class EBA:
+    """
+    eq. (8), (9) with the state-dependent energy bound.
+
+    Parameters
+    ----------
+    damping : float
+        lower bound of the device's physical damping, b [N s/m], 0 to 500.
+    share : float
+        c over its largest value 2 b / ((1 + 2 d) T), 0.001 to 1.
+    peak_force : float
+        largest command [N], 0.001 to 10000.
+    """
+    class State:
+        """
+        What the law remembers and a trace records.
+        """
+        @staticmethod
+        def fields() -> list[Field]:
+            """
+            Name, unit, meaning, default and range of every parameter.
+            """
+        def __repr__(self) -> str: ...
+        def as_dict(self) -> dict[str, typing.Any]:
+            """
+            Values by name.
+            """
+        @property
+        def account(self) -> float:
+            """
+            port work plus damping, on the force really applied [J]
+            """
+        @property
+        def beta(self) -> float:
+            """
+            slope dF/dx taken, eq. (9); NaN where dx = 0 [N/m]
+            """
+        @property
+        def beta_max(self) -> float:
+            """
+            highest slope the energy bound allows [N/m]
+            """
+        @property
+        def beta_min(self) -> float:
+            """
+            lowest slope the energy bound allows [N/m]
+            """
+        @property
+        def clamped(self) -> bool:
+            """
+            1 where the law gave less than the world asked
+            """
+
+    name: typing.ClassVar[str] = "eba"
+    passive: typing.ClassVar[bool] = True
+    summary: typing.ClassVar[str] = "eq. (8), (9) with the state-dependent energy bound"
+    @staticmethod
+    def design(facts: DeviceFacts | Device, timing: Timing, **changes: typing.Any) -> EBA:
+        """
+        The law for a device: every parameter from what a user can know of it, changes on top.
+        """
+    @staticmethod
+    def fields() -> list[Field]:
+        """
+        Name, unit, meaning, default and range of every parameter.
+        """
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __init__(
+        self,
+        *,
+        damping: float = 2.0,
+        share: float = 1.0,
+        peak_force: float = 42.4,
+        timing: Timing = ...,
+    ) -> None: ...
+    def __reduce__(self) -> tuple[typing.Any, ...]: ...
+    def __repr__(self) -> str: ...
+    def _simulate(self, setup: Setup) -> Rows: ...
+    def _time_step(
+        self, setup: Setup, repeats: typing.SupportsInt | typing.SupportsIndex
+    ) -> float: ...
+    def _time_tick(
+        self, setup: Setup, repeats: typing.SupportsInt | typing.SupportsIndex
+    ) -> float: ...
+    def as_dict(self) -> dict[str, typing.Any]:
+        """
+        Parameters by name; not the state.
+        """
+    def copy(self) -> EBA:
+        """
+        An independent copy, state included.
+        """
+    def replace(self, **changes: typing.Any) -> typing.Self:
+        """
+        A copy with some parameters changed; checked as at construction.
+        """
+    def reset(self) -> None:
+        """
+        Forgets everything but its parameters.
+        """
+    def step(self, port: Port) -> float:
+        """
+        One tick of one axis: the force it commands [N].
+        """
+    @property
+    def damping(self) -> float:
+        """
+        lower bound of the device's physical damping, b [N s/m], 0 to 500
+        """
+    @property
+    def peak_force(self) -> float:
+        """
+        largest command [N], 0.001 to 10000
+        """
+    @property
+    def share(self) -> float:
+        """
+        c over its largest value 2 b / ((1 + 2 d) T), 0.001 to 1
+        """
+    @property
+    def state(self) -> EBA.State:
+        """
+        What the law remembers, as of the last step.
+        """
+    @property
+    def timing(self) -> Timing:
+        """
+        Sample time and delay the law counts with.
+        """
+
+class EBACPrinted:
+    """
+    eq. (8) to (10) and (2), read to the letter.
+
+    Parameters
+    ----------
+    damping : float
+        lower bound of the device's physical damping, b [N s/m], 0 to 500.
+    growth : float
+        c1 of eq. (10), 1 to 1.2.
+    decay : float
+        c2 of eq. (10), 0.8 to 1.
+    constant_limit : float
+        beta_max = -beta_min as a constant; 0 for the bound of Kim and Ryu [N/m], 0 to 1e+07.
+    kp : float
+        K_p of eq. (2), 0 to 10.
+    kd : float
+        K_d of eq. (2) [s], 0 to 1.
+    filter : float
+        low-pass on the derivative of the force error [s], 0 to 1.
+    peak_force : float
+        largest command [N], 0.001 to 10000.
+    """
+    class State:
+        """
+        What the law remembers and a trace records.
+        """
+        @staticmethod
+        def fields() -> list[Field]:
+            """
+            Name, unit, meaning, default and range of every parameter.
+            """
+        def __repr__(self) -> str: ...
+        def as_dict(self) -> dict[str, typing.Any]:
+            """
+            Values by name.
+            """
+        @property
+        def beta(self) -> float:
+            """
+            slope dF/dx taken, eq. (9); NaN where dx = 0 [N/m]
+            """
+        @property
+        def beta_max(self) -> float:
+            """
+            highest slope the energy bound allows [N/m]
+            """
+        @property
+        def beta_min(self) -> float:
+            """
+            lowest slope the energy bound allows [N/m]
+            """
+        @property
+        def clamped(self) -> bool:
+            """
+            1 where eq. (10) changed beta
+            """
+        @property
+        def f_d(self) -> float:
+            """
+            F_d of eq. (8) [N]
+            """
+
+    name: typing.ClassVar[str] = "ebac-printed"
+    passive: typing.ClassVar[bool] = False
+    summary: typing.ClassVar[str] = "eq. (8) to (10) and (2), read to the letter"
+    @staticmethod
+    def design(facts: DeviceFacts | Device, timing: Timing, **changes: typing.Any) -> EBACPrinted:
+        """
+        The law for a device: every parameter from what a user can know of it, changes on top.
+        """
+    @staticmethod
+    def fields() -> list[Field]:
+        """
+        Name, unit, meaning, default and range of every parameter.
+        """
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __init__(
+        self,
+        *,
+        damping: float = 2.0,
+        growth: float = 1.2,
+        decay: float = 0.8,
+        constant_limit: float = 0.0,
+        kp: float = 0.5,
+        kd: float = 0.0,
+        filter: float = 0.005,
+        peak_force: float = 42.4,
+        timing: Timing = ...,
+    ) -> None: ...
+    def __reduce__(self) -> tuple[typing.Any, ...]: ...
+    def __repr__(self) -> str: ...
+    def _simulate(self, setup: Setup) -> Rows: ...
+    def _time_step(
+        self, setup: Setup, repeats: typing.SupportsInt | typing.SupportsIndex
+    ) -> float: ...
+    def _time_tick(
+        self, setup: Setup, repeats: typing.SupportsInt | typing.SupportsIndex
+    ) -> float: ...
+    def as_dict(self) -> dict[str, typing.Any]:
+        """
+        Parameters by name; not the state.
+        """
+    def copy(self) -> EBACPrinted:
+        """
+        An independent copy, state included.
+        """
+    def replace(self, **changes: typing.Any) -> typing.Self:
+        """
+        A copy with some parameters changed; checked as at construction.
+        """
+    def reset(self) -> None:
+        """
+        Forgets everything but its parameters.
+        """
+    def step(self, port: Port) -> float:
+        """
+        One tick of one axis: the force it commands [N].
+        """
+    @property
+    def constant_limit(self) -> float:
+        """
+        beta_max = -beta_min as a constant; 0 for the bound of Kim and Ryu [N/m], 0 to 1e+07
+        """
+    @property
+    def damping(self) -> float:
+        """
+        lower bound of the device's physical damping, b [N s/m], 0 to 500
+        """
+    @property
+    def decay(self) -> float:
+        """
+        c2 of eq. (10), 0.8 to 1
+        """
+    @property
+    def filter(self) -> float:
+        """
+        low-pass on the derivative of the force error [s], 0 to 1
+        """
+    @property
+    def growth(self) -> float:
+        """
+        c1 of eq. (10), 1 to 1.2
+        """
+    @property
+    def kd(self) -> float:
+        """
+        K_d of eq. (2) [s], 0 to 1
+        """
+    @property
+    def kp(self) -> float:
+        """
+        K_p of eq. (2), 0 to 10
+        """
+    @property
+    def peak_force(self) -> float:
+        """
+        largest command [N], 0.001 to 10000
+        """
+    @property
+    def state(self) -> EBACPrinted.State:
+        """
+        What the law remembers, as of the last step.
+        """
+    @property
+    def timing(self) -> Timing:
+        """
+        Sample time and delay the law counts with.
+        """
+
+class EBAC:
+    """
+    eq. (8) to (10) and (2), completed: recovery, damping, guard.
+
+    Parameters
+    ----------
+    damping : float
+        lower bound of the device's physical damping, b [N s/m], 0.01 to 500.
+    mass : float
+        device mass at the handle, M_h; an under-estimate is safe [kg], 0.001 to 100.
+    current_lag : float
+        time constant of the drive's current loop [s], 0 to 0.1.
+    count : float
+        one encoder count at the handle [m], 0 to 0.01.
+    peak_force : float
+        largest command [N], 0.001 to 10000.
+    growth : float
+        c1 of eq. (10), 1 to 1.2.
+    decay : float
+        c2 of eq. (10), 0.8 to 1.
+    kp : float
+        K_p of eq. (2); it divides the device's damping by 1 + K_p, 0 to 0.5.
+    kd : float
+        K_d of eq. (2) [s], 0 to 0.01.
+    filter : float
+        low-pass on the derivative of the force error [s], 0 to 1.
+    heaviest_hand : float
+        heaviest hand the recovery is paced for [kg], 0 to 10.
+    pull : float
+        largest pull of a hand the guard counts with [N], 0 to 1000.
+    reserve : float
+        energy lent at the start, e(0) of eq. (3) [J], 0 to 1.
+    continuity : bool
+        ratio rows of eq. (10), 0 to 1.
+    recovery : bool
+        relaxation towards F_e at dx = 0, 0 to 1.
+    injection : bool
+        virtual damping while in contact, 0 to 1.
+    guard : bool
+        hold the command to what the ledger covers, 0 to 1.
+    """
+    class State:
+        """
+        What the law remembers and a trace records.
+        """
+        @staticmethod
+        def fields() -> list[Field]:
+            """
+            Name, unit, meaning, default and range of every parameter.
+            """
+        def __repr__(self) -> str: ...
+        def as_dict(self) -> dict[str, typing.Any]:
+            """
+            Values by name.
+            """
+        @property
+        def admitted(self) -> float:
+            """
+            share of the command the guard let through
+            """
+        @property
+        def beta(self) -> float:
+            """
+            slope dF/dx taken, eq. (9); NaN where dx = 0 [N/m]
+            """
+        @property
+        def beta_max(self) -> float:
+            """
+            highest slope the energy bound allows [N/m]
+            """
+        @property
+        def beta_min(self) -> float:
+            """
+            lowest slope the energy bound allows [N/m]
+            """
+        @property
+        def clamped(self) -> bool:
+            """
+            1 where the energy bound or the guard held the force
+            """
+        @property
+        def energy(self) -> float:
+            """
+            ledger: what the virtual side may give back [J]
+            """
+        @property
+        def f_d(self) -> float:
+            """
+            F_d of eq. (8), before damping and force loop [N]
+            """
+        @property
+        def injected(self) -> float:
+            """
+            force of the virtual damper [N]
+            """
+        @property
+        def slope(self) -> float:
+            """
+            stiffness of the environment as seen [N/m]
+            """
+
+    name: typing.ClassVar[str] = "ebac"
+    passive: typing.ClassVar[bool] = False
+    summary: typing.ClassVar[str] = "eq. (8) to (10) and (2), completed: recovery, damping, guard"
+    @staticmethod
+    def design(facts: DeviceFacts | Device, timing: Timing, **changes: typing.Any) -> EBAC:
+        """
+        The law for a device: every parameter from what a user can know of it, changes on top.
+        """
+    @staticmethod
+    def fields() -> list[Field]:
+        """
+        Name, unit, meaning, default and range of every parameter.
+        """
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __init__(
+        self,
+        *,
+        damping: float = 2.0,
+        mass: float = 0.25,
+        current_lag: float = 0.0003,
+        count: float = 3.07e-05,
+        peak_force: float = 42.4,
+        growth: float = 1.2,
+        decay: float = 0.8,
+        kp: float = 0.1,
+        kd: float = 0.0,
+        filter: float = 0.005,
+        heaviest_hand: float = 1.5,
+        pull: float = 20.0,
+        reserve: float = 0.01,
+        continuity: bool = True,
+        recovery: bool = True,
+        injection: bool = True,
+        guard: bool = True,
+        timing: Timing = ...,
+    ) -> None: ...
+    def __reduce__(self) -> tuple[typing.Any, ...]: ...
+    def __repr__(self) -> str: ...
+    def _simulate(self, setup: Setup) -> Rows: ...
+    def _time_step(
+        self, setup: Setup, repeats: typing.SupportsInt | typing.SupportsIndex
+    ) -> float: ...
+    def _time_tick(
+        self, setup: Setup, repeats: typing.SupportsInt | typing.SupportsIndex
+    ) -> float: ...
+    def as_dict(self) -> dict[str, typing.Any]:
+        """
+        Parameters by name; not the state.
+        """
+    def copy(self) -> EBAC:
+        """
+        An independent copy, state included.
+        """
+    def replace(self, **changes: typing.Any) -> typing.Self:
+        """
+        A copy with some parameters changed; checked as at construction.
+        """
+    def reset(self) -> None:
+        """
+        Forgets everything but its parameters.
+        """
+    def step(self, port: Port) -> float:
+        """
+        One tick of one axis: the force it commands [N].
+        """
+    @property
+    def continuity(self) -> bool:
+        """
+        ratio rows of eq. (10), 0 to 1
+        """
+    @property
+    def count(self) -> float:
+        """
+        one encoder count at the handle [m], 0 to 0.01
+        """
+    @property
+    def current_lag(self) -> float:
+        """
+        time constant of the drive's current loop [s], 0 to 0.1
+        """
+    @property
+    def damping(self) -> float:
+        """
+        lower bound of the device's physical damping, b [N s/m], 0.01 to 500
+        """
+    @property
+    def decay(self) -> float:
+        """
+        c2 of eq. (10), 0.8 to 1
+        """
+    @property
+    def filter(self) -> float:
+        """
+        low-pass on the derivative of the force error [s], 0 to 1
+        """
+    @property
+    def growth(self) -> float:
+        """
+        c1 of eq. (10), 1 to 1.2
+        """
+    @property
+    def guard(self) -> bool:
+        """
+        hold the command to what the ledger covers, 0 to 1
+        """
+    @property
+    def heaviest_hand(self) -> float:
+        """
+        heaviest hand the recovery is paced for [kg], 0 to 10
+        """
+    @property
+    def injection(self) -> bool:
+        """
+        virtual damping while in contact, 0 to 1
+        """
+    @property
+    def kd(self) -> float:
+        """
+        K_d of eq. (2) [s], 0 to 0.01
+        """
+    @property
+    def kp(self) -> float:
+        """
+        K_p of eq. (2); it divides the device's damping by 1 + K_p, 0 to 0.5
+        """
+    @property
+    def mass(self) -> float:
+        """
+        device mass at the handle, M_h; an under-estimate is safe [kg], 0.001 to 100
+        """
+    @property
+    def peak_force(self) -> float:
+        """
+        largest command [N], 0.001 to 10000
+        """
+    @property
+    def pull(self) -> float:
+        """
+        largest pull of a hand the guard counts with [N], 0 to 1000
+        """
+    @property
+    def recovery(self) -> bool:
+        """
+        relaxation towards F_e at dx = 0, 0 to 1
+        """
+    @property
+    def reserve(self) -> float:
+        """
+        energy lent at the start, e(0) of eq. (3) [J], 0 to 1
+        """
+    @property
+    def state(self) -> EBAC.State:
+        """
+        What the law remembers, as of the last step.
+        """
+    @property
+    def timing(self) -> Timing:
+        """
+        Sample time and delay the law counts with.
+        """
+
+def _rebuild(arg0: typing.Any, arg1: dict[str, typing.Any]) -> typing.Any: ...
+def _simulate_python(arg0: Setup, arg1: typing.Any) -> Rows: ...
+@typing.overload
+def _time_law(
+    arg0: Setup, arg1: Direct, arg2: typing.SupportsInt | typing.SupportsIndex
+) -> float: ...
+@typing.overload
+def _time_law(arg0: Setup, arg1: TCA, arg2: typing.SupportsInt | typing.SupportsIndex) -> float: ...
+@typing.overload
+def _time_law(arg0: Setup, arg1: EBA, arg2: typing.SupportsInt | typing.SupportsIndex) -> float: ...
+@typing.overload
+def _time_law(
+    arg0: Setup, arg1: EBACPrinted, arg2: typing.SupportsInt | typing.SupportsIndex
+) -> float: ...
+@typing.overload
+def _time_law(
+    arg0: Setup, arg1: EBAC, arg2: typing.SupportsInt | typing.SupportsIndex
+) -> float: ...
+@typing.overload
+def _time_loop(
+    arg0: Setup, arg1: Direct, arg2: typing.SupportsInt | typing.SupportsIndex
+) -> float: ...
+@typing.overload
+def _time_loop(
+    arg0: Setup, arg1: TCA, arg2: typing.SupportsInt | typing.SupportsIndex
+) -> float: ...
+@typing.overload
+def _time_loop(
+    arg0: Setup, arg1: EBA, arg2: typing.SupportsInt | typing.SupportsIndex
+) -> float: ...
+@typing.overload
+def _time_loop(
+    arg0: Setup, arg1: EBACPrinted, arg2: typing.SupportsInt | typing.SupportsIndex
+) -> float: ...
+@typing.overload
+def _time_loop(
+    arg0: Setup, arg1: EBAC, arg2: typing.SupportsInt | typing.SupportsIndex
+) -> float: ...
+def copley_current(
+    torque_permille: typing.SupportsFloat | typing.SupportsIndex,
+    continuous_torque_1e5: typing.SupportsFloat | typing.SupportsIndex,
+    torque_constant_1e5: typing.SupportsFloat | typing.SupportsIndex,
+) -> float:
+    """
+    Eq. (1) in Copley's units: I = 0.001 T Tc / Ts [A], T in thousandths of the continuous torque,
+    Tc in 1e-5 N m, Ts in 1e-5 N m/A.
+    """
+
+def estimate_velocity(
+    estimator: BackwardDifference | LowPass | AdaptiveWindow,
+    x: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
+    dt: typing.SupportsFloat | typing.SupportsIndex,
+    count: typing.SupportsFloat | typing.SupportsIndex,
+) -> numpy.typing.NDArray[numpy.float64]:
+    """
+    Velocity [m/s] from positions x [m], shape (n,), sampled every dt [s] with an encoder step of count [m].
+    """

@@ -1,0 +1,50 @@
+"""The command `ebac`. Every command prints a table, or one JSON document with `--json`."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import typer
+
+from ebac.cli import bench, laws, paper, presets, specs, wall
+
+app = typer.Typer(
+    name="ebac",
+    no_args_is_help=True,
+    rich_markup_mode="markdown",
+    pretty_exceptions_show_locals=False,
+    context_settings={"help_option_names": ["-h", "--help"]},
+)
+
+
+def _version(wanted: bool) -> None:
+    if wanted:
+        from ebac import __version__
+
+        typer.echo(f"ebac {__version__}")
+        raise typer.Exit
+
+
+@app.callback()
+def main(
+    version: Annotated[
+        bool,
+        typer.Option(
+            "--version", callback=_version, is_eager=True, help="Show the version and exit."
+        ),
+    ] = False,
+) -> None:
+    """Stable haptic rendering with energy-bounding control, simulated at 1 kHz.
+
+    Start with **ebac wall**: the paper's virtual wall of 10 kN/m under three laws.
+
+    Tables show mm, N, mJ, s and Hz; options and `--json` are in SI units throughout.
+    """
+
+
+app.command("wall")(wall.wall)
+app.command("paper")(paper.paper)
+app.command("laws")(laws.laws)
+app.command("specs")(specs.specs)
+app.command("presets")(presets.presets)
+app.command("bench")(bench.bench)

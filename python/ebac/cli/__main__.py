@@ -1,0 +1,5 @@
+"""`python -m ebac.cli` is the command `ebac`."""
+
+from ebac.cli import app
+
+app()

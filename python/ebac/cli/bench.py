@@ -1,0 +1,90 @@
+"""`ebac bench`: how fast a law and the closed loop are, timed in C++."""
+
+from __future__ import annotations
+
+from time import perf_counter
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from ebac.cli import output
+
+if TYPE_CHECKING:
+    from ebac.scenario import Scenario
+
+#: What a law step and a closed-loop tick of one axis should take on one core [ns].
+AIM_STEP, AIM_TICK = 20, 50
+
+
+class Spring:
+    """The law in Python to compare with: what the world asks, unchanged."""
+
+    def step(self, port: Any) -> float:
+        """Return the force asked for [N]."""
+        return float(port.f_env)
+
+    def reset(self) -> None:
+        """Remember nothing."""
+
+
+def bench(
+    repeats: Annotated[
+        int, typer.Option(help="Runs of 6001 ticks; the best one counts.", min=1, max=100_000)
+    ] = 50,
+    as_json: output.AsJson = False,
+) -> None:
+    """Time each law and the whole closed loop, in C++ without Python inside.
+
+    A tick is everything: plant, encoder, kinematics, wall, law, energy account, motor, one row of
+    the log; one axis, on one core. The last line is a law written in Python in the same loop.
+
+    **Example**
+
+    * `ebac bench --repeats 200`: steadier numbers on a busy machine.
+    """
+    from ebac.laws import LAWS, design
+    from ebac.scenario import Scenario
+
+    scenario = Scenario()
+    rows = []
+    with output.progress(len(LAWS) + 1, quiet=as_json) as step:
+        for name in LAWS:
+            step(f"timing {name}")
+            law: Any = design(name, scenario.device, scenario.timing)
+            setup = scenario.setup()
+            rows.append(_row(name, law._time_step(setup, repeats), law._time_tick(setup, repeats)))
+        step("timing a law in Python")
+        rows.append(_row("python", None, _time_python(scenario, min(repeats, 10))))
+    if as_json:
+        typer.echo(output.document("bench", rows))
+    else:
+        _show(rows)
+
+
+def _row(law: str, step_ns: float | None, tick_ns: float) -> dict[str, Any]:
+    return {"law": law, "step_ns": step_ns, "tick_ns": tick_ns, "ticks_per_s": 1e9 / tick_ns}
+
+
+def _time_python(scenario: Scenario, repeats: int) -> float:
+    """Return the best time of a tick under a law in Python [ns]."""
+    from ebac.simulation import simulate
+
+    best = float("inf")
+    for _ in range(repeats):
+        start = perf_counter()
+        trace = simulate(scenario, Spring())
+        best = min(best, (perf_counter() - start) / len(trace))
+    return 1e9 * best
+
+
+def _show(rows: list[dict[str, Any]]) -> None:
+    *compiled, python = rows
+    grid = output.table(["law", "step", "tick", "ticks per second"], numbers=(1, 2, 3))
+    for row in rows:
+        step = "-" if row["step_ns"] is None else f"{row['step_ns']:.1f} ns"
+        grid.add_row(row["law"], step, f"{row['tick_ns']:.1f} ns", f"{row['ticks_per_s']:,.0f}")
+    grid.add_section()
+    grid.add_row("aim", f"{AIM_STEP} ns", f"{AIM_TICK} ns", f"{1e9 / AIM_TICK:,.0f}")
+    output.console().print(grid)
+    ratio = python["tick_ns"] / min(row["tick_ns"] for row in compiled)
+    output.say(f"A tick under a law in Python takes {ratio:.0f} times the quickest one in C++.")

@@ -1,0 +1,143 @@
+"""`ebac wall`: the paper's virtual wall under several laws."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from ebac.cli import options, output, setting, wall_results
+
+if TYPE_CHECKING:
+    from ebac.scenario import Scenario
+    from ebac.trace import Trace
+
+DEFAULT_LAWS = ("tca", "eba", "ebac")
+DEFAULT_OUT = Path("ebac-wall")
+#: Fewer rows have no tail to measure; more belong into a script, their logs would fill gigabytes.
+TICKS = (10, 2_000_000)
+
+
+def wall(
+    law: options.Law = None,
+    stiffness: options.Stiffness = None,
+    damping: options.Damping = None,
+    position: options.Position = None,
+    hand: options.HandName = None,
+    mass: options.Mass = None,
+    hand_damping: options.HandDamping = None,
+    hand_stiffness: options.HandStiffness = None,
+    target: options.Target = None,
+    device: options.DeviceName = None,
+    noise: options.Noise = None,
+    permille: options.Permille = None,
+    rate: options.Rate = None,
+    delay: options.Delay = None,
+    jitter: options.Jitter = None,
+    seconds: options.Seconds = None,
+    seed: options.Seed = None,
+    scenario: options.ScenarioFile = None,
+    out: Annotated[
+        Path | None,
+        typer.Option(
+            help="Folder for table, figure, logs and scenario; with --json only when given.",
+            show_default=str(DEFAULT_OUT),
+        ),
+    ] = None,
+    no_files: Annotated[bool, typer.Option("--no-files", help="Write no files.")] = False,
+    as_json: output.AsJson = False,
+) -> None:
+    """Press a hand against a virtual wall under several laws (paper, Fig. 10 and 11). A simulation.
+
+    The table tells where each law comes to rest, how far it swings, when it has settled and how
+    little energy its port ever held. A law that keeps its promise is *exact and quiet*.
+
+    **Examples**
+
+    * `ebac wall`: the paper's experiment. TCA swings, EBA rests too deep, EBAC does neither.
+
+    * `ebac wall --law all --stiffness 20000 --delay 2`: every law, 20 kN/m, 2 ms of delay.
+
+    * `ebac wall --hand finger --target 0.02 --json`: a finger pressing to 20 mm, as JSON.
+
+    * `ebac wall --scenario ebac-wall/scenario.toml --seed 7`: the same again, another seed.
+    """
+    if no_files and out is not None:
+        output.fail("--no-files and --out exclude each other: leave one of them out")
+    with output.refusing():
+        names = _names(law)
+        base = setting.base_scenario(scenario)
+        chosen = base.replace(
+            device=setting.choose_device(base.device, device, noise=noise, permille=permille),
+            hand=setting.choose_hand(
+                base.hand, hand, target, mass=mass, damping=hand_damping, stiffness=hand_stiffness
+            ),
+            environment=setting.choose_wall(
+                base.environment, stiffness=stiffness, damping=damping, position=position
+            ),
+            timing=setting.choose_timing(base.timing, rate, delay),
+            **setting.given(jitter=jitter, seconds=seconds, seed=seed),
+        )
+        _check_length(chosen)
+    _run(chosen, names, None if no_files else out or (None if as_json else DEFAULT_OUT), as_json)
+
+
+def _names(given: Sequence[str] | None) -> list[str]:
+    """Return the laws asked for, each once, in the order asked."""
+    from ebac.document import unknown
+    from ebac.laws import LAWS
+
+    names: list[str] = []
+    for name in given or DEFAULT_LAWS:
+        if name not in LAWS and name != "all":
+            raise ValueError(unknown(f"--law {name}", name, [*LAWS, "all"]))
+        names += LAWS if name == "all" else [name]
+    return list(dict.fromkeys(names))
+
+
+def _check_length(scenario: Scenario) -> None:
+    ticks = scenario.seconds / scenario.timing.dt + 1
+    if not TICKS[0] <= ticks <= TICKS[1]:
+        raise ValueError(
+            f"{scenario.seconds:g} s at {1 / scenario.timing.dt:g} Hz are {ticks:.0f} ticks: must "
+            f"be {TICKS[0]} to {TICKS[1]}; change --seconds or --rate"
+        )
+
+
+def _run(scenario: Scenario, names: list[str], out: Path | None, as_json: bool) -> None:
+    from ebac.metrics import contact
+    from ebac.simulation import LoopFault
+
+    files: list[str] = []
+    steps = len(names) * (1 if out is None else 2) + (out is not None)
+    try:
+        with (
+            output.results(out) as draft,
+            output.progress(steps, quiet=as_json) as step,
+        ):
+            with output.refusing():
+                traces = _simulate(scenario, names, step)
+                contacts = [contact(trace) for trace in traces]
+            text = wall_results.document(scenario, contacts)
+            if draft is not None:
+                files = wall_results.write(draft, scenario, traces, text, step)
+    except LoopFault as fault:
+        wall_results.report_fault(fault, out)
+    if as_json:
+        typer.echo(text)
+        return
+    wall_results.show(scenario, contacts)
+    if out is not None:
+        output.list_files(out, files)
+
+
+def _simulate(scenario: Scenario, names: list[str], step: Callable[[str], None]) -> list[Trace]:
+    from ebac.simulation import simulate
+
+    traces = []
+    for name in names:
+        step(f"simulating {name}")
+        traces.append(simulate(scenario, name))
+    return traces

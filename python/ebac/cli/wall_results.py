@@ -1,0 +1,96 @@
+"""What `ebac wall` gives: a table, a JSON document, a folder of files, or the log of a fault."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING, NoReturn
+
+from ebac.cli import output
+
+if TYPE_CHECKING:
+    from ebac.metrics import Contact
+    from ebac.scenario import Scenario
+    from ebac.simulation import LoopFault
+    from ebac.trace import Trace
+
+#: The lines of the table: label, attribute of a contact, its unit, what to say where there is none.
+LINES = (
+    ("rest", "rest_m", "m", "-"),
+    ("ideal rest", "ideal_m", "m", "-"),
+    ("deviation", "deviation_m", "m", "-"),
+    ("swing", "swing_m", "m", "-"),
+    ("force swing", "force_swing_N", "N", "-"),
+    ("settled", "settled_s", "s", "never"),
+    ("deepest", "peak_m", "m", "-"),
+    ("limit cycle", "limit_cycle_Hz", "Hz", "none"),
+    ("least energy", "least_energy_J", "J", "-"),
+    ("held back", "clamped_share", "share", "-"),
+)
+
+
+def write(
+    folder: Path,
+    scenario: Scenario,
+    traces: list[Trace],
+    text: str,
+    step: Callable[[str], None],
+) -> list[str]:
+    """Write table, scenario, figure and logs into a folder; return their names."""
+    step("drawing wall.png")
+    from ebac.plot import plot_walls
+
+    plot_walls(traces).savefig(folder / "wall.png")
+    (folder / "wall.json").write_text(text + "\n", encoding="utf-8")
+    scenario.save(folder / "scenario.toml")
+    files = ["wall.png", "wall.json", "scenario.toml"]
+    for trace in traces:
+        step(f"writing the log of {trace.law}")
+        trace.to_npz(folder / f"{trace.law}.npz")
+        trace.to_csv(folder / f"{trace.law}.csv")
+        files += [f"{trace.law}.npz", f"{trace.law}.csv"]
+    return files
+
+
+def document(scenario: Scenario, contacts: list[Contact]) -> str:
+    """Return the JSON document."""
+    import tomllib
+
+    rows = [contact.row() for contact in contacts]
+    return output.document("wall", rows, scenario=tomllib.loads(scenario.to_toml()))
+
+
+def report_fault(error: LoopFault, out: Path | None) -> NoReturn:
+    """End the command, leaving the log of the run that stopped."""
+    what = str(error).partition("; see")[0]
+    if out is None:
+        output.fail(f"{error.trace.law}: {what}; its log is kept with --out", code=output.FAILED)
+    name = f"{error.trace.law}-fault.npz"
+    with output.results(out) as draft:
+        if draft is not None:
+            error.trace.to_npz(draft / name)
+    output.fail(f"{error.trace.law}: {what}; its log is {out / name}", code=output.FAILED)
+
+
+def show(scenario: Scenario, contacts: list[Contact]) -> None:
+    """Print the table and what was simulated."""
+    from ebac import wording
+
+    grid = output.table(["", *(contact.law for contact in contacts)], numbers=range(1, 99))
+    for label, name, unit, none in LINES:
+        cells = (getattr(contact, name) for contact in contacts)
+        signed = name == "deviation_m"
+        grid.add_row(label, *(wording.quantity(c, unit, signed=signed, none=none) for c in cells))
+    grid.add_section()
+    grid.add_row("verdict", *(_verdict(contact) for contact in contacts))
+    output.console().print(grid)
+    output.say("Simulated, not measured:", style="bold")
+    output.indented(wording.describe(scenario).replace("; ", "\n"))
+
+
+def _verdict(contact: Contact) -> str:
+    from ebac import wording
+
+    words = wording.verdict(contact)
+    good = contact.quiet and contact.exact is not False
+    return f"[{'green' if good else 'yellow' if contact.quiet else 'red'}]{words}[/]"

@@ -1,0 +1,11 @@
+"""The paper's numbers and figures, computed again and set beside what it says.
+
+`find("eq1")` gives one finding, `report("report/", ITEMS)` writes them all. Everything here is
+computed or simulated; nothing was measured on a device.
+"""
+
+from ebac.paper.finding import Finding, Verdict
+from ebac.paper.items import ITEMS, find
+from ebac.paper.report import report
+
+__all__ = ["ITEMS", "Finding", "Verdict", "find", "report"]

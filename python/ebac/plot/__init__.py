@@ -1,0 +1,18 @@
+"""Figures of traces; they use no global state of pyplot, so any thread may draw."""
+
+from ebac.plot.run import plot_trace
+from ebac.plot.style import COLOURS, DPI, Picture, colour, dress, legend, line, new_figure
+from ebac.plot.walls import plot_walls
+
+__all__ = [
+    "COLOURS",
+    "DPI",
+    "Picture",
+    "colour",
+    "dress",
+    "legend",
+    "line",
+    "new_figure",
+    "plot_trace",
+    "plot_walls",
+]

@@ -1,0 +1,154 @@
+"""One run over time: position, force, beta and energy."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.ticker import FuncFormatter
+
+from ebac import wording
+from ebac.plot.style import (
+    OTHER_LAW,
+    Numbers,
+    Picture,
+    colour,
+    dress,
+    landmarks,
+    legend,
+    line,
+    new_figure,
+)
+from ebac.trace import Trace
+
+
+def plot_trace(trace: Trace) -> Picture:
+    """Draw a run: position, force, beta and energy over time, one column of panels per axis.
+
+    Parameters
+    ----------
+    trace : Trace
+        At least two rows.
+
+    Returns
+    -------
+    Figure
+        Save it with `savefig`.
+
+    Raises
+    ------
+    ValueError
+        When the trace is too short.
+    """
+    if len(trace) < 2:
+        raise ValueError(f"the trace has {len(trace)} rows: a figure needs at least 2")
+    panels: list[Callable[[Axes, Trace, int], None]] = [_position, _force, _energy]
+    if "law.beta" in trace:
+        panels.insert(2, _beta)
+    figure = new_figure(1.5 + 8 * trace.axes, 0.8 + 2.4 * len(panels))
+    grid = figure.subplots(len(panels), trace.axes, sharex=True, squeeze=False)
+    for axis in range(trace.axes):
+        for row, draw in enumerate(panels):
+            draw(grid[row, axis], trace, axis)
+        grid[-1, axis].set_xlabel("time [s]")
+        if trace.axes > 1:
+            grid[0, axis].set_title(f"axis {axis}", pad=22, fontweight="bold")
+    figure.align_ylabels()
+    figure.suptitle(title(trace), fontsize="medium")
+    return figure
+
+
+def title(trace: Trace) -> str:
+    """Return law and scenario of a trace, broken into lines."""
+    name = f"law {trace.law}" if trace.law else "a run"
+    if trace.scenario is None:
+        return name
+    parts = wording.describe(trace.scenario).split("; ")
+    return f"{name}, simulated: {parts[0]}; {parts[1]}\n{'; '.join(parts[2:])}"
+
+
+def _position(ax: Axes, trace: Trace, axis: int) -> None:
+    t, scenario = trace["t"], trace.scenario
+    if "true.x" in trace:
+        line(ax, t, 1e3 * trace.axis("x", axis), color="0.65", lw=2.2, label="x, encoder")
+        line(ax, t, 1e3 * trace.axis("true.x", axis), color=colour(trace.law), label="x, true")
+    else:
+        line(ax, t, 1e3 * trace.axis("x", axis), color=colour(trace.law), label="x, encoder")
+    if scenario and axis == 0:
+        landmarks(ax, trace)
+    dress(ax, "position [mm]")
+    legend(ax)
+
+
+def _force(ax: Axes, trace: Trace, axis: int) -> None:
+    t = trace["t"]
+    line(ax, t, trace.axis("f_env", axis), color="black", lw=0.6, label="asked, $F_e$")
+    line(ax, t, trace.axis("f_meas", axis), color="0.6", lw=1.4, label="measured, $F_M$")
+    line(ax, t, trace.axis("f_cmd", axis), color="#56b4e9", lw=2.2, label="commanded, $F_d$")
+    line(ax, t, trace.axis("f_applied", axis), color=colour(trace.law), lw=1.0, label="applied")
+    limited = np.concatenate([trace.axis(n, axis) for n in ("f_meas", "f_cmd", "f_applied")])
+    low, high = float(limited.min()), float(limited.max())
+    room = 0.15 * max(high - low, 1.0)
+    ax.set_ylim(low - room, high + room)  # what is asked may go far beyond
+    dress(ax, "force [N]")
+    legend(ax)
+
+
+def _beta(ax: Axes, trace: Trace, axis: int) -> None:
+    t, beta = trace["t"], trace.axis("law.beta", axis) / 1e3
+    known = np.abs(beta[np.isfinite(beta)])
+    limit = min(1e4, 10.0 ** np.ceil(np.log10(max(1.0, 5 * known.max(initial=0.0)))))
+    for name, label, shade in (
+        ("law.beta_max", "upper bound", "#56b4e9"),
+        ("law.beta_min", "lower bound", "#b3a7d6"),
+    ):
+        if name in trace:
+            bound = np.clip(trace.axis(name, axis) / 1e3, -limit, limit)
+            ax.plot(t, bound, ".", ms=2.5, color=shade, label=f"{label}, shown to {limit:g} kN/m")
+    taken = np.clip(beta, -limit, limit)
+    ax.plot(t, taken, ".", ms=3.5, color=colour(trace.law), label=r"$\beta$ taken")
+    if "law.clamped" in trace:
+        _ticks(ax, t[trace.axis("law.clamped", axis) != 0])
+    decades = [10.0**n for n in range(round(np.log10(limit)) + 1)]
+    ax.set_yscale("symlog", linthresh=1)
+    ax.set_ylim(-6 * limit, 3 * limit)
+    ax.set_yticks([-step for step in decades] + [0.0] + decades)
+    ax.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+    dress(ax, r"$\beta$ [kN/m]")
+    legend(ax)
+
+
+def _ticks(ax: Axes, t: Numbers) -> None:
+    """Mark instants along the lower edge."""
+    ax.plot(
+        t,
+        np.full(len(t), 0.03),
+        "|",
+        ms=5,
+        mew=0.5,
+        color="0.3",
+        transform=ax.get_xaxis_transform(),
+        label="force held back",
+    )
+
+
+def _energy(ax: Axes, trace: Trace, axis: int) -> None:
+    work = trace.axis("work", axis) + trace.axis("damped", axis)
+    thick: dict[str, Any] = {"color": "0.75", "lw": 3}
+    curves = [(work, "port work + damping taken", thick)]
+    for name, label, style in (
+        ("law.energy", "ledger of the law", {"color": OTHER_LAW}),
+        ("law.account", "account of the law", {"color": OTHER_LAW}),
+        ("true.energy", "true port energy", {"color": colour(trace.law)}),
+    ):
+        if name in trace:
+            curves.append((trace.axis(name, axis), label, style))
+    largest = max(float(np.abs(values).max()) for values, _, _ in curves)
+    factor, unit = (1e3, "mJ") if largest < 1 else (1.0, "J")
+    for values, label, style in curves:
+        line(ax, trace["t"], factor * values, label=label, **style)
+    ax.axhline(0, color="0.35", lw=1)
+    dress(ax, f"energy [{unit}]")
+    legend(ax)

@@ -1,0 +1,101 @@
+"""One look for every figure: a colour per law, units on axes, legends that cover nothing."""
+
+from __future__ import annotations
+
+from io import BytesIO
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from numpy.typing import NDArray
+
+from ebac._core import Wall
+from ebac.metrics import ideal_rest
+from ebac.trace import Trace
+
+#: One colour per law (Okabe and Ito's palette: told apart by every eye).
+COLOURS = {
+    "direct": "#7f7f7f",
+    "tca": "#d55e00",
+    "eba": "#0072b2",
+    "ebac-printed": "#cc79a7",
+    "ebac": "#009e73",
+}
+OTHER_LAW = "#e69f00"
+IDEAL: dict[str, Any] = {"color": "black", "ls": (0, (5, 3)), "lw": 1.2}
+DPI = 150
+#: More points than this on one line are thinned to their extremes.
+MOST_POINTS = 20_000
+
+Numbers = NDArray[np.float64]
+
+
+class Picture(Figure):
+    """A matplotlib figure that notebooks show by themselves."""
+
+    def _repr_png_(self) -> bytes:
+        file = BytesIO()
+        self.savefig(file, format="png", dpi=DPI)
+        return file.getvalue()
+
+
+def new_figure(width: float, height: float) -> Picture:
+    """Return an empty figure, size in inches, that lays itself out."""
+    return Picture(figsize=(width, height), layout="constrained", dpi=DPI)
+
+
+def colour(law: str) -> str:
+    """Return the colour of a law."""
+    return COLOURS.get(law, OTHER_LAW)
+
+
+def dress(ax: Axes, ylabel: str) -> None:
+    """Give an axes its label, grid and light frame."""
+    ax.set_ylabel(ylabel)
+    ax.grid(color="0.9", lw=0.8)
+    ax.set_axisbelow(True)
+    ax.margins(x=0.01)
+    ax.spines[["top", "right"]].set_visible(False)
+
+
+def legend(ax: Axes, columns: int = 4) -> None:
+    """Put the legend above the axes, where it covers nothing."""
+    ax.legend(
+        loc="lower left",
+        bbox_to_anchor=(0, 1),
+        ncols=columns,
+        frameon=False,
+        fontsize="small",
+        borderaxespad=0.1,
+        columnspacing=1.4,
+    )
+
+
+def line(ax: Axes, t: Numbers, y: Numbers, **style: Any) -> None:
+    """Draw a line, thinned to its extremes where it has very many points."""
+    keep = _extremes(y)
+    ax.plot(t[keep], y[keep], **style)
+
+
+def _extremes(y: Numbers) -> NDArray[np.intp] | slice:
+    if len(y) <= MOST_POINTS or not np.isfinite(y).all():
+        return slice(None)
+    size = 2 * len(y) // MOST_POINTS + 1
+    bins = y[: len(y) // size * size].reshape(-1, size)
+    start = np.arange(len(bins)) * size
+    chosen = np.concatenate((start + bins.argmin(1), start + bins.argmax(1), [len(y) - 1]))
+    return np.unique(chosen)
+
+
+def landmarks(ax: Axes, trace: Trace) -> None:
+    """Mark the wall's surface and where an ideal wall would rest."""
+    scenario = trace.scenario
+    if scenario is None:
+        return
+    ideal = ideal_rest(scenario)
+    if isinstance(scenario.environment, Wall) and scenario.environment.angle == 0:
+        surface = 1e3 * scenario.environment.position
+        ax.axhline(surface, color="0.35", lw=1, label="wall surface")
+    if ideal is not None:
+        ax.axhline(1e3 * ideal, **IDEAL, label=f"ideal rest, {1e3 * ideal:.3f} mm")

@@ -1,0 +1,128 @@
+"""What people read: numbers with units, a scenario in one line, a contact in words."""
+
+from __future__ import annotations
+
+from math import degrees, floor, isfinite, log10
+from typing import TYPE_CHECKING
+
+from ebac import presets
+from ebac._core import Corner, Device, Gimbal, Hand, Step, Wall
+
+if TYPE_CHECKING:
+    from ebac.metrics import Contact
+    from ebac.scenario import Environment, Scenario
+
+#: SI unit: factor, unit shown, decimals.
+SHOWN: dict[str, tuple[float, str, int]] = {
+    "m": (1e3, "mm", 3),
+    "J": (1e3, "mJ", 2),
+    "N": (1, "N", 2),
+    "s": (1, "s", 3),
+    "Hz": (1, "Hz", 1),
+    "A": (1, "A", 4),
+    "share": (100, "%", 0),
+}
+
+
+def quantity(value: float | None, unit: str, *, signed: bool = False, none: str = "-") -> str:
+    """Return a number with its unit as people read it: 0.00123 m is "1.230 mm".
+
+    Parameters
+    ----------
+    value : float or None
+        In SI units; None gives `none`.
+    unit : str
+        SI unit; "1" for a pure number, "share" for one shown in per cent.
+    signed : bool
+        Whether to show a plus sign.
+    none : str
+        What to say where there is no number.
+    """
+    if value is None or not isfinite(value):
+        return none
+    factor, shown, decimals = SHOWN.get(unit, (1, "" if unit == "1" else unit, 3))
+    text = _number(value * factor, decimals, signed, exact=unit not in SHOWN)
+    return f"{text} {shown}".rstrip()
+
+
+def _number(value: float, decimals: int, signed: bool, exact: bool) -> str:
+    sign = "+" if signed and value != 0 else ""
+    if exact or value == 0:
+        return f"{value:{sign}.4g}" if value != 0 else "0"
+    if abs(value) >= 1000:
+        return f"{value:{sign}.0f}"
+    wanted = 2 - floor(log10(abs(value))) if decimals > 0 else 0
+    text = f"{value:{sign}.{min(max(decimals, wanted), decimals + 3)}f}"
+    if float(text) == 0:
+        return "0"
+    whole, _, part = text.partition(".")
+    part = part[:decimals] + part[decimals:].rstrip("0")
+    return f"{whole}.{part}" if part else whole
+
+
+def describe(scenario: Scenario) -> str:
+    """Return device, hand, virtual world and time of a scenario in one line."""
+    timing = scenario.timing
+    samples = "1 sample" if timing.delay == 1 else f"{timing.delay} samples"
+    jitter = f", jitter {100 * scenario.jitter:g} %" if scenario.jitter else ""
+    return "; ".join(
+        (
+            _device(scenario.device),
+            _hand(scenario.hand),
+            _environment(scenario.environment),
+            f"{_kilo(1 / timing.dt, 'Hz')}, {samples} of delay{jitter}",
+            f"{scenario.seconds:g} s, seed {scenario.seed}",
+        )
+    )
+
+
+def _kilo(value: float, unit: str) -> str:
+    return f"{value / 1e3:.6g} k{unit}" if value >= 1e3 else f"{value:.6g} {unit}"
+
+
+def _device(device: Device) -> str:
+    kind = "joystick" if isinstance(device.kinematics, Gimbal) else "device"
+    known = [f"the {n} {kind}" for n, p in presets.DEVICES.items() if p.device == device]
+    name = known[0].replace("joystick joystick", "joystick") if known else f"a {kind}"
+    noise = f", sensor noise {device.sensor.noise:g} N" if device.sensor.noise else ""
+    permille = ", torque in per mille" if device.drive.permille else ""
+    return f"{name} ({device.mass:.4g} kg, {device.mechanics.damping:g} N s/m{noise}{permille})"
+
+
+def _hand(hand: Hand) -> str:
+    known = [f"the {name} hand" for name, p in presets.HANDS.items() if p.hand == hand]
+    path = hand.path[0]
+    if isinstance(path, Step):
+        goal = f"target {1e3 * path.target:g} mm"
+    else:
+        goal = f"a {type(path).__name__} path"
+    if hand.tremor_amplitude:
+        goal += f", tremor {1e3 * hand.tremor_amplitude:g} mm at {hand.tremor_frequency:g} Hz"
+    name = known[0] if known else "a hand"
+    return f"{name} ({hand.mass:g} kg, {hand.damping:g} N s/m, {hand.stiffness:g} N/m, {goal})"
+
+
+def _environment(environment: Environment) -> str:
+    if isinstance(environment, Corner):
+        return (
+            f"a corner of {_environment(environment.first)} and {_environment(environment.second)}"
+        )
+    if not isinstance(environment, Wall):
+        return "free air"
+    damping = f" and {environment.damping:g} N s/m" if environment.damping else ""
+    angle = f", turned by {degrees(environment.angle):.3g} deg" if environment.angle else ""
+    place = f"{1e3 * environment.position:g} mm"
+    return f"a wall of {_kilo(environment.stiffness, 'N/m')}{damping} at {place}{angle}"
+
+
+def verdict(contact: Contact) -> str:
+    """Return what a contact came to: "exact and quiet", "swings", "quiet, too deep by 5.63 mm"."""
+    if not contact.quiet:
+        return "swings"
+    deviation = contact.deviation_m
+    if deviation is None:
+        return "quiet"
+    if contact.exact:
+        return "exact and quiet"
+    where = "too deep" if deviation > 0 else "not deep enough"
+    return f"quiet, {where} by {1e3 * abs(deviation):.3g} mm"

@@ -1,0 +1,40 @@
+"""What the tests share: cached runs of scenarios, hypothesis profiles, and `--update-golden`.
+
+More examples than usual: `pytest --hypothesis-profile=explore`.
+"""
+
+from collections.abc import Callable
+from functools import cache
+from typing import Any
+
+import pytest
+from hypothesis import settings
+
+import ebac
+
+settings.register_profile("ebac", deadline=None, derandomize=True, database=None)
+settings.register_profile("explore", deadline=None, max_examples=5000, database=None)
+settings.load_profile("ebac")
+
+
+def pytest_addoption(parser: pytest.Parser) -> None:
+    parser.addoption(
+        "--update-golden",
+        action="store_true",
+        help="write tests/golden anew instead of comparing with it",
+    )
+
+
+@cache
+def _run(law: str, changes: tuple[tuple[str, Any], ...]) -> ebac.Trace:
+    return ebac.simulate(ebac.Scenario(**dict(changes)), law)
+
+
+@pytest.fixture(scope="session")
+def run() -> Callable[..., ebac.Trace]:
+    """`run("eba", seconds=1.0)`: the reference scenario, partly changed, simulated once."""
+
+    def simulate(law: str, **changes: Any) -> ebac.Trace:
+        return _run(law, tuple(sorted(changes.items())))
+
+    return simulate

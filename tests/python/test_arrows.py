@@ -1,0 +1,187 @@
+"""Who may include whom.
+
+core <- model <- control <- loop <- { sim | can, sensor, rt } <- bindings <- python
+"""
+
+import ast
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+import ebac
+from ebac import _core
+
+ROOT = Path(__file__).parents[2]
+CPP = ROOT / "cpp" / "ebac"
+PACKAGE = Path(ebac.__file__).parent
+
+#: What each folder may include besides itself.
+MAY_SEE = {
+    "core": set(),
+    "model": {"core"},
+    "control": {"core", "model"},
+    "loop": {"core", "model", "control"},
+    "sim": {"core", "model", "control", "loop"},
+    "can": {"core", "model", "control", "loop"},
+    "sensor": {"core", "model", "control", "loop"},
+    "rt": {"core", "model", "control", "loop"},
+}
+
+#: Nothing that allocates, locks or prints is known where a tick runs, but for
+SLOW = {
+    *("vector", "string", "map", "unordered_map", "list", "deque", "set", "memory", "functional"),
+    *("iostream", "sstream", "fstream", "iomanip", "format", "stdexcept"),
+    *("mutex", "thread", "future", "condition_variable"),
+}
+#: what checks parameters, before the loop, by exceptions that name them.
+EXCEPTIONS = {"core/check.hpp": {"string", "sstream", "stdexcept"}}
+
+sources = pytest.mark.parametrize(
+    "path", sorted(CPP.rglob("*.[hc]pp")), ids=lambda path: str(path.relative_to(CPP))
+)
+
+
+def includes(path: Path) -> list[str]:
+    return re.findall(
+        r'^\s*#\s*include\s*[<"]([^>"]+)[>"]', path.read_text(encoding="utf-8"), re.MULTILINE
+    )
+
+
+def own(path: Path) -> list[str]:
+    return [name.removeprefix("ebac/") for name in includes(path) if name.startswith("ebac/")]
+
+
+def reached(start: list[Path]) -> set[Path]:
+    found, left = set(), start
+    while left:
+        path = left.pop()
+        if path not in found:
+            found.add(path)
+            left += [CPP / name for name in own(path)]
+    return found
+
+
+@sources
+def test_includes_point_leftwards_only(path: Path) -> None:
+    folder = path.relative_to(CPP).parts[0]
+    allowed = MAY_SEE[folder] | {folder}
+    for name in own(path):
+        assert name.split("/")[0] in allowed, f"{path.relative_to(CPP)} includes {name}"
+        assert (CPP / name).is_file(), name
+
+
+@sources
+def test_the_core_knows_no_python_and_prints_nothing(path: Path) -> None:
+    for name in includes(path):
+        assert not name.startswith("pybind11"), name
+        assert name not in {"Python.h", "iostream", "cstdio", "print"}, name
+
+
+@sources
+def test_own_headers_are_included_by_their_full_name(path: Path) -> None:
+    for name in includes(path):
+        assert not (CPP / name).exists(), f"{name}: write ebac/{name}"
+        assert not (path.parent / name).exists(), f"{name}: write its path from ebac/"
+
+
+def test_no_folder_is_forgotten() -> None:
+    assert {path.name for path in CPP.iterdir() if path.is_dir()} <= set(MAY_SEE)
+    assert len(list(CPP.rglob("*.hpp"))) > 30
+
+
+def test_includes_make_no_circle() -> None:
+    order: list[Path] = []
+    open_: list[Path] = []
+
+    def visit(path: Path) -> None:
+        assert path not in open_, " -> ".join(p.name for p in [*open_, path])
+        if path in order:
+            return
+        open_.append(path)
+        for name in own(path):
+            visit(CPP / name)
+        order.append(open_.pop())
+
+    for path in CPP.rglob("*.hpp"):
+        visit(path)
+
+
+def test_the_headers_of_a_tick_know_nothing_slow() -> None:
+    on_path = reached([CPP / "loop" / "tick.hpp", *(CPP / "control").glob("*.hpp")])
+    assert len(on_path) > 20
+    found = {
+        path.relative_to(CPP).as_posix(): slow
+        for path in on_path
+        if (slow := SLOW & set(includes(path)))
+    }
+    assert found == EXCEPTIONS
+
+
+def test_laws_know_of_the_model_only_what_has_no_state_of_the_world() -> None:
+    """A law is designed from what is known of the device, never from hand or wall."""
+    for path in reached(list((CPP / "control").glob("*.hpp"))):
+        assert path.name not in {"hand.hpp", "environment.hpp", "device.hpp"}, path
+
+
+# --- Python ---
+
+
+def imports(path: Path) -> set[str]:
+    """Full names of what a module imports, at its top or inside functions."""
+    found: set[str] = set()
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.Import):
+            found |= {name.name for name in node.names}
+        elif isinstance(node, ast.ImportFrom):
+            assert node.level == 0, f"{path.name}: import by the full name"
+            found |= {f"{node.module}.{name.name}" for name in node.names}
+    return found
+
+
+def modules(name: str) -> list[Path]:
+    return (
+        [PACKAGE / f"{name}.py"]
+        if (PACKAGE / f"{name}.py").exists()
+        else sorted((PACKAGE / name).glob("*.py"))
+    )
+
+
+LOOP = {"Rows", "Setup", "Column", "ExactPlant", "SteppedPlant", "_simulate_python"}
+
+
+@pytest.mark.parametrize("name", ["metrics", "plot"])
+def test_what_looks_at_a_trace_sees_no_loop(name: str) -> None:
+    paths = modules(name)
+    assert paths
+    for path in paths:
+        found = imports(path)
+        assert not {f"ebac._core.{part}" for part in LOOP} & found, path
+        assert not {f"ebac._core.{law.__name__}" for law in ebac.LAWS.values()} & found, path
+        assert "ebac._core" not in found, path
+        assert "ebac.simulation.simulate" not in found, path
+        assert "ebac.simulate" not in found, path
+        assert "_simulate" not in path.read_text(encoding="utf-8"), path
+
+
+def test_the_names_of_the_loop_are_those_of_the_core() -> None:
+    for name in LOOP:
+        assert hasattr(_core, name), name
+
+
+def test_importing_the_package_loads_nothing_heavy() -> None:
+    heavy = ["matplotlib", "pandas", "scipy", "typer", "rich", "tomli_w"]
+    code = f"import ebac, sys; print([name for name in {heavy} if name in sys.modules])"
+    run = subprocess.run([sys.executable, "-c", code], check=True, capture_output=True, text=True)
+    assert run.stdout.strip() == "[]"
+
+
+def test_only_the_bindings_know_pybind11() -> None:
+    for path in (ROOT / "bindings").glob("*.[hc]pp"):
+        for name in includes(path):
+            assert not name.startswith("../"), name
+    assert any(
+        "pybind11/pybind11.h" in includes(path) for path in (ROOT / "bindings").glob("*.hpp")
+    )

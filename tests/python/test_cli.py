@@ -1,0 +1,383 @@
+"""The command `ebac`: what it prints and writes, and how it refuses."""
+
+import json
+import re
+from pathlib import Path
+from typing import Any
+
+import pytest
+from typer.testing import CliRunner
+
+import ebac
+from ebac import wording
+from ebac.cli import app
+
+COMMANDS = ("wall", "paper", "laws", "specs", "presets", "bench")
+WALL_KEYS = [
+    "law",
+    "rest_m",
+    "ideal_m",
+    "swing_m",
+    "force_swing_N",
+    "settled_s",
+    "peak_m",
+    "limit_cycle_Hz",
+    "least_energy_J",
+    "clamped_share",
+]
+
+
+@pytest.fixture(autouse=True)
+def in_empty_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("COLUMNS", "120")
+
+
+def ebac_command(*words: str, code: int = 0) -> Any:
+    result = CliRunner().invoke(app, [str(word) for word in words])
+    assert result.exit_code == code, result.output
+    assert result.exception is None or isinstance(result.exception, SystemExit), result.exception
+    return result
+
+
+def refusal(*words: str, code: int = 2) -> str:
+    """What the command says when it refuses, on one line and without a frame."""
+    text = re.sub(r"[│╭╮╰╯─]", " ", ebac_command(*words, code=code).output)
+    return " ".join(text.split())
+
+
+def document(*words: str) -> dict[str, Any]:
+    def refuse_nan(text: str) -> None:
+        raise AssertionError(f"{text} in JSON")
+
+    text = ebac_command(*words, "--json").stdout
+    return json.loads(text, parse_constant=refuse_nan)  # type: ignore[no-any-return]
+
+
+def wall_rows(*words: str) -> dict[str, dict[str, Any]]:
+    return {row["law"]: row for row in document("wall", *words)["rows"]}
+
+
+# --- words ---
+
+
+@pytest.mark.parametrize(
+    ("value", "unit", "text"),
+    [
+        (0.0011841, "m", "1.184 mm"),
+        (3.0679615e-5, "m", "0.0307 mm"),
+        (-1e-12, "m", "0 mm"),
+        (-5.6057, "J", "-5606 mJ"),
+        (10.6, "N", "10.60 N"),
+        (0.0622, "share", "6 %"),
+        (1, "share", "100 %"),
+        (0.25, "kg", "0.25 kg"),
+        (3.0, "1", "3"),
+        (None, "m", "-"),
+        (float("nan"), "m", "-"),
+    ],
+)
+def test_numbers_are_shown_with_their_unit(value: float | None, unit: str, text: str) -> None:
+    assert wording.quantity(value, unit) == text
+
+
+def test_a_scenario_is_told_in_one_line() -> None:
+    hand = ebac.Hand(path=ebac.Tapping(), tremor_amplitude=1e-3)
+    text = wording.describe(ebac.Scenario(hand=hand, environment=ebac.Corner(), jitter=0.1))
+    assert "a Tapping path, tremor 1 mm at 9 Hz" in text
+    assert (
+        "a corner of a wall of 10 kN/m at 0 mm and a wall of 10 kN/m at 0 mm, turned by 90" in text
+    )
+    assert "1 kHz, 1 sample of delay, jitter 10 %" in text
+
+
+# --- help, version ---
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_every_command_has_help_with_an_example(command: str) -> None:
+    text = ebac_command(command, "--help").output
+    assert "--json" in text
+    assert f"ebac {command}" in text or command == "presets"
+
+
+def test_help_names_every_command_and_completion() -> None:
+    text = ebac_command("--help").output
+    assert all(command in text for command in COMMANDS)
+    assert "--install-completion" in text
+
+
+def test_version() -> None:
+    assert ebac_command("--version").stdout == f"ebac {ebac.__version__}\n"
+
+
+# --- wall ---
+
+
+def test_wall_json_has_the_documented_keys_and_writes_nothing(tmp_path: Path) -> None:
+    answer = document("wall")
+    assert list(answer) == ["command", "version", "scenario", "rows"]
+    assert (answer["command"], answer["version"]) == ("wall", ebac.__version__)
+    assert answer["scenario"]["environment"]["stiffness"] == 10e3
+    assert answer["scenario"]["hand"]["release_at"] is None  # never; JSON has no infinity
+    assert [row["law"] for row in answer["rows"]] == ["tca", "eba", "ebac"]
+    assert all(list(row) == WALL_KEYS for row in answer["rows"])
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize("seed", range(1, 21))
+def test_wall_shows_what_the_paper_shows(seed: int) -> None:
+    rows = wall_rows("--seed", str(seed))
+    count = ebac.Device().count
+    assert rows["tca"]["swing_m"] >= 5e-3
+    assert rows["tca"]["settled_s"] is None
+    assert rows["eba"]["swing_m"] < count
+    assert rows["eba"]["rest_m"] - rows["eba"]["ideal_m"] > 1e-3
+    assert abs(rows["ebac"]["rest_m"] - rows["ebac"]["ideal_m"]) <= 0.062e-3
+    assert rows["ebac"]["swing_m"] < 0.25e-3
+    assert rows["ebac"]["settled_s"] <= 1.5
+    assert rows["ebac"]["least_energy_J"] >= -1e-3
+
+
+def test_wall_numbers_are_those_of_the_library() -> None:
+    scenario = ebac.Scenario(environment=ebac.Wall(stiffness=5e3), seconds=2.0)
+    expected = ebac.contact(ebac.simulate(scenario, "eba")).row()
+    assert wall_rows("--law", "eba", "--stiffness", "5000", "--seconds", "2")["eba"] == expected
+
+
+def test_wall_writes_table_figure_logs_and_scenario(tmp_path: Path) -> None:
+    text = ebac_command("wall", "--seconds", "1").stdout
+    names = {"wall.json", "wall.png", "scenario.toml"}
+    names |= {f"{law}.{kind}" for law in ("tca", "eba", "ebac") for kind in ("npz", "csv")}
+    folder = tmp_path / "ebac-wall"
+    assert {file.name for file in folder.iterdir()} == names
+    assert all(name in text for name in names)
+    assert json.loads((folder / "wall.json").read_text()) == document("wall", "--seconds", "1")
+    trace = ebac.Trace.from_npz(folder / "ebac.npz")
+    assert len(trace) == 1001
+    assert (folder / "wall.png").read_bytes().startswith(b"\x89PNG")
+
+
+def test_wall_tells_in_words_and_units() -> None:
+    text = ebac_command("wall", "--no-files").stdout
+    assert "exact and quiet" in text
+    assert "swings" in text
+    assert "quiet, too deep by 5.63 mm" in text
+    assert "Simulated, not measured" in text
+    assert "10 kN/m" in text
+    assert "1 sample of delay" in text
+
+
+def test_wall_scenario_round_trip() -> None:
+    given = [
+        "--stiffness",
+        "3000",
+        "--mass",
+        "0.3",
+        "--delay",
+        "2",
+        "--rate",
+        "2000",
+        "--noise",
+        "0.1",
+    ]
+    given += ["--permille", "--jitter", "0.1", "--seconds", "1", "--seed", "5", "--target", "0.03"]
+    given += [
+        "--damping",
+        "4",
+        "--hand-damping",
+        "7",
+        "--hand-stiffness",
+        "250",
+        "--position",
+        "0.001",
+    ]
+    first = document("wall", *given, "--out", "first")
+    assert document("wall", "--scenario", "first/scenario.toml") == first
+    changed = document("wall", "--scenario", "first/scenario.toml", "--seed", "6")
+    assert changed["scenario"] == {**first["scenario"], "seed": 6}
+    assert changed["rows"] != first["rows"]
+
+
+def test_wall_takes_every_option_into_the_scenario() -> None:
+    words = "--hand arm-hogan --target 0.02 --device joystick --noise 0.2 --permille --seconds 1"
+    scenario = document("wall", *words.split())["scenario"]
+    assert scenario["hand"]["stiffness"] == 568
+    assert scenario["hand"]["path"][0]["target"] == 0.02
+    assert scenario["device"]["kinematics"]["type"] == "Gimbal"
+    assert scenario["device"]["sensor"]["noise"] == 0.2
+    assert scenario["device"]["drive"]["permille"] is True
+
+
+def test_wall_runs_every_law_once() -> None:
+    assert list(wall_rows("--law", "all", "--law", "tca", "--seconds", "0.1")) == list(ebac.LAWS)
+
+
+def test_a_thing_that_does_not_exist_is_null() -> None:
+    rows = wall_rows("--law", "tca", "--device", "joystick", "--seconds", "1")
+    assert rows["tca"]["ideal_m"] is None
+    assert rows["tca"]["clamped_share"] is None
+
+
+def test_a_fault_is_told_and_its_log_kept(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    class Broken:
+        name = "broken"
+
+        def step(self, port: ebac.Port) -> float:
+            return float("nan")
+
+        def reset(self) -> None:
+            pass
+
+    original = ebac.simulate
+    monkeypatch.setattr(
+        "ebac.simulation.simulate", lambda scenario, name: original(scenario, Broken())
+    )
+    text = refusal("wall", "--law", "ebac", code=1)
+    assert "law not finite" in text
+    assert "ebac-wall/broken-fault.npz" in text
+    assert [file.name for file in (tmp_path / "ebac-wall").iterdir()] == ["broken-fault.npz"]
+    assert (
+        ebac.Trace.from_npz("ebac-wall/broken-fault.npz")["fault"][-1] == ebac.Fault.LAW_NOT_FINITE
+    )
+    assert "--out" in refusal("wall", "--json", code=1)
+
+
+@pytest.mark.parametrize(
+    ("words", "expected"),
+    [
+        ("wall --stiffness -3", "--stiffness = -3 N/m: must lie in [0, 1e+07] N/m"),
+        ("wall --stiffness nan", "--stiffness = nan N/m"),
+        ("wall --stiffness x", "--stiffness"),
+        ("wall --delay 9", "--delay = 9 samples: must lie in [0, 8] samples"),
+        ("wall --mass -1", "--mass = -1 kg"),
+        ("wall --hand-damping -1", "--hand-damping = -1 N s/m"),
+        ("wall --target 11", "--target = 11 m"),
+        ("wall --noise -1", "--noise = -1 N"),
+        ("wall --jitter 0.6", "--jitter = 0.6"),
+        ("wall --seed -1", "--seed = -1"),
+        ("wall --seconds 0", "--seconds"),
+        ("wall --seconds 0.001", "2 ticks: must be 10 to 2000000; change --seconds or --rate"),
+        ("wall --seconds 1e5", "100000001 ticks"),
+        ("wall --rate 0", "--rate = 0 Hz: must lie in [10, 100000] Hz"),
+        ("wall --law ebca", "did you mean 'eba'"),
+        ("wall --hand bob", "arm-hogan"),
+        ("wall --device bob", "joystick"),
+        ("wall --scenario none.toml", "none.toml: there is no such file"),
+        ("wall --scenario .", "cannot be read"),
+        ("wall --scenario broken.toml", "not a TOML document"),
+        ("wall --scenario unknown.toml", "did you mean 'seed'"),
+        ("wall --scenario negative.toml", "Wall.stiffness = -1 N/m"),
+        ("wall --scenario corner.toml --stiffness 3", "environment is a Corner"),
+        ("wall --scenario sine.toml --target 0.1", "Sine path, which has no target"),
+        ("wall --out file", "is a file"),
+        ("wall --out file/below", "is a file or lies inside one"),
+        ("wall --no-files --out x", "exclude each other"),
+        ("wall --stifness 3", "--stiffness"),
+        ("paper fig8", "did you mean 'fig7'"),
+        ("paper eq1 --out file", "is a file"),
+        ("laws ebca", "did you mean 'eba'"),
+        ("laws --rate 1", "--rate = 1 Hz"),
+        ("laws --device bob", "joystick"),
+        ("specs --device bob", "joystick"),
+        ("bench --repeats 0", "--repeats"),
+        ("wal", "wal"),
+    ],
+)
+def test_bad_input_is_refused_in_one_sentence(words: str, expected: str, tmp_path: Path) -> None:
+    (tmp_path / "file").write_text("kept")
+    (tmp_path / "broken.toml").write_text("seed = = 1")
+    (tmp_path / "unknown.toml").write_text("sed = 1")
+    (tmp_path / "negative.toml").write_text("[environment]\nstiffness = -1")
+    (tmp_path / "corner.toml").write_text('[environment]\ntype = "Corner"')
+    (tmp_path / "sine.toml").write_text('[hand]\npath = [{type = "Sine"}]')
+    before = {file.name for file in tmp_path.iterdir()}
+    text = refusal(*words.split())
+    assert expected in text
+    assert "Traceback" not in text
+    assert {file.name for file in tmp_path.iterdir()} == before
+    assert (tmp_path / "file").read_text() == "kept"
+
+
+def test_a_failure_leaves_the_folder_as_it_was(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    ebac_command("wall", "--seconds", "0.1", "--law", "eba")
+    before = {file.name: file.read_bytes() for file in (tmp_path / "ebac-wall").iterdir()}
+
+    def no_space(self: ebac.Trace, path: Path) -> None:
+        raise OSError(28, "No space left on device", str(path))
+
+    monkeypatch.setattr(ebac.Trace, "to_csv", no_space)
+    assert "No space left on device" in refusal("wall", "--seconds", "0.2", code=2)
+    assert {file.name: file.read_bytes() for file in (tmp_path / "ebac-wall").iterdir()} == before
+
+
+# --- the others ---
+
+
+def test_paper_prints_and_writes(tmp_path: Path) -> None:
+    text = ebac_command("paper", "eq1", "specs", "fig7", "--out", "report").stdout
+    assert "0.4926 A" in text
+    assert "Verdict: reproduced in part" in text
+    assert {file.name for file in (tmp_path / "report").iterdir()} == {
+        "report.md",
+        "report.json",
+        "fig7.png",
+    }
+
+
+def test_paper_json() -> None:
+    answer = document("paper", "eq1", "specs")
+    assert list(answer) == ["command", "version", "rows"]
+    assert [row["name"] for row in answer["rows"]] == ["eq1", "specs"]
+    assert list(answer["rows"][0]) == ["name", "title", "claim", "rows", "verdict", "why", "figure"]
+    assert list(answer["rows"][0]["rows"][0]) == [
+        "quantity",
+        "value",
+        "unit",
+        "paper",
+        "difference",
+    ]
+
+
+def test_laws_lists_all_and_shows_one() -> None:
+    rows = document("laws")["rows"]
+    assert [row["law"] for row in rows] == list(ebac.LAWS)
+    keys = ["name", "unit", "meaning", "type", "default", "low", "high", "designed"]
+    assert all(list(p) == keys for row in rows for p in row["parameters"])
+    text = ebac_command("laws").stdout
+    assert all(name in text for name in ebac.LAWS)
+    assert "N s/m" in ebac_command("laws", "ebac", "--delay", "2").stdout
+
+
+def test_laws_are_designed_for_the_device() -> None:
+    (row,) = document("laws", "eba", "--device", "joystick")["rows"]
+    designed = {p["name"]: p["designed"] for p in row["parameters"]}
+    device = ebac.presets.device("joystick")
+    law = ebac.EBA.design(device, ebac.Timing())
+    assert designed == {name: getattr(law, name) for name in designed}
+
+
+def test_specs() -> None:
+    answer = document("specs")
+    assert answer["device"] == "joystick"
+    values = {row["name"]: row["value"] for row in answer["rows"]}
+    assert values["continuous force"] == pytest.approx(10.6)
+    assert "0.0307 mm" in ebac_command("specs").stdout
+
+
+def test_presets() -> None:
+    names = {row["name"] for row in document("presets")["rows"]}
+    assert names == {*ebac.presets.HANDS, *ebac.presets.DEVICES}
+    text = ebac_command("presets").stdout
+    assert all(name in text for name in names)
+
+
+def test_bench() -> None:
+    rows = document("bench", "--repeats", "1")["rows"]
+    assert [row["law"] for row in rows] == [*ebac.LAWS, "python"]
+    assert all(list(row) == ["law", "step_ns", "tick_ns", "ticks_per_s"] for row in rows)
+    assert all(row["tick_ns"] > 0 for row in rows)
+    assert rows[-1]["step_ns"] is None
+    assert "aim" in ebac_command("bench", "--repeats", "1").stdout

@@ -1,0 +1,130 @@
+"""The same scenario gives the same bits, today and tomorrow.
+
+The golden traces hold every 10th row of x and f_cmd of each law in the reference scenario, and
+what the whole run comes to. After a change that is meant to change them: `pytest --update-golden`,
+look at the difference in the metrics, and say in the changelog why.
+"""
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import ebac
+
+GOLDEN = Path(__file__).parents[1] / "golden"
+every_law = pytest.mark.parametrize("name", ebac.LAWS)
+
+NOISY = ebac.Scenario(
+    device=ebac.Device(
+        kinematics=ebac.Linear(axes=2),
+        sensor=ebac.ForceSensor(noise=0.2),
+        mechanics=ebac.Mechanics(coulomb=0.3),
+    ),
+    environment=ebac.Corner(),
+    hand=ebac.Hand(path=[ebac.Step(), ebac.Sine(frequency=2.0)]),
+    seconds=0.5,
+    jitter=0.3,
+    seed=7,
+)
+
+
+def same(one: ebac.Trace, other: ebac.Trace) -> set[str]:
+    """The columns that agree to the bit."""
+    return {name for name in one if one[name].tobytes() == other[name].tobytes()}
+
+
+@every_law
+def test_the_same_scenario_gives_the_same_bits(name: str) -> None:
+    first, second = (ebac.simulate(NOISY, name) for _ in range(2))
+    assert same(first, second) == set(first)
+
+
+@every_law
+def test_another_seed_gives_another_noise_and_jitter(name: str) -> None:
+    first, second = (ebac.simulate(NOISY.replace(seed=seed), name) for seed in (7, 8))
+    assert not {"lateness", "f_meas", "t"} & same(first, second)
+
+
+def test_without_noise_and_jitter_a_seed_changes_nothing() -> None:
+    quiet = ebac.Scenario(seconds=0.5)
+    first, second = (ebac.simulate(quiet.replace(seed=seed), "ebac") for seed in (1, 2))
+    assert same(first, second) == set(first)
+
+
+def test_jitter_does_not_use_the_numbers_of_the_noise() -> None:
+    """One seed, two streams: turning jitter on leaves the noise of the sensor as it was."""
+    device = ebac.Device(sensor=ebac.ForceSensor(noise=0.2))
+    scenario = ebac.Scenario(device=device, environment=ebac.Free(), seconds=0.2)
+    noise = [
+        trace["f_meas"] - trace["true.f_sensor"]
+        for trace in (ebac.simulate(scenario.replace(jitter=j), "direct") for j in (0.0, 0.3))
+    ]
+    assert noise[0] == pytest.approx(noise[1], abs=1e-12)
+
+
+def test_a_law_may_be_used_again() -> None:
+    law = ebac.design("ebac", ebac.Device(), ebac.Timing())
+    first, second = (ebac.simulate(ebac.Scenario(seconds=0.3), law) for _ in range(2))
+    assert same(first, second) == set(first)
+
+
+def test_another_process_gives_the_same_bits() -> None:
+    code = (
+        "import ebac, hashlib;"
+        "trace = ebac.simulate(ebac.Scenario(seconds=0.3, jitter=0.2), 'ebac');"
+        "print(hashlib.sha256(b''.join(trace[name].tobytes() for name in trace)).hexdigest())"
+    )
+    found = {
+        subprocess.run([sys.executable, "-c", code], check=True, capture_output=True).stdout
+        for _ in "ab"
+    }
+    assert len(found) == 1
+
+
+# --- golden traces ---
+
+
+@every_law
+def test_the_reference_scenario_gives_the_golden_trace(
+    name: str, run: Any, request: pytest.FixtureRequest
+) -> None:
+    trace, path = run(name), GOLDEN / f"{name}.npz"
+    found = ebac.contact(trace).row()
+    rows = {column: trace[column][::10].copy() for column in ("x", "f_cmd")}
+    if request.config.getoption("--update-golden"):
+        np.savez_compressed(path, contact=np.array(json.dumps(found)), **rows)
+    with np.load(path, allow_pickle=False) as golden:
+        expected = json.loads(str(golden["contact"]))
+        # A count that toggles one tick later is no fault, but from then on the digits differ.
+        first = slice(30)
+        for column, values in rows.items():
+            wanted = golden[column]
+            assert len(values) == len(wanted) == 601
+            scale = np.abs(wanted).max()
+            assert values[first] == pytest.approx(wanted[first], rel=1e-9, abs=1e-9 * scale), column
+    assert list(found) == list(expected)
+    tolerance = {
+        "rest_m": 1e-4,
+        "ideal_m": 1e-12,
+        "swing_m": 3e-4,
+        "force_swing_N": 3.0,
+        "settled_s": 0.1,
+        "peak_m": 1e-4,
+        "limit_cycle_Hz": 0.5,
+        "least_energy_J": 0.2,
+        "clamped_share": 0.05,
+    }
+    for quantity, wanted in expected.items():
+        if isinstance(wanted, float):
+            assert found[quantity] == pytest.approx(wanted, abs=tolerance[quantity]), quantity
+        else:
+            assert found[quantity] == wanted, quantity
+
+
+def test_there_is_a_golden_trace_for_each_law_and_none_besides() -> None:
+    assert {path.stem for path in GOLDEN.glob("*.npz")} == set(ebac.LAWS)

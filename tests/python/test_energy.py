@@ -1,0 +1,216 @@
+"""The energy account: what the trace says, against sums done here and against physics."""
+
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from numpy.typing import NDArray
+from scipy.integrate import cumulative_simpson, simpson
+
+import ebac
+
+
+def power(trace: ebac.Trace, device: ebac.Device) -> NDArray[np.float64]:
+    v = trace["true.v"]
+    taken = device.mechanics.damping * v**2 + device.mechanics.coulomb * np.abs(v)
+    return np.asarray(trace["true.f_motor"] * v + taken)
+
+
+# --- true.energy: what really crosses the port ---
+
+
+@pytest.mark.parametrize("friction", [0.0, 1.0])
+@pytest.mark.parametrize("law", ["direct", "ebac"])
+def test_true_energy_is_the_integral_of_the_power_of_a_finely_sampled_run(
+    law: str, friction: float
+) -> None:
+    device = ebac.Device(mechanics=ebac.Mechanics(coulomb=friction))
+    scenario = ebac.Scenario(device=device, timing=ebac.Timing(dt=1e-5), seconds=0.3)
+    trace = ebac.simulate(scenario, law)
+    expected = np.concatenate([[0.0], cumulative_simpson(power(trace, device), dx=1e-5)])
+    reached = trace["true.energy"]
+    assert np.ptp(reached) > 0.01
+    assert np.abs(reached - expected).max() < 1e-6
+
+
+@pytest.mark.parametrize("friction", [0.0, 0.3])
+@pytest.mark.parametrize("plant", [ebac.ExactPlant, ebac.SteppedPlant])
+def test_true_energy_is_the_integral_of_the_power_inside_a_tick(
+    plant: Any, friction: float
+) -> None:
+    device = ebac.Device(mechanics=ebac.Mechanics(coulomb=friction))
+    alone = plant(device=device, hand=ebac.Hand(), tick=1e-3)
+    parts, energy = 64, 0.0
+    for k in range(60):
+        current = 2.5 * np.sin(0.4 * k)
+        samples = [alone.truth().as_dict()]
+        for i in range(parts):
+            alone.advance([current], (k + i / parts) * 1e-3, 1 / parts)
+            samples.append(alone.truth().as_dict())
+        v, f = (np.array([s[name] for s in samples]) for name in ("v", "f_motor"))
+        energy += simpson(f * v + 2.0 * v**2 + friction * np.abs(v), dx=1e-3 / parts)
+        assert alone.truth().energy == pytest.approx(energy, abs=1e-7)
+    assert abs(energy) > 1e-3
+
+
+def test_energy_is_what_the_hand_gave_less_what_still_moves() -> None:
+    """With no wall and no force: the damping took the hand's work but for the kinetic energy."""
+    device = ebac.Device()
+    scenario = ebac.Scenario(
+        device=device, environment=ebac.Free(), timing=ebac.Timing(dt=1e-5), seconds=0.2
+    )
+    trace = ebac.simulate(scenario, "direct")
+    given_by_hand = np.trapezoid(trace["true.f_hand"] * trace["true.v"], dx=1e-5)
+    kinetic = 0.5 * device.mass * trace["true.v"][-1] ** 2
+    assert trace["true.energy"][-1] == pytest.approx(given_by_hand - kinetic, rel=1e-4)
+    assert (np.diff(trace["true.energy"]) >= 0).all()
+
+
+def test_energy_of_a_handle_that_coasts_is_its_kinetic_energy() -> None:
+    """Pushed by 1 A for 10 ms, then let go: all of m v^2 / 2 goes into the damper."""
+    device = ebac.Device()
+    nobody = ebac.Hand(mass=0, damping=0, stiffness=0)
+    plant = ebac.ExactPlant(device=device, hand=nobody, tick=1e-3)
+    plant.advance([-1.0], 0.0, 10)
+    plant.advance([0.0], 0.01, 10)  # 33 time constants of the current loop
+    start = plant.truth()
+    assert start.v > 0.1
+    for k in range(30):
+        plant.advance([0.0], 0.02 + 0.1 * k, 100)  # 24 time constants of the handle
+    assert plant.truth().energy - start.energy == pytest.approx(
+        device.mass * start.v**2 / 2, rel=1e-9
+    )
+
+
+# --- work and damped: what the loop can know ---
+
+
+@pytest.mark.parametrize("name", ebac.LAWS)
+@pytest.mark.parametrize("changes", [{}, {"jitter": 0.4}], ids=["even", "jitter"])
+def test_work_is_the_sum_of_applied_force_times_displacement_to_the_bit(
+    name: str, changes: dict[str, Any], run: Any
+) -> None:
+    trace = run(name, seconds=1.0, **changes)
+    steps = trace["f_applied"] * trace["dx"]
+    assert trace["work"].tobytes() == np.add.accumulate(steps).tobytes()
+
+
+@pytest.mark.parametrize("axes", [1, 2])
+def test_damped_is_the_sum_of_known_damping_times_displacement_squared(axes: int) -> None:
+    given_back = ebac.Compensation(friction=0.5, friction_speed=0.5)  # spends 1 of 3 N s/m
+    device = ebac.Device(
+        kinematics=ebac.Linear(axes=axes),
+        mechanics=ebac.Mechanics(damping=3.0),
+        compensation=given_back,
+    )
+    trace = ebac.simulate(ebac.Scenario(device=device, seconds=0.5, jitter=0.2), "ebac")
+    assert device.facts.damping == 2.0
+    dx = trace["dx"].reshape(len(trace), axes)[1:]
+    dt = trace["dt"].reshape(len(trace), axes)[1:]
+    expected = np.add.accumulate(2.0 / dt * dx * dx)
+    assert trace["damped"].reshape(len(trace), axes)[1:].tobytes() == expected.tobytes()
+
+
+def test_damping_that_compensation_has_spent_is_not_counted() -> None:
+    spent = ebac.Compensation(friction=1.0, friction_speed=0.1)
+    device = ebac.Device(compensation=spent)
+    assert device.facts.damping == -8.0
+    trace = ebac.simulate(ebac.Scenario(device=device, seconds=0.1), "direct")
+    assert (trace["damped"] == 0).all()
+
+
+@pytest.mark.parametrize("name", ["tca", "eba", "ebac"])
+@given(hand_mass=st.floats(0.05, 1.0), stiffness=st.floats(100, 1000))
+@settings(max_examples=15)
+def test_the_account_of_the_loop_is_a_lower_bound_of_the_energy(
+    name: str, hand_mass: float, stiffness: float
+) -> None:
+    """The hold passes exactly sum F dx; damping takes at least (b/dt) dx^2 (Cauchy-Schwarz)."""
+    device = ebac.Device(
+        drive=ebac.Drive(current_lag=0.0), encoder=ebac.Encoder(counts_per_turn=1 << 26)
+    )
+    hand = ebac.Hand(mass=hand_mass, stiffness=stiffness)
+    trace = ebac.simulate(ebac.Scenario(device=device, hand=hand, seconds=0.5, jitter=0.2), name)
+    slack = trace["true.energy"] - trace["work"] - trace["damped"]
+    one_count = (
+        2 * device.peak_force * device.count
+    )  # J, what the encoder's rounding can hide in a tick
+    assert np.diff(slack).min() > -one_count
+    assert slack.min() > -one_count
+
+
+# --- passive means passive ---
+
+hands = st.builds(
+    ebac.Hand,
+    mass=st.floats(0.02, 1.0),
+    damping=st.floats(0.0, 20.0),
+    stiffness=st.floats(10, 1500),
+    path=st.one_of(
+        st.builds(ebac.Step, target=st.floats(-0.04, 0.04)),
+        st.builds(ebac.Tapping, target=st.floats(0.0, 0.04), frequency=st.floats(0.5, 20)),
+        st.builds(ebac.Sine, frequency=st.floats(0.1, 30), amplitude=st.floats(0.0, 0.03)),
+    ),
+    tremor_amplitude=st.floats(0, 1e-3),
+    release_at=st.sampled_from([float("inf"), 0.25]),
+)
+walls = st.builds(
+    ebac.Wall,
+    stiffness=st.floats(0, 1e6),
+    damping=st.floats(0, 200),
+    position=st.floats(-0.01, 0.01),
+    angle=st.sampled_from([0.0, 3.0]),
+)
+
+
+@given(
+    hand=hands,
+    wall=walls,
+    delay=st.integers(0, 2),
+    damping=st.floats(0.1, 10),
+    friction=st.sampled_from([0.0, 1.0]),
+    lag=st.sampled_from([0.0, 3e-4]),
+)
+def test_eba_keeps_its_bound_in_closed_loop(
+    hand: ebac.Hand, wall: ebac.Wall, delay: int, damping: float, friction: float, lag: float
+) -> None:
+    device = ebac.Device(
+        mechanics=ebac.Mechanics(damping=damping, coulomb=friction),
+        drive=ebac.Drive(current_lag=lag),
+    )
+    scenario = ebac.Scenario(
+        device=device, hand=hand, environment=wall, timing=ebac.Timing(delay=delay), seconds=0.5
+    )
+    trace = ebac.simulate(scenario, "eba")
+    assert (trace["work"] + trace["damped"]).min() >= -1e-12
+    assert trace["law.account"] == pytest.approx(trace["work"] + trace["damped"], abs=1e-12)
+
+
+@given(hand=hands, wall=walls, delay=st.integers(0, 2), damping=st.floats(0.1, 10))
+def test_eba_gives_out_no_energy_behind_an_ideal_drive_and_encoder(
+    hand: ebac.Hand, wall: ebac.Wall, delay: int, damping: float
+) -> None:
+    device = ebac.Device(
+        mechanics=ebac.Mechanics(damping=damping),
+        drive=ebac.Drive(current_lag=0.0),
+        encoder=ebac.Encoder(counts_per_turn=1 << 26),
+    )
+    scenario = ebac.Scenario(
+        device=device, hand=hand, environment=wall, timing=ebac.Timing(delay=delay), seconds=0.5
+    )
+    assert ebac.simulate(scenario, "eba")["true.energy"].min() > -1e-6
+
+
+@pytest.mark.parametrize("seed", range(1, 6))
+def test_ebac_stays_above_minus_one_millijoule_at_the_reference_wall(seed: int, run: Any) -> None:
+    trace = run("ebac", seed=seed, device=ebac.Device(sensor=ebac.ForceSensor(noise=0.05)))
+    assert trace["true.energy"].min() >= -1e-3
+
+
+def test_the_account_does_see_a_law_that_gives_energy_out(run: Any) -> None:
+    for name in ("direct", "tca"):
+        trace = run(name)
+        assert trace["true.energy"].min() < -1.0
+        assert (trace["work"] + trace["damped"]).min() < -1.0

@@ -1,0 +1,218 @@
+"""A wall contact in numbers, on traces whose numbers are known."""
+
+import json
+import math
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from numpy.typing import NDArray
+
+import ebac
+
+
+def synthetic(x: NDArray[np.float64], dt: float = 1e-3, **more: NDArray[Any]) -> ebac.Trace:
+    data = {"t": dt * np.arange(len(x)), "x": x, "f_applied": np.zeros(len(x)), **more}
+    columns = {name: ebac.ColumnInfo(name=name, unit="1", meaning="made up") for name in data}
+    return ebac.Trace(data=data, columns=columns, axes=1, law="made up")
+
+
+T = 1e-3 * np.arange(6001)
+
+
+@given(
+    rest=st.floats(-0.01, 0.02),
+    swing=st.floats(1e-3, 0.02),
+    frequency=st.floats(3, 200),
+    phase=st.floats(0, 6),
+)
+def test_a_swing_has_its_rest_size_and_frequency(
+    rest: float, swing: float, frequency: float, phase: float
+) -> None:
+    x = rest + swing / 2 * np.sin(2 * np.pi * frequency * T + phase)
+    row = ebac.contact(synthetic(x, f_applied=1000 * x))
+    assert row.rest_m == pytest.approx(rest, abs=0.1 * swing)
+    assert row.swing_m == pytest.approx(swing, rel=0.06)  # 5 samples a period at 200 Hz
+    assert row.force_swing_N == pytest.approx(1000 * row.swing_m)
+    assert row.limit_cycle_Hz == pytest.approx(frequency, abs=0.1)
+    assert row.settled_s is None
+    assert not row.quiet
+
+
+@given(rest=st.floats(-0.01, 0.02), start=st.floats(1e-3, 0.05), decay=st.floats(0.02, 0.5))
+def test_what_settles_has_the_time_from_which_on_it_stays_close(
+    rest: float, start: float, decay: float
+) -> None:
+    row = ebac.contact(synthetic(rest + start * np.exp(-T / decay)))
+    if row.quiet:
+        at_rest = row.rest_m - rest
+        expected = decay * math.log(start / (0.125e-3 + at_rest))
+        assert row.settled_s == pytest.approx(expected, abs=2e-3)
+        assert row.limit_cycle_Hz is None
+    assert row.rest_m == pytest.approx(rest, abs=1e-3)
+    assert row.peak_m == rest + start
+
+
+def test_what_never_moves_has_settled_at_once() -> None:
+    row = ebac.contact(synthetic(np.full(100, 0.003)))
+    assert (row.rest_m, row.swing_m, row.settled_s, row.peak_m) == (
+        pytest.approx(0.003),
+        0.0,
+        0.0,
+        0.003,
+    )
+    assert row.quiet
+
+
+def test_the_border_of_quiet_is_a_quarter_of_a_millimetre() -> None:
+    for swing, quiet in ((0.249e-3, True), (0.251e-3, False)):
+        x = swing / 2 * np.where(np.arange(1000) % 2, 1.0, -1.0)
+        row = ebac.contact(synthetic(x))
+        assert row.quiet is quiet
+        assert (row.settled_s is not None) is quiet
+        assert (row.limit_cycle_Hz is None) is quiet
+
+
+def test_only_the_last_thirty_percent_count_as_rest() -> None:
+    x = np.where(np.arange(1000) < 700, 0.01, 0.002)
+    row = ebac.contact(synthetic(x))
+    assert row.rest_m == pytest.approx(0.002)
+    assert row.swing_m == 0
+    assert row.settled_s == pytest.approx(0.7)
+    assert row.peak_m == 0.01
+
+
+def test_what_a_trace_does_not_hold_is_none() -> None:
+    row = ebac.contact(synthetic(np.zeros(100)))
+    assert row.ideal_m is None
+    assert row.deviation_m is None
+    assert row.exact is None
+    assert row.least_energy_J is None
+    assert row.clamped_share is None
+    assert row.count_m is None
+
+
+def test_energy_is_the_least_of_the_sum_of_all_axes() -> None:
+    energy = np.zeros((100, 2))
+    energy[30] = -2.0, 1.5
+    energy[60] = 0.5, -0.2
+    row = ebac.contact(synthetic(np.zeros(100), **{"true.energy": energy}))
+    assert row.least_energy_J == -0.5
+
+
+def test_the_true_position_goes_before_the_measured_one() -> None:
+    row = ebac.contact(synthetic(np.zeros(100), **{"true.x": np.full(100, 0.001)}))
+    assert row.rest_m == pytest.approx(0.001)
+
+
+def test_clamped_share_is_the_share_of_ticks() -> None:
+    clamped = np.arange(200) % 4 == 0
+    row = ebac.contact(synthetic(np.zeros(200), **{"law.clamped": clamped}))
+    assert row.clamped_share == 0.25
+
+
+def test_a_trace_too_short_or_without_that_axis_is_refused() -> None:
+    with pytest.raises(ValueError, match="9 rows: a contact needs at least 10"):
+        ebac.contact(synthetic(np.zeros(9)))
+    with pytest.raises(ValueError, match="axis = 1"):
+        ebac.contact(synthetic(np.zeros(10)), axis=1)
+
+
+def test_each_axis_is_measured_by_itself(run: Any) -> None:
+    hand = ebac.Hand(path=[ebac.Step(target=0.02), ebac.Step(target=-0.01)])
+    two = ebac.Device(kinematics=ebac.Linear(axes=2))
+    trace = run("eba", device=two, hand=hand, environment=ebac.Free(), seconds=2.0)
+    rests = [ebac.contact(trace, axis=axis).rest_m for axis in (0, 1)]
+    assert rests == pytest.approx([0.02, -0.01], abs=1e-4)
+
+
+# --- the ideal ---
+
+
+@given(
+    stiffness=st.floats(50, 2000),
+    target=st.floats(-0.05, 0.05),
+    wall=st.floats(100, 1e6),
+    position=st.floats(-0.02, 0.02),
+    gravity=st.floats(-10, 10),
+)
+def test_the_ideal_is_where_all_forces_balance(
+    stiffness: float, target: float, wall: float, position: float, gravity: float
+) -> None:
+    scenario = ebac.Scenario(
+        device=ebac.Device(mechanics=ebac.Mechanics(gravity=gravity)),
+        hand=ebac.Hand(stiffness=stiffness, path=ebac.Step(target=target)),
+        environment=ebac.Wall(stiffness=wall, position=position),
+    )
+    x = ebac.ideal_rest(scenario)
+    assert x is not None
+    push = wall * max(0.0, x - position)
+    assert stiffness * (target - x) + 0.114 * gravity == pytest.approx(push, abs=1e-6)
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {"environment": ebac.Free()},
+        {"environment": ebac.Corner()},
+        {"environment": ebac.Wall(angle=0.1)},
+        {"hand": ebac.Hand(release_at=1.0)},
+        {"hand": ebac.Hand(path=ebac.Sine())},
+        {"hand": ebac.Hand(path=ebac.Tapping())},
+        {"hand": ebac.Hand(path=ebac.Recorded(t=[0.0, 1.0], x=[0.0, 1.0]))},
+        {"hand": ebac.presets.hand("open")},
+        {"device": ebac.presets.device("joystick")},
+    ],
+)
+def test_there_is_no_ideal_where_nothing_comes_to_rest(changes: dict[str, Any]) -> None:
+    assert ebac.ideal_rest(ebac.Scenario(**changes)) is None
+
+
+def test_the_reference_rests_ideally_at_the_figure_of_the_theory() -> None:
+    assert ebac.ideal_rest(ebac.Scenario()) == pytest.approx(1.165e-3, abs=1e-6)
+
+
+# --- the reference scenario, issue by issue ---
+
+
+def test_tca_swings_by_five_millimetres_or_more(run: Any) -> None:
+    row = ebac.contact(run("tca"))
+    assert row.swing_m >= 5e-3
+    assert row.settled_s is None
+    assert 5 < (row.limit_cycle_Hz or 0) < 50
+
+
+def test_eba_is_still_but_too_deep(run: Any) -> None:
+    row = ebac.contact(run("eba"))
+    assert row.count_m is not None
+    assert row.swing_m <= row.count_m
+    assert (row.deviation_m or 0) > 1e-3
+    assert row.exact is False
+
+
+@pytest.mark.parametrize("seed", range(1, 21))
+def test_ebac_rests_quietly_at_the_ideal(seed: int, run: Any) -> None:
+    row = ebac.contact(run("ebac", seed=seed))
+    assert row.exact
+    assert row.swing_m < 0.25e-3
+    assert row.settled_s is not None
+    assert row.settled_s < 1.5
+    assert (row.least_energy_J or 0) >= -1e-3
+
+
+@pytest.mark.parametrize("position", [0.0, 0.002, 0.01, 0.03])
+def test_ebac_finds_a_wall_wherever_it_stands(position: float, run: Any) -> None:
+    row = ebac.contact(run("ebac", environment=ebac.Wall(position=position)))
+    assert row.exact, f"rests {row.deviation_m} m beyond the ideal"
+    assert row.quiet
+
+
+def test_the_row_is_the_documented_one(run: Any) -> None:
+    row = ebac.contact(run("ebac")).row()
+    assert list(row) == [
+        "law", "rest_m", "ideal_m", "swing_m", "force_swing_N", "settled_s", "peak_m",
+        "limit_cycle_Hz", "least_energy_J", "clamped_share",
+    ]  # fmt: skip
+    assert json.loads(json.dumps(row)) == row

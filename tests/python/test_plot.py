@@ -1,0 +1,109 @@
+"""Figures: that they have what they should show, and how they refuse."""
+
+import threading
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+from matplotlib.figure import Figure
+
+import ebac
+from ebac.plot import COLOURS, colour, plot_trace, plot_walls
+from ebac.plot.style import MOST_POINTS, _extremes
+
+Run = Callable[..., ebac.Trace]
+
+
+def labels(figure: Figure) -> list[str]:
+    return [ax.get_ylabel() for ax in figure.axes]
+
+
+@pytest.mark.parametrize("law", list(ebac.LAWS))
+def test_every_law_has_a_colour_and_a_figure(law: str, run: Run, tmp_path: Path) -> None:
+    assert law in COLOURS
+    figure = plot_trace(run(law))
+    units = ("position [mm]", "force [N]", "energy [")
+    assert all(any(unit in label for label in labels(figure)) for unit in units)
+    assert any("beta" in label for label in labels(figure)) == ("law.beta" in run(law))
+    figure.savefig(tmp_path / "figure.png")
+    assert (tmp_path / "figure.png").read_bytes().startswith(b"\x89PNG")
+
+
+def test_one_column_of_panels_per_axis(run: Run) -> None:
+    trace = run("ebac", device=ebac.presets.device("joystick"), seconds=1.0)
+    assert len(plot_trace(trace).axes) == 8
+
+
+def test_a_part_of_a_trace_is_drawn_over_its_own_time(run: Run) -> None:
+    figure = run("ebac")[1.0:1.2].plot()
+    low, high = figure.axes[0].get_xlim()
+    assert low == pytest.approx(1.0, abs=0.01)
+    assert high == pytest.approx(1.2, abs=0.01)
+
+
+def test_beta_panel_is_bounded(run: Run) -> None:
+    panel = next(ax for ax in plot_trace(run("ebac")).axes if "beta" in ax.get_ylabel())
+    assert panel.get_yscale() == "symlog"
+    assert max(map(abs, panel.get_ylim())) <= 6e4
+
+
+def test_a_log_without_simulation_can_be_drawn(run: Run) -> None:
+    whole = run("tca")
+    measured = [name for name in whole if not name.startswith(("true.", "law."))]
+    bare = ebac.Trace(
+        data={name: whole[name] for name in measured},
+        columns={name: whole.columns[name] for name in measured},
+        axes=1,
+    )
+    assert len(plot_trace(bare).axes) == 3
+
+
+def test_walls_shows_every_law_and_the_ideal(run: Run) -> None:
+    figure = plot_walls([run("tca"), run("eba"), run("ebac")])
+    (legend,) = figure.legends
+    texts = [text.get_text() for text in legend.get_texts()]
+    assert texts[:3] == ["tca", "eba", "ebac"]
+    assert "ideal rest, 1.165 mm" in texts
+    shown = {line.get_color() for line in figure.axes[0].get_lines()}
+    assert {colour("tca"), colour("eba"), colour("ebac")} <= shown
+
+
+def test_walls_without_an_ideal_has_no_panel_for_it(run: Run) -> None:
+    hand = ebac.Hand(path=ebac.Sine())
+    assert len(plot_walls([run("eba", hand=hand, seconds=1.0)]).axes) == 4
+    assert len(plot_walls([run("eba", environment=ebac.Free(), seconds=1.0)]).axes) == 4
+
+
+def test_too_short_is_refused(run: Run) -> None:
+    with pytest.raises(ValueError, match="0 rows"):
+        plot_trace(run("tca")[100.0:])
+    with pytest.raises(ValueError, match="at least one trace"):
+        plot_walls([])
+
+
+def test_long_lines_keep_their_extremes() -> None:
+    y = np.zeros(10 * MOST_POINTS)
+    y[12_345], y[54_321] = 3.0, -2.0
+    kept = y[_extremes(y)]
+    assert len(kept) <= 1.1 * MOST_POINTS
+    assert (kept.max(), kept.min()) == (3.0, -2.0)
+
+
+def test_notebooks_get_a_picture(run: Run) -> None:
+    assert plot_trace(run("eba"))._repr_png_().startswith(b"\x89PNG")
+
+
+def test_threads_may_draw_at_once(run: Run) -> None:
+    trace = run("eba", seconds=1.0)
+    sizes: list[int] = []
+    draw = [
+        threading.Thread(target=lambda: sizes.append(len(plot_trace(trace)._repr_png_())))
+        for _ in range(4)
+    ]
+    for thread in draw:
+        thread.start()
+    for thread in draw:
+        thread.join()
+    assert len(set(sizes)) == 1
+    assert len(sizes) == 4

@@ -1,0 +1,372 @@
+"""The scenario: TOML and back, ranges, messages, and the manners of a value."""
+
+import copy
+import dataclasses
+import math
+import pickle
+import re
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import ebac
+
+# --- any scenario at all ---
+
+
+def value_of(field: Any) -> st.SearchStrategy[Any]:
+    if field.kind == "bool":
+        return st.booleans()
+    if field.kind == "int":
+        return st.integers(int(field.low), int(field.high))
+    if math.isinf(field.high):
+        return st.just(math.inf) | st.floats(field.low, 1e6)
+    return st.floats(field.low, field.high)
+
+
+def any_of(cls: Any, **parts: st.SearchStrategy[Any]) -> st.SearchStrategy[Any]:
+    values = {field.name: value_of(field) for field in cls.fields()}
+    return st.builds(cls, **(values | parts))
+
+
+recorded = st.builds(
+    lambda t, x: ebac.Recorded(t=sorted(t), x=x),
+    st.lists(st.floats(0, 100), min_size=3, max_size=3, unique=True),
+    st.lists(st.floats(-1, 1), min_size=3, max_size=3),
+)
+paths = st.one_of(
+    *[any_of(c) for c in (ebac.Step, ebac.MinimumJerk, ebac.Sine, ebac.Tapping)], recorded
+)
+walls = any_of(ebac.Wall)
+devices = st.builds(
+    ebac.Device,
+    kinematics=any_of(ebac.Linear) | any_of(ebac.Gimbal),
+    motor=any_of(ebac.Motor),
+    drive=any_of(ebac.Drive),
+    encoder=any_of(ebac.Encoder),
+    capstan=any_of(ebac.Capstan),
+    mechanics=any_of(ebac.Mechanics, cable_stiffness=st.floats(1, 1e8)),
+    sensor=any_of(ebac.ForceSensor),
+    velocity=any_of(ebac.LowPass)
+    | any_of(ebac.AdaptiveWindow)
+    | st.just(ebac.BackwardDifference()),
+    compensation=any_of(ebac.Compensation, inertia=st.floats(0, 5e-4)),
+)
+scenarios = st.builds(
+    ebac.Scenario,
+    device=devices,
+    hand=any_of(ebac.Hand, path=paths | st.lists(paths, min_size=1, max_size=3)),
+    environment=walls | st.just(ebac.Free()) | st.builds(ebac.Corner, first=walls, second=walls),
+    timing=any_of(ebac.Timing),
+    seconds=st.floats(0.1, 1e5) | st.integers(1, 100),
+    jitter=st.floats(0, 0.45),
+    seed=st.integers(0, 2**63 - 1),
+)
+
+
+@given(scenario=scenarios)
+@settings(max_examples=150)
+def test_toml_and_back_is_the_same_scenario(scenario: ebac.Scenario) -> None:
+    text = scenario.to_toml()
+    again = ebac.Scenario.from_toml(text)
+    assert again == scenario
+    assert again.to_toml() == text
+
+
+@given(scenario=scenarios)
+@settings(max_examples=50)
+def test_pickling_and_copying_give_an_equal_scenario(scenario: ebac.Scenario) -> None:
+    for twin in (
+        pickle.loads(pickle.dumps(scenario)),
+        copy.deepcopy(scenario),
+        copy.copy(scenario),
+    ):
+        assert twin == scenario
+        assert hash(twin) == hash(scenario)
+
+
+@given(scenario=scenarios)
+@settings(max_examples=50)
+def test_repr_evaluates_to_an_equal_scenario(scenario: ebac.Scenario) -> None:
+    assert eval(repr(scenario), dict(vars(ebac))) == scenario
+
+
+def test_a_file_and_back_is_the_same_scenario(tmp_path: Path) -> None:
+    scenario = ebac.Scenario(seconds=2.5, hand=ebac.presets.hand("arm-hogan"))
+    scenario.save(tmp_path / "one.toml")
+    assert ebac.Scenario.load(tmp_path / "one.toml") == scenario
+    assert ebac.Scenario.load(str(tmp_path / "one.toml")) == scenario
+
+
+def test_toml_of_the_default_is_readable() -> None:
+    text = ebac.Scenario().to_toml()
+    assert text.startswith("# ebac scenario; SI units throughout\n")
+    for line in ("[device.mechanics]", 'type = "Wall"', "stiffness = 10000.0", "seconds = 6.0"):
+        assert line in text.splitlines(), line
+
+
+def test_what_toml_does_not_name_keeps_its_default() -> None:
+    assert ebac.Scenario.from_toml("") == ebac.Scenario()
+    assert ebac.Scenario.from_toml("[hand]\nmass = 0.3") == ebac.Scenario(hand=ebac.Hand(mass=0.3))
+    expected = ebac.Scenario(device=ebac.Device(kinematics=ebac.Gimbal()), environment=ebac.Free())
+    text = '[device.kinematics]\ntype = "Gimbal"\n[environment]\ntype = "Free"'
+    assert ebac.Scenario.from_toml(text) == expected
+    assert ebac.Scenario.from_toml("[environment]\nstiffness = 5e3").environment == ebac.Wall(
+        stiffness=5e3
+    )
+
+
+def test_whole_numbers_stand_for_real_ones() -> None:
+    assert ebac.Scenario.from_toml("seconds = 2\n[hand]\nmass = 1") == ebac.Scenario(
+        seconds=2.0, hand=ebac.Hand(mass=1.0)
+    )
+
+
+@pytest.mark.parametrize("number", [np.float64(2.5), np.int64(2)])
+def test_a_number_of_numpy_survives_toml_or_is_refused(number: Any) -> None:
+    try:
+        scenario = ebac.Scenario(seconds=number)
+    except TypeError as error:
+        assert "Scenario.seconds" in str(error)  # noqa: PT017
+    else:
+        assert ebac.Scenario.from_toml(scenario.to_toml()) == scenario
+
+
+# --- messages ---
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        (
+            "secnds = 1",
+            "scenario.secnds: no such name, did you mean 'seconds'; there are: device, hand",
+        ),
+        ("[hnd]\nmass = 1", "scenario.hnd: no such name, did you mean 'hand'"),
+        (
+            "[hand]\nmas = 1",
+            "scenario.hand: Hand has no parameter 'mas', did you mean 'mass'; it has: mass",
+        ),
+        ("[device.motr]", "scenario.device: Device has no parameter 'motr', did you mean 'motor'"),
+        ("[hand]\nmass = -1", "scenario.hand: Hand.mass = -1 kg: must lie in [0, 10] kg"),
+        ("[hand]\nmass = 'a'", "scenario.hand: Hand.mass = 'a': must be float in kg"),
+        ("[hand]\nmass = nan", "scenario.hand: Hand.mass = nan kg: must lie in"),
+        ("[timing]\ndelay = 1.5", "scenario.timing: Timing.delay = 1.5: must be int in samples"),
+        (
+            "[timing]\ndelay = 9",
+            "scenario.timing: Timing.delay = 9 samples: must lie in [0, 8] samples",
+        ),
+        ("[device.drive]\npermille = 2", "scenario.device.drive: Drive.permille = 2: must be bool"),
+        (
+            "[device.encoder]\ncounts_per_turn = 0",
+            "scenario.device.encoder: Encoder.counts_per_turn = 0 counts",
+        ),
+        (
+            "[environment]\ntype = 'Fog'",
+            "scenario.environment.type = 'Fog': must be one of Wall, Free, Corner",
+        ),
+        (
+            "[environment]\ntype = 'Free'\nstiffness = 1",
+            "scenario.environment: Free has no parameter 'stiffness'",
+        ),
+        (
+            "[environment]\ntype = 'Corner'\n[environment.first]\ndamping = -1",
+            "scenario.environment.first: Wall.damping = -1 N s/m: must lie in [0, 10000] N s/m",
+        ),
+        (
+            "[[hand.path]]\ntarget = 1\n[[hand.path]]\ntype = 'Sine'\nfrequency = -1",
+            "scenario.hand.path[1]: Sine.frequency = -1 Hz: must lie in [0, 500] Hz",
+        ),
+        (
+            "[[hand.path]]\ntype = 'Recorded'\nt = [0.0, 0.0]\nx = [0.0, 0.0]",
+            "scenario.hand.path[0]: Recorded: time does not rise at point 1",
+        ),
+        (
+            "[device.mechanics]\nbacklash = 1e-3",
+            "scenario.device: Mechanics.backlash = 0.001 m: needs",
+        ),
+        ("hand = 3", "scenario.hand = 3: must be a table"),
+        ("seconds = 'long'", "Scenario.seconds = 'long': must be float or int"),
+        ("seconds = true", "Scenario.seconds = True: must be float or int"),
+        ("seed = 1.0", "Scenario.seed = 1.0: must be int"),
+        ("jitter = 0.5", "Scenario.jitter = 0.5: must lie in [0, 0.45] of a sample"),
+        ("seconds = [", "not a TOML document: "),
+    ],
+)
+def test_a_wrong_document_is_refused_and_the_message_says_where(text: str, message: str) -> None:
+    with pytest.raises(ValueError, match=re.escape(message)):
+        ebac.Scenario.from_toml(text)
+
+
+def test_the_message_names_the_file(tmp_path: Path) -> None:
+    path = tmp_path / "bad.toml"
+    path.write_text("secnds = 1")
+    with pytest.raises(ValueError, match=r"bad\.toml: scenario\.secnds: no such name"):
+        ebac.Scenario.load(path)
+    with pytest.raises(FileNotFoundError):
+        ebac.Scenario.load(tmp_path / "none.toml")
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"seconds": 0.0}, r"Scenario\.seconds = 0\.0 s: must lie in \(0, 100000\] s"),
+        ({"seconds": math.nan}, r"Scenario\.seconds = nan s"),
+        ({"seconds": math.nextafter(1e5, 1e6)}, r"Scenario\.seconds = 100000\.0\d* s"),
+        (
+            {"seconds": 9e-4},
+            r"Scenario\.seconds = 0\.0009 s: must be at least one sample, 0\.001 s",
+        ),
+        ({"jitter": -1e-9}, r"Scenario\.jitter = -1e-09"),
+        ({"jitter": math.nextafter(0.45, 1)}, r"Scenario\.jitter = 0\.45"),
+        ({"seed": -1}, r"Scenario\.seed = -1: must lie in \[0, 2\^63\)"),
+        ({"seed": 2**63}, r"Scenario\.seed = 9223372036854775808"),
+    ],
+)
+def test_a_number_out_of_range_is_refused_by_name(changes: dict[str, Any], message: str) -> None:
+    with pytest.raises(ValueError, match=message):
+        ebac.Scenario(**changes)
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {"seconds": 1e-3},
+        {"seconds": 1e5},
+        {"jitter": 0.45},
+        {"jitter": 0},
+        {"seed": 0},
+        {"seed": 2**63 - 1},
+    ],
+)
+def test_a_number_at_its_bound_is_accepted(changes: dict[str, Any]) -> None:
+    scenario = ebac.Scenario(**changes)
+    for name, value in changes.items():
+        assert getattr(scenario, name) == value
+
+
+@pytest.mark.parametrize(
+    ("name", "value"),
+    [
+        ("device", ebac.Hand()),
+        ("hand", None),
+        ("environment", "wall"),
+        ("timing", 1e-3),
+        ("seconds", "6"),
+        ("seconds", True),
+        ("jitter", None),
+        ("seed", 1.0),
+        ("seed", True),
+    ],
+)
+def test_a_part_of_a_wrong_type_is_refused_by_name(name: str, value: Any) -> None:
+    with pytest.raises(TypeError, match=rf"Scenario\.{name} = "):
+        ebac.Scenario(**{name: value})
+
+
+# --- manners ---
+
+
+def test_a_scenario_is_frozen_and_keyword_only() -> None:
+    scenario = ebac.Scenario()
+    for field in dataclasses.fields(scenario):
+        with pytest.raises(dataclasses.FrozenInstanceError):
+            setattr(scenario, field.name, getattr(scenario, field.name))
+    with pytest.raises(TypeError):
+        ebac.Scenario(ebac.Device())
+
+
+def test_replace_checks_again() -> None:
+    scenario = ebac.Scenario().replace(seconds=1.0)
+    assert scenario.seconds == 1.0
+    assert ebac.Scenario().seconds == 6.0
+    with pytest.raises(ValueError, match="seconds"):
+        scenario.replace(seconds=-1.0)
+    with pytest.raises(TypeError):
+        scenario.replace(secnds=1.0)
+
+
+VALUES = [
+    ebac.AdaptiveWindow(),
+    ebac.BackwardDifference(),
+    ebac.Capstan(),
+    ebac.Compensation(),
+    ebac.Corner(),
+    ebac.Device(),
+    ebac.DeviceFacts(),
+    ebac.Drive(),
+    ebac.Encoder(),
+    ebac.ForceSensor(),
+    ebac.Free(),
+    ebac.Gimbal(),
+    ebac.Hand(),
+    ebac.Linear(),
+    ebac.LowPass(),
+    ebac.Mechanics(),
+    ebac.MinimumJerk(),
+    ebac.Motor(),
+    ebac.Recorded(t=[0.0, 1.0], x=[0.0, 0.1]),
+    ebac.Sine(),
+    ebac.Step(),
+    ebac.Tapping(),
+    ebac.Timing(),
+    ebac.Wall(),
+]
+every_value = pytest.mark.parametrize("value", VALUES, ids=lambda value: type(value).__name__)
+
+
+@every_value
+def test_a_value_is_frozen_hashable_and_equal_to_its_twins(value: Any) -> None:
+    cls = type(value)
+    for twin in (
+        cls(**value.as_dict()),
+        eval(repr(value), dict(vars(ebac))),
+        pickle.loads(pickle.dumps(value)),
+        copy.copy(value),
+        copy.deepcopy(value),
+        value.replace(),
+    ):
+        assert twin == value
+        assert hash(twin) == hash(value)
+    assert value != 1
+    for name in value.as_dict():
+        with pytest.raises(AttributeError):
+            setattr(value, name, getattr(value, name))
+
+
+@every_value
+def test_a_value_refuses_positions_and_unknown_names(value: Any) -> None:
+    cls = type(value)
+    with pytest.raises(TypeError):
+        cls(1.0)
+    with pytest.raises(TypeError, match=r"no_such_name|constructor arguments"):
+        cls(**value.as_dict(), no_such_name=1.0)
+
+
+@pytest.mark.parametrize(
+    ("cls", "field"),
+    [
+        pytest.param(type(v), f, id=f"{type(v).__name__}.{f.name}")
+        for v in VALUES
+        if hasattr(v, "fields")
+        for f in v.fields()
+    ],
+)
+def test_each_bound_is_accepted_and_one_step_beyond_refused(cls: Any, field: Any) -> None:
+    assert field.unit
+    assert field.meaning in cls.__doc__
+    for bound, way in ((field.low, -1), (field.high, 1)):
+        if math.isinf(bound) or field.kind == "bool":
+            continue
+        kind = int if field.kind == "int" else float
+        assert getattr(cls(**{field.name: kind(bound)}), field.name) == bound
+        beyond = int(bound) + way if field.kind == "int" else math.nextafter(bound, way * math.inf)
+        with pytest.raises(ValueError, match=rf"{cls.__name__}\.{field.name} = .*: must lie in \["):
+            cls(**{field.name: beyond})
+    if field.kind == "float":
+        with pytest.raises(ValueError, match=rf"{cls.__name__}\.{field.name} = nan"):
+            cls(**{field.name: math.nan})
