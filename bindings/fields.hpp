@@ -4,7 +4,6 @@
 #include <pybind11/stl.h>
 
 #include <cmath>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -30,12 +29,6 @@ constexpr const char* python_type() {
   return "int";
 }
 
-inline std::string number(double value) {
-  std::ostringstream text;
-  text << value;
-  return text.str();
-}
-
 /// "rated torque [N m], 1e-05 to 1000"
 template <class T>
 std::string describe(const Field<T>& field) {
@@ -43,8 +36,8 @@ std::string describe(const Field<T>& field) {
   if (field.unit != "1") text += " [" + std::string(field.unit) + "]";
   const bool low = std::isfinite(field.low);
   const bool high = std::isfinite(field.high);
-  if (low && high) text += ", " + number(field.low) + " to " + number(field.high);
-  if (low && !high) text += ", at least " + number(field.low);
+  if (low && high) text += ", " + shortest(field.low) + " to " + shortest(field.high);
+  if (low && !high) text += ", at least " + shortest(field.low);
   return text;
 }
 
@@ -74,10 +67,16 @@ bool set_field(T& target, const std::string& owner, const std::string& name, py:
         [&](auto member) {
           using Value = std::remove_cvref_t<decltype(target.*member)>;
           try {
-            if (std::is_same_v<Value, bool> && !py::isinstance<py::bool_>(value))
+            if (std::is_same_v<Value, bool> && !py::isinstance<py::bool_>(value)) {
               throw py::cast_error();
+            }
             target.*member = value.cast<Value>();
           } catch (const py::cast_error&) {
+            if (std::is_same_v<Value, int> &&
+                py::isinstance<py::int_>(value)) {  // too large for an int
+              throw std::invalid_argument(range_message(owner, name, value.cast<double>(),
+                                                        field.unit, field.low, field.high));
+            }
             throw py::type_error(
                 owner + "." + name + " = " + py::cast<std::string>(py::repr(value)) + ": must be " +
                 python_type<Value>() + (field.unit == "1" ? "" : " in " + std::string(field.unit)));

@@ -27,37 +27,39 @@ Axes as_axes(const std::vector<double>& values, int axes, const char* what) {
 template <class K>
 void add_kinematics(py::class_<K>& cls) {
   cls.def_property_readonly(
-         "axes", [](const K& k) { return static_cast<int>(k.axes); }, "Number of axes.")
+         "axes", [](const K& k) { return ebac::axes(k); }, "Number of axes.")
       .def(
           "forward",
           [](const K& k, const std::vector<double>& q) -> Eigen::VectorXd {
-            return k.forward(as_axes(q, k.axes, "q")).head(k.axes);
+            return k.forward(as_axes(q, ebac::axes(k), "q")).head(ebac::axes(k));
           },
           py::arg("q"), "Handle position [m] at joint angles q [rad], shape (axes,).")
       .def(
           "inverse",
           [](const K& k, const std::vector<double>& x) -> Eigen::VectorXd {
-            return k.inverse(as_axes(x, k.axes, "x")).head(k.axes);
+            return k.inverse(as_axes(x, ebac::axes(k), "x")).head(ebac::axes(k));
           },
           py::arg("x"), "Joint angles [rad] at handle position x [m], shape (axes,).")
       .def(
           "jacobian",
           [](const K& k, const std::vector<double>& q) -> Eigen::MatrixXd {
-            return k.jacobian(as_axes(q, k.axes, "q")).topLeftCorner(k.axes, k.axes);
+            return k.jacobian(as_axes(q, ebac::axes(k), "q"))
+                .topLeftCorner(ebac::axes(k), ebac::axes(k));
           },
           py::arg("q"), "dx/dq [m/rad] at q [rad], shape (axes, axes).")
       .def(
           "transpose",
           [](const K& k, const std::vector<double>& q,
              const std::vector<double>& f) -> Eigen::VectorXd {
-            return ebac::transpose(k, as_axes(q, k.axes, "q"), as_axes(f, k.axes, "f"))
-                .head(k.axes);
+            return ebac::transpose(k, as_axes(q, ebac::axes(k), "q"),
+                                   as_axes(f, ebac::axes(k), "f"))
+                .head(ebac::axes(k));
           },
           py::arg("q"), py::arg("f"), "Joint torques J^T f [N m] that show f [N] at the handle.")
       .def(
           "within_limits",
           [](const K& k, const std::vector<double>& q) {
-            return ebac::within_limits(k, as_axes(q, k.axes, "q"));
+            return ebac::within_limits(k, as_axes(q, ebac::axes(k), "q"));
           },
           py::arg("q"), "Whether every joint is within its limit.");
 }
@@ -74,7 +76,7 @@ void bind_kinematics(py::module_& m) {
   gimbal.def(
       "height",
       [](const Gimbal& k, const std::vector<double>& q) {
-        return k.height(as_axes(q, k.axes, "q"));
+        return k.height(as_axes(q, ebac::axes(k), "q"));
       },
       py::arg("q"), "z of the handle [m] above the joints.");
 }
@@ -293,7 +295,8 @@ void bind_hand(py::module_& m) {
           "MinimumJerk | Sine | Tapping | Recorded] = ...) -> None");
   add_members<Hand>(cls, [](const Hand& hand) -> const Hand& { return hand; });
   cls.def_property_readonly(
-         "path", [](const Hand& hand) { return std::make_tuple(hand.path[0], hand.path[1], hand.path[2]); },
+         "path",
+         [](const Hand& hand) { return std::make_tuple(hand.path[0], hand.path[1], hand.path[2]); },
          "Intended path of each axis.")
       .def(
           "target",

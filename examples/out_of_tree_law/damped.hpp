@@ -2,9 +2,8 @@
 
 #include <algorithm>
 #include <array>
-#include <string_view>
-
 #include <ebac/core/concepts.hpp>
+#include <string_view>
 
 /// A law of your own: the world's force plus a virtual damper while in contact.
 class Damped {

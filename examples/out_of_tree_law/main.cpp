@@ -1,5 +1,4 @@
 #include <cstdio>
-
 #include <ebac/sim/simulate.hpp>
 
 #include "damped.hpp"

@@ -243,6 +243,8 @@ class Timing:
         sample time [s], 1e-05 to 0.1.
     delay : int
         ticks from computing a command to its acting; 1 is a synchronous CAN drive [samples], 0 to 8.
+    jitter : float
+        largest deviation of a tick from its instant, over the sample time, that laws count with, 0 to 0.45.
     """
     @staticmethod
     def fields() -> list[Field]:
@@ -251,7 +253,7 @@ class Timing:
         """
     def __eq__(self, other: typing.Any) -> bool: ...
     def __hash__(self) -> int: ...
-    def __init__(self, *, dt: float = 0.001, delay: int = 1) -> None: ...
+    def __init__(self, *, dt: float = 0.001, delay: int = 1, jitter: float = 0.0) -> None: ...
     def __reduce__(self) -> tuple[typing.Any, ...]: ...
     def __repr__(self) -> str: ...
     def as_dict(self) -> dict[str, typing.Any]:
@@ -271,6 +273,11 @@ class Timing:
     def dt(self) -> float:
         """
         sample time [s], 1e-05 to 0.1
+        """
+    @property
+    def jitter(self) -> float:
+        """
+        largest deviation of a tick from its instant, over the sample time, that laws count with, 0 to 0.45
         """
 
 class DeviceFacts:
@@ -351,7 +358,7 @@ class Linear:
     axes : int
         number of independent axes, 1 to 3.
     radius : float
-        lever radius: travel per joint angle [m], 0.0001 to 10.
+        lever radius: travel per joint angle [m], 1e-04 to 10.
     limit : float
         largest joint angle either way [rad], 0.001 to 1000.
     """
@@ -420,7 +427,7 @@ class Linear:
     @property
     def radius(self) -> float:
         """
-        lever radius: travel per joint angle [m], 0.0001 to 10
+        lever radius: travel per joint angle [m], 1e-04 to 10
         """
 
 class Gimbal:
@@ -432,7 +439,7 @@ class Gimbal:
     Parameters
     ----------
     radius : float
-        lever radius (paper, IV.A) [m], 0.0001 to 10.
+        lever radius (paper, IV.A) [m], 1e-04 to 10.
     limit : float
         largest angle of each joint either way, eq. (11) [rad], 0.001 to 1.5.
     """
@@ -505,7 +512,7 @@ class Gimbal:
     @property
     def radius(self) -> float:
         """
-        lever radius (paper, IV.A) [m], 0.0001 to 10
+        lever radius (paper, IV.A) [m], 1e-04 to 10
         """
 
 class Motor:
@@ -645,7 +652,7 @@ class Encoder:
     Parameters
     ----------
     counts_per_turn : int
-        counts per motor turn, after any quadrature [counts], 1 to 6.71089e+07.
+        counts per motor turn, after any quadrature [counts], 1 to 67108864.
     counter_bits : int
         width of the drive's counter, which wraps [bits], 8 to 63.
     """
@@ -692,7 +699,7 @@ class Encoder:
     @property
     def counts_per_turn(self) -> int:
         """
-        counts per motor turn, after any quadrature [counts], 1 to 6.71089e+07
+        counts per motor turn, after any quadrature [counts], 1 to 67108864
         """
 
 class Capstan:
@@ -702,9 +709,9 @@ class Capstan:
     Parameters
     ----------
     drum_radius : float
-        radius of the drum on the motor (paper, IV.D) [m], 0.0001 to 1.
+        radius of the drum on the motor (paper, IV.D) [m], 1e-04 to 1.
     sector_radius : float
-        radius of the sector on the lever; 42.4 N at the handle needs it equal to the lever [m], 0.0001 to 10.
+        radius of the sector on the lever; 42.4 N at the handle needs it equal to the lever [m], 1e-04 to 10.
     """
     @staticmethod
     def fields() -> list[Field]:
@@ -727,7 +734,7 @@ class Capstan:
     @property
     def drum_radius(self) -> float:
         """
-        radius of the drum on the motor (paper, IV.D) [m], 0.0001 to 1
+        radius of the drum on the motor (paper, IV.D) [m], 1e-04 to 1
         """
     @property
     def ratio(self) -> float:
@@ -737,7 +744,7 @@ class Capstan:
     @property
     def sector_radius(self) -> float:
         """
-        radius of the sector on the lever; 42.4 N at the handle needs it equal to the lever [m], 0.0001 to 10
+        radius of the sector on the lever; 42.4 N at the handle needs it equal to the lever [m], 1e-04 to 10
         """
 
 class BackwardDifference:
@@ -950,7 +957,7 @@ class ForceSensor:
     quantum : float
         one step of its reading; 0 for none [N], 0 to 100.
     range : float
-        largest force it can show; it saturates [N], 0.001 to 100000.
+        largest force it can show; it saturates [N], 0.001 to 1e+05.
     """
     @staticmethod
     def fields() -> list[Field]:
@@ -990,7 +997,7 @@ class ForceSensor:
     @property
     def range(self) -> float:
         """
-        largest force it can show; it saturates [N], 0.001 to 100000
+        largest force it can show; it saturates [N], 0.001 to 1e+05
         """
 
 class Compensation:
@@ -1004,11 +1011,11 @@ class Compensation:
     friction : float
         Coulomb friction given back [N], 0 to 100.
     friction_speed : float
-        speed at which friction is given back in full [m/s], 0.0001 to 10.
+        speed at which friction is given back in full [m/s], 1e-04 to 10.
     inertia : float
         mass given back [kg], 0 to 100.
     inertia_lag : float
-        filter on the acceleration it uses [s], 0.0001 to 1.
+        filter on the acceleration it uses [s], 1e-04 to 1.
     """
     @staticmethod
     def fields() -> list[Field]:
@@ -1060,7 +1067,7 @@ class Compensation:
     @property
     def friction_speed(self) -> float:
         """
-        speed at which friction is given back in full [m/s], 0.0001 to 10
+        speed at which friction is given back in full [m/s], 1e-04 to 10
         """
     @property
     def gravity_mass(self) -> float:
@@ -1075,7 +1082,7 @@ class Compensation:
     @property
     def inertia_lag(self) -> float:
         """
-        filter on the acceleration it uses [s], 0.0001 to 1
+        filter on the acceleration it uses [s], 1e-04 to 1
         """
 
 class Device:
@@ -1444,7 +1451,7 @@ class Hand:
     damping : float
         B0 of eq. (4) [N s/m], 0 to 1000.
     stiffness : float
-        K0 of eq. (4) [N/m], 0 to 100000.
+        K0 of eq. (4) [N/m], 0 to 1e+05.
     tremor_amplitude : float
         tremor on top of the path, on every axis [m], 0 to 0.1.
     tremor_frequency : float
@@ -1522,7 +1529,7 @@ class Hand:
     @property
     def stiffness(self) -> float:
         """
-        K0 of eq. (4) [N/m], 0 to 100000
+        K0 of eq. (4) [N/m], 0 to 1e+05
         """
     @property
     def tremor_amplitude(self) -> float:
@@ -2085,9 +2092,13 @@ class EBA:
     Parameters
     ----------
     damping : float
-        lower bound of the device's physical damping, b [N s/m], 0 to 500.
+        lower bound of the device's physical damping, b [N s/m], 0.01 to 500.
     share : float
         c over its largest value 2 b / ((1 + 2 d) T), 0.001 to 1.
+    current_lag : float
+        time constant of the drive's current loop [s], 0 to 0.1.
+    count : float
+        one encoder count at the handle [m], 0 to 0.01.
     peak_force : float
         largest command [N], 0.001 to 10000.
     """
@@ -2151,6 +2162,8 @@ class EBA:
         *,
         damping: float = 2.0,
         share: float = 1.0,
+        current_lag: float = 0.0003,
+        count: float = 3.07e-05,
         peak_force: float = 42.4,
         timing: Timing = ...,
     ) -> None: ...
@@ -2184,9 +2197,19 @@ class EBA:
         One tick of one axis: the force it commands [N].
         """
     @property
+    def count(self) -> float:
+        """
+        one encoder count at the handle [m], 0 to 0.01
+        """
+    @property
+    def current_lag(self) -> float:
+        """
+        time constant of the drive's current loop [s], 0 to 0.1
+        """
+    @property
     def damping(self) -> float:
         """
-        lower bound of the device's physical damping, b [N s/m], 0 to 500
+        lower bound of the device's physical damping, b [N s/m], 0.01 to 500
         """
     @property
     def peak_force(self) -> float:

@@ -85,7 +85,7 @@ def unknown(where: str, name: str, known: list[str]) -> str:
 def _chosen(name: str, table: Mapping[str, Any], where: str) -> type:
     types = {t.__name__: t for t in CHOICES[name]}
     wanted = table.get("type", next(iter(types)))
-    if wanted not in types:
+    if not isinstance(wanted, str) or wanted not in types:
         raise ValueError(f"{where}.type = {wanted!r}: must be one of {', '.join(types)}")
     return types[wanted]
 

@@ -78,6 +78,13 @@ class Scenario:
                 f"Scenario.seconds = {self.seconds} s: must be at least one sample, {self.timing.dt} s"
             )
 
+    @property
+    def known_timing(self) -> Timing:
+        """What a law designed for this scenario is told of time: its jitter is no secret."""
+        if self.jitter <= self.timing.jitter:
+            return self.timing
+        return self.timing.replace(jitter=self.jitter)
+
     def replace(self, **changes: Any) -> Self:
         """Return a copy with some parts changed."""
         return dataclasses.replace(self, **changes)

@@ -40,7 +40,7 @@ def simulate(scenario: Scenario, law: AnyLaw = "ebac", **changes: Any) -> Trace:
     scenario : Scenario
         Device, hand, virtual world and time.
     law : str, law class, law or PythonLaw
-        A name or class is designed for the scenario's device and timing; a law is used as it is.
+        A name or class is designed for the scenario's device and timing, jitter included; a law is used as it is.
     **changes
         Parameters to set on top of the design, in their SI units.
 
@@ -56,7 +56,7 @@ def simulate(scenario: Scenario, law: AnyLaw = "ebac", **changes: Any) -> Trace:
     KeyError, TypeError, ValueError
         For a law that does not exist or cannot be made; see `design`.
     """
-    finished = design(law, scenario.device, scenario.timing, **changes)
+    finished = design(law, scenario.device, scenario.known_timing, **changes)
     setup = scenario.setup()
     if isinstance(finished, CoreLaw):
         rows = finished._simulate(setup)

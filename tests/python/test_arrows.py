@@ -37,7 +37,7 @@ SLOW = {
     *("mutex", "thread", "future", "condition_variable"),
 }
 #: what checks parameters, before the loop, by exceptions that name them.
-EXCEPTIONS = {"core/check.hpp": {"string", "sstream", "stdexcept"}}
+EXCEPTIONS = {"core/check.hpp": {"string", "stdexcept"}}
 
 sources = pytest.mark.parametrize(
     "path", sorted(CPP.rglob("*.[hc]pp")), ids=lambda path: str(path.relative_to(CPP))

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import Phase, given, settings
+from hypothesis import Phase, example, given, settings
 from hypothesis import strategies as st
 
 import ebac
@@ -375,7 +375,8 @@ def test_a_value_far_outside_is_shown_in_the_message(cls: Any, field: Any) -> No
     value = typed(field, 2 * field.high + 1)
     with pytest.raises(ValueError) as caught:  # noqa: PT011
         cls(**{field.name: value})
-    assert f".{field.name} = {value:g}" in str(caught.value)
+    shown = str(caught.value).partition(f".{field.name} = ")[2].partition(":")[0].split()[0]
+    assert float(shown) == value
 
 
 @every_parameter
@@ -554,6 +555,11 @@ def worlds(ticks: st.SearchStrategy[float]) -> st.SearchStrategy[list[Any]]:
 even, late = worlds(st.just(1.0)), worlds(st.floats(0.1, 1.9))
 
 
+def bare(damping: float) -> ebac.DeviceFacts:
+    """A device without lag and without counts: what the account of these worlds is exact for."""
+    return ebac.DeviceFacts(damping=damping, current_lag=0, count=0)
+
+
 def least_energy(law: Any, world: list[Any]) -> tuple[float, float]:
     """Lowest W + D of a law whose commands act `delay` ticks late, and the sum of all sizes.
 
@@ -588,38 +594,26 @@ def least_energy(law: Any, world: list[Any]) -> tuple[float, float]:
     world=even,
     delay=st.integers(0, 2),
     dt=st.sampled_from([2.5e-4, 1e-3, 4e-3]),
-    b=st.floats(0, 50),
+    b=st.floats(0.01, 50),
 )
 def test_a_passive_law_keeps_its_bound_in_any_world(
     name: str, world: list[Any], delay: int, dt: float, b: float
 ) -> None:
-    law = ebac.LAWS[name](damping=b, timing=ebac.Timing(dt=dt, delay=delay))
+    law = ebac.design(name, bare(b), ebac.Timing(dt=dt, delay=delay))
     least, size = least_energy(law, world)
     assert least >= -1e-12 * (size + 1e-6)
 
 
-late_ticks_pay = pytest.mark.xfail(
-    reason="a force is paid for with b/dt of its own tick, not of the longer one it acts over"
-)
-
-
-@late_ticks_pay
-def test_eba_pays_for_a_tick_that_comes_late() -> None:
-    law = ebac.EBA(damping=2.0, timing=ebac.Timing(delay=0))
-    least, _ = least_energy(
-        law, [(("by", 1e-3), ("force", 100.0), 1.0), (("dearest", 1.0), ("force", 0.0), 1.9)]
-    )
-    assert least >= -1e-15
-
-
-@late_ticks_pay
 @pytest.mark.parametrize("name", PASSIVE)
-@settings(phases=[Phase.generate])
+@settings(phases=[Phase.explicit, Phase.generate])
 @given(world=late, delay=st.integers(0, 2))
+@example(
+    world=[(("by", 1e-3), ("force", 100.0), 1.0), (("dearest", 1.0), ("force", 0.0), 1.9)], delay=0
+)
 def test_a_passive_law_keeps_its_bound_when_ticks_come_late(
     name: str, world: list[Any], delay: int
 ) -> None:
-    law = ebac.design(name, ebac.Device(), ebac.Timing(delay=delay))
+    law = ebac.design(name, bare(2.0), ebac.Timing(delay=delay, jitter=0.45))
     least, size = least_energy(law, world)
     assert least >= -1e-12 * (size + 1e-6)
 

@@ -184,8 +184,10 @@ def test_eba_keeps_its_bound_in_closed_loop(
         device=device, hand=hand, environment=wall, timing=ebac.Timing(delay=delay), seconds=0.5
     )
     trace = ebac.simulate(scenario, "eba")
-    assert (trace["work"] + trace["damped"]).min() >= -1e-12
-    assert trace["law.account"] == pytest.approx(trace["work"] + trace["damped"], abs=1e-12)
+    # What no encoder can see: motion within one count under a force that changes.
+    unseen = device.count * np.abs(np.diff(trace["f_applied"], prepend=0.0)).sum()
+    assert trace["law.account"].min() >= -unseen - 1e-12
+    assert trace["true.energy"].min() >= -unseen - 1e-12
 
 
 @given(hand=hands, wall=walls, delay=st.integers(0, 2), damping=st.floats(0.1, 10))

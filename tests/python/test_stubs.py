@@ -58,7 +58,9 @@ def module_members(owner: ModuleType | type, prefix: str = "") -> Description:
         elif isinstance(value, property):
             found[prefix + name] = "read-write" if value.fset else "read-only"
         elif isinstance(value, staticmethod) or callable(value):
-            found[prefix + name] = signatures(name, value.__doc__)
+            told = signatures(name, getattr(owner, name).__doc__)
+            if name != "__init__" or told:  # else Python's own: nobody can make one
+                found[prefix + name] = told
         else:
             found[prefix + name] = "value"
     return found

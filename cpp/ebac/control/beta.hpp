@@ -11,15 +11,17 @@ namespace ebac {
 
 inline constexpr double kUndefined = std::numeric_limits<double>::quiet_NaN();
 
-/// Square of the largest |F_k| that grows the storage F^2/(2c) by no more than port work plus what the damping
-/// B = b/T [N/m] surely took over `dx`: F_k^2 <= F^2 + 2 c (F dx + B dx^2). Never negative for c <= 2 B.
-inline double energy_bound_squared(double force, double dx, double c, double damping_per_tick) EBAC_RT {
+/// Square of the largest |F_k| that grows the storage F^2/(2c) by no more than port work plus what
+/// the damping B = b/T [N/m] surely took over `dx`: F_k^2 <= F^2 + 2 c (F dx + B dx^2). Never
+/// negative for c <= 2 B.
+inline double energy_bound_squared(double force, double dx, double c,
+                                   double damping_per_tick) EBAC_RT {
   const double square = force * force + 2 * c * dx * (force + damping_per_tick * dx);
   return square > 0 ? square : 0.0;
 }
 
-/// One tick of eq. (8), (9) as a trace shows it: beta = dF / dx and the limits it was held to. Undefined
-/// (NaN, a gap in the plot) where dx = 0. Laws derive their State from it.
+/// One tick of eq. (8), (9) as a trace shows it: beta = dF / dx and the limits it was held to.
+/// Undefined (NaN, a gap in the plot) where dx = 0. Laws derive their State from it.
 struct BetaTrace {
   double beta = kUndefined;      // N/m
   double beta_min = kUndefined;  // N/m

@@ -23,8 +23,7 @@ class Direct {
     }
     static constexpr auto fields() {
       using F = Field<Params>;
-      return std::array{
-          F{"peak_force", &Params::peak_force, "N", "largest command", 1e-3, 1e4}};
+      return std::array{F{"peak_force", &Params::peak_force, "N", "largest command", 1e-3, 1e4}};
     }
   };
 

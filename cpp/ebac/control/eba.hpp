@@ -6,16 +6,17 @@
 #include <string_view>
 
 #include "ebac/control/beta.hpp"
+#include "ebac/control/energy_ledger.hpp"
 #include "ebac/control/pending.hpp"
 #include "ebac/core/concepts.hpp"
 
 namespace ebac {
 
-/// The energy-bounding algorithm of Kim and Ryu, eq. (8), (9): quiet on any wall and too soft by design,
-/// because the stiffness it shows tends to c = 2 b / ((1 + 2 d) T).
+/// The energy-bounding algorithm of Kim and Ryu, eq. (8), (9): quiet on any wall and too soft by
+/// design, because the stiffness it shows tends to c = 2 b / ((1 + 2 d) T).
 ///
-/// Two bounds. The storage bound (E) is the law itself; the account (D) behind it holds for every history
-/// and every delay, and is what the stated passivity rests on.
+/// Two bounds. The storage bound (E) is the law itself; the account (D) behind it holds for every
+/// history and every delay, and is what the stated passivity rests on.
 class Eba {
  public:
   static constexpr std::string_view kName = "eba";
@@ -23,26 +24,34 @@ class Eba {
   static constexpr bool kPassive = true;
 
   struct Params {
-    double damping = 2.0;      // N s/m
+    double damping = 2.0;  // N s/m
     double share = 1.0;
-    double peak_force = 42.4;  // N
+    double current_lag = 3e-4;  // s
+    double count = 3.07e-5;     // m
+    double peak_force = 42.4;   // N
 
     static constexpr Params design(const DeviceFacts& facts, Timing) {
-      return {.damping = facts.damping, .peak_force = facts.peak_force};
+      return {.damping = facts.damping,
+              .current_lag = facts.current_lag,
+              .count = facts.count,
+              .peak_force = facts.peak_force};
     }
     static constexpr auto fields() {
       using F = Field<Params>;
       return std::array{
           F{"damping", &Params::damping, "N s/m", "lower bound of the device's physical damping, b",
-            0, 500},
+            0.01, 500},
           F{"share", &Params::share, "1", "c over its largest value 2 b / ((1 + 2 d) T)", 1e-3, 1},
+          F{"current_lag", &Params::current_lag, "s", "time constant of the drive's current loop",
+            0, 0.1},
+          F{"count", &Params::count, "m", "one encoder count at the handle", 0, 0.01},
           F{"peak_force", &Params::peak_force, "N", "largest command", 1e-3, 1e4},
       };
     }
   };
 
   struct State : BetaTrace {
-    double account = 0;    // J
+    double account = 0;  // J
     bool clamped = false;
 
     static constexpr auto fields() {
@@ -58,42 +67,63 @@ class Eba {
   };
 
   explicit Eba(const Params& params, const Timing& timing = {})
-      : params_(checked(params, "EBA")), timing_(checked(timing, "Timing")), pending_(timing.delay) {}
+      : params_(checked(params, "EBA")),
+        timing_(checked(timing, "Timing")),
+        b_(params.damping / timing.longest()),
+        c_(params.share * 2 * b_ / (1 + 2 * timing.delay)),
+        ledger_(params.damping, params.count, params.current_lag, 0),
+        pending_(timing.delay) {}
 
   double step(const Port& port) EBAC_RT {
-    if (!(port.dt > 0)) return command_ = 0;
-    const double b = params_.damping / port.dt;                      // B = b/T
-    const double c = params_.share * 2 * b / (1 + 2 * timing_.delay);
-    const double dx = port.dx;
-
-    state_.account += (port.f_applied + b * dx) * dx;                // (D)
-    const double spare = 4 * b * state_.account - pending_.sum_of_squares();
-    const double bound = std::sqrt(
-        std::min(energy_bound_squared(command_, dx, c, b), std::max(spare, 0.0)));
+    if (!(port.dt > 0)) return 0;
+    if (port.dt != dt_) set_tick(port.dt);
+    ledger_.take(port.f_applied, port.dx);
+    state_.account = ledger_.energy();
 
     const double before = command_;
+    const double stored =
+        energy_bound_squared(before, port.dx, c_, params_.damping / port.dt);  // (E)
+    const double bound = std::min(std::sqrt(stored), covered());               // (D)
     const double most = std::min(bound, params_.peak_force);
-    command_ = std::clamp(port.f_env, -most, most);                  // eq. (8), (9), bounded
+    command_ = std::clamp(port.f_env, -most, most);  // eq. (8), (9), bounded
     state_.clamped = command_ != port.f_env;
-    state_.tell(before, command_, dx, bound);
+    state_.tell(before, command_, port.dx, bound);
     pending_.push(command_);
     return command_;
   }
 
   void reset() EBAC_RT {
-    state_ = {};
-    command_ = 0;
+    ledger_ = EnergyLedger(params_.damping, params_.count, params_.current_lag, 0);
     pending_ = Pending(timing_.delay);
+    command_ = dt_ = 0;
+    state_ = {};
   }
   const State& state() const EBAC_RT { return state_; }
   const Params& params() const EBAC_RT { return params_; }
   const Timing& timing() const EBAC_RT { return timing_; }
 
  private:
+  void set_tick(double dt) EBAC_RT {
+    dt_ = dt;
+    ledger_.set_tick(dt);
+  }
+
+  /// The force the account covers beside the commands under way and the decaying force of the last
+  /// one.
+  double covered() const EBAC_RT {
+    const double under_way = pending_.sum_of_squares() + ledger_.tail_squared();
+    return covered_force(state_.account - under_way / (4 * b_), b_, params_.count,
+                         pending_.largest_with(0));
+  }
+
   Params params_;
   Timing timing_;
+  double b_;  // N/m, B = b/T over the longest tick a force may act for
+  double c_;  // N/m
+  EnergyLedger ledger_;
   Pending pending_;
   double command_ = 0;  // F_d(t-1)
+  double dt_ = 0;
   State state_{};
 };
 

@@ -16,14 +16,16 @@
 
 namespace ebac {
 
-/// The closed-loop energy-bounding algorithm, completed: eq. (8) to (10) while the device moves, and what the
-/// paper leaves open. In the order of `step`:
+/// The closed-loop energy-bounding algorithm, completed: eq. (8) to (10) while the device moves,
+/// and what the paper leaves open. In the order of `step`:
 ///
 ///   1. ledger      the energy the virtual side holds, on the force really applied
-///   2. motion      eq. (9), the continuity of eq. (10), and the bound last: stiffness up to c_h = 0.9 M_h w^2
+///   2. motion      eq. (9), the continuity of eq. (10), and the bound last: stiffness up to c_h =
+///   0.9 M_h w^2
 ///   3. recovery    where dx = 0 and eq. (9) is undefined, F_d relaxes to F_e
 ///   4. release     contact lost: F_d = 0, always admissible
-///   5. damping     B_v = M_h w on a play-filtered velocity, w = min(0.35/t_d, ...): what the loop can carry
+///   5. damping     B_v = M_h w on a play-filtered velocity, w = min(0.35/t_d, ...): what the loop
+///   can carry
 ///   6. force loop  eq. (2), with a small K_p
 ///   7. guard       the total command is held to what the ledger covers
 ///
@@ -33,22 +35,23 @@ class Ebac {
   static constexpr std::string_view kName = "ebac";
   static constexpr std::string_view kSummary =
       "eq. (8) to (10) and (2), completed: recovery, damping, guard";
-  static constexpr bool kPassive = false;  // guarded, not proven: the guard's assumptions are in the docs
+  static constexpr bool kPassive =
+      false;  // guarded, not proven: the guard's assumptions are in the docs
 
   struct Params {
-    double damping = 2.0;         // N s/m
-    double mass = 0.25;           // kg
-    double current_lag = 3e-4;    // s
-    double count = 3.07e-5;       // m
-    double peak_force = 42.4;     // N
+    double damping = 2.0;       // N s/m
+    double mass = 0.25;         // kg
+    double current_lag = 3e-4;  // s
+    double count = 3.07e-5;     // m
+    double peak_force = 42.4;   // N
     double growth = 1.2;
     double decay = 0.8;
     double kp = 0.1;
-    double kd = 0;                // s
-    double filter = 5e-3;         // s
-    double heaviest_hand = 1.5;   // kg
-    double pull = 20;             // N
-    double reserve = 0.010;       // J
+    double kd = 0;               // s
+    double filter = 5e-3;        // s
+    double heaviest_hand = 1.5;  // kg
+    double pull = 20;            // N
+    double reserve = 0.010;      // J
     bool continuity = true;
     bool recovery = true;
     bool injection = true;
@@ -66,19 +69,20 @@ class Ebac {
       return std::array{
           F{"damping", &Params::damping, "N s/m", "lower bound of the device's physical damping, b",
             0.01, 500},
-          F{"mass", &Params::mass, "kg", "device mass at the handle, M_h; an under-estimate is safe",
-            1e-3, 100},
-          F{"current_lag", &Params::current_lag, "s", "time constant of the drive's current loop", 0,
-            0.1},
+          F{"mass", &Params::mass, "kg",
+            "device mass at the handle, M_h; an under-estimate is safe", 1e-3, 100},
+          F{"current_lag", &Params::current_lag, "s", "time constant of the drive's current loop",
+            0, 0.1},
           F{"count", &Params::count, "m", "one encoder count at the handle", 0, 0.01},
           F{"peak_force", &Params::peak_force, "N", "largest command", 1e-3, 1e4},
           F{"growth", &Params::growth, "1", "c1 of eq. (10)", 1, 1.2},
           F{"decay", &Params::decay, "1", "c2 of eq. (10)", 0.8, 1},
-          F{"kp", &Params::kp, "1", "K_p of eq. (2); it divides the device's damping by 1 + K_p", 0, 0.5},
+          F{"kp", &Params::kp, "1", "K_p of eq. (2); it divides the device's damping by 1 + K_p", 0,
+            0.5},
           F{"kd", &Params::kd, "s", "K_d of eq. (2)", 0, 0.01},
           F{"filter", &Params::filter, "s", "low-pass on the derivative of the force error", 0, 1},
-          F{"heaviest_hand", &Params::heaviest_hand, "kg", "heaviest hand the recovery is paced for", 0,
-            10},
+          F{"heaviest_hand", &Params::heaviest_hand, "kg",
+            "heaviest hand the recovery is paced for", 0, 10},
           F{"pull", &Params::pull, "N", "largest pull of a hand the guard counts with", 0, 1e3},
           F{"reserve", &Params::reserve, "J", "energy lent at the start, e(0) of eq. (3)", 0, 1},
           F{"continuity", &Params::continuity, "1", "ratio rows of eq. (10)", 0, 1},
@@ -108,7 +112,8 @@ class Ebac {
           F{"energy", &State::energy, "J", "ledger: what the virtual side may give back"},
           F{"slope", &State::slope, "N/m", "stiffness of the environment as seen"},
           F{"admitted", &State::admitted, "1", "share of the command the guard let through"},
-          F{"clamped", &State::clamped, "1", "1 where the energy bound or the guard held the force"},
+          F{"clamped", &State::clamped, "1",
+            "1 where the energy bound or the guard held the force"},
       };
     }
   };
@@ -120,27 +125,28 @@ class Ebac {
         loop_(params.kp, params.kd, params.filter),
         ledger_(params.damping, params.count, params.current_lag, params.reserve),
         velocity_(params.count, design_.velocity_lag),
-        guard_(params.damping, params.mass, params.count, params.pull),
+        guard_(params.damping, params.mass, params.count, params.pull, timing.longest()),
         pending_(timing.delay) {
     reset();
   }
 
   double step(const Port& port) EBAC_RT {
     if (!(port.dt > 0)) return begin(port);
-    ledger_.take(port.f_applied, port.dx, port.dt);         // 1
-    const double v = velocity_.step(port.x, port.dt);
+    if (port.dt != dt_) set_tick(port.dt);
+    ledger_.take(port.f_applied, port.dx);  // 1
+    const double v = velocity_.step(port.x);
     watch(port);
     state_.clamped = false;
     state_.admitted = 1;
     if (port.f_env == 0) {
-      release();                                            // 4
+      release();  // 4
     } else if (port.dx != 0) {
-      move(port);                                           // 2
+      move(port);  // 2
     } else if (params_.recovery) {
-      recover(port);                                        // 3
+      recover(port);  // 3
     }
     state_.f_d = std::clamp(state_.f_d, -params_.peak_force, params_.peak_force);
-    const double wanted = port.f_env == 0 ? 0.0 : complete(port, v);  // 5, 6
+    const double wanted = port.f_env == 0 ? 0.0 : complete(port, v);        // 5, 6
     const double command = params_.guard ? guarded(wanted, port) : wanted;  // 7
     finish(command, port);
     return command;
@@ -154,9 +160,10 @@ class Ebac {
     state_ = {};
     state_.energy = params_.reserve;
     last_env_ = clock_ = time_ = 0;
+    dt_ = 0;
     pace_ = 1;
     heading_ = 0;
-    contact_slope_ = kAnyHigh;
+    contact_slope_ = design_.stiffness;
     ratio_ = 0;
   }
 
@@ -164,9 +171,9 @@ class Ebac {
   const Params& params() const EBAC_RT { return params_; }
   const Timing& timing() const EBAC_RT { return timing_; }
 
-  double bandwidth() const EBAC_RT { return design_.bandwidth; }            // rad/s
-  double moving_stiffness() const EBAC_RT { return design_.stiffness; }     // N/m
-  double virtual_damping() const EBAC_RT { return design_.damping; }        // N s/m
+  double bandwidth() const EBAC_RT { return design_.bandwidth; }         // rad/s
+  double moving_stiffness() const EBAC_RT { return design_.stiffness; }  // N/m
+  double virtual_damping() const EBAC_RT { return design_.damping; }     // N s/m
 
  private:
   /// Everything that follows from device and timing.
@@ -178,8 +185,8 @@ class Ebac {
     double recovery_time;  // s, T_r
 
     Design(const Params& p, Timing timing) EBAC_RT {
-      constexpr double kPhaseLag = 0.35;    // rad of delay at w, against 0.8 rad of lead
-      constexpr double kCountForce = 1.0;   // N, largest force step one count may cause
+      constexpr double kPhaseLag = 0.35;      // rad of delay at w, against 0.8 rad of lead
+      constexpr double kCountForce = 1.0;     // N, largest force step one count may cause
       constexpr double kVelocityTime = 1e-3;  // s
       const double late = (timing.delay + 0.5) * timing.dt + p.current_lag;
       const double smooth = kCountForce * std::max(timing.dt, kVelocityTime) / (p.count * p.mass);
@@ -190,6 +197,13 @@ class Ebac {
       recovery_time = 2.2 * (p.heaviest_hand + p.mass) / damping;
     }
   };
+
+  /// What follows from the time since the last tick alone.
+  void set_tick(double dt) EBAC_RT {
+    dt_ = dt;
+    ledger_.set_tick(dt);
+    velocity_.set_tick(dt);
+  }
 
   double begin(const Port& port) EBAC_RT {
     velocity_.start(port.x);
@@ -229,16 +243,17 @@ class Ebac {
   void move(const Port& port) EBAC_RT {
     const double dx = port.dx;
     const double before = state_.f_d;
-    double rise = port.f_env - before;                                   // eq. (9): beta dx
+    double rise = port.f_env - before;  // eq. (9): beta dx
     const bool releasing = before * dx < 0 && std::abs(port.f_env) < std::abs(before);
     if (params_.continuity && !releasing) {
-      const double least = 0.5 * design_.stiffness * std::abs(dx);       // the floor
-      const double grown = params_.growth * ratio_ * dx;                 // eq. (10), rows 3 and 4,
-      const double decayed = params_.decay * ratio_ * dx;                // sorted
-      rise = std::clamp(rise, std::min({grown, decayed, -least}), std::max({grown, decayed, least}));
+      const double least = 0.5 * design_.stiffness * std::abs(dx);  // the floor
+      const double grown = params_.growth * ratio_ * dx;            // eq. (10), rows 3 and 4,
+      const double decayed = params_.decay * ratio_ * dx;           // sorted
+      rise =
+          std::clamp(rise, std::min({grown, decayed, -least}), std::max({grown, decayed, least}));
     }
-    const double bound = std::abs(before + design_.stiffness * dx);      // eq. (10), rows 1 and 2: last
-    state_.f_d = std::clamp(before + rise, -bound, bound);               // eq. (8)
+    const double bound = std::abs(before + design_.stiffness * dx);  // eq. (10), rows 1 and 2: last
+    state_.f_d = std::clamp(before + rise, -bound, bound);           // eq. (8)
     state_.clamped = state_.f_d != before + rise;
     state_.tell(before, state_.f_d, dx, bound);
     ratio_ = state_.beta;
@@ -247,7 +262,7 @@ class Ebac {
   void recover(const Port& port) EBAC_RT {
     const double excess = std::max(state_.slope / design_.stiffness - 1, 0.25);
     const double time = design_.recovery_time / pace_ * excess;
-    state_.f_d += (port.f_env - state_.f_d) * port.dt / (time + port.dt);
+    state_.f_d += (port.f_env - state_.f_d) * (port.dt / (time + port.dt));
     state_.tell(0, 0, 0, 0);
   }
 
@@ -265,9 +280,11 @@ class Ebac {
 
   double guarded(double wanted, const Port& port) EBAC_RT {
     const double energy = ledger_.energy();
-    if (guard_.surely_admits(wanted, pending_, energy, port.dt)) return wanted;
+    const double step =
+        std::abs(port.dx) + params_.count;  // the window keeps within a count of each reading
+    if (guard_.surely_admits(wanted, pending_, energy, step)) return wanted;
     const double v = adaptive_slope(readings_, 16, params_.count);
-    const double command = guard_.admit(wanted, pending_, energy, v, port.dt);
+    const double command = guard_.admit(wanted, pending_, energy, v);
     if (command != wanted) {
       state_.clamped = true;
       state_.admitted = command / wanted;
@@ -285,7 +302,7 @@ class Ebac {
       state_.injected = 0;
     }
     pending_.push(command);
-    ledger_.leak(command, contact_slope_, port.dt);
+    ledger_.leak(command, contact_slope_);
     state_.energy = ledger_.energy();
   }
 
@@ -299,13 +316,14 @@ class Ebac {
   Pending pending_;
   Readings readings_{};
   State state_{};
-  double last_env_ = 0;             // N
-  double contact_slope_ = kAnyHigh;  // N/m, of the last contact, at most c_h
-  double clock_ = 0;                // s in contact
-  double time_ = 0;                 // s
-  double pace_ = 1;                 // of the recovery; falls while the contact swings
-  double ratio_ = 0;                // N/m, beta(t-1)
-  int heading_ = 0;                 // direction of the last motion
+  double last_env_ = 0;       // N
+  double contact_slope_ = 1;  // N/m, of the last contact, at most c_h
+  double dt_ = 0;             // s, what set_tick was told
+  double clock_ = 0;          // s in contact
+  double time_ = 0;           // s
+  double pace_ = 1;           // of the recovery; falls while the contact swings
+  double ratio_ = 0;          // N/m, beta(t-1)
+  int heading_ = 0;           // direction of the last motion
 };
 
 static_assert(Controller<Ebac>);

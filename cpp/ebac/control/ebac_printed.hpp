@@ -11,13 +11,14 @@
 
 namespace ebac {
 
-/// Eq. (8) to (10) and (2), read to the letter, so that anyone can see what they do. It neither settles at the
-/// wall nor stays passive; `Ebac` is the completed law.
+/// Eq. (8) to (10) and (2), read to the letter, so that anyone can see what they do. It neither
+/// settles at the wall nor stays passive; `Ebac` is the completed law.
 ///
 /// The letter leaves open what the limits are and what happens at rest: here the limits are the
-/// state-dependent bound of Kim and Ryu (or a constant, if asked for), and at V_d = 0 the force freezes.
-/// Kept as printed: the ratios are not sorted, the continuity rows come after the bound and may leave it,
-/// and beta(t-1) = 0 locks beta at zero, so that a hand which starts in free air feels no wall at all.
+/// state-dependent bound of Kim and Ryu (or a constant, if asked for), and at V_d = 0 the force
+/// freezes. Kept as printed: the ratios are not sorted, the continuity rows come after the bound
+/// and may leave it, and beta(t-1) = 0 holds beta at zero until the bound (row 1) frees it, so that
+/// a soft wall met from free air is not felt at first.
 class EbacPrinted {
  public:
   static constexpr std::string_view kName = "ebac-printed";
@@ -25,14 +26,14 @@ class EbacPrinted {
   static constexpr bool kPassive = false;
 
   struct Params {
-    double damping = 2.0;       // N s/m
+    double damping = 2.0;  // N s/m
     double growth = 1.2;
     double decay = 0.8;
     double constant_limit = 0;  // N/m
     double kp = 0.5;
-    double kd = 0;              // s
-    double filter = 5e-3;       // s
-    double peak_force = 42.4;   // N
+    double kd = 0;             // s
+    double filter = 5e-3;      // s
+    double peak_force = 42.4;  // N
 
     static constexpr Params design(const DeviceFacts& facts, Timing) {
       return {.damping = facts.damping, .peak_force = facts.peak_force};
@@ -55,7 +56,7 @@ class EbacPrinted {
   };
 
   struct State : BetaTrace {
-    double f_d = 0;        // N
+    double f_d = 0;  // N
     bool clamped = false;
 
     static constexpr auto fields() {
@@ -95,7 +96,7 @@ class EbacPrinted {
   void move(const Port& port) EBAC_RT {
     const double asked = (port.f_env - state_.f_d) / port.dx;  // eq. (9), with dx for V_d
     limits(port);
-    double beta = asked;                                       // eq. (10), row by row
+    double beta = asked;  // eq. (10), row by row
     if (beta > state_.beta_max) {
       beta = state_.beta_max;
     } else if (beta < state_.beta_min) {
@@ -107,7 +108,7 @@ class EbacPrinted {
     }
     state_.clamped = beta != asked;
     state_.beta = last_beta_ = beta;
-    state_.f_d += beta * port.dx;                              // eq. (8)
+    state_.f_d += beta * port.dx;  // eq. (8)
   }
 
   void limits(const Port& port) EBAC_RT {

@@ -7,43 +7,54 @@
 
 namespace ebac {
 
-/// What the virtual side has taken in and may give back: E += F_bar dx + B max(|dx| - count, 0)^2, with
-/// F_bar the mean force behind the current loop and B = b/T. Counted before anything is decided.
+/// What the virtual side has taken in and may give back: E += F_bar dx + B max(|dx| - count, 0)^2,
+/// with F_bar the mean force behind the current loop and B = b/T. Counted before anything is
+/// decided.
 ///
-/// An account that only grows would pay for a disaster next week, so it leaks, slowly, towards what the last
-/// contact can have stored.
+/// An account that only grows would pay for a disaster next week, so it leaks, slowly, towards what
+/// the last contact can have stored.
 class EnergyLedger {
  public:
   EnergyLedger(double damping, double count, double current_lag, double reserve) EBAC_RT
-      : damping_(damping), count_(count), lag_(current_lag), reserve_(reserve), energy_(reserve) {}
+      : damping_(damping),
+        count_(count),
+        lag_(current_lag),
+        reserve_(reserve),
+        energy_(reserve) {}
 
   double energy() const EBAC_RT { return energy_; }  // J
 
-  void take(double f_applied, double dx, double dt) EBAC_RT {
-    if (dt != dt_) set_tick(dt);
+  /// What the force now behind the current loop can still give out as it decays, lag f^2 / (4 b),
+  /// as the square of a force held for one interval [N^2].
+  double tail_squared() const EBAC_RT { return lag_ * force_ * force_ / dt_; }
+
+  void set_tick(double dt) EBAC_RT {
+    dt_ = dt;
+    b_ = damping_ / dt;
+    decay_ = lag_ > 0 ? std::exp(-dt / lag_) : 0.0;
+    mean_share_ = lag_ / dt * (1 - decay_);
+    leak_share_ = dt / (kLeakTime + dt);
+    leak_keep_ = std::exp(-dt / kLeakTime);
+  }
+
+  void take(double f_applied, double dx) EBAC_RT {
     const double transient = force_ - f_applied;
     force_ = f_applied + transient * decay_;
     const double mean = f_applied + transient * mean_share_;
     const double sure = std::max(std::abs(dx) - count_, 0.0);
-    energy_ += mean * dx + damping_ / dt * sure * sure;
+    energy_ += mean * dx + b_ * sure * sure;
   }
 
-  /// Leaks towards reserve + F_peak^2 / stiffness, with F_peak the largest command of about a second.
-  void leak(double command, double stiffness, double dt) EBAC_RT {
+  /// Leaks towards reserve + F_peak^2 / stiffness, with F_peak the largest command of about a
+  /// second.
+  void leak(double command, double stiffness) EBAC_RT {
     peak_ = std::max(std::abs(command), peak_ * leak_keep_);
     const double excess = (energy_ - reserve_) * stiffness - peak_ * peak_;
-    if (excess > 0) energy_ -= excess / stiffness * dt / (kLeakTime + dt);
+    if (excess > 0) energy_ -= excess / stiffness * leak_share_;
   }
 
  private:
   static constexpr double kLeakTime = 1.0;  // s
-
-  void set_tick(double dt) EBAC_RT {
-    dt_ = dt;
-    decay_ = lag_ > 0 ? std::exp(-dt / lag_) : 0.0;
-    mean_share_ = lag_ / dt * (1 - decay_);
-    leak_keep_ = std::exp(-dt / kLeakTime);
-  }
 
   double damping_;
   double count_;
@@ -52,10 +63,21 @@ class EnergyLedger {
   double energy_;
   double force_ = 0;  // N, behind the current loop
   double peak_ = 0;   // N
-  double dt_ = 0;
+  double dt_ = 1;     // s
+  double b_ = 0;      // N/m, B = b/T
   double decay_ = 0;
   double mean_share_ = 0;
+  double leak_share_ = 0;
   double leak_keep_ = 1;
 };
+
+/// The largest force that `energy` covers over any motion: F^2/(4B), and one encoder count of the
+/// largest force in play, F itself or `largest` of those under way. B = b/T [N/m].
+inline double covered_force(double energy, double b, double count, double largest) EBAC_RT {
+  if (!(energy > 0)) return 0;
+  const double alone = 2 * b * (std::sqrt(count * count + energy / b) - count);
+  if (alone >= largest) return alone;
+  return std::min(largest, 2 * std::sqrt(b * std::max(0.0, energy - count * largest)));
+}
 
 }  // namespace ebac

@@ -4,8 +4,8 @@
 
 namespace ebac {
 
-/// The PD part of eq. (2): K_p (F_D - F_M) + K_d d/dt(F_D - F_M). The paper's raw difference of a noisy force
-/// is useless at 1 kHz, so the derivative is filtered.
+/// The PD part of eq. (2): K_p (F_D - F_M) + K_d d/dt(F_D - F_M). The paper's raw difference of a
+/// noisy force is useless at 1 kHz, so the derivative is filtered.
 ///
 /// What it costs: the handle feels M_h / (1 + K_p) and B_h / (1 + K_p).
 class ForceFeedback {

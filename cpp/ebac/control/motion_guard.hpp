@@ -4,40 +4,54 @@
 #include <cmath>
 
 #include "ebac/control/pending.hpp"
+#include "ebac/core/fields.hpp"
 #include "ebac/core/realtime.hpp"
 
 namespace ebac {
 
-/// How large a command the ledger can pay for, whatever the environment and any hand that pulls with no
-/// more than a declared force.
+/// How large a command the ledger can pay for, whatever the environment and any hand that pulls
+/// with no more than a declared force.
 ///
-/// A mass cannot jerk: the displacement s of an interval lies within u of v T, and u grows by a T^2 with
-/// every interval, a = (pull + |F|) / M_h. A force F held over it gives out at most
+/// A mass cannot jerk: the displacement s of an interval lies within u of v T, and u grows by a T^2
+/// with every interval, a = (pull + |F|) / M_h. A force F held over it gives out at most
 ///   R(F, u) = max over s of (-F s - B s^2), at least 0,
-/// which is F^2/(4B) where s = -F/(2B) is within reach and its tangent line beyond. A command is admitted when
-/// the ledger covers R of every force under way, of its own, and one count of the largest.
+/// which is F^2/(4B) where s = -F/(2B) is within reach and its tangent line beyond. A command is
+/// admitted when the ledger covers R of every force under way, of its own, and one count of the
+/// largest.
 class MotionGuard {
  public:
-  MotionGuard(double damping, double mass, double count, double pull) EBAC_RT
-      : damping_(damping), mass_(mass), count_(count), pull_(pull) {}
+  MotionGuard(double damping, double mass, double count, double pull, double longest) EBAC_RT
+      : b_(damping / longest),
+        count_(count),
+        pull_(pull),
+        tick_(longest),
+        jump_per_newton_(longest* longest / mass) {}
 
-  /// Enough for any motion at all; a cheap test before the exact one needs a velocity.
-  bool surely_admits(double force, const Pending& pending, double energy, double dt) const EBAC_RT {
+  /// Enough for any velocity with |v| T <= `step`: a cheap test before the exact one needs the
+  /// velocity. It takes R <= |F| |s|.
+  bool surely_admits(double force, const Pending& pending, double energy,
+                     double step) const EBAC_RT {
     if (force == 0) return true;
-    const double worst = (pending.sum_of_squares() + force * force) * dt / (4 * damping_);
-    return worst + count_ * std::max(std::abs(force), pending.largest()) <= energy;
+    const double largest = pending.largest_with(force);
+    const double jump = (pull_ + largest) * jump_per_newton_;
+    double reach = step + jump;
+    double need = count_ * largest;
+    for (int j = 0; j < pending.size(); ++j) {
+      need += std::abs(pending[j]) * reach;
+      reach += jump;
+    }
+    return need + std::abs(force) * reach <= energy;
   }
 
   /// The largest |F| <= |force| with the sign of `force` that `energy` covers, at velocity `v`.
-  double admit(double force, const Pending& pending, double energy, double v, double dt) const EBAC_RT {
-    const double b = damping_ / dt;
-    const double largest = pending.largest();
-    const double jump = (pull_ + std::max(std::abs(force), largest)) / mass_ * dt * dt;
+  double admit(double force, const Pending& pending, double energy, double v) const EBAC_RT {
+    const double largest = pending.largest_with(0);
+    const double jump = (pull_ + std::max(std::abs(force), largest)) * jump_per_newton_;
     double left = energy;
     for (int j = 0; j < pending.size(); ++j) {
-      left -= Loss(pending[j], v * dt, (1 + j) * jump, b).at(std::abs(pending[j]));
+      left -= Loss(pending[j], v * tick_, (1 + j) * jump, b_).at(std::abs(pending[j]));
     }
-    const Loss own(force, v * dt, (1 + pending.size()) * jump, b);
+    const Loss own(force, v * tick_, (1 + pending.size()) * jump, b_);
     const double above = own.largest_force(left, count_);  // when it is itself the largest
     const double most =
         above >= largest ? above : std::min(largest, own.largest_force(left - count_ * largest, 0));
@@ -45,11 +59,14 @@ class MotionGuard {
   }
 
  private:
-  /// R as a function of the size of the force, its sign taken out: zero, a tangent, a parabola, a tangent.
+  /// R as a function of the size of the force, its sign taken out: zero, a tangent, a parabola, a
+  /// tangent.
   class Loss {
    public:
     Loss(double force, double step, double reach, double b) EBAC_RT
-        : b_(b), near_(std::copysign(step, step * force) + reach), far_(reach - std::copysign(step, step * force)) {
+        : b_(b),
+          near_(std::copysign(step, step* force) + reach),
+          far_(reach - std::copysign(step, step* force)) {
       // s runs from -far_ to near_, measured along the force
     }
 
@@ -61,7 +78,8 @@ class MotionGuard {
     /// The largest force with at(force) + count * force <= energy; the cases are those of `at`.
     double largest_force(double energy, double count) const EBAC_RT {
       if (!(energy > 0)) return 0;
-      if (far_ <= 0) return count > 0 ? energy / count : kAnyHigh;  // no motion can take anything out
+      if (far_ <= 0)
+        return count > 0 ? energy / count : kAnyHigh;  // no motion can take anything out
       if (near_ < 0) {
         const double most = (energy + b_ * near_ * near_) / (count - near_);
         if (most <= -2 * b_ * near_) return most;
@@ -77,10 +95,11 @@ class MotionGuard {
     double far_;   // furthest it can move against it, which gives energy out
   };
 
-  double damping_;
-  double mass_;
-  double count_;
-  double pull_;
+  double b_;                // N/m, B = b/T
+  double count_;            // m
+  double pull_;             // N
+  double tick_;             // s, the longest
+  double jump_per_newton_;  // m/N, T^2 / M_h
 };
 
 }  // namespace ebac

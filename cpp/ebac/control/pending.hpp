@@ -26,8 +26,9 @@ class Pending {
     force_[static_cast<std::size_t>(size_ - 1)] = force;
   }
 
-  double largest() const EBAC_RT {
-    double most = 0;
+  /// Size of the largest among them and one more.
+  double largest_with(double force) const EBAC_RT {
+    double most = std::abs(force);
     for (int j = 0; j < size_; ++j) most = std::max(most, std::abs((*this)[j]));
     return most;
   }

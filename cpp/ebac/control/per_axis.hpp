@@ -12,7 +12,7 @@ namespace ebac {
 template <Controller Law>
 class PerAxis {
  public:
-  using State = typename Law::State;
+  using State = Law::State;
 
   explicit PerAxis(const Law& law) : laws_{law, law, law} {
     static_assert(kMaxAxes == 3);

@@ -13,14 +13,15 @@ namespace ebac {
 class Tca {
  public:
   static constexpr std::string_view kName = "tca";
-  static constexpr std::string_view kSummary = "eq. (2): desired force plus PD feedback of the F/T sensor";
+  static constexpr std::string_view kSummary =
+      "eq. (2): desired force plus PD feedback of the F/T sensor";
   static constexpr bool kPassive = false;
 
   struct Params {
     double kp = 0.5;
-    double kd = 0;              // s
-    double filter = 5e-3;       // s
-    double peak_force = 42.4;   // N
+    double kd = 0;             // s
+    double filter = 5e-3;      // s
+    double peak_force = 42.4;  // N
 
     static constexpr Params design(const DeviceFacts& facts, Timing) {
       return {.peak_force = facts.peak_force};

@@ -1,7 +1,8 @@
 #pragma once
 
+#include <array>
+#include <charconv>
 #include <cmath>
-#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -10,18 +11,30 @@
 
 namespace ebac {
 
+/// A number in the fewest digits that tell it from its neighbours.
+inline std::string shortest(double value) {
+  std::array<char, 32> text{};
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
+  return {text.data(), end};
+}
+
 /// "EBA.damping = -3 N s/m: must lie in [0, 500]"
 inline std::string range_message(std::string_view owner, std::string_view name, double value,
                                  std::string_view unit, double low, double high) {
-  std::ostringstream text;
-  text << owner << '.' << name << " = " << value;
-  if (unit != "1") text << ' ' << unit;
-  text << ": must lie in [" << low << ", " << high << ']';
-  if (unit != "1") text << ' ' << unit;
-  return text.str();
+  std::string text(owner);
+  const std::string_view gap = unit == "1" ? "" : " ";
+  const std::string_view of = unit == "1" ? "" : unit;
+  text.append(".").append(name).append(" = ").append(shortest(value)).append(gap).append(of);
+  text.append(": must lie in [")
+      .append(shortest(low))
+      .append(", ")
+      .append(shortest(high))
+      .append("]");
+  return text.append(gap).append(of);
 }
 
-/// Throws std::invalid_argument naming the first field of `value` outside its range (NaN is outside).
+/// Throws std::invalid_argument naming the first field of `value` outside its range (NaN is
+/// outside).
 template <Described T>
 void check(const T& value, std::string_view owner) {
   for (const auto& field : T::fields()) {

@@ -12,8 +12,8 @@
 
 namespace ebac {
 
-/// A law for one port: a cheap, copyable value. Parameters are checked by the constructor, which may
-/// throw; `step` runs inside the tick.
+/// A law for one port: a cheap, copyable value. Parameters are checked by the constructor, which
+/// may throw; `step` runs inside the tick.
 template <class L>
 concept Controller =
     std::copyable<L> && Described<typename L::Params> && Described<typename L::State> &&
@@ -43,14 +43,14 @@ struct Command {
 };
 
 struct Reading {
-  std::array<std::int64_t, kMaxAxes> counts{};  // raw, as wide as the counter
+  std::array<std::int64_t, kMaxAxes> counts{};     // raw, as wide as the counter
   std::array<double, kMaxAxes> current_applied{};  // A, over the interval that ended now
   std::array<double, kMaxAxes> force{};            // N, force sensor at the handle
   Fault fault = Fault::kNone;
 };
 
-/// Hardware, or what stands for it. One call, because on a synchronous bus it is one event: send the
-/// currents of the last tick, latch the new counts and forces.
+/// Hardware, or what stands for it. One call, because on a synchronous bus it is one event: send
+/// the currents of the last tick, latch the new counts and forces.
 template <class D>
 concept Device = requires(D device, const Command& command) {
   { device.exchange(command) } noexcept -> std::same_as<Reading>;

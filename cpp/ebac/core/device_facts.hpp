@@ -6,7 +6,8 @@
 
 namespace ebac {
 
-/// What a user can know about a device: all that a law may be designed from. Never the wall, never the hand.
+/// What a user can know about a device: all that a law may be designed from. Never the wall, never
+/// the hand.
 struct DeviceFacts {
   double damping = 2.0;       // N s/m
   double mass = 0.25;         // kg
@@ -18,13 +19,15 @@ struct DeviceFacts {
     using F = Field<DeviceFacts>;
     return std::array{
         F{"damping", &DeviceFacts::damping, "N s/m",
-          "lower bound of the physical viscous damping at the handle, after compensation", -500, 500},
-        F{"mass", &DeviceFacts::mass, "kg", "mass felt at the handle; an under-estimate is safe", 1e-3,
-          100},
+          "lower bound of the physical viscous damping at the handle, after compensation", -500,
+          500},
+        F{"mass", &DeviceFacts::mass, "kg", "mass felt at the handle; an under-estimate is safe",
+          1e-3, 100},
         F{"count", &DeviceFacts::count, "m", "one encoder count at the handle", 0, 0.01},
-        F{"current_lag", &DeviceFacts::current_lag, "s", "time constant of the drive's current loop", 0,
-          0.1},
-        F{"peak_force", &DeviceFacts::peak_force, "N", "largest force the motor can give", 1e-3, 1e4},
+        F{"current_lag", &DeviceFacts::current_lag, "s",
+          "time constant of the drive's current loop", 0, 0.1},
+        F{"peak_force", &DeviceFacts::peak_force, "N", "largest force the motor can give", 1e-3,
+          1e4},
     };
   }
 };

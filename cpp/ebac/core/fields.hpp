@@ -13,7 +13,8 @@ enum class Fault : std::uint32_t;
 inline constexpr double kAnyLow = -std::numeric_limits<double>::infinity();
 inline constexpr double kAnyHigh = std::numeric_limits<double>::infinity();
 
-/// One member of an aggregate, told once: bindings, logs, repr, documentation and range errors read it.
+/// One member of an aggregate, told once: bindings, logs, repr, documentation and range errors read
+/// it.
 template <class Owner>
 struct Field {
   using Member = std::variant<double Owner::*, int Owner::*, bool Owner::*, std::int64_t Owner::*,

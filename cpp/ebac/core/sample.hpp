@@ -25,12 +25,12 @@ enum class Fault : std::uint32_t {
 
 /// What the hardware has, one per motor.
 struct Joint {
-  std::int64_t counts = 0;       // encoder, unwrapped
-  double q = 0;                  // rad
-  double dq = 0;                 // rad/s
-  double tau = 0;                // N m, asked
-  double current = 0;            // A, asked
-  double current_applied = 0;    // A, acted over the last interval
+  std::int64_t counts = 0;     // encoder, unwrapped
+  double q = 0;                // rad
+  double dq = 0;               // rad/s
+  double tau = 0;              // N m, asked
+  double current = 0;          // A, asked
+  double current_applied = 0;  // A, acted over the last interval
 
   static constexpr auto fields() {
     using F = Field<Joint>;

@@ -3,13 +3,18 @@
 #include <array>
 
 #include "ebac/core/fields.hpp"
+#include "ebac/core/realtime.hpp"
 
 namespace ebac {
 
 /// What every law must know about time: the nominal tick, and how late a command acts.
 struct Timing {
-  double dt = 1e-3;  // s
-  int delay = 1;     // samples
+  double dt = 1e-3;   // s
+  int delay = 1;      // samples
+  double jitter = 0;  // of a sample
+
+  /// The longest interval a command may act for: both of its ticks off by `jitter`.
+  double longest() const EBAC_RT { return dt * (1 + 2 * jitter); }
 
   /// A command computed in tick k acts over the interval that starts at tick k + delay.
   static constexpr auto fields() {
@@ -18,6 +23,10 @@ struct Timing {
         F{"dt", &Timing::dt, "s", "sample time", 1e-5, 0.1},
         F{"delay", &Timing::delay, "samples",
           "ticks from computing a command to its acting; 1 is a synchronous CAN drive", 0, 8},
+        F{"jitter", &Timing::jitter, "1",
+          "largest deviation of a tick from its instant, over the sample time, that laws count "
+          "with",
+          0, 0.45},
     };
   }
 };

@@ -9,17 +9,21 @@
 
 namespace ebac {
 
-/// Time that passes when asked: t = k T, or with jitter t = (k + e) T, |e| <= jitter, in whole quanta.
+/// Time that passes when asked: t = k T, or with jitter t = (k + e) T, |e| <= jitter, in whole
+/// quanta.
 class VirtualClock {
  public:
-  VirtualClock(double dt, double jitter, std::uint64_t seed) EBAC_RT
-      : dt_(dt), jitter_(jitter), random_(seed, /*stream=*/1) {}
+  VirtualClock(double dt, double jitter, std::uint64_t seed) EBAC_RT : dt_(dt),
+                                                                       jitter_(jitter),
+                                                                       random_(seed, /*stream=*/1) {
+  }
 
   Instant wait() EBAC_RT {
-    const std::int64_t late = jitter_ > 0 && tick_ > 0
-                                  ? static_cast<std::int64_t>(std::floor(
-                                        jitter_ * random_.symmetric() * static_cast<double>(kQuanta)))
-                                  : 0;
+    const std::int64_t late =
+        jitter_ > 0 && tick_ > 0
+            ? static_cast<std::int64_t>(
+                  std::floor(jitter_ * random_.symmetric() * static_cast<double>(kQuanta)))
+            : 0;
     const std::int64_t now = tick_ * kQuanta + late;
     const std::int64_t passed = now - last_;
     last_ = now;

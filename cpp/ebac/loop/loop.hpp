@@ -9,14 +9,15 @@
 
 namespace ebac {
 
-/// Runs ticks and keeps their rows. A fault latches: the loop sends `kStopTicks` commands of zero force and ends.
+/// Runs ticks and keeps their rows. A fault latches: the loop sends `kStopTicks` commands of zero
+/// force and ends.
 template <Device D, Clock C, AxesController Law>
 class Loop {
  public:
   static constexpr int kStopTicks = 10;
 
-  Loop(D device, C clock, Law law, Rig rig, int axes)
-      : device_(std::move(device)), clock_(std::move(clock)), law_(std::move(law)), rig_(std::move(rig)) {
+  Loop(D device, C clock, Law law, const Rig& rig, int axes)
+      : device_(std::move(device)), clock_(std::move(clock)), law_(std::move(law)), rig_(rig) {
     sample_.axes = axes;
   }
 
@@ -34,7 +35,8 @@ class Loop {
   /// Ticks until the trace is full or a fault has been answered.
   void run(Trace& trace) EBAC_RT {
     int stopping = 0;
-    for (std::byte* row = trace.next(); row != nullptr && stopping < kStopTicks; row = trace.next()) {
+    for (std::byte* row = trace.next(); row != nullptr && stopping < kStopTicks;
+         row = trace.next()) {
       tick(rig_, law_, device_, clock_.wait(), sample_);
       append(row);
       trace.commit();
@@ -55,7 +57,7 @@ class Loop {
 
   template <class Part>
   static void copy_states(std::byte* row, const Part& part, std::size_t axes) EBAC_RT {
-    using State = typename Part::State;
+    using State = Part::State;
     if constexpr (State::fields().size() > 0) {
       for (std::size_t i = 0; i < axes; ++i) {
         std::memcpy(row + i * sizeof(State), &part.state(i), sizeof(State));

@@ -10,8 +10,8 @@
 
 namespace ebac {
 
-/// The control side of one device: the parts that turn counts into ports and forces into currents, with
-/// their memory. Its functions are the stages of `tick`, in order.
+/// The control side of one device: the parts that turn counts into ports and forces into currents,
+/// with their memory. Its functions are the stages of `tick`, in order.
 class Rig {
  public:
   Rig(const DeviceModel& device, const Environment& environment);
@@ -26,9 +26,8 @@ class Rig {
   void account(std::span<Axis> axes) const EBAC_RT {
     for (Axis& axis : axes) {
       Port& port = axis.port;
-      if (!(port.dt > 0)) continue;
       port.work += port.f_applied * port.dx;
-      port.damped += damping_ / port.dt * port.dx * port.dx;
+      port.damped += b_ * port.dx * port.dx;
     }
   }
 
@@ -39,8 +38,23 @@ class Rig {
   void drive(double dt, std::span<Axis> axes) EBAC_RT;
 
  private:
-  Axes joints(std::span<const Axis> axes, double Joint::*member) const EBAC_RT;
-  Axes ports(std::span<const Axis> axes, double Port::*member) const EBAC_RT;
+  /// What follows from the time since the last tick alone.
+  void set_tick(double dt) EBAC_RT {
+    dt_ = dt;
+    b_ = dt > 0 ? damping_ / dt : 0.0;
+  }
+  static void enter(Port& port, double dt, double x, double v, double f_applied) EBAC_RT {
+    port.dx = dt > 0 ? x - port.x : 0.0;
+    port.x = x;
+    port.v = v;
+    port.dt = dt;
+    port.f_applied = f_applied;
+  }
+  template <class Part>
+  static Axes all(std::span<const Axis> axes, Part Axis::* part, double Part::* member) EBAC_RT;
+  void forward_general(const Reading& reading, double dt, std::span<Axis> axes) EBAC_RT;
+  void drive_general(double dt, std::span<Axis> axes) EBAC_RT;
+  void send(Joint& joint, double tau) const EBAC_RT;
   Axes compensate(double dt, std::span<const Axis> axes) EBAC_RT;
 
   Kinematics kinematics_;
@@ -48,12 +62,16 @@ class Rig {
   Velocity estimator_;
   Compensation compensation_;
   Environment environment_;
-  double damping_;           // N s/m, lower bound of what the device takes
-  double rad_per_count_;     // joint
-  double radius_;            // m
-  double torque_per_amp_;    // N m/A, at the joint
-  double peak_current_;      // A
-  double gravity_;           // m/s^2
+  double damping_;         // N s/m, lower bound of what the device takes
+  double rad_per_count_;   // joint
+  double radius_;          // m
+  double torque_per_amp_;  // N m/A, at the joint
+  double amp_per_torque_;  // A/(N m)
+  double force_per_amp_;   // N/A, at the handle of a linear device
+  double peak_current_;    // A
+  double gravity_;         // m/s^2
+  double dt_ = 0;          // s, since the last tick; 0 in the first
+  double b_ = 0;           // N/m, B = b/T
   bool linear_;
   bool compensates_;
   std::array<VelocityState, kMaxAxes> velocity_{};
@@ -73,12 +91,15 @@ inline Rig::Rig(const DeviceModel& device, const Environment& environment)
       rad_per_count_(device.encoder.count() / device.capstan.ratio()),
       radius_(device.radius()),
       torque_per_amp_(device.motor.torque_constant * device.capstan.ratio()),
+      amp_per_torque_(1 / torque_per_amp_),
+      force_per_amp_(torque_per_amp_ / radius_),
       peak_current_(device.drive.peak_current(device.motor)),
       gravity_(device.mechanics.gravity),
       linear_(std::holds_alternative<Linear>(device.kinematics)),
       compensates_(device.compensation.active()) {}
 
 inline void Rig::measure(const Reading& reading, double dt, std::span<Axis> axes) EBAC_RT {
+  if (dt != dt_) set_tick(dt);
   for (std::size_t i = 0; i < axes.size(); ++i) {
     Joint& joint = axes[i].joint;
     const double before = joint.q;
@@ -89,63 +110,58 @@ inline void Rig::measure(const Reading& reading, double dt, std::span<Axis> axes
   }
 }
 
-inline Axes Rig::joints(std::span<const Axis> axes, double Joint::*member) const EBAC_RT {
-  Axes all = Axes::Zero();
-  for (std::size_t i = 0; i < axes.size(); ++i) {
-    all[static_cast<Eigen::Index>(i)] = axes[i].joint.*member;
-  }
-  return all;
-}
-
-inline Axes Rig::ports(std::span<const Axis> axes, double Port::*member) const EBAC_RT {
-  Axes all = Axes::Zero();
-  for (std::size_t i = 0; i < axes.size(); ++i) {
-    all[static_cast<Eigen::Index>(i)] = axes[i].port.*member;
-  }
-  return all;
+/// One member of every axis, zero for the axes not in use.
+template <class Part>
+Axes Rig::all(std::span<const Axis> axes, Part Axis::* part, double Part::* member) EBAC_RT {
+  const auto of = [&](std::size_t i) { return i < axes.size() ? axes[i].*part.*member : 0.0; };
+  return {of(0), of(1), of(2)};
 }
 
 inline void Rig::forward(const Reading& reading, double dt, std::span<Axis> axes) EBAC_RT {
-  const auto enter = [&](std::size_t i, double x, double v, double f_applied) EBAC_RT {
-    Port& port = axes[i].port;
-    port.dx = dt > 0 ? x - port.x : 0.0;
-    port.x = x;
-    port.v = v;
-    port.dt = dt;
-    port.f_applied = f_applied;
-    port.f_meas = reading.force[i];
-  };
   if (linear_) {  // the general case below, with J = R
     for (std::size_t i = 0; i < axes.size(); ++i) {
+      Port& port = axes[i].port;
       const Joint& joint = axes[i].joint;
-      enter(i, radius_ * joint.q, radius_ * joint.dq, torque_per_amp_ / radius_ * joint.current_applied);
+      port.f_meas = reading.force[i];
+      enter(port, dt, radius_ * joint.q, radius_ * joint.dq,
+            force_per_amp_ * joint.current_applied);
     }
-    return;
+  } else {
+    forward_general(reading, dt, axes);
   }
-  const Axes q = joints(axes, &Joint::q);
+}
+
+inline void Rig::forward_general(const Reading& reading, double dt, std::span<Axis> axes) EBAC_RT {
+  const Axes q = all(axes, &Axis::joint, &Joint::q);
   Jacobian j = jacobian(kinematics_, q);
   const Axes x = ebac::forward(kinematics_, q);
-  const Axes v = j * joints(axes, &Joint::dq);
+  const Axes v = j * all(axes, &Axis::joint, &Joint::dq);
   for (auto i = static_cast<Eigen::Index>(axes.size()); i < kMaxAxes; ++i) j(i, i) = 1;
-  const Axes torque = torque_per_amp_ * joints(axes, &Joint::current_applied);
+  const Axes torque = torque_per_amp_ * all(axes, &Axis::joint, &Joint::current_applied);
   const Axes f = j.transpose().inverse() * torque;
   for (std::size_t i = 0; i < axes.size(); ++i) {
     const auto e = static_cast<Eigen::Index>(i);
-    enter(i, x[e], v[e], f[e]);
+    axes[i].port.f_meas = reading.force[i];
+    enter(axes[i].port, dt, x[e], v[e], f[e]);
   }
 }
 
 inline void Rig::ask(std::span<Axis> axes) const EBAC_RT {
-  const Axes f = force(environment_, ports(axes, &Port::x), ports(axes, &Port::v));
-  for (std::size_t i = 0; i < axes.size(); ++i) axes[i].port.f_env = f[static_cast<Eigen::Index>(i)];
+  const Axes f =
+      force(environment_, all(axes, &Axis::port, &Port::x), all(axes, &Axis::port, &Port::v));
+  for (std::size_t i = 0; i < axes.size(); ++i)
+    axes[i].port.f_env = f[static_cast<Eigen::Index>(i)];
 }
 
+/// tau_static of eq. (2).
 inline Axes Rig::compensate(double dt, std::span<const Axis> axes) EBAC_RT {
-  Axes tau = weight(kinematics_, joints(axes, &Joint::q), compensation_.gravity_mass * gravity_);
+  Axes tau = weight(kinematics_, all(axes, &Axis::joint, &Joint::q),
+                    compensation_.gravity_mass * gravity_);
   for (std::size_t i = 0; i < axes.size(); ++i) {
     const double v = radius_ * axes[i].joint.dq;
     if (dt > 0) {
-      acceleration_[i] += ((v - speed_[i]) / dt - acceleration_[i]) * dt / (compensation_.inertia_lag + dt);
+      acceleration_[i] +=
+          ((v - speed_[i]) / dt - acceleration_[i]) * dt / (compensation_.inertia_lag + dt);
     }
     speed_[i] = v;
     tau[static_cast<Eigen::Index>(i)] += radius_ * compensation_.force(v, acceleration_[i]);
@@ -153,15 +169,26 @@ inline Axes Rig::compensate(double dt, std::span<const Axis> axes) EBAC_RT {
   return tau;
 }
 
+/// The currents that give each axis its torque, up to the drive's peak.
+inline void Rig::send(Joint& joint, double tau) const EBAC_RT {
+  joint.tau = tau;
+  joint.current = std::clamp(tau * amp_per_torque_, -peak_current_, peak_current_);
+}
+
 inline void Rig::drive(double dt, std::span<Axis> axes) EBAC_RT {
-  const Axes f = ports(axes, &Port::f_cmd);
-  Axes tau = linear_ ? Axes(radius_ * f) : transpose(kinematics_, joints(axes, &Joint::q), f);
-  if (compensates_) tau += compensate(dt, axes);
-  for (std::size_t i = 0; i < axes.size(); ++i) {
-    Joint& joint = axes[i].joint;
-    joint.tau = tau[static_cast<Eigen::Index>(i)];
-    joint.current = std::clamp(joint.tau / torque_per_amp_, -peak_current_, peak_current_);
+  if (linear_ && !compensates_) {  // the general case below, with J = R
+    for (Axis& axis : axes) send(axis.joint, radius_ * axis.port.f_cmd);
+  } else {
+    drive_general(dt, axes);
   }
+}
+
+inline void Rig::drive_general(double dt, std::span<Axis> axes) EBAC_RT {
+  const Axes q = all(axes, &Axis::joint, &Joint::q);
+  Axes tau = transpose(kinematics_, q, all(axes, &Axis::port, &Port::f_cmd));
+  if (compensates_) tau += compensate(dt, axes);
+  for (std::size_t i = 0; i < axes.size(); ++i)
+    send(axes[i].joint, tau[static_cast<Eigen::Index>(i)]);
 }
 
 }  // namespace ebac

@@ -16,13 +16,14 @@ struct Column {
   std::string name;
   std::string unit;
   std::string meaning;
-  char kind;               // 'f' double, 'i' int64, 'w' int32, 'u' uint32, 'b' bool
-  std::size_t offset;      // bytes, of the first axis
-  std::size_t stride;      // bytes from axis to axis; 0 for a column of the whole row
+  char kind;           // 'f' double, 'i' int64, 'w' int32, 'u' uint32, 'b' bool
+  std::size_t offset;  // bytes, of the first axis
+  std::size_t stride;  // bytes from axis to axis; 0 for a column of the whole row
 };
 
-/// The rows of a run, preallocated. A row is the used prefix of a Sample, then the law's state of each axis, then
-/// what the device adds. Appending is a copy and one release store; readers may look on while it grows.
+/// The rows of a run, preallocated. A row is the used prefix of a Sample, then the law's state of
+/// each axis, then what the device adds. Appending is a copy and one release store; readers may
+/// look on while it grows.
 class Trace {
  public:
   /// A trace without rows; `reserve` fixes the layout and makes room.
@@ -82,9 +83,11 @@ class Trace {
           [&](auto member) {
             using Value = std::remove_cvref_t<decltype(zero.*member)>;
             const auto* at = reinterpret_cast<const std::byte*>(&(zero.*member));
-            const auto inside = static_cast<std::size_t>(at - reinterpret_cast<const std::byte*>(&zero));
+            const auto inside =
+                static_cast<std::size_t>(at - reinterpret_cast<const std::byte*>(&zero));
             columns_.push_back({prefix + std::string(field.name), std::string(field.unit),
-                                std::string(field.meaning), kind_of<Value>(), base + inside, stride});
+                                std::string(field.meaning), kind_of<Value>(), base + inside,
+                                stride});
           },
           field.member);
     }

@@ -11,23 +11,25 @@ namespace ebac {
 /// tau_static of eq. (2): gravity, friction and inertia given back to the hand, told at the handle.
 ///
 /// Compensating friction spends the damping that the energy laws live on. The push never exceeds
-/// `friction`, so that real Coulomb friction of at least that size still pays for it, whatever the delay;
-/// beyond it, the slope friction/friction_speed counts against the viscous damping.
+/// `friction`, so that real Coulomb friction of at least that size still pays for it, whatever the
+/// delay; beyond it, the slope friction/friction_speed counts against the viscous damping.
 struct Compensation {
-  double gravity_mass = 0;        // kg
-  double friction = 0;            // N
-  double friction_speed = 0.02;   // m/s
-  double inertia = 0;             // kg
-  double inertia_lag = 5e-3;      // s
+  double gravity_mass = 0;       // kg
+  double friction = 0;           // N
+  double friction_speed = 0.02;  // m/s
+  double inertia = 0;            // kg
+  double inertia_lag = 5e-3;     // s
 
   bool active() const EBAC_RT { return gravity_mass > 0 || friction > 0 || inertia > 0; }
 
-  /// Force that helps a motion of speed `v` and acceleration `a`; as every force, positive resists +x.
+  /// Force that helps a motion of speed `v` and acceleration `a`; as every force, positive resists
+  /// +x.
   double force(double v, double a) const EBAC_RT {
     return -friction * std::clamp(v / friction_speed, -1.0, 1.0) - inertia * a;
   }
 
-  /// Lower bound of the viscous damping that is left, given the device's real damping and Coulomb friction.
+  /// Lower bound of the viscous damping that is left, given the device's real damping and Coulomb
+  /// friction.
   double damping_left(double damping, double coulomb) const EBAC_RT {
     return damping - std::max(0.0, friction - coulomb) / friction_speed;
   }
@@ -37,12 +39,14 @@ struct Compensation {
   static constexpr auto fields() {
     using F = Field<Compensation>;
     return std::array{
-        F{"gravity_mass", &Compensation::gravity_mass, "kg", "mass whose weight is carried", 0, 100},
+        F{"gravity_mass", &Compensation::gravity_mass, "kg", "mass whose weight is carried", 0,
+          100},
         F{"friction", &Compensation::friction, "N", "Coulomb friction given back", 0, 100},
         F{"friction_speed", &Compensation::friction_speed, "m/s",
           "speed at which friction is given back in full", 1e-4, 10},
         F{"inertia", &Compensation::inertia, "kg", "mass given back", 0, 100},
-        F{"inertia_lag", &Compensation::inertia_lag, "s", "filter on the acceleration it uses", 1e-4, 1},
+        F{"inertia_lag", &Compensation::inertia_lag, "s", "filter on the acceleration it uses",
+          1e-4, 1},
     };
   }
 };

@@ -12,8 +12,8 @@
 
 namespace ebac {
 
-/// One haptic device, part by part. The default is the reference device: one straight axis of 0.25 kg and
-/// 2 N s/m, built from the paper's motor, encoder and capstan.
+/// One haptic device, part by part. The default is the reference device: one straight axis of 0.25
+/// kg and 2 N s/m, built from the paper's motor, encoder and capstan.
 struct DeviceModel {
   Kinematics kinematics{};
   Motor motor{};

@@ -16,11 +16,12 @@ struct Encoder {
   int counter_bits = 32;       // bits
 
   double count() const EBAC_RT { return 2 * std::numbers::pi / counts_per_turn; }  // rad, motor
+  double counts_per_rad() const EBAC_RT { return counts_per_turn * (0.5 * std::numbers::inv_pi); }
 
-  /// What the counter shows at a motor angle, wrapped to `counter_bits`, signed. Zero lies in the middle of a
-  /// count, so that a handle resting at the origin does not toggle.
+  /// What the counter shows at a motor angle, wrapped to `counter_bits`, signed. Zero lies in the
+  /// middle of a count, so that a handle resting at the origin does not toggle.
   std::int64_t read(double angle) const EBAC_RT {
-    return wrap(static_cast<std::int64_t>(std::floor(angle / count() + 0.5)));
+    return wrap(std::llrint(angle * counts_per_rad()));
   }
 
   /// The unwrapped count nearest to `last` that the counter would show as `raw`.
@@ -38,8 +39,8 @@ struct Encoder {
     return std::array{
         F{"counts_per_turn", &Encoder::counts_per_turn, "counts",
           "counts per motor turn, after any quadrature", 1, 1 << 26},
-        F{"counter_bits", &Encoder::counter_bits, "bits", "width of the drive's counter, which wraps", 8,
-          63},
+        F{"counter_bits", &Encoder::counter_bits, "bits",
+          "width of the drive's counter, which wraps", 8, 63},
     };
   }
 };

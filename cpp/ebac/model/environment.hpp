@@ -8,8 +8,8 @@
 #include "ebac/core/fields.hpp"
 #include "ebac/model/kinematics.hpp"
 
-/// The virtual world: a position and a velocity of the handle in, the force it asks for out. A shape is a
-/// type with `force(x, v)`; adding one to the variant is all it needs.
+/// The virtual world: a position and a velocity of the handle in, the force it asks for out. A
+/// shape is a type with `force(x, v)`; adding one to the variant is all it needs.
 namespace ebac {
 
 struct Free {
@@ -18,8 +18,8 @@ struct Free {
   static constexpr auto fields() { return std::array<Field<Free>, 0>{}; }
 };
 
-/// A flat wall, eq. (12): F = K x + B v inside, along the normal. It never pulls: with v < 0 the damper of
-/// eq. (12) as printed could, so the force stops at zero.
+/// A flat wall, eq. (12): F = K x + B v inside, along the normal. It never pulls: with v < 0 the
+/// damper of eq. (12) as printed could, so the force stops at zero.
 struct Wall {
   double stiffness = 10e3;  // N/m
   double damping = 0;       // N s/m
@@ -45,8 +45,8 @@ struct Wall {
     return std::array{
         F{"stiffness", &Wall::stiffness, "N/m", "K of eq. (12)", 0, 1e7},
         F{"damping", &Wall::damping, "N s/m", "B of eq. (12)", 0, 1e4},
-        F{"position", &Wall::position, "m", "where its surface cuts the normal through the origin", -10,
-          10},
+        F{"position", &Wall::position, "m", "where its surface cuts the normal through the origin",
+          -10, 10},
         F{"angle", &Wall::angle, "rad", "direction into the wall, from +x towards +y", -3.2, 3.2},
     };
   }

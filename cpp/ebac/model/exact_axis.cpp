@@ -10,7 +10,8 @@ enum Index { kXi, kV, kPhi, kY, kF, kR };
 
 LinearFlow::Vector velocity_row() { return LinearFlow::Vector::Unit(kV); }
 
-/// Rows common to both motions: the lags of current loop and sensor, given how f_hand follows from w.
+/// Rows common to both motions: the lags of current loop and sensor, given how f_hand follows from
+/// w.
 LinearFlow::Matrix with_lags(LinearFlow::Matrix a, const AxisParameters& p,
                              const LinearFlow::Vector& hand_row) {
   a(kXi, kR) = -1;
@@ -73,27 +74,14 @@ void ExactAxis::advance(double u, double target, double rate, std::int64_t quant
   const double load = u - p_.weight;
   const double time = tick_ * static_cast<double>(quanta) / static_cast<double>(kQuanta);
   Vector w;
-  w << truth_.x - target, truth_.v, p_.current_lag > 0 ? truth_.f_motor - u : 0.0, truth_.f_sensor, load,
-      rate;
-  std::int64_t left = quanta;
+  w << truth_.x - target, truth_.v, p_.current_lag > 0 ? truth_.f_motor - u : 0.0, truth_.f_sensor,
+      load, rate;
   if (p_.coulomb == 0) {
+    std::int64_t left = quanta;
     slide(w, left);
     truth_.x = w[kXi] + target + rate * time;
-  } else {
-    constexpr int kMostEvents = 64;  // per advance; a rigid axis has one or two
-    bool moved = false;
-    for (int event = 0; left > 0 && event < kMostEvents; ++event) {
-      w[kF] = load;
-      if (direction_ == 0) {
-        stick(w, left);
-      } else {
-        w[kF] += direction_ * p_.coulomb;
-        slide(w, left);
-        moved = true;
-      }
-    }
-    if (moved) truth_.x = w[kXi] + target + rate * (time - tick_ * static_cast<double>(left) /
-                                                               static_cast<double>(kQuanta));
+  } else if (slide_and_stick(w, quanta)) {
+    truth_.x = w[kXi] + target + rate * time;  // else not even the last bit of x changes
   }
   w[kF] = load + direction_ * p_.coulomb;
   truth_.v = w[kV];
@@ -102,25 +90,56 @@ void ExactAxis::advance(double u, double target, double rate, std::int64_t quant
   truth_.f_sensor = p_.sensor_lag > 0 ? w[kY] : truth_.f_hand;
 }
 
+/// Segment by segment, sliding or stuck; whether it moved at all.
+bool ExactAxis::slide_and_stick(Vector& w, std::int64_t left) EBAC_RT {
+  constexpr int kMostEvents = 64;  // a rigid axis has one or two in a tick
+  const double load = w[kF];
+  bool moved = false;
+  for (int event = 0; left > 0 && event < kMostEvents; ++event) {
+    w[kF] = load + direction_ * p_.coulomb;
+    if (direction_ == 0) {
+      stick(w, left);
+    } else {
+      slide(w, left);
+      moved = true;
+    }
+  }
+  flow_while(stick_, w, left, [](const Vector&, const Vector&) EBAC_RT { return true; });
+  return moved;
+}
+
 /// Slides until the time is up or v = 0; then direction_ says what comes next.
 void ExactAxis::slide(Vector& w, std::int64_t& left) EBAC_RT {
   const Vector before = w;
   const std::int64_t quanta = left;
   const double s = direction_;
   square_ = 0;
-  flow_while(slide_, w, left, [&](const Vector& from, const Vector& to) EBAC_RT {
+  const auto slides = [&](const Vector& from, const Vector& to) EBAC_RT {
     if (p_.coulomb == 0) return true;
     const bool dips = moving_force(from) * s < 0 && moving_force(to) * s > 0;
     return to[kV] * s >= 0 && !dips;
-  });
-  account(before, w,
-          tick_ * static_cast<double>(quanta - left) / static_cast<double>(kQuanta));
+  };
+  flow_while(slide_, w, left, slides);
+  while (left > 0 && passes_dip(w, left)) flow_while(slide_, w, left, slides);
+  account(before, w, tick_ * static_cast<double>(quanta - left) / static_cast<double>(kQuanta));
   if (left > 0) {
     w[kV] = 0;
     w[kF] -= s * p_.coulomb;
     const double f = standing_force(w);
     direction_ = std::abs(f) <= p_.coulomb ? 0.0 : std::copysign(1.0, f);
   }
+}
+
+/// A dip of the speed that ends above zero fails the test of `slide` down to one quantum. Takes
+/// that quantum; false when it does end in a stop.
+bool ExactAxis::passes_dip(Vector& w, std::int64_t& left) EBAC_RT {
+  const LinearFlow::Step& quantum = slide_.level(kQuantaBits);
+  const Vector next = quantum.from(w);
+  if (!(next[kV] * direction_ > 0)) return false;
+  square_ += w.dot(quantum.square * w);
+  w = next;
+  --left;
+  return true;
 }
 
 /// Stays until the time is up or friction can no longer hold; then direction_ says where to.
@@ -134,7 +153,7 @@ void ExactAxis::stick(Vector& w, std::int64_t& left) EBAC_RT {
       return std::abs(standing_force(to)) <= p_.coulomb && push(from) * push(to) >= 0;
     });
     if (left > 0) {  // one quantum on, to stand clearly beyond the edge
-      w = stick_.level(kQuantaBits).phi * w;
+      w = stick_.level(kQuantaBits).from(w);
       --left;
     }
   }
@@ -142,14 +161,16 @@ void ExactAxis::stick(Vector& w, std::int64_t& left) EBAC_RT {
   if (std::abs(f) > p_.coulomb) direction_ = std::copysign(1.0, f);
 }
 
-/// Follows `flow` for `left` quanta as long as `holds(from, to)`; stops less than a quantum before it fails.
+/// Follows `flow` for `left` quanta as long as `holds(from, to)`; stops less than a quantum before
+/// it fails.
 template <class Holds>
-void ExactAxis::flow_while(const LinearFlow& flow, Vector& w, std::int64_t& left, Holds holds) EBAC_RT {
+void ExactAxis::flow_while(const LinearFlow& flow, Vector& w, std::int64_t& left,
+                           Holds holds) EBAC_RT {
   for (int j = 0; j <= kQuantaBits && left > 0; ++j) {
     const std::int64_t size = kQuanta >> j;
     const LinearFlow::Step& step = flow.level(j);
     while (left >= size) {
-      const Vector next = step.phi * w;
+      const Vector next = step.from(w);
       if (!holds(w, next)) break;
       square_ += w.dot(step.square * w);
       w = next;

@@ -23,17 +23,17 @@ struct AxisParameters {
 
 /// Hand and handle between two events are linear, so a tick has a closed form (docs: the plant):
 ///
-///   m v' = -k xi - b v - phi - F      xi = x - X0,  X0' = r,  phi = f_motor - u,  F = u + friction - weight
-///   phi' = -phi / current_lag         y' = (f_hand - y) / sensor_lag
+///   m v' = -k xi - b v - phi - F      xi = x - X0,  X0' = r,  phi = f_motor - u,  F = u + friction
+///   - weight phi' = -phi / current_lag         y' = (f_hand - y) / sensor_lag
 ///
-/// with m = M_h + M_0, b = B_h + B_0, k = K_0. Coulomb friction is a constant inside a segment; the only event
-/// is v = 0, found to 2^-20 of a tick by bisection over the dyadic steps of the flow.
+/// with m = M_h + M_0, b = B_h + B_0, k = K_0. Coulomb friction is a constant inside a segment; the
+/// only event is v = 0, found to 2^-20 of a tick by bisection over the dyadic steps of the flow.
 class ExactAxis {
  public:
   ExactAxis(const AxisParameters& parameters, double tick);
 
-  /// Moves by `quanta` of 2^-20 tick under the motor force `u` [N] and a target that starts at `target` [m]
-  /// and moves at `rate` [m/s].
+  /// Moves by `quanta` of 2^-20 tick under the motor force `u` [N] and a target that starts at
+  /// `target` [m] and moves at `rate` [m/s].
   void advance(double u, double target, double rate, std::int64_t quanta) EBAC_RT;
 
   /// Puts the axis where another one is: the hand let go, the parameters changed.
@@ -48,7 +48,9 @@ class ExactAxis {
   double standing_force(const Vector& w) const EBAC_RT;  // what friction must hold while stuck
   double hand_force(const Vector& w) const EBAC_RT;
 
+  bool slide_and_stick(Vector& w, std::int64_t left) EBAC_RT;
   void slide(Vector& w, std::int64_t& left) EBAC_RT;
+  bool passes_dip(Vector& w, std::int64_t& left) EBAC_RT;
   void stick(Vector& w, std::int64_t& left) EBAC_RT;
   template <class Holds>
   void flow_while(const LinearFlow& flow, Vector& w, std::int64_t& left, Holds holds) EBAC_RT;

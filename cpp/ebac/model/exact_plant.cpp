@@ -39,7 +39,8 @@ ExactPlant::ExactPlant(const DeviceModel& device, const Hand& hand, double tick)
   const auto n = static_cast<std::size_t>(device.axes());
   axes_.assign(n, ExactAxis(axis_parameters(device, hand), tick));
   if (std::isfinite(hand.release_at)) {
-    without_hand_.assign(n, ExactAxis(axis_parameters(device, {.mass = 0, .damping = 0, .stiffness = 0}), tick));
+    without_hand_.assign(
+        n, ExactAxis(axis_parameters(device, {.mass = 0, .damping = 0, .stiffness = 0}), tick));
   }
 }
 

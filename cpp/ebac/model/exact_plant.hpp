@@ -8,8 +8,8 @@
 
 namespace ebac {
 
-/// Independent rigid axes with a hand on each, integrated exactly. For `Linear` devices without Stribeck
-/// friction, cable compliance and backlash; SteppedPlant does the rest.
+/// Independent rigid axes with a hand on each, integrated exactly. For `Linear` devices without
+/// Stribeck friction, cable compliance and backlash; SteppedPlant does the rest.
 class ExactPlant {
  public:
   /// Throws std::invalid_argument when `device` is not such a device.

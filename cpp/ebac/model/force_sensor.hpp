@@ -9,13 +9,13 @@
 
 namespace ebac {
 
-/// A force/torque sensor between handle and hand. Its lag belongs to the plant, which is continuous; the
-/// rest happens when a reading is taken.
+/// A force/torque sensor between handle and hand. Its lag belongs to the plant, which is
+/// continuous; the rest happens when a reading is taken.
 struct ForceSensor {
-  double lag = 8e-4;     // s
-  double noise = 0;      // N, standard deviation
-  double quantum = 0;    // N, 0 for none
-  double range = 145;    // N
+  double lag = 8e-4;   // s
+  double noise = 0;    // N, standard deviation
+  double quantum = 0;  // N, 0 for none
+  double range = 145;  // N
 
   double read(double force, Noise& random) const EBAC_RT {
     if (noise > 0) force += noise * random.normal();

@@ -41,7 +41,8 @@ double Recorded::position(double t) const EBAC_RT {
   const auto& [times, xs] = *points_;
   if (t <= times.front()) return xs.front();
   if (t >= times.back()) return xs.back();
-  const auto after = static_cast<std::size_t>(std::upper_bound(times.begin(), times.end(), t) - times.begin());
+  const auto after =
+      static_cast<std::size_t>(std::upper_bound(times.begin(), times.end(), t) - times.begin());
   const double share = (t - times[after - 1]) / (times[after] - times[after - 1]);
   return xs[after - 1] + share * (xs[after] - xs[after - 1]);
 }

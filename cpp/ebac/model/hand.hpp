@@ -9,8 +9,8 @@
 #include "ebac/core/fields.hpp"
 #include "ebac/core/realtime.hpp"
 
-/// The operator of eq. (4), (5): a mass, a damper and a spring pulled towards an intended path X0(t). On the
-/// device acts F_h = K0 (X0 - x) - B0 v - M0 a.
+/// The operator of eq. (4), (5): a mass, a damper and a spring pulled towards an intended path
+/// X0(t). On the device acts F_h = K0 (X0 - x) - B0 v - M0 a.
 namespace ebac {
 
 /// Wants to be at `target` from time `at` on.
@@ -30,9 +30,9 @@ struct Step {
 
 /// Reaches `target` along the smoothest path (Flash and Hogan 1985).
 struct MinimumJerk {
-  double target = 0.04;    // m
-  double at = 0;           // s
-  double duration = 0.5;   // s
+  double target = 0.04;   // m
+  double at = 0;          // s
+  double duration = 0.5;  // s
 
   double position(double t) const EBAC_RT {
     const double s = (t - at) / duration;
@@ -69,9 +69,9 @@ struct Sine {
 
 /// Square tapping: half a period at `target`, half a period at `rest`.
 struct Tapping {
-  double target = 0.04;   // m
-  double rest = -0.01;    // m
-  double frequency = 1.5; // Hz
+  double target = 0.04;    // m
+  double rest = -0.01;     // m
+  double frequency = 1.5;  // Hz
 
   double position(double t) const EBAC_RT;
 
@@ -87,7 +87,8 @@ struct Tapping {
 /// A path from a log: straight between its points, constant beyond its ends.
 class Recorded {
  public:
-  /// `t` [s] must rise strictly, `x` [m] has as many values; throws std::invalid_argument otherwise.
+  /// `t` [s] must rise strictly, `x` [m] has as many values; throws std::invalid_argument
+  /// otherwise.
   Recorded(std::vector<double> t, std::vector<double> x);
 
   double position(double t) const EBAC_RT;
@@ -105,19 +106,20 @@ class Recorded {
 
 using Path = std::variant<Step, MinimumJerk, Sine, Tapping, Recorded>;
 
-/// Where a path is at the start of an interval, and its slope over it: a target enters the plant as a ramp.
+/// Where a path is at the start of an interval, and its slope over it: a target enters the plant as
+/// a ramp.
 struct Target {
   double x = 0;     // m
   double rate = 0;  // m/s
 };
 
 struct Hand {
-  double mass = 0.15;       // kg
-  double damping = 6;       // N s/m
-  double stiffness = 300;   // N/m
+  double mass = 0.15;      // kg
+  double damping = 6;      // N s/m
+  double stiffness = 300;  // N/m
   std::array<Path, kMaxAxes> path{Step{}, Step{.target = 0}, Step{.target = 0}};
-  double tremor_amplitude = 0;   // m
-  double tremor_frequency = 9;   // Hz
+  double tremor_amplitude = 0;                                  // m
+  double tremor_frequency = 9;                                  // Hz
   double release_at = std::numeric_limits<double>::infinity();  // s
 
   /// The intended path of one axis over [t, t + dt], tremor on top.

@@ -10,8 +10,8 @@
 #include "ebac/core/fields.hpp"
 #include "ebac/core/realtime.hpp"
 
-/// The map between joints [rad, N m] and the handle [m, N]. A kinematics gives `axes`, `radius`, `limit`,
-/// `forward`, `inverse`, `jacobian`; the free functions below derive the rest.
+/// The map between joints [rad, N m] and the handle [m, N]. A kinematics gives `axes`, `radius`,
+/// `limit`, `forward`, `inverse`, `jacobian`; the free functions below derive the rest.
 namespace ebac {
 
 /// Joints or ports of one device; entries beyond the axes in use are zero.
@@ -23,7 +23,7 @@ static_assert(Axes::SizeAtCompileTime == kMaxAxes);
 /// n independent axes: x = R q. The device of eq. (6).
 struct Linear {
   int axes = 1;
-  double radius = 0.1;  // m
+  double radius = 0.1;                  // m
   double limit = std::numbers::pi / 6;  // rad
 
   Axes forward(const Axes& q) const EBAC_RT { return radius * q; }
@@ -41,11 +41,12 @@ struct Linear {
   }
 };
 
-/// The paper's joystick: a lever of radius R on two crossed axes. q1 turns it about the base's y axis and
-/// moves the handle along x; q2 turns it about the moved x axis and moves the handle along y.
-/// The handle lies on a sphere: x = R sin q1 cos q2, y = R sin q2, z = R cos q1 cos q2 (upright: q = 0).
+/// The paper's joystick: a lever of radius R on two crossed axes. q1 turns it about the base's y
+/// axis and moves the handle along x; q2 turns it about the moved x axis and moves the handle along
+/// y. The handle lies on a sphere: x = R sin q1 cos q2, y = R sin q2, z = R cos q1 cos q2 (upright:
+/// q = 0).
 struct Gimbal {
-  static constexpr int axes = 2;
+  static constexpr int kAxes = 2;
   double radius = 0.1;                  // m
   double limit = std::numbers::pi / 6;  // rad, eq. (11)
 
@@ -80,15 +81,19 @@ struct Gimbal {
     using F = Field<Gimbal>;
     return std::array{
         F{"radius", &Gimbal::radius, "m", "lever radius (paper, IV.A)", 1e-4, 10},
-        F{"limit", &Gimbal::limit, "rad", "largest angle of each joint either way, eq. (11)", 1e-3, 1.5},
+        F{"limit", &Gimbal::limit, "rad", "largest angle of each joint either way, eq. (11)", 1e-3,
+          1.5},
     };
   }
 };
 
 using Kinematics = std::variant<Linear, Gimbal>;
 
+inline int axes(const Linear& linear) EBAC_RT { return linear.axes; }
+inline int axes(const Gimbal&) EBAC_RT { return Gimbal::kAxes; }
+
 inline int axes(const Kinematics& kinematics) EBAC_RT {
-  return std::visit([](const auto& k) { return static_cast<int>(k.axes); }, kinematics);
+  return std::visit([](const auto& k) { return axes(k); }, kinematics);
 }
 inline double radius(const Kinematics& kinematics) EBAC_RT {
   return std::visit([](const auto& k) { return k.radius; }, kinematics);
@@ -114,7 +119,7 @@ inline Axes weight(const Kinematics& kinematics, const Axes& q, double newton) E
 inline bool within_limits(const Kinematics& kinematics, const Axes& q) EBAC_RT {
   return std::visit(
       [&](const auto& k) {
-        for (int i = 0; i < k.axes; ++i) {
+        for (int i = 0; i < axes(k); ++i) {
           if (!(std::abs(q[i]) <= k.limit)) return false;
         }
         return true;

@@ -8,24 +8,32 @@
 
 namespace ebac {
 
-/// Time inside the plant is counted in quanta: a tick has 2^20 of them, about a nanosecond at 1 kHz. An event
-/// is found to the quantum; a jittered tick is a whole number of them.
+/// Time inside the plant is counted in quanta: a tick has 2^20 of them, about a nanosecond at 1
+/// kHz. An event is found to the quantum; a jittered tick is a whole number of them.
 inline constexpr int kQuantaBits = 20;
 inline constexpr std::int64_t kQuanta = std::int64_t{1} << kQuantaBits;
 
-/// The exact flow of w' = A w over dyadic parts of a tick, and the exact integral of (row . w)^2 along it.
+/// The exact flow of w' = A w over dyadic parts of a tick, and the exact integral of (row . w)^2
+/// along it. The last rows of A are zero: those entries of w are constant inputs.
 ///
-/// Level j moves by 2^-j ticks: w <- phi w, and the integral is w^T square w (Van Loan 1978). Everything is
-/// computed once per parameter set, by the matrix exponential.
+/// Level j moves by 2^-j ticks: w <- (phi w, inputs), and the integral is w^T square w (Van Loan
+/// 1978). Everything is computed once per parameter set, by the matrix exponential.
 class LinearFlow {
  public:
   static constexpr int kSize = 6;
+  static constexpr int kMoving = 4;  // entries before the inputs
   using Vector = Eigen::Matrix<double, kSize, 1>;
   using Matrix = Eigen::Matrix<double, kSize, kSize>;
 
   struct Step {
-    Matrix phi;
+    Eigen::Matrix<double, kMoving, kSize> phi;
     Matrix square;
+
+    Vector from(const Vector& w) const EBAC_RT {
+      Vector next = w;
+      next.head<kMoving>().noalias() = phi * w;
+      return next;
+    }
   };
 
   LinearFlow(const Matrix& a, const Vector& row, double tick);

@@ -8,18 +8,18 @@ namespace ebac {
 
 /// What moves, told at the handle; every axis of a device is built alike.
 ///
-/// Rigid and without Stribeck the handle is one mass and the plant is exact between events. A cable of
-/// finite stiffness or a backlash gives the rotor its own coordinate.
+/// Rigid and without Stribeck the handle is one mass and the plant is exact between events. A cable
+/// of finite stiffness or a backlash gives the rotor its own coordinate.
 struct Mechanics {
-  double handle_mass = 0.114;      // kg
-  double damping = 2.0;            // N s/m
-  double coulomb = 0;              // N
-  double breakaway = 0;            // N
-  double stribeck_speed = 0.01;    // m/s
-  double gravity = 0;              // m/s^2
-  double cable_stiffness = 0;      // N/m
-  double cable_damping = 2.0;      // N s/m
-  double backlash = 0;             // m
+  double handle_mass = 0.114;    // kg
+  double damping = 2.0;          // N s/m
+  double coulomb = 0;            // N
+  double breakaway = 0;          // N
+  double stribeck_speed = 0.01;  // m/s
+  double gravity = 0;            // m/s^2
+  double cable_stiffness = 0;    // N/m
+  double cable_damping = 2.0;    // N s/m
+  double backlash = 0;           // m
 
   bool stribeck() const { return breakaway > coulomb; }
   bool compliant() const { return cable_stiffness > 0; }
@@ -36,13 +36,13 @@ struct Mechanics {
         F{"stribeck_speed", &Mechanics::stribeck_speed, "m/s",
           "speed over which friction falls from breakaway to coulomb", 1e-5, 10},
         F{"gravity", &Mechanics::gravity, "m/s^2",
-          "Linear: pulls the handle along +x; Gimbal: pulls it down, so that upright is unstable", -100,
-          100},
+          "Linear: pulls the handle along +x; Gimbal: pulls it down, so that upright is unstable",
+          -100, 100},
         F{"cable_stiffness", &Mechanics::cable_stiffness, "N/m",
           "cable between rotor and lever; 0 is rigid", 0, 1e8},
         F{"cable_damping", &Mechanics::cable_damping, "N s/m", "damping inside the cable", 0, 1e4},
-        F{"backlash", &Mechanics::backlash, "m", "play of the cable, end to end; needs cable_stiffness",
-          0, 0.1},
+        F{"backlash", &Mechanics::backlash, "m",
+          "play of the cable, end to end; needs cable_stiffness", 0, 0.1},
     };
   }
 };

@@ -21,11 +21,12 @@ struct Motor {
   static constexpr auto fields() {
     using F = Field<Motor>;
     return std::array{
-        F{"torque_constant", &Motor::torque_constant, "N m/A", "torque per current (paper, II.B)", 1e-5,
-          100},
-        F{"rated_torque", &Motor::rated_torque, "N m", "continuous torque (paper, II.B)", 1e-5, 1e3},
-        F{"rated_current", &Motor::rated_current, "A", "largest continuous current (paper, II.A)", 1e-3,
+        F{"torque_constant", &Motor::torque_constant, "N m/A", "torque per current (paper, II.B)",
+          1e-5, 100},
+        F{"rated_torque", &Motor::rated_torque, "N m", "continuous torque (paper, II.B)", 1e-5,
           1e3},
+        F{"rated_current", &Motor::rated_current, "A", "largest continuous current (paper, II.A)",
+          1e-3, 1e3},
         F{"stall_current", &Motor::stall_current, "A", "stall current (paper, II.A)", 1e-3, 1e4},
         F{"rotor_inertia", &Motor::rotor_inertia, "kg m^2",
           "rotor inertia (indicative: RE 30 data sheet, from memory)", 0, 1},
@@ -33,8 +34,8 @@ struct Motor {
   }
 };
 
-/// Eq. (1) in Copley's units: I = 0.001 T Tc / Ts, with T in thousandths of the continuous torque, Tc in
-/// 1e-5 N m, Ts in 1e-5 N m/A; the answer in A.
+/// Eq. (1) in Copley's units: I = 0.001 T Tc / Ts, with T in thousandths of the continuous torque,
+/// Tc in 1e-5 N m, Ts in 1e-5 N m/A; the answer in A.
 constexpr double copley_current(double torque_permille, double continuous_torque_1e5,
                                 double torque_constant_1e5) EBAC_RT {
   return 0.001 * torque_permille * continuous_torque_1e5 / torque_constant_1e5;
@@ -42,9 +43,9 @@ constexpr double copley_current(double torque_permille, double continuous_torque
 
 /// The drive in front of the motor: how fast, how far and how finely it sets a current.
 struct Drive {
-  double current_lag = 3e-4;   // s
-  double peak_ratio = 4.0;     // peak torque over rated torque
-  bool permille = false;       // torque in whole thousandths of rated, as CiA 402 object 0x6071
+  double current_lag = 3e-4;  // s
+  double peak_ratio = 4.0;    // peak torque over rated torque
+  bool permille = false;      // torque in whole thousandths of rated, as CiA 402 object 0x6071
 
   double peak_current(const Motor& motor) const EBAC_RT {
     const double wanted = motor.current(peak_ratio * motor.rated_torque);
@@ -55,7 +56,8 @@ struct Drive {
     using F = Field<Drive>;
     return std::array{
         F{"current_lag", &Drive::current_lag, "s", "time constant of the current loop", 0, 0.1},
-        F{"peak_ratio", &Drive::peak_ratio, "1", "peak over rated torque (42.4 N over 10.6 N)", 0.01, 10},
+        F{"peak_ratio", &Drive::peak_ratio, "1", "peak over rated torque (42.4 N over 10.6 N)",
+          0.01, 10},
         F{"permille", &Drive::permille, "1",
           "torque quantised to whole thousandths of rated (CiA 402, 0x6071)", 0, 1},
     };

@@ -7,8 +7,9 @@
 
 namespace ebac {
 
-/// Random numbers that are the same bits on every machine: splitmix64 (Steele, Lea, Flood 2014), and the polar
-/// method for the normal distribution. The standard library's distributions differ between vendors.
+/// Random numbers that are the same bits on every machine: splitmix64 (Steele, Lea, Flood 2014),
+/// and the polar method for the normal distribution. The standard library's distributions differ
+/// between vendors.
 class Noise {
  public:
   explicit Noise(std::uint64_t seed, std::uint64_t stream = 0) EBAC_RT

@@ -7,7 +7,8 @@
 #include "ebac/core/fields.hpp"
 #include "ebac/core/realtime.hpp"
 
-/// Velocity from quantised positions. An estimator is its parameters; its memory is `VelocityState`.
+/// Velocity from quantised positions. An estimator is its parameters; its memory is
+/// `VelocityState`.
 namespace ebac {
 
 /// v = dx / dt: no lag, one count of noise.
@@ -26,8 +27,8 @@ struct LowPass {
   }
 };
 
-/// First-order adaptive windowing (Janabi-Sharifi, Hayward, Chen 2000): the longest window whose end-to-end
-/// line passes within `band` counts of every reading in it.
+/// First-order adaptive windowing (Janabi-Sharifi, Hayward, Chen 2000): the longest window whose
+/// end-to-end line passes within `band` counts of every reading in it.
 struct AdaptiveWindow {
   static constexpr int kCapacity = 32;
   int longest = 16;   // samples
@@ -37,8 +38,8 @@ struct AdaptiveWindow {
     using F = Field<AdaptiveWindow>;
     return std::array{
         F{"longest", &AdaptiveWindow::longest, "samples", "longest window", 1, kCapacity - 1},
-        F{"band", &AdaptiveWindow::band, "counts", "largest distance of a reading from the line", 0.5,
-          100},
+        F{"band", &AdaptiveWindow::band, "counts", "largest distance of a reading from the line",
+          0.5, 100},
     };
   }
 };
@@ -70,8 +71,9 @@ class Readings {
   int size_ = 0;
 };
 
-/// Slope of the longest window of `readings` whose line keeps within `tolerance` of every reading. Lines
-/// from the newest reading that pass all bands form a cone of slopes, which only narrows: one pass.
+/// Slope of the longest window of `readings` whose line keeps within `tolerance` of every reading.
+/// Lines from the newest reading that pass all bands form a cone of slopes, which only narrows: one
+/// pass.
 inline double adaptive_slope(const Readings& readings, int longest, double tolerance) EBAC_RT {
   const int last = std::min(longest, readings.size() - 1);
   double slope = 0;
@@ -96,7 +98,8 @@ struct VelocityState {
   double t = 0;
   Readings readings{};
 
-  /// Takes position `x` that lies `dx` from the last one, `dt` later; `count` is the encoder's step.
+  /// Takes position `x` that lies `dx` from the last one, `dt` later; `count` is the encoder's
+  /// step.
   double update(const Velocity& estimator, double x, double dx, double dt, double count) EBAC_RT {
     if (!(dt > 0)) {
       t = v = 0;

@@ -6,7 +6,8 @@
 
 #include "ebac/sim/simulate.hpp"
 
-/// Times without Python inside: nanoseconds per step, the best of several runs, since noise only adds.
+/// Times without Python inside: nanoseconds per step, the best of several runs, since noise only
+/// adds.
 namespace ebac {
 
 template <class Work>

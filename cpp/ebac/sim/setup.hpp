@@ -15,8 +15,8 @@ struct Setup {
   Hand hand{};
   Environment environment{Wall{}};
   Timing timing{};
-  double seconds = 6;      // s
-  double jitter = 0;       // of a tick
+  double seconds = 6;  // s
+  double jitter = 0;   // of a tick
   std::uint64_t seed = 1;
 };
 

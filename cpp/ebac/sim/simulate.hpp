@@ -13,8 +13,8 @@ namespace ebac {
 /// The loop of a simulated run.
 template <AxesController Law>
 Loop<SimulatedDevice, VirtualClock, Law> simulated_loop(const Setup& setup, Law law) {
-  return {SimulatedDevice(setup), VirtualClock(setup.timing.dt, setup.jitter, setup.seed), std::move(law),
-          Rig(setup.device, setup.environment), setup.device.axes()};
+  return {SimulatedDevice(setup), VirtualClock(setup.timing.dt, setup.jitter, setup.seed),
+          std::move(law), Rig(setup.device, setup.environment), setup.device.axes()};
 }
 
 inline std::size_t row_count(const Setup& setup) {

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 #include <variant>
 
 #include "ebac/core/concepts.hpp"
@@ -11,8 +13,9 @@
 
 namespace ebac {
 
-/// Takes amperes, returns encoder counts one tick later: the machine's place on the desk. Everything behind the
-/// counts (estimation, kinematics, limits, units, latency) is the same code as on the machine.
+/// Takes amperes, returns encoder counts one tick later: the machine's place on the desk.
+/// Everything behind the counts (estimation, kinematics, limits, units, latency) is the same code
+/// as on the machine.
 class SimulatedDevice {
  public:
   using State = AxisTruth;
@@ -21,23 +24,27 @@ class SimulatedDevice {
       : device_(setup.device),
         plant_(make_plant(setup)),
         random_(setup.seed),
+        axes_(static_cast<std::size_t>(setup.device.axes())),
+        peak_current_(setup.device.drive.peak_current(setup.device.motor)),
         tick_(setup.timing.dt),
-        delay_(setup.timing.delay) {}
+        delay_(static_cast<std::size_t>(setup.timing.delay)) {
+    Noise chance(setup.seed, /*stream=*/2);
+    for (double& phase : phase_) phase = 0.5 * device_.encoder.count() * chance.symmetric();
+  }
 
   Reading exchange(const Command& command) EBAC_RT {
     if (command.elapsed > 0) {
-      const Axes current = delayed(command);
-      const auto quanta = static_cast<std::int64_t>(
-          std::llround(command.elapsed / tick_ * static_cast<double>(kQuanta)));
-      std::visit([&](auto& plant) EBAC_RT { plant.advance(current, t_, quanta); }, plant_);
+      drive(command);
+      std::visit([&](auto& plant) EBAC_RT { plant.advance(applied_, t_, quanta(command.elapsed)); },
+                 plant_);
       t_ += command.elapsed;
-      for (std::size_t i = 0; i < kMaxAxes; ++i) applied_[i] = current[static_cast<Eigen::Index>(i)];
     }
     return std::visit([&](const auto& plant) EBAC_RT { return latch(plant); }, plant_);
   }
 
   const State& state(std::size_t axis) const EBAC_RT {
-    return std::visit([&](const auto& plant) EBAC_RT -> const State& { return plant.truth(axis); }, plant_);
+    return std::visit([&](const auto& plant) EBAC_RT -> const State& { return plant.truth(axis); },
+                      plant_);
   }
 
  private:
@@ -48,20 +55,20 @@ class SimulatedDevice {
     return SteppedPlant(s.device, s.hand, s.timing.dt);
   }
 
-  /// What the drive sets during the next interval: the command of `delay - 1` exchanges ago.
-  Axes delayed(const Command& command) EBAC_RT {
-    const double peak = device_.drive.peak_current(device_.motor);
-    Axes asked;
-    for (std::size_t i = 0; i < kMaxAxes; ++i) {
-      double current = std::clamp(command.current[i], -peak, peak);
+  /// Sets the currents of the next interval: the command of `delay - 1` exchanges ago.
+  void drive(const Command& command) EBAC_RT {
+    for (std::size_t i = 0; i < axes_; ++i) {
+      double current = std::clamp(command.current[i], -peak_current_, peak_current_);
       if (device_.drive.permille) current = whole_permille(current);
-      asked[static_cast<Eigen::Index>(i)] = current;
+      if (delay_ > 0) std::swap(current, queue_[head_][i]);
+      applied_[static_cast<Eigen::Index>(i)] = current;
     }
-    if (delay_ == 0) return asked;
-    const Axes now = queue_[head_];
-    queue_[head_] = asked;
-    head_ = (head_ + 1) % static_cast<std::size_t>(delay_);
-    return now;
+    if (++head_ >= delay_) head_ = 0;
+  }
+
+  std::int64_t quanta(double seconds) const EBAC_RT {
+    return seconds == tick_ ? kQuanta
+                            : std::llround(seconds / tick_ * static_cast<double>(kQuanta));
   }
 
   double whole_permille(double current) const EBAC_RT {
@@ -72,14 +79,14 @@ class SimulatedDevice {
   template <class P>
   Reading latch(const P& plant) EBAC_RT {
     Reading reading;
-    for (std::size_t i = 0; i < static_cast<std::size_t>(device_.axes()); ++i) {
+    for (std::size_t i = 0; i < axes_; ++i) {
       const double angle = plant.motor_angle(i);
       if (!std::isfinite(angle)) {
         reading.fault = Fault::kDevice;
         continue;
       }
-      reading.counts[i] = device_.encoder.read(angle);
-      reading.current_applied[i] = applied_[i];
+      reading.counts[i] = device_.encoder.read(angle + phase_[i]);
+      reading.current_applied[i] = applied_[static_cast<Eigen::Index>(i)];
       reading.force[i] = device_.sensor.read(plant.truth(i).f_sensor, random_);
     }
     return reading;
@@ -88,16 +95,15 @@ class SimulatedDevice {
   DeviceModel device_;
   Plant plant_;
   Noise random_;
+  std::size_t axes_;
+  double peak_current_;  // A
   double tick_;
-  int delay_;
+  std::size_t delay_;
   double t_ = 0;
-  std::array<Axes, 8> queue_ = [] {
-    std::array<Axes, 8> all;
-    all.fill(Axes::Zero());
-    return all;
-  }();
+  std::array<std::array<double, kMaxAxes>, 8> queue_{};  // A, oldest at head_
   std::size_t head_ = 0;
-  std::array<double, kMaxAxes> applied_{};
+  Axes applied_ = Axes::Zero();           // A, over the last interval
+  std::array<double, kMaxAxes> phase_{};  // rad, of the motor within its first count
 };
 
 static_assert(Device<SimulatedDevice>);

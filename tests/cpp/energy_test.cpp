@@ -1,0 +1,87 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+
+#include "ebac/control/eba.hpp"
+#include "ebac/model/noise.hpp"
+
+namespace ebac {
+namespace {
+
+/// A world that is out for energy: displacements and forces of every size, walls, and now and then
+/// the very displacement that takes the most out of the force that acts, -F/(2B).
+class HostileWorld {
+ public:
+  HostileWorld(double b, std::uint64_t seed) : b_(b), random_(seed) {}
+
+  double displacement(double acting) {
+    switch (random_.bits() % 4) {
+      case 0:
+        return -acting / (2 * b_);
+      case 1:
+        return 0;
+      default:
+        return 1e-3 * random_.normal();
+    }
+  }
+  double force(double x, double command) {
+    switch (random_.bits() % 4) {
+      case 0:
+        return std::max(0.0, 1e4 * x);
+      case 1:
+        return -command;
+      case 2:
+        return 100 * random_.normal();
+      default:
+        return command;
+    }
+  }
+
+ private:
+  double b_;
+  Noise random_;
+};
+
+/// Lowest of W + D over `steps` ticks of one law in a hostile world.
+double least_energy(int delay, double damping, std::uint64_t seed, int steps) {
+  const Timing timing{.dt = 1e-3, .delay = delay};
+  Eba law({.damping = damping, .current_lag = 0, .count = 0, .peak_force = 1e4}, timing);
+  HostileWorld world(damping / timing.dt, seed);
+  std::deque<double> queue(static_cast<std::size_t>(delay) + 1, 0.0);
+  Port port;
+  double energy = 0;
+  double least = 0;
+  law.step(port);
+  for (int k = 0; k < steps; ++k) {
+    const double acting = queue.front();
+    queue.pop_front();
+    port.dx = world.displacement(acting);
+    port.x += port.dx;
+    port.dt = timing.dt;
+    port.f_applied = acting;
+    port.f_env = world.force(port.x, port.f_cmd);
+    energy += (acting + damping / timing.dt * port.dx) * port.dx;
+    least = std::min(least, energy);
+    port.f_cmd = law.step(port);
+    queue.push_back(port.f_cmd);
+  }
+  return least;
+}
+
+class EbaBound : public testing::TestWithParam<int> {};
+
+TEST_P(EbaBound, HoldsOverHundredsOfThousandsOfHostileSteps) {
+  for (const double damping : {0.1, 2.0, 40.0}) {
+    for (std::uint64_t seed = 0; seed < 4; ++seed) {
+      EXPECT_GE(least_energy(GetParam(), damping, seed, 50'000), -1e-9)
+          << "damping " << damping << " N s/m, seed " << seed;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Delay, EbaBound, testing::Values(0, 1, 2, 5));
+
+}  // namespace
+}  // namespace ebac

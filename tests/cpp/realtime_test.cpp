@@ -1,0 +1,129 @@
+// Nothing on the tick path allocates: counted by the program's own operator new.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstddef>
+#include <cstdlib>
+#include <new>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "ebac/control/laws.hpp"
+#include "ebac/sim/simulate.hpp"
+
+namespace {
+std::size_t allocations = 0;  // the tests have one thread
+
+void* counted(std::size_t size, std::size_t alignment) {
+  ++allocations;
+  // aligned_alloc wants a whole multiple of the alignment.
+  void* memory = std::aligned_alloc(alignment, (size + alignment) / alignment * alignment);
+  if (memory == nullptr) throw std::bad_alloc();
+  return memory;
+}
+}  // namespace
+
+void* operator new(std::size_t size) { return counted(size, alignof(std::max_align_t)); }
+void* operator new(std::size_t size, std::align_val_t alignment) {
+  return counted(size, static_cast<std::size_t>(alignment));
+}
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
+
+namespace ebac {
+namespace {
+
+constexpr int kTicks = 10'000;
+
+/// Into the wall and out of it again, so that every branch of a law runs.
+Setup busy() {
+  Setup setup;
+  setup.hand.path[0] = Tapping{};
+  setup.seconds = (kTicks - 1) * setup.timing.dt;
+  return setup;
+}
+
+template <Controller Law>
+Law designed(const Setup& setup) {
+  return Law(Law::Params::design(setup.device.facts(), setup.timing), setup.timing);
+}
+
+/// Allocations of a closed loop of `kTicks`, its preparation apart.
+template <Controller Law>
+std::size_t allocations_of_loop(const Setup& setup) {
+  auto loop = simulated_loop(setup, PerAxis<Law>(designed<Law>(setup)));
+  const auto trace = loop.make_trace(row_count(setup));
+  const std::size_t before = allocations;
+  loop.run(*trace);
+  const std::size_t after = allocations;
+  EXPECT_EQ(trace->size(), kTicks);
+  return after - before;
+}
+
+template <class Tuple>
+struct AsTypes;
+template <class... Law>
+struct AsTypes<std::tuple<Law...>> {
+  using Types = testing::Types<Law...>;
+};
+
+struct LawNames {
+  template <class Law>
+  static std::string GetName(
+      int) {  // NOLINT(readability-identifier-naming): GoogleTest asks for it
+    return std::string(Law::kName);
+  }
+};
+
+template <class Law>
+class Realtime : public testing::Test {};
+TYPED_TEST_SUITE(Realtime, AsTypes<Laws>::Types, LawNames);
+
+TEST(Counting, SeesAnAllocation) {
+  const std::size_t before = allocations;
+  const std::vector<double> some(10);
+  EXPECT_EQ(allocations, before + 1);
+}
+
+TYPED_TEST(Realtime, StepsOfALawDoNotAllocate) {
+  const Setup setup = busy();
+  auto law = designed<TypeParam>(setup);
+  const auto trace = simulate(setup, law);
+  law.reset();
+  const std::size_t before = allocations;
+  double sum = 0;
+  for (std::size_t row = 0; row < kTicks; ++row) sum += law.step(trace->sample(row).axis[0].port);
+  EXPECT_EQ(allocations, before);
+  EXPECT_TRUE(std::isfinite(sum));
+}
+
+TYPED_TEST(Realtime, LoopDoesNotAllocate) { EXPECT_EQ(allocations_of_loop<TypeParam>(busy()), 0); }
+
+TYPED_TEST(Realtime, LoopWithEverythingOnDoesNotAllocate) {
+  Setup setup = busy();
+  setup.device.kinematics = Linear{.axes = 3};
+  setup.device.mechanics.coulomb = 1;
+  setup.device.mechanics.gravity = 9.81;
+  setup.device.sensor = {.noise = 0.2, .quantum = 0.01};
+  setup.device.velocity = AdaptiveWindow{};
+  setup.device.compensation = {.gravity_mass = 0.1, .friction = 0.5, .inertia = 0.05};
+  setup.hand.path = {Recorded({0, 1, 2}, {0, 0.04, -0.01}), Sine{}, MinimumJerk{}};
+  setup.hand.tremor_amplitude = 1e-3;
+  setup.hand.release_at = 5;
+  setup.environment = Corner{};
+  setup.jitter = 0.2;
+  EXPECT_EQ(allocations_of_loop<TypeParam>(setup), 0);
+}
+
+TYPED_TEST(Realtime, LoopOfACoupledDeviceDoesNotAllocate) {
+  Setup setup = busy();
+  setup.device.kinematics = Gimbal{};
+  setup.environment = Wall{.angle = 0.5};
+  EXPECT_EQ(allocations_of_loop<TypeParam>(setup), 0);
+}
+
+}  // namespace
+}  // namespace ebac
