@@ -31,6 +31,7 @@ __all__: list[str] = [
     "ExactPlant",
     "Fault",
     "Field",
+    "ForceBounding",
     "ForceSensor",
     "Free",
     "Gimbal",
@@ -40,6 +41,7 @@ __all__: list[str] = [
     "Mechanics",
     "MinimumJerk",
     "Motor",
+    "PassivityControl",
     "Port",
     "Recorded",
     "Rows",
@@ -47,8 +49,10 @@ __all__: list[str] = [
     "Sine",
     "Step",
     "SteppedPlant",
+    "TCADamped",
     "Tapping",
     "Timing",
+    "VirtualCoupling",
     "Wall",
     "copley_current",
     "estimate_velocity",
@@ -2085,6 +2089,532 @@ class TCA:
         Sample time and delay the law counts with.
         """
 
+class TCADamped:
+    """
+    eq. (2) plus a virtual damper in contact.
+
+    Parameters
+    ----------
+    mass : float
+        device mass at the handle, M_h [kg], 0.001 to 100.
+    current_lag : float
+        time constant of the drive's current loop [s], 0 to 0.1.
+    count : float
+        one encoder count at the handle [m], 0 to 0.01.
+    kp : float
+        K_p of eq. (2), 0 to 10.
+    kd : float
+        K_d of eq. (2) [s], 0 to 1.
+    filter : float
+        low-pass on the derivative of the force error [s], 0 to 1.
+    peak_force : float
+        largest command [N], 0.001 to 10000.
+    """
+    class State:
+        """
+        What the law remembers and a trace records.
+        """
+        @staticmethod
+        def fields() -> list[Field]:
+            """
+            Name, unit, meaning, default and range of every parameter.
+            """
+        def __repr__(self) -> str: ...
+        def as_dict(self) -> dict[str, typing.Any]:
+            """
+            Values by name.
+            """
+        @property
+        def feedback(self) -> float:
+            """
+            PD part of eq. (2) [N]
+            """
+        @property
+        def injected(self) -> float:
+            """
+            force of the virtual damper [N]
+            """
+
+    name: typing.ClassVar[str] = "tca-damped"
+    passive: typing.ClassVar[bool] = False
+    summary: typing.ClassVar[str] = "eq. (2) plus a virtual damper in contact"
+    @staticmethod
+    def design(facts: DeviceFacts | Device, timing: Timing, **changes: typing.Any) -> TCADamped:
+        """
+        The law for a device: every parameter from what a user can know of it, changes on top.
+        """
+    @staticmethod
+    def fields() -> list[Field]:
+        """
+        Name, unit, meaning, default and range of every parameter.
+        """
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __init__(
+        self,
+        *,
+        mass: float = 0.25,
+        current_lag: float = 0.0003,
+        count: float = 3.07e-05,
+        kp: float = 0.5,
+        kd: float = 0.0,
+        filter: float = 0.005,
+        peak_force: float = 42.4,
+        timing: Timing = ...,
+    ) -> None: ...
+    def __reduce__(self) -> tuple[typing.Any, ...]: ...
+    def __repr__(self) -> str: ...
+    def _simulate(self, setup: Setup) -> Rows: ...
+    def _time_step(
+        self, setup: Setup, repeats: typing.SupportsInt | typing.SupportsIndex
+    ) -> float: ...
+    def _time_tick(
+        self, setup: Setup, repeats: typing.SupportsInt | typing.SupportsIndex
+    ) -> float: ...
+    def as_dict(self) -> dict[str, typing.Any]:
+        """
+        Parameters by name; not the state.
+        """
+    def copy(self) -> TCADamped:
+        """
+        An independent copy, state included.
+        """
+    def replace(self, **changes: typing.Any) -> typing.Self:
+        """
+        A copy with some parameters changed; checked as at construction.
+        """
+    def reset(self) -> None:
+        """
+        Forgets everything but its parameters.
+        """
+    def step(self, port: Port) -> float:
+        """
+        One tick of one axis: the force it commands [N].
+        """
+    @property
+    def count(self) -> float:
+        """
+        one encoder count at the handle [m], 0 to 0.01
+        """
+    @property
+    def current_lag(self) -> float:
+        """
+        time constant of the drive's current loop [s], 0 to 0.1
+        """
+    @property
+    def filter(self) -> float:
+        """
+        low-pass on the derivative of the force error [s], 0 to 1
+        """
+    @property
+    def kd(self) -> float:
+        """
+        K_d of eq. (2) [s], 0 to 1
+        """
+    @property
+    def kp(self) -> float:
+        """
+        K_p of eq. (2), 0 to 10
+        """
+    @property
+    def mass(self) -> float:
+        """
+        device mass at the handle, M_h [kg], 0.001 to 100
+        """
+    @property
+    def peak_force(self) -> float:
+        """
+        largest command [N], 0.001 to 10000
+        """
+    @property
+    def state(self) -> TCADamped.State:
+        """
+        What the law remembers, as of the last step.
+        """
+    @property
+    def timing(self) -> Timing:
+        """
+        Sample time and delay the law counts with.
+        """
+
+class PassivityControl:
+    """
+    passivity observer and capped passivity controller.
+
+    Parameters
+    ----------
+    damping : float
+        lower bound of the device's physical damping, b [N s/m], 0 to 500.
+    cap : float
+        largest alpha over the device's damping, 0 to 100.
+    reference : bool
+        hold to the energy the environment stores instead of to zero, 0 to 1.
+    peak_force : float
+        largest command [N], 0.001 to 10000.
+    """
+    class State:
+        """
+        What the law remembers and a trace records.
+        """
+        @staticmethod
+        def fields() -> list[Field]:
+            """
+            Name, unit, meaning, default and range of every parameter.
+            """
+        def __repr__(self) -> str: ...
+        def as_dict(self) -> dict[str, typing.Any]:
+            """
+            Values by name.
+            """
+        @property
+        def alpha(self) -> float:
+            """
+            damping the controller injects [N s/m]
+            """
+        @property
+        def clamped(self) -> bool:
+            """
+            1 where the controller acts
+            """
+        @property
+        def observed(self) -> float:
+            """
+            energy taken in at the port [J]
+            """
+        @property
+        def reference(self) -> float:
+            """
+            energy it is held to [J]
+            """
+
+    name: typing.ClassVar[str] = "passivity-control"
+    passive: typing.ClassVar[bool] = False
+    summary: typing.ClassVar[str] = "passivity observer and capped passivity controller"
+    @staticmethod
+    def design(
+        facts: DeviceFacts | Device, timing: Timing, **changes: typing.Any
+    ) -> PassivityControl:
+        """
+        The law for a device: every parameter from what a user can know of it, changes on top.
+        """
+    @staticmethod
+    def fields() -> list[Field]:
+        """
+        Name, unit, meaning, default and range of every parameter.
+        """
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __init__(
+        self,
+        *,
+        damping: float = 2.0,
+        cap: float = 0.9,
+        reference: bool = False,
+        peak_force: float = 42.4,
+        timing: Timing = ...,
+    ) -> None: ...
+    def __reduce__(self) -> tuple[typing.Any, ...]: ...
+    def __repr__(self) -> str: ...
+    def _simulate(self, setup: Setup) -> Rows: ...
+    def _time_step(
+        self, setup: Setup, repeats: typing.SupportsInt | typing.SupportsIndex
+    ) -> float: ...
+    def _time_tick(
+        self, setup: Setup, repeats: typing.SupportsInt | typing.SupportsIndex
+    ) -> float: ...
+    def as_dict(self) -> dict[str, typing.Any]:
+        """
+        Parameters by name; not the state.
+        """
+    def copy(self) -> PassivityControl:
+        """
+        An independent copy, state included.
+        """
+    def replace(self, **changes: typing.Any) -> typing.Self:
+        """
+        A copy with some parameters changed; checked as at construction.
+        """
+    def reset(self) -> None:
+        """
+        Forgets everything but its parameters.
+        """
+    def step(self, port: Port) -> float:
+        """
+        One tick of one axis: the force it commands [N].
+        """
+    @property
+    def cap(self) -> float:
+        """
+        largest alpha over the device's damping, 0 to 100
+        """
+    @property
+    def damping(self) -> float:
+        """
+        lower bound of the device's physical damping, b [N s/m], 0 to 500
+        """
+    @property
+    def peak_force(self) -> float:
+        """
+        largest command [N], 0.001 to 10000
+        """
+    @property
+    def reference(self) -> bool:
+        """
+        hold to the energy the environment stores instead of to zero, 0 to 1
+        """
+    @property
+    def state(self) -> PassivityControl.State:
+        """
+        What the law remembers, as of the last step.
+        """
+    @property
+    def timing(self) -> Timing:
+        """
+        Sample time and delay the law counts with.
+        """
+
+class VirtualCoupling:
+    """
+    spring and damper to a proxy on the surface.
+
+    Parameters
+    ----------
+    coupling_stiffness : float
+        K_c [N/m], 0 to 1e+07.
+    coupling_damping : float
+        B_c [N s/m], 0 to 10000.
+    peak_force : float
+        largest command [N], 0.001 to 10000.
+    """
+    class State:
+        """
+        What the law remembers and a trace records.
+        """
+        @staticmethod
+        def fields() -> list[Field]:
+            """
+            Name, unit, meaning, default and range of every parameter.
+            """
+        def __repr__(self) -> str: ...
+        def as_dict(self) -> dict[str, typing.Any]:
+            """
+            Values by name.
+            """
+        @property
+        def clamped(self) -> bool:
+            """
+            1 where the coupling gave less than the world asked
+            """
+        @property
+        def proxy(self) -> float:
+            """
+            where the proxy stands [m]
+            """
+
+    name: typing.ClassVar[str] = "virtual-coupling"
+    passive: typing.ClassVar[bool] = False
+    summary: typing.ClassVar[str] = "spring and damper to a proxy on the surface"
+    @staticmethod
+    def design(
+        facts: DeviceFacts | Device, timing: Timing, **changes: typing.Any
+    ) -> VirtualCoupling:
+        """
+        The law for a device: every parameter from what a user can know of it, changes on top.
+        """
+    @staticmethod
+    def fields() -> list[Field]:
+        """
+        Name, unit, meaning, default and range of every parameter.
+        """
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __init__(
+        self,
+        *,
+        coupling_stiffness: float = 2000.0,
+        coupling_damping: float = 1.0,
+        peak_force: float = 42.4,
+        timing: Timing = ...,
+    ) -> None: ...
+    def __reduce__(self) -> tuple[typing.Any, ...]: ...
+    def __repr__(self) -> str: ...
+    def _simulate(self, setup: Setup) -> Rows: ...
+    def _time_step(
+        self, setup: Setup, repeats: typing.SupportsInt | typing.SupportsIndex
+    ) -> float: ...
+    def _time_tick(
+        self, setup: Setup, repeats: typing.SupportsInt | typing.SupportsIndex
+    ) -> float: ...
+    def as_dict(self) -> dict[str, typing.Any]:
+        """
+        Parameters by name; not the state.
+        """
+    def copy(self) -> VirtualCoupling:
+        """
+        An independent copy, state included.
+        """
+    def replace(self, **changes: typing.Any) -> typing.Self:
+        """
+        A copy with some parameters changed; checked as at construction.
+        """
+    def reset(self) -> None:
+        """
+        Forgets everything but its parameters.
+        """
+    def step(self, port: Port) -> float:
+        """
+        One tick of one axis: the force it commands [N].
+        """
+    @property
+    def coupling_damping(self) -> float:
+        """
+        B_c [N s/m], 0 to 10000
+        """
+    @property
+    def coupling_stiffness(self) -> float:
+        """
+        K_c [N/m], 0 to 1e+07
+        """
+    @property
+    def peak_force(self) -> float:
+        """
+        largest command [N], 0.001 to 10000
+        """
+    @property
+    def state(self) -> VirtualCoupling.State:
+        """
+        What the law remembers, as of the last step.
+        """
+    @property
+    def timing(self) -> Timing:
+        """
+        Sample time and delay the law counts with.
+        """
+
+class ForceBounding:
+    """
+    F^2 <= 4 B E on an accumulated, delay-aware account.
+
+    Parameters
+    ----------
+    damping : float
+        lower bound of the device's physical damping, b [N s/m], 0.01 to 500.
+    current_lag : float
+        time constant of the drive's current loop [s], 0 to 0.1.
+    count : float
+        one encoder count at the handle [m], 0 to 0.01.
+    peak_force : float
+        largest command [N], 0.001 to 10000.
+    """
+    class State:
+        """
+        What the law remembers and a trace records.
+        """
+        @staticmethod
+        def fields() -> list[Field]:
+            """
+            Name, unit, meaning, default and range of every parameter.
+            """
+        def __repr__(self) -> str: ...
+        def as_dict(self) -> dict[str, typing.Any]:
+            """
+            Values by name.
+            """
+        @property
+        def account(self) -> float:
+            """
+            port work plus damping, on the force really applied [J]
+            """
+        @property
+        def clamped(self) -> bool:
+            """
+            1 where the law gave less than the world asked
+            """
+
+    name: typing.ClassVar[str] = "force-bounding"
+    passive: typing.ClassVar[bool] = True
+    summary: typing.ClassVar[str] = "F^2 <= 4 B E on an accumulated, delay-aware account"
+    @staticmethod
+    def design(facts: DeviceFacts | Device, timing: Timing, **changes: typing.Any) -> ForceBounding:
+        """
+        The law for a device: every parameter from what a user can know of it, changes on top.
+        """
+    @staticmethod
+    def fields() -> list[Field]:
+        """
+        Name, unit, meaning, default and range of every parameter.
+        """
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __init__(
+        self,
+        *,
+        damping: float = 2.0,
+        current_lag: float = 0.0003,
+        count: float = 3.07e-05,
+        peak_force: float = 42.4,
+        timing: Timing = ...,
+    ) -> None: ...
+    def __reduce__(self) -> tuple[typing.Any, ...]: ...
+    def __repr__(self) -> str: ...
+    def _simulate(self, setup: Setup) -> Rows: ...
+    def _time_step(
+        self, setup: Setup, repeats: typing.SupportsInt | typing.SupportsIndex
+    ) -> float: ...
+    def _time_tick(
+        self, setup: Setup, repeats: typing.SupportsInt | typing.SupportsIndex
+    ) -> float: ...
+    def as_dict(self) -> dict[str, typing.Any]:
+        """
+        Parameters by name; not the state.
+        """
+    def copy(self) -> ForceBounding:
+        """
+        An independent copy, state included.
+        """
+    def replace(self, **changes: typing.Any) -> typing.Self:
+        """
+        A copy with some parameters changed; checked as at construction.
+        """
+    def reset(self) -> None:
+        """
+        Forgets everything but its parameters.
+        """
+    def step(self, port: Port) -> float:
+        """
+        One tick of one axis: the force it commands [N].
+        """
+    @property
+    def count(self) -> float:
+        """
+        one encoder count at the handle [m], 0 to 0.01
+        """
+    @property
+    def current_lag(self) -> float:
+        """
+        time constant of the drive's current loop [s], 0 to 0.1
+        """
+    @property
+    def damping(self) -> float:
+        """
+        lower bound of the device's physical damping, b [N s/m], 0.01 to 500
+        """
+    @property
+    def peak_force(self) -> float:
+        """
+        largest command [N], 0.001 to 10000
+        """
+    @property
+    def state(self) -> ForceBounding.State:
+        """
+        What the law remembers, as of the last step.
+        """
+    @property
+    def timing(self) -> Timing:
+        """
+        Sample time and delay the law counts with.
+        """
+
 class EBA:
     """
     eq. (8), (9) with the state-dependent energy bound.
@@ -2675,6 +3205,22 @@ def _time_law(
 @typing.overload
 def _time_law(arg0: Setup, arg1: TCA, arg2: typing.SupportsInt | typing.SupportsIndex) -> float: ...
 @typing.overload
+def _time_law(
+    arg0: Setup, arg1: TCADamped, arg2: typing.SupportsInt | typing.SupportsIndex
+) -> float: ...
+@typing.overload
+def _time_law(
+    arg0: Setup, arg1: PassivityControl, arg2: typing.SupportsInt | typing.SupportsIndex
+) -> float: ...
+@typing.overload
+def _time_law(
+    arg0: Setup, arg1: VirtualCoupling, arg2: typing.SupportsInt | typing.SupportsIndex
+) -> float: ...
+@typing.overload
+def _time_law(
+    arg0: Setup, arg1: ForceBounding, arg2: typing.SupportsInt | typing.SupportsIndex
+) -> float: ...
+@typing.overload
 def _time_law(arg0: Setup, arg1: EBA, arg2: typing.SupportsInt | typing.SupportsIndex) -> float: ...
 @typing.overload
 def _time_law(
@@ -2691,6 +3237,22 @@ def _time_loop(
 @typing.overload
 def _time_loop(
     arg0: Setup, arg1: TCA, arg2: typing.SupportsInt | typing.SupportsIndex
+) -> float: ...
+@typing.overload
+def _time_loop(
+    arg0: Setup, arg1: TCADamped, arg2: typing.SupportsInt | typing.SupportsIndex
+) -> float: ...
+@typing.overload
+def _time_loop(
+    arg0: Setup, arg1: PassivityControl, arg2: typing.SupportsInt | typing.SupportsIndex
+) -> float: ...
+@typing.overload
+def _time_loop(
+    arg0: Setup, arg1: VirtualCoupling, arg2: typing.SupportsInt | typing.SupportsIndex
+) -> float: ...
+@typing.overload
+def _time_loop(
+    arg0: Setup, arg1: ForceBounding, arg2: typing.SupportsInt | typing.SupportsIndex
 ) -> float: ...
 @typing.overload
 def _time_loop(

@@ -12,10 +12,14 @@ from ebac._core import (
     DeviceFacts,
     Direct,
     EBACPrinted,
+    ForceBounding,
+    PassivityControl,
     Port,
     Rows,
     Setup,
+    TCADamped,
     Timing,
+    VirtualCoupling,
 )
 
 
@@ -44,7 +48,20 @@ class CoreLaw(Protocol):
 
 
 #: Every law of this package by its name.
-LAWS: dict[str, type[CoreLaw]] = {law.name: law for law in (Direct, TCA, EBA, EBACPrinted, EBAC)}
+LAWS: dict[str, type[CoreLaw]] = {
+    law.name: law
+    for law in (
+        Direct,
+        TCA,
+        TCADamped,
+        PassivityControl,
+        VirtualCoupling,
+        ForceBounding,
+        EBA,
+        EBACPrinted,
+        EBAC,
+    )
+}
 
 
 @runtime_checkable

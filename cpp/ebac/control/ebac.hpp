@@ -8,6 +8,7 @@
 #include "ebac/control/beta.hpp"
 #include "ebac/control/energy_ledger.hpp"
 #include "ebac/control/force_feedback.hpp"
+#include "ebac/control/injection.hpp"
 #include "ebac/control/motion_guard.hpp"
 #include "ebac/control/pending.hpp"
 #include "ebac/control/play_velocity.hpp"
@@ -121,10 +122,11 @@ class Ebac {
   explicit Ebac(const Params& params, const Timing& timing = {})
       : params_(checked(params, "EBAC")),
         timing_(checked(timing, "Timing")),
-        design_(params, timing),
+        show_(params.mass, params.count, params.current_lag, timing),
+        recovery_time_(2.2 * (params.heaviest_hand + params.mass) / show_.damping),
         loop_(params.kp, params.kd, params.filter),
         ledger_(params.damping, params.count, params.current_lag, params.reserve),
-        velocity_(params.count, design_.velocity_lag),
+        velocity_(params.count, show_.velocity_lag),
         guard_(params.damping, params.mass, params.count, params.pull, timing.longest()),
         pending_(timing.delay) {
     reset();
@@ -163,7 +165,7 @@ class Ebac {
     dt_ = 0;
     pace_ = 1;
     heading_ = 0;
-    contact_slope_ = design_.stiffness;
+    contact_slope_ = show_.stiffness;
     ratio_ = 0;
   }
 
@@ -171,33 +173,11 @@ class Ebac {
   const Params& params() const EBAC_RT { return params_; }
   const Timing& timing() const EBAC_RT { return timing_; }
 
-  double bandwidth() const EBAC_RT { return design_.bandwidth; }         // rad/s
-  double moving_stiffness() const EBAC_RT { return design_.stiffness; }  // N/m
-  double virtual_damping() const EBAC_RT { return design_.damping; }     // N s/m
+  double bandwidth() const EBAC_RT { return show_.bandwidth; }         // rad/s
+  double moving_stiffness() const EBAC_RT { return show_.stiffness; }  // N/m
+  double virtual_damping() const EBAC_RT { return show_.damping; }     // N s/m
 
  private:
-  /// Everything that follows from device and timing.
-  struct Design {
-    double bandwidth;      // rad/s, w
-    double stiffness;      // N/m, c_h
-    double damping;        // N s/m, B_v
-    double velocity_lag;   // s
-    double recovery_time;  // s, T_r
-
-    Design(const Params& p, Timing timing) EBAC_RT {
-      constexpr double kPhaseLag = 0.35;      // rad of delay at w, against 0.8 rad of lead
-      constexpr double kCountForce = 1.0;     // N, largest force step one count may cause
-      constexpr double kVelocityTime = 1e-3;  // s
-      const double late = (timing.delay + 0.5) * timing.dt + p.current_lag;
-      const double smooth = kCountForce * std::max(timing.dt, kVelocityTime) / (p.count * p.mass);
-      bandwidth = std::min(kPhaseLag / late, smooth);
-      stiffness = 0.9 * p.mass * bandwidth * bandwidth;
-      damping = p.mass * bandwidth;
-      velocity_lag = std::max(0.0, kVelocityTime - timing.dt);
-      recovery_time = 2.2 * (p.heaviest_hand + p.mass) / damping;
-    }
-  };
-
   /// What follows from the time since the last tick alone.
   void set_tick(double dt) EBAC_RT {
     dt_ = dt;
@@ -223,7 +203,7 @@ class Ebac {
       if (port.dx != 0) {
         const double seen = std::abs((port.f_env - last_env_) / port.dx);
         state_.slope = seen > state_.slope ? seen : state_.slope + 0.02 * (seen - state_.slope);
-        contact_slope_ = std::min(design_.stiffness, state_.slope);
+        contact_slope_ = std::min(show_.stiffness, state_.slope);
       }
     }
     const int direction = velocity_.direction();
@@ -246,22 +226,22 @@ class Ebac {
     double rise = port.f_env - before;  // eq. (9): beta dx
     const bool releasing = before * dx < 0 && std::abs(port.f_env) < std::abs(before);
     if (params_.continuity && !releasing) {
-      const double least = 0.5 * design_.stiffness * std::abs(dx);  // the floor
-      const double grown = params_.growth * ratio_ * dx;            // eq. (10), rows 3 and 4,
-      const double decayed = params_.decay * ratio_ * dx;           // sorted
+      const double least = 0.5 * show_.stiffness * std::abs(dx);  // the floor
+      const double grown = params_.growth * ratio_ * dx;          // eq. (10), rows 3 and 4,
+      const double decayed = params_.decay * ratio_ * dx;         // sorted
       rise =
           std::clamp(rise, std::min({grown, decayed, -least}), std::max({grown, decayed, least}));
     }
-    const double bound = std::abs(before + design_.stiffness * dx);  // eq. (10), rows 1 and 2: last
-    state_.f_d = std::clamp(before + rise, -bound, bound);           // eq. (8)
+    const double bound = std::abs(before + show_.stiffness * dx);  // eq. (10), rows 1 and 2: last
+    state_.f_d = std::clamp(before + rise, -bound, bound);         // eq. (8)
     state_.clamped = state_.f_d != before + rise;
     state_.tell(before, state_.f_d, dx, bound);
     ratio_ = state_.beta;
   }
 
   void recover(const Port& port) EBAC_RT {
-    const double excess = std::max(state_.slope / design_.stiffness - 1, 0.25);
-    const double time = design_.recovery_time / pace_ * excess;
+    const double excess = std::max(state_.slope / show_.stiffness - 1, 0.25);
+    const double time = recovery_time_ / pace_ * excess;
     state_.f_d += (port.f_env - state_.f_d) * (port.dt / (time + port.dt));
     state_.tell(0, 0, 0, 0);
   }
@@ -270,7 +250,7 @@ class Ebac {
     double desired = state_.f_d;
     state_.injected = 0;
     if (params_.injection) {
-      desired += design_.damping * v;
+      desired += show_.damping * v;
       desired = port.f_env > 0 ? std::max(desired, 0.0) : std::min(desired, 0.0);  // never sticks
       state_.injected = desired - state_.f_d;
     }
@@ -308,7 +288,8 @@ class Ebac {
 
   Params params_;
   Timing timing_;
-  Design design_;
+  Injection show_;        // what the device can show while it moves
+  double recovery_time_;  // s, T_r
   ForceFeedback loop_;
   EnergyLedger ledger_;
   PlayVelocity velocity_;

@@ -14,15 +14,19 @@ from ebac._core import Wall
 from ebac.metrics import ideal_rest
 from ebac.trace import Trace
 
-#: One colour per law (Okabe and Ito's palette: told apart by every eye).
+#: One colour per law (mostly of Okabe and Ito's palette, told apart by every eye).
 COLOURS = {
     "direct": "#7f7f7f",
     "tca": "#d55e00",
+    "tca-damped": "#8c564b",
+    "passivity-control": "#56b4e9",
+    "virtual-coupling": "#e6ab02",
+    "force-bounding": "#332288",
     "eba": "#0072b2",
     "ebac-printed": "#cc79a7",
     "ebac": "#009e73",
 }
-OTHER_LAW = "#e69f00"
+OTHER_LAW = "#000000"
 IDEAL: dict[str, Any] = {"color": "black", "ls": (0, (5, 3)), "lw": 1.2}
 DPI = 150
 #: More points than this on one line are thinned to their extremes.

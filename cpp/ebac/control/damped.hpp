@@ -1,0 +1,114 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+#include "ebac/control/force_feedback.hpp"
+#include "ebac/control/injection.hpp"
+#include "ebac/control/play_velocity.hpp"
+#include "ebac/core/concepts.hpp"
+
+namespace ebac {
+
+/// Torque control with the virtual damper of `Ebac` in contact, and nothing else of it: the honest
+/// rival. Equal to it on moderate walls and faster to settle.
+///
+/// Known weakness: nothing watches the energy, and the wall is shown at its full stiffness while
+/// moving, which a stiffer wall or a longer delay does not forgive.
+class Damped {
+ public:
+  static constexpr std::string_view kName = "tca-damped";
+  static constexpr std::string_view kSummary = "eq. (2) plus a virtual damper in contact";
+  static constexpr bool kPassive = false;
+
+  struct Params {
+    double mass = 0.25;         // kg
+    double current_lag = 3e-4;  // s
+    double count = 3.07e-5;     // m
+    double kp = 0.5;
+    double kd = 0;             // s
+    double filter = 5e-3;      // s
+    double peak_force = 42.4;  // N
+
+    static constexpr Params design(const DeviceFacts& facts, Timing) {
+      return {.mass = facts.mass,
+              .current_lag = facts.current_lag,
+              .count = facts.count,
+              .peak_force = facts.peak_force};
+    }
+    static constexpr auto fields() {
+      using F = Field<Params>;
+      return std::array{
+          F{"mass", &Params::mass, "kg", "device mass at the handle, M_h", 1e-3, 100},
+          F{"current_lag", &Params::current_lag, "s", "time constant of the drive's current loop",
+            0, 0.1},
+          F{"count", &Params::count, "m", "one encoder count at the handle", 0, 0.01},
+          F{"kp", &Params::kp, "1", "K_p of eq. (2)", 0, 10},
+          F{"kd", &Params::kd, "s", "K_d of eq. (2)", 0, 1},
+          F{"filter", &Params::filter, "s", "low-pass on the derivative of the force error", 0, 1},
+          F{"peak_force", &Params::peak_force, "N", "largest command", 1e-3, 1e4},
+      };
+    }
+  };
+
+  struct State {
+    double injected = 0;  // N
+    double feedback = 0;  // N
+
+    static constexpr auto fields() {
+      using F = Field<State>;
+      return std::array{
+          F{"injected", &State::injected, "N", "force of the virtual damper"},
+          F{"feedback", &State::feedback, "N", "PD part of eq. (2)"},
+      };
+    }
+  };
+
+  explicit Damped(const Params& params, const Timing& timing = {})
+      : params_(checked(params, "TCADamped")),
+        timing_(checked(timing, "Timing")),
+        show_(params.mass, params.count, params.current_lag, timing),
+        velocity_(params.count, show_.velocity_lag),
+        loop_(params.kp, params.kd, params.filter) {}
+
+  double step(const Port& port) EBAC_RT {
+    if (!(port.dt > 0)) {
+      velocity_.start(port.x);
+      return 0;
+    }
+    if (port.dt != dt_) velocity_.set_tick(dt_ = port.dt);
+    const double v = velocity_.step(port.x);
+    state_.injected = 0;
+    double desired = port.f_env;
+    if (port.f_env != 0) {
+      desired += show_.damping * v;
+      desired = port.f_env > 0 ? std::max(desired, 0.0) : std::min(desired, 0.0);  // never sticks
+      state_.injected = desired - port.f_env;
+    }
+    state_.feedback = loop_.step(desired, port.f_meas, port.dt);
+    return std::clamp(desired + state_.feedback, -params_.peak_force, params_.peak_force);
+  }
+
+  void reset() EBAC_RT {
+    loop_.reset();
+    dt_ = 0;
+    state_ = {};
+  }
+  const State& state() const EBAC_RT { return state_; }
+  const Params& params() const EBAC_RT { return params_; }
+  const Timing& timing() const EBAC_RT { return timing_; }
+
+ private:
+  Params params_;
+  Timing timing_;
+  Injection show_;
+  PlayVelocity velocity_;
+  ForceFeedback loop_;
+  double dt_ = 0;  // s
+  State state_{};
+};
+
+static_assert(Controller<Damped>);
+
+}  // namespace ebac
