@@ -29,6 +29,10 @@ LINES = (
 )
 
 
+#: More laws than this side by side do not fit 80 columns.
+LAWS_ABREAST = 4
+
+
 def write(
     folder: Path,
     scenario: Scenario,
@@ -73,7 +77,16 @@ def report_fault(error: LoopFault, out: Path | None) -> NoReturn:
 
 
 def show(scenario: Scenario, contacts: list[Contact]) -> None:
-    """Print the table and what was simulated."""
+    """Print the table, a few laws at a time, and what was simulated."""
+    from ebac import wording
+
+    for first in range(0, len(contacts), LAWS_ABREAST):
+        _show_table(contacts[first : first + LAWS_ABREAST])
+    output.say("Simulated, not measured:", style="bold")
+    output.indented(wording.describe(scenario).replace("; ", "\n"))
+
+
+def _show_table(contacts: list[Contact]) -> None:
     from ebac import wording
 
     grid = output.table(["", *(contact.law for contact in contacts)], numbers=range(1, 99))
@@ -84,8 +97,6 @@ def show(scenario: Scenario, contacts: list[Contact]) -> None:
     grid.add_section()
     grid.add_row("verdict", *(_verdict(contact) for contact in contacts))
     output.console().print(grid)
-    output.say("Simulated, not measured:", style="bold")
-    output.indented(wording.describe(scenario).replace("; ", "\n"))
 
 
 def _verdict(contact: Contact) -> str:
