@@ -47,13 +47,6 @@ def cpp(session: nox.Session) -> None:
         session.run("cmake", "--workflow", "--preset", preset)
 
 
-@nox.session
-def docs(session: nox.Session) -> None:
-    """Build the documentation into build/docs; every warning is an error."""
-    session.install(".[docs,notebook]")
-    session.run("sphinx-build", "-W", "--keep-going", "docs", "build/docs", *session.posargs)
-
-
 def repair_native_enums(stub: str) -> str:
     """Keep of each enum its members alone, as mypy wants them; pybind11-stubgen does not yet."""
     return re.sub(

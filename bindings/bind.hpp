@@ -8,6 +8,7 @@ namespace ebac::python {
 void bind_core(pybind11::module_& m);
 void bind_model(pybind11::module_& m);
 void bind_simulation(pybind11::module_& m);
+void bind_sweeps(pybind11::module_& m);
 void bind_controllers(pybind11::module_& m);
 void bind_python_law(pybind11::module_& m);
 

@@ -9,7 +9,7 @@ namespace ebac::python {
 void bind_controllers(py::module_& m) {
   bind_controller<Direct>(m, "Direct");
   bind_controller<Tca>(m, "TCA");
-  bind_controller<Damped>(m, "TCADamped");
+  bind_controller<TcaDamped>(m, "TCADamped");
   bind_controller<PassivityControl>(m, "PassivityControl");
   bind_controller<VirtualCoupling>(m, "VirtualCoupling");
   bind_controller<ForceBounding>(m, "ForceBounding");

@@ -6,6 +6,7 @@
 #include "ebac/sim/benchmark.hpp"
 #include "ebac/sim/simulate.hpp"
 #include "fields.hpp"
+#include "sweep.hpp"
 
 /// The Python class of a law, written once for all of them.
 namespace ebac::python {
@@ -97,6 +98,7 @@ void bind_controller(py::module_& m, const char* name) {
         return simulate(setup, law);
       },
       py::arg("setup"));
+  bind_sweep(cls);
   cls.def(
       "_time_step",
       [](const Law& law, const Setup& setup, int repeats) {
@@ -111,14 +113,6 @@ void bind_controller(py::module_& m, const char* name) {
         return time_loop(setup, law, repeats);
       },
       py::arg("setup"), py::arg("repeats"));
-  m.def("_time_law", [](const Setup& setup, const Law& law, int repeats) {
-    const py::gil_scoped_release release;
-    return time_law(setup, law, repeats);
-  });
-  m.def("_time_loop", [](const Setup& setup, const Law& law, int repeats) {
-    const py::gil_scoped_release release;
-    return time_loop(setup, law, repeats);
-  });
 }
 
 }  // namespace ebac::python

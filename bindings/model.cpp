@@ -328,7 +328,7 @@ void add_force(Class& cls) {
         const auto n = static_cast<int>(x.size());
         if (n < 1 || n > kMaxAxes)
           throw std::invalid_argument("x must have 1 to 3 values, one for each axis");
-        return shape.force(as_axes(x, n, "x"), as_axes(v, n, "v")).head(n);
+        return shape.meet(as_axes(x, n, "x"), as_axes(v, n, "v")).force.head(n);
       },
       py::arg("x"), py::arg("v"), "Force asked for [N] at x [m] and v [m/s], shape (axes,).");
 }
@@ -338,6 +338,8 @@ void bind_environment(py::module_& m) {
   add_force<Free>(free);
   auto wall = bind_fields<Wall>(m, "Wall", "A flat wall, eq. (12), that never pulls.");
   add_force<Wall>(wall);
+  auto disc = bind_fields<Disc>(m, "Disc", "A round pillar in the plane, met from outside.");
+  add_force<Disc>(disc);
   py::class_<Corner> corner(m, "Corner", "Two walls that meet: each pushes along its own normal.");
   corner
       .def(py::init([](const Wall& first, const Wall& second) { return Corner{first, second}; }),

@@ -27,8 +27,9 @@ class PythonLaw {
     reset();
   }
 
-  void step(std::span<Axis> axes) noexcept {
-    for (std::size_t i = 0; i < axes.size(); ++i) axes[i].port.f_cmd = ask(laws_[i], axes[i].port);
+  void step(std::span<Axis> axes, const Touch& touch) noexcept {
+    turned_.step(axes, touch,
+                 [this](std::size_t i, const Port& port) noexcept { return ask(laws_[i], port); });
   }
   void reset() noexcept {
     try {
@@ -51,6 +52,7 @@ class PythonLaw {
   }
 
   std::vector<py::object> laws_;
+  TurnedPorts turned_{};
   std::shared_ptr<std::exception_ptr> raised_;
 };
 

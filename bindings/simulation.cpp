@@ -62,8 +62,11 @@ void bind_setup(py::module_& m) {
 template <class Plant>
 void bind_plant(py::module_& m, const char* name, const char* doc) {
   py::class_<Plant>(m, name, doc)
-      .def(py::init<const DeviceModel&, const Hand&, double>(), py::kw_only(), py::arg("device"),
-           py::arg("hand"), py::arg("tick"))
+      .def(py::init([](const DeviceModel& device, const Hand& hand, double tick) {
+             check(Timing{.dt = tick}, "Timing");
+             return Plant(device, hand, tick);
+           }),
+           py::kw_only(), py::arg("device"), py::arg("hand"), py::arg("tick"))
       .def(
           "advance",
           [](Plant& plant, const std::vector<double>& current, double t, double share) {
@@ -80,7 +83,14 @@ void bind_plant(py::module_& m, const char* name, const char* doc) {
           py::arg("current"), py::arg("t"), py::arg("share") = 1.0,
           "Moves by `share` of a tick from time t [s] on, under constant motor currents [A].")
       .def(
-          "truth", [](const Plant& plant, std::size_t axis) { return plant.truth(axis); },
+          "truth",
+          [](const Plant& plant, std::size_t axis) {
+            if (axis >= plant.axes()) {
+              throw py::index_error("axis " + std::to_string(axis) + ": the plant has " +
+                                    std::to_string(plant.axes()) + " axes");
+            }
+            return plant.truth(axis);
+          },
           py::arg("axis") = 0, "The state of one axis.");
 }
 

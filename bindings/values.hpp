@@ -12,8 +12,7 @@ namespace ebac::python {
 namespace py = pybind11;
 
 /// While it lives, a docstring that starts with a signature replaces the one pybind11 would write:
-/// for what takes
-/// **kwargs and knows better.
+/// for functions that take **kwargs and know better.
 class OwnSignatures {
  public:
   OwnSignatures() { options_.disable_function_signatures(); }

@@ -24,6 +24,7 @@ from ebac._core import (
     Device,
     DeviceFacts,
     Direct,
+    Disc,
     Drive,
     EBACPrinted,
     Encoder,
@@ -42,6 +43,7 @@ from ebac._core import (
     PassivityControl,
     Port,
     Recorded,
+    RunLimits,
     Sine,
     Step,
     SteppedPlant,
@@ -55,14 +57,18 @@ from ebac._core import (
 )
 from ebac.laws import LAWS, PythonLaw, design
 from ebac.metrics import Contact, contact, ideal_rest
+from ebac.operators import Operators
 from ebac.scenario import Scenario
 from ebac.simulation import LoopFault, simulate
 from ebac.specs import Spec, spec_sheet
+from ebac.studies import CONDITIONS, Condition, Study, study
+from ebac.sweeps import SweepInterrupted, SweepResult, sweep
 from ebac.trace import ColumnInfo, Trace
 
 __version__ = _version("ebac")
 
 __all__ = [
+    "CONDITIONS",
     "EBA",
     "EBAC",
     "LAWS",
@@ -72,11 +78,13 @@ __all__ = [
     "Capstan",
     "ColumnInfo",
     "Compensation",
+    "Condition",
     "Contact",
     "Corner",
     "Device",
     "DeviceFacts",
     "Direct",
+    "Disc",
     "Drive",
     "EBACPrinted",
     "Encoder",
@@ -93,15 +101,20 @@ __all__ = [
     "Mechanics",
     "MinimumJerk",
     "Motor",
+    "Operators",
     "PassivityControl",
     "Port",
     "PythonLaw",
     "Recorded",
+    "RunLimits",
     "Scenario",
     "Sine",
     "Spec",
     "Step",
     "SteppedPlant",
+    "Study",
+    "SweepInterrupted",
+    "SweepResult",
     "TCADamped",
     "Tapping",
     "Timing",
@@ -117,4 +130,6 @@ __all__ = [
     "presets",
     "simulate",
     "spec_sheet",
+    "study",
+    "sweep",
 ]

@@ -25,6 +25,7 @@ __all__: list[str] = [
     "Device",
     "DeviceFacts",
     "Direct",
+    "Disc",
     "Drive",
     "EBACPrinted",
     "Encoder",
@@ -45,10 +46,12 @@ __all__: list[str] = [
     "Port",
     "Recorded",
     "Rows",
+    "RunLimits",
     "Setup",
     "Sine",
     "Step",
     "SteppedPlant",
+    "SweepProgress",
     "TCADamped",
     "Tapping",
     "Timing",
@@ -1646,6 +1649,83 @@ class Wall:
         K of eq. (12) [N/m], 0 to 1e+07
         """
 
+class Disc:
+    """
+    A round pillar in the plane, met from outside.
+
+    Parameters
+    ----------
+    stiffness : float
+        K of eq. (12), along the radius [N/m], 0 to 1e+07.
+    damping : float
+        B of eq. (12), along the radius [N s/m], 0 to 10000.
+    x : float
+        centre [m], -10 to 10.
+    y : float
+        centre [m], -10 to 10.
+    radius : float
+        radius [m], 1e-04 to 10.
+    """
+    @staticmethod
+    def fields() -> list[Field]:
+        """
+        Name, unit, meaning, default and range of every parameter.
+        """
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __init__(
+        self,
+        *,
+        stiffness: float = 10000.0,
+        damping: float = 0.0,
+        x: float = 0.03,
+        y: float = 0.0,
+        radius: float = 0.02,
+    ) -> None: ...
+    def __reduce__(self) -> tuple[typing.Any, ...]: ...
+    def __repr__(self) -> str: ...
+    def as_dict(self) -> dict[str, typing.Any]:
+        """
+        Parameters by name.
+        """
+    def force(
+        self,
+        x: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex],
+        v: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex],
+    ) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
+        """
+        Force asked for [N] at x [m] and v [m/s], shape (axes,).
+        """
+    def replace(self, **changes: typing.Any) -> typing.Self:
+        """
+        A copy with some parameters changed; checked as at construction.
+        """
+    @property
+    def damping(self) -> float:
+        """
+        B of eq. (12), along the radius [N s/m], 0 to 10000
+        """
+    @property
+    def radius(self) -> float:
+        """
+        radius [m], 1e-04 to 10
+        """
+    @property
+    def stiffness(self) -> float:
+        """
+        K of eq. (12), along the radius [N/m], 0 to 1e+07
+        """
+    @property
+    def x(self) -> float:
+        """
+        centre [m], -10 to 10
+        """
+    @property
+    def y(self) -> float:
+        """
+        centre [m], -10 to 10
+        """
+
 class Corner:
     """
     Two walls that meet: each pushes along its own normal.
@@ -1759,7 +1839,7 @@ class Setup:
         *,
         device: Device,
         hand: Hand,
-        environment: Free | Wall | Corner,
+        environment: Free | Wall | Corner | Disc,
         timing: Timing,
         seconds: typing.SupportsFloat | typing.SupportsIndex,
         jitter: typing.SupportsFloat | typing.SupportsIndex,
@@ -1885,6 +1965,66 @@ class SteppedPlant:
         The state of one axis.
         """
 
+class RunLimits:
+    """
+    Beyond these a run of a sweep has diverged and ends.
+
+    Parameters
+    ----------
+    position : float
+        a run that goes farther from zero has diverged [m], 0.001 to 1000.
+    energy : float
+        so has one that takes more energy out of the port [J], 0.001 to 1e+09.
+    """
+    @staticmethod
+    def fields() -> list[Field]:
+        """
+        Name, unit, meaning, default and range of every parameter.
+        """
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __init__(self, *, position: float = 1.0, energy: float = 1000.0) -> None: ...
+    def __reduce__(self) -> tuple[typing.Any, ...]: ...
+    def __repr__(self) -> str: ...
+    def as_dict(self) -> dict[str, typing.Any]:
+        """
+        Parameters by name.
+        """
+    def replace(self, **changes: typing.Any) -> typing.Self:
+        """
+        A copy with some parameters changed; checked as at construction.
+        """
+    @property
+    def energy(self) -> float:
+        """
+        so has one that takes more energy out of the port [J], 0.001 to 1e+09
+        """
+    @property
+    def position(self) -> float:
+        """
+        a run that goes farther from zero has diverged [m], 0.001 to 1000
+        """
+
+class SweepProgress:
+    """
+    How far a sweep in another thread has come.
+    """
+    def __init__(self) -> None: ...
+    def cancel(self) -> None:
+        """
+        Ends the sweep within some hundred ticks; what is done is kept.
+        """
+    @property
+    def cancelled(self) -> bool:
+        """
+        Whether it was cancelled.
+        """
+    @property
+    def done(self) -> int:
+        """
+        Runs done.
+        """
+
 class Direct:
     """
     no law: the command is what the virtual world asks.
@@ -1912,6 +2052,14 @@ class Direct:
     name: typing.ClassVar[str] = "direct"
     passive: typing.ClassVar[bool] = False
     summary: typing.ClassVar[str] = "no law: the command is what the virtual world asks"
+    @staticmethod
+    def _sweep(
+        setups: collections.abc.Sequence[Setup],
+        laws: collections.abc.Sequence[Direct],
+        threads: typing.SupportsInt | typing.SupportsIndex,
+        limits: RunLimits,
+        progress: SweepProgress,
+    ) -> dict[str, typing.Any]: ...
     @staticmethod
     def design(facts: DeviceFacts | Device, timing: Timing, **changes: typing.Any) -> Direct:
         """
@@ -2008,6 +2156,14 @@ class TCA:
     name: typing.ClassVar[str] = "tca"
     passive: typing.ClassVar[bool] = False
     summary: typing.ClassVar[str] = "eq. (2): desired force plus PD feedback of the F/T sensor"
+    @staticmethod
+    def _sweep(
+        setups: collections.abc.Sequence[Setup],
+        laws: collections.abc.Sequence[TCA],
+        threads: typing.SupportsInt | typing.SupportsIndex,
+        limits: RunLimits,
+        progress: SweepProgress,
+    ) -> dict[str, typing.Any]: ...
     @staticmethod
     def design(facts: DeviceFacts | Device, timing: Timing, **changes: typing.Any) -> TCA:
         """
@@ -2138,6 +2294,14 @@ class TCADamped:
     name: typing.ClassVar[str] = "tca-damped"
     passive: typing.ClassVar[bool] = False
     summary: typing.ClassVar[str] = "eq. (2) plus a virtual damper in contact"
+    @staticmethod
+    def _sweep(
+        setups: collections.abc.Sequence[Setup],
+        laws: collections.abc.Sequence[TCADamped],
+        threads: typing.SupportsInt | typing.SupportsIndex,
+        limits: RunLimits,
+        progress: SweepProgress,
+    ) -> dict[str, typing.Any]: ...
     @staticmethod
     def design(facts: DeviceFacts | Device, timing: Timing, **changes: typing.Any) -> TCADamped:
         """
@@ -2291,6 +2455,14 @@ class PassivityControl:
     passive: typing.ClassVar[bool] = False
     summary: typing.ClassVar[str] = "passivity observer and capped passivity controller"
     @staticmethod
+    def _sweep(
+        setups: collections.abc.Sequence[Setup],
+        laws: collections.abc.Sequence[PassivityControl],
+        threads: typing.SupportsInt | typing.SupportsIndex,
+        limits: RunLimits,
+        progress: SweepProgress,
+    ) -> dict[str, typing.Any]: ...
+    @staticmethod
     def design(
         facts: DeviceFacts | Device, timing: Timing, **changes: typing.Any
     ) -> PassivityControl:
@@ -2415,6 +2587,14 @@ class VirtualCoupling:
     passive: typing.ClassVar[bool] = False
     summary: typing.ClassVar[str] = "spring and damper to a proxy on the surface"
     @staticmethod
+    def _sweep(
+        setups: collections.abc.Sequence[Setup],
+        laws: collections.abc.Sequence[VirtualCoupling],
+        threads: typing.SupportsInt | typing.SupportsIndex,
+        limits: RunLimits,
+        progress: SweepProgress,
+    ) -> dict[str, typing.Any]: ...
+    @staticmethod
     def design(
         facts: DeviceFacts | Device, timing: Timing, **changes: typing.Any
     ) -> VirtualCoupling:
@@ -2534,6 +2714,14 @@ class ForceBounding:
     name: typing.ClassVar[str] = "force-bounding"
     passive: typing.ClassVar[bool] = True
     summary: typing.ClassVar[str] = "F^2 <= 4 B E on an accumulated, delay-aware account"
+    @staticmethod
+    def _sweep(
+        setups: collections.abc.Sequence[Setup],
+        laws: collections.abc.Sequence[ForceBounding],
+        threads: typing.SupportsInt | typing.SupportsIndex,
+        limits: RunLimits,
+        progress: SweepProgress,
+    ) -> dict[str, typing.Any]: ...
     @staticmethod
     def design(facts: DeviceFacts | Device, timing: Timing, **changes: typing.Any) -> ForceBounding:
         """
@@ -2675,6 +2863,14 @@ class EBA:
     name: typing.ClassVar[str] = "eba"
     passive: typing.ClassVar[bool] = True
     summary: typing.ClassVar[str] = "eq. (8), (9) with the state-dependent energy bound"
+    @staticmethod
+    def _sweep(
+        setups: collections.abc.Sequence[Setup],
+        laws: collections.abc.Sequence[EBA],
+        threads: typing.SupportsInt | typing.SupportsIndex,
+        limits: RunLimits,
+        progress: SweepProgress,
+    ) -> dict[str, typing.Any]: ...
     @staticmethod
     def design(facts: DeviceFacts | Device, timing: Timing, **changes: typing.Any) -> EBA:
         """
@@ -2828,6 +3024,14 @@ class EBACPrinted:
     name: typing.ClassVar[str] = "ebac-printed"
     passive: typing.ClassVar[bool] = False
     summary: typing.ClassVar[str] = "eq. (8) to (10) and (2), read to the letter"
+    @staticmethod
+    def _sweep(
+        setups: collections.abc.Sequence[Setup],
+        laws: collections.abc.Sequence[EBACPrinted],
+        threads: typing.SupportsInt | typing.SupportsIndex,
+        limits: RunLimits,
+        progress: SweepProgress,
+    ) -> dict[str, typing.Any]: ...
     @staticmethod
     def design(facts: DeviceFacts | Device, timing: Timing, **changes: typing.Any) -> EBACPrinted:
         """
@@ -3038,6 +3242,14 @@ class EBAC:
     passive: typing.ClassVar[bool] = False
     summary: typing.ClassVar[str] = "eq. (8) to (10) and (2), completed: recovery, damping, guard"
     @staticmethod
+    def _sweep(
+        setups: collections.abc.Sequence[Setup],
+        laws: collections.abc.Sequence[EBAC],
+        threads: typing.SupportsInt | typing.SupportsIndex,
+        limits: RunLimits,
+        progress: SweepProgress,
+    ) -> dict[str, typing.Any]: ...
+    @staticmethod
     def design(facts: DeviceFacts | Device, timing: Timing, **changes: typing.Any) -> EBAC:
         """
         The law for a device: every parameter from what a user can know of it, changes on top.
@@ -3196,76 +3408,26 @@ class EBAC:
         Sample time and delay the law counts with.
         """
 
+def _ideal_contacts(
+    setups: collections.abc.Sequence[Setup],
+    threads: typing.SupportsInt | typing.SupportsIndex,
+    progress: SweepProgress,
+) -> dict[str, typing.Any]: ...
+def _measure_contact(
+    *,
+    t: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
+    x: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
+    force: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
+    energy: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None,
+    stored: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None,
+    clamped: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None,
+) -> dict[str, typing.Any]: ...
 def _rebuild(arg0: typing.Any, arg1: dict[str, typing.Any]) -> typing.Any: ...
 def _simulate_python(arg0: Setup, arg1: typing.Any) -> Rows: ...
-@typing.overload
-def _time_law(
-    arg0: Setup, arg1: Direct, arg2: typing.SupportsInt | typing.SupportsIndex
-) -> float: ...
-@typing.overload
-def _time_law(arg0: Setup, arg1: TCA, arg2: typing.SupportsInt | typing.SupportsIndex) -> float: ...
-@typing.overload
-def _time_law(
-    arg0: Setup, arg1: TCADamped, arg2: typing.SupportsInt | typing.SupportsIndex
-) -> float: ...
-@typing.overload
-def _time_law(
-    arg0: Setup, arg1: PassivityControl, arg2: typing.SupportsInt | typing.SupportsIndex
-) -> float: ...
-@typing.overload
-def _time_law(
-    arg0: Setup, arg1: VirtualCoupling, arg2: typing.SupportsInt | typing.SupportsIndex
-) -> float: ...
-@typing.overload
-def _time_law(
-    arg0: Setup, arg1: ForceBounding, arg2: typing.SupportsInt | typing.SupportsIndex
-) -> float: ...
-@typing.overload
-def _time_law(arg0: Setup, arg1: EBA, arg2: typing.SupportsInt | typing.SupportsIndex) -> float: ...
-@typing.overload
-def _time_law(
-    arg0: Setup, arg1: EBACPrinted, arg2: typing.SupportsInt | typing.SupportsIndex
-) -> float: ...
-@typing.overload
-def _time_law(
-    arg0: Setup, arg1: EBAC, arg2: typing.SupportsInt | typing.SupportsIndex
-) -> float: ...
-@typing.overload
-def _time_loop(
-    arg0: Setup, arg1: Direct, arg2: typing.SupportsInt | typing.SupportsIndex
-) -> float: ...
-@typing.overload
-def _time_loop(
-    arg0: Setup, arg1: TCA, arg2: typing.SupportsInt | typing.SupportsIndex
-) -> float: ...
-@typing.overload
-def _time_loop(
-    arg0: Setup, arg1: TCADamped, arg2: typing.SupportsInt | typing.SupportsIndex
-) -> float: ...
-@typing.overload
-def _time_loop(
-    arg0: Setup, arg1: PassivityControl, arg2: typing.SupportsInt | typing.SupportsIndex
-) -> float: ...
-@typing.overload
-def _time_loop(
-    arg0: Setup, arg1: VirtualCoupling, arg2: typing.SupportsInt | typing.SupportsIndex
-) -> float: ...
-@typing.overload
-def _time_loop(
-    arg0: Setup, arg1: ForceBounding, arg2: typing.SupportsInt | typing.SupportsIndex
-) -> float: ...
-@typing.overload
-def _time_loop(
-    arg0: Setup, arg1: EBA, arg2: typing.SupportsInt | typing.SupportsIndex
-) -> float: ...
-@typing.overload
-def _time_loop(
-    arg0: Setup, arg1: EBACPrinted, arg2: typing.SupportsInt | typing.SupportsIndex
-) -> float: ...
-@typing.overload
-def _time_loop(
-    arg0: Setup, arg1: EBAC, arg2: typing.SupportsInt | typing.SupportsIndex
-) -> float: ...
+def _stored_energy(
+    environment: Free | Wall | Corner | Disc,
+    x: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
+) -> numpy.typing.NDArray[numpy.float64]: ...
 def copley_current(
     torque_permille: typing.SupportsFloat | typing.SupportsIndex,
     continuous_torque_1e5: typing.SupportsFloat | typing.SupportsIndex,

@@ -16,7 +16,7 @@ CHOICES: dict[str, tuple[type, ...]] = {
     "kinematics": (_core.Linear, _core.Gimbal),
     "velocity": (_core.BackwardDifference, _core.LowPass, _core.AdaptiveWindow),
     "path": (_core.Step, _core.MinimumJerk, _core.Sine, _core.Tapping, _core.Recorded),
-    "environment": (_core.Wall, _core.Free, _core.Corner),
+    "environment": (_core.Wall, _core.Free, _core.Corner, _core.Disc),
     "device": (_core.Device,),
     "hand": (_core.Hand,),
     "timing": (_core.Timing,),

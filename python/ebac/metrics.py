@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import asdict, dataclass
+from math import isnan
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ebac._core import Linear, MinimumJerk, Step, Wall
+from ebac._core import Linear, MinimumJerk, Step, Wall, _measure_contact, _stored_energy
 from ebac.scenario import Scenario
 from ebac.trace import Trace
 
@@ -17,6 +19,20 @@ TAIL_SHARE = 0.3
 QUIET_SWING = 0.25e-3
 #: Rest within this many encoder counts of the ideal is exact.
 EXACT_COUNTS = 2
+#: Fewer rows have no tail to measure.
+FEWEST_ROWS = 10
+#: The numbers of a contact, and what the core calls them.
+COLUMNS = {
+    "rest_m": "rest",
+    "swing_m": "swing",
+    "force_swing_N": "force_swing",
+    "settled_s": "settled",
+    "peak_m": "peak",
+    "limit_cycle_Hz": "limit_cycle",
+    "least_energy_J": "least_energy",
+    "most_drawn_J": "most_drawn",
+    "clamped_share": "clamped_share",
+}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -38,9 +54,12 @@ class Contact:
     peak_m : float
         Deepest position of the whole run.
     limit_cycle_Hz : float or None
-        Frequency of the swing; None when it is quiet.
+        Frequency of the swing; None when it is quiet or drifts without swinging back.
     least_energy_J : float or None
         Lowest physical port energy, integral of (f v + b v^2 + friction); None without a simulation.
+    most_drawn_J : float or None
+        Most energy taken out of the port in any window beyond what an ideal wall stores at the window's start, max
+        over t1 < t2 of W(t1) - W(t2) - K depth(t1)^2 / 2; 0 for an ideal wall, None without a simulation.
     clamped_share : float or None
         Share of ticks in which the law held its force back; None for a law that never does.
     count_m : float or None
@@ -58,6 +77,7 @@ class Contact:
     least_energy_J: float | None
     clamped_share: float | None
     count_m: float | None = None
+    most_drawn_J: float | None = None
 
     @property
     def deviation_m(self) -> float | None:
@@ -79,7 +99,7 @@ class Contact:
     def row(self) -> dict[str, str | float | None]:
         """Return the documented row of `ebac wall --json`."""
         values = asdict(self)
-        del values["count_m"]
+        del values["count_m"], values["most_drawn_J"]
         return values
 
 
@@ -102,32 +122,37 @@ def contact(trace: Trace, *, axis: int = 0) -> Contact:
     ValueError
         When the trace is too short or has no such axis.
     """
-    if len(trace) < 10:
-        raise ValueError(f"the trace has {len(trace)} rows: a contact needs at least 10")
-    x = trace.axis("true.x" if "true.x" in trace else "x", axis)
-    force = trace.axis("f_applied", axis)
-    t = trace["t"]
-    tail = slice(-max(2, round(TAIL_SHARE * len(trace))), None)
-    rest = float(x[tail].mean())
-    swing = float(np.ptp(x[tail]))
-    energy = (
-        trace["true.energy"].reshape(len(trace), -1).sum(axis=1) if "true.energy" in trace else None
+    if len(trace) < FEWEST_ROWS:
+        raise ValueError(f"the trace has {len(trace)} rows: a contact needs at least {FEWEST_ROWS}")
+    true = "true.x" in trace
+    energy = _columns(trace, "true.energy").sum(axis=1) if "true.energy" in trace else None
+    stored = None
+    if trace.scenario is not None and true:
+        stored = _stored_energy(trace.scenario.environment, _columns(trace, "true.x"))
+    clamped = trace.axis("law.clamped", axis) if "law.clamped" in trace else None
+    numbers: Any = _measure_contact(
+        t=trace["t"],
+        x=trace.axis("true.x" if true else "x", axis),
+        force=trace.axis("f_applied", axis),
+        energy=energy,
+        stored=stored,
+        clamped=clamped,
     )
+    known: dict[str, Any] = {
+        name: None if isnan(value) else value for name, value in numbers.items()
+    }
+    scenario = trace.scenario
     return Contact(
         law=trace.law,
-        rest_m=rest,
-        ideal_m=ideal_rest(trace.scenario) if trace.scenario and axis == 0 else None,
-        swing_m=swing,
-        force_swing_N=float(np.ptp(force[tail])),
-        settled_s=_settled(t, x, rest) if swing < QUIET_SWING else None,
-        peak_m=float(x.max()),
-        limit_cycle_Hz=None if swing < QUIET_SWING else _frequency(t[tail], x[tail]),
-        least_energy_J=None if energy is None else float(energy.min()),
-        clamped_share=float(trace.axis("law.clamped", axis).mean())
-        if "law.clamped" in trace
-        else None,
-        count_m=trace.scenario.device.count if trace.scenario else None,
+        ideal_m=ideal_rest(scenario) if scenario and axis == 0 else None,
+        count_m=scenario.device.count if scenario else None,
+        **{column: known[name] for column, name in COLUMNS.items()},
     )
+
+
+def _columns(trace: Trace, name: str) -> NDArray[np.float64]:
+    """Return a column in the shape (rows, axes)."""
+    return trace[name].reshape(len(trace), -1)
 
 
 def ideal_rest(scenario: Scenario) -> float | None:
@@ -149,20 +174,3 @@ def ideal_rest(scenario: Scenario) -> float | None:
     if hand.stiffness == 0 or pull <= hand.stiffness * wall.position:
         return pull / hand.stiffness if hand.stiffness > 0 else None
     return (pull + wall.stiffness * wall.position) / (hand.stiffness + wall.stiffness)
-
-
-def _settled(t: NDArray[np.float64], x: NDArray[np.float64], rest: float) -> float:
-    outside = np.flatnonzero(np.abs(x - rest) > QUIET_SWING / 2)
-    return float(t[min(outside[-1] + 1, len(t) - 1)]) if len(outside) else float(t[0])
-
-
-def _frequency(t: NDArray[np.float64], x: NDArray[np.float64]) -> float:
-    """Strongest frequency of an even recording, refined by a parabola through its neighbours."""
-    spectrum = np.abs(np.fft.rfft((x - x.mean()) * np.hanning(len(x))))
-    peak = int(spectrum[1:].argmax()) + 1
-    shift = 0.0
-    if peak + 1 < len(spectrum):
-        left, top, right = np.log(spectrum[peak - 1 : peak + 2] + 1e-300)
-        bend = left - 2 * top + right
-        shift = 0.5 * (left - right) / bend if bend != 0 else 0.0
-    return float((peak + shift) * (len(t) - 1) / len(t) / (t[-1] - t[0]))

@@ -29,7 +29,7 @@ class DevicePreset:
 HANDS: dict[str, HandPreset] = {
     "reference": HandPreset(
         hand=Hand(),
-        source="the reference hand of this project: 0.15 kg, 6 N s/m, 300 N/m, target 40 mm (paper, Fig. 5)",
+        source="this project's reference: 0.15 kg, 6 N s/m, 300 N/m; target 40 mm as in the paper, Fig. 5",
         indicative=False,
     ),
     "arm-hapticmaster": HandPreset(

@@ -5,13 +5,14 @@ from __future__ import annotations
 import dataclasses
 import tomllib
 from dataclasses import dataclass, field
+from math import cos
 from pathlib import Path
 from typing import Any, Self, TypeAlias
 
 from ebac import document
-from ebac._core import Corner, Device, Free, Hand, Setup, Timing, Wall
+from ebac._core import Corner, Device, Disc, Free, Hand, Setup, Step, Timing, Wall
 
-Environment: TypeAlias = Free | Wall | Corner
+Environment: TypeAlias = Free | Wall | Corner | Disc
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -24,7 +25,7 @@ class Scenario:
         The haptic device; default: one axis of 0.25 kg and 2 N s/m with the paper's drive train.
     hand : Hand
         Who holds it; default: 0.15 kg, 6 N s/m, 300 N/m, pulling to 40 mm.
-    environment : Free, Wall or Corner
+    environment : Free, Wall, Corner or Disc
         What it touches; default: a wall of 10 kN/m at 0 m (paper, section IV.C).
     timing : Timing
         Sample time [s] and transport delay [samples]; default: 1 ms, 1 sample.
@@ -33,7 +34,7 @@ class Scenario:
     jitter : float
         Largest deviation of a tick from its instant, as a share of the sample time, [0, 0.45].
     seed : int
-        Seed of sensor noise and jitter, [0, 2^63).
+        Seed of sensor noise, jitter and the place of zero within an encoder count, [0, 2^63).
 
     Raises
     ------
@@ -56,7 +57,7 @@ class Scenario:
         parts: dict[str, tuple[type, ...]] = {
             "device": (Device,),
             "hand": (Hand,),
-            "environment": (Free, Wall, Corner),
+            "environment": (Free, Wall, Corner, Disc),
             "timing": (Timing,),
             "seconds": (float, int),
             "jitter": (float, int),
@@ -77,6 +78,23 @@ class Scenario:
             raise ValueError(
                 f"Scenario.seconds = {self.seconds} s: must be at least one sample, {self.timing.dt} s"
             )
+
+    def _check_axes(self) -> None:
+        """Refuse what a device of fewer axes would never feel."""
+        axes = self.device.axes
+        world = self.environment
+        across = isinstance(world, Wall) and abs(cos(world.angle)) < 1e-3
+        if axes < 2 and (across or isinstance(world, (Corner, Disc))):
+            raise ValueError(
+                f"Scenario.environment = {world!r}: needs 2 axes, the device has {axes}; "
+                "give a device with Linear(axes=2) or Gimbal(), or a Wall across the first axis"
+            )
+        for axis, path in enumerate(self.hand.path[axes:], start=axes):
+            if path != Step(target=0):
+                raise ValueError(
+                    f"Scenario.hand.path[{axis}] = {path!r}: the device has {axes} axes; "
+                    "give it one path for each, or a device with more"
+                )
 
     @property
     def known_timing(self) -> Timing:
@@ -137,7 +155,14 @@ class Scenario:
             raise ValueError(f"{path}: {error}") from None
 
     def setup(self) -> Setup:
-        """Return what the C++ simulation takes."""
+        """Return what the C++ simulation takes.
+
+        Raises
+        ------
+        ValueError
+            When the device has too few axes for its world or its hand to be felt.
+        """
+        self._check_axes()
         return Setup(
             device=self.device,
             hand=self.hand,

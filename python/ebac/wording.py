@@ -6,7 +6,7 @@ from math import degrees, floor, isfinite, log10
 from typing import TYPE_CHECKING
 
 from ebac import presets
-from ebac._core import Corner, Device, Gimbal, Hand, Step, Wall
+from ebac._core import Corner, Device, Disc, Gimbal, Hand, Step, Wall
 
 if TYPE_CHECKING:
     from ebac.metrics import Contact
@@ -107,6 +107,10 @@ def _environment(environment: Environment) -> str:
         return (
             f"a corner of {_environment(environment.first)} and {_environment(environment.second)}"
         )
+    if isinstance(environment, Disc):
+        centre = f"({1e3 * environment.x:g}, {1e3 * environment.y:g}) mm"
+        size = f"{1e3 * environment.radius:g} mm"
+        return f"a disc of {_kilo(environment.stiffness, 'N/m')}, radius {size}, at {centre}"
     if not isinstance(environment, Wall):
         return "free air"
     damping = f" and {environment.damping:g} N s/m" if environment.damping else ""

@@ -109,7 +109,7 @@ TYPED_TEST(Realtime, LoopWithEverythingOnDoesNotAllocate) {
   setup.device.mechanics.gravity = 9.81;
   setup.device.sensor = {.noise = 0.2, .quantum = 0.01};
   setup.device.velocity = AdaptiveWindow{};
-  setup.device.compensation = {.gravity_mass = 0.1, .friction = 0.5, .inertia = 0.05};
+  setup.device.compensation = {.gravity_mass = 0.1, .friction = 0.5, .inertia = 0.005};
   setup.hand.path = {Recorded({0, 1, 2}, {0, 0.04, -0.01}), Sine{}, MinimumJerk{}};
   setup.hand.tremor_amplitude = 1e-3;
   setup.hand.release_at = 5;

@@ -24,7 +24,7 @@ struct Scripted {
   std::vector<double> force;  // N
   std::size_t tick = 0;
 
-  void step(std::span<Axis> axes) EBAC_RT {
+  void step(std::span<Axis> axes, const Touch&) EBAC_RT {
     for (Axis& axis : axes) axis.port.f_cmd = tick < force.size() ? force[tick] : 0.0;
     ++tick;
   }
@@ -144,6 +144,12 @@ TEST(Fault, ForceSensorGivesNoNumber) {
 TEST(Fault, LawAnswersNoNumber) {
   LoopRun(quiet(), forces_with(20, kNaN)).expect_stop(20, Fault::kLawNotFinite);
   LoopRun(quiet(), forces_with(20, kAnyHigh)).expect_stop(20, Fault::kLawNotFinite);
+}
+
+TEST(Fault, DriveTellsOfNoCurrent) {
+  Reading odd = reading(1);
+  odd.current_applied[0] = kNaN;
+  LoopRun(readings_with(20, odd), steady()).expect_stop(20, Fault::kDevice);
 }
 
 TEST(Fault, DeviceReportsOne) {

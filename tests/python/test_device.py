@@ -522,3 +522,36 @@ def test_current_lag_is_the_one_of_the_drive() -> None:
         trace = ebac.simulate(scenario, Push())
         expected = 1 - np.exp(-trace["t"] / lag) if lag else (trace["t"] > 0).astype(float)
         assert trace["true.f_motor"] == pytest.approx(expected, abs=1e-9)
+
+
+# --- what compensation costs ---
+
+
+def test_given_back_inertia_is_charged_as_damping() -> None:
+    device = ebac.Device(compensation=ebac.Compensation(inertia=0.005, inertia_lag=5e-3))
+    assert device.facts.damping == pytest.approx(2.0 - 1.0)
+    assert device.facts.mass == pytest.approx(0.245)
+
+
+def test_energy_laws_refuse_a_device_whose_damping_is_spent() -> None:
+    device = ebac.Device(compensation=ebac.Compensation(inertia=0.1))
+    with pytest.raises(ValueError, match=r"EBA\.damping = -18 N s/m: must lie in \[0\.01, 500\]"):
+        ebac.simulate(ebac.Scenario(device=device), "eba")
+
+
+@pytest.mark.parametrize("law", ["eba", "force-bounding"])
+def test_a_passive_law_stays_passive_with_what_inertia_is_given_back(law: str) -> None:
+    device = ebac.Device(compensation=ebac.Compensation(inertia=0.008))
+    hand = ebac.Hand(mass=0.02, damping=0, stiffness=900, path=ebac.Tapping(frequency=7))
+    trace = ebac.simulate(ebac.Scenario(device=device, hand=hand, seconds=2), law)
+    lent = 0.5 * 0.008 * (trace["true.v"] ** 2).max()  # kinetic energy of the mass given back
+    assert trace["true.energy"].min() >= -lent - 1e-3
+
+
+@pytest.mark.parametrize("plant", [ebac.ExactPlant, ebac.SteppedPlant])
+def test_a_plant_refuses_an_axis_it_does_not_have_and_a_tick_that_is_none(plant: Any) -> None:
+    with pytest.raises(IndexError, match="axis 1: the plant has 1 axes"):
+        plant(device=ebac.Device(), hand=ebac.Hand(), tick=1e-3).truth(1)
+    for tick in (0.0, -1.0, float("nan")):
+        with pytest.raises(ValueError, match=r"Timing\.dt = "):
+            plant(device=ebac.Device(), hand=ebac.Hand(), tick=tick)

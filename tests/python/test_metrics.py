@@ -34,7 +34,8 @@ def test_a_swing_has_its_rest_size_and_frequency(
     x = rest + swing / 2 * np.sin(2 * np.pi * frequency * T + phase)
     row = ebac.contact(synthetic(x, f_applied=1000 * x))
     assert row.rest_m == pytest.approx(rest, abs=0.1 * swing)
-    assert row.swing_m == pytest.approx(swing, rel=0.06)  # 5 samples a period at 200 Hz
+    assert row.swing_m == pytest.approx(swing, rel=0.1)
+    # 5 samples a period at 200 Hz show at least (1 + cos 36 deg)/2 = 0.905 of a swing
     assert row.force_swing_N == pytest.approx(1000 * row.swing_m)
     assert row.limit_cycle_Hz == pytest.approx(frequency, abs=0.1)
     assert row.settled_s is None

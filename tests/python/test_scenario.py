@@ -370,3 +370,15 @@ def test_each_bound_is_accepted_and_one_step_beyond_refused(cls: Any, field: Any
     if field.kind == "float":
         with pytest.raises(ValueError, match=rf"{cls.__name__}\.{field.name} = nan"):
             cls(**{field.name: math.nan})
+
+
+@pytest.mark.parametrize("world", [ebac.Corner(), ebac.Disc(), ebac.Wall(angle=np.pi / 2)])
+def test_a_world_one_axis_would_never_feel_is_refused(world: Any) -> None:
+    with pytest.raises(ValueError, match=r"needs 2 axes, the device has 1; give a device with"):
+        ebac.simulate(ebac.Scenario(environment=world), "direct")
+
+
+def test_a_path_for_an_axis_the_device_does_not_have_is_refused() -> None:
+    hand = ebac.Hand(path=[ebac.Step(), ebac.Step(target=0.01)])
+    with pytest.raises(ValueError, match=r"hand\.path\[1\] = Step.*the device has 1 axes"):
+        ebac.simulate(ebac.Scenario(hand=hand), "direct")

@@ -22,7 +22,8 @@ def trace(request: pytest.FixtureRequest, run: Any) -> ebac.Trace:
     device = ebac.Device(
         kinematics=ebac.Linear(axes=request.param), sensor=ebac.ForceSensor(noise=0.1)
     )
-    traced = run("ebac", device=device, environment=ebac.Corner(), seconds=0.3, jitter=0.3)
+    world = ebac.Corner() if request.param > 1 else ebac.Wall()
+    traced = run("ebac", device=device, environment=world, seconds=0.3, jitter=0.3)
     assert isinstance(traced, ebac.Trace)
     return traced
 

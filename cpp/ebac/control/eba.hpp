@@ -6,8 +6,7 @@
 #include <string_view>
 
 #include "ebac/control/beta.hpp"
-#include "ebac/control/energy_ledger.hpp"
-#include "ebac/control/pending.hpp"
+#include "ebac/control/covered_force.hpp"
 #include "ebac/core/concepts.hpp"
 
 namespace ebac {
@@ -69,33 +68,29 @@ class Eba {
   explicit Eba(const Params& params, const Timing& timing = {})
       : params_(checked(params, "EBA")),
         timing_(checked(timing, "Timing")),
-        b_(params.damping / timing.longest()),
-        c_(params.share * 2 * b_ / (1 + 2 * timing.delay)),
-        ledger_(params.damping, params.count, params.current_lag, 0),
-        pending_(timing.delay) {}
+        c_(params.share * 2 * params.damping / timing.longest() / (1 + 2 * timing.delay)),
+        account_(params.damping, params.count, params.current_lag, timing) {}
 
   double step(const Port& port) EBAC_RT {
     if (!(port.dt > 0)) return 0;
-    if (port.dt != dt_) set_tick(port.dt);
-    ledger_.take(port.f_applied, port.dx);
-    state_.account = ledger_.energy();
+    account_.take(port.f_applied, port.dx, port.dt);
+    state_.account = account_.energy();
 
     const double before = command_;
     const double stored =
         energy_bound_squared(before, port.dx, c_, params_.damping / port.dt);  // (E)
-    const double bound = std::min(std::sqrt(stored), covered());               // (D)
+    const double bound = std::min(std::sqrt(stored), account_.largest());      // (D)
     const double most = std::min(bound, params_.peak_force);
     command_ = std::clamp(port.f_env, -most, most);  // eq. (8), (9), bounded
     state_.clamped = command_ != port.f_env;
     state_.tell(before, command_, port.dx, bound);
-    pending_.push(command_);
+    account_.give(command_);
     return command_;
   }
 
   void reset() EBAC_RT {
-    ledger_ = EnergyLedger(params_.damping, params_.count, params_.current_lag, 0);
-    pending_ = Pending(timing_.delay);
-    command_ = dt_ = 0;
+    account_ = CoveredForce(params_.damping, params_.count, params_.current_lag, timing_);
+    command_ = 0;
     state_ = {};
   }
   const State& state() const EBAC_RT { return state_; }
@@ -103,27 +98,11 @@ class Eba {
   const Timing& timing() const EBAC_RT { return timing_; }
 
  private:
-  void set_tick(double dt) EBAC_RT {
-    dt_ = dt;
-    ledger_.set_tick(dt);
-  }
-
-  /// The force the account covers beside the commands under way and the decaying force of the last
-  /// one.
-  double covered() const EBAC_RT {
-    const double under_way = pending_.sum_of_squares() + ledger_.tail_squared();
-    return covered_force(state_.account - under_way / (4 * b_), b_, params_.count,
-                         pending_.largest_with(0));
-  }
-
   Params params_;
   Timing timing_;
-  double b_;  // N/m, B = b/T over the longest tick a force may act for
   double c_;  // N/m
-  EnergyLedger ledger_;
-  Pending pending_;
+  CoveredForce account_;
   double command_ = 0;  // F_d(t-1)
-  double dt_ = 0;
   State state_{};
 };
 

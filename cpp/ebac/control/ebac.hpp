@@ -21,12 +21,10 @@ namespace ebac {
 /// and what the paper leaves open. In the order of `step`:
 ///
 ///   1. ledger      the energy the virtual side holds, on the force really applied
-///   2. motion      eq. (9), the continuity of eq. (10), and the bound last: stiffness up to c_h =
-///   0.9 M_h w^2
+///   2. motion      eq. (9), the continuity of eq. (10), and the bound last: at most c_h
 ///   3. recovery    where dx = 0 and eq. (9) is undefined, F_d relaxes to F_e
 ///   4. release     contact lost: F_d = 0, always admissible
-///   5. damping     B_v = M_h w on a play-filtered velocity, w = min(0.35/t_d, ...): what the loop
-///   can carry
+///   5. damping     B_v on a play-filtered velocity, what mass and delay can carry
 ///   6. force loop  eq. (2), with a small K_p
 ///   7. guard       the total command is held to what the ledger covers
 ///
@@ -36,8 +34,7 @@ class Ebac {
   static constexpr std::string_view kName = "ebac";
   static constexpr std::string_view kSummary =
       "eq. (8) to (10) and (2), completed: recovery, damping, guard";
-  static constexpr bool kPassive =
-      false;  // guarded, not proven: the guard's assumptions are in the docs
+  static constexpr bool kPassive = false;  // guarded; what that assumes is in docs/theory.md
 
   struct Params {
     double damping = 2.0;       // N s/m
@@ -123,7 +120,7 @@ class Ebac {
       : params_(checked(params, "EBAC")),
         timing_(checked(timing, "Timing")),
         show_(params.mass, params.count, params.current_lag, timing),
-        recovery_time_(2.2 * (params.heaviest_hand + params.mass) / show_.damping),
+        recovery_time_(kPace * (params.heaviest_hand + params.mass) / show_.damping),
         loop_(params.kp, params.kd, params.filter),
         ledger_(params.damping, params.count, params.current_lag, params.reserve),
         velocity_(params.count, show_.velocity_lag),
@@ -178,6 +175,17 @@ class Ebac {
   double virtual_damping() const EBAC_RT { return show_.damping; }     // N s/m
 
  private:
+  // Chosen on a grid of 60 hands and 36 cells of delay, damping and stiffness; `ebac study` runs it.
+  static constexpr double kPace = 2.2;  // recovery against what B_v damps, for the heaviest hand
+  static constexpr double kLeastExcess = 0.25;  // of K/c_h - 1: recovery of a wall as soft as c_h
+  static constexpr double kFloor = 0.5;         // of c_h: slope that continuity always allows
+  static constexpr double kForget = 0.02;       // per moving tick, of a slope steeper than the last
+  static constexpr double kImpact = 0.5;        // s after contact in which reversals are no swing
+  static constexpr double kSlower = 0.9;        // pace of the recovery, per reversal after that
+  static constexpr double kSlowest = 0.3;
+  static constexpr double kYield = 0.01;  // s, F_d follows a command the guard holds back
+  static constexpr int kWindow = 16;      // samples, velocity the guard counts with
+
   /// What follows from the time since the last tick alone.
   void set_tick(double dt) EBAC_RT {
     dt_ = dt;
@@ -200,15 +208,17 @@ class Ebac {
       pace_ = 1;
     } else {
       clock_ += port.dt;
-      if (port.dx != 0) {
+      if (std::abs(port.dx) > params_.count / 2) {  // less, on a slant, is mostly rounding
         const double seen = std::abs((port.f_env - last_env_) / port.dx);
-        state_.slope = seen > state_.slope ? seen : state_.slope + 0.02 * (seen - state_.slope);
+        state_.slope = seen > state_.slope ? seen : state_.slope + kForget * (seen - state_.slope);
         contact_slope_ = std::min(show_.stiffness, state_.slope);
       }
     }
     const int direction = velocity_.direction();
     if (direction != 0) {
-      if (direction == -heading_ && clock_ > 0.5) pace_ = std::max(0.3, 0.9 * pace_);
+      if (direction == -heading_ && clock_ > kImpact) {
+        pace_ = std::max(kSlowest, kSlower * pace_);
+      }
       heading_ = direction;
     }
     last_env_ = port.f_env;
@@ -226,9 +236,9 @@ class Ebac {
     double rise = port.f_env - before;  // eq. (9): beta dx
     const bool releasing = before * dx < 0 && std::abs(port.f_env) < std::abs(before);
     if (params_.continuity && !releasing) {
-      const double least = 0.5 * show_.stiffness * std::abs(dx);  // the floor
-      const double grown = params_.growth * ratio_ * dx;          // eq. (10), rows 3 and 4,
-      const double decayed = params_.decay * ratio_ * dx;         // sorted
+      const double least = kFloor * show_.stiffness * std::abs(dx);  // the floor
+      const double grown = params_.growth * ratio_ * dx;             // eq. (10), rows 3 and 4,
+      const double decayed = params_.decay * ratio_ * dx;            // sorted
       rise =
           std::clamp(rise, std::min({grown, decayed, -least}), std::max({grown, decayed, least}));
     }
@@ -240,7 +250,7 @@ class Ebac {
   }
 
   void recover(const Port& port) EBAC_RT {
-    const double excess = std::max(state_.slope / show_.stiffness - 1, 0.25);
+    const double excess = std::max(state_.slope / show_.stiffness - 1, kLeastExcess);
     const double time = recovery_time_ / pace_ * excess;
     state_.f_d += (port.f_env - state_.f_d) * (port.dt / (time + port.dt));
     state_.tell(0, 0, 0, 0);
@@ -260,17 +270,16 @@ class Ebac {
 
   double guarded(double wanted, const Port& port) EBAC_RT {
     const double energy = ledger_.energy();
-    const double step =
-        std::abs(port.dx) + params_.count;  // the window keeps within a count of each reading
+    const double step = std::abs(port.dx) + params_.count;  // no window slopes by more than this
     if (guard_.surely_admits(wanted, pending_, energy, step)) return wanted;
-    const double v = adaptive_slope(readings_, 16, params_.count);
+    const double v = adaptive_slope(readings_, kWindow, params_.count);
     const double command = guard_.admit(wanted, pending_, energy, v);
     if (command != wanted) {
       state_.clamped = true;
       state_.admitted = command / wanted;
       const double size = std::abs(command);
       if (std::abs(state_.f_d) > size) {
-        state_.f_d += (std::copysign(size, state_.f_d) - state_.f_d) * port.dt / (0.01 + port.dt);
+        state_.f_d += (std::copysign(size, state_.f_d) - state_.f_d) * port.dt / (kYield + port.dt);
       }
     }
     return command;

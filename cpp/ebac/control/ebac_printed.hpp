@@ -77,7 +77,11 @@ class EbacPrinted {
         loop_(params.kp, params.kd, params.filter) {}
 
   double step(const Port& port) EBAC_RT {
-    if (port.dx != 0 && port.dt > 0) move(port);
+    if (port.dx != 0 && port.dt > 0) {
+      move(port);
+    } else {
+      rest();
+    }
     const double desired = std::clamp(state_.f_d, -params_.peak_force, params_.peak_force);
     const double command = desired + loop_.step(desired, port.f_meas, port.dt);  // eq. (2)
     return std::clamp(command, -params_.peak_force, params_.peak_force);
@@ -109,6 +113,12 @@ class EbacPrinted {
     state_.clamped = beta != asked;
     state_.beta = last_beta_ = beta;
     state_.f_d += beta * port.dx;  // eq. (8)
+  }
+
+  /// V_d = 0: eq. (9) has no value, and the force freezes.
+  void rest() EBAC_RT {
+    state_.tell(0, 0, 0, 0);
+    state_.clamped = false;
   }
 
   void limits(const Port& port) EBAC_RT {

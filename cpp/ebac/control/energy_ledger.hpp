@@ -71,13 +71,4 @@ class EnergyLedger {
   double leak_keep_ = 1;
 };
 
-/// The largest force that `energy` covers over any motion: F^2/(4B), and one encoder count of the
-/// largest force in play, F itself or `largest` of those under way. B = b/T [N/m].
-inline double covered_force(double energy, double b, double count, double largest) EBAC_RT {
-  if (!(energy > 0)) return 0;
-  const double alone = 2 * b * (std::sqrt(count * count + energy / b) - count);
-  if (alone >= largest) return alone;
-  return std::min(largest, 2 * std::sqrt(b * std::max(0.0, energy - count * largest)));
-}
-
 }  // namespace ebac

@@ -4,8 +4,7 @@
 #include <array>
 #include <string_view>
 
-#include "ebac/control/energy_ledger.hpp"
-#include "ebac/control/pending.hpp"
+#include "ebac/control/covered_force.hpp"
 #include "ebac/core/concepts.hpp"
 
 namespace ebac {
@@ -63,29 +62,21 @@ class ForceBounding {
   explicit ForceBounding(const Params& params, const Timing& timing = {})
       : params_(checked(params, "ForceBounding")),
         timing_(checked(timing, "Timing")),
-        b_(params.damping / timing.longest()),
-        ledger_(params.damping, params.count, params.current_lag, 0),
-        pending_(timing.delay) {}
+        account_(params.damping, params.count, params.current_lag, timing) {}
 
   double step(const Port& port) EBAC_RT {
     if (!(port.dt > 0)) return 0;
-    if (port.dt != dt_) set_tick(port.dt);
-    ledger_.take(port.f_applied, port.dx);
-    state_.account = ledger_.energy();
-    const double under_way = pending_.sum_of_squares() + ledger_.tail_squared();
-    const double most = std::min(covered_force(state_.account - under_way / (4 * b_), b_,
-                                               params_.count, pending_.largest_with(0)),
-                                 params_.peak_force);
+    account_.take(port.f_applied, port.dx, port.dt);
+    state_.account = account_.energy();
+    const double most = std::min(account_.largest(), params_.peak_force);
     const double command = std::clamp(port.f_env, -most, most);
     state_.clamped = command != port.f_env;
-    pending_.push(command);
+    account_.give(command);
     return command;
   }
 
   void reset() EBAC_RT {
-    ledger_ = EnergyLedger(params_.damping, params_.count, params_.current_lag, 0);
-    pending_ = Pending(timing_.delay);
-    dt_ = 0;
+    account_ = CoveredForce(params_.damping, params_.count, params_.current_lag, timing_);
     state_ = {};
   }
   const State& state() const EBAC_RT { return state_; }
@@ -93,17 +84,9 @@ class ForceBounding {
   const Timing& timing() const EBAC_RT { return timing_; }
 
  private:
-  void set_tick(double dt) EBAC_RT {
-    dt_ = dt;
-    ledger_.set_tick(dt);
-  }
-
   Params params_;
   Timing timing_;
-  double b_;  // N/m, B = b/T over the longest tick a force may act for
-  EnergyLedger ledger_;
-  Pending pending_;
-  double dt_ = 0;
+  CoveredForce account_;
   State state_{};
 };
 

@@ -2,7 +2,6 @@
 
 #include <tuple>
 
-#include "ebac/control/damped.hpp"
 #include "ebac/control/direct.hpp"
 #include "ebac/control/eba.hpp"
 #include "ebac/control/ebac.hpp"
@@ -10,12 +9,13 @@
 #include "ebac/control/force_bounding.hpp"
 #include "ebac/control/passivity_control.hpp"
 #include "ebac/control/tca.hpp"
+#include "ebac/control/tca_damped.hpp"
 #include "ebac/control/virtual_coupling.hpp"
 
 namespace ebac {
 
 /// Every law the library ships; tests and benchmarks run over this list.
-using Laws = std::tuple<Direct, Tca, Damped, PassivityControl, VirtualCoupling, ForceBounding, Eba,
-                        EbacPrinted, Ebac>;
+using Laws = std::tuple<Direct, Tca, TcaDamped, PassivityControl, VirtualCoupling, ForceBounding,
+                        Eba, EbacPrinted, Ebac>;
 
 }  // namespace ebac

@@ -1,14 +1,23 @@
 #pragma once
 
 #include <array>
+#include <concepts>
 #include <span>
-#include <utility>
 
+#include "ebac/control/turned_ports.hpp"
 #include "ebac/core/concepts.hpp"
 
 namespace ebac {
 
-/// A scalar law on every port.
+/// A law for all ports of a device at once: writes `f_cmd` of every axis.
+template <class L>
+concept AxesController = requires(L law, std::span<Axis> axes, const Touch& touch) {
+  typename L::State;
+  { law.step(axes, touch) } noexcept;
+  { law.reset() } noexcept;
+};
+
+/// A scalar law on every direction the world acts in.
 template <Controller Law>
 class PerAxis {
  public:
@@ -19,18 +28,19 @@ class PerAxis {
     reset();
   }
 
-  void step(std::span<Axis> axes) EBAC_RT {
-    for (std::size_t i = 0; i < axes.size(); ++i) {
-      axes[i].port.f_cmd = laws_[i].step(axes[i].port);
-    }
+  void step(std::span<Axis> axes, const Touch& touch) EBAC_RT {
+    turned_.step(axes, touch,
+                 [this](std::size_t i, const Port& port) EBAC_RT { return laws_[i].step(port); });
   }
   void reset() EBAC_RT {
     for (Law& law : laws_) law.reset();
+    turned_ = {};
   }
   const State& state(std::size_t i) const EBAC_RT { return laws_[i].state(); }
 
  private:
   std::array<Law, kMaxAxes> laws_;
+  TurnedPorts turned_{};
 };
 
 }  // namespace ebac

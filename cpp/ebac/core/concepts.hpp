@@ -1,7 +1,6 @@
 #pragma once
 
 #include <concepts>
-#include <span>
 #include <string_view>
 
 #include "ebac/core/check.hpp"
@@ -28,14 +27,6 @@ concept Controller =
       { view.params() } noexcept -> std::same_as<const typename L::Params&>;
       { view.timing() } noexcept -> std::same_as<const Timing&>;
     };
-
-/// A law for all ports of a device at once: writes `f_cmd` of every axis.
-template <class L>
-concept AxesController = requires(L law, std::span<Axis> axes) {
-  typename L::State;
-  { law.step(axes) } noexcept;
-  { law.reset() } noexcept;
-};
 
 struct Command {
   std::array<double, kMaxAxes> current{};  // A, computed in the last tick

@@ -8,8 +8,8 @@
 
 /// A tick is a row. Each stage of the loop reads what stands to its left and writes what it knows.
 ///
-/// Signs: x grows into the wall; a force is positive when it resists +x.
-/// Letters: q joint angle, dq its rate, tau joint torque; x handle position, v its rate, f force.
+/// Signs: x grows into the wall; a force is positive when it resists +x. Letters: q joint angle, dq
+/// its rate, tau joint torque; x handle position, v its rate, f force.
 namespace ebac {
 
 /// Why the loop stopped. The first fault latches; its force is zero from that tick on.

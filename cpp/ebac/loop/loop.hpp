@@ -9,8 +9,8 @@
 
 namespace ebac {
 
-/// Runs ticks and keeps their rows. A fault latches: the loop sends `kStopTicks` commands of zero
-/// force and ends.
+/// Runs ticks and keeps their rows. A fault latches: its row and the next ones, `kStopTicks` in
+/// all, command zero force, and the loop ends.
 template <Device D, Clock C, AxesController Law>
 class Loop {
  public:

@@ -32,7 +32,7 @@ class Rig {
   }
 
   /// x, v -> f_env
-  void ask(std::span<Axis> axes) const EBAC_RT;
+  Touch ask(std::span<Axis> axes) const EBAC_RT;
 
   /// f_cmd -> tau -> current: transpose, static compensation of eq. (2), the drive's peak
   void drive(double dt, std::span<Axis> axes) EBAC_RT;
@@ -146,13 +146,14 @@ inline void Rig::forward_general(const Reading& reading, double dt, std::span<Ax
   }
 }
 
-inline void Rig::ask(std::span<Axis> axes) const EBAC_RT {
-  const Axes f =
-      force(environment_, all(axes, &Axis::port, &Port::x), all(axes, &Axis::port, &Port::v));
-  for (std::size_t i = 0; i < axes.size(); ++i)
-    axes[i].port.f_env = f[static_cast<Eigen::Index>(i)];
+inline Touch Rig::ask(std::span<Axis> axes) const EBAC_RT {
+  Touch touch =
+      meet(environment_, all(axes, &Axis::port, &Port::x), all(axes, &Axis::port, &Port::v));
+  for (std::size_t i = 0; i < axes.size(); ++i) {
+    axes[i].port.f_env = touch.force[static_cast<Eigen::Index>(i)];
+  }
+  return touch;
 }
-
 /// tau_static of eq. (2).
 inline Axes Rig::compensate(double dt, std::span<const Axis> axes) EBAC_RT {
   Axes tau = weight(kinematics_, all(axes, &Axis::joint, &Joint::q),
@@ -169,7 +170,7 @@ inline Axes Rig::compensate(double dt, std::span<const Axis> axes) EBAC_RT {
   return tau;
 }
 
-/// The currents that give each axis its torque, up to the drive's peak.
+/// The current that gives one axis its torque, up to the drive's peak.
 inline void Rig::send(Joint& joint, double tau) const EBAC_RT {
   joint.tau = tau;
   joint.current = std::clamp(tau * amp_per_torque_, -peak_current_, peak_current_);

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <span>
 
+#include "ebac/control/per_axis.hpp"
 #include "ebac/core/concepts.hpp"
 #include "ebac/loop/rig.hpp"
 
@@ -13,9 +14,10 @@ inline Fault first_fault(const Axis& axis) EBAC_RT {
   const Port& port = axis.port;
   const double tau = axis.joint.tau;
   // What is not finite survives the sum; only then it matters who it was.
-  const double sum = port.x + port.v + port.f_meas + port.f_env + port.f_cmd + tau;
+  const double sum = port.x + port.v + port.f_applied + port.f_meas + port.f_env + port.f_cmd + tau;
   if (std::isfinite(sum)) return Fault::kNone;
   if (!std::isfinite(port.x) || !std::isfinite(port.v)) return Fault::kPositionNotFinite;
+  if (!std::isfinite(port.f_applied)) return Fault::kDevice;
   if (!std::isfinite(port.f_meas)) return Fault::kForceNotFinite;
   if (!std::isfinite(port.f_env)) return Fault::kEnvironmentNotFinite;
   if (!std::isfinite(port.f_cmd)) return Fault::kLawNotFinite;
@@ -47,8 +49,8 @@ void tick(Rig& rig, Law& law, D& device, const Instant& now, Sample& s,
   rig.measure(reading, now.dt, axes);
   rig.forward(reading, now.dt, axes);
   rig.account(axes);
-  rig.ask(axes);
-  law.step(axes);
+  const Touch touch = rig.ask(axes);
+  law.step(axes, touch);
   rig.drive(now.dt, axes);
 
   if (s.fault == Fault::kNone) s.fault = reading.fault;

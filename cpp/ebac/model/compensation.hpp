@@ -10,9 +10,11 @@ namespace ebac {
 
 /// tau_static of eq. (2): gravity, friction and inertia given back to the hand, told at the handle.
 ///
-/// Compensating friction spends the damping that the energy laws live on. The push never exceeds
+/// Both spend the damping that the energy laws live on. The push for friction never exceeds
 /// `friction`, so that real Coulomb friction of at least that size still pays for it, whatever the
-/// delay; beyond it, the slope friction/friction_speed counts against the viscous damping.
+/// delay; what it lacks counts against the viscous damping with the slope (friction -
+/// coulomb)/friction_speed. Inertia given back through a filter is at no frequency and no delay
+/// more than a damper of inertia/inertia_lag.
 struct Compensation {
   double gravity_mass = 0;       // kg
   double friction = 0;           // N
@@ -31,7 +33,7 @@ struct Compensation {
   /// Lower bound of the viscous damping that is left, given the device's real damping and Coulomb
   /// friction.
   double damping_left(double damping, double coulomb) const EBAC_RT {
-    return damping - std::max(0.0, friction - coulomb) / friction_speed;
+    return damping - std::max(0.0, friction - coulomb) / friction_speed - inertia / inertia_lag;
   }
 
   double mass_left(double mass) const EBAC_RT { return mass - inertia; }

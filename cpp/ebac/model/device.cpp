@@ -13,7 +13,7 @@ void check_device(const DeviceModel& device) {
         << " m: needs a cable_stiffness above 0 N/m to act on; set one, or backlash = 0 m";
   } else if (device.compensation.inertia > 0.5 * device.mass()) {
     why << "Compensation.inertia = " << device.compensation.inertia << " kg: must lie in [0, "
-        << 0.5 * device.mass() << "] kg, half of the device's mass; more makes the loop active";
+        << 0.5 * device.mass() << "] kg, half of the device's mass";
   }
   if (const std::string text = why.str(); !text.empty()) throw std::invalid_argument(text);
 }

@@ -3,23 +3,31 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <variant>
 
 #include "ebac/core/fields.hpp"
 #include "ebac/model/kinematics.hpp"
+#include "ebac/model/touch.hpp"
 
-/// The virtual world: a position and a velocity of the handle in, the force it asks for out. A
-/// shape is a type with `force(x, v)`; adding one to the variant is all it needs.
+/// The virtual world: a position and a velocity of the handle in, what it does there out. A shape
+/// is a type with `meet(x, v)`; adding one to the variant is all it needs.
 namespace ebac {
 
 struct Free {
-  Axes force(const Axes&, const Axes&) const EBAC_RT { return Axes::Zero(); }
+  Touch meet(const Axes&, const Axes&) const EBAC_RT { return {}; }
 
   static constexpr auto fields() { return std::array<Field<Free>, 0>{}; }
 };
 
-/// A flat wall, eq. (12): F = K x + B v inside, along the normal. It never pulls: with v < 0 the
-/// damper of eq. (12) as printed could, so the force stops at zero.
+/// K x + B v inside and zero outside, eq. (12). It never pulls: with v < 0 the damper of eq. (12)
+/// as printed could, so the force stops at zero.
+inline double push(double stiffness, double damping, double depth, double speed) EBAC_RT {
+  if (std::isnan(depth)) return depth;
+  return depth >= 0 ? std::max(0.0, stiffness * depth + damping * speed) : 0.0;
+}
+
+/// A flat wall.
 struct Wall {
   double stiffness = 10e3;  // N/m
   double damping = 0;       // N s/m
@@ -28,16 +36,14 @@ struct Wall {
 
   Axes normal() const EBAC_RT { return {std::cos(angle), std::sin(angle), 0}; }
 
-  Axes force(const Axes& x, const Axes& v) const EBAC_RT {
-    if (angle == 0) return {push(x[0], v[0]), 0, 0};
-    const Axes n = normal();
-    return push(n.dot(x), n.dot(v)) * n;
+  double push_along(double x, double v) const EBAC_RT {
+    return push(stiffness, damping, x - position, v);
   }
 
-  double push(double depth, double speed) const EBAC_RT {
-    depth -= position;
-    if (std::isnan(depth)) return depth;
-    return depth >= 0 ? std::max(0.0, stiffness * depth + damping * speed) : 0.0;
+  Touch meet(const Axes& x, const Axes& v) const EBAC_RT {
+    if (angle == 0) return Touch::straight({push_along(x[0], v[0]), 0, 0});
+    const Axes n = normal();
+    return Touch::along_normal(n, push_along(n.dot(x), n.dot(v)));
   }
 
   static constexpr auto fields() {
@@ -52,20 +58,61 @@ struct Wall {
   }
 };
 
-/// Two walls that meet: each pushes along its own normal.
+/// Two walls that meet: each pushes along its own normal. The frame is that of the first; walls
+/// that do not meet at a right angle share their directions.
 struct Corner {
   Wall first{};
-  Wall second{.angle = 1.5707963267948966};
+  Wall second{.angle = std::numbers::pi / 2};
 
-  Axes force(const Axes& x, const Axes& v) const EBAC_RT {
-    return first.force(x, v) + second.force(x, v);
+  Touch meet(const Axes& x, const Axes& v) const EBAC_RT {
+    const Axes n = first.normal();
+    const Axes m = second.normal();
+    const double one = first.push_along(n.dot(x), n.dot(v));
+    const double other = second.push_along(m.dot(x), m.dot(v));
+    Touch touch = Touch::along_normal(n, one);
+    const double across = touch.frame.row(1).dot(m);
+    const bool square =
+        std::abs(n.dot(m)) < 1e-9;  // then exact, so that an untouched wall is exactly zero
+    touch.along +=
+        square ? Axes{0, std::copysign(other, across), 0} : Axes(other * (touch.frame * m));
+    touch.force += other * m;
+    return touch;
   }
 };
 
-using Environment = std::variant<Free, Wall, Corner>;
+/// A round pillar in the plane of the first two axes, met from outside.
+struct Disc {
+  double stiffness = 10e3;  // N/m
+  double damping = 0;       // N s/m
+  double x = 0.03;          // m
+  double y = 0;             // m
+  double radius = 0.02;     // m
 
-inline Axes force(const Environment& environment, const Axes& x, const Axes& v) EBAC_RT {
-  return std::visit([&](const auto& shape) { return shape.force(x, v); }, environment);
+  Touch meet(const Axes& at, const Axes& v) const EBAC_RT {
+    const Axes inwards = Axes{x, y, 0} - Axes{at[0], at[1], 0};
+    const double distance = inwards.norm();
+    if (!(distance > 0))
+      return Touch::straight(Axes::Constant(distance));  // dead centre has no direction
+    const Axes n = inwards / distance;
+    return Touch::along_normal(n, push(stiffness, damping, radius - distance, n.dot(v)));
+  }
+
+  static constexpr auto fields() {
+    using F = Field<Disc>;
+    return std::array{
+        F{"stiffness", &Disc::stiffness, "N/m", "K of eq. (12), along the radius", 0, 1e7},
+        F{"damping", &Disc::damping, "N s/m", "B of eq. (12), along the radius", 0, 1e4},
+        F{"x", &Disc::x, "m", "centre", -10, 10},
+        F{"y", &Disc::y, "m", "centre", -10, 10},
+        F{"radius", &Disc::radius, "m", "radius", 1e-4, 10},
+    };
+  }
+};
+
+using Environment = std::variant<Free, Wall, Corner, Disc>;
+
+inline Touch meet(const Environment& environment, const Axes& x, const Axes& v) EBAC_RT {
+  return std::visit([&](const auto& shape) { return shape.meet(x, v); }, environment);
 }
 
 }  // namespace ebac

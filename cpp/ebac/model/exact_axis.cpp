@@ -179,9 +179,9 @@ void ExactAxis::flow_while(const LinearFlow& flow, Vector& w, std::int64_t& left
   }
 }
 
-/// Energy of one slide, from the equation of motion times v:
-/// int (f_motor v + b v^2 + f_coulomb |v|) = -m d(v^2)/2 - B0 int v^2 - k int xi v + weight dx,
-/// with int xi v = d(xi^2)/2 + r int xi, and int xi from the equation of motion itself.
+/// Energy of one slide, from the equation of motion times v: int (f_motor v + b v^2 + f_coulomb
+/// |v|) = -m d(v^2)/2 - B0 int v^2 - k int xi v + weight dx, with int xi v = d(xi^2)/2 + r int xi,
+/// and int xi from the equation of motion itself.
 void ExactAxis::account(const Vector& before, const Vector& after, double time) EBAC_RT {
   const double r = before[kR];
   const double k = p_.hand_stiffness;

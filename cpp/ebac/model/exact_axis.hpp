@@ -23,8 +23,9 @@ struct AxisParameters {
 
 /// Hand and handle between two events are linear, so a tick has a closed form (docs: the plant):
 ///
-///   m v' = -k xi - b v - phi - F      xi = x - X0,  X0' = r,  phi = f_motor - u,  F = u + friction
-///   - weight phi' = -phi / current_lag         y' = (f_hand - y) / sensor_lag
+///   m v'  = -k xi - b v - phi - F         xi = x - X0,  X0' = r,  phi = f_motor - u
+///   phi'  = -phi / current_lag            F = u + friction - weight
+///   y'    = (f_hand - y) / sensor_lag
 ///
 /// with m = M_h + M_0, b = B_h + B_0, k = K_0. Coulomb friction is a constant inside a segment; the
 /// only event is v = 0, found to 2^-20 of a tick by bisection over the dyadic steps of the flow.

@@ -12,7 +12,7 @@ namespace ebac {
 struct LagStep {
   double z;
   double decay;
-  std::array<double, 3> phi;
+  std::array<double, 3> phi{};
 
   explicit LagStep(double steps) EBAC_RT : z(steps), decay(std::exp(-steps)) {
     constexpr double kSmall = 0.5;  // below, the closed forms lose digits and eleven terms suffice

@@ -55,7 +55,7 @@ class SimulatedDevice {
     return SteppedPlant(s.device, s.hand, s.timing.dt);
   }
 
-  /// Sets the currents of the next interval: the command of `delay - 1` exchanges ago.
+  /// Sets the currents of the next interval: the command of `delay` exchanges ago.
   void drive(const Command& command) EBAC_RT {
     for (std::size_t i = 0; i < axes_; ++i) {
       double current = std::clamp(command.current[i], -peak_current_, peak_current_);

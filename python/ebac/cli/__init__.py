@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from ebac.cli import bench, laws, paper, presets, specs, wall
+from ebac.cli import bench, conditions, laws, paper, presets, specs, study, wall
 
 app = typer.Typer(
     name="ebac",
@@ -43,6 +43,8 @@ def main(
 
 
 app.command("wall")(wall.wall)
+app.command("study")(study.study)
+app.command("conditions")(conditions.conditions)
 app.command("paper")(paper.paper)
 app.command("laws")(laws.laws)
 app.command("specs")(specs.specs)

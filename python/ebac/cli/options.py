@@ -82,7 +82,9 @@ Jitter: TypeAlias = Annotated[
 Seconds: TypeAlias = Annotated[
     float | None, option("--seconds", "Length of the run [s]", "6", _RUN)
 ]
-Seed: TypeAlias = Annotated[int | None, option("--seed", "Seed of noise and jitter", "1", _RUN)]
+Seed: TypeAlias = Annotated[
+    int | None, option("--seed", "Seed of noise, jitter and the encoder's phase", "1", _RUN)
+]
 ScenarioFile: TypeAlias = Annotated[
     Path | None,
     option("--scenario", "Start from a scenario in TOML; other options come on top", "", _RUN),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -37,6 +38,19 @@ def base_scenario(file: Path | None) -> Scenario:
     from ebac.scenario import Scenario
 
     return Scenario() if file is None else Scenario.load(file)
+
+
+def law_names(given: Sequence[str]) -> list[str]:
+    """Return the laws asked for, each once, in the order asked; `all` is every law."""
+    from ebac.document import unknown
+    from ebac.laws import LAWS
+
+    names: list[str] = []
+    for name in given:
+        if name not in LAWS and name != "all":
+            raise ValueError(unknown(f"--law {name}", name, [*LAWS, "all"]))
+        names += LAWS if name == "all" else [name]
+    return list(dict.fromkeys(names))
 
 
 def in_options(message: str) -> str:

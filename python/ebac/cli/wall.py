@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -67,7 +67,7 @@ def wall(
     if no_files and out is not None:
         output.fail("--no-files and --out exclude each other: leave one of them out")
     with output.refusing():
-        names = _names(law)
+        names = setting.law_names(law or DEFAULT_LAWS)
         base = setting.base_scenario(scenario)
         chosen = base.replace(
             device=setting.choose_device(base.device, device, noise=noise, permille=permille),
@@ -82,19 +82,6 @@ def wall(
         )
         _check_length(chosen)
     _run(chosen, names, None if no_files else out or (None if as_json else DEFAULT_OUT), as_json)
-
-
-def _names(given: Sequence[str] | None) -> list[str]:
-    """Return the laws asked for, each once, in the order asked."""
-    from ebac.document import unknown
-    from ebac.laws import LAWS
-
-    names: list[str] = []
-    for name in given or DEFAULT_LAWS:
-        if name not in LAWS and name != "all":
-            raise ValueError(unknown(f"--law {name}", name, [*LAWS, "all"]))
-        names += LAWS if name == "all" else [name]
-    return list(dict.fromkeys(names))
 
 
 def _check_length(scenario: Scenario) -> None:

@@ -30,7 +30,7 @@ LINES = (
 
 
 #: More laws than this side by side do not fit 80 columns.
-LAWS_ABREAST = 4
+LAWS_ABREAST = 3
 
 
 def write(

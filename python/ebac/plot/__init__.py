@@ -1,6 +1,7 @@
-"""Figures of traces; they use no global state of pyplot, so any thread may draw."""
+"""Figures of traces and studies; they use no global state of pyplot, so any thread may draw."""
 
 from ebac.plot.run import plot_trace
+from ebac.plot.study import plot_study
 from ebac.plot.style import COLOURS, DPI, Picture, colour, dress, legend, line, new_figure
 from ebac.plot.walls import plot_walls
 
@@ -13,6 +14,7 @@ __all__ = [
     "legend",
     "line",
     "new_figure",
+    "plot_study",
     "plot_trace",
     "plot_walls",
 ]

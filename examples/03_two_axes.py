@@ -1,4 +1,4 @@
-"""Two axes: a hand pressed into a corner of two walls, then into a wall that stands on a slant."""
+"""Two axes: a hand pressed into a corner, onto a wall that stands on a slant, and past a disc."""
 
 from math import pi
 
@@ -10,8 +10,9 @@ device = ebac.Device(kinematics=ebac.Linear(axes=2))
 hand = ebac.Hand(path=[ebac.Step(target=0.03), ebac.Step(target=0.02, at=0.5)])
 corner = ebac.Corner(first=ebac.Wall(), second=ebac.Wall(angle=pi / 2))
 slanted = ebac.Wall(angle=pi / 6)
+disc = ebac.Disc(x=0.03, y=0.012, radius=0.02)
 
-for name, world in (("corner", corner), ("slanted wall", slanted)):
+for name, world in (("corner", corner), ("slanted wall", slanted), ("disc", disc)):
     scenario = ebac.Scenario(device=device, hand=hand, environment=world, seconds=4)
     trace = ebac.simulate(scenario, "ebac")
     rest = trace[3.0:]

@@ -16,7 +16,7 @@ namespace ebac {
 ///
 /// Known weakness: nothing watches the energy, and the wall is shown at its full stiffness while
 /// moving, which a stiffer wall or a longer delay does not forgive.
-class Damped {
+class TcaDamped {
  public:
   static constexpr std::string_view kName = "tca-damped";
   static constexpr std::string_view kSummary = "eq. (2) plus a virtual damper in contact";
@@ -65,7 +65,7 @@ class Damped {
     }
   };
 
-  explicit Damped(const Params& params, const Timing& timing = {})
+  explicit TcaDamped(const Params& params, const Timing& timing = {})
       : params_(checked(params, "TCADamped")),
         timing_(checked(timing, "Timing")),
         show_(params.mass, params.count, params.current_lag, timing),
@@ -109,6 +109,6 @@ class Damped {
   State state_{};
 };
 
-static_assert(Controller<Damped>);
+static_assert(Controller<TcaDamped>);
 
 }  // namespace ebac

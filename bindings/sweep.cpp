@@ -1,0 +1,86 @@
+#include "sweep.hpp"
+
+#include <functional>
+#include <optional>
+
+#include "bind.hpp"
+#include "ebac/sim/ideal_wall.hpp"
+
+namespace ebac::python {
+
+namespace {
+
+using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
+
+std::span<const double> view(const std::optional<Numbers>& values) {
+  if (!values) return {};
+  return {values->data(), static_cast<std::size_t>(values->size())};
+}
+
+void bind_contact(py::module_& m) {
+  m.def(
+      "_measure_contact",
+      [](const Numbers& t, const Numbers& x, const Numbers& force,
+         const std::optional<Numbers>& energy, const std::optional<Numbers>& stored,
+         const std::optional<Numbers>& clamped) {
+        return values_of(measure_contact({.t = view(t),
+                                          .x = view(x),
+                                          .force = view(force),
+                                          .energy = view(energy),
+                                          .stored = view(stored),
+                                          .clamped = view(clamped)}));
+      },
+      py::kw_only(), py::arg("t"), py::arg("x"), py::arg("force"), py::arg("energy") = py::none(),
+      py::arg("stored") = py::none(), py::arg("clamped") = py::none());
+  m.def(
+      "_stored_energy",
+      [](const Environment& environment, const Numbers& x) {
+        if (x.ndim() != 2 || x.shape(1) > kMaxAxes) {
+          throw std::invalid_argument("x: must have the shape (rows, axes)");
+        }
+        std::vector<double> stored;
+        for (py::ssize_t i = 0; i < x.shape(0); ++i) {
+          Axes at = Axes::Zero();
+          for (py::ssize_t j = 0; j < x.shape(1); ++j) at[j] = x.at(i, j);
+          stored.push_back(stored_energy(environment, at));
+        }
+        return column<double>(stored, [](double joule) { return joule; });
+      },
+      py::arg("environment"), py::arg("x"));
+}
+
+Values ideal_contacts(const std::vector<const Setup*>& setups, int threads,
+                      SweepProgress& progress) {
+  require_all(setups, "setups");
+  std::vector<IdealContact> rows(setups.size());
+  {
+    const py::gil_scoped_release release;
+    for_each_run(setups.size(), threads, progress, [&](std::size_t i, ContactRecorder& recorder) {
+      rows[i] = ideal_contact(*setups[i], recorder);
+    });
+  }
+  Values columns;
+  add_columns<IdealContact>(columns, rows, std::identity{});
+  return columns;
+}
+
+}  // namespace
+
+void bind_sweeps(py::module_& m) {
+  bind_contact(m);
+  bind_fields<RunLimits>(m, "RunLimits", "Beyond these a run of a sweep has diverged and ends.");
+  py::class_<SweepProgress>(m, "SweepProgress", "How far a sweep in another thread has come.")
+      .def(py::init<>())
+      .def_property_readonly(
+          "done", [](const SweepProgress& progress) { return progress.done.load(); }, "Runs done.")
+      .def(
+          "cancel", [](SweepProgress& progress) { progress.cancelled = true; },
+          "Ends the sweep within some hundred ticks; what is done is kept.")
+      .def_property_readonly(
+          "cancelled", [](const SweepProgress& progress) { return progress.cancelled.load(); },
+          "Whether it was cancelled.");
+  m.def("_ideal_contacts", &ideal_contacts, py::arg("setups"), py::arg("threads"),
+        py::arg("progress"));
+}
+
+}  // namespace ebac::python

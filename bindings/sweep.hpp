@@ -1,0 +1,75 @@
+#pragma once
+
+#include <pybind11/numpy.h>
+#include <pybind11/stl.h>
+
+#include <string>
+#include <vector>
+
+#include "ebac/sim/sweep.hpp"
+#include "fields.hpp"
+
+/// Many runs in one call: the static method `_sweep` of every law.
+namespace ebac::python {
+
+/// A NumPy array of `get(row)` for every row.
+template <class Value, class Row, class Get>
+py::array_t<Value> column(const std::vector<Row>& rows, Get get) {
+  py::array_t<Value> values(static_cast<py::ssize_t>(rows.size()));
+  py::ssize_t i = 0;
+  for (const Row& row : rows) values.mutable_at(i++) = static_cast<Value>(get(row));
+  return values;
+}
+
+/// Adds a column for each field of a part of the rows.
+template <Described Part, class Row, class Get>
+void add_columns(Values& columns, const std::vector<Row>& rows, Get part) {
+  for (const auto& field : Part::fields()) {
+    const auto member = std::get<double Part::*>(field.member);
+    columns[py::str(std::string(field.name))] =
+        column<double>(rows, [&](const Row& row) { return part(row).*member; });
+  }
+}
+
+inline Values columns_of(const std::vector<Outcome>& rows) {
+  Values columns;
+  add_columns<WallContact>(columns, rows,
+                           [](const Outcome& o) -> const WallContact& { return o.contact; });
+  columns["ticks"] = column<std::int64_t>(rows, [](const Outcome& o) { return o.ticks; });
+  columns["fault"] = column<std::uint32_t>(rows, [](const Outcome& o) { return o.fault; });
+  columns["diverged"] = column<bool>(rows, [](const Outcome& o) { return o.diverged; });
+  columns["done"] = column<bool>(rows, [](const Outcome& o) { return o.done; });
+  return columns;
+}
+
+template <class T>
+void require_all(const std::vector<const T*>& parts, const char* name) {
+  for (const T* part : parts) {
+    if (part == nullptr) throw py::type_error(std::string(name) + " holds None");
+  }
+}
+
+template <Controller Law>
+void bind_sweep(py::class_<Law>& cls) {
+  cls.def_static(
+      "_sweep",
+      [](const std::vector<const Setup*>& setups, const std::vector<const Law*>& laws, int threads,
+         const RunLimits& limits, SweepProgress& progress) {
+        require_all(setups, "setups");
+        require_all(laws, "laws");
+        if (setups.size() != laws.size()) {
+          throw std::invalid_argument(std::to_string(laws.size()) + " laws for " +
+                                      std::to_string(setups.size()) + " setups: give one for each");
+        }
+        std::vector<Outcome> outcomes;
+        {
+          const py::gil_scoped_release release;
+          outcomes = sweep(setups, laws, threads, limits, progress);
+        }
+        return columns_of(outcomes);
+      },
+      py::arg("setups"), py::arg("laws"), py::arg("threads"), py::arg("limits"),
+      py::arg("progress"));
+}
+
+}  // namespace ebac::python

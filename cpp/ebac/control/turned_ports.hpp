@@ -1,0 +1,68 @@
+#pragma once
+
+#include <array>
+#include <span>
+
+#include "ebac/core/sample.hpp"
+#include "ebac/model/touch.hpp"
+
+namespace ebac {
+
+/// The ports of a device in the directions of the world. Work is the same in both, F dx = sum F_i
+/// dx_i, also where the frame turns from tick to tick: x is then the way travelled along a
+/// direction, not a coordinate.
+class TurnedPorts {
+ public:
+  /// Asks for the force of every direction, `ask(i, port)`, and gives it to the device.
+  template <class Ask>
+  void step(std::span<Axis> axes, const Touch& touch, Ask ask) EBAC_RT {
+    if (touch.turned && axes.size() > 1) {
+      enter(axes, touch);
+      for (std::size_t i = 0; i < axes.size(); ++i) port_[i].f_cmd = ask(i, port_[i]);
+      leave(axes, touch);
+    } else {
+      for (std::size_t i = 0; i < axes.size(); ++i) axes[i].port.f_cmd = ask(i, axes[i].port);
+    }
+  }
+
+ private:
+  void enter(std::span<const Axis> axes, const Touch& touch) EBAC_RT {
+    const auto turned = [&](double Port::* member) EBAC_RT { return turn(axes, touch, member); };
+    Axes dx = turned(&Port::dx);
+    const double rounding = 1e-12 * dx.norm();
+    dx = (dx.array().abs() < rounding).select(0, dx);  // counts that cancel are no motion
+    const Axes v = turned(&Port::v);
+    const Axes applied = turned(&Port::f_applied);
+    const Axes measured = turned(&Port::f_meas);
+    for (std::size_t i = 0; i < axes.size(); ++i) {
+      const auto e = static_cast<Eigen::Index>(i);
+      Port& port = port_[i];
+      port.x += dx[e];
+      port.dx = dx[e];
+      port.v = v[e];
+      port.dt = axes[i].port.dt;
+      port.f_env = touch.along[e];
+      port.f_applied = applied[e];
+      port.f_meas = measured[e];
+    }
+  }
+
+  void leave(std::span<Axis> axes, const Touch& touch) const EBAC_RT {
+    Axes f = Axes::Zero();
+    for (std::size_t i = 0; i < axes.size(); ++i) f[static_cast<Eigen::Index>(i)] = port_[i].f_cmd;
+    const Axes back = touch.frame.transpose() * f;
+    for (std::size_t i = 0; i < axes.size(); ++i)
+      axes[i].port.f_cmd = back[static_cast<Eigen::Index>(i)];
+  }
+
+  static Axes turn(std::span<const Axis> axes, const Touch& touch, double Port::* member) EBAC_RT {
+    Axes all = Axes::Zero();
+    for (std::size_t i = 0; i < axes.size(); ++i)
+      all[static_cast<Eigen::Index>(i)] = axes[i].port.*member;
+    return touch.frame * all;
+  }
+
+  std::array<Port, kMaxAxes> port_{};
+};
+
+}  // namespace ebac

@@ -1,0 +1,128 @@
+#include "ebac/sim/contact.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+namespace ebac {
+
+namespace {
+
+using Values = std::span<const double>;
+
+double mean(Values values) {
+  double sum = 0;
+  for (const double value : values) sum += value;
+  return sum / static_cast<double>(values.size());
+}
+
+double width(Values values) {
+  const auto [low, high] = std::ranges::minmax(values);
+  return high - low;
+}
+
+/// From when on x stays within half of the quiet swing of its rest.
+double settling(Values t, Values x, double rest) {
+  std::size_t i = x.size();
+  while (i > 0 && std::abs(x[i - 1] - rest) <= kQuietSwing / 2) --i;
+  return t[std::min(i, t.size() - 1)];
+}
+
+/// Upward crossings of the rest per second. A crossing counts after a dip of a quarter of the
+/// swing, so that noise and encoder counts around the rest do not.
+double frequency(Values t, Values x, double rest, double swing) {
+  double first = WallContact::kNone;
+  double last = WallContact::kNone;
+  int cycles = -1;
+  bool armed = false;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    if (x[i] < rest - swing / 4) armed = true;
+    if (!armed || x[i] < rest) continue;
+    armed = false;
+    // Armed and now at the rest, so the row before exists and lies below it.
+    const double share = (rest - x[i - 1]) / (x[i] - x[i - 1]);
+    last = t[i - 1] + share * (t[i] - t[i - 1]);
+    if (++cycles == 0) first = last;
+  }
+  return cycles > 0 ? cycles / (last - first) : WallContact::kNone;
+}
+
+/// max over t1 < t2 of W(t1) - W(t2) - stored(t1), at least 0: one pass with the best start so far.
+double drawn(Values energy, Values stored) {
+  double start = -std::numeric_limits<double>::infinity();
+  double most = 0;
+  for (std::size_t i = 0; i < energy.size(); ++i) {
+    most = std::max(most, start - energy[i]);
+    start = std::max(start, energy[i] - stored[i]);
+  }
+  return most;
+}
+
+void check_rows(const ContactRecord& r) {
+  const std::size_t rows = r.x.size();
+  if (rows < kFewestRows) {
+    throw std::invalid_argument("the recording has " + std::to_string(rows) +
+                                " rows: a contact needs at least " + std::to_string(kFewestRows));
+  }
+  const auto refuse_other = [&](Values column) {
+    if (column.size() == rows) return;
+    throw std::invalid_argument("a column of the recording has " + std::to_string(column.size()) +
+                                " rows, its position " + std::to_string(rows));
+  };
+  for (const Values column : {r.t, r.force}) refuse_other(column);
+  for (const Values column : {r.energy, r.stored, r.clamped}) {
+    if (!column.empty()) refuse_other(column);
+  }
+}
+
+}  // namespace
+
+WallContact measure_contact(const ContactRecord& r) {
+  check_rows(r);
+  const auto share =
+      static_cast<std::size_t>(std::lround(kTailShare * static_cast<double>(r.x.size())));
+  const std::size_t tail = std::max<std::size_t>(2, share);
+  const Values x = r.x.last(tail);
+  WallContact c{.rest = mean(x),
+                .swing = width(x),
+                .force_swing = width(r.force.last(tail)),
+                .peak = std::ranges::max(r.x)};
+  if (c.quiet()) {
+    c.settled = settling(r.t, r.x, c.rest);
+  } else {
+    c.limit_cycle = frequency(r.t.last(tail), x, c.rest, c.swing);
+  }
+  if (!r.energy.empty()) c.least_energy = std::ranges::min(r.energy);
+  if (!r.energy.empty() && !r.stored.empty()) c.most_drawn = drawn(r.energy, r.stored);
+  if (!r.clamped.empty()) c.clamped_share = mean(r.clamped);
+  return c;
+}
+
+namespace {
+
+double stored_in(const Free&, const Axes&) EBAC_RT { return 0; }
+
+double spring(double stiffness, double depth) EBAC_RT {
+  return depth > 0 ? 0.5 * stiffness * depth * depth : 0.0;
+}
+
+double stored_in(const Wall& wall, const Axes& x) EBAC_RT {
+  return spring(wall.stiffness, wall.normal().dot(x) - wall.position);
+}
+
+double stored_in(const Disc& disc, const Axes& x) EBAC_RT {
+  return spring(disc.stiffness, disc.radius - std::hypot(disc.x - x[0], disc.y - x[1]));
+}
+
+double stored_in(const Corner& corner, const Axes& x) EBAC_RT {
+  return stored_in(corner.first, x) + stored_in(corner.second, x);
+}
+
+}  // namespace
+
+double stored_energy(const Environment& environment, const Axes& x) EBAC_RT {
+  return std::visit([&](const auto& shape) { return stored_in(shape, x); }, environment);
+}
+
+}  // namespace ebac

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <vector>
+
+#include "ebac/sim/contact.hpp"
+
+namespace ebac {
+
+/// Columns for one run, used again for the next: they grow to the longest run and stay.
+class ContactRecorder {
+ public:
+  void start(std::size_t rows) {
+    for (auto* column : {&t_, &x_, &force_, &energy_, &stored_, &clamped_}) {
+      column->clear();
+      column->reserve(rows);
+    }
+  }
+
+  void add(double t, double x, double force, double energy, double stored) {
+    t_.push_back(t);
+    x_.push_back(x);
+    force_.push_back(force);
+    energy_.push_back(energy);
+    stored_.push_back(stored);
+  }
+  void add_clamped(bool clamped) { clamped_.push_back(clamped ? 1.0 : 0.0); }
+
+  std::size_t rows() const { return t_.size(); }
+
+  ContactRecord record() const {
+    return {.t = t_,
+            .x = x_,
+            .force = force_,
+            .energy = energy_,
+            .stored = stored_,
+            .clamped = clamped_};
+  }
+
+ private:
+  std::vector<double> t_, x_, force_, energy_, stored_, clamped_;
+};
+
+}  // namespace ebac

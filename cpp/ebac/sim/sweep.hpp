@@ -1,0 +1,109 @@
+#pragma once
+
+#include <atomic>
+#include <cmath>
+#include <functional>
+#include <vector>
+
+#include "ebac/loop/tick.hpp"
+#include "ebac/sim/recorder.hpp"
+#include "ebac/sim/simulate.hpp"
+
+/// Many runs over a pool of threads that lives only during the call, metrics instead of traces. A
+/// run writes into its own place, so the result does not depend on the number of threads.
+namespace ebac {
+
+/// Beyond these a run is called diverged and ends.
+struct RunLimits {
+  double position = 1;   // m, of any axis
+  double energy = 1000;  // J, taken out of the port
+
+  static constexpr auto fields() {
+    using F = Field<RunLimits>;
+    return std::array{
+        F{"position", &RunLimits::position, "m", "a run that goes farther from zero has diverged",
+          1e-3, 1e3},
+        F{"energy", &RunLimits::energy, "J", "so has one that takes more energy out of the port",
+          1e-3, 1e9},
+    };
+  }
+};
+
+struct Outcome {
+  WallContact contact{};
+  std::size_t ticks = 0;  // rows; fewer than asked for after a fault or when diverged
+  Fault fault = Fault::kNone;
+  bool diverged = false;
+  bool done = false;  // false when cancelled before its end
+};
+
+/// What a caller in another thread sees of a sweep, and how it stops one.
+struct SweepProgress {
+  std::atomic<std::size_t> done = 0;  // runs
+  std::atomic<bool> cancelled = false;
+};
+
+using SweepWork = std::function<void(std::size_t, ContactRecorder&)>;
+
+/// Calls `work(i, recorder)` for every i < count from `threads` threads, 0 for one per core; a
+/// recorder belongs to a thread. What a call throws ends the sweep and is thrown again here.
+void for_each_run(std::size_t count, int threads, SweepProgress& progress, const SweepWork& work);
+
+/// Adds a row of the first axis; the energies are those of all axes. Says whether the run lies
+/// within its limits.
+template <AxesController Law>
+bool keep_row(const Sample& s, const SimulatedDevice& device, const Law& law, const Setup& setup,
+              const RunLimits& limits, ContactRecorder& recorder) {
+  Axes x = Axes::Zero();
+  double energy = 0;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(s.axes); ++i) {
+    x[static_cast<Eigen::Index>(i)] = device.state(i).x;
+    energy += device.state(i).energy;
+  }
+  recorder.add(s.t, x[0], s.axis[0].port.f_applied, energy, stored_energy(setup.environment, x));
+  if constexpr (requires { law.state(0).clamped; }) recorder.add_clamped(law.state(0).clamped);
+  return x.cwiseAbs().maxCoeff() <= limits.position && energy >= -limits.energy;
+}
+
+/// One run: the ticks of `simulate`, kept as metrics.
+template <Controller Scalar>
+Outcome measure_run(const Setup& setup, const Scalar& scalar, const RunLimits& limits,
+                    ContactRecorder& recorder, const std::atomic<bool>& cancelled) {
+  constexpr std::size_t kLook = 256;  // ticks between two looks at `cancelled`
+  PerAxis<Scalar> law(scalar);
+  SimulatedDevice device(setup);
+  VirtualClock clock(setup.timing.dt, setup.jitter, setup.seed);
+  Rig rig(setup.device, setup.environment);
+  Sample sample{};
+  sample.axes = setup.device.axes();
+  Outcome outcome;
+  const std::size_t rows = row_count(setup);
+  recorder.start(rows);
+  while (outcome.ticks < rows && outcome.fault == Fault::kNone && !outcome.diverged) {
+    if (outcome.ticks % kLook == 0 && cancelled.load(std::memory_order_relaxed)) return outcome;
+    tick(rig, law, device, clock.wait(), sample);
+    outcome.diverged = !keep_row(sample, device, law, setup, limits, recorder);
+    outcome.fault = sample.fault;
+    ++sample.tick;
+    ++outcome.ticks;
+  }
+  if (recorder.rows() >= kFewestRows) outcome.contact = measure_contact(recorder.record());
+  if (outcome.ticks < rows) outcome.contact.settled = WallContact::kNone;
+  outcome.done = true;
+  return outcome;
+}
+
+/// Runs setups[i] under *laws[i] for every i. After a cancellation the runs that were not done say
+/// so.
+template <Controller Law>
+std::vector<Outcome> sweep(const std::vector<const Setup*>& setups,
+                           const std::vector<const Law*>& laws, int threads,
+                           const RunLimits& limits, SweepProgress& progress) {
+  std::vector<Outcome> outcomes(setups.size());
+  for_each_run(setups.size(), threads, progress, [&](std::size_t i, ContactRecorder& recorder) {
+    outcomes[i] = measure_run(*setups[i], *laws[i], limits, recorder, progress.cancelled);
+  });
+  return outcomes;
+}
+
+}  // namespace ebac

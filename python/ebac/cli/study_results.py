@@ -1,0 +1,120 @@
+"""What `ebac study` gives: tables, a JSON document, figures, and the traces of failures."""
+
+from __future__ import annotations
+
+import csv
+from collections import defaultdict
+from itertools import chain, zip_longest
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from ebac.cli import output
+
+if TYPE_CHECKING:
+    from ebac.studies import Failure, Study, StudyRow
+
+#: Folder of the sweep's bundles inside the results, for `--resume`.
+BUNDLES = "sweep"
+#: Failures named on the screen; the files name all.
+SHOWN = 12
+
+
+def document(study: Study) -> str:
+    """Return the JSON document: one row per law and condition."""
+    return output.document("study", [row.row() for row in study.rows])
+
+
+def write(folder: Path, study: Study, traces: int, *, quiet: bool) -> list[str]:
+    """Write tables, figures and traces of failures into a folder; return their names."""
+    from ebac.plot import plot_study
+
+    kept = spread(study.failures, traces)
+    with output.results(folder) as draft, output.progress(3 + len(kept), quiet=quiet) as step:
+        if draft is None:
+            return []
+        step("writing tables")
+        (draft / "study.json").write_text(document(study) + "\n", encoding="utf-8")
+        _table(draft / "study.csv", [row.row() for row in study.rows])
+        study.operators.to_csv(draft / "population.csv")
+        study.result().to_csv(draft / "runs.csv")
+        _table(draft / "failures.csv", [
+            {"law": f.law, "condition": f.condition, "operator": f.operator, "hand": f.name, "why": f.why}
+            for f in study.failures
+        ])  # fmt: skip
+        step("drawing")
+        for name, figure in plot_study(study):
+            figure.savefig(draft / f"study-{name}.png")
+        for failure in kept:
+            step("keeping traces of failures")
+            name = f"failure-{failure.law}-{failure.condition}-{failure.operator}.npz"
+            study.trace(failure.run).to_npz(draft / name)
+        return sorted(file.name for file in draft.iterdir())
+
+
+def spread(failures: list[Failure], most: int) -> list[Failure]:
+    """Return at most so many failures, in turn from every law and condition, the rarest failures first."""
+    groups = defaultdict(list)
+    for failure in failures:
+        groups[failure.law, failure.condition].append(failure)
+    turns = chain.from_iterable(zip_longest(*sorted(groups.values(), key=len)))
+    return [failure for failure in turns if failure is not None][:most]
+
+
+def _table(path: Path, rows: list[dict[str, object]]) -> None:
+    with path.open("w", encoding="utf-8", newline="") as file:
+        writer = csv.DictWriter(file, list(rows[0]) if rows else ["law"], lineterminator="\n")
+        writer.writeheader()
+        writer.writerows(rows)
+
+
+def show(study: Study) -> None:
+    """Print the table, and which hands failed."""
+    from ebac import wording
+
+    headings = [
+        "condition",
+        "law",
+        "hands",
+        "good",
+        "in time",
+        "least energy",
+        "most drawn",
+        "settled",
+    ]
+    grid = output.table(headings, numbers=range(2, 8))
+    last = ""
+    for row in study.rows:
+        if last and row.condition != last:
+            grid.add_section()
+        grid.add_row(
+            row.condition if row.condition != last else "",
+            row.law,
+            str(row.hands),
+            _count(row.good, row),
+            _count(row.settled_in_time, row),
+            wording.quantity(row.least_energy_J, "J"),
+            wording.quantity(row.most_drawn_J, "J"),
+            wording.quantity(row.median_settled_s, "s", none="never"),
+        )
+        last = row.condition
+    output.console().print(grid)
+    _show_failures(study.failures)
+    output.say("Simulated, not measured. settled: median of those that settle.", style="bold")
+
+
+def _count(count: int | None, row: StudyRow) -> str:
+    if count is None:
+        return "-"
+    style = "green" if count == row.hands else "red" if count == 0 else "yellow"
+    return f"[{style}]{count}[/]"
+
+
+def _show_failures(failures: list[Failure]) -> None:
+    if not failures:
+        output.say("Every hand is good.", style="green")
+        return
+    for failure in spread(failures, SHOWN):
+        where = f"{failure.law}, {failure.condition}, #{failure.operator}"
+        output.say(f"{where} ({failure.name}): {failure.why}")
+    if len(failures) > SHOWN:
+        output.say(f"... {len(failures)} failures in all; failures.csv names them.")

@@ -1,0 +1,90 @@
+"""The columns of a population of operators: names, units, ranges, and how they are read."""
+
+from __future__ import annotations
+
+import csv
+from dataclasses import dataclass
+from math import isnan, nan
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+
+@dataclass(frozen=True)
+class OperatorColumn:
+    """One column of a population; `default` is NaN where it must be given."""
+
+    name: str
+    unit: str
+    meaning: str
+    low: float
+    high: float
+    default: float = nan
+
+    @property
+    def required(self) -> bool:
+        """Whether it must be given."""
+        return isnan(self.default)
+
+
+#: Every column a population may have.
+OPERATOR_COLUMNS = {
+    column.name: column
+    for column in (
+        OperatorColumn("m_kg", "kg", "mass M0", 0, 10),
+        OperatorColumn("b_Ns_per_m", "N s/m", "damping B0", 0, 1e3),
+        OperatorColumn("k_N_per_m", "N/m", "stiffness K0", 0, 1e5),
+        OperatorColumn("target_m", "m", "depth X0 it wants to reach, from the surface", -1, 1),
+        OperatorColumn("approach_m", "m", "way through free air before the surface", 0, 1, 0),
+        OperatorColumn("tremor_m", "m", "amplitude of its tremor", 0, 0.1, 0),
+        OperatorColumn("tremor_Hz", "Hz", "frequency of its tremor", 0, 500, 9),
+    )
+}
+
+
+def read_csv(path: str | Path) -> dict[str, list[str]]:
+    """Return the columns of a CSV file by the names in its heading, as text."""
+    try:
+        with Path(path).open(encoding="utf-8-sig", newline="") as file:
+            lines = [row for row in csv.reader(file) if any(cell.strip() for cell in row)]
+    except csv.Error as error:
+        raise ValueError(str(error)) from None
+    if not lines:
+        raise ValueError("the file is empty: needs a heading and one operator a line")
+    heading, *rows = lines
+    names = [cell.strip() for cell in heading]
+    if len(set(names)) < len(names):
+        twice = next(name for name in names if names.count(name) > 1)
+        raise ValueError(f"column {twice} stands there twice")
+    for i, row in enumerate(rows, 1):
+        if len(row) != len(names):
+            raise ValueError(f"row {i} has {len(row)} values, the heading {len(names)}")
+    return {name: [row[i] for row in rows] for i, name in enumerate(names)}
+
+
+def numbers(name: str, values: ArrayLike) -> NDArray[np.float64]:
+    """Return a column as numbers; what is none is named by row, counted from 1."""
+    try:
+        return np.array(values, float)
+    except (TypeError, ValueError):
+        for i, value in enumerate(np.atleast_1d(np.array(values, object)).tolist(), 1):
+            try:
+                float(value)
+            except (TypeError, ValueError):
+                unit = OPERATOR_COLUMNS[name].unit
+                raise ValueError(
+                    f"row {i}: {name} = {value!r}: must be a number in {unit}"
+                ) from None
+        raise
+
+
+def check(column: OperatorColumn, values: NDArray[np.float64]) -> None:
+    """Refuse the first value out of range, named by row, counted from 1."""
+    wrong = np.flatnonzero(~((values >= column.low) & (values <= column.high)))
+    if len(wrong):
+        i = int(wrong[0])
+        raise ValueError(
+            f"row {i + 1}: {column.name} = {values[i]:g} {column.unit}: must lie in "
+            f"[{column.low:g}, {column.high:g}] {column.unit}"
+        )

@@ -1,0 +1,157 @@
+"""A study: how far from the ideal and how restless every hand ends, law by law."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.colors import LogNorm
+from matplotlib.patheffects import withStroke
+from matplotlib.ticker import FuncFormatter
+from numpy.typing import NDArray
+
+from ebac.metrics import EXACT_COUNTS, QUIET_SWING
+from ebac.plot.style import Picture, colour, new_figure
+
+if TYPE_CHECKING:
+    from ebac.studies import Study
+
+#: Conditions on one page of scatters, and failures named in one panel.
+PAGE, NAMED = 5, 4
+#: What is shown of swing and deviation [mm]; beyond lies on the edge.
+LEAST_SWING, MOST = 1e-4, 100.0
+
+
+def plot_study(study: Study) -> Iterator[tuple[str, Picture]]:
+    """Draw a study: an overview, then scatters of deviation against swing, some conditions a page.
+
+    Parameters
+    ----------
+    study : Study
+        What `ebac.study` returned.
+
+    Yields
+    ------
+    (str, Figure)
+        A name for the file, without its suffix, and the figure.
+    """
+    yield "overview", _overview(study)
+    resting = [c.name for c in study.conditions if _rests(study, c.name)]
+    pages = [resting[i : i + PAGE] for i in range(0, len(resting), PAGE)]
+    for number, names in enumerate(pages, 1):
+        yield f"hands-{number}" if len(pages) > 1 else "hands", _scatter(study, names)
+
+
+def _rests(study: Study, condition: str) -> bool:
+    return any(row.good is not None for row in study.rows if row.condition == condition)
+
+
+# --- every hand ---
+
+
+def _scatter(study: Study, conditions: list[str]) -> Picture:
+    laws = list(study.laws)
+    figure = new_figure(1.4 + 3.3 * len(laws), 0.9 + 2.7 * len(conditions))
+    grid = figure.subplots(len(conditions), len(laws), squeeze=False, sharex=True, sharey=True)
+    for row, condition in enumerate(conditions):
+        for column, law in enumerate(laws):
+            _panel(grid[row, column], study, law, condition)
+        grid[row, 0].set_ylabel(f"{condition}\ndeviation [mm]")
+    for column, law in enumerate(laws):
+        grid[0, column].annotate(
+            law, (0.5, 1), (0, 22), "axes fraction", textcoords="offset points",
+            ha="center", fontweight="bold", color=colour(law),
+        )  # fmt: skip
+        grid[-1, column].set_xlabel("swing, peak to peak [mm]")
+    figure.suptitle(
+        "Where each hand ends; grey: good (within 2 counts of the ideal, swing below 0.25 mm); "
+        "#: row in the population",
+        fontsize="medium",
+    )
+    return figure
+
+
+def _panel(ax: Axes, study: Study, law: str, condition: str) -> None:
+    runs = study.runs(law, condition)
+    part = {name: values[runs] for name, values in study.columns.items()}
+    swing = np.clip(1e3 * part["swing_m"], LEAST_SWING, MOST)
+    deviation = np.clip(1e3 * (part["rest_m"] - part["ideal_m"]), -MOST, MOST)
+    band = 1e3 * EXACT_COUNTS * float(np.median(part["count_m"]))
+    ax.fill_between([LEAST_SWING, 1e3 * QUIET_SWING], -band, band, color="0.88", lw=0)
+    good = part["good"]
+    ax.plot(swing[good], deviation[good], "o", ms=4, mew=0, alpha=0.6, color=colour(law))
+    ax.plot(swing[~good], deviation[~good], "x", ms=5, mew=1.1, color=colour(law))
+    ax.set_xscale("log")
+    ax.set_yscale("symlog", linthresh=0.1)
+    ax.set_xlim(LEAST_SWING / 2, 2 * MOST)
+    ax.set_xticks([1e-4, 1e-2, 1, 100])
+    ax.set_ylim(-2 * MOST, 2 * MOST)
+    ax.set_yticks([-100, -1, -0.1, 0, 0.1, 1, 100])
+    for axis in (ax.xaxis, ax.yaxis):
+        axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+    ax.grid(color="0.93", lw=0.8)
+    ax.set_axisbelow(True)
+    ax.spines[["top", "right"]].set_visible(False)
+    _name_worst(ax, swing, deviation, part, band)
+    ax.set_title(f"{int(good.sum())} of {len(runs)} good", fontsize="small", loc="left")
+
+
+def _name_worst(
+    ax: Axes,
+    swing: NDArray[np.float64],
+    deviation: NDArray[np.float64],
+    part: dict[str, NDArray[Any]],
+    band: float,
+) -> None:
+    """Write the population's row beside the worst failures, those that lie apart."""
+    badness = np.maximum(np.abs(deviation) / band, swing / (1e3 * QUIET_SWING))
+    badness[part["good"] | ~np.isfinite(badness)] = 0
+    shown: list[tuple[float, float]] = []
+    for i in np.argsort(-badness, kind="stable"):
+        if badness[i] == 0 or len(shown) == NAMED:
+            break
+        place = (float(np.log10(swing[i])), float(np.arcsinh(deviation[i] / 0.1)))
+        if all(abs(place[0] - x) > 1.4 or abs(place[1] - y) > 1.6 for x, y in shown):
+            shown.append(place)
+            ax.annotate(
+                f"#{part['operator'][i]}", (swing[i], deviation[i]), (4, 3),
+                textcoords="offset points", fontsize="x-small",
+                path_effects=[withStroke(linewidth=2, foreground="white")],
+            )  # fmt: skip
+
+
+# --- overview ---
+
+
+def _overview(study: Study) -> Picture:
+    laws, names = list(study.laws), [c.name for c in study.conditions]
+    rows = {(row.condition, row.law): row for row in study.rows}
+    every = [[rows[name, law] for law in laws] for name in names]
+    good = [[None if r.good is None else 100 * r.good / r.hands for r in line] for line in every]
+    drawn = [
+        [None if r.most_drawn_J is None else 1e3 * r.most_drawn_J for r in line] for line in every
+    ]
+    figure = new_figure(2.6 + 1.7 * len(laws), 1.5 + 0.24 * len(names))
+    left, right = figure.subplots(1, 2, sharey=True)
+    _table(left, good, {"cmap": "RdYlGn", "vmin": 0, "vmax": 100})
+    left.set_title("good hands [%]", fontsize="medium")
+    log: dict[str, Any] = {"cmap": "YlOrRd", "norm": LogNorm(1e-2, 1e5, clip=True)}
+    _table(right, drawn, log)
+    right.set_title("most energy drawn [mJ]", fontsize="medium")
+    for ax in (left, right):
+        ax.set_xticks(range(len(laws)), laws, rotation=30, ha="right")
+        ax.set_yticks(range(len(names)), names)
+        ax.tick_params(length=0)
+        ax.spines[:].set_visible(False)
+    return figure
+
+
+def _table(ax: Axes, cells: list[list[float | None]], style: dict[str, Any]) -> None:
+    values = np.array([[np.nan if cell is None else cell for cell in line] for line in cells])
+    shown = np.where(values == 0, 1e-9, values) if "norm" in style else values
+    ax.imshow(shown, aspect="auto", alpha=0.75, **style)
+    for (row, column), value in np.ndenumerate(values):
+        known = "-" if np.isnan(value) else f"{value:,.0f}" if value >= 100 else f"{value:.3g}"
+        ax.text(column, row, known, ha="center", va="center", fontsize="small")

@@ -1,0 +1,147 @@
+"""Named changes to a scenario: what a condition is made of. Each takes a scenario with a hand on it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+from ebac._core import DeviceFacts, Hand, MinimumJerk, Sine, Step, Tapping, Timing, Wall
+
+if TYPE_CHECKING:
+    from ebac.scenario import Scenario
+
+Change: TypeAlias = Callable[["Scenario"], "Scenario"]
+Belief: TypeAlias = Callable[["Scenario"], tuple[DeviceFacts, Timing]]
+
+
+def together(*changes: Change) -> Change:
+    """Return all changes, one after the other."""
+
+    def change(scenario: Scenario) -> Scenario:
+        for one in changes:
+            scenario = one(scenario)
+        return scenario
+
+    return change
+
+
+def scenario(**values: Any) -> Change:
+    """Change the scenario itself: seconds, jitter, seed."""
+    return lambda s: s.replace(**values)
+
+
+def timing(**values: Any) -> Change:
+    """Change sample time or delay."""
+    return lambda s: s.replace(timing=s.timing.replace(**values))
+
+
+def wall(**values: Any) -> Change:
+    """Change the wall."""
+    return lambda s: s.replace(environment=_wall(s).replace(**values))
+
+
+def hand(**values: Any) -> Change:
+    """Change the hand: tremor, letting go."""
+    return lambda s: s.replace(hand=s.hand.replace(**values))
+
+
+def device(part: str, **values: Any) -> Change:
+    """Change one part of the device."""
+    return lambda s: s.replace(
+        device=s.device.replace(**{part: getattr(s.device, part).replace(**values)})
+    )
+
+
+def device_mass(mass: float) -> Change:
+    """Give the device a mass at the handle [kg], handle and rotor in the same shares."""
+
+    def change(s: Scenario) -> Scenario:
+        share = mass / s.device.mass
+        mechanics, motor = s.device.mechanics, s.device.motor
+        lighter = s.device.replace(
+            mechanics=mechanics.replace(handle_mass=share * mechanics.handle_mass),
+            motor=motor.replace(rotor_inertia=share * motor.rotor_inertia),
+        )
+        return s.replace(device=lighter)
+
+    return change
+
+
+def approach(way: float) -> Change:
+    """Let the hand come through free air first [m]."""
+
+    def change(s: Scenario) -> Scenario:
+        path = s.hand.path[0]
+        if not isinstance(path, Step):
+            raise TypeError(f"the hand follows a {type(path).__name__}: an approach needs a Step")
+        moved = path.replace(target=path.target + way)
+        farther = _wall(s).replace(position=_wall(s).position + way)
+        return s.replace(hand=s.hand.replace(path=[moved, *s.hand.path[1:]]), environment=farther)
+
+    return change
+
+
+def slow_press(duration: float) -> Change:
+    """Let the hand reach its target along a minimum-jerk path of so many seconds."""
+    return _path(lambda target, surface: MinimumJerk(target=target, duration=duration))
+
+
+def tapping(frequency: float, lift: float = 0.01) -> Change:
+    """Let the hand tap [Hz]: half a period at its target, half `lift` [m] before the surface."""
+    return _path(
+        lambda target, surface: Tapping(target=target, rest=surface - lift, frequency=frequency)
+    )
+
+
+def pump(amplitude: float, frequency: float, depth: float = 2e-3) -> Change:
+    """Replace the hand by a stiff position drive that swings [m], [Hz] around a depth [m] inside the wall.
+
+    20 kN/m; 0.15 kg and 100 N s/m keep its own resonance with the device well damped. Its centre lies deeper by what
+    the wall pushes it back at rest.
+    """
+
+    def change(s: Scenario) -> Scenario:
+        stiffness = 20e3
+        inside = depth * (1 + _wall(s).stiffness / stiffness)
+        path = Sine(centre=_wall(s).position + inside, amplitude=amplitude, frequency=frequency)
+        driven = Hand(mass=0.15, damping=100.0, stiffness=stiffness, path=path)
+        return s.replace(hand=driven)
+
+    return change
+
+
+def truth(s: Scenario) -> tuple[DeviceFacts, Timing]:
+    """Return what laws are designed for when nothing is mistaken."""
+    return s.device.facts, s.known_timing
+
+
+def mistaken(*, delay: int | None = None, **factors_or_values: float) -> Belief:
+    """Return what laws are designed for when some facts are wrong: `damping`, `mass` as factors, others as values."""
+
+    def believe(s: Scenario) -> tuple[DeviceFacts, Timing]:
+        facts = s.device.facts
+        wrong = {
+            name: value * getattr(facts, name) if name in ("damping", "mass") else value
+            for name, value in factors_or_values.items()
+        }
+        told = s.known_timing if delay is None else s.known_timing.replace(delay=delay)
+        return facts.replace(**wrong), told
+
+    return believe
+
+
+def _wall(s: Scenario) -> Wall:
+    if not isinstance(s.environment, Wall):
+        raise TypeError(f"the environment is a {type(s.environment).__name__}: must be a Wall")
+    return s.environment
+
+
+def _path(make: Callable[[float, float], Any]) -> Change:
+    def change(s: Scenario) -> Scenario:
+        path = s.hand.path[0]
+        if not hasattr(path, "target"):
+            raise TypeError(f"the hand follows a {type(path).__name__}, which has no target")
+        made = make(path.target, _wall(s).position)
+        return s.replace(hand=s.hand.replace(path=[made, *s.hand.path[1:]]))
+
+    return change

@@ -1,0 +1,164 @@
+"""The conditions of a study: named changes to the reference scenario, each with a line of what it is."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from ebac import document
+from ebac.studies import changes as to
+from ebac.studies.changes import Belief, Change
+
+if TYPE_CHECKING:
+    from ebac.operators import Operators
+    from ebac.scenario import Scenario
+
+
+@dataclass(frozen=True, kw_only=True)
+class Condition:
+    """What is changed for every hand, and what the laws are told.
+
+    Attributes
+    ----------
+    name, summary : str
+        How it is called, and what it is in a line.
+    change : callable
+        A scenario with a hand on it in, the scenario to simulate out.
+    believed : callable
+        That scenario in, the (DeviceFacts, Timing) for which laws are designed out; default: the truth.
+    drives : tuple of callable
+        Changes that replace the population: one run each instead of one run per hand.
+    """
+
+    name: str
+    summary: str
+    change: Change
+    believed: Belief = to.truth
+    drives: tuple[Change, ...] = ()
+
+    def scenarios(self, operators: Operators, base: Scenario) -> list[Scenario]:
+        """Return what is simulated under this condition."""
+        if self.drives:
+            return [drive(self.change(base)) for drive in self.drives]
+        return [self.change(one) for one in operators.scenarios(base)]
+
+
+def cell(delay: int, damping: float, stiffness: float) -> Change:
+    """Set delay [samples], device damping [N s/m] and wall stiffness [N/m]."""
+    return to.together(
+        to.timing(delay=delay),
+        to.device("mechanics", damping=damping),
+        to.wall(stiffness=stiffness),
+    )
+
+
+def _cell(name: str, delay: int, damping: float, kilo: float) -> Condition:
+    samples = "1 sample" if delay == 1 else f"{delay} samples"
+    summary = f"{samples} of delay, device damping {damping:g} N s/m, wall {kilo:g} kN/m"
+    return Condition(name=name, summary=summary, change=cell(delay, damping, 1e3 * kilo))
+
+
+def _robust(
+    name: str,
+    summary: str,
+    *changes: Change,
+    believed: Belief = to.truth,
+    drives: Iterable[Change] = (),
+    at: tuple[int, float, float] = (1, 2, 10e3),
+) -> Condition:
+    return Condition(
+        name=name,
+        summary=summary,
+        change=to.together(cell(*at), *changes),
+        believed=believed,
+        drives=tuple(drives),
+    )
+
+
+_FIVE = [
+    _cell("d1K10", 1, 2, 10),
+    _cell("d0K10", 0, 2, 10),
+    _cell("d2K10", 2, 2, 10),
+    _cell("d1K20", 1, 2, 20),
+    _cell("d1b1K5", 1, 1, 5),
+]
+_CELLS = [
+    _cell(f"d{d}b{b}K{k}", d, b, k) for d in (0, 1, 2) for b in (1, 2, 4) for k in (2, 5, 10, 20)
+    if (d, b, k) != (1, 1, 5)  # already one of the five
+]  # fmt: skip
+
+_SLOW = to.slow_press(3.0)
+_PUMPS = [to.pump(1e-3 * mm, hz) for mm in (0.1, 0.3, 1, 2, 4) for hz in (0.5, 1, 2, 4, 8, 15, 30)]
+_LET_GO_LATE = to.hand(release_at=5.0)
+
+_ROBUSTNESS = [
+    _robust("approach-10mm", "the hand comes through 10 mm of free air", to.approach(0.01)),
+    _robust("friction-0.3", "Coulomb friction 0.3 N", to.device("mechanics", coulomb=0.3)),
+    _robust("friction-1", "Coulomb friction 1 N", to.device("mechanics", coulomb=1.0)),
+    _robust("encoder-12bit", "4096 counts a turn, a quarter of the count", to.device("encoder", counts_per_turn=4096)),
+    _robust("force-noise", "force sensor noise 0.2 N", to.device("sensor", noise=0.2)),
+    _robust("jitter", "ticks up to 30 % of a sample early or late", to.scenario(jitter=0.3)),
+    _robust("rate-2kHz", "a tick of 0.5 ms", to.timing(dt=0.5e-3)),
+    _robust("rate-500Hz", "a tick of 2 ms", to.timing(dt=2e-3)),
+    _robust("device-0.1kg", "a device of 0.1 kg at the handle", to.device_mass(0.1)),
+    _robust("device-0.6kg", "a device of 0.6 kg at the handle", to.device_mass(0.6)),
+    _robust("wall-damping", "a wall with 5 N s/m", to.wall(damping=5.0)),
+    _robust("torque-permille", "torque in whole thousandths of the rated one", to.device("drive", permille=True)),
+    _robust("told-damping+50", "laws told 1.5 times the true device damping", believed=to.mistaken(damping=1.5)),
+    _robust("told-mass+50", "laws told 1.5 times the true device mass", believed=to.mistaken(mass=1.5)),
+    _robust("told-mass-50", "laws told half of the true device mass", believed=to.mistaken(mass=0.5)),
+    _robust("told-delay-1-of-2", "2 samples of delay, laws told 1", to.timing(delay=2), believed=to.mistaken(delay=1)),
+    _robust("told-delay-1-of-3", "3 samples of delay, laws told 1", to.timing(delay=3), believed=to.mistaken(delay=1)),
+    _robust("told-lag-0.3-of-1", "drive lag 1 ms, laws told 0.3 ms", to.device("drive", current_lag=1e-3),
+            believed=to.mistaken(current_lag=3e-4)),
+    _robust("tremor-9Hz", "tremor of 0.5 mm at 9 Hz", to.hand(tremor_amplitude=0.5e-3, tremor_frequency=9.0)),
+    _robust("shaking-25Hz", "shaking of 2 mm at 25 Hz", to.hand(tremor_amplitude=2e-3, tremor_frequency=25.0)),
+    _robust("shaking-60Hz", "shaking of 2 mm at 60 Hz", to.hand(tremor_amplitude=2e-3, tremor_frequency=60.0)),
+    _robust("shaking-150Hz", "shaking of 2 mm at 150 Hz", to.hand(tremor_amplitude=2e-3, tremor_frequency=150.0)),
+    _robust("tapping-1.5Hz", "tapping 1.5 times a second; never at rest", to.tapping(1.5)),
+    _robust("tapping-6Hz", "tapping 6 times a second; never at rest", to.tapping(6.0)),
+    _robust("slow-press", "the hand takes 3 s to press, along a minimum-jerk path", _SLOW),
+    _robust("slow-press-d2", "slow press at 2 samples of delay", _SLOW, at=(2, 2, 10e3)),
+    _robust("slow-press-K20", "slow press at 20 kN/m", _SLOW, at=(1, 2, 20e3)),
+    _robust("let-go", "impact, then the hand lets go at 3 s", to.hand(release_at=3.0)),
+    _robust("slow-let-go", "slow press, then the hand lets go at 5 s", _SLOW, _LET_GO_LATE),
+    _robust("slow-let-go-d2", "the same at 2 samples of delay", _SLOW, _LET_GO_LATE, at=(2, 2, 10e3)),
+    _robust("slow-let-go-K20", "the same at 20 kN/m", _SLOW, _LET_GO_LATE, at=(1, 2, 20e3)),
+    _robust("pumping", "no hands: a drive of 20 kN/m pumps 20 s at 2 mm depth, 0.1 to 4 mm, 0.5 to 30 Hz",
+            to.scenario(seconds=20.0), drives=_PUMPS),
+]  # fmt: skip
+
+#: Every condition by its name.
+CONDITIONS: dict[str, Condition] = {c.name: c for c in (*_FIVE, *_CELLS, *_ROBUSTNESS)}
+
+#: Groups of conditions: the names they stand for.
+GROUPS: dict[str, tuple[str, ...]] = {
+    "five": tuple(c.name for c in _FIVE),
+    "cells": tuple(
+        "d1b1K5" if (d, b, k) == (1, 1, 5) else f"d{d}b{b}K{k}"
+        for d in (0, 1, 2) for b in (1, 2, 4) for k in (2, 5, 10, 20)
+    ),
+    "robustness": tuple(c.name for c in _ROBUSTNESS),
+    "all": tuple(CONDITIONS),
+}  # fmt: skip
+
+
+def conditions(names: Iterable[str | Condition]) -> list[Condition]:
+    """Return conditions by name or group, each once, in the order asked; a Condition stands for itself.
+
+    Raises
+    ------
+    ValueError
+        For a name that is neither; suggests the nearest.
+    """
+    found: dict[str, Condition] = {}
+    for name in names:
+        if isinstance(name, Condition):
+            found[name.name] = name
+            continue
+        if name not in CONDITIONS and name not in GROUPS:
+            raise ValueError(document.unknown(f"condition {name}", name, [*GROUPS, *CONDITIONS]))
+        for one in GROUPS.get(name, (name,)):
+            found[one] = CONDITIONS[one]
+    return list(found.values())

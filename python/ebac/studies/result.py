@@ -1,0 +1,170 @@
+"""The result of a study: a row per law and condition, and every run that failed."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import asdict, dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ebac import _core
+from ebac.laws import design
+from ebac.operators import Operators
+from ebac.scenario import Scenario
+from ebac.simulation import LoopFault, simulate
+from ebac.studies.conditions import Condition
+from ebac.sweeps.measure import Columns
+from ebac.sweeps.result import SweepResult
+from ebac.trace import Trace
+
+
+@dataclass(frozen=True, kw_only=True)
+class StudyRow:
+    """One law under one condition, over all hands; None where a thing does not exist.
+
+    Attributes
+    ----------
+    law, condition : str
+        Names.
+    hands : int
+        Runs.
+    good : int or None
+        Hands that rest within two counts of the ideal and swing by less than 0.25 mm; None where the condition has no
+        point of rest.
+    settled_in_time : int or None
+        Of the good ones, those settled within 1.5 times what the same hand needs against an ideal wall, plus 0.2 s.
+    least_energy_J : float or None
+        Lowest physical port energy of all runs.
+    most_drawn_J : float or None
+        Most energy drawn in any window of any run, see `Contact`.
+    median_settled_s : float or None
+        Median over the runs that settled.
+    """
+
+    law: str
+    condition: str
+    hands: int
+    good: int | None
+    settled_in_time: int | None
+    least_energy_J: float | None
+    most_drawn_J: float | None
+    median_settled_s: float | None
+
+    def row(self) -> dict[str, Any]:
+        """Return the documented row of `ebac study --json`."""
+        return asdict(self)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Failure:
+    """A run that was not good: its place in the columns, its operator's row from 1 (0 for a drive), and why."""
+
+    run: int
+    law: str
+    condition: str
+    operator: int
+    name: str
+    why: str
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Study:
+    """Laws x conditions x hands.
+
+    Attributes
+    ----------
+    operators : Operators
+        The population.
+    conditions : tuple of Condition
+        In the order of the rows.
+    scenarios : list of Scenario
+        What was simulated: all hands of the first condition, then of the second, and so on.
+    columns : dict of str to array, shape (runs,)
+        Those of `SweepResult`, and `condition`, `operator` (row from 1, 0 for a drive), `ideal_settled_s` (inf where
+        even an ideal wall does not settle, NaN where that is not known), `good`, `settled_in_time`.
+    """
+
+    operators: Operators
+    conditions: tuple[Condition, ...]
+    scenarios: list[Scenario]
+    designed_for: list[tuple[_core.DeviceFacts, _core.Timing]]
+    laws: dict[str, Any]
+    columns: Columns
+
+    def runs(self, law: str, condition: str) -> NDArray[np.intp]:
+        """Return the places of the runs of a law under a condition."""
+        both = (self.columns["law"] == law) & (self.columns["condition"] == condition)
+        return np.flatnonzero(both)
+
+    @cached_property
+    def rows(self) -> list[StudyRow]:
+        """One row per law and condition, the laws of a condition together."""
+        return [self._row(law, c.name) for c in self.conditions for law in self.laws]
+
+    def _row(self, law: str, condition: str) -> StudyRow:
+        runs = self.runs(law, condition)
+        part = {name: values[runs] for name, values in self.columns.items()}
+        rests = bool(np.isfinite(part["ideal_m"]).all())
+        timed = rests and not bool(np.isnan(part["ideal_settled_s"]).any())
+        return StudyRow(
+            law=law,
+            condition=condition,
+            hands=len(runs),
+            good=int(part["good"].sum()) if rests else None,
+            settled_in_time=int(part["settled_in_time"].sum()) if timed else None,
+            least_energy_J=_of(np.min, part["least_energy_J"]),
+            most_drawn_J=_of(np.max, part["most_drawn_J"]),
+            median_settled_s=_of(np.median, part["settled_s"]),
+        )
+
+    @cached_property
+    def failures(self) -> list[Failure]:
+        """Every run that was not good where there is a point of rest, or that diverged or stopped on a fault."""
+        return list(self._failures())
+
+    def _failures(self) -> Iterator[Failure]:
+        c = self.columns
+        stopped = c["diverged"] | (c["fault"] != 0)
+        for i in np.flatnonzero((np.isfinite(c["ideal_m"]) & ~c["good"]) | stopped).tolist():
+            operator = int(c["operator"][i])
+            yield Failure(
+                run=i,
+                law=str(c["law"][i]),
+                condition=str(c["condition"][i]),
+                operator=operator,
+                name=self.operators.name(operator - 1) if operator else "drive",
+                why=_why({name: values[i] for name, values in c.items()}),
+            )
+
+    def trace(self, run: int) -> Trace:
+        """Simulate one run again, with every row; a run that stopped on a fault gives its rows too."""
+        place = run % len(self.scenarios)
+        law = design(self.laws[str(self.columns["law"][run])], *self.designed_for[place])
+        try:
+            return simulate(self.scenarios[place], law)
+        except LoopFault as fault:
+            return fault.trace
+
+    def result(self) -> SweepResult:
+        """Return every run as a table, to write it as CSV or Parquet."""
+        return SweepResult(self.columns)
+
+
+def _of(measure: Any, values: NDArray[np.float64]) -> float | None:
+    """Return a measure over the numbers there are."""
+    there = values[np.isfinite(values)]
+    return float(measure(there)) if len(there) else None
+
+
+def _why(run: dict[str, Any]) -> str:
+    if run["fault"] != 0:
+        return f"stopped on fault {_core.Fault(int(run['fault'])).name.lower()}"
+    if run["diverged"]:
+        return f"diverged after {run['ticks']} ticks"
+    swing, away = 1e3 * run["swing_m"], 1e3 * (run["rest_m"] - run["ideal_m"])
+    if not run["swing_m"] < 0.25e-3:
+        return f"swings by {swing:.3g} mm"
+    return f"rests {abs(away):.3g} mm {'too deep' if away > 0 else 'not deep enough'}"

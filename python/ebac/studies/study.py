@@ -1,0 +1,101 @@
+"""`study`: laws over a population of hands under named conditions."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from concurrent.futures import Executor
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ebac import _core
+from ebac.operators import Operators
+from ebac.scenario import Scenario
+from ebac.studies.conditions import Condition
+from ebac.studies.conditions import conditions as find
+from ebac.studies.result import Study
+from ebac.sweeps.job import Progress
+from ebac.sweeps.measure import cores
+from ebac.sweeps.run import Laws, name_laws, seed_of, sweep
+
+#: Settled in time: within this factor of what the ideal wall needs, plus this much [s].
+SLOWER, LATER = 1.5, 0.2
+
+
+def study(
+    population: Operators,
+    laws: Laws = ("tca", "eba", "ebac"),
+    conditions: Sequence[str | Condition] = ("d1K10",),
+    *,
+    base: Scenario | None = None,
+    seed: int = 1,
+    threads: int | None = None,
+    executor: Executor | None = None,
+    out: str | Path | None = None,
+    resume: bool = True,
+    progress: Progress | None = None,
+) -> Study:
+    """Run every law with every hand of a population under every condition.
+
+    Parameters
+    ----------
+    population : Operators
+        The hands.
+    laws : law, sequence of laws, or mapping of names to laws
+        As `sweep` takes them.
+    conditions : sequence of str or Condition
+        Names of `CONDITIONS` or `GROUPS`, or conditions of your own.
+    base : Scenario, optional
+        What conditions change; default: the reference scenario.
+    seed : int
+        Gives each hand its noise and jitter, the same under every law.
+    threads, executor, out, resume, progress
+        As in `sweep`.
+
+    Returns
+    -------
+    Study
+    """
+    chosen = tuple(find(conditions))
+    if not chosen:
+        raise ValueError("no condition given: a study needs at least one")
+    parts = [condition.scenarios(population, base or Scenario()) for condition in chosen]
+    rows = [
+        np.zeros(len(p), int) if c.drives else np.arange(1, len(p) + 1)
+        for c, p in zip(chosen, parts, strict=True)
+    ]
+    # A hand has one seed under all conditions.
+    scenarios = [s.replace(seed=seed_of(seed, i)) for part in parts for i, s in enumerate(part)]
+    lengths = [len(part) for part in parts]
+    believed = [c.believed(s) for c, part in zip(chosen, parts, strict=True) for s in part]
+    named = name_laws(laws)
+    result = sweep(
+        scenarios, named, designed_for=believed, threads=threads, executor=executor,
+        out=out, resume=resume, progress=progress,
+    )  # fmt: skip
+    ideal = ideal_settled(scenarios, threads)
+    n = len(named)
+    columns = dict(result.columns)
+    columns["condition"] = np.tile(np.repeat([c.name for c in chosen], lengths), n)
+    columns["operator"] = np.tile(np.concatenate(rows), n)
+    columns["ideal_settled_s"] = np.tile(ideal, n)
+    columns["good"] = result.good
+    columns["settled_in_time"] = result.good & (
+        columns["settled_s"] <= SLOWER * columns["ideal_settled_s"] + LATER
+    )
+    return Study(
+        operators=population, conditions=chosen, scenarios=scenarios, designed_for=believed,
+        laws=named, columns=columns,
+    )  # fmt: skip
+
+
+def ideal_settled(scenarios: Sequence[Scenario], threads: int | None = None) -> NDArray[np.float64]:
+    """Return when each hand would settle against an ideal, continuous wall [s].
+
+    inf where it never does; NaN where it has no closed form, see `ideal_contact` in the core.
+    """
+    setups = [scenario.setup() for scenario in scenarios]
+    found = _core._ideal_contacts(setups, threads or cores(), _core.SweepProgress())
+    settled, rest = found["settled"], found["rest"]
+    return np.where(np.isnan(settled) & np.isfinite(rest), np.inf, settled)

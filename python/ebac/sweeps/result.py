@@ -1,0 +1,90 @@
+"""The result of a sweep: named columns, one row per run."""
+
+from __future__ import annotations
+
+import csv
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ebac.metrics import EXACT_COUNTS, QUIET_SWING
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+    from ebac.sweeps.measure import Columns
+
+
+@dataclass(frozen=True, eq=False)
+class SweepResult:
+    """One row per run: all scenarios under the first law, then all under the second, and so on.
+
+    `result["swing_m"]` is a NumPy array; NaN where a thing does not exist.
+
+    Attributes
+    ----------
+    columns : dict of str to array, shape (runs,)
+        `law` (its name), `scenario` (its place in what was swept), `seed`; `ideal_m`, `count_m` and the numbers of
+        `Contact`, under the same names; `ticks` (rows simulated), `fault`, `diverged` (beyond the limits, ended
+        early), `done` (False when the sweep was interrupted before).
+    """
+
+    columns: Columns
+
+    def __getitem__(self, name: str) -> NDArray[Any]:
+        """Return a column by name."""
+        if name not in self.columns:
+            raise KeyError(f"no column {name!r}; there are: {', '.join(self.columns)}")
+        return self.columns[name]
+
+    def __iter__(self) -> Iterator[str]:
+        """Iterate over the names of the columns."""
+        return iter(self.columns)
+
+    def __len__(self) -> int:
+        """Return the number of runs."""
+        return len(self.columns["law"])
+
+    @property
+    def deviation_m(self) -> NDArray[np.float64]:
+        """Rest minus ideal [m]; positive is too deep."""
+        return np.asarray(self["rest_m"] - self["ideal_m"])
+
+    @property
+    def good(self) -> NDArray[np.bool_]:
+        """Whether each run rests within two counts of the ideal and swings by less than 0.25 mm."""
+        exact = np.abs(self.deviation_m) <= EXACT_COUNTS * self["count_m"]
+        ended = self["done"] & ~self["diverged"] & (self["fault"] == 0)
+        return np.asarray(exact & (self["swing_m"] < QUIET_SWING) & ended)
+
+    def to_pandas(self) -> pd.DataFrame:
+        """Return a DataFrame, one run a row."""
+        import pandas as pd
+
+        return pd.DataFrame(self.columns)
+
+    def to_csv(self, path: str | Path) -> None:
+        """Write CSV; the unit is in each name, numbers keep every digit, NaN is an empty cell."""
+        with Path(path).open("w", encoding="utf-8", newline="") as file:
+            writer = csv.writer(file, lineterminator="\n")
+            writer.writerow(self.columns)
+            for row in zip(*(values.tolist() for values in self.columns.values()), strict=True):
+                writer.writerow("" if cell != cell else cell for cell in row)
+
+    def to_parquet(self, path: str | Path) -> None:
+        """Write Parquet; needs `pip install 'ebac[sweep]'`."""
+        try:
+            import pyarrow
+            import pyarrow.parquet
+        except ImportError as error:
+            raise ImportError("Parquet needs pyarrow: pip install 'ebac[sweep]'") from error
+        pyarrow.parquet.write_table(pyarrow.table(dict(self.columns)), path)
+
+    def __repr__(self) -> str:
+        """Return one line: runs, laws, done."""
+        laws = ", ".join(dict.fromkeys(self["law"].tolist()))
+        return f"<SweepResult: {len(self)} runs under {laws}, {int(self['done'].sum())} done>"

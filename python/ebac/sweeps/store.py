@@ -1,0 +1,86 @@
+"""A sweep on disk: a folder of bundles, each written whole or not at all, so that a killed sweep continues."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ebac._core import RunLimits
+from ebac.sweeps.measure import Columns, Run
+
+MANIFEST = "sweep.json"
+
+
+def fingerprint(runs: Sequence[Run], limits: RunLimits) -> str:
+    """Return a hash of all that decides the result: the version, every scenario, every law."""
+    from ebac import __version__
+
+    digest = hashlib.sha256(f"{__version__} {limits!r}".encode())
+    laws: dict[int, str] = {}
+    for scenario, law in runs:
+        if id(law) not in laws:
+            laws[id(law)] = _describe(law)
+        digest.update(f"{scenario!r} {laws[id(law)]}\n".encode())
+    return digest.hexdigest()
+
+
+def _describe(law: Any) -> str:
+    if " object at 0x" not in repr(law):
+        return repr(law)
+    # The default repr holds an address, which is another one after a restart.
+    values = sorted(getattr(law, "__dict__", {}).items())
+    return f"{type(law).__module__}.{type(law).__qualname__} {values!r}"
+
+
+class Store:
+    """The folder of one sweep.
+
+    Raises
+    ------
+    ValueError
+        When the folder holds another sweep and may not be started anew.
+    """
+
+    def __init__(self, folder: str | Path, about: dict[str, Any], *, resume: bool) -> None:
+        self.folder = Path(folder)
+        self.folder.mkdir(parents=True, exist_ok=True)
+        manifest = self.folder / MANIFEST
+        found = json.loads(manifest.read_text(encoding="utf-8")) if manifest.exists() else None
+        if found is not None and resume and found != about:
+            other = next(name for name in about if found.get(name) != about[name])
+            raise ValueError(
+                f"{self.folder}: holds another sweep ({other}: {found.get(other)}, now {about[other]}); "
+                "give another folder, or resume=False to start anew in this one"
+            )
+        if found is None or not resume:
+            manifest.unlink(missing_ok=True)
+            for old in self.folder.glob("bundle-*.npz"):
+                old.unlink()
+            self._write(MANIFEST, lambda file: file.write(json.dumps(about, indent=2).encode()))
+
+    def load(self, bundle: int) -> Columns | None:
+        """Return what a bundle gave, None when it has not been done."""
+        path = self._path(bundle)
+        if not path.exists():
+            return None
+        with np.load(path, allow_pickle=False) as archive:
+            return {name: archive[name] for name in archive.files}
+
+    def save(self, bundle: int, columns: Columns) -> None:
+        """Write what a bundle gave."""
+        arrays: dict[str, Any] = columns
+        self._write(self._path(bundle).name, lambda file: np.savez(file, **arrays))
+
+    def _path(self, bundle: int) -> Path:
+        return self.folder / f"bundle-{bundle:06d}.npz"
+
+    def _write(self, name: str, fill: Any) -> None:
+        draft = self.folder / f".{name}.draft"
+        with draft.open("wb") as file:
+            fill(file)
+        draft.replace(self.folder / name)  # atomic: a reader sees all of it or nothing

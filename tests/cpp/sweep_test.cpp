@@ -1,0 +1,185 @@
+// Many runs at once: the numbers of single runs, whatever the number of threads.
+#include "ebac/sim/sweep.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <bit>
+#include <chrono>
+#include <cstring>
+#include <thread>
+
+#include "ebac/control/laws.hpp"
+
+namespace ebac {
+namespace {
+
+struct Tasks {
+  std::vector<Setup> setups;
+
+  std::vector<const Setup*> pointers() const {
+    std::vector<const Setup*> all;
+    all.reserve(setups.size());
+    for (const Setup& setup : setups) all.push_back(&setup);
+    return all;
+  }
+};
+
+Tasks noisy_hands(int count) {
+  Tasks tasks;
+  for (int i = 0; i < count; ++i) {
+    Setup setup{.hand = {.mass = 0.05 + 0.02 * i, .stiffness = 100.0 + 30 * i},
+                .seconds = 0.5,
+                .jitter = 0.2,
+                .seed = static_cast<std::uint64_t>(i)};
+    setup.device.sensor.noise = 0.1;
+    tasks.setups.push_back(setup);
+  }
+  return tasks;
+}
+
+template <class Law>
+std::vector<Outcome> run(const Tasks& tasks, const Law& law, int threads, SweepProgress& progress) {
+  const std::vector<const Law*> laws(tasks.setups.size(), &law);
+  return sweep(tasks.pointers(), laws, threads, RunLimits{}, progress);
+}
+
+template <class Law>
+std::vector<Outcome> run(const Tasks& tasks, const Law& law, int threads) {
+  SweepProgress progress;
+  return run(tasks, law, threads, progress);
+}
+
+bool same_bits(const WallContact& a, const WallContact& b) {
+  return std::ranges::all_of(WallContact::fields(), [&](const auto& field) {
+    const auto member = std::get<double WallContact::*>(field.member);
+    return std::bit_cast<std::uint64_t>(a.*member) == std::bit_cast<std::uint64_t>(b.*member);
+  });
+}
+
+/// A column of doubles of a trace, first axis.
+std::vector<double> column(const Trace& trace, std::string_view name) {
+  std::vector<double> values(trace.size());
+  for (const Column& c : trace.columns()) {
+    if (c.name != name) continue;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      std::memcpy(&values[i], trace.data() + i * trace.row_bytes() + c.offset, sizeof(double));
+    }
+  }
+  return values;
+}
+
+/// The law of a test: pushes with a constant force, or answers no number.
+class Pusher {
+ public:
+  static constexpr std::string_view kName = "pusher";
+  static constexpr std::string_view kSummary = "pushes";
+  struct Params {
+    double force = -40;  // N
+    static Params design(const DeviceFacts&, Timing) { return {}; }
+    static constexpr auto fields() { return std::array<Field<Params>, 0>{}; }
+  };
+  struct State {
+    static constexpr auto fields() { return std::array<Field<State>, 0>{}; }
+  };
+  explicit Pusher(const Params& params, Timing timing = {}) : params_(params), timing_(timing) {}
+  double step(const Port&) EBAC_RT { return params_.force; }
+  void reset() EBAC_RT {}
+  const State& state() const EBAC_RT { return state_; }
+  const Params& params() const EBAC_RT { return params_; }
+  const Timing& timing() const EBAC_RT { return timing_; }
+
+ private:
+  Params params_;
+  Timing timing_;
+  State state_{};
+};
+
+TEST(Sweep, MeasuresWhatSimulateWrites) {
+  const Tasks tasks = noisy_hands(5);
+  const Ebac law(Ebac::Params{});
+  const std::vector<Outcome> outcomes = run(tasks, law, 2);
+  for (std::size_t i = 0; i < tasks.setups.size(); ++i) {
+    const auto trace = simulate(tasks.setups[i], law);
+    EXPECT_EQ(outcomes[i].ticks, trace->size());
+    EXPECT_TRUE(outcomes[i].done);
+    const auto t = column(*trace, "t");
+    const auto x = column(*trace, "true.x");
+    const auto force = column(*trace, "f_applied");
+    const auto energy = column(*trace, "true.energy");
+    std::vector<double> stored;
+    stored.reserve(x.size());
+    for (const double at : x) stored.push_back(stored_energy(Wall{}, {at, 0, 0}));
+    WallContact expected =
+        measure_contact({.t = t, .x = x, .force = force, .energy = energy, .stored = stored});
+    expected.clamped_share = outcomes[i].contact.clamped_share;
+    EXPECT_GT(expected.clamped_share, 0);
+    EXPECT_TRUE(same_bits(outcomes[i].contact, expected));
+  }
+}
+
+TEST(Sweep, GivesTheSameBitsWithAnyNumberOfThreads) {
+  const Tasks tasks = noisy_hands(23);
+  const Tca law(Tca::Params{});
+  const std::vector<Outcome> one = run(tasks, law, 1);
+  for (const int threads : {2, 7, 0}) {
+    const std::vector<Outcome> more = run(tasks, law, threads);
+    for (std::size_t i = 0; i < one.size(); ++i) {
+      EXPECT_TRUE(same_bits(one[i].contact, more[i].contact)) << i << " with " << threads;
+    }
+  }
+}
+
+TEST(Sweep, EndsARunThatDiverges) {
+  Tasks tasks;
+  tasks.setups.push_back({.hand = {.mass = 0, .damping = 0, .stiffness = 0}});
+  const Outcome outcome = run(tasks, Pusher({}), 1).front();
+  EXPECT_TRUE(outcome.diverged);
+  EXPECT_TRUE(outcome.done);
+  EXPECT_LT(outcome.ticks, 1000u);
+  EXPECT_GT(outcome.contact.peak, 1);
+  EXPECT_TRUE(std::isnan(outcome.contact.settled));
+}
+
+TEST(Sweep, EndsARunThatFaults) {
+  const Tasks tasks = noisy_hands(1);
+  const Outcome outcome = run(tasks, Pusher({.force = std::nan("")}), 1).front();
+  EXPECT_EQ(outcome.fault, Fault::kLawNotFinite);
+  EXPECT_EQ(outcome.ticks, 1u);
+  EXPECT_TRUE(std::isnan(outcome.contact.rest));
+}
+
+TEST(Sweep, StopsSoonWhenCancelledAndKeepsWhatIsDone) {
+  Tasks tasks = noisy_hands(4);
+  tasks.setups[0].seconds = 0.1;
+  for (std::size_t i = 1; i < 4; ++i) tasks.setups[i].seconds = 1e4;
+  SweepProgress progress;
+  std::vector<Outcome> outcomes;
+  std::jthread worker([&] { outcomes = run(tasks, Direct({}), 2, progress); });
+  while (progress.done == 0) std::this_thread::yield();
+  const auto asked = std::chrono::steady_clock::now();
+  progress.cancelled = true;
+  worker.join();
+  EXPECT_LT(std::chrono::steady_clock::now() - asked, std::chrono::milliseconds(200));
+  EXPECT_TRUE(outcomes[0].done);
+  for (std::size_t i = 1; i < 4; ++i) EXPECT_FALSE(outcomes[i].done);
+}
+
+TEST(Sweep, TellsWhatARunThrows) {
+  SweepProgress progress;
+  const auto work = [](std::size_t i, ContactRecorder&) {
+    if (i == 5) throw std::invalid_argument("task 5");
+  };
+  EXPECT_THROW(for_each_run(100, 3, progress, work), std::invalid_argument);
+}
+
+TEST(Sweep, CountsWhatIsDone) {
+  SweepProgress progress;
+  run(noisy_hands(9), Direct({}), 3, progress);
+  EXPECT_EQ(progress.done, 9u);
+  run(Tasks{}, Direct({}), 3, progress);
+  EXPECT_EQ(progress.done, 9u);
+}
+
+}  // namespace
+}  // namespace ebac

@@ -1,0 +1,258 @@
+"""Studies: conditions, what counts as good, and the command."""
+
+import csv
+import json
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+import ebac
+from ebac import CONDITIONS, Condition, Operators, Study, study
+from ebac.cli import app
+from ebac.studies import GROUPS
+from ebac.studies import changes as to
+from ebac.studies.study import ideal_settled
+
+FEW = Operators.grid(mass=[0.15], damping=[2, 4, 6], stiffness=[300], target=[0.04])  # 3 hands
+ROW = [
+    "law", "condition", "hands", "good", "settled_in_time", "least_energy_J", "most_drawn_J",
+    "median_settled_s",
+]  # fmt: skip
+
+
+@pytest.fixture(scope="module")
+def few() -> Study:
+    return study(FEW, ["tca", "ebac"], ["d1K10", "tapping-6Hz"])
+
+
+def test_a_row_for_each_law_and_condition(few: Study) -> None:
+    assert [(row.condition, row.law) for row in few.rows] == [
+        ("d1K10", "tca"), ("d1K10", "ebac"), ("tapping-6Hz", "tca"), ("tapping-6Hz", "ebac"),
+    ]  # fmt: skip
+    assert list(few.rows[0].row()) == ROW
+    assert all(row.hands == 3 for row in few.rows)
+
+
+def test_the_completed_law_is_good_where_the_force_loop_swings(few: Study) -> None:
+    tca, ebac_ = few.rows[:2]
+    assert (tca.good, ebac_.good) == (0, 3)
+    assert ebac_.settled_in_time == 3
+    assert (tca.least_energy_J or 0) < -0.1
+    assert (ebac_.most_drawn_J or 0) < 1e-3
+    assert tca.median_settled_s is None
+
+
+def test_what_never_rests_is_neither_good_nor_bad(few: Study) -> None:
+    for row in few.rows[2:]:
+        assert row.good is None
+        assert row.settled_in_time is None
+        assert row.least_energy_J is not None
+
+
+def test_failures_are_named_and_can_be_run_again(few: Study) -> None:
+    assert [(f.law, f.condition, f.operator) for f in few.failures] == [
+        ("tca", "d1K10", 1), ("tca", "d1K10", 2), ("tca", "d1K10", 3),
+    ]  # fmt: skip
+    failure = few.failures[0]
+    assert failure.name == "0.15 kg, 2 N s/m, 300 N/m, 40 mm"
+    assert failure.why.startswith("swings by ")
+    again = ebac.contact(few.trace(failure.run))
+    assert again.swing_m == few.columns["swing_m"][failure.run]
+
+
+def test_settled_in_time_is_measured_against_the_ideal_wall(few: Study) -> None:
+    runs = few.runs("ebac", "d1K10")
+    ideal = ideal_settled(FEW.scenarios(ebac.Scenario()))
+    np.testing.assert_array_equal(few.columns["ideal_settled_s"][runs], ideal)
+    in_time = few.columns["settled_s"][runs] <= 1.5 * ideal + 0.2
+    np.testing.assert_array_equal(few.columns["settled_in_time"][runs], in_time)
+
+
+def test_what_an_ideal_wall_cannot_settle_is_no_fault_of_a_law() -> None:
+    shaking = to.hand(tremor_amplitude=5e-3, tremor_frequency=2.0)(ebac.Scenario())
+    released = to.hand(release_at=1.0)(ebac.Scenario())
+    settled = ideal_settled([shaking, released, ebac.Scenario()])
+    assert settled[0] == np.inf
+    assert np.isnan(settled[1])
+    assert 0 < settled[2] < 1
+
+
+# --- conditions ---
+
+
+@pytest.mark.parametrize("name", list(CONDITIONS))
+def test_every_condition_can_be_simulated(name: str) -> None:
+    condition = CONDITIONS[name]
+    base = ebac.Scenario()
+    every = condition.scenarios(FEW, base)
+    assert len(every) == (len(condition.drives) or len(FEW))
+    for one in (every[0], every[-1]):
+        law = ebac.design("ebac", *condition.believed(one))
+        trace = ebac.simulate(one.replace(seconds=0.05), law)
+        assert trace["fault"][-1] == 0
+    assert condition.summary
+    assert condition.summary[-1] != "."
+
+
+def test_the_groups_are_those_of_the_theory() -> None:
+    assert GROUPS["five"] == ("d1K10", "d0K10", "d2K10", "d1K20", "d1b1K5")
+    assert len(set(GROUPS["cells"])) == 36
+    assert set(GROUPS["all"]) == set(CONDITIONS)
+    settings = set()
+    for name in GROUPS["cells"]:
+        one = CONDITIONS[name].scenarios(FEW, ebac.Scenario())[0]
+        assert isinstance(one.environment, ebac.Wall)
+        settings.add((one.timing.delay, one.device.mechanics.damping, one.environment.stiffness))
+    assert settings == {
+        (d, b, k) for d in (0, 1, 2) for b in (1, 2, 4) for k in (2e3, 5e3, 10e3, 20e3)
+    }
+
+
+def test_laws_are_told_what_the_condition_says() -> None:
+    def told(name: str) -> tuple[ebac.DeviceFacts, ebac.Timing, ebac.Scenario]:
+        one = CONDITIONS[name].scenarios(FEW, ebac.Scenario())[0]
+        return *CONDITIONS[name].believed(one), one
+
+    facts, timing, one = told("told-delay-1-of-3")
+    assert (one.timing.delay, timing.delay) == (3, 1)
+    facts, _, one = told("told-damping+50")
+    assert facts.damping == 1.5 * one.device.facts.damping == 3.0
+    facts, _, one = told("told-mass-50")
+    assert facts.mass == pytest.approx(0.5 * one.device.mass)
+    facts, _, one = told("told-lag-0.3-of-1")
+    assert (facts.current_lag, one.device.drive.current_lag) == (3e-4, 1e-3)
+    facts, _, one = told("device-0.1kg")
+    assert facts.mass == pytest.approx(0.1)
+    assert one.device.mass == pytest.approx(0.1)
+    facts, timing, one = told("jitter")
+    assert timing.jitter == one.jitter == 0.3
+
+
+def test_a_condition_of_ones_own() -> None:
+    soft = Condition(name="soft", summary="a wall of 1 kN/m", change=to.wall(stiffness=1e3))
+    found = study(FEW, "direct", [soft, "five"])
+    assert [row.condition for row in found.rows] == ["soft", *GROUPS["five"]]
+    assert found.rows[0].good == 3
+
+
+def test_a_drive_stands_for_the_population() -> None:
+    drives = (to.pump(1e-3, 2.0), to.pump(4e-3, 10.0))
+    pump = Condition(
+        name="pump", summary="two pumps", change=to.scenario(seconds=0.5), drives=drives
+    )
+    found = study(FEW, "direct", [pump])
+    assert found.rows[0].hands == 2
+    assert found.columns["operator"].tolist() == [0, 0]
+    one = found.scenarios[0].hand
+    assert one.stiffness == 20e3
+    path = one.path[0]
+    assert isinstance(path, ebac.Sine)
+    # At rest the drive would stand 2 mm deep.
+    depth = one.stiffness * path.centre / (one.stiffness + 10e3)
+    assert depth == pytest.approx(2e-3)
+
+
+def test_a_study_resumes(tmp_path: Path, few: Study) -> None:
+    for _ in range(2):
+        again = study(FEW, ["tca", "ebac"], ["d1K10", "tapping-6Hz"], out=tmp_path)
+        for name, values in few.columns.items():
+            assert values.tobytes() == again.columns[name].tobytes(), name
+
+
+def test_what_is_no_condition_is_refused() -> None:
+    with pytest.raises(ValueError, match="condition d1K11: no such name, did you mean 'd1K1"):
+        study(FEW, "tca", ["d1K11"])
+    with pytest.raises(ValueError, match="no condition given"):
+        study(FEW, "tca", [])
+    with pytest.raises(TypeError, match="the environment is a Free: must be a Wall"):
+        study(FEW, "tca", ["d1K10"], base=ebac.Scenario(environment=ebac.Free()))
+
+
+def test_a_study_can_be_drawn(few: Study) -> None:
+    from ebac.plot import plot_study
+
+    names = [name for name, _ in plot_study(few)]
+    assert names == ["overview", "hands"]
+    _, hands = list(plot_study(few))[1]
+    titles = [ax.get_title(loc="left") for ax in hands.axes]
+    assert titles == ["0 of 3 good", "3 of 3 good"]
+
+
+# --- the command ---
+
+
+def command(*words: object, code: int = 0) -> Any:
+    result = CliRunner().invoke(app, ["study", *(str(word) for word in words)])
+    assert result.exit_code == code, result.output
+    return result
+
+
+@pytest.fixture
+def hands_csv(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("COLUMNS", "120")
+    FEW.to_csv(tmp_path / "hands.csv")
+    return tmp_path / "hands.csv"
+
+
+def test_json_has_exactly_the_documented_keys(hands_csv: Path) -> None:
+    result = command("--population", hands_csv, "--law", "ebac", "-c", "d0K10", "--json")
+    document = json.loads(result.stdout)
+    assert document["command"] == "study"
+    [row] = document["rows"]
+    assert list(row) == ROW
+    assert (row["law"], row["condition"], row["hands"], row["good"]) == ("ebac", "d0K10", 3, 3)
+    assert list(hands_csv.parent.iterdir()) == [hands_csv]
+
+
+def test_a_folder_of_results(hands_csv: Path, few: Study) -> None:
+    words = ("--population", hands_csv, "-l", "tca", "-l", "ebac", "--out", "out", "--traces", 2)
+    shown = command(*words).stdout
+    assert "swings by" in shown
+    out = hands_csv.parent / "out"
+    names = {file.name for file in out.iterdir()}
+    assert {"study.csv", "study.json", "runs.csv", "failures.csv", "population.csv"} <= names
+    assert {"study-overview.png", "study-hands.png", "failure-tca-d1K10-1.npz"} <= names
+    assert len([name for name in names if name.startswith("failure-")]) == 2
+    with (out / "study.csv").open() as file:
+        rows = list(csv.DictReader(file))
+    assert list(rows[0]) == ROW
+    kept = ebac.Trace.from_npz(out / "failure-tca-d1K10-1.npz")
+    assert ebac.contact(kept).swing_m == few.columns["swing_m"][0]
+    assert command(*words, "--resume").stdout == shown
+
+
+def test_random_hands_by_number_and_seed(hands_csv: Path) -> None:
+    words = ("--population", "random", "--hands", 4, "-l", "ebac", "--json")
+    first, again, other = (
+        command(*words, "--seed", seed).stdout.split('"rows"')[1] for seed in (5, 5, 6)
+    )
+    assert first == again != other
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (("--population", "grid61"), "--population grid61: must be grid60, random or a CSV file"),
+        (("--population", "none.csv"), "none.csv: there is no such file"),
+        (("--hands", "3"), "only a random population has a size"),
+        (("--law", "ebc"), "did you mean 'ebac'"),
+        (("--condition", "fives"), "did you mean 'five'"),
+        (("--resume", "--json"), "give it with --out"),
+        (("--approach", "-1"), "approach_m = -1 m: must lie in [0, 1] m"),
+    ],
+)
+def test_what_cannot_be_is_refused(words: tuple[str, ...], message: str, hands_csv: Path) -> None:
+    text = " ".join(command(*words, code=2).output.split())
+    assert message in text
+    assert list(hands_csv.parent.iterdir()) == [hands_csv]
+
+
+def test_the_conditions_are_listed() -> None:
+    result = CliRunner().invoke(app, ["conditions", "--json"])
+    rows = json.loads(result.stdout)["rows"]
+    assert [row["condition"] for row in rows] == list(CONDITIONS)
+    assert rows[0]["groups"] == ["five", "all"]

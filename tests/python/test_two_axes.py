@@ -1,0 +1,116 @@
+"""Walls on a slant, corners and discs on two axes: quiet, exact, and along the normal."""
+
+from dataclasses import dataclass
+from math import pi
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+import ebac
+
+DEVICES = {
+    "linear": ebac.Device(kinematics=ebac.Linear(axes=2)),
+    "gimbal": ebac.Device(kinematics=ebac.Gimbal()),
+}
+HAND = ebac.Hand(path=[ebac.Step(target=0.03), ebac.Step(target=0.02)])
+TARGET = np.array([0.03, 0.02])
+EXACT = ebac.metrics.EXACT_COUNTS * ebac.Device().count
+
+every_device = pytest.mark.parametrize("device", DEVICES)
+
+
+@dataclass
+class Rest:
+    """The last 1.2 s of a run."""
+
+    x: NDArray[np.float64]
+    force: NDArray[np.float64]
+    swing: float
+    least_energy: float
+
+
+def rest(device: str, world: ebac.scenario.Environment) -> Rest:
+    scenario = ebac.Scenario(device=DEVICES[device], hand=HAND, environment=world, seconds=4)
+    trace = ebac.simulate(scenario, "ebac")
+    end = trace[2.8:]
+    x = end["true.x"]
+    return Rest(
+        x=x.mean(axis=0),
+        force=end["f_applied"].mean(axis=0),
+        swing=float(np.ptp(x, axis=0).max()),
+        least_energy=float(trace["true.energy"].sum(axis=1).min()),
+    )
+
+
+def direction(angle: float) -> NDArray[np.float64]:
+    return np.array([np.cos(angle), np.sin(angle)])
+
+
+def degrees_apart(one: NDArray[np.float64], other: NDArray[np.float64]) -> float:
+    cosine = one @ other / np.linalg.norm(one) / np.linalg.norm(other)
+    return float(np.degrees(np.arccos(np.clip(cosine, -1, 1))))
+
+
+@every_device
+@pytest.mark.parametrize("angle", [0.3, pi / 6, pi / 4, 1.2, -0.5])
+def test_a_wall_on_a_slant_is_quiet_exact_and_pushes_along_its_normal(
+    device: str, angle: float
+) -> None:
+    wall, normal = ebac.Wall(angle=angle), direction(angle)
+    end = rest(device, wall)
+    ideal = HAND.stiffness * (normal @ TARGET) / (HAND.stiffness + wall.stiffness)
+    assert abs(normal @ end.x - ideal) <= EXACT
+    assert degrees_apart(end.force, normal) < 2
+    assert end.swing < ebac.metrics.QUIET_SWING
+    assert end.least_energy >= -1e-3
+
+
+@every_device
+@pytest.mark.parametrize("angle", [0.0, 0.3])
+def test_a_corner_is_quiet_and_exact_in_both_directions(device: str, angle: float) -> None:
+    corner = ebac.Corner(first=ebac.Wall(angle=angle), second=ebac.Wall(angle=angle + pi / 2))
+    end = rest(device, corner)
+    ideal = HAND.stiffness * TARGET / (HAND.stiffness + 1e4)
+    assert np.abs(end.x - ideal).max() <= EXACT
+    assert degrees_apart(end.force, TARGET) < 2
+    assert end.swing < ebac.metrics.QUIET_SWING
+
+
+@every_device
+def test_a_corner_that_is_not_square_is_quiet(device: str) -> None:
+    end = rest(device, ebac.Corner(first=ebac.Wall(), second=ebac.Wall(angle=pi / 3)))
+    assert end.swing < ebac.metrics.QUIET_SWING
+    assert degrees_apart(end.force, HAND.stiffness * (TARGET - end.x)) < 2
+
+
+@every_device
+def test_a_disc_met_on_a_slant_is_quiet_and_pushes_along_its_radius(device: str) -> None:
+    disc = ebac.Disc(x=0.03, y=0.012, radius=0.02)
+    end = rest(device, disc)
+    inwards = np.array([disc.x, disc.y]) - end.x
+    depth = disc.radius - np.linalg.norm(inwards)
+    assert depth == pytest.approx(np.linalg.norm(end.force) / disc.stiffness, abs=EXACT)
+    assert degrees_apart(end.force, inwards) < 2
+    assert end.swing < ebac.metrics.QUIET_SWING
+
+
+def test_a_disc_pushes_from_its_centre_and_only_inside() -> None:
+    disc = ebac.Disc(stiffness=1e3, x=0.0, y=0.0, radius=0.01)
+    assert disc.force([0.012, 0.0], [0.0, 0.0]) == pytest.approx([0, 0])
+    assert disc.force([0.008, 0.0], [0.0, 0.0]) == pytest.approx([-2, 0])
+    assert disc.force([0.0, -0.006], [0.0, 0.0]) == pytest.approx([0, 4])
+
+
+def test_a_law_in_python_meets_the_world_in_the_same_directions() -> None:
+    class Direct:
+        def reset(self) -> None: ...
+
+        def step(self, port: ebac.Port) -> float:
+            return min(max(port.f_env, -42.4), 42.4)
+
+    scenario = ebac.Scenario(
+        device=DEVICES["linear"], hand=HAND, environment=ebac.Wall(angle=0.7), seconds=0.1
+    )
+    core = ebac.simulate(scenario, ebac.Direct())
+    assert ebac.simulate(scenario, Direct())["f_cmd"].tobytes() == core["f_cmd"].tobytes()
