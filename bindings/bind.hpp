@@ -10,6 +10,7 @@ void bind_model(pybind11::module_& m);
 void bind_simulation(pybind11::module_& m);
 void bind_sweeps(pybind11::module_& m);
 void bind_controllers(pybind11::module_& m);
+void bind_linear_loop(pybind11::module_& m);
 void bind_python_law(pybind11::module_& m);
 
 }  // namespace ebac::python

@@ -58,7 +58,7 @@ void bind_design(py::class_<Law>& cls, const std::string& owner) {
 /// Binds one law: class, state, design, stepping, simulation and benchmark.
 template <Controller Law>
 void bind_controller(py::module_& m, const char* name) {
-  using Params = typename Law::Params;
+  using Params = Law::Params;
   const std::string owner = name;
   const std::string keywords = signature(Params{}) + ", timing: Timing = ...";
   py::class_<Law> cls(m, name,

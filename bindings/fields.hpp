@@ -93,7 +93,7 @@ bool set_field(T& target, const std::string& owner, const std::string& name, py:
                                         const std::vector<std::string>& known) {
   const py::list near = py::module_::import("difflib").attr("get_close_matches")(name, known, 1);
   std::string text = owner + " has no parameter '" + name + "'";
-  if (near.size() > 0) text += ", did you mean '" + py::cast<std::string>(near[0]) + "'";
+  if (!near.empty()) text += ", did you mean '" + py::cast<std::string>(near[0]) + "'";
   text += "; it has: ";
   for (const std::string& one : known) text.append(&one == known.data() ? "" : ", ").append(one);
   throw py::type_error(text);
@@ -155,7 +155,7 @@ Values values_of(const T& value) {
 /// Read-only properties, `fields()` and `as_dict()`.
 template <Described T, class Class, class Get>
 void add_members(Class& cls, Get get) {
-  using Self = typename Class::type;
+  using Self = Class::type;
   for (const auto& field : T::fields()) {
     std::visit(
         [&](auto member) {

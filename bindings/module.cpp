@@ -6,6 +6,7 @@ PYBIND11_MODULE(_core, m, pybind11::mod_gil_not_used()) {
   ebac::python::bind_model(m);
   ebac::python::bind_simulation(m);
   ebac::python::bind_sweeps(m);
+  ebac::python::bind_linear_loop(m);
   ebac::python::bind_controllers(m);
   ebac::python::bind_python_law(m);
 }

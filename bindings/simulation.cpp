@@ -70,8 +70,8 @@ void bind_plant(py::module_& m, const char* name, const char* doc) {
       .def(
           "advance",
           [](Plant& plant, const std::vector<double>& current, double t, double share) {
-            if (current.size() > static_cast<std::size_t>(kMaxAxes) ||
-                !(share > 0 && share <= 100)) {
+            const bool fits = current.size() <= static_cast<std::size_t>(kMaxAxes);
+            if (!fits || !(share > 0) || share > 100) {
               throw std::invalid_argument(
                   "advance: current has at most 3 values, share lies in (0, 100]");
             }

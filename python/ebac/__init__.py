@@ -11,7 +11,7 @@ A first look::
 
 from importlib.metadata import version as _version
 
-from ebac import presets
+from ebac import maps, presets, zwidth
 from ebac._core import (
     EBA,
     EBAC,
@@ -127,9 +127,11 @@ __all__ = [
     "design",
     "estimate_velocity",
     "ideal_rest",
+    "maps",
     "presets",
     "simulate",
     "spec_sheet",
     "study",
     "sweep",
+    "zwidth",
 ]

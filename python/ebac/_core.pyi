@@ -38,6 +38,7 @@ __all__: list[str] = [
     "Gimbal",
     "Hand",
     "Linear",
+    "LinearLoop",
     "LowPass",
     "Mechanics",
     "MinimumJerk",
@@ -2023,6 +2024,32 @@ class SweepProgress:
     def done(self) -> int:
         """
         Runs done.
+        """
+
+class LinearLoop:
+    """
+    One axis in a virtual spring and damper without a law, linear and exact.
+    """
+    def __init__(self, setup: Setup) -> None: ...
+    def eigenvalues(
+        self,
+        stiffness: typing.SupportsFloat | typing.SupportsIndex,
+        damping: typing.SupportsFloat | typing.SupportsIndex,
+    ) -> list[complex]:
+        """
+        Eigenvalues from tick to tick; stiffness [N/m], damping [N s/m] of the wall.
+        """
+    def spectral_radius(
+        self,
+        stiffness: typing.SupportsFloat | typing.SupportsIndex,
+        damping: typing.SupportsFloat | typing.SupportsIndex,
+    ) -> float:
+        """
+        Largest modulus of an eigenvalue; below one, everything decays.
+        """
+    def stiffness_limit(self, damping: typing.SupportsFloat | typing.SupportsIndex) -> float:
+        """
+        Largest stiffness [N/m] up to which everything decays; 0 for none.
         """
 
 class Direct:

@@ -1,12 +1,10 @@
 #pragma once
 
-/// Marks what runs inside a tick: never throws, never blocks, never allocates.
-#if defined(__clang__) && defined(__has_cpp_attribute)
-#if __has_cpp_attribute(clang::nonblocking)
+/// Marks what runs inside a tick: never throws, never blocks, never allocates. With EBAC_FUNCTION_EFFECTS a
+/// recent clang checks the last two as well (-Wfunction-effects).
+#ifdef EBAC_FUNCTION_EFFECTS
 #define EBAC_RT noexcept [[clang::nonblocking]]
-#endif
-#endif
-#ifndef EBAC_RT
+#else
 #define EBAC_RT noexcept
 #endif
 

@@ -77,14 +77,14 @@ class Trace {
  private:
   template <Described T>
   void add(const std::string& prefix, std::size_t base, std::size_t stride) {
-    static const T zero{};
+    static const T kZero{};
     for (const auto& field : T::fields()) {
       std::visit(
           [&](auto member) {
-            using Value = std::remove_cvref_t<decltype(zero.*member)>;
-            const auto* at = reinterpret_cast<const std::byte*>(&(zero.*member));
+            using Value = std::remove_cvref_t<decltype(kZero.*member)>;
+            const auto* at = reinterpret_cast<const std::byte*>(&(kZero.*member));
             const auto inside =
-                static_cast<std::size_t>(at - reinterpret_cast<const std::byte*>(&zero));
+                static_cast<std::size_t>(at - reinterpret_cast<const std::byte*>(&kZero));
             columns_.push_back({prefix + std::string(field.name), std::string(field.unit),
                                 std::string(field.meaning), kind_of<Value>(), base + inside,
                                 stride});

@@ -6,7 +6,7 @@ namespace ebac {
 
 namespace {
 
-enum Index { kXi, kV, kPhi, kY, kF, kR };
+using enum ExactAxis::Index;
 
 LinearFlow::Vector velocity_row() { return LinearFlow::Vector::Unit(kV); }
 
@@ -23,7 +23,7 @@ LinearFlow::Matrix with_lags(LinearFlow::Matrix a, const AxisParameters& p,
   return a;
 }
 
-LinearFlow::Matrix sliding(const AxisParameters& p) {
+LinearFlow::Matrix sliding_matrix(const AxisParameters& p) {
   const double m = p.device_mass + p.hand_mass;
   LinearFlow::Matrix a = LinearFlow::Matrix::Zero();
   a(kXi, kV) = 1;
@@ -36,7 +36,7 @@ LinearFlow::Matrix sliding(const AxisParameters& p) {
   return with_lags(a, p, hand_row);
 }
 
-LinearFlow::Matrix sticking(const AxisParameters& p) {
+LinearFlow::Matrix sticking_matrix(const AxisParameters& p) {
   return with_lags(LinearFlow::Matrix::Zero(), p,
                    -p.hand_stiffness * LinearFlow::Vector::Unit(kXi));
 }
@@ -48,8 +48,8 @@ ExactAxis::ExactAxis(const AxisParameters& parameters, double tick)
       mass_(parameters.device_mass + parameters.hand_mass),
       damping_(parameters.device_damping + parameters.hand_damping),
       tick_(tick),
-      slide_(sliding(parameters), velocity_row(), tick),
-      stick_(sticking(parameters), velocity_row(), tick) {}
+      slide_(sliding_matrix(parameters), velocity_row(), tick),
+      stick_(sticking_matrix(parameters), velocity_row(), tick) {}
 
 void ExactAxis::take_over(const ExactAxis& other) EBAC_RT {
   truth_ = other.truth_;

@@ -42,6 +42,12 @@ class ExactAxis {
 
   const AxisTruth& truth() const EBAC_RT { return truth_; }
 
+  /// Entries of w: xi, v, phi, y, F, r.
+  enum Index { kXi, kV, kPhi, kY, kF, kR };
+
+  /// The flow of w while the axis slides.
+  const LinearFlow& sliding() const EBAC_RT { return slide_; }
+
  private:
   using Vector = LinearFlow::Vector;
 

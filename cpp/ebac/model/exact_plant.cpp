@@ -5,8 +5,6 @@
 
 namespace ebac {
 
-namespace {
-
 AxisParameters axis_parameters(const DeviceModel& device, const Hand& hand) {
   return {.device_mass = device.mass(),
           .device_damping = device.mechanics.damping,
@@ -18,8 +16,6 @@ AxisParameters axis_parameters(const DeviceModel& device, const Hand& hand) {
           .hand_damping = hand.damping,
           .hand_stiffness = hand.stiffness};
 }
-
-}  // namespace
 
 bool ExactPlant::covers(const DeviceModel& device) {
   return std::holds_alternative<Linear>(device.kinematics) && !device.mechanics.stribeck() &&

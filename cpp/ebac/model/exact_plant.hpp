@@ -8,6 +8,9 @@
 
 namespace ebac {
 
+/// One straight axis of `device` with `hand` on it.
+AxisParameters axis_parameters(const DeviceModel& device, const Hand& hand);
+
 /// Independent rigid axes with a hand on each, integrated exactly. For `Linear` devices without
 /// Stribeck friction, cable compliance and backlash; SteppedPlant does the rest.
 class ExactPlant {

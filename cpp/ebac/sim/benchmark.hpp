@@ -27,8 +27,9 @@ template <Controller Law>
 double time_law(const Setup& setup, Law law, int repeats) {
   const auto trace = simulate(setup, law);
   std::vector<Port> ports;
+  ports.reserve(trace->size());
   for (std::size_t i = 0; i < trace->size(); ++i) ports.push_back(trace->sample(i).axis[0].port);
-  volatile double sink = 0;
+  [[maybe_unused]] volatile double sink = 0;  // so that the work is not optimised away
   return best_nanoseconds(repeats, ports.size(), [&] {
     law.reset();
     double sum = 0;

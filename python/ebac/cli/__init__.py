@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from ebac.cli import bench, conditions, laws, paper, presets, specs, study, wall
+from ebac.cli import bench, conditions, laws, maps, paper, presets, specs, study, wall, zwidth
 
 app = typer.Typer(
     name="ebac",
@@ -45,6 +45,8 @@ def main(
 app.command("wall")(wall.wall)
 app.command("study")(study.study)
 app.command("conditions")(conditions.conditions)
+app.command("zwidth")(zwidth.zwidth)
+app.command("map")(maps.map_)
 app.command("paper")(paper.paper)
 app.command("laws")(laws.laws)
 app.command("specs")(specs.specs)

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from ebac.cli import output
+from ebac.cli import output, peers
 
 if TYPE_CHECKING:
     from ebac.scenario import Scenario
@@ -31,6 +31,13 @@ def bench(
     repeats: Annotated[
         int, typer.Option(help="Runs of 6001 ticks; the best one counts.", min=1, max=100_000)
     ] = 50,
+    with_peers: Annotated[
+        bool,
+        typer.Option("--peers", help="Compare with MuJoCo and SciPy instead; needs 'ebac[peers]'."),
+    ] = False,
+    side: Annotated[
+        int, typer.Option(help="Of the map that --peers times, side x side runs.", min=2, max=5000)
+    ] = 200,
     as_json: output.AsJson = False,
 ) -> None:
     """Time each law and the whole closed loop, in C++ without Python inside.
@@ -41,7 +48,12 @@ def bench(
     **Example**
 
     * `ebac bench --repeats 200`: steadier numbers on a busy machine.
+
+    * `ebac bench --peers`: the same plant, step and wall in MuJoCo and SciPy; a map, two threads, memory.
     """
+    if with_peers:
+        peers.run(repeats, side, as_json=as_json)
+        return
     from ebac.laws import LAWS, design
     from ebac.scenario import Scenario
 

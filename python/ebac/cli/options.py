@@ -89,3 +89,9 @@ ScenarioFile: TypeAlias = Annotated[
     Path | None,
     option("--scenario", "Start from a scenario in TOML; other options come on top", "", _RUN),
 ]
+Threads: TypeAlias = Annotated[
+    int | None,
+    typer.Option(
+        help="Threads.", show_default="one per core", min=1, max=1024, rich_help_panel=_RUN
+    ),
+]

@@ -18,6 +18,8 @@ if TYPE_CHECKING:
 #: Exit codes: the input was bad; the work itself failed.
 BAD_INPUT = 2
 FAILED = 1
+#: A keyboard interrupt, as shells have it.
+INTERRUPTED = 130
 
 AsJson: TypeAlias = Annotated[
     bool, typer.Option("--json", help="Print one JSON document in SI units, and nothing else.")
@@ -108,6 +110,16 @@ def _finite(value: Any) -> Any:
     if isinstance(value, (list, tuple)):
         return [_finite(item) for item in value]
     return None if isinstance(value, float) and not isfinite(value) else value
+
+
+def csv_table(path: Path, rows: Sequence[Mapping[str, Any]]) -> None:
+    """Write rows of the same names as CSV."""
+    import csv
+
+    with path.open("w", encoding="utf-8", newline="") as file:
+        writer = csv.DictWriter(file, list(rows[0]), lineterminator="\n")
+        writer.writeheader()
+        writer.writerows(rows)
 
 
 def list_files(out: Path, names: Sequence[str]) -> None:

@@ -15,8 +15,6 @@ if TYPE_CHECKING:
 
 DEFAULT_LAWS = ("direct", "tca", "eba", "ebac")
 DEFAULT_OUT = Path("ebac-study")
-#: Exit code after a keyboard interrupt, as shells have it.
-INTERRUPTED = 130
 _WHO, _WHAT, _RUN = "Population", "Laws and conditions", "Run"
 
 
@@ -168,4 +166,4 @@ def _run(
             return run_study(people, names, out=bundles, resume=resume, progress=progress, **given)
     except SweepInterrupted as stopped:
         more = f"; continue with --resume --out {folder}" if folder is not None else ""
-        output.fail(f"{stopped}{more}", code=INTERRUPTED)
+        output.fail(f"{stopped}{more}", code=output.INTERRUPTED)

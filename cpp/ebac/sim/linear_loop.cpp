@@ -1,0 +1,113 @@
+#include "ebac/sim/linear_loop.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "ebac/model/exact_plant.hpp"
+
+namespace ebac {
+
+namespace {
+
+enum Index { kX, kV, kMotor, kLastX, kEstimate, kCommands };
+
+void require_linear(const DeviceModel& device) {
+  const bool exact =
+      std::holds_alternative<Linear>(device.kinematics) && !device.mechanics.compliant();
+  const bool estimated = !std::holds_alternative<AdaptiveWindow>(device.velocity);
+  if (!exact || !estimated || device.compensation.friction > 0 || device.compensation.inertia > 0) {
+    throw std::invalid_argument(
+        "the linear loop needs straight axes without cable compliance and backlash, "
+        "BackwardDifference or LowPass as velocity estimate, and no compensation of friction or "
+        "inertia; simulate this device instead");
+  }
+}
+
+/// Share of the new difference in the estimate, as in VelocityState::update.
+double smoothing(const Velocity& estimator, double tick) {
+  const auto* low_pass = std::get_if<LowPass>(&estimator);
+  return low_pass != nullptr ? tick / (low_pass->time_constant + tick) : 1.0;
+}
+
+}  // namespace
+
+LinearLoop::LinearLoop(const Setup& setup)
+    : size_(kCommands + setup.timing.delay),
+      delay_(setup.timing.delay),
+      tick_(setup.timing.dt),
+      smoothing_(smoothing(setup.device.velocity, setup.timing.dt)) {
+  require_linear(setup.device);
+  AxisParameters parameters = axis_parameters(setup.device, setup.hand);
+  parameters.coulomb = 0;
+  const ExactAxis axis(parameters, tick_);
+  const auto& phi = axis.sliding().level(0).phi;
+  own_ = phi.block<2, 2>(0, ExactAxis::kXi);
+  late_ = phi.col(ExactAxis::kPhi).head<2>();
+  held_ = phi.col(ExactAxis::kF).head<2>();
+  hold_ = parameters.current_lag > 0 ? phi(ExactAxis::kPhi, ExactAxis::kPhi) : 0.0;
+  if (parameters.current_lag == 0) late_.setZero();
+}
+
+LinearLoop::Row LinearLoop::velocity_row() const {
+  Row row = Row::Zero(size_);
+  row[kX] = smoothing_ / tick_;
+  row[kLastX] = -smoothing_ / tick_;
+  row[kEstimate] = 1 - smoothing_;
+  return row;
+}
+
+Eigen::MatrixXd LinearLoop::matrix(double stiffness, double damping) const {
+  const Row estimate = velocity_row();
+  Row command = damping * estimate;
+  command[kX] += stiffness;
+  const Row u = delay_ == 0 ? command : Row(Row::Unit(size_, size_ - 1));
+
+  Eigen::MatrixXd next = Eigen::MatrixXd::Zero(size_, size_);
+  next.topLeftCorner<2, 2>() = own_;
+  next.block<2, 1>(0, kMotor) = late_;
+  next.topRows<2>() += (held_ - late_) * u;
+  next(kMotor, kMotor) = hold_;
+  next.row(kMotor) += (1 - hold_) * u;
+  next(kLastX, kX) = 1;
+  next.row(kEstimate) = estimate;
+  if (delay_ > 0) next.row(kCommands) = command;
+  for (Eigen::Index i = kCommands + 1; i < size_; ++i) next(i, i - 1) = 1;
+  return next;
+}
+
+std::vector<std::complex<double>> LinearLoop::eigenvalues(double stiffness, double damping) const {
+  const Eigen::EigenSolver<Eigen::MatrixXd> solver(matrix(stiffness, damping), false);
+  const auto& found = solver.eigenvalues();
+  return {found.begin(), found.end()};
+}
+
+double LinearLoop::spectral_radius(double stiffness, double damping) const {
+  double largest = 0;
+  for (const auto& value : eigenvalues(stiffness, damping)) {
+    largest = std::max(largest, std::abs(value));
+  }
+  return largest;
+}
+
+double LinearLoop::stiffness_limit(double damping) const {
+  constexpr double kStep = 1.05;    // of the ladder that brackets the first instability
+  constexpr double kSharp = 1e-10;  // relative width at which the bisection stops
+  const auto stable = [&](double k) { return spectral_radius(k, damping) < 1; };
+  if (!stable(kLeastStiffness)) return 0;
+  double low = kLeastStiffness;
+  double high = low * kStep;
+  while (high < kMostStiffness && stable(high)) {
+    low = high;
+    high *= kStep;
+  }
+  if (high >= kMostStiffness) return kMostStiffness;
+  while (high - low > kSharp * high) {
+    const double middle = 0.5 * (low + high);
+    (stable(middle) ? low : high) = middle;
+  }
+  return low;
+}
+
+}  // namespace ebac

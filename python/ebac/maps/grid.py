@@ -1,0 +1,89 @@
+"""`stability_map`: a law over a grid of scenarios."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from concurrent.futures import Executor
+from pathlib import Path
+
+import numpy as np
+
+from ebac.document import unknown
+from ebac.laws import AnyLaw
+from ebac.maps.axes import AXES, MapAxis
+from ebac.maps.result import Numbers, StabilityMap
+from ebac.scenario import Scenario
+from ebac.sweeps import sweep
+from ebac.sweeps.job import Progress
+from ebac.sweeps.run import name_laws
+
+#: Values along an axis where none are given.
+SIDE = 200
+
+
+def stability_map(
+    law: AnyLaw = "ebac",
+    x: str = "damping",
+    y: str = "stiffness",
+    *,
+    xs: Sequence[float] | Numbers | None = None,
+    ys: Sequence[float] | Numbers | None = None,
+    base: Scenario | None = None,
+    threads: int | None = None,
+    executor: Executor | None = None,
+    out: str | Path | None = None,
+    resume: bool = True,
+    progress: Progress | None = None,
+) -> StabilityMap:
+    """Run a law over a grid of two quantities and measure each run.
+
+    Parameters
+    ----------
+    law : str, law class, law or PythonLaw
+        As `simulate` takes it; a name or class is designed anew where device or timing change.
+    x, y : str
+        Names of `AXES`.
+    xs, ys : array-like, optional
+        Values, in the unit of the axis; default: 200 over its range.
+    base : Scenario, optional
+        The rest; default: the reference scenario, 2 s.
+    threads, executor, out, resume, progress
+        As in `sweep`.
+
+    Returns
+    -------
+    StabilityMap
+
+    Raises
+    ------
+    ValueError
+        For a quantity that does not exist or values out of range.
+    """
+    scenario = base or Scenario(seconds=2.0)
+    along = [_axis(x), _axis(y)]
+    if x == y:
+        raise ValueError(f"x = y = {x!r}: a map needs two quantities")
+    values = [
+        axis.values(SIDE) if given is None else np.asarray(given, float)
+        for axis, given in zip(along, (xs, ys), strict=True)
+    ]
+    scenarios = _grid(scenario, along, values)
+    result = sweep(
+        scenarios, law, threads=threads, executor=executor, out=out, resume=resume, progress=progress
+    )  # fmt: skip
+    (name,) = name_laws(law)
+    return StabilityMap(
+        base=scenario, law=name, x=x, y=y, xs=values[0], ys=values[1], result=result
+    )
+
+
+def _axis(name: str) -> MapAxis:
+    if name not in AXES:
+        raise ValueError(unknown(f"map axis {name}", name, list(AXES)))
+    return AXES[name]
+
+
+def _grid(base: Scenario, along: list[MapAxis], values: list[Numbers]) -> list[Scenario]:
+    """Return the scenarios row by row; what stays the same is one object, so that laws are designed once."""
+    columns = [along[0].apply(base, value) for value in values[0].tolist()]
+    return [along[1].apply(column, value) for value in values[1].tolist() for column in columns]

@@ -1,0 +1,98 @@
+"""A map and its score."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ebac.maps.axes import AXES, MapAxis
+from ebac.metrics import QUIET_SWING
+from ebac.scenario import Scenario
+from ebac.sweeps import SweepResult
+
+Numbers = NDArray[np.float64]
+
+#: What a run can come to, best first: a cell of `verdict` is a place in this list.
+VERDICTS = ("exact and quiet", "quiet, not exact", "swings", "diverges")
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class StabilityMap:
+    """One law over a grid: `map["swing_m"]` is an array, row by row along y, column by column along x.
+
+    Attributes
+    ----------
+    base : Scenario
+        What was simulated, but for the two quantities.
+    law : str
+        Its name.
+    x, y : str
+        Names of `AXES`.
+    xs, ys : array
+        Values along the axes.
+    result : SweepResult
+        Every number of every run, y by y, x after x.
+    """
+
+    base: Scenario
+    law: str
+    x: str
+    y: str
+    xs: Numbers
+    ys: Numbers
+    result: SweepResult
+
+    def __getitem__(self, name: str) -> NDArray[Any]:
+        """Return a number of the sweep as a grid, shape (len(ys), len(xs))."""
+        return self.result[name].reshape(len(self.ys), len(self.xs))
+
+    @property
+    def axes(self) -> tuple[MapAxis, MapAxis]:
+        """The quantities along x and y."""
+        return AXES[self.x], AXES[self.y]
+
+    @property
+    def quiet(self) -> NDArray[np.bool_]:
+        """Where the run swings by less than 0.25 mm at its end."""
+        return np.asarray((self["swing_m"] < QUIET_SWING) & ~self._lost)
+
+    @property
+    def verdict(self) -> NDArray[np.int64]:
+        """What each run came to: the place in `VERDICTS`."""
+        exact = self.result.good.reshape(self.quiet.shape)
+        return np.where(self._lost, 3, np.where(exact, 0, np.where(self.quiet, 1, 2)))
+
+    @property
+    def _lost(self) -> NDArray[np.bool_]:
+        return np.asarray(self["diverged"] | (self["fault"] != 0) | ~self["done"])
+
+    def scores(self, epsilon: float = 1e-3) -> dict[str, float]:
+        """Return the share of the area, as the axes are drawn, where a criterion holds.
+
+        Parameters
+        ----------
+        epsilon : float
+            Energy [J] that may be taken out of the port.
+        """
+        energy = (self["least_energy_J"] >= -epsilon) & ~self._lost
+        return {
+            "quiet_share": float(self.quiet.mean()),
+            "exact_share": float((self.verdict == 0).mean()),
+            "energy_share": float(energy.mean()),
+            "quiet_and_energy_share": float((self.quiet & energy).mean()),
+        }
+
+    def to_npz(self, path: str | Path) -> None:
+        """Write axes and all numbers as arrays."""
+        arrays: dict[str, Any] = {self.x: self.xs, self.y: self.ys}
+        arrays |= {name: self[name] for name in self.result if name != "law"}
+        np.savez_compressed(path, **arrays)
+
+    def __repr__(self) -> str:
+        """Return one line."""
+        shape = f"{len(self.xs)} x {len(self.ys)}"
+        return f"<StabilityMap of {self.law}: {self.x} x {self.y}, {shape} runs>"

@@ -1,0 +1,136 @@
+"""Stability maps: what each run came to, its swing, the energy it took and where it rests."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.colors import BoundaryNorm, ListedColormap, LogNorm
+from matplotlib.figure import Figure
+
+from ebac.metrics import EXACT_COUNTS, QUIET_SWING
+from ebac.plot.style import Numbers, Picture, new_figure
+
+if TYPE_CHECKING:
+    from ebac.maps import MapAxis, StabilityMap
+
+#: Colours of the verdicts, best first.
+VERDICT_COLOURS = ("#009e73", "#a6dbc9", "#f0c05a", "#b2182b")
+LINE: dict[str, Any] = {"colors": "black", "linewidths": 1.2, "linestyles": "solid"}
+
+
+def plot_map(found: StabilityMap) -> Picture:
+    """Draw a map: verdict, swing, energy taken out of the port and deviation, one panel each.
+
+    Parameters
+    ----------
+    found : StabilityMap
+        What `ebac.maps.stability_map` returned.
+
+    Returns
+    -------
+    Figure
+        Contours, of the median over a twentieth of each axis: 0.25 mm of swing, 1 mJ, two encoder counts.
+    """
+    figure = new_figure(12, 9)
+    grid = figure.subplots(2, 2, sharex=True, sharey=True)
+    _verdicts(figure, grid[0, 0], found)
+    counts = 1e3 * EXACT_COUNTS * found.base.device.count
+    swing, energy = 1e3 * found["swing_m"], -1e3 * found["least_energy_J"]
+    deviation = 1e3 * np.abs(found["rest_m"] - found["ideal_m"])
+    _panel(
+        figure, grid[0, 1], found, swing, 1e3 * QUIET_SWING, (1e-2, 1e2), "swing, peak to peak [mm]"
+    )
+    _panel(figure, grid[1, 0], found, energy, 1.0, (1e-2, 1e5), "energy taken out of the port [mJ]")
+    _panel(
+        figure, grid[1, 1], found, deviation, counts, (1e-3, 1e1), "rest, away from the ideal [mm]"
+    )
+    along, up = found.axes
+    for ax in grid[-1]:
+        _axis(ax, along, "x")
+    for ax in grid[:, 0]:
+        _axis(ax, up, "y")
+    figure.suptitle(_title(found), fontsize="medium")
+    return figure
+
+
+def _title(found: StabilityMap) -> str:
+    shares = found.scores()
+    quiet, energy = shares["quiet_share"], shares["energy_share"]
+    return (
+        f"law {found.law}: quiet on {100 * quiet:.0f} % of the area, takes at most 1 mJ on "
+        f"{100 * energy:.0f} %, exact and quiet on {100 * shares['exact_share']:.0f} %"
+    )
+
+
+def _verdicts(figure: Figure, ax: Axes, found: StabilityMap) -> None:
+    from ebac.maps import VERDICTS
+
+    colours = ListedColormap(VERDICT_COLOURS)
+    norm = BoundaryNorm(np.arange(len(VERDICTS) + 1) - 0.5, colours.N)
+    image = ax.pcolormesh(*_edges(found), found.verdict, cmap=colours, norm=norm, rasterized=True)
+    bar = figure.colorbar(image, ax=ax, ticks=range(len(VERDICTS)), pad=0.02)
+    bar.ax.set_yticklabels(VERDICTS)
+    bar.ax.tick_params(length=0)
+    ax.set_title("verdict", fontsize="medium")
+
+
+def _panel(
+    figure: Figure, ax: Axes, found: StabilityMap, values: Numbers, limit: float,
+    shown: tuple[float, float], title: str,
+) -> None:  # fmt: skip
+    known = np.where(np.isfinite(values), values, shown[1])
+    inside = np.clip(known, *shown)
+    image = ax.pcolormesh(
+        *_edges(found), inside, cmap="viridis_r", norm=LogNorm(*shown), rasterized=True
+    )
+    bar = figure.colorbar(image, ax=ax, pad=0.02, extend="both")
+    if inside.min() < limit < inside.max():
+        ax.contour(*_surface(found, np.log(inside)), [np.log(limit)], **LINE)
+        bar.ax.axhline(limit, color="black", lw=1.4)
+    ax.set_title(f"{title}; line: {limit:.3g}", fontsize="medium")
+
+
+def _surface(found: StabilityMap, values: Numbers) -> tuple[Numbers, Numbers, Numbers]:
+    """Return what a contour runs over: borders, not single runs; over whole numbers, steps."""
+    sizes = [
+        1 if axis.whole else _window(n) for axis, n in zip(found.axes, values.T.shape, strict=True)
+    ]
+    smooth = _median(values, sizes[1], sizes[0])
+    places = [found.xs, found.ys]
+    for i, axis in enumerate(found.axes):
+        if axis.whole:
+            places[i] = np.column_stack((places[i] - 0.499, places[i] + 0.499)).ravel()
+            smooth = smooth.repeat(2, axis=1 - i)
+    return places[0], places[1], smooth
+
+
+def _window(count: int) -> int:
+    return max(1, count // 20) // 2 * 2 + 1
+
+
+def _median(values: Numbers, rows: int, columns: int) -> Numbers:
+    padded = np.pad(values, ((rows // 2,) * 2, (columns // 2,) * 2), mode="edge")
+    windows = np.lib.stride_tricks.sliding_window_view(padded, (rows, columns))
+    return np.asarray(np.median(windows, axis=(2, 3)))
+
+
+def _edges(found: StabilityMap) -> tuple[Numbers, Numbers]:
+    along, up = found.axes
+    return _cells(found.xs, along.logarithmic), _cells(found.ys, up.logarithmic)
+
+
+def _cells(centres: Numbers, logarithmic: bool) -> Numbers:
+    """Return the edges of cells around their centres."""
+    place = np.log(centres) if logarithmic else centres
+    middle = 0.5 * (place[1:] + place[:-1])
+    edges = np.concatenate(([2 * place[0] - middle[0]], middle, [2 * place[-1] - middle[-1]]))
+    return np.exp(edges) if logarithmic else edges
+
+
+def _axis(ax: Axes, quantity: MapAxis, which: str) -> None:
+    getattr(ax, f"set_{which}label")(quantity.label)
+    if quantity.logarithmic:
+        getattr(ax, f"set_{which}scale")("log")
+        getattr(ax, f"{which}axis").set_major_formatter("{x:,g}")

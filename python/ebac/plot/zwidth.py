@@ -1,0 +1,104 @@
+"""Z-width: the border of every law over the wall's damping, and the area under it."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from matplotlib.axes import Axes
+
+from ebac.plot.style import Numbers, Picture, colour, dress, new_figure
+
+if TYPE_CHECKING:
+    from ebac.zwidth import ZWidth
+
+#: The criteria drawn, a row of panels each.
+ROWS = {"quiet": "quiet", "energy": "takes at most {} mJ", "usable": "usable"}
+#: The ceilings: how each is drawn.
+CEILINGS: dict[str, dict[str, Any]] = {
+    "linear loop, no law": {"color": "black", "ls": (0, (5, 3)), "lw": 1.4},
+    "(b + B) / (T/2 + t_d), hand on": {"color": "black", "ls": (0, (1, 2)), "lw": 1.4},
+    "passive without a law": {"color": "0.45", "ls": (0, (6, 2, 1, 2)), "lw": 1.4},
+}
+
+
+def plot_zwidth(found: ZWidth) -> Picture:
+    """Draw a Z-width: borders by criterion and delay, with the ceilings, and the areas below.
+
+    Parameters
+    ----------
+    found : ZWidth
+        What `ebac.zwidth.zwidth` returned.
+
+    Returns
+    -------
+    Figure
+        One column of panels per delay. A law without a line never holds, however soft the wall.
+    """
+    columns = len(found.delays)
+    bars = 0.9 + 0.26 * len(found.laws)
+    figure = new_figure(2.2 + 3.6 * columns, 1.2 + 2.6 * len(ROWS) + bars)
+    grid = figure.subplots(
+        len(ROWS) + 1, columns, squeeze=False, sharey="row", height_ratios=[2.6] * len(ROWS) + [bars]
+    )  # fmt: skip
+    for d, delay in enumerate(found.delays):
+        for ax, criterion in zip(grid[:, d], ROWS, strict=False):
+            _borders(ax, found, criterion, d)
+        _areas(grid[-1, d], found, delay)
+        samples = "1 sample" if delay == 1 else f"{delay} samples"
+        grid[0, d].set_title(f"delay {samples}", fontsize="medium", fontweight="bold")
+    for row, text in enumerate(ROWS.values()):
+        words = text.format(f"{1e3 * found.epsilon:g}")
+        dress(grid[row, 0], f"{words}\nup to K [kN/m]")
+    grid[-1, 0].set_yticks(range(len(found.laws)), found.laws)
+    grid[-1, 0].invert_yaxis()
+    handles, labels = grid[0, 0].get_legend_handles_labels()
+    figure.legend(
+        handles, labels, loc="outside upper center", ncols=5, frameon=False, fontsize="small"
+    )
+    return figure
+
+
+def _borders(ax: Axes, found: ZWidth, criterion: str, d: int) -> None:
+    for i, law in enumerate(found.laws):
+        limit = found.limits[criterion][i, d]
+        wide = 1.4 + 0.35 * (len(found.laws) - 1 - i)  # laws that share a border all remain visible
+        ax.plot(found.dampings, _kilo(limit), color=colour(law), lw=wide, label=law)
+    ceilings = [(found.dampings, found.spectral[d]), *_ceilings(found, d)]
+    for (name, style), (dampings, ceiling) in zip(CEILINGS.items(), ceilings, strict=True):
+        ax.plot(dampings, _kilo(ceiling), **style, label=name)
+    ax.set_yscale("log")
+    ax.set_ylim(1e-3 * found.least, 1.3e-3 * found.top)
+    ax.yaxis.set_major_formatter("{x:g}")
+    ax.set_xlabel("wall damping B [N s/m]")
+    dress(ax, "")
+
+
+def _ceilings(found: ZWidth, d: int) -> list[tuple[Numbers, Numbers]]:
+    from ebac.zwidth import delay_ceiling, passive_ceiling
+
+    device, hand = found.base.device, found.base.hand
+    timing = found.base.timing.replace(delay=found.delays[d])
+    dampings = np.linspace(found.dampings[0], found.dampings[-1], 400)
+    values = dampings.tolist()
+    return [
+        (dampings, np.array([delay_ceiling(device, timing, b, hand) for b in values])),
+        (dampings, np.array([passive_ceiling(device, timing, b) for b in values])),
+    ]
+
+
+def _kilo(newton_per_metre: Numbers) -> Numbers:
+    return np.where(newton_per_metre > 0, 1e-3 * newton_per_metre, np.nan)
+
+
+def _areas(ax: Axes, found: ZWidth, delay: int) -> None:
+    places = np.arange(len(found.laws))
+    shades = [colour(law) for law in found.laws]
+    # Mean stiffness over the damping: the area over its width, a number in kN/m.
+    width = 1e3 * float(found.dampings[-1] - found.dampings[0])
+    for criterion, thick, alpha in (("quiet", 0.75, 0.3), ("usable", 0.45, 1.0)):
+        areas = [found.area(criterion, law, delay) / width for law in found.laws]
+        ax.barh(places, areas, thick, color=shades, alpha=alpha, label=criterion)
+    ax.set_xlim(0, 1.02e-3 * found.top)
+    ax.set_xlabel("mean K over B [kN/m]; pale: quiet, full: usable")
+    dress(ax, "")

@@ -1,0 +1,111 @@
+"""The border of every law, and the area under it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ebac.scenario import Scenario
+
+Numbers = NDArray[np.float64]
+
+#: The criteria of the search, and what each asks of a press and of a tap.
+CRITERIA: dict[str, str] = {
+    "quiet": "no sustained limit cycle: swings by less than 0.25 mm at the end",
+    "energy": "takes no more than epsilon out of the port",
+    "usable": "quiet, energy, and at least half of the stiffness shown at rest",
+}
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class ZWidth:
+    """For every law, delay and wall damping the largest stiffness up to which a criterion holds.
+
+    Attributes
+    ----------
+    base : Scenario
+        What was simulated, but for wall, delay and approach.
+    laws : tuple of str
+        Names.
+    delays : tuple of int
+        Samples.
+    dampings : array, shape (m,)
+        Wall damping B [N s/m].
+    least, top : float
+        Ends of the search [N/m]: a limit of `top` means "at least"; below `least` it is 0.
+    epsilon : float
+        Energy that may be taken out [J].
+    limits : dict of str to array, shape (laws, delays, m)
+        Largest stiffness [N/m] by criterion, see `CRITERIA`.
+    spectral : array, shape (delays, m)
+        The same for the linear loop without a law: spectral radius below one; NaN for a device that is not linear.
+    """
+
+    base: Scenario
+    laws: tuple[str, ...]
+    delays: tuple[int, ...]
+    dampings: Numbers
+    least: float
+    top: float
+    epsilon: float
+    limits: dict[str, Numbers]
+    spectral: Numbers
+
+    def area(self, criterion: str, law: str, delay: int) -> float:
+        """Return the score: the area under the border, both axes linear, stiffness up to `top` [N/m N s/m].
+
+        Parameters
+        ----------
+        criterion : str
+            A name of `CRITERIA`, or "spectral", the same for every law.
+        law, delay
+            Which border.
+        """
+        d = self.delays.index(delay)
+        border = (
+            self.spectral[d]
+            if criterion == "spectral"
+            else self.limits[criterion][self.laws.index(law), d]
+        )
+        return float(np.trapezoid(np.minimum(border, self.top), self.dampings))
+
+    def scores(self) -> list[dict[str, Any]]:
+        """Return one row per law and delay: the area by criterion, and how many times that of `direct`."""
+        rows = []
+        for law in self.laws:
+            for delay in self.delays:
+                row: dict[str, Any] = {"law": law, "delay_samples": delay}
+                for name in CRITERIA:
+                    area = self.area(name, law, delay)
+                    row[f"{name}_area"] = area
+                    own = self.area(name, "direct", delay) if "direct" in self.laws else 0.0
+                    row[f"{name}_times_direct"] = area / own if own > 0 else None
+                rows.append(row)
+        return rows
+
+    def rows(self) -> list[dict[str, Any]]:
+        """Return one row per law, delay and wall damping, SI units, the unit in the name."""
+        from ebac.zwidth.ceilings import delay_ceiling, passive_ceiling
+
+        device, hand = self.base.device, self.base.hand
+        timings = [self.base.timing.replace(delay=delay) for delay in self.delays]
+        return [
+            {
+                "law": law,
+                "delay_samples": delay,
+                "damping_Ns_per_m": float(damping),
+                "passive_N_per_m": passive_ceiling(device, timings[d], float(damping)),
+                "delay_ceiling_N_per_m": delay_ceiling(device, timings[d], float(damping), hand),
+                "spectral_N_per_m": float(self.spectral[d, j]),
+                **{
+                    f"{name}_N_per_m": float(limits[i, d, j])
+                    for name, limits in self.limits.items()
+                },
+            }
+            for i, law in enumerate(self.laws)
+            for d, delay in enumerate(self.delays)
+            for j, damping in enumerate(self.dampings)
+        ]

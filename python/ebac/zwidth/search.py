@@ -1,0 +1,200 @@
+"""The border of stability of a law, searched in the simulation: a ladder of stiffness, then bisection."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from concurrent.futures import Executor
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ebac._core import Timing, Wall
+from ebac.laws import LAWS, AnyLaw
+from ebac.metrics import EXACT_COUNTS, QUIET_SWING, ideal_rest
+from ebac.scenario import Scenario
+from ebac.sweeps import SweepResult, sweep
+from ebac.sweeps.run import Laws, name_laws
+from ebac.zwidth.linear import stiffness_limit
+from ebac.zwidth.result import CRITERIA, Numbers, ZWidth
+
+#: Wall dampings [N s/m]: up to ten times the reference device's own.
+DAMPINGS = (0.0, 2.5, 5.0, 7.5, 10.0, 12.5, 15.0, 17.5, 20.0)
+#: Way through free air [m] of the two contacts that must hold: a press from the surface, and a tap.
+APPROACHES = (0.0, 0.02)
+#: Bisections after the ladder; each halves the interval of log K.
+ROUNDS = 4
+#: At least this share of the stiffness asked for must be there at rest.
+SHOWN_SHARE = 0.5
+
+Flags = NDArray[np.bool_]
+Point = tuple[Timing, float]
+
+
+def zwidth(
+    base: Scenario | None = None,
+    laws: Laws | None = None,
+    *,
+    delays: Sequence[int] = (0, 1, 2),
+    dampings: Sequence[float] | Numbers = DAMPINGS,
+    least: float = 100.0,
+    top: float = 1e5,
+    rungs: int = 31,
+    epsilon: float = 1e-3,
+    threads: int | None = None,
+    executor: Executor | None = None,
+    progress: Callable[[int, int], None] | None = None,
+) -> ZWidth:
+    """Search for every law, delay and wall damping the largest stiffness up to which a criterion holds.
+
+    A law must pass with a hand that presses from the surface and with one that taps through 20 mm of free air, at every
+    rung of a ladder of stiffness, even in log K, from `least` up; between the last rung that passes and the first that
+    fails, bisection.
+
+    Parameters
+    ----------
+    base : Scenario, optional
+        Device, hand and the rest; its wall tells where the surface is. Default: the reference scenario, 3 s.
+    laws : law, sequence of laws, or mapping of names to laws
+        As `sweep` takes them; default: every law of `LAWS`.
+    delays : sequence of int
+        Samples of delay, [0, 8].
+    dampings : array-like
+        Wall damping B, rising [N s/m].
+    least, top : float
+        Ends of the ladder [N/m].
+    rungs : int
+        Of the ladder, at least 2.
+    epsilon : float
+        Energy [J] that may be taken out of the port.
+    threads, executor, progress
+        As in `sweep`.
+
+    Returns
+    -------
+    ZWidth
+
+    Raises
+    ------
+    ValueError
+        For a scenario without a wall straight across the first axis, or numbers out of range.
+    """
+    scenario = base or Scenario(seconds=3.0)
+    _check(scenario, dampings, least, top, rungs, epsilon)
+    search = _Search(scenario, epsilon, {"threads": threads, "executor": executor})
+    named = name_laws(list(LAWS.values()) if laws is None else laws)
+    timings = [scenario.timing.replace(delay=delay) for delay in delays]
+    points = [(timing, float(damping)) for timing in timings for damping in dampings]
+    ladder = np.geomspace(least, top, rungs)
+    total = len(named) * len(points) * (rungs + ROUNDS * len(CRITERIA)) * len(APPROACHES)
+    search.report = _counter(progress, total)
+    shape = (len(named), len(timings), len(dampings))
+    borders = [search.border(law, points, ladder) for law in named.values()]
+    return ZWidth(
+        base=scenario, laws=tuple(named), delays=tuple(delays), dampings=np.asarray(dampings, float),
+        least=least, top=top, epsilon=epsilon,
+        limits={name: np.array([b[i] for b in borders]).reshape(shape) for i, name in enumerate(CRITERIA)},
+        spectral=np.array([_spectral(scenario, *point) for point in points]).reshape(shape[1:]),
+    )  # fmt: skip
+
+
+class _Search:
+    def __init__(self, base: Scenario, epsilon: float, how: dict[str, Any]) -> None:
+        self.base = base
+        self.epsilon = epsilon
+        self.how = how
+        first, *others = base.hand.path
+        target: float = getattr(first, "target", 0.0)
+        self.hands = {
+            way: base.hand.replace(path=[first.replace(target=target + way), *others])
+            for way in APPROACHES
+        }
+        self.report: Callable[[int], None] = lambda runs: None
+
+    def border(self, law: AnyLaw, points: list[Point], ladder: Numbers) -> Numbers:
+        """Return the largest stiffness by criterion and point."""
+        n, rungs = len(points), len(ladder)
+        passed = self.passes(law, [(p, k) for p in points for k in ladder]).reshape(-1, n, rungs)
+        first = np.where(passed.all(axis=2), rungs, (~passed).argmax(axis=2))
+        low = np.log(ladder[np.maximum(first - 1, 0)])
+        high = np.log(ladder[np.minimum(first, rungs - 1)])
+        own = np.arange(len(CRITERIA))
+        for _ in range(ROUNDS):
+            middle = 0.5 * (low + high)
+            tasks = [(p, k) for row in np.exp(middle) for p, k in zip(points, row, strict=True)]
+            holds = self.passes(law, tasks).reshape(len(CRITERIA), len(CRITERIA), n)[own, own]
+            low, high = np.where(holds, middle, low), np.where(holds, high, middle)
+        inside = np.where(first == rungs, ladder[-1], np.exp(low))
+        return np.where(first == 0, 0.0, inside)
+
+    def passes(self, law: AnyLaw, tasks: list[tuple[Point, float]]) -> Flags:
+        """Return whether each criterion holds for each wall, with every approach."""
+        runs = [self._scenario(p, k, way) for p, k in tasks for way in APPROACHES]
+        result = sweep(runs, law, **self.how)
+        self.report(len(runs))
+        stiffness = np.repeat([k for _, k in tasks], len(APPROACHES))
+        flags = _judge(result, self.base, self.epsilon, stiffness)
+        return np.asarray(flags.reshape(len(CRITERIA), len(tasks), len(APPROACHES)).all(axis=2))
+
+    def _scenario(self, point: Point, stiffness: float, way: float) -> Scenario:
+        timing, damping = point
+        wall = Wall(stiffness=stiffness, damping=damping, position=_surface(self.base) + way)
+        return self.base.replace(timing=timing, environment=wall, hand=self.hands[way])
+
+
+def _judge(result: SweepResult, base: Scenario, epsilon: float, stiffness: Numbers) -> Flags:
+    whole = result["done"] & ~result["diverged"] & (result["fault"] == 0)
+    quiet = whole & (result["swing_m"] < QUIET_SWING)
+    energy = whole & (result["least_energy_J"] >= -epsilon)
+    surface = _surface(base) + np.resize(APPROACHES, len(result))
+    depth, ideal = result["rest_m"] - surface, result["ideal_m"] - surface
+    held = ideal * (base.hand.stiffness + stiffness) - base.hand.stiffness * depth  # N, at rest
+    slack = EXACT_COUNTS * result["count_m"]
+    shown = held >= SHOWN_SHARE * stiffness * (depth - slack)
+    return np.array([quiet, energy, quiet & energy & shown])
+
+
+def _surface(base: Scenario) -> float:
+    return base.environment.position if isinstance(base.environment, Wall) else 0.0
+
+
+def _spectral(base: Scenario, timing: Timing, damping: float) -> float:
+    try:
+        return stiffness_limit(base.replace(timing=timing), damping)
+    except ValueError:
+        return float("nan")
+
+
+def _counter(progress: Callable[[int, int], None] | None, total: int) -> Callable[[int], None]:
+    done = 0
+
+    def count(runs: int) -> None:
+        nonlocal done
+        done += runs
+        if progress is not None:
+            progress(done, total)
+
+    return count
+
+
+def _check(
+    base: Scenario, dampings: Any, least: float, top: float, rungs: int, epsilon: float
+) -> None:
+    if not isinstance(base.environment, Wall) or ideal_rest(base) is None:
+        raise ValueError(
+            "zwidth: needs a scenario with a wall straight across the first axis of a linear device, "
+            "and a hand with a target that does not let go"
+        )
+    rising = np.asarray(dampings, float)
+    if rising.ndim != 1 or len(rising) < 2 or rising[0] < 0 or not (np.diff(rising) > 0).all():
+        raise ValueError(
+            f"zwidth: dampings = {dampings} N s/m: must be at least two, rising, from 0 up"
+        )
+    if not 0 < least < top <= 1e7:
+        raise ValueError(
+            f"zwidth: least = {least} N/m, top = {top} N/m: must be 0 < least < top <= 1e7 N/m"
+        )
+    if rungs < 2:
+        raise ValueError(f"zwidth: rungs = {rungs}: must be at least 2")
+    if not epsilon >= 0:
+        raise ValueError(f"zwidth: epsilon = {epsilon} J: must be at least 0")

@@ -1,0 +1,153 @@
+"""Stability maps: a grid of scenarios, its score, its figure."""
+
+import json
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+import ebac
+from ebac.cli import app
+from ebac.maps import AXES, PRESETS, StabilityMap, stability_map
+from ebac.plot import plot_map
+from ebac.zwidth import stiffness_limit
+
+BASE = ebac.Scenario(seconds=1.0)
+
+
+def small(law: str = "direct", **changes: Any) -> StabilityMap:
+    given = {"x": "damping", "y": "stiffness", "base": BASE}
+    given |= {"xs": (0.0, 5.0, 10.0), "ys": (1e3, 2e3, 2e4, 5e4)}
+    return stability_map(law, **{**given, **changes})
+
+
+def test_direct_is_quiet_below_the_limit_and_swings_above() -> None:
+    found = small()
+    limits = np.array([stiffness_limit(BASE, b) for b in found.xs])
+    below = found.ys[:, None] < limits
+    assert (found.quiet == below).all()
+    assert (found.verdict[below] == 0).all()
+    assert (found.verdict[~below] >= 2).all()
+    assert found.scores()["quiet_share"] == below.mean()
+
+
+def test_a_cell_is_the_run_it_stands_for() -> None:
+    found = small("ebac")
+    wall = ebac.Wall(stiffness=2e4, damping=5.0)
+    expected = ebac.contact(ebac.simulate(BASE.replace(environment=wall), "ebac"))
+    assert found["swing_m"][2, 1] == expected.swing_m
+    assert found["least_energy_J"][2, 1] == expected.least_energy_J
+
+
+@pytest.mark.parametrize("name", AXES)
+def test_every_quantity_changes_the_scenario(name: str) -> None:
+    axis = AXES[name]
+    low, high = axis.values(2)
+    assert axis.apply(BASE, low) != axis.apply(BASE, high)
+    assert axis.unit in axis.label
+
+
+def test_a_law_is_designed_anew_where_the_device_changes() -> None:
+    found = stability_map(
+        "ebac", "device-damping", "delay", xs=(1.0, 4.0), ys=(0, 2), base=BASE.replace(seconds=0.5)
+    )
+    device = ebac.Device(mechanics=BASE.device.mechanics.replace(damping=4.0))
+    alone = ebac.simulate(
+        BASE.replace(seconds=0.5, device=device, timing=ebac.Timing(delay=2)), "ebac"
+    )
+    assert found["rest_m"][1, 1] == ebac.contact(alone).rest_m
+
+
+def test_whole_numbers_come_once_each() -> None:
+    assert AXES["delay"].values(200).tolist() == list(range(9))
+
+
+def test_the_map_does_not_depend_on_where_it_is_computed(tmp_path: Path) -> None:
+    here = small("ebac")
+    with ThreadPoolExecutor(2) as pool:
+        there = small("ebac", executor=pool, out=tmp_path / "kept")
+        again = small("ebac", executor=pool, out=tmp_path / "kept")
+    for name in here.result:
+        assert np.array_equal(here[name], there[name], equal_nan=name != "law")
+        assert np.array_equal(here[name], again[name], equal_nan=name != "law")
+
+
+def test_the_arrays_of_a_map_are_kept(tmp_path: Path) -> None:
+    found = small()
+    found.to_npz(tmp_path / "map.npz")
+    with np.load(tmp_path / "map.npz") as kept:
+        assert (kept["swing_m"] == found["swing_m"]).all()
+        assert (kept["stiffness"] == found.ys).all()
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"x": "stifness"}, "did you mean 'stiffness'"),
+        ({"x": "stiffness"}, "a map needs two quantities"),
+        ({"base": ebac.Scenario(environment=ebac.Free())}, "needs a wall"),
+    ],
+)
+def test_bad_input_is_refused(changes: dict[str, Any], message: str) -> None:
+    with pytest.raises(ValueError, match=message):
+        small(**changes)
+
+
+def test_a_logarithmic_axis_starts_above_zero() -> None:
+    with pytest.raises(ValueError, match="wall stiffness: 5 values from 0 to 10 N/m"):
+        AXES["stiffness"].values(5, 0, 10)
+
+
+@pytest.mark.parametrize("kind", PRESETS)
+def test_the_figure_has_four_panels(kind: str, tmp_path: Path) -> None:
+    x, y = PRESETS[kind]
+    xs, ys = AXES[x].values(6), AXES[y].values(6)
+    figure = plot_map(stability_map("direct", x, y, xs=xs, ys=ys, base=BASE))
+    panels = [ax for ax in figure.axes if ax.get_title()]
+    assert len(panels) == 4
+    assert "[" in panels[2].get_xlabel()
+    figure.savefig(tmp_path / "map.png", dpi=40)
+
+
+# --- ebac map ---
+
+
+def command(*words: str, code: int = 0) -> str:
+    result = CliRunner().invoke(app, ["map", *words])
+    assert result.exit_code == code, result.output
+    return result.output if code else result.stdout
+
+
+def test_the_command_tells_a_row_per_law() -> None:
+    told = json.loads(command("Kd", "-l", "direct", "-l", "eba", "--side", "4", "--json"))
+    assert [row["law"] for row in told["rows"]] == ["direct", "eba"]
+    assert told["rows"][0]["x"] == "delay"
+    assert told["rows"][0]["runs"] == 4 * 4
+    assert 0 <= told["rows"][0]["quiet_share"] <= 1
+
+
+def test_the_command_writes_a_folder_and_continues(tmp_path: Path) -> None:
+    out = str(tmp_path / "out")
+    text = command("hand-mass,damping", "--side", "3", "--y-high", "5", "--out", out)
+    assert "B 0 to 5 N s/m (3 values)" in " ".join(text.split())
+    names = {path.name for path in (tmp_path / "out").iterdir()}
+    assert names == {"map-ebac.png", "map-ebac.npz", "map.json", "scenario.toml", "sweep-ebac"}
+    again = ("hand-mass,damping", "--side", "3", "--y-high", "5", "--out", out, "--resume")
+    assert command(*again) == text
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (("KX",), "there are: KB, Kd, MB, X,Y"),
+        (("stiffness",), "a map needs two quantities"),
+        (("stiffness,massive",), "there are: stiffness, damping"),
+        (("--x-low", "30"), "from 30 to 20 N s/m"),
+        (("--resume", "--json"), "give it with --out"),
+    ],
+)
+def test_the_command_refuses(words: tuple[str, ...], message: str) -> None:
+    assert message in " ".join(command(*words, code=2).split())

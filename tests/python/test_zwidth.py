@@ -1,0 +1,239 @@
+"""Which walls can be rendered: the exact linear loop, the ceilings, the search."""
+
+import json
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from typer.testing import CliRunner
+
+import ebac
+from ebac.cli import app
+from ebac.plot import plot_zwidth
+from ebac.zwidth import (
+    CRITERIA,
+    ZWidth,
+    delay_ceiling,
+    eigenvalues,
+    passive_ceiling,
+    quantised_ceiling,
+    spectral_radius,
+    stiffness_limit,
+    zwidth,
+)
+
+NOBODY = ebac.Hand(mass=0, damping=0, stiffness=0)
+FINE = ebac.Device(encoder=ebac.Encoder(counts_per_turn=2**26))
+
+
+def scenario(**changes: Any) -> ebac.Scenario:
+    return ebac.Scenario(device=FINE, **changes)
+
+
+# --- the linear loop ---
+
+
+def growth(stiffness: float, damping: float, hand: ebac.Hand, delay: int) -> float:
+    """How the swing of a simulated contact grows from tick to tick, deep in the wall."""
+    depth = 1e-4  # m
+    pull = ebac.Step(target=stiffness * depth / hand.stiffness)
+    still = ebac.Step(target=0.0)
+    trace = ebac.simulate(
+        scenario(
+            hand=hand.replace(path=[pull, still, still]),
+            environment=ebac.Wall(stiffness=stiffness, damping=damping, position=-depth),
+            timing=ebac.Timing(delay=delay),
+            seconds=4.0,
+        ),
+        ebac.Direct(peak_force=1e4),
+    )
+    x = trace.axis("true.x")
+    inside = x > -0.5 * depth  # beyond, the wall's edge is near
+    end = len(x) if inside.all() else int((~inside).argmax())
+    if end < 400:
+        return np.inf
+    early, late = (np.ptp(part) for part in np.array_split(x[end // 4 : end], 2))
+    return float(late / early)
+
+
+@given(
+    mass=st.floats(0.05, 1.0),
+    hand_damping=st.floats(2, 20),
+    hand_stiffness=st.floats(100, 1000),
+    damping=st.floats(0, 15),
+    delay=st.integers(0, 3),
+)
+@settings(max_examples=25)
+def test_the_simulation_diverges_above_the_limit_and_decays_below(
+    mass: float, hand_damping: float, hand_stiffness: float, damping: float, delay: int
+) -> None:
+    hand = ebac.Hand(mass=mass, damping=hand_damping, stiffness=hand_stiffness)
+    limit = stiffness_limit(scenario(hand=hand, timing=ebac.Timing(delay=delay)), damping)
+    assert limit > 0
+    assert growth(0.96 * limit, damping, hand, delay) < 1
+    assert growth(1.04 * limit, damping, hand, delay) > 1
+
+
+def test_eigenvalues_come_largest_first() -> None:
+    reference = ebac.Scenario()
+    values = eigenvalues(reference, 3000, 5)
+    assert len(values) == 6  # x, v, f_motor, last x, estimate, one command under way
+    assert (np.diff(np.abs(values)) <= 1e-15).all()
+    assert abs(values[0]) == pytest.approx(spectral_radius(reference, 3000, 5), abs=1e-15)
+
+
+def test_what_is_not_linear_is_refused() -> None:
+    with pytest.raises(ValueError, match=r"straight axes .* simulate this device instead"):
+        stiffness_limit(ebac.Scenario(device=ebac.presets.device("joystick")))
+
+
+# --- ceilings ---
+
+
+@pytest.mark.parametrize(("delay", "damping"), [(0, 5.0), (1, 15.0), (2, 25.0)])
+def test_the_papers_wall_needs_much_damping_to_be_passive(delay: int, damping: float) -> None:
+    device = ebac.Device(mechanics=ebac.Mechanics(damping=damping))
+    assert passive_ceiling(device, ebac.Timing(delay=delay)) == pytest.approx(10e3)
+
+
+def test_wall_damping_of_either_sign_costs_passivity() -> None:
+    timing = ebac.Timing(delay=0)
+    device = ebac.Device()
+    assert passive_ceiling(device, timing, 0.5) == passive_ceiling(device, timing, -0.5) == 3000
+    assert passive_ceiling(device, timing, 3) == 0
+
+
+@pytest.mark.parametrize("hand", [None, ebac.Hand()])
+@pytest.mark.parametrize("delay", [0, 1, 2])
+def test_the_delay_ceiling_is_near_the_exact_limit(delay: int, hand: ebac.Hand | None) -> None:
+    timing = ebac.Timing(delay=delay)
+    exact = stiffness_limit(ebac.Scenario(hand=hand or NOBODY, timing=timing))
+    assert delay_ceiling(ebac.Device(), timing, hand=hand) == pytest.approx(exact, rel=0.03)
+
+
+def test_counts_need_friction() -> None:
+    timing = ebac.Timing()
+    assert quantised_ceiling(ebac.Device(), timing) == 0
+    dry = ebac.Device(mechanics=ebac.Mechanics(coulomb=0.02))
+    assert quantised_ceiling(dry, timing) == pytest.approx(2 * 0.02 / dry.count)
+    drier = ebac.Device(mechanics=ebac.Mechanics(coulomb=1.0))
+    assert quantised_ceiling(drier, timing) == pytest.approx(4000)
+
+
+# --- the search ---
+
+
+def search(**changes: Any) -> ZWidth:
+    given = {"delays": (0, 1), "dampings": (0.0, 10.0), "rungs": 9}
+    return zwidth(None, **{**given, "laws": ("direct", "eba"), **changes})
+
+
+@pytest.fixture(scope="module")
+def found() -> ZWidth:
+    return search()
+
+
+def test_direct_reaches_the_limit_of_the_linear_loop(found: ZWidth) -> None:
+    quiet = found.limits["quiet"][0]
+    assert quiet.shape == found.spectral.shape == (2, 2)
+    assert (quiet < 1.05 * found.spectral).all()
+    assert (quiet > 0.6 * found.spectral).all()
+
+
+def test_usable_is_the_strictest_criterion(found: ZWidth) -> None:
+    for name in ("quiet", "energy"):
+        assert (found.limits["usable"] <= found.limits[name]).all()
+
+
+def test_eba_is_quiet_on_every_wall_and_shows_few(found: ZWidth) -> None:
+    assert (found.limits["quiet"][1] == found.top).all()
+    assert (found.limits["usable"][1] < 0.2 * found.top).all()
+
+
+def test_rows_and_scores(found: ZWidth) -> None:
+    rows = found.rows()
+    assert len(rows) == 2 * 2 * 2
+    assert set(rows[0]) == {
+        "law",
+        "delay_samples",
+        "damping_Ns_per_m",
+        "passive_N_per_m",
+        "delay_ceiling_N_per_m",
+        "spectral_N_per_m",
+        *(f"{name}_N_per_m" for name in CRITERIA),
+    }
+    direct = found.scores()[0]
+    border = found.limits["quiet"][0, 0]
+    assert direct["quiet_area"] == pytest.approx(10 * border.mean())
+    assert direct["quiet_times_direct"] == 1
+
+
+def test_the_search_does_not_depend_on_how_it_is_computed(found: ZWidth) -> None:
+    with ThreadPoolExecutor(2) as pool:
+        elsewhere = search(executor=pool)
+    for name, limits in found.limits.items():
+        assert (elsewhere.limits[name] == limits).all()
+
+
+def test_progress_comes_to_its_end() -> None:
+    seen: list[tuple[int, int]] = []
+    search(laws="direct", delays=(1,), progress=lambda done, total: seen.append((done, total)))
+    assert seen[-1][0] == seen[-1][1]
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"dampings": (5.0, 0.0)}, r"dampings = \(5.0, 0.0\) N s/m: must be at least two, rising"),
+        ({"least": 0.0}, "least = 0.0 N/m, top = 100000.0 N/m"),
+        ({"rungs": 1}, "rungs = 1: must be at least 2"),
+        ({"epsilon": -1.0}, "epsilon = -1.0 J"),
+        ({"base": ebac.Scenario(environment=ebac.Free())}, "needs a scenario with a wall"),
+    ],
+)
+def test_bad_input_is_refused(changes: dict[str, Any], message: str) -> None:
+    base = changes.pop("base", None)
+    with pytest.raises(ValueError, match=message):
+        zwidth(base, "direct", **changes)
+
+
+def test_the_figure_has_every_law_and_ceiling(found: ZWidth) -> None:
+    figure = plot_zwidth(found)
+    labels = [text.get_text() for text in figure.legends[0].get_texts()]
+    assert labels[:2] == ["direct", "eba"]
+    assert len(labels) == 2 + 3
+    figure.savefig("/dev/null", format="svg")
+
+
+# --- ebac zwidth ---
+
+
+def command(*words: str, code: int = 0) -> str:
+    result = CliRunner().invoke(app, ["zwidth", *words])
+    assert result.exit_code == code, result.output
+    return result.output if code else result.stdout
+
+
+SMALL = ("--law", "direct", "--delay", "1", "--points", "2", "--seconds", "1")
+
+
+def test_the_command_tells_rows_and_scores() -> None:
+    told = json.loads(command(*SMALL, "--json"))
+    assert [row["damping_Ns_per_m"] for row in told["rows"]] == [0, 20]
+    assert told["scores"][0]["quiet_times_direct"] == 1
+
+
+def test_the_command_writes_a_folder(tmp_path: Path) -> None:
+    text = command(*SMALL, "--out", str(tmp_path / "out"))
+    assert "linear loop, no law" in text
+    names = {path.name for path in (tmp_path / "out").iterdir()}
+    assert names == {"zwidth.png", "zwidth.json", "zwidth.csv", "scores.csv", "scenario.toml"}
+
+
+def test_the_command_refuses() -> None:
+    assert "did you mean 'direct'" in " ".join(command("--law", "dirct", code=2).split())
+    assert "must be 0 < least < top" in " ".join(command("--top", "1", code=2).split())
