@@ -6,7 +6,10 @@
 namespace ebac::python {
 
 void bind_core(pybind11::module_& m);
-void bind_model(pybind11::module_& m);
+void bind_kinematics(pybind11::module_& m);
+void bind_devices(pybind11::module_& m);
+void bind_hands(pybind11::module_& m);
+void bind_environment(pybind11::module_& m);
 void bind_simulation(pybind11::module_& m);
 void bind_sweeps(pybind11::module_& m);
 void bind_controllers(pybind11::module_& m);

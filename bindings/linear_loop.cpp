@@ -13,6 +13,8 @@ void bind_linear_loop(py::module_& m) {
   py::class_<LinearLoop>(m, "LinearLoop",
                          "One axis in a virtual spring and damper without a law, linear and exact.")
       .def(py::init<const Setup&>(), py::arg("setup"))
+      .def_static("covers", &LinearLoop::covers, py::arg("device"),
+                  "Whether a device is linear deep in a wall, friction and counts apart.")
       .def("eigenvalues", &LinearLoop::eigenvalues, py::arg("stiffness"), py::arg("damping"),
            "Eigenvalues from tick to tick; stiffness [N/m], damping [N s/m] of the wall.")
       .def("spectral_radius", &LinearLoop::spectral_radius, py::arg("stiffness"),

@@ -2030,6 +2030,11 @@ class LinearLoop:
     """
     One axis in a virtual spring and damper without a law, linear and exact.
     """
+    @staticmethod
+    def covers(device: Device) -> bool:
+        """
+        Whether a device is linear deep in a wall, friction and counts apart.
+        """
     def __init__(self, setup: Setup) -> None: ...
     def eigenvalues(
         self,

@@ -5,7 +5,8 @@
 #include <cmath>
 #include <string_view>
 
-#include "ebac/control/beta.hpp"
+#include "ebac/control/contact_watch.hpp"
+#include "ebac/control/ebac_params.hpp"
 #include "ebac/control/energy_ledger.hpp"
 #include "ebac/control/force_feedback.hpp"
 #include "ebac/control/injection.hpp"
@@ -36,85 +37,8 @@ class Ebac {
       "eq. (8) to (10) and (2), completed: recovery, damping, guard";
   static constexpr bool kPassive = false;  // guarded; what that assumes is in docs/theory.md
 
-  struct Params {
-    double damping = 2.0;       // N s/m
-    double mass = 0.25;         // kg
-    double current_lag = 3e-4;  // s
-    double count = 3.07e-5;     // m
-    double peak_force = 42.4;   // N
-    double growth = 1.2;
-    double decay = 0.8;
-    double kp = 0.1;
-    double kd = 0;               // s
-    double filter = 5e-3;        // s
-    double heaviest_hand = 1.5;  // kg
-    double pull = 20;            // N
-    double reserve = 0.010;      // J
-    bool continuity = true;
-    bool recovery = true;
-    bool injection = true;
-    bool guard = true;
-
-    static constexpr Params design(const DeviceFacts& facts, Timing) {
-      return {.damping = facts.damping,
-              .mass = facts.mass,
-              .current_lag = facts.current_lag,
-              .count = facts.count,
-              .peak_force = facts.peak_force};
-    }
-    static constexpr auto fields() {
-      using F = Field<Params>;
-      return std::array{
-          F{"damping", &Params::damping, "N s/m", "lower bound of the device's physical damping, b",
-            0.01, 500},
-          F{"mass", &Params::mass, "kg",
-            "device mass at the handle, M_h; an under-estimate is safe", 1e-3, 100},
-          F{"current_lag", &Params::current_lag, "s", "time constant of the drive's current loop",
-            0, 0.1},
-          F{"count", &Params::count, "m", "one encoder count at the handle", 0, 0.01},
-          F{"peak_force", &Params::peak_force, "N", "largest command", 1e-3, 1e4},
-          F{"growth", &Params::growth, "1", "c1 of eq. (10)", 1, 1.2},
-          F{"decay", &Params::decay, "1", "c2 of eq. (10)", 0.8, 1},
-          F{"kp", &Params::kp, "1", "K_p of eq. (2); it divides the device's damping by 1 + K_p", 0,
-            0.5},
-          F{"kd", &Params::kd, "s", "K_d of eq. (2)", 0, 0.01},
-          F{"filter", &Params::filter, "s", "low-pass on the derivative of the force error", 0, 1},
-          F{"heaviest_hand", &Params::heaviest_hand, "kg",
-            "heaviest hand the recovery is paced for", 0, 10},
-          F{"pull", &Params::pull, "N", "largest pull of a hand the guard counts with", 0, 1e3},
-          F{"reserve", &Params::reserve, "J", "energy lent at the start, e(0) of eq. (3)", 0, 1},
-          F{"continuity", &Params::continuity, "1", "ratio rows of eq. (10)", 0, 1},
-          F{"recovery", &Params::recovery, "1", "relaxation towards F_e at dx = 0", 0, 1},
-          F{"injection", &Params::injection, "1", "virtual damping while in contact", 0, 1},
-          F{"guard", &Params::guard, "1", "hold the command to what the ledger covers", 0, 1},
-      };
-    }
-  };
-
-  struct State : BetaTrace {
-    double f_d = 0;       // N
-    double injected = 0;  // N
-    double energy = 0;    // J
-    double slope = 0;     // N/m
-    double admitted = 1;
-    bool clamped = false;
-
-    static constexpr auto fields() {
-      using F = Field<State>;
-      return std::array{
-          beta_field<State>(),
-          beta_min_field<State>(),
-          beta_max_field<State>(),
-          F{"f_d", &State::f_d, "N", "F_d of eq. (8), before damping and force loop"},
-          F{"injected", &State::injected, "N", "force of the virtual damper"},
-          F{"energy", &State::energy, "J", "ledger: what the virtual side may give back"},
-          F{"slope", &State::slope, "N/m", "stiffness of the environment as seen"},
-          F{"admitted", &State::admitted, "1", "share of the command the guard let through"},
-          F{"clamped", &State::clamped, "1",
-            "1 where the energy bound or the guard held the force"},
-      };
-    }
-  };
+  using Params = EbacParams;
+  using State = EbacState;
 
   explicit Ebac(const Params& params, const Timing& timing = {})
       : params_(checked(params, "EBAC")),
@@ -124,6 +48,7 @@ class Ebac {
         loop_(params.kp, params.kd, params.filter),
         ledger_(params.damping, params.count, params.current_lag, params.reserve),
         velocity_(params.count, show_.velocity_lag),
+        contact_(params.count, show_.stiffness),
         guard_(params.damping, params.mass, params.count, params.pull, timing.longest()),
         pending_(timing.delay) {
     reset();
@@ -134,7 +59,9 @@ class Ebac {
     if (port.dt != dt_) set_tick(port.dt);
     ledger_.take(port.f_applied, port.dx);  // 1
     const double v = velocity_.step(port.x);
-    watch(port);
+    readings_.push(port.x, time_ += port.dt);
+    contact_.watch(port, velocity_.direction());
+    state_.slope = contact_.slope();
     state_.clamped = false;
     state_.admitted = 1;
     if (port.f_env == 0) {
@@ -158,33 +85,21 @@ class Ebac {
     readings_.clear();
     state_ = {};
     state_.energy = params_.reserve;
-    last_env_ = clock_ = time_ = 0;
-    dt_ = 0;
-    pace_ = 1;
-    heading_ = 0;
-    contact_slope_ = show_.stiffness;
-    ratio_ = 0;
+    contact_ = ContactWatch(params_.count, show_.stiffness);
+    time_ = dt_ = ratio_ = 0;
   }
 
   const State& state() const EBAC_RT { return state_; }
   const Params& params() const EBAC_RT { return params_; }
   const Timing& timing() const EBAC_RT { return timing_; }
 
-  double bandwidth() const EBAC_RT { return show_.bandwidth; }         // rad/s
-  double moving_stiffness() const EBAC_RT { return show_.stiffness; }  // N/m
-  double virtual_damping() const EBAC_RT { return show_.damping; }     // N s/m
-
  private:
   // Chosen on a grid of 60 hands and 36 cells of delay, damping and stiffness; `ebac study` runs it.
   static constexpr double kPace = 2.2;  // recovery against what B_v damps, for the heaviest hand
   static constexpr double kLeastExcess = 0.25;  // of K/c_h - 1: recovery of a wall as soft as c_h
   static constexpr double kFloor = 0.5;         // of c_h: slope that continuity always allows
-  static constexpr double kForget = 0.02;       // per moving tick, of a slope steeper than the last
-  static constexpr double kImpact = 0.5;        // s after contact in which reversals are no swing
-  static constexpr double kSlower = 0.9;        // pace of the recovery, per reversal after that
-  static constexpr double kSlowest = 0.3;
-  static constexpr double kYield = 0.01;  // s, F_d follows a command the guard holds back
-  static constexpr int kWindow = 16;      // samples, velocity the guard counts with
+  static constexpr double kYield = 0.01;        // s, F_d follows a command the guard holds back
+  static constexpr int kWindow = 16;            // samples, velocity the guard counts with
 
   /// What follows from the time since the last tick alone.
   void set_tick(double dt) EBAC_RT {
@@ -197,31 +112,6 @@ class Ebac {
     velocity_.start(port.x);
     readings_.push(port.x, 0);
     return 0;
-  }
-
-  /// The environment's slope, learnt while it is touched, and whether the contact swings.
-  void watch(const Port& port) EBAC_RT {
-    time_ += port.dt;
-    readings_.push(port.x, time_);
-    if (port.f_env == 0) {
-      state_.slope = clock_ = 0;
-      pace_ = 1;
-    } else {
-      clock_ += port.dt;
-      if (std::abs(port.dx) > params_.count / 2) {  // less, on a slant, is mostly rounding
-        const double seen = std::abs((port.f_env - last_env_) / port.dx);
-        state_.slope = seen > state_.slope ? seen : state_.slope + kForget * (seen - state_.slope);
-        contact_slope_ = std::min(show_.stiffness, state_.slope);
-      }
-    }
-    const int direction = velocity_.direction();
-    if (direction != 0) {
-      if (direction == -heading_ && clock_ > kImpact) {
-        pace_ = std::max(kSlowest, kSlower * pace_);
-      }
-      heading_ = direction;
-    }
-    last_env_ = port.f_env;
   }
 
   void release() EBAC_RT {
@@ -251,7 +141,7 @@ class Ebac {
 
   void recover(const Port& port) EBAC_RT {
     const double excess = std::max(state_.slope / show_.stiffness - 1, kLeastExcess);
-    const double time = recovery_time_ / pace_ * excess;
+    const double time = recovery_time_ / contact_.pace() * excess;
     state_.f_d += (port.f_env - state_.f_d) * (port.dt / (time + port.dt));
     state_.tell(0, 0, 0, 0);
   }
@@ -291,7 +181,7 @@ class Ebac {
       state_.injected = 0;
     }
     pending_.push(command);
-    ledger_.leak(command, contact_slope_);
+    ledger_.leak(command, contact_.stored_at());
     state_.energy = ledger_.energy();
   }
 
@@ -302,18 +192,14 @@ class Ebac {
   ForceFeedback loop_;
   EnergyLedger ledger_;
   PlayVelocity velocity_;
+  ContactWatch contact_;
   MotionGuard guard_;
   Pending pending_;
   Readings readings_{};
   State state_{};
-  double last_env_ = 0;       // N
-  double contact_slope_ = 1;  // N/m, of the last contact, at most c_h
-  double dt_ = 0;             // s, what set_tick was told
-  double clock_ = 0;          // s in contact
-  double time_ = 0;           // s
-  double pace_ = 1;           // of the recovery; falls while the contact swings
-  double ratio_ = 0;          // N/m, beta(t-1)
-  int heading_ = 0;           // direction of the last motion
+  double dt_ = 0;     // s, what set_tick was told
+  double time_ = 0;   // s
+  double ratio_ = 0;  // N/m, beta(t-1)
 };
 
 static_assert(Controller<Ebac>);

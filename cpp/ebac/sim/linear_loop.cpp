@@ -14,10 +14,7 @@ namespace {
 enum Index { kX, kV, kMotor, kLastX, kEstimate, kCommands };
 
 void require_linear(const DeviceModel& device) {
-  const bool exact =
-      std::holds_alternative<Linear>(device.kinematics) && !device.mechanics.compliant();
-  const bool estimated = !std::holds_alternative<AdaptiveWindow>(device.velocity);
-  if (!exact || !estimated || device.compensation.friction > 0 || device.compensation.inertia > 0) {
+  if (!LinearLoop::covers(device)) {
     throw std::invalid_argument(
         "the linear loop needs straight axes without cable compliance and backlash, "
         "BackwardDifference or LowPass as velocity estimate, and no compensation of friction or "
@@ -32,6 +29,13 @@ double smoothing(const Velocity& estimator, double tick) {
 }
 
 }  // namespace
+
+bool LinearLoop::covers(const DeviceModel& device) {
+  const bool straight = std::holds_alternative<Linear>(device.kinematics);
+  const bool estimated = !std::holds_alternative<AdaptiveWindow>(device.velocity);
+  const bool helped = device.compensation.friction > 0 || device.compensation.inertia > 0;
+  return straight && !device.mechanics.compliant() && estimated && !helped;
+}
 
 LinearLoop::LinearLoop(const Setup& setup)
     : size_(kCommands + setup.timing.delay),

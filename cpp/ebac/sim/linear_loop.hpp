@@ -20,6 +20,9 @@ class LinearLoop {
   /// device that is not linear even so.
   explicit LinearLoop(const Setup& setup);
 
+  /// Whether a device is linear deep in a wall: friction and counts apart, which the loop leaves out.
+  static bool covers(const DeviceModel& device);
+
   /// The state of the next tick is this times the state; stiffness [N/m], damping [N s/m] of the
   /// wall.
   Eigen::MatrixXd matrix(double stiffness, double damping) const;

@@ -1,0 +1,164 @@
+#include "ebac/model/device.hpp"
+
+#include <pybind11/numpy.h>
+#include <pybind11/stl.h>
+
+#include "bind.hpp"
+#include "fields.hpp"
+
+namespace ebac::python {
+
+namespace {
+
+void bind_motor(py::module_& m) {
+  bind_fields<Motor>(m, "Motor", "A brushed DC motor; defaults: the paper's Maxon RE 30.")
+      .def("current", &Motor::current, py::arg("torque"),
+           "Current [A] for a torque [N m], eq. (1) in SI.")
+      .def("torque", &Motor::torque, py::arg("current"), "Torque [N m] of a current [A].");
+  bind_fields<Drive>(m, "Drive", "The drive in front of the motor.")
+      .def("peak_current", &Drive::peak_current, py::arg("motor"), "Largest current it sets [A].");
+  m.def("copley_current", &copley_current, py::arg("torque_permille"),
+        py::arg("continuous_torque_1e5"), py::arg("torque_constant_1e5"),
+        "Eq. (1) in Copley's units: I = 0.001 T Tc / Ts [A], T in thousandths of the continuous "
+        "torque,\nTc in 1e-5 N m, Ts in 1e-5 N m/A.");
+}
+
+void bind_encoder(py::module_& m) {
+  bind_fields<Encoder>(m, "Encoder",
+                       "An incremental encoder on the motor shaft, behind a counter that wraps.")
+      .def_property_readonly("count", &Encoder::count, "One count [rad] of the motor.")
+      .def("read", &Encoder::read, py::arg("angle"),
+           "What the counter shows at a motor angle [rad].")
+      .def("unwrap", &Encoder::unwrap, py::arg("raw"), py::arg("last"),
+           "The unwrapped count nearest to `last` that the counter shows as `raw`.");
+  auto capstan =
+      bind_fields<Capstan>(m, "Capstan", "A cable from the motor's drum to a sector on the lever.");
+  capstan.def_property_readonly("ratio", &Capstan::ratio, "Motor angle over joint angle.");
+}
+
+py::array_t<double> estimate(const Velocity& estimator, const py::array_t<double>& x, double dt,
+                             double count) {
+  py::array_t<double> v(x.size());
+  const auto in = x.unchecked<1>();
+  auto out = v.mutable_unchecked<1>();
+  VelocityState state;
+  for (py::ssize_t i = 0; i < x.size(); ++i) {
+    out(i) =
+        state.update(estimator, in(i), i > 0 ? in(i) - in(i - 1) : 0.0, i > 0 ? dt : 0.0, count);
+  }
+  return v;
+}
+
+void bind_velocity(py::module_& m) {
+  bind_fields<BackwardDifference>(m, "BackwardDifference",
+                                  "v = dx / dt: no lag, one count of noise.");
+  bind_fields<LowPass>(m, "LowPass", "Backward difference through a first-order low-pass.");
+  bind_fields<AdaptiveWindow>(
+      m, "AdaptiveWindow", "First-order adaptive windowing (Janabi-Sharifi, Hayward, Chen 2000).");
+  m.def("estimate_velocity", &estimate, py::arg("estimator"), py::arg("x"), py::arg("dt"),
+        py::arg("count"),
+        "Velocity [m/s] from positions x [m], shape (n,), sampled every dt [s] with an encoder "
+        "step of count [m].");
+}
+
+void bind_parts(py::module_& m) {
+  bind_fields<Mechanics>(m, "Mechanics",
+                         "What moves, told at the handle; every axis is built alike.");
+  bind_fields<ForceSensor>(m, "ForceSensor", "A force/torque sensor between handle and hand.");
+  bind_fields<Compensation>(
+      m, "Compensation",
+      "tau_static of eq. (2): gravity, friction and inertia given back to the hand.")
+      .def("force", &Compensation::force, py::arg("v"), py::arg("a"),
+           "Force [N] that helps a motion of v [m/s] and a [m/s^2]; positive resists +x.")
+      .def("damping_left", &Compensation::damping_left, py::arg("damping"), py::arg("coulomb"),
+           "Lower bound of the viscous damping left [N s/m], given real damping [N s/m] and "
+           "friction [N].");
+}
+
+template <class Part>
+void take(py::dict& given, const char* name, Part& part) {
+  if (!given.contains(name)) return;
+  const py::object value = given.attr("pop")(name);
+  try {
+    part = value.cast<Part>();
+  } catch (const py::cast_error&) {
+    throw py::type_error("Device." + std::string(name) + " = " +
+                         py::cast<std::string>(py::repr(value)) + ": not such a part");
+  }
+}
+
+DeviceModel make_device(py::dict given) {
+  DeviceModel device;
+  take(given, "kinematics", device.kinematics);
+  take(given, "motor", device.motor);
+  take(given, "drive", device.drive);
+  take(given, "encoder", device.encoder);
+  take(given, "capstan", device.capstan);
+  take(given, "mechanics", device.mechanics);
+  take(given, "sensor", device.sensor);
+  take(given, "velocity", device.velocity);
+  take(given, "compensation", device.compensation);
+  for (const auto& [key, value] : given) {
+    refuse_keyword("Device", py::cast<std::string>(key),
+                   {"kinematics", "motor", "drive", "encoder", "capstan", "mechanics", "sensor",
+                    "velocity", "compensation"});
+  }
+  check_device(device);
+  return device;
+}
+
+Values device_dict(const DeviceModel& d) {
+  using namespace py::literals;
+  return py::dict("kinematics"_a = d.kinematics, "motor"_a = d.motor, "drive"_a = d.drive,
+                  "encoder"_a = d.encoder, "capstan"_a = d.capstan, "mechanics"_a = d.mechanics,
+                  "sensor"_a = d.sensor, "velocity"_a = d.velocity,
+                  "compensation"_a = d.compensation);
+}
+
+void bind_device(py::module_& m) {
+  py::class_<DeviceModel> cls(
+      m, "Device",
+      "One haptic device, part by part. The default is the reference device: one straight axis of "
+      "0.25 kg and\n2 N s/m, built from the paper's motor, encoder and capstan.");
+  def_init(
+      cls, [](const py::kwargs& given) { return make_device(py::dict(given)); },
+      "__init__(self, *, kinematics: Linear | Gimbal = ..., motor: Motor = ..., drive: Drive "
+      "= ..., encoder: Encoder = ..., capstan: Capstan = ..., mechanics: Mechanics = ..., "
+      "sensor: ForceSensor = ..., velocity: BackwardDifference | LowPass | AdaptiveWindow = "
+      "..., compensation: Compensation = ...) -> None");
+  cls.def_readonly("kinematics", &DeviceModel::kinematics, "Joints to handle.")
+      .def_readonly("motor", &DeviceModel::motor, "Motor of each axis.")
+      .def_readonly("drive", &DeviceModel::drive, "Drive of each axis.")
+      .def_readonly("encoder", &DeviceModel::encoder, "Encoder of each axis.")
+      .def_readonly("capstan", &DeviceModel::capstan, "Transmission of each axis.")
+      .def_readonly("mechanics", &DeviceModel::mechanics, "Masses, damping, friction.")
+      .def_readonly("sensor", &DeviceModel::sensor, "Force sensor.")
+      .def_readonly("velocity", &DeviceModel::velocity, "Velocity estimator.")
+      .def_readonly("compensation", &DeviceModel::compensation, "Static compensation of eq. (2).")
+      .def_property_readonly("axes", &DeviceModel::axes, "Number of axes.")
+      .def_property_readonly("radius", &DeviceModel::radius, "Lever radius [m].")
+      .def_property_readonly("count", &DeviceModel::count, "One encoder count at the handle [m].")
+      .def_property_readonly("mass", &DeviceModel::mass, "Mass at the handle, M_h [kg].")
+      .def_property_readonly("reflected_mass", &DeviceModel::reflected_mass,
+                             "Rotor's part of the mass [kg].")
+      .def_property_readonly("continuous_force", &DeviceModel::continuous_force,
+                             "Force at rated torque [N].")
+      .def_property_readonly("peak_force", &DeviceModel::peak_force, "Largest force [N].")
+      .def_property_readonly("facts", &DeviceModel::facts, "What laws are designed from.")
+      .def("force", &DeviceModel::force, py::arg("current"), "Handle force [N] of a current [A].")
+      .def("as_dict", &device_dict, "Parts by name.");
+  add_value_methods(cls);
+}
+
+}  // namespace
+
+/// The parts first: a device is made of them.
+void bind_devices(py::module_& m) {
+  bind_motor(m);
+  bind_encoder(m);
+  bind_velocity(m);
+  bind_parts(m);
+  bind_device(m);
+}
+
+}  // namespace ebac::python

@@ -1,0 +1,94 @@
+#pragma once
+
+#include <array>
+
+#include "ebac/control/beta.hpp"
+#include "ebac/core/device_facts.hpp"
+#include "ebac/core/timing.hpp"
+
+namespace ebac {
+
+/// Parameters of `Ebac`: what a user can know of a device, and what the law is made of.
+struct EbacParams {
+  double damping = 2.0;       // N s/m
+  double mass = 0.25;         // kg
+  double current_lag = 3e-4;  // s
+  double count = 3.07e-5;     // m
+  double peak_force = 42.4;   // N
+  double growth = 1.2;
+  double decay = 0.8;
+  double kp = 0.1;
+  double kd = 0;               // s
+  double filter = 5e-3;        // s
+  double heaviest_hand = 1.5;  // kg
+  double pull = 20;            // N
+  double reserve = 0.010;      // J
+  bool continuity = true;
+  bool recovery = true;
+  bool injection = true;
+  bool guard = true;
+
+  static constexpr EbacParams design(const DeviceFacts& facts, Timing) {
+    return {.damping = facts.damping,
+            .mass = facts.mass,
+            .current_lag = facts.current_lag,
+            .count = facts.count,
+            .peak_force = facts.peak_force};
+  }
+  static constexpr auto fields() {
+    using F = Field<EbacParams>;
+    return std::array{
+        F{"damping", &EbacParams::damping, "N s/m",
+          "lower bound of the device's physical damping, b", 0.01, 500},
+        F{"mass", &EbacParams::mass, "kg",
+          "device mass at the handle, M_h; an under-estimate is safe", 1e-3, 100},
+        F{"current_lag", &EbacParams::current_lag, "s", "time constant of the drive's current loop",
+          0, 0.1},
+        F{"count", &EbacParams::count, "m", "one encoder count at the handle", 0, 0.01},
+        F{"peak_force", &EbacParams::peak_force, "N", "largest command", 1e-3, 1e4},
+        F{"growth", &EbacParams::growth, "1", "c1 of eq. (10)", 1, 1.2},
+        F{"decay", &EbacParams::decay, "1", "c2 of eq. (10)", 0.8, 1},
+        F{"kp", &EbacParams::kp, "1", "K_p of eq. (2); it divides the device's damping by 1 + K_p",
+          0, 0.5},
+        F{"kd", &EbacParams::kd, "s", "K_d of eq. (2)", 0, 0.01},
+        F{"filter", &EbacParams::filter, "s", "low-pass on the derivative of the force error", 0,
+          1},
+        F{"heaviest_hand", &EbacParams::heaviest_hand, "kg",
+          "heaviest hand the recovery is paced for", 0, 10},
+        F{"pull", &EbacParams::pull, "N", "largest pull of a hand the guard counts with", 0, 1e3},
+        F{"reserve", &EbacParams::reserve, "J", "energy lent at the start, e(0) of eq. (3)", 0, 1},
+        F{"continuity", &EbacParams::continuity, "1", "ratio rows of eq. (10)", 0, 1},
+        F{"recovery", &EbacParams::recovery, "1", "relaxation towards F_e at dx = 0", 0, 1},
+        F{"injection", &EbacParams::injection, "1", "virtual damping while in contact", 0, 1},
+        F{"guard", &EbacParams::guard, "1", "hold the command to what the ledger covers", 0, 1},
+    };
+  }
+};
+
+/// What `Ebac` remembers and a trace records.
+struct EbacState : BetaTrace {
+  double f_d = 0;       // N
+  double injected = 0;  // N
+  double energy = 0;    // J
+  double slope = 0;     // N/m
+  double admitted = 1;
+  bool clamped = false;
+
+  static constexpr auto fields() {
+    using F = Field<EbacState>;
+    return std::array{
+        beta_field<EbacState>(),
+        beta_min_field<EbacState>(),
+        beta_max_field<EbacState>(),
+        F{"f_d", &EbacState::f_d, "N", "F_d of eq. (8), before damping and force loop"},
+        F{"injected", &EbacState::injected, "N", "force of the virtual damper"},
+        F{"energy", &EbacState::energy, "J", "ledger: what the virtual side may give back"},
+        F{"slope", &EbacState::slope, "N/m", "stiffness of the environment as seen"},
+        F{"admitted", &EbacState::admitted, "1", "share of the command the guard let through"},
+        F{"clamped", &EbacState::clamped, "1",
+          "1 where the energy bound or the guard held the force"},
+    };
+  }
+};
+
+}  // namespace ebac
