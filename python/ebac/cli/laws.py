@@ -80,9 +80,8 @@ def _show_all(rows: list[dict[str, Any]]) -> None:
         names = ", ".join(parameter["name"] for parameter in row["parameters"])
         grid.add_row(row["law"], row["what"], "yes" if row["passive"] else "no", names)
     output.console().print(grid)
-    output.say(
-        "passive: proven for every hand and wall, with the damping, delay, lag, count and jitter the law is told. `ebac laws NAME` shows one in detail."
-    )
+    output.say("passive: proven for every hand and wall, given true damping, delay, lag and count.")
+    output.say("`ebac laws NAME` shows one in detail.")
 
 
 def _show_one(row: dict[str, Any]) -> None:

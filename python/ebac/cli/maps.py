@@ -55,20 +55,8 @@ def map_(
     ] = None,
     scenario: options.ScenarioFile = None,
     threads: options.Threads = None,
-    out: Annotated[
-        Path | None,
-        typer.Option(
-            help="Folder for figures and numbers; with --json only when given.",
-            show_default=str(DEFAULT_OUT),
-            rich_help_panel=_RUN,
-        ),
-    ] = None,
-    resume: Annotated[
-        bool,
-        typer.Option(
-            "--resume", help="Continue a map that was stopped in --out.", rich_help_panel=_RUN
-        ),
-    ] = False,
+    out: Annotated[Path | None, options.out_folder("figures and numbers", DEFAULT_OUT)] = None,
+    resume: Annotated[bool, options.resume("map")] = False,
     as_json: output.AsJson = False,
 ) -> None:
     """Map where a law is stable, over two quantities of wall, hand, device or time. A simulation.

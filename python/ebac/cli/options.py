@@ -95,3 +95,15 @@ Threads: TypeAlias = Annotated[
         help="Threads.", show_default="one per core", min=1, max=1024, rich_help_panel=_RUN
     ),
 ]
+
+
+def out_folder(what: str, default: Path) -> Any:
+    """Return the option for the folder a command writes `what` to."""
+    text = f"Folder for {what}; with --json only when given."
+    return typer.Option("--out", help=text, show_default=str(default), rich_help_panel=_RUN)
+
+
+def resume(what: str) -> Any:
+    """Return the option that continues `what` where it was stopped."""
+    text = f"Continue a {what} that was stopped in --out."
+    return typer.Option("--resume", help=text, rich_help_panel=_RUN)

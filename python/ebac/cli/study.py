@@ -65,26 +65,11 @@ def study(
         ),
     ] = None,
     scenario: options.ScenarioFile = None,
-    threads: Annotated[
-        int | None,
-        typer.Option(
-            help="Threads.", show_default="one per core", min=1, max=1024, rich_help_panel=_RUN
-        ),
-    ] = None,
+    threads: options.Threads = None,
     out: Annotated[
-        Path | None,
-        typer.Option(
-            help="Folder for tables, figures and traces of failures; with --json only when given.",
-            show_default=str(DEFAULT_OUT),
-            rich_help_panel=_RUN,
-        ),
+        Path | None, options.out_folder("tables, figures and traces of failures", DEFAULT_OUT)
     ] = None,
-    resume: Annotated[
-        bool,
-        typer.Option(
-            "--resume", help="Continue a study that was stopped in --out.", rich_help_panel=_RUN
-        ),
-    ] = False,
+    resume: Annotated[bool, options.resume("study")] = False,
     traces: Annotated[
         int,
         typer.Option(

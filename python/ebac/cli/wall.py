@@ -40,11 +40,7 @@ def wall(
     seed: options.Seed = None,
     scenario: options.ScenarioFile = None,
     out: Annotated[
-        Path | None,
-        typer.Option(
-            help="Folder for table, figure, logs and scenario; with --json only when given.",
-            show_default=str(DEFAULT_OUT),
-        ),
+        Path | None, options.out_folder("table, figure, logs and scenario", DEFAULT_OUT)
     ] = None,
     no_files: Annotated[bool, typer.Option("--no-files", help="Write no files.")] = False,
     as_json: output.AsJson = False,

@@ -61,14 +61,7 @@ def zwidth(
     ] = None,
     scenario: options.ScenarioFile = None,
     threads: options.Threads = None,
-    out: Annotated[
-        Path | None,
-        typer.Option(
-            help="Folder for figure and tables; with --json only when given.",
-            show_default=str(DEFAULT_OUT),
-            rich_help_panel=_RUN,
-        ),
-    ] = None,
+    out: Annotated[Path | None, options.out_folder("figure and tables", DEFAULT_OUT)] = None,
     as_json: output.AsJson = False,
 ) -> None:
     """Find the stiffest wall each law can render, over wall damping and delay (Z-width). A simulation.
