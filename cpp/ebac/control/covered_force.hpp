@@ -26,7 +26,7 @@ class CoveredForce {
 
   void take(double f_applied, double dx, double dt) EBAC_RT {
     if (dt != dt_) ledger_.set_tick(dt_ = dt);
-    ledger_.take(f_applied, dx);
+    ledger_.take(f_applied, dx, dx);
   }
 
   double largest() const EBAC_RT {

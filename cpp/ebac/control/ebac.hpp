@@ -7,12 +7,12 @@
 
 #include "ebac/control/contact_watch.hpp"
 #include "ebac/control/ebac_params.hpp"
+#include "ebac/control/edge_position.hpp"
 #include "ebac/control/energy_ledger.hpp"
 #include "ebac/control/force_feedback.hpp"
 #include "ebac/control/injection.hpp"
 #include "ebac/control/motion_guard.hpp"
 #include "ebac/control/pending.hpp"
-#include "ebac/control/play_velocity.hpp"
 #include "ebac/core/concepts.hpp"
 #include "ebac/model/velocity.hpp"
 
@@ -47,7 +47,8 @@ class Ebac {
         recovery_time_(kPace * (params.heaviest_hand + params.mass) / show_.damping),
         loop_(params.kp, params.kd, params.filter),
         ledger_(params.damping, params.count, params.current_lag, params.reserve),
-        velocity_(params.count, show_.velocity_lag),
+        edge_(params.count),
+        damper_(show_),
         contact_(params.count, show_.stiffness),
         guard_(params.damping, params.mass, params.count, params.pull, timing.longest()),
         pending_(timing.delay) {
@@ -57,10 +58,10 @@ class Ebac {
   double step(const Port& port) EBAC_RT {
     if (!(port.dt > 0)) return begin(port);
     if (port.dt != dt_) set_tick(port.dt);
-    ledger_.take(port.f_applied, port.dx);  // 1
-    const double v = velocity_.step(port.x);
+    ledger_.take(port.f_applied, edge_.step(port.x), port.dx);  // 1
+    const double damping = damper_.step(port.dx);
     readings_.push(port.x, time_ += port.dt);
-    contact_.watch(port, velocity_.direction());
+    contact_.watch(port, edge_.direction());
     state_.slope = contact_.slope();
     state_.clamped = false;
     state_.admitted = 1;
@@ -72,7 +73,7 @@ class Ebac {
       recover(port);  // 3
     }
     state_.f_d = std::clamp(state_.f_d, -params_.peak_force, params_.peak_force);
-    const double wanted = port.f_env == 0 ? 0.0 : complete(port, v);        // 5, 6
+    const double wanted = port.f_env == 0 ? 0.0 : complete(port, damping);  // 5, 6
     const double command = params_.guard ? guarded(wanted, port) : wanted;  // 7
     finish(command, port);
     return command;
@@ -80,6 +81,7 @@ class Ebac {
 
   void reset() EBAC_RT {
     loop_.reset();
+    damper_.reset();
     ledger_ = EnergyLedger(params_.damping, params_.count, params_.current_lag, params_.reserve);
     pending_ = Pending(timing_.delay);
     readings_.clear();
@@ -105,11 +107,11 @@ class Ebac {
   void set_tick(double dt) EBAC_RT {
     dt_ = dt;
     ledger_.set_tick(dt);
-    velocity_.set_tick(dt);
+    damper_.set_tick(dt);
   }
 
   double begin(const Port& port) EBAC_RT {
-    velocity_.start(port.x);
+    edge_.start(port.x);
     readings_.push(port.x, 0);
     return 0;
   }
@@ -142,15 +144,20 @@ class Ebac {
   void recover(const Port& port) EBAC_RT {
     const double excess = std::max(state_.slope / show_.stiffness - 1, kLeastExcess);
     const double time = recovery_time_ / contact_.pace() * excess;
-    state_.f_d += (port.f_env - state_.f_d) * (port.dt / (time + port.dt));
+    const double open = 0.5 * state_.slope * params_.count;  // what a reading leaves open
+    const double off = port.f_env - state_.f_d;
+    const double sure = std::max(off - open, 0.0) + std::min(off + open, 0.0);
+    const double change = sure * (port.dt / (time + port.dt));
+    ledger_.charge_unseen(change);
+    state_.f_d += change;
     state_.tell(0, 0, 0, 0);
   }
 
-  double complete(const Port& port, double v) EBAC_RT {
+  double complete(const Port& port, double damping) EBAC_RT {
     double desired = state_.f_d;
     state_.injected = 0;
     if (params_.injection) {
-      desired += show_.damping * v;
+      desired += damping;
       desired = port.f_env > 0 ? std::max(desired, 0.0) : std::min(desired, 0.0);  // never sticks
       state_.injected = desired - state_.f_d;
     }
@@ -161,9 +168,9 @@ class Ebac {
   double guarded(double wanted, const Port& port) EBAC_RT {
     const double energy = ledger_.energy();
     const double step = std::abs(port.dx) + params_.count;  // no window slopes by more than this
-    if (guard_.surely_admits(wanted, pending_, energy, step)) return wanted;
+    if (guard_.surely_admits(wanted, pending_, ledger_.behind(), energy, step)) return wanted;
     const double v = adaptive_slope(readings_, kWindow, params_.count);
-    const double command = guard_.admit(wanted, pending_, energy, v);
+    const double command = guard_.admit(wanted, pending_, ledger_.behind(), energy, v);
     if (command != wanted) {
       state_.clamped = true;
       state_.admitted = command / wanted;
@@ -191,7 +198,8 @@ class Ebac {
   double recovery_time_;  // s, T_r
   ForceFeedback loop_;
   EnergyLedger ledger_;
-  PlayVelocity velocity_;
+  EdgePosition edge_;
+  Damper damper_;
   ContactWatch contact_;
   MotionGuard guard_;
   Pending pending_;

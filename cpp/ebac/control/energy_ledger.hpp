@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ebac/control/behind_lag.hpp"
 #include "ebac/core/realtime.hpp"
 
 namespace ebac {
 
-/// What the virtual side has taken in and may give back: E += F_bar dx + B max(|dx| - count, 0)^2,
-/// with F_bar the mean force behind the current loop and B = b/T. Counted before anything is
-/// decided.
+/// What the virtual side has taken in and may give back: E += F_bar s + B max(|dx| - count, 0)^2,
+/// with F_bar the mean force behind the current loop, s the displacement as well as it is known, dx
+/// as it was read, and B = b/T. Counted before anything is decided.
 ///
 /// An account that only grows would pay for a disaster next week, so it leaks, slowly, towards what
 /// the last contact can have stored.
@@ -20,30 +21,32 @@ class EnergyLedger {
         count_(count),
         lag_(current_lag),
         reserve_(reserve),
-        energy_(reserve) {}
+        energy_(reserve),
+        behind_(current_lag) {}
 
   double energy() const EBAC_RT { return energy_; }  // J
+  const BehindLag& behind() const EBAC_RT { return behind_; }
 
   /// What the force now behind the current loop can still give out as it decays, lag f^2 / (4 b),
   /// as the square of a force held for one interval [N^2].
-  double tail_squared() const EBAC_RT { return lag_ * force_ * force_ / dt_; }
+  double tail_squared() const EBAC_RT { return lag_ * behind_.force() * behind_.force() / dt_; }
 
   void set_tick(double dt) EBAC_RT {
     dt_ = dt;
     b_ = damping_ / dt;
-    decay_ = lag_ > 0 ? std::exp(-dt / lag_) : 0.0;
-    mean_share_ = lag_ / dt * (1 - decay_);
+    behind_.set_tick(dt);
     leak_share_ = dt / (kLeakTime + dt);
     leak_keep_ = std::exp(-dt / kLeakTime);
   }
 
-  void take(double f_applied, double dx) EBAC_RT {
-    const double transient = force_ - f_applied;
-    force_ = f_applied + transient * decay_;
-    const double mean = f_applied + transient * mean_share_;
+  void take(double f_applied, double moved, double dx) EBAC_RT {
     const double sure = std::max(std::abs(dx) - count_, 0.0);
-    energy_ += mean * dx + b_ * sure * sure;
+    energy_ += behind_.hold(f_applied) * moved + b_ * sure * sure;
   }
+
+  /// Charges a force that changes while no motion is seen: within its count the device may have
+  /// moved, half a count on average, when it changed.
+  void charge_unseen(double change) EBAC_RT { energy_ -= 0.5 * count_ * std::abs(change); }
 
   /// Leaks towards reserve + F_peak^2 / stiffness, with F_peak the largest command of about a
   /// second.
@@ -61,12 +64,10 @@ class EnergyLedger {
   double lag_;
   double reserve_;
   double energy_;
-  double force_ = 0;  // N, behind the current loop
-  double peak_ = 0;   // N
-  double dt_ = 1;     // s
-  double b_ = 0;      // N/m, B = b/T
-  double decay_ = 0;
-  double mean_share_ = 0;
+  BehindLag behind_;
+  double peak_ = 0;  // N
+  double dt_ = 1;    // s
+  double b_ = 0;     // N/m, B = b/T
   double leak_share_ = 0;
   double leak_keep_ = 1;
 };

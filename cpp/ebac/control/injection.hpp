@@ -30,4 +30,33 @@ struct Injection {
   }
 };
 
+/// The virtual damper of an injection: B_v on the velocity of whole counts, smoothed to about 1 ms.
+///
+/// It acts from the first count on. A dead band of one count makes the force calmer only where it is
+/// noise; a contact then swings by two to three counts for ever.
+class Damper {
+ public:
+  explicit Damper(const Injection& show) EBAC_RT : damping_(show.damping),
+                                                   lag_(show.velocity_lag) {}
+
+  void set_tick(double dt) EBAC_RT {
+    share_ = dt / (lag_ + dt);
+    per_dt_ = 1 / dt;
+  }
+
+  double step(double dx) EBAC_RT {
+    v_ += (dx * per_dt_ - v_) * share_;
+    return damping_ * v_;
+  }
+
+  void reset() EBAC_RT { v_ = 0; }
+
+ private:
+  double damping_;  // N s/m
+  double lag_;      // s
+  double share_ = 1;
+  double per_dt_ = 0;  // 1/s
+  double v_ = 0;       // m/s
+};
+
 }  // namespace ebac

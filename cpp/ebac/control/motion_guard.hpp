@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ebac/control/behind_lag.hpp"
 #include "ebac/control/pending.hpp"
 #include "ebac/core/fields.hpp"
 #include "ebac/core/realtime.hpp"
@@ -16,8 +17,8 @@ namespace ebac {
 /// with every interval, a = (pull + |F|) / M_h. A force F held over it gives out at most
 ///   R(F, u) = max over s of (-F s - B s^2), at least 0,
 /// which is F^2/(4B) where s = -F/(2B) is within reach and its tangent line beyond. A command is
-/// admitted when the ledger covers R of every force under way, of its own, and one count of the
-/// largest.
+/// admitted when the ledger covers R of every force under way, of its own, of what the current loop
+/// still gives out when the commands have gone, and one count of the largest.
 class MotionGuard {
  public:
   MotionGuard(double damping, double mass, double count, double pull, double longest) EBAC_RT
@@ -29,32 +30,38 @@ class MotionGuard {
 
   /// Enough for any velocity with |v| T <= `step`: a cheap test before the exact one needs the
   /// velocity. It takes R <= |F| |s|.
-  bool surely_admits(double force, const Pending& pending, double energy,
+  bool surely_admits(double force, const Pending& pending, const BehindLag& behind, double energy,
                      double step) const EBAC_RT {
     if (force == 0) return true;
-    const double largest = pending.largest_with(force);
-    const double jump = (pull_ + largest) * jump_per_newton_;
-    double reach = step + jump;
-    double need = count_ * largest;
-    for (int j = 0; j < pending.size(); ++j) {
-      need += std::abs(pending[j]) * reach;
-      reach += jump;
-    }
-    return need + std::abs(force) * reach <= energy;
+    const double largest = std::max(pending.largest_with(force), std::abs(behind.force()));
+    const double last = step + (1 + pending.size()) * (pull_ + largest) * jump_per_newton_;
+    // Every interval, and the tails of two forces, at the largest force and the furthest reach.
+    const double intervals = 1 + pending.size() + behind.ticks() * (2 + behind.later());
+    return largest * (intervals * last + count_) <= energy;
   }
 
   /// The largest |F| <= |force| with the sign of `force` that `energy` covers, at velocity `v`.
-  double admit(double force, const Pending& pending, double energy, double v) const EBAC_RT {
-    const double largest = pending.largest_with(0);
+  ///
+  /// R is convex and R(0) = 0: the mean of a force that follows its command with a lag costs no more
+  /// than its two parts.
+  double admit(double force, const Pending& pending, BehindLag behind, double energy,
+               double v) const EBAC_RT {
+    const double largest = std::max(pending.largest_with(0), std::abs(behind.force()));
     const double jump = (pull_ + std::max(std::abs(force), largest)) * jump_per_newton_;
+    const auto loss = [&](double held, int j) EBAC_RT {
+      return Loss(held, v * tick_, (1 + j) * jump, b_).at(std::abs(held));
+    };
     double left = energy;
-    for (int j = 0; j < pending.size(); ++j) {
-      left -= Loss(pending[j], v * tick_, (1 + j) * jump, b_).at(std::abs(pending[j]));
-    }
-    const Loss own(force, v * tick_, (1 + pending.size()) * jump, b_);
-    const double above = own.largest_force(left, count_);  // when it is itself the largest
-    const double most =
-        above >= largest ? above : std::min(largest, own.largest_force(left - count_ * largest, 0));
+    for (int j = 0; j < pending.size(); ++j) left -= loss(behind.hold(pending[j]), j);
+    const int d = pending.size();
+    const double tail = behind.force();  // when the new command begins to act
+    left -= behind.ticks() * (loss(tail, d) + std::abs(tail) * jump * behind.later());
+    const Loss own(force, v * tick_, (1 + d) * jump, b_);
+    const double line = behind.ticks() * jump;  // its own tail acts one jump further
+    const double above = own.largest_force(left, line + count_);  // when it is itself the largest
+    const double most = above >= largest
+                            ? above
+                            : std::min(largest, own.largest_force(left - count_ * largest, line));
     return std::copysign(std::min(std::abs(force), most), force);
   }
 

@@ -6,7 +6,6 @@
 
 #include "ebac/control/force_feedback.hpp"
 #include "ebac/control/injection.hpp"
-#include "ebac/control/play_velocity.hpp"
 #include "ebac/core/concepts.hpp"
 
 namespace ebac {
@@ -69,20 +68,17 @@ class TcaDamped {
       : params_(checked(params, "TCADamped")),
         timing_(checked(timing, "Timing")),
         show_(params.mass, params.count, params.current_lag, timing),
-        velocity_(params.count, show_.velocity_lag),
+        damper_(show_),
         loop_(params.kp, params.kd, params.filter) {}
 
   double step(const Port& port) EBAC_RT {
-    if (!(port.dt > 0)) {
-      velocity_.start(port.x);
-      return 0;
-    }
-    if (port.dt != dt_) velocity_.set_tick(dt_ = port.dt);
-    const double v = velocity_.step(port.x);
+    if (!(port.dt > 0)) return 0;
+    if (port.dt != dt_) damper_.set_tick(dt_ = port.dt);
+    const double damping = damper_.step(port.dx);
     state_.injected = 0;
     double desired = port.f_env;
     if (port.f_env != 0) {
-      desired += show_.damping * v;
+      desired += damping;
       desired = port.f_env > 0 ? std::max(desired, 0.0) : std::min(desired, 0.0);  // never sticks
       state_.injected = desired - port.f_env;
     }
@@ -92,6 +88,7 @@ class TcaDamped {
 
   void reset() EBAC_RT {
     loop_.reset();
+    damper_.reset();
     dt_ = 0;
     state_ = {};
   }
@@ -103,7 +100,7 @@ class TcaDamped {
   Params params_;
   Timing timing_;
   Injection show_;
-  PlayVelocity velocity_;
+  Damper damper_;
   ForceFeedback loop_;
   double dt_ = 0;  // s
   State state_{};

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cmath>
+
+#include "ebac/core/realtime.hpp"
+
+namespace ebac {
+
+/// The force behind a drive's current loop, f' = (u - f) / lag: what acts is not quite what was
+/// commanded, and a little of it acts after the command has gone.
+class BehindLag {
+ public:
+  explicit BehindLag(double lag) EBAC_RT : lag_(lag) {}
+
+  void set_tick(double dt) EBAC_RT {
+    ticks_ = lag_ / dt;
+    decay_ = lag_ > 0 ? std::exp(-dt / lag_) : 0.0;
+    share_ = ticks_ * (1 - decay_);
+  }
+
+  /// Holds `command` for one interval; returns the mean force over it.
+  double hold(double command) EBAC_RT {
+    const double transient = force_ - command;
+    force_ = command + transient * decay_;
+    return command + transient * share_;
+  }
+
+  double force() const EBAC_RT { return force_; }  // N, now
+
+  /// The lag, in ticks: a force whose command has gone acts as long as this in all.
+  double ticks() const EBAC_RT { return ticks_; }
+
+  /// How many ticks later than the next one, on average, it does so.
+  double later() const EBAC_RT { return decay_ / (1 - decay_); }
+
+ private:
+  double lag_;        // s
+  double force_ = 0;  // N
+  double ticks_ = 0;
+  double decay_ = 0;  // of a transient, over one interval
+  double share_ = 0;  // of a transient, in the mean over one interval
+};
+
+}  // namespace ebac
