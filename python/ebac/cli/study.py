@@ -80,7 +80,8 @@ def study(
 ) -> None:
     """Run laws with whole populations of hands under named conditions. A simulation.
 
-    Good is a hand that rests within two encoder counts of the ideal and swings by less than 0.25 mm;
+    Good is a hand that rests within two encoder counts of the ideal, or where friction f_c holds it,
+    f_c/(K0 + K) farther, and swings by less than 0.25 mm;
     in time, one that has settled within 1.5 times what it needs against an ideal wall, plus 0.2 s.
 
     **Examples**
