@@ -6,7 +6,19 @@ from typing import Annotated
 
 import typer
 
-from ebac.cli import bench, conditions, laws, maps, paper, presets, specs, study, wall, zwidth
+from ebac.cli import (
+    ablation,
+    bench,
+    conditions,
+    laws,
+    maps,
+    paper,
+    presets,
+    specs,
+    study,
+    wall,
+    zwidth,
+)
 
 app = typer.Typer(
     name="ebac",
@@ -44,6 +56,7 @@ def main(
 
 app.command("wall")(wall.wall)
 app.command("study")(study.study)
+app.command("ablation")(ablation.ablation)
 app.command("conditions")(conditions.conditions)
 app.command("zwidth")(zwidth.zwidth)
 app.command("map")(maps.map_)

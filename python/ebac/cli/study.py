@@ -96,7 +96,7 @@ def study(
     """
     with output.refusing():
         names = setting.law_names(law or DEFAULT_LAWS)
-        people = _population(population, hands, seed, approach)
+        people = setting.population(population, hands, seed, approach)
         given: dict[str, Any] = {
             "base": setting.base_scenario(scenario),
             "conditions": condition or ["d1K10"],
@@ -114,24 +114,6 @@ def study(
     study_results.show(found)
     if folder is not None:
         output.list_files(folder, files)
-
-
-def _population(name: str, hands: int | None, seed: int, approach: float | None) -> Operators:
-    from ebac.operators import Operators
-
-    if hands is not None and name != "random":
-        raise ValueError(
-            f"--hands {hands}: only a random population has a size; add --population random"
-        )
-    if name == "grid60":
-        people = Operators.grid()
-    elif name == "random":
-        people = Operators.sample(500 if hands is None else hands, seed)
-    elif Path(name).suffix or Path(name).exists():
-        people = Operators.from_csv(name)
-    else:
-        raise ValueError(f"--population {name}: must be grid60, random or a CSV file")
-    return people if approach is None else people.replace(approach_m=approach)
 
 
 def _run(

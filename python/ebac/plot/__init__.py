@@ -1,5 +1,6 @@
 """Figures of traces and studies; they use no global state of pyplot, so any thread may draw."""
 
+from ebac.plot.ablation import plot_ablation
 from ebac.plot.maps import plot_map
 from ebac.plot.run import plot_trace
 from ebac.plot.study import plot_study
@@ -16,6 +17,7 @@ __all__ = [
     "legend",
     "line",
     "new_figure",
+    "plot_ablation",
     "plot_map",
     "plot_study",
     "plot_trace",

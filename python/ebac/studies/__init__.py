@@ -1,16 +1,24 @@
 """Laws over whole populations of hands, under named conditions."""
 
+from ebac.studies.ablation import Ablation, AblationRow, Piece, ablation, pieces
 from ebac.studies.conditions import CONDITIONS, GROUPS, Condition, conditions
+from ebac.studies.measures import MEASURES
 from ebac.studies.result import Failure, Study, StudyRow
 from ebac.studies.study import study
 
 __all__ = [
     "CONDITIONS",
     "GROUPS",
+    "MEASURES",
+    "Ablation",
+    "AblationRow",
     "Condition",
     "Failure",
+    "Piece",
     "Study",
     "StudyRow",
+    "ablation",
     "conditions",
+    "pieces",
     "study",
 ]
