@@ -153,10 +153,9 @@ def _write(folder: Path, found: Ablation) -> list[str]:
 
 def _show(found: Ablation) -> None:
     from ebac import wording
-    from ebac.studies import MEASURES
 
-    for start in range(0, len(MEASURES), ABREAST):
-        part = MEASURES[start : start + ABREAST]
+    for start in range(0, len(found.measures), ABREAST):
+        part = found.measures[start : start + ABREAST]
         headings = [f"{m.heading} \\[{wording.shown(m.unit)}]" for m in part]
         grid = output.table(["law", *headings], numbers=range(1, len(part) + 1))
         grid.columns[0].no_wrap = True
@@ -168,7 +167,7 @@ def _show(found: Ablation) -> None:
         output.console().print(grid)
     for row in found.rows:
         if row.piece is not None:
-            _tell(row, found.rows[0])
+            _tell(row, found)
     hands = len(found.study.operators)
     output.say(
         f"Simulated, not measured; {hands} hands. red: worse than {found.law} as it is, green: better.",
@@ -181,21 +180,20 @@ def _cell(row: AblationRow, key: str, text: str) -> str:
     return f"[{style}]{text}[/]" if style else text
 
 
-def _tell(row: AblationRow, default: AblationRow) -> None:
+def _tell(row: AblationRow, found: Ablation) -> None:
     verdict = "worse" if row.earns else "nothing gets worse"
-    lines = [verdict + (f": {_list(row, default, row.worse)}" if row.worse else "")]
+    lines = [verdict + (f": {_list(row, found, row.worse)}" if row.worse else "")]
     if row.better:
-        lines.append(f"better: {_list(row, default, row.better)}")
+        lines.append(f"better: {_list(row, found, row.better)}")
     output.say(f"{row.label}: {'; '.join(lines)}")
 
 
-def _list(row: AblationRow, default: AblationRow, keys: Sequence[str]) -> str:
+def _list(row: AblationRow, found: Ablation, keys: Sequence[str]) -> str:
     from ebac import wording
-    from ebac.studies import MEASURES
 
-    known = {measure.key: measure for measure in MEASURES}
+    known = {measure.key: measure for measure in found.measures}
     told = [
-        f"{known[key].heading} {wording.cell(default.values[key], known[key].unit)} -> "
+        f"{known[key].heading} {wording.cell(found.rows[0].values[key], known[key].unit)} -> "
         f"{wording.quantity(row.values[key], known[key].unit)}"
         for key in keys[:TOLD]
     ]

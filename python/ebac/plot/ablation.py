@@ -31,20 +31,18 @@ def plot_ablation(found: Ablation) -> Picture:
     Figure
         Orange is worse than the law as it is, green better, grey no difference that matters.
     """
-    from ebac.studies.measures import MEASURES
-
     rows = found.rows
-    figure = new_figure(2.2 + 0.98 * len(MEASURES), 2.1 + 0.34 * len(rows))
+    figure = new_figure(2.2 + 0.98 * len(found.measures), 2.1 + 0.34 * len(rows))
     ax = figure.subplots()
     for y, row in enumerate(rows):
-        for x, measure in enumerate(MEASURES):
+        for x, measure in enumerate(found.measures):
             _cell(ax, x, y, row, measure.key)
             text = wording.cell(row.values[measure.key], measure.unit)
             ax.text(x, y, text, ha="center", va="center", fontsize="small")
-    ax.set_xlim(-0.5, len(MEASURES) - 0.5)
+    ax.set_xlim(-0.5, len(found.measures) - 0.5)
     ax.set_ylim(len(rows) - 0.5, -0.5)
-    names = [f"{fill(m.heading, 13)}\n[{wording.shown(m.unit)}]" for m in MEASURES]
-    ax.set_xticks(range(len(MEASURES)), names, fontsize="x-small")
+    names = [f"{fill(m.heading, 13)}\n[{wording.shown(m.unit)}]" for m in found.measures]
+    ax.set_xticks(range(len(found.measures)), names, fontsize="x-small")
     ax.xaxis.tick_top()
     ax.set_yticks(range(len(rows)), [row.label for row in rows])
     ax.tick_params(length=0)

@@ -2,7 +2,7 @@
 
 from ebac.studies.ablation import Ablation, AblationRow, Piece, ablation, pieces
 from ebac.studies.conditions import CONDITIONS, GROUPS, Condition, conditions
-from ebac.studies.measures import MEASURES
+from ebac.studies.measures import MEASURES, Measure
 from ebac.studies.result import Failure, Study, StudyRow
 from ebac.studies.study import study
 
@@ -14,6 +14,7 @@ __all__ = [
     "AblationRow",
     "Condition",
     "Failure",
+    "Measure",
     "Piece",
     "Study",
     "StudyRow",

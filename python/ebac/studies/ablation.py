@@ -11,7 +11,7 @@ from typing import Any
 from ebac._core import Device, Timing
 from ebac.laws import AnyLaw, CoreLaw, changed, design, law_name, told
 from ebac.operators import Operators
-from ebac.studies.measures import MEASURES
+from ebac.studies.measures import MEASURES, Measure
 from ebac.studies.result import Study
 from ebac.studies.study import study
 
@@ -104,6 +104,8 @@ class Ablation:
         What was changed, in the order of the rows.
     beside : tuple of str
         Other laws, for the reader.
+    measures : tuple of Measure
+        What was looked at.
     study : Study
         Every run.
     """
@@ -111,6 +113,7 @@ class Ablation:
     law: str
     pieces: tuple[Piece, ...]
     beside: tuple[str, ...]
+    measures: tuple[Measure, ...]
     study: Study
 
     @cached_property
@@ -127,8 +130,8 @@ class Ablation:
         self, name: str, piece: Piece | None, default: Mapping[str, float | None]
     ) -> AblationRow:
         hands = len(self.study.operators)
-        values = {measure.key: measure.value(self.study, name) for measure in MEASURES}
-        gains = {m.key: m.gain(values[m.key], default.get(m.key), hands) for m in MEASURES}
+        values = {measure.key: measure.value(self.study, name) for measure in self.measures}
+        gains = {m.key: m.gain(values[m.key], default.get(m.key), hands) for m in self.measures}
         return AblationRow(
             law=name if piece is None else self.law,
             piece=None if piece is None else piece.name,
@@ -183,6 +186,7 @@ def ablation(
     *,
     changes: Sequence[Mapping[str, Any]] = (),
     beside: Sequence[str] = ("tca", "eba"),
+    measures: Sequence[Measure] = MEASURES,
     **run: Any,
 ) -> Ablation:
     """Take each piece of a law away, one at a time, and measure what gets worse.
@@ -197,6 +201,8 @@ def ablation(
         More changes, each a row of its own: `[{"pull": 40.0}]`.
     beside : sequence of str
         Other laws, for the reader.
+    measures : sequence of Measure
+        What to look at; decides which conditions are run.
     **run
         `base`, `seed`, `threads`, `executor`, `out`, `resume`, `progress` as in `study`.
 
@@ -220,9 +226,9 @@ def ablation(
         laws[_row_name(name, piece)] = variant
     others = tuple(other for other in beside if other != name)
     laws |= {other: other for other in others}
-    where = list(dict.fromkeys(one for measure in MEASURES for one in measure.conditions))
+    where = list(dict.fromkeys(one for measure in measures for one in measure.conditions))
     done = study(population or Operators.grid(), laws, where, **run)
-    return Ablation(law=name, pieces=found, beside=others, study=done)
+    return Ablation(law=name, pieces=found, beside=others, measures=tuple(measures), study=done)
 
 
 def _row_name(law: str, piece: Piece) -> str:
