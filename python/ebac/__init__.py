@@ -61,7 +61,7 @@ from ebac.operators import Operators
 from ebac.scenario import Scenario
 from ebac.simulation import LoopFault, simulate
 from ebac.specs import Spec, spec_sheet
-from ebac.studies import CONDITIONS, Ablation, Condition, Study, ablation, study
+from ebac.studies import CONDITIONS, Ablation, Condition, Study, Worst, ablation, study, worst
 from ebac.sweeps import SweepInterrupted, SweepResult, sweep
 from ebac.trace import ColumnInfo, Trace
 
@@ -123,6 +123,7 @@ __all__ = [
     "Variant",
     "VirtualCoupling",
     "Wall",
+    "Worst",
     "__version__",
     "ablation",
     "contact",
@@ -136,5 +137,6 @@ __all__ = [
     "spec_sheet",
     "study",
     "sweep",
+    "worst",
     "zwidth",
 ]

@@ -17,6 +17,7 @@ from ebac.cli import (
     specs,
     study,
     wall,
+    worst,
     zwidth,
 )
 
@@ -57,6 +58,7 @@ def main(
 app.command("wall")(wall.wall)
 app.command("study")(study.study)
 app.command("ablation")(ablation.ablation)
+app.command("worst")(worst.worst)
 app.command("conditions")(conditions.conditions)
 app.command("zwidth")(zwidth.zwidth)
 app.command("map")(maps.map_)

@@ -80,7 +80,7 @@ def ablation(
     with output.refusing():
         given: dict[str, Any] = {
             "law": setting.one_law(law),
-            "changes": [parse_change(one) for one in change or []],
+            "changes": [setting.parse_change(one) for one in change or []],
             "beside": setting.law_names(beside or ("tca", "eba"), "--beside"),
             "base": setting.base_scenario(scenario),
             "seed": seed,
@@ -97,22 +97,6 @@ def ablation(
     _show(found)
     if folder is not None:
         output.list_files(folder, files)
-
-
-def parse_change(text: str) -> dict[str, Any]:
-    """Return the parameters of `--change`: "kp=0,guard=off"."""
-    changes: dict[str, Any] = {}
-    for part in text.split(","):
-        name, equals, value = (word.strip() for word in part.partition("="))
-        try:
-            changes[name] = value == "on" if value in ("on", "off") else float(value)
-        except ValueError:
-            equals = ""
-        if not name or not equals:
-            raise ValueError(
-                f"--change {text}: must be NAME=VALUE, a number in SI units, on or off"
-            )
-    return changes
 
 
 def _run(people: Any, given: dict[str, Any], folder: Path | None, *, quiet: bool) -> Ablation:

@@ -64,6 +64,22 @@ def law_names(given: Sequence[str], option: str = "--law") -> list[str]:
     return list(dict.fromkeys(names))
 
 
+def parse_change(text: str) -> dict[str, Any]:
+    """Return the parameters of `--change`: "kp=0,guard=off"."""
+    changes: dict[str, Any] = {}
+    for part in text.split(","):
+        name, equals, value = (word.strip() for word in part.partition("="))
+        try:
+            changes[name] = value == "on" if value in ("on", "off") else float(value)
+        except ValueError:
+            equals = ""
+        if not name or not equals:
+            raise ValueError(
+                f"--change {text}: must be NAME=VALUE, a number in SI units, on or off"
+            )
+    return changes
+
+
 def population(name: str, hands: int | None, seed: int, approach: float | None = None) -> Operators:
     """Return the population of `--population`, `--hands`, `--seed` and `--approach` [m]."""
     from ebac.operators import Operators

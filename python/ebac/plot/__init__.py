@@ -6,6 +6,7 @@ from ebac.plot.run import plot_trace
 from ebac.plot.study import plot_study
 from ebac.plot.style import COLOURS, DPI, Picture, colour, dress, legend, line, new_figure
 from ebac.plot.walls import plot_walls
+from ebac.plot.worst import plot_worst
 from ebac.plot.zwidth import plot_zwidth
 
 __all__ = [
@@ -22,5 +23,6 @@ __all__ = [
     "plot_study",
     "plot_trace",
     "plot_walls",
+    "plot_worst",
     "plot_zwidth",
 ]

@@ -5,6 +5,7 @@ from ebac.studies.conditions import CONDITIONS, GROUPS, Condition, conditions
 from ebac.studies.measures import MEASURES, Measure
 from ebac.studies.result import Failure, Study, StudyRow
 from ebac.studies.study import study
+from ebac.studies.worst import Worst, WorstHand, worst
 
 __all__ = [
     "CONDITIONS",
@@ -18,8 +19,11 @@ __all__ = [
     "Piece",
     "Study",
     "StudyRow",
+    "Worst",
+    "WorstHand",
     "ablation",
     "conditions",
     "pieces",
     "study",
+    "worst",
 ]
