@@ -138,7 +138,7 @@ def test_a_hand_that_pulls_too_hard_does_not_count() -> None:
     [value] = search.measure(np.array([shares]))
     assert value < 0  # draws joules, but pulls with far more than 20 N
     free = _Search(family, scenario, law, 1e3, 1, lambda runs: None)
-    assert free.measure(np.array([shares]))[0] > 1.0
+    assert free.measure(np.array([shares]))[0] > 0.1
 
 
 def test_an_interrupt_ends_the_search() -> None:

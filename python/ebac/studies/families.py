@@ -73,7 +73,7 @@ def families(pull: float) -> dict[str, Family]:
     stiffness = Parameter(name="stiffness", unit="N/m", low=20.0, high=1500.0, log=True)
     hand = (mass, damping, stiffness)
     force = Parameter(name="pull", unit="N", low=min(0.5, pull), high=pull)
-    share = Parameter(name="swing", unit="share of pull", low=0.0, high=1.0)
+    share = Parameter(name="swing", unit="share", low=0.0, high=1.0)
     knots = tuple(
         Parameter(name=f"force_{i}", unit="N", low=-0.97 * pull, high=0.97 * pull) for i in range(KNOTS)
     )  # fmt: skip
@@ -99,7 +99,7 @@ def families(pull: float) -> dict[str, Family]:
         Family(
             name="swinging",
             summary="a steady and a sinusoidal force, together within the pull",
-            parameters=(*hand, force, share, _p("frequency", "Hz", 0.3, 200, log=True), _p("phase", "rad", 0, 6.2832)),
+            parameters=(*hand, force, share, _p("frequency", "Hz", 0.3, 400, log=True), _p("phase", "rad", 0, 6.2832)),
             make=_swinging,
         ),
         Family(
