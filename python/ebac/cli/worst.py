@@ -65,8 +65,8 @@ def worst(
 ) -> None:
     """Search the hand that draws most energy out of a law's port. A simulation.
 
-    Drawn is minus the least port energy. Seven families of hands are searched, each by random hands, then by
-    NLopt: CRS2, then SBPLX. A hand that pulls harder than allowed does not count.
+    Drawn is minus the least port energy. Seven families of hands are searched: random hands, generations bred
+    from the best, then NLopt. A hand that pulls harder than allowed does not count.
 
     **Examples**
 
