@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from textwrap import fill
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -64,7 +65,7 @@ def _title(found: Worst, hand: WorstHand) -> str:
     )
     return (
         f"law {found.law}, {found.condition.name}, simulated: the worst hand of the family "
-        f"{hand.family.name} draws {wording.quantity(hand.energy_J, 'J')}{lent}\n{told}"
+        f"{hand.family.name} draws {wording.quantity(hand.energy_J, 'J')}{lent}\n{fill(told, 120)}"
     )
 
 
