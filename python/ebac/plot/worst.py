@@ -36,7 +36,7 @@ def plot_worst(found: Worst, hand: WorstHand | None = None) -> Picture:
     chosen = hand or found.hands[0]
     trace = found.trace(chosen)
     figure = new_figure(13, 9.5)
-    grid = figure.subplots(4, 2, sharex="col", sharey="row", width_ratios=(3, 2))
+    grid = figure.subplots(4, 2, sharex="col", width_ratios=(3, 2))
     least = float(
         trace["t"][int(trace["true.energy"].reshape(len(trace), -1).sum(axis=1).argmin())]
     )
@@ -52,7 +52,11 @@ def plot_worst(found: Worst, hand: WorstHand | None = None) -> Picture:
         legend(ax, columns=5)
     for ax in grid[:, 1]:
         ax.set_ylabel("")
-    grid[0, 1].set_xlim(max(0.0, least - NEAR), min(float(trace["t"][-1]), least + NEAR))
+    from_, to = max(0.0, least - NEAR), min(float(trace["t"][-1]), least + NEAR)
+    grid[0, 1].set_xlim(from_, to)
+    shown = trace.axis("true.x", 0)[(trace["t"] >= from_) & (trace["t"] <= to)] - _surface(trace)
+    room = 0.1e3 * max(float(np.ptp(shown)), 1e-5)
+    grid[0, 1].set_ylim(1e3 * float(shown.min()) - room, 1e3 * float(shown.max()) + room)
     figure.align_ylabels()
     figure.suptitle(_title(found, chosen), fontsize="medium")
     return figure
@@ -69,11 +73,13 @@ def _title(found: Worst, hand: WorstHand) -> str:
     )
 
 
+def _surface(trace: Trace) -> float:
+    assert trace.scenario is not None
+    return float(getattr(trace.scenario.environment, "position", 0.0))
+
+
 def _depth(ax: Axes, trace: Trace) -> None:
-    scenario = trace.scenario
-    assert scenario is not None
-    surface = getattr(scenario.environment, "position", 0.0)
-    depth = 1e3 * (trace.axis("true.x", 0) - surface)
+    depth = 1e3 * (trace.axis("true.x", 0) - _surface(trace))
     line(ax, trace["t"], depth, color=colour(trace.law), label="depth in the wall")
     ax.axhline(0, color="0.35", lw=1)
     dress(ax, "depth [mm]")
