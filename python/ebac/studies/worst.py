@@ -143,7 +143,7 @@ def worst(
     """Search the hand that draws most energy out of a law's port. The same seed finds the same hand.
 
     A quarter of the runs goes to random hands; then generations are bred from the best, each measured together; NLopt's
-    subplex method (SBPLX) ends. CRS2 in the middle found less on this rough ground, with the same number of runs.
+    subplex method (SBPLX) ends. The ground is rough: another seed may find a worse one.
 
     Parameters
     ----------
