@@ -1,6 +1,7 @@
 #include "ebac/model/hand.hpp"
 
 #include <pybind11/eigen.h>
+#include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 
 #include "bind.hpp"
@@ -49,6 +50,14 @@ void set_paths(Hand& hand, const Paths& paths) {
   std::copy(many.begin(), many.end(), hand.path.begin());
 }
 
+using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
+
+void require_axis(int axis) {
+  if (axis >= 0 && axis < kMaxAxes) return;
+  throw std::invalid_argument("axis = " + std::to_string(axis) + ": must lie in [0, " +
+                              std::to_string(kMaxAxes - 1) + "]");
+}
+
 void bind_hand(py::module_& m) {
   py::class_<Hand> cls(m, "Hand",
                        ("The operator of eq. (4), (5): mass, damper and spring pulled along an "
@@ -90,13 +99,20 @@ void bind_hand(py::module_& m) {
       .def(
           "target",
           [](const Hand& hand, double t, int axis) {
-            if (axis < 0 || axis >= kMaxAxes) {
-              throw std::invalid_argument("axis = " + std::to_string(axis) + ": must lie in [0, " +
-                                          std::to_string(kMaxAxes - 1) + "]");
-            }
+            require_axis(axis);
             return hand.target(axis, t, 1e-3).x;
           },
           py::arg("t"), py::arg("axis") = 0, "X0(t) [m], tremor included, at time t [s].")
+      .def(
+          "pull",
+          [](const Hand& hand, const Numbers& t, const Numbers& x, int axis) {
+            require_axis(axis);
+            return py::vectorize([&hand, axis](double at, double where) {
+              return hand.pull(axis, at, where);
+            })(t, x);
+          },
+          py::arg("t"), py::arg("x"), py::arg("axis") = 0,
+          "How hard it pulls [N], |K0 (X0(t) - x)|, at times t [s] and positions x [m].")
       .def(
           "as_dict",
           [](const Hand& hand) {

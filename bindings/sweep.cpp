@@ -22,16 +22,18 @@ void bind_contact(py::module_& m) {
       "_measure_contact",
       [](const Numbers& t, const Numbers& x, const Numbers& force,
          const std::optional<Numbers>& energy, const std::optional<Numbers>& stored,
-         const std::optional<Numbers>& clamped) {
+         const std::optional<Numbers>& clamped, const std::optional<Numbers>& pull) {
         return values_of(measure_contact({.t = view(t),
                                           .x = view(x),
                                           .force = view(force),
                                           .energy = view(energy),
                                           .stored = view(stored),
-                                          .clamped = view(clamped)}));
+                                          .clamped = view(clamped),
+                                          .pull = view(pull)}));
       },
       py::kw_only(), py::arg("t"), py::arg("x"), py::arg("force"), py::arg("energy") = py::none(),
-      py::arg("stored") = py::none(), py::arg("clamped") = py::none());
+      py::arg("stored") = py::none(), py::arg("clamped") = py::none(),
+      py::arg("pull") = py::none());
   m.def(
       "_stored_energy",
       [](const Environment& environment, const Numbers& x) {

@@ -55,13 +55,13 @@ from ebac._core import (
     copley_current,
     estimate_velocity,
 )
-from ebac.laws import LAWS, PythonLaw, design
+from ebac.laws import LAWS, PythonLaw, Variant, design
 from ebac.metrics import Contact, contact, ideal_rest
 from ebac.operators import Operators
 from ebac.scenario import Scenario
 from ebac.simulation import LoopFault, simulate
 from ebac.specs import Spec, spec_sheet
-from ebac.studies import CONDITIONS, Condition, Study, study
+from ebac.studies import CONDITIONS, Ablation, Condition, Study, Worst, ablation, study, worst
 from ebac.sweeps import SweepInterrupted, SweepResult, sweep
 from ebac.trace import ColumnInfo, Trace
 
@@ -73,6 +73,7 @@ __all__ = [
     "EBAC",
     "LAWS",
     "TCA",
+    "Ablation",
     "AdaptiveWindow",
     "BackwardDifference",
     "Capstan",
@@ -119,9 +120,12 @@ __all__ = [
     "Tapping",
     "Timing",
     "Trace",
+    "Variant",
     "VirtualCoupling",
     "Wall",
+    "Worst",
     "__version__",
+    "ablation",
     "contact",
     "copley_current",
     "design",
@@ -133,5 +137,6 @@ __all__ = [
     "spec_sheet",
     "study",
     "sweep",
+    "worst",
     "zwidth",
 ]

@@ -1496,6 +1496,15 @@ class Hand:
         """
         Parameters by name.
         """
+    def pull(
+        self,
+        t: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
+        x: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
+        axis: typing.SupportsInt | typing.SupportsIndex = 0,
+    ) -> typing.Any:
+        """
+        How hard it pulls [N], |K0 (X0(t) - x)|, at times t [s] and positions x [m].
+        """
     def replace(self, **changes: typing.Any) -> typing.Self:
         """
         A copy with some parameters changed; checked as at construction.
@@ -3453,6 +3462,7 @@ def _measure_contact(
     energy: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None,
     stored: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None,
     clamped: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None,
+    pull: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None,
 ) -> dict[str, typing.Any]: ...
 def _rebuild(arg0: typing.Any, arg1: dict[str, typing.Any]) -> typing.Any: ...
 def _simulate_python(arg0: Setup, arg1: typing.Any) -> Rows: ...

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Any, ClassVar, Protocol, TypeAlias, runtime_checkable
+import dataclasses
+from collections.abc import Mapping, Sequence
+from typing import Any, ClassVar, Protocol, TypeAlias, cast, runtime_checkable
 
 from ebac import _core
-from ebac._core import Device, DeviceFacts, Port, Rows, Setup, Timing
+from ebac._core import Device, DeviceFacts, Field, Port, Rows, Setup, Timing
 
 
 @runtime_checkable
@@ -27,6 +29,15 @@ class CoreLaw(Protocol):
 
     def reset(self) -> None:
         """Forget everything but the parameters."""
+        ...
+
+    def replace(self, **changes: Any) -> CoreLaw:
+        """Return a copy with some parameters changed."""
+        ...
+
+    @staticmethod
+    def fields() -> Sequence[Field]:
+        """Return its parameters: names, units, meanings, ranges."""
         ...
 
     def _simulate(self, setup: Setup) -> Rows: ...
@@ -55,7 +66,30 @@ class PythonLaw(Protocol):
         ...
 
 
-AnyLaw: TypeAlias = str | type[CoreLaw] | CoreLaw | PythonLaw
+@dataclasses.dataclass(frozen=True)
+class Variant:
+    """A law with parameters changed on top of its design, designed anew wherever the law would be.
+
+    Attributes
+    ----------
+    law : str or law class
+        A name of `LAWS`, or a class of the core.
+    changes : mapping
+        Parameters by name, in their SI units.
+    """
+
+    law: str | type[CoreLaw]
+    changes: Mapping[str, Any]
+
+    @property
+    def name(self) -> str:
+        """The law's name and its changes: "ebac, guard = off"."""
+        return ", ".join(
+            [law_name(self.law), *(f"{n} = {told(v)}" for n, v in self.changes.items())]
+        )
+
+
+AnyLaw: TypeAlias = str | type[CoreLaw] | CoreLaw | PythonLaw | Variant
 
 
 def design(
@@ -65,8 +99,8 @@ def design(
 
     Parameters
     ----------
-    law : str, law class, law or PythonLaw
-        A name of `LAWS` or a class of the core is designed from `device` and `timing`, never from the
+    law : str, law class, Variant, law or PythonLaw
+        A name of `LAWS`, a class of the core or a `Variant` is designed from `device` and `timing`, never from the
         wall or the hand. A finished law comes back as it is.
     device : Device or DeviceFacts
         What a user can know of the device.
@@ -89,6 +123,8 @@ def design(
     TypeError
         For something that is no law.
     """
+    if isinstance(law, Variant):
+        return design(law.law, device, timing, **{**law.changes, **changes})
     if isinstance(law, str):
         if law not in LAWS:
             raise KeyError(f"no law is called {law!r}; there are: {', '.join(LAWS)}")
@@ -106,6 +142,38 @@ def design(
     return law
 
 
-def law_name(law: CoreLaw | PythonLaw) -> str:
+def changed(law: AnyLaw, **changes: Any) -> AnyLaw:
+    """Return a law with some parameters changed, to be used wherever the law can be.
+
+    Parameters
+    ----------
+    law : str, law class, Variant, law or PythonLaw
+        What is designed stays so, as a `Variant`; a finished law is copied, one in Python when it is a dataclass.
+    **changes
+        Parameters in their SI units.
+
+    Raises
+    ------
+    TypeError
+        For a law in Python that is no dataclass.
+    """
+    if isinstance(law, Variant):
+        return Variant(law.law, {**law.changes, **changes})
+    if isinstance(law, (str, type)):
+        return Variant(law, changes)
+    if isinstance(law, CoreLaw):
+        return law.replace(**changes)
+    if not hasattr(law, "__dataclass_fields__"):
+        raise TypeError(f"{law!r} cannot be changed: a law in Python must be a dataclass for that")
+    own: Any = law
+    return cast(PythonLaw, dataclasses.replace(own, **changes))
+
+
+def law_name(law: Any) -> str:
     """Return the name a law goes by in tables and plots."""
-    return str(getattr(law, "name", type(law).__name__))
+    return law if isinstance(law, str) else str(getattr(law, "name", type(law).__name__))
+
+
+def told(value: Any) -> str:
+    """Return a parameter's value as people read it: on, off or a number."""
+    return ("on" if value else "off") if isinstance(value, bool) else f"{value:g}"

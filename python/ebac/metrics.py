@@ -17,7 +17,7 @@ from ebac.trace import Trace
 TAIL_SHARE = 0.3
 #: A contact swinging by less than this, peak to peak, is quiet [m].
 QUIET_SWING = 0.25e-3
-#: Rest within this many encoder counts of the ideal is exact.
+#: Rest within this many encoder counts of the ideal, and the band that friction holds, is exact.
 EXACT_COUNTS = 2
 #: Fewer rows have no tail to measure.
 FEWEST_ROWS = 10
@@ -32,7 +32,11 @@ COLUMNS = {
     "least_energy_J": "least_energy",
     "most_drawn_J": "most_drawn",
     "clamped_share": "clamped_share",
+    "force_step_N": "force_step",
+    "most_pull_N": "most_pull",
 }
+#: Numbers of a contact that are no keys of `ebac wall --json`.
+MORE = ("count_m", "allowed_m", "most_drawn_J", "force_step_N", "most_pull_N")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -62,8 +66,14 @@ class Contact:
         over t1 < t2 of W(t1) - W(t2) - K depth(t1)^2 / 2; 0 for an ideal wall, None without a simulation.
     clamped_share : float or None
         Share of ticks in which the law held its force back; None for a law that never does.
+    force_step_N : float
+        Largest change of the applied force from one tick to the next.
+    most_pull_N : float or None
+        Hardest pull of the hand, |K0 (X0 - x)|, while the virtual world acts; None without a simulation.
     count_m : float or None
-        One encoder count, the yardstick of `exact`.
+        One encoder count.
+    allowed_m : float or None
+        How far from the ideal a rest still is `exact`, see `allowed_deviation`.
     """
 
     law: str
@@ -78,6 +88,9 @@ class Contact:
     clamped_share: float | None
     count_m: float | None = None
     most_drawn_J: float | None = None
+    force_step_N: float | None = None
+    most_pull_N: float | None = None
+    allowed_m: float | None = None
 
     @property
     def deviation_m(self) -> float | None:
@@ -91,16 +104,14 @@ class Contact:
 
     @property
     def exact(self) -> bool | None:
-        """Whether it rests within two counts of the ideal."""
-        if self.deviation_m is None or self.count_m is None:
+        """Whether it rests within two counts of the ideal, and what friction holds."""
+        if self.deviation_m is None or self.allowed_m is None:
             return None
-        return abs(self.deviation_m) <= EXACT_COUNTS * self.count_m
+        return abs(self.deviation_m) <= self.allowed_m
 
     def row(self) -> dict[str, str | float | None]:
         """Return the documented row of `ebac wall --json`."""
-        values = asdict(self)
-        del values["count_m"], values["most_drawn_J"]
-        return values
+        return {name: value for name, value in asdict(self).items() if name not in MORE}
 
 
 def contact(trace: Trace, *, axis: int = 0) -> Contact:
@@ -130,6 +141,11 @@ def contact(trace: Trace, *, axis: int = 0) -> Contact:
     if trace.scenario is not None and true:
         stored = _stored_energy(trace.scenario.environment, _columns(trace, "true.x"))
     clamped = trace.axis("law.clamped", axis) if "law.clamped" in trace else None
+    pull = None
+    if trace.scenario is not None and true:
+        acts = [trace.axis(name, axis) != 0 for name in ("f_env", "f_cmd", "f_applied")]
+        hand, x = trace.scenario.hand, trace.axis("true.x", axis)
+        pull = np.where(np.any(acts, axis=0), hand.pull(trace["t"], x, axis), 0.0)
     numbers: Any = _measure_contact(
         t=trace["t"],
         x=trace.axis("true.x" if true else "x", axis),
@@ -137,6 +153,7 @@ def contact(trace: Trace, *, axis: int = 0) -> Contact:
         energy=energy,
         stored=stored,
         clamped=clamped,
+        pull=pull,
     )
     known: dict[str, Any] = {
         name: None if isnan(value) else value for name, value in numbers.items()
@@ -146,6 +163,7 @@ def contact(trace: Trace, *, axis: int = 0) -> Contact:
         law=trace.law,
         ideal_m=ideal_rest(scenario) if scenario and axis == 0 else None,
         count_m=scenario.device.count if scenario else None,
+        allowed_m=allowed_deviation(scenario) if scenario else None,
         **{column: known[name] for column, name in COLUMNS.items()},
     )
 
@@ -153,6 +171,25 @@ def contact(trace: Trace, *, axis: int = 0) -> Contact:
 def _columns(trace: Trace, name: str) -> NDArray[np.float64]:
     """Return a column in the shape (rows, axes)."""
     return trace[name].reshape(len(trace), -1)
+
+
+def allowed_deviation(scenario: Scenario) -> float:
+    """Return how far from the ideal a rest still is exact: 2 counts + f_c / (K0 + K) [m].
+
+    Friction of up to f_c holds a hand and an *ideal* wall anywhere within f_c / (K0 + K) of their balance, so a rest
+    within that band is no fault of a law. f_c is the friction at standstill; K counts only where the ideal rest
+    lies inside the wall.
+    """
+    mechanics, wall = scenario.device.mechanics, scenario.environment
+    counts = EXACT_COUNTS * scenario.device.count
+    friction = max(mechanics.coulomb, mechanics.breakaway)
+    ideal = ideal_rest(scenario)
+    if friction == 0 or ideal is None:
+        return counts
+    stiffness = scenario.hand.stiffness
+    if isinstance(wall, Wall) and ideal > wall.position:
+        stiffness += wall.stiffness
+    return counts + friction / stiffness
 
 
 def ideal_rest(scenario: Scenario) -> float | None:

@@ -45,6 +45,16 @@ def quantity(value: float | None, unit: str, *, signed: bool = False, none: str 
     return f"{text} {shown}".rstrip()
 
 
+def shown(unit: str) -> str:
+    """Return the unit in which people read a quantity of an SI unit: "mm" for "m"."""
+    return SHOWN[unit][1] if unit in SHOWN else unit
+
+
+def cell(value: float | None, unit: str, *, none: str = "-") -> str:
+    """Return a number in the unit of `shown`, without it: what stands below a heading that has the unit."""
+    return quantity(value, unit, none=none).removesuffix(f" {shown(unit)}")
+
+
 def _number(value: float, decimals: int, signed: bool, exact: bool) -> str:
     sign = "+" if signed and value != 0 else ""
     if exact or value == 0:

@@ -76,6 +76,23 @@ TEST(Contact, MostDrawnIsTheDeepestFallBeyondWhatAnIdealWallStores) {
   EXPECT_TRUE(std::isnan(account(energy, {}).most_drawn));
 }
 
+TEST(Contact, TheLargestStepOfTheForceIsTakenFromTheWholeRun) {
+  Column force(1000, 2);
+  force[100] = -1.5;  // long before the tail
+  const Column t = times(1000);
+  EXPECT_DOUBLE_EQ(measure_contact({.t = t, .x = t, .force = force}).force_step, 3.5);
+}
+
+TEST(Contact, TheHardestPullIsTheLargestRecorded) {
+  const Column t = times(20);
+  Column pull(20, 1);
+  EXPECT_TRUE(std::isnan(measure_contact({.t = t, .x = t, .force = t}).most_pull));
+  pull[3] = 7;
+  EXPECT_DOUBLE_EQ(measure_contact({.t = t, .x = t, .force = t, .pull = pull}).most_pull, 7);
+  pull.pop_back();
+  EXPECT_THROW(measure_contact({.t = t, .x = t, .force = t, .pull = pull}), std::invalid_argument);
+}
+
 TEST(Contact, NothingIsDrawnFromAnIdealWall) {
   const Wall wall{.stiffness = 8e3, .position = 0.001};
   Column stored;

@@ -110,8 +110,15 @@ TEST(Sweep, MeasuresWhatSimulateWrites) {
     std::vector<double> stored;
     stored.reserve(x.size());
     for (const double at : x) stored.push_back(stored_energy(Wall{}, {at, 0, 0}));
-    WallContact expected =
-        measure_contact({.t = t, .x = x, .force = force, .energy = energy, .stored = stored});
+    const auto asked = column(*trace, "f_env");
+    const auto command = column(*trace, "f_cmd");
+    std::vector<double> pull(x.size());
+    for (std::size_t j = 0; j < x.size(); ++j) {
+      const bool acts = asked[j] != 0 || command[j] != 0 || force[j] != 0;
+      if (acts) pull[j] = tasks.setups[i].hand.pull(0, t[j], x[j]);
+    }
+    WallContact expected = measure_contact(
+        {.t = t, .x = x, .force = force, .energy = energy, .stored = stored, .pull = pull});
     expected.clamped_share = outcomes[i].contact.clamped_share;
     EXPECT_GT(expected.clamped_share, 0);
     EXPECT_TRUE(same_bits(outcomes[i].contact, expected));

@@ -221,3 +221,16 @@ def test_the_reference_presets_are_the_defaults() -> None:
 def test_an_unknown_preset_lists_those_there_are(look_up: Any) -> None:
     with pytest.raises(KeyError, match=r"is called 'nobody'; there are: reference, "):
         look_up("nobody")
+
+
+def test_the_pull_is_the_spring_of_eq_4_until_the_hand_lets_go() -> None:
+    hand = ebac.Hand(
+        stiffness=200, path=ebac.Sine(centre=0.01, amplitude=0.005, frequency=3), release_at=0.8,
+        tremor_amplitude=1e-3,
+    )  # fmt: skip
+    t, x = np.linspace(0, 1, 101), np.linspace(-0.02, 0.03, 101)
+    wanted = np.array([hand.target(at) for at in t.tolist()])
+    expected = np.where(t < 0.8, 200 * np.abs(wanted - x), 0.0)
+    np.testing.assert_allclose(hand.pull(t, x), expected, rtol=1e-12)
+    with pytest.raises(ValueError, match="axis = 3: must lie in"):
+        hand.pull(t, x, 3)

@@ -210,6 +210,52 @@ def test_ebac_finds_a_wall_wherever_it_stands(position: float, run: Any) -> None
     assert row.quiet
 
 
+def test_friction_widens_what_counts_as_exact_by_the_band_it_can_hold() -> None:
+    def allowed(wall: ebac.Wall, **mechanics: float) -> float:
+        device = ebac.Device(mechanics=ebac.Mechanics(**mechanics))
+        scenario = ebac.Scenario(device=device, environment=wall)
+        return ebac.metrics.allowed_deviation(scenario) - 2 * device.count
+
+    reached, missed = ebac.Wall(stiffness=10e3), ebac.Wall(position=0.1)
+    assert allowed(reached) == 0
+    assert allowed(reached, coulomb=1.0) == pytest.approx(1 / (300 + 10e3))
+    assert allowed(reached, coulomb=0.2, breakaway=0.5) == pytest.approx(0.5 / (300 + 10e3))
+    assert allowed(missed, coulomb=1.0) == pytest.approx(1 / 300)
+
+
+@pytest.mark.parametrize("friction", [0.3, 1.0])
+def test_an_ideal_wall_under_friction_is_good_for_every_hand(friction: float) -> None:
+    """A hand stops anywhere within the band of friction, so a narrower criterion would blame the ideal."""
+    device = ebac.Device(mechanics=ebac.Mechanics(coulomb=friction))
+    scenarios = ebac.Operators.grid().scenarios(ebac.Scenario(device=device))
+    from ebac.studies.study import ideal_contacts
+
+    away = np.abs(
+        ideal_contacts(scenarios)["rest_m"] - [ebac.ideal_rest(s) or np.nan for s in scenarios]
+    )
+    allowed = np.array([ebac.metrics.allowed_deviation(s) for s in scenarios])
+    assert (away <= allowed).all()
+    if friction == 1:
+        assert (away > 2 * device.count).sum() > 10
+
+
+@pytest.mark.parametrize("law", ["direct", "ebac"])
+def test_force_step_and_pull_are_those_of_the_columns(law: str, run: Any) -> None:
+    trace = run(law, seconds=1.0)
+    row = ebac.contact(trace)
+    assert row.force_step_N == np.abs(np.diff(trace["f_applied"])).max()
+    acts = (trace["f_env"] != 0) | (trace["f_cmd"] != 0) | (trace["f_applied"] != 0)
+    pull = 300 * np.abs(0.04 - trace["true.x"])
+    assert row.most_pull_N == pytest.approx(pull[acts].max(), rel=1e-12)
+    [swept] = ebac.sweep([trace.scenario], law)["most_pull_N"]
+    assert swept == row.most_pull_N
+
+
+def test_a_hand_that_touches_nothing_pulls_at_nothing() -> None:
+    scenario = ebac.Scenario(environment=ebac.Wall(position=0.2), seconds=0.5)
+    assert ebac.contact(ebac.simulate(scenario, "ebac")).most_pull_N == 0
+
+
 def test_the_row_is_the_documented_one(run: Any) -> None:
     row = ebac.contact(run("ebac")).row()
     assert list(row) == [

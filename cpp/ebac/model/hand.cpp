@@ -67,4 +67,13 @@ Target Hand::target(int axis, double t, double dt) const EBAC_RT {
   return result;
 }
 
+double Hand::pull(int axis, double t, double x) const EBAC_RT {
+  if (t >= release_at) return 0;
+  const double wanted = std::visit([&](const auto& p) EBAC_RT { return p.position(t); },
+                                   path[static_cast<std::size_t>(axis)]);
+  const Sine tremor{.centre = 0, .amplitude = tremor_amplitude, .frequency = tremor_frequency};
+  const double away = wanted - x + (tremor_amplitude > 0 ? tremor.position(t) : 0.0);
+  return stiffness * std::abs(away);
+}
+
 }  // namespace ebac

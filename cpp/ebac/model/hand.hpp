@@ -125,6 +125,10 @@ struct Hand {
   /// The intended path of one axis over [t, t + dt], tremor on top.
   Target target(int axis, double t, double dt) const EBAC_RT;
 
+  /// How hard it pulls at time t, |K0 (X0 - x)| [N]: what of eq. (4) can give energy without end. 0
+  /// once it let go.
+  double pull(int axis, double t, double x) const EBAC_RT;
+
   static constexpr auto fields() {
     using F = Field<Hand>;
     return std::array{

@@ -59,6 +59,14 @@ double drawn(Values energy, Values stored) {
   return most;
 }
 
+double largest_step(Values values) {
+  double largest = 0;
+  for (std::size_t i = 1; i < values.size(); ++i) {
+    largest = std::max(largest, std::abs(values[i] - values[i - 1]));
+  }
+  return largest;
+}
+
 void check_rows(const ContactRecord& r) {
   const std::size_t rows = r.x.size();
   if (rows < kFewestRows) {
@@ -71,7 +79,7 @@ void check_rows(const ContactRecord& r) {
                                 " rows, its position " + std::to_string(rows));
   };
   for (const Values column : {r.t, r.force}) refuse_other(column);
-  for (const Values column : {r.energy, r.stored, r.clamped}) {
+  for (const Values column : {r.energy, r.stored, r.clamped, r.pull}) {
     if (!column.empty()) refuse_other(column);
   }
 }
@@ -87,7 +95,8 @@ WallContact measure_contact(const ContactRecord& r) {
   WallContact c{.rest = mean(x),
                 .swing = width(x),
                 .force_swing = width(r.force.last(tail)),
-                .peak = std::ranges::max(r.x)};
+                .peak = std::ranges::max(r.x),
+                .force_step = largest_step(r.force)};
   if (c.quiet()) {
     c.settled = settling(r.t, r.x, c.rest);
   } else {
@@ -96,6 +105,7 @@ WallContact measure_contact(const ContactRecord& r) {
   if (!r.energy.empty()) c.least_energy = std::ranges::min(r.energy);
   if (!r.energy.empty() && !r.stored.empty()) c.most_drawn = drawn(r.energy, r.stored);
   if (!r.clamped.empty()) c.clamped_share = mean(r.clamped);
+  if (!r.pull.empty()) c.most_pull = std::ranges::max(r.pull);
   return c;
 }
 

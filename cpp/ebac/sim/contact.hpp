@@ -28,6 +28,8 @@ struct WallContact {
   double least_energy = kNone;   // J
   double most_drawn = kNone;     // J
   double clamped_share = kNone;  // 1
+  double force_step = kNone;     // N
+  double most_pull = kNone;      // N
 
   bool quiet() const { return swing < kQuietSwing; }
 
@@ -48,6 +50,10 @@ struct WallContact {
           "most energy taken out in any window, beyond what an ideal wall stores at its start"},
         F{"clamped_share", &WallContact::clamped_share, "1",
           "share of ticks in which the law held back"},
+        F{"force_step", &WallContact::force_step, "N",
+          "largest change of the applied force from one tick to the next"},
+        F{"most_pull", &WallContact::most_pull, "N",
+          "hardest pull of the hand while the virtual world acts"},
     };
   }
 };
@@ -61,6 +67,7 @@ struct ContactRecord {
   std::span<const double> energy{};   // J, physical port energy of all axes
   std::span<const double> stored{};   // J, what an ideal environment stores at this position
   std::span<const double> clamped{};  // 0 or 1
+  std::span<const double> pull{};     // N, of the hand; 0 where the virtual world does not act
 };
 
 /// Measures a contact; throws std::invalid_argument for fewer than `kFewestRows` rows or columns of

@@ -10,7 +10,7 @@ namespace ebac {
 class ContactRecorder {
  public:
   void start(std::size_t rows) {
-    for (auto* column : {&t_, &x_, &force_, &energy_, &stored_, &clamped_}) {
+    for (auto* column : {&t_, &x_, &force_, &energy_, &stored_, &clamped_, &pull_}) {
       column->clear();
       column->reserve(rows);
     }
@@ -23,6 +23,7 @@ class ContactRecorder {
     energy_.push_back(energy);
     stored_.push_back(stored);
   }
+  void add_pull(double pull) { pull_.push_back(pull); }
   void add_clamped(bool clamped) { clamped_.push_back(clamped ? 1.0 : 0.0); }
 
   std::size_t rows() const { return t_.size(); }
@@ -33,11 +34,12 @@ class ContactRecorder {
             .force = force_,
             .energy = energy_,
             .stored = stored_,
-            .clamped = clamped_};
+            .clamped = clamped_,
+            .pull = pull_};
   }
 
  private:
-  std::vector<double> t_, x_, force_, energy_, stored_, clamped_;
+  std::vector<double> t_, x_, force_, energy_, stored_, clamped_, pull_;
 };
 
 }  // namespace ebac

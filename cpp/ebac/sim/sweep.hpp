@@ -60,7 +60,10 @@ bool keep_row(const Sample& s, const SimulatedDevice& device, const Law& law, co
     x[static_cast<Eigen::Index>(i)] = device.state(i).x;
     energy += device.state(i).energy;
   }
-  recorder.add(s.t, x[0], s.axis[0].port.f_applied, energy, stored_energy(setup.environment, x));
+  const Port& port = s.axis[0].port;
+  recorder.add(s.t, x[0], port.f_applied, energy, stored_energy(setup.environment, x));
+  const bool acts = port.f_env != 0 || port.f_cmd != 0 || port.f_applied != 0;
+  recorder.add_pull(acts ? setup.hand.pull(0, s.t, x[0]) : 0.0);
   if constexpr (requires { law.state(0).clamped; }) recorder.add_clamped(law.state(0).clamped);
   return x.cwiseAbs().maxCoeff() <= limits.position && energy >= -limits.energy;
 }

@@ -6,7 +6,20 @@ from typing import Annotated
 
 import typer
 
-from ebac.cli import bench, conditions, laws, maps, paper, presets, specs, study, wall, zwidth
+from ebac.cli import (
+    ablation,
+    bench,
+    conditions,
+    laws,
+    maps,
+    paper,
+    presets,
+    specs,
+    study,
+    wall,
+    worst,
+    zwidth,
+)
 
 app = typer.Typer(
     name="ebac",
@@ -44,6 +57,8 @@ def main(
 
 app.command("wall")(wall.wall)
 app.command("study")(study.study)
+app.command("ablation")(ablation.ablation)
+app.command("worst")(worst.worst)
 app.command("conditions")(conditions.conditions)
 app.command("zwidth")(zwidth.zwidth)
 app.command("map")(maps.map_)

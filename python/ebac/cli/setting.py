@@ -10,6 +10,7 @@ from ebac import presets
 
 if TYPE_CHECKING:
     from ebac._core import Device, Hand, Timing
+    from ebac.operators import Operators
     from ebac.scenario import Environment, Scenario
 
 #: What the library calls the numbers that options give.
@@ -40,7 +41,17 @@ def base_scenario(file: Path | None) -> Scenario:
     return Scenario() if file is None else Scenario.load(file)
 
 
-def law_names(given: Sequence[str]) -> list[str]:
+def one_law(name: str) -> str:
+    """Return the name of `--law` where there can be one only."""
+    from ebac.document import unknown
+    from ebac.laws import LAWS
+
+    if name not in LAWS:
+        raise ValueError(unknown(f"--law {name}", name, list(LAWS)))
+    return name
+
+
+def law_names(given: Sequence[str], option: str = "--law") -> list[str]:
     """Return the laws asked for, each once, in the order asked; `all` is every law."""
     from ebac.document import unknown
     from ebac.laws import LAWS
@@ -48,9 +59,44 @@ def law_names(given: Sequence[str]) -> list[str]:
     names: list[str] = []
     for name in given:
         if name not in LAWS and name != "all":
-            raise ValueError(unknown(f"--law {name}", name, [*LAWS, "all"]))
+            raise ValueError(unknown(f"{option} {name}", name, [*LAWS, "all"]))
         names += LAWS if name == "all" else [name]
     return list(dict.fromkeys(names))
+
+
+def parse_change(text: str) -> dict[str, Any]:
+    """Return the parameters of `--change`: "kp=0,guard=off"."""
+    changes: dict[str, Any] = {}
+    for part in text.split(","):
+        name, equals, value = (word.strip() for word in part.partition("="))
+        try:
+            changes[name] = value == "on" if value in ("on", "off") else float(value)
+        except ValueError:
+            equals = ""
+        if not name or not equals:
+            raise ValueError(
+                f"--change {text}: must be NAME=VALUE, a number in SI units, on or off"
+            )
+    return changes
+
+
+def population(name: str, hands: int | None, seed: int, approach: float | None = None) -> Operators:
+    """Return the population of `--population`, `--hands`, `--seed` and `--approach` [m]."""
+    from ebac.operators import Operators
+
+    if hands is not None and name != "random":
+        raise ValueError(
+            f"--hands {hands}: only a random population has a size; add --population random"
+        )
+    if name == "grid60":
+        people = Operators.grid()
+    elif name == "random":
+        people = Operators.sample(500 if hands is None else hands, seed)
+    elif Path(name).suffix or Path(name).exists():
+        people = Operators.from_csv(name)
+    else:
+        raise ValueError(f"--population {name}: must be grid60, random or a CSV file")
+    return people if approach is None else people.replace(approach_m=approach)
 
 
 def in_options(message: str) -> str:

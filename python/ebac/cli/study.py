@@ -80,7 +80,8 @@ def study(
 ) -> None:
     """Run laws with whole populations of hands under named conditions. A simulation.
 
-    Good is a hand that rests within two encoder counts of the ideal and swings by less than 0.25 mm;
+    Good is a hand that rests within two encoder counts of the ideal, or where friction f_c holds it,
+    f_c/(K0 + K) farther, and swings by less than 0.25 mm;
     in time, one that has settled within 1.5 times what it needs against an ideal wall, plus 0.2 s.
 
     **Examples**
@@ -95,7 +96,7 @@ def study(
     """
     with output.refusing():
         names = setting.law_names(law or DEFAULT_LAWS)
-        people = _population(population, hands, seed, approach)
+        people = setting.population(population, hands, seed, approach)
         given: dict[str, Any] = {
             "base": setting.base_scenario(scenario),
             "conditions": condition or ["d1K10"],
@@ -113,24 +114,6 @@ def study(
     study_results.show(found)
     if folder is not None:
         output.list_files(folder, files)
-
-
-def _population(name: str, hands: int | None, seed: int, approach: float | None) -> Operators:
-    from ebac.operators import Operators
-
-    if hands is not None and name != "random":
-        raise ValueError(
-            f"--hands {hands}: only a random population has a size; add --population random"
-        )
-    if name == "grid60":
-        people = Operators.grid()
-    elif name == "random":
-        people = Operators.sample(500 if hands is None else hands, seed)
-    elif Path(name).suffix or Path(name).exists():
-        people = Operators.from_csv(name)
-    else:
-        raise ValueError(f"--population {name}: must be grid60, random or a CSV file")
-    return people if approach is None else people.replace(approach_m=approach)
 
 
 def _run(

@@ -75,13 +75,14 @@ def show(study: Study) -> None:
         "condition",
         "law",
         "hands",
+        "ideal wall good",
         "good",
         "in time",
         "least energy",
         "most drawn",
         "settled",
     ]
-    grid = output.table(headings, numbers=range(2, 8))
+    grid = output.table(headings, numbers=range(2, 9))
     last = ""
     for row in study.rows:
         if last and row.condition != last:
@@ -90,6 +91,7 @@ def show(study: Study) -> None:
             row.condition if row.condition != last else "",
             row.law,
             str(row.hands),
+            "-" if row.ideal_good is None else str(row.ideal_good),
             _count(row.good, row),
             _count(row.settled_in_time, row),
             wording.quantity(row.least_energy_J, "J"),

@@ -1,10 +1,12 @@
 """Figures of traces and studies; they use no global state of pyplot, so any thread may draw."""
 
+from ebac.plot.ablation import plot_ablation
 from ebac.plot.maps import plot_map
 from ebac.plot.run import plot_trace
 from ebac.plot.study import plot_study
 from ebac.plot.style import COLOURS, DPI, Picture, colour, dress, legend, line, new_figure
 from ebac.plot.walls import plot_walls
+from ebac.plot.worst import plot_worst
 from ebac.plot.zwidth import plot_zwidth
 
 __all__ = [
@@ -16,9 +18,11 @@ __all__ = [
     "legend",
     "line",
     "new_figure",
+    "plot_ablation",
     "plot_map",
     "plot_study",
     "plot_trace",
     "plot_walls",
+    "plot_worst",
     "plot_zwidth",
 ]

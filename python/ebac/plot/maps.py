@@ -9,7 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.colors import BoundaryNorm, ListedColormap, LogNorm
 from matplotlib.figure import Figure
 
-from ebac.metrics import EXACT_COUNTS, QUIET_SWING
+from ebac.metrics import QUIET_SWING
 from ebac.plot.style import Numbers, Picture, new_figure
 
 if TYPE_CHECKING:
@@ -31,12 +31,13 @@ def plot_map(found: StabilityMap) -> Picture:
     Returns
     -------
     Figure
-        Contours, of the median over a twentieth of each axis: 0.25 mm of swing, 1 mJ, two encoder counts.
+        Contours, of the median over a twentieth of each axis: 0.25 mm of swing, 1 mJ, two encoder
+        counts and what friction holds.
     """
     figure = new_figure(12, 9)
     grid = figure.subplots(2, 2, sharex=True, sharey=True)
     _verdicts(figure, grid[0, 0], found)
-    counts = 1e3 * EXACT_COUNTS * found.base.device.count
+    allowed = 1e3 * float(np.median(found["allowed_m"]))
     swing, energy = 1e3 * found["swing_m"], -1e3 * found["least_energy_J"]
     deviation = 1e3 * np.abs(found["rest_m"] - found["ideal_m"])
     _panel(
@@ -44,7 +45,7 @@ def plot_map(found: StabilityMap) -> Picture:
     )
     _panel(figure, grid[1, 0], found, energy, 1.0, (1e-2, 1e5), "energy taken out of the port [mJ]")
     _panel(
-        figure, grid[1, 1], found, deviation, counts, (1e-3, 1e1), "rest, away from the ideal [mm]"
+        figure, grid[1, 1], found, deviation, allowed, (1e-3, 1e1), "rest, away from the ideal [mm]"
     )
     along, up = found.axes
     for ax in grid[-1]:

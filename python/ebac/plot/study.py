@@ -12,7 +12,7 @@ from matplotlib.patheffects import withStroke
 from matplotlib.ticker import FuncFormatter
 from numpy.typing import NDArray
 
-from ebac.metrics import EXACT_COUNTS, QUIET_SWING
+from ebac.metrics import QUIET_SWING
 from ebac.plot.style import Picture, colour, new_figure
 
 if TYPE_CHECKING:
@@ -66,7 +66,7 @@ def _scatter(study: Study, conditions: list[str]) -> Picture:
         )  # fmt: skip
         grid[-1, column].set_xlabel("swing, peak to peak [mm]")
     figure.suptitle(
-        "Where each hand ends; grey: good (within 2 counts of the ideal, swing below 0.25 mm); "
+        "Where each hand ends; grey: good (within 2 counts of the ideal and what friction holds, swing below 0.25 mm); "
         "#: row in the population",
         fontsize="medium",
     )
@@ -78,7 +78,7 @@ def _panel(ax: Axes, study: Study, law: str, condition: str) -> None:
     part = {name: values[runs] for name, values in study.columns.items()}
     swing = np.clip(1e3 * part["swing_m"], LEAST_SWING, MOST)
     deviation = np.clip(1e3 * (part["rest_m"] - part["ideal_m"]), -MOST, MOST)
-    band = 1e3 * EXACT_COUNTS * float(np.median(part["count_m"]))
+    band = 1e3 * float(np.median(part["allowed_m"]))
     ax.fill_between([LEAST_SWING, 1e3 * QUIET_SWING], -band, band, color="0.88", lw=0)
     good = part["good"]
     ax.plot(swing[good], deviation[good], "o", ms=4, mew=0, alpha=0.6, color=colour(law))

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 from matplotlib.axes import Axes
 
-from ebac.metrics import EXACT_COUNTS, TAIL_SHARE, ideal_rest
+from ebac.metrics import EXACT_COUNTS, TAIL_SHARE, allowed_deviation, ideal_rest
 from ebac.plot.style import (
     IDEAL,
     Numbers,
@@ -106,8 +106,10 @@ def _wall_frames(axes: dict[str, Axes], trace: Trace) -> None:
 def _near(ax: Axes, traces: Sequence[Trace], ideal: float) -> None:
     """Draw the last 30 % around the ideal point, at the scale of encoder counts."""
     scenario = traces[0].scenario
-    band = 1e3 * EXACT_COUNTS * (scenario.device.count if scenario else 0.0)
-    ax.axhspan(-band, band, color="0.92", label=f"within {EXACT_COUNTS} encoder counts")
+    band = 1e3 * (allowed_deviation(scenario) if scenario else 0.0)
+    friction = scenario is not None and band > 1.001e3 * EXACT_COUNTS * scenario.device.count
+    more = " and friction" if friction else ""
+    ax.axhspan(-band, band, color="0.92", label=f"within {EXACT_COUNTS} encoder counts{more}")
     ax.axhline(0, **IDEAL)
     ax.set_ylim(-5 * band, 5 * band)
     away = []

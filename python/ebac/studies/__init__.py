@@ -1,16 +1,29 @@
 """Laws over whole populations of hands, under named conditions."""
 
+from ebac.studies.ablation import Ablation, AblationRow, Piece, ablation, pieces
 from ebac.studies.conditions import CONDITIONS, GROUPS, Condition, conditions
+from ebac.studies.measures import MEASURES, Measure
 from ebac.studies.result import Failure, Study, StudyRow
 from ebac.studies.study import study
+from ebac.studies.worst import Worst, WorstHand, worst
 
 __all__ = [
     "CONDITIONS",
     "GROUPS",
+    "MEASURES",
+    "Ablation",
+    "AblationRow",
     "Condition",
     "Failure",
+    "Measure",
+    "Piece",
     "Study",
     "StudyRow",
+    "Worst",
+    "WorstHand",
+    "ablation",
     "conditions",
+    "pieces",
     "study",
+    "worst",
 ]

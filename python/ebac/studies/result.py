@@ -32,8 +32,8 @@ class StudyRow:
     hands : int
         Runs.
     good : int or None
-        Hands that rest within two counts of the ideal and swing by less than 0.25 mm; None where the condition has no
-        point of rest.
+        Hands that rest within two counts and what friction holds of the ideal (`allowed_deviation`) and swing by less
+        than 0.25 mm; None where the condition has no point of rest.
     settled_in_time : int or None
         Of the good ones, those settled within 1.5 times what the same hand needs against an ideal wall, plus 0.2 s.
     least_energy_J : float or None
@@ -42,6 +42,9 @@ class StudyRow:
         Most energy drawn in any window of any run, see `Contact`.
     median_settled_s : float or None
         Median over the runs that settled.
+    ideal_good : int or None
+        Hands for which an ideal, continuous wall is good by the same measure: what no law can be blamed for. None where
+        it has no closed form.
     """
 
     law: str
@@ -52,6 +55,7 @@ class StudyRow:
     least_energy_J: float | None
     most_drawn_J: float | None
     median_settled_s: float | None
+    ideal_good: int | None = None
 
     def row(self) -> dict[str, Any]:
         """Return the documented row of `ebac study --json`."""
@@ -84,7 +88,7 @@ class Study:
         What was simulated: all hands of the first condition, then of the second, and so on.
     columns : dict of str to array, shape (runs,)
         Those of `SweepResult`, and `condition`, `operator` (row from 1, 0 for a drive), `ideal_settled_s` (inf where
-        even an ideal wall does not settle, NaN where that is not known), `good`, `settled_in_time`.
+        even an ideal wall does not settle, NaN where that is not known), `ideal_good`, `good`, `settled_in_time`.
     """
 
     operators: Operators
@@ -118,6 +122,7 @@ class Study:
             least_energy_J=_of(np.min, part["least_energy_J"]),
             most_drawn_J=_of(np.max, part["most_drawn_J"]),
             median_settled_s=_of(np.median, part["settled_s"]),
+            ideal_good=int(part["ideal_good"].sum()) if timed else None,
         )
 
     @cached_property

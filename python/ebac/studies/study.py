@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ebac import _core
+from ebac.metrics import QUIET_SWING
 from ebac.operators import Operators
 from ebac.scenario import Scenario
 from ebac.studies.conditions import Condition
@@ -74,12 +75,15 @@ def study(
         scenarios, named, designed_for=believed, threads=threads, executor=executor,
         out=out, resume=resume, progress=progress,
     )  # fmt: skip
-    ideal = ideal_settled(scenarios, threads)
+    ideal = ideal_contacts(scenarios, threads)
     n = len(named)
     columns = dict(result.columns)
     columns["condition"] = np.tile(np.repeat([c.name for c in chosen], lengths), n)
     columns["operator"] = np.tile(np.concatenate(rows), n)
-    columns["ideal_settled_s"] = np.tile(ideal, n)
+    columns["ideal_settled_s"] = np.tile(ideal["settled_s"], n)
+    columns["ideal_good"] = (
+        np.abs(np.tile(ideal["rest_m"], n) - columns["ideal_m"]) <= columns["allowed_m"]
+    ) & (np.tile(ideal["swing_m"], n) < QUIET_SWING)
     columns["good"] = result.good
     columns["settled_in_time"] = result.good & (
         columns["settled_s"] <= SLOWER * columns["ideal_settled_s"] + LATER
@@ -90,12 +94,18 @@ def study(
     )  # fmt: skip
 
 
-def ideal_settled(scenarios: Sequence[Scenario], threads: int | None = None) -> NDArray[np.float64]:
-    """Return when each hand would settle against an ideal, continuous wall [s].
+def ideal_contacts(
+    scenarios: Sequence[Scenario], threads: int | None = None
+) -> dict[str, NDArray[np.float64]]:
+    """Return what each hand would do against an ideal, continuous wall: `rest_m`, `swing_m`, `settled_s`.
 
-    inf where it never does; NaN where it has no closed form, see `ideal_contact` in the core.
+    It settles at inf where it never does; NaN where there is no closed form, see `ideal_contact` in the core.
     """
     setups = [scenario.setup() for scenario in scenarios]
     found = _core._ideal_contacts(setups, threads or cores(), _core.SweepProgress())
     settled, rest = found["settled"], found["rest"]
-    return np.where(np.isnan(settled) & np.isfinite(rest), np.inf, settled)
+    return {
+        "rest_m": rest,
+        "swing_m": found["swing"],
+        "settled_s": np.where(np.isnan(settled) & np.isfinite(rest), np.inf, settled),
+    }

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from ebac._core import Fault, RunLimits, SweepProgress
 from ebac.laws import CoreLaw, PythonLaw
-from ebac.metrics import COLUMNS, FEWEST_ROWS, contact, ideal_rest
+from ebac.metrics import COLUMNS, FEWEST_ROWS, allowed_deviation, contact, ideal_rest
 from ebac.scenario import Scenario
 from ebac.simulation import LoopFault, simulate
 from ebac.trace import Trace
@@ -50,7 +50,9 @@ def cores() -> int:
 
 def empty(n: int) -> Columns:
     """Return the columns of `n` runs of which nothing is known yet."""
-    columns: Columns = {name: np.full(n, nan) for name in ("ideal_m", "count_m", *COLUMNS)}
+    columns: Columns = {
+        name: np.full(n, nan) for name in ("ideal_m", "count_m", "allowed_m", *COLUMNS)
+    }
     return columns | {name: np.full(n, value, kind) for name, (kind, value) in STATUS.items()}
 
 
@@ -73,6 +75,7 @@ def measure(runs: Sequence[Run], *, threads: int, limits: RunLimits, watch: Watc
         ideal = ideal_rest(scenario)
         columns["ideal_m"][i] = nan if ideal is None else ideal
         columns["count_m"][i] = scenario.device.count
+        columns["allowed_m"][i] = allowed_deviation(scenario)
     kinds: dict[type, list[int]] = {}
     for i, (_, law) in enumerate(runs):
         kinds.setdefault(type(law), []).append(i)

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ebac.metrics import EXACT_COUNTS, QUIET_SWING
+from ebac.metrics import QUIET_SWING
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -28,7 +28,8 @@ class SweepResult:
     Attributes
     ----------
     columns : dict of str to array, shape (runs,)
-        `law` (its name), `scenario` (its place in what was swept), `seed`; `ideal_m`, `count_m` and the numbers of
+        `law` (its name), `scenario` (its place in what was swept), `seed`; `ideal_m`, `count_m`,
+        `allowed_m` and the numbers of
         `Contact`, under the same names; `ticks` (rows simulated), `fault`, `diverged` (beyond the limits, ended
         early), `done` (False when the sweep was interrupted before).
     """
@@ -56,8 +57,8 @@ class SweepResult:
 
     @property
     def good(self) -> NDArray[np.bool_]:
-        """Whether each run rests within two counts of the ideal and swings by less than 0.25 mm."""
-        exact = np.abs(self.deviation_m) <= EXACT_COUNTS * self["count_m"]
+        """Whether each run rests within `allowed_m` of the ideal and swings by less than 0.25 mm."""
+        exact = np.abs(self.deviation_m) <= self["allowed_m"]
         ended = self["done"] & ~self["diverged"] & (self["fault"] == 0)
         return np.asarray(exact & (self["swing_m"] < QUIET_SWING) & ended)
 

@@ -138,7 +138,7 @@ def name_laws(laws: Laws) -> dict[str, AnyLaw]:
         named = dict(laws)
     else:
         given: Sequence[Any] = laws if isinstance(laws, (list, tuple)) else [laws]
-        names = [law if isinstance(law, str) else law_name(law) for law in given]
+        names = [law_name(law) for law in given]
         named = dict(zip(names, given, strict=True))
         if len(named) < len(given):
             twice = next(name for name in names if names.count(name) > 1)

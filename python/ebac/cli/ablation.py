@@ -1,0 +1,184 @@
+"""`ebac ablation`: each piece of a law off, one at a time."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from ebac.cli import options, output, setting, study_results
+
+if TYPE_CHECKING:
+    from ebac.studies import Ablation, AblationRow
+
+DEFAULT_OUT = Path("ebac-ablation")
+_WHO, _WHAT, _RUN = "Population", "Law and pieces", "Run"
+#: Measures of one table on the screen.
+ABREAST = 7
+#: Differences told in a line; the tables show all.
+TOLD = 4
+
+
+def ablation(
+    law: Annotated[
+        str,
+        typer.Option("--law", "-l", help="A law by name, see `ebac laws`.", rich_help_panel=_WHAT),
+    ] = "ebac",
+    change: Annotated[
+        list[str] | None,
+        typer.Option(
+            help="One more row: NAME=VALUE in SI units, on or off; several with commas between; repeat it. "
+            "`ebac laws NAME` lists the parameters.",
+            rich_help_panel=_WHAT,
+        ),
+    ] = None,
+    beside: Annotated[
+        list[str] | None,
+        typer.Option(
+            help="Other laws, for the reader; repeat it.",
+            show_default="tca, eba",
+            rich_help_panel=_WHAT,
+        ),
+    ] = None,
+    population: Annotated[
+        str,
+        typer.Option(help="grid60, random, or a CSV file, as `ebac study`.", rich_help_panel=_WHO),
+    ] = "grid60",
+    hands: Annotated[
+        int | None,
+        typer.Option(
+            help="How many random hands.", show_default="500", min=1, rich_help_panel=_WHO
+        ),
+    ] = None,
+    seed: Annotated[
+        int, typer.Option(help="Seed of random hands, noise and jitter.", rich_help_panel=_WHO)
+    ] = 1,
+    scenario: options.ScenarioFile = None,
+    threads: options.Threads = None,
+    out: Annotated[Path | None, options.out_folder("tables and figure", DEFAULT_OUT)] = None,
+    resume: Annotated[bool, options.resume("ablation")] = False,
+    as_json: output.AsJson = False,
+) -> None:
+    """Take each piece of a law away, one at a time, and see what gets worse. A simulation.
+
+    Pieces are the law's on/off parameters, each turned over, and its gain kp set to zero.
+    Measured are hands that are good under hard conditions, energy given out, and ripple.
+
+    **Examples**
+
+    * `ebac ablation`: EBAC without each of its pieces, 60 hands.
+
+    * `ebac ablation --change pull=40 --change kp=0,guard=off`: two rows more.
+
+    * `ebac ablation --population random --hands 500 --seed 7 --json`
+    """
+    folder = out or (None if as_json else DEFAULT_OUT)
+    if resume and folder is None:
+        output.fail("--resume continues in a folder: give it with --out")
+    with output.refusing():
+        given: dict[str, Any] = {
+            "law": setting.one_law(law),
+            "changes": [setting.parse_change(one) for one in change or []],
+            "beside": setting.law_names(beside or ("tca", "eba"), "--beside"),
+            "base": setting.base_scenario(scenario),
+            "seed": seed,
+            "threads": threads,
+            "resume": resume,
+            "out": None if folder is None else folder / study_results.BUNDLES,
+        }
+        people = setting.population(population, hands, seed)
+    found = _run(people, given, folder, quiet=as_json)
+    files = _write(folder, found) if folder else []
+    if as_json:
+        typer.echo(_document(found))
+        return
+    _show(found)
+    if folder is not None:
+        output.list_files(folder, files)
+
+
+def _run(people: Any, given: dict[str, Any], folder: Path | None, *, quiet: bool) -> Ablation:
+    from ebac.studies import ablation as run_ablation
+    from ebac.sweeps import SweepInterrupted
+
+    try:
+        with output.refusing(), output.counting("simulating", quiet=quiet) as progress:
+            return run_ablation(people, progress=progress, **given)
+    except SweepInterrupted as stopped:
+        more = f"; continue with --resume --out {folder}" if folder is not None else ""
+        output.fail(f"{stopped}{more}", code=output.INTERRUPTED)
+
+
+def _document(found: Ablation) -> str:
+    return output.document("ablation", [row.row() for row in found.rows])
+
+
+def _write(folder: Path, found: Ablation) -> list[str]:
+    from ebac.plot import plot_ablation
+
+    with output.results(folder) as draft:
+        if draft is None:
+            return []
+        plot_ablation(found).savefig(draft / "ablation.png")
+        (draft / "ablation.json").write_text(_document(found) + "\n", encoding="utf-8")
+        rows = [
+            {**row.row(), "changes": row.label if row.piece else ""} | {
+                name: " ".join(getattr(row, name)) for name in ("worse", "better")
+            }
+            for row in found.rows
+        ]  # fmt: skip
+        output.csv_table(draft / "ablation.csv", rows)
+        found.study.operators.to_csv(draft / "population.csv")
+        found.study.result().to_csv(draft / "runs.csv")
+        return sorted(file.name for file in draft.iterdir())
+
+
+def _show(found: Ablation) -> None:
+    from ebac import wording
+
+    for start in range(0, len(found.measures), ABREAST):
+        part = found.measures[start : start + ABREAST]
+        headings = [f"{m.heading} \\[{wording.shown(m.unit)}]" for m in part]
+        grid = output.table(["law", *headings], numbers=range(1, len(part) + 1))
+        grid.columns[0].no_wrap = True
+        for i, row in enumerate(found.rows):
+            if i in (1, 1 + len(found.pieces)):
+                grid.add_section()
+            cells = (_cell(row, m.key, wording.cell(row.values[m.key], m.unit)) for m in part)
+            grid.add_row(row.label, *cells)
+        output.console().print(grid)
+    for row in found.rows:
+        if row.piece is not None:
+            _tell(row, found)
+    hands = len(found.study.operators)
+    output.say(
+        f"Simulated, not measured; {hands} hands. red: worse than {found.law} as it is, green: better.",
+        style="bold",
+    )
+
+
+def _cell(row: AblationRow, key: str, text: str) -> str:
+    style = "red" if key in row.worse else "green" if key in row.better else ""
+    return f"[{style}]{text}[/]" if style else text
+
+
+def _tell(row: AblationRow, found: Ablation) -> None:
+    verdict = "worse" if row.earns else "nothing gets worse"
+    lines = [verdict + (f": {_list(row, found, row.worse)}" if row.worse else "")]
+    if row.better:
+        lines.append(f"better: {_list(row, found, row.better)}")
+    output.say(f"{row.label}: {'; '.join(lines)}")
+
+
+def _list(row: AblationRow, found: Ablation, keys: Sequence[str]) -> str:
+    from ebac import wording
+
+    known = {measure.key: measure for measure in found.measures}
+    told = [
+        f"{known[key].heading} {wording.cell(found.rows[0].values[key], known[key].unit)} -> "
+        f"{wording.quantity(row.values[key], known[key].unit)}"
+        for key in keys[:TOLD]
+    ]
+    return ", ".join(told) + (f" and {len(keys) - TOLD} more" if len(keys) > TOLD else "")

@@ -1,0 +1,194 @@
+"""`ebac worst`: the hand that takes most energy out of a law's port."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from ebac.cli import options, output, setting
+
+if TYPE_CHECKING:
+    from ebac.studies.worst import Worst, WorstHand
+
+DEFAULT_OUT = Path("ebac-worst")
+_WHAT, _SEARCH, _RUN = "Law and condition", "Search", "Run"
+
+
+def worst(
+    law: Annotated[
+        str,
+        typer.Option("--law", "-l", help="A law by name, see `ebac laws`.", rich_help_panel=_WHAT),
+    ] = "ebac",
+    change: Annotated[
+        str | None,
+        typer.Option(
+            help="Parameters of the law to change: NAME=VALUE in SI units, on or off, with commas between.",
+            show_default=False,
+            rich_help_panel=_WHAT,
+        ),
+    ] = None,
+    condition: Annotated[
+        str,
+        typer.Option(
+            "--condition",
+            "-c",
+            help="A condition of device, timing or wall, see `ebac conditions`.",
+            rich_help_panel=_WHAT,
+        ),
+    ] = "d1K10",
+    family: Annotated[
+        list[str] | None,
+        typer.Option(
+            help="A family of hands: impact, press-and-go, tapping, swinging, drive, noise, periodic; repeat it.",
+            show_default="all",
+            rich_help_panel=_SEARCH,
+        ),
+    ] = None,
+    evaluations: Annotated[
+        int, typer.Option(help="Runs per family, at least 40.", rich_help_panel=_SEARCH)
+    ] = 2000,
+    seed: Annotated[int, typer.Option(help="Seed of the search.", rich_help_panel=_SEARCH)] = 1,
+    pull: Annotated[
+        float | None,
+        typer.Option(
+            help="Largest pull of a hand [N].",
+            show_default="what the law declares, else 20",
+            rich_help_panel=_SEARCH,
+        ),
+    ] = None,
+    scenario: options.ScenarioFile = None,
+    threads: options.Threads = None,
+    out: Annotated[Path | None, options.out_folder("scenarios and figures", DEFAULT_OUT)] = None,
+    as_json: output.AsJson = False,
+) -> None:
+    """Search the hand that draws most energy out of a law's port. A simulation.
+
+    Drawn is minus the least port energy. Seven families of hands are searched: random hands, generations bred
+    from the best, then NLopt. A hand that pulls harder than allowed does not count.
+
+    **Examples**
+
+    * `ebac worst`: EBAC at the paper's wall.
+
+    * `ebac worst --condition d2K10 --family swinging --evaluations 10000`
+
+    * `ebac worst --change guard=off`: what the guard is for.
+    """
+    from ebac.laws import Variant
+    from ebac.studies.worst import worst as search
+
+    with output.refusing():
+        name = setting.one_law(law)
+        chosen = Variant(name, setting.parse_change(change)) if change else name
+        base = setting.base_scenario(scenario)
+        with output.counting("searching", quiet=as_json) as progress:
+            found = search(
+                chosen, condition, family=family, evaluations=evaluations, seed=seed, pull=pull,
+                base=base, threads=threads, progress=progress,
+            )  # fmt: skip
+    folder = out or (None if as_json else DEFAULT_OUT)
+    files = _write(folder, found, evaluations, seed) if folder else []
+    if as_json:
+        typer.echo(_document(found, evaluations, seed))
+        return
+    _show(found)
+    if folder is not None:
+        _tell_replay(found, folder, name, changed=bool(change))
+        output.list_files(folder, files)
+
+
+def _document(found: Worst, evaluations: int, seed: int) -> str:
+    return output.document(
+        "worst", found.rows(), allowed_pull_N=found.pull, declared_pull_N=found.declared,
+        evaluations=evaluations, seed=seed,
+    )  # fmt: skip
+
+
+def _write(folder: Path, found: Worst, evaluations: int, seed: int) -> list[str]:
+    from ebac.plot import plot_worst
+
+    with output.results(folder) as draft:
+        if draft is None:
+            return []
+        document = _document(found, evaluations, seed)
+        (draft / "worst.json").write_text(document + "\n", encoding="utf-8")
+        for hand in found.hands:
+            hand.scenario.save(draft / f"{_file(hand)}.toml")
+            plot_worst(found, hand).savefig(draft / f"{_file(hand)}.png")
+        rows = [
+            {
+                **row,
+                "parameters": " ".join(f"{p['name']}={p['value']!r}" for p in row["parameters"]),
+            }
+            for row in found.rows()
+        ]
+        output.csv_table(draft / "worst.csv", rows)
+        return sorted(file.name for file in draft.iterdir())
+
+
+def _file(hand: WorstHand) -> str:
+    return f"worst-{hand.family.name}"
+
+
+def _show(found: Worst) -> None:
+    from ebac import wording
+
+    headings = [
+        "family",
+        "drawn",
+        "drawn in any window",
+        "hardest pull",
+        "within what the law counts with",
+        "runs",
+    ]
+    grid = output.table(headings, numbers=(1, 2, 3, 5))
+    for hand in found.hands:
+        within = {None: "-", True: "yes", False: "[red]no[/]"}[found.within(hand)]
+        beyond = found.reserve is not None and hand.energy_J > found.reserve
+        drawn = wording.quantity(hand.energy_J, "J")
+        grid.add_row(
+            hand.family.name,
+            f"[red]{drawn}[/]" if beyond else drawn,
+            wording.quantity(hand.most_drawn_J, "J"),
+            wording.quantity(hand.most_pull_N, "N"),
+            within,
+            str(hand.runs),
+        )  # fmt: skip
+    output.console().print(grid)
+    top = found.hands[0]
+    output.say(f"The worst: {top.family.name}, {top.family.summary}", style="bold")
+    for p in top.family.parameters:
+        span = f"[{wording.quantity(p.low, p.unit)}, {wording.quantity(p.high, p.unit)}]"
+        output.say(f"  {p.name} = {wording.quantity(top.values[p.name], p.unit)} of {span}")
+    output.say(_verdict(found, top))
+    output.say(
+        "Simulated, not measured; a search shows what exists, never that nothing worse does.",
+        style="bold",
+    )
+
+
+def _verdict(found: Worst, top: WorstHand) -> str:
+    from ebac import wording
+
+    drawn = f"It draws {wording.quantity(top.energy_J, 'J')}"
+    if found.reserve is None:
+        return f"{drawn}; {found.law} lends nothing."
+    unseen = wording.quantity(top.unseen_J, "J")
+    lent = f"e(0) lends {wording.quantity(found.reserve, 'J')}"
+    if top.energy_J <= found.reserve:
+        return f"{drawn}; {lent}: within it."
+    return f"{drawn}; {lent}: beyond it. One count times all changes of the force, which no encoder sees, is {unseen}."
+
+
+def _tell_replay(found: Worst, folder: Path, law: str, *, changed: bool) -> None:
+    from ebac.studies.worst import replays
+
+    top = found.hands[0]
+    if not changed and replays(found.condition, top.scenario):
+        output.say(f"\nReplay: ebac wall --law {law} --scenario {folder / _file(top)}.toml")
+    else:
+        output.say(
+            "\nReplay from Python, `ebac.worst(...).trace()`: this law is not the one designed for the scenario."
+        )

@@ -1,0 +1,126 @@
+"""The worst hand of a search over time: depth, force, its pull, and the energy it drew."""
+
+from __future__ import annotations
+
+from textwrap import fill
+from typing import TYPE_CHECKING
+
+import numpy as np
+from matplotlib.axes import Axes
+
+from ebac import wording
+from ebac.plot.style import OTHER_LAW, Picture, colour, dress, legend, line, new_figure
+
+if TYPE_CHECKING:
+    from ebac.studies.worst import Worst, WorstHand
+    from ebac.trace import Trace
+
+#: What the right column shows around the instant of least energy [s].
+NEAR = 0.15
+
+
+def plot_worst(found: Worst, hand: WorstHand | None = None) -> Picture:
+    """Draw a hand of a search, by default the worst: the whole run, and the instant at which most is drawn.
+
+    Parameters
+    ----------
+    found : Worst
+        What `ebac.worst` returned.
+    hand : WorstHand, optional
+        One of its hands.
+
+    Returns
+    -------
+    Figure
+    """
+    chosen = hand or found.hands[0]
+    trace = found.trace(chosen)
+    figure = new_figure(13, 9.5)
+    grid = figure.subplots(4, 2, sharex="col", width_ratios=(3, 2))
+    least = float(
+        trace["t"][int(trace["true.energy"].reshape(len(trace), -1).sum(axis=1).argmin())]
+    )
+    for column in grid.T:
+        _depth(column[0], trace)
+        _force(column[1], trace, found.law)
+        _pull(column[2], trace, found)
+        _energy(column[3], trace, found)
+        for ax in column:
+            ax.axvline(least, color="0.6", lw=0.8, ls=":")
+        column[-1].set_xlabel("time [s]")
+    for ax in grid[:, 0]:
+        legend(ax, columns=5)
+    for ax in grid[:, 1]:
+        ax.set_ylabel("")
+    from_, to = max(0.0, least - NEAR), min(float(trace["t"][-1]), least + NEAR)
+    grid[0, 1].set_xlim(from_, to)
+    shown = trace.axis("true.x", 0)[(trace["t"] >= from_) & (trace["t"] <= to)] - _surface(trace)
+    room = 0.1e3 * max(float(np.ptp(shown)), 1e-5)
+    grid[0, 1].set_ylim(1e3 * float(shown.min()) - room, 1e3 * float(shown.max()) + room)
+    figure.align_ylabels()
+    figure.suptitle(_title(found, chosen), fontsize="medium")
+    return figure
+
+
+def _title(found: Worst, hand: WorstHand) -> str:
+    lent = f" (lent: {wording.quantity(found.reserve, 'J')})" if found.reserve is not None else ""
+    told = ", ".join(
+        f"{p.name} {wording.quantity(hand.values[p.name], p.unit)}" for p in hand.family.parameters
+    )
+    return (
+        f"law {found.law}, {found.condition.name}, simulated: the worst hand of the family "
+        f"{hand.family.name} draws {wording.quantity(hand.energy_J, 'J')}{lent}\n{fill(told, 120)}"
+    )
+
+
+def _surface(trace: Trace) -> float:
+    assert trace.scenario is not None
+    return float(getattr(trace.scenario.environment, "position", 0.0))
+
+
+def _depth(ax: Axes, trace: Trace) -> None:
+    depth = 1e3 * (trace.axis("true.x", 0) - _surface(trace))
+    line(ax, trace["t"], depth, color=colour(trace.law), label="depth in the wall")
+    ax.axhline(0, color="0.35", lw=1)
+    dress(ax, "depth [mm]")
+
+
+def _force(ax: Axes, trace: Trace, law: str) -> None:
+    t = trace["t"]
+    commanded, applied = trace.axis("f_cmd", 0), trace.axis("f_applied", 0)
+    line(ax, t, trace.axis("f_env", 0), color="black", lw=0.6, label="asked, $F_e$")
+    line(ax, t, commanded, color="#56b4e9", lw=2.2, label="commanded")
+    line(ax, t, applied, color=colour(law), lw=1.0, label="applied")
+    low, high = float(commanded.min()), float(commanded.max())
+    room = 0.15 * max(high - low, 1.0)
+    ax.set_ylim(low - room, high + room)  # what is asked may go far beyond
+    dress(ax, "force [N]")
+
+
+def _pull(ax: Axes, trace: Trace, found: Worst) -> None:
+    scenario, t = trace.scenario, trace["t"]
+    assert scenario is not None
+    acts = np.any([trace.axis(n, 0) != 0 for n in ("f_env", "f_cmd", "f_applied")], axis=0)
+    pull = np.where(acts, scenario.hand.pull(t, trace.axis("true.x", 0)), np.nan)
+    ax.plot(t, pull, color="#d55e00", lw=1.2, label="pull of the hand, in contact")
+    ax.axhline(found.pull, color="0.35", lw=1, ls="--", label=f"allowed, {found.pull:g} N")
+    ax.set_ylim(0, 1.15 * found.pull)
+    dress(ax, "pull [N]")
+
+
+def _energy(ax: Axes, trace: Trace, found: Worst) -> None:
+    t = trace["t"]
+    true = 1e3 * trace["true.energy"].reshape(len(trace), -1).sum(axis=1)
+    line(ax, t, true, color=colour(found.law), lw=1.6, label="port energy")
+    largest = max(2.0 * -float(true.min()), 1.0)
+    for name in ("law.energy", "law.account"):
+        if name in trace:
+            line(
+                ax, t, 1e3 * trace.axis(name, 0), color=OTHER_LAW, lw=0.8, label="ledger of the law"
+            )
+    if found.reserve is not None:
+        ax.axhline(-1e3 * found.reserve, color="#d55e00", lw=1, ls="--", label="-e(0)")
+        largest = max(largest, 2e3 * found.reserve)
+    ax.axhline(0, color="0.35", lw=1)
+    ax.set_ylim(1.2 * min(float(true.min()), -1e3 * (found.reserve or 0.0)), largest)
+    dress(ax, "energy [mJ]")

@@ -1,0 +1,128 @@
+"""What an ablation looks at: numbers over a population, each with its unit and what makes a difference in it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+if TYPE_CHECKING:
+    from ebac.studies.result import Study
+
+Columns: TypeAlias = dict[str, NDArray[Any]]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Measure:
+    """One number of a law over a population.
+
+    Attributes
+    ----------
+    key : str
+        Its key in `ebac ablation --json`, unit included.
+    heading, unit : str
+        What tables call it, and its SI unit; "hands" for a count.
+    conditions : tuple of str
+        Where it is taken; all runs together.
+    of : callable
+        The columns of these runs in, the number out; NaN where there is none.
+    more : bool
+        Whether more of it is better.
+    matters : float
+        A smaller difference is none: in its unit, for `relative` as a share of the larger number, for counts as a
+        share of the runs.
+    relative : bool
+        How `matters` is meant.
+    """
+
+    key: str
+    heading: str
+    unit: str
+    conditions: tuple[str, ...]
+    of: Callable[[Columns], float]
+    more: bool = False
+    matters: float
+    relative: bool = False
+
+    def value(self, study: Study, law: str) -> float | None:
+        """Return the number for a law; None where there is none."""
+        runs = np.concatenate([study.runs(law, name) for name in self.conditions])
+        value = self.of({name: values[runs] for name, values in study.columns.items()})
+        if not np.isfinite(value):
+            return None
+        return int(value) if self.unit == "hands" else value
+
+    def gain(self, value: float | None, other: float | None, hands: int) -> int:
+        """Return 1 where `value` is better than `other`, -1 where worse, 0 where they differ by nothing that matters.
+
+        A number that does not exist is worse than any.
+        """
+        if value is None or other is None:
+            return (value is not None) - (other is not None)
+        size = max(abs(value), abs(other)) if self.relative else 1.0
+        least = max(1.0, self.matters * hands) if self.unit == "hands" else self.matters * size
+        if abs(value - other) < least or value == other:
+            return 0
+        return 1 if (value > other) == self.more else -1
+
+
+def _count(column: str) -> Callable[[Columns], float]:
+    return lambda runs: float(runs[column].sum())
+
+
+def _median(column: str, where: str | None = None) -> Callable[[Columns], float]:
+    def of(runs: Columns) -> float:
+        values = runs[column][runs[where]] if where else runs[column]
+        there = values[np.isfinite(values)]
+        return float(np.median(there)) if len(there) else float("nan")
+
+    return of
+
+
+def _least(runs: Columns) -> float:
+    return float(np.nanmin(runs["least_energy_J"]))
+
+
+def _away(runs: Columns) -> float:
+    quiet = runs["swing_m"] < 0.25e-3
+    return _median("away")({"away": np.abs(runs["rest_m"] - runs["ideal_m"])[quiet]})
+
+
+def _good(key: str, heading: str, condition: str) -> Measure:
+    return Measure(
+        key=key, heading=heading, unit="hands", conditions=(condition,), of=_count("good"), more=True, matters=0.02
+    )  # fmt: skip
+
+
+def _energy(key: str, heading: str, *conditions: str) -> Measure:
+    return Measure(
+        key=key, heading=heading, unit="J", conditions=conditions, of=_least, more=True, matters=5e-4
+    )  # fmt: skip
+
+
+#: Every measure of an ablation, in the order of its columns.
+MEASURES = (
+    _good("good", "good", "d1K10"),
+    Measure(key="settled_in_time", heading="in time", unit="hands", conditions=("d1K10",),
+            of=_count("settled_in_time"), more=True, matters=0.02),
+    Measure(key="median_settled_s", heading="settled", unit="s", conditions=("d1K10",),
+            of=_median("settled_s", "good"), matters=0.1, relative=True),
+    _good("good_K20", "good, 20 kN/m", "d1K20"),
+    _good("good_d2_K20", "good, 20 kN/m, delay 2", "d2b2K20"),
+    _good("good_slow_press_d2_K20", "good, slow press, 20 kN/m, delay 2", "slow-press-d2K20"),
+    _good("good_tremor", "good, tremor 9 Hz", "tremor-9Hz"),
+    _energy("least_energy_impact_J", "least energy, impact", "d1K10", "d1K20", "d2b2K20"),
+    _energy("least_energy_let_go_J", "least energy, let go", "slow-let-go", "slow-let-go-d2", "slow-let-go-K20"),
+    _energy("least_energy_pumping_J", "least energy, pumping", "pumping"),
+    Measure(key="ripple_N", heading="ripple at rest", unit="N", conditions=("d1K10",),
+            of=_median("force_swing_N", "good"), matters=0.1, relative=True),
+    Measure(key="ripple_noise_N", heading="ripple, sensor noise 0.2 N", unit="N", conditions=("force-noise",),
+            of=_median("force_swing_N", "good"), matters=0.1, relative=True),
+    Measure(key="force_step_N", heading="largest force step", unit="N", conditions=("d1K10",),
+            of=_median("force_step_N", "good"), matters=0.1, relative=True),
+    Measure(key="friction_m", heading="off the ideal, friction 1 N", unit="m", conditions=("friction-1",),
+            of=_away, matters=0.05, relative=True),
+)  # fmt: skip
