@@ -56,16 +56,39 @@ double one() { return Motor{}.current(Motor{}.rated_torque) / 1000; }
 TEST(DriveStates, AreReadFromEveryStatusword) {
   // CiA 402, table of the statusword: bits 0 to 3, 5 and 6 count, the others may be anything.
   for (unsigned word = 0; word < 0x10000; ++word) {
-    const auto state = drive_state(static_cast<std::uint16_t>(word));
+    const auto state = state_of(static_cast<std::uint16_t>(word));
     const unsigned low = word & 0x4F;
     const unsigned six = word & 0x6F;
     EXPECT_EQ(state == DriveState::kOperationEnabled, six == 0x27);
     EXPECT_EQ(state == DriveState::kSwitchedOn, six == 0x23);
-    EXPECT_EQ(state == DriveState::kReadyToSwitchOn, six == 0x21);
-    EXPECT_EQ(state == DriveState::kQuickStop, six == 0x07);
+    EXPECT_EQ(state == DriveState::kReady, six == 0x21);
+    EXPECT_EQ(state == DriveState::kQuickStopActive, six == 0x07);
     EXPECT_EQ(state == DriveState::kSwitchOnDisabled, low == 0x40);
     EXPECT_EQ(state == DriveState::kFault, low == 0x08);
     EXPECT_EQ(state == DriveState::kFaultReaction, low == 0x0F);
+  }
+}
+
+TEST(DriveStates, LeadUpAndDownByTheTableOfTheDrive) {
+  for (std::size_t i = 0; i < kDriveStates; ++i) {
+    const auto start = static_cast<DriveState>(i);
+    EXPECT_EQ(state_of(status_bits(start)), start);
+    DriveState up = start;
+    DriveState down = start;
+    for (int step = 0; step < 4; ++step) {
+      up = after(up, up_from(up));
+      down = after(down, down_from(down));
+    }
+    const bool stuck = faulty(start) || start == DriveState::kNotReady;
+    EXPECT_EQ(up, stuck ? start : DriveState::kOperationEnabled) << i;
+    EXPECT_EQ(down, stuck ? start : DriveState::kSwitchOnDisabled) << i;
+  }
+}
+
+TEST(DriveStates, CommandsAreTheWordsTheDriveReads) {
+  for (std::size_t i = 1; i < kDriveCommands; ++i) {
+    const auto command = static_cast<DriveCommand>(i);
+    EXPECT_EQ(command_of(word_of(command), 0), command) << i;
   }
 }
 
@@ -262,7 +285,7 @@ void PrintTo(const Trouble& trouble, std::ostream* out) {  // NOLINT: GoogleTest
 class FaultOfADrive : public testing::TestWithParam<Trouble> {};
 
 TEST_P(FaultOfADrive, IsTold) {
-  Desk desk({.axes = 2, .silent_ticks = 3, .heartbeat_timeout = 0.01});
+  Desk desk({.axes = 2, .silent_ticks = 3, .heartbeat_timeout = 0.0105});
   desk.enable();
   const auto pulse = [&](NodeId node) { desk.bus.waiting.push_back(frame(heartbeat(node), {5})); };
   for (int i = 0; i < 30; ++i) {

@@ -100,7 +100,7 @@ class CanopenDevice {
       const std::int16_t torque =
           power_.running() ? scale_.permille(command.current[i]) : std::int16_t{0};
       ++i;
-      if (!bus_->send(link.command(power_.controlword(link.state()), torque))) ++link.row().refused;
+      if (!bus_->send(link.command(power_.command(link.state()), torque))) ++link.row().refused;
     }
     if (!bus_->send({.id = kSync})) {
       for (NodeLink& link : links()) ++link.row().refused;

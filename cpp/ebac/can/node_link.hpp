@@ -2,7 +2,7 @@
 
 #include "ebac/can/bus_row.hpp"
 #include "ebac/can/cob_id.hpp"
-#include "ebac/can/drive_state.hpp"
+#include "ebac/can/drive_words.hpp"
 #include "ebac/can/frame.hpp"
 #include "ebac/can/pdo_plan.hpp"
 
@@ -15,7 +15,8 @@ class NodeLink {
 
   explicit NodeLink(NodeId node) EBAC_RT : node_(node) {}
 
-  Frame command(std::uint16_t controlword, std::int16_t permille) EBAC_RT {
+  Frame command(DriveCommand command, std::int16_t permille) EBAC_RT {
+    const std::uint16_t controlword = word_of(command);
     row_.controlword = controlword;
     row_.target_permille = permille;
     Frame out{.id = rpdo(1, node_), .size = kRpdoSize};
@@ -69,9 +70,7 @@ class NodeLink {
   std::int16_t actual_permille() const EBAC_RT {
     return static_cast<std::int16_t>(row_.actual_permille);
   }
-  DriveState state() const EBAC_RT {
-    return drive_state(static_cast<std::uint16_t>(row_.statusword));
-  }
+  DriveState state() const EBAC_RT { return state_of(static_cast<std::uint16_t>(row_.statusword)); }
   const BusRow& row() const EBAC_RT { return row_; }
   BusRow& row() EBAC_RT { return row_; }
 

@@ -1,10 +1,10 @@
 #pragma once
 
-#include "ebac/can/drive_state.hpp"
+#include "ebac/can/drive_words.hpp"
 
 namespace ebac::can {
 
-/// What the loop wants of its drives, and how long it has wanted it: a controlword for each state
+/// What the loop wants of its drives, and how long it has wanted it: a command for each state
 /// and tick. Nothing waits; one call of `tick` per exchange.
 class Power {
  public:
@@ -26,12 +26,14 @@ class Power {
   bool enabling() const EBAC_RT { return goal_ == Goal::kRun && !running_; }
   int ticks() const EBAC_RT { return ticks_; }  // exchanges since it was wanted
 
-  std::uint16_t controlword(DriveState state) const EBAC_RT {
+  DriveCommand command(DriveState state) const EBAC_RT {
     if (goal_ == Goal::kRun) return up_from(state);
     // Zero torque first, with the drive still on: its current is then zero when it lets go.
-    if (ticks_ < kZeroTicks && state == DriveState::kOperationEnabled) return kEnableOperation;
+    const bool on = state == DriveState::kOperationEnabled;
+    if (on && ticks_ < kZeroTicks) return DriveCommand::kEnableOperation;
     if (goal_ == Goal::kRest) return down_from(state);
-    return quick_stop_ && ticks_ < kQuickTicks ? kQuickStopCommand : kDisableVoltage;
+    const bool brake = quick_stop_ && ticks_ < kQuickTicks;
+    return brake ? DriveCommand::kQuickStop : DriveCommand::kDisableVoltage;
   }
 
  private:
