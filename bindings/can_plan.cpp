@@ -1,6 +1,7 @@
 #include <pybind11/stl.h>
 
 #include "bind.hpp"
+#include "ebac/can/exchange_benchmark.hpp"
 #include "ebac/can/pdo_plan.hpp"
 
 namespace ebac::python {
@@ -47,6 +48,10 @@ void bind_can_plan(py::module_& m) {
       py::arg("nodes"),
       "SYNC, and for every node an RPDO (controlword, target torque) and a TPDO (statusword,\n"
       "position, actual torque): the frames of one tick (CiA 301, CiA 402).");
+  const py::call_guard<py::gil_scoped_release> others_run;
+  m.def("_time_exchange", &can::time_exchange, py::arg("ticks"), py::arg("repeats"), others_run);
+  m.def("_time_own_exchange", &can::time_own_exchange, py::arg("ticks"), py::arg("repeats"),
+        others_run);
 }
 
 }  // namespace ebac::python

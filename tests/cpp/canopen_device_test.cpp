@@ -325,6 +325,8 @@ INSTANTIATE_TEST_SUITE_P(
         Trouble{"pre-operational", [](Desk& d) { d.bus.waiting.push_back(frame(0x701, {0x7F})); },
                 Fault::kHeartbeatLost, 1},
         Trouble{"bus off", [](Desk& d) { d.bus.now = BusState::kBusOff; }, Fault::kBusDown, 1},
+        Trouble{"told nothing, yet answering", [](Desk& d) { d.bus.refused_id = 0x202; },
+                Fault::kBusDown, 3},
         Trouble{"interface gone", [](Desk& d) { d.bus.now = BusState::kDown; }, Fault::kBusDown,
                 1}));
 

@@ -17,10 +17,12 @@ struct ScriptedBus {
   std::deque<Frame> waiting{};
   BusState now = BusState::kUp;
   bool full = false;
+  std::uint32_t refused_id = 0xFFFFFFFF;  // of a frame that alone is not taken
 
   bool send(const Frame& frame) noexcept {
-    if (!full) sent.push_back(frame);
-    return !full;
+    const bool taken = !full && frame.id != refused_id;
+    if (taken) sent.push_back(frame);
+    return taken;
   }
   bool receive(Frame& frame) noexcept {
     if (waiting.empty()) return false;

@@ -100,7 +100,7 @@ class CanopenDevice {
       const std::int16_t torque =
           power_.running() ? scale_.permille(command.current[i]) : std::int16_t{0};
       ++i;
-      if (!bus_->send(link.command(power_.command(link.state()), torque))) ++link.row().refused;
+      link.told(bus_->send(link.command(power_.command(link.state()), torque)));
     }
     if (!bus_->send({.id = kSync})) {
       for (NodeLink& link : links()) ++link.row().refused;
@@ -154,6 +154,7 @@ class CanopenDevice {
     if (faulty(link.state())) return Fault::kDriveFault;
     if (link.state() != DriveState::kOperationEnabled) return Fault::kDriveDisabled;
     if (link.row().age >= setup_.silent_ticks) return Fault::kDriveSilent;
+    if (link.untold() >= setup_.silent_ticks) return Fault::kBusDown;
     const bool watched = setup_.heartbeat_timeout > 0;
     const bool dead = watched && (link.left() || link.quiet() > setup_.heartbeat_timeout);
     return dead ? Fault::kHeartbeatLost : Fault::kNone;

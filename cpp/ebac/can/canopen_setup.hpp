@@ -24,7 +24,7 @@ struct CanopenSetup {
     return std::array{
         F{"axes", &CanopenSetup::axes, "1", "drives on the bus, one per axis", 1, kMaxAxes},
         F{"silent_ticks", &CanopenSetup::silent_ticks, "samples",
-          "ticks in a row without process data that are a fault", 1, 1000},
+          "ticks in a row without process data, in either direction, that are a fault", 1, 1000},
         F{"enable_ticks", &CanopenSetup::enable_ticks, "samples",
           "ticks the drives may take to reach operation enabled", 1, 1e6},
         F{"heartbeat_timeout", &CanopenSetup::heartbeat_timeout, "s",

@@ -25,6 +25,12 @@ class NodeLink {
     return out;
   }
 
+  /// Whether the bus took that frame. A drive that is told nothing keeps its last torque.
+  void told(bool taken) EBAC_RT {
+    untold_ = taken ? 0 : untold_ + 1;
+    if (!taken) ++row_.refused;
+  }
+
   /// Reads a data frame with an 11-bit identifier; false for one that is no business of this node.
   bool take(const Frame& frame) EBAC_RT {
     if (frame.id == tpdo(1, node_)) {
@@ -61,6 +67,7 @@ class NodeLink {
     quiet_ = 0;
   }
 
+  int untold() const EBAC_RT { return untold_; }  // ticks in a row
   bool answered() const EBAC_RT { return answered_; }
   bool heard() const EBAC_RT { return heard_; }      // process data, ever
   bool alarmed() const EBAC_RT { return alarmed_; }  // an emergency stands
@@ -121,6 +128,7 @@ class NodeLink {
   bool heard_ = false;
   bool alarmed_ = false;
   double quiet_ = 0;  // s
+  int untold_ = 0;
   std::int64_t counts_ = 0;
   BusRow row_{};
 };
