@@ -26,9 +26,7 @@ constexpr std::chrono::nanoseconds kNap = std::chrono::milliseconds{100};
 void count(Counter& counter) noexcept { counter.fetch_add(1, std::memory_order_relaxed); }
 
 /// The interface went away or down: told once, before what still waits in the queue.
-bool is_news(int error) noexcept {
-  return error == ENETDOWN || error == ENODEV || error == ENXIO;
-}
+bool is_news(int error) noexcept { return error == ENETDOWN || error == ENODEV || error == ENXIO; }
 
 template <class Value>
 Value read(const cmsghdr& part) noexcept {
