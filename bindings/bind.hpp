@@ -16,5 +16,6 @@ void bind_controllers(pybind11::module_& m);
 void bind_linear_loop(pybind11::module_& m);
 void bind_python_law(pybind11::module_& m);
 void bind_can_plan(pybind11::module_& m);
+void bind_can(pybind11::module_& m);
 
 }  // namespace ebac::python

@@ -13,4 +13,5 @@ PYBIND11_MODULE(_core, m, pybind11::mod_gil_not_used()) {
   ebac::python::bind_controllers(m);
   ebac::python::bind_python_law(m);
   ebac::python::bind_can_plan(m);
+  ebac::python::bind_can(m);
 }

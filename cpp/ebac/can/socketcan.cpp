@@ -25,6 +25,9 @@ constexpr std::chrono::nanoseconds kNap = std::chrono::milliseconds{100};
 
 void count(Counter& counter) noexcept { counter.fetch_add(1, std::memory_order_relaxed); }
 
+/// The interface went away or down: told once, before what still waits in the queue.
+bool is_news(int error) noexcept { return error == ENETDOWN || error == ENODEV || error == ENXIO; }
+
 template <class Value>
 Value read(const cmsghdr& part) noexcept {
   Value value{};
@@ -36,7 +39,10 @@ Value read(const cmsghdr& part) noexcept {
 
 struct SocketCan::Socket {
   Socket(std::string name, const SocketCanOptions& options)
-      : interface(std::move(name)), errors(options.errors), fd(open_raw(interface, options)) {}
+      : interface(std::move(name)),
+        errors(options.errors),
+        filters(to_wire(options.filters)),
+        fd(open_raw(interface, options)) {}
   ~Socket() { ::close(fd); }
   Socket(const Socket&) = delete;
   Socket& operator=(const Socket&) = delete;
@@ -52,16 +58,19 @@ struct SocketCan::Socket {
 
   /// What a failed call says of the interface.
   void note(int error) noexcept {
-    const bool gone = error == ENODEV || error == ENXIO;
-    if (gone) bound.store(false, std::memory_order_release);
-    if (gone || error == ENETDOWN) become(BusState::kDown);
+    if (!is_news(error)) return;
+    if (error != ENETDOWN) bound.store(false, std::memory_order_release);
+    become(BusState::kDown);
   }
 
   /// Whether the interface is there, after looking again where it was not.
   bool ready() noexcept {
     if (state() != BusState::kDown) return state() != BusState::kClosed;
+    forget_error(fd);  // what it says may be of the time before
     int error = look_up(fd, interface);
-    if (error == 0 && !bound.load(std::memory_order_acquire)) error = bind_raw(fd, interface);
+    if (error == 0 && !bound.load(std::memory_order_acquire)) {
+      error = bind_raw(fd, interface, filters);
+    }
     if (error != 0) return false;
     bound.store(true, std::memory_order_release);
     become(BusState::kUp);
@@ -97,6 +106,7 @@ struct SocketCan::Socket {
 
   const std::string interface;
   const bool errors;
+  const std::vector<can_filter> filters;
   const int fd;
   std::atomic<bool> bound{true};
   Counter sent{0}, refused{0}, received{0}, lost{0};
@@ -114,13 +124,15 @@ SocketCan& SocketCan::operator=(SocketCan&&) noexcept = default;
 
 bool SocketCan::send(const Frame& out) noexcept {
   if (socket_ == nullptr) return false;
-  if (sendable(out) && socket_->ready()) {
-    const can_frame wire = to_wire(out);
+  const can_frame wire = to_wire(out);
+  // Twice: the first failure may be the news that the interface was away, and is back.
+  for (int i = 0; i < 2 && sendable(out) && socket_->ready(); ++i) {
     if (::send(socket_->fd, &wire, sizeof(wire), MSG_DONTWAIT) == CAN_MTU) {
       count(socket_->sent);
       return true;
     }
     socket_->note(errno);
+    if (socket_->state() != BusState::kDown) break;
   }
   count(socket_->refused);
   return false;
@@ -128,18 +140,13 @@ bool SocketCan::send(const Frame& out) noexcept {
 
 bool SocketCan::receive(Frame& in) noexcept {
   if (socket_ == nullptr) return false;
-  while (socket_->state() != BusState::kClosed) {
-    Frame next;
-    const int error = socket_->take(next);
-    if (error == EAGAIN) {
-      socket_->ready();
-      return false;
-    }
-    if (error != 0) {
-      socket_->note(error);
-      if (error == EPROTO || error == EINTR) continue;
-      return false;
-    }
+  Frame next;
+  for (int error = 0; socket_->state() != BusState::kClosed;) {
+    error = socket_->take(next);
+    if (error != 0) socket_->note(error);
+    const bool up = socket_->ready();
+    if (error == EPROTO || (up && is_news(error))) continue;
+    if (error != 0) return false;
     if (next.error) {
       socket_->become(after_error(next, socket_->state()));
       if (!socket_->errors) continue;

@@ -77,23 +77,11 @@ bool set(int socket, int level, int option, const Value& value) noexcept {
   return ::setsockopt(socket, level, option, &value, sizeof(value)) == 0;
 }
 
-bool set_filters(int socket, const std::vector<CanFilter>& filters) {
-  if (filters.empty()) return true;  // a new socket lets all pass
-  std::vector<can_filter> wire;
-  for (const CanFilter& filter : filters) {
-    wire.push_back({.can_id = filter.id | (filter.extended ? CAN_EFF_FLAG : 0U),
-                    .can_mask = (filter.mask & CAN_EFF_MASK) | CAN_EFF_FLAG});
-  }
-  const auto bytes = static_cast<socklen_t>(wire.size() * sizeof(can_filter));
-  return ::setsockopt(socket, SOL_CAN_RAW, CAN_RAW_FILTER, wire.data(), bytes) == 0;
-}
-
 bool set_options(int socket, const SocketCanOptions& options) {
   // Single bus errors may come by the thousand; the state needs only what is told of the controller.
   const can_err_mask_t told =
       options.errors ? CAN_ERR_MASK : CAN_ERR_CRTL | CAN_ERR_BUSOFF | CAN_ERR_RESTARTED;
-  return set_filters(socket, options.filters) &&
-         set(socket, SOL_CAN_RAW, CAN_RAW_ERR_FILTER, told) &&
+  return set(socket, SOL_CAN_RAW, CAN_RAW_ERR_FILTER, told) &&
          set(socket, SOL_CAN_RAW, CAN_RAW_RECV_OWN_MSGS, int{options.own}) &&
          set(socket, SOL_SOCKET, SO_TIMESTAMPNS, 1) && set(socket, SOL_SOCKET, SO_RXQ_OVFL, 1);
 }
@@ -106,7 +94,26 @@ int look_up(int socket, const std::string& interface) noexcept {
   return (request.ifr_flags & IFF_UP) != 0 ? 0 : ENETDOWN;
 }
 
-int bind_raw(int socket, const std::string& interface) noexcept {
+void forget_error(int socket) noexcept {
+  int error = 0;
+  socklen_t size = sizeof(error);
+  ::getsockopt(socket, SOL_SOCKET, SO_ERROR, &error, &size);
+}
+
+std::vector<can_filter> to_wire(const std::vector<CanFilter>& filters) {
+  if (filters.empty()) return {{.can_id = 0, .can_mask = 0}};
+  std::vector<can_filter> wire;
+  for (const CanFilter& filter : filters) {
+    wire.push_back({.can_id = filter.id | (filter.extended ? CAN_EFF_FLAG : 0U),
+                    .can_mask = (filter.mask & CAN_EFF_MASK) | CAN_EFF_FLAG});
+  }
+  return wire;
+}
+
+int bind_raw(int socket, const std::string& interface,
+             const std::vector<can_filter>& filters) noexcept {
+  const auto bytes = static_cast<socklen_t>(filters.size() * sizeof(can_filter));
+  if (::setsockopt(socket, SOL_CAN_RAW, CAN_RAW_FILTER, filters.data(), bytes) != 0) return errno;
   ifreq request = asking_for(interface);
   if (::ioctl(socket, SIOCGIFINDEX, &request) != 0) return errno;
   sockaddr_can address{};
@@ -122,7 +129,7 @@ int open_raw(const std::string& interface, const SocketCanOptions& options) {
   if (socket.get() < 0) refuse(interface, errno);
   if (!set_options(socket.get(), options)) refuse(interface, errno);
   if (const int error = look_up(socket.get(), interface); error != 0) refuse(interface, error);
-  if (const int error = bind_raw(socket.get(), interface); error != 0) {
+  if (const int error = bind_raw(socket.get(), interface, to_wire(options.filters)); error != 0) {
     refuse(interface, error == ENODEV ? EMEDIUMTYPE : error);  // it is there, as `look_up` saw
   }
   return socket.let_go();
