@@ -19,6 +19,7 @@ __all__: list[str] = [
     "AxisTruth",
     "BackwardDifference",
     "BusCounts",
+    "BusLoad",
     "BusState",
     "CanFrame",
     "Capstan",
@@ -49,6 +50,7 @@ __all__: list[str] = [
     "MinimumJerk",
     "Motor",
     "PassivityControl",
+    "PlannedFrame",
     "Port",
     "Recorded",
     "Rows",
@@ -66,6 +68,7 @@ __all__: list[str] = [
     "Wall",
     "copley_current",
     "estimate_velocity",
+    "pdo_plan",
 ]
 
 class Field:
@@ -110,9 +113,15 @@ class Field:
         """
 
 class Fault(enum.IntEnum):
+    BUS_DOWN = ...
     DEVICE = ...
+    DRIVE_DISABLED = ...
+    DRIVE_EMERGENCY = ...
+    DRIVE_FAULT = ...
+    DRIVE_SILENT = ...
     ENVIRONMENT_NOT_FINITE = ...
     FORCE_NOT_FINITE = ...
+    HEARTBEAT_LOST = ...
     LAW_NOT_FINITE = ...
     NONE = ...
     POSITION_NOT_FINITE = ...
@@ -2113,7 +2122,7 @@ class Direct:
     def __init__(self, *, peak_force: float = 42.4, timing: Timing = ...) -> None: ...
     def __reduce__(self) -> tuple[typing.Any, ...]: ...
     def __repr__(self) -> str: ...
-    def _simulate(self, setup: Setup) -> Rows: ...
+    def _simulate(self, setup: Setup, through_can: bool = False) -> Rows: ...
     def _time_step(
         self, setup: Setup, repeats: typing.SupportsInt | typing.SupportsIndex
     ) -> float: ...
@@ -2225,7 +2234,7 @@ class TCA:
     ) -> None: ...
     def __reduce__(self) -> tuple[typing.Any, ...]: ...
     def __repr__(self) -> str: ...
-    def _simulate(self, setup: Setup) -> Rows: ...
+    def _simulate(self, setup: Setup, through_can: bool = False) -> Rows: ...
     def _time_step(
         self, setup: Setup, repeats: typing.SupportsInt | typing.SupportsIndex
     ) -> float: ...
@@ -2366,7 +2375,7 @@ class TCADamped:
     ) -> None: ...
     def __reduce__(self) -> tuple[typing.Any, ...]: ...
     def __repr__(self) -> str: ...
-    def _simulate(self, setup: Setup) -> Rows: ...
+    def _simulate(self, setup: Setup, through_can: bool = False) -> Rows: ...
     def _time_step(
         self, setup: Setup, repeats: typing.SupportsInt | typing.SupportsIndex
     ) -> float: ...
@@ -2525,7 +2534,7 @@ class PassivityControl:
     ) -> None: ...
     def __reduce__(self) -> tuple[typing.Any, ...]: ...
     def __repr__(self) -> str: ...
-    def _simulate(self, setup: Setup) -> Rows: ...
+    def _simulate(self, setup: Setup, through_can: bool = False) -> Rows: ...
     def _time_step(
         self, setup: Setup, repeats: typing.SupportsInt | typing.SupportsIndex
     ) -> float: ...
@@ -2656,7 +2665,7 @@ class VirtualCoupling:
     ) -> None: ...
     def __reduce__(self) -> tuple[typing.Any, ...]: ...
     def __repr__(self) -> str: ...
-    def _simulate(self, setup: Setup) -> Rows: ...
+    def _simulate(self, setup: Setup, through_can: bool = False) -> Rows: ...
     def _time_step(
         self, setup: Setup, repeats: typing.SupportsInt | typing.SupportsIndex
     ) -> float: ...
@@ -2783,7 +2792,7 @@ class ForceBounding:
     ) -> None: ...
     def __reduce__(self) -> tuple[typing.Any, ...]: ...
     def __repr__(self) -> str: ...
-    def _simulate(self, setup: Setup) -> Rows: ...
+    def _simulate(self, setup: Setup, through_can: bool = False) -> Rows: ...
     def _time_step(
         self, setup: Setup, repeats: typing.SupportsInt | typing.SupportsIndex
     ) -> float: ...
@@ -2933,7 +2942,7 @@ class EBA:
     ) -> None: ...
     def __reduce__(self) -> tuple[typing.Any, ...]: ...
     def __repr__(self) -> str: ...
-    def _simulate(self, setup: Setup) -> Rows: ...
+    def _simulate(self, setup: Setup, through_can: bool = False) -> Rows: ...
     def _time_step(
         self, setup: Setup, repeats: typing.SupportsInt | typing.SupportsIndex
     ) -> float: ...
@@ -3097,7 +3106,7 @@ class EBACPrinted:
     ) -> None: ...
     def __reduce__(self) -> tuple[typing.Any, ...]: ...
     def __repr__(self) -> str: ...
-    def _simulate(self, setup: Setup) -> Rows: ...
+    def _simulate(self, setup: Setup, through_can: bool = False) -> Rows: ...
     def _time_step(
         self, setup: Setup, repeats: typing.SupportsInt | typing.SupportsIndex
     ) -> float: ...
@@ -3323,7 +3332,7 @@ class EBAC:
     ) -> None: ...
     def __reduce__(self) -> tuple[typing.Any, ...]: ...
     def __repr__(self) -> str: ...
-    def _simulate(self, setup: Setup) -> Rows: ...
+    def _simulate(self, setup: Setup, through_can: bool = False) -> Rows: ...
     def _time_step(
         self, setup: Setup, repeats: typing.SupportsInt | typing.SupportsIndex
     ) -> float: ...
@@ -3444,6 +3453,98 @@ class EBAC:
     def timing(self) -> Timing:
         """
         Sample time and delay the law counts with.
+        """
+
+class PlannedFrame:
+    """
+    One kind of frame that is sent in every period.
+    """
+    def __init__(
+        self,
+        *,
+        what: str,
+        id: typing.SupportsInt | typing.SupportsIndex,
+        size: typing.SupportsInt | typing.SupportsIndex,
+        count: typing.SupportsInt | typing.SupportsIndex = 1,
+    ) -> None: ...
+    @property
+    def count(self) -> int:
+        """
+        Frames per period.
+        """
+    @property
+    def id(self) -> int:
+        """
+        COB-ID.
+        """
+    @property
+    def size(self) -> int:
+        """
+        Bytes of data.
+        """
+    @property
+    def what(self) -> str:
+        """
+        Who sends what.
+        """
+
+class BusLoad:
+    """
+    What frames sent in every period take of a bus, at the worst.
+    """
+    def __init__(
+        self,
+        *,
+        frames: collections.abc.Sequence[PlannedFrame],
+        bit_rate: typing.SupportsFloat | typing.SupportsIndex = 1000000.0,
+        period: typing.SupportsFloat | typing.SupportsIndex = 0.001,
+    ) -> None: ...
+    def bits(self, frame: PlannedFrame) -> int:
+        """
+        Bits a kind of frame takes in every period, stuff bits included.
+        """
+    def check(self) -> str:
+        """
+        Return a warning over 70 % of the bus, else an empty text.
+
+        Raises
+        ------
+        ValueError
+            Over 90 %, or for numbers no CAN bus has; with the remedy.
+        """
+    def frame_share(self, frame: PlannedFrame) -> float:
+        """
+        Share of the bus one kind takes.
+        """
+    @property
+    def bit_rate(self) -> float:
+        """
+        Of the bus [bit/s].
+        """
+    @property
+    def frames(self) -> list[PlannedFrame]:
+        """
+        The frames.
+        """
+    @property
+    def highest_rate(self) -> float:
+        """
+        Rate [Hz] at which the same frames would still fit.
+        """
+    @property
+    def period(self) -> float:
+        """
+        Between two SYNC [s].
+        """
+    @property
+    def seconds(self) -> float:
+        """
+        Time all take of every period [s].
+        """
+    @property
+    def share(self) -> float:
+        """
+        Share of the bus all take.
         """
 
 class CanFrame:
@@ -3645,7 +3746,7 @@ def _measure_contact(
     clamped: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None,
 ) -> dict[str, typing.Any]: ...
 def _rebuild(arg0: typing.Any, arg1: dict[str, typing.Any]) -> typing.Any: ...
-def _simulate_python(arg0: Setup, arg1: typing.Any) -> Rows: ...
+def _simulate_python(setup: Setup, law: typing.Any, through_can: bool = False) -> Rows: ...
 def _stored_energy(
     environment: Free | Wall | Corner | Disc,
     x: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
@@ -3656,6 +3757,14 @@ def _time_bus(
 ) -> float: ...
 def _time_bus_threads(
     frames: typing.SupportsInt | typing.SupportsIndex,
+    repeats: typing.SupportsInt | typing.SupportsIndex,
+) -> float: ...
+def _time_exchange(
+    ticks: typing.SupportsInt | typing.SupportsIndex,
+    repeats: typing.SupportsInt | typing.SupportsIndex,
+) -> float: ...
+def _time_own_exchange(
+    ticks: typing.SupportsInt | typing.SupportsIndex,
     repeats: typing.SupportsInt | typing.SupportsIndex,
 ) -> float: ...
 def copley_current(
@@ -3676,4 +3785,12 @@ def estimate_velocity(
 ) -> numpy.typing.NDArray[numpy.float64]:
     """
     Velocity [m/s] from positions x [m], shape (n,), sampled every dt [s] with an encoder step of count [m].
+    """
+
+def pdo_plan(
+    nodes: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex],
+) -> list[PlannedFrame]:
+    """
+    SYNC, and for every node an RPDO (controlword, target torque) and a TPDO (statusword,
+    position, actual torque): the frames of one tick (CiA 301, CiA 402).
     """

@@ -115,7 +115,9 @@ def _show(plan: BusLoad) -> None:
         )
     grid.add_section()
     busy = f"{1e6 * plan.seconds:.0f} us"
-    grid.add_row("all", "", "", f"{sum(map(plan.bits, plan.frames))}", busy, f"{100 * plan.share:.1f} %")
+    grid.add_row(
+        "all", "", "", f"{sum(map(plan.bits, plan.frames))}", busy, f"{100 * plan.share:.1f} %"
+    )
     output.console().print(grid)
     output.say(
         f"At the worst, of each {1e6 * plan.period:.6g} us on a bus at {plan.bit_rate / 1e3:g} "
