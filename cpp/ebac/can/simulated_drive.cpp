@@ -15,8 +15,7 @@ SimulatedDrive::SimulatedDrive(const DriveSettings& settings) : objects_(setting
   objects_.set_default(kAt<0x2383, 23>, settings.counts_per_turn);
   objects_.set_default(kAt<0x2112>, whole(settings.peak_time * 1e3, 65535));
   objects_.set_default(kAt<0x6072>, whole(peak / one, 65535));
-  objects_.set_default(kAt<0x6073>, whole(std::ceil(peak / motor.rated_current * 1e3), 65535));
-  objects_.set_default(kAt<0x6075>, whole(motor.rated_current * 1e3, 4e9));
+  objects_.set_default(kAt<0x6073>, whole(peak / one, 65535));
   boot(0xFFFF);
 }
 
