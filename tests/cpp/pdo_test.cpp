@@ -86,7 +86,7 @@ TEST(Pdo, DummiesSkipBytes) {
 }
 
 TEST(Pdo, SynchronousDataWaitForTheSync) {
-  for (const std::uint8_t type : {0, 1, 240}) {
+  for (const std::uint8_t type : std::array<std::uint8_t, 3>{0, 1, 240}) {
     SimulatedDrive drive = operational();
     remap(drive, 0x1401, 0x301, type, {kTorqueAndWord});
     say(drive, "301#0A 00");
@@ -101,7 +101,7 @@ TEST(Pdo, SynchronousDataWaitForTheSync) {
 }
 
 TEST(Pdo, AsynchronousDataActAtOnce) {
-  for (const std::uint8_t type : {254, 255}) {
+  for (const std::uint8_t type : std::array<std::uint8_t, 2>{254, 255}) {
     SimulatedDrive drive = operational();
     remap(drive, 0x1401, 0x301, type, {kTorqueAndWord});
     say(drive, "301#F6 FF 99");  // longer than mapped: the first bytes count

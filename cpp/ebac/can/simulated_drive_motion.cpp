@@ -69,8 +69,8 @@ void SimulatedDrive::reset_errors() EBAC_RT {
   const bool any = errors_.reset();
   if (errors_.any_active()) return;
   if (any) {
-    push_emcy(0);
     objects_[kAt<0x2183>] = 0;
+    push_emcy(0);
   }
 }
 
