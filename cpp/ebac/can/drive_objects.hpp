@@ -117,6 +117,14 @@ constexpr void add_pdos(DriveTable& t) {
   }
 }
 
+constexpr void add_motor(DriveTable& t, std::uint16_t index, std::string_view name) {
+  t.group(index, name, Shape::kRecord, 23);
+  t.sub(12, "Torque constant", Type::kU32, Access::kRw).low = 1;    // 1e-5 N m/A
+  t.sub(13, "Peak torque", Type::kU32, Access::kRw).low = 1;        // 1e-5 N m
+  t.sub(14, "Continuous torque", Type::kU32, Access::kRw).low = 1;  // 1e-5 N m
+  t.sub(23, "Counts per turn", Type::kU32, Access::kRw).low = 1;
+}
+
 /// Copley's. Their meaning is confirmed for 0x2183 bit 0x400, 0x2300 and 0x2383; 0x2112 and 0x2182
 /// are from memory, indicative.
 constexpr void add_manufacturer(DriveTable& t) {
@@ -124,11 +132,7 @@ constexpr void add_manufacturer(DriveTable& t) {
   t.var(0x2182, "Fault mask", Type::kU32, Access::kRw);         // latched faults that stop
   t.var(0x2183, "Latched faults", Type::kU32, Access::kRw);     // a 1 written clears the bit
   t.var(0x2300, "Desired state", Type::kU16, Access::kRw, 30);  // 30: CANopen servo
-  t.group(0x2383, "Motor data", Shape::kRecord, 23);
-  t.sub(12, "Torque constant", Type::kU32, Access::kRw).low = 1;    // 1e-5 N m/A
-  t.sub(13, "Peak torque", Type::kU32, Access::kRw).low = 1;        // 1e-5 N m
-  t.sub(14, "Continuous torque", Type::kU32, Access::kRw).low = 1;  // 1e-5 N m
-  t.sub(23, "Counts per turn", Type::kI32, Access::kRw).low = 1;
+  add_motor(t, 0x2383, "Motor data");
   t.var(0x5F00, "Simulated conditions", Type::kU8, Access::kWo).high = 0x0F;  // see Condition
 }
 
@@ -149,14 +153,15 @@ constexpr void add_profile(DriveTable& t) {
   t.var(0x6072, "Max torque", Type::kU16, Access::kRw, 1000, M::kBoth);
   t.var(0x6073, "Max current", Type::kU16, Access::kRw, 1000, M::kBoth);
   t.var(0x6074, "Torque demand value", Type::kI16, Access::kRo, 0, M::kTpdo);
-  t.var(0x6075, "Motor rated current", Type::kU32, Access::kRo);  // mA
-  t.var(0x6076, "Motor rated torque", Type::kU32, Access::kRo);   // mN m
+  t.var(0x6075, "Motor rated current", Type::kU32, Access::kRo);  // mA, from the motor data
+  t.var(0x6076, "Motor rated torque", Type::kU32, Access::kRo);   // mN m, likewise
   t.var(0x6077, "Torque actual value", Type::kI16, Access::kRo, 0, M::kTpdo);
   t.var(0x6078, "Current actual value", Type::kI16, Access::kRo, 0, M::kTpdo);
   t.var(0x6087, "Torque slope", Type::kU32, Access::kRw, 1000, M::kBoth);  // permille/s
   t.var(0x60B2, "Torque offset", Type::kI16, Access::kRw, 0, M::kBoth);
   t.var(0x6403, "Motor catalogue number", Type::kString, Access::kRw, 0);
   t.var(0x6404, "Motor manufacturer", Type::kString, Access::kRw, 1);
+  add_motor(t, 0x6410, "Motor data, former index");  // the same values as 0x2383
   t.var(0x6502, "Supported drive modes", Type::kU32, Access::kConst, kSupportedModes);
 }
 

@@ -34,7 +34,7 @@ class ObjectDictionary {
   static Abort locate(std::uint16_t index, std::uint8_t sub, std::size_t& slot) EBAC_RT {
     slot = kDriveTable.slot(index, sub);
     if (slot != kNoSlot) return Abort::kNone;
-    return kDriveTable.find(index) == nullptr ? Abort::kNoObject : Abort::kNoSub;
+    return kDriveTable.find(index) == kNoSlot ? Abort::kNoObject : Abort::kNoSub;
   }
 
   /// Copies the value to `out`, little-endian; the number of bytes.

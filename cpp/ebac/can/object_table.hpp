@@ -121,7 +121,9 @@ struct ObjectTable {
                 false});
   }
 
-  constexpr const Object* find(std::uint16_t index) const EBAC_RT {
+  /// Which object has this index, or kNoSlot. No pointer: g++ 12 with sanitizers takes none at
+  /// compile time.
+  constexpr std::size_t find(std::uint16_t index) const EBAC_RT {
     std::size_t low = 0;
     std::size_t high = objects;
     while (low < high) {
@@ -132,14 +134,15 @@ struct ObjectTable {
         high = middle;
       }
     }
-    return low < objects && object[low].index == index ? &object[low] : nullptr;
+    return low < objects && object[low].index == index ? low : kNoSlot;
   }
   /// Where the entry stands, or kNoSlot.
   constexpr std::size_t slot(std::uint16_t index, std::uint8_t sub) const EBAC_RT {
-    const Object* found = find(index);
-    if (found == nullptr) return kNoSlot;
-    for (std::size_t i = 0; i < found->count; ++i) {
-      if (entry[found->first + i].sub == sub) return found->first + i;
+    const std::size_t found = find(index);
+    if (found == kNoSlot) return kNoSlot;
+    const std::size_t first = object[found].first;
+    for (std::size_t slot = first; slot < first + object[found].count; ++slot) {
+      if (entry[slot].sub == sub) return slot;
     }
     return kNoSlot;
   }

@@ -9,13 +9,10 @@ namespace ebac::can {
 
 /// What bounds the torque of a drive.
 struct StageLimits {
-  double ampere = 0.001;     // A per thousandth of the continuous torque, eq. (1)
-  int torque = 1000;         // permille, the lesser of 0x6072 and 0x6073
-  int continuous = 1000;     // permille, at the rated current
-  double rated_current = 1;  // A
-  double peak_current = 1;   // A
-  double peak_time = 2;      // s, at the peak current before i2t acts
-  double slope = 1000;       // permille/s, of the profile torque mode
+  double ampere = 0.001;  // A per permille of the continuous torque, eq. (1)
+  int torque = 1000;      // permille, the lesser of 0x6072 and 0x6073
+  double peak_time = 2;   // s, at that torque before i2t acts
+  double slope = 1000;    // permille/s, of the profile torque mode
 };
 
 /// From target torque to motor current. The current loop is ideal: what is set acts. The i2t limit
@@ -38,11 +35,10 @@ class PowerStage {
   }
 
   void elapse(double seconds) EBAC_RT {
-    const double amperes = current();
-    const double rated = limits_.rated_current * limits_.rated_current;
-    spent_ = std::max(0.0, spent_ + (amperes * amperes - rated) * seconds);
-    const double peak = limits_.peak_current * limits_.peak_current;
-    const double budget = std::max(0.0, peak - rated) * limits_.peak_time;
+    const double now = torque() / kRated;
+    spent_ = std::max(0.0, spent_ + (now * now - 1) * seconds);
+    const double peak = limits_.torque / kRated;
+    const double budget = std::max(0.0, peak * peak - 1) * limits_.peak_time;
     if (spent_ > budget) holding_ = true;
     if (spent_ == 0) holding_ = false;
     const double step = limits_.slope * seconds;
@@ -52,21 +48,22 @@ class PowerStage {
   int demand() const EBAC_RT { return static_cast<int>(std::lround(demand_)); }
   /// What acts, permille of the continuous torque.
   int torque() const EBAC_RT {
-    const int most = holding_ ? std::min(limits_.continuous, limits_.torque) : limits_.torque;
+    const int most = holding_ ? std::min(static_cast<int>(kRated), limits_.torque) : limits_.torque;
     return std::clamp(demand(), -most, most);
   }
   double current() const EBAC_RT { return limits_.ampere * torque(); }  // A
   bool reached() const EBAC_RT { return demand_ == target_; }
   bool limited() const EBAC_RT { return asked_ != target_ || torque() != demand(); }
   bool holding() const EBAC_RT { return holding_; }
-  const StageLimits& limits() const EBAC_RT { return limits_; }
 
  private:
+  static constexpr double kRated = 1000;  // permille
+
   StageLimits limits_;
   int asked_ = 0;      // permille
   int target_ = 0;     // permille
   double demand_ = 0;  // permille
-  double spent_ = 0;   // A^2 s, of the i2t budget
+  double spent_ = 0;   // s, rated current squared is 1
   bool holding_ = false;
 };
 

@@ -9,14 +9,16 @@ SimulatedDrive::SimulatedDrive(const DriveSettings& settings) : objects_(setting
   };
   const double peak = settings.drive.peak_current(motor);       // A
   const double one = motor.current(motor.rated_torque) / 1000;  // A per permille
-  objects_.set_default(kAt<0x2383, 12>, whole(motor.torque_constant * 1e5, 1e9));
-  objects_.set_default(kAt<0x2383, 13>, whole(motor.torque(peak) * 1e5, 1e9));
-  objects_.set_default(kAt<0x2383, 14>, whole(motor.rated_torque * 1e5, 1e9));
-  objects_.set_default(kAt<0x2383, 23>, settings.counts_per_turn);
+  const std::array<std::int64_t, 4> data{
+      whole(motor.torque_constant * 1e5, 1e9), whole(motor.torque(peak) * 1e5, 1e9),
+      whole(motor.rated_torque * 1e5, 1e9), settings.counts_per_turn};
+  for (std::size_t i = 0; i < data.size(); ++i) {
+    objects_.set_default(kAt<0x2383, 12> + i, data[i]);
+    objects_.set_default(kAt<0x6410, 12> + i, data[i]);
+  }
   objects_.set_default(kAt<0x2112>, whole(settings.peak_time * 1e3, 65535));
   objects_.set_default(kAt<0x6072>, whole(peak / one, 65535));
-  objects_.set_default(kAt<0x6073>, whole(std::ceil(peak / motor.rated_current * 1e3), 65535));
-  objects_.set_default(kAt<0x6075>, whole(motor.rated_current * 1e3, 4e9));
+  objects_.set_default(kAt<0x6073>, whole(peak / one, 65535));
   boot(0xFFFF);
 }
 

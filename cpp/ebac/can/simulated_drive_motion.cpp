@@ -69,8 +69,8 @@ void SimulatedDrive::reset_errors() EBAC_RT {
   const bool any = errors_.reset();
   if (errors_.any_active()) return;
   if (any) {
-    push_emcy(0);
     objects_[kAt<0x2183>] = 0;
+    push_emcy(0);
   }
 }
 
@@ -165,24 +165,18 @@ void SimulatedDrive::set_position(std::int64_t counts) EBAC_RT {
   objects_[kAt<0x6064>] = static_cast<std::int32_t>(static_cast<std::uint32_t>(counts));
 }
 
-/// The limits of the power stage from the objects that set them.
+/// The limits of the power stage from the objects that set them. Torque is in thousandths of the
+/// motor's continuous torque, current of the current that gives it: the same number.
 void SimulatedDrive::limit() EBAC_RT {
   const double constant = static_cast<double>(objects_[kAt<0x2383, 12>]) / 1e5;    // N m/A
   const double continuous = static_cast<double>(objects_[kAt<0x2383, 14>]) / 1e5;  // N m
-  const double one = continuous / constant / 1000;                                 // A, eq. (1)
-  const double rated = static_cast<double>(objects_.get<0x6075>()) / 1000;         // A
-  const double most_current = rated * static_cast<double>(objects_.get<0x6073>()) / 1000;  // A
-  const auto most = [one](double amperes) {
-    return static_cast<int>(std::min(65535.0, std::floor(amperes / one * (1 + 1e-9))));
-  };
-  const int torque = std::min(static_cast<int>(objects_.get<0x6072>()), most(most_current));
-  stage_.configure({.ampere = one,
-                    .torque = torque,
-                    .continuous = most(rated),
-                    .rated_current = rated,
-                    .peak_current = one * torque,
+  const double rated = continuous / constant;                                      // A
+  const auto most = static_cast<int>(std::min(objects_.get<0x6072>(), objects_.get<0x6073>()));
+  stage_.configure({.ampere = rated / 1000,  // eq. (1)
+                    .torque = most,
                     .peak_time = static_cast<double>(objects_.get<0x2112>()) / 1000,
                     .slope = static_cast<double>(objects_.get<0x6087>())});
+  objects_[kAt<0x6075>] = std::llround(std::min(rated * 1000, 4294967295.0));
   objects_[kAt<0x6076>] = std::llround(continuous * 1000);
 }
 
@@ -211,7 +205,7 @@ void SimulatedDrive::refresh() EBAC_RT {
   objects_[kAt<0x6061>] = objects_.get<0x6060>();
   objects_[kAt<0x6074>] = i16(stage_.demand());
   objects_[kAt<0x6077>] = i16(stage_.torque());
-  objects_[kAt<0x6078>] = i16(stage_.current() / stage_.limits().rated_current * 1000);
+  objects_[kAt<0x6078>] = objects_.get<0x6077>();
 }
 
 std::uint16_t SimulatedDrive::status() const EBAC_RT {

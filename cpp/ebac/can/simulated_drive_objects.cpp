@@ -98,7 +98,8 @@ Abort SimulatedDrive::check(std::size_t slot, std::int64_t value) const EBAC_RT 
     case 0x1016:
       return check_producer(slot, value);
     case 0x2112:
-    case 0x2383:  // the scale of the torque must not change while there is one
+    case 0x2383:
+    case 0x6410:  // the scale of the torque must not change while there is one
       return motor_on() ? Abort::kState : Abort::kNone;
     case 0x2182:
       return one_of<2>(value, {0, facts_of(Cause::kOverload).latched});
@@ -172,8 +173,15 @@ void SimulatedDrive::take_effect(std::size_t slot) EBAC_RT {
       return producer_[slot - kAt<0x1016, 1>].set((objects_[slot] & 0xFFFF) * kMillisecond);
     case 0x1017:
       return heartbeat_.start(now_, objects_[slot] * kMillisecond);
-    case 0x2112:
     case 0x2383:
+    case 0x6410: {  // one motor under two indices
+      const bool former = entry.index == 0x6410;
+      const std::size_t twin =
+          former ? slot - kAt<0x6410> + kAt<0x2383> : slot - kAt<0x2383> + kAt<0x6410>;
+      objects_[twin] = objects_[slot];
+      return limit();
+    }
+    case 0x2112:
     case 0x6072:
     case 0x6073:
     case 0x6087:
@@ -202,7 +210,7 @@ void SimulatedDrive::configure_all() EBAC_RT {
   for (std::size_t i = 0; i < kProducers; ++i) take_effect(kAt<0x1016, 1> + i);
   take_effect(kAt<0x1006>);
   take_effect(kAt<0x1017>);
-  limit();
+  for (std::size_t i = 1; i <= 4; ++i) take_effect(kAt<0x2383> + i);
 }
 
 }  // namespace ebac::can

@@ -62,7 +62,7 @@ def document(scenario: Scenario, contacts: list[Contact], through: str | None = 
 
     rows = [contact.row() for contact in contacts]
     settings = tomllib.loads(scenario.to_toml())
-    return output.document("wall", rows, through=through, scenario=settings)
+    return output.document("wall", rows, scenario=settings, through=through)
 
 
 def report_fault(error: LoopFault, out: Path | None) -> NoReturn:
