@@ -7,6 +7,7 @@
 #include <limits>
 #include <vector>
 
+#include "ebac/can/exchange_benchmark.hpp"
 #include "ebac/control/direct.hpp"
 #include "ebac/loop/clock.hpp"
 #include "ebac/loop/loop.hpp"
@@ -479,14 +480,9 @@ TEST(Budget, IsNotExceeded) {
   // With every answer there, it does not wait at all.
   bus.waiting.clear();
   now = 0;
-  struct Prompt : ScriptedBus {
-    bool send(const Frame& out) noexcept {
-      if (out.id == kSync) waiting = {answer(1, 0, 0, 0), answer(2, 0, 0, 0)};
-      return true;
-    }
-  } prompt;
-  CanopenDevice<Prompt, PollFor<Counter>> quick(prompt, PollFor(Counter{&now}, 400'000),
-                                                {.axes = 2});
+  AnsweringBus prompt(2);
+  CanopenDevice<AnsweringBus, PollFor<Counter>> quick(prompt, PollFor(Counter{&now}, 400'000),
+                                                      {.axes = 2});
   static_cast<void>(quick.exchange({}));
   EXPECT_EQ(now, 10'000);
 }
@@ -505,7 +501,7 @@ TEST(InTheLoop, AFaultOfAnotherStageStopsTheDrives) {
     }
     void reset() EBAC_RT {}
   };
-  Loop loop(std::move(desk.device), VirtualClock(kTick, 0, 1), Broken{},
+  Loop loop(desk.device, VirtualClock(kTick, 0, 1), Broken{},
             Rig(DeviceModel{}, Environment{Free{}}), 1);
   const auto trace = loop.make_trace(100);
   loop.run(*trace);

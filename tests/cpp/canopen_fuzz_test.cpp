@@ -75,7 +75,8 @@ TEST_P(Fuzz, AMillionFramesMoveNothingTheyShouldNot) {
       bus.waiting.push_back(chaos.frame());
     }
     if (chaos.once_in(10)) {  // the heartbeats of drives that are well
-      for (const NodeId node : {NodeId{1}, NodeId{2}}) bus.waiting.push_back(frame(heartbeat(node), {5}));
+      for (const NodeId node : {NodeId{1}, NodeId{2}})
+        bus.waiting.push_back(frame(heartbeat(node), {5}));
     }
     for (Frame& frame : bus.waiting) {
       if (chaos.once_in(4 * calm)) chaos.spoil(frame);

@@ -54,7 +54,7 @@ struct ScriptedDrives {
     bool stuck = false;  // stays in its state
   };
 
-  ScriptedBus* bus;
+  ScriptedBus* bus = nullptr;
   int nodes = 1;
   std::array<Drive, 3> drive{};
   int syncs = 0;

@@ -231,7 +231,8 @@ def test_a_fault_is_told_and_its_log_kept(monkeypatch: pytest.MonkeyPatch, tmp_p
 
     original = ebac.simulate
     monkeypatch.setattr(
-        "ebac.simulation.simulate", lambda scenario, name: original(scenario, Broken())
+        "ebac.simulation.simulate",
+        lambda scenario, name, *, through: original(scenario, Broken(), through=through),
     )
     text = refusal("wall", "--law", "ebac", code=1)
     assert "law not finite" in text

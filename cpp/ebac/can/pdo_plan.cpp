@@ -16,7 +16,8 @@ constexpr double kShortestPeriod = 1e-5;  // s, as Timing.dt
 constexpr double kLongestPeriod = 10;     // s
 
 void check_range(const char* name, double value, const char* unit, double low, double high) {
-  if (!(value >= low && value <= high)) {
+  const bool inside = value >= low && value <= high;  // NaN is not
+  if (!inside) {
     throw std::invalid_argument(range_message("BusLoad", name, value, unit, low, high));
   }
 }
