@@ -121,5 +121,5 @@ def _show(plan: BusLoad) -> None:
     output.console().print(grid)
     output.say(
         f"At the worst, of each {1e6 * plan.period:.6g} us on a bus at {plan.bit_rate / 1e3:g} "
-        f"kbit/s; these frames fit up to {plan.highest_rate:.0f} Hz."
+        f"kbit/s; these frames fit up to {int(plan.highest_rate)} Hz."
     )
