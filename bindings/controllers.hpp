@@ -4,8 +4,8 @@
 #include <string>
 
 #include "ebac/sim/benchmark.hpp"
-#include "ebac/sim/simulate.hpp"
 #include "fields.hpp"
+#include "simulate_either.hpp"
 #include "sweep.hpp"
 
 /// The Python class of a law, written once for all of them.
@@ -93,11 +93,11 @@ void bind_controller(py::module_& m, const char* name) {
 
   cls.def(
       "_simulate",
-      [](const Law& law, const Setup& setup) {
+      [](const Law& law, const Setup& setup, bool through_can) {
         const py::gil_scoped_release release;
-        return simulate(setup, law);
+        return simulate_either(setup, PerAxis<Law>(law), through_can);
       },
-      py::arg("setup"));
+      py::arg("setup"), py::arg("through_can") = false);
   bind_sweep(cls);
   cls.def(
       "_time_step",

@@ -33,6 +33,12 @@ void bind_fault(py::module_& m) {
       .value("LAW_NOT_FINITE", Fault::kLawNotFinite)
       .value("TORQUE_NOT_FINITE", Fault::kTorqueNotFinite)
       .value("DEVICE", Fault::kDevice)
+      .value("DRIVE_FAULT", Fault::kDriveFault)
+      .value("DRIVE_DISABLED", Fault::kDriveDisabled)
+      .value("DRIVE_SILENT", Fault::kDriveSilent)
+      .value("DRIVE_EMERGENCY", Fault::kDriveEmergency)
+      .value("HEARTBEAT_LOST", Fault::kHeartbeatLost)
+      .value("BUS_DOWN", Fault::kBusDown)
       .finalize();
 }
 

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "bind.hpp"
-#include "ebac/sim/simulate.hpp"
 #include "fields.hpp"
+#include "simulate_either.hpp"
 
 namespace ebac::python {
 
@@ -59,13 +59,16 @@ class PythonLaw {
 }  // namespace
 
 void bind_python_law(py::module_& m) {
-  m.def("_simulate_python", [](const Setup& setup, const py::object& law) {
-    PythonLaw wrapped(law, setup.device.axes());
-    const auto raised = wrapped.raised();
-    const auto trace = simulate(setup, std::move(wrapped));
-    if (*raised) std::rethrow_exception(*raised);
-    return trace;
-  });
+  m.def(
+      "_simulate_python",
+      [](const Setup& setup, const py::object& law, bool through_can) {
+        PythonLaw wrapped(law, setup.device.axes());
+        const auto raised = wrapped.raised();
+        const auto trace = simulate_either(setup, std::move(wrapped), through_can);
+        if (*raised) std::rethrow_exception(*raised);
+        return trace;
+      },
+      py::arg("setup"), py::arg("law"), py::arg("through_can") = false);
 }
 
 }  // namespace ebac::python

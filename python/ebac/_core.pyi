@@ -18,6 +18,10 @@ __all__: list[str] = [
     "AdaptiveWindow",
     "AxisTruth",
     "BackwardDifference",
+    "BusCounts",
+    "BusLoad",
+    "BusState",
+    "CanFrame",
     "Capstan",
     "Column",
     "Compensation",
@@ -27,6 +31,8 @@ __all__: list[str] = [
     "Direct",
     "Disc",
     "Drive",
+    "DriveCondition",
+    "DriveState",
     "EBACPrinted",
     "Encoder",
     "ExactPlant",
@@ -37,19 +43,25 @@ __all__: list[str] = [
     "Free",
     "Gimbal",
     "Hand",
+    "Joystick",
     "Linear",
     "LinearLoop",
+    "LoopbackBus",
+    "LoopbackHub",
     "LowPass",
     "Mechanics",
     "MinimumJerk",
     "Motor",
     "PassivityControl",
+    "PlannedFrame",
     "Port",
     "Recorded",
     "Rows",
     "RunLimits",
     "Setup",
+    "SimulatedDrive",
     "Sine",
+    "SocketCan",
     "Step",
     "SteppedPlant",
     "SweepProgress",
@@ -60,6 +72,7 @@ __all__: list[str] = [
     "Wall",
     "copley_current",
     "estimate_velocity",
+    "pdo_plan",
 ]
 
 class Field:
@@ -104,9 +117,15 @@ class Field:
         """
 
 class Fault(enum.IntEnum):
+    BUS_DOWN = ...
     DEVICE = ...
+    DRIVE_DISABLED = ...
+    DRIVE_EMERGENCY = ...
+    DRIVE_FAULT = ...
+    DRIVE_SILENT = ...
     ENVIRONMENT_NOT_FINITE = ...
     FORCE_NOT_FINITE = ...
+    HEARTBEAT_LOST = ...
     LAW_NOT_FINITE = ...
     NONE = ...
     POSITION_NOT_FINITE = ...
@@ -1975,6 +1994,123 @@ class SteppedPlant:
         The state of one axis.
         """
 
+class DriveCondition(enum.IntFlag):
+    ENCODER_LOST = ...
+    OVER_TEMPERATURE = ...
+    OVER_VOLTAGE = ...
+    SILENT = ...
+
+class DriveState(enum.IntEnum):
+    FAULT = ...
+    FAULT_REACTION_ACTIVE = ...
+    NOT_READY_TO_SWITCH_ON = ...
+    OPERATION_ENABLED = ...
+    QUICK_STOP_ACTIVE = ...
+    READY_TO_SWITCH_ON = ...
+    SWITCHED_ON = ...
+    SWITCH_ON_DISABLED = ...
+
+class SimulatedDrive:
+    """
+    A CANopen servo drive without a motor: takes frames, lets time pass, leaves frames.
+    """
+    def __init__(
+        self,
+        *,
+        node: typing.SupportsInt | typing.SupportsIndex = 1,
+        motor: Motor = ...,
+        drive: Drive = ...,
+        peak_time: typing.SupportsFloat | typing.SupportsIndex = 2.0,
+    ) -> None: ...
+    def eds(self) -> str:
+        """
+        Its electronic data sheet (CiA 306).
+        """
+    def elapse(self, seconds: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        """
+        Lets time pass [s].
+        """
+    def receive(
+        self,
+        id: typing.SupportsInt | typing.SupportsIndex,
+        data: bytes = b"",
+        *,
+        remote: bool = False,
+    ) -> None:
+        """
+        Takes one frame of the bus.
+        """
+    def set_condition(self, condition: DriveCondition, present: bool) -> None:
+        """
+        Makes something wrong with it, or right again.
+        """
+    def set_position(self, counts: typing.SupportsInt | typing.SupportsIndex) -> None:
+        """
+        Turns the motor to where its encoder shows `counts`.
+        """
+    def take(self) -> list[tuple[int, bytes]]:
+        """
+        Every frame on its way out: (id, data).
+        """
+    @property
+    def current(self) -> float:
+        """
+        Motor current [A].
+        """
+    @property
+    def node(self) -> int:
+        """
+        Node number.
+        """
+    @property
+    def state(self) -> DriveState:
+        """
+        State of CiA 402.
+        """
+
+class Joystick:
+    """
+    Simulated drives on the axes of one simulated device and hand.
+    """
+    def __init__(
+        self,
+        setup: Setup,
+        *,
+        first: typing.SupportsInt | typing.SupportsIndex = 1,
+        peak_time: typing.SupportsFloat | typing.SupportsIndex = 2.0,
+    ) -> None: ...
+    def drive(self, axis: typing.SupportsInt | typing.SupportsIndex = 0) -> SimulatedDrive:
+        """
+        Drive of one axis.
+        """
+    def elapse(self, seconds: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        """
+        Lets time pass [s].
+        """
+    def receive(
+        self,
+        id: typing.SupportsInt | typing.SupportsIndex,
+        data: bytes = b"",
+        *,
+        remote: bool = False,
+    ) -> None:
+        """
+        Takes one frame of the bus.
+        """
+    def take(self) -> list[tuple[int, bytes]]:
+        """
+        Every frame on its way out: (id, data).
+        """
+    def truth(self, axis: typing.SupportsInt | typing.SupportsIndex = 0) -> AxisTruth:
+        """
+        What only the simulation knows of one axis.
+        """
+    @property
+    def axes(self) -> int:
+        """
+        Number of axes.
+        """
+
 class RunLimits:
     """
     Beyond these a run of a sweep has diverged and ends.
@@ -2116,7 +2252,7 @@ class Direct:
     def __init__(self, *, peak_force: float = 42.4, timing: Timing = ...) -> None: ...
     def __reduce__(self) -> tuple[typing.Any, ...]: ...
     def __repr__(self) -> str: ...
-    def _simulate(self, setup: Setup) -> Rows: ...
+    def _simulate(self, setup: Setup, through_can: bool = False) -> Rows: ...
     def _time_step(
         self, setup: Setup, repeats: typing.SupportsInt | typing.SupportsIndex
     ) -> float: ...
@@ -2228,7 +2364,7 @@ class TCA:
     ) -> None: ...
     def __reduce__(self) -> tuple[typing.Any, ...]: ...
     def __repr__(self) -> str: ...
-    def _simulate(self, setup: Setup) -> Rows: ...
+    def _simulate(self, setup: Setup, through_can: bool = False) -> Rows: ...
     def _time_step(
         self, setup: Setup, repeats: typing.SupportsInt | typing.SupportsIndex
     ) -> float: ...
@@ -2369,7 +2505,7 @@ class TCADamped:
     ) -> None: ...
     def __reduce__(self) -> tuple[typing.Any, ...]: ...
     def __repr__(self) -> str: ...
-    def _simulate(self, setup: Setup) -> Rows: ...
+    def _simulate(self, setup: Setup, through_can: bool = False) -> Rows: ...
     def _time_step(
         self, setup: Setup, repeats: typing.SupportsInt | typing.SupportsIndex
     ) -> float: ...
@@ -2528,7 +2664,7 @@ class PassivityControl:
     ) -> None: ...
     def __reduce__(self) -> tuple[typing.Any, ...]: ...
     def __repr__(self) -> str: ...
-    def _simulate(self, setup: Setup) -> Rows: ...
+    def _simulate(self, setup: Setup, through_can: bool = False) -> Rows: ...
     def _time_step(
         self, setup: Setup, repeats: typing.SupportsInt | typing.SupportsIndex
     ) -> float: ...
@@ -2659,7 +2795,7 @@ class VirtualCoupling:
     ) -> None: ...
     def __reduce__(self) -> tuple[typing.Any, ...]: ...
     def __repr__(self) -> str: ...
-    def _simulate(self, setup: Setup) -> Rows: ...
+    def _simulate(self, setup: Setup, through_can: bool = False) -> Rows: ...
     def _time_step(
         self, setup: Setup, repeats: typing.SupportsInt | typing.SupportsIndex
     ) -> float: ...
@@ -2786,7 +2922,7 @@ class ForceBounding:
     ) -> None: ...
     def __reduce__(self) -> tuple[typing.Any, ...]: ...
     def __repr__(self) -> str: ...
-    def _simulate(self, setup: Setup) -> Rows: ...
+    def _simulate(self, setup: Setup, through_can: bool = False) -> Rows: ...
     def _time_step(
         self, setup: Setup, repeats: typing.SupportsInt | typing.SupportsIndex
     ) -> float: ...
@@ -2936,7 +3072,7 @@ class EBA:
     ) -> None: ...
     def __reduce__(self) -> tuple[typing.Any, ...]: ...
     def __repr__(self) -> str: ...
-    def _simulate(self, setup: Setup) -> Rows: ...
+    def _simulate(self, setup: Setup, through_can: bool = False) -> Rows: ...
     def _time_step(
         self, setup: Setup, repeats: typing.SupportsInt | typing.SupportsIndex
     ) -> float: ...
@@ -3100,7 +3236,7 @@ class EBACPrinted:
     ) -> None: ...
     def __reduce__(self) -> tuple[typing.Any, ...]: ...
     def __repr__(self) -> str: ...
-    def _simulate(self, setup: Setup) -> Rows: ...
+    def _simulate(self, setup: Setup, through_can: bool = False) -> Rows: ...
     def _time_step(
         self, setup: Setup, repeats: typing.SupportsInt | typing.SupportsIndex
     ) -> float: ...
@@ -3326,7 +3462,7 @@ class EBAC:
     ) -> None: ...
     def __reduce__(self) -> tuple[typing.Any, ...]: ...
     def __repr__(self) -> str: ...
-    def _simulate(self, setup: Setup) -> Rows: ...
+    def _simulate(self, setup: Setup, through_can: bool = False) -> Rows: ...
     def _time_step(
         self, setup: Setup, repeats: typing.SupportsInt | typing.SupportsIndex
     ) -> float: ...
@@ -3449,6 +3585,287 @@ class EBAC:
         Sample time and delay the law counts with.
         """
 
+class PlannedFrame:
+    """
+    One kind of frame that is sent in every period.
+    """
+    def __init__(
+        self,
+        *,
+        what: str,
+        id: typing.SupportsInt | typing.SupportsIndex,
+        size: typing.SupportsInt | typing.SupportsIndex,
+        count: typing.SupportsInt | typing.SupportsIndex = 1,
+    ) -> None: ...
+    @property
+    def count(self) -> int:
+        """
+        Frames per period.
+        """
+    @property
+    def id(self) -> int:
+        """
+        COB-ID.
+        """
+    @property
+    def size(self) -> int:
+        """
+        Bytes of data.
+        """
+    @property
+    def what(self) -> str:
+        """
+        Who sends what.
+        """
+
+class BusLoad:
+    """
+    What frames sent in every period take of a bus, at the worst.
+    """
+    def __init__(
+        self,
+        *,
+        frames: collections.abc.Sequence[PlannedFrame],
+        bit_rate: typing.SupportsFloat | typing.SupportsIndex = 1000000.0,
+        period: typing.SupportsFloat | typing.SupportsIndex = 0.001,
+    ) -> None: ...
+    def bits(self, frame: PlannedFrame) -> int:
+        """
+        Bits a kind of frame takes in every period, stuff bits included.
+        """
+    def check(self) -> str:
+        """
+        Return a warning over 70 % of the bus, else an empty text.
+
+        Raises
+        ------
+        ValueError
+            Over 90 %, or for numbers no CAN bus has; with the remedy.
+        """
+    def frame_share(self, frame: PlannedFrame) -> float:
+        """
+        Share of the bus one kind takes.
+        """
+    @property
+    def bit_rate(self) -> float:
+        """
+        Of the bus [bit/s].
+        """
+    @property
+    def frames(self) -> list[PlannedFrame]:
+        """
+        The frames.
+        """
+    @property
+    def highest_rate(self) -> float:
+        """
+        Rate [Hz] at which the same frames would still fit.
+        """
+    @property
+    def period(self) -> float:
+        """
+        Between two SYNC [s].
+        """
+    @property
+    def seconds(self) -> float:
+        """
+        Time all take of every period [s].
+        """
+    @property
+    def share(self) -> float:
+        """
+        Share of the bus all take.
+        """
+
+class CanFrame:
+    """
+    A classical CAN frame.
+    """
+    def __init__(
+        self,
+        id: typing.SupportsInt | typing.SupportsIndex,
+        data: bytes = b"",
+        *,
+        extended: bool = False,
+        remote: bool = False,
+        error: bool = False,
+        size: typing.SupportsInt | typing.SupportsIndex | None = None,
+    ) -> None:
+        """
+        A frame; `size` is needed where it asks for data.
+        """
+    def __repr__(self) -> str: ...
+    @property
+    def data(self) -> bytes:
+        """
+        The data; none in a remote frame.
+        """
+    @property
+    def error(self) -> bool:
+        """
+        Whether the controller tells an error.
+        """
+    @property
+    def extended(self) -> bool:
+        """
+        Whether the identifier has 29 bits.
+        """
+    @property
+    def id(self) -> int:
+        """
+        Identifier, 11 bits, or 29 when extended.
+        """
+    @property
+    def own(self) -> bool:
+        """
+        Whether the end that received it had sent it.
+        """
+    @property
+    def remote(self) -> bool:
+        """
+        Whether it asks for data.
+        """
+    @property
+    def size(self) -> int:
+        """
+        Bytes of data, or asked for, 0 to 8.
+        """
+    @property
+    def stamp(self) -> int:
+        """
+        When it was received [ns since 1970]; 0 when unknown.
+        """
+
+class BusState(enum.IntEnum):
+    BUS_OFF = ...
+    CLOSED = ...
+    DOWN = ...
+    PASSIVE = ...
+    UP = ...
+    WARNING = ...
+
+class BusCounts:
+    """
+    What went over one end of a bus since it was opened.
+    """
+    @property
+    def lost(self) -> int:
+        """
+        Frames that found the receive queue full.
+        """
+    @property
+    def received(self) -> int:
+        """
+        Frames received.
+        """
+    @property
+    def refused(self) -> int:
+        """
+        Frames that `send` did not take.
+        """
+    @property
+    def sent(self) -> int:
+        """
+        Frames sent.
+        """
+
+class LoopbackBus:
+    """
+    One end of a CAN bus inside this process.
+    """
+    def close(self) -> None:
+        """
+        Leaves the bus; who waits in `receive` returns.
+        """
+    def receive(
+        self, timeout: typing.SupportsFloat | typing.SupportsIndex | None = 0.0
+    ) -> CanFrame | None:
+        """
+        Waits up to `timeout` [s], None for no end. None when nothing came or it was closed.
+        """
+    def send(self, frame: CanFrame) -> bool:
+        """
+        Sends; false when the bus did not take the frame.
+        """
+    @property
+    def counts(self) -> BusCounts:
+        """
+        What went over this end so far.
+        """
+    @property
+    def state(self) -> BusState:
+        """
+        How the bus stands.
+        """
+
+class LoopbackHub:
+    """
+    A CAN bus inside this process.
+    """
+    def __init__(self, *, stamps: bool = True) -> None: ...
+    def open(
+        self, *, frames: typing.SupportsInt | typing.SupportsIndex = 1024, own: bool = False
+    ) -> LoopbackBus:
+        """
+        A new end; `frames` wait to be received, what exceeds them is lost and counted.
+        """
+    @property
+    def ends(self) -> int:
+        """
+        How many ends are open.
+        """
+
+class SocketCan:
+    """
+    One end of a CAN interface of the Linux kernel.
+    """
+    def __init__(
+        self,
+        interface: str,
+        *,
+        filters: collections.abc.Sequence[
+            tuple[
+                typing.SupportsInt | typing.SupportsIndex,
+                typing.SupportsInt | typing.SupportsIndex,
+                bool,
+            ]
+        ] = [],
+        own: bool = False,
+        errors: bool = False,
+    ) -> None:
+        """
+        Opens it; `filters` are (id, mask, extended). OSError tells what to do.
+        """
+    def close(self) -> None:
+        """
+        Leaves the bus; who waits in `receive` returns.
+        """
+    def receive(
+        self, timeout: typing.SupportsFloat | typing.SupportsIndex | None = 0.0
+    ) -> CanFrame | None:
+        """
+        Waits up to `timeout` [s], None for no end. None when nothing came or it was closed.
+        """
+    def send(self, frame: CanFrame) -> bool:
+        """
+        Sends; false when the bus did not take the frame.
+        """
+    @property
+    def counts(self) -> BusCounts:
+        """
+        What went over this end so far.
+        """
+    @property
+    def state(self) -> BusState:
+        """
+        How the bus stands.
+        """
+
+def _drive_transitions() -> list[list[DriveState]]:
+    """
+    The simulated drive's table: a row per state; none, disable voltage, quick stop, shutdown, switch on, enable operation, fault reset.
+    """
+
 def _ideal_contacts(
     setups: collections.abc.Sequence[Setup],
     threads: typing.SupportsInt | typing.SupportsIndex,
@@ -3465,11 +3882,27 @@ def _measure_contact(
     pull: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None,
 ) -> dict[str, typing.Any]: ...
 def _rebuild(arg0: typing.Any, arg1: dict[str, typing.Any]) -> typing.Any: ...
-def _simulate_python(arg0: Setup, arg1: typing.Any) -> Rows: ...
+def _simulate_python(setup: Setup, law: typing.Any, through_can: bool = False) -> Rows: ...
 def _stored_energy(
     environment: Free | Wall | Corner | Disc,
     x: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
 ) -> numpy.typing.NDArray[numpy.float64]: ...
+def _time_bus(
+    frames: typing.SupportsInt | typing.SupportsIndex,
+    repeats: typing.SupportsInt | typing.SupportsIndex,
+) -> float: ...
+def _time_bus_threads(
+    frames: typing.SupportsInt | typing.SupportsIndex,
+    repeats: typing.SupportsInt | typing.SupportsIndex,
+) -> float: ...
+def _time_exchange(
+    ticks: typing.SupportsInt | typing.SupportsIndex,
+    repeats: typing.SupportsInt | typing.SupportsIndex,
+) -> float: ...
+def _time_own_exchange(
+    ticks: typing.SupportsInt | typing.SupportsIndex,
+    repeats: typing.SupportsInt | typing.SupportsIndex,
+) -> float: ...
 def copley_current(
     torque_permille: typing.SupportsFloat | typing.SupportsIndex,
     continuous_torque_1e5: typing.SupportsFloat | typing.SupportsIndex,
@@ -3488,4 +3921,12 @@ def estimate_velocity(
 ) -> numpy.typing.NDArray[numpy.float64]:
     """
     Velocity [m/s] from positions x [m], shape (n,), sampled every dt [s] with an encoder step of count [m].
+    """
+
+def pdo_plan(
+    nodes: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex],
+) -> list[PlannedFrame]:
+    """
+    SYNC, and for every node an RPDO (controlword, target torque) and a TPDO (statusword,
+    position, actual torque): the frames of one tick (CiA 301, CiA 402).
     """

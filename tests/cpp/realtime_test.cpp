@@ -9,6 +9,7 @@
 #include <tuple>
 #include <vector>
 
+#include "ebac/can/through_can.hpp"
 #include "ebac/control/laws.hpp"
 #include "ebac/sim/simulate.hpp"
 
@@ -101,6 +102,21 @@ TYPED_TEST(Realtime, StepsOfALawDoNotAllocate) {
 }
 
 TYPED_TEST(Realtime, LoopDoesNotAllocate) { EXPECT_EQ(allocations_of_loop<TypeParam>(busy()), 0); }
+
+TEST(Bus, LoopThroughItDoesNotAllocate) {
+  ebac::Setup setup = busy();
+  setup.device.kinematics = Linear{.axes = 2};
+  auto device = can::device_through_can<SimulatedDevice>(setup);
+  device.enable();
+  Loop loop(std::move(device), VirtualClock(setup.timing.dt, 0, 1),
+            PerAxis<Ebac>(designed<Ebac>(setup)), Rig(setup.device, setup.environment), 2);
+  const auto trace = loop.make_trace(kTicks);
+  const std::size_t before = allocations;
+  loop.run(*trace);
+  EXPECT_EQ(allocations, before);
+  EXPECT_EQ(trace->size(), kTicks);
+  EXPECT_EQ(loop.sample().fault, Fault::kNone);
+}
 
 TYPED_TEST(Realtime, LoopWithEverythingOnDoesNotAllocate) {
   Setup setup = busy();

@@ -116,7 +116,7 @@ def test_version() -> None:
 
 def test_wall_json_has_the_documented_keys_and_writes_nothing(tmp_path: Path) -> None:
     answer = document("wall")
-    assert list(answer) == ["command", "version", "scenario", "rows"]
+    assert list(answer) == ["command", "version", "scenario", "through", "rows"]
     assert (answer["command"], answer["version"]) == ("wall", ebac.__version__)
     assert answer["scenario"]["environment"]["stiffness"] == 10e3
     assert answer["scenario"]["hand"]["release_at"] is None  # never; JSON has no infinity
@@ -231,7 +231,8 @@ def test_a_fault_is_told_and_its_log_kept(monkeypatch: pytest.MonkeyPatch, tmp_p
 
     original = ebac.simulate
     monkeypatch.setattr(
-        "ebac.simulation.simulate", lambda scenario, name: original(scenario, Broken())
+        "ebac.simulation.simulate",
+        lambda scenario, name, *, through: original(scenario, Broken(), through=through),
     )
     text = refusal("wall", "--law", "ebac", code=1)
     assert "law not finite" in text

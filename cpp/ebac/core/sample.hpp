@@ -21,6 +21,12 @@ enum class Fault : std::uint32_t {
   kLawNotFinite = 4,          // the law answered no number
   kTorqueNotFinite = 5,       // transpose or compensation gave no number
   kDevice = 6,                // the device itself reported a fault
+  kDriveFault = 7,            // a drive is in its fault state (statusword, bit 3)
+  kDriveDisabled = 8,         // a drive is not, or no longer, enabled
+  kDriveSilent = 9,           // a drive gave no process data for several ticks
+  kDriveEmergency = 10,       // a drive sent an emergency
+  kHeartbeatLost = 11,        // a node gave no heartbeat, or is no longer operational
+  kBusDown = 12,              // the bus is off, down or closed
 };
 
 /// What the hardware has, one per motor.

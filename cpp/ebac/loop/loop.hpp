@@ -1,16 +1,19 @@
 #pragma once
 
+#include <array>
 #include <cstring>
 #include <memory>
+#include <tuple>
 #include <utility>
 
+#include "ebac/loop/row_parts.hpp"
 #include "ebac/loop/tick.hpp"
 #include "ebac/loop/trace.hpp"
 
 namespace ebac {
 
 /// Runs ticks and keeps their rows. A fault latches: its row and the next ones, `kStopTicks` in
-/// all, command zero force, and the loop ends.
+/// all, command zero force, a device that can `stop` is told to, and the loop ends.
 template <Device D, Clock C, AxesController Law>
 class Loop {
  public:
@@ -25,9 +28,12 @@ class Loop {
   std::shared_ptr<Trace> make_trace(std::size_t rows) {
     auto trace = std::make_shared<Trace>(static_cast<int>(sample_.axes));
     law_at_ = trace->template add_block<typename Law::State>("law.");
-    if constexpr (requires { typename D::State; }) {
-      device_at_ = trace->template add_block<typename D::State>("true.");
-    }
+    std::apply(
+        [&](const auto&... part) {
+          [[maybe_unused]] std::size_t i = 0;
+          ((device_at_[i++] = add_part(*trace, part)), ...);
+        },
+        row_parts(device_));
     trace->reserve(rows);
     return trace;
   }
@@ -41,18 +47,32 @@ class Loop {
       append(row);
       trace.commit();
       ++sample_.tick;
-      if (sample_.fault != Fault::kNone) ++stopping;
+      if (sample_.fault != Fault::kNone) {
+        if constexpr (requires { device_.stop(); }) device_.stop();
+        ++stopping;
+      }
     }
   }
 
   const Sample& sample() const EBAC_RT { return sample_; }
+  D& device() EBAC_RT { return device_; }
 
  private:
+  template <class Part>
+  static std::size_t add_part(Trace& trace, const Part&) {
+    return trace.template add_block<typename Part::State>(std::string(Part::kPrefix));
+  }
+
   void append(std::byte* row) const EBAC_RT {
     const auto axes = static_cast<std::size_t>(sample_.axes);
     std::memcpy(row, &sample_, offsetof(Sample, axis) + axes * sizeof(Axis));
     copy_states(row + law_at_, law_, axes);
-    if constexpr (requires { typename D::State; }) copy_states(row + device_at_, device_, axes);
+    std::apply(
+        [&](const auto&... part) EBAC_RT {
+          [[maybe_unused]] std::size_t i = 0;
+          (copy_states(row + device_at_[i++], part, axes), ...);
+        },
+        row_parts(device_));
   }
 
   template <class Part>
@@ -71,7 +91,7 @@ class Loop {
   Rig rig_;
   Sample sample_{};
   std::size_t law_at_ = 0;
-  std::size_t device_at_ = 0;
+  std::array<std::size_t, kRowParts<D>> device_at_{};
 };
 
 }  // namespace ebac

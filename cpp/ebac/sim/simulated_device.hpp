@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string_view>
 #include <utility>
 #include <variant>
 
@@ -19,6 +20,7 @@ namespace ebac {
 class SimulatedDevice {
  public:
   using State = AxisTruth;
+  static constexpr std::string_view kPrefix = "true.";
 
   explicit SimulatedDevice(const Setup& setup)
       : device_(setup.device),
@@ -73,7 +75,7 @@ class SimulatedDevice {
 
   double whole_permille(double current) const EBAC_RT {
     const double one = device_.motor.current(device_.motor.rated_torque) / 1000;
-    return one * std::round(current / one);
+    return one * (std::round(current / one) + 0.0);  // a whole number has no negative zero
   }
 
   template <class P>

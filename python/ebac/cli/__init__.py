@@ -9,6 +9,7 @@ import typer
 from ebac.cli import (
     ablation,
     bench,
+    bus,
     conditions,
     laws,
     maps,
@@ -67,3 +68,4 @@ app.command("laws")(laws.laws)
 app.command("specs")(specs.specs)
 app.command("presets")(presets.presets)
 app.command("bench")(bench.bench)
+app.add_typer(bus.bus, name="bus")

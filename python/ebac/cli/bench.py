@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from ebac.cli import output, peers
+from ebac.cli import bench_can, output, peers
 
 if TYPE_CHECKING:
     from ebac.scenario import Scenario
@@ -35,6 +35,9 @@ def bench(
         bool,
         typer.Option("--peers", help="Compare with MuJoCo and SciPy instead; needs 'ebac[peers]'."),
     ] = False,
+    with_can: Annotated[
+        bool, typer.Option("--can", help="Time the exchange of process data on a CAN bus instead.")
+    ] = False,
     side: Annotated[
         int, typer.Option(help="Of the map that --peers times, side x side runs.", min=2, max=5000)
     ] = 200,
@@ -49,8 +52,15 @@ def bench(
 
     * `ebac bench --repeats 200`: steadier numbers on a busy machine.
 
+    * `ebac bench --can`: a tick on the bus with two simulated drives.
+
     * `ebac bench --peers`: the same plant, step and wall in MuJoCo and SciPy; a map, two threads, memory.
     """
+    if with_peers and with_can:
+        output.fail("--peers and --can exclude each other: leave one of them out")
+    if with_can:
+        bench_can.run(repeats, as_json=as_json)
+        return
     if with_peers:
         peers.run(repeats, side, as_json=as_json)
         return

@@ -79,6 +79,15 @@ Delay: TypeAlias = Annotated[
 Jitter: TypeAlias = Annotated[
     float | None, option("--jitter", "Largest deviation of a tick, as a share of it", "0", _RUN)
 ]
+Through: TypeAlias = Annotated[
+    str | None,
+    option(
+        "--through",
+        "What lies between loop and plant: `can` for a CAN bus with simulated drives",
+        "nothing",
+        _RUN,
+    ),
+]
 Seconds: TypeAlias = Annotated[
     float | None, option("--seconds", "Length of the run [s]", "6", _RUN)
 ]

@@ -26,6 +26,7 @@ OPTIONS = {
     "Tapping.target": "--target",
     "ForceSensor.noise": "--noise",
     "Timing.delay": "--delay",
+    "through": "--through",
     "Scenario.jitter": "--jitter",
     "Scenario.seconds": "--seconds",
     "Scenario.seed": "--seed",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -36,6 +37,7 @@ def wall(
     rate: options.Rate = None,
     delay: options.Delay = None,
     jitter: options.Jitter = None,
+    through: options.Through = None,
     seconds: options.Seconds = None,
     seed: options.Seed = None,
     scenario: options.ScenarioFile = None,
@@ -58,6 +60,8 @@ def wall(
 
     * `ebac wall --hand finger --target 0.02 --json`: a finger pressing to 20 mm, as JSON.
 
+    * `ebac wall --through can`: the same over a CAN bus, through simulated drives.
+
     * `ebac wall --scenario ebac-wall/scenario.toml --seed 7`: the same again, another seed.
     """
     if no_files and out is not None:
@@ -77,7 +81,23 @@ def wall(
             **setting.given(jitter=jitter, seconds=seconds, seed=seed),
         )
         _check_length(chosen)
-    _run(chosen, names, None if no_files else out or (None if as_json else DEFAULT_OUT), as_json)
+        warning = ""
+        if through is not None:
+            chosen, warning = _on_bus(chosen, through)
+    if warning and not as_json:
+        output.say(f"Warning: {warning}.", style="yellow")
+    folder = None if no_files else out or (None if as_json else DEFAULT_OUT)
+    _run(chosen, names, through, folder, as_json)
+
+
+def _on_bus(scenario: Scenario, through: str) -> tuple[Scenario, str]:
+    """Return the scenario as drives on a bus run it, and what to be warned of."""
+    from ebac.simulation import on_bus
+
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        chosen = on_bus(scenario, through)
+    return chosen, str(caught[0].message) if caught else ""
 
 
 def _check_length(scenario: Scenario) -> None:
@@ -89,7 +109,9 @@ def _check_length(scenario: Scenario) -> None:
         )
 
 
-def _run(scenario: Scenario, names: list[str], out: Path | None, as_json: bool) -> None:
+def _run(
+    scenario: Scenario, names: list[str], through: str | None, out: Path | None, as_json: bool
+) -> None:
     from ebac.metrics import contact
     from ebac.simulation import LoopFault
 
@@ -101,9 +123,9 @@ def _run(scenario: Scenario, names: list[str], out: Path | None, as_json: bool) 
             output.progress(steps, quiet=as_json) as step,
         ):
             with output.refusing():
-                traces = _simulate(scenario, names, step)
+                traces = _simulate(scenario, names, through, step)
                 contacts = [contact(trace) for trace in traces]
-            text = wall_results.document(scenario, contacts)
+            text = wall_results.document(scenario, contacts, through)
             if draft is not None:
                 files = wall_results.write(draft, scenario, traces, text, step)
     except LoopFault as fault:
@@ -111,16 +133,20 @@ def _run(scenario: Scenario, names: list[str], out: Path | None, as_json: bool) 
     if as_json:
         typer.echo(text)
         return
-    wall_results.show(scenario, contacts)
+    wall_results.show(scenario, contacts, through)
     if out is not None:
         output.list_files(out, files)
 
 
-def _simulate(scenario: Scenario, names: list[str], step: Callable[[str], None]) -> list[Trace]:
+def _simulate(
+    scenario: Scenario, names: list[str], through: str | None, step: Callable[[str], None]
+) -> list[Trace]:
     from ebac.simulation import simulate
 
     traces = []
-    for name in names:
-        step(f"simulating {name}")
-        traces.append(simulate(scenario, name))
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", UserWarning)  # the load of the bus has been told
+        for name in names:
+            step(f"simulating {name}")
+            traces.append(simulate(scenario, name, through=through))
     return traces

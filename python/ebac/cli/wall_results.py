@@ -56,12 +56,13 @@ def write(
     return files
 
 
-def document(scenario: Scenario, contacts: list[Contact]) -> str:
+def document(scenario: Scenario, contacts: list[Contact], through: str | None = None) -> str:
     """Return the JSON document."""
     import tomllib
 
     rows = [contact.row() for contact in contacts]
-    return output.document("wall", rows, scenario=tomllib.loads(scenario.to_toml()))
+    settings = tomllib.loads(scenario.to_toml())
+    return output.document("wall", rows, scenario=settings, through=through)
 
 
 def report_fault(error: LoopFault, out: Path | None) -> NoReturn:
@@ -76,7 +77,7 @@ def report_fault(error: LoopFault, out: Path | None) -> NoReturn:
     output.fail(f"{error.trace.law}: {what}; its log is {out / name}", code=output.FAILED)
 
 
-def show(scenario: Scenario, contacts: list[Contact]) -> None:
+def show(scenario: Scenario, contacts: list[Contact], through: str | None = None) -> None:
     """Print the table, a few laws at a time, and what was simulated."""
     from ebac import wording
 
@@ -84,6 +85,8 @@ def show(scenario: Scenario, contacts: list[Contact]) -> None:
         _show_table(contacts[first : first + LAWS_ABREAST])
     output.say("Simulated, not measured:", style="bold")
     output.indented(wording.describe(scenario).replace("; ", "\n"))
+    if through is not None:
+        output.indented("through a CAN bus in this process, with simulated CANopen drives")
 
 
 def _show_table(contacts: list[Contact]) -> None:

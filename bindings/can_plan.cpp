@@ -1,0 +1,57 @@
+#include <pybind11/stl.h>
+
+#include "bind.hpp"
+#include "ebac/can/exchange_benchmark.hpp"
+#include "ebac/can/pdo_plan.hpp"
+
+namespace ebac::python {
+
+namespace py = pybind11;
+
+void bind_can_plan(py::module_& m) {
+  using can::BusLoad;
+  using can::PlannedFrame;
+  py::class_<PlannedFrame>(m, "PlannedFrame", "One kind of frame that is sent in every period.")
+      .def(py::init([](std::string what, std::uint32_t id, int size, int count) {
+             return PlannedFrame{std::move(what), id, size, count};
+           }),
+           py::kw_only(), py::arg("what"), py::arg("id"), py::arg("size"), py::arg("count") = 1)
+      .def_readonly("what", &PlannedFrame::what, "Who sends what.")
+      .def_readonly("id", &PlannedFrame::id, "COB-ID.")
+      .def_readonly("size", &PlannedFrame::size, "Bytes of data.")
+      .def_readonly("count", &PlannedFrame::count, "Frames per period.");
+  py::class_<BusLoad>(m, "BusLoad", "What frames sent in every period take of a bus, at the worst.")
+      .def(py::init([](std::vector<PlannedFrame> frames, double bit_rate, double period) {
+             return BusLoad{std::move(frames), bit_rate, period};
+           }),
+           py::kw_only(), py::arg("frames"), py::arg("bit_rate") = 1e6, py::arg("period") = 1e-3)
+      .def_readonly("frames", &BusLoad::frames, "The frames.")
+      .def_readonly("bit_rate", &BusLoad::bit_rate, "Of the bus [bit/s].")
+      .def_readonly("period", &BusLoad::period, "Between two SYNC [s].")
+      .def("bits", py::overload_cast<const PlannedFrame&>(&BusLoad::bits, py::const_),
+           py::arg("frame"), "Bits a kind of frame takes in every period, stuff bits included.")
+      .def("frame_share", py::overload_cast<const PlannedFrame&>(&BusLoad::share, py::const_),
+           py::arg("frame"), "Share of the bus one kind takes.")
+      .def_property_readonly(
+          "seconds", [](const BusLoad& load) { return load.seconds(); },
+          "Time all take of every period [s].")
+      .def_property_readonly(
+          "share", [](const BusLoad& load) { return load.share(); }, "Share of the bus all take.")
+      .def_property_readonly("highest_rate", &BusLoad::highest_rate,
+                             "Rate [Hz] at which the same frames would still fit.")
+      .def("check", &can::check_load,
+           "Return a warning over 70 % of the bus, else an empty text.\n\n"
+           "Raises\n------\nValueError\n    Over 90 %, or for numbers no CAN bus has; with the "
+           "remedy.");
+  m.def(
+      "pdo_plan", [](const std::vector<int>& nodes) { return can::pdo_plan(nodes); },
+      py::arg("nodes"),
+      "SYNC, and for every node an RPDO (controlword, target torque) and a TPDO (statusword,\n"
+      "position, actual torque): the frames of one tick (CiA 301, CiA 402).");
+  const py::call_guard<py::gil_scoped_release> others_run;
+  m.def("_time_exchange", &can::time_exchange, py::arg("ticks"), py::arg("repeats"), others_run);
+  m.def("_time_own_exchange", &can::time_own_exchange, py::arg("ticks"), py::arg("repeats"),
+        others_run);
+}
+
+}  // namespace ebac::python

@@ -1,0 +1,192 @@
+#pragma once
+
+#include <algorithm>
+#include <span>
+#include <utility>
+
+#include "ebac/can/bus.hpp"
+#include "ebac/can/canopen_setup.hpp"
+#include "ebac/can/node_link.hpp"
+#include "ebac/can/power.hpp"
+#include "ebac/can/torque_scale.hpp"
+#include "ebac/can/wait.hpp"
+#include "ebac/core/concepts.hpp"
+
+namespace ebac::can {
+
+/// CANopen drives as a device of the loop, one per axis: controlword and target torque out, SYNC,
+/// then statusword, position and actual torque in. The bus stays the caller's and must outlive it.
+///
+/// It starts at rest: every exchange then tells the drives to stay off. After `enable` each exchange
+/// takes them one state further, with zero torque until all are enabled. A fault of its own stops
+/// them in the next exchange, asked or not, and stands until `enable` is called again.
+template <Bus B, Wait W>
+class CanopenDevice {
+ public:
+  using State = BusRow;
+  static constexpr std::string_view kPrefix = "bus.";
+  /// More than a bus can carry in a tick; a flood is read on in the next one.
+  static constexpr int kMostFrames = 128;
+
+  /// Throws std::invalid_argument for a setup that cannot be.
+  CanopenDevice(B& bus, W wait, const CanopenSetup& setup)
+      : bus_(&bus),
+        wait_(std::move(wait)),
+        setup_(setup),
+        scale_(TorqueScale::of(setup.motor, setup.drive)),
+        power_(setup.quick_stop) {
+    check_setup(setup);
+  }
+
+  Reading exchange(const Command& command) EBAC_RT {
+    wait_.begin(command.elapsed);
+    for (NodeLink& link : links()) link.open(command.elapsed);
+    drain();
+    for (NodeLink& link : links()) link.sync();
+    send(command);
+    collect();
+    power_.tick();
+    for (NodeLink& link : links()) {
+      link.close();
+      link.row().foreign = foreign_;
+    }
+    supervise();
+    return reading();
+  }
+
+  void enable() EBAC_RT {
+    fault_ = Fault::kNone;
+    power_.want(Power::Goal::kRun);
+    for (NodeLink& link : links()) link.start();
+  }
+  /// Zero torque, then down the states one by one: the end of a good run.
+  void disable() EBAC_RT {
+    if (power_.goal() != Power::Goal::kRest) power_.want(Power::Goal::kRest);
+  }
+  /// Zero torque, then the shortest way out.
+  void stop() EBAC_RT {
+    if (power_.goal() != Power::Goal::kStop) power_.want(Power::Goal::kStop);
+  }
+
+  /// Every drive is enabled and follows its torque.
+  bool running() const EBAC_RT { return power_.running(); }
+  /// Every drive was heard in the last tick and says that its power is off.
+  bool at_rest() const EBAC_RT {
+    return std::ranges::all_of(links(), [](const NodeLink& link) {
+      const DriveState state = link.state();
+      return link.answered() && (state == DriveState::kSwitchOnDisabled ||
+                                 state == DriveState::kNotReady || state == DriveState::kFault);
+    });
+  }
+  Fault fault() const EBAC_RT { return fault_; }
+  const State& state(std::size_t axis) const EBAC_RT { return link_[axis].row(); }
+
+ private:
+  std::span<NodeLink> links() EBAC_RT {
+    return std::span(link_).first(static_cast<std::size_t>(setup_.axes));
+  }
+  std::span<const NodeLink> links() const EBAC_RT {
+    return std::span(link_).first(static_cast<std::size_t>(setup_.axes));
+  }
+
+  /// Reads what came since the last exchange.
+  void drain() EBAC_RT {
+    Frame frame;
+    for (int i = 0; i < kMostFrames && bus_->receive(frame); ++i) take(frame);
+  }
+
+  void send(const Command& command) EBAC_RT {
+    for (std::size_t i = 0; NodeLink& link : links()) {
+      const std::int16_t torque =
+          power_.running() ? scale_.permille(command.current[i]) : std::int16_t{0};
+      ++i;
+      link.told(bus_->send(link.command(power_.command(link.state()), torque)));
+    }
+    if (!bus_->send({.id = kSync})) {
+      for (NodeLink& link : links()) ++link.row().refused;
+    }
+  }
+
+  void collect() EBAC_RT {
+    const auto waiting = [](const NodeLink& link) { return !link.answered(); };
+    Frame frame;
+    for (int i = 0; i < kMostFrames && std::ranges::any_of(links(), waiting);) {
+      if (bus_->receive(frame)) {
+        take(frame);
+        ++i;
+      } else if (!wait_.more()) {
+        return;
+      }
+    }
+  }
+
+  void take(const Frame& frame) EBAC_RT {
+    if (!frame.extended && !frame.remote && !frame.error) {
+      if (frame.id == kNmt) return;
+      for (NodeLink& link : links()) {
+        if (link.take(frame)) return;
+      }
+    }
+    ++foreign_;
+  }
+
+  void supervise() EBAC_RT {
+    const auto enabled = [](const NodeLink& link) {
+      return link.answered() && link.state() == DriveState::kOperationEnabled;
+    };
+    if (power_.goal() != Power::Goal::kRun) return;
+    if (power_.enabling() && std::ranges::all_of(links(), enabled)) {
+      for (NodeLink& link : links()) link.start();
+      power_.run();
+    }
+    fault_ = down() ? Fault::kBusDown : Fault::kNone;
+    for (const NodeLink& link : links()) {
+      if (fault_ == Fault::kNone) fault_ = power_.running() ? lost(link) : not_enabled(link);
+    }
+    if (fault_ != Fault::kNone) stop();
+  }
+
+  bool down() const EBAC_RT { return std::as_const(*bus_).state() >= BusState::kBusOff; }
+
+  /// Why a drive that ran no longer does.
+  Fault lost(const NodeLink& link) const EBAC_RT {
+    if (link.alarmed()) return Fault::kDriveEmergency;
+    if (faulty(link.state())) return Fault::kDriveFault;
+    if (link.state() != DriveState::kOperationEnabled) return Fault::kDriveDisabled;
+    if (link.row().age >= setup_.silent_ticks) return Fault::kDriveSilent;
+    if (link.untold() >= setup_.silent_ticks) return Fault::kBusDown;
+    const bool watched = setup_.heartbeat_timeout > 0;
+    const bool dead = watched && (link.left() || link.quiet() > setup_.heartbeat_timeout);
+    return dead ? Fault::kHeartbeatLost : Fault::kNone;
+  }
+
+  /// Why a drive will not run.
+  Fault not_enabled(const NodeLink& link) const EBAC_RT {
+    if (faulty(link.state())) return Fault::kDriveFault;
+    if (power_.ticks() < setup_.enable_ticks) return Fault::kNone;
+    if (!link.answered()) return Fault::kDriveSilent;
+    return link.state() == DriveState::kOperationEnabled ? Fault::kNone : Fault::kDriveDisabled;
+  }
+
+  Reading reading() const EBAC_RT {
+    Reading out{.fault = fault_};
+    for (std::size_t i = 0; const NodeLink& link : links()) {
+      out.counts[i] = link.counts();
+      out.current_applied[i] = scale_.current(link.actual_permille());
+      ++i;
+    }
+    return out;
+  }
+
+  B* bus_;
+  W wait_;
+  CanopenSetup setup_;
+  TorqueScale scale_;
+  Power power_;
+  std::array<NodeLink, kMaxAxes> link_{NodeLink(setup_.node[0]), NodeLink(setup_.node[1]),
+                                       NodeLink(setup_.node[2])};
+  std::int64_t foreign_ = 0;
+  Fault fault_ = Fault::kNone;
+};
+
+}  // namespace ebac::can

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <array>
+
+#include "ebac/can/cob_id.hpp"
+#include "ebac/core/fields.hpp"
+#include "ebac/model/motor.hpp"
+
+namespace ebac::can {
+
+/// What the loop must know of the drives on its bus, one per axis.
+struct CanopenSetup {
+  int axes = 1;
+  std::array<NodeId, kMaxAxes> node{1, 2, 3};  // of each axis, in their order
+  Motor motor{};                               // for eq. (1)
+  Drive drive{};                               // for its limit
+  int silent_ticks = 3;                        // samples
+  int enable_ticks = 1000;                     // samples
+  double heartbeat_timeout = 0;                // s
+  bool quick_stop = false;
+
+  static constexpr auto fields() {
+    using F = Field<CanopenSetup>;
+    return std::array{
+        F{"axes", &CanopenSetup::axes, "1", "drives on the bus, one per axis", 1, kMaxAxes},
+        F{"silent_ticks", &CanopenSetup::silent_ticks, "samples",
+          "ticks in a row without process data, in either direction, that are a fault", 1, 1000},
+        F{"enable_ticks", &CanopenSetup::enable_ticks, "samples",
+          "ticks the drives may take to reach operation enabled", 1, 1e6},
+        F{"heartbeat_timeout", &CanopenSetup::heartbeat_timeout, "s",
+          "longest time between two heartbeats of a node; 0 watches none", 0, 60},
+        F{"quick_stop", &CanopenSetup::quick_stop, "1",
+          "stop by the drive's quick stop instead of letting the motor coast", 0, 1},
+    };
+  }
+};
+
+/// Throws std::invalid_argument for a field or a node out of range, and for a node given twice.
+void check_setup(const CanopenSetup& setup);
+
+}  // namespace ebac::can

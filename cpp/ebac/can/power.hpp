@@ -1,0 +1,49 @@
+#pragma once
+
+#include "ebac/can/drive_words.hpp"
+
+namespace ebac::can {
+
+/// What the loop wants of its drives, and how long it has wanted it: a command for each state
+/// and tick. Nothing waits; one call of `tick` per exchange.
+class Power {
+ public:
+  enum class Goal : std::uint8_t { kRest, kRun, kStop };
+
+  explicit Power(bool quick_stop) EBAC_RT : quick_stop_(quick_stop) {}
+
+  void want(Goal goal) EBAC_RT {
+    goal_ = goal;
+    ticks_ = 0;
+    running_ = false;
+  }
+  void tick() EBAC_RT { ++ticks_; }
+  /// Every drive is enabled: from here on they get their torque.
+  void run() EBAC_RT { running_ = true; }
+
+  Goal goal() const EBAC_RT { return goal_; }
+  bool running() const EBAC_RT { return running_; }
+  bool enabling() const EBAC_RT { return goal_ == Goal::kRun && !running_; }
+  int ticks() const EBAC_RT { return ticks_; }  // exchanges since it was wanted
+
+  DriveCommand command(DriveState state) const EBAC_RT {
+    if (goal_ == Goal::kRun) return up_from(state);
+    // Zero torque first, with the drive still on: its current is then zero when it lets go.
+    const bool on = state == DriveState::kOperationEnabled;
+    if (on && ticks_ < kZeroTicks) return DriveCommand::kEnableOperation;
+    if (goal_ == Goal::kRest) return down_from(state);
+    const bool brake = quick_stop_ && ticks_ < kQuickTicks;
+    return brake ? DriveCommand::kQuickStop : DriveCommand::kDisableVoltage;
+  }
+
+ private:
+  static constexpr int kZeroTicks = 1;
+  static constexpr int kQuickTicks = 6;
+
+  bool quick_stop_;
+  Goal goal_ = Goal::kRest;
+  bool running_ = false;
+  int ticks_ = 0;
+};
+
+}  // namespace ebac::can

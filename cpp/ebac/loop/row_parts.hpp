@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstddef>
+#include <tuple>
+#include <utility>
+
+#include "ebac/core/realtime.hpp"
+
+namespace ebac {
+
+/// What of a device adds to a row. Each part has a State with fields, a `kPrefix` for the names of
+/// its columns, and `state(axis)`. A device made of several devices names them by `parts()`, a tuple
+/// of references; one that has a State is its own only part; any other has none.
+template <class D>
+auto row_parts(const D& device) EBAC_RT {
+  if constexpr (requires { device.parts(); }) {
+    return device.parts();
+  } else if constexpr (requires { typename D::State; }) {
+    return std::tie(device);
+  } else {
+    return std::tuple<>{};
+  }
+}
+
+template <class D>
+inline constexpr std::size_t kRowParts =
+    std::tuple_size_v<decltype(row_parts(std::declval<const D&>()))>;
+
+}  // namespace ebac

@@ -1,0 +1,520 @@
+// The loop's side of the bus, against drives that do what a test tells them.
+#include "ebac/can/canopen_device.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "ebac/can/exchange_benchmark.hpp"
+#include "ebac/control/direct.hpp"
+#include "ebac/loop/clock.hpp"
+#include "ebac/loop/loop.hpp"
+#include "scripted_drives.hpp"
+
+namespace ebac::can {
+namespace {
+
+using Drives = ScriptedDrives;
+using Tested = CanopenDevice<ScriptedBus, RunOther<Drives>>;
+static_assert(Device<Tested>);
+
+constexpr double kTick = 1e-3;  // s
+
+/// A device, its bus and its drives.
+struct Desk {
+  ScriptedBus bus;
+  Drives drives;
+  CanopenSetup setup;
+  Tested device;
+
+  explicit Desk(const CanopenSetup& given = {.axes = 2})
+      : drives{.bus = &bus, .nodes = given.axes},
+        setup(given),
+        device(bus, RunOther(drives), given) {}
+  Desk(const Desk&) = delete;
+  Desk& operator=(const Desk&) = delete;
+
+  Reading tick(double first = 0, double second = 0) {
+    return device.exchange({.current = {first, second}, .elapsed = kTick});
+  }
+  Reading ticks(int n) {
+    Reading last;
+    for (int i = 0; i < n; ++i) last = tick();
+    return last;
+  }
+  void enable() {
+    device.enable();
+    for (int i = 0; i < 20 && !device.running(); ++i) tick();
+    ASSERT_TRUE(device.running());
+  }
+  BusRow row(std::size_t axis = 0) const { return device.state(axis); }
+};
+
+double one() { return Motor{}.current(Motor{}.rated_torque) / 1000; }
+
+TEST(DriveStates, AreReadFromEveryStatusword) {
+  // CiA 402, table of the statusword: bits 0 to 3, 5 and 6 count, the others may be anything.
+  for (unsigned word = 0; word < 0x10000; ++word) {
+    const auto state = state_of(static_cast<std::uint16_t>(word));
+    const unsigned low = word & 0x4F;
+    const unsigned six = word & 0x6F;
+    EXPECT_EQ(state == DriveState::kOperationEnabled, six == 0x27);
+    EXPECT_EQ(state == DriveState::kSwitchedOn, six == 0x23);
+    EXPECT_EQ(state == DriveState::kReady, six == 0x21);
+    EXPECT_EQ(state == DriveState::kQuickStopActive, six == 0x07);
+    EXPECT_EQ(state == DriveState::kSwitchOnDisabled, low == 0x40);
+    EXPECT_EQ(state == DriveState::kFault, low == 0x08);
+    EXPECT_EQ(state == DriveState::kFaultReaction, low == 0x0F);
+  }
+}
+
+TEST(DriveStates, LeadUpAndDownByTheTableOfTheDrive) {
+  for (std::size_t i = 0; i < kDriveStates; ++i) {
+    const auto start = static_cast<DriveState>(i);
+    EXPECT_EQ(state_of(status_bits(start)), start);
+    DriveState up = start;
+    DriveState down = start;
+    for (int step = 0; step < 4; ++step) {
+      up = after(up, up_from(up));
+      down = after(down, down_from(down));
+    }
+    const bool stuck = faulty(start) || start == DriveState::kNotReady;
+    EXPECT_EQ(up, stuck ? start : DriveState::kOperationEnabled) << i;
+    EXPECT_EQ(down, stuck ? start : DriveState::kSwitchOnDisabled) << i;
+  }
+}
+
+TEST(DriveStates, CommandsAreTheWordsTheDriveReads) {
+  for (std::size_t i = 1; i < kDriveCommands; ++i) {
+    const auto command = static_cast<DriveCommand>(i);
+    EXPECT_EQ(command_of(word_of(command), 0), command) << i;
+  }
+}
+
+TEST(Scale, IsThatOfEquationOne) {
+  const Motor motor;
+  const TorqueScale scale = TorqueScale::of(motor, {});
+  EXPECT_DOUBLE_EQ(scale.current(500), copley_current(500, 5300, 5380));
+  for (int permille = -4000; permille <= 4000; ++permille) {
+    const auto word = static_cast<std::int16_t>(permille);
+    EXPECT_EQ(scale.permille(scale.current(word)), permille);
+    EXPECT_EQ(scale.current(word), one() * permille);
+  }
+}
+
+TEST(Scale, HoldsTheLimits) {
+  const double huge = std::numeric_limits<double>::max();
+  const TorqueScale scale = TorqueScale::of({}, {});
+  EXPECT_EQ(scale.permille(huge), 4000);
+  EXPECT_EQ(scale.permille(-huge), -4000);
+  EXPECT_EQ(scale.permille(kAnyHigh), 4000);
+  EXPECT_EQ(scale.permille(std::numeric_limits<double>::quiet_NaN()), 0);
+  EXPECT_EQ(scale.permille(0.49 * one()), 0);
+  EXPECT_EQ(scale.permille(0.51 * one()), 1);
+  // Sixteen bits are the last limit.
+  const TorqueScale fine = TorqueScale::of({.rated_torque = 1e-4}, {.peak_ratio = 10});
+  EXPECT_EQ(fine.permille(huge), 10000);
+  EXPECT_EQ((TorqueScale{.one = 1e-6, .peak = 1, .most = 32767}).permille(1), 32767);
+}
+
+TEST(Setup, IsRefusedWithItsReason) {
+  ScriptedBus bus;
+  Drives drives{.bus = &bus};
+  const auto make = [&](const CanopenSetup& setup) { Tested(bus, RunOther(drives), setup); };
+  EXPECT_THROW(make({.axes = 0}), std::invalid_argument);
+  EXPECT_THROW(make({.axes = 4}), std::invalid_argument);
+  EXPECT_THROW(make({.axes = 2, .node = {1, 1}}), std::invalid_argument);
+  EXPECT_THROW(make({.node = {0}}), std::invalid_argument);
+  EXPECT_THROW(make({.node = {128}}), std::invalid_argument);
+  EXPECT_THROW(make({.silent_ticks = 0}), std::invalid_argument);
+  EXPECT_THROW(make({.motor = {.torque_constant = 0}}), std::invalid_argument);
+  EXPECT_NO_THROW(make({.axes = 1, .node = {127, 0, 0}}));
+}
+
+TEST(Exchange, SendsTorquesThenSync) {
+  Desk desk;
+  desk.enable();
+  desk.bus.full = false;
+  ScriptedBus tap;
+  desk.drives.bus = &tap;  // nobody answers
+  desk.tick(500 * one(), -20 * one());
+  ASSERT_EQ(desk.bus.sent.size(), 3);
+  EXPECT_EQ(desk.bus.sent[0], frame(0x201, {0x0F, 0x00, 0xF4, 0x01}));
+  EXPECT_EQ(desk.bus.sent[1], frame(0x202, {0x0F, 0x00, 0xEC, 0xFF}));
+  EXPECT_EQ(desk.bus.sent[2], frame(0x080, {}));
+}
+
+TEST(Exchange, IsToldWhatTheDrivesSay) {
+  Desk desk;
+  desk.enable();
+  desk.drives.drive[0].position = 12345;
+  desk.drives.drive[1].position = -7;
+  desk.tick(500 * one(), -20 * one());
+  const Reading reading = desk.tick();
+  EXPECT_EQ(reading.counts[0], 12345);
+  EXPECT_EQ(reading.counts[1], -7);
+  EXPECT_EQ(reading.current_applied[0], 500 * one());
+  EXPECT_EQ(reading.current_applied[1], -20 * one());
+  EXPECT_EQ(reading.fault, Fault::kNone);
+  EXPECT_EQ(desk.row(0).age, 0);
+  EXPECT_EQ(desk.row(0).statusword, 0x27);
+}
+
+TEST(Exchange, TellsTheOtherSideHowMuchTimePassed) {
+  Desk desk;
+  desk.ticks(3);
+  EXPECT_DOUBLE_EQ(desk.drives.elapsed, 3 * kTick);
+  EXPECT_EQ(desk.drives.syncs, 3);
+}
+
+TEST(Counts, AreUnwrappedOverThirtyTwoBits) {
+  Desk desk;
+  desk.enable();
+  std::int64_t place = 2'000'000'000;
+  desk.drives.drive[0].position = static_cast<std::int32_t>(place);
+  // The first position of all is taken as it stands; from there on, the nearest.
+  EXPECT_EQ(desk.tick().counts[0], place);
+  for (int i = 0; i < 40; ++i) {
+    place += i < 20 ? 1'000'000'000 : -2'000'000'000;
+    desk.drives.drive[0].position = static_cast<std::int32_t>(static_cast<std::uint32_t>(place));
+    EXPECT_EQ(desk.tick().counts[0], place) << i;
+  }
+}
+
+TEST(Power, TakesTheDrivesUpOneStateAnExchange) {
+  Desk desk;
+  std::vector<int> words;
+  desk.tick(1);
+  desk.device.enable();
+  for (int i = 0; i < 5; ++i) {
+    desk.tick(1, 1);
+    words.push_back(desk.row().controlword);
+    // No torque before all are enabled.
+    EXPECT_EQ(desk.row().target_permille, i < 3 ? 0 : std::lround(1 / one())) << i;
+  }
+  EXPECT_EQ(words, (std::vector{0x06, 0x07, 0x0F, 0x0F, 0x0F}));
+}
+
+TEST(Power, NoTorqueUntilTheLastDriveIsEnabled) {
+  Desk desk;
+  desk.drives.drive[1].stuck = true;
+  desk.device.enable();
+  for (int i = 0; i < 10; ++i) {
+    desk.tick(1, 1);
+    EXPECT_EQ(desk.row().target_permille, 0);
+  }
+  EXPECT_EQ(desk.row().statusword, 0x27);
+  EXPECT_FALSE(desk.device.running());
+}
+
+TEST(Power, AtRestEveryExchangeSaysOff) {
+  Desk desk;
+  for (int i = 0; i < 3; ++i) {
+    desk.tick(1, 1);
+    EXPECT_EQ(desk.row().controlword, 0);
+    EXPECT_EQ(desk.row().target_permille, 0);
+  }
+  EXPECT_TRUE(desk.device.at_rest());
+}
+
+TEST(Power, DisableGoesDownStepByStep) {
+  Desk desk;
+  desk.enable();
+  desk.tick(1, 1);
+  desk.device.disable();
+  std::vector<int> words;
+  for (int i = 0; i < 5; ++i) {
+    desk.tick(1, 1);
+    words.push_back(desk.row().controlword);
+    EXPECT_EQ(desk.row().target_permille, 0);
+  }
+  EXPECT_EQ(words, (std::vector{0x0F, 0x07, 0x06, 0x00, 0x00}));
+  EXPECT_TRUE(desk.device.at_rest());
+  EXPECT_EQ(desk.device.fault(), Fault::kNone);
+}
+
+TEST(Power, StopGoesTheShortestWay) {
+  for (const bool quick : {false, true}) {
+    Desk desk({.axes = 1, .quick_stop = quick});
+    desk.enable();
+    desk.tick(1);
+    std::vector<int> words;
+    for (int i = 0; i < 8; ++i) {
+      desk.device.stop();
+      desk.tick(1);
+      words.push_back(desk.row().controlword);
+      EXPECT_EQ(desk.row().target_permille, 0);
+    }
+    const int way = quick ? 2 : 0;
+    EXPECT_EQ(words, (std::vector{0x0F, way, way, way, way, way, 0, 0}));
+    EXPECT_TRUE(desk.device.at_rest());
+  }
+}
+
+TEST(Power, AFaultOfItsOwnStopsUnasked) {
+  Desk desk;
+  desk.enable();
+  desk.tick(1, 1);
+  desk.drives.drive[1].stuck = true;
+  desk.drives.drive[1].statusword = 0x08;
+  EXPECT_EQ(desk.tick(1, 1).fault, Fault::kDriveFault);
+  desk.drives.drive[1].statusword = 0x40;
+  for (int i = 0; i < 5; ++i) {
+    EXPECT_EQ(desk.tick(1, 1).fault, Fault::kDriveFault) << "stands";
+    EXPECT_EQ(desk.row(0).target_permille, 0);
+    EXPECT_EQ(desk.row(0).controlword, i == 0 ? 0x0F : 0x00);
+    EXPECT_EQ(desk.row(1).controlword, 0x00);
+  }
+  desk.drives.drive[1].stuck = false;
+  desk.enable();
+  EXPECT_EQ(desk.tick().fault, Fault::kNone);
+}
+
+/// A fault of a running pair of drives, and after how many ticks it is seen.
+struct Trouble {
+  const char* name;
+  void (*cause)(Desk& desk);
+  Fault fault;
+  int ticks;
+};
+void PrintTo(const Trouble& trouble, std::ostream* out) {  // NOLINT: GoogleTest asks for the name
+  *out << trouble.name;
+}
+
+class FaultOfADrive : public testing::TestWithParam<Trouble> {};
+
+TEST_P(FaultOfADrive, IsTold) {
+  Desk desk({.axes = 2, .silent_ticks = 3, .heartbeat_timeout = 0.0105});
+  desk.enable();
+  const auto pulse = [&](NodeId node) { desk.bus.waiting.push_back(frame(heartbeat(node), {5})); };
+  for (int i = 0; i < 30; ++i) {
+    pulse(1);
+    pulse(2);
+    ASSERT_EQ(desk.tick(1, 1).fault, Fault::kNone);
+  }
+  GetParam().cause(desk);
+  for (int i = 1; i < GetParam().ticks; ++i) ASSERT_EQ(desk.tick(1, 1).fault, Fault::kNone) << i;
+  EXPECT_EQ(desk.tick(1, 1).fault, GetParam().fault);
+  desk.tick(1, 1);
+  EXPECT_EQ(desk.row(0).target_permille, 0);
+  EXPECT_EQ(desk.row(1).target_permille, 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    , FaultOfADrive,
+    testing::Values(
+        Trouble{"fault", [](Desk& d) { d.drives.drive[1] = {.statusword = 0x1208, .stuck = true}; },
+                Fault::kDriveFault, 1},
+        Trouble{"reaction",
+                [](Desk& d) { d.drives.drive[0] = {.statusword = 0x0F, .stuck = true}; },
+                Fault::kDriveFault, 1},
+        Trouble{"disabled",
+                [](Desk& d) { d.drives.drive[0] = {.statusword = 0x23, .stuck = true}; },
+                Fault::kDriveDisabled, 1},
+        Trouble{"quick stop", [](Desk& d) { d.drives.drive[0] = {.statusword = 7, .stuck = true}; },
+                Fault::kDriveDisabled, 1},
+        Trouble{"silent", [](Desk& d) { d.drives.drive[1].copies = 0; }, Fault::kDriveSilent, 3},
+        Trouble{
+            "emergency",
+            [](Desk& d) { d.bus.waiting.push_back(frame(0x82, {0x10, 0x32, 4, 0, 0, 0, 0, 0})); },
+            Fault::kDriveEmergency, 1},
+        Trouble{"no heartbeat", [](Desk&) {}, Fault::kHeartbeatLost, 11},
+        Trouble{"rebooted", [](Desk& d) { d.bus.waiting.push_back(frame(0x702, {0})); },
+                Fault::kHeartbeatLost, 1},
+        Trouble{"pre-operational", [](Desk& d) { d.bus.waiting.push_back(frame(0x701, {0x7F})); },
+                Fault::kHeartbeatLost, 1},
+        Trouble{"bus off", [](Desk& d) { d.bus.now = BusState::kBusOff; }, Fault::kBusDown, 1},
+        Trouble{"told nothing, yet answering", [](Desk& d) { d.bus.refused_id = 0x202; },
+                Fault::kBusDown, 3},
+        Trouble{"interface gone", [](Desk& d) { d.bus.now = BusState::kDown; }, Fault::kBusDown,
+                1}));
+
+TEST(Enabling, TellsWhyItDoesNotSucceed) {
+  const CanopenSetup hasty{.axes = 2, .enable_ticks = 20};
+  const auto outcome = [&](auto change) {
+    Desk desk(hasty);
+    change(desk);
+    desk.device.enable();
+    int n = 1;
+    while (desk.tick().fault == Fault::kNone && n < 100) ++n;
+    return std::pair{desk.device.fault(), n};
+  };
+  using Result = std::pair<Fault, int>;
+  EXPECT_EQ(outcome([](Desk& d) { d.drives.drive[1].stuck = true; }),
+            Result(Fault::kDriveDisabled, 20));
+  EXPECT_EQ(outcome([](Desk& d) { d.drives.drive[0].copies = 0; }),
+            Result(Fault::kDriveSilent, 20));
+  EXPECT_EQ(outcome([](Desk& d) { d.drives.drive[1] = {.statusword = 8, .stuck = true}; }),
+            Result(Fault::kDriveFault, 1));
+  EXPECT_EQ(outcome([](Desk& d) { d.bus.now = BusState::kClosed; }), Result(Fault::kBusDown, 1));
+}
+
+TEST(Enabling, ForgetsTheEmergenciesOfTheStart) {
+  Desk desk;
+  desk.bus.waiting.push_back(frame(0x81, {0x30, 0x81, 0, 0, 0, 0, 0, 0}));
+  desk.enable();
+  EXPECT_EQ(desk.tick().fault, Fault::kNone);
+  EXPECT_EQ(desk.row().emergency, 0x8130);
+  desk.bus.waiting.push_back(frame(0x81, {0, 0, 0, 0, 0, 0, 0, 0}));  // error reset
+  EXPECT_EQ(desk.tick().fault, Fault::kNone);
+}
+
+TEST(Answers, MissingOnesAreCountedAndTheLastOneHolds) {
+  Desk desk;
+  desk.enable();
+  desk.drives.drive[0].position = 50;
+  desk.tick();
+  desk.drives.drive[0].copies = 0;
+  desk.drives.drive[0].position = 60;
+  const Reading held = desk.ticks(2);
+  EXPECT_EQ(held.counts[0], 50);
+  EXPECT_EQ(desk.row().missing, 2);
+  EXPECT_EQ(desk.row().age, 2);
+  EXPECT_EQ(desk.row(1).missing, 0);
+  desk.drives.drive[0].copies = 1;
+  EXPECT_EQ(desk.tick().counts[0], 60);
+  EXPECT_EQ(desk.row().missing, 2);
+  EXPECT_EQ(desk.row().age, 0);
+}
+
+TEST(Answers, LateOnesAreCountedAndUsed) {
+  Desk desk;
+  desk.enable();
+  desk.drives.drive[0].copies = 0;
+  desk.tick();
+  EXPECT_EQ(desk.row().missing, 1);
+  desk.bus.waiting.push_back(answer(1, 0x27, 77, 0));  // after its tick was closed
+  const Reading reading = desk.tick();
+  EXPECT_EQ(reading.counts[0], 77);
+  EXPECT_EQ(desk.row().late, 1);
+  EXPECT_EQ(desk.row().duplicate, 0);
+  EXPECT_EQ(desk.row().missing, 2) << "it answered the tick before, not this one";
+  EXPECT_EQ(desk.row().age, 1);
+}
+
+TEST(Answers, DuplicatesAreCounted) {
+  Desk desk;
+  desk.enable();
+  desk.drives.drive[0].copies = 3;
+  desk.ticks(2);  // what comes after the last answer is read in the next tick
+  desk.drives.drive[0].copies = 1;
+  desk.tick();
+  EXPECT_EQ(desk.row().duplicate, 4);
+  EXPECT_EQ(desk.row(1).duplicate, 0);
+  EXPECT_EQ(desk.row().missing, 0);
+}
+
+TEST(Answers, ForeignFramesAreCountedOnEveryAxis) {
+  Desk desk;
+  const auto foreign = [&](Frame stray) {
+    const auto before = desk.row().foreign;
+    desk.bus.waiting.push_back(stray);
+    desk.tick();
+    EXPECT_EQ(desk.row(0).foreign, desk.row(1).foreign);
+    return desk.row().foreign - before;
+  };
+  EXPECT_EQ(foreign(answer(3, 0x27, 5, 5)), 1) << "a node nobody told of";
+  EXPECT_EQ(foreign(frame(0x281, {1, 2})), 1) << "a TPDO nobody planned";
+  EXPECT_EQ(foreign(frame(0x201, {0x0F, 0, 1, 0})), 1) << "another master";
+  EXPECT_EQ(foreign(frame(0x080, {})), 1) << "another SYNC";
+  Frame odd = answer(1, 0x27, 5, 5);
+  odd.extended = true;
+  EXPECT_EQ(foreign(odd), 1);
+  odd = answer(1, 0x27, 5, 5);
+  odd.remote = true;
+  EXPECT_EQ(foreign(odd), 1);
+  odd = answer(1, 0x27, 5, 5);
+  odd.error = true;
+  EXPECT_EQ(foreign(odd), 1);
+  EXPECT_EQ(foreign(frame(0x581, {0x60, 0, 0, 0, 0, 0, 0, 0})), 0) << "SDO beside the loop";
+  EXPECT_EQ(foreign(frame(0x602, {0x40, 0, 0, 0, 0, 0, 0, 0})), 0);
+  EXPECT_EQ(foreign(frame(0x000, {1, 0})), 0) << "NMT";
+}
+
+TEST(Answers, MalformedOnesAreNotRead) {
+  Desk desk;
+  desk.enable();
+  desk.drives.drive[0].copies = 0;
+  Frame brief = answer(1, 0x27, 99, 99);
+  brief.size = 7;
+  desk.bus.waiting = {brief, frame(0x81, {1}), frame(0x701, {5, 5})};
+  const Reading reading = desk.tick();
+  EXPECT_EQ(reading.counts[0], 0);
+  EXPECT_EQ(desk.row().malformed, 3);
+  EXPECT_EQ(desk.row().missing, 1);
+  EXPECT_EQ(reading.fault, Fault::kNone);
+}
+
+TEST(Answers, RefusedFramesAreCounted) {
+  Desk desk;
+  desk.enable();
+  desk.bus.full = true;
+  desk.tick();
+  EXPECT_EQ(desk.row(0).refused, 2) << "its torque, and SYNC";
+  EXPECT_EQ(desk.row(1).refused, 2);
+  EXPECT_EQ(desk.row(0).missing, 1);
+}
+
+/// Time that passes by 10 us whenever it is asked.
+struct Counter {
+  std::int64_t* now;
+  std::int64_t operator()() const noexcept { return *now += 10'000; }
+};
+
+TEST(Budget, IsNotExceeded) {
+  ScriptedBus bus;
+  std::int64_t now = 0;
+  CanopenDevice<ScriptedBus, PollFor<Counter>> device(bus, PollFor(Counter{&now}, 400'000),
+                                                      {.axes = 2});
+  static_cast<void>(device.exchange({}));
+  EXPECT_GE(now, 400'000);
+  EXPECT_LE(now, 430'000);
+  // A flood does not hold it up either.
+  bus.waiting.assign(1000, frame(0x123, {}));
+  now = 0;
+  static_cast<void>(device.exchange({}));
+  EXPECT_LE(now, 430'000);
+  EXPECT_GE(bus.waiting.size(), 1000 - 2 * 128);
+  // With every answer there, it does not wait at all.
+  bus.waiting.clear();
+  now = 0;
+  AnsweringBus prompt(2);
+  CanopenDevice<AnsweringBus, PollFor<Counter>> quick(prompt, PollFor(Counter{&now}, 400'000),
+                                                      {.axes = 2});
+  static_cast<void>(quick.exchange({}));
+  EXPECT_EQ(now, 10'000);
+}
+
+TEST(InTheLoop, AFaultOfAnotherStageStopsTheDrives) {
+  Desk desk({.axes = 1});
+  desk.enable();
+  /// Answers no number from tick 5 on.
+  struct Broken {
+    struct State {
+      static constexpr auto fields() { return std::array<Field<State>, 0>{}; }
+    };
+    int tick = 0;
+    void step(std::span<Axis> axes, const Touch&) EBAC_RT {
+      axes[0].port.f_cmd = tick++ < 5 ? 1.0 : std::nan("");
+    }
+    void reset() EBAC_RT {}
+  };
+  Loop loop(desk.device, VirtualClock(kTick, 0, 1), Broken{},
+            Rig(DeviceModel{}, Environment{Free{}}), 1);
+  const auto trace = loop.make_trace(100);
+  loop.run(*trace);
+  ASSERT_EQ(trace->size(), 15);
+  EXPECT_EQ(trace->sample(14).fault, Fault::kLawNotFinite);
+  EXPECT_EQ(desk.drives.drive[0].controlword, 0);
+  EXPECT_EQ(desk.drives.drive[0].target, 0);
+  EXPECT_TRUE(loop.device().at_rest());
+  EXPECT_FALSE(loop.device().running());
+  const auto& columns = trace->columns();
+  EXPECT_TRUE(
+      std::ranges::any_of(columns, [](const Column& c) { return c.name == "bus.missing"; }));
+}
+
+}  // namespace
+}  // namespace ebac::can
