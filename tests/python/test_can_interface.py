@@ -65,25 +65,17 @@ messages = st.one_of(
 
 
 @given(sent=st.lists(messages, max_size=30))
-def test_messages_arrive_as_python_cans_own_bus_delivers_them(sent: list[can.Message]) -> None:
-    with (
-        bus("a") as mine,
-        bus("a") as other,
-        can.Bus(interface="virtual", channel="a") as v_mine,
-        can.Bus(interface="virtual", channel="a") as v_other,
-    ):
+def test_messages_arrive_as_they_were_sent(sent: list[can.Message]) -> None:
+    with bus("any") as mine, bus("any") as other:
         before = time.time()
         for one in sent:
             mine.send(one)
-            v_mine.send(one)
         got = drain(other)
         assert drain(mine) == []
-    with v_other:
-        pass
     for one, back in zip(sent, got, strict=True):
-        assert back.equals(one, timestamp_delta=None, check_channel=False, check_direction=False)
+        assert back.equals(one, timestamp_delta=None, check_channel=False)
         assert back.is_rx
-        assert back.channel == "a"
+        assert back.channel == "any"
         assert before - 1e-3 <= back.timestamp <= time.time() + 1e-3
     assert all(a.timestamp <= b.timestamp for a, b in pairwise(got))
 
@@ -192,14 +184,14 @@ def test_iteration(channel: str) -> None:
 
 def test_periodic_sending(channel: str) -> None:
     with bus(channel) as mine, bus(channel) as other:
-        task = mine.send_periodic([message(1, 0), message(2, 0)], 0.01)
+        task = mine.send_periodic([message(1, 0), message(1, 9)], 0.01)
         got = [other.recv(1) for _ in range(8)]
         task.stop()
-        assert [one.arbitration_id for one in got if one] == [1, 2] * 4
+        assert [one.data[0] for one in got if one] == [0, 9] * 4
         times = [one.timestamp for one in got if one]
         assert 0.05 < times[-1] - times[0] < 1  # seven periods; how well it keeps them is no matter
         assert isinstance(task, can.ModifiableCyclicTaskABC)
-        task.modify_data([message(1, 5), message(2, 5)])
+        task.modify_data([message(1, 5), message(1, 5)])
         time.sleep(0.03)
         drain(other)
         task.start()
@@ -435,7 +427,9 @@ DefaultValue=ebac
 
 
 def dictionary() -> Any:
-    return canopen.import_od(io.StringIO(DICTIONARY), node_id=2)
+    eds = io.StringIO(DICTIONARY)
+    eds.name = "test.eds"
+    return canopen.import_od(eds, node_id=2)
 
 
 @contextmanager
