@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from ebac.cli import output, peers
+from ebac.cli import bus_bench, output, peers
 
 if TYPE_CHECKING:
     from ebac.scenario import Scenario
@@ -35,6 +35,10 @@ def bench(
         bool,
         typer.Option("--peers", help="Compare with MuJoCo and SciPy instead; needs 'ebac[peers]'."),
     ] = False,
+    with_can: Annotated[
+        bool,
+        typer.Option("--can", help="Time frames over a CAN bus inside the process instead."),
+    ] = False,
     side: Annotated[
         int, typer.Option(help="Of the map that --peers times, side x side runs.", min=2, max=5000)
     ] = 200,
@@ -50,7 +54,14 @@ def bench(
     * `ebac bench --repeats 200`: steadier numbers on a busy machine.
 
     * `ebac bench --peers`: the same plant, step and wall in MuJoCo and SciPy; a map, two threads, memory.
+
+    * `ebac bench --can`: frames per second in C++ and by python-can, beside python-can's `virtual` bus.
     """
+    if with_peers and with_can:
+        output.fail("--peers and --can are two comparisons: give one of them")
+    if with_can:
+        bus_bench.run(repeats, as_json=as_json)
+        return
     if with_peers:
         peers.run(repeats, side, as_json=as_json)
         return
