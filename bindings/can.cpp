@@ -1,6 +1,7 @@
 #include <pybind11/native_enum.h>
 #include <pybind11/stl.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <optional>
@@ -98,7 +99,7 @@ std::optional<Frame> receive(End& end, std::optional<double> timeout) {
     throw std::invalid_argument("timeout = nan s: must be a number of seconds, or None for no end");
   }
   const Clock::time_point start = Clock::now();
-  const auto most = std::chrono::duration<double>(std::min(timeout.value_or(0.0), kLongest));
+  const auto most = std::chrono::duration<double>(std::clamp(timeout.value_or(0.0), 0.0, kLongest));
   const auto until = start + std::chrono::duration_cast<Clock::duration>(most);
   Frame in;
   while (!end.receive(in)) {

@@ -199,15 +199,24 @@ class EbacBus(can.BusABC):
             time.sleep(1e-4)
 
     def _recv_internal(self, timeout: float | None) -> tuple[can.Message | None, bool]:
-        frame = self._end.receive(timeout)
-        if frame is None:
-            if self._end.state == BusState.CLOSED:
-                raise can.CanOperationError(_closed(self.channel_info))
-            return None, False
+        """Filter here, so that `recv(0)` finds what stands behind a message for somebody else."""
+        start = time.monotonic()
+        left = timeout
+        while (frame := self._end.receive(left)) is not None:
+            message = self._message(frame)
+            if self._matches_filters(message):
+                return message, True
+            if timeout is not None:
+                left = timeout - (time.monotonic() - start)
+        if self._end.state == BusState.CLOSED:
+            raise can.CanOperationError(_closed(self.channel_info))
+        return None, True
+
+    def _message(self, frame: CanFrame) -> can.Message:
         lost = self._end.counts.lost
         if lost > self._told:
             self._tell(lost)
-        message = can.Message(
+        return can.Message(
             timestamp=1e-9 * frame.stamp,
             arbitration_id=frame.id,
             is_extended_id=frame.extended,
@@ -218,7 +227,6 @@ class EbacBus(can.BusABC):
             data=frame.data,
             is_rx=not frame.own,
         )
-        return message, False
 
     def _tell(self, lost: int) -> None:
         """Warn of lost frames, the next time when they are twice as many."""

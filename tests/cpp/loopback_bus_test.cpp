@@ -291,6 +291,7 @@ TEST(Threads, SeveralMayWaitAtOneEnd) {
   LoopbackBus b = hub.open({.frames = kFrames});
   std::atomic<std::uint32_t> got{0};
   std::vector<std::thread> readers;
+  readers.reserve(3);
   for (int i = 0; i < 3; ++i) {
     readers.emplace_back([&] {
       for (Frame in; b.receive(in, 10s);) got.fetch_add(1);
@@ -307,13 +308,15 @@ TEST(Threads, SeveralMayWaitAtOneEnd) {
 TEST(Threads, ThereIsOneOrderForAll) {
   constexpr std::uint32_t kSenders = 4;
   constexpr std::uint32_t kEach = 10'000;
+  constexpr std::size_t kAll = std::size_t{kSenders} * kEach;
   LoopbackHub hub(LoopbackHub::Stamps::kWallClock);
-  LoopbackBus one = hub.open({.frames = kSenders * kEach});
-  LoopbackBus two = hub.open({.frames = kSenders * kEach});
+  LoopbackBus one = hub.open({.frames = kAll});
+  LoopbackBus two = hub.open({.frames = kAll});
   std::vector<LoopbackBus> ends;
-  for (std::uint32_t s = 0; s < kSenders; ++s)
-    ends.push_back(hub.open({.frames = kSenders * kEach}));
+  ends.reserve(kSenders);
+  for (std::uint32_t s = 0; s < kSenders; ++s) ends.push_back(hub.open({.frames = kAll}));
   std::vector<std::thread> senders;
+  senders.reserve(4);
   for (std::uint32_t s = 0; s < kSenders; ++s) {
     senders.emplace_back([&ends, s] {
       for (std::uint32_t i = 0; i < kEach; ++i) {
@@ -322,10 +325,10 @@ TEST(Threads, ThereIsOneOrderForAll) {
     });
   }
   std::vector<Frame> live;
-  for (Frame in; live.size() < kSenders * kEach && one.receive(in, 10s);) live.push_back(in);
+  for (Frame in; live.size() < kAll && one.receive(in, 10s);) live.push_back(in);
   for (auto& sender : senders) sender.join();
 
-  ASSERT_EQ(live.size(), kSenders * kEach);
+  ASSERT_EQ(live.size(), kAll);
   EXPECT_EQ(live, all_of(two));
   std::vector<std::uint32_t> next(kSenders, 0);
   for (std::size_t i = 0; i < live.size(); ++i) {
@@ -349,6 +352,7 @@ TEST(Threads, EndsComeAndGoWhileOthersSend) {
   std::atomic<bool> stop{false};
   std::atomic<std::uint32_t> sent{0};
   std::vector<std::thread> senders;
+  senders.reserve(4);
   for (std::uint32_t s = 0; s < 2; ++s) {
     senders.emplace_back([&, s] {
       LoopbackBus end = hub.open({.frames = 1});

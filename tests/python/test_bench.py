@@ -36,22 +36,6 @@ def test_memory_is_that_of_the_rows() -> None:
     assert 0.9 < peak / (100_000 * row) < 1.5
 
 
-def test_the_bus(monkeypatch: pytest.MonkeyPatch) -> None:
-    from ebac.peers import can_bus
-
-    monkeypatch.setattr(can_bus, "TICKS", 100)
-    result = CliRunner().invoke(app, ["bench", "--can", "--json", "--repeats", "1"])
-    assert result.exit_code == 0, result.output
-    rows = json.loads(result.stdout)["rows"]
-    assert {row["program"] for row in rows} >= {"ebac, LoopbackBus", "ebac, the loop's side"}
-    assert all(row["value"] > 0 and row["unit"] == "s" and row["note"] for row in rows)
-    told = CliRunner().invoke(app, ["bench", "--can", "--repeats", "1"])
-    assert "ns" in told.stdout
-    both = CliRunner().invoke(app, ["bench", "--can", "--peers"])
-    assert both.exit_code == 2
-    assert "--peers and --can exclude each other" in " ".join(both.output.split())
-
-
 def test_what_is_missing_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "mujoco", None)
     result = CliRunner().invoke(app, ["bench", "--peers", "--json"])

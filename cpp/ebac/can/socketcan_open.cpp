@@ -24,7 +24,7 @@ ifreq asking_for(const std::string& interface) noexcept {
 }
 
 std::string how_to_bring_up(const std::string& interface) {
-  const bool is_virtual = interface.starts_with("v");  // vcan0, vxcan0
+  const bool is_virtual = interface.starts_with('v');  // vcan0, vxcan0
   return "ip link set " + interface + " up" + (is_virtual ? "" : " type can bitrate 1000000");
 }
 
@@ -103,6 +103,7 @@ void forget_error(int socket) noexcept {
 std::vector<can_filter> to_wire(const std::vector<CanFilter>& filters) {
   if (filters.empty()) return {{.can_id = 0, .can_mask = 0}};
   std::vector<can_filter> wire;
+  wire.reserve(filters.size());
   for (const CanFilter& filter : filters) {
     wire.push_back({.can_id = filter.id | (filter.extended ? CAN_EFF_FLAG : 0U),
                     .can_mask = (filter.mask & CAN_EFF_MASK) | CAN_EFF_FLAG});

@@ -36,7 +36,8 @@ def bench(
         typer.Option("--peers", help="Compare with MuJoCo and SciPy instead; needs 'ebac[peers]'."),
     ] = False,
     with_can: Annotated[
-        bool, typer.Option("--can", help="Time the exchange of process data on a CAN bus instead.")
+        bool,
+        typer.Option("--can", help="Time frames and exchanges on a CAN bus in the process instead."),
     ] = False,
     side: Annotated[
         int, typer.Option(help="Of the map that --peers times, side x side runs.", min=2, max=5000)
@@ -52,12 +53,12 @@ def bench(
 
     * `ebac bench --repeats 200`: steadier numbers on a busy machine.
 
-    * `ebac bench --can`: a tick on the bus with two simulated drives.
-
     * `ebac bench --peers`: the same plant, step and wall in MuJoCo and SciPy; a map, two threads, memory.
+
+    * `ebac bench --can`: a tick on the bus with two simulated drives; frames per second, beside python-can's `virtual` bus.
     """
     if with_peers and with_can:
-        output.fail("--peers and --can exclude each other: leave one of them out")
+        output.fail("--peers and --can are two comparisons: give one of them")
     if with_can:
         bench_can.run(repeats, as_json=as_json)
         return

@@ -2,24 +2,48 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import typer
 
 from ebac.cli import output
 
+if TYPE_CHECKING:
+    from ebac.peers import PeerRow
+
 
 def run(repeats: int, *, as_json: bool) -> None:
     """Time and tell."""
-    from ebac.peers.can_bus import STEPS, compare
+    from ebac.peers import bus, exchange
 
-    with output.progress(STEPS, quiet=as_json) as step:
-        rows = compare(repeats=repeats, step=step)
+    with output.progress(exchange.STEPS + bus.STEPS, quiet=as_json) as step:
+        rows = exchange.compare(repeats=repeats, step=step)
+        rows += bus.compare_buses(repeats=max(3, repeats // 10), step=step)
     if as_json:
         typer.echo(output.document("bench", [row.row() for row in rows]))
-        return
-    grid = output.table(["what", "program", "", "aim"], numbers=(2,))
+    else:
+        _show(rows)
+
+
+def _show(rows: list[PeerRow]) -> None:
+    grid = output.table(["what", "program", "", "times ebac", "aim"], numbers=(2, 3))
+    last = ""
     for row in rows:
-        grid.add_row(row.subject, row.program, f"{1e9 * row.value:,.1f} ns", row.target)
+        if last and row.subject != last:
+            grid.add_section()
+        subject = "" if row.subject == last else row.subject
+        times = "" if row.times_ebac is None else f"{row.times_ebac:,.2f}"
+        grid.add_row(subject, row.program, _quantity(row), times, row.target)
+        last = row.subject
     output.console().print(grid)
-    for row in rows:
-        output.indented(f"{row.program}: {row.note}")
-    output.say("The quickest of several runs of each, all in this one run of the command.")
+    output.say("What each program does:", style="bold")
+    output.indented("\n".join({f"{row.program}: {row.note}": None for row in rows}))
+    output.say(
+        "The quickest of several runs of each, answers of one run, all in this one run of the command."
+    )
+
+
+def _quantity(row: PeerRow) -> str:
+    if row.unit == "1/s":
+        return f"{row.value:,.0f} frames/s"
+    return f"{1e6 * row.value:,.2f} µs"

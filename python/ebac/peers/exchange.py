@@ -13,7 +13,7 @@ TICKS = 20_000
 #: How often `compare` calls `step`.
 STEPS = 2
 #: A tick of 1 ms, of which the bus itself needs 515 us.
-AIM = "below 100 000 ns"
+AIM = "below 100 µs"
 
 
 def compare(*, repeats: int = 20, step: Callable[[str], None] = lambda name: None) -> list[PeerRow]:
