@@ -72,6 +72,7 @@ class SimulatedDrive {
   void send(const Frame& frame) EBAC_RT;
   void command_node(std::uint8_t command) EBAC_RT;
   void enter(NmtState next) EBAC_RT;
+  void change(NmtState next) EBAC_RT;
   void boot(std::uint16_t last_index) EBAC_RT;
   void synchronise() EBAC_RT;
   void receive_pdo(const Frame& frame) EBAC_RT;
@@ -96,6 +97,7 @@ class SimulatedDrive {
   void trip(Cause cause) EBAC_RT;
   void cure(Cause cause) EBAC_RT;
   void reset_errors() EBAC_RT;
+  void overload() EBAC_RT;
   void lose_connection(Cause cause) EBAC_RT;
   void push_emcy(std::uint16_t code) EBAC_RT;
   void send_emcy() EBAC_RT;

@@ -41,42 +41,38 @@ void SimulatedDrive::step_by_itself() EBAC_RT {
 
 void SimulatedDrive::raise(Cause cause) EBAC_RT {
   if (!errors_.raise(cause)) return;
-  const CauseFacts& facts = facts_of(cause);
-  objects_[kAt<0x2183>] |= facts.latched;
-  if (cause == Cause::kOverload) {  // a limit unless 0x2182 makes it a fault: told by bits alone
-    if ((objects_.get<0x2182>() & facts.latched) == 0) return;
-    errors_.gone(cause);  // without current it is over at once
-    return trip(cause);
-  }
-  push_emcy(facts.emcy);
+  objects_[kAt<0x2183>] |= facts_of(cause).latched;
+  push_emcy(facts_of(cause).emcy);
 }
 
 /// Stops the motor and stays stopped.
 void SimulatedDrive::trip(Cause cause) EBAC_RT {
-  if (cause == Cause::kOverload) push_emcy(facts_of(cause).emcy);
+  raise(cause);
   if (!in_fault(state_)) state_ = DriveState::kFaultReaction;
   stage_.off();
 }
 
-/// The cause is over. Where it had stopped the drive, the reset waits for the controlword.
+/// Something that had been told is well again. What stopped the drive waits for its reset.
 void SimulatedDrive::cure(Cause cause) EBAC_RT {
-  if (!errors_.present(cause)) return;
-  errors_.gone(cause);
-  if (!in_fault(state_)) reset_errors();
+  if (!in_fault(state_) && errors_.forget(cause)) push_emcy(0);
 }
 
 void SimulatedDrive::reset_errors() EBAC_RT {
-  const bool any = errors_.reset();
-  if (errors_.any_active()) return;
-  if (any) {
-    objects_[kAt<0x2183>] = 0;
-    push_emcy(0);
-  }
+  objects_[kAt<0x2183>] = 0;
+  if (errors_.reset()) push_emcy(0);
+}
+
+/// i2t holds the current at rated; 0x2183 keeps it. It is a fault only where 0x2182 says so.
+void SimulatedDrive::overload() EBAC_RT {
+  const std::int64_t bit = facts_of(Cause::kOverload).latched;
+  objects_[kAt<0x2183>] |= bit;
+  if ((objects_.get<0x2182>() & bit) == 0) return;
+  trip(Cause::kOverload);
+  errors_.gone(Cause::kOverload);  // without current it is over at once
 }
 
 /// What 0x1029 and 0x6007 say about a master that is not heard any more.
 void SimulatedDrive::lose_connection(Cause cause) EBAC_RT {
-  raise(cause);
   if (motor_on()) {
     switch (objects_.get<0x6007>()) {
       case 1:
@@ -92,14 +88,15 @@ void SimulatedDrive::lose_connection(Cause cause) EBAC_RT {
         break;
     }
   }
+  raise(cause);
+  errors_.gone(cause);  // an event: no reset waits for the master
   if (cause == Cause::kConnection) {
-    errors_.gone(cause);  // an event, not a condition
-    return;
+    cure(cause);
+  } else if (nmt_ == NmtState::kOperational) {
+    const std::int64_t behaviour = objects_[kAt<0x1029, 1>];
+    if (behaviour == 0) change(NmtState::kPreOperational);
+    if (behaviour == 2) change(NmtState::kStopped);
   }
-  if (nmt_ != NmtState::kOperational) return;
-  const std::int64_t behaviour = objects_[kAt<0x1029, 1>];
-  if (behaviour == 0) enter(NmtState::kPreOperational);
-  if (behaviour == 2) enter(NmtState::kStopped);
 }
 
 void SimulatedDrive::set_condition(Condition condition, bool present) EBAC_RT {
@@ -112,7 +109,6 @@ void SimulatedDrive::set_condition(Condition condition, bool present) EBAC_RT {
                       : condition == Condition::kEncoderLost ? Cause::kEncoderLost
                                                              : Cause::kOverTemperature;
   if (present && !errors_.present(cause)) {
-    raise(cause);
     trip(cause);
   } else if (!present) {
     errors_.gone(cause);

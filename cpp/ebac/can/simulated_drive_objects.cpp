@@ -9,8 +9,8 @@ constexpr std::int64_t kSave = 0x65766173;  // "save" (CiA 301, 7.5.2.13)
 constexpr std::int64_t kLoad = 0x64616F6C;  // "load" (CiA 301, 7.5.2.14)
 
 /// COB-IDs of SYNC and EMCY: base frames only, and none that belongs to another service.
-bool is_plain_id(std::int64_t value, std::int64_t flags) EBAC_RT {
-  return (value & ~(flags | 0x7FF)) == 0;
+bool is_free(std::int64_t cob_id) EBAC_RT {
+  return (cob_id & ~0x7FFLL) == 0 && !is_restricted(static_cast<std::uint32_t>(cob_id));
 }
 
 template <std::size_t N>
@@ -89,11 +89,11 @@ Abort SimulatedDrive::check(std::size_t slot, std::int64_t value) const EBAC_RT 
     case 0x1003:  // a 0 written empties it
       return value == 0 ? Abort::kNone : Abort::kValue;
     case 0x1005:  // consumes SYNC, does not produce it
-      return value != 0 && is_plain_id(value, 0) ? Abort::kNone : Abort::kValue;
+      return value == kSync || is_free(value) ? Abort::kNone : Abort::kValue;
     case 0x1014: {
       const std::int64_t before = objects_[slot];
       const bool moved = ((before | value) & kInvalid) == 0 && before != value;
-      return is_plain_id(value, kInvalid) && value != 0 && !moved ? Abort::kNone : Abort::kValue;
+      return is_free(value & ~kInvalid) && !moved ? Abort::kNone : Abort::kValue;
     }
     case 0x1016:
       return check_producer(slot, value);
@@ -145,8 +145,9 @@ bool SimulatedDrive::execute(std::size_t slot, std::int64_t value, Abort& why) E
       return true;
     }
     case 0x2183: {
-      const std::int64_t clearable = value & ~std::int64_t{errors_.latched()};
-      objects_[slot] &= ~clearable;
+      std::int64_t kept = errors_.latched();
+      if (stage_.holding()) kept |= facts_of(Cause::kOverload).latched;
+      objects_[slot] &= ~(value & ~kept);
       return true;
     }
     case 0x5F00:
