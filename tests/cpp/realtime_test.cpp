@@ -127,7 +127,7 @@ TYPED_TEST(Realtime, LoopOfACoupledDeviceDoesNotAllocate) {
 }
 
 TEST(Realtime, SimulatedDrivesDoNotAllocate) {
-  Setup setup = busy();
+  ebac::Setup setup = busy();
   setup.device.kinematics = Gimbal{};
   can::Joystick<SimulatedDevice> joystick(SimulatedDevice(setup), setup.device);
   const std::size_t before = allocations;
