@@ -43,7 +43,8 @@ std::vector<std::tuple<std::uint32_t, py::bytes>> take_all(Node& node) {
 }
 
 double checked_time(double seconds) {
-  if (!(seconds >= 0 && seconds <= kDay)) {
+  const bool fits = seconds >= 0 && seconds <= kDay;  // not a NaN
+  if (!fits) {
     throw std::invalid_argument(range_message("elapse", "seconds", seconds, "s", 0, kDay));
   }
   return seconds;
@@ -58,7 +59,8 @@ can::NodeId checked_node(int node, int axes) {
 }
 
 double checked_peak_time(double seconds) {
-  if (!(seconds >= 0.001 && seconds <= 65.535)) {
+  const bool fits = seconds >= 0.001 && seconds <= 65.535;  // not a NaN
+  if (!fits) {
     throw std::invalid_argument(range_message("drive", "peak_time", seconds, "s", 0.001, 65.535));
   }
   return seconds;
@@ -165,6 +167,7 @@ void bind_joystick(py::module_& m) {
 /// The drive's own table, for a test against another.
 std::vector<std::vector<can::DriveState>> transitions() {
   std::vector<std::vector<can::DriveState>> rows;
+  rows.reserve(can::kTransitions.size());
   for (const auto& row : can::kTransitions) rows.emplace_back(row.begin(), row.end());
   return rows;
 }

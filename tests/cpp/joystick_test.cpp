@@ -6,6 +6,7 @@
 #include <cstring>
 #include <memory>
 
+#include "ebac/can/serve.hpp"
 #include "ebac/control/laws.hpp"
 #include "ebac/sim/simulate.hpp"
 
@@ -144,6 +145,67 @@ TEST(Joystick, EqualsItOnTwoCoupledAxes) {
   setup.device.kinematics = Gimbal{};
   setup.environment = Wall{.angle = 0.5};
   expect_same_rows<Ebac>(setup);
+}
+
+/// A bus whose other end is the test.
+struct Wire {
+  FrameQueue<64> to_node;
+  FrameQueue<64> from_node;
+  bool send(const Frame& out) EBAC_RT { return from_node.push(out); }
+  bool receive(Frame& in) EBAC_RT { return to_node.pop(in); }
+  BusState state() const EBAC_RT { return BusState::kUp; }
+};
+
+TEST(Serve, CarriesFramesBothWays) {
+  ebac::Setup setup;
+  setup.device.kinematics = Gimbal{};
+  Joystick<SimulatedDevice> joystick(plant_of(setup), setup.device);
+  Wire wire;
+  wire.to_node.push(frame(sdo_request(2), {0x40, 0x00, 0x10, 0, 0, 0, 0, 0}));
+  wire.to_node.push(frame(sdo_request(3), {0x40, 0x00, 0x10, 0, 0, 0, 0, 0}));  // nobody
+  serve(wire, joystick);
+  Frame said;
+  for (const Frame& expected : {frame(heartbeat(1), {0}), frame(heartbeat(2), {0}),
+                                frame(sdo_answer(2), {0x43, 0x00, 0x10, 0, 0x92, 1, 2, 0})}) {
+    ASSERT_TRUE(wire.from_node.pop(said));
+    EXPECT_EQ(said, expected);
+  }
+  EXPECT_FALSE(wire.from_node.pop(said));
+}
+
+TEST(Joystick, FollowsTheTimeWithoutSync) {
+  ebac::Setup setup{.environment = Free{}};
+  Joystick<SimulatedDevice> joystick(plant_of(setup), setup.device);
+  SimulatedDevice alone = plant_of(setup);
+  static_cast<void>(alone.exchange({}));
+  for (int tick = 0; tick < 1000; ++tick) {
+    joystick.elapse(1e-3);
+    const Reading reading = alone.exchange({.elapsed = 1e-3});
+    ASSERT_EQ(joystick.drive(0).objects().get<0x6064>(), reading.counts[0]) << tick;
+  }
+  EXPECT_GT(joystick.plant().state(0).x, 0.01);
+}
+
+TEST(Joystick, FaultStopsItsAxisWithinTheTick) {
+  ebac::Setup setup{.environment = Free{}};
+  setup.hand = {.stiffness = 0};
+  setup.device.drive.current_lag = 0;
+  Joystick<SimulatedDevice> joystick(plant_of(setup), setup.device);
+  commission(joystick);
+  must(joystick, 0, 0x6071, 0, -500);
+  joystick.receive(frame(kSync, {}));
+  const double current = joystick.drive(0).current();
+  EXPECT_LT(current, 0);
+  joystick.elapse(0.4e-3);
+  must(joystick, 0, 0x5F00, 0, static_cast<std::int64_t>(Condition::kOverVoltage));
+  joystick.elapse(0.6e-3);
+  joystick.receive(frame(kSync, {}));
+
+  SimulatedDevice alone = plant_of(setup);
+  static_cast<void>(alone.exchange({.current = {current}, .elapsed = 0.4e-3}));
+  static_cast<void>(alone.exchange({.current = {0}, .elapsed = 0.6e-3}));
+  EXPECT_GT(alone.state(0).v, 0);
+  EXPECT_EQ(joystick.plant().state(0).v, alone.state(0).v);
 }
 
 }  // namespace

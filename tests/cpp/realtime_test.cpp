@@ -9,6 +9,7 @@
 #include <tuple>
 #include <vector>
 
+#include "ebac/can/joystick.hpp"
 #include "ebac/can/through_can.hpp"
 #include "ebac/control/laws.hpp"
 #include "ebac/sim/simulate.hpp"
@@ -139,6 +140,27 @@ TYPED_TEST(Realtime, LoopOfACoupledDeviceDoesNotAllocate) {
   setup.device.kinematics = Gimbal{};
   setup.environment = Wall{.angle = 0.5};
   EXPECT_EQ(allocations_of_loop<TypeParam>(setup), 0);
+}
+
+TEST(Realtime, SimulatedDrivesDoNotAllocate) {
+  ebac::Setup setup = busy();
+  setup.device.kinematics = Gimbal{};
+  can::Joystick<SimulatedDevice> joystick(SimulatedDevice(setup), setup.device);
+  const std::size_t before = allocations;
+  can::Frame said;
+  for (int tick = 0; tick < kTicks; ++tick) {
+    const auto low = static_cast<std::uint8_t>(tick % 256);
+    joystick.elapse(1e-3);
+    joystick.receive(can::frame(can::kNmt, {1, 0}));
+    joystick.receive(can::frame(can::rpdo(1, 1), {low, 0}));
+    joystick.receive(can::frame(can::sdo_request(1), {0x40, 0x08, 0x10, 0, 0, 0, 0, 0}));
+    joystick.receive(can::frame(can::sdo_request(1), {0x60, 0, 0, 0, 0, 0, 0, 0}));
+    joystick.receive(can::frame(can::sdo_request(2), {0x2F, 0, 0x5F, 0, low, 0, 0, 0}));
+    joystick.receive(can::frame(can::kSync, {}));
+    while (joystick.take(said)) {
+    }
+  }
+  EXPECT_EQ(allocations, before);
 }
 
 }  // namespace

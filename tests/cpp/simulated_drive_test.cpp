@@ -41,6 +41,23 @@ TEST(Nmt, ResetsTakeBackWhatTheyShould) {
   EXPECT_EQ(drive.state(), DriveState::kSwitchOnDisabled);
 }
 
+TEST(Nmt, StoredSettingsStartNoMotor) {
+  SimulatedDrive drive = ready_drive();
+  must(drive, 0x6060, 0, kCyclicTorque);
+  must(drive, 0x6071, 0, 300);
+  must(drive, 0x60B2, 0, 300);
+  must(drive, 0x6040, 0, 7);
+  must(drive, 0x5F00, 0, 1);
+  must(drive, 0x5F00, 0, 0);
+  must(drive, 0x1010, 1, 0x65766173);
+  say(drive, "000#81 01");
+  drive.elapse(0);
+  EXPECT_EQ(value(drive, 0x6060), kCyclicTorque);
+  enable(drive);
+  EXPECT_EQ(drive.current(), 0);
+  EXPECT_EQ(value(drive, 0x1003), 0);
+}
+
 TEST(Nmt, LeavingOperationalStopsTheMotor) {
   for (const std::string command : {"000#02 01", "000#80 01", "000#82 01"}) {
     SimulatedDrive drive = ready_drive();
@@ -115,6 +132,20 @@ TEST(Heartbeat, OneNodeIsWatchedOnce) {
   EXPECT_EQ(drive.write(0x1016, 2, 5 << 16 | 60), Abort::kIncompatible);
   EXPECT_EQ(drive.write(0x1016, 2, 128 << 16 | 60), Abort::kValue);
   must(drive, 0x1016, 1, 5 << 16 | 60);
+}
+
+TEST(Heartbeat, NoResetWaitsForALostMaster) {
+  SimulatedDrive drive = ready_drive();
+  must(drive, 0x1016, 1, 0x7F << 16 | 100);
+  enable(drive);
+  say(drive, "77F#05");
+  drive.elapse(100 * kMillisecond);
+  drive.elapse(0);
+  ASSERT_EQ(drive.state(), DriveState::kFault);
+  must(drive, 0x6040, 0, 0);
+  must(drive, 0x6040, 0, 0x80);
+  EXPECT_EQ(drive.state(), DriveState::kSwitchOnDisabled);
+  EXPECT_EQ(heard(drive), (Said{"081#30 81 11 00 00 00 00 00", "081#00 00 00 00 00 00 00 00"}));
 }
 
 TEST(Silence, OfTheProcessDataStopsTheMotor) {
@@ -316,6 +347,22 @@ TEST(Torque, OverloadFallsBackToRated) {
   must(drive, 0x6071, 0, 2000);
   EXPECT_EQ(drive.torque(), 2000);
   EXPECT_EQ(value(drive, 0x6041) & statusword::kWarning, 0);
+}
+
+TEST(Torque, OverloadStaysLatchedUntilCleared) {
+  SimulatedDrive drive = ready_drive({.peak_time = 0.1});
+  enable(drive);
+  must(drive, 0x6071, 0, 4000);
+  for (int i = 0; i < 11; ++i) drive.elapse(10 * kMillisecond);
+  must(drive, 0x2183, 0, 0x400);
+  EXPECT_EQ(value(drive, 0x2183), 0x400) << "it still holds";
+  must(drive, 0x6071, 0, 0);
+  for (int i = 0; i < 20; ++i) drive.elapse(100 * kMillisecond);
+  EXPECT_EQ(value(drive, 0x6041) & statusword::kWarning, 0);
+  EXPECT_EQ(value(drive, 0x2183), 0x400);
+  must(drive, 0x2183, 0, 0x400);
+  EXPECT_EQ(value(drive, 0x2183), 0);
+  EXPECT_EQ(heard(drive), Said{}) << "a limit is no emergency";
 }
 
 TEST(Torque, OverloadIsAFaultWhereTheMaskSaysSo) {

@@ -2,7 +2,9 @@
 
 import io
 import queue
+import re
 from collections.abc import Iterator
+from pathlib import Path
 from typing import Any
 
 import can
@@ -502,3 +504,10 @@ def test_wrong_input_is_named(wrong: Any, says: str) -> None:
 def test_rows_of_the_table_are_states() -> None:
     table = np.array(_core._drive_transitions())
     assert table.shape == (8, len(CONTROLWORDS))
+
+
+def test_the_documentation_lists_every_object() -> None:
+    page = (Path(__file__).parents[2] / "docs" / "simulated_drive.md").read_text(encoding="utf-8")
+    told = re.findall(r"0x([0-9A-F]{4})\b", page.split("## Objects")[1])
+    has = {thing.index for thing in DICTIONARY.values() if thing.index > 7}
+    assert sorted(int(index, 16) for index in told) == sorted(has)

@@ -32,32 +32,25 @@ enum class DriveCommand : std::uint8_t {
 };
 inline constexpr std::size_t kDriveCommands = 7;
 
-namespace detail {
-inline constexpr auto N = DriveState::kNotReady;
-inline constexpr auto D = DriveState::kSwitchOnDisabled;
-inline constexpr auto R = DriveState::kReady;
-inline constexpr auto S = DriveState::kSwitchedOn;
-inline constexpr auto E = DriveState::kOperationEnabled;
-inline constexpr auto Q = DriveState::kQuickStopActive;
-inline constexpr auto X = DriveState::kFaultReaction;
-inline constexpr auto F = DriveState::kFault;
-}  // namespace detail
-
 /// The state after a command. Enable operation in Ready goes through Switched on (transitions 3
 /// and 4); Quick stop active leaves by it only under option codes 5 to 8 (transition 16).
-// clang-format off
-inline constexpr std::array<std::array<DriveState, kDriveCommands>, kDriveStates> kTransitions{{
-    //         none       voltage off quick stop  shutdown   switch on  enable     fault reset
-    /* N */ {{detail::N, detail::N, detail::N, detail::N, detail::N, detail::N, detail::N}},
-    /* D */ {{detail::D, detail::D, detail::D, detail::R, detail::D, detail::D, detail::D}},
-    /* R */ {{detail::R, detail::D, detail::D, detail::R, detail::S, detail::E, detail::R}},
-    /* S */ {{detail::S, detail::D, detail::D, detail::R, detail::S, detail::E, detail::S}},
-    /* E */ {{detail::E, detail::D, detail::Q, detail::R, detail::S, detail::E, detail::E}},
-    /* Q */ {{detail::Q, detail::D, detail::Q, detail::Q, detail::Q, detail::E, detail::Q}},
-    /* X */ {{detail::X, detail::X, detail::X, detail::X, detail::X, detail::X, detail::X}},
-    /* F */ {{detail::F, detail::F, detail::F, detail::F, detail::F, detail::F, detail::D}},
-}};
-// clang-format on
+inline constexpr auto kTransitions = [] {
+  using Row = std::array<DriveState, kDriveCommands>;
+  constexpr auto N = DriveState::kNotReady;
+  constexpr auto D = DriveState::kSwitchOnDisabled;
+  constexpr auto R = DriveState::kReady;
+  constexpr auto S = DriveState::kSwitchedOn;
+  constexpr auto E = DriveState::kOperationEnabled;
+  constexpr auto Q = DriveState::kQuickStopActive;
+  constexpr auto X = DriveState::kFaultReaction;
+  constexpr auto F = DriveState::kFault;
+  return std::array<Row, kDriveStates>{
+      // none, disable voltage, quick stop, shutdown, switch on, enable operation, fault reset
+      Row{N, N, N, N, N, N, N}, Row{D, D, D, R, D, D, D}, Row{R, D, D, R, S, E, R},
+      Row{S, D, D, R, S, E, S}, Row{E, D, Q, R, S, E, E}, Row{Q, D, Q, Q, Q, E, Q},
+      Row{X, X, X, X, X, X, X}, Row{F, F, F, F, F, F, D},
+  };
+}();
 
 constexpr DriveState after(DriveState state, DriveCommand command) EBAC_RT {
   return kTransitions[static_cast<std::size_t>(state)][static_cast<std::size_t>(command)];
@@ -66,8 +59,15 @@ constexpr DriveState after(DriveState state, DriveCommand command) EBAC_RT {
 /// Where a state goes by itself: after the self-test, the quick stop (option codes 0 to 4), the
 /// fault reaction.
 constexpr DriveState automatic(DriveState state) EBAC_RT {
-  if (state == detail::N || state == detail::Q) return detail::D;
-  return state == detail::X ? detail::F : state;
+  switch (state) {
+    case DriveState::kNotReady:
+    case DriveState::kQuickStopActive:
+      return DriveState::kSwitchOnDisabled;
+    case DriveState::kFaultReaction:
+      return DriveState::kFault;
+    default:
+      return state;
+  }
 }
 
 /// The bits of the statusword that tell the state: 0x6041 & 0x6F.

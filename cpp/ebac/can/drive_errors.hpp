@@ -54,11 +54,18 @@ class ErrorState {
     active_ |= bit(cause);
     return news;
   }
+  /// It is over; it stays told until a reset.
   void gone(Cause cause) EBAC_RT { present_ &= ~bit(cause); }
+  /// It is over and need not be told any more; true when it was.
+  bool forget(Cause cause) EBAC_RT {
+    const bool was = (active_ & bit(cause)) != 0;
+    present_ &= ~bit(cause);
+    active_ &= ~bit(cause);
+    return was;
+  }
   bool present(Cause cause) const EBAC_RT { return (present_ & bit(cause)) != 0; }
   bool any_present() const EBAC_RT { return present_ != 0; }
-  bool any_active() const EBAC_RT { return active_ != 0; }
-  /// Forgets what is over; true when anything was.
+  /// Forgets all that is over; true when anything was.
   bool reset() EBAC_RT {
     const std::uint32_t before = active_;
     active_ &= present_;

@@ -93,7 +93,9 @@ constexpr void add_pdos(DriveTable& t) {
   constexpr std::array<std::int64_t, kPdos> kSent{0, map(0x6061, 0, 8), map(0x6064, 0, 32),
                                                   map(0x606C, 0, 32)};
   const auto on = [](std::size_t i) { return i == 0 ? 0 : kInvalid; };
-  const auto at = [](int base, std::size_t i) { return static_cast<std::uint16_t>(base + i); };
+  const auto at = [](std::size_t base, std::size_t i) {
+    return static_cast<std::uint16_t>(base + i);
+  };
   for (std::size_t i = 0; i < kPdos; ++i) {
     t.group(at(0x1400, i), kNames[0][i], Shape::kRecord, 5);
     t.sub(1, "COB-ID", Type::kU32, Access::kRw, on(i) + 0x200 + 0x100 * std::int64_t(i)).plus_node =

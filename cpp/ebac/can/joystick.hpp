@@ -49,10 +49,14 @@ class Joystick {
 
   /// Lets `seconds` pass.
   void elapse(double seconds) EBAC_RT {
+    hold();  // what was written to a drive itself
     since_ += seconds;
     silence_ += seconds;
     if (silence_ > kPatience && since_ > 0) {
-      for (; since_ > kStep; since_ -= kStep) move(kStep);
+      while (since_ > kStep) {
+        move(kStep);
+        since_ -= kStep;
+      }
       move(std::exchange(since_, 0.0));
     }
     rest_ += seconds * 1e9;

@@ -12,6 +12,7 @@ namespace ebac::can {
 
 /// Data types by their index in CiA 301, 7.4.7.
 enum class Type : std::uint8_t {
+  kNone = 0,
   kI8 = 2,
   kI16 = 3,
   kI32 = 4,
@@ -37,7 +38,7 @@ constexpr std::int64_t highest(Type type) EBAC_RT {
 
 enum class Access : std::uint8_t { kConst, kRo, kWo, kRw };
 enum class Mapping : std::uint8_t { kNo, kRpdo, kTpdo, kBoth };
-enum class Shape : std::uint8_t { kVar = 7, kArray = 8, kRecord = 9 };  // CiA 301, 7.4.3
+enum class Shape : std::uint8_t { kNone = 0, kVar = 7, kArray = 8, kRecord = 9 };  // CiA 301, 7.4.3
 
 struct Entry {
   std::uint16_t index = 0;

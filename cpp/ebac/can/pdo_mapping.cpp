@@ -9,7 +9,7 @@ constexpr std::int64_t kExtended = 1LL << 29;
 
 /// Bits of a data type that may stand in an RPDO for bytes to be dropped (CiA 301, 7.4.7.1), or 0.
 std::size_t dummy_bits(std::uint16_t index) EBAC_RT {
-  return index >= 2 && index <= 7 ? 8U * width(static_cast<Type>(index)) : 0;
+  return index >= 2 && index <= 7 ? std::size_t{8} * width(static_cast<Type>(index)) : 0;
 }
 
 struct Mapped {
@@ -31,7 +31,7 @@ Mapped look_up(std::int64_t value, Direction direction) EBAC_RT {
   const Entry& entry = kDriveTable.entry[found.slot];
   const Mapping wanted = direction == Direction::kReceive ? Mapping::kRpdo : Mapping::kTpdo;
   const bool offered = entry.mapping == wanted || entry.mapping == Mapping::kBoth;
-  if (!offered || found.bits != 8U * width(entry.type)) found.why = Abort::kNotMappable;
+  if (!offered || found.bits != std::size_t{8} * width(entry.type)) found.why = Abort::kNotMappable;
   return found;
 }
 

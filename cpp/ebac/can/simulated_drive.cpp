@@ -36,9 +36,13 @@ void SimulatedDrive::boot(std::uint16_t last_index) EBAC_RT {
     state_ = DriveState::kNotReady;
     last_word_ = 0;
     stage_.off();
-    objects_[kAt<0x603F>] = 0;
-    objects_[kAt<0x2183>] = 0;
+    // What tells or asks for something now is no setting, though it may have been stored.
+    for (const std::size_t slot :
+         {kAt<0x603F>, kAt<0x2183>, kAt<0x6040>, kAt<0x6071>, kAt<0x60B2>}) {
+      objects_[slot] = 0;
+    }
   }
+  objects_[kAt<0x1003>] = 0;
   configure_all();
   set_position(counts_);
   nmt_ = NmtState::kPreOperational;
@@ -91,6 +95,10 @@ void SimulatedDrive::command_node(std::uint8_t command) EBAC_RT {
 void SimulatedDrive::enter(NmtState next) EBAC_RT {
   if (next == nmt_) return;
   if (nmt_ == NmtState::kOperational && motor_on()) lose_connection(Cause::kConnection);
+  change(next);
+}
+
+void SimulatedDrive::change(NmtState next) EBAC_RT {
   nmt_ = next;
   if (next == NmtState::kStopped) sdo_.reset();
   for (Rpdo& rpdo : rpdo_) {
@@ -122,6 +130,7 @@ void SimulatedDrive::receive_pdo(const Frame& frame) EBAC_RT {
     if (!rpdo.takes(frame)) continue;
     if (frame.size < rpdo.settings.map.bytes) {
       raise(Cause::kRpdoShort);
+      errors_.gone(Cause::kRpdoShort);  // no reset waits for a better one
       continue;
     }
     cure(Cause::kRpdoShort);
@@ -163,8 +172,7 @@ void SimulatedDrive::elapse(std::int64_t ns) EBAC_RT {
     now_ += ns;
     const bool held = stage_.holding();
     stage_.elapse(static_cast<double>(ns) / 1e9);
-    if (stage_.holding() && !held) raise(Cause::kOverload);
-    if (held && !stage_.holding()) cure(Cause::kOverload);
+    if (stage_.holding() && !held) overload();
   }
   watch();
   step_by_itself();

@@ -72,6 +72,7 @@ class SimulatedDrive {
   void send(const Frame& frame) EBAC_RT;
   void command_node(std::uint8_t command) EBAC_RT;
   void enter(NmtState next) EBAC_RT;
+  void change(NmtState next) EBAC_RT;
   void boot(std::uint16_t last_index) EBAC_RT;
   void synchronise() EBAC_RT;
   void receive_pdo(const Frame& frame) EBAC_RT;
@@ -80,10 +81,12 @@ class SimulatedDrive {
   void watch() EBAC_RT;
   void send_events() EBAC_RT;
 
-  // values and what they do: simulated_drive_objects.cpp
-  Abort set(std::size_t slot, std::int64_t value) EBAC_RT;
+  // what values are allowed: simulated_drive_checks.cpp
   Abort check(std::size_t slot, std::int64_t value) const EBAC_RT;
   Abort check_producer(std::size_t slot, std::int64_t value) const EBAC_RT;
+
+  // and what they do: simulated_drive_objects.cpp
+  Abort set(std::size_t slot, std::int64_t value) EBAC_RT;
   bool execute(std::size_t slot, std::int64_t value, Abort& why) EBAC_RT;
   void take_effect(std::size_t slot) EBAC_RT;
   void configure_pdo(std::uint16_t index) EBAC_RT;
@@ -92,22 +95,28 @@ class SimulatedDrive {
   // the motor: simulated_drive_motion.cpp
   void command_drive(std::uint16_t word) EBAC_RT;
   void step_by_itself() EBAC_RT;
-  void raise(Cause cause) EBAC_RT;
-  void trip(Cause cause) EBAC_RT;
-  void cure(Cause cause) EBAC_RT;
-  void reset_errors() EBAC_RT;
-  void lose_connection(Cause cause) EBAC_RT;
-  void push_emcy(std::uint16_t code) EBAC_RT;
-  void send_emcy() EBAC_RT;
-  bool motor_on() const EBAC_RT {
-    return state_ == DriveState::kOperationEnabled || state_ == DriveState::kQuickStopActive;
-  }
-  bool remote() const EBAC_RT { return objects_.get<0x2300>() == 30; }
   void limit() EBAC_RT;
   void aim() EBAC_RT;
   void refresh() EBAC_RT;
   std::uint16_t status() const EBAC_RT;
   std::uint32_t events() const EBAC_RT;
+  bool motor_on() const EBAC_RT {
+    return state_ == DriveState::kOperationEnabled || state_ == DriveState::kQuickStopActive;
+  }
+  bool in_fault() const EBAC_RT {
+    return state_ == DriveState::kFault || state_ == DriveState::kFaultReaction;
+  }
+  bool remote() const EBAC_RT { return objects_.get<0x2300>() == 30; }
+
+  // what goes wrong: simulated_drive_errors.cpp
+  void raise(Cause cause) EBAC_RT;
+  void trip(Cause cause) EBAC_RT;
+  void cure(Cause cause) EBAC_RT;
+  void reset_errors() EBAC_RT;
+  void overload() EBAC_RT;
+  void lose_connection(Cause cause) EBAC_RT;
+  void push_emcy(std::uint16_t code) EBAC_RT;
+  void send_emcy() EBAC_RT;
 
   ObjectDictionary objects_;
   SdoServer sdo_;

@@ -1,13 +1,9 @@
-// From controlword to current: the state machine of CiA 402, its faults, its torque.
+// From controlword to current: the state machine of CiA 402, its torque.
 #include "ebac/can/simulated_drive.hpp"
 
 namespace ebac::can {
 
 namespace {
-
-bool in_fault(DriveState state) EBAC_RT {
-  return state == DriveState::kFault || state == DriveState::kFaultReaction;
-}
 
 /// Option codes of 0x605A under which Quick stop active is left by itself.
 bool leaves_by_itself(std::int64_t option) EBAC_RT { return option < 5; }
@@ -37,118 +33,6 @@ void SimulatedDrive::step_by_itself() EBAC_RT {
     if (!leaves_by_itself(option) || (option != 0 && stage_.demand() != 0)) return;
   }
   state_ = automatic(state_);
-}
-
-void SimulatedDrive::raise(Cause cause) EBAC_RT {
-  if (!errors_.raise(cause)) return;
-  const CauseFacts& facts = facts_of(cause);
-  objects_[kAt<0x2183>] |= facts.latched;
-  if (cause == Cause::kOverload) {  // a limit unless 0x2182 makes it a fault: told by bits alone
-    if ((objects_.get<0x2182>() & facts.latched) == 0) return;
-    errors_.gone(cause);  // without current it is over at once
-    return trip(cause);
-  }
-  push_emcy(facts.emcy);
-}
-
-/// Stops the motor and stays stopped.
-void SimulatedDrive::trip(Cause cause) EBAC_RT {
-  if (cause == Cause::kOverload) push_emcy(facts_of(cause).emcy);
-  if (!in_fault(state_)) state_ = DriveState::kFaultReaction;
-  stage_.off();
-}
-
-/// The cause is over. Where it had stopped the drive, the reset waits for the controlword.
-void SimulatedDrive::cure(Cause cause) EBAC_RT {
-  if (!errors_.present(cause)) return;
-  errors_.gone(cause);
-  if (!in_fault(state_)) reset_errors();
-}
-
-void SimulatedDrive::reset_errors() EBAC_RT {
-  const bool any = errors_.reset();
-  if (errors_.any_active()) return;
-  if (any) {
-    objects_[kAt<0x2183>] = 0;
-    push_emcy(0);
-  }
-}
-
-/// What 0x1029 and 0x6007 say about a master that is not heard any more.
-void SimulatedDrive::lose_connection(Cause cause) EBAC_RT {
-  raise(cause);
-  if (motor_on()) {
-    switch (objects_.get<0x6007>()) {
-      case 1:
-        trip(cause);
-        break;
-      case 2:
-        state_ = after(state_, DriveCommand::kDisableVoltage);
-        break;
-      case 3:
-        state_ = after(state_, DriveCommand::kQuickStop);
-        break;
-      default:
-        break;
-    }
-  }
-  if (cause == Cause::kConnection) {
-    errors_.gone(cause);  // an event, not a condition
-    return;
-  }
-  if (nmt_ != NmtState::kOperational) return;
-  const std::int64_t behaviour = objects_[kAt<0x1029, 1>];
-  if (behaviour == 0) enter(NmtState::kPreOperational);
-  if (behaviour == 2) enter(NmtState::kStopped);
-}
-
-void SimulatedDrive::set_condition(Condition condition, bool present) EBAC_RT {
-  if (condition == Condition::kSilent) {
-    silent_ = present;
-    if (silent_) out_.clear();
-    return;
-  }
-  const Cause cause = condition == Condition::kOverVoltage   ? Cause::kOverVoltage
-                      : condition == Condition::kEncoderLost ? Cause::kEncoderLost
-                                                             : Cause::kOverTemperature;
-  if (present && !errors_.present(cause)) {
-    raise(cause);
-    trip(cause);
-  } else if (!present) {
-    errors_.gone(cause);
-  }
-  refresh();
-}
-
-/// Queues an EMCY and writes it into the history; code 0 tells that the errors are over.
-void SimulatedDrive::push_emcy(std::uint16_t code) EBAC_RT {
-  const auto latched = static_cast<std::uint32_t>(objects_.get<0x2183>());
-  Frame emergency{.id = 0, .size = 8};
-  put<std::uint16_t>(emergency.data, 0, code);
-  emergency.data[2] = errors_.reg();
-  put<std::uint32_t>(emergency.data, 3, latched);
-  objects_[kAt<0x603F>] = code;
-  if (code != 0) {
-    std::int64_t& count = objects_[kAt<0x1003>];
-    for (std::size_t i = kHistory; i > 1; --i) {
-      objects_[kAt<0x1003> + i] = objects_[kAt<0x1003> + i - 1];
-    }
-    objects_[kAt<0x1003, 1>] = code | std::int64_t{latched & 0xFFFF} << 16;
-    count = std::min<std::int64_t>(count + 1, kHistory);
-  }
-  emcy_.push(emergency);
-  send_emcy();
-}
-
-void SimulatedDrive::send_emcy() EBAC_RT {
-  const bool allowed = nmt_ == NmtState::kOperational || nmt_ == NmtState::kPreOperational;
-  const std::int64_t cob_id = objects_.get<0x1014>();
-  Frame emergency;
-  while (allowed && now_ >= emcy_free_at_ && emcy_.pop(emergency)) {
-    emergency.id = static_cast<std::uint32_t>(cob_id & 0x7FF);
-    if ((cob_id & kInvalid) == 0) send(emergency);
-    emcy_free_at_ = now_ + objects_.get<0x1015>() * 100 * kMicrosecond;
-  }
 }
 
 void SimulatedDrive::set_position(std::int64_t counts) EBAC_RT {
@@ -225,7 +109,7 @@ std::uint32_t SimulatedDrive::events() const EBAC_RT {
   std::uint32_t bits = errors_.events();
   if (stage_.limited()) bits |= facts_of(Cause::kOverload).event;
   if (!motor_on()) bits |= 1U << 12 | 1U << 15;  // disabled by software, bridge off
-  if (in_fault(state_)) bits |= 1U << 22;
+  if (in_fault()) bits |= 1U << 22;
   return bits;
 }
 
