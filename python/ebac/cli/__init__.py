@@ -6,7 +6,19 @@ from typing import Annotated
 
 import typer
 
-from ebac.cli import bench, conditions, laws, maps, paper, presets, specs, study, wall, zwidth
+from ebac.cli import (
+    bench,
+    conditions,
+    drive,
+    laws,
+    maps,
+    paper,
+    presets,
+    specs,
+    study,
+    wall,
+    zwidth,
+)
 
 app = typer.Typer(
     name="ebac",
@@ -52,3 +64,4 @@ app.command("laws")(laws.laws)
 app.command("specs")(specs.specs)
 app.command("presets")(presets.presets)
 app.command("bench")(bench.bench)
+app.add_typer(drive.app, name="drive")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from ebac.drives.aborts import READ_ONLY
@@ -140,7 +140,8 @@ def restore(
     changes = differences(drive.node, wanted, held)
     steps = [step for group in wanted for step in writes(group, held)]
     _carry_out(drive, steps, progress)
-    left = differences(drive.node, wanted, read_held(drive, wanted))
+    must = [replace(g, settings=tuple(s for s in g.settings if not s.optional)) for g in wanted]
+    left = differences(drive.node, must, read_held(drive, must))
     if left:
         raise NotVerified(_told(drive.node, left), node=drive.node)
     if store:
@@ -173,10 +174,15 @@ def backup_groups(held: dict[tuple[int, int], bytes]) -> list[Group]:
 
 
 def _used(settings: Sequence[Setting]) -> list[Setting]:
-    """Leave out the entries beyond the count: nobody reads them."""
+    """Mark the entries beyond the count as optional: no PDO carries them, and not every drive takes a 0."""
     counts = [one.value for one in settings if one.object.name.endswith("_count")]
     used = counts[0] if counts else 0
-    return [one for one in settings if "_entry" not in one.object.name or one.object.sub <= used]
+    return [
+        replace(one, optional=True)
+        if "_entry" in one.object.name and one.object.sub > used
+        else one
+        for one in settings
+    ]
 
 
 def _carry_out(drive: Drive, steps: Sequence[Write], progress: Progress) -> None:
@@ -200,6 +206,8 @@ def _write(drive: Drive, step: Write) -> None:
     try:
         drive.sdo.download(step.object, step.data)
     except Refused as error:
+        if step.optional:
+            return
         # Some drives work out rated torque and current from the motor data, and let nobody write them.
         if error.code != READ_ONLY or drive.sdo.upload(step.object) != step.data:
             raise

@@ -100,7 +100,11 @@ class Heard:
         parts += [f"0x{cob:03X} ({count[cob]} times)" for cob in others[:8]]
         if len(others) > 8:
             parts.append(f"{len(others) - 8} more identifiers")
-        return ", ".join(parts) or "nothing at all"
+        if parts:
+            return ", ".join(parts)
+        before = self.nodes()
+        names = f"node{'s' if len(before) > 1 else ''} {', '.join(str(node) for node in before)}"
+        return f"nothing; before that {names}" if before else "nothing at all"
 
     def advice(self, node: int, start: float) -> list[str]:
         """Return what to check when `node` did not answer since `start` [s, monotonic]."""
@@ -113,8 +117,13 @@ class Heard:
                 f"node {node} is alive but answers no SDO: is another program talking to it by SDO?",
                 "is the bus overloaded (`ebac drive plan` tells the load)?",
             ]
-        if count:
-            there = self.nodes()
+        there = self.nodes()
+        if node in there:
+            return [
+                f"node {node} was there before: has it lost power, or its cable, or been reset?",
+                "is another program talking to it by SDO?",
+            ]
+        if count or there:
             others = f" (heard: {', '.join(str(n) for n in there)})" if there else ""
             return [
                 f"the node id: `ebac drive scan` lists who answers{others}",

@@ -32,7 +32,7 @@ class Setting:
     mask : int or None
         Bits that count, None for all; the others stay as the drive has them.
     optional : bool
-        Whether a drive without the object is right as it is.
+        Whether a drive without the object, or one that keeps another value, is right as it is.
     """
 
     object: Object
@@ -67,6 +67,7 @@ class Write:
 
     object: Object
     data: bytes
+    optional: bool = False  # whether the drive may refuse it
 
     def __str__(self) -> str:
         return f"{self.object.name} = {self.object.show(self.object.decode(self.data))}"
@@ -116,7 +117,8 @@ def _write(setting: Setting, held: Held) -> Write:
     data = held[setting.object.key]
     value = setting.wanted(data)
     # The drive's own length: the same object is longer or shorter on other firmware.
-    return Write(object=setting.object, data=setting.object.encode(value, size=len(data)))
+    raw = setting.object.encode(value, size=len(data))
+    return Write(object=setting.object, data=raw, optional=setting.optional)
 
 
 def _plain(profile: Profile, node: int) -> Iterator[Setting]:
