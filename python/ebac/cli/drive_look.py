@@ -125,6 +125,8 @@ def verify(
     else:
         drive_results.changes(found, f"Verified: the drives hold {network.name}.")
     if found:
+        if not as_json:
+            output.say(f"Not verified: {len(found)} objects differ. `ebac drive apply` sets them.")
         raise typer.Exit(output.FAILED)
 
 

@@ -29,6 +29,15 @@ def enable(
         list[int],
         typer.Option("--node", "-n", help="Node id; repeat it for several.", min=1, max=127),
     ],
+    mode: Annotated[
+        int | None,
+        typer.Option(
+            help="Mode to set first: 10 cyclic synchronous torque, 4 profile torque.",
+            show_default="as applied",
+            min=1,
+            max=32,
+        ),
+    ] = None,
     yes: Yes = False,
     interface: Interface = None,
     channel: Channel = None,
@@ -54,7 +63,7 @@ def enable(
         try:
             for n in chosen:
                 on.append(bus.drive(n, timeout=timeout))
-                on[-1].enable()
+                on[-1].enable(mode=mode)
         except BaseException:
             for one in on:
                 one.disable()

@@ -204,7 +204,7 @@ class Drive:
         self.wait(lambda now: now is not state, repr(goal.value), timeout=left)
 
     def enable(self, *, mode: int | None = None, timeout: float = _DEADLINE) -> None:
-        """Power the motor at zero torque.
+        """Power the motor at zero torque, in a mode that commands torque.
 
         Parameters
         ----------
@@ -220,12 +220,14 @@ class Drive:
         """
         if mode is not None:
             self.set_mode(mode)
-        self.write("target_torque", 0)
-        if self.number("target_torque") != 0:
+        elif (acting := self.number("mode_display")) not in MODES:
             raise WrongAnswer(
-                f"node {self.node}: target_torque does not stay 0: who else commands it?",
+                f"node {self.node}: mode {acting} acts, which does not command torque, so zero torque "
+                "cannot be promised: apply a profile first, or give a mode: 10 cyclic synchronous "
+                "torque, 4 profile torque",
                 node=self.node,
             )
+        self._zero_torque()
         try:
             self.go(State.OPERATION_ENABLED, timeout=timeout)
         except DriveError as error:
@@ -234,6 +236,17 @@ class Drive:
             except DriveError as failure:
                 error.add_note(f"and the drive could not be disabled: {failure}")
             raise
+
+    def _zero_torque(self) -> None:
+        for name in ("target_torque", "torque_offset"):
+            if name == "torque_offset" and not self.look(name):
+                continue  # none, or 0
+            self.write(name, 0)
+            if self.number(name) != 0:
+                raise WrongAnswer(
+                    f"node {self.node}: {name} does not stay 0: who else commands it?",
+                    node=self.node,
+                )
 
     def disable(self, *, timeout: float = _DEADLINE) -> State:
         """Take the power off the motor, from any state; return the state it rests in.
