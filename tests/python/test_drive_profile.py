@@ -128,7 +128,8 @@ def test_what_is_no_toml_says_so() -> None:
     assert refused("a = = 1").startswith("my.toml: not a TOML document: ")
 
 
-NETWORK = '[bus]\nbitrate = 1000000\n[[node]]\nid = 1\nprofile = "copley-accelnet"\n[[node]]\nid = 2\nprofile = "copley-accelnet"\n'
+DRIVE = '[[node]]\nid = {}\nprofile = "copley-accelnet"\n'
+NETWORK = f"[bus]\nbitrate = 1000000\n{DRIVE.format(1)}{DRIVE.format(2)}"
 
 
 @pytest.mark.parametrize(

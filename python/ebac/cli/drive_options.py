@@ -117,6 +117,9 @@ def telling() -> Iterator[None]:
         except DriveError as error:
             notes = getattr(error, "__notes__", [])
             output.fail(". ".join([str(error), *notes]), code=output.FAILED)
+        except KeyboardInterrupt as error:
+            notes = getattr(error, "__notes__", ["interrupted"])
+            output.fail(". ".join(notes), code=output.INTERRUPTED)
 
 
 @contextmanager

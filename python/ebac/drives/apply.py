@@ -192,6 +192,11 @@ def _carry_out(drive: Drive, steps: Sequence[Write], progress: Progress) -> None
             _write(drive, step)
             done += 1
             progress(done, len(steps))
+    except KeyboardInterrupt as interrupt:
+        interrupt.add_note(
+            f"node {drive.node}: interrupted after {done} of {len(steps)} writes. {_after(drive)}"
+        )
+        raise
     except DriveError as error:
         raise NotApplied(
             drive.node,
