@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import typer
 
-from ebac.cli import drive_look, drive_power, drive_setup
+from ebac.cli import drive_look, drive_power, drive_setup, drive_simulate
 
 app = typer.Typer(
     no_args_is_help=True,
@@ -41,3 +41,4 @@ app.command()(drive_setup.restore)
 app.command()(drive_power.enable)
 app.command()(drive_power.disable)
 app.command("reset-fault")(drive_power.reset_fault)
+app.command()(drive_simulate.simulate)

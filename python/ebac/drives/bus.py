@@ -71,12 +71,7 @@ class DriveBus:
         BusError
             When it cannot be opened; the message says what to do.
         """
-        import can
-
-        chosen: dict[str, Any] = {"interface": interface, "channel": channel, "bitrate": bitrate}
-        given = {name: value for name, value in chosen.items() if value is not None}
-        with _telling(interface, channel):
-            return cls(can.Bus(**given))
+        return cls(open_bus(interface=interface, channel=channel, bitrate=bitrate))
 
     def __enter__(self) -> Self:
         return self
@@ -147,6 +142,18 @@ class DriveBus:
             time.sleep(0.001)  # a request is 0.13 ms at 1 Mbit/s; a send queue holds only ten
         time.sleep(seconds)
         return [node for node in self.heard.nodes() if node in nodes]
+
+
+def open_bus(
+    *, interface: str | None = None, channel: str | None = None, bitrate: int | None = None
+) -> can.BusABC:
+    """Open a bus of python-can; parameters and errors are those of `DriveBus.open`."""
+    import can
+
+    chosen: dict[str, Any] = {"interface": interface, "channel": channel, "bitrate": bitrate}
+    given = {name: value for name, value in chosen.items() if value is not None}
+    with _telling(interface, channel):
+        return can.Bus(**given)
 
 
 @contextmanager
