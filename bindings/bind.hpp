@@ -15,5 +15,6 @@ void bind_sweeps(pybind11::module_& m);
 void bind_controllers(pybind11::module_& m);
 void bind_linear_loop(pybind11::module_& m);
 void bind_python_law(pybind11::module_& m);
+void bind_can(pybind11::module_& m);
 
 }  // namespace ebac::python

@@ -12,4 +12,5 @@ PYBIND11_MODULE(_core, m, pybind11::mod_gil_not_used()) {
   ebac::python::bind_linear_loop(m);
   ebac::python::bind_controllers(m);
   ebac::python::bind_python_law(m);
+  ebac::python::bind_can(m);
 }

@@ -18,6 +18,9 @@ __all__: list[str] = [
     "AdaptiveWindow",
     "AxisTruth",
     "BackwardDifference",
+    "BusCounts",
+    "BusState",
+    "CanFrame",
     "Capstan",
     "Column",
     "Compensation",
@@ -39,6 +42,8 @@ __all__: list[str] = [
     "Hand",
     "Linear",
     "LinearLoop",
+    "LoopbackBus",
+    "LoopbackHub",
     "LowPass",
     "Mechanics",
     "MinimumJerk",
@@ -50,6 +55,7 @@ __all__: list[str] = [
     "RunLimits",
     "Setup",
     "Sine",
+    "SocketCan",
     "Step",
     "SteppedPlant",
     "SweepProgress",
@@ -3440,6 +3446,190 @@ class EBAC:
         Sample time and delay the law counts with.
         """
 
+class CanFrame:
+    """
+    A classical CAN frame.
+    """
+    def __init__(
+        self,
+        id: typing.SupportsInt | typing.SupportsIndex,
+        data: bytes = b"",
+        *,
+        extended: bool = False,
+        remote: bool = False,
+        error: bool = False,
+        size: typing.SupportsInt | typing.SupportsIndex | None = None,
+    ) -> None:
+        """
+        A frame; `size` is needed where it asks for data.
+        """
+    def __repr__(self) -> str: ...
+    @property
+    def data(self) -> bytes:
+        """
+        The data; none in a remote frame.
+        """
+    @property
+    def error(self) -> bool:
+        """
+        Whether the controller tells an error.
+        """
+    @property
+    def extended(self) -> bool:
+        """
+        Whether the identifier has 29 bits.
+        """
+    @property
+    def id(self) -> int:
+        """
+        Identifier, 11 bits, or 29 when extended.
+        """
+    @property
+    def own(self) -> bool:
+        """
+        Whether the end that received it had sent it.
+        """
+    @property
+    def remote(self) -> bool:
+        """
+        Whether it asks for data.
+        """
+    @property
+    def size(self) -> int:
+        """
+        Bytes of data, or asked for, 0 to 8.
+        """
+    @property
+    def stamp(self) -> int:
+        """
+        When it was received [ns since 1970]; 0 when unknown.
+        """
+
+class BusState(enum.IntEnum):
+    BUS_OFF = ...
+    CLOSED = ...
+    DOWN = ...
+    PASSIVE = ...
+    UP = ...
+    WARNING = ...
+
+class BusCounts:
+    """
+    What went over one end of a bus since it was opened.
+    """
+    @property
+    def lost(self) -> int:
+        """
+        Frames that found the receive queue full.
+        """
+    @property
+    def received(self) -> int:
+        """
+        Frames received.
+        """
+    @property
+    def refused(self) -> int:
+        """
+        Frames that `send` did not take.
+        """
+    @property
+    def sent(self) -> int:
+        """
+        Frames sent.
+        """
+
+class LoopbackBus:
+    """
+    One end of a CAN bus inside this process.
+    """
+    def close(self) -> None:
+        """
+        Leaves the bus; who waits in `receive` returns.
+        """
+    def receive(
+        self, timeout: typing.SupportsFloat | typing.SupportsIndex | None = 0.0
+    ) -> CanFrame | None:
+        """
+        Waits up to `timeout` [s], None for no end. None when nothing came or it was closed.
+        """
+    def send(self, frame: CanFrame) -> bool:
+        """
+        Sends; false when the bus did not take the frame.
+        """
+    @property
+    def counts(self) -> BusCounts:
+        """
+        What went over this end so far.
+        """
+    @property
+    def state(self) -> BusState:
+        """
+        How the bus stands.
+        """
+
+class LoopbackHub:
+    """
+    A CAN bus inside this process.
+    """
+    def __init__(self, *, stamps: bool = True) -> None: ...
+    def open(
+        self, *, frames: typing.SupportsInt | typing.SupportsIndex = 1024, own: bool = False
+    ) -> LoopbackBus:
+        """
+        A new end; `frames` wait to be received, what exceeds them is lost and counted.
+        """
+    @property
+    def ends(self) -> int:
+        """
+        How many ends are open.
+        """
+
+class SocketCan:
+    """
+    One end of a CAN interface of the Linux kernel.
+    """
+    def __init__(
+        self,
+        interface: str,
+        *,
+        filters: collections.abc.Sequence[
+            tuple[
+                typing.SupportsInt | typing.SupportsIndex,
+                typing.SupportsInt | typing.SupportsIndex,
+                bool,
+            ]
+        ] = [],
+        own: bool = False,
+        errors: bool = False,
+    ) -> None:
+        """
+        Opens it; `filters` are (id, mask, extended). OSError tells what to do.
+        """
+    def close(self) -> None:
+        """
+        Leaves the bus; who waits in `receive` returns.
+        """
+    def receive(
+        self, timeout: typing.SupportsFloat | typing.SupportsIndex | None = 0.0
+    ) -> CanFrame | None:
+        """
+        Waits up to `timeout` [s], None for no end. None when nothing came or it was closed.
+        """
+    def send(self, frame: CanFrame) -> bool:
+        """
+        Sends; false when the bus did not take the frame.
+        """
+    @property
+    def counts(self) -> BusCounts:
+        """
+        What went over this end so far.
+        """
+    @property
+    def state(self) -> BusState:
+        """
+        How the bus stands.
+        """
+
 def _ideal_contacts(
     setups: collections.abc.Sequence[Setup],
     threads: typing.SupportsInt | typing.SupportsIndex,
@@ -3460,6 +3650,14 @@ def _stored_energy(
     environment: Free | Wall | Corner | Disc,
     x: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
 ) -> numpy.typing.NDArray[numpy.float64]: ...
+def _time_bus(
+    frames: typing.SupportsInt | typing.SupportsIndex,
+    repeats: typing.SupportsInt | typing.SupportsIndex,
+) -> float: ...
+def _time_bus_threads(
+    frames: typing.SupportsInt | typing.SupportsIndex,
+    repeats: typing.SupportsInt | typing.SupportsIndex,
+) -> float: ...
 def copley_current(
     torque_permille: typing.SupportsFloat | typing.SupportsIndex,
     continuous_torque_1e5: typing.SupportsFloat | typing.SupportsIndex,

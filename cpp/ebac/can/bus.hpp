@@ -17,6 +17,14 @@ enum class BusState : std::uint8_t {
   kClosed = 5,   // never opened, or closed
 };
 
+/// What went over one end of a bus since it was opened.
+struct BusCounts {
+  std::uint64_t sent = 0;
+  std::uint64_t refused = 0;   // not taken by `send`
+  std::uint64_t received = 0;  // taken by `receive`
+  std::uint64_t lost = 0;      // arrived, but the receive queue was full
+};
+
 /// One end of a CAN bus. Neither call waits. `send` is false where the frame was refused (queue
 /// full, bus not up), and the bus counts it; `receive` is false where nothing is waiting.
 template <class B>

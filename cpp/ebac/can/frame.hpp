@@ -20,15 +20,26 @@ struct Frame {
   bool error = false;      // told by the controller, not by another node
   std::int64_t stamp = 0;  // ns, when it was received; 0 where the bus does not know
   std::array<std::uint8_t, kMaxSize> data{};
+  bool own = false;  // sent by the end that receives it, which asked for that
 
-  constexpr std::span<const std::uint8_t> bytes() const EBAC_RT { return {data.data(), size}; }
+  constexpr std::span<const std::uint8_t> bytes() const EBAC_RT {
+    return {data.data(), size < kMaxSize ? size : kMaxSize};
+  }
 
-  /// The same frame, whenever it came.
+  /// The same frame, whenever it came and whoever sent it.
   friend constexpr bool operator==(const Frame& a, const Frame& b) EBAC_RT {
     return a.id == b.id && a.size == b.size && a.extended == b.extended && a.remote == b.remote &&
            a.error == b.error && a.data == b.data;
   }
 };
+
+inline constexpr std::uint32_t kStandardIds = 0x7FF;
+inline constexpr std::uint32_t kExtendedIds = 0x1FFF'FFFF;
+
+/// Whether a controller could put it on the wire.
+constexpr bool sendable(const Frame& out) EBAC_RT {
+  return out.size <= Frame::kMaxSize && out.id <= (out.extended ? kExtendedIds : kStandardIds);
+}
 
 constexpr Frame frame(std::uint32_t id, std::initializer_list<std::uint8_t> bytes) EBAC_RT {
   Frame made{.id = id};

@@ -1,0 +1,138 @@
+#include "ebac/can/socketcan_open.hpp"
+
+#include <linux/can.h>
+#include <linux/can/error.h>
+#include <linux/can/raw.h>
+#include <net/if.h>
+#include <sys/ioctl.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <system_error>
+#include <utility>
+
+namespace ebac::can {
+
+namespace {
+
+/// The kernel's way to ask about an interface.
+ifreq asking_for(const std::string& interface) noexcept {
+  ifreq request{};
+  interface.copy(request.ifr_name, IFNAMSIZ - 1);
+  return request;
+}
+
+std::string how_to_bring_up(const std::string& interface) {
+  const bool is_virtual = interface.starts_with("v");  // vcan0, vxcan0
+  return "ip link set " + interface + " up" + (is_virtual ? "" : " type can bitrate 1000000");
+}
+
+/// What is wrong, and what to type.
+std::string remedy(const std::string& interface, int error) {
+  switch (error) {
+    case EAFNOSUPPORT:
+    case EPROTONOSUPPORT:
+      return "this kernel has no CAN sockets; load them: modprobe can_raw. Where the kernel was "
+             "built without, there is the loopback bus: can.Bus(interface='ebac')";
+    case ENODEV:
+      return "there is no such interface; plug in the adapter or load its driver, then: " +
+             how_to_bring_up(interface) +
+             ". To try without hardware: ip link add dev vcan0 type vcan && ip link set vcan0 up";
+    case ENETDOWN:
+      return "the interface is down; bring it up: " + how_to_bring_up(interface);
+    case EMEDIUMTYPE:
+      return "this is no CAN interface; ip -details link show type can lists those";
+    case EINVAL:
+      return "the name of an interface has 1 to " + std::to_string(IFNAMSIZ - 1) + " letters";
+    default:
+      return "cannot be opened";
+  }
+}
+
+[[noreturn]] void refuse(const std::string& interface, int error) {
+  throw std::system_error(error, std::generic_category(),
+                          "CAN interface '" + interface + "': " + remedy(interface, error));
+}
+
+/// A file descriptor until it is let go.
+class Descriptor {
+ public:
+  explicit Descriptor(int fd) noexcept : fd_(fd) {}
+  ~Descriptor() {
+    if (fd_ >= 0) ::close(fd_);
+  }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+
+  int get() const noexcept { return fd_; }
+  int let_go() noexcept { return std::exchange(fd_, -1); }
+
+ private:
+  int fd_;
+};
+
+template <class Value>
+bool set(int socket, int level, int option, const Value& value) noexcept {
+  return ::setsockopt(socket, level, option, &value, sizeof(value)) == 0;
+}
+
+bool set_options(int socket, const SocketCanOptions& options) {
+  // Single bus errors may come by the thousand; the state needs only what is told of the controller.
+  const can_err_mask_t told =
+      options.errors ? CAN_ERR_MASK : CAN_ERR_CRTL | CAN_ERR_BUSOFF | CAN_ERR_RESTARTED;
+  return set(socket, SOL_CAN_RAW, CAN_RAW_ERR_FILTER, told) &&
+         set(socket, SOL_CAN_RAW, CAN_RAW_RECV_OWN_MSGS, int{options.own}) &&
+         set(socket, SOL_SOCKET, SO_TIMESTAMPNS, 1) && set(socket, SOL_SOCKET, SO_RXQ_OVFL, 1);
+}
+
+}  // namespace
+
+int look_up(int socket, const std::string& interface) noexcept {
+  ifreq request = asking_for(interface);
+  if (::ioctl(socket, SIOCGIFFLAGS, &request) != 0) return errno;
+  return (request.ifr_flags & IFF_UP) != 0 ? 0 : ENETDOWN;
+}
+
+void forget_error(int socket) noexcept {
+  int error = 0;
+  socklen_t size = sizeof(error);
+  ::getsockopt(socket, SOL_SOCKET, SO_ERROR, &error, &size);
+}
+
+std::vector<can_filter> to_wire(const std::vector<CanFilter>& filters) {
+  if (filters.empty()) return {{.can_id = 0, .can_mask = 0}};
+  std::vector<can_filter> wire;
+  for (const CanFilter& filter : filters) {
+    wire.push_back({.can_id = filter.id | (filter.extended ? CAN_EFF_FLAG : 0U),
+                    .can_mask = (filter.mask & CAN_EFF_MASK) | CAN_EFF_FLAG});
+  }
+  return wire;
+}
+
+int bind_raw(int socket, const std::string& interface,
+             const std::vector<can_filter>& filters) noexcept {
+  const auto bytes = static_cast<socklen_t>(filters.size() * sizeof(can_filter));
+  if (::setsockopt(socket, SOL_CAN_RAW, CAN_RAW_FILTER, filters.data(), bytes) != 0) return errno;
+  ifreq request = asking_for(interface);
+  if (::ioctl(socket, SIOCGIFINDEX, &request) != 0) return errno;
+  sockaddr_can address{};
+  address.can_family = AF_CAN;
+  address.can_ifindex = request.ifr_ifindex;
+  const auto* as_any = reinterpret_cast<const sockaddr*>(&address);
+  return ::bind(socket, as_any, sizeof(address)) == 0 ? 0 : errno;
+}
+
+int open_raw(const std::string& interface, const SocketCanOptions& options) {
+  if (interface.empty() || interface.size() >= IFNAMSIZ) refuse(interface, EINVAL);
+  Descriptor socket(::socket(PF_CAN, SOCK_RAW | SOCK_NONBLOCK | SOCK_CLOEXEC, CAN_RAW));
+  if (socket.get() < 0) refuse(interface, errno);
+  if (!set_options(socket.get(), options)) refuse(interface, errno);
+  if (const int error = look_up(socket.get(), interface); error != 0) refuse(interface, error);
+  if (const int error = bind_raw(socket.get(), interface, to_wire(options.filters)); error != 0) {
+    refuse(interface, error == ENODEV ? EMEDIUMTYPE : error);  // it is there, as `look_up` saw
+  }
+  return socket.let_go();
+}
+
+}  // namespace ebac::can

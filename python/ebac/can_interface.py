@@ -1,0 +1,264 @@
+"""The python-can interface `ebac`: CAN buses inside this process, the simulated joystick on one of them.
+
+python-can finds it by its name, so that canopen, `can.Notifier`, `can.logger` and `can.viewer` work on it::
+
+    import can
+
+    with can.Bus(interface="ebac", channel="joystick") as bus:
+        print(bus.recv(timeout=1.0))
+
+A channel is a bus of this process, made by whoever opens it first and gone with the last who shuts down. Buses on one
+channel hear each other, and the C++ loop on the same `ebac._core.LoopbackHub` hears them all.
+"""
+
+from __future__ import annotations
+
+import atexit
+import logging
+import time
+from collections.abc import Callable, Sequence
+from contextlib import AbstractContextManager, nullcontext
+from dataclasses import dataclass
+from threading import RLock, current_thread
+from typing import Any
+from weakref import WeakSet
+
+import can
+from can.typechecking import AutoDetectedConfig
+
+from ebac._core import BusCounts, BusState, CanFrame, LoopbackBus, LoopbackHub
+
+_LOG = logging.getLogger("can.ebac")
+
+#: What builds the nodes of a channel: given the bus, a context in which they stand on it.
+Nodes = Callable[[LoopbackHub], AbstractContextManager[object]]
+
+#: Nodes by the start of a channel's name: "joystick" stands for joystick2 and joystick-left too, each with its own.
+NODES: dict[str, Nodes] = {}
+
+#: The channel that is meant where none is named.
+DEFAULT_CHANNEL = "joystick"
+
+#: Frames that wait to be received: about 3 s of a joystick that sends five frames every millisecond.
+DEFAULT_QUEUE = 16_384
+
+
+def nodes_on(channel: str) -> Nodes | None:
+    """Return what builds the nodes of a channel; None where it carries but those who open it."""
+    names = [name for name in NODES if channel.startswith(name)]
+    return NODES[max(names, key=len)] if names else None
+
+
+def populate(channel: str, hub: LoopbackHub) -> AbstractContextManager[object]:
+    """Return the context in which a channel's nodes stand on its bus.
+
+    It is entered before the first bus on the channel opens and left after the last one shut down.
+    """
+    nodes = nodes_on(channel)
+    return nullcontext() if nodes is None else nodes(hub)
+
+
+@dataclass(kw_only=True)
+class _Channel:
+    """A bus by name, and how many hold it."""
+
+    hub: LoopbackHub
+    nodes: AbstractContextManager[object]
+    users: int = 0
+
+
+_CHANNELS: dict[str, _Channel] = {}
+_LOCK = RLock()
+
+
+def _join(channel: str) -> LoopbackHub:
+    """Return the bus of a channel, with its nodes on it, and hold it."""
+    with _LOCK:
+        entry = _CHANNELS.get(channel)
+        if entry is None:
+            hub = LoopbackHub(stamps=True)
+            nodes = populate(channel, hub)
+            nodes.__enter__()
+            entry = _CHANNELS[channel] = _Channel(hub=hub, nodes=nodes)
+        entry.users += 1
+        return entry.hub
+
+
+def _leave(channel: str) -> None:
+    """Let go of a channel; the last one takes its nodes off."""
+    with _LOCK:
+        entry = _CHANNELS[channel]
+        entry.users -= 1
+        if entry.users:
+            return
+        del _CHANNELS[channel]
+    entry.nodes.__exit__(None, None, None)
+
+
+@atexit.register
+def _leave_all() -> None:
+    """Take off what a program forgot, before the interpreter ends."""
+    while _CHANNELS:
+        _, entry = _CHANNELS.popitem()
+        entry.nodes.__exit__(None, None, None)
+
+
+class EbacBus(can.BusABC):
+    """One end of a CAN bus inside this process; `can.Bus(interface="ebac", channel=...)` makes one.
+
+    Classical CAN only. Any thread may send and receive.
+
+    Parameters
+    ----------
+    channel : str
+        Name of the bus. Names that start with "joystick" carry simulated drives.
+    receive_own_messages : bool
+        Receive also what this end sent, with `is_rx` false.
+    rx_queue_size : int
+        Frames that wait to be received, 1 to 1,048,576. What comes when it is full is lost to this end alone,
+        counted in `counts.lost` and told by the logger `can.ebac`.
+    can_filters : list of dict, optional
+        As of `can.BusABC.set_filters`.
+    **kwargs
+        What other interfaces know, such as `bitrate`, means nothing here.
+
+    Raises
+    ------
+    ValueError
+        When the queue is out of range, or CAN FD is asked for.
+    """
+
+    def __init__(
+        self,
+        channel: Any = DEFAULT_CHANNEL,
+        can_filters: Any = None,
+        *,
+        receive_own_messages: bool = False,
+        rx_queue_size: int = DEFAULT_QUEUE,
+        **kwargs: Any,
+    ) -> None:
+        _refuse_fd(kwargs)
+        name = str(channel)
+        hub = _join(name)
+        try:
+            self._end: LoopbackBus = hub.open(frames=rx_queue_size, own=receive_own_messages)
+        except (TypeError, ValueError) as error:
+            _leave(name)
+            raise ValueError(
+                f"rx_queue_size = {rx_queue_size}: must be a whole number in [1, 1048576] frames"
+            ) from error
+        self.channel = name
+        self.channel_info = f"ebac channel '{name}'"
+        self._tasks: WeakSet[Any] = WeakSet()
+        self._told = 0
+        super().__init__(channel=name, can_filters=can_filters, **kwargs)
+
+    @property
+    def counts(self) -> BusCounts:
+        """Frames sent, refused, received and lost by this end."""
+        return self._end.counts
+
+    def send(self, msg: can.Message, timeout: float | None = None) -> None:
+        """Send a message to all others on the channel.
+
+        As on the wire it is taken at once, whoever listens; only while another thread that sends is held up may it have
+        to wait.
+
+        Parameters
+        ----------
+        msg : can.Message
+            Classical; 11 or 29 bits of identifier, up to 8 bytes.
+        timeout : float, optional
+            How long to try [s]; None for no end.
+
+        Raises
+        ------
+        can.CanOperationError
+            When the bus is shut down, or did not take the message in time.
+        ValueError
+            When no classical frame can carry the message.
+        """
+        if msg.is_fd:
+            raise ValueError(f"{msg}: a message of CAN FD, but this bus is classical; is_fd=False")
+        frame = CanFrame(
+            msg.arbitration_id,
+            bytes(msg.data),
+            extended=msg.is_extended_id,
+            remote=msg.is_remote_frame,
+            error=msg.is_error_frame,
+            size=msg.dlc,
+        )
+        start = time.monotonic()
+        while not self._end.send(frame):
+            if self._end.state == BusState.CLOSED:
+                if any(task.thread is current_thread() for task in self._tasks):
+                    return  # a periodic task that was stopped in the middle of its last turn
+                raise can.CanOperationError(_closed(self.channel_info))
+            if timeout is not None and time.monotonic() - start >= timeout:
+                raise can.CanOperationError(f"{self.channel_info}: not taken within {timeout:g} s")
+            time.sleep(1e-4)
+
+    def _recv_internal(self, timeout: float | None) -> tuple[can.Message | None, bool]:
+        frame = self._end.receive(timeout)
+        if frame is None:
+            if self._end.state == BusState.CLOSED:
+                raise can.CanOperationError(_closed(self.channel_info))
+            return None, False
+        lost = self._end.counts.lost
+        if lost > self._told:
+            self._tell(lost)
+        message = can.Message(
+            timestamp=1e-9 * frame.stamp,
+            arbitration_id=frame.id,
+            is_extended_id=frame.extended,
+            is_remote_frame=frame.remote,
+            is_error_frame=frame.error,
+            channel=self.channel,
+            dlc=frame.size,
+            data=frame.data,
+            is_rx=not frame.own,
+        )
+        return message, False
+
+    def _tell(self, lost: int) -> None:
+        """Warn of lost frames, the next time when they are twice as many."""
+        self._told = 2 * lost
+        _LOG.warning(
+            "%s: %d frames lost so far, as they came faster than they were received; read them in a thread of "
+            "its own (can.Notifier) or give a larger rx_queue_size",
+            self.channel_info,
+            lost,
+        )
+
+    def _send_periodic_internal(self, *args: Any, **kwargs: Any) -> Any:
+        task = super()._send_periodic_internal(*args, **kwargs)
+        self._tasks.add(task)
+        return task
+
+    def flush_tx_buffer(self) -> None:
+        """Do nothing: a frame that was sent is on its way already."""
+
+    def shutdown(self) -> None:
+        """Leave the channel. A thread that waits in `recv` gets `can.CanOperationError`."""
+        super().shutdown()
+        with _LOCK:
+            if self._end.state == BusState.CLOSED:
+                return
+            self._end.close()
+        _leave(self.channel)
+
+    @staticmethod
+    def _detect_available_configs() -> Sequence[AutoDetectedConfig]:
+        with _LOCK:
+            names = sorted({*_CHANNELS, DEFAULT_CHANNEL})
+        return [{"interface": "ebac", "channel": name} for name in names]
+
+
+def _refuse_fd(options: dict[str, Any]) -> None:
+    protocol = options.get("protocol", can.CanProtocol.CAN_20)
+    if options.get("fd") or protocol != can.CanProtocol.CAN_20:
+        raise ValueError("CAN FD is asked for, but the interface 'ebac' is classical; leave fd out")
+
+
+def _closed(info: str) -> str:
+    return f"{info}: the bus is shut down; open it anew with can.Bus(interface='ebac')"
