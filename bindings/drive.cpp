@@ -1,0 +1,184 @@
+#include <pybind11/native_enum.h>
+#include <pybind11/stl.h>
+
+#include <tuple>
+
+#include "bind.hpp"
+#include "ebac/can/eds.hpp"
+#include "ebac/can/joystick.hpp"
+#include "ebac/sim/simulated_device.hpp"
+#include "fields.hpp"
+
+namespace ebac::python {
+
+namespace {
+
+using can::SimulatedDrive;
+using PlantOfDrives = can::Joystick<SimulatedDevice>;
+
+constexpr double kDay = 86400;  // s
+
+/// Identifier, data, whether it asks for a frame: of eleven bits, as CANopen has them.
+can::Frame frame_of(std::uint32_t id, const py::bytes& data, bool remote) {
+  const std::string_view bytes = data;
+  if (id > 0x7FF || bytes.size() > can::Frame::kMaxSize) {
+    throw std::invalid_argument("frame: id = " + std::to_string(id) + " with " +
+                                std::to_string(bytes.size()) +
+                                " bytes: must be at most 2047, with at most 8 bytes");
+  }
+  can::Frame frame{.id = id, .size = static_cast<std::uint8_t>(bytes.size()), .remote = remote};
+  std::copy(bytes.begin(), bytes.end(), frame.data.begin());
+  return frame;
+}
+
+template <class Node>
+std::vector<std::tuple<std::uint32_t, py::bytes>> take_all(Node& node) {
+  std::vector<std::tuple<std::uint32_t, py::bytes>> frames;
+  can::Frame frame;
+  while (node.take(frame)) {
+    frames.emplace_back(frame.id,
+                        py::bytes(reinterpret_cast<const char*>(frame.data.data()), frame.size));
+  }
+  return frames;
+}
+
+double checked_time(double seconds) {
+  if (!(seconds >= 0 && seconds <= kDay)) {
+    throw std::invalid_argument(range_message("elapse", "seconds", seconds, "s", 0, kDay));
+  }
+  return seconds;
+}
+
+can::NodeId checked_node(int node, int axes) {
+  const int most = can::kLastNode - axes + 1;
+  if (node < 1 || node > most) {
+    throw std::invalid_argument(range_message("drive", "node", node, "1", 1, most));
+  }
+  return static_cast<can::NodeId>(node);
+}
+
+double checked_peak_time(double seconds) {
+  if (!(seconds >= 0.001 && seconds <= 65.535)) {
+    throw std::invalid_argument(range_message("drive", "peak_time", seconds, "s", 0.001, 65.535));
+  }
+  return seconds;
+}
+
+void bind_enums(py::module_& m) {
+  py::native_enum<can::Condition>(m, "DriveCondition", "enum.IntFlag",
+                                  "What may be wrong with a simulated drive, on request.")
+      .value("OVER_VOLTAGE", can::Condition::kOverVoltage)
+      .value("ENCODER_LOST", can::Condition::kEncoderLost)
+      .value("OVER_TEMPERATURE", can::Condition::kOverTemperature)
+      .value("SILENT", can::Condition::kSilent)
+      .finalize();
+  py::native_enum<can::DriveState>(m, "DriveState", "enum.IntEnum",
+                                   "State of a simulated drive (CiA 402).")
+      .value("NOT_READY_TO_SWITCH_ON", can::DriveState::kNotReady)
+      .value("SWITCH_ON_DISABLED", can::DriveState::kSwitchOnDisabled)
+      .value("READY_TO_SWITCH_ON", can::DriveState::kReady)
+      .value("SWITCHED_ON", can::DriveState::kSwitchedOn)
+      .value("OPERATION_ENABLED", can::DriveState::kOperationEnabled)
+      .value("QUICK_STOP_ACTIVE", can::DriveState::kQuickStopActive)
+      .value("FAULT_REACTION_ACTIVE", can::DriveState::kFaultReaction)
+      .value("FAULT", can::DriveState::kFault)
+      .finalize();
+}
+
+/// What a drive and a joystick share: frames in, time, frames out.
+template <class Node, class Class, class Elapse>
+void def_frames(Class& cls, Elapse elapse) {
+  cls.def(
+         "receive",
+         [](Node& node, std::uint32_t id, const py::bytes& data, bool remote) {
+           node.receive(frame_of(id, data, remote));
+         },
+         py::arg("id"), py::arg("data") = py::bytes(), py::kw_only(), py::arg("remote") = false,
+         "Takes one frame of the bus.")
+      .def("elapse", elapse, py::arg("seconds"), "Lets time pass [s].")
+      .def("take", &take_all<Node>, "Every frame on its way out: (id, data).");
+}
+
+void bind_simulated_drive(py::module_& m) {
+  py::class_<SimulatedDrive> cls(
+      m, "SimulatedDrive",
+      "A CANopen servo drive without a motor: takes frames, lets time pass, leaves frames.");
+  cls.def(py::init([](int node, const Motor& motor, const Drive& drive, double peak_time) {
+            return SimulatedDrive({.node = checked_node(node, 1),
+                                   .motor = motor,
+                                   .drive = drive,
+                                   .peak_time = checked_peak_time(peak_time)});
+          }),
+          py::kw_only(), py::arg("node") = 1, py::arg("motor") = Motor{},
+          py::arg("drive") = Drive{}, py::arg("peak_time") = 2.0)
+      .def_property_readonly("node", &SimulatedDrive::node, "Node number.")
+      .def_property_readonly("state", &SimulatedDrive::state, "State of CiA 402.")
+      .def_property_readonly("current", &SimulatedDrive::current, "Motor current [A].")
+      .def(
+          "eds", [](const SimulatedDrive& drive) { return can::eds(drive.objects()); },
+          "Its electronic data sheet (CiA 306).")
+      .def("set_position", &SimulatedDrive::set_position, py::arg("counts"),
+           "Turns the motor to where its encoder shows `counts`.")
+      .def("set_condition", &SimulatedDrive::set_condition, py::arg("condition"),
+           py::arg("present"), "Makes something wrong with it, or right again.");
+  def_frames<SimulatedDrive>(cls, [](SimulatedDrive& drive, double seconds) {
+    drive.elapse(std::llround(checked_time(seconds) * 1e9));
+  });
+}
+
+void bind_joystick(py::module_& m) {
+  py::class_<PlantOfDrives> cls(m, "Joystick",
+                                "Simulated drives on the axes of one simulated device and hand.");
+  cls.def(py::init([](Setup setup, int first, double peak_time) {
+            const can::NodeId node = checked_node(first, setup.device.axes());
+            setup.device.drive.permille = true;  // what a drive is told in
+            setup.timing.delay = 0;              // its delay is that of the bus
+            return PlantOfDrives(SimulatedDevice(setup), setup.device, node,
+                                 checked_peak_time(peak_time));
+          }),
+          py::arg("setup"), py::kw_only(), py::arg("first") = 1, py::arg("peak_time") = 2.0)
+      .def_property_readonly("axes", &PlantOfDrives::axes, "Number of axes.")
+      .def(
+          "drive",
+          [](PlantOfDrives& joystick, std::size_t axis) -> SimulatedDrive& {
+            if (axis >= joystick.axes()) {
+              throw py::index_error("axis " + std::to_string(axis) + ": the joystick has " +
+                                    std::to_string(joystick.axes()));
+            }
+            return joystick.drive(axis);
+          },
+          py::arg("axis") = 0, py::return_value_policy::reference_internal, "Drive of one axis.")
+      .def(
+          "truth",
+          [](const PlantOfDrives& joystick, std::size_t axis) {
+            if (axis >= joystick.axes()) {
+              throw py::index_error("axis " + std::to_string(axis) + ": the joystick has " +
+                                    std::to_string(joystick.axes()));
+            }
+            return joystick.plant().state(axis);
+          },
+          py::arg("axis") = 0, "What only the simulation knows of one axis.");
+  def_frames<PlantOfDrives>(
+      cls, [](PlantOfDrives& joystick, double seconds) { joystick.elapse(checked_time(seconds)); });
+}
+
+/// The drive's own table, for a test against another.
+std::vector<std::vector<can::DriveState>> transitions() {
+  std::vector<std::vector<can::DriveState>> rows;
+  for (const auto& row : can::kTransitions) rows.emplace_back(row.begin(), row.end());
+  return rows;
+}
+
+}  // namespace
+
+void bind_drives(py::module_& m) {
+  bind_enums(m);
+  bind_simulated_drive(m);
+  bind_joystick(m);
+  m.def(
+      "_drive_transitions", &transitions,
+      "The simulated drive's table: a row per state; none, disable voltage, quick stop, shutdown, "
+      "switch on, enable operation, fault reset.");
+}
+
+}  // namespace ebac::python

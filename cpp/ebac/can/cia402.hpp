@@ -1,0 +1,108 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "ebac/core/realtime.hpp"
+
+/// The drive's side of the state machine of CiA 402-2, as one table.
+namespace ebac::can {
+
+enum class DriveState : std::uint8_t {
+  kNotReady,
+  kSwitchOnDisabled,
+  kReady,
+  kSwitchedOn,
+  kOperationEnabled,
+  kQuickStopActive,
+  kFaultReaction,
+  kFault,
+};
+inline constexpr std::size_t kDriveStates = 8;
+
+/// What a controlword asks for. `kNone`: bit 7 held, which asks for nothing.
+enum class DriveCommand : std::uint8_t {
+  kNone,
+  kDisableVoltage,
+  kQuickStop,
+  kShutdown,
+  kSwitchOn,  // and "disable operation", the same bits
+  kEnableOperation,
+  kFaultReset,
+};
+inline constexpr std::size_t kDriveCommands = 7;
+
+namespace detail {
+inline constexpr auto N = DriveState::kNotReady;
+inline constexpr auto D = DriveState::kSwitchOnDisabled;
+inline constexpr auto R = DriveState::kReady;
+inline constexpr auto S = DriveState::kSwitchedOn;
+inline constexpr auto E = DriveState::kOperationEnabled;
+inline constexpr auto Q = DriveState::kQuickStopActive;
+inline constexpr auto X = DriveState::kFaultReaction;
+inline constexpr auto F = DriveState::kFault;
+}  // namespace detail
+
+/// The state after a command. Enable operation in Ready goes through Switched on (transitions 3
+/// and 4); Quick stop active leaves by it only under option codes 5 to 8 (transition 16).
+// clang-format off
+inline constexpr std::array<std::array<DriveState, kDriveCommands>, kDriveStates> kTransitions{{
+    //         none       voltage off quick stop  shutdown   switch on  enable     fault reset
+    /* N */ {{detail::N, detail::N, detail::N, detail::N, detail::N, detail::N, detail::N}},
+    /* D */ {{detail::D, detail::D, detail::D, detail::R, detail::D, detail::D, detail::D}},
+    /* R */ {{detail::R, detail::D, detail::D, detail::R, detail::S, detail::E, detail::R}},
+    /* S */ {{detail::S, detail::D, detail::D, detail::R, detail::S, detail::E, detail::S}},
+    /* E */ {{detail::E, detail::D, detail::Q, detail::R, detail::S, detail::E, detail::E}},
+    /* Q */ {{detail::Q, detail::D, detail::Q, detail::Q, detail::Q, detail::E, detail::Q}},
+    /* X */ {{detail::X, detail::X, detail::X, detail::X, detail::X, detail::X, detail::X}},
+    /* F */ {{detail::F, detail::F, detail::F, detail::F, detail::F, detail::F, detail::D}},
+}};
+// clang-format on
+
+constexpr DriveState after(DriveState state, DriveCommand command) EBAC_RT {
+  return kTransitions[static_cast<std::size_t>(state)][static_cast<std::size_t>(command)];
+}
+
+/// Where a state goes by itself: after the self-test, the quick stop (option codes 0 to 4), the
+/// fault reaction.
+constexpr DriveState automatic(DriveState state) EBAC_RT {
+  if (state == detail::N || state == detail::Q) return detail::D;
+  return state == detail::X ? detail::F : state;
+}
+
+/// The bits of the statusword that tell the state: 0x6041 & 0x6F.
+constexpr std::uint16_t status_bits(DriveState state) EBAC_RT {
+  constexpr std::array<std::uint16_t, kDriveStates> kBits{0x00, 0x40, 0x21, 0x23,
+                                                          0x27, 0x07, 0x0F, 0x08};
+  return kBits[static_cast<std::size_t>(state)];
+}
+
+/// Bits 0 to 3 and 7 of a controlword; `before` is the last one, as a fault reset is an edge.
+constexpr DriveCommand command_of(std::uint16_t word, std::uint16_t before) EBAC_RT {
+  if ((word & 0x80U) != 0) {
+    return (before & 0x80U) != 0 ? DriveCommand::kNone : DriveCommand::kFaultReset;
+  }
+  if ((word & 0x02U) == 0) return DriveCommand::kDisableVoltage;
+  if ((word & 0x04U) == 0) return DriveCommand::kQuickStop;
+  if ((word & 0x01U) == 0) return DriveCommand::kShutdown;
+  return (word & 0x08U) == 0 ? DriveCommand::kSwitchOn : DriveCommand::kEnableOperation;
+}
+
+/// Modes of operation (0x6060) this drive offers, and 0x6502 that says so.
+inline constexpr std::int8_t kNoMode = 0;
+inline constexpr std::int8_t kProfileTorque = 4;
+inline constexpr std::int8_t kCyclicTorque = 10;
+inline constexpr std::uint32_t kSupportedModes = 1U << 3 | 1U << 9;
+
+namespace statusword {
+inline constexpr std::uint16_t kVoltage = 1U << 4;
+inline constexpr std::uint16_t kWarning = 1U << 7;
+inline constexpr std::uint16_t kRemote = 1U << 9;
+inline constexpr std::uint16_t kTargetReached = 1U << 10;
+inline constexpr std::uint16_t kInternalLimit = 1U << 11;
+inline constexpr std::uint16_t kFollowsCommand = 1U << 12;  // mode 10
+}  // namespace statusword
+
+inline constexpr std::uint16_t kHalt = 1U << 8;  // controlword, mode 4
+
+}  // namespace ebac::can

@@ -1,0 +1,115 @@
+#pragma once
+
+#include <concepts>
+#include <utility>
+
+#include "ebac/can/simulated_drive.hpp"
+#include "ebac/core/concepts.hpp"
+#include "ebac/model/device.hpp"
+
+namespace ebac::can {
+
+/// Drives on the axes of one plant: node `first` moves axis 0, the next one axis 1, and so on.
+///
+/// On SYNC the plant moves on over the time since the last one, under the currents set then; its
+/// counts are latched and sent; then what was received before the SYNC takes effect. A loop that
+/// sends its currents and SYNC in one exchange thus sees a delay of one tick. A current that changes
+/// between two SYNCs (asynchronous RPDO, SDO, ramp, fault) acts from that moment on. Without any
+/// SYNC for a while, the plant follows the time as it is told.
+///
+/// `D` takes each current as it is given: where it is a simulated device, one without delay, and
+/// with torque in whole thousandths.
+template <Device D>
+  requires std::copyable<D>
+class Joystick {
+ public:
+  Joystick(D plant, const DeviceModel& device, NodeId first = 1, double peak_time = 2)
+      : plant_(std::move(plant)), axes_(static_cast<std::size_t>(device.axes())) {
+    for (std::size_t i = 0; i < axes_; ++i) {
+      drive_[i] = SimulatedDrive({.node = static_cast<NodeId>(first + i),
+                                  .motor = device.motor,
+                                  .drive = device.drive,
+                                  .counts_per_turn = device.encoder.counts_per_turn,
+                                  .peak_time = peak_time});
+    }
+    D peek = plant_;  // what it shows before anything happens costs the plant nothing
+    show(peek.exchange({}));
+  }
+
+  void receive(const Frame& frame) EBAC_RT {
+    bool sync = false;
+    for (std::size_t i = 0; i < axes_; ++i) sync = sync || drive_[i].is_sync(frame);
+    if (sync) {
+      move(std::exchange(since_, 0.0));
+      silence_ = 0;
+    }
+    for (std::size_t i = 0; i < axes_; ++i) drive_[i].receive(frame);
+    hold();
+  }
+
+  /// Lets `seconds` pass.
+  void elapse(double seconds) EBAC_RT {
+    since_ += seconds;
+    silence_ += seconds;
+    if (silence_ > kPatience && since_ > 0) {
+      for (; since_ > kStep; since_ -= kStep) move(kStep);
+      move(std::exchange(since_, 0.0));
+    }
+    rest_ += seconds * 1e9;
+    const auto whole = static_cast<std::int64_t>(rest_);
+    rest_ -= static_cast<double>(whole);
+    for (std::size_t i = 0; i < axes_; ++i) drive_[i].elapse(whole);
+    hold();
+  }
+
+  /// The next frame of any drive; false where none is.
+  bool take(Frame& frame) EBAC_RT {
+    for (std::size_t i = 0; i < axes_; ++i) {
+      if (drive_[i].take(frame)) return true;
+    }
+    return false;
+  }
+
+  std::size_t axes() const EBAC_RT { return axes_; }
+  SimulatedDrive& drive(std::size_t axis) EBAC_RT { return drive_[axis]; }
+  const SimulatedDrive& drive(std::size_t axis) const EBAC_RT { return drive_[axis]; }
+  const D& plant() const EBAC_RT { return plant_; }
+  /// What the plant showed last: also what no drive tells, as the force sensor.
+  const Reading& reading() const EBAC_RT { return reading_; }
+
+ private:
+  static constexpr double kPatience = 0.2;  // s, longer than any sample time
+  static constexpr double kStep = 0.01;     // s
+
+  /// Moves the plant under the currents that act, and shows its counts to the drives.
+  void move(double seconds) EBAC_RT {
+    show(plant_.exchange({.current = current_, .elapsed = seconds}));
+  }
+  void show(const Reading& reading) EBAC_RT {
+    reading_ = reading;
+    for (std::size_t i = 0; i < axes_; ++i) {
+      if (reading_.fault != Fault::kNone) drive_[i].set_condition(Condition::kEncoderLost, true);
+      drive_[i].set_position(reading_.counts[i]);
+    }
+  }
+
+  /// Where a current has changed, the time until now still belongs to the old ones.
+  void hold() EBAC_RT {
+    std::array<double, kMaxAxes> now{};
+    for (std::size_t i = 0; i < axes_; ++i) now[i] = drive_[i].current();
+    if (now == current_) return;
+    if (since_ > 0) move(std::exchange(since_, 0.0));
+    current_ = now;
+  }
+
+  D plant_;
+  std::array<SimulatedDrive, kMaxAxes> drive_{};
+  std::size_t axes_;
+  std::array<double, kMaxAxes> current_{};  // A, acting since the plant last moved
+  double since_ = 0;                        // s, since the plant last moved
+  double silence_ = 2 * kPatience;          // s, since the last SYNC
+  double rest_ = 0;                         // ns, less than one, not yet told to the drives
+  Reading reading_;
+};
+
+}  // namespace ebac::can

@@ -1,0 +1,161 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <concepts>
+#include <span>
+
+#include "ebac/can/abort.hpp"
+#include "ebac/can/frame.hpp"
+
+namespace ebac::can {
+
+/// What an SDO server serves. `prepare_download` refuses before the first byte what could not be
+/// written anyway; `size` is the number of bytes announced, or -1.
+template <class O>
+concept SdoObjects =
+    requires(O objects, std::uint16_t index, std::uint8_t sub, std::span<const std::uint8_t> in,
+             std::span<std::uint8_t> out, std::size_t& size, std::int64_t announced) {
+      { objects.prepare_download(index, sub, announced) } noexcept -> std::same_as<Abort>;
+      { objects.download(index, sub, in) } noexcept -> std::same_as<Abort>;
+      { objects.upload(index, sub, out, size) } noexcept -> std::same_as<Abort>;
+      { objects.size_of(index, sub) } noexcept -> std::same_as<std::size_t>;
+    };
+
+/// One SDO server channel (CiA 301, 7.2.4): expedited and segmented, both ways. Block transfer is
+/// refused as an unknown command, after which clients fall back.
+class SdoServer {
+ public:
+  /// Answers the eight bytes of a request; false where the protocol asks for silence.
+  template <SdoObjects O>
+  bool answer(std::span<const std::uint8_t> request, O& objects, Frame& reply) EBAC_RT {
+    if (request.size() != Frame::kMaxSize) return false;
+    reply.size = Frame::kMaxSize;
+    reply.data = {};
+    switch (request[0] >> 5U) {
+      case 0:
+        return download_segment(request, objects, reply);
+      case 1:
+        return start_download(request, objects, reply);
+      case 2:
+        return start_upload(request, objects, reply);
+      case 3:
+        return upload_segment(request, reply);
+      case 4:  // the client gives up
+        running_ = Running::kNothing;
+        return false;
+      default:
+        set_object(request);
+        return abort(reply, Abort::kCommand);
+    }
+  }
+
+  void reset() EBAC_RT { running_ = Running::kNothing; }
+
+ private:
+  enum class Running : std::uint8_t { kNothing, kDownload, kUpload };
+  static constexpr std::size_t kRoom = 64;
+
+  void set_object(std::span<const std::uint8_t> request) EBAC_RT {
+    running_ = Running::kNothing;  // a new transfer ends a half-finished one
+    index_ = get<std::uint16_t>(request, 1);
+    sub_ = request[3];
+  }
+  void name_object(Frame& reply, std::uint8_t command) const EBAC_RT {
+    reply.data[0] = command;
+    put<std::uint16_t>(reply.data, 1, index_);
+    reply.data[3] = sub_;
+  }
+  bool abort(Frame& reply, Abort why) EBAC_RT {
+    running_ = Running::kNothing;
+    reply.data = {};
+    name_object(reply, 0x80);
+    put<std::uint32_t>(reply.data, 4, static_cast<std::uint32_t>(why));
+    return true;
+  }
+
+  template <SdoObjects O>
+  bool start_download(std::span<const std::uint8_t> request, O& objects, Frame& reply) EBAC_RT {
+    set_object(request);
+    const bool expedited = (request[0] & 0x02U) != 0;
+    const bool sized = (request[0] & 0x01U) != 0;
+    if (!expedited) {
+      announced_ = sized ? std::int64_t{get<std::uint32_t>(request, 4)} : -1;
+      const Abort why = objects.prepare_download(index_, sub_, announced_);
+      if (why != Abort::kNone) return abort(reply, why);
+      running_ = Running::kDownload;
+      toggle_ = 0;
+      size_ = 0;
+    } else {
+      const std::size_t size = sized ? 4U - (request[0] >> 2U & 3U)
+                                     : std::min<std::size_t>(4, objects.size_of(index_, sub_));
+      const Abort why = objects.download(index_, sub_, request.subspan(4, size));
+      if (why != Abort::kNone) return abort(reply, why);
+    }
+    name_object(reply, 0x60);
+    return true;
+  }
+
+  template <SdoObjects O>
+  bool download_segment(std::span<const std::uint8_t> request, O& objects, Frame& reply) EBAC_RT {
+    if (running_ != Running::kDownload) return abort(reply, Abort::kCommand);
+    if ((request[0] & 0x10U) != toggle_) return abort(reply, Abort::kToggle);
+    const std::size_t count = 7U - (request[0] >> 1U & 7U);
+    const std::size_t most = announced_ < 0 ? kRoom : static_cast<std::size_t>(announced_);
+    if (size_ + count > std::min(most, kRoom)) return abort(reply, Abort::kTooLong);
+    std::copy_n(request.begin() + 1, count, buffer_.begin() + static_cast<std::ptrdiff_t>(size_));
+    size_ += count;
+    if ((request[0] & 0x01U) != 0) {
+      if (announced_ >= 0 && size_ < most) return abort(reply, Abort::kTooShort);
+      const Abort why = objects.download(index_, sub_, std::span(buffer_).first(size_));
+      if (why != Abort::kNone) return abort(reply, why);
+      running_ = Running::kNothing;
+    }
+    reply.data[0] = static_cast<std::uint8_t>(0x20U | toggle_);
+    toggle_ ^= 0x10U;
+    return true;
+  }
+
+  template <SdoObjects O>
+  bool start_upload(std::span<const std::uint8_t> request, O& objects, Frame& reply) EBAC_RT {
+    set_object(request);
+    const Abort why = objects.upload(index_, sub_, buffer_, size_);
+    if (why != Abort::kNone) return abort(reply, why);
+    if (size_ >= 1 && size_ <= 4) {
+      name_object(reply, static_cast<std::uint8_t>(0x43U | (4U - size_) << 2U));
+      std::copy_n(buffer_.begin(), size_, reply.data.begin() + 4);
+      return true;
+    }
+    running_ = Running::kUpload;
+    toggle_ = 0;
+    sent_ = 0;
+    name_object(reply, 0x41);
+    put<std::uint32_t>(reply.data, 4, static_cast<std::uint32_t>(size_));
+    return true;
+  }
+
+  bool upload_segment(std::span<const std::uint8_t> request, Frame& reply) EBAC_RT {
+    if (running_ != Running::kUpload) return abort(reply, Abort::kCommand);
+    if ((request[0] & 0x10U) != toggle_) return abort(reply, Abort::kToggle);
+    const std::size_t count = std::min<std::size_t>(7, size_ - sent_);
+    std::copy_n(buffer_.begin() + static_cast<std::ptrdiff_t>(sent_), count,
+                reply.data.begin() + 1);
+    sent_ += count;
+    const bool last = sent_ == size_;
+    reply.data[0] = static_cast<std::uint8_t>(toggle_ | (7U - count) << 1U | (last ? 1U : 0U));
+    toggle_ ^= 0x10U;
+    if (last) running_ = Running::kNothing;
+    return true;
+  }
+
+  Running running_ = Running::kNothing;
+  std::uint8_t sub_ = 0;
+  std::uint16_t index_ = 0;
+  std::uint8_t toggle_ = 0;      // 0 or 0x10
+  std::int64_t announced_ = -1;  // bytes, -1 unknown
+  std::size_t size_ = 0;         // bytes in the buffer
+  std::size_t sent_ = 0;         // of them
+  std::array<std::uint8_t, kRoom> buffer_{};
+};
+
+}  // namespace ebac::can

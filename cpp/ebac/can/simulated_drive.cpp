@@ -1,0 +1,195 @@
+#include "ebac/can/simulated_drive.hpp"
+
+namespace ebac::can {
+
+SimulatedDrive::SimulatedDrive(const DriveSettings& settings) : objects_(settings.node) {
+  const Motor& motor = settings.motor;
+  const auto whole = [](double value, double most) {
+    return static_cast<std::int64_t>(std::llround(std::clamp(value, 1.0, most)));
+  };
+  const double peak = settings.drive.peak_current(motor);       // A
+  const double one = motor.current(motor.rated_torque) / 1000;  // A per permille
+  objects_.set_default(kAt<0x2383, 12>, whole(motor.torque_constant * 1e5, 1e9));
+  objects_.set_default(kAt<0x2383, 13>, whole(motor.torque(peak) * 1e5, 1e9));
+  objects_.set_default(kAt<0x2383, 14>, whole(motor.rated_torque * 1e5, 1e9));
+  objects_.set_default(kAt<0x2383, 23>, settings.counts_per_turn);
+  objects_.set_default(kAt<0x2112>, whole(settings.peak_time * 1e3, 65535));
+  objects_.set_default(kAt<0x6072>, whole(peak / one, 65535));
+  objects_.set_default(kAt<0x6073>, whole(peak / one, 65535));
+  boot(0xFFFF);
+}
+
+void SimulatedDrive::send(const Frame& frame) EBAC_RT {
+  if (!silent_) out_.push(frame);
+}
+
+/// Power-on (`last_index` 0xFFFF) or a new start of the communication alone (0x1FFF).
+void SimulatedDrive::boot(std::uint16_t last_index) EBAC_RT {
+  objects_.restore(0x1000, last_index);
+  sdo_.reset();
+  emcy_.clear();
+  if (last_index == 0xFFFF) {
+    errors_.clear();
+    state_ = DriveState::kNotReady;
+    last_word_ = 0;
+    stage_.off();
+    objects_[kAt<0x603F>] = 0;
+    objects_[kAt<0x2183>] = 0;
+  }
+  configure_all();
+  set_position(counts_);
+  nmt_ = NmtState::kPreOperational;
+  send(frame(heartbeat(node()), {0}));
+  refresh();
+}
+
+bool SimulatedDrive::is_sync(const Frame& frame) const EBAC_RT {
+  return !silent_ && !frame.remote && !frame.error && !frame.extended &&
+         frame.id == (objects_.get<0x1005>() & 0x7FF);
+}
+
+void SimulatedDrive::receive(const Frame& frame) EBAC_RT {
+  if (silent_ || frame.remote || frame.error || frame.extended) return;
+  if (frame.size > Frame::kMaxSize) return;
+  if (frame.id == kNmt) {
+    if (frame.size >= 2 && (frame.data[1] == 0 || frame.data[1] == node())) {
+      command_node(frame.data[0]);
+    }
+  } else if (is_sync(frame)) {
+    if (nmt_ == NmtState::kOperational) synchronise();
+  } else if (frame.id == sdo_request(node()) && nmt_ != NmtState::kStopped) {
+    Frame reply{.id = sdo_answer(node())};
+    if (sdo_.answer(frame.bytes(), *this, reply)) send(reply);
+  } else if (frame.id > heartbeat(0) && frame.id <= heartbeat(kLastNode)) {
+    hear_heartbeat(frame);
+  } else if (nmt_ == NmtState::kOperational) {
+    receive_pdo(frame);
+  }
+  refresh();
+  send_events();
+}
+
+void SimulatedDrive::command_node(std::uint8_t command) EBAC_RT {
+  switch (static_cast<NmtCommand>(command)) {
+    case NmtCommand::kStart:
+      return enter(NmtState::kOperational);
+    case NmtCommand::kStop:
+      return enter(NmtState::kStopped);
+    case NmtCommand::kPreOperational:
+      return enter(NmtState::kPreOperational);
+    case NmtCommand::kResetNode:
+      return boot(0xFFFF);
+    case NmtCommand::kResetCommunication:
+      if (motor_on()) lose_connection(Cause::kConnection);
+      return boot(0x1FFF);
+  }
+}
+
+void SimulatedDrive::enter(NmtState next) EBAC_RT {
+  if (next == nmt_) return;
+  if (nmt_ == NmtState::kOperational && motor_on()) lose_connection(Cause::kConnection);
+  nmt_ = next;
+  if (next == NmtState::kStopped) sdo_.reset();
+  for (Rpdo& rpdo : rpdo_) {
+    rpdo.is_waiting = false;
+    rpdo.deadline.sleep();
+  }
+  sync_watch_.sleep();
+  if (next == NmtState::kOperational) {
+    for (Tpdo& tpdo : tpdo_) tpdo.start(now_);
+  }
+}
+
+/// Inputs out first, as they are at this SYNC; then what was received before it takes effect.
+void SimulatedDrive::synchronise() EBAC_RT {
+  sync_watch_.feed(now_);
+  cure(Cause::kSyncLost);
+  Frame frame;
+  for (Tpdo& tpdo : tpdo_) {
+    if (tpdo.on_sync(objects_, now_, frame)) send(frame);
+  }
+  for (Rpdo& rpdo : rpdo_) {
+    if (rpdo.is_waiting) apply(rpdo, rpdo.waiting);
+    rpdo.is_waiting = false;
+  }
+}
+
+void SimulatedDrive::receive_pdo(const Frame& frame) EBAC_RT {
+  for (Rpdo& rpdo : rpdo_) {
+    if (!rpdo.takes(frame)) continue;
+    if (frame.size < rpdo.settings.map.bytes) {
+      raise(Cause::kRpdoShort);
+      continue;
+    }
+    cure(Cause::kRpdoShort);
+    cure(Cause::kRpdoLate);
+    rpdo.deadline.feed(now_);
+    if (rpdo.settings.synchronous()) {
+      rpdo.waiting = frame;
+      rpdo.is_waiting = true;
+    } else {
+      apply(rpdo, frame);
+    }
+  }
+}
+
+/// Writes what a PDO carries. A value its object refuses leaves the old one.
+void SimulatedDrive::apply(const Rpdo& rpdo, const Frame& frame) EBAC_RT {
+  const PdoMap& map = rpdo.settings.map;
+  std::size_t at = 0;
+  for (std::size_t i = 0; i < map.count; ++i) {
+    const auto bytes = frame.bytes().subspan(at, map.size[i]);
+    at += map.size[i];
+    if (map.slot[i] == kDummy) continue;
+    set(map.slot[i], ObjectDictionary::number(kDriveTable.entry[map.slot[i]], bytes));
+  }
+}
+
+void SimulatedDrive::hear_heartbeat(const Frame& frame) EBAC_RT {
+  const auto from = frame.id - heartbeat(0);
+  for (std::size_t i = 0; i < kProducers; ++i) {
+    const std::int64_t entry = objects_[kAt<0x1016, 1> + i];
+    if ((entry >> 16 & 0x7F) != from || (entry & 0xFFFF) == 0) continue;
+    producer_[i].feed(now_);
+    cure(Cause::kHeartbeatLost);
+  }
+}
+
+void SimulatedDrive::elapse(std::int64_t ns) EBAC_RT {
+  if (ns > 0) {
+    now_ += ns;
+    const bool held = stage_.holding();
+    stage_.elapse(static_cast<double>(ns) / 1e9);
+    if (stage_.holding() && !held) raise(Cause::kOverload);
+    if (held && !stage_.holding()) cure(Cause::kOverload);
+  }
+  watch();
+  step_by_itself();
+  if (heartbeat_.due(now_)) {
+    send(frame(heartbeat(node()), {static_cast<std::uint8_t>(nmt_)}));
+  }
+  send_emcy();
+  refresh();
+  send_events();
+}
+
+void SimulatedDrive::watch() EBAC_RT {
+  for (Watchdog& producer : producer_) {
+    if (producer.cries(now_)) lose_connection(Cause::kHeartbeatLost);
+  }
+  if (nmt_ != NmtState::kOperational) return;
+  for (Rpdo& rpdo : rpdo_) {
+    if (rpdo.deadline.cries(now_)) lose_connection(Cause::kRpdoLate);
+  }
+  if (sync_watch_.cries(now_)) lose_connection(Cause::kSyncLost);
+}
+
+void SimulatedDrive::send_events() EBAC_RT {
+  if (nmt_ != NmtState::kOperational) return;
+  Frame frame;
+  for (Tpdo& tpdo : tpdo_) {
+    if (tpdo.on_event(objects_, now_, frame)) send(frame);
+  }
+}
+
+}  // namespace ebac::can

@@ -1,0 +1,216 @@
+// What the values of a simulated drive allow and do.
+#include "ebac/can/simulated_drive.hpp"
+
+namespace ebac::can {
+
+namespace {
+
+constexpr std::int64_t kSave = 0x65766173;  // "save" (CiA 301, 7.5.2.13)
+constexpr std::int64_t kLoad = 0x64616F6C;  // "load" (CiA 301, 7.5.2.14)
+
+/// COB-IDs of SYNC and EMCY: base frames only, and none that belongs to another service.
+bool is_plain_id(std::int64_t value, std::int64_t flags) EBAC_RT {
+  return (value & ~(flags | 0x7FF)) == 0;
+}
+
+template <std::size_t N>
+Abort one_of(std::int64_t value, const std::array<std::int64_t, N>& offered) EBAC_RT {
+  return std::ranges::find(offered, value) != offered.end() ? Abort::kNone : Abort::kValue;
+}
+
+}  // namespace
+
+std::size_t SimulatedDrive::size_of(std::uint16_t index, std::uint8_t sub) const EBAC_RT {
+  const std::size_t slot = kDriveTable.slot(index, sub);
+  return slot == kNoSlot ? 0 : width(kDriveTable.entry[slot].type);
+}
+
+Abort SimulatedDrive::upload(std::uint16_t index, std::uint8_t sub, std::span<std::uint8_t> out,
+                             std::size_t& size) const EBAC_RT {
+  std::size_t slot = kNoSlot;
+  const Abort why = ObjectDictionary::locate(index, sub, slot);
+  if (why != Abort::kNone) return why;
+  if (kDriveTable.entry[slot].access == Access::kWo) return Abort::kWriteOnly;
+  if (index == 0x1003 && sub > objects_.get<0x1003>()) return Abort::kNoData;
+  size = objects_.read(slot, out);
+  return Abort::kNone;
+}
+
+Abort SimulatedDrive::prepare_download(std::uint16_t index, std::uint8_t sub,
+                                       std::int64_t announced) const EBAC_RT {
+  std::size_t slot = kNoSlot;
+  const Abort why = ObjectDictionary::locate(index, sub, slot);
+  if (why != Abort::kNone) return why;
+  const Entry& entry = kDriveTable.entry[slot];
+  if (entry.access == Access::kRo || entry.access == Access::kConst) return Abort::kReadOnly;
+  if (entry.type == Type::kString) {
+    return announced > static_cast<std::int64_t>(kTextRoom) ? Abort::kTooLong : Abort::kNone;
+  }
+  return announced >= 0 && announced != width(entry.type) ? Abort::kLength : Abort::kNone;
+}
+
+Abort SimulatedDrive::download(std::uint16_t index, std::uint8_t sub,
+                               std::span<const std::uint8_t> bytes) EBAC_RT {
+  const Abort why = prepare_download(index, sub, static_cast<std::int64_t>(bytes.size()));
+  if (why != Abort::kNone) return why;
+  const std::size_t slot = kDriveTable.slot(index, sub);
+  const Entry& entry = kDriveTable.entry[slot];
+  if (entry.type == Type::kString) {
+    objects_.set_text(entry, bytes);
+    return Abort::kNone;
+  }
+  return set(slot, ObjectDictionary::number(entry, bytes));
+}
+
+Abort SimulatedDrive::write(std::uint16_t index, std::uint8_t sub, std::int64_t value) EBAC_RT {
+  const Abort why = prepare_download(index, sub, -1);
+  if (why != Abort::kNone) return why;
+  const std::size_t slot = kDriveTable.slot(index, sub);
+  if (kDriveTable.entry[slot].type == Type::kString) return Abort::kLength;
+  const Abort refused = set(slot, value);
+  refresh();
+  return refused;
+}
+
+/// The one way by which SDO and RPDO change a number.
+Abort SimulatedDrive::set(std::size_t slot, std::int64_t value) EBAC_RT {
+  Abort why = ObjectDictionary::check_limits(kDriveTable.entry[slot], value);
+  if (why == Abort::kNone) why = check(slot, value);
+  if (why != Abort::kNone || execute(slot, value, why)) return why;
+  objects_[slot] = value;
+  take_effect(slot);
+  return Abort::kNone;
+}
+
+Abort SimulatedDrive::check(std::size_t slot, std::int64_t value) const EBAC_RT {
+  const Entry& entry = kDriveTable.entry[slot];
+  if (is_pdo(entry.index)) return check_pdo(objects_, entry, value);
+  switch (entry.index) {
+    case 0x1003:  // a 0 written empties it
+      return value == 0 ? Abort::kNone : Abort::kValue;
+    case 0x1005:  // consumes SYNC, does not produce it
+      return value != 0 && is_plain_id(value, 0) ? Abort::kNone : Abort::kValue;
+    case 0x1014: {
+      const std::int64_t before = objects_[slot];
+      const bool moved = ((before | value) & kInvalid) == 0 && before != value;
+      return is_plain_id(value, kInvalid) && value != 0 && !moved ? Abort::kNone : Abort::kValue;
+    }
+    case 0x1016:
+      return check_producer(slot, value);
+    case 0x2112:
+    case 0x2383:
+    case 0x6410:  // the scale of the torque must not change while there is one
+      return motor_on() ? Abort::kState : Abort::kNone;
+    case 0x2182:
+      return one_of<2>(value, {0, facts_of(Cause::kOverload).latched});
+    case 0x2300:
+      if (motor_on()) return Abort::kState;
+      return one_of<2>(value, {0, 30});
+    case 0x605A:
+      return one_of<5>(value, {0, 1, 2, 5, 6});
+    case 0x6060:
+      return one_of<3>(value, {kNoMode, kProfileTorque, kCyclicTorque});
+    default:
+      return Abort::kNone;
+  }
+}
+
+/// node << 16 | ms, each node once.
+Abort SimulatedDrive::check_producer(std::size_t slot, std::int64_t value) const EBAC_RT {
+  const std::int64_t node = value >> 16;
+  const bool used = (value & 0xFFFF) != 0 && node != 0;
+  if (used && node > kLastNode) return Abort::kValue;
+  for (std::size_t other = kAt<0x1016, 1>; other < kAt<0x1016, 1> + kProducers; ++other) {
+    const bool same = objects_[other] >> 16 == node && (objects_[other] & 0xFFFF) != 0;
+    if (used && other != slot && same) return Abort::kIncompatible;
+  }
+  return Abort::kNone;
+}
+
+/// Objects that are orders and keep no value; true when `slot` was one.
+bool SimulatedDrive::execute(std::size_t slot, std::int64_t value, Abort& why) EBAC_RT {
+  switch (kDriveTable.entry[slot].index) {
+    case 0x1010:
+    case 0x1011: {
+      const bool save = kDriveTable.entry[slot].index == 0x1010;
+      if (value != (save ? kSave : kLoad)) {
+        why = Abort::kNotStored;
+      } else if (motor_on()) {
+        why = Abort::kState;
+      } else if (save) {
+        objects_.store();
+      } else {
+        objects_.forget();
+      }
+      return true;
+    }
+    case 0x2183: {
+      const std::int64_t clearable = value & ~std::int64_t{errors_.latched()};
+      objects_[slot] &= ~clearable;
+      return true;
+    }
+    case 0x5F00:
+      for (const auto condition : {Condition::kOverVoltage, Condition::kEncoderLost,
+                                   Condition::kOverTemperature, Condition::kSilent}) {
+        set_condition(condition, (value & static_cast<std::int64_t>(condition)) != 0);
+      }
+      return true;
+    default:
+      return false;
+  }
+}
+
+void SimulatedDrive::take_effect(std::size_t slot) EBAC_RT {
+  const Entry& entry = kDriveTable.entry[slot];
+  if (is_pdo(entry.index)) return configure_pdo(entry.index);
+  switch (entry.index) {
+    case 0x1003:
+      for (std::size_t i = 1; i <= kHistory; ++i) objects_[slot + i] = 0;
+      return;
+    case 0x1006:
+      return sync_watch_.set(2 * objects_[slot] * kMicrosecond);
+    case 0x1016:
+      return producer_[slot - kAt<0x1016, 1>].set((objects_[slot] & 0xFFFF) * kMillisecond);
+    case 0x1017:
+      return heartbeat_.start(now_, objects_[slot] * kMillisecond);
+    case 0x2383:
+    case 0x6410: {  // one motor under two indices
+      const bool former = entry.index == 0x6410;
+      const std::size_t twin =
+          former ? slot - kAt<0x6410> + kAt<0x2383> : slot - kAt<0x2383> + kAt<0x6410>;
+      objects_[twin] = objects_[slot];
+      return limit();
+    }
+    case 0x2112:
+    case 0x6072:
+    case 0x6073:
+    case 0x6087:
+      return limit();
+    case 0x6040:
+      return command_drive(static_cast<std::uint16_t>(objects_[slot]));
+    default:
+      return;
+  }
+}
+
+void SimulatedDrive::configure_pdo(std::uint16_t index) EBAC_RT {
+  const std::size_t number = index & 0xFFU;
+  if (index < 0x1800) {
+    rpdo_[number].configure(objects_, number);
+  } else {
+    tpdo_[number].configure(objects_, number, now_);
+  }
+}
+
+void SimulatedDrive::configure_all() EBAC_RT {
+  for (std::size_t i = 0; i < kPdos; ++i) {
+    rpdo_[i].configure(objects_, i);
+    tpdo_[i].configure(objects_, i, now_);
+  }
+  for (std::size_t i = 0; i < kProducers; ++i) take_effect(kAt<0x1016, 1> + i);
+  take_effect(kAt<0x1006>);
+  take_effect(kAt<0x1017>);
+  for (std::size_t i = 1; i <= 4; ++i) take_effect(kAt<0x2383> + i);
+}
+
+}  // namespace ebac::can
