@@ -30,6 +30,8 @@ __all__: list[str] = [
     "Direct",
     "Disc",
     "Drive",
+    "DriveCondition",
+    "DriveState",
     "EBACPrinted",
     "Encoder",
     "ExactPlant",
@@ -40,6 +42,7 @@ __all__: list[str] = [
     "Free",
     "Gimbal",
     "Hand",
+    "Joystick",
     "Linear",
     "LinearLoop",
     "LoopbackBus",
@@ -54,6 +57,7 @@ __all__: list[str] = [
     "Rows",
     "RunLimits",
     "Setup",
+    "SimulatedDrive",
     "Sine",
     "SocketCan",
     "Step",
@@ -1972,6 +1976,123 @@ class SteppedPlant:
         The state of one axis.
         """
 
+class DriveCondition(enum.IntFlag):
+    ENCODER_LOST = ...
+    OVER_TEMPERATURE = ...
+    OVER_VOLTAGE = ...
+    SILENT = ...
+
+class DriveState(enum.IntEnum):
+    FAULT = ...
+    FAULT_REACTION_ACTIVE = ...
+    NOT_READY_TO_SWITCH_ON = ...
+    OPERATION_ENABLED = ...
+    QUICK_STOP_ACTIVE = ...
+    READY_TO_SWITCH_ON = ...
+    SWITCHED_ON = ...
+    SWITCH_ON_DISABLED = ...
+
+class SimulatedDrive:
+    """
+    A CANopen servo drive without a motor: takes frames, lets time pass, leaves frames.
+    """
+    def __init__(
+        self,
+        *,
+        node: typing.SupportsInt | typing.SupportsIndex = 1,
+        motor: Motor = ...,
+        drive: Drive = ...,
+        peak_time: typing.SupportsFloat | typing.SupportsIndex = 2.0,
+    ) -> None: ...
+    def eds(self) -> str:
+        """
+        Its electronic data sheet (CiA 306).
+        """
+    def elapse(self, seconds: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        """
+        Lets time pass [s].
+        """
+    def receive(
+        self,
+        id: typing.SupportsInt | typing.SupportsIndex,
+        data: bytes = b"",
+        *,
+        remote: bool = False,
+    ) -> None:
+        """
+        Takes one frame of the bus.
+        """
+    def set_condition(self, condition: DriveCondition, present: bool) -> None:
+        """
+        Makes something wrong with it, or right again.
+        """
+    def set_position(self, counts: typing.SupportsInt | typing.SupportsIndex) -> None:
+        """
+        Turns the motor to where its encoder shows `counts`.
+        """
+    def take(self) -> list[tuple[int, bytes]]:
+        """
+        Every frame on its way out: (id, data).
+        """
+    @property
+    def current(self) -> float:
+        """
+        Motor current [A].
+        """
+    @property
+    def node(self) -> int:
+        """
+        Node number.
+        """
+    @property
+    def state(self) -> DriveState:
+        """
+        State of CiA 402.
+        """
+
+class Joystick:
+    """
+    Simulated drives on the axes of one simulated device and hand.
+    """
+    def __init__(
+        self,
+        setup: Setup,
+        *,
+        first: typing.SupportsInt | typing.SupportsIndex = 1,
+        peak_time: typing.SupportsFloat | typing.SupportsIndex = 2.0,
+    ) -> None: ...
+    def drive(self, axis: typing.SupportsInt | typing.SupportsIndex = 0) -> SimulatedDrive:
+        """
+        Drive of one axis.
+        """
+    def elapse(self, seconds: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        """
+        Lets time pass [s].
+        """
+    def receive(
+        self,
+        id: typing.SupportsInt | typing.SupportsIndex,
+        data: bytes = b"",
+        *,
+        remote: bool = False,
+    ) -> None:
+        """
+        Takes one frame of the bus.
+        """
+    def take(self) -> list[tuple[int, bytes]]:
+        """
+        Every frame on its way out: (id, data).
+        """
+    def truth(self, axis: typing.SupportsInt | typing.SupportsIndex = 0) -> AxisTruth:
+        """
+        What only the simulation knows of one axis.
+        """
+    @property
+    def axes(self) -> int:
+        """
+        Number of axes.
+        """
+
 class RunLimits:
     """
     Beyond these a run of a sweep has diverged and ends.
@@ -3629,6 +3750,11 @@ class SocketCan:
         """
         How the bus stands.
         """
+
+def _drive_transitions() -> list[list[DriveState]]:
+    """
+    The simulated drive's table: a row per state; none, disable voltage, quick stop, shutdown, switch on, enable operation, fault reset.
+    """
 
 def _ideal_contacts(
     setups: collections.abc.Sequence[Setup],

@@ -58,7 +58,7 @@ def test_every_object_the_drive_has_is_read_by_its_name(drive: drives.Drive) -> 
     assert there["device_type"] == 0x20192
     assert there["rated_torque"] == 53
     assert there["motor_torque_constant"] == 5380
-    assert there["motor_torque_constant_old"] is None
+    assert there["rpdo1_inhibit"] is None
     assert isinstance(there["device_name"], str)
     assert len(there["device_name"]) > 4  # longer than expedited: segments
     assert sum(value is not None for value in there.values()) > 100
@@ -264,9 +264,9 @@ def test_silence_on_a_silent_bus_names_what_to_check() -> None:
 
 
 def test_silence_of_one_node_among_others_points_at_its_id(bus: drives.DriveBus) -> None:
-    assert bus.drive(1).state
+    assert bus.scan(seconds=0.05, nodes=range(1, 3)) == [1, 2]
     said = said_by_nobody(bus, 7)
-    assert "Heard meanwhile: nothing; before that node 1. Check: 1. the node id" in said
+    assert "Heard meanwhile: nothing; before that nodes 1, 2. Check: 1. the node id" in said
 
 
 def test_a_node_that_falls_silent_is_told_from_one_that_never_was(bus: drives.DriveBus) -> None:
@@ -387,6 +387,10 @@ def test_socketcan_without_an_interface_says_what_to_do() -> None:
     assert "interface socketcan, channel nocan7" in str(caught.value)
 
 
-def test_closing_twice_is_closing(open_bus: Open) -> None:
+def test_closing_twice_is_closing_and_a_closed_bus_says_so(open_bus: Open) -> None:
     with drives.DriveBus(open_bus()) as bus:
+        drive = bus.drive(1)
         bus.close()
+    for act in (lambda: drive.state, drive.disable, bus.scan):
+        with pytest.raises(drives.BusError, match=r"closed|Not connected"):
+            act()

@@ -1,8 +1,9 @@
 """Setting drives up, and taking it back: whole, or repaired by the next run, wherever it was cut."""
 
+import dataclasses
 import json
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -66,29 +67,29 @@ def node() -> drives.Node:
     return drives.load("joystick").nodes[0]
 
 
-def held(open_bus: Open, number: int = 1) -> dict[str, Any]:
-    """Return all a drive is configured to, asked over a cable of its own."""
-    with drives.DriveBus(open_bus()) as bus:
-        drive = bus.drive(number)
-        return {name: drive.look(name) for name in known() if name not in VOLATILE}
+@pytest.fixture
+def bus(open_bus: Open) -> Iterator[drives.DriveBus]:
+    """A cable that is never cut."""
+    with drives.DriveBus(open_bus()) as opened:
+        yield opened
 
 
-def state(open_bus: Open) -> State:
-    with drives.DriveBus(open_bus()) as bus:
-        return bus.drive(1).state
+def held(bus: drives.DriveBus, number: int = 1) -> dict[str, Any]:
+    """Return all a drive is configured to."""
+    drive = bus.drive(number)
+    return {name: drive.look(name) for name in known() if name not in VOLATILE}
 
 
-def prepare(open_bus: Open) -> None:
+def prepare(bus: drives.DriveBus) -> None:
     """Give a drive another start than the one it has from the works, and power it."""
-    with drives.DriveBus(open_bus()) as bus:
-        drive = bus.drive(1)
-        text = '[pdo.tpdo1]\nobjects = ["statusword", "actual_current"]\ntype = 3\n'
-        text += '[pdo.tpdo2]\nobjects = ["velocity"]\ntype = 240\nevent = 0.5\n'
-        profile = drives.profile.read_profile(drives.source.Source(name="start", text=text))
-        scratch = Path(os.environ["XDG_STATE_HOME"]) / "scratch"
-        drives.apply(drive, drives.Node(id=1, profile=profile), backups=drives.Backups(scratch))
-        drive.write("max_torque", 700)
-        drive.enable(mode=10)
+    drive = bus.drive(1)
+    text = '[pdo.tpdo1]\nobjects = ["statusword", "actual_current"]\ntype = 3\n'
+    text += '[pdo.tpdo2]\nobjects = ["velocity"]\ntype = 240\nevent = 0.5\n'
+    profile = drives.profile.read_profile(drives.source.Source(name="start", text=text))
+    scratch = Path(os.environ["XDG_STATE_HOME"]) / "scratch"
+    drives.apply(drive, drives.Node(id=1, profile=profile), backups=drives.Backups(scratch))
+    drive.write("max_torque", 700)
+    drive.enable(mode=10)
 
 
 @pytest.fixture(autouse=True)
@@ -99,40 +100,36 @@ def _elsewhere(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 # --- the straight way ---
 
 
-def test_apply_verify_restore(open_bus: Open, shelf: drives.Backups, node: drives.Node) -> None:
-    start = held(open_bus)
-    with drives.DriveBus(open_bus()) as bus:
-        drive = bus.drive(1)
-        planned = drives.plan(drive, node)
-        assert held(open_bus) == start  # a plan writes nothing
-        assert planned.changes
-        with pytest.raises(drives.NotVerified, match="node 1 holds something else: max_torque"):
-            drives.verify(drive, node)
-
-        done = drives.apply(drive, node, backups=shelf)
-        assert done.changes == planned.changes
-        assert len(done.written) == len(planned.writes())
-        assert not drive.state.powered
+def test_apply_verify_restore(
+    bus: drives.DriveBus, shelf: drives.Backups, node: drives.Node
+) -> None:
+    start = held(bus)
+    drive = bus.drive(1)
+    planned = drives.plan(drive, node)
+    assert held(bus) == start  # a plan writes nothing
+    assert planned.changes
+    with pytest.raises(drives.NotVerified, match="node 1 holds something else: mode"):
         drives.verify(drive, node)
-        assert held(open_bus)["mode"] == 10
 
-        again = drives.apply(drive, node, backups=shelf)
-        assert (again.changes, again.written, again.backup) == ((), (), None)
+    done = drives.apply(drive, node, backups=shelf)
+    assert done.changes == planned.changes
+    assert len(done.written) == len(planned.writes())
+    assert not drive.state.powered
+    drives.verify(drive, node)
+    assert held(bus)["mode"] == 10
 
-        back = drives.restore(drive, backups=shelf)
-        assert held(open_bus) == start
-        assert not back.backup.exists() if back.backup else False
-        with pytest.raises(
-            drives.DriveError, match="nothing to restore: no backup of this drive in"
-        ):
-            drives.restore(drive, backups=shelf)
+    again = drives.apply(drive, node, backups=shelf)
+    assert (again.changes, again.written, again.backup) == ((), (), None)
+
+    back = drives.restore(drive, backups=shelf)
+    assert held(bus) == start
+    assert not back.backup.exists() if back.backup else False
+    with pytest.raises(drives.DriveError, match="nothing to restore: no backup of this drive in"):
+        drives.restore(drive, backups=shelf)
 
 
-def test_the_plan_tells_object_now_wanted_and_why(open_bus: Open, node: drives.Node) -> None:
-    with drives.DriveBus(open_bus()) as bus:
-        rows = {
-            change.object.name: change.row() for change in drives.plan(bus.drive(1), node).changes
-        }
+def test_the_plan_tells_object_now_wanted_and_why(bus: drives.DriveBus, node: drives.Node) -> None:
+    rows = {change.object.name: change.row() for change in drives.plan(bus.drive(1), node).changes}
     assert rows["sync_period"] == {
         "node": 1, "object": "0x1006", "name": "sync_period", "now": 0, "wanted": 1000, "unit": "us",
         "why": "the loop's SYNC comes this often",
@@ -141,81 +138,77 @@ def test_the_plan_tells_object_now_wanted_and_why(open_bus: Open, node: drives.N
 
 
 def test_apply_disables_first_and_leaves_the_other_drive_alone(
-    open_bus: Open, shelf: drives.Backups, node: drives.Node
+    bus: drives.DriveBus, shelf: drives.Backups, node: drives.Node
 ) -> None:
-    prepare(open_bus)
-    other = held(open_bus, 2)
-    with drives.DriveBus(open_bus()) as bus:
-        assert bus.drive(1).state is State.OPERATION_ENABLED
-        drives.apply(bus.drive(1), node, backups=shelf)
-        assert bus.drive(1).state is State.SWITCH_ON_DISABLED
-        with pytest.raises(ValueError, match="the drive is node 2"):
-            drives.plan(bus.drive(2), node)
-    assert held(open_bus, 2) == other
+    prepare(bus)
+    other = held(bus, 2)
+    assert bus.drive(1).state is State.OPERATION_ENABLED
+    drives.apply(bus.drive(1), node, backups=shelf)
+    assert bus.drive(1).state is State.SWITCH_ON_DISABLED
+    with pytest.raises(ValueError, match="the drive is node 2"):
+        drives.plan(bus.drive(2), node)
+    assert held(bus, 2) == other
 
 
 def test_two_profiles_one_after_the_other_are_taken_back_to_the_first_start(
-    open_bus: Open, shelf: drives.Backups, node: drives.Node
+    bus: drives.DriveBus, shelf: drives.Backups, node: drives.Node
 ) -> None:
-    start = held(open_bus)
+    start = held(bus)
     second = drives.Node(
         id=1, profile=node.profile.replace(limits__max_torque=0.1, drive__quick_stop=1)
     )
-    with drives.DriveBus(open_bus()) as bus:
-        drive = bus.drive(1)
-        drives.apply(drive, node, backups=shelf)
-        drives.apply(drive, second, backups=shelf)
-        assert drive.read("max_torque") == 1887
-        drives.restore(drive, backups=shelf)
-    assert held(open_bus) == start
+    drive = bus.drive(1)
+    drives.apply(drive, node, backups=shelf)
+    drives.apply(drive, second, backups=shelf)
+    assert drive.read("max_torque") == 1887
+    drives.restore(drive, backups=shelf)
+    assert held(bus) == start
 
 
 def test_an_object_the_drive_lacks_is_refused_before_anything_is_written(
-    open_bus: Open, shelf: drives.Backups
+    bus: drives.DriveBus, shelf: drives.Backups
 ) -> None:
-    start = held(open_bus)
-    (node,) = drives.load("copley-xenus", nodes=[1]).nodes
-    with drives.DriveBus(open_bus()) as bus:
-        with pytest.raises(
-            drives.Refused, match=r"motor_torque_constant_old \(0x6410:12\)"
-        ) as caught:
-            drives.apply(bus.drive(1), node, backups=shelf)
-        assert caught.value.absent
-    assert held(open_bus) == start
+    start = held(bus)
+    text = '[pdo.rpdo1]\nobjects = ["target_torque"]\n'
+    profile = drives.profile.read_profile(drives.source.Source(name="mine", text=text))
+    (pdo,) = profile.pdos
+    late = dataclasses.replace(profile, pdos=(dataclasses.replace(pdo, inhibit=0.1),))
+    node = drives.Node(id=1, profile=late)
+    with pytest.raises(drives.Refused, match=r"rpdo1_inhibit \(0x1400:3\)") as caught:
+        drives.apply(bus.drive(1), node, backups=shelf)
+    assert caught.value.absent
+    assert held(bus) == start
     assert not shelf.folder.exists()
 
 
 def test_a_value_the_drive_refuses_stops_half_way_and_says_so(
-    open_bus: Open, shelf: drives.Backups, node: drives.Node
+    bus: drives.DriveBus, shelf: drives.Backups, node: drives.Node
 ) -> None:
-    start = held(open_bus)
-    with drives.DriveBus(open_bus()) as bus:
-        drive = bus.drive(1)
-        wrong = drives.Node(id=1, profile=node.profile.replace(limits__rated_current=0.9))
-        with pytest.raises(drives.NotApplied) as caught:
-            drives.apply(drive, wrong, backups=shelf)
-        assert "refused writing rated_current" in str(caught.value)
-        assert "The drive is disabled (switch on disabled)" in str(caught.value)
-        assert caught.value.left[0].startswith("rated_current")
-        assert not drive.state.powered
-        drives.restore(drive, backups=shelf)
-    assert held(open_bus) == start
+    start = held(bus)
+    drive = bus.drive(1)
+    wrong = drives.Node(id=1, profile=node.profile.replace(limits__rated_current=0.9))
+    with pytest.raises(drives.NotApplied) as caught:
+        drives.apply(drive, wrong, backups=shelf)
+    assert "refused writing rated_current" in str(caught.value)
+    assert "The drive is disabled (switch on disabled)" in str(caught.value)
+    assert caught.value.left[0].startswith("rated_current")
+    assert not drive.state.powered
+    drives.restore(drive, backups=shelf)
+    assert held(bus) == start
 
 
 def test_store_asks_the_drive_to_keep_it(
-    open_bus: Open, shelf: drives.Backups, node: drives.Node
+    bus: drives.DriveBus, shelf: drives.Backups, node: drives.Node
 ) -> None:
-    with drives.DriveBus(open_bus()) as bus:
-        assert drives.apply(bus.drive(1), node, backups=shelf, store=True).stored
+    assert drives.apply(bus.drive(1), node, backups=shelf, store=True).stored
 
 
 # --- cut at every write ---
 
 
-def steps_of(open_bus: Open, node: drives.Node) -> int:
+def steps_of(bus: drives.DriveBus, node: drives.Node) -> int:
     """Return how many downloads `apply` makes on a drive that is prepared: disable, then writes."""
-    with drives.DriveBus(open_bus()) as bus:
-        return len(drives.plan(bus.drive(1), node).writes()) + 1
+    return len(drives.plan(bus.drive(1), node).writes()) + 1
 
 
 def cut_apply(open_bus: Open, at: int, loud: bool, shelf: drives.Backups, node: drives.Node) -> str:
@@ -228,90 +221,84 @@ def cut_apply(open_bus: Open, at: int, loud: bool, shelf: drives.Backups, node: 
 
 @pytest.mark.parametrize("loud", [True, False], ids=["gone", "silent"])
 def test_cut_at_any_write_a_second_run_repairs_and_restore_takes_all_back(
-    open_bus: Open, shelf: drives.Backups, node: drives.Node, loud: bool
+    open_bus: Open, bus: drives.DriveBus, shelf: drives.Backups, node: drives.Node, loud: bool
 ) -> None:
-    prepare(open_bus)
-    start = held(open_bus)
-    writes = steps_of(open_bus, node)
+    prepare(bus)
+    start = held(bus)
+    writes = steps_of(bus, node)
     assert writes > 15
     for at in range(2, writes + 1):  # the first download disables
-        with drives.DriveBus(open_bus()) as bus:
-            bus.drive(1).enable()
+        bus.drive(1).enable()
         said = cut_apply(open_bus, at, loud, shelf, node)
         assert f"stopped after {at - 2} of {writes - 1} writes" in said
         assert "was disabled before the first write" in said
-        with drives.DriveBus(open_bus()) as bus:
-            drive = bus.drive(1)
-            assert not drive.state.powered
-            kept = shelf.load(drive)
-            assert kept is not None
-            assert {drives.find(key).name for key in kept.held} <= set(start)
-            drives.apply(drive, node, backups=shelf)
-            drives.verify(drive, node)
-            drives.restore(drive, backups=shelf)
-        assert held(open_bus) == start, at
+        drive = bus.drive(1)
+        assert not drive.state.powered
+        kept = shelf.load(drive)
+        assert kept is not None
+        assert {drives.find(key).name for key in kept.held} <= set(start)
+        drives.apply(drive, node, backups=shelf)
+        drives.verify(drive, node)
+        drives.restore(drive, backups=shelf)
+        assert held(bus) == start, at
 
 
 @pytest.mark.parametrize("loud", [True, False], ids=["gone", "silent"])
 def test_restore_cut_at_any_write_is_finished_by_the_next(
-    open_bus: Open, shelf: drives.Backups, node: drives.Node, loud: bool
+    open_bus: Open, bus: drives.DriveBus, shelf: drives.Backups, node: drives.Node, loud: bool
 ) -> None:
-    prepare(open_bus)
-    start = held(open_bus)
-    writes = steps_of(open_bus, node) - 1
+    prepare(bus)
+    start = held(bus)
+    writes = steps_of(bus, node) - 1
     for at in range(1, writes, 2):
-        with drives.DriveBus(open_bus()) as bus:
-            drives.apply(bus.drive(1), node, backups=shelf)
+        drives.apply(bus.drive(1), node, backups=shelf)
         cable = CutBus(open_bus(), at, loud=loud)
-        with drives.DriveBus(cable) as bus, pytest.raises(drives.DriveError):
-            drives.restore(bus.drive(1, timeout=0.01 if not loud else 0.3), backups=shelf)
-        with drives.DriveBus(open_bus()) as bus:
-            drives.restore(bus.drive(1), backups=shelf)
-        assert held(open_bus) == start, at
+        with drives.DriveBus(cable) as severed, pytest.raises(drives.DriveError):
+            drives.restore(severed.drive(1, timeout=0.01 if not loud else 0.3), backups=shelf)
+        drives.restore(bus.drive(1), backups=shelf)
+        assert held(bus) == start, at
 
 
 def test_interrupted_between_two_writes_says_where_and_leaves_it_disabled(
-    open_bus: Open, shelf: drives.Backups, node: drives.Node
+    bus: drives.DriveBus, shelf: drives.Backups, node: drives.Node
 ) -> None:
     def interrupt(done: int, total: int) -> None:
         if done == 3:
             raise KeyboardInterrupt
 
-    prepare(open_bus)
-    with drives.DriveBus(open_bus()) as bus:
-        with pytest.raises(KeyboardInterrupt) as caught:
-            drives.apply(bus.drive(1), node, backups=shelf, progress=interrupt)
-        assert "node 1: interrupted after 3 of" in caught.value.__notes__[0]
-        assert "The drive is disabled (switch on disabled)" in caught.value.__notes__[0]
-        assert not bus.drive(1).state.powered
+    prepare(bus)
+    with pytest.raises(KeyboardInterrupt) as caught:
+        drives.apply(bus.drive(1), node, backups=shelf, progress=interrupt)
+    assert "node 1: interrupted after 3 of" in caught.value.__notes__[0]
+    assert "The drive is disabled (switch on disabled)" in caught.value.__notes__[0]
+    assert not bus.drive(1).state.powered
 
 
 def test_cut_before_the_drive_is_disabled_nothing_is_written(
-    open_bus: Open, shelf: drives.Backups, node: drives.Node
+    open_bus: Open, bus: drives.DriveBus, shelf: drives.Backups, node: drives.Node
 ) -> None:
-    prepare(open_bus)
-    start = held(open_bus)
+    prepare(bus)
+    start = held(bus)
     cut_apply(open_bus, 1, True, shelf, node)
-    assert held(open_bus) == start
+    assert held(bus) == start
     assert not shelf.folder.exists()
 
 
 @given(cuts=st.lists(st.integers(2, 24), min_size=1, max_size=4))
 @settings(max_examples=8, suppress_health_check=[HealthCheck.function_scoped_fixture])
 def test_cut_again_and_again_restore_still_knows_the_start(
-    open_bus: Open, shelf: drives.Backups, node: drives.Node, cuts: list[int]
+    open_bus: Open, bus: drives.DriveBus, shelf: drives.Backups, node: drives.Node, cuts: list[int]
 ) -> None:
-    start = held(open_bus)
+    start = held(bus)
     for at in cuts:
-        with drives.DriveBus(CutBus(open_bus(), at, loud=True)) as bus:
+        with drives.DriveBus(CutBus(open_bus(), at, loud=True)) as severed:
             try:
-                drives.apply(bus.drive(1), node, backups=shelf)
+                drives.apply(severed.drive(1), node, backups=shelf)
             except drives.DriveError:
                 continue
-    with drives.DriveBus(open_bus()) as bus:
-        if shelf.load(bus.drive(1)) is not None:
-            drives.restore(bus.drive(1), backups=shelf)
-    assert held(open_bus) == start
+    if shelf.load(bus.drive(1)) is not None:
+        drives.restore(bus.drive(1), backups=shelf)
+    assert held(bus) == start
 
 
 # --- backups ---
@@ -341,18 +328,17 @@ def test_what_is_no_backup_is_refused(text: str) -> None:
 
 
 def test_a_backup_is_of_one_drive_and_a_broken_one_is_told(
-    open_bus: Open, shelf: drives.Backups, node: drives.Node
+    bus: drives.DriveBus, shelf: drives.Backups, node: drives.Node
 ) -> None:
-    with drives.DriveBus(open_bus()) as bus:
-        drives.apply(bus.drive(1), node, backups=shelf)
-        with pytest.raises(drives.DriveError, match="node 2: nothing to restore"):
-            drives.restore(bus.drive(2), backups=shelf)
-        path = shelf.path(bus.drive(1))
-        path.write_text("{", encoding="utf-8")
-        with pytest.raises(
-            drives.DriveError, match=r"not a backup of a drive.*move it away, or mend it"
-        ):
-            drives.restore(bus.drive(1), backups=shelf)
+    drives.apply(bus.drive(1), node, backups=shelf)
+    with pytest.raises(drives.DriveError, match="node 2: nothing to restore"):
+        drives.restore(bus.drive(2), backups=shelf)
+    path = shelf.path(bus.drive(1))
+    path.write_text("{", encoding="utf-8")
+    with pytest.raises(
+        drives.DriveError, match=r"not a backup of a drive.*move it away, or mend it"
+    ):
+        drives.restore(bus.drive(1), backups=shelf)
 
 
 def test_backups_lie_in_the_state_folder_of_the_user(tmp_path: Path) -> None:

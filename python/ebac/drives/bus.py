@@ -134,7 +134,7 @@ class DriveBus:
         for node in nodes:
             try:
                 self.network.send_message(0x600 + node, read_device_type)
-            except (can.CanError, OSError) as error:
+            except (can.CanError, OSError, RuntimeError) as error:
                 raise BusError(
                     f"asking node {node}: the bus took no frame ({error}); a bus with nobody else on "
                     "it acknowledges nothing: are the drives powered and wired?"

@@ -338,7 +338,7 @@ class Drive:
             raise ValueError(f"NMT command {command!r}: must be one of {', '.join(NMT)}")
         try:
             self.bus.network.send_message(0, bytes([NMT[command], self.node]))
-        except (can.CanError, OSError) as error:
+        except (can.CanError, OSError, RuntimeError) as error:
             raise BusError(
                 f"node {self.node}: NMT {command} was not sent, the bus took no frame ({error})",
                 node=self.node,

@@ -106,6 +106,10 @@ class Sdo:
                 heard=self._heard.describe(start),
                 check=self._heard.advice(self._node, start),
             ) from None
+        except RuntimeError as error:  # as canopen has it
+            raise BusError(
+                f"node {self._node}, {doing}: the bus is closed; open it anew", node=self._node
+            ) from error
         except (can.CanError, OSError) as error:
             raise BusError(
                 f"node {self._node}, {doing}: the bus took no frame ({error}); is the interface up, "
