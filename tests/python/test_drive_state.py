@@ -6,6 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from ebac import _core
 from ebac.drives.state import AUTOMATIC, TRANSITIONS, Command, State, Statusword, after, path
 
 states = st.sampled_from(State)
@@ -96,6 +97,20 @@ def test_the_way_to_power_is_the_one_every_drive_has() -> None:
     assert path(State.SWITCH_ON_DISABLED, State.OPERATION_ENABLED) == way
     assert path(State.FAULT, State.OPERATION_ENABLED) == (Command.FAULT_RESET, *way)
     assert path(State.NOT_READY_TO_SWITCH_ON, State.READY_TO_SWITCH_ON) == way[:1]
+
+
+def test_the_simulated_drive_has_the_same_table() -> None:
+    """Its own, in C++: a row a state, a column a command; the first column is no command."""
+    columns = [
+        None, Command.DISABLE_VOLTAGE, Command.QUICK_STOP, Command.SHUTDOWN, Command.SWITCH_ON,
+        Command.ENABLE_OPERATION, Command.FAULT_RESET,
+    ]  # fmt: skip
+    rows = _core._drive_transitions()
+    assert (len(rows), len(rows[0])) == (len(State), len(columns))
+    for state, row in zip(State, rows, strict=True):
+        for command, then in zip(columns, row, strict=True):
+            expected = state if command is None else after(state, command)
+            assert State[then.name] is expected, (state, command)
 
 
 def test_words_of_commands_are_those_of_the_standard() -> None:

@@ -18,7 +18,8 @@ def drive() -> None:
     """Look at CANopen drives, set them up from a profile, take it back, power them.
 
     Which bus: `--interface` and `--channel`, or python-can's own configuration (CAN_INTERFACE and
-    CAN_CHANNEL, or ~/.canrc). `--interface ebac --channel joystick` are two simulated drives.
+    CAN_CHANNEL, or ~/.canrc). `ebac drive simulate` puts simulated drives on one; `--interface ebac
+    --channel joystick` is a bus within the process, with new simulated drives for every command.
 
     **In this order**, on a new machine
 

@@ -50,6 +50,8 @@ def simulate(
     * `ebac drive simulate --channel vcan0`
 
     * `ebac drive scan --interface socketcan --channel vcan0`, in another terminal.
+
+    * `ebac drive simulate --interface udp_multicast --channel 239.74.163.2`: without SocketCAN.
     """
     from ebac.drives.bus import open_bus
     from ebac.drives.simulate import Simulation
