@@ -9,18 +9,19 @@ import re
 import threading
 import time
 from collections.abc import Callable, Iterator
+from pathlib import Path
 
 import can
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from ebac import drives
+from ebac import _core, drives
 from ebac.drives import Command, State
 from ebac.drives.objects import known
 
 #: Reads of the test that hammers; EBAC_DRIVE_READS=100000 for all that was promised.
-READS = int(os.environ.get("EBAC_DRIVE_READS", "4000"))
+READS = int(os.environ.get("EBAC_DRIVE_READS", "2000"))
 #: Conditions of the simulated drive: an SDO to this object makes one (bits), 0 cures all.
 CONDITIONS = (0x5F00, 0)
 OVER_VOLTAGE, SILENT = 1, 8
@@ -93,6 +94,19 @@ def test_a_refusal_names_node_object_meaning_and_remedy(
     assert caught.value.node == 1
 
 
+def test_names_of_a_data_sheet_are_read_too(bus: drives.DriveBus, tmp_path: Path) -> None:
+    sheet = tmp_path / "drive.eds"
+    sheet.write_text(_core.SimulatedDrive(node=1).eds(), encoding="ascii")
+    drive = bus.drive(1, eds=sheet)
+    assert drive.read("Device type") == drive.read("device_type")
+    assert drive.read("Motor data.Torque constant") == 5380
+    assert drive.read("Manufacturer device name") == drive.read("device_name")
+    drive.write("Target torque", -5)
+    assert drive.read("Target torque") == -5
+    with pytest.raises(KeyError, match="no such name"):
+        drive.read("Motor data")
+
+
 def test_what_does_not_fit_is_refused_before_it_is_sent(drive: drives.Drive) -> None:
     with pytest.raises(
         ValueError, match=r"target_torque \(0x6071\) = 40000 per mille of rated: must lie"
@@ -158,7 +172,7 @@ def test_go_leads_from_any_state_to_any(drive: drives.Drive, start: State, goal:
         st.sampled_from([c for c in Command if c is not Command.QUICK_STOP]), max_size=12
     )
 )
-@settings(max_examples=25, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(max_examples=15, suppress_health_check=[HealthCheck.function_scoped_fixture])
 def test_the_drive_follows_the_table(drive: drives.Drive, commands: list[Command]) -> None:
     state = drive.disable()
     for command in commands:

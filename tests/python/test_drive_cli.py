@@ -218,7 +218,6 @@ def test_drives_in_another_process_are_set_up_and_end_by_a_signal(
             if "Simulated drives" not in first:
                 pytest.skip(f"no multicast here: {first}")
             with drives.DriveBus.open(interface="udp_multicast", channel=channel) as opened:
-                opened.network.NOTIFIER_CYCLE = 0.05
                 (node,) = drives.load("joystick", nodes=[2]).nodes
                 drive = opened.drive(2, timeout=1.0)
                 drives.apply(drive, node, backups=drives.Backups(tmp_path))

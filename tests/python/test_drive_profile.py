@@ -124,6 +124,35 @@ def test_an_event_pdo_without_inhibit_time_would_flood_the_bus() -> None:
     assert pdo.traffic(1, 1e-3).rate == pytest.approx(100)
 
 
+VALUES = SCALAR | st.lists(SCALAR, max_size=2) | st.dictionaries(KEY, SCALAR, max_size=2)
+PLACES = st.sampled_from(
+    [("about",), ("motor",), ("motor", "torque_constant"), ("torque", "mode"), ("emcy", "on"), ("pdo",),
+     ("pdo", "others"), ("pdo", "tpdo1"), ("pdo", "tpdo1", "objects"), ("pdo", "tpdo1", "type"),
+     ("pdo", "tpdo1", "event"), ("node",), ("node", 0), ("node", 0, "id"), ("node", 0, "profile"),
+     ("node", 0, "name"), ("bus",), ("bus", "bitrate"), ("bus", "other"), ("sync", "period")]
+)  # fmt: skip
+
+
+@given(place=PLACES, value=VALUES)
+def test_whatever_stands_in_a_file_is_taken_or_refused_by_its_place(
+    place: tuple[str | int, ...], value: Any, tmp_path_factory: pytest.TempPathFactory
+) -> None:
+    import tomli_w
+
+    name = "joystick" if place[0] in ("node", "bus") else "copley-accelnet"
+    table: Any = read_source(name).table
+    at = table
+    for part in place[:-1]:
+        at = at[part]
+    at[place[-1]] = value
+    file = tmp_path_factory.mktemp("fuzz") / "any.toml"
+    file.write_text(tomli_w.dumps(table), encoding="utf-8")
+    try:
+        drives.load(file, nodes=[] if name == "joystick" else [1]).load()
+    except drives.ProfileError as error:
+        assert str(error).startswith(str(file)) or "profile" in str(place)  # noqa: PT017
+
+
 def test_what_is_no_toml_says_so() -> None:
     assert refused("a = = 1").startswith("my.toml: not a TOML document: ")
 

@@ -64,12 +64,22 @@ def enable(
             for n in chosen:
                 on.append(bus.drive(n, timeout=timeout))
                 on[-1].enable(mode=mode)
-        except BaseException:
-            for one in on:
-                one.disable()
+        except BaseException as error:
+            _off(on, error)
             raise
         rows = [_state(one) for one in on]
     _tell_states("drive enable", rows, as_json)
+
+
+def _off(powered: list[Drive], error: BaseException) -> None:
+    """Disable every drive, also when one of them does not obey."""
+    from ebac.drives import DriveError
+
+    for one in powered:
+        try:
+            one.disable()
+        except DriveError as failure:
+            error.add_note(f"and node {one.node} could not be disabled: {failure}")
 
 
 def disable(

@@ -4,6 +4,10 @@ from __future__ import annotations
 
 import signal
 import threading
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from math import inf
 from types import FrameType
 from typing import TYPE_CHECKING, Annotated
 
@@ -58,17 +62,15 @@ def simulate(
 
     with output.refusing():
         joystick = _joystick(device or "joystick", hand or "open", seed, first)
-    over = _signalled()
-    with telling():
+    with telling(), _signalled() as over:
         bus = open_bus(interface=interface, channel=channel, bitrate=bitrate)
         with bus, Simulation(bus, joystick) as simulation:
             ids = ", ".join(str(first + axis) for axis in range(joystick.axes))
             output.say(f"Simulated drives, nodes {ids}, on {bus.channel_info}. Ctrl-C stops them.")
-            left = seconds
-            while not over.wait(_LOOK if left is None else min(left, _LOOK)):
+            end = time.monotonic() + (inf if seconds is None else seconds)
+            while not over.wait(min(_LOOK, max(0.0, end - time.monotonic()))):
                 simulation.wait(0)
-                left = None if left is None else left - _LOOK
-                if left is not None and left <= 0:
+                if time.monotonic() >= end:
                     break
     lost = f", {simulation.lost} refused by the bus" if simulation.lost else ""
     output.say(f"Stopped: {simulation.received} frames received, {simulation.sent} sent{lost}.")
@@ -83,13 +85,17 @@ def _joystick(device: str, hand: str, seed: int | None, first: int) -> Joystick:
     return Joystick(scenario.setup(), first=first)
 
 
-def _signalled() -> threading.Event:
-    """Return an event that Ctrl-C and SIGTERM set."""
+@contextmanager
+def _signalled() -> Iterator[threading.Event]:
+    """Give an event that Ctrl-C and SIGTERM set."""
     over = threading.Event()
 
     def stop(number: int, frame: FrameType | None) -> None:
         over.set()
 
-    for number in (signal.SIGINT, signal.SIGTERM):
-        signal.signal(number, stop)
-    return over
+    before = {number: signal.signal(number, stop) for number in (signal.SIGINT, signal.SIGTERM)}
+    try:
+        yield over
+    finally:
+        for number, handler in before.items():
+            signal.signal(number, handler)

@@ -113,8 +113,13 @@ class Backups:
         path = self.path(drive)
         try:
             return Backup.from_json(path.read_text(encoding="utf-8"))
-        except FileNotFoundError:
+        except (FileNotFoundError, NotADirectoryError):
             return None
+        except OSError as error:
+            raise DriveError(
+                f"node {drive.node}: the backup {path} cannot be read ({error.strerror})",
+                node=drive.node,
+            ) from error
         except ValueError as error:
             raise DriveError(
                 f"node {drive.node}: {path}: {error}; move it away, or mend it", node=drive.node
@@ -127,10 +132,21 @@ class Backups:
         """
         backup = (self.load(drive) or _empty(drive)).with_more(held)
         path = self.path(drive)
+        try:
+            self._write(path, backup.to_json())
+        except OSError as error:
+            raise DriveError(
+                f"node {drive.node}: the backup {path} cannot be written ({error.strerror}); give another "
+                "folder with --backup. Nothing was written to the drive",
+                node=drive.node,
+            ) from error
+        return path
+
+    def _write(self, path: Path, text: str) -> None:
         self.folder.mkdir(parents=True, exist_ok=True)
         draft = path.with_suffix(".draft")
         with draft.open("w", encoding="utf-8") as file:
-            file.write(backup.to_json())
+            file.write(text)
             file.flush()
             os.fsync(file.fileno())
         draft.replace(path)  # atomic
@@ -139,7 +155,6 @@ class Backups:
             os.fsync(folder)
         finally:
             os.close(folder)
-        return path
 
     def drop(self, drive: Drive) -> None:
         """Remove the backup of a drive that holds all of it again."""

@@ -21,6 +21,8 @@ if TYPE_CHECKING:
 NMT = {"start": 0x01, "stop": 0x02, "pre-operational": 0x80, "reset": 0x81, "reset-comm": 0x82}
 #: Modes of operation this package uses (CiA 402-2, object 0x6060).
 MODES = {4: "profile torque", 10: "cyclic synchronous torque"}
+#: Types of an electronic data sheet (CiA 301, 7.4.7).
+_TYPES = {2: "i8", 3: "i16", 4: "i32", 5: "u8", 6: "u16", 7: "u32"}
 #: How often a state is asked for while waiting [s], and how long a change may take [s].
 _POLL, _DEADLINE = 0.002, 2.0
 
@@ -84,12 +86,23 @@ class Drive:
             For an unknown name; the message suggests the nearest.
         """
         if isinstance(what, str):
-            entry = self._remote.object_dictionary.names.get(what)
-            if entry is not None and hasattr(entry, "data_type"):
-                kinds = {2: "i8", 3: "i16", 4: "i32", 5: "u8", 6: "u16", 7: "u32"}  # CiA 301, 7.4.7
-                kind = kinds.get(entry.data_type or 0, "str")
-                return Object(name=what, index=entry.index, sub=entry.subindex, kind=kind)
+            entry = self._sheet(what)
+            if entry is not None:
+                return entry
         return find(what)
+
+    def _sheet(self, name: str) -> Object | None:
+        """Return what the electronic data sheet has by that name: "Motor data.Torque constant"."""
+        from canopen.objectdictionary import ODVariable
+
+        try:
+            entry = self._remote.object_dictionary[name]
+        except KeyError:
+            return None
+        if not isinstance(entry, ODVariable):
+            return None
+        kind = _TYPES.get(entry.data_type or 0, "str")
+        return Object(name=name, index=entry.index, sub=entry.subindex, kind=kind)
 
     def read(self, what: str | int | tuple[int, int] | Object) -> int | str:
         """Read an object in its own unit (`objects.find(what).unit`).
