@@ -3,14 +3,18 @@
 More examples than usual: `pytest --hypothesis-profile=explore`.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from functools import cache
-from typing import Any
+from itertools import count
+from typing import TYPE_CHECKING, Any
 
 import pytest
 from hypothesis import settings
 
 import ebac
+
+if TYPE_CHECKING:
+    import can
 
 settings.register_profile("ebac", deadline=None, derandomize=True, database=None)
 settings.register_profile("explore", deadline=None, max_examples=5000, database=None)
@@ -38,3 +42,20 @@ def run() -> Callable[..., ebac.Trace]:
         return _run(law, tuple(sorted(changes.items())))
 
     return simulate
+
+
+_CHANNELS = count()
+
+
+@pytest.fixture
+def open_bus() -> Iterator[Callable[[], "can.BusABC"]]:
+    """A function that opens a bus with the simulated drives of the joystick on it, nodes 1 and 2."""
+    from ebac import presets
+    from ebac._core import Joystick
+    from ebac.can_interface import EbacBus
+    from ebac.drives.simulate import Simulation
+
+    channel = f"bench-{next(_CHANNELS)}"
+    scenario = ebac.Scenario(device=presets.device("joystick"), hand=presets.hand("open"))
+    with EbacBus(channel) as bus, Simulation(bus, Joystick(scenario.setup())):
+        yield lambda: EbacBus(channel)

@@ -171,9 +171,20 @@ def test_the_names_of_the_loop_are_those_of_the_core() -> None:
         assert hasattr(_core, name), name
 
 
+def test_drives_know_nothing_of_the_loop() -> None:
+    """They work on a laptop beside the machine."""
+    paths = modules("drives")
+    assert len(paths) > 10
+    for path in paths:
+        assert not [name for name in imports(path) if name.startswith("ebac._core")], path
+        assert not {"ebac.simulation.simulate", "ebac.simulate"} & imports(path), path
+
+
 def test_importing_the_package_loads_nothing_heavy() -> None:
-    heavy = ["matplotlib", "pandas", "scipy", "typer", "rich", "tomli_w"]
-    code = f"import ebac, sys; print([name for name in {heavy} if name in sys.modules])"
+    heavy = ["matplotlib", "pandas", "scipy", "typer", "rich", "tomli_w", "can", "canopen"]
+    code = (
+        f"import ebac, ebac.drives, sys; print([name for name in {heavy} if name in sys.modules])"
+    )
     run = subprocess.run([sys.executable, "-c", code], check=True, capture_output=True, text=True)
     assert run.stdout.strip() == "[]"
 

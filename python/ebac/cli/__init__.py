@@ -11,6 +11,7 @@ from ebac.cli import (
     bench,
     bus,
     conditions,
+    drive,
     laws,
     maps,
     paper,
@@ -68,4 +69,5 @@ app.command("laws")(laws.laws)
 app.command("specs")(specs.specs)
 app.command("presets")(presets.presets)
 app.command("bench")(bench.bench)
+app.add_typer(drive.app, name="drive")
 app.add_typer(bus.bus, name="bus")

@@ -1,0 +1,186 @@
+"""The options of `ebac drive`: which bus, which nodes, which profile."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any, TypeAlias
+
+import typer
+
+from ebac.cli import output
+
+if TYPE_CHECKING:
+    from ebac.drives import Drive, DriveBus, Network
+
+_BUS = "Bus"
+
+
+def _profiles(incomplete: str) -> list[str]:
+    from ebac.drives.profile import builtin
+
+    return [name for name in builtin() if name.startswith(incomplete)]
+
+
+Interface: TypeAlias = Annotated[
+    str | None,
+    typer.Option(
+        help="Interface of python-can: socketcan, ebac (simulated joystick), kvaser, ...",
+        show_default="python-can's configuration",
+        rich_help_panel=_BUS,
+    ),
+]
+Channel: TypeAlias = Annotated[
+    str | None,
+    typer.Option(
+        help="Channel of the interface: can0, joystick, ...",
+        show_default="python-can's configuration",
+        rich_help_panel=_BUS,
+    ),
+]
+Bitrate: TypeAlias = Annotated[
+    int | None,
+    typer.Option(
+        help="Bit rate [bit/s]. SocketCAN has its own, set with `ip link`.",
+        show_default="python-can's configuration",
+        rich_help_panel=_BUS,
+    ),
+]
+Timeout: TypeAlias = Annotated[
+    float,
+    typer.Option(
+        help="How long an answer of a drive may take [s].",
+        min=0.001,
+        max=60,
+        rich_help_panel=_BUS,
+    ),
+]
+Nodes: TypeAlias = Annotated[
+    list[int] | None,
+    typer.Option(
+        "--node",
+        "-n",
+        help="Node id of a drive, 1 to 127; repeat it for several.",
+        show_default="every drive that answers",
+        min=1,
+        max=127,
+    ),
+]
+ProfileNodes: TypeAlias = Annotated[
+    list[int] | None,
+    typer.Option(
+        "--node",
+        "-n",
+        help="Node id, 1 to 127; repeat it for several. A profile that is not a network file needs it.",
+        show_default="all of the network file",
+        min=1,
+        max=127,
+    ),
+]
+ProfileName: TypeAlias = Annotated[
+    str,
+    typer.Argument(
+        help="A profile or network file, or the name of one that comes with ebac: "
+        "joystick, copley-accelnet, copley-xenus, generic-cia402.",
+        autocompletion=_profiles,
+    ),
+]
+Yes: TypeAlias = Annotated[bool, typer.Option("--yes", "-y", help="Do not ask.")]
+Store: TypeAlias = Annotated[
+    bool, typer.Option("--store", help="Let the drive keep it in its flash (0x1010).")
+]
+BackupFolder: TypeAlias = Annotated[
+    Path | None,
+    typer.Option(
+        "--backup",
+        help="Folder of the backups.",
+        show_default="~/.local/state/ebac/drives",
+    ),
+]
+
+
+@contextmanager
+def telling() -> Iterator[None]:
+    """Turn what goes wrong with a drive, or with a profile, into the end of the command."""
+    import logging
+
+    from ebac.drives import DriveError
+
+    # canopen logs beside its exceptions; what it has to say stands in ours.
+    logging.getLogger("canopen").setLevel(logging.CRITICAL)
+    logging.getLogger("can").setLevel(logging.CRITICAL)
+    with output.refusing():
+        try:
+            yield
+        except DriveError as error:
+            notes = getattr(error, "__notes__", [])
+            output.fail(". ".join([str(error), *notes]), code=output.FAILED)
+        except KeyboardInterrupt as error:
+            notes = getattr(error, "__notes__", ["interrupted"])
+            output.fail(". ".join(notes), code=output.INTERRUPTED)
+
+
+@contextmanager
+def opened(interface: str | None, channel: str | None, bitrate: int | None) -> Iterator[DriveBus]:
+    """Give an open bus; what goes wrong on it ends the command."""
+    from ebac.drives import DriveBus
+
+    with telling(), DriveBus.open(interface=interface, channel=channel, bitrate=bitrate) as bus:
+        yield bus
+
+
+def drives(bus: DriveBus, nodes: list[int] | None, timeout: float) -> list[Drive]:
+    """Return the drives of the nodes given, or every CiA 402 drive that answers."""
+    from ebac.drives import DriveError
+
+    if nodes:
+        return [bus.drive(node, timeout=timeout) for node in dict.fromkeys(nodes)]
+    found = [bus.drive(node, timeout=timeout) for node in bus.scan(seconds=timeout)]
+    chosen = [drive for drive in found if is_drive(drive)]
+    if not chosen:
+        raise DriveError(
+            "no drive answers on this bus: check power, bit rate and termination, or give --node"
+        )
+    return chosen
+
+
+def is_drive(drive: Drive) -> bool:
+    """Return whether a node is a CiA 402 drive (0x1000)."""
+    from ebac.drives import DriveError
+
+    try:
+        return drive.number("device_type") & 0xFFFF == 402
+    except DriveError:
+        return False
+
+
+def sure(question: str, yes: bool) -> None:
+    """Ask, unless told not to; where nobody can be asked, refuse."""
+    if yes:
+        return
+    if not sys.stdin.isatty():
+        output.fail(f"{question} Nobody is here to ask: add --yes")
+    if not typer.confirm(question, err=True):
+        output.fail("nothing was done", code=output.FAILED)
+
+
+def network_of(profile: str, node: list[int] | None, bitrate: int | None) -> Network:
+    """Return the drives of a profile or network file; a bus that would be too busy ends the command."""
+    from ebac import drives as library
+
+    with telling():
+        network = library.load(profile, nodes=node or (), bitrate=bitrate)
+        network.check_load()
+    return network
+
+
+def about(network: Network) -> dict[str, Any]:
+    """Return what JSON tells of a network."""
+    load = network.load()
+    return {
+        "profile": network.name,
+        "bitrate_bit_per_s": load.bitrate,
+        "bus_load_share": load.share,
+    }

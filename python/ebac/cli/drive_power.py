@@ -1,0 +1,173 @@
+"""`ebac drive enable`, `disable`, `reset-fault`: what moves, or stops moving."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from ebac.cli import drive_results, output
+from ebac.cli.drive_options import (
+    Bitrate,
+    Channel,
+    Interface,
+    Nodes,
+    Timeout,
+    Yes,
+    drives,
+    opened,
+    sure,
+)
+
+if TYPE_CHECKING:
+    from ebac.drives import Drive
+
+
+def enable(
+    node: Annotated[
+        list[int],
+        typer.Option("--node", "-n", help="Node id; repeat it for several.", min=1, max=127),
+    ],
+    mode: Annotated[
+        int | None,
+        typer.Option(
+            help="Mode to set first: 10 cyclic synchronous torque, 4 profile torque.",
+            show_default="as applied",
+            min=1,
+            max=32,
+        ),
+    ] = None,
+    yes: Yes = False,
+    interface: Interface = None,
+    channel: Channel = None,
+    bitrate: Bitrate = None,
+    timeout: Timeout = 0.3,
+    as_json: output.AsJson = False,
+) -> None:
+    """Power the motor, commanded to zero torque. Keep hands off the device.
+
+    It stays powered after the command, until `ebac drive disable`. A motor that moves now has a wrong
+    sign, a wrong encoder or another master: disable it.
+
+    **Example**
+
+    * `ebac drive enable --node 1`
+    """
+    chosen = list(dict.fromkeys(node))
+    ids = ", ".join(str(n) for n in chosen)
+    sure(f"The motor of node {ids} will be powered, at zero torque. Is the device free?", yes)
+
+    with opened(interface, channel, bitrate) as bus:
+        on: list[Drive] = []
+        try:
+            for n in chosen:
+                on.append(bus.drive(n, timeout=timeout))
+                on[-1].enable(mode=mode)
+        except BaseException as error:
+            _off(on, error)
+            raise
+        rows = [_state(one) for one in on]
+    _tell_states("drive enable", rows, as_json)
+
+
+def _off(powered: list[Drive], error: BaseException) -> None:
+    """Disable every drive, also when one of them does not obey."""
+    from ebac.drives import DriveError
+
+    for one in powered:
+        try:
+            one.disable()
+        except DriveError as failure:
+            error.add_note(f"and node {one.node} could not be disabled: {failure}")
+
+
+def disable(
+    node: Nodes = None,
+    interface: Interface = None,
+    channel: Channel = None,
+    bitrate: Bitrate = None,
+    timeout: Timeout = 0.3,
+    as_json: output.AsJson = False,
+) -> None:
+    """Take the power off the motors, whatever state they are in.
+
+    **Example**
+
+    * `ebac drive disable`: every drive on the bus.
+    """
+    _each(
+        "drive disable",
+        lambda one: one.disable(),
+        node,
+        interface,
+        channel,
+        bitrate,
+        timeout,
+        as_json,
+    )
+
+
+def reset_fault(
+    node: Nodes = None,
+    interface: Interface = None,
+    channel: Channel = None,
+    bitrate: Bitrate = None,
+    timeout: Timeout = 0.3,
+    as_json: output.AsJson = False,
+) -> None:
+    """Reset the fault of a drive, and see that it is gone. It stays disabled.
+
+    **Example**
+
+    * `ebac drive reset-fault --node 1`
+    """
+    _each(
+        "drive reset-fault",
+        lambda one: one.reset_fault(),
+        node,
+        interface,
+        channel,
+        bitrate,
+        timeout,
+        as_json,
+    )
+
+
+def _each(
+    command: str,
+    act: Callable[[Drive], object],
+    node: list[int] | None,
+    interface: str | None,
+    channel: str | None,
+    bitrate: int | None,
+    timeout: float,
+    as_json: bool,
+) -> None:
+    """Do something with every drive, also when one of them fails; then tell the first failure."""
+    from ebac.drives import DriveError
+
+    failures: list[DriveError] = []
+    with opened(interface, channel, bitrate) as bus:
+        rows = []
+        for one in drives(bus, node, timeout):
+            try:
+                act(one)
+                rows.append(_state(one))
+            except DriveError as error:
+                failures.append(error)
+        if rows and (as_json or not failures):
+            _tell_states(command, rows, as_json)
+        if failures:
+            raise failures[0]
+
+
+def _tell_states(command: str, rows: list[dict[str, Any]], as_json: bool) -> None:
+    if as_json:
+        typer.echo(output.document(command, rows))
+    else:
+        drive_results.states(rows)
+
+
+def _state(one: Drive) -> dict[str, Any]:
+    return {"node": one.node, "state": one.state.value}

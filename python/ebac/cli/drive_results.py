@@ -1,0 +1,117 @@
+"""What `ebac drive` shows: plans, drives, objects."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+from ebac.cli import output
+
+if TYPE_CHECKING:
+    from ebac.drives import Change, Drive, Network
+
+
+def changes(found: Sequence[Change], none: str) -> None:
+    """Show what differs, or say that nothing does."""
+    if not found:
+        output.say(none)
+        return
+    grid = output.table(["node", "object", "", "now", "wanted", "unit", "why"], numbers=(0, 3, 4))
+    for one in found:
+        unit = "" if one.object.hexadecimal else one.object.unit
+        now, wanted = one.show(one.now), one.show(one.wanted)
+        grid.add_row(str(one.node), one.object.where, one.object.name, now, wanted, unit, one.why)
+    output.console().print(grid)
+
+
+def load(network: Network) -> None:
+    """Say how busy the bus will be."""
+    found = network.load()
+    output.say(f"{found.describe()[0].upper()}{found.describe()[1:]}.")
+
+
+def states(rows: Sequence[dict[str, Any]]) -> None:
+    """Show the state of each drive."""
+    grid = output.table(["node", "state"], numbers=(0,))
+    for row in rows:
+        grid.add_row(str(row["node"]), row["state"])
+    output.console().print(grid)
+
+
+def found(rows: Sequence[dict[str, Any]]) -> None:
+    """Show who is on a bus."""
+    grid = output.table(
+        ["node", "NMT", "name", "vendor", "product", "revision", "serial", "state"], numbers=(0,)
+    )
+    for row in rows:
+        ids = [_hex(row[name]) for name in ("vendor_id", "product_code", "revision")]
+        serial = "-" if row["serial_number"] is None else str(row["serial_number"])
+        state = row["state"] or "no CiA 402 drive"
+        if row["latched"]:
+            state += f" ({'; '.join(row['latched'])})"
+        name = row["name"] or "-"
+        grid.add_row(str(row["node"]), row["nmt"] or "-", name, *ids, serial, state)
+    output.console().print(grid)
+
+
+def objects(rows: Sequence[dict[str, Any]]) -> None:
+    """Show the objects of drives."""
+    grid = output.table(["node", "object", "", "value", "unit", "meaning"], numbers=(0, 3))
+    for row in rows:
+        grid.add_row(
+            str(row["node"]), row["object"], row["name"], row["text"], row["unit"], row["meaning"]
+        )
+    output.console().print(grid)
+
+
+def who(drive: Drive) -> dict[str, Any]:
+    """Return who a node is and how it stands, as a plain row."""
+    from ebac.cli.drive_options import is_drive
+    from ebac.drives import DriveError
+
+    row: dict[str, Any] = {"node": drive.node, "nmt": drive.bus.heard.nmt(drive.node)}
+    names = ("device_name", "vendor_id", "product_code", "revision", "serial_number")
+    for name in names:
+        try:
+            row[name.removeprefix("device_")] = drive.look(name)
+        except DriveError:
+            row[name.removeprefix("device_")] = None
+    known = is_drive(drive)
+    row["state"] = drive.state.value if known else None
+    row["latched"] = drive.latched() if known else []
+    return row
+
+
+def holdings(drive: Drive, everything: bool) -> list[dict[str, Any]]:
+    """Return the objects of a drive that the table knows and the drive has, as plain rows."""
+    from ebac.drives.objects import known, mapped
+    from ebac.drives.state import State
+
+    rows = []
+    for obj in known().values():
+        if "pdo" in obj.name and not everything:
+            continue
+        value = drive.look(obj)
+        if value is None:
+            continue
+        text = obj.show(value).removesuffix(obj.unit).rstrip()
+        if obj.name == "statusword" and isinstance(value, int):
+            text = f"{text} ({State.of(value).value})"
+        if "_entry" in obj.name and isinstance(value, int) and value:
+            text = mapped(value)
+        rows.append(
+            {
+                "node": drive.node,
+                "object": obj.where,
+                "name": obj.name,
+                "value": value,
+                "unit": "" if obj.hexadecimal else obj.unit,
+                "meaning": obj.meaning,
+                "text": text,
+            }
+        )
+    return rows
+
+
+def _hex(value: object) -> str:
+    return f"0x{value:X}" if isinstance(value, int) else "-"

@@ -1,0 +1,156 @@
+"""`ebac drive apply`, `restore`: write a profile to drives, and take it back."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import partial
+from typing import TYPE_CHECKING, Any
+
+import typer
+
+from ebac.cli import drive_results, output
+from ebac.cli.drive_options import (
+    BackupFolder,
+    Bitrate,
+    Channel,
+    Interface,
+    Nodes,
+    ProfileName,
+    ProfileNodes,
+    Store,
+    Timeout,
+    Yes,
+    about,
+    drives,
+    network_of,
+    opened,
+    sure,
+)
+
+if TYPE_CHECKING:
+    from ebac.drives import Applied, Backups, Drive, Node
+    from ebac.drives.apply import Progress
+
+
+def apply(
+    profile: ProfileName = "joystick",
+    node: ProfileNodes = None,
+    yes: Yes = False,
+    store: Store = False,
+    backup: BackupFolder = None,
+    interface: Interface = None,
+    channel: Channel = None,
+    bitrate: Bitrate = None,
+    timeout: Timeout = 0.3,
+    as_json: output.AsJson = False,
+) -> None:
+    """Set the drives to a profile: disable, back up, write, read back. They stay disabled.
+
+    Killed half way, the same command again finishes it, and `ebac drive restore` takes it back.
+
+    **Examples**
+
+    * `ebac drive apply joystick`: shows the plan and asks.
+
+    * `ebac drive apply joystick --store --yes`: without asking; the drives keep it without power.
+    """
+    from ebac import drives as library
+
+    network = network_of(profile, node, bitrate)
+    with opened(interface, channel, bitrate) as bus:
+        pairs = [(bus.drive(n.id, timeout=timeout), n) for n in network.nodes]
+        if not as_json:
+            found = [change for one, n in pairs for change in library.plan(one, n).changes]
+            drive_results.changes(found, "The drives hold all of it: nothing will change.")
+            drive_results.load(network)
+        ids = ", ".join(str(n.id) for n in network.nodes)
+        sure(f"Disable node {ids} and write this?", yes)
+        shelf = library.Backups(backup)
+        rows, nodes = [], []
+        for one, n in pairs:
+            work = partial(_apply, one, n, shelf, store)
+            changed, about_node = _carried_out(one, as_json, work)
+            rows += changed
+            nodes.append(about_node)
+    if as_json:
+        typer.echo(output.document("drive apply", rows, **about(network), nodes=nodes))
+
+
+def restore(
+    node: Nodes = None,
+    yes: Yes = False,
+    store: Store = False,
+    backup: BackupFolder = None,
+    interface: Interface = None,
+    channel: Channel = None,
+    bitrate: Bitrate = None,
+    timeout: Timeout = 0.3,
+    as_json: output.AsJson = False,
+) -> None:
+    """Put back what the drives held before the first `apply`. They stay disabled.
+
+    **Example**
+
+    * `ebac drive restore --node 1`
+    """
+    from ebac import drives as library
+
+    with opened(interface, channel, bitrate) as bus:
+        chosen = drives(bus, node, timeout)
+        shelf = library.Backups(backup)
+        if not node:
+            chosen = [one for one in chosen if shelf.load(one) is not None]
+        if not chosen:
+            raise library.DriveError(f"nothing to restore: no backup in {shelf.folder}")
+        ids = ", ".join(str(one.node) for one in chosen)
+        sure(f"Disable node {ids} and put all back?", yes)
+        rows, nodes = [], []
+        for one in chosen:
+            work = partial(_restore, one, shelf, store)
+            changed, about_node = _carried_out(one, as_json, work)
+            rows += changed
+            nodes.append(about_node)
+    if as_json:
+        typer.echo(output.document("drive restore", rows, nodes=nodes))
+
+
+def _apply(one: Drive, node: Node, shelf: Backups, store: bool, step: Progress) -> Applied:
+    from ebac.drives import apply as write
+
+    return write(one, node, backups=shelf, store=store, progress=step)
+
+
+def _restore(one: Drive, shelf: Backups, store: bool, step: Progress) -> Applied:
+    from ebac.drives import restore as put_back
+
+    return put_back(one, backups=shelf, store=store, progress=step)
+
+
+def _carried_out(
+    one: Drive, as_json: bool, work: Callable[[Progress], Applied]
+) -> tuple[list[dict[str, Any]], dict[str, Any]]:
+    """Do the work with a bar, say what was done, and return the changes and the node as plain rows."""
+    with output.counting(f"node {one.node}", quiet=as_json) as step:
+        done = work(step)
+    if not as_json:
+        _say_done(one, done)
+    about_node = {
+        "node": one.node,
+        "written": len(done.written),
+        "backup": None if done.backup is None else str(done.backup),
+        "stored": done.stored,
+        "state": one.state.value,
+    }
+    return [change.row() for change in done.changes], about_node
+
+
+def _say_done(one: Drive, done: Applied) -> None:
+    kept = " The drive keeps it without power." if done.stored else ""
+    if not done.written:
+        output.say(f"Node {one.node}: holds all of it already, nothing was written.{kept}")
+        return
+    output.say(
+        f"Node {one.node}: {len(done.written)} writes, read back and right. It is disabled, "
+        f"NMT pre-operational.{kept}"
+    )
+    output.say(f"Backup: {done.backup}", style="dim")

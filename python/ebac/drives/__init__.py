@@ -1,0 +1,79 @@
+"""CANopen drives (CiA 301, CiA 402): look at them, set them up, take it back.
+
+Works on a laptop beside the machine; process data at 1 kHz belong to the C++ loop, not here.
+
+A first look::
+
+    from ebac import drives
+
+    with drives.DriveBus.open(interface="ebac", channel="joystick") as bus:  # simulated drives
+        for node in drives.load("joystick").nodes:
+            for change in drives.plan(bus.drive(node.id), node).changes:
+                print(change)
+"""
+
+from ebac.drives.apply import Applied, apply, restore, verify
+from ebac.drives.backup import Backup, Backups
+from ebac.drives.bus import DriveBus
+from ebac.drives.drive import Drive
+from ebac.drives.errors import (
+    BusError,
+    DriveError,
+    DriveFault,
+    NoAnswer,
+    NotApplied,
+    NotVerified,
+    ProfileError,
+    Refused,
+    WrongAnswer,
+    WrongState,
+)
+from ebac.drives.load import BusLoad, Traffic, bus_load, frame_bits
+from ebac.drives.network import Network, Node, load
+from ebac.drives.objects import Object, find
+from ebac.drives.pdo import Pdo
+from ebac.drives.plan import Change, Plan, plan
+from ebac.drives.profile import Profile, builtin
+from ebac.drives.state import TRANSITIONS, Command, Controlword, State, Statusword, path
+
+__all__ = [
+    "TRANSITIONS",
+    "Applied",
+    "Backup",
+    "Backups",
+    "BusError",
+    "BusLoad",
+    "Change",
+    "Command",
+    "Controlword",
+    "Drive",
+    "DriveBus",
+    "DriveError",
+    "DriveFault",
+    "Network",
+    "NoAnswer",
+    "Node",
+    "NotApplied",
+    "NotVerified",
+    "Object",
+    "Pdo",
+    "Plan",
+    "Profile",
+    "ProfileError",
+    "Refused",
+    "State",
+    "Statusword",
+    "Traffic",
+    "WrongAnswer",
+    "WrongState",
+    "apply",
+    "builtin",
+    "bus_load",
+    "find",
+    "frame_bits",
+    "load",
+    "path",
+    "plan",
+    "restore",
+    "verify",
+]

@@ -1,0 +1,249 @@
+"""Write a plan to a drive, check it, take it back. Killed at any write, a second run repairs it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from ebac.drives.aborts import READ_ONLY
+from ebac.drives.backup import Backups
+from ebac.drives.drive import Drive
+from ebac.drives.errors import DriveError, NotApplied, NotVerified, Refused
+from ebac.drives.network import Node
+from ebac.drives.objects import find
+from ebac.drives.plan import Change, Plan, differences, plan, read_held
+from ebac.drives.settings import Group, Setting, Write, writes
+
+#: "save" as 0x1010 takes it (CiA 301).
+_SAVE = b"save"
+
+#: Told after every write: how many are done, of how many.
+Progress = Callable[[int, int], None]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Applied:
+    """What was done to a drive.
+
+    Parameters
+    ----------
+    changes : tuple of Change
+        What had been different.
+    written : tuple of str
+        Every SDO download, in order.
+    backup : Path or None
+        The file that can take it back; None where nothing was written.
+    stored : bool
+        Whether the drive keeps it in flash.
+    """
+
+    changes: tuple[Change, ...]
+    written: tuple[str, ...]
+    backup: Path | None
+    stored: bool = False
+
+
+def apply(
+    drive: Drive,
+    node: Node,
+    *,
+    backups: Backups | None = None,
+    store: bool = False,
+    progress: Progress = lambda done, total: None,
+) -> Applied:
+    """Set a drive to its profile.
+
+    In this order: disable, NMT pre-operational, read all, write the backup, write what differs,
+    read all again. The drive stays disabled and pre-operational.
+
+    Parameters
+    ----------
+    drive : Drive
+        Which.
+    node : Node
+        What is wanted.
+    backups : Backups, optional
+        Where backups lie; default: the user's state folder.
+    store : bool
+        Whether the drive shall keep it in flash (0x1010).
+    progress : callable
+        Told after every write.
+
+    Raises
+    ------
+    NotApplied
+        When it stopped half way; the message says what was written and what was not.
+    NotVerified
+        When the drive holds something else than was written.
+    DriveError
+        When it did not begin: nothing was written.
+    """
+    shelf = backups or Backups()
+    drive.disable()
+    made = plan(drive, node)
+    steps = made.writes()
+    backup = shelf.keep(drive, made.held) if steps else None
+    _carry_out(drive, steps, progress)
+    verify(drive, node)
+    if store:
+        _store(drive)
+    return Applied(
+        changes=made.changes,
+        written=tuple(str(step) for step in steps),
+        backup=backup,
+        stored=store,
+    )
+
+
+def verify(drive: Drive, node: Node) -> Plan:
+    """Read all of a profile back from a drive. Nothing is written.
+
+    Raises
+    ------
+    NotVerified
+        When something differs; the message names it.
+    """
+    made = plan(drive, node)
+    if made.changes:
+        raise NotVerified(_told(drive.node, made.changes), node=drive.node)
+    return made
+
+
+def restore(
+    drive: Drive,
+    *,
+    backups: Backups | None = None,
+    store: bool = False,
+    progress: Progress = lambda done, total: None,
+) -> Applied:
+    """Put back what a drive held before the first `apply` since the last `restore`.
+
+    The drive is disabled first and stays disabled. The backup goes when all of it is back.
+
+    Raises
+    ------
+    NotApplied, NotVerified, DriveError
+        As `apply`; DriveError also when there is no backup of this drive.
+    """
+    shelf = backups or Backups()
+    kept = shelf.load(drive)
+    if kept is None:
+        raise DriveError(
+            f"node {drive.node}: nothing to restore: no backup of this drive in {shelf.folder} "
+            "(they go by node id, vendor, product and serial number)",
+            node=drive.node,
+        )
+    drive.disable()
+    wanted = backup_groups(kept.held)
+    held = read_held(drive, wanted)
+    changes = differences(drive.node, wanted, held)
+    steps = [step for group in wanted for step in writes(group, held)]
+    _carry_out(drive, steps, progress)
+    must = [replace(g, settings=tuple(s for s in g.settings if not s.optional)) for g in wanted]
+    left = differences(drive.node, must, read_held(drive, must))
+    if left:
+        raise NotVerified(_told(drive.node, left), node=drive.node)
+    if store:
+        _store(drive)
+    path = shelf.path(drive)
+    shelf.drop(drive)
+    return Applied(
+        changes=tuple(changes),
+        written=tuple(str(step) for step in steps),
+        backup=path,
+        stored=store,
+    )
+
+
+def backup_groups(held: dict[tuple[int, int], bytes]) -> list[Group]:
+    """Return what a backup wants back: the PDOs first, so that nothing else is commanded meanwhile."""
+    pdos: dict[str, list[Setting]] = {}
+    plain: list[Setting] = []
+    for key, data in held.items():
+        obj = find(key)
+        value = obj.decode(data)
+        assert isinstance(value, int)
+        setting = Setting(object=obj, value=value, why="as it was before")
+        if obj.name.startswith(("rpdo", "tpdo")):
+            pdos.setdefault(obj.name.partition("_")[0], []).append(setting)
+        else:
+            plain.append(setting)
+    groups = [Group(name=name, settings=tuple(_used(s)), pdo=True) for name, s in pdos.items()]
+    return [*groups, Group(name="objects", settings=tuple(plain))]
+
+
+def _used(settings: Sequence[Setting]) -> list[Setting]:
+    """Mark the entries beyond the count as optional: no PDO carries them, and not every drive takes a 0."""
+    counts = [one.value for one in settings if one.object.name.endswith("_count")]
+    used = counts[0] if counts else 0
+    return [
+        replace(one, optional=True)
+        if "_entry" in one.object.name and one.object.sub > used
+        else one
+        for one in settings
+    ]
+
+
+def _carry_out(drive: Drive, steps: Sequence[Write], progress: Progress) -> None:
+    done = 0
+    try:
+        for step in steps:
+            _write(drive, step)
+            done += 1
+            progress(done, len(steps))
+    except KeyboardInterrupt as interrupt:
+        interrupt.add_note(
+            f"node {drive.node}: interrupted after {done} of {len(steps)} writes. {_after(drive)}"
+        )
+        raise
+    except DriveError as error:
+        raise NotApplied(
+            drive.node,
+            f"{error}.",
+            written=[str(step) for step in steps[:done]],
+            left=[str(step) for step in steps[done:]],
+            after=_after(drive),
+        ) from error
+
+
+def _write(drive: Drive, step: Write) -> None:
+    try:
+        drive.sdo.download(step.object, step.data)
+    except Refused as error:
+        if step.optional:
+            return
+        # Some drives work out rated torque and current from the motor data, and let nobody write them.
+        if error.code != READ_ONLY or drive.sdo.upload(step.object) != step.data:
+            raise
+
+
+def _after(drive: Drive) -> str:
+    """Leave the drive disabled, and say how sure that is."""
+    again = "Run the command again to finish, or `ebac drive restore` to take it back."
+    try:
+        state = drive.disable()
+    except DriveError:
+        return (
+            "The drive was disabled before the first write; it does not answer now, so look at it "
+            f"before you touch the machine. {again}"
+        )
+    return f"The drive is disabled ({state.value}). {again}"
+
+
+def _store(drive: Drive) -> None:
+    try:
+        drive.sdo.download(find("store_all"), _SAVE)
+    except Refused as error:
+        raise DriveError(
+            f"{error}. All was written and verified, but the drive keeps it only until power-off",
+            node=drive.node,
+        ) from error
+
+
+def _told(node: int, changes: Sequence[Change]) -> str:
+    parts = ", ".join(
+        f"{one.object} is {one.object.show(one.now)}, not {one.object.show(one.wanted)}"
+        for one in changes
+    )
+    return f"node {node} holds something else: {parts}"

@@ -1,0 +1,197 @@
+"""One CAN bus with drives on it: open, look who is there, close."""
+
+from __future__ import annotations
+
+import errno
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from types import TracebackType
+from typing import TYPE_CHECKING, Any, Self
+
+from ebac.drives.errors import BusError
+from ebac.drives.heard import Heard
+
+if TYPE_CHECKING:
+    import can
+
+    from ebac.drives.drive import Drive
+
+#: How long an SDO answer may take [s]. Drives answer within a few ms; a busy laptop does not.
+TIMEOUT = 0.3
+
+
+class DriveBus:
+    """A CAN bus, by python-can, and the drives on it. A context manager that closes what it opened.
+
+    Parameters
+    ----------
+    bus : can.BusABC
+        An open bus of python-can; it is shut down on close.
+
+    Examples
+    --------
+    >>> with DriveBus.open(interface="socketcan", channel="can0") as bus:  # doctest: +SKIP
+    ...     print(bus.drive(1).state)
+    """
+
+    def __init__(self, bus: can.BusABC) -> None:
+        import canopen
+
+        self.heard = Heard()
+        self.network = canopen.Network(bus)
+        self.network.NOTIFIER_CYCLE = 0.01  # s; closing waits for it
+        self._drives: dict[int, Drive] = {}
+        self.network.connect()
+        assert self.network.notifier is not None
+        self.network.notifier.add_listener(self.heard)
+
+    @classmethod
+    def open(
+        cls,
+        *,
+        interface: str | None = None,
+        channel: str | None = None,
+        bitrate: int | None = None,
+    ) -> Self:
+        """Open a bus; what is not given comes from python-can's own configuration.
+
+        Parameters
+        ----------
+        interface : str, optional
+            Of python-can: "socketcan", "ebac" (simulated joystick), "kvaser", ...
+        channel : str, optional
+            "can0", "joystick", ...
+        bitrate : int, optional
+            [bit/s]; SocketCAN takes it from `ip link`, not from here.
+
+        Raises
+        ------
+        BusError
+            When it cannot be opened; the message says what to do.
+        """
+        return cls(open_bus(interface=interface, channel=channel, bitrate=bitrate))
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        traceback: TracebackType | None,
+    ) -> None:
+        self.close()
+
+    def close(self) -> None:
+        """Close the bus. Drives stay as they are."""
+        self.network.disconnect()
+
+    def drive(self, node: int, *, eds: str | Path | None = None, timeout: float = TIMEOUT) -> Drive:
+        """Return the drive of that node; the same object every time, so that its lock is one.
+
+        Parameters
+        ----------
+        node : int
+            Node id, 1 to 127.
+        eds : str or Path, optional
+            Electronic data sheet, for names this package does not know.
+        timeout : float
+            How long an SDO answer may take [s], 0.001 to 60.
+
+        Raises
+        ------
+        ValueError
+            For a node id out of range.
+        """
+        from ebac.drives.drive import Drive
+
+        if not 1 <= node <= 127:
+            raise ValueError(f"node = {node}: must lie in [1, 127]")
+        if node not in self._drives:
+            self._drives[node] = Drive(self, node, eds=eds, timeout=timeout)
+        return self._drives[node]
+
+    def scan(self, *, seconds: float = 0.3, nodes: range = range(1, 128)) -> list[int]:
+        """Return the ids of the nodes that answer an SDO or are heard otherwise.
+
+        Parameters
+        ----------
+        seconds : float
+            How long to listen after the last request [s].
+        nodes : range
+            Ids to ask.
+
+        Raises
+        ------
+        BusError
+            When the bus takes no frame.
+        """
+        import can
+
+        read_device_type = bytes([0x40, 0x00, 0x10, 0, 0, 0, 0, 0])
+        for node in nodes:
+            try:
+                self.network.send_message(0x600 + node, read_device_type)
+            except (can.CanError, OSError, RuntimeError) as error:
+                raise BusError(
+                    f"asking node {node}: the bus took no frame ({error}); a bus with nobody else on "
+                    "it acknowledges nothing: are the drives powered and wired?"
+                ) from error
+            time.sleep(0.001)  # a request is 0.13 ms at 1 Mbit/s; a send queue holds only ten
+        time.sleep(seconds)
+        return [node for node in self.heard.nodes() if node in nodes]
+
+
+def open_bus(
+    *, interface: str | None = None, channel: str | None = None, bitrate: int | None = None
+) -> can.BusABC:
+    """Open a bus of python-can; parameters and errors are those of `DriveBus.open`."""
+    import can
+
+    chosen: dict[str, Any] = {"interface": interface, "channel": channel, "bitrate": bitrate}
+    given = {name: value for name, value in chosen.items() if value is not None}
+    with _telling(interface, channel):
+        return can.Bus(**given)
+
+
+@contextmanager
+def _telling(interface: str | None, channel: str | None) -> Iterator[None]:
+    """Turn what python-can raises while it opens a bus into one error that says what to do."""
+    import can
+
+    asked = f"interface {interface or 'from python-can'}, channel {channel or 'from python-can'}"
+    try:
+        yield
+    except can.CanInterfaceNotImplementedError as error:
+        if interface is None:
+            raise BusError(
+                "no CAN interface is chosen: give --interface and --channel, or set CAN_INTERFACE and "
+                "CAN_CHANNEL, or write them to ~/.canrc (python-can's configuration)"
+            ) from error
+        known = ", ".join(sorted(can.VALID_INTERFACES))
+        raise BusError(
+            f"interface {interface!r} is not usable: {error}. There are: {known}"
+        ) from error
+    except OSError as error:
+        raise BusError(f"{asked}: {error.strerror or error}; {_remedy(error.errno)}") from error
+    except (can.CanError, ValueError, TypeError, NotImplementedError) as error:
+        raise BusError(f"{asked}: cannot be opened ({error})") from error
+
+
+def _remedy(number: int | None) -> str:
+    if number == errno.EAFNOSUPPORT:
+        return (
+            "this kernel has no SocketCAN: load the modules (`sudo modprobe can can_raw`) or use "
+            "another interface, such as --interface ebac --channel joystick (simulated drives)"
+        )
+    if number == errno.ENODEV:
+        return "there is no such interface: `ip link` lists them"
+    if number == errno.ENETDOWN:
+        return (
+            "bring it up: `sudo ip link set can0 up type can bitrate 1000000` (with your interface)"
+        )
+    if number in (errno.EACCES, errno.EPERM):
+        return "this user may not use it: see the rights of the device"
+    return "see the manual of the interface"

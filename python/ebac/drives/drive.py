@@ -1,0 +1,385 @@
+"""One drive: its objects by name, its state machine, its faults."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from pathlib import Path
+from types import TracebackType
+from typing import TYPE_CHECKING, Self
+
+from ebac.drives import faults
+from ebac.drives.errors import BusError, DriveError, DriveFault, Refused, WrongAnswer, WrongState
+from ebac.drives.objects import Object, find
+from ebac.drives.sdo import Sdo
+from ebac.drives.state import AUTOMATIC, Command, State, Statusword, path
+
+if TYPE_CHECKING:
+    from ebac.drives.bus import DriveBus
+
+#: NMT commands (CiA 301).
+NMT = {"start": 0x01, "stop": 0x02, "pre-operational": 0x80, "reset": 0x81, "reset-comm": 0x82}
+#: Modes of operation this package uses (CiA 402-2, object 0x6060).
+MODES = {4: "profile torque", 10: "cyclic synchronous torque"}
+#: Types of an electronic data sheet (CiA 301, 7.4.7).
+_TYPES = {2: "i8", 3: "i16", 4: "i32", 5: "u8", 6: "u16", 7: "u32"}
+#: How often a state is asked for while waiting [s], and how long a change may take [s].
+_POLL, _DEADLINE = 0.002, 2.0
+
+
+class Drive:
+    """A CiA 402 drive on a bus. As a context manager it is disabled on exit, whatever happened.
+
+    Get it from `DriveBus.drive`. Threads may share it: one SDO is under way at a time.
+
+    Parameters
+    ----------
+    bus : DriveBus
+        Where it is.
+    node : int
+        Node id, 1 to 127.
+    eds : str or Path, optional
+        Electronic data sheet, for names this package does not know.
+    timeout : float
+        How long an SDO answer may take [s].
+    """
+
+    def __init__(
+        self, bus: DriveBus, node: int, *, eds: str | Path | None = None, timeout: float
+    ) -> None:
+        import canopen
+
+        dictionary = canopen.import_od(None if eds is None else str(eds), node)
+        self._remote = canopen.RemoteNode(node, dictionary)
+        bus.network.add_node(self._remote)
+        self.bus = bus
+        self.node = node
+        self.sdo = Sdo(self._remote.sdo, node, bus.heard, timeout)
+
+    def __repr__(self) -> str:
+        return f"Drive(node={self.node})"
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        traceback: TracebackType | None,
+    ) -> None:
+        try:
+            self.disable()
+        except DriveError as failure:
+            if error is None:
+                raise
+            error.add_note(f"and the drive could not be disabled: {failure}")
+
+    # --- objects ---
+
+    def object(self, what: str | int | tuple[int, int] | Object) -> Object:
+        """Return an object by name, index, or (index, sub-index); by the EDS where one was given.
+
+        Raises
+        ------
+        KeyError
+            For an unknown name; the message suggests the nearest.
+        """
+        if isinstance(what, str):
+            entry = self._sheet(what)
+            if entry is not None:
+                return entry
+        return find(what)
+
+    def _sheet(self, name: str) -> Object | None:
+        """Return what the electronic data sheet has by that name: "Motor data.Torque constant"."""
+        from canopen.objectdictionary import ODVariable
+
+        try:
+            entry = self._remote.object_dictionary[name]
+        except KeyError:
+            return None
+        if not isinstance(entry, ODVariable):
+            return None
+        kind = _TYPES.get(entry.data_type or 0, "str")
+        return Object(name=name, index=entry.index, sub=entry.subindex, kind=kind)
+
+    def read(self, what: str | int | tuple[int, int] | Object) -> int | str:
+        """Read an object in its own unit (`objects.find(what).unit`).
+
+        Raises
+        ------
+        NoAnswer, Refused, WrongAnswer, BusError
+            When the drive gives no value.
+        """
+        obj = self.object(what)
+        return obj.decode(self.sdo.upload(obj))
+
+    def number(self, what: str | int | tuple[int, int] | Object) -> int:
+        """Read an object that is a number. Raises as `read`."""
+        value = self.read(what)
+        if isinstance(value, str):
+            raise WrongAnswer(
+                f"node {self.node}: {self.object(what)} is text: {value!r}", node=self.node
+            )
+        return value
+
+    def look(self, what: str | int | tuple[int, int] | Object) -> int | str | None:
+        """Read an object, None where the drive has none. Raises as `read` otherwise."""
+        try:
+            return self.read(what)
+        except Refused as error:
+            if error.absent:
+                return None
+            raise
+
+    def write(self, what: str | int | tuple[int, int] | Object, value: int) -> None:
+        """Write an object in its own unit.
+
+        Raises
+        ------
+        ValueError
+            When the value does not fit the object.
+        NoAnswer, Refused, WrongAnswer, BusError
+            When the drive does not take it.
+        """
+        obj = self.object(what)
+        self.sdo.download(obj, obj.encode(value))
+
+    # --- state ---
+
+    @property
+    def statusword(self) -> Statusword:
+        """The statusword, asked for now."""
+        return Statusword(self.number("statusword"))
+
+    @property
+    def state(self) -> State:
+        """The state, asked for now."""
+        return State.of(self.statusword)
+
+    def command(self, command: Command) -> None:
+        """Write the controlword of a command. What follows is for `wait` to see."""
+        self.write("controlword", command.value)
+
+    def wait(self, wanted: Callable[[State], bool], what: str, *, timeout: float) -> State:
+        """Wait for a state.
+
+        Parameters
+        ----------
+        wanted : callable
+            Whether a state is one to stop at.
+        what : str
+            What is waited for, for the message.
+        timeout : float
+            How long [s].
+
+        Raises
+        ------
+        WrongState
+            When it has not come in time.
+        """
+        deadline = time.monotonic() + timeout
+        while not wanted(state := self.state):
+            if time.monotonic() > deadline:
+                raise WrongState(self.node, what, state, self._hint())
+            time.sleep(_POLL)
+        return state
+
+    def go(self, goal: State, *, timeout: float = _DEADLINE) -> None:
+        """Lead the drive to a state, one command after the other, each one seen to act.
+
+        Raises
+        ------
+        DriveFault
+            When the drive is or falls in fault.
+        WrongState
+            When a step does not come within `timeout` [s].
+        ValueError
+            When no command leads there.
+        """
+        deadline = time.monotonic() + timeout
+        while (state := self.state) is not goal:
+            left = max(0.0, deadline - time.monotonic())
+            if state in AUTOMATIC and goal is not AUTOMATIC[state]:
+                self.wait(lambda now: now not in AUTOMATIC, goal.value, timeout=left)
+            elif state is State.FAULT and goal is not State.FAULT:
+                raise self.fault(f"going to {goal.value!r}")
+            elif left == 0:
+                raise WrongState(self.node, repr(goal.value), state, self._hint())
+            else:
+                self._step(state, goal, left)
+
+    def _step(self, state: State, goal: State, left: float) -> None:
+        commands = path(state, goal)
+        if commands:
+            self.command(commands[0])
+        self.wait(lambda now: now is not state, repr(goal.value), timeout=left)
+
+    def enable(self, *, mode: int | None = None, timeout: float = _DEADLINE) -> None:
+        """Power the motor at zero torque, in a mode that commands torque.
+
+        Parameters
+        ----------
+        mode : int, optional
+            Mode of operation to set first: 4 profile torque, 10 cyclic synchronous torque.
+        timeout : float
+            How long it may take [s].
+
+        Raises
+        ------
+        DriveFault, WrongState, WrongAnswer
+            When it does not come to that; the drive is then disabled.
+        """
+        if mode is not None:
+            self.set_mode(mode)
+        elif (acting := self.number("mode_display")) not in MODES:
+            raise WrongAnswer(
+                f"node {self.node}: mode {acting} acts, which does not command torque, so zero torque "
+                "cannot be promised: apply a profile first, or give a mode: 10 cyclic synchronous "
+                "torque, 4 profile torque",
+                node=self.node,
+            )
+        self._zero_torque()
+        try:
+            self.go(State.OPERATION_ENABLED, timeout=timeout)
+        except DriveError as error:
+            try:
+                self.disable()
+            except DriveError as failure:
+                error.add_note(f"and the drive could not be disabled: {failure}")
+            raise
+
+    def _zero_torque(self) -> None:
+        for name in ("target_torque", "torque_offset"):
+            if name == "torque_offset" and not self.look(name):
+                continue  # none, or 0
+            self.write(name, 0)
+            if self.number(name) != 0:
+                raise WrongAnswer(
+                    f"node {self.node}: {name} does not stay 0: who else commands it?",
+                    node=self.node,
+                )
+
+    def disable(self, *, timeout: float = _DEADLINE) -> State:
+        """Take the power off the motor, from any state; return the state it rests in.
+
+        The node goes to NMT pre-operational first, so that no PDO of a running loop enables it again.
+
+        Raises
+        ------
+        WrongState
+            When the drive does not obey; then cut its power.
+        """
+        self.nmt("pre-operational")
+        resting = (State.SWITCH_ON_DISABLED, State.FAULT)
+        if (state := self.state) in resting:
+            return state
+        self.command(Command.DISABLE_VOLTAGE)
+        return self.wait(lambda now: now in resting, "disabled", timeout=timeout)
+
+    def quick_stop(self, *, timeout: float = _DEADLINE) -> State:
+        """Brake as 0x605A says; return the state it ends in, at last "switch on disabled".
+
+        Raises
+        ------
+        WrongState
+            When the drive does not obey; then cut its power.
+        """
+        self.command(Command.QUICK_STOP)
+        return self.wait(
+            lambda now: now is not State.OPERATION_ENABLED, "a quick stop", timeout=timeout
+        )
+
+    def reset_fault(self, *, timeout: float = _DEADLINE) -> None:
+        """Reset a fault by the rising edge of bit 7, and see that it is gone. No fault: no change.
+
+        Raises
+        ------
+        DriveFault
+            When the fault stays, as its cause does.
+        """
+        state = self.state
+        if state is State.FAULT_REACTION_ACTIVE:
+            state = self.wait(
+                lambda now: now is not State.FAULT_REACTION_ACTIVE, "in fault", timeout=timeout
+            )
+        if state is not State.FAULT:
+            return
+        self.command(Command.DISABLE_VOLTAGE)  # bit 7 low first: only its rising edge acts
+        self.command(Command.FAULT_RESET)
+        deadline = time.monotonic() + timeout
+        while self.state is State.FAULT and time.monotonic() < deadline:
+            time.sleep(_POLL)
+        self.command(Command.DISABLE_VOLTAGE)  # bit 7 low again, for the next time
+        if self.state in (State.FAULT, State.FAULT_REACTION_ACTIVE):
+            raise self.fault("resetting the fault")
+        remembered = self.look("latched_faults")
+        if isinstance(remembered, int) and remembered:
+            self.write("latched_faults", remembered)  # a 1 written clears the bit (Copley)
+
+    def set_mode(self, mode: int, *, timeout: float = _DEADLINE) -> None:
+        """Set the mode of operation and see it act (0x6060, 0x6061).
+
+        Raises
+        ------
+        ValueError
+            For a mode the drive does not offer (0x6502).
+        WrongAnswer
+            When it does not act within `timeout` [s].
+        """
+        offered = self.look("supported_modes")
+        if not 1 <= mode <= 32 or (isinstance(offered, int) and not offered >> (mode - 1) & 1):
+            modes = [n for n in range(1, 33) if isinstance(offered, int) and offered >> (n - 1) & 1]
+            raise ValueError(f"node {self.node}: mode = {mode}: the drive offers {modes}")
+        self.write("mode", mode)
+        deadline = time.monotonic() + timeout
+        while (acting := self.number("mode_display")) != mode:
+            if time.monotonic() > deadline:
+                raise WrongAnswer(
+                    f"node {self.node}: mode {mode} was asked, mode {acting} acts: "
+                    "disable the drive first, and see its manual for when it changes mode",
+                    node=self.node,
+                )
+            time.sleep(_POLL)
+
+    def nmt(self, command: str) -> None:
+        """Send an NMT command to this node: start, stop, pre-operational, reset, reset-comm."""
+        import can
+
+        if command not in NMT:
+            raise ValueError(f"NMT command {command!r}: must be one of {', '.join(NMT)}")
+        try:
+            self.bus.network.send_message(0, bytes([NMT[command], self.node]))
+        except (can.CanError, OSError, RuntimeError) as error:
+            raise BusError(
+                f"node {self.node}: NMT {command} was not sent, the bus took no frame ({error})",
+                node=self.node,
+            ) from error
+
+    # --- faults ---
+
+    def latched(self) -> list[str]:
+        """Return the names of the latched faults; none where the drive has no such object."""
+        word = self.look("latched_faults")
+        return faults.latched(word) if isinstance(word, int) else []
+
+    def fault(self, doing: str) -> DriveFault:
+        """Return the fault the drive is in, with all it tells, as an exception to raise."""
+        code = self.look("error_code")
+        return DriveFault(
+            self.node,
+            code=code if isinstance(code, int) else None,
+            emergencies=[str(one) for one in self.bus.heard.emergencies(self.node)],
+            latched=self.latched(),
+            doing=doing,
+        )
+
+    def _hint(self) -> str:
+        """Say why a drive may not obey."""
+        if not self.statusword & Statusword.REMOTE:
+            return (
+                "its statusword says it is not under remote control (bit 9): Copley drives obey CANopen "
+                "only when desired_state (0x2300) is 30"
+            )
+        return "is its enable input active, is its supply on, does another program command it?"

@@ -1,0 +1,150 @@
+"""What can go wrong with a drive, as exceptions that say what to do."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from ebac.drives import aborts
+from ebac.drives.objects import Object
+from ebac.drives.state import State
+
+
+class DriveError(Exception):
+    """Something went wrong with a drive or its bus.
+
+    Parameters
+    ----------
+    message : str
+        What happened and what to do.
+    node : int or None
+        Node id of the drive, 1 to 127; None where no single drive is meant.
+    """
+
+    def __init__(self, message: str, *, node: int | None = None) -> None:
+        super().__init__(message)
+        self.node = node
+
+
+class BusError(DriveError):
+    """The bus cannot be opened, or takes no frame."""
+
+
+class NoAnswer(DriveError):
+    """A drive did not answer in time.
+
+    The message names the node and the object, what was heard on the bus meanwhile, and what to check.
+    """
+
+    def __init__(
+        self, node: int, what: str, seconds: float, *, heard: str, check: Sequence[str]
+    ) -> None:
+        checks = "; ".join(f"{i}. {text}" for i, text in enumerate(check, start=1))
+        super().__init__(
+            f"node {node} did not answer within {1e3 * seconds:.0f} ms ({what}). "
+            f"Heard meanwhile: {heard}. Check: {checks}",
+            node=node,
+        )
+        self.heard = heard
+
+
+class Refused(DriveError):
+    """A drive refused to read or write an object: an SDO abort (CiA 301)."""
+
+    def __init__(self, node: int, obj: Object, doing: str, code: int) -> None:
+        super().__init__(
+            f"node {node} refused {doing} {obj}: {aborts.meaning(code)} (0x{code:08X}); "
+            f"{aborts.remedy(code)}",
+            node=node,
+        )
+        self.object = obj
+        self.code = code
+
+    @property
+    def absent(self) -> bool:
+        """Whether the drive has no such object."""
+        return self.code in aborts.ABSENT
+
+
+class WrongAnswer(DriveError):
+    """A drive answered something else than was asked, or does not do what it was told."""
+
+
+class WrongState(DriveError):
+    """A drive did not reach the state asked for."""
+
+    def __init__(self, node: int, wanted: str, found: State, hint: str) -> None:
+        super().__init__(f"node {node} is {found.value!r}, not {wanted}: {hint}", node=node)
+        self.found = found
+
+
+class DriveFault(DriveError):
+    """A drive is in fault.
+
+    Parameters
+    ----------
+    node : int
+        Node id.
+    code : int or None
+        Object 0x603F, None where it cannot be read.
+    emergencies : sequence of str
+        The emergencies heard, oldest first.
+    latched : sequence of str
+        Latched faults of a Copley drive by name.
+    doing : str
+        What was being done.
+    """
+
+    def __init__(
+        self,
+        node: int,
+        *,
+        code: int | None,
+        emergencies: Sequence[str],
+        latched: Sequence[str],
+        doing: str,
+    ) -> None:
+        from ebac.drives.faults import emergency
+
+        parts = []
+        if code:
+            parts.append(f"error code 0x{code:04X}, {emergency(code)}")
+        if latched:
+            parts.append(f"latched: {', '.join(latched)}")
+        if emergencies:
+            parts.append(f"emergencies: {'; '.join(emergencies)}")
+        told = ". ".join(parts) or "it tells no reason"
+        super().__init__(
+            f"node {node} is in fault while {doing}: {told}. Remove the cause, then "
+            f"`ebac drive reset-fault --node {node}`",
+            node=node,
+        )
+        self.code = code
+        self.emergencies = tuple(emergencies)
+        self.latched = tuple(latched)
+
+
+class NotApplied(DriveError):
+    """A configuration stopped half way. The drive is disabled unless the message says otherwise.
+
+    `written` and `left` name what was written and what was not, in order.
+    """
+
+    def __init__(
+        self, node: int, why: str, *, written: Sequence[str], left: Sequence[str], after: str
+    ) -> None:
+        super().__init__(
+            f"node {node}: stopped after {len(written)} of {len(written) + len(left)} writes: {why} "
+            f"{after} Written: {', '.join(written) or 'nothing'}. "
+            f"Not written: {', '.join(left) or 'nothing'}",
+            node=node,
+        )
+        self.written = tuple(written)
+        self.left = tuple(left)
+
+
+class NotVerified(DriveError):
+    """A drive does not hold what was written or wanted."""
+
+
+class ProfileError(ValueError):
+    """A profile says what cannot be; the message names file, line, key, value, range, remedy."""

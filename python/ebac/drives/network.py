@@ -1,0 +1,215 @@
+"""A network file: which drives are on a bus, and the profile of each."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from ebac.drives.errors import ProfileError
+from ebac.drives.load import BITRATES, BusLoad, Traffic, bus_load
+from ebac.drives.pdo import sync_period
+from ebac.drives.profile import Profile, read_profile, read_source
+from ebac.drives.source import Source
+
+
+@dataclass(frozen=True, kw_only=True)
+class Node:
+    """One drive of a network.
+
+    Parameters
+    ----------
+    id : int
+        Node id, 1 to 127.
+    name : str
+        Which axis, for people.
+    profile : Profile
+        What it is to be set to.
+    """
+
+    id: int
+    name: str = ""
+    profile: Profile
+
+
+@dataclass(frozen=True, kw_only=True)
+class Network:
+    """The drives of one bus.
+
+    Parameters
+    ----------
+    name : str
+        For people.
+    nodes : tuple of Node
+        The drives.
+    bitrate : int
+        Of the bus [bit/s].
+    others : tuple of Traffic
+        What else comes on the bus again and again.
+    """
+
+    name: str
+    nodes: tuple[Node, ...]
+    bitrate: int = 1_000_000
+    others: tuple[Traffic, ...] = ()
+
+    def load(self) -> BusLoad:
+        """Return the worst-case load of the bus."""
+        periods = [sync_period(node.profile.values) for node in self.nodes]
+        frames = [frame for node in self.nodes for frame in node.profile.traffic(node.id)]
+        sync = [Traffic(name="SYNC", size=0, rate=1 / min(periods))] if periods else []
+        return bus_load([*sync, *frames, *self.others], bitrate=self.bitrate)
+
+    def check_load(self) -> str | None:
+        """Return a warning when the bus is busier than comfortable.
+
+        Raises
+        ------
+        ProfileError
+            When it is so busy that nothing else gets through.
+        """
+        load = self.load()
+        if load.refused:
+            raise ProfileError(f"{self.name}: {load.describe()}")
+        return f"{self.name}: {load.describe()}" if load.warned else None
+
+
+def load(name: str | Path, *, nodes: Sequence[int] = (), bitrate: int | None = None) -> Network:
+    """Return a network from a network file, or from a profile for the nodes given.
+
+    Parameters
+    ----------
+    name : str or Path
+        A file, or a name of `builtin()`.
+    nodes : sequence of int
+        Of a network file: only these. Of a profile: the nodes it is for.
+    bitrate : int, optional
+        Of the bus [bit/s], where the file does not say.
+
+    Raises
+    ------
+    ProfileError
+        For what cannot be; the message names file, line, key, value, unit, range and remedy.
+    """
+    source = read_source(name)
+    for node in nodes:
+        if not 1 <= node <= 127:
+            raise ProfileError(f"node = {node}: must lie in [1, 127]")
+    if "node" in source.table:
+        network = _network(source)
+        return _only(network, nodes)
+    profile = read_profile(source)
+    if not nodes:
+        raise ProfileError(
+            f"{source.name}: is a profile for any node: say which with --node, or write a network "
+            "file with [[node]] tables, see the profile joystick"
+        )
+    chosen = tuple(Node(id=node, profile=profile) for node in dict.fromkeys(nodes))
+    return Network(name=source.name, nodes=chosen, bitrate=bitrate or 1_000_000)
+
+
+def _only(network: Network, nodes: Sequence[int]) -> Network:
+    there = [node.id for node in network.nodes]
+    for node in nodes:
+        if node not in there:
+            ids = ", ".join(str(one) for one in there)
+            raise ProfileError(f"node = {node}: {network.name} has no such node; it has: {ids}")
+    kept = tuple(node for node in network.nodes if not nodes or node.id in nodes)
+    # The others are on the bus all the same, with their share of it.
+    rest = [node for node in network.nodes if node not in kept]
+    frames = [frame for node in rest for frame in node.profile.traffic(node.id)]
+    return Network(
+        name=network.name,
+        nodes=kept,
+        bitrate=network.bitrate,
+        others=(*network.others, *frames),
+    )
+
+
+def _network(source: Source) -> Network:
+    from ebac.document import unknown
+
+    known = ["about", "bus", "node"]
+    for title in source.table:
+        if title not in known:
+            raise source.refuse((title,), unknown(title, title, known))
+    bus = source.table.get("bus", {})
+    if not isinstance(bus, Mapping):
+        raise source.refuse(("bus",), f"bus = {bus!r}: must be a table")
+    for key in bus:
+        if key not in ("bitrate", "other"):
+            raise source.refuse(("bus", key), unknown(f"bus.{key}", key, ["bitrate", "other"]))
+    bitrate = bus.get("bitrate", 1_000_000)
+    if isinstance(bitrate, bool) or bitrate not in BITRATES:
+        rates = ", ".join(str(rate) for rate in BITRATES)
+        raise source.refuse(
+            ("bus", "bitrate"), f"bus.bitrate = {bitrate!r} bit/s: must be one of {rates} bit/s"
+        )
+    others = bus.get("other", [])
+    if not isinstance(others, list):
+        raise source.refuse(("bus", "other"), "bus.other: must be written [[bus.other]]")
+    return Network(
+        name=source.name,
+        nodes=_nodes(source),
+        bitrate=int(bitrate),
+        others=tuple(_other(source, i, item) for i, item in enumerate(others)),
+    )
+
+
+def _nodes(source: Source) -> tuple[Node, ...]:
+    tables = source.table["node"]
+    if not isinstance(tables, list) or not all(isinstance(item, Mapping) for item in tables):
+        raise source.refuse(("node",), "node: must be written [[node]], once for each drive")
+    nodes: list[Node] = []
+    for i, table in enumerate(tables):
+        found = table.get("id")
+        at = ("node", i, "id") if "id" in table else ("node", i)
+        if isinstance(found, bool) or not isinstance(found, int) or not 1 <= found <= 127:
+            raise source.refuse(
+                at, f"node[{i}].id = {found!r}: must be a whole number in [1, 127], the drive's own"
+            )
+        if found in [node.id for node in nodes]:
+            raise source.refuse(at, f"node[{i}].id = {found}: is the id of another node")
+        name = table.get("name", "")
+        if not isinstance(name, str):
+            raise source.refuse(("node", i, "name"), f"node[{i}].name = {name!r}: must be text")
+        profile = read_profile(source, base=_base(source, i, table), at=("node", i))
+        nodes.append(Node(id=found, name=name, profile=profile))
+    for i, node in enumerate(nodes):
+        if any(node.id == other.profile.values["heartbeat.master"] for other in nodes):
+            raise source.refuse(
+                ("node", i, "id"),
+                f"node[{i}].id = {node.id}: is heartbeat.master, the loop's own id: choose another",
+            )
+    return tuple(nodes)
+
+
+def _base(source: Source, i: int, table: Mapping[str, Any]) -> Profile:
+    name = table.get("profile")
+    if not isinstance(name, str):
+        at = ("node", i, "profile") if "profile" in table else ("node", i)
+        raise source.refuse(
+            at, f"node[{i}].profile = {name!r}: must be the name of a profile, or of its file"
+        )
+    beside = Path(source.name).parent / name
+    base = read_source(beside if beside.is_file() else name)
+    if "node" in base.table:
+        raise source.refuse(
+            ("node", i, "profile"), f"node[{i}].profile = {name!r}: is itself a network file"
+        )
+    return read_profile(base)
+
+
+def _other(source: Source, i: int, table: Any) -> Traffic:
+    path = ("bus", "other", i)
+    size, rate = (
+        table.get(key) if isinstance(table, Mapping) else None for key in ("size", "rate")
+    )
+    if isinstance(size, bool) or not isinstance(size, int) or not 0 <= size <= 8:
+        raise source.refuse(
+            path, f"bus.other[{i}].size = {size!r} bytes: must be a whole number in [0, 8]"
+        )
+    if isinstance(rate, bool) or not isinstance(rate, (int, float)) or not 0 < rate <= 1e5:
+        raise source.refuse(path, f"bus.other[{i}].rate = {rate!r} Hz: must lie in (0, 100000] Hz")
+    return Traffic(name=str(table.get("name", f"other {i}")), size=size, rate=float(rate))

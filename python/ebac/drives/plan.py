@@ -1,0 +1,165 @@
+"""The plan: what would change on a drive, before anything does."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import Any
+
+from ebac.drives.drive import Drive
+from ebac.drives.errors import Refused
+from ebac.drives.network import Node
+from ebac.drives.objects import ENTRIES, Object, mapped
+from ebac.drives.settings import Group, Setting, Write, groups, writes
+
+
+@dataclass(frozen=True, kw_only=True)
+class Change:
+    """One object that does not hold what is wanted.
+
+    Parameters
+    ----------
+    node : int
+        Node id.
+    object : Object
+        Which.
+    now, wanted : int
+        Raw numbers.
+    why : str
+        For people.
+    """
+
+    node: int
+    object: Object
+    now: int
+    wanted: int
+    why: str
+
+    def row(self) -> dict[str, Any]:
+        """Return it as a plain row."""
+        return {
+            "node": self.node,
+            "object": self.object.where,
+            "name": self.object.name,
+            "now": self.now,
+            "wanted": self.wanted,
+            "unit": "" if self.object.hexadecimal else self.object.unit,
+            "why": self.why,
+        }
+
+    def show(self, value: int) -> str:
+        """Return one of its numbers as people read it, without unit."""
+        if "_entry" in self.object.name and value:
+            return f"{mapped(value)} ({value & 0xFF} bit)"
+        return self.object.show(value).removesuffix(self.object.unit).rstrip()
+
+
+@dataclass(frozen=True, kw_only=True)
+class Plan:
+    """What would change on one drive, and what it holds now.
+
+    Parameters
+    ----------
+    node : Node
+        Which, with its profile.
+    groups : tuple of Group
+        All that is wanted.
+    held : dict
+        What the drive holds: bytes by (index, sub-index).
+    changes : tuple of Change
+        What differs.
+    """
+
+    node: Node
+    groups: tuple[Group, ...]
+    held: dict[tuple[int, int], bytes]
+    changes: tuple[Change, ...]
+
+    def writes(self) -> list[Write]:
+        """Return the SDO downloads that make the changes, in order."""
+        return [write for group in self.groups for write in writes(group, self.held)]
+
+
+def plan(drive: Drive, node: Node) -> Plan:
+    """Ask a drive for all a profile sets, and return what would change. Nothing is written.
+
+    Parameters
+    ----------
+    drive : Drive
+        Whom to ask.
+    node : Node
+        What is wanted; its id must be that of the drive.
+
+    Raises
+    ------
+    Refused
+        When the drive has no object the profile sets.
+    NoAnswer, WrongAnswer, BusError
+        When the drive gives no value.
+    """
+    if drive.node != node.id:
+        raise ValueError(f"node = {node.id}: the drive is node {drive.node}")
+    wanted = tuple(groups(node.profile, node.id))
+    held = read_held(drive, wanted)
+    return Plan(
+        node=node, groups=wanted, held=held, changes=tuple(differences(drive.node, wanted, held))
+    )
+
+
+def read_held(drive: Drive, wanted: Iterable[Group]) -> dict[tuple[int, int], bytes]:
+    """Return what a drive holds of all groups; of a PDO that is remapped, its whole mapping.
+
+    Raises
+    ------
+    Refused
+        When the drive lacks an object that is not optional.
+    """
+    held: dict[tuple[int, int], bytes] = {}
+    for group in wanted:
+        for setting in group.settings:
+            data = _look(drive, setting)
+            if data is not None:
+                held[setting.object.key] = data
+        if group.pdo and len(group.settings) > 1:
+            held |= _other_entries(drive, group, held)
+    return held
+
+
+def differences(
+    node: int, wanted: Iterable[Group], held: dict[tuple[int, int], bytes]
+) -> list[Change]:
+    """Return the settings a drive does not hold."""
+    found = []
+    for group in wanted:
+        for one in group.settings:
+            data = held.get(one.object.key)
+            if data is None or one.holds(data):
+                continue
+            now = one.object.decode(data)
+            assert isinstance(now, int)
+            found.append(
+                Change(node=node, object=one.object, now=now, wanted=one.wanted(data), why=one.why)
+            )
+    return found
+
+
+def _look(drive: Drive, setting: Setting) -> bytes | None:
+    try:
+        return drive.sdo.upload(setting.object)
+    except Refused as error:
+        if error.absent and setting.optional:
+            return None
+        raise
+
+
+def _other_entries(
+    drive: Drive, group: Group, held: dict[tuple[int, int], bytes]
+) -> dict[tuple[int, int], bytes]:
+    """Return the entries of a mapping beyond those wanted: to put them back one day."""
+    (count,) = [one.object for one in group.settings if one.object.name.endswith("_count")]
+    used = int.from_bytes(held[count.key], "little")
+    found = {}
+    for sub in range(1, min(used, ENTRIES) + 1):
+        if (count.index, sub) not in held:
+            found[count.index, sub] = drive.sdo.upload(drive.object((count.index, sub)))
+    return found

@@ -1,0 +1,113 @@
+"""Simulated drives on a bus in real time: frames in, time passes, frames out."""
+
+from __future__ import annotations
+
+import threading
+import time
+from types import TracebackType
+from typing import TYPE_CHECKING, Protocol, Self
+
+from ebac.drives.errors import BusError
+
+if TYPE_CHECKING:
+    import can
+
+#: Longest wait for a frame [s]: heartbeats and timers of the drives are this late at most.
+_WAIT = 1e-3
+
+
+class SimulatedNodes(Protocol):
+    """What is on the bus: `ebac._core.Joystick`, or one `SimulatedDrive`."""
+
+    def receive(self, id: int, data: bytes = b"", *, remote: bool = False) -> None:  # noqa: A002
+        """Take one frame of the bus."""
+
+    def elapse(self, seconds: float) -> None:
+        """Let time pass [s]."""
+
+    def take(self) -> list[tuple[int, bytes]]:
+        """Give every frame on its way out: identifier, data."""
+
+
+class Simulation:
+    """Simulated nodes at work on a bus, in a thread of their own. A context manager.
+
+    Parameters
+    ----------
+    bus : can.BusABC
+        An open bus of python-can. It stays open.
+    nodes : SimulatedNodes
+        Who is on it. Nobody else may touch them meanwhile.
+
+    Attributes
+    ----------
+    received, sent, lost : int
+        Frames taken from the bus, put on it, and refused by it.
+    """
+
+    def __init__(self, bus: can.BusABC, nodes: SimulatedNodes) -> None:
+        self.bus = bus
+        self.received = 0
+        self.sent = 0
+        self.lost = 0
+        self._nodes = nodes
+        self._over = threading.Event()
+        self._failure: Exception | None = None
+        self._thread = threading.Thread(target=self._work, name="simulated drives", daemon=True)
+
+    def __enter__(self) -> Self:
+        self._thread.start()
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        traceback: TracebackType | None,
+    ) -> None:
+        self._over.set()
+        self._thread.join()
+
+    def wait(self, seconds: float) -> None:
+        """Wait while the nodes work.
+
+        Raises
+        ------
+        BusError
+            When the bus has failed.
+        """
+        self._over.wait(seconds)
+        if self._failure is not None:
+            raise BusError(
+                f"{self.bus.channel_info}: the bus failed ({self._failure}); is the interface still up?"
+            ) from self._failure
+
+    def _work(self) -> None:
+        last = time.monotonic()
+        try:
+            while not self._over.is_set():
+                message = self.bus.recv(_WAIT)
+                now = time.monotonic()
+                self._nodes.elapse(now - last)
+                last = now
+                if message is not None and not (message.is_error_frame or message.is_extended_id):
+                    self.received += 1
+                    data = b"" if message.is_remote_frame else bytes(message.data)
+                    self._nodes.receive(
+                        message.arbitration_id, data, remote=message.is_remote_frame
+                    )
+                self._send()
+        except Exception as error:  # told by `wait`, in the thread that asks
+            self._failure = error
+            self._over.set()
+
+    def _send(self) -> None:
+        import can
+
+        for cob, data in self._nodes.take():
+            message = can.Message(arbitration_id=cob, data=data, is_extended_id=False)
+            try:
+                self.bus.send(message)
+                self.sent += 1
+            except can.CanOperationError:  # its queue is full, or nobody acknowledges
+                self.lost += 1

@@ -1,0 +1,234 @@
+"""`ebac drive` on the simulated drives: tables, JSON, refusals, exit codes."""
+
+import json
+import os
+import re
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import can
+import pytest
+from typer.testing import CliRunner
+
+from ebac import drives
+from ebac.cli import app
+from ebac.drives import bus as bus_module
+
+Run = Callable[..., Any]
+CHANGE = ["node", "object", "name", "now", "wanted", "unit", "why"]
+COMMANDS = (
+    "scan", "show", "plan", "apply", "verify", "restore", "enable", "disable", "reset-fault", "simulate"
+)  # fmt: skip
+
+
+@pytest.fixture
+def drive(
+    open_bus: Callable[[], can.BusABC], monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> Run:
+    """Run `ebac drive ...` on a bus with the simulated drives."""
+    monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path / "state"))
+    monkeypatch.setenv("COLUMNS", "160")
+    monkeypatch.setattr(bus_module, "open_bus", lambda **given: open_bus())
+
+    def run(*words: str, code: int = 0) -> Any:
+        result = CliRunner().invoke(app, ["drive", *words])
+        assert result.exit_code == code, result.output
+        assert result.exception is None or isinstance(result.exception, SystemExit)
+        return json.loads(result.stdout) if "--json" in words and code == 0 else result
+
+    return run
+
+
+def said(result: Any) -> str:
+    return " ".join(re.sub(r"[│╭╮╰╯─]", " ", result.output).split())
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_every_command_teaches_by_an_example(command: str) -> None:
+    text = CliRunner().invoke(app, ["drive", command, "--help"]).output
+    assert f"ebac drive {command}" in text
+    assert "--interface" in text
+
+
+def test_help_tells_the_order_of_things() -> None:
+    text = CliRunner().invoke(app, ["drive", "--help"]).output
+    places = [
+        text.index(f"ebac drive {command}") for command in ("scan", "plan", "apply", "enable")
+    ]
+    assert places == sorted(places)
+
+
+def test_scan_and_show(drive: Run) -> None:
+    rows = drive("scan", "--timeout", "0.1", "--json")["rows"]
+    assert [row["node"] for row in rows] == [1, 2]
+    assert list(rows[0]) == [
+        "node", "nmt", "name", "vendor_id", "product_code", "revision", "serial_number", "state", "latched",
+    ]  # fmt: skip
+    assert rows[0]["state"] == "switch on disabled"
+    assert "switch on disabled" in drive("scan", "--timeout", "0.1").stdout
+    objects = {row["name"]: row for row in drive("show", "-n", "2", "--json")["rows"]}
+    assert objects["rated_torque"]["value"] == 53
+    assert objects["rated_torque"]["unit"] == "mN m"
+    assert list(objects["rated_torque"]) == [
+        "node",
+        "object",
+        "name",
+        "value",
+        "unit",
+        "meaning",
+        "text",
+    ]
+    assert "tpdo1_cob_id" not in objects
+    assert "tpdo1_cob_id" in drive("show", "-n", "1", "--all").stdout
+
+
+def test_plan_apply_verify_restore(drive: Run, tmp_path: Path) -> None:
+    planned = drive("plan", "joystick", "--json")
+    assert list(planned["rows"][0]) == CHANGE
+    assert planned["bus_load_share"] == pytest.approx(0.52, abs=0.005)
+    assert planned["bitrate_bit_per_s"] == 1_000_000
+    table = drive("plan").stdout
+    for words in ("sync_period", "us", "the loop's SYNC", "position (32 bit)", "Bus load 52 %"):
+        assert words in table
+    assert "Not verified" in drive("verify", code=1).stdout
+
+    applied = drive("apply", "--yes", "--json")
+    assert applied["rows"] == planned["rows"]
+    assert [node["node"] for node in applied["nodes"]] == [1, 2]
+    assert all(Path(node["backup"]).is_file() for node in applied["nodes"])
+    assert all(Path(node["backup"]).is_relative_to(tmp_path) for node in applied["nodes"])
+    assert "Verified" in drive("verify").stdout
+    assert drive("verify", "--json")["rows"] == []
+    assert "nothing was written" in drive("apply", "--yes").stdout
+
+    back = drive("restore", "--yes", "--json")
+    assert {row["name"] for row in back["rows"]} >= {"sync_period", "tpdo1_count"}
+    assert not any(Path(node["backup"]).exists() for node in applied["nodes"])
+    assert drive("plan", "--json")["rows"] == planned["rows"]
+    assert "nothing to restore" in said(drive("restore", "--yes", code=1))
+
+
+def test_one_node_of_a_network_and_a_profile_of_ones_own(drive: Run, tmp_path: Path) -> None:
+    assert {row["node"] for row in drive("plan", "-n", "2", "--json")["rows"]} == {2}
+    mine = tmp_path / "mine.toml"
+    mine.write_text("[limits]\nrated_torque = 0.053\nmax_torque = 0.1\n", encoding="utf-8")
+    names = {row["name"] for row in drive("plan", str(mine), "-n", "1", "--json")["rows"]}
+    assert "max_torque" in names
+    assert "is a profile for any node: say which with --node" in said(
+        drive("plan", str(mine), code=2)
+    )
+    mine.write_text("[limits]\nrated_torque = -1\n", encoding="utf-8")
+    message = said(drive("plan", str(mine), "-n", "1", code=2))
+    assert "line 2: limits.rated_torque = -1 N m: must lie in [0.001, 1000] N m" in message
+
+
+@pytest.mark.parametrize("command", ["apply", "restore", "enable"])
+def test_what_writes_asks_and_where_nobody_can_answer_refuses(drive: Run, command: str) -> None:
+    drive("apply", "-n", "1", "--yes")
+    assert "Nobody is here to ask: add --yes" in said(drive(command, "-n", "1", code=2))
+    assert {row["state"] for row in drive("scan", "--json", "--timeout", "0.1")["rows"]} == {
+        "switch on disabled"
+    }
+
+
+def test_enable_warns_powers_at_zero_torque_and_disable_ends_it(drive: Run) -> None:
+    assert "zero torque cannot be promised" in said(drive("enable", "-n", "1", "--yes", code=1))
+    drive("apply", "--yes")
+    assert "will be powered, at zero torque" in said(drive("enable", "-n", "1", code=2))
+    rows = drive("enable", "-n", "1", "-n", "2", "--yes", "--json")["rows"]
+    assert rows == [{"node": n, "state": "operation enabled"} for n in (1, 2)]
+    shown = {row["name"]: row["value"] for row in drive("show", "-n", "1", "--json")["rows"]}
+    assert (shown["target_torque"], shown["mode_display"]) == (0, 10)
+    rows = drive("disable", "--timeout", "0.1", "--json")["rows"]
+    assert rows == [{"node": n, "state": "switch on disabled"} for n in (1, 2)]
+
+
+def test_one_drive_in_fault_leaves_none_powered(
+    drive: Run, open_bus: Callable[[], can.BusABC]
+) -> None:
+    drive("apply", "--yes")
+    with drives.DriveBus(open_bus()) as bus:
+        conditions = drives.Object(name="conditions", index=0x5F00, kind="u8")
+        bus.drive(2).sdo.download(conditions, b"\x01")
+        message = said(drive("enable", "-n", "1", "-n", "2", "--yes", code=1))
+        assert "node 2 is in fault" in message
+        assert "over voltage" in message
+        assert not bus.drive(1).state.powered
+        assert "node 2 is in fault while resetting" in said(drive("reset-fault", "-n", "2", code=1))
+        bus.drive(2).sdo.download(conditions, b"\x00")
+        rows = drive("reset-fault", "-n", "2", "--json")["rows"]
+        assert rows == [{"node": 2, "state": "switch on disabled"}]
+
+
+def test_a_node_that_is_not_there_says_what_to_check(drive: Run) -> None:
+    message = said(drive("show", "-n", "9", "--timeout", "0.02", code=1))
+    assert "node 9 did not answer" in message
+    assert "Check: 1." in message
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (["scan", "--interface", "socketcan", "--channel", "nocan7"], "interface socketcan, channel nocan7"),
+        (["scan", "--interface", "nonsense"], "interface 'nonsense' is not usable"),
+        (["scan", "--interface", "virtual", "--channel", "empty", "--timeout", "0.01"], "Nobody answers"),
+        (["disable", "--interface", "virtual", "--channel", "empty", "--timeout", "0.01"], "no drive answers"),
+        (["simulate", "--channel", "nocan7"], "interface socketcan, channel nocan7"),
+        (["simulate", "--device", "joistick"], "no device is called 'joistick'"),
+        (["plan", "joistick"], "there is no such file, and no profile of that name"),
+    ],
+)  # fmt: skip
+def test_what_cannot_be_is_told_in_one_sentence(words: list[str], message: str) -> None:
+    result = CliRunner().invoke(app, ["drive", *words])
+    assert result.exception is None or isinstance(result.exception, SystemExit), result.exception
+    assert message in said(result)
+    assert "Traceback" not in result.output
+
+
+def test_simulate_serves_until_its_time_is_over() -> None:
+    words = ["drive", "simulate", "--interface", "virtual", "--channel", "sim", "--seconds", "0.2"]
+    result = CliRunner().invoke(app, words)
+    assert result.exit_code == 0, result.output
+    assert "Simulated drives, nodes 1, 2, on" in said(result)
+    assert "Stopped: 0 frames received, 2 sent." in said(result)  # boot-up of both
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_drives_in_another_process_are_set_up_and_end_by_a_signal(
+    number: signal.Signals, tmp_path: Path
+) -> None:
+    """Between processes, over multicast on this machine: `simulate` here, all else there."""
+    pytest.importorskip("msgpack")
+    channel = f"239.{os.getpid() % 250}.74.{163 + number}"
+    bus = ["--interface", "udp_multicast", "--channel", channel]
+    environment = os.environ | {"XDG_STATE_HOME": str(tmp_path)}
+    code = "from ebac.cli import app; app()"
+    with subprocess.Popen(
+        [sys.executable, "-c", code, "drive", "simulate", *bus],
+        stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, env=environment,
+    ) as served:  # fmt: skip
+        try:
+            assert served.stdout is not None
+            first = served.stdout.readline()
+            if "Simulated drives" not in first:
+                pytest.skip(f"no multicast here: {first}")
+            with drives.DriveBus.open(interface="udp_multicast", channel=channel) as opened:
+                (node,) = drives.load("joystick", nodes=[2]).nodes
+                drive = opened.drive(2, timeout=1.0)
+                drives.apply(drive, node, backups=drives.Backups(tmp_path))
+                with drive:
+                    drive.enable()
+                drives.restore(drive, backups=drives.Backups(tmp_path))
+            served.send_signal(number)
+            deadline = time.monotonic() + 10
+            while served.poll() is None and time.monotonic() < deadline:
+                time.sleep(0.02)
+            assert served.returncode == 0
+            assert "Stopped:" in served.stdout.read()
+        finally:
+            served.kill()
