@@ -357,8 +357,7 @@ TEST(Threads, WhatWasSentIsThereOnceAllSendersAreDone) {
   std::atomic<int> done{0};
   std::thread other([&] {
     for (int round = 1; round <= kRounds; ++round) {
-      while (begun < round) {
-      }
+      while (begun < round) std::this_thread::yield();
       b.send(numbered(2, 0));
       done = round;
     }
@@ -367,8 +366,7 @@ TEST(Threads, WhatWasSentIsThereOnceAllSendersAreDone) {
   for (int round = 1; round <= kRounds; ++round) {
     begun = round;
     for (int i = 0; i < round % 8; ++i) a.send(numbered(1, 0));
-    while (done < round) {
-    }
+    while (done < round) std::this_thread::yield();
     const auto sent = static_cast<std::size_t>(round % 8 + 1);
     if (all_of(listener).size() != sent) ++missing;
   }
