@@ -346,6 +346,34 @@ TEST(Threads, ThereIsOneOrderForAll) {
   }
 }
 
+/// A frame left to somebody who was just about to stop delivering must not stay behind.
+TEST(Threads, WhatWasSentIsThereOnceAllSendersAreDone) {
+  constexpr int kRounds = 20'000;
+  LoopbackHub hub;
+  LoopbackBus listener = hub.open();
+  LoopbackBus a = hub.open();
+  LoopbackBus b = hub.open();
+  std::atomic<int> begun{0};
+  std::atomic<int> done{0};
+  std::thread other([&] {
+    for (int round = 1; round <= kRounds; ++round) {
+      while (begun < round) std::this_thread::yield();
+      b.send(numbered(2, 0));
+      done = round;
+    }
+  });
+  int missing = 0;
+  for (int round = 1; round <= kRounds; ++round) {
+    begun = round;
+    for (int i = 0; i < round % 8; ++i) a.send(numbered(1, 0));
+    while (done < round) std::this_thread::yield();
+    const auto sent = static_cast<std::size_t>(round % 8 + 1);
+    if (all_of(listener).size() != sent) ++missing;
+  }
+  other.join();
+  EXPECT_EQ(missing, 0);
+}
+
 TEST(Threads, EndsComeAndGoWhileOthersSend) {
   LoopbackHub hub;
   LoopbackBus listener = hub.open({.frames = 100'000});
