@@ -37,7 +37,9 @@ def bench(
     ] = False,
     with_can: Annotated[
         bool,
-        typer.Option("--can", help="Time frames and exchanges on a CAN bus in the process instead."),
+        typer.Option(
+            "--can", help="Time frames and exchanges on a CAN bus in the process instead."
+        ),
     ] = False,
     side: Annotated[
         int, typer.Option(help="Of the map that --peers times, side x side runs.", min=2, max=5000)
@@ -55,7 +57,7 @@ def bench(
 
     * `ebac bench --peers`: the same plant, step and wall in MuJoCo and SciPy; a map, two threads, memory.
 
-    * `ebac bench --can`: a tick on the bus with two simulated drives; frames per second, beside python-can's `virtual` bus.
+    * `ebac bench --can`: a tick on the bus with two simulated drives; frames per second beside python-can's `virtual`.
     """
     if with_peers and with_can:
         output.fail("--peers and --can are two comparisons: give one of them")
