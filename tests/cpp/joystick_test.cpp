@@ -5,6 +5,7 @@
 
 #include <cstring>
 #include <memory>
+#include <string_view>
 
 #include "ebac/can/serve.hpp"
 #include "ebac/control/laws.hpp"
@@ -65,6 +66,7 @@ void commission(J& joystick) {
 class OnTheBus {
  public:
   using State = SimulatedDevice::State;
+  static constexpr std::string_view kPrefix = "true.";  // of its columns
   using J = Joystick<SimulatedDevice>;
 
   OnTheBus(std::shared_ptr<J> joystick, const DeviceModel& device)
