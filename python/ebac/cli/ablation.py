@@ -168,7 +168,8 @@ def _tell(piece: Piece, row: AblationRow, found: Ablation) -> None:
     lines = [verdict + (f": {_list(row, found, row.worse)}" if row.worse else "")]
     if row.better:
         lines.append(f"better: {_list(row, found, row.better)}")
-    output.say(f"{row.label} ({piece.meaning}): {'; '.join(lines)}")
+    what = f" ({piece.meaning})" if len(piece.changes) == 1 else ""
+    output.say(f"{row.label}{what}: {'; '.join(lines)}")
 
 
 def _list(row: AblationRow, found: Ablation, keys: Sequence[str]) -> str:
