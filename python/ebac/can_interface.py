@@ -20,7 +20,7 @@ from collections.abc import Callable, Sequence
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass
 from threading import RLock, current_thread
-from typing import Any
+from typing import TYPE_CHECKING, Any
 from weakref import WeakSet
 
 import can
@@ -28,19 +28,26 @@ from can.typechecking import AutoDetectedConfig
 
 from ebac._core import BusCounts, BusState, CanFrame, LoopbackBus, LoopbackHub, LoopbackJoystick
 
+if TYPE_CHECKING:
+    from ebac.scenario import Scenario
+
 _LOG = logging.getLogger("can.ebac")
 
 #: What builds the nodes of a channel: given the bus, a context in which they stand on it.
 Nodes = Callable[[LoopbackHub], AbstractContextManager[object]]
 
 
-def joystick(hub: LoopbackHub) -> LoopbackJoystick:
-    """Return the simulated joystick, nodes 1 and 2, with a hand that holds it where it is."""
+def resting_joystick() -> Scenario:
+    """Return the scenario of the joystick on a channel: the paper's, in a hand that holds it where it is."""
     from ebac import presets
     from ebac.scenario import Scenario
 
-    scenario = Scenario(device=presets.device("joystick"), hand=presets.hand("resting"))
-    return LoopbackJoystick(hub, scenario.setup())
+    return Scenario(device=presets.device("joystick"), hand=presets.hand("resting"))
+
+
+def joystick(hub: LoopbackHub) -> LoopbackJoystick:
+    """Return the simulated joystick, nodes 1 and 2."""
+    return LoopbackJoystick(hub, resting_joystick().setup())
 
 
 #: Nodes by the start of a channel's name: "joystick" stands for joystick2 and joystick-left too, each with its own.

@@ -1,6 +1,6 @@
 """Drives in another process, on the virtual interface that EBAC_CAN names: `.ci/socketcan/run` gives one.
 
-Set up by `ebac drive`, run by the C++ device of the loop (`socketcan_drives_test` in EBAC_CPP_TESTS), put back, stopped.
+Set up by `ebac drive`, run by the C++ device of the loop (`socketcan_drives_test`), put back, stopped.
 """
 
 import json

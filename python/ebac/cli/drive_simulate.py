@@ -101,10 +101,10 @@ def simulate(
 def _setup(file: Path | None, device: str | None, hand: str | None, seed: int | None) -> Setup:
     """Return device and hand: of the file, or a joystick that is held where it is."""
     from ebac import presets
-    from ebac.scenario import Scenario
+    from ebac.can_interface import resting_joystick
 
     if file is None:
-        base = Scenario(device=presets.device("joystick"), hand=presets.hand("resting"))
+        base = resting_joystick()
     else:
         base = setting.base_scenario(file)
     parts = setting.given(
