@@ -1,5 +1,6 @@
 """`can.Bus(interface="ebac", channel="joystick")`: the simulated joystick on the bus, served by C++ in real time."""
 
+import json
 import re
 import signal
 import subprocess
@@ -98,9 +99,12 @@ def test_a_notifier_hears_what_goes_on_and_time_passes(channel: str) -> None:
 
 def test_ebac_drive_scans_it() -> None:
     where = ["--interface", "ebac", "--channel", "joystick"]
-    result = CliRunner().invoke(app, ["drive", "scan", *where, "--timeout", "5"])
+    result = CliRunner().invoke(app, ["drive", "scan", *where, "--timeout", "5", "--json"])
     assert result.exit_code == 0, result.output
-    assert result.output.count("ebac simulated drive") == 2
+    rows = json.loads(result.stdout)["rows"]
+    assert [(row["node"], row["name"]) for row in rows] == [
+        (node, "ebac simulated drive") for node in (1, 2)
+    ]
 
 
 def test_the_logger_of_python_can_logs_it(tmp_path: Path) -> None:
@@ -164,7 +168,7 @@ def test_a_joystick_works_once() -> None:
 @pytest.mark.parametrize(
     ("changes", "tells"),
     [
-        ({"first": 0}, r"drive.node = 0 1: must lie in \[1, 127\]"),
+        ({"first": 0}, "drive.node = 0"),
         ({"first": 128}, "drive.node = 128"),
         ({"peak_time": 0.0}, "drive.peak_time = 0 s"),
         ({"peak_time": float("nan")}, "drive.peak_time = nan s"),

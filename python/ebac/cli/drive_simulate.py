@@ -20,6 +20,7 @@ from ebac.cli.drive_options import Bitrate, telling
 if TYPE_CHECKING:
     from ebac._core import Setup, SocketCanJoystick
     from ebac.drives.simulate import Simulation
+    from ebac.scenario import Scenario
 
 #: How often the main thread looks after the others [s].
 _LOOK = 0.1
@@ -79,10 +80,11 @@ def simulate(
     from ebac.drives.simulate import Simulation
 
     with output.refusing():
-        setup = _setup(scenario, device, hand, seed)
+        plant = _plant(scenario, device, hand, seed)
+        setup = plant.setup()
     with telling(), _signalled() as over:
         with _at_work(setup, interface, channel, bitrate, first) as work:
-            ids = ", ".join(str(first + axis) for axis in range(setup.device.axes))
+            ids = ", ".join(str(first + axis) for axis in range(plant.device.axes))
             output.say(
                 f"Simulated drives, nodes {ids}, on {interface} {channel}. Ctrl-C stops them."
             )
@@ -98,7 +100,7 @@ def simulate(
     output.say(f"Stopped: {counts.received} frames received, {counts.sent} sent{refused}{lost}.")
 
 
-def _setup(file: Path | None, device: str | None, hand: str | None, seed: int | None) -> Setup:
+def _plant(file: Path | None, device: str | None, hand: str | None, seed: int | None) -> Scenario:
     """Return device and hand: of the file, or a joystick that is held where it is."""
     from ebac import presets
     from ebac.can_interface import resting_joystick
@@ -112,7 +114,7 @@ def _setup(file: Path | None, device: str | None, hand: str | None, seed: int | 
         hand=None if hand is None else presets.hand(hand),
         seed=seed,
     )
-    return base.replace(**parts).setup()
+    return base.replace(**parts)
 
 
 @contextmanager
