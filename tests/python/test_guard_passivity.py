@@ -144,13 +144,16 @@ def test_no_environment_takes_out_more_than_the_reserve(
 
 @pytest.mark.xfail(strict=True, reason="the force at the start of the last interval is not counted")
 def test_a_force_that_turns_every_other_tick_behind_a_lag_takes_no_more_either() -> None:
-    """Without delay, injection and continuity: a force behind the current loop was larger than any that is known now."""
+    """Without delay, injection, continuity: what acted as the last interval began was larger than all known now."""
     scenario = ebac.Scenario(
         device=ebac.Device(
             mechanics=ebac.Mechanics(damping=3.0), encoder=ebac.Encoder(counts_per_turn=1 << 18)
         ),
         hand=ebac.Hand(
-            mass=0.18, damping=15, stiffness=20, path=ebac.Sine(amplitude=0.14, frequency=16.5)
+            mass=0.18,
+            damping=15,
+            stiffness=20,
+            path=ebac.Sine(centre=0.0, amplitude=0.14, frequency=16.5),
         ),
         timing=ebac.Timing(delay=0),
         seconds=0.6,

@@ -193,7 +193,9 @@ def test_what_is_no_condition_is_refused() -> None:
     with pytest.raises(ValueError, match="no condition given"):
         study(FEW, "tca", [])
     free = ebac.Scenario(environment=ebac.Free())
-    with pytest.raises(ValueError, match="approach_m = 0.01 m: needs a Wall, the scenario has a Free"):
+    with pytest.raises(
+        ValueError, match=r"approach_m = 0\.01 m: needs a Wall, the scenario has a Free"
+    ):
         study(FEW, "tca", ["d1K10"], base=free)
     with pytest.raises(TypeError, match="the environment is a Free: must be a Wall"):
         study(FEW.replace(approach_m=0.0), "tca", ["d1K10"], base=free)
