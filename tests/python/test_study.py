@@ -211,6 +211,18 @@ def test_a_study_can_be_drawn(few: Study) -> None:
     assert titles == ["0 of 3 good", "3 of 3 good"]
 
 
+def test_many_laws_under_one_condition_are_drawn_below_each_other() -> None:
+    from ebac.plot import plot_study
+
+    laws = ["direct", "tca", "tca-damped", "eba", "force-bounding", "ebac"]
+    found = study(FEW[:1], laws, ["d1K10"], base=ebac.Scenario(seconds=0.5))
+    panels = dict(plot_study(found))["hands"].axes
+    assert len(panels) == 6
+    assert len({round(ax.get_position().y0, 3) for ax in panels}) == 2
+    named = [text.get_text() for ax in panels for text in ax.texts if text.get_text() in laws]
+    assert named == laws
+
+
 # --- the command ---
 
 
