@@ -82,7 +82,9 @@ def energy() -> Picture:
         ax.axhline(-10, color="0.35", ls="--", lw=1, label="-e(0)")
         dress(ax, "energy [mJ]")
     kept = traces["ebac"]
-    line(grid[1], kept["t"], 1e3 * kept["law.energy"], color="black", lw=0.8, label="ledger of ebac")
+    line(
+        grid[1], kept["t"], 1e3 * kept["law.energy"], color="black", lw=0.8, label="ledger of ebac"
+    )
     grid[1].set_ylim(-15, 60)
     grid[1].set_xlabel("time [s]")
     for ax in grid:

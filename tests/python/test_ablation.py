@@ -146,6 +146,24 @@ def test_a_measure_is_what_a_study_says(few: Ablation) -> None:
         assert row.values["least_energy_impact_J"] == least
 
 
+def test_the_force_step_is_the_largest_inside_of_the_wall_over_all_hands(few: Ablation) -> None:
+    for row, law in ((few.rows[0], "ebac"), (few.rows[-1], "eba")):
+        steps = []
+        for scenario in FEW.scenarios(ebac.Scenario()):
+            trace = ebac.simulate(scenario.replace(seed=few.study.scenarios[len(steps)].seed), law)
+            asked, commanded = trace["f_env"], trace["f_cmd"]
+            steps += [
+                max(
+                    abs(commanded[k] - commanded[k - 1])
+                    for k in range(1, len(trace))
+                    if asked[k] and asked[k - 1]
+                )
+            ]
+        assert row.values["force_step_N"] == max(steps)
+        # The step at the surface is not among them.
+        assert max(steps) < few.study.columns["force_step_N"][few.study.runs("ebac", "d1K10")].max()
+
+
 def test_what_the_law_needs_is_worse_without_it(few: Ablation) -> None:
     rows = {row.label: row for row in few.rows}
     assert "good" in rows["recovery off"].worse
@@ -203,8 +221,8 @@ def test_the_command_writes_tables_and_a_figure(hands_csv: Path) -> None:
         "--out",
         "out",
     )
-    shown = command(*words).stdout
-    assert "recovery off: worse" in shown
+    shown = " ".join(command(*words).stdout.split())
+    assert "recovery off (relaxation towards F_e at dx = 0): worse" in shown
     assert "kp = 0.3, guard off: worse" in shown
     out = hands_csv.parent / "out"
     names = {file.name for file in out.iterdir()} - {"sweep"}

@@ -16,8 +16,8 @@ import ebac
 
 #: Largest pull of a hand the guard is told [N]; hands that pulled harder are outside its assumption.
 PULL = 60.0
-#: Behind a current loop with lag: 6000 random runs gave out up to 1.0 mJ more than is argued [J].
-LAGGING = 2e-3
+#: More than is argued, what numbers leave open [J].
+OVER = 1e-6
 
 
 @dataclass
@@ -130,16 +130,42 @@ def given_out(
     return -float(trace["true.energy"].min()), scenario.device.count * float(turned), pull
 
 
-@pytest.mark.parametrize(("lag", "allowance"), [(0.0, 1e-6), (3e-4, LAGGING)])
+@pytest.mark.parametrize("lag", [0.0, 3e-4])
 @given(data=st.data(), hostile=adversaries, pieces=pieces, reserve=st.sampled_from([0, 1e-3, 0.01]))
 @settings(max_examples=300)
 def test_no_environment_takes_out_more_than_the_reserve(
-    lag: float, allowance: float, data: Any, hostile: dict[str, Any], pieces: Any, reserve: float
+    lag: float, data: Any, hostile: dict[str, Any], pieces: Any, reserve: float
 ) -> None:
     scenario = data.draw(scenarios(lag))
     energy, unseen, pull = given_out(scenario, hostile, reserve=reserve, **pieces)
     assume(pull <= PULL)
-    assert energy <= reserve + unseen + allowance
+    assert energy <= reserve + unseen + OVER
+
+
+@pytest.mark.xfail(
+    strict=True,
+    reason="mean force times displacement is not the work where both change within a tick",
+)
+def test_a_force_that_turns_every_other_tick_behind_a_lag_takes_no_more_either() -> None:
+    """Without delay, injection and continuity, by an adversary that asks for 40 N to and fro."""
+    scenario = ebac.Scenario(
+        device=ebac.Device(
+            mechanics=ebac.Mechanics(damping=3.0), encoder=ebac.Encoder(counts_per_turn=1 << 18)
+        ),
+        hand=ebac.Hand(
+            mass=0.18,
+            damping=15,
+            stiffness=20,
+            path=ebac.Sine(centre=0.0, amplitude=0.14, frequency=16.5),
+        ),
+        timing=ebac.Timing(delay=0),
+        seconds=0.6,
+    )
+    hostile = {"manner": "switch", "size": 40.0, "hold": 2}
+    bare: dict[str, Any] = {"injection": False, "continuity": False, "kp": 0.0}
+    energy, unseen, pull = given_out(scenario, hostile, **bare)
+    assert pull <= PULL
+    assert energy <= 0.01 + unseen + OVER
 
 
 walls = st.builds(
@@ -159,7 +185,7 @@ def test_no_wall_takes_out_more_than_the_reserve(data: Any, wall: ebac.Wall, pie
     found = ebac.contact(trace)
     assume((found.most_pull_N or 0) <= PULL)
     turned = np.abs(np.diff(trace["f_applied"], prepend=0.0)).sum()
-    assert -trace["true.energy"].min() <= 0.01 + scenario.device.count * turned + LAGGING
+    assert -trace["true.energy"].min() <= 0.01 + scenario.device.count * turned + OVER
 
 
 def test_without_the_guard_the_same_adversaries_take_far_more() -> None:

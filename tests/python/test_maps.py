@@ -104,7 +104,8 @@ KILLED = """
 import sys, ebac
 from ebac.maps import stability_map
 stability_map(
-    "ebac", xs=range(40), ys=[1e3 * k for k in range(1, 41)], base=ebac.Scenario(seconds=2.0), threads=1, out=sys.argv[1]
+    "ebac", xs=range(40), ys=[1e3 * k for k in range(1, 41)],
+    base=ebac.Scenario(seconds=2.0), threads=1, out=sys.argv[1],
 )
 """
 

@@ -193,7 +193,9 @@ def test_what_is_no_condition_is_refused() -> None:
     with pytest.raises(ValueError, match="no condition given"):
         study(FEW, "tca", [])
     free = ebac.Scenario(environment=ebac.Free())
-    with pytest.raises(ValueError, match="approach_m = 0.01 m: needs a Wall, the scenario has a Free"):
+    with pytest.raises(
+        ValueError, match=r"approach_m = 0\.01 m: needs a Wall, the scenario has a Free"
+    ):
         study(FEW, "tca", ["d1K10"], base=free)
     with pytest.raises(TypeError, match="the environment is a Free: must be a Wall"):
         study(FEW.replace(approach_m=0.0), "tca", ["d1K10"], base=free)
@@ -207,6 +209,18 @@ def test_a_study_can_be_drawn(few: Study) -> None:
     _, hands = list(plot_study(few))[1]
     titles = [ax.get_title(loc="left") for ax in hands.axes]
     assert titles == ["0 of 3 good", "3 of 3 good"]
+
+
+def test_many_laws_under_one_condition_are_drawn_below_each_other() -> None:
+    from ebac.plot import plot_study
+
+    laws = ["direct", "tca", "tca-damped", "eba", "force-bounding", "ebac"]
+    found = study(FEW[:1], laws, ["d1K10"], base=ebac.Scenario(seconds=0.5))
+    panels = dict(plot_study(found))["hands"].axes
+    assert len(panels) == 6
+    assert len({round(ax.get_position().y0, 3) for ax in panels}) == 2
+    named = [text.get_text() for ax in panels for text in ax.texts if text.get_text() in laws]
+    assert named == laws
 
 
 # --- the command ---

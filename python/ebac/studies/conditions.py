@@ -106,6 +106,7 @@ _ROBUSTNESS = [
     _robust("device-0.1kg", "a device of 0.1 kg at the handle", to.device_mass(0.1)),
     _robust("device-0.6kg", "a device of 0.6 kg at the handle", to.device_mass(0.6)),
     _robust("wall-damping", "a wall with 5 N s/m", to.wall(damping=5.0)),
+    _robust("wall-damping-K2", "a wall of 2 kN/m with 10 N s/m", to.wall(damping=10.0), at=(1, 2, 2e3)),
     _robust("torque-permille", "torque in whole thousandths of the rated one", to.device("drive", permille=True)),
     _robust("told-damping+50", "laws told 1.5 times the true device damping", believed=to.mistaken(damping=1.5)),
     _robust("told-mass+50", "laws told 1.5 times the true device mass", believed=to.mistaken(mass=1.5)),
