@@ -36,10 +36,6 @@ bool hears(LoopbackBus& end, std::uint32_t id, Frame& in) {
   }
   return false;
 }
-bool hears(LoopbackBus& end, std::uint32_t id) {
-  Frame in;
-  return hears(end, id, in);
-}
 
 /// Writes a number by SDO, expedited: whether the drive took it.
 bool download(LoopbackBus& end, NodeId node, const ObjectWrite& write) {
