@@ -43,7 +43,13 @@ void add_work(py::class_<ServedJoystick<Bus>>& cls) {
   cls.def("start", start, "Puts them on the bus, once in a life.")
       .def("stop", stop, "Takes them off for good.")
       .def("__enter__", start)
-      .def("__exit__", [stop](const py::object& self, const py::args&) { stop(self); })
+      .def(
+          "__exit__",
+          [stop](const py::object& self, const py::object&, const py::object&, const py::object&) {
+            stop(self);
+          },
+          py::arg("kind") = py::none(), py::arg("error") = py::none(),
+          py::arg("traceback") = py::none())
       .def_property_readonly("state", &Work::state, "How the bus stands.")
       .def_property_readonly("counts", &Work::counts, "What went over their end of the bus.");
 }

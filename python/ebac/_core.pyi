@@ -48,6 +48,7 @@ __all__: list[str] = [
     "LinearLoop",
     "LoopbackBus",
     "LoopbackHub",
+    "LoopbackJoystick",
     "LowPass",
     "Mechanics",
     "MinimumJerk",
@@ -62,6 +63,7 @@ __all__: list[str] = [
     "SimulatedDrive",
     "Sine",
     "SocketCan",
+    "SocketCanJoystick",
     "Step",
     "SteppedPlant",
     "SweepProgress",
@@ -3854,6 +3856,78 @@ class SocketCan:
     def counts(self) -> BusCounts:
         """
         What went over this end so far.
+        """
+    @property
+    def state(self) -> BusState:
+        """
+        How the bus stands.
+        """
+
+class LoopbackJoystick:
+    """
+    A joystick of simulated drives on a bus inside this process, in real time, in a thread of
+    its own that never waits for Python. A context manager.
+    """
+    def __enter__(self) -> typing.Any: ...
+    def __exit__(
+        self, kind: typing.Any = None, error: typing.Any = None, traceback: typing.Any = None
+    ) -> None: ...
+    def __init__(
+        self,
+        hub: LoopbackHub,
+        setup: Setup,
+        *,
+        first: typing.SupportsInt | typing.SupportsIndex = 1,
+        peak_time: typing.SupportsFloat | typing.SupportsIndex = 2.0,
+    ) -> None: ...
+    def start(self) -> typing.Any:
+        """
+        Puts them on the bus, once in a life.
+        """
+    def stop(self) -> None:
+        """
+        Takes them off for good.
+        """
+    @property
+    def counts(self) -> BusCounts:
+        """
+        What went over their end of the bus.
+        """
+    @property
+    def state(self) -> BusState:
+        """
+        How the bus stands.
+        """
+
+class SocketCanJoystick:
+    """
+    A joystick of simulated drives on a CAN interface of the Linux kernel, in real time, in a
+    thread of its own that never waits for Python. A context manager.
+    """
+    def __enter__(self) -> typing.Any: ...
+    def __exit__(
+        self, kind: typing.Any = None, error: typing.Any = None, traceback: typing.Any = None
+    ) -> None: ...
+    def __init__(
+        self,
+        interface: str,
+        setup: Setup,
+        *,
+        first: typing.SupportsInt | typing.SupportsIndex = 1,
+        peak_time: typing.SupportsFloat | typing.SupportsIndex = 2.0,
+    ) -> None: ...
+    def start(self) -> typing.Any:
+        """
+        Puts them on the bus, once in a life.
+        """
+    def stop(self) -> None:
+        """
+        Takes them off for good.
+        """
+    @property
+    def counts(self) -> BusCounts:
+        """
+        What went over their end of the bus.
         """
     @property
     def state(self) -> BusState:

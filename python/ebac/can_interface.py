@@ -164,11 +164,7 @@ class EbacBus(can.BusABC):
     ) -> None:
         _refuse_fd(kwargs)
         name = str(channel)
-        if not isinstance(rx_queue_size, int) or not 1 <= rx_queue_size <= MOST_FRAMES:
-            raise ValueError(
-                f"rx_queue_size = {rx_queue_size}: must be a whole number in [1, {MOST_FRAMES}] frames"
-            )
-        self._end = _join(name, rx_queue_size, receive_own_messages)
+        self._end = _join(name, _checked_queue(rx_queue_size), receive_own_messages)
         self.channel = name
         self.channel_info = f"ebac channel '{name}'"
         self._tasks: WeakSet[Any] = WeakSet()
@@ -282,6 +278,14 @@ class EbacBus(can.BusABC):
         with _LOCK:
             names = sorted({*_CHANNELS, DEFAULT_CHANNEL})
         return [{"interface": "ebac", "channel": name} for name in names]
+
+
+def _checked_queue(frames: object) -> int:
+    if not isinstance(frames, int) or not 1 <= frames <= MOST_FRAMES:
+        raise ValueError(
+            f"rx_queue_size = {frames}: must be a whole number in [1, {MOST_FRAMES}] frames"
+        )
+    return frames
 
 
 def _refuse_fd(options: dict[str, Any]) -> None:

@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
-#include <vector>
+#include <map>
+#include <span>
 
 #include "ebac/can/joystick.hpp"
 #include "ebac/can/loopback_bus.hpp"
@@ -33,10 +35,6 @@ bool hears(LoopbackBus& end, std::uint32_t id, Frame& in) {
     if (in.id == id) return true;
   }
   return false;
-}
-bool hears(LoopbackBus& end, std::uint32_t id) {
-  Frame in;
-  return hears(end, id, in);
 }
 
 /// Writes a number by SDO, expedited: whether the drive took it.
@@ -68,6 +66,7 @@ TEST(Served, BootsAndSendsHeartbeatsByItself) {
     EXPECT_EQ(none.data[0], 0x7F);
   }
   EXPECT_EQ(served.state(), BusState::kUp);
+  served.stop();
   EXPECT_GE(served.counts().sent, 7U);
 }
 
@@ -94,9 +93,11 @@ TEST(Served, LeavesTheBusOnceAndForAll) {
   EXPECT_EQ(hub.ends(), 0U);
 }
 
-TEST(Served, TheLoopRunsAndAHandGivesWay) {
+TEST(Served, TheLoopRunsAHandGivesWayAndAThirdHearsItAll) {
+  constexpr int kTicks = 200;
   LoopbackHub hub(LoopbackHub::Stamps::kWallClock);
   LoopbackBus end = hub.open();
+  LoopbackBus third = hub.open({.frames = 1U << 16});
   OnLoopback served(hub.open(), held_joystick());
   served.start();
   for (const NodeId node : {NodeId{1}, NodeId{2}}) {
@@ -104,12 +105,20 @@ TEST(Served, TheLoopRunsAndAHandGivesWay) {
       ASSERT_TRUE(download(end, node, write)) << std::hex << write.index;
     }
   }
-  const TimedRun run = run_in_real_time(end, /*ticks=*/200, /*current=*/0.2);
+  const TimedRun run = run_in_real_time(end, kTicks, /*current=*/0.2);
   EXPECT_TRUE(run.ran);
   EXPECT_EQ(run.fault, Fault::kNone);
   EXPECT_NEAR(run.current_echoed, 0.2, 1e-3);
-  EXPECT_GT(std::abs(run.last - run.first), 20);
+  EXPECT_GT(std::abs(run.last - run.first), 20);  // counts
   EXPECT_TRUE(run.rested);
+  std::map<std::uint32_t, int> heard;
+  for (Frame frame; third.receive(frame);) ++heard[frame.id];
+  EXPECT_GE(heard[kSync], kTicks);
+  for (const NodeId node : {NodeId{1}, NodeId{2}}) {
+    EXPECT_EQ(heard[rpdo(1, node)], heard[kSync]);
+    EXPECT_GE(heard[tpdo(1, node)], kTicks);
+  }
+  EXPECT_EQ(third.counts().lost, 0U);
 }
 
 /// Notes when, by its own time, each frame came; and is held up at the first one.

@@ -36,14 +36,16 @@ struct TimedRun {
   double current_echoed = 0;  // A, told by drive 1 in the last tick
 };
 
-/// Enables two drives, gives axis 0 a current for `ticks` of 1 ms, and disables them.
+/// Enables two drives, gives axis 0 a current for `ticks` of 1 ms, and disables them. A tick waits
+/// for its answers far beyond that: a machine too slow for 1 kHz is late, and still right.
 template <Bus B>
 TimedRun run_in_real_time(B& bus, int ticks, double current) {
   using Clock = std::chrono::steady_clock;
   constexpr std::chrono::milliseconds kPeriod{1};
+  constexpr std::chrono::milliseconds kBudget{200};
   constexpr int kMostTicks = 2000;
-  CanopenDevice<B, YieldFor> device(bus, YieldFor(kPeriod * 4 / 5),
-                                    {.axes = 2, .silent_ticks = 500, .enable_ticks = kMostTicks});
+  CanopenDevice<B, YieldFor> device(bus, YieldFor(kBudget),
+                                    {.axes = 2, .silent_ticks = 50, .enable_ticks = kMostTicks});
   TimedRun run;
   auto due = Clock::now();
   auto before = due;
@@ -66,6 +68,7 @@ TimedRun run_in_real_time(B& bus, int ticks, double current) {
   run.late = 0;
   Reading reading;
   for (int i = 0; i < ticks; ++i) reading = tick(current);
+  const int late = run.late;
   run.last = reading.counts[0];
   run.current_echoed = reading.current_applied[0];
   run.fault = device.fault();
@@ -75,6 +78,7 @@ TimedRun run_in_real_time(B& bus, int ticks, double current) {
     tick(0);
     run.rested = device.at_rest();
   }
+  run.late = late;
   return run;
 }
 

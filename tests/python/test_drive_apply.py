@@ -214,7 +214,7 @@ def steps_of(bus: drives.DriveBus, node: drives.Node) -> int:
 def cut_apply(open_bus: Open, at: int, loud: bool, shelf: drives.Backups, node: drives.Node) -> str:
     bus = CutBus(open_bus(), at, loud=loud)
     with drives.DriveBus(bus) as opened, pytest.raises(drives.DriveError) as caught:
-        drives.apply(opened.drive(1, timeout=0.01 if not loud else 0.3), node, backups=shelf)
+        drives.apply(opened.drive(1, timeout=0.1 if not loud else 0.3), node, backups=shelf)
     assert bus.cut
     return str(caught.value)
 
@@ -254,7 +254,7 @@ def test_restore_cut_at_any_write_is_finished_by_the_next(
         drives.apply(bus.drive(1), node, backups=shelf)
         cable = CutBus(open_bus(), at, loud=loud)
         with drives.DriveBus(cable) as severed, pytest.raises(drives.DriveError):
-            drives.restore(severed.drive(1, timeout=0.01 if not loud else 0.3), backups=shelf)
+            drives.restore(severed.drive(1, timeout=0.1 if not loud else 0.3), backups=shelf)
         drives.restore(bus.drive(1), backups=shelf)
         assert held(bus) == start, at
 

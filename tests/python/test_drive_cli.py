@@ -232,3 +232,25 @@ def test_drives_in_another_process_are_set_up_and_end_by_a_signal(
             assert "Stopped:" in served.stdout.read()
         finally:
             served.kill()
+
+
+@pytest.mark.parametrize("columns", [80, 120])
+def test_names_stand_whole_in_every_table(
+    drive: Run, monkeypatch: pytest.MonkeyPatch, columns: int
+) -> None:
+    monkeypatch.setenv("COLUMNS", str(columns))
+    for words in (["plan", "joystick"], ["show", "--node", "1", "--all"]):
+        text = drive(*words).output
+        assert "…" not in text
+        assert max(len(line) for line in text.splitlines()) <= columns
+        assert "heartbeat_producer" in text
+    assert ("who made it" in text) == (columns >= 100)
+
+
+def test_restore_does_not_point_to_a_backup_that_is_gone(drive: Run, tmp_path: Path) -> None:
+    where = ["--backup", str(tmp_path / "kept"), "--yes"]
+    assert " Backup: " in said(drive("apply", "joystick", *where))
+    text = said(drive("restore", *where))
+    assert " Backup: " not in text
+    assert "has served and is gone" in text
+    assert not list((tmp_path / "kept").glob("*.json"))

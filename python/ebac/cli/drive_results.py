@@ -11,6 +11,10 @@ if TYPE_CHECKING:
     from ebac.drives import Change, Drive, Network
 
 
+#: Columns of a terminal below which what an object means finds no room.
+WIDE = 100
+
+
 def changes(found: Sequence[Change], none: str) -> None:
     """Show what differs, or say that nothing does."""
     if not found:
@@ -21,6 +25,7 @@ def changes(found: Sequence[Change], none: str) -> None:
         unit = "" if one.object.hexadecimal else one.object.unit
         now, wanted = one.show(one.now), one.show(one.wanted)
         grid.add_row(str(one.node), one.object.where, one.object.name, now, wanted, unit, one.why)
+    grid.columns[2].min_width = max(len(one.object.name) for one in found)
     output.console().print(grid)
 
 
@@ -55,13 +60,18 @@ def found(rows: Sequence[dict[str, Any]]) -> None:
 
 
 def objects(rows: Sequence[dict[str, Any]]) -> None:
-    """Show the objects of drives."""
-    grid = output.table(["node", "object", "", "value", "unit", "meaning"], numbers=(0, 3))
+    """Show the objects of drives; their names whole, as these are what one types."""
+    console = output.console()
+    wide = console.width >= WIDE
+    columns = ["node", "object", "", "value", "unit", *(["meaning"] if wide else [])]
+    grid = output.table(columns, numbers=(0, 3))
     for row in rows:
-        grid.add_row(
-            str(row["node"]), row["object"], row["name"], row["text"], row["unit"], row["meaning"]
-        )
-    output.console().print(grid)
+        words = [row["object"], row["name"], row["text"], row["unit"], row["meaning"]]
+        grid.add_row(str(row["node"]), *words[: len(columns) - 1])
+    grid.columns[2].min_width = max((len(row["name"]) for row in rows), default=0)
+    console.print(grid)
+    if not wide:
+        output.say(f"What each one means: in a terminal of {WIDE} columns, or with --json.")
 
 
 def who(drive: Drive) -> dict[str, Any]:

@@ -153,4 +153,7 @@ def _say_done(one: Drive, done: Applied) -> None:
         f"Node {one.node}: {len(done.written)} writes, read back and right. It is disabled, "
         f"NMT pre-operational.{kept}"
     )
-    output.say(f"Backup: {done.backup}", style="dim")
+    if done.backup is not None and done.backup.exists():
+        output.say(f"Backup: {done.backup}", style="dim")
+    else:
+        output.say(f"Its backup has served and is gone: {done.backup}", style="dim")

@@ -91,7 +91,7 @@ def _reads(bus: can.BusABC) -> list[float]:
     network = canopen.Network(bus)
     network.NOTIFIER_CYCLE = 0.01  # s; the end waits for it
     network.connect()
-    node = network.add_node(1, canopen.ObjectDictionary())
+    node = network.add_node(1, canopen.ObjectDictionary())  # type: ignore[no-untyped-call]
     node.sdo.RESPONSE_TIMEOUT = 5  # s
     taken = []
     for _ in range(READS):
