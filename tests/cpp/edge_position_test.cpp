@@ -36,7 +36,7 @@ double lost(double amplitude, double frequency, bool whole) {
     truth += force * (next - x);  // what the force held over the tick really took in
     x = next;
     const double reading = read(x);
-    const double moved = edge.step(reading);
+    const double moved = edge.step(reading, kTick);
     ledger.take(force, whole ? reading - before : moved, reading - before);
     before = reading;
     force = kStiffness * reading;
@@ -65,7 +65,7 @@ TEST(EdgePosition, StaysWithinTwoCountsOfTheDevice) {
     double told = read(x);
     for (int k = 1; k <= 2000; ++k) {
       x += (k / 500 % 2 ? -1 : 1) * speed * kCount;
-      told += edge.step(read(x));
+      told += edge.step(read(x), kTick);
       ASSERT_LE(std::abs(told - x), 2 * kCount) << speed << " counts a tick, tick " << k;
     }
   }
@@ -75,7 +75,7 @@ TEST(EdgePosition, IsStillWhileTheReadingIs) {
   EdgePosition edge(kCount);
   edge.start(0.0);
   for (int k = 0; k < 100; ++k) {
-    EXPECT_EQ(edge.step(0.0), 0.0);
+    EXPECT_EQ(edge.step(0.0, kTick), 0.0);
     EXPECT_EQ(edge.direction(), 0);
   }
 }
@@ -83,11 +83,11 @@ TEST(EdgePosition, IsStillWhileTheReadingIs) {
 TEST(EdgePosition, ADirectionIsToldAtAnEdgeAndNotWithinIt) {
   EdgePosition edge(kCount);
   edge.start(0.0);
-  edge.step(kCount);
+  edge.step(kCount, kTick);
   EXPECT_EQ(edge.direction(), 1);
-  edge.step(0.0);  // to and fro over the same edge
+  edge.step(0.0, kTick);  // to and fro over the same edge
   EXPECT_EQ(edge.direction(), 0);
-  edge.step(-kCount);
+  edge.step(-kCount, kTick);
   EXPECT_EQ(edge.direction(), -1);
 }
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 #include "ebac/core/realtime.hpp"
 #include "ebac/core/sample.hpp"
@@ -14,7 +16,10 @@ class ContactWatch {
   ContactWatch(double count, double most) EBAC_RT : count_(count), most_(most), stored_at_(most) {}
 
   double slope() const EBAC_RT { return slope_; }  // N/m, 0 out of contact
-  double pace() const EBAC_RT { return pace_; }    // 1; falls with every reversal of a swing
+
+  /// The same from one rest to another, which the damping of the environment has no part in.
+  double slope_at_rest() const EBAC_RT { return std::min(slope_, rest_slope_); }
+  double pace() const EBAC_RT { return pace_; }  // 1; falls with every reversal of a swing
 
   /// Stiffness the last contact can have stored energy at [N/m]: its slope, at most what the law shows.
   double stored_at() const EBAC_RT { return stored_at_; }
@@ -24,11 +29,14 @@ class ContactWatch {
     if (port.f_env == 0) {
       slope_ = clock_ = 0;
       pace_ = 1;
+      rest_slope_ = std::numeric_limits<double>::infinity();
+      here_ = there_ = {};
     } else {
       clock_ += port.dt;
       if (std::abs(port.dx) > count_ / 2) learn(port);  // less, on a slant, is mostly rounding
     }
     last_env_ = port.f_env;
+    rest(port);
     if (direction == 0) return;
     if (direction == -heading_ && clock_ > kImpact) pace_ = std::max(kSlowest, kSlower * pace_);
     heading_ = direction;
@@ -47,6 +55,25 @@ class ContactWatch {
     stored_at_ = std::min(most_, slope_);
   }
 
+  /// Compares the ends of two rests: by then no velocity is left in the force.
+  void rest(const Port& port) EBAC_RT {
+    if (port.dx == 0) {
+      here_ = {port.x, port.f_env, port.f_env != 0};
+    } else if (here_.known) {
+      if (there_.known && std::abs(here_.x - there_.x) > count_ / 2) {
+        rest_slope_ = std::abs((here_.force - there_.force) / (here_.x - there_.x));
+      }
+      there_ = std::exchange(here_, {});
+    }
+  }
+
+  /// A place at which the device was still, in contact.
+  struct Rest {
+    double x = 0;      // m
+    double force = 0;  // N
+    bool known = false;
+  };
+
   double count_;  // m
   double most_;   // N/m
   double stored_at_;
@@ -54,7 +81,10 @@ class ContactWatch {
   double pace_ = 1;
   double clock_ = 0;     // s in contact
   double last_env_ = 0;  // N
-  int heading_ = 0;      // direction of the last motion
+  double rest_slope_ = std::numeric_limits<double>::infinity();
+  Rest here_{};      // this rest, or none
+  Rest there_{};     // the one before
+  int heading_ = 0;  // direction of the last motion
 };
 
 }  // namespace ebac

@@ -142,9 +142,10 @@ class Ebac {
   }
 
   void recover(const Port& port) EBAC_RT {
-    const double excess = std::max(state_.slope / show_.stiffness - 1, kLeastExcess);
+    const double slope = contact_.slope_at_rest();
+    const double excess = std::max(slope / show_.stiffness - 1, kLeastExcess);
     const double time = recovery_time_ / contact_.pace() * excess;
-    const double open = 0.5 * state_.slope * params_.count;  // what a reading leaves open
+    const double open = 0.5 * slope * params_.count;  // what a reading leaves open
     const double off = port.f_env - state_.f_d;
     const double sure = std::max(off - open, 0.0) + std::min(off + open, 0.0);
     const double change = sure * (port.dt / (time + port.dt));
