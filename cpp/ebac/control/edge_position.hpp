@@ -27,9 +27,10 @@ class EdgePosition {
 
   /// Takes a reading; returns the displacement since the last one.
   double step(double x, double dt) EBAC_RT {
-    const double crossed = std::clamp(edge_, x - half_, x + half_) - edge_;
-    edge_ += crossed;
-    direction_ = (crossed > 0) - (crossed < 0);
+    const double edge = std::clamp(edge_, x - half_, x + half_);
+    const double rounding = half_ / 2;  // an edge met again may differ by the last digit
+    direction_ = (edge > edge_ + rounding) - (edge < edge_ - rounding);
+    edge_ = edge;
     since_ += dt;
     if (direction_ != 0) {
       between_ = since_;
