@@ -1,0 +1,191 @@
+"""The tables of one law: its pieces, its worst hand, its Z-width, one hand, its speed."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+from printed import Printed, Row, code, fixed, joules, table
+
+import ebac
+from ebac import wording
+from ebac.studies.conditions import conditions
+from ebac.studies.families import find_family
+from ebac.zwidth.result import CRITERIA
+
+#: One hand under four laws, and what they are called.
+ONE_HAND = {
+    "tca": "`tca`",
+    "eba": "`eba`",
+    "ebac-printed": "`ebac-printed`, eq. (8) to (10) and (2) to the letter",
+    "ebac": "`ebac`, completed",
+}
+TO_50 = "zwidth --law direct --law ebac --most-damping 50 --points 21 --delay 1"
+#: The law put together again: what is off, and what it then has.
+BUILT = {
+    "recovery=off,injection=off,guard=off,kp=0": "eq. (8) to (10), sorted, the bound last",
+    "injection=off,guard=off,kp=0": "... and recovery at rest",
+    "guard=off,kp=0": "... and damping",
+    "": "... and the guard, K_p = 0.1: `ebac`",
+}
+
+#: Measures of `ebac ablation`: the key, the heading, how its number is written.
+MEASURES: tuple[tuple[str, str, Callable[[float | None], str]], ...] = (
+    ("good", "good", lambda n: fixed(n, 0)),
+    ("settled_in_time", "in time", lambda n: fixed(n, 0)),
+    ("median_settled_s", "settled [s]", lambda s: fixed(s, 3)),
+    ("good_K20", "20 kN/m", lambda n: fixed(n, 0)),
+    ("good_d2_K20", "20 kN/m, delay 2", lambda n: fixed(n, 0)),
+    ("good_slow_press_d2_K20", "the same, slow press", lambda n: fixed(n, 0)),
+    ("good_tremor", "tremor", lambda n: fixed(n, 0)),
+    ("least_energy_impact_J", "impact [mJ]", joules),
+    ("least_energy_let_go_J", "let go [mJ]", joules),
+    ("least_energy_pumping_J", "pumping [mJ]", joules),
+    ("ripple_N", "ripple [N]", lambda f: fixed(f, 2)),
+    ("ripple_noise_N", "with noise [N]", lambda f: fixed(f, 2)),
+    ("force_step_N", "step inside [N]", lambda f: fixed(f, 1)),
+    ("friction_m", "off, friction 1 N [mm]", lambda x: fixed(x, 3, 1e3)),
+)
+PURPOSE = {
+    "continuity": "smaller steps of the force inside of the wall",
+    "recovery": "rests where the wall is",
+    "injection": "takes out what recovery puts in",
+    "guard": "nobody draws more than was lent",
+    "kp": "less friction felt",
+}
+
+
+def ablation(printed: Printed) -> str:
+    """The law without each of its pieces; bold what gets worse, italics what gets better."""
+    rows = []
+    for r in printed.rows("ablation"):
+        parts = [
+            f"{k} off" if v is False else f"{k} = {v:g}" for k, v in (r["changes"] or {}).items()
+        ]
+        name = ", ".join(parts) if r["piece"] else code(r["law"])
+        purpose = PURPOSE.get(next(iter(r["changes"] or {}), ""), "")
+        marks = {**dict.fromkeys(r["worse"], "**"), **dict.fromkeys(r["better"], "*")}
+        values = [f"{marks.get(k, '')}{show(r[k])}{marks.get(k, '')}" for k, _, show in MEASURES]
+        rows.append([name, purpose, *values])
+    return table(["", "what the piece is for", *(head for _, head, _ in MEASURES)], rows)
+
+
+def worst(printed: Printed) -> str:
+    """The worst hand of every family; the same hand behind other parts, and for longer."""
+    found = printed.document("worst")
+    free = {r["family"]: r["energy_drawn_J"] for r in printed.rows("worst --change guard=off")}
+    rows = []
+    for r in found["rows"]:
+        family = find_family(r["family"], found["allowed_pull_N"])
+        (where,) = conditions([r["condition"]])
+        values = {p["name"]: p["value"] for p in r["parameters"]}
+        hand = family.make(where.change(ebac.Scenario()), values)
+        others = [(True, 1, 1), (False, 64, 1), (True, 64, 1), (False, 1, 5)]
+        rows.append(
+            [code(family.name), joules(r["energy_drawn_J"]), fixed(r["most_pull_N"], 1),
+             *(joules(_behind(hand, *other)) for other in others), joules(free[family.name])]
+        )  # fmt: skip
+    heads = ["family", "drawn [mJ]", "hardest pull [N]", "no current lag", "64 times the counts", "both",
+             "five times as long", "guard off: drawn [mJ]"]  # fmt: skip
+    return table(heads, rows)
+
+
+def _behind(hand: ebac.Scenario, no_lag: bool, finer: int, longer: int) -> float:
+    """Energy [J] the same hand draws from `ebac`, designed anew for the other parts of the device."""
+    device = hand.device
+    lag = 0.0 if no_lag else device.drive.current_lag
+    other = device.replace(
+        drive=device.drive.replace(current_lag=lag),
+        encoder=device.encoder.replace(counts_per_turn=finer * device.encoder.counts_per_turn),
+    )
+    trace = ebac.simulate(hand.replace(device=other, seconds=longer * hand.seconds), "ebac")
+    return max(0.0, -(ebac.contact(trace).least_energy_J or 0.0))
+
+
+def z_width(printed: Printed) -> str:
+    """Areas under the borders, and how many times that of `direct`."""
+    found = printed.document("zwidth")
+    delays = list(dict.fromkeys(score["delay_samples"] for score in found["scores"]))
+    rows = []
+    for law in dict.fromkeys(score["law"] for score in found["scores"]):
+        of = {score["delay_samples"]: score for score in found["scores"] if score["law"] == law}
+        rows.append([code(law), *(_area(of[d], name) for d in delays for name in CRITERIA)])
+    table_ = table(["law", *(f"{name}, d = {d}" for d in delays for name in CRITERIA)], rows)
+    return f"{table_}\n\n{_ceilings(found)}\n\n{_to_50(printed)}"
+
+
+def _area(score: Row, name: str) -> str:
+    return f"{score[f'{name}_area'] / 1e3:.0f} ({score[f'{name}_times_direct']:.1f})"
+
+
+def _ceilings(found: Row) -> str:
+    rows, top = found["rows"], found["top_N_per_m"]
+    linear, passive = [], []
+    for d in dict.fromkeys(r["delay_samples"] for r in rows):
+        of = [r for r in rows if r["delay_samples"] == d and r["law"] == "direct"]
+        at = [r["damping_Ns_per_m"] for r in of]
+        limits = [min(r["spectral_N_per_m"], top) for r in of]
+        linear.append(fixed(float(np.trapezoid(limits, at)), 0, 1e-3))
+        passive.append(f"{of[0]['passive_N_per_m'] / 1e3:.2g}")
+    return (
+        f"Ceilings: the linear loop without a law (spectral radius below 1) has {', '.join(linear)} at d = 0, 1, 2; "
+        f"a wall without damping is passive without a law up to {', '.join(passive)} kN/m."
+    )
+
+
+def _to_50(printed: Printed) -> str:
+    scores = printed.document(TO_50)["scores"]
+    direct, ours = scores
+    parts = [
+        f"{name}: `direct` {direct[f'{name}_area'] / 1e3:.0f}, `ebac` {ours[f'{name}_area'] / 1e3:.0f} "
+        f"({ours[f'{name}_times_direct']:.1f} times)"
+        for name in CRITERIA
+    ]
+    return f"To 50 N s/m at d = 1, of 5000: {'; '.join(parts)}."
+
+
+def speed(printed: Printed) -> str:
+    """Times beside other programs; only where nothing else runs."""
+    rows = []
+    for r in printed.rows("bench --peers"):
+        times = "" if r["program"] == "ebac" else fixed(r["times_ebac"], 1)
+        value = wording.quantity(r["value"], r["unit"])
+        rows.append([r["subject"], r["program"], value, times, r["target"]])
+    return table(["what", "program", "value", "times ebac", "aim"], rows)
+
+
+def walls(printed: Printed) -> str:
+    """One hand against the paper's wall under four laws."""
+    rows = []
+    for r in printed.rows(" ".join(["wall", *(f"--law {law}" for law in ONE_HAND)])):
+        ideal = fixed(r["ideal_m"], 3, 1e3)
+        least_ = joules(r["least_energy_J"], " mJ")
+        rows.append(
+            [
+                ONE_HAND[r["law"]],
+                *(f"{fixed(r[k], 3, 1e3)} mm" for k in ("rest_m", "swing_m")),
+                least_,
+            ]
+        )
+    return table(["law", f"rest (ideal {ideal} mm)", "swing", "least energy"], rows)
+
+
+def pieces(printed: Printed) -> str:
+    """The law put together again, piece by piece."""
+    asked = " ".join(f"--change {off}" for off in BUILT if off)
+    made = {
+        _typed(r["changes"]): r for r in printed.rows(f"ablation {asked}") if r["law"] == "ebac"
+    }
+    keys = ("least_energy_impact_J", "least_energy_let_go_J", "least_energy_pumping_J")
+    rows = [
+        [name, str(made[off]["good"]), str(made[off]["good_K20"]), *(joules(made[off][k], " mJ") for k in keys)]
+        for off, name in BUILT.items()
+    ]  # fmt: skip
+    heads = ["the law has", "good", "at 20 kN/m", "least energy, impact", "slow press, then let go",
+             "pumping for 20 s"]  # fmt: skip
+    return table(heads, rows)
+
+
+def _typed(changes: Row) -> str:
+    """Changes of parameters as `--change` takes them."""
+    return ",".join(f"{k}=off" if v is False else f"{k}={v:g}" for k, v in changes.items())

@@ -1,0 +1,125 @@
+"""The tables of whole populations: `ebac study`."""
+
+from __future__ import annotations
+
+from printed import Printed, Row, code, count, fixed, joules, table
+
+CELLS, FIVE = "study -c cells", "study -c five --population random --hands 500 --seed"
+#: Left out of the wide tables: it rests too deep everywhere.
+NARROW = "virtual-coupling"
+SEEDS = (1, 2, 3)
+#: What the story shows, in this order.
+TOLD = ("tca", "eba", "ebac-printed", "tca-damped", "ebac")
+
+
+def by_law(rows: list[Row], *, wide: bool = False) -> dict[str, list[Row]]:
+    """Return the rows of every law, in the order of the laws."""
+    laws = dict.fromkeys(row["law"] for row in rows)
+    return {law: [r for r in rows if r["law"] == law] for law in laws if wide or law != NARROW}
+
+
+def least(rows: list[Row]) -> float:
+    """Return the least port energy [J]."""
+    return float(min(row["least_energy_J"] for row in rows))
+
+
+def drawn(rows: list[Row]) -> float:
+    """Return the most energy drawn in any window [J]."""
+    return float(max(row["most_drawn_J"] for row in rows))
+
+
+def total(rows: list[Row], key: str) -> str:
+    """Return the hands of all rows together."""
+    return str(sum(row[key] for row in rows))
+
+
+def grid(printed: Printed) -> str:
+    """60 hands at the paper's wall, every law."""
+    heads = [
+        "law",
+        "good",
+        "in time",
+        "least energy [mJ]",
+        "most drawn [mJ]",
+        "settled, median [s]",
+    ]
+    rows = [
+        [code(r["law"]), str(r["good"]), str(r["settled_in_time"]), joules(r["least_energy_J"]),
+         joules(r["most_drawn_J"]), fixed(r["median_settled_s"], 2)]
+        for r in printed.rows("study --law all")
+    ]  # fmt: skip
+    return table(heads, rows)
+
+
+def cells(printed: Printed) -> str:
+    """36 cells, every law, and `ebac` from the surface."""
+    every = by_law(printed.rows(f"{CELLS} --law all"))
+    surface = printed.rows(f"{CELLS} --approach 0 --law ebac")
+    named = {code(law): rows for law, rows in every.items()}
+    named["`ebac`, from the surface (`--approach 0`)"] = surface
+    hands = total(surface, "hands")
+    rows = [
+        [name, total(r, "good"), total(r, "settled_in_time"), joules(least(r)), joules(drawn(r))]
+        for name, r in named.items()
+    ]
+    heads = ["law", f"good of {hands}", "in time", "least energy [mJ]", "most drawn [mJ]"]
+    return (
+        f"{table(heads, rows)}\n\nCells of `ebac` that are not 60 of 60: {_missing(every['ebac'])}.\n"
+        f"From the surface: {_missing(surface)}."
+    )
+
+
+def _missing(rows: list[Row]) -> str:
+    lost = [f"{code(r['condition'])} {r['good']}" for r in rows if r["good"] < r["hands"]]
+    return ", ".join(lost) or "none"
+
+
+def five(printed: Printed) -> str:
+    """500 random hands, five conditions, three seeds."""
+    seeds = [by_law(printed.rows(f"{FIVE} {seed} --law all")) for seed in SEEDS]
+    named = list(dict.fromkeys(r["condition"] for r in seeds[0]["ebac"]))
+
+    def line(law: str, key: str) -> list[str]:
+        found = [{r["condition"]: r[key] for r in seed[law]} for seed in seeds]
+        return [", ".join(str(of[name]) for of in found) for name in named]
+
+    ours = [row for seed in seeds for row in seed["ebac"]]
+    rows = [
+        [code(law), *line(law, "good"), joules(min(least(s[law]) for s in seeds))]
+        for law in seeds[0]
+    ]
+    rows += [["`ebac`, in time", *line("ebac", "settled_in_time"), ""]]
+    rows += [["ideal wall", *line("ebac", "ideal_good"), ""]]
+    return (
+        f"{table(['law', *map(code, named), 'least energy [mJ]'], rows)}\n\nMost energy `ebac` drew in any window of "
+        f"these {total(ours, 'hands')} runs: {joules(drawn(ours), ' mJ')}."
+    )
+
+
+def robustness_good(printed: Printed) -> str:
+    """Good hands under every condition of the robustness list."""
+    every = by_law(printed.rows("study -c robustness --law all"))
+    ideal = [[code(r["condition"]), count(r["ideal_good"])] for r in every["ebac"]]
+    columns = [[count(r["good"]) for r in rows] for rows in every.values()]
+    rows = [[*first, *rest] for first, rest in zip(ideal, zip(*columns, strict=True), strict=True)]
+    return table(["condition", "ideal wall", *map(code, every)], rows)
+
+
+def robustness_energy(printed: Printed) -> str:
+    """Least port energy under every condition of the robustness list."""
+    every = by_law(printed.rows("study -c robustness --law all"))
+    first = [code(r["condition"]) for r in every["ebac"]]
+    columns = [[joules(r["least_energy_J"]) for r in rows] for rows in every.values()]
+    return table(["condition", *map(code, every)], list(zip(first, *columns, strict=True)))
+
+
+def hands(printed: Printed) -> str:
+    """60 hands at the paper's wall, as the story tells it."""
+    rows = {r["law"]: r for r in printed.rows("study --law all")}
+    return table(
+        ["law", "good", "in time", "least energy"],
+        [
+            [code(law), str(r["good"]), str(r["settled_in_time"]), joules(r["least_energy_J"], " mJ")]
+            for law, r in ((law, rows[law]) for law in TOLD)
+        ],
+    )  # fmt: skip

@@ -1,0 +1,104 @@
+"""What the commands print, as JSON, and the places in the pages where their tables stand.
+
+A table stands between `<!-- table: NAME -->` and `<!-- end -->`; what lies between is written anew, nothing else.
+"""
+
+from __future__ import annotations
+
+import json
+import re
+import subprocess
+import sys
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+MARKED = re.compile(r"(<!-- table: ([\w-]+) -->\n).*?(<!-- end -->)", re.S)
+Row = dict[str, Any]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Printed:
+    """Runs `ebac ... --json`, each command once.
+
+    Attributes
+    ----------
+    folder : Path
+        Where the documents are kept. What lies there already is not run again.
+    threads : int or None
+        For the commands that take a number of threads; None: one per core.
+    """
+
+    folder: Path
+    threads: int | None = None
+
+    def document(self, command: str) -> dict[str, Any]:
+        """Return the document of a command, without the word `ebac`."""
+        file = self.folder / (re.sub(r"[^\w.=,]+", "-", command) + ".json")
+        if not file.exists():
+            print(f"ebac {command}", flush=True)
+            many = self.threads is not None and command.split()[0] not in ("bench", "wall")
+            words = [
+                *command.split(),
+                "--json",
+                *(["--threads", str(self.threads)] if many else []),
+            ]
+            made = subprocess.run(
+                [sys.executable, "-m", "ebac.cli", *words], stdout=subprocess.PIPE, check=True
+            )
+            file.write_bytes(made.stdout)
+        found: dict[str, Any] = json.loads(file.read_bytes())
+        return found
+
+    def rows(self, command: str) -> list[Row]:
+        """Return the records of a command."""
+        rows: list[Row] = self.document(command)["rows"]
+        return rows
+
+
+def names(page: Path) -> list[str]:
+    """Return the names of the tables that have a place in a page."""
+    return [place[2] for place in MARKED.finditer(page.read_text(encoding="utf-8"))]
+
+
+def put(page: Path, name: str, text: str) -> bool:
+    """Write a table into its place; return whether it has changed."""
+    before = page.read_text(encoding="utf-8")
+
+    def renew(place: re.Match[str]) -> str:
+        return f"{place[1]}{text.strip()}\n{place[3]}" if place[2] == name else place[0]
+
+    after = MARKED.sub(renew, before)
+    page.write_text(after, encoding="utf-8")
+    return after != before
+
+
+def table(heads: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
+    """Return a Markdown table."""
+    lines = [heads, ["---"] * len(heads), *rows]
+    return "\n".join(f"| {' | '.join(line)} |" for line in lines)
+
+
+def code(name: str) -> str:
+    """Return a name as it is typed."""
+    return f"`{name}`"
+
+
+def count(number: int | None) -> str:
+    """Return a number of hands; None where there is no point of rest."""
+    return "-" if number is None else str(number)
+
+
+def joules(energy: float | None, unit: str = "") -> str:
+    """Return an energy [J] in mJ, with `unit` behind it, or from 1 J on in J, which is written."""
+    if energy is None:
+        return "-"
+    if abs(energy) < 0.9995:
+        return f"{1e3 * energy + 0.0:.3g}{unit}"  # + 0.0: no "-0"
+    return f"{energy:.0f} J" if abs(energy) >= 99.95 else f"{energy:.1f} J"
+
+
+def fixed(number: float | None, digits: int, scale: float = 1.0) -> str:
+    """Return a number with so many digits behind the point."""
+    return "-" if number is None else f"{scale * number:.{digits}f}"

@@ -1,0 +1,63 @@
+"""Write the tables of these pages anew from what the commands print: `python docs/figures/tables.py [name ...]`.
+
+    python docs/figures/tables.py                      # all but `speed`: some ten minutes on one core
+    python docs/figures/tables.py grid --kept DIR      # one; what DIR holds of an earlier call is not run again
+    python docs/figures/tables.py speed                # only by its name: where nothing else runs
+
+A table stands between `<!-- table: NAME -->` and `<!-- end -->`; what a page says around it stays as it is.
+"""
+
+from __future__ import annotations
+
+import argparse
+import tempfile
+from collections.abc import Callable
+from pathlib import Path
+
+import law_tables as laws
+import population_tables as populations
+from printed import Printed, names, put
+
+DOCS = Path(__file__).parents[1]
+PAGES = (DOCS / "evidence.md", DOCS / "story.md")
+TABLES: dict[str, Callable[[Printed], str]] = {
+    "grid": populations.grid,
+    "hands": populations.hands,
+    "cells": populations.cells,
+    "five": populations.five,
+    "robustness-good": populations.robustness_good,
+    "robustness-energy": populations.robustness_energy,
+    "ablation": laws.ablation,
+    "pieces": laws.pieces,
+    "worst": laws.worst,
+    "zwidth": laws.z_width,
+    "walls": laws.walls,
+    "speed": laws.speed,
+}
+#: Left out unless asked for: what they say depends on what else the machine does.
+ASKED = {"speed"}
+
+
+def main() -> None:
+    """Write the tables that are asked for."""
+    parser = argparse.ArgumentParser(description=(__doc__ or "").split("\n")[0])
+    parser.add_argument("names", nargs="*", metavar="name", help=f"one of {', '.join(TABLES)}")
+    parser.add_argument(
+        "--kept", type=Path, help="folder of the JSON documents; default: none are kept"
+    )
+    parser.add_argument("--threads", type=int, help="default: one per core")
+    given = parser.parse_args()
+    if unknown := set(given.names) - set(TABLES):
+        parser.error(f"no such table: {', '.join(sorted(unknown))}; there are: {', '.join(TABLES)}")
+    with tempfile.TemporaryDirectory() as passing:
+        folder = given.kept or Path(passing)
+        folder.mkdir(parents=True, exist_ok=True)
+        printed = Printed(folder=folder, threads=given.threads)
+        for name in given.names or [name for name in TABLES if name not in ASKED]:
+            text = TABLES[name](printed)
+            for page in (page for page in PAGES if name in names(page)):
+                print(f"{name}, {page.name}: {'changed' if put(page, name, text) else 'as before'}")
+
+
+if __name__ == "__main__":
+    main()
