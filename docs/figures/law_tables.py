@@ -64,7 +64,11 @@ def ablation(printed: Printed) -> str:
         ]
         name = ", ".join(parts) if r["piece"] else code(r["law"])
         purpose = PURPOSE.get(next(iter(r["changes"] or {}), ""), "")
-        marks = {**dict.fromkeys(r["worse"], "**"), **dict.fromkeys(r["better"], "*")}
+        marks = (
+            {**dict.fromkeys(r["worse"], "**"), **dict.fromkeys(r["better"], "*")}
+            if r["piece"]
+            else {}
+        )
         values = [f"{marks.get(k, '')}{show(r[k])}{marks.get(k, '')}" for k, _, show in MEASURES]
         rows.append([name, purpose, *values])
     return table(["", "what the piece is for", *(head for _, head, _ in MEASURES)], rows)

@@ -76,8 +76,8 @@ def put(page: Path, name: str, text: str) -> bool:
 
 def table(heads: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
     """Return a Markdown table."""
-    lines = [heads, ["---"] * len(heads), *rows]
-    return "\n".join(f"| {' | '.join(line)} |" for line in lines)
+    first, *rest = (f"| {' | '.join(line)} |" for line in (heads, *rows))
+    return "\n".join([first, f"|{'---|' * len(heads)}", *rest])
 
 
 def code(name: str) -> str:
@@ -95,7 +95,7 @@ def joules(energy: float | None, unit: str = "") -> str:
     if energy is None:
         return "-"
     if abs(energy) < 0.9995:
-        return f"{1e3 * energy + 0.0:.3g}{unit}"  # + 0.0: no "-0"
+        return f"{1e3 * energy:.3g}{unit}" if energy else "0"
     return f"{energy:.0f} J" if abs(energy) >= 99.95 else f"{energy:.1f} J"
 
 

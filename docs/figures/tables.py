@@ -14,12 +14,13 @@ import tempfile
 from collections.abc import Callable
 from pathlib import Path
 
+import adversaries as hostile
 import law_tables as laws
 import population_tables as populations
 from printed import Printed, names, put
 
 DOCS = Path(__file__).parents[1]
-PAGES = (DOCS / "evidence.md", DOCS / "story.md")
+PAGES = (DOCS / "evidence.md", DOCS / "story.md", DOCS / "robustness.md")
 TABLES: dict[str, Callable[[Printed], str]] = {
     "grid": populations.grid,
     "hands": populations.hands,
@@ -31,6 +32,7 @@ TABLES: dict[str, Callable[[Printed], str]] = {
     "pieces": laws.pieces,
     "worst": laws.worst,
     "zwidth": laws.z_width,
+    "adversaries": hostile.adversaries,
     "walls": laws.walls,
     "speed": laws.speed,
 }
