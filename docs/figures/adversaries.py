@@ -31,9 +31,9 @@ class Draw:
 
 DRAWS = (
     Draw(lag=0.0, delays=(0, 1, 2), injection=(True, False), words=("no lag", "on or off", "0, 1, 2")),
-    Draw(lag=3e-4, delays=(0, 1, 2), injection=(True,), words=("0.3 ms", "on", "0, 1, 2")),
+    Draw(lag=3e-4, delays=(0,), injection=(True,), words=("0.3 ms", "on", "0")),
     Draw(lag=3e-4, delays=(1, 2), injection=(True, False), words=("0.3 ms", "on or off", "1, 2")),
-    Draw(lag=3e-4, delays=(0,), injection=(True, False), words=("0.3 ms", "on or off", "0")),
+    Draw(lag=3e-4, delays=(0,), injection=(False,), words=("0.3 ms", "off", "0")),
     Draw(
         lag=3e-4, delays=(0,), injection=(False,), manners=("switch",), sizes=(20.0, 40.0, 200.0),
         words=("0.3 ms", "off, a force to and fro by 40 N or more", "0"),
