@@ -16,6 +16,8 @@ from typing import Any
 
 MARKED = re.compile(r"(<!-- table: ([\w-]+) -->\n).*?(<!-- end -->)", re.S)
 Row = dict[str, Any]
+#: Energy that is written as 0 [J].
+NOTHING = 5e-8
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -91,11 +93,13 @@ def count(number: int | None) -> str:
 
 
 def joules(energy: float | None, unit: str = "") -> str:
-    """Return an energy [J] in mJ, with `unit` behind it, or from 1 J on in J, which is written."""
+    """Return an energy [J] in mJ, with `unit` behind it, or from 1 J on in J, which is written; 0 below `NOTHING`."""
     if energy is None:
         return "-"
+    if abs(energy) < NOTHING:
+        return "0"
     if abs(energy) < 0.9995:
-        return f"{1e3 * energy:.3g}{unit}" if energy else "0"
+        return f"{1e3 * energy:.3g}{unit}"
     return f"{energy:.0f} J" if abs(energy) >= 99.95 else f"{energy:.1f} J"
 
 
