@@ -43,6 +43,9 @@ void bind_can_plan(py::module_& m) {
            "Return a warning over 70 % of the bus, else an empty text.\n\n"
            "Raises\n------\nValueError\n    Over 90 %, or for numbers no CAN bus has; with the "
            "remedy.");
+  m.def("worst_bits", &can::worst_bits, py::arg("size"));
+  m.attr("WARNED_LOAD") = can::kWarnedLoad;
+  m.attr("REFUSED_LOAD") = can::kRefusedLoad;
   m.def(
       "pdo_plan", [](const std::vector<int>& nodes) { return can::pdo_plan(nodes); },
       py::arg("nodes"),

@@ -14,7 +14,9 @@ import numpy.typing
 __all__: list[str] = [
     "EBA",
     "EBAC",
+    "REFUSED_LOAD",
     "TCA",
+    "WARNED_LOAD",
     "AdaptiveWindow",
     "AxisTruth",
     "BackwardDifference",
@@ -75,6 +77,7 @@ __all__: list[str] = [
     "copley_current",
     "estimate_velocity",
     "pdo_plan",
+    "worst_bits",
 ]
 
 class Field:
@@ -4004,3 +4007,8 @@ def pdo_plan(
     SYNC, and for every node an RPDO (controlword, target torque) and a TPDO (statusword,
     position, actual torque): the frames of one tick (CiA 301, CiA 402).
     """
+
+def worst_bits(size: typing.SupportsInt | typing.SupportsIndex) -> int: ...
+
+REFUSED_LOAD: float = 0.9
+WARNED_LOAD: float = 0.7

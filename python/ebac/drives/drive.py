@@ -1,63 +1,28 @@
-"""One drive: its objects by name, its state machine, its faults."""
+"""One drive: its state machine, its mode, its faults."""
 
 from __future__ import annotations
 
 import time
 from collections.abc import Callable
-from pathlib import Path
 from types import TracebackType
-from typing import TYPE_CHECKING, Self
+from typing import Self
 
 from ebac.drives import faults
-from ebac.drives.errors import BusError, DriveError, DriveFault, Refused, WrongAnswer, WrongState
-from ebac.drives.objects import Object, find
-from ebac.drives.sdo import Sdo
+from ebac.drives.errors import DriveError, DriveFault, WrongAnswer, WrongState
+from ebac.drives.node import Node
 from ebac.drives.state import AUTOMATIC, Command, State, Statusword, path
 
-if TYPE_CHECKING:
-    from ebac.drives.bus import DriveBus
-
-#: NMT commands (CiA 301).
-NMT = {"start": 0x01, "stop": 0x02, "pre-operational": 0x80, "reset": 0x81, "reset-comm": 0x82}
 #: Modes of operation this package uses (CiA 402-2, object 0x6060).
 MODES = {4: "profile torque", 10: "cyclic synchronous torque"}
-#: Types of an electronic data sheet (CiA 301, 7.4.7).
-_TYPES = {2: "i8", 3: "i16", 4: "i32", 5: "u8", 6: "u16", 7: "u32"}
 #: How often a state is asked for while waiting [s], and how long a change may take [s].
 _POLL, _DEADLINE = 0.002, 2.0
 
 
-class Drive:
+class Drive(Node):
     """A CiA 402 drive on a bus. As a context manager it is disabled on exit, whatever happened.
 
-    Get it from `DriveBus.drive`. Threads may share it: one SDO is under way at a time.
-
-    Parameters
-    ----------
-    bus : DriveBus
-        Where it is.
-    node : int
-        Node id, 1 to 127.
-    eds : str or Path, optional
-        Electronic data sheet, for names this package does not know.
-    timeout : float
-        How long an SDO answer may take [s].
+    Get it from `DriveBus.drive`; the parameters are those of `Node`.
     """
-
-    def __init__(
-        self, bus: DriveBus, node: int, *, eds: str | Path | None = None, timeout: float
-    ) -> None:
-        import canopen
-
-        dictionary = canopen.import_od(None if eds is None else str(eds), node)
-        self._remote = canopen.RemoteNode(node, dictionary)
-        bus.network.add_node(self._remote)
-        self.bus = bus
-        self.node = node
-        self.sdo = Sdo(self._remote.sdo, node, bus.heard, timeout)
-
-    def __repr__(self) -> str:
-        return f"Drive(node={self.node})"
 
     def __enter__(self) -> Self:
         return self
@@ -74,79 +39,6 @@ class Drive:
             if error is None:
                 raise
             error.add_note(f"and the drive could not be disabled: {failure}")
-
-    # --- objects ---
-
-    def object(self, what: str | int | tuple[int, int] | Object) -> Object:
-        """Return an object by name, index, or (index, sub-index); by the EDS where one was given.
-
-        Raises
-        ------
-        KeyError
-            For an unknown name; the message suggests the nearest.
-        """
-        if isinstance(what, str):
-            entry = self._sheet(what)
-            if entry is not None:
-                return entry
-        return find(what)
-
-    def _sheet(self, name: str) -> Object | None:
-        """Return what the electronic data sheet has by that name: "Motor data.Torque constant"."""
-        from canopen.objectdictionary import ODVariable
-
-        try:
-            entry = self._remote.object_dictionary[name]
-        except KeyError:
-            return None
-        if not isinstance(entry, ODVariable):
-            return None
-        kind = _TYPES.get(entry.data_type or 0, "str")
-        return Object(name=name, index=entry.index, sub=entry.subindex, kind=kind)
-
-    def read(self, what: str | int | tuple[int, int] | Object) -> int | str:
-        """Read an object in its own unit (`objects.find(what).unit`).
-
-        Raises
-        ------
-        NoAnswer, Refused, WrongAnswer, BusError
-            When the drive gives no value.
-        """
-        obj = self.object(what)
-        return obj.decode(self.sdo.upload(obj))
-
-    def number(self, what: str | int | tuple[int, int] | Object) -> int:
-        """Read an object that is a number. Raises as `read`."""
-        value = self.read(what)
-        if isinstance(value, str):
-            raise WrongAnswer(
-                f"node {self.node}: {self.object(what)} is text: {value!r}", node=self.node
-            )
-        return value
-
-    def look(self, what: str | int | tuple[int, int] | Object) -> int | str | None:
-        """Read an object, None where the drive has none. Raises as `read` otherwise."""
-        try:
-            return self.read(what)
-        except Refused as error:
-            if error.absent:
-                return None
-            raise
-
-    def write(self, what: str | int | tuple[int, int] | Object, value: int) -> None:
-        """Write an object in its own unit.
-
-        Raises
-        ------
-        ValueError
-            When the value does not fit the object.
-        NoAnswer, Refused, WrongAnswer, BusError
-            When the drive does not take it.
-        """
-        obj = self.object(what)
-        self.sdo.download(obj, obj.encode(value))
-
-    # --- state ---
 
     @property
     def statusword(self) -> Statusword:
@@ -342,22 +234,6 @@ class Drive:
                     node=self.node,
                 )
             time.sleep(_POLL)
-
-    def nmt(self, command: str) -> None:
-        """Send an NMT command to this node: start, stop, pre-operational, reset, reset-comm."""
-        import can
-
-        if command not in NMT:
-            raise ValueError(f"NMT command {command!r}: must be one of {', '.join(NMT)}")
-        try:
-            self.bus.network.send_message(0, bytes([NMT[command], self.node]))
-        except (can.CanError, OSError, RuntimeError) as error:
-            raise BusError(
-                f"node {self.node}: NMT {command} was not sent, the bus took no frame ({error})",
-                node=self.node,
-            ) from error
-
-    # --- faults ---
 
     def latched(self) -> list[str]:
         """Return the names of the latched faults; none where the drive has no such object."""

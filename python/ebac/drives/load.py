@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-#: Shares of the bus that are refused and warned of.
-REFUSED, WARNED = 0.90, 0.70
+from ebac._core import REFUSED_LOAD, WARNED_LOAD, worst_bits
+
 #: Bit rates of CiA 301 [bit/s].
 BITRATES = (10_000, 20_000, 50_000, 100_000, 125_000, 250_000, 500_000, 800_000, 1_000_000)
 
@@ -58,20 +58,20 @@ class BusLoad:
     @property
     def refused(self) -> bool:
         """Whether it leaves no room for SDO, EMCY and repetitions: over 90 %."""
-        return self.share > REFUSED
+        return self.share > REFUSED_LOAD
 
     @property
     def warned(self) -> bool:
         """Whether it is more than is comfortable: over 70 %."""
-        return self.share > WARNED
+        return self.share > WARNED_LOAD
 
     def describe(self) -> str:
         """Return it in one sentence."""
         text = f"bus load {100 * self.share:.0f} % of {self.bitrate / 1000:g} kbit/s, worst case"
         if self.refused:
-            return f"{text}: refused over {100 * REFUSED:.0f} %; {_REMEDY}"
+            return f"{text}: refused over {100 * REFUSED_LOAD:.0f} %; {_REMEDY}"
         if self.warned:
-            return f"{text}: more than {100 * WARNED:.0f} % is a warning; {_REMEDY}"
+            return f"{text}: more than {100 * WARNED_LOAD:.0f} % is a warning; {_REMEDY}"
         return text
 
 
@@ -91,7 +91,7 @@ def frame_bits(size: int) -> int:
     """
     if not 0 <= size <= 8:
         raise ValueError(f"size = {size} bytes: a classical CAN frame has 0 to 8")
-    return 8 * size + 47 + (34 + 8 * size - 1) // 4
+    return worst_bits(size)
 
 
 def bus_load(traffic: Iterable[Traffic], *, bitrate: int) -> BusLoad:

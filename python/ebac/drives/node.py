@@ -1,0 +1,132 @@
+"""One node of a bus: its objects by name, its NMT commands."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from ebac.drives.errors import BusError, Refused, WrongAnswer
+from ebac.drives.objects import Object, find
+from ebac.drives.sdo import Sdo
+
+if TYPE_CHECKING:
+    from ebac.drives.bus import DriveBus
+
+#: NMT commands (CiA 301).
+NMT = {"start": 0x01, "stop": 0x02, "pre-operational": 0x80, "reset": 0x81, "reset-comm": 0x82}
+#: Types of an electronic data sheet (CiA 301, 7.4.7).
+_TYPES = {2: "i8", 3: "i16", 4: "i32", 5: "u8", 6: "u16", 7: "u32"}
+
+
+class Node:
+    """A CANopen node on a bus. Threads may share it: one SDO is under way at a time.
+
+    Parameters
+    ----------
+    bus : DriveBus
+        Where it is.
+    node : int
+        Node id, 1 to 127.
+    eds : str or Path, optional
+        Electronic data sheet, for names this package does not know.
+    timeout : float
+        How long an SDO answer may take [s].
+    """
+
+    def __init__(
+        self, bus: DriveBus, node: int, *, eds: str | Path | None = None, timeout: float
+    ) -> None:
+        import canopen
+
+        dictionary = canopen.import_od(None if eds is None else str(eds), node)
+        self._remote = canopen.RemoteNode(node, dictionary)
+        bus.network.add_node(self._remote)
+        self.bus = bus
+        self.node = node
+        self.sdo = Sdo(self._remote.sdo, node, bus.heard, timeout)
+
+    def __repr__(self) -> str:
+        return f"{type(self).__name__}(node={self.node})"
+
+    def object(self, what: str | int | tuple[int, int] | Object) -> Object:
+        """Return an object by name, index, or (index, sub-index); by the EDS where one was given.
+
+        Raises
+        ------
+        KeyError
+            For an unknown name; the message suggests the nearest.
+        """
+        if isinstance(what, str):
+            entry = self._sheet(what)
+            if entry is not None:
+                return entry
+        return find(what)
+
+    def _sheet(self, name: str) -> Object | None:
+        """Return what the electronic data sheet has by that name: "Motor data.Torque constant"."""
+        from canopen.objectdictionary import ODVariable
+
+        try:
+            entry = self._remote.object_dictionary[name]
+        except KeyError:
+            return None
+        if not isinstance(entry, ODVariable):
+            return None
+        kind = _TYPES.get(entry.data_type or 0, "str")
+        return Object(name=name, index=entry.index, sub=entry.subindex, kind=kind)
+
+    def read(self, what: str | int | tuple[int, int] | Object) -> int | str:
+        """Read an object in its own unit (`objects.find(what).unit`).
+
+        Raises
+        ------
+        NoAnswer, Refused, WrongAnswer, BusError
+            When the drive gives no value.
+        """
+        obj = self.object(what)
+        return obj.decode(self.sdo.upload(obj))
+
+    def number(self, what: str | int | tuple[int, int] | Object) -> int:
+        """Read an object that is a number. Raises as `read`."""
+        value = self.read(what)
+        if isinstance(value, str):
+            raise WrongAnswer(
+                f"node {self.node}: {self.object(what)} is text: {value!r}", node=self.node
+            )
+        return value
+
+    def look(self, what: str | int | tuple[int, int] | Object) -> int | str | None:
+        """Read an object, None where the drive has none. Raises as `read` otherwise."""
+        try:
+            return self.read(what)
+        except Refused as error:
+            if error.absent:
+                return None
+            raise
+
+    def write(self, what: str | int | tuple[int, int] | Object, value: int) -> None:
+        """Write an object in its own unit.
+
+        Raises
+        ------
+        ValueError
+            When the value does not fit the object.
+        NoAnswer, Refused, WrongAnswer, BusError
+            When the drive does not take it.
+        """
+        obj = self.object(what)
+        self.sdo.download(obj, obj.encode(value))
+
+    def nmt(self, command: str) -> None:
+        """Send an NMT command to this node: start, stop, pre-operational, reset, reset-comm."""
+        import can
+
+        if command not in NMT:
+            raise ValueError(f"NMT command {command!r}: must be one of {', '.join(NMT)}")
+        try:
+            self.bus.network.send_message(0, bytes([NMT[command], self.node]))
+        except (can.CanError, OSError, RuntimeError) as error:
+            raise BusError(
+                f"node {self.node}: NMT {command} was not sent, the bus took no frame ({error})",
+                node=self.node,
+            ) from error
