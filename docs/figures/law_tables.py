@@ -8,7 +8,6 @@ import numpy as np
 from printed import Printed, Row, code, fixed, joules, table
 
 import ebac
-from ebac import wording
 from ebac.studies.conditions import conditions
 from ebac.studies.families import find_family
 from ebac.zwidth.result import CRITERIA
@@ -150,12 +149,21 @@ def _to_50(printed: Printed) -> str:
 
 def speed(printed: Printed) -> str:
     """Times beside other programs; only where nothing else runs."""
-    rows = []
-    for r in printed.rows("bench --peers"):
-        times = "" if r["program"] == "ebac" else fixed(r["times_ebac"], 1)
-        value = wording.quantity(r["value"], r["unit"])
-        rows.append([r["subject"], r["program"], value, times, r["target"]])
-    return table(["what", "program", "value", "times ebac", "aim"], rows)
+    rows = [
+        [r["subject"], r["program"], _quantity(r["value"], r["unit"]),
+         "" if r["program"] == "ebac" else fixed(r["times_ebac"], 1), r["target"]]
+        for r in printed.rows("bench --peers")
+        if r["unit"] != "m"  # what is computed, not how fast
+    ]  # fmt: skip
+    return table(["what", "program", "", "times ebac", "aim"], rows)
+
+
+def _quantity(value: float, unit: str) -> str:
+    if unit == "s":
+        return f"{value:.1f} s" if value > 0.1 else f"{1e9 * value:,.0f} ns"
+    if unit == "B":
+        return f"{value / 1e6:.0f} MB" if value > 1e6 else f"{value:g} bytes"
+    return f"{value:.2f}"
 
 
 def walls(printed: Printed) -> str:
