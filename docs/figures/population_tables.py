@@ -8,8 +8,6 @@ CELLS, FIVE = "study -c cells", "study -c five --population random --hands 500 -
 #: Left out of the wide tables: it rests too deep everywhere.
 NARROW = "virtual-coupling"
 SEEDS = (1, 2, 3)
-#: What the story shows, in this order.
-TOLD = ("tca", "eba", "ebac-printed", "tca-damped", "ebac")
 
 
 def by_law(rows: list[Row], *, wide: bool = False) -> dict[str, list[Row]]:
@@ -111,15 +109,3 @@ def robustness_energy(printed: Printed) -> str:
     first = [code(r["condition"]) for r in every["ebac"]]
     columns = [[joules(r["least_energy_J"]) for r in rows] for rows in every.values()]
     return table(["condition", *map(code, every)], list(zip(first, *columns, strict=True)))
-
-
-def hands(printed: Printed) -> str:
-    """60 hands at the paper's wall, as the story tells it."""
-    rows = {r["law"]: r for r in printed.rows("study --law all")}
-    return table(
-        ["law", "good", "in time", "least energy"],
-        [
-            [code(law), str(r["good"]), str(r["settled_in_time"]), joules(r["least_energy_J"], " mJ")]
-            for law, r in ((law, rows[law]) for law in TOLD)
-        ],
-    )  # fmt: skip

@@ -17,23 +17,24 @@ from pathlib import Path
 import adversaries as hostile
 import law_tables as laws
 import population_tables as populations
+import story_tables as story
 from printed import Printed, names, put
 
 DOCS = Path(__file__).parents[1]
 PAGES = (DOCS / "evidence.md", DOCS / "story.md", DOCS / "robustness.md")
 TABLES: dict[str, Callable[[Printed], str]] = {
     "grid": populations.grid,
-    "hands": populations.hands,
+    "hands": story.hands,
     "cells": populations.cells,
     "five": populations.five,
     "robustness-good": populations.robustness_good,
     "robustness-energy": populations.robustness_energy,
     "ablation": laws.ablation,
-    "pieces": laws.pieces,
+    "pieces": story.pieces,
     "worst": laws.worst,
     "zwidth": laws.z_width,
     "adversaries": hostile.adversaries,
-    "walls": laws.walls,
+    "walls": story.walls,
     "speed": laws.speed,
 }
 #: Left out unless asked for: what they say depends on what else the machine does.
