@@ -17,7 +17,8 @@ from ebac import Condition, Variant, Worst, worst
 from ebac.cli import app
 from ebac.studies import changes as to
 from ebac.studies.families import families
-from ebac.studies.worst import _Search, replays
+from ebac.studies.hand_search import HandSearch
+from ebac.studies.worst import replays
 
 FAMILIES = ("impact", "press-and-go", "tapping", "swinging", "drive", "noise", "periodic")
 KEYS = [
@@ -114,7 +115,7 @@ def test_a_search_does_better_than_chance() -> None:
     """What NLopt adds to the random half."""
     scenario = ebac.Scenario()
     law = ebac.design("tca", scenario.device, scenario.timing)
-    chance = _Search(families(20.0)["impact"], scenario, law, 20.0, 2, lambda runs: None)
+    chance = HandSearch(families(20.0)["impact"], scenario, law, 20.0, 2, lambda runs: None)
     random = np.random.default_rng(1)
     chance.measure(random.random((150, 5)))
     searched = worst("tca", family=["impact"], evaluations=150)
@@ -134,10 +135,10 @@ def test_a_hand_that_pulls_too_hard_does_not_count() -> None:
     for p in family.parameters:
         span = math.log(p.high / p.low) if p.log else p.high - p.low
         shares.append((math.log(hard[p.name] / p.low) if p.log else hard[p.name] - p.low) / span)
-    search = _Search(family, scenario, law, 20.0, 1, lambda runs: None)
+    search = HandSearch(family, scenario, law, 20.0, 1, lambda runs: None)
     [value] = search.measure(np.array([shares]))
     assert value < 0  # draws joules, but pulls with far more than 20 N
-    free = _Search(family, scenario, law, 1e3, 1, lambda runs: None)
+    free = HandSearch(family, scenario, law, 1e3, 1, lambda runs: None)
     assert free.measure(np.array([shares]))[0] > 0.1
 
 

@@ -10,7 +10,7 @@ import typer
 from ebac.cli import options, output, setting
 
 if TYPE_CHECKING:
-    from ebac.studies.worst import Worst, WorstHand
+    from ebac.studies import Worst, WorstHand
 
 DEFAULT_OUT = Path("ebac-worst")
 _WHAT, _SEARCH, _RUN = "Law and condition", "Search", "Run"

@@ -12,7 +12,7 @@ from ebac import wording
 from ebac.plot.style import OTHER_LAW, Picture, colour, dress, legend, line, new_figure
 
 if TYPE_CHECKING:
-    from ebac.studies.worst import Worst, WorstHand
+    from ebac.studies import Worst, WorstHand
     from ebac.trace import Trace
 
 #: What the right column shows around the instant of least energy [s].

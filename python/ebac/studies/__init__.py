@@ -2,10 +2,11 @@
 
 from ebac.studies.ablation import Ablation, AblationRow, Piece, ablation, pieces
 from ebac.studies.conditions import CONDITIONS, GROUPS, Condition, conditions
+from ebac.studies.hand_search import WorstHand
 from ebac.studies.measures import MEASURES, Measure
 from ebac.studies.result import Failure, Study, StudyRow
 from ebac.studies.study import study
-from ebac.studies.worst import Worst, WorstHand, worst
+from ebac.studies.worst import Worst, worst
 
 __all__ = [
     "CONDITIONS",

@@ -1,0 +1,192 @@
+"""The search for the worst hand of one family: at random, bred from the best, polished by NLopt."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ebac._core import RunLimits
+from ebac.scenario import Scenario
+from ebac.simulation import LoopFault, simulate
+from ebac.studies.families import Family
+from ebac.sweeps.measure import Columns, Watch, measure
+from ebac.trace import Trace
+
+#: Shares of the runs: at random, and bred from the best; the rest is for NLopt.
+AT_RANDOM, BRED = 0.25, 0.6
+#: Hands of a generation, the parents that are kept, and the first and least spread of a parameter's change.
+CHILDREN, PARENTS, SPREAD, LEAST_SPREAD = 40, 10, 0.15, 0.01
+#: Weight of the energy drawn in any window beside that below zero: it guides where nothing is below zero.
+GUIDE = 1e-3
+#: Runs measured at once.
+BATCH = 256
+
+
+@dataclass(frozen=True, kw_only=True)
+class WorstHand:
+    """The worst hand found in one family.
+
+    Attributes
+    ----------
+    family : Family
+        What was searched.
+    values : dict of str to float
+        Its parameters, SI units.
+    scenario : Scenario
+        To simulate it again.
+    energy_J : float
+        Energy it drew: minus the least port energy of `Contact`, at least 0.
+    most_drawn_J : float
+        The most in any window, see `Contact`.
+    most_pull_N : float
+        Its hardest pull |K0 (X0 - x)| while the virtual world acts.
+    unseen_J : float
+        One encoder count times all changes of the applied force: what the energy account of a law may miss.
+    runs : int
+        Hands tried.
+    """
+
+    family: Family
+    values: dict[str, float]
+    scenario: Scenario
+    energy_J: float
+    most_drawn_J: float
+    most_pull_N: float
+    unseen_J: float
+    runs: int
+
+
+class HandSearch:
+    """One family: hands are points of the unit cube, and the best so far is kept here, not by the optimiser."""
+
+    def __init__(
+        self,
+        family: Family,
+        base: Scenario,
+        law: Any,
+        pull: float,
+        threads: int,
+        tell: Callable[[int], None],
+    ) -> None:
+        self.family, self.base, self.law, self.pull = family, base, law, pull
+        self.threads, self.tell = threads, tell
+        self.runs = 0
+        self.value = -np.inf
+        self.best: tuple[NDArray[np.float64], Columns] | None = None
+
+    def run(self, evaluations: int, seed: int) -> WorstHand:
+        """Try so many hands; return the worst."""
+        n = len(self.family.parameters)
+        random = np.random.Generator(np.random.PCG64([seed, n]))
+        at_random = max(1, int(AT_RANDOM * evaluations))
+        # A Latin hypercube: every parameter is spread over its whole range.
+        order = np.stack([random.permutation(at_random) for _ in range(n)], axis=1)
+        points = (order + random.random((at_random, n))) / at_random
+        parts = [points[start : start + BATCH] for start in range(0, at_random, BATCH)]
+        values = np.concatenate([self.measure(part) for part in parts])
+        self._breed(points, values, int((AT_RANDOM + BRED) * evaluations), random)
+        self._polish(evaluations - self.runs)
+        return self._found()
+
+    def _breed(
+        self,
+        points: NDArray[np.float64],
+        values: NDArray[np.float64],
+        until: int,
+        random: np.random.Generator,
+    ) -> None:
+        """Breed from the best: a child has some parameters of a parent changed, or a step between two others added."""
+        spread = SPREAD
+        n = points.shape[1]
+        while self.runs < until:
+            best = np.argsort(-values, kind="stable")[:PARENTS]
+            points, values = points[best], values[best]
+            k = min(CHILDREN, until - self.runs)
+            parents, one, other = (points[random.integers(0, len(points), k)] for _ in range(3))
+            changes = spread * random.normal(size=(k, n)) * (random.random((k, n)) < 0.5)
+            steps = 0.5 * (one - other) * (random.random((k, 1)) < 0.5)
+            children = np.clip(parents + changes + steps, 0, 1)
+            points = np.vstack([points, children])
+            values = np.concatenate([values, self.measure(children)])
+            spread = max(LEAST_SPREAD, 0.96 * spread)
+
+    def measure(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return what is maximised for points of the cube, shape (runs, parameters)."""
+        scenarios = [self.family.make(self.base, self.family.values(p)) for p in points]
+        columns = measure(
+            [(s, self.law) for s in scenarios], threads=self.threads, limits=RunLimits(), watch=Watch()
+        )  # fmt: skip
+        drawn, window = -columns["least_energy_J"], columns["most_drawn_J"]
+        values = drawn + GUIDE * window
+        over = columns["most_pull_N"] / self.pull - 1
+        values = np.where(over > 0, -over, values)  # pulls harder than allowed
+        values = np.where(np.isfinite(values), values, -1e9)
+        top = int(np.argmax(values))
+        if values[top] > self.value:
+            self.value = float(values[top])
+            self.best = points[top].copy(), {name: c[top : top + 1] for name, c in columns.items()}
+        self.runs += len(points)
+        self.tell(self.runs)
+        return values
+
+    def _polish(self, runs: int) -> None:
+        import nlopt
+
+        if runs <= 0 or self.best is None:
+            return
+        n = len(self.family.parameters)
+        optimiser = nlopt.opt(nlopt.LN_SBPLX, n)
+        optimiser.set_exceptions_enabled(False)
+        optimiser.set_lower_bounds(np.zeros(n))
+        optimiser.set_upper_bounds(np.ones(n))
+        raised: list[BaseException] = []
+
+        def objective(point: NDArray[np.float64], _: object) -> float:
+            try:
+                return float(self.measure(np.clip(point, 0, 1)[None])[0])
+            except BaseException as error:  # would be lost inside of NLopt
+                raised.append(error)
+                optimiser.force_stop()
+                return 0.0
+
+        optimiser.set_max_objective(objective)
+        optimiser.set_initial_step(0.02)
+        end = self.runs + runs
+        while self.runs < end:  # one that converged begins again from the best
+            before = self.runs
+            optimiser.set_maxeval(end - self.runs)
+            optimiser.optimize(np.clip(self.best[0], 0, 1))
+            if raised:
+                raise raised[0]
+            if self.runs == before:
+                break
+
+    def _found(self) -> WorstHand:
+        if self.best is None:  # not even one number came of the first batch
+            raise ValueError(f"family {self.family.name}: no run gave a number")
+        point, columns = self.best
+        values = self.family.values(point)
+        scenario = self.family.make(self.base, values)
+        turned = np.abs(np.diff(every_row(scenario, self.law)["f_applied"], axis=0)).sum()
+        return WorstHand(
+            family=self.family,
+            values=values,
+            scenario=scenario,
+            energy_J=max(0.0, -float(columns["least_energy_J"][0])),
+            most_drawn_J=float(columns["most_drawn_J"][0]),
+            most_pull_N=float(columns["most_pull_N"][0]),
+            unseen_J=scenario.device.count * float(turned),
+            runs=self.runs,
+        )
+
+
+def every_row(scenario: Scenario, law: Any) -> Trace:
+    """Simulate, and keep what there is after a fault."""
+    try:
+        return simulate(scenario, law)
+    except LoopFault as fault:
+        return fault.trace
