@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 
 import numpy as np
@@ -136,11 +137,22 @@ def speed(printed: Printed) -> str:
     """Times beside other programs; only where nothing else runs."""
     rows = [
         [r["subject"], r["program"], _quantity(r["value"], r["unit"]),
-         "" if r["program"] == "ebac" else fixed(r["times_ebac"], 1), r["target"]]
+         "" if r["program"] == "ebac" else fixed(r["times_ebac"], 1), _aim(r)]
         for r in printed.rows("bench --peers")
         if r["unit"] != "m"  # what is computed, not how fast
     ]  # fmt: skip
     return table(["what", "program", "", "times ebac", "aim"], rows)
+
+
+def _aim(row: Row) -> str:
+    """What was aimed at, and whether it was missed: the number is the first after "at least" or "at most"."""
+    aim: str = row["target"]
+    found = re.match(r"at (least|most) ([\d.]+)", aim)
+    if not found:
+        return aim
+    reached = row["value"] if row["program"] == "ebac" else row["times_ebac"]
+    missed = reached < float(found[2]) if found[1] == "least" else reached > float(found[2])
+    return f"{aim}: **missed**" if missed else aim
 
 
 def _quantity(value: float, unit: str) -> str:
