@@ -44,9 +44,9 @@ class EnergyLedger {
     energy_ += behind_.hold(f_applied) * moved + b_ * sure * sure;
   }
 
-  /// Charges a force that changes while no motion is seen: within its count the device may have
-  /// moved, half a count on average, when it changed.
-  void charge_unseen(double change) EBAC_RT { energy_ -= 0.5 * count_ * std::abs(change); }
+  /// Charges a force that changes while no motion is seen, one count of it: past the edge crossed
+  /// last the device may have gone that far before it turns.
+  void charge_unseen(double change) EBAC_RT { energy_ -= count_ * std::abs(change); }
 
   /// Leaks towards reserve + F_peak^2 / stiffness, with F_peak the largest command of about a
   /// second.
