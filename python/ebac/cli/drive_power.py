@@ -96,16 +96,8 @@ def disable(
 
     * `ebac drive disable`: every drive on the bus.
     """
-    _each(
-        "drive disable",
-        lambda one: one.disable(),
-        node,
-        interface,
-        channel,
-        bitrate,
-        timeout,
-        as_json,
-    )
+    with opened(interface, channel, bitrate) as bus:
+        _each("drive disable", lambda one: one.disable(), drives(bus, node, timeout), as_json)
 
 
 def reset_fault(
@@ -122,44 +114,28 @@ def reset_fault(
 
     * `ebac drive reset-fault --node 1`
     """
-    _each(
-        "drive reset-fault",
-        lambda one: one.reset_fault(),
-        node,
-        interface,
-        channel,
-        bitrate,
-        timeout,
-        as_json,
-    )
+    with opened(interface, channel, bitrate) as bus:
+        _each(
+            "drive reset-fault", lambda one: one.reset_fault(), drives(bus, node, timeout), as_json
+        )
 
 
-def _each(
-    command: str,
-    act: Callable[[Drive], object],
-    node: list[int] | None,
-    interface: str | None,
-    channel: str | None,
-    bitrate: int | None,
-    timeout: float,
-    as_json: bool,
-) -> None:
+def _each(command: str, act: Callable[[Drive], object], chosen: list[Drive], as_json: bool) -> None:
     """Do something with every drive, also when one of them fails; then tell the first failure."""
     from ebac.drives import DriveError
 
     failures: list[DriveError] = []
-    with opened(interface, channel, bitrate) as bus:
-        rows = []
-        for one in drives(bus, node, timeout):
-            try:
-                act(one)
-                rows.append(_state(one))
-            except DriveError as error:
-                failures.append(error)
-        if rows and (as_json or not failures):
-            _tell_states(command, rows, as_json)
-        if failures:
-            raise failures[0]
+    rows = []
+    for one in chosen:
+        try:
+            act(one)
+            rows.append(_state(one))
+        except DriveError as error:
+            failures.append(error)
+    if rows and (as_json or not failures):
+        _tell_states(command, rows, as_json)
+    if failures:
+        raise failures[0]
 
 
 def _tell_states(command: str, rows: list[dict[str, Any]], as_json: bool) -> None:

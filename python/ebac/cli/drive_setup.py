@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
@@ -30,6 +30,9 @@ from ebac.cli.drive_options import (
 if TYPE_CHECKING:
     from ebac.drives import Applied, Backups, Drive, Node
     from ebac.drives.apply import Progress
+
+    Row = dict[str, Any]
+    Work = Callable[[Progress], Applied]
 
 
 def apply(
@@ -66,12 +69,8 @@ def apply(
         ids = ", ".join(str(n.id) for n in network.nodes)
         sure(f"Disable node {ids} and write this?", yes)
         shelf = library.Backups(backup)
-        rows, nodes = [], []
-        for one, n in pairs:
-            work = partial(_apply, one, n, shelf, store)
-            changed, about_node = _carried_out(one, as_json, work)
-            rows += changed
-            nodes.append(about_node)
+        work = [(one, partial(_apply, one, n, shelf, store)) for one, n in pairs]
+        rows, nodes = _carried_out(work, as_json)
     if as_json:
         typer.echo(output.document("drive apply", rows, **about(network), nodes=nodes))
 
@@ -104,12 +103,8 @@ def restore(
             raise library.DriveError(f"nothing to restore: no backup in {shelf.folder}")
         ids = ", ".join(str(one.node) for one in chosen)
         sure(f"Disable node {ids} and put all back?", yes)
-        rows, nodes = [], []
-        for one in chosen:
-            work = partial(_restore, one, shelf, store)
-            changed, about_node = _carried_out(one, as_json, work)
-            rows += changed
-            nodes.append(about_node)
+        work = [(one, partial(_restore, one, shelf, store)) for one in chosen]
+        rows, nodes = _carried_out(work, as_json)
     if as_json:
         typer.echo(output.document("drive restore", rows, nodes=nodes))
 
@@ -126,22 +121,25 @@ def _restore(one: Drive, shelf: Backups, store: bool, step: Progress) -> Applied
     return put_back(one, backups=shelf, store=store, progress=step)
 
 
-def _carried_out(
-    one: Drive, as_json: bool, work: Callable[[Progress], Applied]
-) -> tuple[list[dict[str, Any]], dict[str, Any]]:
-    """Do the work with a bar, say what was done, and return the changes and the node as plain rows."""
-    with output.counting(f"node {one.node}", quiet=as_json) as step:
-        done = work(step)
-    if not as_json:
-        _say_done(one, done)
-    about_node = {
-        "node": one.node,
-        "written": len(done.written),
-        "backup": None if done.backup is None else str(done.backup),
-        "stored": done.stored,
-        "state": one.state.value,
-    }
-    return [change.row() for change in done.changes], about_node
+def _carried_out(work: Sequence[tuple[Drive, Work]], as_json: bool) -> tuple[list[Row], list[Row]]:
+    """Do the work of every drive with a bar, say what was done, and return changes and nodes as plain rows."""
+    changes, nodes = [], []
+    for one, carry_out in work:
+        with output.counting(f"node {one.node}", quiet=as_json) as step:
+            done = carry_out(step)
+        if not as_json:
+            _say_done(one, done)
+        changes += [change.row() for change in done.changes]
+        nodes.append(
+            {
+                "node": one.node,
+                "written": len(done.written),
+                "backup": None if done.backup is None else str(done.backup),
+                "stored": done.stored,
+                "state": one.state.value,
+            }
+        )
+    return changes, nodes
 
 
 def _say_done(one: Drive, done: Applied) -> None:
