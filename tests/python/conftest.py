@@ -1,4 +1,4 @@
-"""What the tests share: cached runs of scenarios, hypothesis profiles, and `--update-golden`.
+"""What the tests share: cached runs of scenarios, hypothesis profiles, pytester.
 
 More examples than usual: `pytest --hypothesis-profile=explore`.
 """
@@ -16,17 +16,11 @@ import ebac
 if TYPE_CHECKING:
     import can
 
+pytest_plugins = ["pytester"]
+
 settings.register_profile("ebac", deadline=None, derandomize=True, database=None)
 settings.register_profile("explore", deadline=None, max_examples=5000, database=None)
 settings.load_profile("ebac")
-
-
-def pytest_addoption(parser: pytest.Parser) -> None:
-    parser.addoption(
-        "--update-golden",
-        action="store_true",
-        help="write tests/golden anew instead of comparing with it",
-    )
 
 
 @cache
