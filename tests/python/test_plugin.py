@@ -193,19 +193,19 @@ LAWS = """
 def conformance(project: pytest.Pytester, law: str) -> pytest.RunResult:
     project.makeconftest(
         "from hypothesis import settings\n"
-        "settings.register_profile('quick', max_examples=30, derandomize=True, database=None)\n"
+        "settings.register_profile('quick', max_examples=10, derandomize=True, database=None)\n"
         "settings.load_profile('quick')"
     )
     project.makepyfile(test_law=f"{LAWS}\n    class TestMine(LawContract):\n        law = {law}\n")
     return project.runpytest_inprocess("-q", "-ra")
 
 
-@pytest.mark.parametrize("law", ["Damped", "Damped()", "lambda: Damped()", "Bounded"])
+@pytest.mark.parametrize("law", ["Damped()", "lambda: Damped()", "Bounded"])
 def test_a_good_law_in_python_keeps_the_contract(project: pytest.Pytester, law: str) -> None:
     result = conformance(project, law)
     outcomes = result.parseoutcomes()
     assert set(outcomes) == {"passed"}
-    assert outcomes["passed"] == (20 if law == "Bounded" else 9)
+    assert outcomes["passed"] == (22 if law == "Bounded" else 11)
 
 
 def test_a_law_that_keeps_something_over_a_reset_is_caught(project: pytest.Pytester) -> None:
@@ -219,12 +219,6 @@ def test_a_subtly_active_law_is_caught(project: pytest.Pytester) -> None:
     result = conformance(project, "Active")
     result.stdout.fnmatch_lines(["FAILED *test_a_passive_law_keeps_its_bound_in_any_world*"])
     assert "Active says it is passive and gave out" in told(result)
-
-
-def test_a_law_of_the_core_keeps_the_whole_contract(project: pytest.Pytester) -> None:
-    outcomes = conformance(project, "ebac.EBA").parseoutcomes()
-    assert set(outcomes) == {"passed"}
-    assert outcomes["passed"] > 60
 
 
 def test_what_is_no_law_is_refused_when_the_class_is_made(project: pytest.Pytester) -> None:

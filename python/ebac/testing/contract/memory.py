@@ -23,13 +23,16 @@ class Memory:
         ports = random_ports(1)
         assert drive(subject.lively(), ports) == drive(subject.lively(), ports)
 
-    def test_reset_forgets_everything(self, subject: Subject) -> None:
+    @pytest.mark.parametrize("start", [0.0, 5e-3], ids=["free", "in contact"])
+    def test_reset_forgets_everything(self, subject: Subject, start: float) -> None:
+        """What it remembers of a deep contact must not reach a next one, not even one that starts inside the wall."""
         law = subject.lively()
-        fresh = drive(law, random_ports(1))
-        drive(law, random_ports(2))
+        fresh = drive(law, random_ports(1, start=start))
+        drive(law, random_ports(2, drift=2))
         law.reset()
         assert state_of(law) == state_of(subject.lively())
-        assert drive(law, random_ports(1)) == fresh, "after reset() it acts otherwise than fresh"
+        again = drive(law, random_ports(1, start=start))
+        assert again == fresh, "after reset() it acts otherwise than fresh"
 
     def test_a_copy_carries_its_state_and_runs_independently(self, subject: Subject) -> None:
         """The loop makes a copy for each axis."""
