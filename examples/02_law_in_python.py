@@ -32,4 +32,6 @@ if __name__ == "__main__":
     scenario = ebac.Scenario()
     for law in ("tca", Damped(), "ebac"):
         wall = ebac.contact(ebac.simulate(scenario, law))
-        print(f"{wall.law:7s} swings {1e3 * wall.swing_m:.3f} mm, rests at {1e3 * wall.rest_m:.3f} mm")
+        print(
+            f"{wall.law:7s} swings {1e3 * wall.swing_m:.3f} mm, rests at {1e3 * wall.rest_m:.3f} mm"
+        )

@@ -16,13 +16,13 @@ from ebac.tracking.line import fit_line
 from ebac.tracking.sources import GROUPS, ErrorSources, Joystick
 from ebac.tracking.table import mean
 
-#: The circle of section IV.B: "a rope with a length of 80 mm" taken as a diameter. As a radius it would not fit into the
-#: 100 mm chord of +-30 degrees on a 100 mm lever; the paper's 200 mm is the diameter of the sphere.
+#: The circle of section IV.B: "a rope with a length of 80 mm" taken as a diameter. As a radius it would not fit into
+#: the 100 mm chord of +-30 degrees on a 100 mm lever; the paper's 200 mm is the diameter of the sphere.
 RADIUS = 0.040
 #: Half the line; the chord ends at 50 mm.
 HALF_LINE = 0.040
 #: Points of one run along the line and back, or once around and a bit.
-POINTS = 800
+POINTS = 400
 #: Longest search for the slack that explains the table.
 BISECTIONS = 12
 
@@ -70,8 +70,8 @@ class Budget:
     runs, seed : int
         How many joysticks were drawn for each row, and from which seed.
     slack_m : dict of str to (float or None)
-        By shape: the slack at the handle, end to end, with which all sources together would have the table's mean SD [m];
-        None where even 20 mm have not, or where the others exceed it without any.
+        By shape: the slack at the handle, end to end, with which all sources together would have the table's mean SD
+        [m]; None where even 20 mm have not, or where the others exceed it without any.
     examples : dict of str to array
         By shape: one path with all errors, shape (n, 2) [m].
     """
@@ -88,14 +88,14 @@ class Budget:
         return next(r for r in self.rows if (r.shape, r.source) == (shape, source))
 
     def unexplained_m(self, shape: str) -> float:
-        """Return what is left of the table's mean SD, sqrt(SD^2 - sd^2) [m]: the hand, the ruler, the rope; 0 for none."""
+        """Return what is left of the table's mean SD, sqrt(SD^2 - sd^2) [m]: hand, ruler, rope; 0 for none."""
         return sqrt(max(mean(shape).sd_m ** 2 - self.row(shape, "all").sd_m ** 2, 0.0))
 
 
 def error_budget(
     *,
     sources: ErrorSources | None = None,
-    runs: int = 200,
+    runs: int = 100,
     seed: int = 1,
     radius: float = RADIUS,
     device: Device | None = None,
@@ -103,8 +103,8 @@ def error_budget(
 ) -> Budget:
     """Draw joysticks with errors, lead their handles along a true ruler and a true rope, and fit what they show.
 
-    The handle follows the path without error and slowly, so that friction keeps each motor where its slack cable leaves it:
-    what comes out is the device's share. How well a hand keeps to a ruler is not in it.
+    The handle follows the path without error and slowly, so that friction keeps each motor where its slack cable
+    leaves it: what comes out is the device's share. How well a hand keeps to a ruler is not in it.
 
     Parameters
     ----------
@@ -135,7 +135,9 @@ def error_budget(
     if not 2 <= runs <= 100_000:
         raise ValueError(f"runs = {runs}: must lie in [2, 100000]")
     if not 0 < radius <= 0.049:
-        raise ValueError(f"radius = {radius} m: must lie in (0, 0.049] m, the reach of +-30 deg on 100 mm")
+        raise ValueError(
+            f"radius = {radius} m: must lie in (0, 0.049] m, the reach of +-30 deg on 100 mm"
+        )
     sizes, stick = sources or ErrorSources(), device or presets.device("joystick")
     parts = {**{name: sizes.only(name) for name in GROUPS}, "all": sizes}
     rows: list[BudgetRow] = []
@@ -152,7 +154,9 @@ def error_budget(
         slack[shape] = _needed_slack(stick, sizes, shape, radius, seed, min(runs, 40))
         if progress is not None:
             progress(len(rows) + len(slack), total)
-    return Budget(rows=tuple(rows), sources=sizes, runs=runs, seed=seed, slack_m=slack, examples=examples)
+    return Budget(
+        rows=tuple(rows), sources=sizes, runs=runs, seed=seed, slack_m=slack, examples=examples
+    )
 
 
 def _row(shape: str, source: str, found: list[tuple[float, float, float]]) -> BudgetRow:
@@ -204,7 +208,9 @@ def _needed_slack(
 
     def typical(slack: float) -> float:
         part: Any = sources.replace(slack=slack)
-        return float(np.median([_one(device, part, shape, radius, seed, r)[0] for r in range(runs)]))
+        return float(
+            np.median([_one(device, part, shape, radius, seed, r)[0] for r in range(runs)])
+        )
 
     low, high = 0.0, 0.02
     if typical(low) > wanted or typical(high) < wanted:

@@ -149,7 +149,9 @@ def _geometric(points: Numbers, weight: Numbers) -> Numbers:
         slope = np.column_stack([-away / distance[:, None], -np.ones(len(points))])
         normal = slope.T @ (weight[:, None] * slope)
         gradient = slope.T @ (weight * (distance - circle[2]))
-        step = np.linalg.lstsq(normal + damping * np.diag(np.diag(normal)), -gradient, rcond=None)[0]
+        step = np.linalg.lstsq(normal + damping * np.diag(np.diag(normal)), -gradient, rcond=None)[
+            0
+        ]
         tried = float(weight @ _radial(points, circle + step) ** 2)
         if tried <= cost:
             circle, damping = circle + step, damping / 10

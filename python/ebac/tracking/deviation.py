@@ -13,7 +13,7 @@ Numbers = NDArray[np.float64]
 
 @dataclass(frozen=True, kw_only=True)
 class Deviation:
-    """How far points lie from their fitted path. With distances d_i, n of them and p fitted numbers:
+    """How far points lie from their fitted path: n distances d_i from p fitted numbers.
 
     Attributes
     ----------
@@ -85,7 +85,9 @@ def checked(points: ArrayLike, least: int, what: str) -> Numbers:
     try:
         array: Any = np.array(points, float)
     except (TypeError, ValueError):
-        raise ValueError(f"points: must be numbers of the shape (n, 2) or (n, 3), for {what}") from None
+        raise ValueError(
+            f"points: must be numbers of the shape (n, 2) or (n, 3), for {what}"
+        ) from None
     if array.ndim != 2 or array.shape[1] not in (2, 3):
         raise ValueError(f"points have the shape {array.shape}: must be (n, 2) or (n, 3) [m]")
     if len(array) < least:
@@ -93,7 +95,11 @@ def checked(points: ArrayLike, least: int, what: str) -> Numbers:
     bad = ~np.isfinite(array).all(axis=1)
     if bad.any():
         row = int(bad.argmax())
-        raise ValueError(f"point {row} is {tuple(map(float, array[row]))}: every coordinate must be finite [m]")
+        raise ValueError(
+            f"point {row} is {tuple(map(float, array[row]))}: every coordinate must be finite [m]"
+        )
     if not (np.ptp(array, axis=0) > 0).any():
-        raise ValueError(f"all {len(array)} points are the same: the signal is constant, {what} needs motion")
+        raise ValueError(
+            f"all {len(array)} points are the same: the signal is constant, {what} needs motion"
+        )
     return np.asarray(array, float)

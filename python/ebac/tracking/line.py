@@ -108,7 +108,9 @@ def _principal(path: Numbers, weight: Numbers) -> tuple[Numbers, Numbers]:
     point = np.average(path, axis=0, weights=weight)
     _, sizes, axes = np.linalg.svd(np.sqrt(weight)[:, None] * (path - point), full_matrices=False)
     if sizes[0] - sizes[1] <= 1e-9 * sizes[0]:
-        raise ValueError("the points spread alike in all directions: they have no line; fit a circle?")
+        raise ValueError(
+            "the points spread alike in all directions: they have no line; fit a circle?"
+        )
     return point, axes[0]
 
 

@@ -30,7 +30,7 @@ _RANGES = {
 
 @dataclass(frozen=True, kw_only=True)
 class ErrorSources:
-    """How inaccurate a joystick is. The paper names the sources and no size: the defaults are assumptions of this project.
+    """How inaccurate a joystick is. The paper names the sources and no size: the defaults are assumptions.
 
     Parameters
     ----------
@@ -113,7 +113,9 @@ class Joystick:
             When the device is no gimbal.
         """
         if not isinstance(device.kinematics, Gimbal):
-            raise ValueError(f"the device has {device.kinematics!r}: an error budget needs a Gimbal")
+            raise ValueError(
+                f"the device has {device.kinematics!r}: an error budget needs a Gimbal"
+            )
         normal, even = random.standard_normal(7), random.uniform(-0.5, 0.5, 4)
         return cls(
             radius=device.kinematics.radius,

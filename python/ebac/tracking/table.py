@@ -58,5 +58,7 @@ def mean(shape: str) -> TableEntry:
         raise ValueError(f"shape = {shape!r}: must be 'line' or 'circle'")
     n = len(entries)
     return TableEntry(
-        shape=shape, sd_m=sum(e.sd_m for e in entries) / n, error_m=sum(e.error_m for e in entries) / n
+        shape=shape,
+        sd_m=sum(e.sd_m for e in entries) / n,
+        error_m=sum(e.error_m for e in entries) / n,
     )
