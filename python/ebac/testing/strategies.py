@@ -166,10 +166,10 @@ def scenarios(
     """Draw whole scenarios, `seconds` long, from the strategies above unless others are given."""
     return st.builds(
         Scenario,
-        device=device or devices(),
-        hand=hand or hands(),
-        environment=environment or walls(),
-        timing=timing or timings(dt=(1e-3, 1e-3)),
+        device=devices() if device is None else device,
+        hand=hands() if hand is None else hand,
+        environment=walls() if environment is None else environment,
+        timing=timings(dt=(1e-3, 1e-3)) if timing is None else timing,
         seconds=st.just(seconds),
         jitter=st.floats(*jitter),
         seed=st.integers(0, 2**31),
