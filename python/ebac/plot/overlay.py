@@ -9,6 +9,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
+from ebac import wording
 from ebac.plot.style import OTHER_LAW, Picture, colour, dress, legend, line, new_figure
 from ebac.trace import Trace
 
@@ -43,9 +44,11 @@ def plot_overlay(found: Trace, golden: Trace, divergences: Sequence[Divergence] 
                            height_ratios=[2, 1] * len(channels))[:, 0]  # fmt: skip
     for i, channel in enumerate(channels):
         unit, values = series[channel]
+        factor, unit, _ = wording.SHOWN.get(unit, (1, unit, 0))
+        values, expected = factor * values.astype(float), factor * wanted[channel].astype(float)
         upper, lower = grid[2 * i], grid[2 * i + 1]
-        _both(upper, found, golden, channel, unit, values, wanted[channel])
-        _error(lower, found, golden, unit, values, wanted[channel])
+        _both(upper, found, golden, channel, unit, values, expected)
+        _error(lower, golden, unit, values, expected)
         for ax in (upper, lower) if i < len(shown) else ():
             ax.axvline(shown[i].t, color="#d55e00", lw=1, ls=":")
     legend(grid[0])
@@ -68,18 +71,17 @@ def _both(
     ax: Axes, found: Trace, golden: Trace, channel: str, unit: str, values: NDArray[np.float64],
     wanted: NDArray[np.float64],
 ) -> None:  # fmt: skip
-    line(ax, golden["t"], wanted.astype(float), color="0.65", lw=3, label="golden")
+    line(ax, golden["t"], wanted, color="0.65", lw=3, label="golden")
     own = colour(found.law) if found.law else OTHER_LAW
-    line(ax, found["t"], values.astype(float), color=own, lw=1.1, label="now")
+    line(ax, found["t"], values, color=own, lw=1.1, label="now")
     dress(ax, f"{channel} [{unit}]" if unit != "1" else channel)
 
 
 def _error(
-    ax: Axes, found: Trace, golden: Trace, unit: str, values: NDArray[np.float64],
-    wanted: NDArray[np.float64],
+    ax: Axes, golden: Trace, unit: str, values: NDArray[np.float64], wanted: NDArray[np.float64]
 ) -> None:  # fmt: skip
     if len(values) == len(wanted):
-        error = values.astype(float) - wanted.astype(float)
+        error = values - wanted
         line(ax, golden["t"], error, color="#d55e00", lw=0.9)
     ax.axhline(0, color="0.35", lw=0.8)
     dress(ax, f"now - golden\n[{unit}]" if unit != "1" else "now - golden")

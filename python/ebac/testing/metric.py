@@ -23,7 +23,7 @@ class _Metric:
 #: The metrics of a contact that are stored; one that rounding can move has room to move.
 METRICS = {
     "rest_m": _Metric("m", 1e-5, 0),
-    "deviation_m": _Metric("m", 1e-5, 0),
+    "deviation_m": _Metric("m", 1e-5, +1),
     "swing_m": _Metric("m", 1e-5, +1),
     "force_swing_N": _Metric("N", 0.1, +1),
     "settled_s": _Metric("s", 0.01, +1),
@@ -62,8 +62,9 @@ def differences(found: Metrics, golden: Metrics, tolerances: Mapping[str, float]
             if abs(value - wanted) <= allowed:
                 continue
             moved = wording.quantity(value - wanted, unit, signed=True)
+            farther = abs(value) - abs(wanted) if name == "deviation_m" else value - wanted
             lines.append(
-                f"{name}: {shown[0]}, golden {shown[1]}: {_way(value - wanted, metric)} by {moved}, "
+                f"{name}: {shown[0]}, golden {shown[1]}: {_way(farther, metric)} by {moved}, "
                 f"allowed +-{shown[2]}"
             )
         elif value != wanted:
