@@ -1,4 +1,4 @@
-"""What the tests share: cached runs of scenarios, hypothesis profiles, pytester.
+"""What the tests share: cached runs of scenarios, hypothesis profiles, a bus.
 
 More examples than usual: `pytest --hypothesis-profile=explore`.
 """
@@ -15,8 +15,6 @@ import ebac
 
 if TYPE_CHECKING:
     import can
-
-pytest_plugins = ["pytester"]
 
 settings.register_profile("ebac", deadline=None, derandomize=True, database=None)
 settings.register_profile("explore", deadline=None, max_examples=5000, database=None)

@@ -385,7 +385,7 @@ def test_slack_moves_a_position_by_no_more_than_half_of_it(play: float, seed: in
 
 
 def test_the_budget_adds_up_and_blames_what_it_should() -> None:
-    budget = error_budget(runs=8, seed=3)
+    budget = error_budget(runs=5, seed=3)
     count = ebac.presets.device("joystick").count
     for shape in ("line", "circle"):
         encoder, every = budget.row(shape, "encoder"), budget.row(shape, "all")
@@ -394,14 +394,14 @@ def test_the_budget_adds_up_and_blames_what_it_should() -> None:
         assert every.sd_low_m <= every.sd_m <= every.sd_high_m
         assert budget.unexplained_m(shape) > 0
     assert budget.row("line", "all").radius_m is None
-    assert error_budget(runs=8, seed=3).rows == budget.rows
-    assert error_budget(runs=8, seed=4).rows != budget.rows
+    assert error_budget(runs=5, seed=3).rows == budget.rows
+    assert error_budget(runs=5, seed=4).rows != budget.rows
 
 
 def test_the_slack_that_would_explain_the_table_does() -> None:
-    slack = error_budget(runs=6, seed=3).slack_m["circle"]
+    slack = error_budget(runs=4, seed=3).slack_m["circle"]
     assert slack is not None
-    sd = error_budget(sources=ErrorSources(slack=slack), runs=6, seed=3).row("circle", "all").sd_m
+    sd = error_budget(sources=ErrorSources(slack=slack), runs=4, seed=3).row("circle", "all").sd_m
     assert sd == pytest.approx(np.mean([e.sd_m for e in TABLE_I if e.shape == "circle"]), rel=0.01)
 
 
