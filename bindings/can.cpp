@@ -6,12 +6,11 @@
 #include <cmath>
 #include <optional>
 #include <string>
-#include <system_error>
 
 #include "bind.hpp"
 #include "ebac/can/bus_benchmark.hpp"
 #include "ebac/can/loopback_bus.hpp"
-#include "ebac/can/socketcan.hpp"
+#include "open_socketcan.hpp"
 
 namespace ebac::python {
 
@@ -157,13 +156,7 @@ void bind_socketcan(py::module_& m) {
             for (const auto& [id, mask, extended] : filters) {
               options.filters.push_back({.id = id, .mask = mask, .extended = extended});
             }
-            try {
-              return SocketCan(interface, options);
-            } catch (const std::system_error& error) {
-              const py::tuple what = py::make_tuple(error.code().value(), error.what());
-              PyErr_SetObject(PyExc_OSError, what.ptr());
-              throw py::error_already_set();
-            }
+            return open_socketcan(interface, options);
           }),
           py::arg("interface"), py::kw_only(), py::arg("filters") = std::vector<Filter>{},
           py::arg("own") = false, py::arg("errors") = false,

@@ -5,16 +5,13 @@
 
 #include "bind.hpp"
 #include "ebac/can/eds.hpp"
-#include "ebac/can/joystick.hpp"
-#include "ebac/sim/simulated_device.hpp"
-#include "fields.hpp"
+#include "joystick.hpp"
 
 namespace ebac::python {
 
 namespace {
 
 using can::SimulatedDrive;
-using PlantOfDrives = can::Joystick<SimulatedDevice>;
 
 constexpr double kDay = 86400;  // s
 
@@ -46,22 +43,6 @@ double checked_time(double seconds) {
   const bool fits = seconds >= 0 && seconds <= kDay;  // not a NaN
   if (!fits) {
     throw std::invalid_argument(range_message("elapse", "seconds", seconds, "s", 0, kDay));
-  }
-  return seconds;
-}
-
-can::NodeId checked_node(int node, int axes) {
-  const int most = can::kLastNode - axes + 1;
-  if (node < 1 || node > most) {
-    throw std::invalid_argument(range_message("drive", "node", node, "1", 1, most));
-  }
-  return static_cast<can::NodeId>(node);
-}
-
-double checked_peak_time(double seconds) {
-  const bool fits = seconds >= 0.001 && seconds <= 65.535;  // not a NaN
-  if (!fits) {
-    throw std::invalid_argument(range_message("drive", "peak_time", seconds, "s", 0.001, 65.535));
   }
   return seconds;
 }
@@ -131,14 +112,8 @@ void bind_simulated_drive(py::module_& m) {
 void bind_joystick(py::module_& m) {
   py::class_<PlantOfDrives> cls(m, "Joystick",
                                 "Simulated drives on the axes of one simulated device and hand.");
-  cls.def(py::init([](Setup setup, int first, double peak_time) {
-            const can::NodeId node = checked_node(first, setup.device.axes());
-            setup.device.drive.permille = true;  // what a drive is told in
-            setup.timing.delay = 0;              // its delay is that of the bus
-            return PlantOfDrives(SimulatedDevice(setup), setup.device, node,
-                                 checked_peak_time(peak_time));
-          }),
-          py::arg("setup"), py::kw_only(), py::arg("first") = 1, py::arg("peak_time") = 2.0)
+  cls.def(py::init(&make_joystick), py::arg("setup"), py::kw_only(), py::arg("first") = 1,
+          py::arg("peak_time") = 2.0)
       .def_property_readonly("axes", &PlantOfDrives::axes, "Number of axes.")
       .def(
           "drive",

@@ -20,27 +20,46 @@ from collections.abc import Callable, Sequence
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass
 from threading import RLock, current_thread
-from typing import Any
+from typing import TYPE_CHECKING, Any
 from weakref import WeakSet
 
 import can
 from can.typechecking import AutoDetectedConfig
 
-from ebac._core import BusCounts, BusState, CanFrame, LoopbackBus, LoopbackHub
+from ebac._core import BusCounts, BusState, CanFrame, LoopbackBus, LoopbackHub, LoopbackJoystick
+
+if TYPE_CHECKING:
+    from ebac.scenario import Scenario
 
 _LOG = logging.getLogger("can.ebac")
 
 #: What builds the nodes of a channel: given the bus, a context in which they stand on it.
 Nodes = Callable[[LoopbackHub], AbstractContextManager[object]]
 
+
+def resting_joystick() -> Scenario:
+    """Return the scenario of the joystick on a channel: the paper's, in a hand that holds it where it is."""
+    from ebac import presets
+    from ebac.scenario import Scenario
+
+    return Scenario(device=presets.device("joystick"), hand=presets.hand("resting"))
+
+
+def joystick(hub: LoopbackHub) -> LoopbackJoystick:
+    """Return the simulated joystick, nodes 1 and 2."""
+    return LoopbackJoystick(hub, resting_joystick().setup())
+
+
 #: Nodes by the start of a channel's name: "joystick" stands for joystick2 and joystick-left too, each with its own.
-NODES: dict[str, Nodes] = {}
+NODES: dict[str, Nodes] = {"joystick": joystick}
 
 #: The channel that is meant where none is named.
 DEFAULT_CHANNEL = "joystick"
 
 #: Frames that wait to be received: about 3 s of a joystick that sends five frames every millisecond.
 DEFAULT_QUEUE = 16_384
+#: The most there can be.
+MOST_FRAMES = 1_048_576
 
 
 def nodes_on(channel: str) -> Nodes | None:
@@ -52,7 +71,8 @@ def nodes_on(channel: str) -> Nodes | None:
 def populate(channel: str, hub: LoopbackHub) -> AbstractContextManager[object]:
     """Return the context in which a channel's nodes stand on its bus.
 
-    It is entered before the first bus on the channel opens and left after the last one shut down.
+    It is entered when the first bus on the channel is open, which so hears them boot, and left after the last one shut
+    down.
     """
     nodes = nodes_on(channel)
     return nullcontext() if nodes is None else nodes(hub)
@@ -71,17 +91,22 @@ _CHANNELS: dict[str, _Channel] = {}
 _LOCK = RLock()
 
 
-def _join(channel: str) -> LoopbackHub:
-    """Return the bus of a channel, with its nodes on it, and hold it."""
+def _join(channel: str, queue: int, own: bool) -> LoopbackBus:
+    """Return an end of the bus of a channel, and hold it; the first one puts its nodes on."""
     with _LOCK:
         entry = _CHANNELS.get(channel)
+        hub = LoopbackHub(stamps=True) if entry is None else entry.hub
+        end = hub.open(frames=queue, own=own)
         if entry is None:
-            hub = LoopbackHub(stamps=True)
-            nodes = populate(channel, hub)
-            nodes.__enter__()
+            try:
+                nodes = populate(channel, hub)
+                nodes.__enter__()
+            except BaseException:
+                end.close()
+                raise
             entry = _CHANNELS[channel] = _Channel(hub=hub, nodes=nodes)
         entry.users += 1
-        return entry.hub
+        return end
 
 
 def _leave(channel: str) -> None:
@@ -139,14 +164,11 @@ class EbacBus(can.BusABC):
     ) -> None:
         _refuse_fd(kwargs)
         name = str(channel)
-        hub = _join(name)
-        try:
-            self._end: LoopbackBus = hub.open(frames=rx_queue_size, own=receive_own_messages)
-        except (TypeError, ValueError) as error:
-            _leave(name)
+        if not isinstance(rx_queue_size, int) or not 1 <= rx_queue_size <= MOST_FRAMES:
             raise ValueError(
-                f"rx_queue_size = {rx_queue_size}: must be a whole number in [1, 1048576] frames"
-            ) from error
+                f"rx_queue_size = {rx_queue_size}: must be a whole number in [1, {MOST_FRAMES}] frames"
+            )
+        self._end = _join(name, rx_queue_size, receive_own_messages)
         self.channel = name
         self.channel_info = f"ebac channel '{name}'"
         self._tasks: WeakSet[Any] = WeakSet()

@@ -11,6 +11,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 
+#: How far a hand moves through free air before it meets the wall, where nothing else is said [m].
+APPROACH = 0.010
+
+
 @dataclass(frozen=True)
 class OperatorColumn:
     """One column of a population; `default` is NaN where it must be given."""
@@ -36,7 +40,7 @@ OPERATOR_COLUMNS = {
         OperatorColumn("b_Ns_per_m", "N s/m", "damping B0", 0, 1e3),
         OperatorColumn("k_N_per_m", "N/m", "stiffness K0", 0, 1e5),
         OperatorColumn("target_m", "m", "depth X0 it wants to reach, from the surface", -1, 1),
-        OperatorColumn("approach_m", "m", "way through free air before the surface", 0, 1, 0),
+        OperatorColumn("approach_m", "m", "way through free air before the surface", 0, 1, APPROACH),
         OperatorColumn("tremor_m", "m", "amplitude of its tremor", 0, 0.1, 0),
         OperatorColumn("tremor_Hz", "Hz", "frequency of its tremor", 0, 500, 9),
     )

@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ebac import document
 from ebac._core import Hand, Step, Wall
-from ebac.operator_columns import OPERATOR_COLUMNS, check, numbers, read_csv
+from ebac.operator_columns import APPROACH, OPERATOR_COLUMNS, check, numbers, read_csv
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -36,8 +36,8 @@ class Operators:
     target_m : array-like, shape (n,)
         Where the hand wants to be [-1, 1] m, from the wall's surface.
     approach_m : array-like, shape (n,) or number
-        How far it moves through free air before it meets the wall, [0, 1] m. A hand that starts on the surface
-        brings less energy into the contact.
+        How far it moves through free air before it meets the wall, [0, 1] m; default: 10 mm. A hand that starts on the
+        surface (0) brings hardly any energy into the contact, see the condition `surface`.
     tremor_m, tremor_Hz : array-like, shape (n,) or number
         Amplitude [0, 0.1] m and frequency [0, 500] Hz of its tremor.
 
@@ -62,7 +62,7 @@ class Operators:
         b_Ns_per_m: ArrayLike,
         k_N_per_m: ArrayLike,
         target_m: ArrayLike,
-        approach_m: ArrayLike = 0.0,
+        approach_m: ArrayLike = APPROACH,
         tremor_m: ArrayLike = 0.0,
         tremor_Hz: ArrayLike = 9.0,
     ) -> None:
@@ -236,7 +236,8 @@ class Operators:
                 if not isinstance(wall, Wall):
                     kind = type(wall).__name__
                     raise ValueError(
-                        f"approach_m = {approach:g} m: needs a Wall, the scenario has a {kind}"
+                        f"approach_m = {approach:g} m: needs a Wall, the scenario has a {kind}; "
+                        "start on the surface with approach_m = 0"
                     )
                 changes["environment"] = wall.replace(position=wall.position + approach)
             scenarios.append(base.replace(**changes))

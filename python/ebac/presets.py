@@ -52,6 +52,11 @@ HANDS: dict[str, HandPreset] = {
         source="Hajian and Howe 1997, index finger, middle of the ranges",
         indicative=True,
     ),
+    "resting": HandPreset(
+        hand=Hand(path=Step(target=0)),
+        source="the reference hand, holding the device where it is",
+        indicative=False,
+    ),
     "open": HandPreset(
         hand=Hand(mass=0, damping=0, stiffness=0),
         source="nobody holds the device",

@@ -169,9 +169,9 @@ TEST(Silence, OfTheSyncStopsTheMotor) {
   enable(drive);
   must(drive, 0x6071, 0, 300);
   say(drive, "080#");
-  drive.elapse(1'900'000);
+  drive.elapse(kSyncPatience * kMillisecond - 1);
   EXPECT_EQ(drive.torque(), 300);
-  drive.elapse(100'000);
+  drive.elapse(1);
   EXPECT_EQ(drive.torque(), 0);
   EXPECT_EQ(value(drive, 0x603F), 0x8700);
 }

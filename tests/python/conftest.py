@@ -42,12 +42,8 @@ _CHANNELS = count()
 @pytest.fixture
 def open_bus() -> Iterator[Callable[[], "can.BusABC"]]:
     """A function that opens a bus with the simulated drives of the joystick on it, nodes 1 and 2."""
-    from ebac import presets
-    from ebac._core import Joystick
     from ebac.can_interface import EbacBus
-    from ebac.drives.simulate import Simulation
 
-    channel = f"bench-{next(_CHANNELS)}"
-    scenario = ebac.Scenario(device=presets.device("joystick"), hand=presets.hand("open"))
-    with EbacBus(channel) as bus, Simulation(bus, Joystick(scenario.setup())):
+    channel = f"joystick-{next(_CHANNELS)}"
+    with EbacBus(channel):
         yield lambda: EbacBus(channel)

@@ -6,7 +6,7 @@ import pytest
 from typer.testing import CliRunner
 
 from ebac.cli import app
-from ebac.peers import bus, exchange
+from ebac.peers import bus, exchange, sdo
 
 
 @pytest.fixture(autouse=True)
@@ -14,6 +14,7 @@ def few(monkeypatch: pytest.MonkeyPatch) -> None:
     for name in ("FRAMES", "PYTHON_FRAMES", "ANSWERS"):
         monkeypatch.setattr(bus, name, 200)
     monkeypatch.setattr(exchange, "TICKS", 100)
+    monkeypatch.setattr(sdo, "READS", 100)
 
 
 def test_the_rows() -> None:
@@ -29,7 +30,9 @@ def test_the_rows() -> None:
     assert programs == {"ebac, LoopbackBus", "ebac, the loop's side"}
     for subject in (bus.ONE, bus.TWO, bus.MEDIAN, bus.SLOW):
         assert {(subject, "ebac"), (subject, "virtual")} <= measured
-    assert len(rows) == 12
+    for subject in (sdo.MEDIAN, sdo.SLOW):
+        assert {(subject, program) for program in sdo.NOTES} <= measured
+    assert len(rows) == 16
     assert all(row["value"] > 0 and row["note"] for row in rows)
     assert {row["times_ebac"] for row in rows if row["program"] == "ebac"} == {1.0}
     assert {row["unit"] for row in rows} == {"1/s", "s"}
@@ -46,6 +49,8 @@ def test_steps_are_as_many_as_are_told() -> None:
     told: list[str] = []
     bus.compare_buses(repeats=1, step=told.append)
     assert len(told) == bus.STEPS
+    sdo.compare_reads(step=told.append)
+    assert len(told) == bus.STEPS + sdo.STEPS
 
 
 def test_one_comparison_at_a_time() -> None:

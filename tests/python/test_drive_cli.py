@@ -178,7 +178,7 @@ def test_a_node_that_is_not_there_says_what_to_check(drive: Run) -> None:
         (["scan", "--interface", "nonsense"], "interface 'nonsense' is not usable"),
         (["scan", "--interface", "virtual", "--channel", "empty", "--timeout", "0.01"], "Nobody answers"),
         (["disable", "--interface", "virtual", "--channel", "empty", "--timeout", "0.01"], "no drive answers"),
-        (["simulate", "--channel", "nocan7"], "interface socketcan, channel nocan7"),
+        (["simulate", "--channel", "nocan7"], "CAN interface 'nocan7'"),
         (["simulate", "--device", "joistick"], "no device is called 'joistick'"),
         (["plan", "joistick"], "there is no such file, and no profile of that name"),
     ],

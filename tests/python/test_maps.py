@@ -1,6 +1,11 @@
 """Stability maps: a grid of scenarios, its score, its figure."""
 
 import json
+import os
+import signal
+import subprocess
+import sys
+import time
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
@@ -22,6 +27,12 @@ def small(law: str = "direct", **changes: Any) -> StabilityMap:
     given = {"x": "damping", "y": "stiffness", "base": BASE}
     given |= {"xs": (0.0, 5.0, 10.0), "ys": (1e3, 2e3, 2e4, 5e4)}
     return stability_map(law, **{**given, **changes})
+
+
+def assert_same_bits(a: StabilityMap, b: StabilityMap) -> None:
+    assert list(a.result) == list(b.result)
+    for name in a.result:
+        assert a[name].tobytes() == b[name].tobytes(), name
 
 
 def test_direct_is_quiet_below_the_limit_and_swings_above() -> None:
@@ -73,6 +84,45 @@ def test_the_map_does_not_depend_on_where_it_is_computed(tmp_path: Path) -> None
     for name in here.result:
         assert np.array_equal(here[name], there[name], equal_nan=name != "law")
         assert np.array_equal(here[name], again[name], equal_nan=name != "law")
+
+
+@pytest.mark.filterwarnings("ignore")
+def test_a_map_through_dask_has_the_same_bits() -> None:
+    distributed = pytest.importorskip("distributed")
+    here = small("ebac")
+    cluster = distributed.LocalCluster(
+        n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None
+    )
+    with cluster, distributed.Client(cluster) as client:
+        there = small("ebac", executor=client.get_executor())
+        workers = set(client.run(os.getpid).values())
+    assert len(workers - {os.getpid()}) == 2
+    assert_same_bits(there, here)
+
+
+KILLED = """
+import sys, ebac
+from ebac.maps import stability_map
+stability_map(
+    "ebac", xs=range(40), ys=[1e3 * k for k in range(1, 41)], base=ebac.Scenario(seconds=2.0), threads=1, out=sys.argv[1]
+)
+"""
+
+
+def test_a_map_that_was_killed_half_way_continues_and_has_the_same_bits(tmp_path: Path) -> None:
+    out = tmp_path / "kept"
+    worker = subprocess.Popen([sys.executable, "-c", KILLED, str(out)])
+    while not list(out.glob("bundle-*")) and worker.poll() is None:
+        time.sleep(0.002)
+    worker.send_signal(signal.SIGKILL)
+    assert worker.wait() == -signal.SIGKILL
+    stamps = {file: file.stat().st_mtime_ns for file in out.glob("bundle-*")}
+    assert 0 < len(stamps) < 4
+    xs, ys, base = range(40), [1e3 * k for k in range(1, 41)], BASE.replace(seconds=2.0)
+    resumed = stability_map("ebac", xs=xs, ys=ys, base=base, out=out)
+    assert {file: file.stat().st_mtime_ns for file in stamps} == stamps
+    assert len(list(out.glob("bundle-*"))) == 4
+    assert_same_bits(resumed, stability_map("ebac", xs=xs, ys=ys, base=base))
 
 
 def test_the_arrays_of_a_map_are_kept(tmp_path: Path) -> None:

@@ -80,12 +80,29 @@ def test_no_sample_without_size_or_seed(n: int, seed: int) -> None:
 
 
 def test_a_hand_that_approaches_starts_before_the_wall() -> None:
-    people = Operators(**GOOD, approach_m=0.01)
-    assert [target(hand) for hand in people.hands()] == pytest.approx([0.03, 0.04])
+    people = Operators(**GOOD, approach_m=0.02)
+    assert [target(hand) for hand in people.hands()] == pytest.approx([0.04, 0.05])
     scenarios = people.scenarios(ebac.Scenario(environment=ebac.Wall(position=0.002)))
-    assert [surface(s) for s in scenarios] == pytest.approx([0.012, 0.012])
+    assert [surface(s) for s in scenarios] == pytest.approx([0.022, 0.022])
     with pytest.raises(ValueError, match="needs a Wall, the scenario has a Free"):
         people.scenarios(ebac.Scenario(environment=ebac.Free()))
+
+
+def test_hands_come_through_10_mm_of_free_air_unless_told_otherwise(tmp_path: Path) -> None:
+    (tmp_path / "hands.csv").write_text(HEADING + "0.1,2,100,0.02\n")
+    for people in (
+        Operators.grid(),
+        Operators.sample(5, 1),
+        Operators(**GOOD),
+        Operators.from_csv(tmp_path / "hands.csv"),
+    ):
+        assert set(people.approach_m) == {0.01}
+        assert {surface(s) for s in people.scenarios(ebac.Scenario())} == {0.01}
+    assert set(Operators.grid(approach_m=0.0).approach_m) == {0.0}
+    disc = ebac.Scenario(environment=ebac.Disc())
+    assert Operators.grid(approach_m=0.0).scenarios(disc)[0].environment == disc.environment
+    with pytest.raises(ValueError, match="start on the surface with approach_m = 0"):
+        Operators.grid().scenarios(disc)
 
 
 def test_hands_have_the_numbers_of_their_row() -> None:
@@ -110,7 +127,7 @@ def test_csv_and_dataframe_and_back(tmp_path: Path) -> None:
     assert Operators.from_csv(tmp_path / "hands.csv") == people
     assert Operators.from_dataframe(people.to_pandas()) == people
     assert Operators.from_dataframe(pd.DataFrame(GOOD)) == Operators(**GOOD)
-    assert people.replace(approach_m=0.0) == Operators.sample(20, 5)
+    assert people.replace(approach_m=0.01) == Operators.sample(20, 5)
 
 
 @pytest.mark.parametrize(

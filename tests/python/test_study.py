@@ -65,7 +65,7 @@ def test_failures_are_named_and_can_be_run_again(few: Study) -> None:
 
 def test_settled_in_time_is_measured_against_the_ideal_wall(few: Study) -> None:
     runs = few.runs("ebac", "d1K10")
-    ideal = ideal_contacts(FEW.scenarios(ebac.Scenario()))["settled_s"]
+    ideal = ideal_contacts(FEW.scenarios(ebac.Scenario()))["settled_s"]  # 10 mm of free air, too
     np.testing.assert_array_equal(few.columns["ideal_settled_s"][runs], ideal)
     in_time = few.columns["settled_s"][runs] <= 1.5 * ideal + 0.2
     np.testing.assert_array_equal(few.columns["settled_in_time"][runs], in_time)
@@ -131,6 +131,31 @@ def test_laws_are_told_what_the_condition_says() -> None:
     assert timing.jitter == one.jitter == 0.3
 
 
+def test_a_hand_can_start_on_the_surface() -> None:
+    [there], [here] = (
+        CONDITIONS[name].scenarios(FEW[:1], ebac.Scenario()) for name in ("d1K10", "surface")
+    )
+    assert isinstance(there.environment, ebac.Wall)
+    assert there.environment.position == 0.01
+    assert here == there.replace(
+        environment=there.environment.replace(position=0.0), hand=FEW[:1].replace(approach_m=0).hands()[0]
+    )  # fmt: skip
+    again = to.approach(0.01)(here)
+    assert again.environment == there.environment
+    assert again.hand.as_dict() == there.hand.as_dict()
+
+
+def test_a_wall_that_is_pressed_for_two_minutes_does_not_dissolve() -> None:
+    """An account over whole counts loses 0.25 mJ a second: the guard then lets go of the wall within a minute."""
+    heavy = Operators.grid(mass=[0.05, 1.0], damping=[2.0], stiffness=[1000.0], target=[0.02])
+    found = study(heavy, "ebac", ["hold"])
+    assert (found.columns["ticks"] == 120_001).all()
+    assert found.rows[0].good == len(heavy) == 2
+    last = found.trace(0)[119.0:]
+    assert (last["law.admitted"] == 1).all()
+    assert last["law.energy"].min() > 1e-3
+
+
 def test_a_condition_of_ones_own() -> None:
     soft = Condition(name="soft", summary="a wall of 1 kN/m", change=to.wall(stiffness=1e3))
     found = study(FEW, "direct", [soft, "five"])
@@ -167,8 +192,11 @@ def test_what_is_no_condition_is_refused() -> None:
         study(FEW, "tca", ["d1K11"])
     with pytest.raises(ValueError, match="no condition given"):
         study(FEW, "tca", [])
+    free = ebac.Scenario(environment=ebac.Free())
+    with pytest.raises(ValueError, match="approach_m = 0.01 m: needs a Wall, the scenario has a Free"):
+        study(FEW, "tca", ["d1K10"], base=free)
     with pytest.raises(TypeError, match="the environment is a Free: must be a Wall"):
-        study(FEW, "tca", ["d1K10"], base=ebac.Scenario(environment=ebac.Free()))
+        study(FEW.replace(approach_m=0.0), "tca", ["d1K10"], base=free)
 
 
 def test_a_study_can_be_drawn(few: Study) -> None:

@@ -16,10 +16,14 @@ enum class Cause : std::uint8_t {
   kHeartbeatLost,  // a producer of 0x1016 fell silent
   kRpdoLate,       // an RPDO stayed away longer than its event timer
   kRpdoShort,      // an RPDO with too few bytes
-  kSyncLost,       // no SYNC for two periods of 0x1006
+  kSyncLost,       // no SYNC for kSyncPatience periods of 0x1006
   kConnection,     // the node left Operational while the motor was on
 };
 inline constexpr std::size_t kCauses = 9;
+
+/// Periods of 0x1006 without a SYNC until it is lost. A loop on an ordinary kernel is several late
+/// now and then: 6 of 1 ms in one of a thousand ticks.
+inline constexpr std::int64_t kSyncPatience = 20;
 
 struct CauseFacts {
   std::uint16_t emcy;     // error code (CiA 301, table 26; CiA 402-2)

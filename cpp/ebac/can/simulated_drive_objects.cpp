@@ -85,7 +85,7 @@ void SimulatedDrive::take_effect(std::size_t slot) EBAC_RT {
       for (std::size_t i = 1; i <= kHistory; ++i) objects_[slot + i] = 0;
       return;
     case 0x1006:
-      return sync_watch_.set(2 * objects_[slot] * kMicrosecond);
+      return sync_watch_.set(kSyncPatience * objects_[slot] * kMicrosecond);
     case 0x1016:
       return producer_[slot - kAt<0x1016, 1>].set((objects_[slot] & 0xFFFF) * kMillisecond);
     case 0x1017:

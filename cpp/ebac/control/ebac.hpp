@@ -58,7 +58,7 @@ class Ebac {
   double step(const Port& port) EBAC_RT {
     if (!(port.dt > 0)) return begin(port);
     if (port.dt != dt_) set_tick(port.dt);
-    ledger_.take(port.f_applied, edge_.step(port.x), port.dx);  // 1
+    ledger_.take(port.f_applied, edge_.step(port.x, port.dt), port.dx);  // 1
     const double damping = damper_.step(port.dx);
     readings_.push(port.x, time_ += port.dt);
     contact_.watch(port, edge_.direction());

@@ -1,44 +1,42 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
+#include <limits>
 
 #include "ebac/core/realtime.hpp"
 
 namespace ebac {
 
-/// Where the device is within an encoder count.
+/// Where the device is within an encoder count, as well as the readings tell.
 ///
 /// A reading tells a band one count wide; the instant it changes tells a place, the edge between two
-/// counts. From the edge crossed last the device is taken to go on at the pace of the last two
-/// crossings in one direction, slower the longer no new one comes, and to stay at the edge after a
-/// reversal. A force that toggles with the count does work over these displacements, not over whole
-/// counts: an account on whole counts loses up to half a count times every change of the force.
+/// counts. A device that hardly moves is taken to be at the edge it crossed last. One that crosses
+/// edge after edge is, on average, in the middle of the band: at the reading.
+///
+/// A force that toggles with the count does its work at the edge. Counted over whole readings, a
+/// held wall loses half a count times every change of the force, and dissolves within a minute.
 class EdgePosition {
  public:
-  explicit EdgePosition(double count) EBAC_RT : count_(count) {}
+  explicit EdgePosition(double count) EBAC_RT : half_(count / 2) {}
 
   void start(double x) EBAC_RT {
     edge_ = position_ = x;
-    pace_ = 0;
-    ticks_ = 1;
-    direction_ = heading_ = 0;
+    between_ = since_ = std::numeric_limits<double>::infinity();
+    direction_ = 0;
   }
 
   /// Takes a reading; returns the displacement since the last one.
-  double step(double x) EBAC_RT {
-    const double crossed = std::clamp(edge_, x - count_ / 2, x + count_ / 2) - edge_;
+  double step(double x, double dt) EBAC_RT {
+    const double crossed = std::clamp(edge_, x - half_, x + half_) - edge_;
     edge_ += crossed;
     direction_ = (crossed > 0) - (crossed < 0);
-    if (direction_ == 0) {
-      ticks_ += 1;
-    } else {
-      pace_ = direction_ == heading_ ? std::abs(crossed) / ticks_ : 0.0;
-      heading_ = direction_;
-      ticks_ = 1;
+    since_ += dt;
+    if (direction_ != 0) {
+      between_ = since_;
+      since_ = 0;
     }
     const double before = position_;
-    position_ = edge_ + heading_ * std::min(pace_, count_ / ticks_) * (ticks_ - 0.5);
+    position_ = std::max(between_, since_) <= kBrisk ? x : edge_;
     return position_ - before;
   }
 
@@ -46,13 +44,14 @@ class EdgePosition {
   int direction() const EBAC_RT { return direction_; }
 
  private:
-  double count_;         // m
+  static constexpr double kBrisk = 0.02;  // s between two edges: 1.5 mm/s at 0.03 mm a count
+
+  double half_;          // m
   double edge_ = 0;      // m, crossed last
   double position_ = 0;  // m
-  double pace_ = 0;      // m per tick
-  double ticks_ = 1;     // since the last crossing, which was half a tick before its reading
+  double between_ = 0;   // s, between the last two crossings
+  double since_ = 0;     // s, since the last one
   int direction_ = 0;
-  int heading_ = 0;
 };
 
 }  // namespace ebac

@@ -11,7 +11,7 @@ import typer
 from ebac.cli import options, output, setting, study_results
 
 if TYPE_CHECKING:
-    from ebac.studies import Ablation, AblationRow
+    from ebac.studies import Ablation, AblationRow, Piece
 
 DEFAULT_OUT = Path("ebac-ablation")
 _WHO, _WHAT, _RUN = "Population", "Law and pieces", "Run"
@@ -149,9 +149,8 @@ def _show(found: Ablation) -> None:
             cells = (_cell(row, m.key, wording.cell(row.values[m.key], m.unit)) for m in part)
             grid.add_row(row.label, *cells)
         output.console().print(grid)
-    for row in found.rows:
-        if row.piece is not None:
-            _tell(row, found)
+    for piece, row in zip(found.pieces, found.rows[1:], strict=False):
+        _tell(piece, row, found)
     hands = len(found.study.operators)
     output.say(
         f"Simulated, not measured; {hands} hands. red: worse than {found.law} as it is, green: better.",
@@ -164,12 +163,13 @@ def _cell(row: AblationRow, key: str, text: str) -> str:
     return f"[{style}]{text}[/]" if style else text
 
 
-def _tell(row: AblationRow, found: Ablation) -> None:
+def _tell(piece: Piece, row: AblationRow, found: Ablation) -> None:
     verdict = "worse" if row.earns else "nothing gets worse"
     lines = [verdict + (f": {_list(row, found, row.worse)}" if row.worse else "")]
     if row.better:
         lines.append(f"better: {_list(row, found, row.better)}")
-    output.say(f"{row.label}: {'; '.join(lines)}")
+    what = f" ({piece.meaning})" if len(piece.changes) == 1 else ""
+    output.say(f"{row.label}{what}: {'; '.join(lines)}")
 
 
 def _list(row: AblationRow, found: Ablation, keys: Sequence[str]) -> str:

@@ -14,11 +14,12 @@ if TYPE_CHECKING:
 
 def run(repeats: int, *, as_json: bool) -> None:
     """Time and tell."""
-    from ebac.peers import bus, exchange
+    from ebac.peers import bus, exchange, sdo
 
-    with output.progress(exchange.STEPS + bus.STEPS, quiet=as_json) as step:
+    with output.progress(exchange.STEPS + bus.STEPS + sdo.STEPS, quiet=as_json) as step:
         rows = exchange.compare(repeats=repeats, step=step)
         rows += bus.compare_buses(repeats=max(3, repeats // 10), step=step)
+        rows += sdo.compare_reads(step=step)
     if as_json:
         typer.echo(output.document("bench", [row.row() for row in rows]))
     else:

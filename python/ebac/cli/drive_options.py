@@ -104,14 +104,10 @@ BackupFolder: TypeAlias = Annotated[
 @contextmanager
 def telling() -> Iterator[None]:
     """Turn what goes wrong with a drive, or with a profile, into the end of the command."""
-    import logging
-
     from ebac.drives import DriveError
 
     # canopen logs beside its exceptions; what it has to say stands in ours.
-    logging.getLogger("canopen").setLevel(logging.CRITICAL)
-    logging.getLogger("can").setLevel(logging.CRITICAL)
-    with output.refusing():
+    with output.refusing(), _silent("can"), _silent("canopen"):
         try:
             yield
         except DriveError as error:
@@ -120,6 +116,20 @@ def telling() -> Iterator[None]:
         except KeyboardInterrupt as error:
             notes = getattr(error, "__notes__", ["interrupted"])
             output.fail(". ".join(notes), code=output.INTERRUPTED)
+
+
+@contextmanager
+def _silent(name: str) -> Iterator[None]:
+    """Let a logger tell nothing but what is critical."""
+    import logging
+
+    logger = logging.getLogger(name)
+    before = logger.level
+    logger.setLevel(logging.CRITICAL)
+    try:
+        yield
+    finally:
+        logger.setLevel(before)
 
 
 @contextmanager

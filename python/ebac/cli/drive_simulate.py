@@ -8,16 +8,19 @@ import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from math import inf
+from pathlib import Path
 from types import FrameType
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ebac.cli import options, output
+from ebac.cli import options, output, setting
 from ebac.cli.drive_options import Bitrate, telling
 
 if TYPE_CHECKING:
-    from ebac._core import Joystick
+    from ebac._core import Setup, SocketCanJoystick
+    from ebac.drives.simulate import Simulation
+    from ebac.scenario import Scenario
 
 #: How often the main thread looks after the others [s].
 _LOOK = 0.1
@@ -34,8 +37,21 @@ def simulate(
     first: Annotated[
         int, typer.Option("--first", help="Node id of the first drive.", min=1, max=126)
     ] = 1,
-    device: options.DeviceName = "joystick",
-    hand: options.HandName = "open",
+    scenario: Annotated[
+        Path | None,
+        typer.Option(
+            help="Take device, hand and seed from a scenario in TOML; other options come on top.",
+            show_default=False,
+        ),
+    ] = None,
+    device: Annotated[
+        str | None,
+        typer.Option(help="A device by name, see `ebac presets`.", show_default="joystick"),
+    ] = None,
+    hand: Annotated[
+        str | None,
+        typer.Option(help="A hand by name, see `ebac presets`.", show_default="resting"),
+    ] = None,
     seed: options.Seed = None,
     seconds: Annotated[
         float | None,
@@ -46,6 +62,8 @@ def simulate(
 
     Every CANopen tool can talk to them: `ebac drive scan` in another terminal, canopen, candump. They
     move the simulated device and hand, so positions and torques on the bus are those of the joystick.
+    A hand of a scenario file starts on its path with the command; the file's virtual world and delay
+    belong to the loop that will come over the bus.
 
     **Examples**
 
@@ -56,33 +74,78 @@ def simulate(
     * `ebac drive scan --interface socketcan --channel vcan0`, in another terminal.
 
     * `ebac drive simulate --interface udp_multicast --channel 239.74.163.2`: without SocketCAN.
+
+    * `ebac drive simulate --scenario tapping.toml`: with a hand of your own.
     """
-    from ebac.drives.bus import open_bus
     from ebac.drives.simulate import Simulation
 
     with output.refusing():
-        joystick = _joystick(device or "joystick", hand or "open", seed, first)
+        plant = _plant(scenario, device, hand, seed)
+        setup = plant.setup()
     with telling(), _signalled() as over:
-        bus = open_bus(interface=interface, channel=channel, bitrate=bitrate)
-        with bus, Simulation(bus, joystick) as simulation:
-            ids = ", ".join(str(first + axis) for axis in range(joystick.axes))
-            output.say(f"Simulated drives, nodes {ids}, on {bus.channel_info}. Ctrl-C stops them.")
+        with _at_work(setup, interface, channel, bitrate, first) as work:
+            ids = ", ".join(str(first + axis) for axis in range(plant.device.axes))
+            output.say(
+                f"Simulated drives, nodes {ids}, on {interface} {channel}. Ctrl-C stops them."
+            )
             end = time.monotonic() + (inf if seconds is None else seconds)
             while not over.wait(min(_LOOK, max(0.0, end - time.monotonic()))):
-                simulation.wait(0)
+                if isinstance(work, Simulation):
+                    work.check()
                 if time.monotonic() >= end:
                     break
-    lost = f", {simulation.lost} refused by the bus" if simulation.lost else ""
-    output.say(f"Stopped: {simulation.received} frames received, {simulation.sent} sent{lost}.")
+        counts = work.counts
+    refused = f", {counts.refused} refused by the bus" if counts.refused else ""
+    lost = f", {counts.lost} lost before they were read" if counts.lost else ""
+    output.say(f"Stopped: {counts.received} frames received, {counts.sent} sent{refused}{lost}.")
 
 
-def _joystick(device: str, hand: str, seed: int | None, first: int) -> Joystick:
+def _plant(file: Path | None, device: str | None, hand: str | None, seed: int | None) -> Scenario:
+    """Return device and hand: of the file, or a joystick that is held where it is."""
     from ebac import presets
-    from ebac._core import Joystick
-    from ebac.scenario import Scenario
+    from ebac.can_interface import resting_joystick
 
-    scenario = Scenario(device=presets.device(device), hand=presets.hand(hand), seed=seed or 1)
-    return Joystick(scenario.setup(), first=first)
+    if file is None:
+        base = resting_joystick()
+    else:
+        base = setting.base_scenario(file)
+    parts = setting.given(
+        device=None if device is None else presets.device(device),
+        hand=None if hand is None else presets.hand(hand),
+        seed=seed,
+    )
+    return base.replace(**parts)
+
+
+@contextmanager
+def _at_work(
+    setup: Setup, interface: str, channel: str, bitrate: int | None, first: int
+) -> Iterator[SocketCanJoystick | Simulation]:
+    """Put the drives on a bus until the end of the block: SocketCAN is served by C++."""
+    from ebac._core import Joystick, SocketCanJoystick
+    from ebac.drives import BusError
+    from ebac.drives.bus import open_bus
+    from ebac.drives.simulate import Simulation
+
+    if interface == "ebac":
+        raise ValueError(
+            "--interface ebac: a bus within one process, where no other program would meet these "
+            "drives; its channel 'joystick' has some for every program that opens it"
+        )
+    if interface == "socketcan":
+        try:
+            served = SocketCanJoystick(channel, setup, first=first)
+        except OSError as error:
+            raise BusError(error.strerror or str(error)) from error
+        with served:
+            yield served
+        return
+    nodes = Joystick(setup, first=first)
+    with (
+        open_bus(interface=interface, channel=channel, bitrate=bitrate) as bus,
+        Simulation(bus, nodes) as simulation,
+    ):
+        yield simulation
 
 
 @contextmanager

@@ -39,7 +39,7 @@ def study(
     approach: Annotated[
         float | None,
         typer.Option(
-            help="Way of every hand through free air before the wall [m]; default: on the surface, or as in the file.",
+            help="Way of every hand through free air before the wall [m]; default: 0.01, or as in the file.",
             show_default=False,
             rich_help_panel=_WHO,
         ),

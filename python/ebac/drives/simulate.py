@@ -1,9 +1,14 @@
-"""Simulated drives on a bus in real time: frames in, time passes, frames out."""
+"""Simulated drives on a bus in real time: frames in, time passes, frames out.
+
+On SocketCAN and on the interface `ebac` a thread of the C++ core does it (`ebac._core.SocketCanJoystick`,
+`LoopbackJoystick`); on any other interface of python-can a thread of Python does, some 0.1 ms slower an answer.
+"""
 
 from __future__ import annotations
 
 import threading
 import time
+from dataclasses import dataclass
 from types import TracebackType
 from typing import TYPE_CHECKING, Protocol, Self
 
@@ -29,6 +34,36 @@ class SimulatedNodes(Protocol):
         """Give every frame on its way out: identifier, data."""
 
 
+class Counts(Protocol):
+    """What went over one end of a bus."""
+
+    @property
+    def sent(self) -> int:
+        """Frames put on the bus."""
+
+    @property
+    def refused(self) -> int:
+        """Frames the bus did not take."""
+
+    @property
+    def received(self) -> int:
+        """Frames taken from the bus."""
+
+    @property
+    def lost(self) -> int:
+        """Frames that found the receive queue full."""
+
+
+@dataclass(kw_only=True)
+class _Counted:
+    """Frames, counted here because python-can does not."""
+
+    sent: int = 0
+    refused: int = 0
+    received: int = 0
+    lost: int = 0
+
+
 class Simulation:
     """Simulated nodes at work on a bus, in a thread of their own. A context manager.
 
@@ -41,15 +76,13 @@ class Simulation:
 
     Attributes
     ----------
-    received, sent, lost : int
+    counts : Counts
         Frames taken from the bus, put on it, and refused by it.
     """
 
     def __init__(self, bus: can.BusABC, nodes: SimulatedNodes) -> None:
         self.bus = bus
-        self.received = 0
-        self.sent = 0
-        self.lost = 0
+        self.counts = _Counted()
         self._nodes = nodes
         self._over = threading.Event()
         self._failure: Exception | None = None
@@ -68,15 +101,14 @@ class Simulation:
         self._over.set()
         self._thread.join()
 
-    def wait(self, seconds: float) -> None:
-        """Wait while the nodes work.
+    def check(self) -> None:
+        """Look whether the nodes are still at work.
 
         Raises
         ------
         BusError
             When the bus has failed.
         """
-        self._over.wait(seconds)
         if self._failure is not None:
             raise BusError(
                 f"{self.bus.channel_info}: the bus failed ({self._failure}); is the interface still up?"
@@ -91,7 +123,7 @@ class Simulation:
                 self._nodes.elapse(now - last)
                 last = now
                 if message is not None and not (message.is_error_frame or message.is_extended_id):
-                    self.received += 1
+                    self.counts.received += 1
                     data = b"" if message.is_remote_frame else bytes(message.data)
                     self._nodes.receive(
                         message.arbitration_id, data, remote=message.is_remote_frame
@@ -108,6 +140,6 @@ class Simulation:
             message = can.Message(arbitration_id=cob, data=data, is_extended_id=False)
             try:
                 self.bus.send(message)
-                self.sent += 1
+                self.counts.sent += 1
             except can.CanOperationError:  # its queue is full, or nobody acknowledges
-                self.lost += 1
+                self.counts.refused += 1

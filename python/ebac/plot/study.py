@@ -18,8 +18,8 @@ from ebac.plot.style import Picture, colour, new_figure
 if TYPE_CHECKING:
     from ebac.studies import Study
 
-#: Conditions on one page of scatters, and failures named in one panel.
-PAGE, NAMED = 5, 4
+#: Conditions on one page of scatters, laws abreast where there is one condition, failures named in one panel.
+PAGE, ABREAST, NAMED = 5, 5, 4
 #: What is shown of swing and deviation [mm]; beyond lies on the edge.
 LEAST_SWING, MOST = 1e-4, 100.0
 
@@ -52,22 +52,33 @@ def _rests(study: Study, condition: str) -> bool:
 
 
 def _scatter(study: Study, conditions: list[str]) -> Picture:
-    laws = list(study.laws)
-    figure = new_figure(1.4 + 3.3 * len(laws), 0.9 + 2.7 * len(conditions))
-    grid = figure.subplots(len(conditions), len(laws), squeeze=False, sharex=True, sharey=True)
-    for row, condition in enumerate(conditions):
-        for column, law in enumerate(laws):
-            _panel(grid[row, column], study, law, condition)
-        grid[row, 0].set_ylabel(f"{condition}\ndeviation [mm]")
-    for column, law in enumerate(laws):
-        grid[0, column].annotate(
-            law, (0.5, 1), (0, 22), "axes fraction", textcoords="offset points",
-            ha="center", fontweight="bold", color=colour(law),
-        )  # fmt: skip
-        grid[-1, column].set_xlabel("swing, peak to peak [mm]")
+    panels = [(law, condition) for condition in conditions for law in study.laws]
+    columns = len(study.laws)
+    if len(conditions) == 1:  # as many below each other as abreast, or nearly
+        columns = -(-columns // -(-columns // ABREAST))
+    rows = -(-len(panels) // columns)
+    figure = new_figure(1.4 + 3.3 * columns, 0.9 + 2.7 * rows)
+    grid = figure.subplots(rows, columns, squeeze=False, sharex=True, sharey=True)
+    for (row, column), ax in np.ndenumerate(grid):
+        place = row * columns + column
+        if place >= len(panels):
+            ax.remove()
+            continue
+        law, condition = panels[place]
+        _panel(ax, study, law, condition)
+        if row == 0 or len(conditions) == 1:
+            ax.annotate(
+                law, (0.5, 1), (0, 22), "axes fraction", textcoords="offset points",
+                ha="center", fontweight="bold", color=colour(law),
+            )  # fmt: skip
+        if column == 0:
+            ax.set_ylabel(f"{condition}\ndeviation [mm]")
+        if place + columns >= len(panels):
+            ax.set_xlabel("swing, peak to peak [mm]")
+            ax.tick_params(labelbottom=True)
     figure.suptitle(
-        "Where each hand ends; grey: good (within 2 counts of the ideal and what friction holds, swing below 0.25 mm); "
-        "#: row in the population",
+        "Where each hand ends, simulated; #: row in the population.\nGrey: good, within 2 counts of the ideal "
+        "and what friction holds, swing below 0.25 mm",
         fontsize="medium",
     )
     return figure

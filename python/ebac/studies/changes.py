@@ -68,15 +68,16 @@ def device_mass(mass: float) -> Change:
 
 
 def approach(way: float) -> Change:
-    """Let the hand come through free air first [m]."""
+    """Let the hand come through so much free air before it meets the wall [m]; 0 starts on the surface."""
 
     def change(s: Scenario) -> Scenario:
         path = s.hand.path[0]
         if not isinstance(path, Step):
             raise TypeError(f"the hand follows a {type(path).__name__}: an approach needs a Step")
-        moved = path.replace(target=path.target + way)
-        farther = _wall(s).replace(position=_wall(s).position + way)
-        return s.replace(hand=s.hand.replace(path=[moved, *s.hand.path[1:]]), environment=farther)
+        wall = _wall(s)
+        moved = path.replace(target=path.target - wall.position + way)
+        hand = s.hand.replace(path=[moved, *s.hand.path[1:]])
+        return s.replace(hand=hand, environment=wall.replace(position=way))
 
     return change
 

@@ -93,7 +93,9 @@ _PUMPS = [to.pump(1e-3 * mm, hz) for mm in (0.1, 0.3, 1, 2, 4) for hz in (0.5, 1
 _LET_GO_LATE = to.hand(release_at=5.0)
 
 _ROBUSTNESS = [
-    _robust("approach-10mm", "the hand comes through 10 mm of free air", to.approach(0.01)),
+    _robust("surface", "the hand starts on the wall's surface, without free air", to.approach(0.0)),
+    _robust("surface-K20", "the same at 20 kN/m", to.approach(0.0), at=(1, 2, 20e3)),
+    _robust("hold", "the hand presses for 120 s", to.scenario(seconds=120.0)),
     _robust("friction-0.3", "Coulomb friction 0.3 N", to.device("mechanics", coulomb=0.3)),
     _robust("friction-1", "Coulomb friction 1 N", to.device("mechanics", coulomb=1.0)),
     _robust("encoder-12bit", "4096 counts a turn, a quarter of the count", to.device("encoder", counts_per_turn=4096)),

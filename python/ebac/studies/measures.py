@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 if TYPE_CHECKING:
     from ebac.studies.result import Study
+    from ebac.trace import Trace
 
 Columns: TypeAlias = dict[str, NDArray[Any]]
 
@@ -29,6 +30,9 @@ class Measure:
         Where it is taken; all runs together.
     of : callable
         The columns of these runs in, the number out; NaN where there is none.
+    traced : callable, optional
+        A number that only every row of a run can tell: a Trace in, the number out. Each run is then simulated again and
+        `of` finds the numbers under `traced`.
     more : bool
         Whether more of it is better.
     matters : float
@@ -43,6 +47,7 @@ class Measure:
     unit: str
     conditions: tuple[str, ...]
     of: Callable[[Columns], float]
+    traced: Callable[[Trace], float] | None = None
     more: bool = False
     matters: float
     relative: bool = False
@@ -50,7 +55,10 @@ class Measure:
     def value(self, study: Study, law: str) -> float | None:
         """Return the number for a law; None where there is none."""
         runs = np.concatenate([study.runs(law, name) for name in self.conditions])
-        value = self.of({name: values[runs] for name, values in study.columns.items()})
+        columns = {name: values[runs] for name, values in study.columns.items()}
+        if self.traced is not None:
+            columns["traced"] = np.array([self.traced(study.trace(run)) for run in runs.tolist()])
+        value = self.of(columns)
         if not np.isfinite(value):
             return None
         return int(value) if self.unit == "hands" else value
@@ -82,8 +90,25 @@ def _median(column: str, where: str | None = None) -> Callable[[Columns], float]
     return of
 
 
+def _largest(column: str, where: str | None = None) -> Callable[[Columns], float]:
+    def of(runs: Columns) -> float:
+        values = runs[column][runs[where]] if where else runs[column]
+        there = values[np.isfinite(values)]
+        return float(there.max()) if len(there) else float("nan")
+
+    return of
+
+
 def _least(runs: Columns) -> float:
     return float(np.nanmin(runs["least_energy_J"]))
+
+
+def _step_inside(trace: Trace) -> float:
+    """Return the largest step of the command between two ticks in which the world asks for a force."""
+    rows = len(trace)
+    inside = (trace["f_env"].reshape(rows, -1) != 0).any(axis=1)
+    steps = np.abs(np.diff(trace["f_cmd"].reshape(rows, -1), axis=0)).max(axis=1)
+    return float(np.max(steps, where=inside[1:] & inside[:-1], initial=0.0))
 
 
 def _away(runs: Columns) -> float:
@@ -118,11 +143,11 @@ MEASURES = (
     _energy("least_energy_let_go_J", "least energy, let go", "slow-let-go", "slow-let-go-d2", "slow-let-go-K20"),
     _energy("least_energy_pumping_J", "least energy, pumping", "pumping"),
     Measure(key="ripple_N", heading="ripple at rest", unit="N", conditions=("d1K10",),
-            of=_median("force_swing_N", "good"), matters=0.1, relative=True),
+            of=_largest("force_swing_N", "good"), matters=0.1, relative=True),
     Measure(key="ripple_noise_N", heading="ripple, sensor noise 0.2 N", unit="N", conditions=("force-noise",),
-            of=_median("force_swing_N", "good"), matters=0.1, relative=True),
-    Measure(key="force_step_N", heading="largest force step", unit="N", conditions=("d1K10",),
-            of=_median("force_step_N", "good"), matters=0.1, relative=True),
+            of=_largest("force_swing_N", "good"), matters=0.1, relative=True),
+    Measure(key="force_step_N", heading="largest force step inside", unit="N", conditions=("d1K10",),
+            of=_largest("traced"), traced=_step_inside, matters=0.1, relative=True),
     Measure(key="friction_m", heading="off the ideal, friction 1 N", unit="m", conditions=("friction-1",),
             of=_away, matters=0.05, relative=True),
 )  # fmt: skip

@@ -1,0 +1,108 @@
+#pragma once
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <concepts>
+#include <cstdint>
+#include <stdexcept>
+#include <thread>
+#include <utility>
+
+#include "ebac/can/serve.hpp"
+
+namespace ebac::can {
+
+/// A bus on whose end a thread can also wait.
+template <class B>
+concept WaitingBus =
+    Bus<B> && requires(B bus, const B& view, Frame& in, std::chrono::nanoseconds t) {
+      { bus.receive(in, t) } noexcept -> std::same_as<bool>;
+      { view.counts() } noexcept -> std::same_as<BusCounts>;
+      { bus.close() } noexcept;
+    };
+
+/// A node with timers.
+template <class N>
+concept TimedNode = Node<N> && requires(N node, double seconds) {
+  { node.elapse(seconds) } noexcept;
+};
+
+/// Nodes at work on a bus in real time, in a thread of their own: a frame is answered when it comes,
+/// and their timers run with the clock. A frame that waited for the thread counts from when it came,
+/// where the bus stamps it with the time of day: a thread that is late makes answers late, and lets
+/// no watchdog cry.
+template <WaitingBus B, TimedNode N>
+class Served {
+ public:
+  Served(B bus, N node) : bus_(std::move(bus)), node_(std::move(node)) {}
+  Served(const Served&) = delete;
+  Served& operator=(const Served&) = delete;
+  Served(Served&&) = delete;
+  Served& operator=(Served&&) = delete;
+  ~Served() { stop(); }
+
+  /// Once in a life: throws std::logic_error the second time.
+  void start() {
+    if (started_)
+      throw std::logic_error("these nodes have been on their bus already: make new ones");
+    started_ = true;
+    thread_ = std::thread([this] { work(); });
+  }
+  /// Takes them off the bus, within a few ms; nothing the second time.
+  void stop() noexcept {
+    over_.store(true, std::memory_order_relaxed);
+    if (thread_.joinable()) thread_.join();
+    bus_.close();
+  }
+
+  /// Of any thread, at any time.
+  BusState state() const noexcept { return bus_.state(); }
+  BusCounts counts() const noexcept { return bus_.counts(); }
+
+  /// Only while it does not run.
+  const N& node() const noexcept { return node_; }
+
+ private:
+  using Steady = std::chrono::steady_clock;
+
+  /// Longest wait for a frame: how late a timer of the nodes is at most.
+  static constexpr std::chrono::nanoseconds kTimer = std::chrono::milliseconds{1};
+
+  void work() noexcept {
+    last_ = Steady::now();
+    answer();
+    for (Frame frame; !over_.load(std::memory_order_relaxed); answer()) {
+      const bool came = bus_.receive(frame, kTimer);
+      pass_until(Steady::now() - (came ? age(frame) : std::chrono::nanoseconds{0}));
+      if (came) node_.receive(frame);
+    }
+  }
+
+  void pass_until(Steady::time_point now) noexcept {
+    if (now <= last_) return;
+    node_.elapse(std::chrono::duration<double>(now - last_).count());
+    last_ = now;
+  }
+
+  void answer() noexcept {
+    Frame out;
+    while (node_.take(out)) static_cast<void>(bus_.send(out));
+  }
+
+  /// How long it has waited; 0 where nothing tells.
+  static std::chrono::nanoseconds age(const Frame& frame) noexcept {
+    if (frame.stamp == 0) return std::chrono::nanoseconds{0};
+    const std::chrono::nanoseconds now = std::chrono::system_clock::now().time_since_epoch();
+    return std::max(now - std::chrono::nanoseconds{frame.stamp}, std::chrono::nanoseconds{0});
+  }
+
+  B bus_;
+  N node_;
+  bool started_ = false;
+  std::atomic<bool> over_{false};
+  Steady::time_point last_;  // until then time has passed for the nodes
+  std::thread thread_;
+};
+
+}  // namespace ebac::can

@@ -1,0 +1,114 @@
+"""Draw the pictures of these pages anew, beside this file: `python docs/figures/make.py [name ...]`.
+
+Each is what a command draws, which stands in the page above the picture; `energy` alone has no command.
+"""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable
+from io import BytesIO
+from pathlib import Path
+
+import numpy as np
+from PIL import Image
+
+import ebac
+from ebac.maps import AXES, stability_map
+from ebac.plot import (
+    Picture,
+    colour,
+    dress,
+    legend,
+    line,
+    new_figure,
+    plot_ablation,
+    plot_map,
+    plot_study,
+    plot_walls,
+    plot_zwidth,
+)
+from ebac.zwidth import zwidth
+
+HERE = Path(__file__).parent
+LAWS = ("tca", "tca-damped", "eba", "ebac-printed", "ebac")
+#: Dots an inch and colours: legible on a page, and no file above 150 kB.
+DPI, COLOURS = 80, 128
+
+
+def walls() -> Picture:
+    """`ebac wall --law tca --law eba --law ebac-printed --law ebac`."""
+    names = ("tca", "eba", "ebac-printed", "ebac")
+    return plot_walls([ebac.simulate(ebac.Scenario(), name) for name in names])
+
+
+def hands() -> Picture:
+    """`ebac study` under five laws: where each of 60 hands ends."""
+    return dict(plot_study(ebac.study(ebac.Operators.grid(), LAWS)))["hands"]
+
+
+def ablation() -> Picture:
+    """`ebac ablation`."""
+    return plot_ablation(ebac.ablation())
+
+
+def map_kb() -> Picture:
+    """`ebac map --side 100`: EBAC over wall stiffness and damping."""
+    xs, ys = (AXES[name].values(100) for name in ("damping", "stiffness"))
+    return plot_map(stability_map("ebac", xs=xs, ys=ys))
+
+
+def z_width() -> Picture:
+    """`ebac zwidth`."""
+    return plot_zwidth(zwidth())
+
+
+def energy() -> Picture:
+    """The energy account under the drive that draws most, with the guard and without."""
+    laws = {"ebac": "ebac", "guard off": ebac.Variant("ebac", {"guard": False})}
+    found = ebac.study(ebac.Operators.grid(), laws, ["pumping"])
+    least = found.runs("guard off", "pumping")
+    worst = int(least[np.argmin(found.columns["least_energy_J"][least])])
+    figure = new_figure(10, 6)
+    grid = figure.subplots(2, 1, sharex=True)
+    traces = {
+        name: found.trace(int(found.runs(name, "pumping")[worst % len(found.scenarios)]))
+        for name in laws
+    }
+    for ax in grid:
+        for name, trace in traces.items():
+            shade = colour("ebac") if name == "ebac" else "#d55e00"
+            line(ax, trace["t"], 1e3 * trace["true.energy"], color=shade, label=f"port, {name}")
+        ax.axhline(-10, color="0.35", ls="--", lw=1, label="-e(0)")
+        dress(ax, "energy [mJ]")
+    kept = traces["ebac"]
+    line(grid[1], kept["t"], 1e3 * kept["law.energy"], color="black", lw=0.8, label="ledger of ebac")
+    grid[1].set_ylim(-15, 60)
+    grid[1].set_xlabel("time [s]")
+    for ax in grid:
+        legend(ax)
+    path = found.scenarios[worst % len(found.scenarios)].hand.path[0]
+    assert isinstance(path, ebac.Sine)
+    figure.suptitle(
+        f"A drive of 20 kN/m swings by {1e3 * path.amplitude:g} mm at {path.frequency:g} Hz inside a wall of 10 kN/m, "
+        "simulated; below, near zero",
+        fontsize="medium",
+    )
+    return figure
+
+
+FIGURES: dict[str, Callable[[], Picture]] = {
+    "walls": walls,
+    "hands": hands,
+    "ablation": ablation,
+    "map": map_kb,
+    "zwidth": z_width,
+    "energy": energy,
+}
+
+if __name__ == "__main__":
+    for name in sys.argv[1:] or FIGURES:
+        file, drawn = HERE / f"{name}.png", BytesIO()
+        FIGURES[name]().savefig(drawn, format="png", dpi=DPI)
+        Image.open(drawn).convert("RGB").quantize(COLOURS).save(file, optimize=True)
+        print(f"{file.name}: {file.stat().st_size / 1e3:.0f} kB")

@@ -1,0 +1,156 @@
+#include "ebac/can/served.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "ebac/can/joystick.hpp"
+#include "ebac/can/loopback_bus.hpp"
+#include "ebac/can/torque_settings.hpp"
+#include "ebac/sim/simulated_device.hpp"
+#include "timed_run.hpp"
+
+namespace ebac::can {
+namespace {
+
+using std::chrono::milliseconds;
+using OnLoopback = Served<LoopbackBus, Joystick<SimulatedDevice>>;
+
+/// Two axes in a hand that holds them where they are.
+Joystick<SimulatedDevice> held_joystick() {
+  Setup setup;
+  setup.device.kinematics = Linear{.axes = 2};
+  setup.device.drive.permille = true;
+  setup.hand.path = {Step{.target = 0}, Step{.target = 0}, Step{.target = 0}};
+  setup.timing.delay = 0;
+  return {SimulatedDevice(setup), setup.device};
+}
+
+/// The next frame with that identifier, however busy the machine.
+bool hears(LoopbackBus& end, std::uint32_t id, Frame& in) {
+  while (end.receive(in, std::chrono::seconds{20})) {
+    if (in.id == id) return true;
+  }
+  return false;
+}
+bool hears(LoopbackBus& end, std::uint32_t id) {
+  Frame in;
+  return hears(end, id, in);
+}
+
+/// Writes a number by SDO, expedited: whether the drive took it.
+bool download(LoopbackBus& end, NodeId node, const ObjectWrite& write) {
+  const std::size_t slot = kDriveTable.slot(write.index, write.sub);
+  const auto size = width(kDriveTable.entry[slot].type);
+  Frame out{.id = sdo_request(node), .size = 8};
+  out.data[0] = static_cast<std::uint8_t>(0x23 | (4 - size) << 2);
+  put(out.data, 1, write.index);
+  out.data[3] = write.sub;
+  put(out.data, 4, static_cast<std::uint32_t>(write.value));
+  end.send(out);
+  Frame answer;
+  return hears(end, sdo_answer(node), answer) && answer.data[0] == 0x60;
+}
+
+TEST(Served, BootsAndSendsHeartbeatsByItself) {
+  LoopbackHub hub(LoopbackHub::Stamps::kWallClock);
+  LoopbackBus end = hub.open();
+  OnLoopback served(hub.open(), held_joystick());
+  Frame none;
+  EXPECT_FALSE(end.receive(none, milliseconds{5}));
+  served.start();
+  EXPECT_TRUE(hears(end, heartbeat(1), none) && none.data[0] == 0);
+  EXPECT_TRUE(hears(end, heartbeat(2), none) && none.data[0] == 0);
+  ASSERT_TRUE(download(end, 2, {0x1017, 0, 5}));
+  for (int i = 0; i < 4; ++i) {
+    EXPECT_TRUE(hears(end, heartbeat(2), none));
+    EXPECT_EQ(none.data[0], 0x7F);
+  }
+  EXPECT_EQ(served.state(), BusState::kUp);
+  EXPECT_GE(served.counts().sent, 7U);
+}
+
+TEST(Served, LeavesTheBusOnceAndForAll) {
+  LoopbackHub hub;
+  {
+    OnLoopback served(hub.open(), held_joystick());
+    EXPECT_EQ(hub.ends(), 1U);
+    served.start();
+    EXPECT_THROW(served.start(), std::logic_error);
+    served.stop();
+    served.stop();
+    EXPECT_EQ(hub.ends(), 0U);
+    EXPECT_EQ(served.state(), BusState::kClosed);
+    EXPECT_THROW(served.start(), std::logic_error);
+  }
+  {
+    const OnLoopback never_started(hub.open(), held_joystick());
+  }
+  {
+    OnLoopback forgotten(hub.open(), held_joystick());
+    forgotten.start();
+  }
+  EXPECT_EQ(hub.ends(), 0U);
+}
+
+TEST(Served, TheLoopRunsAndAHandGivesWay) {
+  LoopbackHub hub(LoopbackHub::Stamps::kWallClock);
+  LoopbackBus end = hub.open();
+  OnLoopback served(hub.open(), held_joystick());
+  served.start();
+  for (const NodeId node : {NodeId{1}, NodeId{2}}) {
+    for (const ObjectWrite& write : torque_settings(node, 4000)) {
+      ASSERT_TRUE(download(end, node, write)) << std::hex << write.index;
+    }
+  }
+  const TimedRun run = run_in_real_time(end, /*ticks=*/200, /*current=*/0.2);
+  EXPECT_TRUE(run.ran);
+  EXPECT_EQ(run.fault, Fault::kNone);
+  EXPECT_NEAR(run.current_echoed, 0.2, 1e-3);
+  EXPECT_GT(std::abs(run.last - run.first), 20);
+  EXPECT_TRUE(run.rested);
+}
+
+/// Notes when, by its own time, each frame came; and is held up at the first one.
+class Diary {
+ public:
+  struct Entry {
+    std::int64_t stamp = 0;  // ns
+    double at = 0;           // s
+  };
+  void receive(const Frame& frame) noexcept {
+    if (count_ == 0) std::this_thread::sleep_for(milliseconds{400});
+    if (count_ < entries_.size()) entries_[count_++] = {frame.stamp, now_};
+  }
+  static bool take(Frame&) noexcept { return false; }
+  void elapse(double seconds) noexcept { now_ += seconds; }
+  std::span<const Entry> entries() const noexcept { return std::span(entries_).first(count_); }
+
+ private:
+  double now_ = 0;
+  std::size_t count_ = 0;
+  std::array<Entry, 16> entries_{};
+};
+
+TEST(Served, AFrameThatWaitedCountsFromWhenItCame) {
+  LoopbackHub hub(LoopbackHub::Stamps::kWallClock);
+  LoopbackBus end = hub.open();
+  Served<LoopbackBus, Diary> served(hub.open(), Diary{});
+  served.start();
+  for (int i = 0; i < 10; ++i) {
+    end.send(frame(kSync, {}));
+    std::this_thread::sleep_for(milliseconds{1});
+  }
+  while (served.counts().received < 10) std::this_thread::sleep_for(milliseconds{1});
+  served.stop();
+  const auto entries = served.node().entries();
+  ASSERT_EQ(entries.size(), 10U);
+  for (const Diary::Entry& entry : entries.subspan(1)) {
+    const double by_stamp = 1e-9 * static_cast<double>(entry.stamp - entries[0].stamp);
+    EXPECT_NEAR(entry.at - entries[0].at, by_stamp, 0.2);  // not the 0.4 s it was held up
+  }
+}
+
+}  // namespace
+}  // namespace ebac::can
