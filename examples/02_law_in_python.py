@@ -1,8 +1,12 @@
-"""A law written in Python, in the same loop as those of the core: slow, and good for a first idea."""
+"""A law written in Python, in the same loop as those of the core: slow, and good for a first idea.
+
+`pytest 02_law_in_python.py` runs the contract of every law on it; that needs pytest and hypothesis.
+"""
 
 from dataclasses import dataclass
 
 import ebac
+from ebac.testing import LawContract
 
 
 @dataclass
@@ -20,7 +24,14 @@ class Damped:
         return port.f_env + self.damping * port.v if port.f_env > 0 else 0.0
 
 
-scenario = ebac.Scenario()
-for law in ("tca", Damped(), "ebac"):
-    wall = ebac.contact(ebac.simulate(scenario, law))
-    print(f"{wall.law:7s} swings {1e3 * wall.swing_m:.3f} mm, rests at {1e3 * wall.rest_m:.3f} mm")
+class TestDamped(LawContract):
+    law = Damped
+
+
+if __name__ == "__main__":
+    scenario = ebac.Scenario()
+    for law in ("tca", Damped(), "ebac"):
+        wall = ebac.contact(ebac.simulate(scenario, law))
+        print(
+            f"{wall.law:7s} swings {1e3 * wall.swing_m:.3f} mm, rests at {1e3 * wall.rest_m:.3f} mm"
+        )

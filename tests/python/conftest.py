@@ -1,4 +1,4 @@
-"""What the tests share: cached runs of scenarios, hypothesis profiles, and `--update-golden`.
+"""What the tests share: cached runs of scenarios, hypothesis profiles, a bus.
 
 More examples than usual: `pytest --hypothesis-profile=explore`.
 """
@@ -19,14 +19,6 @@ if TYPE_CHECKING:
 settings.register_profile("ebac", deadline=None, derandomize=True, database=None)
 settings.register_profile("explore", deadline=None, max_examples=5000, database=None)
 settings.load_profile("ebac")
-
-
-def pytest_addoption(parser: pytest.Parser) -> None:
-    parser.addoption(
-        "--update-golden",
-        action="store_true",
-        help="write tests/golden anew instead of comparing with it",
-    )
 
 
 @cache

@@ -18,6 +18,7 @@ from ebac.cli import (
     presets,
     specs,
     study,
+    track,
     wall,
     worst,
     zwidth,
@@ -64,6 +65,7 @@ app.command("worst")(worst.worst)
 app.command("conditions")(conditions.conditions)
 app.command("zwidth")(zwidth.zwidth)
 app.command("map")(maps.map_)
+app.command("track")(track.track)
 app.command("paper")(paper.paper)
 app.command("laws")(laws.laws)
 app.command("specs")(specs.specs)

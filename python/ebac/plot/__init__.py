@@ -2,9 +2,11 @@
 
 from ebac.plot.ablation import plot_ablation
 from ebac.plot.maps import plot_map
+from ebac.plot.overlay import plot_overlay
 from ebac.plot.run import plot_trace
 from ebac.plot.study import plot_study
 from ebac.plot.style import COLOURS, DPI, Picture, colour, dress, legend, line, new_figure
+from ebac.plot.tracking import plot_budget, plot_tracking
 from ebac.plot.walls import plot_walls
 from ebac.plot.worst import plot_worst
 from ebac.plot.zwidth import plot_zwidth
@@ -19,9 +21,12 @@ __all__ = [
     "line",
     "new_figure",
     "plot_ablation",
+    "plot_budget",
     "plot_map",
+    "plot_overlay",
     "plot_study",
     "plot_trace",
+    "plot_tracking",
     "plot_walls",
     "plot_worst",
     "plot_zwidth",

@@ -1,0 +1,263 @@
+"""`ebac track`: how well a recorded path follows a line or a circle."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from ebac.cli import output
+
+if TYPE_CHECKING:
+    from ebac.tracking import Budget, Tracking
+
+DEFAULT_OUT = Path("ebac-track")
+_READ, _FIT, _SIMULATED, _RUN = "Files", "Fit", "Error budget (--simulated)", "Run"
+
+
+def track(
+    files: Annotated[
+        list[Path] | None,
+        typer.Argument(
+            help="CSV files, or traces (.npz), with columns x and y.", show_default=False
+        ),
+    ] = None,
+    columns: Annotated[
+        str | None,
+        typer.Option(
+            help="Columns of the position, with commas between.",
+            show_default="x,y or x,y,z",
+            rich_help_panel=_READ,
+        ),
+    ] = None,
+    unit: Annotated[
+        str | None,
+        typer.Option(
+            help="Unit of the columns: m, mm, cm, um.",
+            show_default="that of the heading",
+            rich_help_panel=_READ,
+        ),
+    ] = None,
+    shape: Annotated[
+        str, typer.Option(help="line, circle, or auto for what fits.", rich_help_panel=_FIT)
+    ] = "auto",
+    robust: Annotated[
+        bool, typer.Option("--robust", help="Leave outliers out.", rich_help_panel=_FIT)
+    ] = False,
+    simulated: Annotated[
+        bool,
+        typer.Option(
+            "--simulated",
+            help="Compute the error budget of the paper's joystick instead of reading files.",
+            rich_help_panel=_SIMULATED,
+        ),
+    ] = False,
+    runs: Annotated[
+        int, typer.Option(help="Joysticks drawn for each row.", rich_help_panel=_SIMULATED)
+    ] = 100,
+    seed: Annotated[int, typer.Option(help="Seed of the draws.", rich_help_panel=_SIMULATED)] = 1,
+    slack: Annotated[
+        float | None,
+        typer.Option(
+            help="Play of each cable at the handle, end to end [m].",
+            show_default="0.0005, assumed",
+            rich_help_panel=_SIMULATED,
+        ),
+    ] = None,
+    alignment: Annotated[
+        float,
+        typer.Option(
+            help="Errors of installation, in multiples of those assumed.",
+            rich_help_panel=_SIMULATED,
+        ),
+    ] = 1.0,
+    out: Annotated[
+        Path | None,
+        typer.Option(
+            "--out",
+            "-o",
+            help="Folder for figures and numbers.",
+            show_default=str(DEFAULT_OUT),
+            rich_help_panel=_RUN,
+        ),
+    ] = None,
+    as_json: output.AsJson = False,
+) -> None:
+    """Fit a line or a circle to recorded paths: standard deviation, path error, uncertainty (paper, Table I).
+
+    SD is sqrt(sum d^2 / (n - p)) of the distances d from the fit with p = 2 for a line, 3 for a circle; the path
+    error is the mean of |d|.
+
+    **Examples**
+
+    * `ebac track line.csv circle.csv`: columns `x [mm]`, `y [mm]`.
+
+    * `ebac track run.csv --columns px,py --unit mm --shape circle --robust`
+
+    * `ebac track --simulated`: what encoder, installation and cable slack make of a true path, beside Table I.
+    """
+    with output.refusing():
+        if simulated == bool(files):
+            raise ValueError(
+                "give files to fit, or --simulated for the error budget: one of the two"
+            )
+        if simulated:
+            _simulated(runs, seed, slack, alignment, out, as_json)
+            return
+        from ebac.tracking import evaluate, read_path
+
+        chosen = [c.strip() for c in columns.split(",")] if columns else None
+        found = [
+            evaluate(read_path(file, columns=chosen, unit=unit), shape=shape, robust=robust)
+            for file in files or []
+        ]
+    folder = out or (None if as_json else DEFAULT_OUT)
+    names = _write(folder, found) if folder else []
+    if as_json:
+        typer.echo(output.document("track", [t.row() for t in found], robust=robust))
+        return
+    _show(found)
+    if folder is not None:
+        output.list_files(folder, names)
+
+
+def _write(folder: Path, found: list[Tracking]) -> list[str]:
+    from ebac.plot import plot_tracking
+
+    with output.results(folder) as draft:
+        if draft is None:
+            return []
+        document = output.document("track", [t.row() for t in found])
+        (draft / "track.json").write_text(document + "\n", encoding="utf-8")
+        for i, tracking in enumerate(found):
+            stem = Path(tracking.path.name).stem
+            same = [t for t in found if Path(t.path.name).stem == stem]
+            name = f"{stem}-{i + 1}" if len(same) > 1 else stem
+            plot_tracking(tracking).savefig(draft / f"{name}.png")
+        return sorted(file.name for file in draft.iterdir())
+
+
+def _show(found: list[Tracking]) -> None:
+    from ebac import wording
+    from ebac.tracking import LineFit
+
+    headings = ["file", "shape", "SD", "path error", "largest", "points", "outliers", "fitted"]
+    grid = output.table(headings, numbers=(2, 3, 4, 5, 6))
+    for t in found:
+        row, fit = t.row(), t.fit
+        if isinstance(fit, LineFit):
+            told = (f"{wording.quantity(row['length_m'], 'm')} long, at {row['angle_deg']:.3f} "
+                    f"+- {1.96 * row['angle_sd_deg']:.2g} deg")  # fmt: skip
+        else:
+            told = (f"radius {wording.quantity(fit.radius, 'm')} +- {1.96e3 * fit.radius_sd_m:.2g} mm, "
+                    f"{row['arc_deg']:.0f} deg of it")  # fmt: skip
+        lengths = [wording.quantity(row[k], "m") for k in ("sd_m", "error_m", "largest_m")]
+        grid.add_row(t.path.name, t.shape, *lengths, str(row["points"]), str(row["outliers"]), told)
+    output.console().print(grid)
+    for t in found:
+        output.say(f"{t.path.name}: {t.path.said}.")
+    output.say("+- is a 95 % interval that counts correlated points for what they are worth.")
+
+
+def _simulated(
+    runs: int, seed: int, slack: float | None, alignment: float, out: Path | None, as_json: bool
+) -> None:
+    from ebac.tracking import ErrorSources, error_budget
+
+    plain = ErrorSources()
+    if not alignment >= 0:
+        raise ValueError(f"--alignment {alignment}: must not be negative")
+    names = ("zero", "skew", "axis_offset", "lever", "ratio")
+    sizes: dict[str, Any] = {name: alignment * getattr(plain, name) for name in names}
+    sources = plain.replace(slack=plain.slack if slack is None else slack, **sizes)
+    with output.counting("drawing joysticks", quiet=as_json) as progress:
+        budget = error_budget(sources=sources, runs=runs, seed=seed, progress=progress)
+    document = output.document("track", _rows(budget), **_assumed(budget))
+    folder = out or (None if as_json else DEFAULT_OUT)
+    files = _write_budget(folder, budget, document) if folder else []
+    if as_json:
+        typer.echo(document)
+        return
+    _show_budget(budget)
+    if folder is not None:
+        output.list_files(folder, files)
+
+
+def _rows(budget: Budget) -> list[dict[str, Any]]:
+    from dataclasses import asdict
+
+    from ebac.tracking import TABLE_I
+
+    simulated = [asdict(row) for row in budget.rows]
+    paper = [
+        {"shape": e.shape, "source": "paper", "sd_m": e.sd_m, "sd_low_m": None, "sd_high_m": None,
+         "error_m": e.error_m, "ratio": e.ratio, "radius_m": None}
+        for e in TABLE_I
+    ]  # fmt: skip
+    return simulated + paper
+
+
+def _assumed(budget: Budget) -> dict[str, Any]:
+    s = budget.sources
+    return {
+        "runs": budget.runs,
+        "seed": budget.seed,
+        "assumed": {"zero_rad": s.zero, "skew_rad": s.skew, "axis_offset_m": s.axis_offset,
+                    "lever_m": s.lever, "ratio": s.ratio, "slack_m": s.slack},
+        "slack_for_table_m": budget.slack_m,
+        "unexplained_m": {shape: budget.unexplained_m(shape) for shape in ("line", "circle")},
+    }  # fmt: skip
+
+
+def _write_budget(folder: Path, budget: Budget, document: str) -> list[str]:
+    from ebac.plot import plot_budget, plot_tracking
+    from ebac.tracking import RecordedPath, evaluate
+
+    with output.results(folder) as draft:
+        if draft is None:
+            return []
+        (draft / "budget.json").write_text(document + "\n", encoding="utf-8")
+        plot_budget(budget).savefig(draft / "budget.png")
+        for shape, points in budget.examples.items():
+            path = RecordedPath(points=points, name=f"simulated {shape}", said="simulated")
+            plot_tracking(evaluate(path, shape=shape)).savefig(draft / f"{shape}.png")
+        return sorted(file.name for file in draft.iterdir())
+
+
+def _show_budget(budget: Budget) -> None:
+    from ebac import wording
+
+    headings = ["path", "source", "SD", "5 % to 95 %", "path error", "error/SD"]
+    grid = output.table(headings, numbers=(2, 3, 4, 5))
+    for row in _rows(budget):
+        sd, low, high, error = (
+            wording.quantity(row[k], "m") for k in ("sd_m", "sd_low_m", "sd_high_m", "error_m")
+        )
+        span = "" if row["sd_low_m"] is None else f"{low.removesuffix(' mm')} to {high}"
+        style = "bold" if row["source"] == "all" else None
+        grid.add_row(
+            row["shape"], row["source"], sd, span, error, f"{row['ratio']:.2f}", style=style
+        )
+    output.console().print(grid)
+    for shape, slack in budget.slack_m.items():
+        left = wording.quantity(budget.unexplained_m(shape), "m")
+        cause = (
+            f"a slack of {wording.quantity(slack, 'm')} at the handle would explain the paper's mean SD"
+            if slack is not None
+            else "no slack up to 20 mm brings it to the paper's mean SD"
+        )
+        output.say(f"{shape}: {left} of the paper's SD are left (hand, ruler, rope); {cause}.")
+    s = budget.sources
+    output.say(
+        f"Simulated. The sizes are assumptions, the paper gives none: zero and squareness {_deg(s.zero)} and "
+        f"{_deg(s.skew)}, lever and axes {1e3 * s.lever:.3g} and {1e3 * s.axis_offset:.3g} mm, capstan ratio "
+        f"{100 * s.ratio:.3g} %, slack {1e3 * s.slack:.3g} mm.",
+        style="bold",
+    )
+
+
+def _deg(angle: float) -> str:
+    from math import degrees
+
+    return f"{degrees(angle):.3g} deg"

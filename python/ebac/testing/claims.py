@@ -1,0 +1,223 @@
+"""Claims on a run that end in an AssertionError naming the tick, the time and the number."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ebac.metrics import FEWEST_ROWS, QUIET_SWING, TAIL_SHARE
+from ebac.trace import Trace
+
+#: What the rounding of an energy may come to [J].
+ROUNDING = 1e-9
+
+
+def assert_passive(
+    trace: Trace, *, reserve: float = 0.0, damping: float | None = None, tolerance: float = ROUNDING
+) -> None:
+    """Assert that no more energy left the port than was lent to it, eq. (3).
+
+    Parameters
+    ----------
+    trace : Trace
+        A run. Its column `true.energy` is taken where there is one (integral of f v + b v^2 + friction, exact in a
+        simulation), summed over the axes; otherwise sum of f_applied dx + (damping/dt) dx^2, what can be observed.
+    reserve : float
+        Energy lent, e(0) of eq. (3) [J], >= 0.
+    damping : float, optional
+        Physical damping of the device per axis [N s/m], for a trace without `true.energy`.
+    tolerance : float
+        What rounding may come to [J], >= 0.
+
+    Raises
+    ------
+    AssertionError
+        When more was drawn.
+    ValueError
+        When the trace cannot tell, or a number is out of range.
+    """
+    __tracebackhide__ = True
+    _not_negative(reserve=reserve, tolerance=tolerance)
+    energy, how = _energy(trace, damping)
+    _finite("energy", energy, trace)
+    least = int(energy.argmin())
+    assert energy[least] >= -(reserve + tolerance), (
+        f"not passive: {how} falls to {1e3 * energy[least]:.6g} mJ at {_when(trace, least)}; "
+        f"lent are {1e3 * reserve:.6g} mJ"
+    )
+
+
+def assert_settles(
+    trace: Trace, *, within: float, band: float = QUIET_SWING / 2, axis: int = 0
+) -> None:
+    """Assert that the position comes to rest in time.
+
+    Parameters
+    ----------
+    trace : Trace
+        At least 10 rows; `true.x` is taken where there is one, otherwise `x`.
+    within : float
+        Latest time, from the first row, from which on it must stay near its rest [s].
+    band : float
+        How near: |x - rest| <= band [m], default 0.125 mm. Rest is the mean over the last 30 % of the run.
+    axis : int
+        Which axis, [0, trace.axes).
+
+    Raises
+    ------
+    AssertionError
+        When it comes to rest later or never.
+    ValueError
+        When the trace is too short or has no such axis.
+    """
+    __tracebackhide__ = True
+    _not_negative(within=within, band=band)
+    if len(trace) < FEWEST_ROWS:
+        raise ValueError(f"the trace has {len(trace)} rows: needs at least {FEWEST_ROWS}")
+    t = trace["t"] - trace["t"][0]
+    x = trace.axis("true.x" if "true.x" in trace else "x", axis)
+    _finite("position", x, trace)
+    tail = x[-max(2, int(TAIL_SHARE * len(x) + 0.5)) :]  # the same rows as in `ebac.contact`
+    rest, swing = float(tail.mean()), float(np.ptp(tail))
+    outside = np.flatnonzero(np.abs(x - rest) > band)
+    last = int(outside[-1]) if len(outside) else -1
+    settles = last < len(x) - 1 and (swing < 2 * band or swing == 0)
+    assert settles, (
+        f"never settles: still {1e3 * abs(x[last] - rest):.4g} mm from its rest of {1e3 * rest:.4g} mm "
+        f"at {_when(trace, last)}; it swings by {1e3 * swing:.4g} mm, allowed are +-{1e3 * band:.4g} mm"
+    )
+    settled = float(t[last + 1])
+    assert settled <= within, (
+        f"settles too late: within {1e3 * band:.4g} mm of its rest of {1e3 * rest:.4g} mm "
+        f"from {settled:.6g} s on, allowed are {within:g} s"
+    )
+
+
+def assert_force_continuous(
+    trace: Trace, *, step: float, column: str = "f_applied", axis: int | None = None
+) -> None:
+    """Assert that a force never jumps from one tick to the next.
+
+    Parameters
+    ----------
+    trace : Trace
+        A run.
+    step : float
+        Largest change in one tick [N]. What is felt as a knock depends on the handle; a wall of stiffness K met at a
+        speed v needs K v T.
+    column : str
+        Which force, default the one that acted.
+    axis : int, optional
+        Which axis; default: all.
+
+    Raises
+    ------
+    AssertionError
+        When it jumps by more.
+    """
+    __tracebackhide__ = True
+    _not_negative(step=step)
+    for i in range(trace.axes) if axis is None else [axis]:
+        force = trace.axis(column, i)
+        _finite(column, force, trace)
+        jumps = np.abs(np.diff(force))
+        if not len(jumps):
+            continue
+        most = int(jumps.argmax())
+        assert jumps[most] <= step, (
+            f"{column} of axis {i} jumps by {jumps[most]:.6g} N at {_when(trace, most + 1)}, "
+            f"from {force[most]:.6g} N to {force[most + 1]:.6g} N; allowed are {step:g} N a tick, "
+            f"exceeded in {int((jumps > step).sum())} ticks"
+        )
+
+
+def assert_within_limits(
+    trace: Trace,
+    *,
+    force: float | None = None,
+    current: float | None = None,
+    travel: float | None = None,
+    speed: float | None = None,
+) -> None:
+    """Assert that a run has no fault, no number that is not finite where it matters, and keeps its limits.
+
+    Parameters
+    ----------
+    trace : Trace
+        A run.
+    force : float, optional
+        Largest |f_cmd| [N]; default: what the scenario's device can give at its peak.
+    current : float, optional
+        Largest |current_applied| [A]; default: the peak current of the scenario's drive.
+    travel : float, optional
+        Largest |x| [m]; default: no limit.
+    speed : float, optional
+        Largest |v| [m/s]; default: no limit.
+
+    Raises
+    ------
+    AssertionError
+        When one is exceeded.
+    ValueError
+        When neither a limit nor a scenario is there to tell one.
+    """
+    __tracebackhide__ = True
+    if trace.scenario is not None:
+        device = trace.scenario.device
+        force = device.peak_force if force is None else force
+        current = device.drive.peak_current(device.motor) if current is None else current
+    limits = {"f_cmd": force, "current_applied": current, "x": travel, "v": speed}
+    known = {name: limit for name, limit in limits.items() if limit is not None}
+    _not_negative(**known)
+    if not known:
+        raise ValueError(
+            "no limit given, and the trace has no scenario: give force=, current=, ..."
+        )
+    if "fault" in trace and trace["fault"].any():
+        row = int((trace["fault"] != 0).argmax())
+        raise AssertionError(f"fault {int(trace['fault'][row])} at {_when(trace, row)}")
+    for name, limit in known.items():
+        for axis in range(trace.axes):
+            values = trace.axis(name, axis)
+            _finite(name, values, trace)
+            size = np.abs(values)
+            most = int(size.argmax())
+            unit = trace.columns[name].unit
+            assert size[most] <= limit * (1 + 1e-12), (
+                f"{name} of axis {axis} reaches {values[most]:.9g} {unit} at {_when(trace, most)}; "
+                f"allowed are +-{limit:.9g} {unit}, exceeded in {int((size > limit).sum())} rows"
+            )
+
+
+def _energy(trace: Trace, damping: float | None) -> tuple[NDArray[Any], str]:
+    if "true.energy" in trace:
+        return trace["true.energy"].reshape(len(trace), -1).sum(axis=1), "the port energy"
+    if damping is None:
+        raise ValueError(
+            "the trace has no column true.energy: give damping= [N s/m] of the device, to count what can be observed"
+        )
+    _not_negative(damping=damping)
+    dt = trace["dt"]
+    dx, force = (trace[name].reshape(len(trace), -1) for name in ("dx", "f_applied"))
+    rate = np.divide(damping, dt, out=np.zeros(len(trace)), where=dt > 0)
+    work = force * dx + rate[:, None] * dx**2
+    return np.cumsum(work.sum(axis=1)), "the energy observed at the port"
+
+
+def _when(trace: Trace, row: int) -> str:
+    tick = int(trace["tick"][row]) if "tick" in trace else row
+    return f"tick {tick}, t = {trace['t'][row]:.6g} s"
+
+
+def _finite(name: str, values: NDArray[Any], trace: Trace) -> None:
+    __tracebackhide__ = True
+    bad = ~np.isfinite(values)
+    assert not bad.any(), f"{name} is {values[bad][0]} at {_when(trace, int(bad.argmax()))}"
+
+
+def _not_negative(**numbers: float) -> None:
+    for name, value in numbers.items():
+        if not value >= 0:
+            raise ValueError(f"{name} = {value}: must not be negative")

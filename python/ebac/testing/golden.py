@@ -1,0 +1,213 @@
+"""Golden traces: a trace and what it comes to, stored beside a test and compared in every run."""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from tempfile import NamedTemporaryFile
+from typing import TYPE_CHECKING, Any
+
+from ebac.metrics import contact
+from ebac.testing.compare import Comparison, compare
+from ebac.testing.metric import Metrics, check_names, differences, metrics_of
+from ebac.testing.tolerance import Tolerance
+from ebac.trace import Trace
+
+if TYPE_CHECKING:
+    import pytest
+
+#: What is stored unless columns are named: what a hand feels and what the law made of it.
+COLUMNS = ("x", "v", "f_env", "f_cmd", "f_applied", "fault")
+
+
+@dataclass(frozen=True)
+class TraceRegression:
+    """What the fixture `ebac_trace` gives.
+
+    Attributes
+    ----------
+    folder : Path
+        Where the golden traces of this test lie.
+    name : str
+        File name of its golden trace, without ending.
+    update : bool
+        Whether to write instead of comparing (`--ebac-update`).
+    pictures : Path
+        Where an overlay is drawn when something differs: the test's `tmp_path`.
+    """
+
+    folder: Path
+    name: str
+    update: bool
+    pictures: Path
+
+    @classmethod
+    def of(cls, request: pytest.FixtureRequest) -> TraceRegression:
+        """Make it for a test."""
+        config, node = request.config, request.node
+        setting = config.getini("ebac_golden")
+        folder = config.rootpath / setting if setting else request.path.with_suffix("")
+        klass = f"{node.cls.__name__}." if getattr(node, "cls", None) else ""
+        return cls(
+            folder=folder,
+            name=_file_name(klass + node.name),
+            update=bool(config.getoption("--ebac-update")),
+            pictures=request.getfixturevalue("tmp_path"),
+        )
+
+    def check(
+        self,
+        trace: Trace,
+        *,
+        columns: Sequence[str] | None = None,
+        tolerances: Mapping[str, Tolerance] | None = None,
+        metrics: bool = True,
+        metric_tolerances: Mapping[str, float] | None = None,
+        every: int = 1,
+        until: float | None = None,
+        name: str | None = None,
+    ) -> Comparison:
+        """Compare a trace with the golden one of this test.
+
+        Parameters
+        ----------
+        trace : Trace
+            What the test measured or simulated.
+        columns : sequence of str, optional
+            What is stored and compared; default: x, v, f_env, f_cmd, f_applied and fault, where the trace has them.
+        tolerances : mapping of str to Tolerance, optional
+            By column; default: by unit, see `ebac.testing.default_tolerance`.
+        metrics : bool
+            Whether rest, deviation, swing, settling, least energy, clamp share and others are stored and compared too.
+        metric_tolerances : mapping of str to float, optional
+            By metric, in the unit of its name: `{"swing_m": 1e-4}`.
+        every : int
+            Store and compare every n-th row only, >= 1. Metrics are those of the whole trace.
+        until : float, optional
+            Compare rows up to this time only [s]; all are stored. A limit cycle does not repeat its digits elsewhere.
+        name : str, optional
+            Name of the golden trace; needed for a second one in the same test.
+
+        Returns
+        -------
+        Comparison
+            Of the channels, without a divergence.
+
+        Raises
+        ------
+        AssertionError
+            When something differs, or there was no golden trace: it is then written, and the test fails once.
+        KeyError, ValueError
+            For columns, tolerances or numbers that cannot be.
+        """
+        __tracebackhide__ = True
+        if every < 1:
+            raise ValueError(f"every = {every}: must be at least 1")
+        check_names(metric_tolerances or {})
+        chosen = [c for c in COLUMNS if c in trace] if columns is None else list(columns)
+        found = _part(trace, chosen, every)
+        came_to = metrics_of(contact(trace)) if metrics else None
+        where = self.folder / (_file_name(name) if name else self.name)
+        golden_file = where.with_name(where.name + ".npz")
+        metrics_file = where.with_name(where.name + ".json")
+        missing = [f for f in (golden_file, metrics_file)[: 1 + metrics] if not f.exists()]
+        if self.update or missing:
+            self._write(found, came_to, golden_file, metrics_file)
+        if missing and not self.update:
+            raise AssertionError(
+                f"there was no golden trace: written to {golden_file}"
+                f"{f' and {metrics_file.name}' if metrics else ''}; look at it, commit it, run again"
+            )
+        golden = Trace.from_npz(golden_file)
+        known: Metrics = json.loads(metrics_file.read_text(encoding="utf-8")) if metrics else {}
+        return self._judge(found, golden, chosen, tolerances, until, came_to or {}, known,
+                           metric_tolerances or {}, golden_file)  # fmt: skip
+
+    def _judge(
+        self, found: Trace, golden: Trace, columns: list[str], tolerances: Mapping[str, Tolerance] | None,
+        until: float | None, came_to: Metrics, known: Metrics, allowed: Mapping[str, float], file: Path,
+    ) -> Comparison:  # fmt: skip
+        __tracebackhide__ = True
+        absent = [c for c in columns if c not in golden]
+        if absent:
+            raise AssertionError(f"{file} has no column {', '.join(absent)}; {_remedy()}")
+        try:
+            result = compare(
+                found[:until], golden[:until], columns=["t", *columns],
+                tolerances={"t": Tolerance(absolute=1e-9), **(tolerances or {})},
+            )  # fmt: skip
+        except ValueError as error:
+            if tolerances and "tolerance for" in str(error):
+                raise
+            raise AssertionError(f"{file}: {error}; {_remedy()}") from None
+        moved = differences(came_to, known, allowed)
+        if result.first is None and not moved:
+            return replace(result, channels=result.channels[1:])
+        lines = [f"{found.law or 'the run'} differs from the golden trace {file}"]
+        if result.first is not None:
+            n, of = len(result.divergences), len(result.channels)
+            lines.append(f"first divergence: {result.first.channel} at tick {result.first.tick}, "
+                         f"t = {result.first.t:.6g} s; {n} of {of} channels differ")  # fmt: skip
+        lines += [f"  {d}" for d in result.divergences]
+        lines += [f"  metric {line}" for line in moved]
+        lines.append(f"overlay: {self._draw(found, golden, result, file.stem)}")
+        raise AssertionError("\n".join([*lines, _remedy()]))
+
+    def _draw(self, found: Trace, golden: Trace, result: Comparison, name: str) -> Path:
+        from ebac.plot.overlay import plot_overlay
+
+        path = self.pictures / f"{name}.png"
+        plot_overlay(found, golden, result.divergences).savefig(path)
+        return path
+
+    def _write(
+        self, found: Trace, came_to: Metrics | None, golden_file: Path, metrics_file: Path
+    ) -> None:
+        golden_file.parent.mkdir(parents=True, exist_ok=True)
+        _whole(golden_file, found.to_npz)
+        if came_to is not None:
+            text = json.dumps(came_to, indent=2, allow_nan=False) + "\n"
+            _whole(metrics_file, lambda path: path.write_text(text, encoding="utf-8"))
+
+
+def _part(trace: Trace, columns: Sequence[str], every: int) -> Trace:
+    """Return time, tick and some columns of every n-th row."""
+    names = dict.fromkeys(["tick"] * ("tick" in trace) + ["t", *columns])
+    return Trace(
+        data={name: trace[name][::every] for name in names},
+        columns={name: trace.columns[name] for name in names},
+        axes=trace.axes,
+        scenario=trace.scenario,
+        law=trace.law,
+        law_repr=trace.law_repr,
+    )
+
+
+def _whole(path: Path, write: Callable[[Path], Any]) -> None:
+    """Write a file that other processes see whole or not at all."""
+    with NamedTemporaryFile(dir=path.parent, prefix=".draft-", delete=False) as draft:
+        new = Path(draft.name)
+    try:
+        write(new)
+        new.chmod(0o666 & ~_umask())
+        new.replace(path)
+    finally:
+        new.unlink(missing_ok=True)
+
+
+def _umask() -> int:
+    mask = os.umask(0)
+    os.umask(mask)
+    return mask
+
+
+def _file_name(text: str) -> str:
+    return re.sub(r"[^\w.-]+", "_", text).strip("_.") or "trace"
+
+
+def _remedy() -> str:
+    return "if it is meant to differ: pytest --ebac-update, look at the changed files, commit them"

@@ -1,0 +1,134 @@
+"""A straight line through points, by the distances across it (total least squares)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ebac.tracking.deviation import Deviation, Numbers, checked, measure
+from ebac.tracking.robust import STEPS, start, weights
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class LineFit:
+    """A fitted line.
+
+    Attributes
+    ----------
+    point : array, shape (2,) or (3,)
+        Its point nearest to the middle of the path [m].
+    direction : array, shape (2,) or (3,)
+        Unit vector along it, from the first point of the path to the last.
+    residuals : array, shape (n,) or (n, 2)
+        Distances across it [m]: in the plane with a sign, positive to the left; in space in two directions.
+    along : array, shape (n,)
+        Way along it from `point` [m].
+    deviation : Deviation
+        The distances in numbers, p = 2.
+    direction_sd_rad, offset_sd_m : float
+        Standard deviation of its direction [rad] and of `point` across it [m], from `deviation.independent` points.
+    inliers : array of bool, shape (n,)
+        What was counted; all without `robust`.
+    """
+
+    point: Numbers
+    direction: Numbers
+    residuals: Numbers
+    along: Numbers
+    deviation: Deviation
+    direction_sd_rad: float
+    offset_sd_m: float
+    inliers: np.ndarray[tuple[int, ...], np.dtype[np.bool_]]
+
+    @property
+    def angle_rad(self) -> float:
+        """Direction in the plane of the first two axes, (-pi, pi] [rad]."""
+        return float(np.arctan2(self.direction[1], self.direction[0]))
+
+
+def fit_line(points: ArrayLike, *, robust: bool = False) -> LineFit:
+    """Fit a line by least squares of the distances across it.
+
+    Parameters
+    ----------
+    points : array-like, shape (n, 2) or (n, 3)
+        The path [m], n >= 3, in the order of recording.
+    robust : bool
+        Whether to fit by Tukey's biweight from a least median of squares, so that up to half of the points may lie
+        anywhere.
+
+    Returns
+    -------
+    LineFit
+
+    Raises
+    ------
+    ValueError
+        For points that are too few, not finite, all the same, or without one direction of their own.
+    """
+    path = checked(points, 3, "a line")
+    weight = np.ones(len(path))
+    if robust:
+        floor = 1e-12 * float(np.ptp(path, axis=0).max())
+        weight = start(path, 2, lambda two: _across(path, two)).astype(float)
+        for _ in range(STEPS):
+            point, direction = _principal(path, weight)
+            before, weight = weight, weights(_size(path, point, direction), floor)
+            if np.abs(weight - before).max() < 1e-9:
+                break
+    point, direction = _principal(path, weight)
+    if direction @ (path[-1] - path[0]) < 0:
+        direction = -direction
+    centred = path - point
+    along = centred @ direction
+    inliers = weight > 0
+    point = point + direction * 0.5 * float(along[inliers].max() + along[inliers].min())
+    along = (path - point) @ direction
+    residuals = centred @ _normals(direction).T
+    residuals = residuals[:, 0] if path.shape[1] == 2 else residuals
+    deviation = measure(residuals, inliers, 2)
+    each = deviation.sd_m / np.sqrt(path.shape[1] - 1) / np.sqrt(deviation.independent)
+    spread = float(np.sqrt(np.average((along[inliers] - along[inliers].mean()) ** 2)))
+    away = float(along[inliers].mean()) / spread
+    return LineFit(
+        point=point,
+        direction=direction,
+        residuals=residuals,
+        along=along,
+        deviation=deviation,
+        direction_sd_rad=float(each / spread),
+        offset_sd_m=float(each * np.hypot(1, away)),
+        inliers=inliers,
+    )
+
+
+def _principal(path: Numbers, weight: Numbers) -> tuple[Numbers, Numbers]:
+    point = np.average(path, axis=0, weights=weight)
+    _, sizes, axes = np.linalg.svd(np.sqrt(weight)[:, None] * (path - point), full_matrices=False)
+    if sizes[0] - sizes[1] <= 1e-9 * sizes[0]:
+        raise ValueError(
+            "the points spread alike in all directions: they have no line; fit a circle?"
+        )
+    return point, axes[0]
+
+
+def _normals(direction: Numbers) -> Numbers:
+    """Return unit vectors across a direction: in the plane to its left."""
+    if len(direction) == 2:
+        return np.array([[-direction[1], direction[0]]])
+    least = np.eye(3)[int(np.abs(direction).argmin())]
+    first = np.cross(direction, least)
+    first /= np.linalg.norm(first)
+    return np.stack([first, np.cross(direction, first)])
+
+
+def _size(path: Numbers, point: Numbers, direction: Numbers) -> Numbers:
+    return np.asarray(np.linalg.norm((path - point) @ _normals(direction).T, axis=1))
+
+
+def _across(path: Numbers, two: Numbers) -> Numbers | None:
+    step = two[1] - two[0]
+    length = float(np.linalg.norm(step))
+    return None if length == 0 else _size(path, two[0], step / length)

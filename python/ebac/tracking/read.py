@@ -1,0 +1,156 @@
+"""A recorded path from a file: names and units given or guessed, and said."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from ebac.operator_columns import read_csv
+from ebac.trace import Trace
+from ebac.tracking.deviation import Numbers
+
+#: Metres per unit.
+UNITS = {"m": 1.0, "mm": 1e-3, "cm": 1e-2, "um": 1e-6}
+#: What coordinates are called, tried in this order.
+NAMES = (("x", "y", "z"), ("x_0", "x_1", "x_2"), ("px", "py", "pz"), ("X", "Y", "Z"))
+#: No haptic handle is this far from its middle; such numbers are millimetres [m].
+FARTHEST = 5.0
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class RecordedPath:
+    """A path and what was taken for it.
+
+    Attributes
+    ----------
+    points : array, shape (n, 2) or (n, 3)
+        Positions [m] in the order of recording.
+    name : str
+        Of the file.
+    said : str
+        Which columns in which unit, and whether that was guessed.
+    """
+
+    points: Numbers
+    name: str
+    said: str
+
+
+def read_path(
+    file: str | Path, *, columns: Sequence[str] | None = None, unit: str | None = None
+) -> RecordedPath:
+    """Read positions from a CSV file, or from a trace written by `Trace.to_npz` or `to_csv`.
+
+    Parameters
+    ----------
+    file : path
+        `.npz` or text with a heading and commas.
+    columns : sequence of str, optional
+        Two or three columns; default: x, y and z by their usual names.
+    unit : str, optional
+        m, mm, cm or um; default: the unit in the heading, `x [mm]` or `x_mm`, otherwise guessed from the size.
+
+    Returns
+    -------
+    RecordedPath
+
+    Raises
+    ------
+    FileNotFoundError
+        When there is no such file.
+    ValueError
+        When the file, a column or a number cannot be read; with the name of the file.
+    """
+    path = Path(file)
+    if unit is not None and unit not in UNITS:
+        raise ValueError(f"unit = {unit!r}: must be one of {', '.join(UNITS)}")
+    if columns is not None and len(columns) not in (2, 3):
+        raise ValueError(f"columns = {','.join(columns)}: must be two or three, like x,y")
+    try:
+        if path.suffix == ".npz":
+            return _from_trace(path, columns)
+        return _from_text(path, columns, unit)
+    except UnicodeDecodeError:
+        raise ValueError(f"{path}: is no text; give a CSV file or a trace (.npz)") from None
+    except ValueError as error:
+        text = str(error)
+        raise ValueError(text if text.startswith(str(path)) else f"{path}: {text}") from None
+
+
+def _from_trace(path: Path, columns: Sequence[str] | None) -> RecordedPath:
+    trace = Trace.from_npz(path)
+    every = {name: values for name, _, values in trace.flat()}
+    if columns is None and trace.axes < 2:
+        raise ValueError(f"the trace has {trace.axes} axis: a path needs two or three")
+    chosen = list(columns) if columns else [f"x_{i}" for i in range(trace.axes)]
+    _known(chosen, list(every))
+    units = {trace.columns[c if c in trace else c.rpartition("_")[0]].unit for c in chosen}
+    if units != {"m"}:
+        raise ValueError(
+            f"columns {', '.join(chosen)} are in {', '.join(sorted(units))}: a path is in m"
+        )
+    points = np.stack([every[c].astype(float) for c in chosen], axis=1)
+    return RecordedPath(points=points, name=path.name, said=f"columns {', '.join(chosen)} in m")
+
+
+def _from_text(path: Path, columns: Sequence[str] | None, unit: str | None) -> RecordedPath:
+    table = read_csv(path)
+    bare = {_bare(heading)[0]: heading for heading in table}
+    chosen = [bare.get(c, c) for c in columns] if columns else _guess(list(bare), bare)
+    _known(chosen, list(table))
+    points = np.stack([_numbers(c, table[c]) for c in chosen], axis=1)
+    if not len(points):
+        raise ValueError("has a heading and no rows")
+    told = {_bare(c)[1] for c in chosen}
+    if len(told) > 1:
+        raise ValueError(f"columns {', '.join(chosen)} have several units: give files with one")
+    found = unit or next(iter(told))
+    how = ""
+    if found is None:
+        found = "m" if float(np.nanmax(np.abs(points))) < FARTHEST else "mm"
+        how = f" (no unit given; {found} guessed from the size, --unit to change it)"
+    said = f"columns {', '.join(_bare(c)[0] for c in chosen)} in {found}{how}"
+    return RecordedPath(points=points * UNITS[found], name=path.name, said=said)
+
+
+def _bare(heading: str) -> tuple[str, str | None]:
+    """Return name and unit of a heading: `x [mm]`, `x (mm)` or `x_mm`."""
+    match = re.fullmatch(r"(.+?)\s*[\[(]\s*(.+?)\s*[\])]", heading) or re.fullmatch(
+        r"(.+)_(mm|cm|um|m)", heading
+    )
+    if match is None:
+        return heading, None
+    name, unit = match[1], match[2].replace("µ", "u")
+    if unit not in UNITS:
+        return name, None
+    return name, unit
+
+
+def _guess(names: list[str], bare: dict[str, str]) -> list[str]:
+    for triple in NAMES:
+        found = [bare[n] for n in triple if n in names]
+        if len(found) >= 2:
+            return found
+    raise ValueError(f"no columns x and y among {', '.join(names)}: name them with --columns")
+
+
+def _known(chosen: Sequence[str], names: list[str]) -> None:
+    for column in chosen:
+        if column not in names:
+            raise ValueError(f"no column {column!r}; there are: {', '.join(names)}")
+
+
+def _numbers(column: str, cells: list[str]) -> Numbers:
+    values = np.empty(len(cells))
+    for i, cell in enumerate(cells):
+        try:
+            values[i] = float(cell)
+        except ValueError:
+            raise ValueError(f"column {column}, row {i + 1}: {cell!r} is no number") from None
+        if not np.isfinite(values[i]):
+            raise ValueError(f"column {column}, row {i + 1}: {cell.strip()} is not finite")
+    return values

@@ -1,0 +1,212 @@
+"""The claims of `ebac.testing`: what each lets pass, what it catches and how it tells."""
+
+import math
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import ebac
+from ebac.testing import (
+    Tolerance,
+    assert_force_continuous,
+    assert_passive,
+    assert_settles,
+    assert_within_limits,
+    compare,
+    default_tolerance,
+    strategies,
+)
+
+UNITS = {"t": "s", "x": "m", "f_applied": "N", "f_cmd": "N", "dx": "m", "dt": "s"}
+
+
+def made_up(**columns: Any) -> ebac.Trace:
+    data = {name: np.asarray(values) for name, values in columns.items()}
+    data = {"t": 1e-3 * np.arange(len(next(iter(data.values())))), **data}
+    info = {n: ebac.ColumnInfo(name=n, unit=UNITS.get(n, "1"), meaning="made up") for n in data}
+    return ebac.Trace(data=data, columns=info, axes=1, law="made up")
+
+
+# --- passive ---
+
+
+def test_passive_tells_when_and_how_much() -> None:
+    trace = ebac.simulate(ebac.Scenario(seconds=1.0), "tca")
+    energy = trace["true.energy"]
+    tick = int(energy.argmin())
+    with pytest.raises(AssertionError) as caught:
+        assert_passive(trace)
+    assert (
+        f"falls to {1e3 * energy[tick]:.6g} mJ at tick {tick}, t = {trace['t'][tick]:.6g} s"
+        in str(caught.value)
+    )
+    assert_passive(trace, reserve=-float(energy.min()))
+    assert_passive(ebac.simulate(ebac.Scenario(seconds=1.0), "eba"))
+
+
+def test_passive_counts_what_can_be_observed_where_nothing_is_known() -> None:
+    dx = np.array([0, 1e-3, -1e-3, 1e-3])
+    trace = made_up(dx=dx, dt=np.full(4, 1e-3), f_applied=np.array([0.0, 1, 2, 3]))
+    with pytest.raises(ValueError, match=r"no column true\.energy: give damping="):
+        assert_passive(trace)
+    with pytest.raises(
+        AssertionError, match=r"the energy observed at the port falls to -1 mJ at tick 2"
+    ):
+        assert_passive(trace, damping=0.0)  # 1 - 2 + 3 mJ
+    assert_passive(trace, damping=1.0)  # and 1 mJ more in each tick
+
+
+# --- settling ---
+
+
+@given(start=st.floats(1e-3, 0.05), decay=st.floats(0.02, 0.2), rest=st.floats(-0.02, 0.02))
+def test_settling_is_that_of_the_contact(start: float, decay: float, rest: float) -> None:
+    trace = made_up(
+        x=rest + start * np.exp(-1e-3 * np.arange(2001) / decay), f_applied=np.zeros(2001)
+    )
+    settled = ebac.contact(trace).settled_s
+    assert settled is not None
+    assert_settles(trace, within=settled)
+    with pytest.raises(AssertionError, match=r"settles too late: within 0\.125 mm of its rest"):
+        assert_settles(trace, within=settled - 1e-3)
+
+
+def test_what_swings_never_settles() -> None:
+    trace = ebac.simulate(ebac.Scenario(seconds=1.0), "tca")
+    with pytest.raises(AssertionError, match=r"never settles: .* it swings by \d"):
+        assert_settles(trace, within=10)
+    assert_settles(trace, within=1, band=0.1)
+
+
+# --- continuity and limits ---
+
+
+@given(jump=st.floats(0.1, 30), tick=st.integers(1, 99))
+def test_a_jump_is_found_where_it_is(jump: float, tick: int) -> None:
+    trace = made_up(f_applied=np.where(np.arange(100) >= tick, jump, 0.0))
+    assert_force_continuous(trace, step=jump)
+    with pytest.raises(
+        AssertionError, match=rf"jumps by \S+ N at tick {tick}, t = .* exceeded in 1 ticks"
+    ):
+        assert_force_continuous(trace, step=0.99 * jump)
+
+
+@pytest.mark.parametrize("law", ["tca", "eba", "ebac"])
+def test_the_laws_stay_within_the_limits_of_their_device(law: str) -> None:
+    trace = ebac.simulate(ebac.Scenario(seconds=1.0), law)
+    assert_within_limits(trace)
+    most = float(np.abs(trace["f_cmd"]).max())
+    assert_within_limits(trace, force=most)
+    with pytest.raises(AssertionError, match=r"f_cmd of axis 0 reaches \S+ N at tick \d+"):
+        assert_within_limits(trace, force=0.99 * most)
+    with pytest.raises(AssertionError, match=r"x of axis 0 reaches \S+ m at tick"):
+        assert_within_limits(trace, travel=1e-6)
+
+
+def test_limits_say_what_they_miss() -> None:
+    trace = made_up(x=[0.0, math.nan, 1.0])
+    with pytest.raises(ValueError, match="no limit given, and the trace has no scenario"):
+        assert_within_limits(trace)
+    with pytest.raises(AssertionError, match="x is nan at tick 1"):
+        assert_within_limits(trace, travel=1)
+
+
+def test_a_fault_is_no_run_within_limits() -> None:
+    class Broken:
+        def reset(self) -> None: ...
+
+        def step(self, port: ebac.Port) -> float:
+            return math.nan
+
+    with pytest.raises(ebac.LoopFault) as fault:
+        ebac.simulate(ebac.Scenario(seconds=0.1), Broken())
+    with pytest.raises(AssertionError, match=r"fault \d+ at tick 0"):
+        assert_within_limits(fault.value.trace)
+
+
+# --- tolerances ---
+
+
+@given(
+    golden=st.floats(allow_nan=True, allow_infinity=True),
+    absolute=st.floats(0, 1e3),
+    relative=st.floats(0, 1),
+    other=st.floats(allow_nan=True, allow_infinity=True),
+)
+def test_a_tolerance_is_its_formula(
+    golden: float, absolute: float, relative: float, other: float
+) -> None:
+    tolerance = Tolerance(absolute=absolute, relative=relative)
+    assert tolerance.allows(np.array([golden]), np.array([golden]))[0].all()
+    passes, error = tolerance.allows(np.array([other]), np.array([golden]))
+    if math.isfinite(golden) and math.isfinite(other):
+        assert passes[0] == (abs(other - golden) <= absolute + relative * abs(golden))
+    elif other != golden and not (math.isnan(other) and math.isnan(golden)):
+        assert not passes[0]
+        assert error[0] == math.inf
+
+
+def test_whole_numbers_must_be_equal() -> None:
+    assert default_tolerance("counts", "i") == Tolerance()
+    assert default_tolerance("m").absolute == 1e-9
+    assert default_tolerance("furlongs").absolute == 1e-9
+
+
+@given(tick=st.integers(0, 99), size=st.floats(1e-3, 1))
+def test_the_first_divergence_is_the_first(tick: int, size: float) -> None:
+    x = np.zeros(100)
+    other = x.copy()
+    other[tick:] = size
+    other[-1] += size
+    result = compare(made_up(x=other, f_cmd=x), made_up(x=x, f_cmd=x))
+    assert result.channels == ("t", "x", "f_cmd")
+    assert result.first is not None
+    assert (result.first.channel, result.first.tick) == ("x", tick)
+    assert (result.first.largest, result.first.largest_tick) == (2 * size, 99)
+    assert len(result.divergences) == 1
+
+
+def test_axes_are_told_apart() -> None:
+    device = ebac.Device(kinematics=ebac.Linear(axes=2))
+    scenario = ebac.Scenario(device=device, environment=ebac.Corner(), seconds=0.1)
+    one = ebac.simulate(scenario, "eba")
+    other = ebac.simulate(scenario.replace(hand=ebac.Hand(path=[ebac.Step(), ebac.Step()])), "eba")
+    found = {d.channel for d in compare(other, one, columns=["true.x"]).divergences}
+    assert found == {"true.x_1"}
+
+
+# --- strategies ---
+
+
+@settings(max_examples=25)
+@given(data=st.data())
+def test_what_is_drawn_can_be_simulated(data: st.DataObject) -> None:
+    scenario = data.draw(
+        strategies.scenarios(
+            device=strategies.devices(axes=None, friction=(0, 1), noise=(0, 0.2)),
+            hand=strategies.hands(tremor=True, lets_go=True),
+            environment=strategies.walls(free=True, damping=(0, 20)),
+            seconds=0.05,
+        )
+    )
+    trace = ebac.simulate(scenario, "ebac")
+    assert len(trace) == 51
+    hand = scenario.hand
+    assert hand.stiffness * abs(hand.path[0].target) <= 35 * (1 + 1e-12)
+
+
+@given(timing=strategies.timings(jitter=(0, 0.45)), port=strategies.ports(extreme=True))
+def test_timings_and_ports_are_what_a_law_may_see(timing: ebac.Timing, port: ebac.Port) -> None:
+    assert 2.5e-4 <= timing.dt <= 4e-3
+    assert timing.delay in (0, 1, 2)
+    assert math.isfinite(port.f_env)
+    assert port.dt >= 0
+
+
+@given(values=strategies.parameters(ebac.EBAC))
+def test_parameters_are_accepted(values: dict[str, Any]) -> None:
+    law: Any = ebac.EBAC(**values)
+    assert {name: law.as_dict()[name] for name in values} == values

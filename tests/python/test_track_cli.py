@@ -1,0 +1,112 @@
+"""`ebac track`: what it prints and writes, and how it refuses."""
+
+import json
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+from ebac.cli import app
+from ebac.tracking import fit_circle
+
+
+@pytest.fixture(autouse=True)
+def _elsewhere(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("COLUMNS", "160")
+
+
+def ebac_command(*arguments: str) -> Any:
+    return CliRunner().invoke(app, ["track", *arguments])
+
+
+def points() -> Any:
+    turn = np.linspace(0, 6, 300)
+    circle = 0.04 * np.column_stack([np.cos(turn), np.sin(turn)])
+    return circle + 1e-3 * np.random.default_rng(1).standard_normal((300, 2))
+
+
+def write(name: str, heading: str = "x [mm],y [mm]", scale: float = 1e3) -> None:
+    rows = "\n".join(f"{x!r},{y!r}" for x, y in (scale * points()).tolist())
+    Path(name).write_text(f"{heading}\n{rows}\n")
+
+
+def test_files_give_a_table_figures_and_numbers() -> None:
+    write("circle.csv")
+    done = ebac_command("circle.csv")
+    assert done.exit_code == 0
+    fit = fit_circle(points())
+    assert f"{1e3 * fit.deviation.sd_m:.3f} mm" in done.stdout
+    assert f"radius {1e3 * fit.radius:.3f} mm +- " in done.stdout
+    assert "circle.csv: columns x, y in mm." in done.stdout
+    assert {f.name for f in Path("ebac-track").iterdir()} == {"circle.png", "track.json"}
+
+
+def test_json_has_the_documented_keys_and_writes_nothing() -> None:
+    write("circle.csv")
+    answer = json.loads(ebac_command("circle.csv", "--json").stdout)
+    assert list(answer) == ["command", "version", "robust", "rows"]
+    (row,) = answer["rows"]
+    assert list(row) == [
+        "file", "read", "shape", "points", "outliers", "independent_points", "sd_m", "error_m", "rms_m", "largest_m",
+        "radius_m", "radius_sd_m", "arc_deg", "centre_m", "centre_sd_m",
+    ]  # fmt: skip
+    assert row["radius_m"] == pytest.approx(fit_circle(points()).radius)
+    assert [f.name for f in Path().iterdir()] == ["circle.csv"]
+
+
+def test_two_files_of_one_name_keep_two_figures() -> None:
+    for folder in ("a", "b"):
+        Path(folder).mkdir()
+        write(f"{folder}/run.csv")
+    assert ebac_command("a/run.csv", "b/run.csv", "--shape", "line", "-o", "out").exit_code == 0
+    assert {f.name for f in Path("out").iterdir()} == {"run-1.png", "run-2.png", "track.json"}
+
+
+def test_the_error_budget_stands_beside_the_table() -> None:
+    done = ebac_command("--simulated", "--runs", "4")
+    assert done.exit_code == 0
+    for word in ("encoder", "installation", "cable slack", "1.460 mm", "assumptions", "Simulated"):
+        assert word in done.stdout
+    folder = Path("ebac-track")
+    assert {f.name for f in folder.iterdir()} == {
+        "budget.json",
+        "budget.png",
+        "line.png",
+        "circle.png",
+    }
+    answer = json.loads((folder / "budget.json").read_text())
+    assert [r["source"] for r in answer["rows"]].count("paper") == 6
+    assert set(answer["slack_for_table_m"]) == {"line", "circle"}
+    assert answer["assumed"]["slack_m"] == 0.5e-3
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        ([], "give files to fit, or --simulated"),
+        (["circle.csv", "--simulated"], "give files to fit, or --simulated"),
+        (["nothing.csv"], "nothing.csv: there is no such file"),
+        (["circle.csv", "--columns", "x"], "columns = x: must be two or three, like x,y"),
+        (["circle.csv", "--columns", "x,w"], "circle.csv: no column 'w'; there are: "),
+        (["circle.csv", "--unit", "inch"], "unit = 'inch': must be one of m, mm, cm, um"),
+        (
+            ["circle.csv", "--shape", "ellipse"],
+            "shape = 'ellipse': must be one of auto, line, circle",
+        ),
+        (["--simulated", "--runs", "1"], "runs = 1: must lie in [2, 100000]"),
+        (["--simulated", "--slack", "0.1"], "ErrorSources.slack = 0.1 m: must lie in [0, 0.02] m"),
+        (["--simulated", "--alignment", "-1"], "--alignment -1.0: must not be negative"),
+        (["few.csv"], "few.csv: 2 points: a line needs at least 3"),
+        (["."], "cannot be read (Is a directory)"),
+    ],
+)
+def test_bad_input_is_refused_and_nothing_is_written(arguments: list[str], message: str) -> None:
+    write("circle.csv")
+    Path("few.csv").write_text("x,y\n1,2\n2,3\n")
+    done = ebac_command(*arguments)
+    assert done.exit_code == 2
+    assert message in " ".join(done.stderr.split())
+    assert not Path("ebac-track").exists()
