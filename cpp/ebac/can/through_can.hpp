@@ -29,7 +29,7 @@ class ThroughCan {
 
   Reading exchange(const Command& command) EBAC_RT {
     Reading reading = desk_->can().exchange(hold(command));
-    reading.force = desk_->force();
+    desk_->add_sensor(reading);
     return reading;
   }
   void stop() EBAC_RT { desk_->can().stop(); }
