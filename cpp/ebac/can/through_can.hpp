@@ -108,7 +108,7 @@ std::shared_ptr<Trace> simulate_through_can(const Setup& setup, Law law, std::si
   auto device = device_through_can<Plant>(setup);
   device.enable();
   Loop loop(std::move(device), VirtualClock(setup.timing.dt, setup.jitter, setup.seed),
-            std::move(law), Rig(setup.device, setup.environment), setup.device.axes());
+            std::move(law), Rig(setup.device, setup.environment), setup.device.axes(), setup.loop);
   auto trace = loop.make_trace(rows);
   loop.run(*trace);
   loop.device().disable();
