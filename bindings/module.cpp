@@ -15,4 +15,7 @@ PYBIND11_MODULE(_core, m, pybind11::mod_gil_not_used()) {
   ebac::python::bind_python_law(m);
   ebac::python::bind_can_plan(m);
   ebac::python::bind_can(m);
+  ebac::python::bind_limits(m);
+  ebac::python::bind_realtime(m);
+  ebac::python::bind_faults(m);
 }

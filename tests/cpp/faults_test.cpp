@@ -33,7 +33,9 @@ TEST_P(EveryKind, GivesTheSameAgain) {
 }
 
 INSTANTIATE_TEST_SUITE_P(, EveryKind, testing::Range<std::size_t>(0, kKinds),
-                         [](const auto& param) { return std::string(kKindFacts[param.param].name); });
+                         [](const auto& param) {
+                           return std::string(kKindFacts[param.param].name);
+                         });
 
 }  // namespace
 }  // namespace ebac::faults

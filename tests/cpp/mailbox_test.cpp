@@ -1,0 +1,92 @@
+// One writer, one reader, nobody waits: values arrive whole, in order, the newest first of all.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <thread>
+
+#include "ebac/control/tca.hpp"
+#include "ebac/loop/mail.hpp"
+#include "ebac/sim/simulate.hpp"
+
+namespace ebac {
+namespace {
+
+TEST(Mailbox, IsEmptyUntilSomethingIsPosted) {
+  Mailbox<int> box(7);
+  EXPECT_EQ(box.take(), nullptr);
+  box.post(1);
+  box.post(2);
+  const int* got = box.take();
+  ASSERT_NE(got, nullptr);
+  EXPECT_EQ(*got, 2);  // 1 was replaced before it was taken
+  EXPECT_EQ(box.take(), nullptr);
+  EXPECT_EQ(*got, 2);  // and stays while nothing is taken
+}
+
+TEST(Mailbox, NeverTearsAValueBetweenThreads) {
+  using Block = std::array<std::uint64_t, 32>;
+  constexpr std::uint64_t kLast = 20'000;
+  Mailbox<Block> box;
+  std::thread writer([&] {
+    for (std::uint64_t i = 1; i <= kLast; ++i) {
+      Block block;
+      block.fill(i);
+      box.post(block);
+    }
+  });
+  std::uint64_t seen = 0;
+  while (seen < kLast) {
+    const Block* block = box.take();
+    if (block == nullptr) {
+      std::this_thread::yield();
+      continue;
+    }
+    for (const std::uint64_t one : *block) ASSERT_EQ(one, (*block)[0]);
+    ASSERT_GT((*block)[0], seen);
+    seen = (*block)[0];
+  }
+  writer.join();
+  EXPECT_EQ(seen, kLast);
+}
+
+TEST(Mail, ActsFromTheTickThatIsNoted) {
+  Setup setup;
+  setup.hand.path[0] = Step{.target = 0.03};
+  const Tca law(Tca::Params{.kp = 0});
+  auto loop = simulated_loop(setup, PerAxis<Tca>(law));
+  const auto trace = loop.make_trace(600);
+  Mail<PerAxis<Tca>> mail(law);
+  const std::uint64_t first = mail.post(Environment(Wall{.stiffness = 100}));
+  const std::uint64_t second = mail.post(Tca({.kp = 0, .peak_force = 0.5}));
+  const std::uint64_t third = mail.post(Aim{.target = {0.02, 0, 0}});
+  EXPECT_TRUE(loop.run(*trace, &mail));
+  ASSERT_EQ(mail.changes().size(), 3U);
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(mail.changes()[i].tick, 0);
+  EXPECT_EQ(mail.changes()[0].serial, second);
+  EXPECT_EQ(mail.changes()[1].serial, first);
+  EXPECT_EQ(mail.changes()[2].serial, third);
+  double most = 0;
+  double furthest = 0;
+  for (std::size_t row = 0; row < trace->size(); ++row) {
+    const Port& port = trace->sample(row).axis[0].port;
+    most = std::max(most, port.f_cmd);
+    furthest = std::max(furthest, port.f_env / 100);
+  }
+  EXPECT_EQ(most, 0.5);
+  EXPECT_NEAR(furthest, 0.03, 0.005);  // of 100 N/m: about the target of 20 mm, overshoot added
+}
+
+TEST(Mail, ALawKeepsItsMemoryWhenItsGainsChange) {
+  Port port{.dx = 1e-5, .v = 0.01, .dt = 1e-3, .f_env = 1};
+  Tca law(Tca::Params{.kp = 0, .kd = 0.01});
+  for (int i = 0; i < 50; ++i) law.step(port);
+  port.f_env = 2;
+  Tca same = law;
+  same.retune(Tca(law.params()));
+  EXPECT_EQ(law.step(port), same.step(port));
+  Tca fresh{law.params()};
+  EXPECT_NE(law.step(port), fresh.step(port));
+}
+
+}  // namespace
+}  // namespace ebac
