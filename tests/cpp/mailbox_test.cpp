@@ -3,8 +3,10 @@
 
 #include <array>
 #include <thread>
+#include <tuple>
 
-#include "ebac/control/tca.hpp"
+#include "ebac/control/laws.hpp"
+#include "ebac/control/retune.hpp"
 #include "ebac/loop/mail.hpp"
 #include "ebac/sim/simulate.hpp"
 
@@ -86,6 +88,50 @@ TEST(Mail, ALawKeepsItsMemoryWhenItsGainsChange) {
   EXPECT_EQ(law.step(port), same.step(port));
   Tca fresh{law.params()};
   EXPECT_NE(law.step(port), fresh.step(port));
+}
+
+template <class... Law>
+constexpr bool all_tunable(std::tuple<Law...>*) {
+  return (Tunable<Law> && ...) && (std::is_trivially_copyable_v<Law> && ...);
+}
+static_assert(all_tunable(static_cast<Laws*>(nullptr)));
+
+TEST(Retune, TellsWhatMayNotChange) {
+  const Ebac now(Ebac::Params{});
+  EXPECT_NO_THROW(check_retune(now, Ebac({.kp = 0.2})));
+  try {
+    check_retune(now, Ebac({.mass = 0.3}));
+    FAIL() << "the mass changed";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_STREQ(error.what(),
+                 "ebac.mass = 0.3 kg: cannot change from 0.25 while the loop runs; stop it first");
+  }
+  EXPECT_THROW(check_retune(now, Ebac({}, {.delay = 2})), std::invalid_argument);
+}
+
+/// Retuned to what it is, a law goes on as if nothing had happened.
+template <class Law>
+void expect_same_after_retune() {
+  const Setup setup;
+  const Law law(Law::Params::design(setup.device.facts(), setup.timing), setup.timing);
+  const auto plain = simulate(setup, law);
+  auto loop = simulated_loop(setup, PerAxis<Law>(law));
+  const auto trace = loop.make_trace(row_count(setup));
+  Mail<PerAxis<Law>> mail(law);
+  mail.post(law);
+  loop.run(*trace, &mail);
+  ASSERT_EQ(mail.changes().size(), 1U);
+  ASSERT_EQ(trace->size(), plain->size());
+  for (std::size_t row = 0; row < trace->size(); ++row) {
+    ASSERT_EQ(trace->sample(row).axis[0].port.f_cmd, plain->sample(row).axis[0].port.f_cmd)
+        << Law::kName << ", row " << row;
+  }
+}
+
+TEST(Retune, ToTheSameChangesNothing) {
+  [&]<class... Law>(std::tuple<Law...>*) {
+    (expect_same_after_retune<Law>(), ...);
+  }(static_cast<Laws*>(nullptr));
 }
 
 }  // namespace

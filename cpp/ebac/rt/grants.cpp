@@ -47,7 +47,9 @@ bool has_capability(int bit) {
 std::string cpu_list(const cpu_set_t& set) {
   std::string text;
   for (int cpu = 0; cpu < CPU_SETSIZE; ++cpu) {
-    if (CPU_ISSET(cpu, &set)) text += (text.empty() ? "" : ",") + std::to_string(cpu);
+    if (!CPU_ISSET(cpu, &set)) continue;
+    if (!text.empty()) text += ',';
+    text += std::to_string(cpu);
   }
   return text;
 }

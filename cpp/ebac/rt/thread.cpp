@@ -39,8 +39,9 @@ std::string refusals(const Report& report) {
   std::string text;
   for (const Grant& grant : report.grants) {
     if (grant.granted) continue;
-    text += (text.empty() ? "" : "\n") + grant.name + ": " + grant.asked + " was not granted (" +
-            grant.why + "); " + grant.remedy;
+    if (!text.empty()) text += '\n';
+    text +=
+        grant.name + ": " + grant.asked + " was not granted (" + grant.why + "); " + grant.remedy;
   }
   return text;
 }
