@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "bind.hpp"
+#include "ebac/core/timing.hpp"
 #include "ebac/rt/jitter.hpp"
 #include "ebac/rt/thread.hpp"
 #include "fields.hpp"

@@ -143,7 +143,7 @@ TEST(Gate, RefusesLimitsThatContradictEachOther) {
 }
 
 TEST(Course, RampsInRunsRampsOutAndStops) {
-  Setup setup;
+  ebac::Setup setup;
   Loop loop(SimulatedDevice(setup), VirtualClock(kDt, 0, 1), PerAxis<Direct>(Direct({})),
             Rig(setup.device, setup.environment), 1,
             {.plan = {.soft_start = 0.1, .ramp_down = 0.05, .arm = true, .ticks = 500}});

@@ -52,7 +52,7 @@ TEST(Mailbox, NeverTearsAValueBetweenThreads) {
 }
 
 TEST(Mail, ActsFromTheTickThatIsNoted) {
-  Setup setup;
+  ebac::Setup setup;
   setup.hand.path[0] = Step{.target = 0.03};
   const Tca law(Tca::Params{.kp = 0});
   auto loop = simulated_loop(setup, PerAxis<Tca>(law));
@@ -112,7 +112,7 @@ TEST(Retune, TellsWhatMayNotChange) {
 /// Retuned to what it is, a law goes on as if nothing had happened.
 template <class Law>
 void expect_same_after_retune() {
-  const Setup setup;
+  const ebac::Setup setup;
   const Law law(Law::Params::design(setup.device.facts(), setup.timing), setup.timing);
   const auto plain = simulate(setup, law);
   auto loop = simulated_loop(setup, PerAxis<Law>(law));

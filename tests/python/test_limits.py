@@ -92,7 +92,7 @@ def test_soft_start_brings_the_force_in() -> None:
 
 
 def test_leaving_the_workspace_is_a_fault_with_zero_force() -> None:
-    hand = ebac.Hand(path=[ebac.Step(target=0.2)], stiffness=2000)
+    hand = ebac.Hand(path=ebac.Step(target=0.2))
     with pytest.raises(ebac.LoopFault) as stopped:
         ebac.simulate(
             scenario(hand=hand, environment=ebac.Free()), limits=Limits(speed=50, jump=0.5)
@@ -107,7 +107,7 @@ def test_leaving_the_workspace_is_a_fault_with_zero_force() -> None:
 
 
 def test_a_fast_hand_is_named() -> None:
-    hand = ebac.Hand(path=[ebac.Step(target=0.04)], stiffness=5000, damping=1)
+    hand = ebac.Hand(path=ebac.Step(target=0.04), stiffness=5000, damping=1)
     with pytest.raises(ebac.LoopFault) as stopped:
         ebac.simulate(scenario(hand=hand, environment=ebac.Free()), limits=True)
     assert stopped.value.fault is _core.Fault.OVERSPEED

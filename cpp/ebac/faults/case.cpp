@@ -11,7 +11,7 @@ namespace ebac::faults {
 namespace {
 
 constexpr double kDt = 1e-3;             // s
-constexpr int kRunTicks = 220;           // samples
+constexpr int kRunTicks = 280;           // samples
 constexpr int kAfter = 120;              // samples that the bus goes on after the loop
 constexpr std::size_t kRows = 400;       // more than a case has
 constexpr std::int64_t kMostToZero = 2;  // samples
