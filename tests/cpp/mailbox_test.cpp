@@ -70,12 +70,13 @@ TEST(Mail, ActsFromTheTickThatIsNoted) {
   double most = 0;
   double furthest = 0;
   for (std::size_t row = 0; row < trace->size(); ++row) {
-    const Port& port = trace->sample(row).axis[0].port;
+    const Port port = trace->sample(row).axis[0].port;
     most = std::max(most, port.f_cmd);
     furthest = std::max(furthest, port.f_env / 100);
   }
   EXPECT_EQ(most, 0.5);
-  EXPECT_NEAR(furthest, 0.03, 0.005);  // of 100 N/m: about the target of 20 mm, overshoot added
+  EXPECT_GT(furthest, 0.018);  // towards 20 mm, overshoot added, not the 30 mm of the start
+  EXPECT_LT(furthest, 0.028);
 }
 
 TEST(Mail, ALawKeepsItsMemoryWhenItsGainsChange) {
