@@ -6,8 +6,8 @@
 #include <tuple>
 
 #include "ebac/control/laws.hpp"
-#include "ebac/control/retune.hpp"
 #include "ebac/loop/mail.hpp"
+#include "ebac/loop/retune.hpp"
 #include "ebac/sim/simulate.hpp"
 
 namespace ebac {
