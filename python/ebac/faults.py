@@ -28,7 +28,7 @@ class FaultRow:
         From the row with the fault to zero torque on the bus [ticks of 1 ms].
     worst_ticks_to_off : int
         From that row to no current in any simulated motor; a drive that hears nothing keeps its last
-        torque until it misses the heartbeat of the loop.
+        torque until it misses its torques (5 ms) or the heartbeat of the loop (50 ms).
     reasons : dict
         Failures by their verdict.
     first_failure : int or None
