@@ -1,3 +1,5 @@
+#include <tuple>
+
 #include "bind.hpp"
 #include "ebac/faults/campaign.hpp"
 #include "fields.hpp"
@@ -12,7 +14,8 @@ using faults::Result;
 constexpr std::array kVerdicts{"passed",   "missed",       "false_alarm", "wrong_name",  "not_zero",
                                "still_on", "beyond_limit", "restarted",   "not_recorded"};
 
-py::tuple run(std::size_t cases, std::uint64_t seed, int threads, SweepProgress& progress) {
+std::tuple<Values, std::vector<std::string>> run(std::size_t cases, std::uint64_t seed, int threads,
+                                                 SweepProgress& progress) {
   faults::Campaign campaign;
   {
     const py::gil_scoped_release release;
@@ -27,7 +30,7 @@ py::tuple run(std::size_t cases, std::uint64_t seed, int threads, SweepProgress&
   columns["to_zero"] = column<std::int64_t>(rows, [](const Result& r) { return r.to_zero; });
   columns["to_off"] = column<std::int64_t>(rows, [](const Result& r) { return r.to_off; });
   columns["done"] = column<bool>(campaign.done, [](char done) { return done != 0; });
-  return py::make_tuple(columns, std::vector<std::string>(kVerdicts.begin(), kVerdicts.end()));
+  return {columns, std::vector<std::string>(kVerdicts.begin(), kVerdicts.end())};
 }
 
 }  // namespace
@@ -41,7 +44,7 @@ void bind_faults(py::module_& m) {
         const faults::Trouble trouble = faults::trouble_of(seed, index);
         std::shared_ptr<Trace> trace;
         faults::run_case(trouble, &trace);
-        return py::make_tuple(trace, trouble.at, trouble.ticks, trouble.axis);
+        return std::make_tuple(trace, trouble.at, trouble.ticks, trouble.axis);
       },
       py::arg("seed"), py::arg("index"), "Rows, first tick, ticks and axis of one case.");
   m.def(

@@ -5,6 +5,8 @@
 #include <chrono>
 #include <future>
 #include <thread>
+#include <tuple>
+#include <vector>
 
 #include "bind.hpp"
 #include "ebac/core/timing.hpp"
@@ -50,7 +52,8 @@ T interruptible(std::future<T> work, std::atomic<bool>& cancelled) {
   return work.get();
 }
 
-py::tuple jitter(double dt, std::int64_t ticks, rt::Mode mode, const rt::Options& options) {
+std::tuple<py::array_t<double>, std::int64_t, std::vector<rt::Grant>> jitter(
+    double dt, std::int64_t ticks, rt::Mode mode, const rt::Options& options) {
   check(options, "RealTime");
   check(Timing{.dt = dt}, "Timing");
   std::atomic<bool> cancelled = false;

@@ -4134,7 +4134,7 @@ def _fault_campaign(
     seed: typing.SupportsInt | typing.SupportsIndex,
     threads: typing.SupportsInt | typing.SupportsIndex,
     progress: SweepProgress,
-) -> tuple:
+) -> tuple[typing.Any, ...]:
     """
     A column per property of the cases, and the names of the verdicts.
     """
@@ -4172,7 +4172,7 @@ def _measure_jitter(
     ticks: typing.SupportsInt | typing.SupportsIndex,
     mode: RealTimeMode,
     options: RealTime,
-) -> tuple:
+) -> tuple[typing.Any, ...]:
     """
     Lateness of every wake-up [s], ticks skipped, what was granted.
     """

@@ -29,12 +29,14 @@ def plot_jitter(found: Jitter, other: Cyclictest | None = None) -> Picture:
     """
     figure = new_figure(8, 4.2)
     ax = figure.subplots()
-    own = 1e6 * np.maximum(found.lateness, 1e-7)
+    own: Numbers = 1e6 * np.maximum(found.lateness, 1e-7)
     most = max(own.max(), 1e6 * other.most if other else 0, 100)
-    edges = np.logspace(-1, np.ceil(np.log10(most)), round(_BINS * (np.ceil(np.log10(most)) + 1)))
-    _bars(ax, own, np.ones_like(own), edges, "ebac", found.row(), _OWN)
+    edges: Numbers = np.logspace(
+        -1, np.ceil(np.log10(most)), round(_BINS * (np.ceil(np.log10(most)) + 1))
+    )
+    _bars(ax, own, np.ones(len(own)), edges, "ebac", found.row(), _OWN)
     if other is not None:
-        micro = np.arange(len(other.counts)) + 0.5
+        micro = np.arange(len(other.counts), dtype=np.float64) + 0.5
         _bars(ax, micro, other.counts.astype(float), edges, "cyclictest", other.row(), _OTHER)
     ax.axvline(1e6 * found.dt, color="0.35", lw=1, ls=(0, (5, 3)), label="one tick")
     ax.set_xscale("log")
@@ -59,7 +61,9 @@ def _bars(
         f"{name}: {row['wakeups']:,} wake-ups, p50 {_micro(row['p50_s'])}, "
         f"p99.9 {_micro(row['p99_9_s'])}, latest {_micro(row['most_s'])}"
     )
-    ax.hist(values, edges, weights=weights, histtype="step", lw=1.6, color=colour, label=text)
+    ax.hist(
+        values, edges.tolist(), weights=weights, histtype="step", lw=1.6, color=colour, label=text
+    )
 
 
 def _micro(seconds: float) -> str:
