@@ -61,7 +61,7 @@ std::tuple<py::array_t<double>, std::int64_t, std::vector<rt::Grant>> jitter(
       std::async(std::launch::async,
                  [&] { return rt::measure_jitter(dt, ticks, mode, options, cancelled); }),
       cancelled);
-  return py::make_tuple(
+  return std::make_tuple(
       py::array_t<double>(static_cast<py::ssize_t>(found.lateness.size()), found.lateness.data()),
       found.skipped, found.report.grants);
 }
