@@ -18,7 +18,7 @@ constexpr std::int64_t kMostToZero = 2;  // samples
 
 using FaultyLoop = Loop<FaultyDevice, FaultyClock, FaultyLaw>;
 
-/// A hand that moves into a wall on one axis and along it on the other.
+/// A hand that moves into a slanting wall: both axes push.
 Setup setup_of(const Trouble& trouble) {
   Noise random(trouble.chance, /*stream=*/7);
   const auto between = [&](double low, double high) {
@@ -26,10 +26,10 @@ Setup setup_of(const Trouble& trouble) {
   };
   Setup setup{.seed = trouble.chance};
   setup.device.kinematics = Linear{.axes = 2};
-  setup.environment = Wall{.stiffness = between(2e3, 20e3), .position = 0.01};
+  setup.environment = Wall{.stiffness = between(2e3, 20e3), .position = 0.01, .angle = 0.6};
   const double target = between(0.015, 0.035);
   setup.hand.path[0] = MinimumJerk{.target = target, .at = 0.01, .duration = between(0.1, 0.2)};
-  setup.hand.path[1] = MinimumJerk{.target = -target, .at = 0.03, .duration = between(0.1, 0.2)};
+  setup.hand.path[1] = MinimumJerk{.target = target, .at = 0.03, .duration = between(0.1, 0.2)};
   if (trouble.kind == Kind::kEncoderWrap) {
     setup.device.encoder.counter_bits = 11;  // 1024 counts are 31 mm
     setup.environment = Free{};
