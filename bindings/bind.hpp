@@ -19,5 +19,8 @@ void bind_linear_loop(pybind11::module_& m);
 void bind_python_law(pybind11::module_& m);
 void bind_can_plan(pybind11::module_& m);
 void bind_can(pybind11::module_& m);
+void bind_limits(pybind11::module_& m);
+void bind_realtime(pybind11::module_& m);
+void bind_faults(pybind11::module_& m);
 
 }  // namespace ebac::python

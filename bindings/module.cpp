@@ -16,4 +16,7 @@ PYBIND11_MODULE(_core, m, pybind11::mod_gil_not_used()) {
   ebac::python::bind_can_plan(m);
   ebac::python::bind_can(m);
   ebac::python::bind_served(m);
+  ebac::python::bind_limits(m);
+  ebac::python::bind_realtime(m);
+  ebac::python::bind_faults(m);
 }

@@ -28,6 +28,7 @@ MAY_SEE = {
     "can": {"core", "model", "control", "loop"},
     "sensor": {"core", "model", "control", "loop"},
     "rt": {"core", "model", "control", "loop"},
+    "faults": {"core", "model", "control", "loop", "sim", "can"},
 }
 
 #: Nothing that allocates, locks or prints is known where a tick runs, but for

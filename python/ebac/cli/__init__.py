@@ -11,7 +11,10 @@ from ebac.cli import (
     bench,
     bus,
     conditions,
+    doctor,
     drive,
+    faults,
+    jitter,
     laws,
     maps,
     paper,
@@ -69,5 +72,8 @@ app.command("laws")(laws.laws)
 app.command("specs")(specs.specs)
 app.command("presets")(presets.presets)
 app.command("bench")(bench.bench)
+app.command("doctor")(doctor.doctor)
+app.command("jitter")(jitter.jitter)
+app.command("faults")(faults.faults)
 app.add_typer(drive.app, name="drive")
 app.add_typer(bus.bus, name="bus")

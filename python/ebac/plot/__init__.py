@@ -1,6 +1,8 @@
 """Figures of traces and studies; they use no global state of pyplot, so any thread may draw."""
 
 from ebac.plot.ablation import plot_ablation
+from ebac.plot.faults import plot_fault
+from ebac.plot.jitter import plot_jitter
 from ebac.plot.maps import plot_map
 from ebac.plot.run import plot_trace
 from ebac.plot.study import plot_study
@@ -19,6 +21,8 @@ __all__ = [
     "line",
     "new_figure",
     "plot_ablation",
+    "plot_fault",
+    "plot_jitter",
     "plot_map",
     "plot_study",
     "plot_trace",
