@@ -13,6 +13,7 @@ from ebac.cli import (
     conditions,
     drive,
     laws,
+    log,
     maps,
     paper,
     presets,
@@ -71,3 +72,4 @@ app.command("presets")(presets.presets)
 app.command("bench")(bench.bench)
 app.add_typer(drive.app, name="drive")
 app.add_typer(bus.bus, name="bus")
+app.add_typer(log.log, name="log")
