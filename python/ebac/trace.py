@@ -172,8 +172,8 @@ class Trace:
     def save(self, path: str | Path, *, progress: Callable[[int, int], None] | None = None) -> None:
         """Write a file, the format by its extension: .mcap, .npz, .csv, .parquet, .mat or .h5.
 
-        A log, .mcap, opens in PlotJuggler and Foxglove and holds all a trace has. The file appears when it is whole, and
-        replaces one of that name.
+        A log, .mcap, opens in PlotJuggler and Foxglove and holds all a trace has. The file appears when it is whole,
+        and replaces one of that name.
 
         Parameters
         ----------

@@ -104,8 +104,8 @@ def repair(
 ) -> None:
     """Make a whole log of one that was cut or damaged; the old one stays as it is.
 
-    Rows and events that can be read go to a new file with a summary, which every reader of MCAP accepts. Nothing is ever
-    written over.
+    Rows and events that can be read go to a new file with a summary, which every reader of MCAP accepts.
+    Nothing is ever written over.
 
     **Examples**
 

@@ -12,8 +12,8 @@ from ebac.logs.about import About
 from ebac.logs.events import Event
 from ebac.logs.files import FORMATS, load, save
 from ebac.logs.reader import Gap, Log, read
-from ebac.logs.records import Condition
 from ebac.logs.recorder import Recorder
+from ebac.logs.records import Condition
 from ebac.logs.repair import repair
 from ebac.logs.replay import replay
 from ebac.logs.writer import LogWriter

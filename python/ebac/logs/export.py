@@ -19,14 +19,14 @@ MATLAB_NAME = 63
 
 def facts(trace: Trace) -> dict[str, str]:
     """Return what stands beside the rows as text: law, parameters, scenario, versions."""
-    from ebac.logs.about import made_by
+    from ebac.logs.about import versions
 
     return {
         "law": trace.law,
         "law_repr": trace.law_repr,
         "axes": str(trace.axes),
         "scenario": trace.scenario.to_toml() if trace.scenario else "",
-        **made_by(),
+        **versions(),
     }
 
 
@@ -52,7 +52,9 @@ def to_parquet(trace: Trace, path: Path, progress: Progress) -> None:
 
 
 def to_mat(trace: Trace, path: Path, progress: Progress) -> None:
-    """Write a MATLAB file: a matrix (rows, axes) per column, `law_beta` for `law.beta`; structs `units`, `meanings`, `about`.
+    """Write a MATLAB file: a matrix (rows, axes) per column, `law_beta` for `law.beta`.
+
+    Beside them stand the structs `units`, `meanings` and `about`.
 
     Raises
     ------

@@ -155,11 +155,12 @@ def read(path: str | Path, *, progress: Callable[[int, int], None] | None = None
     condition, found = Condition(), _Found()
     with path.open("rb") as file:
         size = file.seek(0, 2)
+        file.seek(0)
+        if not MAGIC.startswith(file.read(len(MAGIC))):
+            raise ValueError(f"{path}: not an MCAP file (it does not begin like one)")
         if size < len(MAGIC):
             raise ValueError(f"{path}: {size} bytes, cut before anything was written")
         with mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ) as data:
-            if data[: len(MAGIC)] != MAGIC:
-                raise ValueError(f"{path}: not an MCAP file (it does not begin like one)")
             for opcode, start, stop in records(data, condition, progress or _silent):
                 try:
                     _take(found, opcode, data, start, stop)

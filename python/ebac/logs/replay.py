@@ -37,12 +37,12 @@ def replay(
     """Drive a law with a recorded log, open loop: what it would have commanded had the handle moved as it did.
 
     Encoder counts, currents applied, measured forces and the time of each tick come from the log; estimation,
-    kinematics, virtual world, law and limits are those of the loop. The law that was recorded, with its parameters, gives
-    the recorded commands to the bit, for a log from its first tick on without gaps. At a gap the time of the tick is
-    that since the row before.
+    kinematics, virtual world, law and limits are those of the loop. The law that was recorded, with its parameters,
+    gives the recorded commands to the bit, for a log from its first tick on without gaps. At a gap the time of the
+    tick is that since the row before.
 
-    **What a replay cannot tell**: nothing the law commands reaches hand or device. Whether a contact is stable, where it
-    would rest, and how the hand would have answered stay unknown; energies are those of the recorded force along
+    **What a replay cannot tell**: nothing the law commands reaches hand or device. Whether a contact is stable, where
+    it would rest, and how the hand would have answered stay unknown; energies are those of the recorded force along
     the recorded path. A law that seems calm here may swing on the device. Use it to see what a law does with real
     noise, real timing and real encoder steps, and to check a law for errors.
 
@@ -60,8 +60,8 @@ def replay(
     Returns
     -------
     Trace
-        The rows with the new law's `f_env`, `f_cmd`, `current`, `law.*`, and what was recorded beside them: `log.f_env`,
-        `log.f_cmd`, `log.current`. It ends early where the log ends in a fault.
+        The rows with the new law's `f_env`, `f_cmd`, `current`, `law.*`, and what was recorded beside them:
+        `log.f_env`, `log.f_cmd`, `log.current`. It ends early where the log ends in a fault.
 
     Raises
     ------

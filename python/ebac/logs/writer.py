@@ -1,4 +1,4 @@
-"""Writes logs: MCAP, chunk by chunk, each in one write, so that a killed process loses no chunk that was begun before."""
+"""Writes logs: MCAP, chunk by chunk, each in one write, so that a kill costs the last one at most."""
 
 from __future__ import annotations
 
@@ -311,4 +311,5 @@ def _bytes(record: McapRecord) -> bytes:
 
     builder = RecordBuilder()
     record.write(builder)
-    return bytes(builder.end())
+    written: bytes = builder.end()  # type: ignore[no-untyped-call]
+    return written

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 from ebac import wording
 from ebac.plot.run import title
-from ebac.plot.style import Picture, dress, legend, line, new_figure
+from ebac.plot.style import Numbers, Picture, dress, legend, line, new_figure
 from ebac.trace import Trace
 
 #: Okabe and Ito's palette, told apart by every eye; then again, dashed.
@@ -49,7 +49,8 @@ def plot_columns(trace: Trace, names: Sequence[str]) -> Picture:
         factor, shown, _ = wording.SHOWN.get(unit, (1, unit, 0))
         for i, (label, values) in enumerate(_lines(trace, columns)):
             style = "-" if i < len(_SHADES) else "--"
-            line(ax, trace["t"], factor * values, color=_SHADES[i % len(_SHADES)], ls=style, lw=1.0, label=label)  # fmt: skip
+            shade = _SHADES[i % len(_SHADES)]
+            line(ax, trace["t"], factor * values, color=shade, ls=style, lw=1.0, label=label)
         dress(ax, f"[{shown}]" if unit != "1" else "")
         legend(ax)
     grid[-1, 0].set_xlabel("time [s]")
@@ -58,7 +59,7 @@ def plot_columns(trace: Trace, names: Sequence[str]) -> Picture:
     return figure
 
 
-def _lines(trace: Trace, columns: Sequence[str]):
+def _lines(trace: Trace, columns: Sequence[str]) -> Iterator[tuple[str, Numbers]]:
     for name in columns:
         for axis in range(1 if trace[name].ndim == 1 else trace.axes):
             label = name if trace[name].ndim == 1 else f"{name}, axis {axis}"
