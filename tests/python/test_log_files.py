@@ -154,7 +154,7 @@ def test_any_text_as_csv_is_read_or_refused_by_its_name(tmp_path: Path, text: st
 def invoke(*words: object, code: int = 0) -> str:
     result = runner.invoke(app, ["log", *map(str, words)])
     assert result.exit_code == code, result.output
-    return result.output
+    return " ".join(result.output.split())
 
 
 @pytest.fixture
@@ -198,7 +198,7 @@ def test_info_of_a_log_that_was_cut(recorded: Path) -> None:
     assert json.loads(invoke("info", recorded, "--json"))["complete"] is False
     assert "its end is missing" in invoke("info", recorded)
     recorded.write_bytes(whole[:100])
-    assert "cut before its columns" in " ".join(invoke("info", recorded, code=2).split())
+    assert "cut before its columns" in invoke("info", recorded, code=2)
 
 
 def test_repair_on_the_command_line(recorded: Path) -> None:
@@ -207,7 +207,7 @@ def test_repair_on_the_command_line(recorded: Path) -> None:
     new = recorded.with_name("run.repaired.mcap")
     assert (row["file"], row["rows"], row["events"], row["lost_rows"]) == (str(new), 200, 1, 1)
     assert read(new).condition.complete
-    assert "there is such a file" in " ".join(invoke("repair", recorded, code=2).split())
+    assert "there is such a file" in invoke("repair", recorded, code=2)
     assert "200 rows" in invoke("repair", recorded, "--out", recorded.with_name("b.mcap"))
 
 
@@ -221,17 +221,13 @@ def test_export_to_every_format(kind: str, recorded: Path) -> None:
 
 
 def test_export_refuses(recorded: Path) -> None:
-    assert "must end in" in " ".join(invoke("export", recorded, "out.xls", code=2).split())
-    assert "no such file" in " ".join(
-        invoke("export", "none.mcap", recorded.with_name("a.csv"), code=2).split()
-    )
-    refused = " ".join(
-        invoke("export", recorded, recorded.with_name("a.csv"), "--from", 7, code=2).split()
-    )
+    assert "must end in" in invoke("export", recorded, "out.xls", code=2)
+    assert "no such file" in invoke("export", "none.mcap", recorded.with_name("a.csv"), code=2)
+    refused = invoke("export", recorded, recorded.with_name("a.csv"), "--from", 7, code=2)
     assert "the log has 0 to 0.2 s" in refused
     assert not recorded.with_name("a.csv").exists()
     missing = recorded.parent / "no folder" / "a.csv"
-    assert "no such file" in " ".join(invoke("export", recorded, missing, code=2).split())
+    assert "no such file" in invoke("export", recorded, missing, code=2)
 
 
 def test_plot_draws_the_figure_or_columns(recorded: Path) -> None:

@@ -113,11 +113,11 @@ def repair(
     """
     from ebac.logs import repair as repaired
 
-    try:
-        with output.refusing(), output.counting(f"reading {file.name}", quiet=as_json) as told:
+    with output.refusing(), output.counting(f"reading {file.name}", quiet=as_json) as told:
+        try:
             new = repaired(file, out, progress=told)
-    except FileExistsError as error:
-        output.fail(f"{error.filename}: there is such a file; give another name by --out")
+        except FileExistsError as error:
+            output.fail(f"{error.filename}: there is such a file; give another name by --out")
     if as_json:
         row = {
             "file": str(new.path),
