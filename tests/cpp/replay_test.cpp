@@ -43,7 +43,7 @@ Law designed(const Setup& setup) {
 }
 
 TEST(Replay, TheSameLawCommandsTheSameBits) {
-  const Setup setup = two_axes();
+  const auto setup = two_axes();
   const auto law = designed<Ebac>(setup);
   const auto recorded = simulate(setup, law);
   const auto again = replay(log_of(*recorded), PerAxis<Ebac>(law), setup.device, setup.environment);
@@ -56,7 +56,7 @@ TEST(Replay, TheSameLawCommandsTheSameBits) {
 }
 
 TEST(Replay, AnotherLawMovesNothing) {
-  const Setup setup = two_axes();
+  const auto setup = two_axes();
   const auto recorded = simulate(setup, designed<Ebac>(setup));
   const auto other = replay(log_of(*recorded), PerAxis<Tca>(designed<Tca>(setup)), setup.device,
                             setup.environment);
@@ -72,7 +72,7 @@ TEST(Replay, AnotherLawMovesNothing) {
 }
 
 TEST(Replay, TheFaultOfTheDeviceComesInItsTick) {
-  const Setup setup = two_axes();
+  const auto setup = two_axes();
   const auto law = designed<Ebac>(setup);
   const auto log = log_of(*simulate(setup, law));
   log->fault[100] = Fault::kDriveSilent;

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import functools
 import json
+import struct
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Self
@@ -36,6 +38,7 @@ _ENVELOPE = [
 MESSAGE = 0x05
 CDR_LITTLE_ENDIAN = 0x0100  # bytes 00 01 00 00
 _BEFORE_DATA = 9  # bytes of opcode and length
+_MESSAGE_HEAD = struct.Struct("<BQH")  # what all rows of a channel begin with
 
 SCHEMA_NAME = "ebac_msgs/msg/Row"
 
@@ -160,7 +163,7 @@ class Layout:
             lines.append(f"{kind} {c.field}  # [{c.unit}] {c.meaning}")
         return "\n".join(lines) + "\n"
 
-    @property
+    @functools.cached_property
     def record(self) -> np.dtype[Any]:
         """A whole message record as NumPy sees it."""
         fields: list[Any] = list(_ENVELOPE)
@@ -201,47 +204,45 @@ class Layout:
             rows[column.name] = data[column.name]
         return rows
 
-    def find(self, chunk: bytes, channel: int) -> list[NDArray[Any]]:
-        """Return the rows of a channel in the content of a chunk, as views, one for each unbroken run.
+    def find(self, chunk: bytes, channel: int) -> list[bytes]:
+        """Return the records of a channel in the content of a chunk, one piece for each unbroken run.
 
         Raises
         ------
         ValueError
             When the chunk ends inside a record.
         """
-        record, length = self.record, self.length
-        found: list[NDArray[Any]] = []
+        record = self.record
+        ours = _MESSAGE_HEAD.pack(MESSAGE, record.itemsize - _BEFORE_DATA, channel)
+        found: list[bytes] = []
         at = 0
         while at < len(chunk):
-            fit = (len(chunk) - at) // record.itemsize
-            rows = np.frombuffer(chunk, record, fit, at)
-            ours = (
-                (rows["#opcode"] == MESSAGE)
-                & (rows["#length"] == length)
-                & (rows["#channel"] == channel)
-            )
-            run = fit if ours.all() else int(ours.argmin())
-            if run > 0:
-                found.append(rows[:run])
-                at += run * record.itemsize
-                continue
-            if at + _BEFORE_DATA > len(chunk):
+            stop = at + self._run(chunk, at, ours) * record.itemsize
+            if stop > at:
+                found.append(chunk[at:stop])
+                at = stop
+            elif at + _BEFORE_DATA > len(chunk):
                 raise ValueError("a chunk ends inside a record")
-            at += _BEFORE_DATA + int.from_bytes(chunk[at + 1 : at + _BEFORE_DATA], "little")
+            else:
+                at += _BEFORE_DATA + int.from_bytes(chunk[at + 1 : at + _BEFORE_DATA], "little")
         if at > len(chunk):
             raise ValueError("a chunk ends inside a record")
         return found
 
-    def gather(self, runs: Sequence[NDArray[Any]]) -> dict[str, NDArray[Any]]:
-        """Return runs of rows as contiguous columns in the order of the layout."""
-        total = sum(len(run) for run in runs)
-        data: dict[str, NDArray[Any]] = {}
-        for c in self.columns:
-            shape: tuple[int, ...] = (total,) if c.size == 1 else (total, c.size)
-            values = np.empty(shape, _KINDS[c.kind].newbyteorder("="))
-            at = 0
-            for run in runs:
-                values[at : at + len(run)] = run[c.name]
-                at += len(run)
-            data[c.name] = values
-        return data
+    def _run(self, chunk: bytes, at: int, ours: bytes) -> int:
+        """Return how many records in a row begin as ours do."""
+        size = self.record.itemsize
+        fit = (len(chunk) - at) // size
+        if fit == 0 or chunk[at : at + len(ours)] != ours:
+            return 0
+        heads = np.frombuffer(chunk, np.uint8, fit * size, at).reshape(fit, size)[:, : len(ours)]
+        same = (heads == np.frombuffer(ours, np.uint8)).all(axis=1)
+        return fit if same.all() else int(same.argmin())
+
+    def gather(self, runs: Sequence[bytes]) -> dict[str, NDArray[Any]]:
+        """Return records as contiguous columns in the order of the layout."""
+        rows = np.frombuffer(b"".join(runs), self.record)
+        return {
+            c.name: np.ascontiguousarray(rows[c.name], _KINDS[c.kind].newbyteorder("="))
+            for c in self.columns
+        }

@@ -114,7 +114,7 @@ class _Found:
     rows: int | None = None  # number of the channel
     events_channel: int | None = None
     columns: list[dict[str, NDArray[Any]]] = field(default_factory=list)
-    runs: list[NDArray[Any]] = field(default_factory=list)
+    runs: list[bytes] = field(default_factory=list)
     waiting: int = 0  # bytes in runs
     events: list[Event] = field(default_factory=list)
     metadata: dict[str, dict[str, str]] = field(default_factory=dict)
@@ -177,11 +177,12 @@ def _silent(done: int, total: int) -> None:
 
 
 def _take(found: _Found, opcode: int, data: mmap.mmap, start: int, stop: int) -> None:
-    from mcap.records import Attachment, Channel, Metadata
-
     if opcode == CHUNK:
         _take_chunk(found, unpacked(data[start:stop]))
-    elif opcode == CHANNEL:
+        return
+    from mcap.records import Attachment, Channel, Metadata
+
+    if opcode == CHANNEL:
         _take_channel(found, parsed(Channel, data[start:stop]))
     elif opcode == METADATA:
         record = parsed(Metadata, data[start:stop])
@@ -203,7 +204,7 @@ def _take_chunk(found: _Found, content: bytes) -> None:
     if found.layout is None or found.rows is None:
         raise ValueError("it stands before the columns are described")
     runs = found.layout.find(content, found.rows)
-    if sum(run.nbytes for run in runs) < len(content):
+    if sum(map(len, runs)) < len(content):
         found.events += _events(found, content)
     found.runs += runs
     found.waiting += len(content)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import struct
+import threading
 import zlib
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
@@ -17,6 +18,11 @@ FOOTER, SCHEMA, CHANNEL, CHUNK, METADATA, ATTACHMENT = 0x02, 0x03, 0x04, 0x06, 0
 #: A chunk larger than this is damage: ebac writes at most some MB.
 MOST_CHUNK = 1 << 31
 _HEAD = struct.Struct("<BQ")
+_CHUNK = struct.Struct(
+    "<QQQII"
+)  # first and last time, size, checksum, letters of the compression's name
+_LENGTH = struct.Struct("<Q")
+_OF_THREAD = threading.local()
 
 
 @dataclass
@@ -102,15 +108,31 @@ def unpacked(data: bytes) -> bytes:
     ValueError
         When it is damaged, or packed in a way ebac does not know.
     """
-    from mcap.records import Chunk
-
-    chunk = parsed(Chunk, data)
-    content = _decompress(chunk.compression, chunk.data, chunk.uncompressed_size)
-    if len(content) != chunk.uncompressed_size:
-        raise ValueError(f"{len(content)} bytes instead of {chunk.uncompressed_size}")
-    if chunk.uncompressed_crc not in (0, zlib.crc32(content)):
+    try:
+        _, _, size, checksum, letters = _CHUNK.unpack_from(data)
+        at = _CHUNK.size + letters
+        how = data[_CHUNK.size : at].decode()
+        (length,) = _LENGTH.unpack_from(data, at)
+    except (struct.error, UnicodeDecodeError) as error:
+        raise ValueError(f"not a chunk ({error})") from None
+    at += _LENGTH.size
+    if at + length != len(data):
+        raise ValueError("it ends too early or too late")
+    content = _decompress(how, data[at:], size)
+    if len(content) != size:
+        raise ValueError(f"{len(content)} bytes instead of {size}")
+    if checksum not in (0, zlib.crc32(content)):
         raise ValueError("its checksum is wrong")
     return content
+
+
+def _zstd() -> Any:
+    """Return the decompressor of this thread: making one takes longer than a chunk does."""
+    if not hasattr(_OF_THREAD, "zstd"):
+        import zstandard
+
+        _OF_THREAD.zstd = zstandard.ZstdDecompressor()
+    return _OF_THREAD.zstd
 
 
 def _decompress(how: str, data: bytes, size: int) -> bytes:
@@ -122,7 +144,7 @@ def _decompress(how: str, data: bytes, size: int) -> bytes:
         import zstandard
 
         try:
-            return zstandard.ZstdDecompressor().decompress(data, max_output_size=size)
+            return _zstd().decompress(data, max_output_size=size)
         except zstandard.ZstdError as error:
             raise ValueError(str(error)) from None
     if how == "lz4":
