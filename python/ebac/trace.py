@@ -119,6 +119,10 @@ class Trace:
         t = self._data["t"]
         first = 0 if start is None else int(np.searchsorted(t, start))
         last = len(t) if stop is None else int(np.searchsorted(t, stop))
+        return self.rows(first, last)
+
+    def rows(self, first: int, last: int) -> Self:
+        """Return the rows first, ..., last - 1, as views."""
         part = {name: values[first:last] for name, values in self._data.items()}
         return type(self)(
             data=part,

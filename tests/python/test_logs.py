@@ -307,7 +307,7 @@ def readable(path: Path) -> Log | None:
 
 @given(data=st.data())
 @settings(
-    deadline=None, max_examples=150, suppress_health_check=[HealthCheck.function_scoped_fixture]
+    deadline=None, max_examples=100, suppress_health_check=[HealthCheck.function_scoped_fixture]
 )
 def test_a_log_cut_at_any_byte_loses_its_last_chunk_at_most(
     small: tuple[bytes, ebac.Trace, list[int]], tmp_path: Path, data: st.DataObject
@@ -329,7 +329,7 @@ def test_a_log_cut_at_any_byte_loses_its_last_chunk_at_most(
 
 @given(data=st.data())
 @settings(
-    deadline=None, max_examples=200, suppress_health_check=[HealthCheck.function_scoped_fixture]
+    deadline=None, max_examples=100, suppress_health_check=[HealthCheck.function_scoped_fixture]
 )
 def test_damage_at_any_place_never_crashes_the_reader(
     small: tuple[bytes, ebac.Trace, list[int]], tmp_path: Path, data: st.DataObject

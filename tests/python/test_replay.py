@@ -117,6 +117,19 @@ def test_a_slice_and_a_gap_keep_their_ticks_and_times(tmp_path: Path) -> None:
     assert over["dx"][50] == pytest.approx(gap["x"][50] - gap["x"][49])
 
 
+def test_only_the_rows_in_which_the_law_ran_are_replayed() -> None:
+    recorded = ebac.simulate(ebac.Scenario(seconds=0.3), "ebac")
+    state = np.full(len(recorded), 2, np.int32)
+    state[:20], state[250:] = 1, 3
+    data = {**{name: recorded[name] for name in recorded}, "state": state}
+    infos = {**recorded.columns, "state": ebac.ColumnInfo(name="state", unit="1", meaning="state")}
+    armed = ebac.Trace(data=data, columns=infos, axes=1, scenario=recorded.scenario)
+    assert ebac.replay(armed, "direct")["tick"].tolist() == list(range(20, 250))
+    never = armed.with_column("state", np.ones_like(state))
+    with pytest.raises(ValueError, match="no row in which the law ran"):
+        ebac.replay(never, "direct")
+
+
 def test_the_fault_of_a_device_ends_the_replay_where_it_ended_the_run() -> None:
     recorded = ebac.simulate(ebac.Scenario(seconds=0.2), "ebac")
     fault = recorded["fault"].copy()

@@ -144,7 +144,7 @@ def _decompress(how: str, data: bytes, size: int) -> bytes:
         import zstandard
 
         try:
-            return _zstd().decompress(data, max_output_size=size)
+            return bytes(_zstd().decompress(data, max_output_size=size))
         except zstandard.ZstdError as error:
             raise ValueError(str(error)) from None
     if how == "lz4":

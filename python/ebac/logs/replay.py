@@ -16,6 +16,9 @@ if TYPE_CHECKING:
     from ebac.scenario import Scenario
     from ebac.trace import Trace
 
+#: The state of a loop in which the law acts, in the column `state` of a log that has one.
+RUN = 2
+
 #: What a replay reads of each axis: the name of the argument, the column.
 _EACH = {
     "counts": "counts",
@@ -60,7 +63,7 @@ def replay(
     Returns
     -------
     Trace
-        The rows with the new law's `f_env`, `f_cmd`, `current`, `law.*`, and what was recorded beside them:
+        The rows in which the law ran, with the new law's `f_env`, `f_cmd`, `current`, `law.*`, and what was recorded beside them:
         `log.f_env`, `log.f_cmd`, `log.current`. It ends early where the log ends in a fault.
 
     Raises
@@ -72,7 +75,7 @@ def replay(
     """
     from ebac.trace import Trace
 
-    recorded = _trace_of(log)
+    recorded = _ran(_trace_of(log))
     scenario = scenario or recorded.scenario
     if scenario is None:
         raise ValueError(
@@ -98,6 +101,16 @@ def _trace_of(log: Trace | Log | str | Path) -> Trace:
     if isinstance(log, Log):
         return log.trace
     return load(log) if isinstance(log, (str, Path)) else log
+
+
+def _ran(recorded: Trace) -> Trace:
+    """Return the rows in which the law ran: not those before the drives were enabled, nor those of a stop."""
+    if "state" not in recorded:
+        return recorded
+    ran = np.flatnonzero(recorded["state"] == RUN)
+    if len(recorded) and not len(ran):
+        raise ValueError("replay: the log has no row in which the law ran (state 2)")
+    return recorded.rows(int(ran[0]), int(ran[-1]) + 1) if len(ran) else recorded
 
 
 def _check(recorded: Trace) -> None:
