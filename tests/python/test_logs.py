@@ -1,6 +1,9 @@
 """Logs: what is written is what is read, by ebac and by the official reader, whole, cut and repaired."""
 
 import json
+import re
+import subprocess
+import sys
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -522,20 +525,36 @@ def test_a_fault_is_an_event(tmp_path: Path) -> None:
     assert log.faults == [(4, float(log.trace["t"][tick]), tick)]
 
 
-def test_a_full_disk_ends_the_recording_and_is_told(tmp_path: Path) -> None:
-    source = rows_of()
-    rows = source.empty_like(1000)
+FULL = """
+import resource, sys, time
+import ebac
+from ebac.logs import Recorder
+source = ebac.EBAC()._simulate(ebac.Scenario(seconds=1).setup())
+rows = source.empty_like(2000)
+recorder = Recorder(rows, sys.argv[1], interval=0.001)
+resource.setrlimit(resource.RLIMIT_FSIZE, (30_000, 30_000))  # bytes
+for row in source.copy(0, 1000)[1].reshape(-1, source.row_bytes):
+    rows.append(row)
+    time.sleep(0.0002)
+while recorder.error is None:
+    time.sleep(0.001)
+recorder.close()
+"""
+
+
+def test_a_file_that_takes_no_more_ends_the_recording_and_is_told(tmp_path: Path) -> None:
     path = tmp_path / "run.mcap"
-    recorder = Recorder(rows, path, interval=0.001)
-    fed(source, rows, 100)
-    wait_until(lambda: recorder.written == 100)
-    recorder._writer._file.close()  # what the kernel does to a file on a device that is gone
-    recorder._writer._file = Path("/dev/full").open("wb", buffering=0)  # noqa: SIM115
-    fed(source, rows, 200, 100)
-    wait_until(lambda: recorder.error is not None)
-    with pytest.raises(OSError, match=r"recording stopped after 100 rows: .*No space left"):
-        recorder.close()
-    assert read(path).trace["tick"].tolist() == list(range(100))
+    done = subprocess.run(
+        [sys.executable, "-c", FULL, str(path)], check=False, capture_output=True, text=True
+    )
+    assert done.returncode == 1
+    told = re.search(r"recording stopped after (\d+) rows: .*File too large", done.stderr)
+    assert told, done.stderr
+    log = read(path)
+    assert 0 < len(log.trace) == int(told[1]) < 1000
+    assert log.trace["tick"].tolist() == list(range(len(log.trace)))
+    assert (log.condition.complete, log.condition.bytes_left) == (False, 0)
+    assert repair(path).condition.complete
 
 
 def test_a_recorder_refuses_what_it_cannot_do(tmp_path: Path) -> None:

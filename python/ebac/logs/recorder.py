@@ -217,8 +217,9 @@ class Recorder:
         """Write one chunk; return whether there was anything to write."""
         with self._lock:
             happened, self._waiting = self._waiting, []
-        stop = min(self._rows.count, self._seen + MOST_ROWS)
-        first, raw = self._rows.copy(self._seen, stop)
+        start = max(self._seen, self._rows.first)
+        stop = min(self._rows.count, start + MOST_ROWS)
+        first, raw = self._rows.copy(start, stop)
         if not len(raw) and first == self._seen and not happened:
             return False
         data = row_views(self._rows, raw)

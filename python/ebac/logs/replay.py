@@ -63,8 +63,8 @@ def replay(
     Returns
     -------
     Trace
-        The rows in which the law ran, with the new law's `f_env`, `f_cmd`, `current`, `law.*`, and what was recorded beside them:
-        `log.f_env`, `log.f_cmd`, `log.current`. It ends early where the log ends in a fault.
+        The rows in which the law ran, with the new law's `f_env`, `f_cmd`, `current`, `law.*`, and what was recorded
+        beside them: `log.f_env`, `log.f_cmd`, `log.current`. It ends early where the log ends in a fault.
 
     Raises
     ------

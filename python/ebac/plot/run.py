@@ -68,6 +68,8 @@ def title(trace: Trace) -> str:
     if "log.f_cmd" in trace:
         return f"{name}, over a recorded log: the handle moved as it did, whatever is commanded"
     parts = wording.describe(trace.scenario).split("; ")
+    if "true.x" not in trace:  # whose hand it was, nobody knows
+        return f"{name}, recorded: {parts[0]}\n{'; '.join(parts[2:-1])}"
     return f"{name}, simulated: {parts[0]}; {parts[1]}\n{'; '.join(parts[2:])}"
 
 
@@ -99,7 +101,7 @@ def _force(ax: Axes, trace: Trace, axis: int) -> None:
     room = 0.15 * max(high - low, 1.0)
     ax.set_ylim(low - room, high + room)  # what is asked may go far beyond
     dress(ax, "force [N]")
-    legend(ax)
+    legend(ax, columns=5)
 
 
 def _beta(ax: Axes, trace: Trace, axis: int) -> None:
