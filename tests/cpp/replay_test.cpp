@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cstddef>
+#include <cstring>
+
 #include "ebac/control/ebac.hpp"
 #include "ebac/control/tca.hpp"
 #include "ebac/sim/simulate.hpp"
@@ -49,9 +52,9 @@ TEST(Replay, TheSameLawCommandsTheSameBits) {
   const auto again = replay(log_of(*recorded), PerAxis<Ebac>(law), setup.device, setup.environment);
   ASSERT_EQ(again->size(), recorded->size());
   for (std::size_t i = 0; i < recorded->size(); ++i) {
-    const Sample was = recorded->sample(i);
-    const Sample is = again->sample(i);
-    ASSERT_EQ(std::memcmp(&was.axis, &is.axis, sizeof was.axis), 0) << "row " << i;
+    const std::byte* was = recorded->data() + i * recorded->row_bytes() + offsetof(Sample, axis);
+    const std::byte* is = again->data() + i * again->row_bytes() + offsetof(Sample, axis);
+    ASSERT_EQ(std::memcmp(was, is, 2 * sizeof(Axis)), 0) << "row " << i;
   }
 }
 
