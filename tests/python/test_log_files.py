@@ -135,7 +135,7 @@ def test_a_missing_library_says_what_to_install(
 
 @given(text=st.text(alphabet="tx[m], _01.e-\n", max_size=60))
 @settings(
-    deadline=None, max_examples=150, suppress_health_check=[HealthCheck.function_scoped_fixture]
+    deadline=None, max_examples=60, suppress_health_check=[HealthCheck.function_scoped_fixture]
 )
 def test_any_text_as_csv_is_read_or_refused_by_its_name(tmp_path: Path, text: str) -> None:
     path = tmp_path / "any.csv"
@@ -227,7 +227,25 @@ def test_export_refuses(recorded: Path) -> None:
     assert "the log has 0 to 0.2 s" in refused
     assert not recorded.with_name("a.csv").exists()
     missing = recorded.parent / "no folder" / "a.csv"
-    assert "no such file" in invoke("export", recorded, missing, code=2)
+    assert "a.csv: cannot be written" in invoke("export", recorded, missing, code=2)
+    assert "no rows to -1 s" in invoke(
+        "export", recorded, recorded.with_name("a.csv"), "--to", -1, code=2
+    )
+    assert "x.csv: must end in .mcap" in invoke("repair", recorded, "--out", "x.csv", code=2)
+    assert "cannot be written" in invoke(
+        "repair", recorded, "--out", missing.with_suffix(".mcap"), code=2
+    )
+
+
+def test_a_log_without_rows_is_told_and_exported(tmp_path: Path) -> None:
+    trace = ebac.simulate(ebac.Scenario(seconds=0.1), "ebac")
+    path = tmp_path / "none.mcap"
+    trace[5:6].save(path)
+    assert json.loads(invoke("info", path, "--json"))["log_rows"] == 0
+    assert "none" in invoke("info", path)
+    assert "0 rows" in invoke("export", path, tmp_path / "none.csv")
+    assert len(ebac.load(tmp_path / "none.csv")) == 0
+    assert "at least 2" in invoke("plot", path, code=2)
 
 
 def test_plot_draws_the_figure_or_columns(recorded: Path) -> None:

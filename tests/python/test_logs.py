@@ -113,7 +113,7 @@ def columns(draw: st.DrawFn) -> dict[str, np.ndarray[Any, Any]]:
 
 
 @given(data=columns(), chunk=st.integers(1, 50))
-@settings(deadline=None, max_examples=40)
+@settings(deadline=None, max_examples=25)
 def test_columns_of_any_kind_and_any_bits_come_back(
     data: dict[str, np.ndarray[Any, Any]], chunk: int, tmp_path_factory: pytest.TempPathFactory
 ) -> None:
@@ -310,7 +310,7 @@ def readable(path: Path) -> Log | None:
 
 @given(data=st.data())
 @settings(
-    deadline=None, max_examples=100, suppress_health_check=[HealthCheck.function_scoped_fixture]
+    deadline=None, max_examples=60, suppress_health_check=[HealthCheck.function_scoped_fixture]
 )
 def test_a_log_cut_at_any_byte_loses_its_last_chunk_at_most(
     small: tuple[bytes, ebac.Trace, list[int]], tmp_path: Path, data: st.DataObject
@@ -332,7 +332,7 @@ def test_a_log_cut_at_any_byte_loses_its_last_chunk_at_most(
 
 @given(data=st.data())
 @settings(
-    deadline=None, max_examples=100, suppress_health_check=[HealthCheck.function_scoped_fixture]
+    deadline=None, max_examples=60, suppress_health_check=[HealthCheck.function_scoped_fixture]
 )
 def test_damage_at_any_place_never_crashes_the_reader(
     small: tuple[bytes, ebac.Trace, list[int]], tmp_path: Path, data: st.DataObject
@@ -353,7 +353,7 @@ def test_damage_at_any_place_never_crashes_the_reader(
 
 @given(st.binary(max_size=300))
 @settings(
-    deadline=None, max_examples=100, suppress_health_check=[HealthCheck.function_scoped_fixture]
+    deadline=None, max_examples=60, suppress_health_check=[HealthCheck.function_scoped_fixture]
 )
 @example(b"")
 @example(b"\x89MCAP0\r\n")
@@ -467,6 +467,26 @@ def test_a_recorder_writes_every_row_of_a_growing_trace(ring: bool, tmp_path: Pa
     assert_same_rows(log.trace, whole[:0.9995])
     assert [event.values for event in log.events] == [{"gain": n} for n in range(0, 1000, 100)]
     assert_official(tmp_path / "run.mcap", log.trace)
+
+
+def test_a_recorder_asks_for_events(tmp_path: Path) -> None:
+    waiting = [Event(kind="parameter", message=f"change {i}", tick=i, t=1e-3 * i) for i in range(5)]
+    told = list(waiting)
+    with Recorder(
+        rows_of(0.1), tmp_path / "run.mcap", interval=0.001,
+        watch=lambda: [waiting.pop(0)] if waiting else [],
+    ):  # fmt: skip
+        wait_until(lambda: not waiting)
+    assert read(tmp_path / "run.mcap").events == told
+
+
+def test_a_watch_that_raises_ends_the_recording_and_is_told(tmp_path: Path) -> None:
+    def broken() -> list[Event]:
+        raise RuntimeError("no answer")
+
+    recorder = Recorder(rows_of(0.1), tmp_path / "run.mcap", watch=broken)
+    with pytest.raises(OSError, match="recording stopped after 0 rows: no answer"):
+        recorder.close()
 
 
 def test_a_ring_keeps_the_last_rows_and_the_log_has_all(tmp_path: Path) -> None:

@@ -81,11 +81,13 @@ def export(
     if out.exists() and not force:
         output.fail(f"{out}: there is such a file; give another name, or --force to replace it")
     trace = _part(_read(file, quiet=as_json).trace, start, stop)
-    try:
-        with output.refusing(), output.counting(f"writing {out.name}", quiet=as_json) as told:
+    with output.refusing(), output.counting(f"writing {out.name}", quiet=as_json) as told:
+        try:
             trace.save(out, progress=told)
-    except ModuleNotFoundError as error:
-        output.fail(str(error))
+        except ModuleNotFoundError as error:
+            output.fail(str(error))
+        except OSError as error:
+            output.fail(f"{out}: cannot be written ({error.strerror})")
     if as_json:
         row = {"file": str(out), "rows": len(trace), "bytes": out.stat().st_size}
         typer.echo(output.document("log export", [row]))
@@ -118,6 +120,10 @@ def repair(
             new = repaired(file, out, progress=told)
         except FileExistsError as error:
             output.fail(f"{error.filename}: there is such a file; give another name by --out")
+        except OSError as error:
+            if str(error.filename) == str(file):
+                raise
+            output.fail(f"{error.filename}: cannot be written ({error.strerror})")
     if as_json:
         row = {
             "file": str(new.path),
@@ -176,11 +182,16 @@ def _read(file: Path, *, quiet: bool) -> Log:
 
 
 def _part(trace: Trace, start: float | None, stop: float | None) -> Trace:
-    part = trace.between(start, stop) if (start, stop) != (None, None) else trace
+    if start is None and stop is None:
+        return trace
+    part = trace.between(start, stop)
     if len(part) == 0:
         t = trace["t"]
         has = f"the log has {t[0]:g} to {t[-1]:g} s" if len(t) else "the log has none"
-        output.fail(f"no rows from {start} to {stop} s: {has}")
+        wanted = " ".join(
+            f"{word} {t:g} s" for word, t in (("from", start), ("to", stop)) if t is not None
+        )
+        output.fail(f"no rows {wanted}: {has}")
     return part
 
 

@@ -7,7 +7,7 @@ import contextlib
 import threading
 import time
 import warnings
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from types import TracebackType
 from typing import TYPE_CHECKING, Any, Self
@@ -51,6 +51,9 @@ class Recorder:
         Name of the law; the law with its parameters.
     files : mapping of str to str, optional
         Texts to attach by file name: the configuration of the run.
+    watch : callable, optional
+        Called before each chunk, in the thread of the recorder; the events it returns go into the log: how changes of
+        parameters come from a running loop. What it raises ends the recording.
     interval : float
         Time between two chunks [s], in [0.001, 10]. At 0.02 s a kill costs less than 50 ms as long as the system
         lets the thread run within 30 ms; Python code that holds the interpreter longer than that delays it.
@@ -89,6 +92,7 @@ class Recorder:
         law: str = "",
         law_repr: str = "",
         files: Mapping[str, str] | None = None,
+        watch: Callable[[], Sequence[Event]] | None = None,
         interval: float = INTERVAL,
         sync: float | None = None,
         start: float | None = None,
@@ -98,6 +102,7 @@ class Recorder:
             _check("sync", sync, 0.1, 3600)
         self._rows = rows
         self._interval = interval
+        self._watch = watch or _nothing
         about = About(
             axes=rows.axes,
             law=law,
@@ -217,6 +222,7 @@ class Recorder:
         """Write one chunk; return whether there was anything to write."""
         with self._lock:
             happened, self._waiting = self._waiting, []
+        happened += self._watch()
         start = max(self._seen, self._rows.first)
         stop = min(self._rows.count, start + MOST_ROWS)
         first, raw = self._rows.copy(start, stop)
@@ -277,6 +283,10 @@ class Recorder:
         """Return file, rows written and lost."""
         state = "closed" if self._ends.is_set() else "recording"
         return f"<Recorder of {self.path}: {state}, {self.written} rows, {self.lost} lost>"
+
+
+def _nothing() -> Sequence[Event]:
+    return ()
 
 
 def fault_name(number: int) -> str:

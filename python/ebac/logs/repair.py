@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from pathlib import Path
 
-from ebac.logs.files import CHUNK_ROWS
+from ebac.logs.files import CHUNK_ROWS, extension
 from ebac.logs.layout import Layout
 from ebac.logs.reader import Log, read
 from ebac.logs.writer import LogWriter
@@ -40,10 +40,11 @@ def repair(
     FileExistsError
         When `out` exists: nothing is ever written over.
     FileNotFoundError, ValueError
-        As `read`.
+        As `read`; ValueError also for an `out` that does not end in .mcap.
     """
     path = Path(path)
     out = repaired_name(path) if out is None else Path(out)
+    extension(out, (".mcap",))
     if out.exists():
         raise FileExistsError(17, "File exists", str(out))
     log = read(path, progress=progress)
