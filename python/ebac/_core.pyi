@@ -59,6 +59,7 @@ __all__: list[str] = [
     "PlannedFrame",
     "Port",
     "Recorded",
+    "ReplayLog",
     "Rows",
     "RunLimits",
     "Setup",
@@ -1836,9 +1837,27 @@ class Rows:
     The rows of a run, as the loop wrote them.
     """
     def __len__(self) -> int: ...
+    def append(self, row: typing.Annotated[numpy.typing.ArrayLike, numpy.uint8]) -> None:
+        """
+        Adds one row of `row_bytes` bytes.
+        """
     def bytes(self) -> numpy.typing.NDArray[numpy.uint8]:
         """
-        Every row, read-only, without a copy.
+        Every row in memory, read-only; a ring gives a copy, others none.
+        """
+    def copy(
+        self,
+        start: typing.SupportsInt | typing.SupportsIndex,
+        stop: typing.SupportsInt | typing.SupportsIndex,
+    ) -> tuple[int, numpy.typing.NDArray[numpy.uint8]]:
+        """
+        A copy of the rows start to stop, less those a ring has written over: (number of the first row in it, rows).
+        """
+    def empty_like(
+        self, capacity: typing.SupportsInt | typing.SupportsIndex, ring: bool = False
+    ) -> Rows:
+        """
+        No rows yet, in the same layout.
         """
     def port(
         self,
@@ -1854,9 +1873,29 @@ class Rows:
         Number of axes.
         """
     @property
+    def capacity(self) -> int:
+        """
+        Rows there is room for.
+        """
+    @property
     def columns(self) -> list[Column]:
         """
         Columns in their order.
+        """
+    @property
+    def count(self) -> int:
+        """
+        Rows appended since the start.
+        """
+    @property
+    def first(self) -> int:
+        """
+        Number of the first row still in memory.
+        """
+    @property
+    def ring(self) -> bool:
+        """
+        Whether it keeps the last rows and never is full.
         """
     @property
     def row_bytes(self) -> int:
@@ -1997,6 +2036,31 @@ class SteppedPlant:
     def truth(self, axis: typing.SupportsInt | typing.SupportsIndex = 0) -> AxisTruth:
         """
         The state of one axis.
+        """
+
+class ReplayLog:
+    """
+    A recorded log as hardware.
+    """
+    def __init__(
+        self,
+        *,
+        t: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
+        dt: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
+        lateness: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
+        fault: typing.Annotated[numpy.typing.ArrayLike, numpy.uint32],
+        counts: typing.Annotated[numpy.typing.ArrayLike, numpy.int64],
+        current_applied: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
+        force: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
+        f_env: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
+        f_cmd: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
+        current: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
+    ) -> None: ...
+    def __len__(self) -> int: ...
+    @property
+    def axes(self) -> int:
+        """
+        Number of axes.
         """
 
 class DriveCondition(enum.IntFlag):
@@ -2257,6 +2321,9 @@ class Direct:
     def __init__(self, *, peak_force: float = 42.4, timing: Timing = ...) -> None: ...
     def __reduce__(self) -> tuple[typing.Any, ...]: ...
     def __repr__(self) -> str: ...
+    def _replay(
+        self, log: ReplayLog, device: Device, environment: Free | Wall | Corner | Disc
+    ) -> Rows: ...
     def _simulate(self, setup: Setup, through_can: bool = False) -> Rows: ...
     def _time_step(
         self, setup: Setup, repeats: typing.SupportsInt | typing.SupportsIndex
@@ -2369,6 +2436,9 @@ class TCA:
     ) -> None: ...
     def __reduce__(self) -> tuple[typing.Any, ...]: ...
     def __repr__(self) -> str: ...
+    def _replay(
+        self, log: ReplayLog, device: Device, environment: Free | Wall | Corner | Disc
+    ) -> Rows: ...
     def _simulate(self, setup: Setup, through_can: bool = False) -> Rows: ...
     def _time_step(
         self, setup: Setup, repeats: typing.SupportsInt | typing.SupportsIndex
@@ -2510,6 +2580,9 @@ class TCADamped:
     ) -> None: ...
     def __reduce__(self) -> tuple[typing.Any, ...]: ...
     def __repr__(self) -> str: ...
+    def _replay(
+        self, log: ReplayLog, device: Device, environment: Free | Wall | Corner | Disc
+    ) -> Rows: ...
     def _simulate(self, setup: Setup, through_can: bool = False) -> Rows: ...
     def _time_step(
         self, setup: Setup, repeats: typing.SupportsInt | typing.SupportsIndex
@@ -2669,6 +2742,9 @@ class PassivityControl:
     ) -> None: ...
     def __reduce__(self) -> tuple[typing.Any, ...]: ...
     def __repr__(self) -> str: ...
+    def _replay(
+        self, log: ReplayLog, device: Device, environment: Free | Wall | Corner | Disc
+    ) -> Rows: ...
     def _simulate(self, setup: Setup, through_can: bool = False) -> Rows: ...
     def _time_step(
         self, setup: Setup, repeats: typing.SupportsInt | typing.SupportsIndex
@@ -2800,6 +2876,9 @@ class VirtualCoupling:
     ) -> None: ...
     def __reduce__(self) -> tuple[typing.Any, ...]: ...
     def __repr__(self) -> str: ...
+    def _replay(
+        self, log: ReplayLog, device: Device, environment: Free | Wall | Corner | Disc
+    ) -> Rows: ...
     def _simulate(self, setup: Setup, through_can: bool = False) -> Rows: ...
     def _time_step(
         self, setup: Setup, repeats: typing.SupportsInt | typing.SupportsIndex
@@ -2927,6 +3006,9 @@ class ForceBounding:
     ) -> None: ...
     def __reduce__(self) -> tuple[typing.Any, ...]: ...
     def __repr__(self) -> str: ...
+    def _replay(
+        self, log: ReplayLog, device: Device, environment: Free | Wall | Corner | Disc
+    ) -> Rows: ...
     def _simulate(self, setup: Setup, through_can: bool = False) -> Rows: ...
     def _time_step(
         self, setup: Setup, repeats: typing.SupportsInt | typing.SupportsIndex
@@ -3077,6 +3159,9 @@ class EBA:
     ) -> None: ...
     def __reduce__(self) -> tuple[typing.Any, ...]: ...
     def __repr__(self) -> str: ...
+    def _replay(
+        self, log: ReplayLog, device: Device, environment: Free | Wall | Corner | Disc
+    ) -> Rows: ...
     def _simulate(self, setup: Setup, through_can: bool = False) -> Rows: ...
     def _time_step(
         self, setup: Setup, repeats: typing.SupportsInt | typing.SupportsIndex
@@ -3241,6 +3326,9 @@ class EBACPrinted:
     ) -> None: ...
     def __reduce__(self) -> tuple[typing.Any, ...]: ...
     def __repr__(self) -> str: ...
+    def _replay(
+        self, log: ReplayLog, device: Device, environment: Free | Wall | Corner | Disc
+    ) -> Rows: ...
     def _simulate(self, setup: Setup, through_can: bool = False) -> Rows: ...
     def _time_step(
         self, setup: Setup, repeats: typing.SupportsInt | typing.SupportsIndex
@@ -3467,6 +3555,9 @@ class EBAC:
     ) -> None: ...
     def __reduce__(self) -> tuple[typing.Any, ...]: ...
     def __repr__(self) -> str: ...
+    def _replay(
+        self, log: ReplayLog, device: Device, environment: Free | Wall | Corner | Disc
+    ) -> Rows: ...
     def _simulate(self, setup: Setup, through_can: bool = False) -> Rows: ...
     def _time_step(
         self, setup: Setup, repeats: typing.SupportsInt | typing.SupportsIndex
@@ -3959,6 +4050,9 @@ def _measure_contact(
     pull: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None,
 ) -> dict[str, typing.Any]: ...
 def _rebuild(arg0: typing.Any, arg1: dict[str, typing.Any]) -> typing.Any: ...
+def _replay_python(
+    log: ReplayLog, law: typing.Any, device: Device, environment: Free | Wall | Corner | Disc
+) -> Rows: ...
 def _simulate_python(setup: Setup, law: typing.Any, through_can: bool = False) -> Rows: ...
 def _stored_energy(
     environment: Free | Wall | Corner | Disc,

@@ -184,7 +184,19 @@ def test_drives_know_nothing_of_the_loop() -> None:
 
 
 def test_importing_the_package_loads_nothing_heavy() -> None:
-    heavy = ["matplotlib", "pandas", "scipy", "typer", "rich", "tomli_w", "can", "canopen"]
+    heavy = [
+        "matplotlib",
+        "pandas",
+        "scipy",
+        "typer",
+        "rich",
+        "tomli_w",
+        "can",
+        "canopen",
+        "mcap",
+        "zstandard",
+        "h5py",
+    ]
     code = (
         f"import ebac, ebac.drives, sys; print([name for name in {heavy} if name in sys.modules])"
     )

@@ -40,8 +40,8 @@ class Loop {
     sample_.axes = axes;
   }
 
-  /// A trace laid out for this loop, with room for `rows`.
-  std::shared_ptr<Trace> make_trace(std::size_t rows) {
+  /// A trace laid out for this loop, with room for `rows`; as a ring it keeps the last `rows`.
+  std::shared_ptr<Trace> make_trace(std::size_t rows, bool ring = false) {
     auto trace = std::make_shared<Trace>(static_cast<int>(sample_.axes));
     law_at_ = trace->template add_block<typename Law::State>("law.");
     std::apply(
@@ -51,7 +51,7 @@ class Loop {
         },
         row_parts(device_));
     if (gate_.on()) gate_at_ = add_part(*trace, gate_);
-    trace->reserve(rows);
+    trace->reserve(rows, ring);
     return trace;
   }
 

@@ -16,6 +16,7 @@ from ebac.cli import (
     faults,
     jitter,
     laws,
+    log,
     maps,
     paper,
     presets,
@@ -77,3 +78,4 @@ app.command("jitter")(jitter.jitter)
 app.command("faults")(faults.faults)
 app.add_typer(drive.app, name="drive")
 app.add_typer(bus.bus, name="bus")
+app.add_typer(log.log, name="log")
