@@ -8,7 +8,7 @@
 
 namespace ebac {
 
-enum class ChangeOf : std::uint32_t { kLaw = 1, kEnvironment = 2, kTarget = 3 };
+enum class ChangeOf : std::uint32_t { kLaw, kEnvironment, kTarget };
 
 /// A value that the loop took while it ran.
 struct Change {

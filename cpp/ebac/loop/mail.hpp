@@ -18,7 +18,7 @@ struct ScalarOf {
   struct Type {};  // nothing to send
 };
 template <class Law>
-  requires requires(Law law, const typename Law::Scalar& scalar) { law.retune(scalar); } &&
+  requires requires(Law law, const Law::Scalar& scalar) { law.retune(scalar); } &&
            std::is_trivially_copyable_v<typename Law::Scalar>
 struct ScalarOf<Law> {
   using Type = Law::Scalar;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cerrno>
+#include <cmath>
 #include <cstdint>
 #include <ctime>
 
@@ -13,8 +14,7 @@ namespace ebac::rt {
 /// `wait`. Takes the sample time in s.
 class MonotonicClock {
  public:
-  explicit MonotonicClock(double dt) EBAC_RT
-      : period_(static_cast<std::int64_t>(dt* kSecond + 0.5)) {}
+  explicit MonotonicClock(double dt) EBAC_RT : period_(std::llround(dt* kSecond)) {}
 
   Instant wait() EBAC_RT {
     if (start_ == 0) return begin();
