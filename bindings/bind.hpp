@@ -23,5 +23,7 @@ void bind_can(pybind11::module_& m);
 void bind_limits(pybind11::module_& m);
 void bind_realtime(pybind11::module_& m);
 void bind_faults(pybind11::module_& m);
+void bind_running(pybind11::module_& m);
+void bind_running_laws(pybind11::module_& m);
 
 }  // namespace ebac::python

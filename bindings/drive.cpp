@@ -113,7 +113,7 @@ void bind_joystick(py::module_& m) {
   py::class_<PlantOfDrives> cls(m, "Joystick",
                                 "Simulated drives on the axes of one simulated device and hand.");
   cls.def(py::init(&make_joystick), py::arg("setup"), py::kw_only(), py::arg("first") = 1,
-          py::arg("peak_time") = 2.0)
+          py::arg("peak_time") = 2.0, py::arg("wait_for_power") = false)
       .def_property_readonly("axes", &PlantOfDrives::axes, "Number of axes.")
       .def(
           "drive",

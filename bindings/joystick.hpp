@@ -27,11 +27,11 @@ inline double checked_peak_time(double seconds) {
 }
 
 /// The device and hand of a setup behind drives.
-inline PlantOfDrives make_joystick(Setup setup, int first, double peak_time) {
+inline PlantOfDrives make_joystick(Setup setup, int first, double peak_time, bool wait_for_power) {
   const can::NodeId node = checked_node(first, setup.device.axes());
   setup.device.drive.permille = true;  // what a drive is told in
   setup.timing.delay = 0;              // its delay is that of the bus
-  return {SimulatedDevice(setup), setup.device, node, checked_peak_time(peak_time)};
+  return {SimulatedDevice(setup), setup.device, node, checked_peak_time(peak_time), wait_for_power};
 }
 
 }  // namespace ebac::python

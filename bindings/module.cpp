@@ -20,4 +20,6 @@ PYBIND11_MODULE(_core, m, pybind11::mod_gil_not_used()) {
   ebac::python::bind_limits(m);
   ebac::python::bind_realtime(m);
   ebac::python::bind_faults(m);
+  ebac::python::bind_running(m);
+  ebac::python::bind_running_laws(m);
 }

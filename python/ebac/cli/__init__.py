@@ -20,6 +20,7 @@ from ebac.cli import (
     maps,
     paper,
     presets,
+    run,
     specs,
     study,
     wall,
@@ -68,6 +69,7 @@ app.command("worst")(worst.worst)
 app.command("conditions")(conditions.conditions)
 app.command("zwidth")(zwidth.zwidth)
 app.command("map")(maps.map_)
+app.command("run")(run.run)
 app.command("paper")(paper.paper)
 app.command("laws")(laws.laws)
 app.command("specs")(specs.specs)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import signal
+import sys
 import threading
 import time
 from collections.abc import Iterator
@@ -57,6 +58,18 @@ def simulate(
         float | None,
         typer.Option(help="Stop after so long [s].", show_default="until Ctrl-C", min=0),
     ] = None,
+    wait_for_power: Annotated[
+        bool,
+        typer.Option(
+            "--wait-for-power", help="The hand holds still until a motor first has power."
+        ),
+    ] = False,
+    until_eof: Annotated[
+        bool,
+        typer.Option(
+            "--until-eof", help="Stop when standard input ends, as it does with a parent."
+        ),
+    ] = False,
 ) -> None:
     """Put the simulated drives of a joystick on a bus, in real time, until Ctrl-C. A simulation.
 
@@ -83,11 +96,14 @@ def simulate(
         plant = _plant(scenario, device, hand, seed)
         setup = plant.setup()
     with telling(), _signalled() as over:
-        with _at_work(setup, interface, channel, bitrate, first) as work:
+        with _at_work(setup, interface, channel, bitrate, first, wait_for_power) as work:
             ids = ", ".join(str(first + axis) for axis in range(plant.device.axes))
             output.say(
                 f"Simulated drives, nodes {ids}, on {interface} {channel}. Ctrl-C stops them."
             )
+            sys.stdout.flush()
+            if until_eof:
+                threading.Thread(target=_until_eof, args=(over,), daemon=True).start()
             end = time.monotonic() + (inf if seconds is None else seconds)
             while not over.wait(min(_LOOK, max(0.0, end - time.monotonic()))):
                 if isinstance(work, Simulation):
@@ -119,7 +135,7 @@ def _plant(file: Path | None, device: str | None, hand: str | None, seed: int | 
 
 @contextmanager
 def _at_work(
-    setup: Setup, interface: str, channel: str, bitrate: int | None, first: int
+    setup: Setup, interface: str, channel: str, bitrate: int | None, first: int, wait: bool
 ) -> Iterator[SocketCanJoystick | Simulation]:
     """Put the drives on a bus until the end of the block: SocketCAN is served by C++."""
     from ebac._core import Joystick, SocketCanJoystick
@@ -134,18 +150,25 @@ def _at_work(
         )
     if interface == "socketcan":
         try:
-            served = SocketCanJoystick(channel, setup, first=first)
+            served = SocketCanJoystick(channel, setup, first=first, wait_for_power=wait)
         except OSError as error:
             raise BusError(error.strerror or str(error)) from error
         with served:
             yield served
         return
-    nodes = Joystick(setup, first=first)
+    nodes = Joystick(setup, first=first, wait_for_power=wait)
     with (
         open_bus(interface=interface, channel=channel, bitrate=bitrate) as bus,
         Simulation(bus, nodes) as simulation,
     ):
         yield simulation
+
+
+def _until_eof(over: threading.Event) -> None:
+    """Wait for the end of standard input, then stop all."""
+    while sys.stdin.read(1024):
+        pass
+    over.set()
 
 
 @contextmanager
