@@ -44,8 +44,9 @@ can::CanopenSetup drives_of(const DeviceModel& device, const std::vector<int>& n
 
 RunSetup make_setup(const DeviceModel& device, const Environment& environment, double dt,
                     const std::vector<int>& nodes, double answer_time, const RunPlan& plan,
-                    const std::optional<Limits>& limits, std::size_t rows, bool ring, rt::Mode mode,
-                    const rt::Options& realtime, const py::kwargs& more) {
+                    const std::optional<Limits>& limits,
+                    const std::optional<sensor::RdtClientSetup>& sensor, std::size_t rows,
+                    bool ring, rt::Mode mode, const rt::Options& realtime, const py::kwargs& more) {
   check(Timing{.dt = dt}, "Timing");
   const bool fits = answer_time > 0 && answer_time <= dt;
   if (!fits) {
@@ -57,6 +58,7 @@ RunSetup make_setup(const DeviceModel& device, const Environment& environment, d
           .dt = dt,
           .answer_time = answer_time,
           .drives = drives_of(device, nodes, more),
+          .sensor = sensor,
           .limits = limits,
           .plan = plan,
           .rows = rows,
@@ -156,7 +158,7 @@ void bind_running(py::module_& m) {
   py::class_<RunSetup>(m, "RunSetup", "All that a run is but its bus and its law.")
       .def(py::init(&make_setup), py::kw_only(), py::arg("device"), py::arg("environment"),
            py::arg("dt"), py::arg("nodes"), py::arg("answer_time"), py::arg("plan"),
-           py::arg("limits"), py::arg("rows"), py::arg("ring"), py::arg("mode"),
+           py::arg("limits"), py::arg("sensor"), py::arg("rows"), py::arg("ring"), py::arg("mode"),
            py::arg("realtime"), "Further keywords are those of the drives on the bus.");
   bind_running_class(m);
 }

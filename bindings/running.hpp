@@ -16,13 +16,16 @@
 #include "ebac/rt/loop_thread.hpp"
 #include "ebac/rt/monotonic_clock.hpp"
 #include "ebac/rt/timed.hpp"
+#include "ebac/sensor/optional_sensor.hpp"
+#include "ebac/sensor/with_force_sensor.hpp"
 #include "fields.hpp"
 
 /// A law in a loop of real time over CANopen drives: the method `_start` of every law.
 namespace ebac::python {
 
 using Drives = can::CanopenDevice<can::EitherBus, can::WaitOn<can::EitherBus>>;
-using Hardware = rt::Timed<Drives>;
+/// Drives, and a force sensor beside them where there is one.
+using Hardware = rt::Timed<sensor::WithForceSensor<Drives, sensor::OptionalSensor>>;
 
 /// All that a run is but its bus and its law.
 struct RunSetup {
@@ -31,6 +34,7 @@ struct RunSetup {
   double dt = 1e-3;           // s
   double answer_time = 5e-4;  // s, of every tick: how long the drives may take
   can::CanopenSetup drives;
+  std::optional<sensor::RdtClientSetup> sensor;
   std::optional<Limits> limits;
   RunPlan plan;
   std::size_t rows = 0;
@@ -61,6 +65,7 @@ class HardwareLoop {
  public:
   using All = PerAxis<Law>;
   using Work = Loop<Hardware, rt::MonotonicClock, All>;
+  using Thread = rt::LoopThread<Hardware, rt::MonotonicClock, All>;
 
   HardwareLoop(can::EitherBus bus, const Law& law, const RunSetup& setup)
       : bus_(std::move(bus)), newest_(law), mail_(std::make_shared<Mail<All>>(law)) {
@@ -72,6 +77,12 @@ class HardwareLoop {
   }
 
   Thread& thread() { return *thread_; }
+  /// Once it is done: nobody needs the sensor's stream any more.
+  void join() {
+    thread_->join();
+    auto& sensor = thread_->loop().device().device().sensor();
+    if (sensor.client() != nullptr) sensor.client()->stop();
+  }
   const std::shared_ptr<Trace>& trace() const { return trace_; }
   const Mail<All>& mail() const { return *mail_; }
   can::BusCounts bus() const { return bus_.counts(); }
@@ -88,12 +99,17 @@ class HardwareLoop {
   }
 
  private:
-  using Thread = rt::LoopThread<Hardware, rt::MonotonicClock, All>;
-
   Hardware hardware(const RunSetup& setup) {
     const std::chrono::duration<double> budget(setup.answer_time);
-    return Hardware(Drives(
-        bus_, {bus_, std::chrono::duration_cast<std::chrono::nanoseconds>(budget)}, setup.drives));
+    Drives drives(bus_, {bus_, std::chrono::duration_cast<std::chrono::nanoseconds>(budget)},
+                  setup.drives);
+    sensor::OptionalSensor sensor;
+    if (setup.sensor) {
+      sensor::RdtClient client(*setup.sensor);
+      client.start();
+      sensor = sensor::OptionalSensor(std::move(client));
+    }
+    return Hardware(sensor::WithForceSensor(std::move(drives), std::move(sensor)));
   }
   static LoopOptions options(const RunSetup& setup) {
     LoopOptions options{.plan = setup.plan};
@@ -115,7 +131,7 @@ Running start_running(can::EitherBus bus, const Law& law, const RunSetup& setup)
   auto work = std::make_shared<HardwareLoop<Law>>(std::move(bus), law, setup);
   return {.trace = work->trace(),
           .stop = [work] { work->thread().stop(); },
-          .join = [work] { work->thread().join(); },
+          .join = [work] { work->join(); },
           .done = [work] { return work->thread().done(); },
           .at_rest = [work] { return work->thread().loop().device().at_rest(); },
           .state = [work] { return work->thread().loop().state(); },

@@ -38,6 +38,7 @@ class Timed {
   bool running() const EBAC_RT { return device_.running(); }
   bool at_rest() const EBAC_RT { return device_.at_rest(); }
 
+  D& device() EBAC_RT { return device_; }
   const State& state(std::size_t) const EBAC_RT { return state_; }
   auto parts() const EBAC_RT { return std::tuple_cat(row_parts(device_), std::tie(*this)); }
 

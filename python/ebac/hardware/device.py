@@ -221,6 +221,7 @@ class OpenDevice:
                 ticks=ticks,
             ),
             limits=limits,
+            sensor=None,
             rows=min(ticks, ceil(known.memory / dt)) + _MORE_ROWS,
             ring=True,
             mode=_core.RealTimeMode[known.mode.upper()],
