@@ -127,7 +127,7 @@ def show(result: Result) -> None:
         if report.log is None
         else f"{report.recorded:,} recorded, {report.lost_rows:,} lost"
     )
-    output.say(f"{report.rows:,} rows, {kept}; ended by {report.ended_by}; on {result.place}.")
+    output.say(f"{report.ticks:,} ticks, {kept}; ended by {report.ended_by}; on {result.place}.")
     states = ", ".join(report.drives) or "not asked"
     output.say(f"Drives after it: {states}.")
     for grant in report.grants:

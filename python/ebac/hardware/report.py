@@ -22,8 +22,8 @@ class Report:
         "time", "fault", "stop", "SIGINT", "SIGTERM", "SIGHUP", "parent", "exception" or "recorder".
     log : Path or None
         The log.
-    rows, recorded, lost_rows : int
-        Rows of the loop, rows in the log, and rows written over before they were recorded.
+    ticks, recorded, lost_rows : int
+        Ticks of the loop, rows in the log, and rows written over before they were recorded.
     changes_lost : int
         Changes that acted but of which no note was kept.
     drives : tuple of str
@@ -36,7 +36,7 @@ class Report:
 
     ended_by: str
     log: Path | None
-    rows: int
+    ticks: int
     recorded: int
     lost_rows: int
     changes_lost: int

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import signal
 import threading
+import time
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -219,7 +220,13 @@ class Run:
             files=files,
             watch=self.events,
             sync=sync,
+            start=time.time() - self._age(),
         )
+
+    def _age(self) -> float:
+        """Return the time since the loop's first tick [s]."""
+        last = self.tail(1)
+        return float(last["t"][-1]) if len(last) else 0.0
 
     def wait(self, *, look: Callable[[Run], None] = lambda run: None) -> None:
         """Wait for the end of the loop.
@@ -289,7 +296,7 @@ class Run:
         return Report(
             ended_by=self._why(),
             log=None if recorder is None else recorder.path,
-            rows=self._running.rows.count,
+            ticks=self._running.rows.count,
             recorded=0 if recorder is None else recorder.written,
             lost_rows=0 if recorder is None else recorder.lost,
             changes_lost=self._running.changes_lost,
