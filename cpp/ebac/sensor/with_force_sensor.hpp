@@ -65,6 +65,11 @@ class WithForceSensor {
   {
     return device_.running() && !awaited_;
   }
+  bool at_rest() const EBAC_RT
+    requires requires(const D& d) { d.at_rest(); }
+  {
+    return device_.at_rest();
+  }
   void aim(std::size_t axis, double target) EBAC_RT
     requires requires(D& d) { d.aim(axis, target); }
   {
