@@ -1,7 +1,7 @@
 #pragma once
 
 #include <memory>
-#include <utility>
+#include <optional>
 
 #include "ebac/can/joystick.hpp"
 #include "ebac/sensor/felt.hpp"
@@ -32,11 +32,11 @@ inline double checked_peak_time(double seconds) {
 
 /// The device and hand of a setup behind drives; `felt` is told the force at the handle.
 inline PlantOfDrives make_joystick(Setup setup, int first, double peak_time,
-                                   std::shared_ptr<sensor::ForceCell> felt) {
+                                   std::optional<std::shared_ptr<sensor::ForceCell>> felt) {
   const can::NodeId node = checked_node(first, setup.device.axes());
   setup.device.drive.permille = true;  // what a drive is told in
   setup.timing.delay = 0;              // its delay is that of the bus
-  return {sensor::Felt(SimulatedDevice(setup), std::move(felt)), setup.device, node,
+  return {sensor::Felt(SimulatedDevice(setup), felt.value_or(nullptr)), setup.device, node,
           checked_peak_time(peak_time)};
 }
 

@@ -42,8 +42,6 @@ std::unique_ptr<ServedEmulator> serve(const std::string& host, int port,
       [&] { return std::make_unique<ServedEmulator>(at, std::move(emulator), std::move(source)); });
 }
 
-constexpr std::array<double, 9> kStraight{1, 0, 0, 0, 1, 0, 0, 0, 1};
-
 template <class Source, class Turn>
 void add_init(py::class_<ServedEmulator>& cls, Turn turn) {
   cls.def(py::init([turn](const std::string& host, int port, Source source,
@@ -51,9 +49,8 @@ void add_init(py::class_<ServedEmulator>& cls, Turn turn) {
                           int sign, sensor::SensorModel model, std::uint64_t seed) {
             return serve(host, port, options, rotation, sign, model, seed, turn(source));
           }),
-          py::arg("host"), py::arg("port"), py::arg("source"), py::kw_only(),
-          py::arg("options") = EmulatorOptions{}, py::arg("rotation") = kStraight,
-          py::arg("sign") = 1, py::arg("model") = sensor::SensorModel::kNetFt, py::arg("seed") = 1);
+          py::arg("host"), py::arg("port"), py::arg("source"), py::kw_only(), py::arg("options"),
+          py::arg("rotation"), py::arg("sign"), py::arg("model"), py::arg("seed"));
 }
 
 void bind_values(py::module_& m) {

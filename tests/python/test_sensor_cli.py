@@ -103,13 +103,13 @@ def test_no_page_crashes_its_reader(text: bytes) -> None:
 def test_a_page_that_cannot_be_had_says_why() -> None:
     with socket.create_server(("127.0.0.1", 0)) as listener:
         port = listener.getsockname()[1]
-        with pytest.raises(SensorError, match="cannot be read .*timed out"):
+        with pytest.raises(SensorError, match=r"cannot be read .*timed out"):
             read_page("127.0.0.1", http_port=port, timeout=0.1)
     with pytest.raises(SensorError, match="Connection refused"):
         read_page("127.0.0.1", http_port=port)
-    with pytest.raises(ValueError, match="sensor.http_port = 0"):
+    with pytest.raises(ValueError, match=r"sensor.http_port = 0"):
         read_page("127.0.0.1", http_port=0)
-    with pytest.raises(ValueError, match="sensor.timeout = nan s"):
+    with pytest.raises(ValueError, match=r"sensor.timeout = nan s"):
         read_page("127.0.0.1", timeout=float("nan"))
 
 

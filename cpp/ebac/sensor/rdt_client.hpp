@@ -47,7 +47,7 @@ class RdtClient {
   explicit RdtClient(const RdtClientSetup& setup);
   ~RdtClient() { close(); }
   RdtClient(RdtClient&&) noexcept = default;
-  RdtClient& operator=(RdtClient&&) = delete;
+  RdtClient& operator=(RdtClient&&) noexcept = default;
   RdtClient(const RdtClient&) = delete;
   RdtClient& operator=(const RdtClient&) = delete;
 

@@ -103,7 +103,10 @@ UdpSocket::UdpSocket(const Endpoint& at)
 UdpSocket::UdpSocket(UdpSocket&& other) noexcept : fd_(std::exchange(other.fd_, -1)) {}
 
 UdpSocket& UdpSocket::operator=(UdpSocket&& other) noexcept {
-  std::swap(fd_, other.fd_);
+  if (this != &other) {
+    close();
+    fd_ = std::exchange(other.fd_, -1);
+  }
   return *this;
 }
 

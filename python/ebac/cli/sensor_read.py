@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from itertools import count
 from math import inf
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -63,7 +64,8 @@ def read(
                     row = {"t_s": now - begun, **sensor.latest.row(), **sensor.counts.row()}
                     if as_json:
                         rows.append(row)
-                    show(lambda row=row: _picture(found, sensor, row))
+                    else:
+                        show(_picture(found, sensor, row))
             except KeyboardInterrupt:
                 pass
         counts, state = sensor.counts, sensor.state.name.lower()
@@ -87,15 +89,15 @@ def read(
 
 def _ticks(begun: float, seconds: float, rate: float) -> Iterator[float]:
     """Give the time at each tick, at the first at once."""
-    tick = 0
-    while (now := time.monotonic()) - begun <= seconds:
-        yield now
-        tick += 1
+    for tick in count():
+        if tick / rate > seconds:
+            return
         time.sleep(max(0.0, begun + tick / rate - time.monotonic()))
+        yield time.monotonic()
 
 
 @contextmanager
-def _view(*, shown: bool) -> Iterator[Callable[[Callable[[], RenderableType]], None]]:
+def _view(*, shown: bool) -> Iterator[Callable[[RenderableType], None]]:
     """Give what shows one picture; the view stays where it was when it ends."""
     if not shown:
         yield lambda picture: None
@@ -103,7 +105,7 @@ def _view(*, shown: bool) -> Iterator[Callable[[Callable[[], RenderableType]], N
     from rich.live import Live
 
     with Live(console=output.console(), auto_refresh=False) as live:
-        yield lambda picture: live.update(picture(), refresh=True)
+        yield lambda picture: live.update(picture, refresh=True)
 
 
 def _picture(config: SensorConfig, sensor: Sensor, row: dict[str, Any]) -> RenderableType:

@@ -16,7 +16,8 @@ Rotation: TypeAlias = tuple[Row, Row, Row]
 #: A force [N] and a torque [N m] together.
 Wrench: TypeAlias = tuple[float, float, float, float, float, float]
 
-_MODELS = dict(zip(BITS, _core.SensorModel, strict=True))
+#: Models by name.
+MODELS = dict(zip(BITS, _core.SensorModel, strict=True))
 #: Parameters that the core checks as a scale.
 _SCALE = ("counts_per_force", "counts_per_torque", "force_range", "torque_range")
 
@@ -73,19 +74,20 @@ class SensorConfig:
 
     def __post_init__(self) -> None:
         """Check types and ranges; the core checks what it owns."""
-        if not isinstance(self.host, str) or not self.host.strip():
+        host: Any = self.host
+        if not isinstance(host, str) or not host.strip():
             raise TypeError(
-                f"sensor.host = {self.host!r}: must be an address or a name, as '192.168.1.1'"
+                f"sensor.host = {host!r}: must be an address or a name, as '192.168.1.1'"
             )
         for name in ("port", "sign"):
             value = getattr(self, name)
             if not isinstance(value, int) or isinstance(value, bool):
                 raise TypeError(f"sensor.{name} = {value!r}: must be a whole number")
-        if self.model not in _MODELS:
-            raise ValueError(f"sensor.model = {self.model!r}: must be one of {', '.join(_MODELS)}")
-        rows = _numbers("rotation", self.rotation, 3, inner=3)
+        if self.model not in MODELS:
+            raise ValueError(f"sensor.model = {self.model!r}: must be one of {', '.join(MODELS)}")
+        rows = numbers("rotation", self.rotation, 3, inner=3)
         object.__setattr__(self, "rotation", rows)
-        object.__setattr__(self, "bias", _numbers("bias", self.bias, 6))
+        object.__setattr__(self, "bias", numbers("bias", self.bias, 6))
         _core._check_sensor(self.port, self.retry, self.gone, self._flat(), self.sign)
         self._scale()
 
@@ -128,7 +130,7 @@ class SensorConfig:
             scale=self._scale(),
             rotation=self._flat(),
             sign=self.sign,
-            model=_MODELS[self.model],
+            model=MODELS[self.model],
             retry=self.retry,
             gone=self.gone,
             bias=[value * scale for value, scale in zip(self.bias, counts, strict=True)],
@@ -144,7 +146,7 @@ class SensorConfig:
         return [value for row in self.rotation for value in row]
 
 
-def _numbers(name: str, given: Any, count: int, *, inner: int = 0) -> tuple[Any, ...]:
+def numbers(name: str, given: Any, count: int, *, inner: int = 0) -> tuple[Any, ...]:
     """Return rows of finite numbers as tuples, or say what is wrong with them."""
     shape = f"{count} rows of {inner} numbers" if inner else f"{count} numbers"
     if not isinstance(given, Sequence) or isinstance(given, str) or len(given) != count:
@@ -152,7 +154,7 @@ def _numbers(name: str, given: Any, count: int, *, inner: int = 0) -> tuple[Any,
     if not isinstance(given, Sequence) or isinstance(given, str) or len(given) != count:
         raise TypeError(f"sensor.{name} = {given!r}: must be {shape}")
     if inner:
-        return tuple(_numbers(name, row, inner) for row in given)
+        return tuple(numbers(name, row, inner) for row in given)
     for value in given:
         if isinstance(value, bool) or not isinstance(value, (int, float)):
             raise TypeError(f"sensor.{name} has {value!r}: must be {shape}")

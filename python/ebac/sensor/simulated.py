@@ -16,7 +16,7 @@ from ebac._core import (
     RdtEmulator,
     Setup,
 )
-from ebac.sensor.configuration import _MODELS, Rotation, SensorConfig
+from ebac.sensor.configuration import MODELS, Rotation, SensorConfig, numbers
 from ebac.sensor.page import PAGE
 
 if TYPE_CHECKING:
@@ -68,8 +68,9 @@ class SimulatedSensor:
         seed: int = 1,
     ) -> None:
         self.options = options or EmulatorOptions()
-        given = {} if rotation is None else {"rotation": rotation}
-        config = SensorConfig(host=host, port=port or 49152, model=model, sign=sign, **given)
+        config = SensorConfig(host=host, port=port or 49152, model=model, sign=sign)
+        if rotation is not None:
+            config = config.replace(rotation=rotation)
         self._config = config
         self._work = RdtEmulator(
             host,
@@ -78,7 +79,7 @@ class SimulatedSensor:
             options=self.options,
             rotation=[value for row in config.rotation for value in row],
             sign=sign,
-            model=_MODELS[model],
+            model=MODELS[model],
             seed=seed,
         )
         self._page: ThreadingHTTPServer | None = None
@@ -177,11 +178,7 @@ def _source(source: ForceCell | Scenario | Sequence[float]) -> ForceCell | Setup
         return source
     if isinstance(source, Scenario):
         return source.setup()
-    if not isinstance(source, Sequence) or len(source) != 3:
-        raise TypeError(
-            f"source = {source!r}: must be a ForceCell, a Scenario, or a force of 3 numbers [N]"
-        )
-    return ForceCell([float(value) for value in source])
+    return ForceCell(list(numbers("source", source, 3)))
 
 
 def _page_server(host: str, port: int, text: bytes) -> ThreadingHTTPServer:
