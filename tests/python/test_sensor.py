@@ -198,6 +198,16 @@ def test_a_sensor_that_is_unwell_is_told_and_no_zero(pushed: SimulatedSensor) ->
         assert reading.health is SensorStatus.ERROR
 
 
+def test_what_waited_in_a_queue_is_not_what_acts_now() -> None:
+    with (
+        SimulatedSensor(options=EmulatorOptions(rate=7000)) as simulated,
+        Sensor.open(simulated.config) as sensor,
+    ):
+        time.sleep(0.3)
+        assert sensor.read().age < 0.1
+        assert sensor.counts.lost > 0  # the queue ran over
+
+
 def test_too_much_force_saturates() -> None:
     with (
         SimulatedSensor((200.0, 0.0, 0.0)) as simulated,

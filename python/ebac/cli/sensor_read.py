@@ -20,6 +20,8 @@ if TYPE_CHECKING:
 
 #: Length of a reading as JSON [s], where none is given.
 _BRIEF = 1.0
+#: How long records may wait [s]: a queue of the system holds some 250.
+_SLICE = 0.01
 
 
 def read(
@@ -57,10 +59,10 @@ def read(
         seconds = _BRIEF if as_json else inf
     rows: list[dict[str, Any]] = []
     with sensor_options.opened(found, timeout) as sensor:
-        begun = time.monotonic()
+        begun, before = time.monotonic(), sensor.counts.received
         with _view(shown=not as_json) as show:
             try:
-                for now in _ticks(begun, seconds, rate):
+                for now in _ticks(sensor, begun, seconds, rate):
                     row = {"t_s": now - begun, **sensor.latest.row(), **sensor.counts.row()}
                     if as_json:
                         rows.append(row)
@@ -77,7 +79,7 @@ def read(
             "counts_per_force_per_N": found.counts_per_force,
             "counts_per_torque_per_Nm": found.counts_per_torque,
             "state": state,
-            "records_per_s": counts.received / lasted if lasted > 0 else None,
+            "records_per_s": (counts.received - before) / lasted if lasted > 0 else None,
         }
         typer.echo(output.document("sensor read", rows, **more))
     else:
@@ -87,25 +89,35 @@ def read(
         )
 
 
-def _ticks(begun: float, seconds: float, rate: float) -> Iterator[float]:
-    """Give the time at each tick, at the first at once."""
+def _ticks(sensor: Sensor, begun: float, seconds: float, rate: float) -> Iterator[float]:
+    """Give the time at each tick, at the first at once. Reads in between, so that no queue runs over."""
     for tick in count():
         if tick / rate > seconds:
             return
-        time.sleep(max(0.0, begun + tick / rate - time.monotonic()))
+        while (left := begun + tick / rate - time.monotonic()) > 0:
+            time.sleep(min(left, _SLICE))
+            sensor.latest  # noqa: B018
         yield time.monotonic()
 
 
 @contextmanager
 def _view(*, shown: bool) -> Iterator[Callable[[RenderableType], None]]:
-    """Give what shows one picture; the view stays where it was when it ends."""
-    if not shown:
-        yield lambda picture: None
-        return
-    from rich.live import Live
+    """Give what shows a picture; the last one stays, and is all there is where nobody looks."""
+    console = output.console()
+    if shown and console.is_terminal:
+        from rich.live import Live
 
-    with Live(console=output.console(), auto_refresh=False) as live:
-        yield lambda picture: live.update(picture, refresh=True)
+        with Live(console=console, auto_refresh=False) as live:
+            yield lambda picture: live.update(picture, refresh=True)
+        return
+    last: list[RenderableType] = []
+
+    def keep(picture: RenderableType) -> None:
+        last[:] = [picture]
+
+    yield keep
+    if shown and last:
+        console.print(last[0])
 
 
 def _picture(config: SensorConfig, sensor: Sensor, row: dict[str, Any]) -> RenderableType:
