@@ -9,6 +9,8 @@ PYBIND11_MODULE(_core, m, pybind11::mod_gil_not_used()) {
   ebac::python::bind_environment(m);
   ebac::python::bind_simulation(m);
   ebac::python::bind_replay(m);
+  ebac::python::bind_sensor(m);
+  ebac::python::bind_sensor_emulator(m);
   ebac::python::bind_drives(m);
   ebac::python::bind_sweeps(m);
   ebac::python::bind_linear_loop(m);

@@ -115,7 +115,8 @@ Found fault_when(Break&& damage) {
 TEST(SensorLoop, ASilentSensorIsStale) {
   const Found found = fault_when([](StepSensor& s) { s.emulator().set({.silent = true}); });
   EXPECT_EQ(found.fault, Fault::kForceStale);
-  EXPECT_NEAR(found.ticks, 20.5, 0.5);  // older than 20 ms, up to the rounding of a sum
+  EXPECT_NEAR(static_cast<double>(found.ticks), 20.5,
+              0.5);  // older than 20 ms, up to the rounding of a sum
   EXPECT_EQ(found.force_after, 0);
 }
 

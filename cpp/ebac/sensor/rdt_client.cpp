@@ -10,15 +10,7 @@ namespace ebac::sensor {
 namespace {
 
 const RdtClientSetup& checked_setup(const RdtClientSetup& setup) {
-  if (setup.sensor.port == 0) {
-    throw std::invalid_argument("sensor.port = 0: must lie in [1, 65535]; a Net F/T has 49152");
-  }
-  const auto within = [](const char* name, double value) {
-    if (value >= 1e-3 && value <= 60) return;
-    throw std::invalid_argument(range_message("sensor", name, value, "s", 1e-3, 60));
-  };
-  within("retry", setup.retry);
-  within("gone", setup.gone);
+  check_client(setup);
   return setup;
 }
 
@@ -36,6 +28,18 @@ double since(std::int64_t stamp) EBAC_RT {  // s
 }
 
 }  // namespace
+
+void check_client(const RdtClientSetup& setup) {
+  if (setup.sensor.port == 0) {
+    throw std::invalid_argument("sensor.port = 0: must lie in [1, 65535]; a Net F/T has 49152");
+  }
+  const auto within = [](const char* name, double value) {
+    if (value >= 1e-3 && value <= 60) return;
+    throw std::invalid_argument(range_message("sensor", name, value, "s", 1e-3, 60));
+  };
+  within("retry", setup.retry);
+  within("gone", setup.gone);
+}
 
 RdtClient::RdtClient(const RdtClientSetup& setup)
     : setup_(checked_setup(setup)), link_(setup.link), socket_(socket_for(setup.sensor)) {}

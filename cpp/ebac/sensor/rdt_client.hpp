@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <chrono>
 #include <cstdint>
 #include <string_view>
@@ -31,6 +32,9 @@ struct RdtClientSetup {
   bool stamped = true;
 };
 
+/// Throws std::invalid_argument for a setup that cannot be; scale and mounting apart.
+void check_client(const RdtClientSetup& setup);
+
 /// A force/torque sensor on the network, polled by whoever has it. No call waits, but `wait`.
 class RdtClient {
  public:
@@ -41,6 +45,11 @@ class RdtClient {
 
   /// Throws std::system_error, or std::invalid_argument for a setup that cannot be.
   explicit RdtClient(const RdtClientSetup& setup);
+  ~RdtClient() { close(); }
+  RdtClient(RdtClient&&) noexcept = default;
+  RdtClient& operator=(RdtClient&&) noexcept = default;
+  RdtClient(const RdtClient&) = delete;
+  RdtClient& operator=(const RdtClient&) = delete;
 
   /// Asks for a stream without end.
   void start() EBAC_RT;
@@ -49,7 +58,6 @@ class RdtClient {
   void bias_sensor() EBAC_RT { ask(RdtCommand::kBias); }
   /// Takes the mean of the next `records` as zero, here.
   void begin_bias(int records) EBAC_RT { link_.begin_bias(records); }
-  void set_bias(const std::array<double, 6>& counts) EBAC_RT { link_.set_bias(counts); }
 
   /// Reads all that came; `elapsed` seconds after the last poll. Whether a newer record did.
   bool poll(double elapsed) EBAC_RT;

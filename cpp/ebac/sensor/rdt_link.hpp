@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <span>
 
@@ -22,9 +24,10 @@ class RdtLink {
     FtScale scale{};
     Mounting mounting{};
     StatusBits bits = StatusBits::of(SensorModel::kNetFt);
+    std::array<double, 6> bias{};  // counts, taken as zero
   };
 
-  explicit RdtLink(const Setup& setup) : setup_(setup) {
+  explicit RdtLink(const Setup& setup) : setup_(setup), bias_(setup.bias) {
     check(setup.scale, "FtScale");
     check_mounting(setup.mounting);
   }
@@ -56,7 +59,6 @@ class RdtLink {
   bool biasing() const EBAC_RT { return left_ > 0; }
   /// What is taken as zero [counts].
   const std::array<double, 6>& bias() const EBAC_RT { return bias_; }
-  void set_bias(const std::array<double, 6>& counts) EBAC_RT { bias_ = counts; }
 
   Axes force() const EBAC_RT {  // N, at the handle
     return turned(record_.force, 0, setup_.scale.counts_per_force);
@@ -108,8 +110,8 @@ class RdtLink {
   SensorStatus health_ = SensorStatus::kGood;
   std::int64_t received_ = 0;
   std::int64_t malformed_ = 0;
-  std::array<double, 6> bias_{};  // counts
-  std::array<double, 6> sum_{};   // counts
+  std::array<double, 6> bias_;   // counts
+  std::array<double, 6> sum_{};  // counts
   int wanted_ = 0;
   int left_ = 0;
 };

@@ -103,7 +103,10 @@ UdpSocket::UdpSocket(const Endpoint& at)
 UdpSocket::UdpSocket(UdpSocket&& other) noexcept : fd_(std::exchange(other.fd_, -1)) {}
 
 UdpSocket& UdpSocket::operator=(UdpSocket&& other) noexcept {
-  std::swap(fd_, other.fd_);
+  if (this != &other) {
+    close();
+    fd_ = std::exchange(other.fd_, -1);
+  }
   return *this;
 }
 
@@ -114,15 +117,16 @@ void UdpSocket::close() noexcept {
 int UdpSocket::send(std::span<const std::uint8_t> bytes, const Endpoint& to) EBAC_RT {
   const sockaddr_in wire = to_wire(to);
   const auto* any = reinterpret_cast<const sockaddr*>(&wire);
+  int error = 0;
   // Twice: the first failure may be what an earlier packet met on its way.
   for (int i = 0; i < 2; ++i) {
     const ssize_t sent =
         ::sendto(fd_, bytes.data(), bytes.size(), MSG_DONTWAIT | MSG_NOSIGNAL, any, sizeof(wire));
     if (sent >= 0) return 0;
-    if (errno != ECONNREFUSED) break;
+    error = errno;
     forget_errors();
   }
-  return errno;
+  return error;
 }
 
 int UdpSocket::receive(Datagram& in) EBAC_RT {

@@ -21,6 +21,7 @@ from ebac.cli import (
     paper,
     presets,
     run,
+    sensor,
     specs,
     study,
     wall,
@@ -80,4 +81,5 @@ app.command("jitter")(jitter.jitter)
 app.command("faults")(faults.faults)
 app.add_typer(drive.app, name="drive")
 app.add_typer(bus.bus, name="bus")
+app.add_typer(sensor.app, name="sensor")
 app.add_typer(log.log, name="log")
