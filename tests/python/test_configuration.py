@@ -57,6 +57,8 @@ def test_an_empty_one_is_the_paper_s_joystick() -> None:
         ("bus = 3\n", 1, "bus = 3: must be a table"),
         ("[device.kinematics]\ntype = 'Linear'\naxes = 1\n", None, "2 drives, the device 1 axes"),
         ("[device.motor]\ntorque_constant = 0.06\n", None, "motor.torque_constant = 0.0538"),
+        ("[sensor]\nhost = '10.0.0.1'\nport = 70000\n", 3, "port = 70000"),
+        ("[sensor]\ncounts_per_forc = 1.0\n", 2, "did you mean 'counts_per_force'"),
         ("[run\n", None, "not a TOML document"),
     ],
 )
@@ -72,9 +74,10 @@ def test_what_cannot_be_is_refused_with_its_line(text: str, line: int | None, wo
 
 def test_without_a_sensor_nothing_is_fed_back() -> None:
     known = Configuration.from_toml("")
-    law = known.design(sensor=False)
-    assert law.kp == 0  # type: ignore[attr-defined]
-    assert known.design(sensor=True).kp > 0  # type: ignore[attr-defined]
+    assert known.design().kp == 0  # type: ignore[attr-defined]
+    felt = Configuration.from_toml("[sensor]\nhost = '10.0.0.1'\n")
+    assert felt.sensor is not None
+    assert felt.design().kp > 0  # type: ignore[attr-defined]
     with pytest.raises(ValueError, match="no force sensor is configured"):
         designed("tca", {"kp": 0.2}, known.device, known.timing, sensor=False)
 

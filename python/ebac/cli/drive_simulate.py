@@ -11,7 +11,7 @@ from contextlib import contextmanager
 from math import inf
 from pathlib import Path
 from types import FrameType
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
@@ -64,6 +64,14 @@ def simulate(
             "--wait-for-power", help="The hand holds still until a motor first has power."
         ),
     ] = False,
+    sensor: Annotated[
+        bool,
+        typer.Option("--sensor", help="Also a simulated force sensor at the handle, on 127.0.0.1."),
+    ] = False,
+    sensor_counts: Annotated[
+        tuple[float, float],
+        typer.Option("--sensor-counts", help="Its counts of 1 N and of 1 N m."),
+    ] = (1e6, 1e6),
     until_eof: Annotated[
         bool,
         typer.Option(
@@ -90,16 +98,26 @@ def simulate(
 
     * `ebac drive simulate --scenario tapping.toml`: with a hand of your own.
     """
+    from ebac._core import ForceCell
     from ebac.drives.simulate import Simulation
+    from ebac.hardware.place import sensor_of
+    from ebac.sensor import SensorConfig
 
     with output.refusing():
         plant = _plant(scenario, device, hand, seed)
         setup = plant.setup()
     with telling(), _signalled() as over:
-        with _at_work(setup, interface, channel, bitrate, first, wait_for_power) as work:
+        known = SensorConfig(counts_per_force=sensor_counts[0], counts_per_torque=sensor_counts[1])
+        felt = ForceCell([0.0, 0.0, 0.0])
+        more = {"first": first, "felt": felt, "wait_for_power": wait_for_power}
+        with (
+            sensor_of(known if sensor else None, felt) as found,
+            _at_work(setup, interface, channel, bitrate, more) as work,
+        ):
+            also = "" if found is None else f" and a force sensor at {found.host}:{found.port}"
             ids = ", ".join(str(first + axis) for axis in range(plant.device.axes))
             output.say(
-                f"Simulated drives, nodes {ids}, on {interface} {channel}. Ctrl-C stops them."
+                f"Simulated drives, nodes {ids}, on {interface} {channel}{also}. Ctrl-C stops them."
             )
             sys.stdout.flush()
             if until_eof:
@@ -135,13 +153,14 @@ def _plant(file: Path | None, device: str | None, hand: str | None, seed: int | 
 
 @contextmanager
 def _at_work(
-    setup: Setup, interface: str, channel: str, bitrate: int | None, first: int, wait: bool
+    setup: Setup, interface: str, channel: str, bitrate: int | None, more: dict[str, Any]
 ) -> Iterator[SocketCanJoystick | Simulation]:
     """Put the drives on a bus until the end of the block: SocketCAN is served by C++."""
     from ebac._core import Joystick, SocketCanJoystick
     from ebac.drives import BusError
     from ebac.drives.bus import open_bus
     from ebac.drives.simulate import Simulation
+    from ebac.hardware.place import at_work
 
     if interface == "ebac":
         raise ValueError(
@@ -150,13 +169,13 @@ def _at_work(
         )
     if interface == "socketcan":
         try:
-            served = SocketCanJoystick(channel, setup, first=first, wait_for_power=wait)
+            served = SocketCanJoystick(channel, setup, **more)
         except OSError as error:
             raise BusError(error.strerror or str(error)) from error
-        with served:
+        with at_work(served):
             yield served
         return
-    nodes = Joystick(setup, first=first, wait_for_power=wait)
+    nodes = Joystick(setup, **more)
     with (
         open_bus(interface=interface, channel=channel, bitrate=bitrate) as bus,
         Simulation(bus, nodes) as simulation,

@@ -101,7 +101,7 @@ def _configuration(
     hand: str | None,
     target: float | None,
 ) -> Configuration:
-    from ebac.hardware import Configuration, designed
+    from ebac.hardware import Configuration
 
     known = Configuration.load(file)
     changes: dict[str, Any] = {
@@ -114,7 +114,7 @@ def _configuration(
         changes |= {"law": setting.one_law(law), "changes": {}}
     chosen = known.replace(**changes)
     chosen.scenario()
-    designed(chosen.law, chosen.changes, chosen.device, chosen.timing, sensor=False)
+    chosen.design()
     return chosen
 
 

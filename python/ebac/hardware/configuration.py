@@ -6,7 +6,7 @@ import dataclasses
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, Literal, Self
+from typing import TYPE_CHECKING, Any, Literal, Self
 
 from ebac import presets
 from ebac._core import Device, Hand, Limits, RealTime, Timing, Wall
@@ -19,6 +19,9 @@ from ebac.hardware.tables import ConfigurationError, known, on_top, refusing, ta
 from ebac.laws import LAWS, CoreLaw, design
 from ebac.scenario import Environment, Scenario
 
+if TYPE_CHECKING:
+    from ebac.sensor import SensorConfig
+
 TABLES = [
     "about",
     "bus",
@@ -30,6 +33,7 @@ TABLES = [
     "run",
     "realtime",
     "recording",
+    "sensor",
     "simulated",
 ]
 
@@ -76,6 +80,8 @@ class Configuration:
         Rows of so long a time stay in memory [s]; all of them go to the log.
     sync : float or None
         Time after which the log is forced to the disk [s].
+    sensor : SensorConfig or None
+        The force sensor, where there is one.
     hand : Hand
         Who holds the simulated device.
     """
@@ -101,6 +107,7 @@ class Configuration:
     realtime: RealTime = field(default_factory=RealTime)
     memory: float = 60.0
     sync: float | None = None
+    sensor: SensorConfig | None = None
     hand: Hand = field(default_factory=Hand)
 
     @classmethod
@@ -130,15 +137,10 @@ class Configuration:
         """Return a copy with some parts changed."""
         return dataclasses.replace(self, **changes)
 
-    def design(self, *, sensor: bool) -> CoreLaw:
-        """Return the law, designed for the device.
-
-        Parameters
-        ----------
-        sensor : bool
-            Whether a force sensor measures. Without one the gains of a force loop are 0.
-        """
-        return designed(self.law, self.changes, self.device, self.timing, sensor=sensor)
+    def design(self) -> CoreLaw:
+        """Return the law, designed for the device; without a sensor the gains of a force loop are 0."""
+        with_sensor = self.sensor is not None
+        return designed(self.law, self.changes, self.device, self.timing, sensor=with_sensor)
 
     def scenario(self, *, seconds: float | None = None) -> Scenario:
         """Return device, hand, virtual world and time as a scenario, for simulations and logs."""
@@ -204,6 +206,7 @@ def _read(source: Source) -> dict[str, Any]:
     values |= _realtime(source)
     known(source, ("recording",), [key.name for key in RECORDING])
     values |= {key.name: number(source, ("recording",), key) for key in RECORDING}
+    values["sensor"] = _sensor(source)
     values["hand"] = _hand(source)
     _fit(source, values)
     return values
@@ -244,6 +247,16 @@ def _hand(source: Source) -> Hand:
     name = table(source, path).get("preset", "reference")
     base = refusing(source, (*path, "preset"), lambda: presets.hand(name))
     made: Hand = on_top(source, path, base, apart=("preset",))
+    return made
+
+
+def _sensor(source: Source) -> SensorConfig | None:
+    if "sensor" not in source.table:
+        return None
+    from ebac.sensor import SensorConfig
+
+    found = known(source, ("sensor",), [one.name for one in dataclasses.fields(SensorConfig)])
+    made: SensorConfig = refusing(source, ("sensor",), lambda: SensorConfig.from_table(found))
     return made
 
 

@@ -194,7 +194,8 @@ class OpenDevice:
         known = self.configuration
         if law is None:
             law, changes = known.law, {**known.changes, **changes}
-        return designed(law, changes, known.device, known.timing, sensor=False)
+        with_sensor = self.place.sensor is not None
+        return designed(law, changes, known.device, known.timing, sensor=with_sensor)
 
     def _setup(self, known: Configuration, seconds: float) -> _core.RunSetup:
         if not 0.01 <= seconds <= 1e5:
@@ -206,7 +207,8 @@ class OpenDevice:
         consumers = [float(values.get("heartbeat.consumer", 0.0)) for values in profiles]
         masters = {int(values["heartbeat.master"]) for values in profiles}
         beat = min((one for one in consumers if one > 0), default=0.0)
-        limits = known.limits.replace(watch_force=False)
+        watch = known.limits.watch_force and self.place.sensor is not None
+        limits = known.limits.replace(watch_force=watch)
         return _core.RunSetup(
             device=known.device,
             environment=known.environment,
@@ -221,7 +223,7 @@ class OpenDevice:
                 ticks=ticks,
             ),
             limits=limits,
-            sensor=None,
+            sensor=None if self.place.sensor is None else self.place.sensor.core(),
             rows=min(ticks, ceil(known.memory / dt)) + _MORE_ROWS,
             ring=True,
             mode=_core.RealTimeMode[known.mode.upper()],
