@@ -116,7 +116,7 @@ def simulate(
         ):
             also = "" if found is None else f" and a force sensor at {found.host}:{found.port}"
             ids = ", ".join(str(first + axis) for axis in range(plant.device.axes))
-            output.say(
+            typer.echo(  # one line, for whoever waits for it
                 f"Simulated drives, nodes {ids}, on {interface} {channel}{also}. Ctrl-C stops them."
             )
             sys.stdout.flush()

@@ -101,10 +101,8 @@ def simulated(configuration: Configuration) -> Iterator[Place]:
                 interface="socketcan", channel=channel, bus=channel, about=about, sensor=sensor
             )
         return
-    from ebac._core import LoopbackJoystick
+    from ebac._core import ForceCell, LoopbackJoystick
     from ebac.can_interface import standing
-
-    from ebac._core import ForceCell
 
     felt = ForceCell([0.0, 0.0, 0.0])
 
