@@ -6,9 +6,10 @@
         trace = device.run("ebac", seconds=10, log="run.mcap")
 """
 
-from ebac.hardware.configuration import Configuration, designed
+from ebac.hardware.configuration import Configuration
 from ebac.hardware.device import OpenDevice
 from ebac.hardware.interrupts import Terminated
+from ebac.hardware.law import designed
 from ebac.hardware.place import Place, virtual_can
 from ebac.hardware.report import Report, Times, times, under_the_law
 from ebac.hardware.run import Run

@@ -15,8 +15,9 @@ from typing import TYPE_CHECKING, Any, Self
 from ebac import _core
 from ebac.drives import Backups
 from ebac.hardware import setting_up
-from ebac.hardware.configuration import Configuration, designed
+from ebac.hardware.configuration import Configuration
 from ebac.hardware.interrupts import Interrupts
+from ebac.hardware.law import designed
 from ebac.hardware.place import hardware, simulated
 from ebac.hardware.report import Report
 from ebac.hardware.run import Run

@@ -6,7 +6,6 @@ import signal
 import threading
 import time
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
 from pathlib import Path
 from types import TracebackType
 from typing import TYPE_CHECKING, Any
@@ -15,7 +14,7 @@ from ebac import _core
 from ebac.drives.errors import DriveError
 from ebac.hardware.interrupts import Interrupts, Parent
 from ebac.hardware.report import Report
-from ebac.logs.events import Event
+from ebac.hardware.told import Note, Told
 from ebac.trace import Trace, column_infos, row_views
 
 if TYPE_CHECKING:
@@ -27,14 +26,6 @@ if TYPE_CHECKING:
 LOOK = 0.02
 #: How often somebody looks whether the parent is still there [s].
 PARENT = 0.1
-
-
-@dataclass(kw_only=True)
-class _Posted:
-    """A value on its way to the loop: what the log will say of it when the loop has taken it."""
-
-    message: str
-    values: dict[str, Any] = field(default_factory=dict)
 
 
 class Run:
@@ -62,10 +53,8 @@ class Run:
         self._law = law
         self._scenario = scenario
         self._world: Environment = scenario.environment
-        self._posted: dict[int, _Posted] = {}
-        self._told = 0
+        self._told = Told(running, scenario.timing.dt)
         self._lock = threading.RLock()  # who changes or ends it
-        self._notes = threading.Lock()  # what was posted, and what the recorder tells of it
         self._over = threading.Event()
         self._watcher = threading.Thread(target=self._watch, name="ebac-parent", daemon=True)
         self._watcher.start()
@@ -157,12 +146,11 @@ class Run:
             parts = [
                 f"{name} {getattr(before, name)!r} -> {value!r}" for name, value in changes.items()
             ]
-            note = _Posted(
+            note = Note(
                 message=f"law {after.name}: {', '.join(parts)}",
                 values={f"law.{name}": value for name, value in changes.items()},
             )
-            with self._notes:
-                self._posted[self._running.retune(after)] = note
+            self._told.send(lambda: self._running.retune(after), note)
             self._law = after
             return after
 
@@ -187,12 +175,11 @@ class Run:
             self._check()
             world = self._world if environment is None else environment
             world = world.replace(**changes) if changes else world
-            note = _Posted(
+            note = Note(
                 message=f"environment {world!r}",
                 values={f"environment.{name}": value for name, value in changes.items()},
             )
-            with self._notes:
-                self._posted[self._running.change_world(world)] = note
+            self._told.send(lambda: self._running.change_world(world), note)
             self._world = world
             return world
 
@@ -218,7 +205,7 @@ class Run:
             law=self._law.name,
             law_repr=repr(self._law),
             files=files,
-            watch=self.events,
+            watch=self._told.events,
             sync=sync,
             start=time.time() - self._age(),
         )
@@ -356,31 +343,3 @@ class Run:
                 self._note_end("parent")
                 self.end()
                 return
-
-    # --- what the recorder asks, in its own thread ---
-
-    def events(self) -> list[Event]:
-        """Return what the loop has taken since the last call, once the rows of it are there."""
-        rows = self._running.rows
-        found: list[Event] = []
-        for tick, serial, what in self._running.changes(self._told):
-            if tick >= rows.count and not self.done:
-                break
-            self._told += 1
-            with self._notes:
-                posted = self._posted.get(serial) or _Posted(message=what)
-            t = self._time_of(tick)
-            found.append(
-                Event(
-                    kind="parameter", message=posted.message, tick=tick, t=t, values=posted.values
-                )
-            )
-        return found
-
-    def _time_of(self, tick: int) -> float:
-        rows = self._running.rows
-        if rows.first <= tick < rows.count:
-            first, raw = rows.copy(tick, tick + 1)
-            if first == tick and len(raw):
-                return float(row_views(rows, raw)["t"][0])
-        return tick * self._scenario.timing.dt
