@@ -104,9 +104,9 @@ def simulate(
     from ebac.sensor import SensorConfig
 
     with output.refusing():
-        plant = _plant(scenario, device, hand, seed)
+        plant = plant_of(scenario, device, hand, seed)
         setup = plant.setup()
-    with telling(), _signalled() as over:
+    with telling(), signalled() as over:
         known = SensorConfig(counts_per_force=sensor_counts[0], counts_per_torque=sensor_counts[1])
         felt = ForceCell([0.0, 0.0, 0.0])
         more = {"first": first, "felt": felt, "wait_for_power": wait_for_power}
@@ -134,7 +134,7 @@ def simulate(
     output.say(f"Stopped: {counts.received} frames received, {counts.sent} sent{refused}{lost}.")
 
 
-def _plant(file: Path | None, device: str | None, hand: str | None, seed: int | None) -> Scenario:
+def plant_of(file: Path | None, device: str | None, hand: str | None, seed: int | None) -> Scenario:
     """Return device and hand: of the file, or a joystick that is held where it is."""
     from ebac import presets
     from ebac.can_interface import resting_joystick
@@ -191,7 +191,7 @@ def _until_eof(over: threading.Event) -> None:
 
 
 @contextmanager
-def _signalled() -> Iterator[threading.Event]:
+def signalled() -> Iterator[threading.Event]:
     """Give an event that Ctrl-C and SIGTERM set."""
     over = threading.Event()
 

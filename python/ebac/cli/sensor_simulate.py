@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from ebac.cli import options, output, sensor_options
-from ebac.cli.drive_simulate import _plant, _signalled
+from ebac.cli.drive_simulate import plant_of, signalled
 
 if TYPE_CHECKING:
     from ebac.scenario import Scenario
@@ -99,7 +99,7 @@ def simulate(
             seed=seed or 1,
         )
     work.trouble(trouble)
-    with work, _signalled() as over:
+    with work, signalled() as over:
         at = "{}:{}".format(*work.address)
         page = (
             ""
@@ -127,7 +127,7 @@ def _source(
 ) -> Scenario | tuple[float, float, float]:
     """Return what it feels: a steady force, or a hand on a device."""
     if force is None:
-        return _plant(scenario, device, hand, seed)
+        return plant_of(scenario, device, hand, seed)
     if scenario is not None or device is not None or hand is not None:
         raise ValueError("--force: stands for hand and device; give it alone")
     return force

@@ -4,7 +4,8 @@ from ebac._core import EmulatorOptions, EmulatorTrouble, ForceCell, LinkState, S
 from ebac.sensor.configuration import SensorConfig
 from ebac.sensor.errors import SensorError
 from ebac.sensor.page import SensorPage, read_page
-from ebac.sensor.sensor import Sensor, SensorCounts, SensorReading
+from ebac.sensor.reading import SensorCounts, SensorReading
+from ebac.sensor.sensor import Sensor
 from ebac.sensor.simulated import SimulatedSensor
 from ebac.sensor.status import explain
 
