@@ -36,10 +36,10 @@ std::unique_ptr<ServedEmulator> serve(const std::string& host, int port,
                                       sensor::SensorModel model, std::uint64_t seed,
                                       ServedEmulator::Source source) {
   const sensor::Endpoint at = sensor::resolve(host, checked_port(port, 0));
-  RdtEmulator<sensor::Endpoint> emulator(options, checked_mounting(rotation, sign),
-                                         sensor::StatusBits::of(model), seed);
+  const RdtEmulator<sensor::Endpoint> emulator(options, checked_mounting(rotation, sign),
+                                               sensor::StatusBits::of(model), seed);
   return from_network(
-      [&] { return std::make_unique<ServedEmulator>(at, std::move(emulator), std::move(source)); });
+      [&] { return std::make_unique<ServedEmulator>(at, emulator, std::move(source)); });
 }
 
 template <class Source, class Turn>

@@ -7,11 +7,9 @@
 
 namespace ebac::sensor {
 
-ServedEmulator::ServedEmulator(const Endpoint& at, RdtEmulator<Endpoint> emulator, Source source)
-    : socket_(at),
-      emulator_(std::move(emulator)),
-      source_(std::move(source)),
-      local_(socket_.local()) {}
+ServedEmulator::ServedEmulator(const Endpoint& at, const RdtEmulator<Endpoint>& emulator,
+                               Source source)
+    : socket_(at), emulator_(emulator), source_(std::move(source)), local_(socket_.local()) {}
 
 void ServedEmulator::start() {
   if (started_)

@@ -23,7 +23,7 @@ class ServedEmulator {
   using Source = std::function<Force(double)>;
 
   /// Throws std::system_error when the address cannot be had.
-  ServedEmulator(const Endpoint& at, RdtEmulator<Endpoint> emulator, Source source);
+  ServedEmulator(const Endpoint& at, const RdtEmulator<Endpoint>& emulator, Source source);
   ~ServedEmulator() { stop(); }
   ServedEmulator(const ServedEmulator&) = delete;
   ServedEmulator& operator=(const ServedEmulator&) = delete;
