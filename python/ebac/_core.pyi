@@ -11,6 +11,8 @@ import typing
 import numpy
 import numpy.typing
 
+import ebac.hardware
+
 __all__: list[str] = [
     "EBA",
     "EBAC",
@@ -77,6 +79,9 @@ __all__: list[str] = [
     "ReplayLog",
     "Rows",
     "RunLimits",
+    "RunPlan",
+    "RunSetup",
+    "Running",
     "SensorModel",
     "SensorStatus",
     "Setup",
@@ -1163,6 +1168,11 @@ class Device:
     One haptic device, part by part. The default is the reference device: one straight axis of 0.25 kg and
     2 N s/m, built from the paper's motor, encoder and capstan.
     """
+    @staticmethod
+    def open(configuration: typing.Any, *, simulate: bool = False) -> ebac.hardware.OpenDevice:
+        """
+        Opens the drives of a configuration, or of its TOML file: `with Device.open(file) as device`.
+        """
     def __eq__(self, other: typing.Any) -> bool: ...
     def __hash__(self) -> int: ...
     def __init__(
@@ -2691,6 +2701,7 @@ class Joystick:
         first: typing.SupportsInt | typing.SupportsIndex = 1,
         peak_time: typing.SupportsFloat | typing.SupportsIndex = 2.0,
         felt: ForceCell | None = None,
+        wait_for_power: bool = False,
     ) -> None: ...
     def drive(self, axis: typing.SupportsInt | typing.SupportsIndex = 0) -> SimulatedDrive:
         """
@@ -2869,6 +2880,7 @@ class Direct:
         self, log: ReplayLog, device: Device, environment: Free | Wall | Corner | Disc
     ) -> Rows: ...
     def _simulate(self, setup: Setup, through_can: bool = False) -> Rows: ...
+    def _start(self, bus: typing.Any, setup: RunSetup) -> Running: ...
     def _time_step(
         self, setup: Setup, repeats: typing.SupportsInt | typing.SupportsIndex
     ) -> float: ...
@@ -2984,6 +2996,7 @@ class TCA:
         self, log: ReplayLog, device: Device, environment: Free | Wall | Corner | Disc
     ) -> Rows: ...
     def _simulate(self, setup: Setup, through_can: bool = False) -> Rows: ...
+    def _start(self, bus: typing.Any, setup: RunSetup) -> Running: ...
     def _time_step(
         self, setup: Setup, repeats: typing.SupportsInt | typing.SupportsIndex
     ) -> float: ...
@@ -3128,6 +3141,7 @@ class TCADamped:
         self, log: ReplayLog, device: Device, environment: Free | Wall | Corner | Disc
     ) -> Rows: ...
     def _simulate(self, setup: Setup, through_can: bool = False) -> Rows: ...
+    def _start(self, bus: typing.Any, setup: RunSetup) -> Running: ...
     def _time_step(
         self, setup: Setup, repeats: typing.SupportsInt | typing.SupportsIndex
     ) -> float: ...
@@ -3290,6 +3304,7 @@ class PassivityControl:
         self, log: ReplayLog, device: Device, environment: Free | Wall | Corner | Disc
     ) -> Rows: ...
     def _simulate(self, setup: Setup, through_can: bool = False) -> Rows: ...
+    def _start(self, bus: typing.Any, setup: RunSetup) -> Running: ...
     def _time_step(
         self, setup: Setup, repeats: typing.SupportsInt | typing.SupportsIndex
     ) -> float: ...
@@ -3424,6 +3439,7 @@ class VirtualCoupling:
         self, log: ReplayLog, device: Device, environment: Free | Wall | Corner | Disc
     ) -> Rows: ...
     def _simulate(self, setup: Setup, through_can: bool = False) -> Rows: ...
+    def _start(self, bus: typing.Any, setup: RunSetup) -> Running: ...
     def _time_step(
         self, setup: Setup, repeats: typing.SupportsInt | typing.SupportsIndex
     ) -> float: ...
@@ -3554,6 +3570,7 @@ class ForceBounding:
         self, log: ReplayLog, device: Device, environment: Free | Wall | Corner | Disc
     ) -> Rows: ...
     def _simulate(self, setup: Setup, through_can: bool = False) -> Rows: ...
+    def _start(self, bus: typing.Any, setup: RunSetup) -> Running: ...
     def _time_step(
         self, setup: Setup, repeats: typing.SupportsInt | typing.SupportsIndex
     ) -> float: ...
@@ -3707,6 +3724,7 @@ class EBA:
         self, log: ReplayLog, device: Device, environment: Free | Wall | Corner | Disc
     ) -> Rows: ...
     def _simulate(self, setup: Setup, through_can: bool = False) -> Rows: ...
+    def _start(self, bus: typing.Any, setup: RunSetup) -> Running: ...
     def _time_step(
         self, setup: Setup, repeats: typing.SupportsInt | typing.SupportsIndex
     ) -> float: ...
@@ -3874,6 +3892,7 @@ class EBACPrinted:
         self, log: ReplayLog, device: Device, environment: Free | Wall | Corner | Disc
     ) -> Rows: ...
     def _simulate(self, setup: Setup, through_can: bool = False) -> Rows: ...
+    def _start(self, bus: typing.Any, setup: RunSetup) -> Running: ...
     def _time_step(
         self, setup: Setup, repeats: typing.SupportsInt | typing.SupportsIndex
     ) -> float: ...
@@ -4103,6 +4122,7 @@ class EBAC:
         self, log: ReplayLog, device: Device, environment: Free | Wall | Corner | Disc
     ) -> Rows: ...
     def _simulate(self, setup: Setup, through_can: bool = False) -> Rows: ...
+    def _start(self, bus: typing.Any, setup: RunSetup) -> Running: ...
     def _time_step(
         self, setup: Setup, repeats: typing.SupportsInt | typing.SupportsIndex
     ) -> float: ...
@@ -4518,6 +4538,7 @@ class LoopbackJoystick:
         first: typing.SupportsInt | typing.SupportsIndex = 1,
         peak_time: typing.SupportsFloat | typing.SupportsIndex = 2.0,
         felt: ForceCell | None = None,
+        wait_for_power: bool = False,
     ) -> None: ...
     def start(self) -> typing.Any:
         """
@@ -4555,6 +4576,7 @@ class SocketCanJoystick:
         first: typing.SupportsInt | typing.SupportsIndex = 1,
         peak_time: typing.SupportsFloat | typing.SupportsIndex = 2.0,
         felt: ForceCell | None = None,
+        wait_for_power: bool = False,
     ) -> None: ...
     def start(self) -> typing.Any:
         """
@@ -4802,6 +4824,171 @@ class Grant:
     def why(self) -> str:
         """
         Why not; empty when it was.
+        """
+
+class RunPlan:
+    """
+    How a run begins and ends.
+
+    Parameters
+    ----------
+    soft_start : float
+        time in which the force comes in [s], 0 to 60.
+    ramp_down : float
+        time in which it goes out at a good end [s], 0 to 10.
+    stop_ticks : int
+        ticks with zero force in which the device is told to stop [samples], 1 to 1e+05.
+    arm : bool
+        begin by enabling the device; a run that does always ends by a stop, 0 to 1.
+    ticks : int
+        ticks under the law; 0 for until it is asked [samples], 0 to 9e+15.
+    """
+    @staticmethod
+    def fields() -> list[Field]:
+        """
+        Name, unit, meaning, default and range of every parameter.
+        """
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __init__(
+        self,
+        *,
+        soft_start: float = 0.0,
+        ramp_down: float = 0.0,
+        stop_ticks: int = 10,
+        arm: bool = False,
+        ticks: int = 0,
+    ) -> None: ...
+    def __reduce__(self) -> tuple[typing.Any, ...]: ...
+    def __repr__(self) -> str: ...
+    def as_dict(self) -> dict[str, typing.Any]:
+        """
+        Parameters by name.
+        """
+    def replace(self, **changes: typing.Any) -> typing.Self:
+        """
+        A copy with some parameters changed; checked as at construction.
+        """
+    @property
+    def arm(self) -> bool:
+        """
+        begin by enabling the device; a run that does always ends by a stop, 0 to 1
+        """
+    @property
+    def ramp_down(self) -> float:
+        """
+        time in which it goes out at a good end [s], 0 to 10
+        """
+    @property
+    def soft_start(self) -> float:
+        """
+        time in which the force comes in [s], 0 to 60
+        """
+    @property
+    def stop_ticks(self) -> int:
+        """
+        ticks with zero force in which the device is told to stop [samples], 1 to 1e+05
+        """
+    @property
+    def ticks(self) -> int:
+        """
+        ticks under the law; 0 for until it is asked [samples], 0 to 9e+15
+        """
+
+class RunSetup:
+    """
+    All that a run is but its bus and its law.
+    """
+    def __init__(
+        self,
+        *,
+        device: Device,
+        environment: Free | Wall | Corner | Disc,
+        dt: typing.SupportsFloat | typing.SupportsIndex,
+        nodes: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex],
+        answer_time: typing.SupportsFloat | typing.SupportsIndex,
+        plan: RunPlan,
+        limits: Limits | None,
+        sensor: RdtSetup | None,
+        rows: typing.SupportsInt | typing.SupportsIndex,
+        ring: bool,
+        mode: RealTimeMode,
+        realtime: RealTime,
+        **kwargs,
+    ) -> None:
+        """
+        Further keywords are those of the drives on the bus.
+        """
+
+class Running:
+    """
+    A loop at work in a thread that never touches Python.
+    """
+    def change_world(self, environment: Free | Wall | Corner | Disc) -> int:
+        """
+        Another virtual world from the next tick on.
+        """
+    def changes(
+        self, start: typing.SupportsInt | typing.SupportsIndex = 0
+    ) -> list[tuple[int, int, str]]:
+        """
+        What the loop took: (tick, serial number, what).
+        """
+    def join(self) -> None:
+        """
+        Waits for its end.
+        """
+    def retune(self, law: typing.Any) -> int:
+        """
+        The gains of this law from the next tick on; returns a serial number.
+        """
+    def stop(self) -> None:
+        """
+        Asks for a stop.
+        """
+    def wait(self, seconds: typing.SupportsFloat | typing.SupportsIndex) -> bool:
+        """
+        Whether it ended within so long [s].
+        """
+    @property
+    def at_rest(self) -> bool:
+        """
+        Whether every drive said in the last tick that its power is off. Once it ended.
+        """
+    @property
+    def bus(self) -> BusCounts:
+        """
+        What went over its end of the bus.
+        """
+    @property
+    def changes_lost(self) -> int:
+        """
+        Changes that acted, but of which no note was kept.
+        """
+    @property
+    def done(self) -> bool:
+        """
+        Whether it ended.
+        """
+    @property
+    def grants(self) -> list[Grant]:
+        """
+        What its thread asked of the system, and got.
+        """
+    @property
+    def rows(self) -> Rows:
+        """
+        Its rows; they grow while it runs.
+        """
+    @property
+    def state(self) -> LoopState:
+        """
+        Where it ended: idle, or fault.
+        """
+    @property
+    def unrecorded(self) -> int:
+        """
+        Ticks that found the trace full.
         """
 
 def _ask_realtime(options: RealTime) -> list[Grant]:

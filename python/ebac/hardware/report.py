@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import Any
 
@@ -49,7 +49,7 @@ class Report:
 
     def row(self) -> dict[str, Any]:
         """Return it as plain values."""
-        values = {name: value for name, value in asdict(self).items() if name != "grants"}
+        values: dict[str, Any] = {one.name: getattr(self, one.name) for one in fields(self)}
         values["log"] = None if self.log is None else str(self.log)
         values["grants"] = [
             {name: getattr(one, name) for name in ("name", "asked", "granted", "why", "remedy")}
