@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from html import escape
 from pathlib import Path
@@ -18,6 +18,8 @@ from ebac.scenario import Scenario
 if TYPE_CHECKING:
     import pandas as pd
     from matplotlib.figure import Figure
+
+    from ebac.explore import Exploration
 
 _KINDS = {"f": np.float64, "i": np.int64, "w": np.int32, "u": np.uint32, "b": np.bool_}
 
@@ -218,6 +220,16 @@ class Trace:
         from ebac.plot import plot_trace
 
         return plot_trace(self)
+
+    def explore(self, *columns: str | Sequence[str], axis: int = 0) -> Exploration:
+        """Look at the rows in a notebook, however many: linked panels to zoom and move in, no peak lost.
+
+        `trace.explore()` shows position, force, beta and energy; `trace.explore("x", ["f_cmd", "f_meas"])` a panel
+        for each group of columns. Needs `pip install 'ebac[notebook]'`. See `ebac.explore.explore`.
+        """
+        from ebac.explore import explore
+
+        return explore(self, *columns, axis=axis)
 
     def __repr__(self) -> str:
         """Return one line: law, rows, time, axes."""
