@@ -238,11 +238,14 @@ class Trace:
         return f"<Trace of {self.law or 'a run'}: {len(self)} rows, {span}, {self.axes} axis(es)>"
 
     def _repr_html_(self) -> str:
-        """Return a table of the columns for a notebook."""
+        """Return a small picture and a table of the columns for a notebook."""
+        from ebac.notebook import picture
+
         titles = ("column", "unit", "first", "last", "least", "most", "meaning")
         head = "<tr>" + "".join(f"<th>{title}</th>" for title in titles) + "</tr>"
         lines = [head, *(self._html_row(*column) for column in self.flat())]
-        return f"<p>{escape(repr(self))}</p><table>{''.join(lines)}</table>"
+        table = f"<details><summary>columns</summary><table>{''.join(lines)}</table></details>"
+        return f"<p>{escape(repr(self))}</p>{picture(self.plot) if len(self) > 1 else ''}{table}"
 
     def _html_row(self, name: str, info: ColumnInfo, values: NDArray[Any]) -> str:
         numbers = values.astype(float)
