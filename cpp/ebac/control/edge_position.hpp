@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "ebac/core/realtime.hpp"
@@ -11,33 +12,41 @@ namespace ebac {
 ///
 /// A reading tells a band one count wide; the instant it changes tells a place, the edge between two
 /// counts. A device that hardly moves is taken to be at the edge it crossed last. One that crosses
-/// edge after edge is, on average, in the middle of the band: at the reading.
+/// edge after edge is taken to go on at their pace; where it has just turned, to be in the middle of
+/// the band, at the reading.
 ///
 /// A force that toggles with the count does its work at the edge. Counted over whole readings, a
-/// held wall loses half a count times every change of the force, and dissolves within a minute.
+/// held wall loses half a count times every change of the force, and dissolves within a minute; and
+/// at half a count a tick the pulses of a damper seem to take in up to twice what they do.
 class EdgePosition {
  public:
-  explicit EdgePosition(double count) EBAC_RT : half_(count / 2) {}
+  explicit EdgePosition(double count) EBAC_RT : count_(count) {}
 
   void start(double x) EBAC_RT {
     edge_ = position_ = x;
     between_ = since_ = std::numeric_limits<double>::infinity();
-    direction_ = 0;
+    pace_ = 0;
+    direction_ = heading_ = 0;
+    on_ = false;
   }
 
   /// Takes a reading; returns the displacement since the last one.
   double step(double x, double dt) EBAC_RT {
-    const double edge = std::clamp(edge_, x - half_, x + half_);
-    const double rounding = half_ / 2;  // an edge met again may differ by the last digit
-    direction_ = (edge > edge_ + rounding) - (edge < edge_ - rounding);
+    const double edge = std::clamp(edge_, x - count_ / 2, x + count_ / 2);
+    const double crossed = edge - edge_;
+    const double rounding = count_ / 4;  // an edge met again may differ by the last digit
+    direction_ = (crossed > rounding) - (crossed < -rounding);
     edge_ = edge;
     since_ += dt;
     if (direction_ != 0) {
+      on_ = direction_ == heading_;
+      pace_ = std::abs(crossed) / since_;
+      heading_ = direction_;
       between_ = since_;
       since_ = 0;
     }
     const double before = position_;
-    position_ = std::max(between_, since_) <= kBrisk ? x : edge_;
+    position_ = place(x, dt);
     return position_ - before;
   }
 
@@ -45,14 +54,25 @@ class EdgePosition {
   int direction() const EBAC_RT { return direction_; }
 
  private:
+  double place(double x, double dt) const EBAC_RT {
+    if (std::max(between_, since_) > kBrisk) return edge_;
+    if (!on_) return x;
+    const double pace =
+        std::min(pace_, count_ / (since_ + dt));         // slower, the longer no new edge comes
+    return edge_ + heading_ * pace * (since_ + dt / 2);  // crossed half a tick before it was read
+  }
+
   static constexpr double kBrisk = 0.02;  // s between two edges: 1.5 mm/s at 0.03 mm a count
 
-  double half_;          // m
+  double count_;         // m
   double edge_ = 0;      // m, crossed last
   double position_ = 0;  // m
   double between_ = 0;   // s, between the last two crossings
   double since_ = 0;     // s, since the last one
+  double pace_ = 0;      // m/s, from one to the other
   int direction_ = 0;
+  int heading_ = 0;  // of the last crossing
+  bool on_ = false;  // the last two crossings had one direction
 };
 
 }  // namespace ebac
