@@ -2,6 +2,7 @@
 
 import re
 import subprocess
+from collections.abc import Iterator
 from pathlib import Path
 from xml.etree import ElementTree
 
@@ -12,8 +13,8 @@ from sphinx.util.docutils import SphinxDirective
 from sphinx.util.nodes import nested_parse_with_titles
 
 CPP = Path(__file__).parents[2] / "cpp"
-#: What a header shows: no namespaces, which every header opens again.
-SECTIONS = "briefdescription detaileddescription innerclass define typedef enum func var"
+#: Marks of reStructuredText, which comments in C++ do not mean.
+SPECIAL = re.compile(r"([*`|_\\])")
 #: Initial values in braces, which Sphinx's parser of C++ does not read; plain numbers stay.
 INITIALIZER = re.compile(
     r"<initializer>(?:(?!</initializer>).)*[{\[](?:(?!</initializer>).)*</initializer>", re.S
@@ -46,12 +47,12 @@ class Headers(SphinxDirective):
     required_arguments = 1
 
     def run(self) -> list[nodes.Node]:
-        names = doxygen_names(xml_folder(self.env.app))
+        xml = xml_folder(self.env.app)
+        pages = doxygen_pages(xml)
         lines: list[str] = []
         for header in sorted((CPP / "ebac" / self.arguments[0]).glob("*.hpp")):
             path = header.relative_to(CPP).as_posix()
-            lines += [path, "-" * len(path), "", f".. doxygenfile:: {names[path]}"]
-            lines += [f"   :sections: {SECTIONS}", ""]
+            lines += [path, "-" * len(path), "", *types(pages[path]), *free(pages[path])]
             self.env.note_dependency(str(header))
         holder = nodes.section()
         holder.document = self.state.document
@@ -59,20 +60,52 @@ class Headers(SphinxDirective):
         return list(holder.children)
 
 
+def types(page: ElementTree.Element) -> Iterator[str]:
+    """Directives of the types a header declares; those inside another type are shown by it."""
+    names = {inner.text: str(inner.get("refid")) for inner in page.iterfind("innerclass")}
+    for name, refid in names.items():
+        if name and name.rpartition("::")[0] not in names and "anonymous" not in name:
+            kind = "doxygenclass" if refid.startswith("class") else "doxygenstruct"
+            yield from (f".. {kind}:: {name}", "   :members:", "")
+
+
+def free(page: ElementTree.Element) -> Iterator[str]:
+    """What a header declares beside its types, each with its comment."""
+    for member in page.iterfind("sectiondef/memberdef"):
+        declared = " ".join(text(member, "definition").split()) + text(member, "argsstring")
+        if member.get("kind") in ("enum", "define"):
+            values = [text(value, "name") for value in member.iterfind("enumvalue")]
+            kind = "enum class" if member.get("kind") == "enum" else "#define"
+            declared = f"{kind} {text(member, 'name')}"
+            declared += f" {{ {', '.join(values)} }}" if values else ""
+        if declared:
+            yield from (".. code-block:: cpp", "", f"   {declared}", "")
+        comment = " ".join("".join(part.itertext()) for part in member.iterfind("briefdescription"))
+        if told := " ".join(comment.split()):
+            yield from (SPECIAL.sub(r"\\\1", told), "")
+
+
+def text(member: ElementTree.Element, tag: str) -> str:
+    """All text below a child of a member."""
+    found = member.find(tag)
+    return "" if found is None else "".join(found.itertext())
+
+
 def xml_folder(app: Sphinx) -> Path:
     """Where Doxygen leaves its XML: beside the doctrees, outside of the site."""
     return Path(app.doctreedir) / "doxygen" / "xml"
 
 
-def doxygen_names(xml: Path) -> dict[str, str]:
-    """Return what Doxygen calls each header: its bare name where no other has it."""
+def doxygen_pages(xml: Path) -> dict[str, ElementTree.Element]:
+    """Return what Doxygen says of each header, by its path."""
     index = ElementTree.parse(xml / "index.xml")
     found = {}
     for file in index.iterfind("compound[@kind='file']"):
-        page = ElementTree.parse(xml / f"{file.get('refid')}.xml")
-        location = page.find("compounddef/location")
+        page = ElementTree.parse(xml / f"{file.get('refid')}.xml").find("compounddef")
+        assert page is not None
+        location = page.find("location")
         assert location is not None
-        found[str(location.get("file"))] = str(file.findtext("name"))
+        found[str(location.get("file"))] = page
     return found
 
 

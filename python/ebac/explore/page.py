@@ -103,7 +103,8 @@ def _draw(
         min_border_left=75,
     )
     sources = []
-    for name, values, colour in zip(panel.names, panel.values, cycle(PALETTE), strict=False):
+    colours = cycle(PALETTE if len(panel.names) > 1 else PALETTE[1:])
+    for name, values, colour in zip(panel.names, panel.values, colours, strict=False):
         thin = bands(values, t)
         scale = np.arcsinh if panel.decades else np.asarray
         source = ColumnDataSource(
@@ -112,7 +113,7 @@ def _draw(
         shown = {"source": source, "legend_label": name}
         plot.varea("t", "low", "high", fill_color=colour, **shown)
         plot.line("t", "low", line_color=colour, line_join="bevel", **shown)
-        line = plot.line("t", "high", line_color=colour, line_join="bevel", **shown)
+        line = plot.line("t", "high", name=name, line_color=colour, line_join="bevel", **shown)
         unit = "" if panel.unit == "1" else f" {panel.unit}"
         plot.add_tools(
             HoverTool(

@@ -65,7 +65,9 @@ function draw({sources, decades, window_, plots}) {
     const scale = (values) => (decades[place] ? values.map(Math.asinh) : values);
     source.data = {t, least, most, low: scale(least), high: scale(most)};
   });
-  window.ebac_exploration = {rows: stop - start, bins, thin_ms: performance.now() - began};
+  // For those who measure, and for the tests.
+  const drawn = (window.ebac_exploration?.drawn ?? 0) + 1;
+  window.ebac_exploration = {drawn, start, stop, rows: stop - start, bins, thin_ms: performance.now() - began};
 }
 
 export default async function (args) {
