@@ -11,8 +11,12 @@ from ebac.cli import (
     bench,
     bus,
     conditions,
+    doctor,
     drive,
+    faults,
+    jitter,
     laws,
+    log,
     maps,
     paper,
     presets,
@@ -71,5 +75,9 @@ app.command("laws")(laws.laws)
 app.command("specs")(specs.specs)
 app.command("presets")(presets.presets)
 app.command("bench")(bench.bench)
+app.command("doctor")(doctor.doctor)
+app.command("jitter")(jitter.jitter)
+app.command("faults")(faults.faults)
 app.add_typer(drive.app, name="drive")
 app.add_typer(bus.bus, name="bus")
+app.add_typer(log.log, name="log")

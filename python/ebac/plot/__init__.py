@@ -1,6 +1,9 @@
 """Figures of traces and studies; they use no global state of pyplot, so any thread may draw."""
 
 from ebac.plot.ablation import plot_ablation
+from ebac.plot.columns import plot_columns
+from ebac.plot.faults import plot_fault
+from ebac.plot.jitter import plot_jitter
 from ebac.plot.maps import plot_map
 from ebac.plot.overlay import plot_overlay
 from ebac.plot.run import plot_trace
@@ -23,6 +26,9 @@ __all__ = [
     "new_figure",
     "plot_ablation",
     "plot_budget",
+    "plot_columns",
+    "plot_fault",
+    "plot_jitter",
     "plot_map",
     "plot_overlay",
     "plot_study",
