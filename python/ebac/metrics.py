@@ -92,6 +92,14 @@ class Contact:
     most_pull_N: float | None = None
     allowed_m: float | None = None
 
+    def _repr_html_(self) -> str:
+        """Return a table for a notebook."""
+        from dataclasses import asdict
+
+        from ebac.notebook import table
+
+        return table([asdict(self)])
+
     @property
     def deviation_m(self) -> float | None:
         """Rest minus ideal [m]; positive is too deep."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from html import escape
 from pathlib import Path
@@ -18,6 +18,8 @@ from ebac.scenario import Scenario
 if TYPE_CHECKING:
     import pandas as pd
     from matplotlib.figure import Figure
+
+    from ebac.explore import Exploration
 
 _KINDS = {"f": np.float64, "i": np.int64, "w": np.int32, "u": np.uint32, "b": np.bool_}
 #: Rows turned into text at a time.
@@ -280,6 +282,16 @@ class Trace:
 
         return plot_trace(self)
 
+    def explore(self, *columns: str | Sequence[str], axis: int = 0) -> Exploration:
+        """Look at the rows in a notebook, however many: linked panels to zoom and move in, no peak lost.
+
+        `trace.explore()` shows position, force, beta and energy; `trace.explore("x", ["f_cmd", "f_meas"])` a panel
+        for each group of columns. Needs `pip install 'ebac[notebook]'`. See `ebac.explore.explore`.
+        """
+        from ebac.explore import explore
+
+        return explore(self, *columns, axis=axis)
+
     def __repr__(self) -> str:
         """Return one line: law, rows, time, axes."""
         t = self._data["t"]
@@ -287,11 +299,14 @@ class Trace:
         return f"<Trace of {self.law or 'a run'}: {len(self)} rows, {span}, {self.axes} axis(es)>"
 
     def _repr_html_(self) -> str:
-        """Return a table of the columns for a notebook."""
+        """Return a small picture and a table of the columns for a notebook."""
+        from ebac.notebook import picture
+
         titles = ("column", "unit", "first", "last", "least", "most", "meaning")
         head = "<tr>" + "".join(f"<th>{title}</th>" for title in titles) + "</tr>"
         lines = [head, *(self._html_row(*column) for column in self.flat())]
-        return f"<p>{escape(repr(self))}</p><table>{''.join(lines)}</table>"
+        table = f"<details><summary>columns</summary><table>{''.join(lines)}</table></details>"
+        return f"<p>{escape(repr(self))}</p>{picture(self.plot) if len(self) > 1 else ''}{table}"
 
     def _html_row(self, name: str, info: ColumnInfo, values: NDArray[Any]) -> str:
         numbers = values.astype(float)

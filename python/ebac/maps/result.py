@@ -92,6 +92,13 @@ class StabilityMap:
         arrays |= {name: self[name] for name in self.result if name != "law"}
         np.savez_compressed(path, **arrays)
 
+    def _repr_html_(self) -> str:
+        """Return the figure and the scores, for a notebook."""
+        from ebac import notebook
+        from ebac.plot import plot_map
+
+        return notebook.result(repr(self), [self.scores()], lambda: plot_map(self))
+
     def __repr__(self) -> str:
         """Return one line."""
         shape = f"{len(self.xs)} x {len(self.ys)}"

@@ -9,6 +9,7 @@ from ebac.plot.overlay import plot_overlay
 from ebac.plot.run import plot_trace
 from ebac.plot.study import plot_study
 from ebac.plot.style import COLOURS, DPI, Picture, colour, dress, legend, line, new_figure
+from ebac.plot.sweep import plot_sweep
 from ebac.plot.tracking import plot_budget, plot_tracking
 from ebac.plot.walls import plot_walls
 from ebac.plot.worst import plot_worst
@@ -31,6 +32,7 @@ __all__ = [
     "plot_map",
     "plot_overlay",
     "plot_study",
+    "plot_sweep",
     "plot_trace",
     "plot_tracking",
     "plot_walls",

@@ -126,6 +126,14 @@ class Ablation:
             *(self._row(name, None, first.values) for name in self.beside),
         ]
 
+    def _repr_html_(self) -> str:
+        """Return the figure and the rows, for a notebook."""
+        from ebac import notebook
+        from ebac.plot import plot_ablation
+
+        rows = [{"change": row.label, **row.row()} for row in self.rows]
+        return notebook.result("Ablation, simulated", rows, lambda: plot_ablation(self))
+
     def _row(
         self, name: str, piece: Piece | None, default: Mapping[str, float | None]
     ) -> AblationRow:

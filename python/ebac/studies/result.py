@@ -153,6 +153,15 @@ class Study:
         except LoopFault as fault:
             return fault.trace
 
+    def _repr_html_(self) -> str:
+        """Return the first figure and the rows, for a notebook."""
+        from ebac import notebook
+        from ebac.plot import plot_study
+
+        title = f"{len(self.operators)} hands, simulated"
+        rows = [row.row() for row in self.rows]
+        return notebook.result(title, rows, lambda: next(plot_study(self))[1])
+
     def result(self) -> SweepResult:
         """Return every run as a table, to write it as CSV or Parquet."""
         return SweepResult(self.columns)

@@ -77,6 +77,14 @@ class Worst:
             for hand in self.hands
         ]  # fmt: skip
 
+    def _repr_html_(self) -> str:
+        """Return the worst hand's figure and a row per family, for a notebook."""
+        from ebac import notebook
+        from ebac.plot import plot_worst
+
+        rows = [{k: v for k, v in row.items() if k != "parameters"} for row in self.rows()]
+        return notebook.result("Worst hands, simulated", rows, lambda: plot_worst(self))
+
     def trace(self, hand: WorstHand | None = None) -> Trace:
         """Simulate a hand again, by default the worst, with every row."""
         return every_row((hand or self.hands[0]).scenario, self.made)

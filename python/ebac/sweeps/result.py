@@ -18,6 +18,9 @@ if TYPE_CHECKING:
 
     from ebac.sweeps.measure import Columns
 
+#: What a row shows of a run.
+_CONTACT = ("rest_m", "ideal_m", "swing_m", "settled_s", "least_energy_J")
+
 
 @dataclass(frozen=True, eq=False)
 class SweepResult:
@@ -84,6 +87,22 @@ class SweepResult:
         except ImportError as error:
             raise ImportError("Parquet needs pyarrow: pip install 'ebac[sweep]'") from error
         pyarrow.parquet.write_table(pyarrow.table(dict(self.columns)), path)
+
+    def rows(self) -> list[dict[str, Any]]:
+        """Return one row per run: its law and scenario, and what its contact came to."""
+        keys = ("law", "scenario", *_CONTACT)
+        columns = [self[key].tolist() for key in keys]
+        return [
+            {key: None if cell != cell else cell for key, cell in zip(keys, cells, strict=True)}
+            for cells in zip(*columns, strict=True)
+        ]
+
+    def _repr_html_(self) -> str:
+        """Return a figure and the runs, for a notebook."""
+        from ebac import notebook
+        from ebac.plot import plot_sweep
+
+        return notebook.result(repr(self), self.rows(), lambda: plot_sweep(self))
 
     def __repr__(self) -> str:
         """Return one line: runs, laws, done."""

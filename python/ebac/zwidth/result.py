@@ -86,6 +86,18 @@ class ZWidth:
                 rows.append(row)
         return rows
 
+    def _repr_html_(self) -> str:
+        """Return the figure and the scores, for a notebook."""
+        from ebac import notebook
+        from ebac.plot import plot_zwidth
+
+        def score(row: dict[str, Any]) -> dict[str, Any]:
+            return {key: value for key, value in row.items() if not key.endswith("_area")}
+
+        title = "Z-width, simulated: how many times the area of walls without a law"
+        rows = [score(row) for row in self.scores()]
+        return notebook.result(title, rows, lambda: plot_zwidth(self))
+
     def rows(self) -> list[dict[str, Any]]:
         """Return one row per law, delay and wall damping, SI units, the unit in the name."""
         from ebac.zwidth.ceilings import delay_ceiling, passive_ceiling

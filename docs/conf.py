@@ -1,0 +1,62 @@
+"""The site: `sphinx-build -W docs build/docs`. Notebooks are executed, the reference is read from the code."""
+
+import shutil
+import sys
+from importlib.metadata import version as installed
+from pathlib import Path
+
+HERE = Path(__file__).parent
+sys.path.insert(0, str(HERE / "_ext"))
+
+project = "ebac"
+copyright = "The ebac developers, BSD-3-Clause"  # noqa: A001
+version = release = installed("ebac")
+
+extensions = [
+    "myst_nb",  # Markdown pages, and notebooks written as Markdown
+    "sphinx.ext.autodoc",
+    "sphinx.ext.napoleon",  # NumPy docstrings
+    "sphinx.ext.duration",
+    "public_names",  # `.. public::`: all of a package's public names, none forgotten
+    "error_tables",  # tables of faults and errors, from the code
+    "repository_links",  # links to files of the repository that are no pages
+]
+exclude_patterns = ["_build", "figures/*.py", "jupyter_execute"]
+html_theme = "furo"
+html_title = f"ebac {release}"
+html_static_path = ["_static"]
+html_css_files = ["ebac.css"]
+html_copy_source = False
+html_theme_options = {"navigation_with_keys": True}
+pygments_style = "friendly"
+pygments_dark_style = "native"
+
+# Types in docstrings are sentences ("array, shape (rows,)"), whose words are no names to link.
+suppress_warnings = ["ref.python"]
+
+# C++: Doxygen reads the headers, Breathe shows them. Where Doxygen is missing, that part alone is left out.
+if shutil.which("doxygen"):
+    extensions += ["breathe", "headers"]
+    breathe_default_project = "ebac"
+    breathe_default_members = ("members",)
+    breathe_show_include = False
+    cpp_id_attributes = ["EBAC_RT"]
+else:
+    exclude_patterns.append("api/cpp/*")
+    suppress_warnings.append("toc.excluded")
+
+myst_enable_extensions = ["colon_fence", "deflist"]
+myst_heading_anchors = 3
+nb_execution_mode = "cache"  # executed again when a notebook changes; CI builds from nothing
+nb_execution_timeout = 120
+nb_execution_raise_on_error = True
+nb_execution_show_tb = True
+nb_merge_streams = True
+
+autodoc_typehints = "none"  # the docstrings tell types, with shapes and units
+autodoc_member_order = "bysource"
+autodoc_preserve_defaults = True
+napoleon_google_docstring = False
+napoleon_use_rtype = False
+napoleon_use_ivar = True
+toc_object_entries_show_parents = "hide"

@@ -1,0 +1,149 @@
+"""The page of an exploration, made with Bokeh: panels, linked axes, and the script that thins."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from importlib.resources import files
+from itertools import cycle
+
+import numpy as np
+from bokeh.document import Document
+from bokeh.embed import file_html
+from bokeh.events import DocumentReady
+from bokeh.layouts import gridplot
+from bokeh.models import (
+    ColumnDataSource,
+    CrosshairTool,
+    CustomJS,
+    CustomJSTickFormatter,
+    FixedTicker,
+    HoverTool,
+    Range1d,
+    Span,
+)
+from bokeh.plotting import figure
+from bokeh.resources import INLINE
+
+from ebac.explore.exploration import PANEL
+from ebac.explore.pack import even, packed
+from ebac.explore.panels import Panel
+from ebac.explore.thin import bands
+from ebac.trace import Trace
+
+#: Okabe and Ito's palette: told apart by every eye; grey and black first, for what is asked and measured.
+PALETTE = ("#999999", "#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56b4e9")
+#: Furthest out and closest in, in spans of the trace and in rows.
+FARTHEST, CLOSEST = 1.05, 10
+
+
+def page(trace: Trace, panels: Sequence[Panel]) -> str:
+    """Return the whole page as HTML, its scripts inside."""
+    t = np.asarray(trace["t"], dtype=float)
+    span = t[-1] - t[0]
+    room = 0.5 * (FARTHEST - 1) * span
+    window = Range1d(
+        float(t[0]),
+        float(t[-1]),
+        bounds=(float(t[0] - room), float(t[-1] + room)),
+        min_interval=CLOSEST * span / (len(t) - 1),
+    )
+    cursor = CrosshairTool(
+        dimensions="height", overlay=Span(dimension="height", line_color="#999999")
+    )
+    plots, sources, decades = [], [], []
+    for panel in panels:
+        plot, shown = _draw(panel, t, window)
+        plot.add_tools(cursor)
+        plots.append(plot)
+        sources += shown
+        decades += [panel.decades] * len(shown)
+    plots[-1].xaxis.visible = True
+    plots[-1].xaxis.axis_label = "time [s]"
+    plots[-1].height += 45
+    thin = CustomJS(
+        args={
+            "packed_times": b"" if even(t) else packed(t),
+            "packed_columns": [packed(values) for panel in panels for values in panel.values],
+            "rows": len(t),
+            "first": float(t[0]),
+            "last": float(t[-1]),
+            "sources": sources,
+            "decades": decades,
+            "window_": window,
+            "plots": plots,
+        },
+        code=files("ebac.explore").joinpath("thin.js").read_text(encoding="utf-8"),
+    )
+    window.js_on_change("start", thin)
+    window.js_on_change("end", thin)
+    column = gridplot(
+        [[plot] for plot in plots],
+        sizing_mode="stretch_width",
+        merge_tools=True,
+        toolbar_options={"logo": None},
+    )
+    document = Document()
+    document.add_root(column)
+    document.js_on_event(DocumentReady, thin)
+    return str(file_html(document, INLINE, title=repr(trace)))
+
+
+def _draw(
+    panel: Panel, t: np.ndarray[tuple[int], np.dtype[np.float64]], window: Range1d
+) -> tuple[figure, list[ColumnDataSource]]:
+    """Return the plot of a panel and what it draws, one source for each series."""
+    plot = figure(
+        height=PANEL,
+        x_range=window,
+        y_axis_label=panel.label,
+        tools="xpan,xwheel_zoom,box_zoom,reset,save",
+        active_scroll="xwheel_zoom",
+        active_drag="xpan",
+        output_backend="canvas",
+        min_border_left=75,
+    )
+    sources = []
+    colours = cycle(PALETTE if len(panel.names) > 1 else PALETTE[1:])
+    for name, values, colour in zip(panel.names, panel.values, colours, strict=False):
+        thin = bands(values, t)
+        scale = np.arcsinh if panel.decades else np.asarray
+        source = ColumnDataSource(
+            {**vars(thin), "low": scale(thin.least), "high": scale(thin.most)}
+        )
+        shown = {"source": source, "legend_label": name}
+        plot.varea("t", "low", "high", fill_color=colour, **shown)
+        plot.line("t", "low", line_color=colour, line_join="bevel", **shown)
+        line = plot.line("t", "high", name=name, line_color=colour, line_join="bevel", **shown)
+        unit = "" if panel.unit == "1" else f" {panel.unit}"
+        plot.add_tools(
+            HoverTool(
+                renderers=[line],
+                tooltips=f"{name} = @most{{0.000000}}{unit} at @t{{0.000000}} s",
+                visible=False,
+            )
+        )
+        sources.append(source)
+    _dress(plot, panel)
+    return plot, sources
+
+
+def _dress(plot: figure, panel: Panel) -> None:
+    plot.xaxis.visible = False
+    plot.grid.grid_line_color = "#e5e5e5"
+    plot.outline_line_color = None
+    plot.y_range.only_visible = True
+    legend = plot.legend[0]
+    legend.click_policy = "hide"
+    legend.orientation = "horizontal"
+    legend.background_fill_alpha = 0.0
+    legend.border_line_color = None
+    legend.padding, legend.spacing, legend.margin = 0, 12, 2
+    legend.label_text_font_size = "8.5pt"
+    plot.add_layout(legend, "above")
+    if panel.decades:
+        steps = [10.0**n for n in range(7)]
+        ticks = [-step for step in reversed(steps)] + [0.0] + steps
+        plot.yaxis.ticker = FixedTicker(ticks=np.arcsinh(ticks).tolist())
+        plot.yaxis.formatter = CustomJSTickFormatter(
+            code="return Number(Math.sinh(tick).toPrecision(3)).toString()"
+        )

@@ -1,0 +1,115 @@
+"""How results show themselves in a notebook: a small picture, and a table with units."""
+
+from __future__ import annotations
+
+from base64 import b64encode
+from collections.abc import Callable, Mapping, Sequence
+from html import escape
+from io import BytesIO
+from typing import TYPE_CHECKING, Any
+
+from ebac import wording
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+#: Endings of a key and the SI unit they stand for, the longer ones first.
+UNITS = {
+    "_Ns_per_m": "N s/m",
+    "_N_per_m": "N/m",
+    "_samples": "samples",
+    "_share": "share",
+    "_kg": "kg",
+    "_Hz": "Hz",
+    "_m": "m",
+    "_J": "J",
+    "_N": "N",
+    "_s": "s",
+}
+#: Longer tables are cut in the middle, and say so.
+MOST_ROWS = 40
+#: Dots an inch of a small picture.
+DPI = 60
+
+
+def table(rows: Sequence[Mapping[str, Any]], *, most: int = MOST_ROWS) -> str:
+    """Return rows as an HTML table: headings with units, numbers as people read them.
+
+    Parameters
+    ----------
+    rows : sequence of mappings
+        With the same keys, whose endings tell the SI unit: `rest_m`, `least_energy_J`.
+    most : int
+        Show at most so many, first and last ones.
+    """
+    if not rows:
+        return "<p>no rows</p>"
+    head = "".join(f"<th>{escape(_heading(key))}</th>" for key in rows[0])
+    shown = list(rows)
+    left_out = len(rows) - most
+    if left_out > 0:
+        shown = shown[: most // 2] + shown[len(rows) - most // 2 :]
+    lines = [
+        f"<tr>{''.join(f'<td>{escape(_cell(key, value))}</td>' for key, value in row.items())}</tr>"
+        for row in shown
+    ]
+    if left_out > 0:
+        gap = f'<tr><td colspan="{len(rows[0])}">... {left_out} more ...</td></tr>'
+        lines.insert(most // 2, gap)
+    return f"<table><tr>{head}</tr>{''.join(lines)}</table>"
+
+
+def picture(draw: Callable[[], Figure]) -> str:
+    """Return a figure as a small image inside the page.
+
+    Parameters
+    ----------
+    draw : function
+        Makes the figure; what it cannot draw (`ValueError`) is left out, as a table says it too.
+    """
+    try:
+        figure = draw()
+    except ValueError:
+        return ""
+    file = BytesIO()
+    figure.savefig(file, format="png", dpi=DPI)
+    data = b64encode(file.getvalue()).decode("ascii")
+    return f'<img alt="figure" style="max-width:100%" src="data:image/png;base64,{data}">'
+
+
+def result(
+    title: str, rows: Sequence[Mapping[str, Any]], draw: Callable[[], Figure] | None = None
+) -> str:
+    """Return what a result shows in a notebook: a line, a picture, a table."""
+    image = picture(draw) if draw else ""
+    return f"<p>{escape(title)}</p>{image}{table(rows)}"
+
+
+def _unit(key: str) -> tuple[str, str]:
+    """Return the name in a key, and its SI unit."""
+    for ending, unit in UNITS.items():
+        if key.endswith(ending) and len(key) > len(ending):
+            return key.removesuffix(ending), unit
+    return key, "1"
+
+
+def _heading(key: str) -> str:
+    name, unit = _unit(key)
+    words = name.replace("_", " ")
+    shown = wording.shown(unit)
+    return f"{words} [{shown}]" if shown and unit != "1" else words
+
+
+def _cell(key: str, value: Any) -> str:
+    if value is None:
+        return "-"
+    if isinstance(value, bool | str):
+        return str(value)
+    if isinstance(value, Mapping):
+        return ", ".join(f"{name} = {one}" for name, one in value.items())
+    if isinstance(value, Sequence):
+        return ", ".join(map(str, value))
+    _, unit = _unit(key)
+    if unit in ("1", "samples") and float(value).is_integer():
+        return f"{value:g}"
+    return wording.cell(float(value), unit)

@@ -1,0 +1,55 @@
+"""Many runs at a glance: how far each rests from the ideal, and by how much it swings."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ebac.metrics import QUIET_SWING
+from ebac.plot.style import Picture, colour, dress, legend, new_figure
+from ebac.sweeps import SweepResult
+
+#: Swings below this [m] are drawn at it: the axis is logarithmic.
+LEAST_SWING = 1e-7
+
+
+def plot_sweep(result: SweepResult) -> Picture:
+    """Draw each run of a sweep by its deviation and its swing, a colour per law.
+
+    Parameters
+    ----------
+    result : SweepResult
+        With at least one run that has an ideal rest and was done.
+
+    Returns
+    -------
+    Figure
+
+    Raises
+    ------
+    ValueError
+        When no run has an ideal rest.
+    """
+    known = np.isfinite(result.deviation_m) & result["done"] & ~result["diverged"]
+    if not known.any():
+        raise ValueError("no run has an ideal rest: there is nothing to draw")
+    figure = new_figure(9, 4.5)
+    ax = figure.subplots()
+    for law in dict.fromkeys(result["law"].tolist()):
+        runs = known & (result["law"] == law)
+        swing = np.maximum(result["swing_m"][runs], LEAST_SWING)
+        ax.plot(
+            1e3 * result.deviation_m[runs],
+            1e3 * swing,
+            "o",
+            ms=5,
+            alpha=0.7,
+            color=colour(law),
+            label=law,
+        )
+    ax.axhline(1e3 * QUIET_SWING, color="0.35", lw=1, ls="--", label="quiet below")
+    ax.axvline(0, color="0.35", lw=1)
+    ax.set_yscale("log")
+    ax.set_xlabel("rest minus ideal [mm]")
+    dress(ax, "swing, peak to peak [mm]")
+    legend(ax)
+    return figure

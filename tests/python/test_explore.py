@@ -1,0 +1,172 @@
+"""Long traces in a notebook: no peak is lost, axes have units, bad input is told."""
+
+import os
+import re
+import shutil
+import zlib
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from hypothesis.extra import numpy as hnp
+
+import ebac
+from ebac.explore.pack import even, packed
+from ebac.explore.thin import bands
+
+pytest.importorskip("bokeh")
+
+ROWS = 60_001
+values = hnp.arrays(
+    np.float32, st.integers(2, 5000), elements=st.floats(-1e6, 1e6, width=32) | st.just(np.nan)
+)
+
+
+@pytest.fixture(scope="module")
+def minute() -> ebac.Trace:
+    """A minute of pressing again and again, with one needle of one tick put into the command."""
+    scenario = ebac.Scenario(hand=ebac.Hand(path=[ebac.Sine(frequency=0.7)]), seconds=60)
+    trace = ebac.simulate(scenario, "ebac")
+    data = {name: trace[name].copy() for name in trace}
+    data["f_cmd"][31_234] = 99.0
+    return ebac.Trace(data=data, columns=trace.columns, axes=1, law="ebac")
+
+
+@given(values=values, bins=st.integers(1, 50))
+def test_thinning_keeps_least_and_most_of_all_and_of_every_bin(values: Any, bins: int) -> None:
+    t = np.arange(len(values), dtype=float)
+    thin = bands(values, t, bins)
+    if not np.isnan(values).all():
+        assert np.nanmax(thin.most) == np.nanmax(values)
+        lowest = np.nanmin(np.concatenate([thin.least, thin.most]))
+        assert lowest == np.nanmin(values)
+    assert len(thin.t) <= max(bins, min(len(values), 4 * bins))
+    assert (np.diff(thin.t) > 0).all()
+
+
+@given(values=values)
+def test_packing_loses_no_bit(values: Any) -> None:
+    planes = np.frombuffer(zlib.decompress(packed(values)), np.uint8).reshape(4, -1)
+    assert np.ascontiguousarray(planes.T).tobytes() == values.tobytes()
+
+
+def test_a_steady_clock_is_told_from_one_that_jitters() -> None:
+    assert even(np.arange(10_000) * 1e-3 + 5)
+    jittered = ebac.simulate(ebac.Scenario(jitter=0.2, seconds=0.5), "ebac")
+    assert not even(jittered["t"])
+
+
+def test_the_usual_panels_have_units(minute: ebac.Trace) -> None:
+    labels = [panel.label for panel in minute.explore().panels]
+    assert labels == [
+        "position [mm]",
+        "force [N]",
+        "beta [kN/m]",
+        "energy [mJ]",
+        "force held back",
+    ]
+
+
+def test_chosen_columns_make_panels_in_their_order(minute: ebac.Trace) -> None:
+    found = minute.explore("v", ["f_cmd", "f_meas"]).panels
+    assert [(panel.names, panel.label) for panel in found] == [
+        (("v",), "v [m/s]"),
+        (("f_cmd", "f_meas"), "f_cmd, f_meas [N]"),
+    ]
+
+
+@pytest.mark.parametrize(
+    ("groups", "kind", "message"),
+    [
+        (["y"], KeyError, "no column 'y'"),
+        ([["x", "f_cmd"]], ValueError, r"x \[m\], f_cmd \[N\]: put them into panels of their own"),
+        ([[]], ValueError, "a panel without a column"),
+    ],
+)
+def test_bad_columns_are_told(minute: ebac.Trace, groups: Any, kind: Any, message: str) -> None:
+    with pytest.raises(kind, match=message):
+        minute.explore(*groups)
+
+
+def test_a_wrong_axis_and_an_empty_trace_are_told(minute: ebac.Trace) -> None:
+    with pytest.raises(ValueError, match="axis = 1: must lie in"):
+        minute.explore(axis=1)
+    with pytest.raises(ValueError, match="the trace has 0 rows"):
+        minute[100:].explore()
+
+
+def test_the_page_stands_alone(minute: ebac.Trace, tmp_path: Path) -> None:
+    page = tmp_path / "run.html"
+    minute[:5].explore("x").save(page)
+    html = page.read_text(encoding="utf-8")
+    assert "<script" in html
+    assert not re.search(r"<(script|link|img)[^>]* (src|href)=", html)
+    shown = minute[:5].explore("x")._repr_html_()
+    assert shown.startswith("<iframe")
+    assert shown.count("<iframe") == 1
+
+
+# --- in a real browser ---
+
+CHROMIUM = os.environ.get("EBAC_CHROMIUM") or shutil.which("chromium")
+
+
+@pytest.fixture(scope="module")
+def browser() -> Any:
+    """Debian's chromium, driven by playwright; skipped where either is missing."""
+    sync_api = pytest.importorskip("playwright.sync_api")
+    if not CHROMIUM:
+        pytest.skip("no chromium; EBAC_CHROMIUM may name one")
+    with sync_api.sync_playwright() as playwright:
+        opened = playwright.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox"])
+        yield opened
+        opened.close()
+
+
+SHOWN = """() => {
+  const found = {};
+  for (const model of Bokeh.documents[0]._all_models.values()) {
+    if (model.type === "GlyphRenderer" && model.glyph.type === "Line" && model.glyph.y.field === "high") {
+      const {t, least, most} = model.data_source.data;
+      const known = (list) => Array.from(list).filter((value) => value === value);
+      found[model.name] = {
+        rows: t.length,
+        least: known(least).concat(known(most)).reduce((a, b) => Math.min(a, b), Infinity),
+        most: known(most).reduce((a, b) => Math.max(a, b), -Infinity),
+      };
+    }
+  }
+  return found;
+}"""
+
+
+def test_in_a_browser_a_zoom_draws_the_window_anew_and_keeps_its_peaks(
+    browser: Any, minute: ebac.Trace, tmp_path: Path
+) -> None:
+    page = browser.new_page(viewport={"width": 1000, "height": 700})
+    errors: list[str] = []
+    page.on("pageerror", lambda error: errors.append(str(error)))
+    minute.explore("x", ["f_env", "f_cmd"]).save(tmp_path / "run.html")
+    page.goto((tmp_path / "run.html").as_uri())
+    page.wait_for_function("window.ebac_exploration")
+    assert page.evaluate("ebac_exploration.rows") == ROWS
+    assert page.evaluate(SHOWN)["f_cmd"]["most"] == 99.0  # one tick among 60,001
+
+    page.mouse.move(500, 200)
+    for _ in range(6):
+        before = page.evaluate("ebac_exploration.drawn")
+        page.mouse.wheel(0, -240)
+        page.wait_for_function(f"ebac_exploration.drawn > {before}")
+    seen = page.evaluate("ebac_exploration")
+    assert 10 < seen["rows"] < ROWS / 2
+    start, stop = seen["start"], seen["stop"]
+    shown = page.evaluate(SHOWN)
+    for name, factor in (("x", 1e3), ("f_cmd", 1.0), ("f_env", 1.0)):
+        part = (factor * minute[name][start:stop]).astype(np.float32)
+        assert shown[name]["most"] == pytest.approx(float(part.max()), rel=1e-6)
+        assert shown[name]["least"] == pytest.approx(float(part.min()), rel=1e-6)
+    page.screenshot(path=tmp_path / "zoomed.png")
+    assert not errors

@@ -1,0 +1,91 @@
+"""What results show of themselves in a notebook: numbers with units, a picture, no raw markup."""
+
+import subprocess
+import sys
+from typing import Any
+
+import numpy as np
+
+import ebac
+from ebac import notebook
+from ebac.studies.measures import MEASURES
+
+SHORT = ebac.Scenario(seconds=0.3)
+
+
+def results() -> list[Any]:
+    """One of each kind, as small as can be."""
+    hands = ebac.Operators.grid()
+    few = ebac.Operators.from_columns({k: v[:4] for k, v in hands.columns().items()})
+    law = ["ebac"]
+    return [
+        ebac.simulate(SHORT, "ebac"),
+        ebac.contact(ebac.simulate(SHORT, "ebac")),
+        ebac.study(few, law),
+        ebac.sweep([SHORT], law),
+        ebac.zwidth.zwidth(SHORT, law, delays=[1], dampings=[0.0, 10.0], rungs=5),
+        ebac.maps.stability_map(base=SHORT, xs=[2.0, 4.0], ys=[1e3, 10e3]),
+        ebac.ablation(few, changes=[{"guard": False}], beside=(), measures=MEASURES[:2]),
+    ]
+
+
+def test_every_result_shows_a_table_and_a_picture() -> None:
+    for result in results():
+        shows(result)
+
+
+def shows(result: Any) -> None:
+    html = result._repr_html_()
+    assert html.count("<table>") == html.count("</table>") == 1
+    assert html.count("<tr>") >= 2
+    assert "<ebac" not in html
+    assert "<td>nan</td>" not in html or isinstance(
+        result, ebac.Trace
+    )  # of a column without a number
+    if not isinstance(result, ebac.Contact):
+        assert html.count('<img alt="figure"') == 1
+        assert "data:image/png;base64,iVBOR" in html
+
+
+def test_headings_have_the_unit_people_read_and_cells_the_number_in_it() -> None:
+    html = notebook.table([{"rest_m": 0.0012, "least_energy_J": None, "mass_kg": 0.25, "good": 60}])
+    assert "<th>rest [mm]</th><th>least energy [mJ]</th><th>mass [kg]</th><th>good</th>" in html
+    assert "<td>1.200</td><td>-</td><td>0.25</td><td>60</td>" in html
+
+
+def test_every_unit_of_a_key_is_one_that_keys_have() -> None:
+    for ending, unit in notebook.UNITS.items():
+        assert f"[{notebook.wording.shown(unit)}]" in notebook.table([{f"a{ending}": 1.0}])
+
+
+def test_a_long_table_is_cut_in_the_middle_and_says_so() -> None:
+    html = notebook.table([{"run": i} for i in range(1000)], most=10)
+    assert html.count("<tr>") == 1 + 10 + 1
+    assert "... 990 more ..." in html
+    assert "<td>0</td>" in html
+    assert "<td>999</td>" in html
+
+
+def test_names_cannot_bring_markup_into_the_page() -> None:
+    html = notebook.table([{"<b>": "<script>alert(1)</script>"}])
+    assert "<script>" not in html
+    assert "<b>" not in html
+
+
+def test_an_empty_result_says_so() -> None:
+    assert notebook.table([]) == "<p>no rows</p>"
+
+
+def test_a_sweep_without_a_point_of_rest_shows_its_table_alone() -> None:
+    result = ebac.sweep([SHORT.replace(environment=ebac.Free())], ["direct"])
+    assert "<img" not in result._repr_html_()
+    assert np.isnan(result["ideal_m"]).all()
+
+
+def test_nothing_is_drawn_before_a_result_is_shown() -> None:
+    code = (
+        "import sys, ebac; r = ebac.sweep([ebac.Scenario(seconds=0.1)], ['tca']); repr(r); "
+        "print([m for m in ('matplotlib', 'bokeh', 'ebac.notebook', 'ebac.explore') if m in sys.modules])"
+    )
+    run = subprocess.run([sys.executable, "-c", code], check=True, capture_output=True, text=True)
+    assert run.stdout.strip() == "[]"
