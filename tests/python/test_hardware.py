@@ -234,6 +234,12 @@ def test_a_drive_that_holds_something_else_is_refused() -> None:
         ebac.Device.open(known)
 
 
+def test_a_bus_that_cannot_carry_it_is_refused_before_it_is_opened() -> None:
+    fast = configuration(timing=ebac.Timing(dt=2e-4), interface="socketcan", channel="nobody0")
+    with pytest.raises(drives.ProfileError, match="%"):
+        ebac.Device.open(fast)
+
+
 def test_json_of_a_report_is_plain(device: OpenDevice) -> None:
     device.run(seconds=0.05)
     assert device.report is not None

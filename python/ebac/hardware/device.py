@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import atexit
 import tempfile
+import warnings
 import weakref
 from collections.abc import Callable
 from contextlib import ExitStack
+from dataclasses import replace
 from math import ceil
 from pathlib import Path
 from types import TracebackType
@@ -58,8 +60,15 @@ class OpenDevice:
     place : Place
         The bus with the drives.
 
+    Warns
+    -----
+    UserWarning
+        When the process data take over 70 % of the bus.
+
     Raises
     ------
+    ProfileError
+        When they take over 90 % of it.
     DriveError
         When a drive cannot be reached, is in fault, or holds something else than its profile.
     """
@@ -68,6 +77,10 @@ class OpenDevice:
         self.configuration = configuration
         self.simulated = simulate
         self._nodes = setting_up.nodes_of(configuration)
+        if not simulate and configuration.interface == "socketcan":
+            network = replace(configuration.drives, nodes=self._nodes)
+            if (warning := network.check_load()) is not None:
+                warnings.warn(warning, stacklevel=2)
         with ExitStack() as stack:
             self.interrupts = stack.enter_context(Interrupts())
             self.place: Place = stack.enter_context(
