@@ -76,7 +76,7 @@ class OpenDevice:
     def __init__(self, configuration: Configuration, *, simulate: bool = False) -> None:
         self.configuration = configuration
         self.simulated = simulate
-        self._nodes = setting_up.nodes_of(configuration)
+        self._nodes = setting_up.nodes_of(configuration, simulate=simulate)
         if not simulate and configuration.interface == "socketcan":
             network = replace(configuration.drives, nodes=self._nodes)
             if (warning := network.check_load()) is not None:

@@ -16,14 +16,16 @@ if TYPE_CHECKING:
     from ebac.hardware.configuration import Configuration
     from ebac.hardware.place import Place
 
-#: The shortest period of SYNC a drive is told [s]: a loop that is quicker runs on a bus inside the process, and drives
+#: The shortest period of SYNC a simulated drive is told [s]: a loop that is quicker runs on a bus inside the process, and drives
 #: that expect a SYNC every 0.1 ms would take every pause of an ordinary kernel for a broken bus.
 _SHORTEST = 1e-3
 
 
-def nodes_of(configuration: Configuration) -> tuple[Node, ...]:
-    """Return the drives, their SYNC period that of the loop, or the shortest a CAN bus has."""
-    dt = max(configuration.timing.dt, _SHORTEST)
+def nodes_of(configuration: Configuration, *, simulate: bool) -> tuple[Node, ...]:
+    """Return the drives, their SYNC period that of the loop."""
+    dt = configuration.timing.dt
+    if simulate:
+        dt = max(dt, _SHORTEST)
     return tuple(
         Node(id=node.id, name=node.name, profile=node.profile.replace(sync__period=dt))
         for node in configuration.drives.nodes
