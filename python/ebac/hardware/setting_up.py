@@ -16,8 +16,8 @@ if TYPE_CHECKING:
     from ebac.hardware.configuration import Configuration
     from ebac.hardware.place import Place
 
-#: The shortest period of SYNC a simulated drive is told [s]: a loop that is quicker runs on a bus inside the process, and drives
-#: that expect a SYNC every 0.1 ms would take every pause of an ordinary kernel for a broken bus.
+#: The shortest period of SYNC a simulated drive is told [s]: one that expects a SYNC every 0.1 ms would take every
+#: pause of an ordinary kernel for a broken bus.
 _SHORTEST = 1e-3
 
 
