@@ -245,6 +245,18 @@ def test_a_bus_that_cannot_carry_it_is_refused_before_it_is_opened() -> None:
         ebac.Device.open(fast)
 
 
+def test_a_simulated_hand_may_wait_for_power() -> None:
+    from ebac._core import Joystick
+
+    setup = configuration().scenario(seconds=10).setup()
+    free, waits = Joystick(setup), Joystick(setup, wait_for_power=True)
+    for joystick in (free, waits):
+        for _ in range(50):
+            joystick.elapse(0.01)
+    assert free.truth(0).x > 0.01
+    assert waits.truth(0).x == 0
+
+
 def test_json_of_a_report_is_plain(device: OpenDevice) -> None:
     device.run(seconds=0.05)
     assert device.report is not None
