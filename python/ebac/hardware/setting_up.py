@@ -36,7 +36,7 @@ def nodes_of(configuration: Configuration, *, simulate: bool) -> tuple[Node, ...
 def drives_at(place: Place, nodes: Sequence[Node]) -> Iterator[list[Drive]]:
     """Give the drives of a place; the bus is closed after the block, so that Python hears no process data."""
     with DriveBus.open(interface=place.interface, channel=place.channel) as bus:
-        yield [bus.drive(node.id) for node in nodes]
+        yield [bus.drive(node.id, timeout=place.patience) for node in nodes]
 
 
 def set_up(
