@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -16,6 +17,7 @@ if TYPE_CHECKING:
     from ebac.trace import Trace
 
 DEFAULT_OUT = Path("ebac-run")
+_OWN = "as the configuration says"
 
 
 def run(
@@ -33,13 +35,28 @@ def run(
         str | None,
         typer.Option("--law", "-l", help="A law by name, see `ebac laws`.", show_default=False),
     ] = None,
-    stiffness: options.Stiffness = None,
-    damping: options.Damping = None,
-    position: options.Position = None,
-    hand: options.HandName = None,
-    target: options.Target = None,
-    rate: options.Rate = None,
-    seconds: options.Seconds = None,
+    stiffness: Annotated[
+        float | None, options.option("--stiffness", "Stiffness K of the wall [N/m]", _OWN, "Wall")
+    ] = None,
+    damping: Annotated[
+        float | None, options.option("--damping", "Damping B of the wall [N s/m]", _OWN, "Wall")
+    ] = None,
+    position: Annotated[
+        float | None, options.option("--position", "Where its surface is [m]", _OWN, "Wall")
+    ] = None,
+    hand: Annotated[
+        str | None,
+        options.option("--hand", "The simulated hand by name, see `ebac presets`", _OWN, "Hand"),
+    ] = None,
+    target: Annotated[
+        float | None, options.option("--target", "Where it wants to be [m]", _OWN, "Hand")
+    ] = None,
+    rate: Annotated[
+        float | None, options.option("--rate", "Ticks per second [Hz]", _OWN, "Run")
+    ] = None,
+    seconds: Annotated[
+        float | None, options.option("--seconds", "How long the law acts [s]", _OWN, "Run")
+    ] = None,
     out: Annotated[Path | None, options.out_folder("log, figure and numbers", DEFAULT_OUT)] = None,
     no_files: Annotated[bool, typer.Option("--no-files", help="Write no files, no log.")] = False,
     live: Annotated[
@@ -93,7 +110,12 @@ def run(
     folder = None if no_files else out or (None if as_json else DEFAULT_OUT)
     stem = _stem(folder)
     shown = output.console(stderr=True).is_terminal if live is None else live
-    _run(known, simulated, detached, stem, shown and not as_json, as_json)
+    try:
+        _run(known, simulated, detached, stem, shown and not as_json, as_json)
+    finally:
+        if stem is not None:
+            with suppress(OSError):  # not empty: it has what the run gave
+                stem.parent.rmdir()
 
 
 def _configuration(
