@@ -5,6 +5,7 @@ import json
 import os
 import signal
 import time
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -23,7 +24,7 @@ def configuration(**changes: object) -> Configuration:
     hand = known.hand.replace(
         path=[ebac.MinimumJerk(target=0.04, at=0, duration=0.2), ebac.Step(target=0)]
     )
-    patient = known.limits.replace(overruns=100_000)
+    patient = known.limits.replace(overruns=100_000, force_age=10)
     return known.replace(
         silent=1000, limits=patient, soft_start=0.05, ramp_down=0.05, hand=hand
     ).replace(**changes)
@@ -33,6 +34,13 @@ def configuration(**changes: object) -> Configuration:
 def device() -> "ebac.hardware.OpenDevice":  # type: ignore[misc]
     with ebac.Device.open(configuration(), simulate=True) as opened:
         yield opened
+
+
+def until(run: Run, reached: Callable[[], bool]) -> None:
+    """Wait for something that happens while it runs."""
+    while not reached():
+        assert not run.done, run.trace()["fault"][-1]
+        time.sleep(0.01)
 
 
 def states(place: object) -> list[drives.State]:
@@ -60,7 +68,7 @@ def test_a_run_is_rows_a_log_and_drives_without_power(device: OpenDevice, tmp_pa
     assert (log.trace["x"] == trace["x"]).all()
     found = times(part)
     assert 0 < found.compute_p50_s <= found.compute_p99_9_s <= found.compute_most_s
-    assert device.run("tca", seconds=0.1).law == "tca"  # and again, on the same device
+    assert device.run("tca", ebac.Free(), seconds=0.1).law == "tca"  # and again, on the same device
     assert states(device.place) == [drives.State.SWITCH_ON_DISABLED] * 2
 
 
@@ -68,8 +76,7 @@ def test_what_changes_while_it_runs_acts_and_is_in_the_log(
     device: OpenDevice, tmp_path: Path
 ) -> None:
     with device.start("eba", seconds=30, log=tmp_path / "run.mcap") as run:
-        while run.state is not ebac.LoopState.RUN or run.ticks < 300:
-            time.sleep(0.01)
+        until(run, lambda: run.state is ebac.LoopState.RUN and run.ticks >= 300)
         assert run.retune(share=0.5).share == 0.5  # type: ignore[attr-defined]
         assert run.change(stiffness=1e3).stiffness == 1e3  # type: ignore[union-attr]
         with pytest.raises(ValueError, match=r"share = 7: must lie in"):
@@ -77,8 +84,7 @@ def test_what_changes_while_it_runs_acts_and_is_in_the_log(
         with pytest.raises(ValueError, match=r"cannot change from .* while the loop runs"):
             run.retune(damping=1.0)
         seen = run.ticks
-        while run.ticks < seen + 100:
-            time.sleep(0.01)
+        until(run, lambda: run.ticks >= seen + 100)
         tail = run.tail(50)
         assert len(tail) == 50
         inside = tail["x"][:, 0] > 0.0101
@@ -169,8 +175,7 @@ def test_signals_are_python_s_again_afterwards() -> None:
 def test_a_device_that_is_forgotten_stops(tmp_path: Path) -> None:
     opened = ebac.Device.open(configuration(), simulate=True)
     run = opened.start(seconds=60, log=tmp_path / "run.mcap")
-    while run.ticks < 100:
-        time.sleep(0.01)
+    until(run, lambda: run.ticks >= 100)
     del opened
     gc.collect()
     assert run.done
@@ -206,8 +211,6 @@ def test_what_cannot_be_is_refused_before_anything_moves(
         device.run(seconds=1, log=tmp_path / "run.csv")
     with pytest.raises(ValueError, match="seconds = 0 s"):
         device.run(seconds=0)
-    with pytest.raises(ValueError, match="no force sensor"):
-        device.run("tca", kp=0.3)
     with pytest.raises(KeyError, match="no law is called"):
         device.run("ebca")
     assert device.report is None
@@ -215,10 +218,43 @@ def test_what_cannot_be_is_refused_before_anything_moves(
         device.start(seconds=1)
 
 
+def test_without_a_sensor_a_force_loop_is_refused() -> None:
+    with ebac.Device.open(configuration(sensor=None), simulate=True) as device:
+        with pytest.raises(ValueError, match="no force sensor"):
+            device.run("tca", kp=0.3)
+        trace = device.run("tca", ebac.Free(), seconds=0.1)
+        assert (trace["f_meas"] == 0).all()
+        assert "kp=0.0" in trace.law_repr
+
+
+def test_the_force_loop_is_closed_on_the_sensor(device: OpenDevice) -> None:
+    trace = under_the_law(device.run("tca", ebac.Free(), seconds=0.5, kp=0.0))
+    assert np.abs(trace["f_meas"][:, 0]).max() > 1  # N: the hand pulls the handle away
+    assert (trace["ft.age"][:, 0] >= 0).all()
+
+
 def test_a_drive_that_holds_something_else_is_refused() -> None:
     known = configuration(interface="ebac", channel="joystick-test", setup="verify")
     with pytest.raises(drives.NotVerified, match="holds something else"):
         ebac.Device.open(known)
+
+
+def test_a_bus_that_cannot_carry_it_is_refused_before_it_is_opened() -> None:
+    fast = configuration(timing=ebac.Timing(dt=2e-4), interface="socketcan", channel="nobody0")
+    with pytest.raises(drives.ProfileError, match="%"):
+        ebac.Device.open(fast)
+
+
+def test_a_simulated_hand_may_wait_for_power() -> None:
+    from ebac._core import Joystick
+
+    setup = configuration().scenario(seconds=10).setup()
+    free, waits = Joystick(setup), Joystick(setup, wait_for_power=True)
+    for joystick in (free, waits):
+        for _ in range(50):
+            joystick.elapse(0.01)
+    assert free.truth(0).x > 0.01
+    assert waits.truth(0).x == 0
 
 
 def test_json_of_a_report_is_plain(device: OpenDevice) -> None:

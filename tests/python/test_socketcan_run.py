@@ -5,6 +5,7 @@
 """
 
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -40,7 +41,7 @@ def config(tmp_path: Path) -> Path:
         ('setup = "verify"', 'setup = "apply"'),
         ("dt = 1e-3", f"dt = {DT}"),
         ("stiffness = 10e3", "stiffness = 200.0"),
-        ("[limits]", "[limits]\noverruns = 100000\njump = 0.05"),
+        ("[limits]", "[limits]\noverruns = 100000\nforce_age = 10.0\njump = 0.05"),
         ("seconds = 10.0", "seconds = 3.0"),
     ):
         assert before in text, before
@@ -53,17 +54,22 @@ def config(tmp_path: Path) -> Path:
 
 @contextmanager
 def served(config: Path) -> Iterator[subprocess.Popen[str]]:
-    """Simulated drives, device and hand in another process."""
+    """Simulated drives, device, hand and force sensor in another process; the configuration says where the sensor is."""
     scenario = config.with_name("scenario.toml")
     Configuration.load(config).scenario(seconds=10).save(scenario)
     command = [sys.executable, "-m", "ebac.cli", "drive", "simulate", "--channel", INTERFACE]
-    command += ["--scenario", str(scenario), "--wait-for-power", "--until-eof"]
+    command += ["--scenario", str(scenario), "--wait-for-power", "--until-eof", "--sensor"]
     with subprocess.Popen(
         command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
     ) as process:
         assert process.stdout is not None
         assert process.stdin is not None
-        assert "Simulated drives" in process.stdout.readline()
+        said = process.stdout.readline()
+        port = re.search(r"force sensor at 127\.0\.0\.1:(\d+)", said)
+        assert port, said
+        text = config.read_text(encoding="utf-8")
+        there = f'host = "127.0.0.1"\nport = {port[1]}'
+        config.write_text(text.replace('host = "192.168.1.1"', there), encoding="utf-8")
         try:
             yield process
         finally:
@@ -83,6 +89,7 @@ def test_hardware_is_what_stands_on_the_interface(config: Path, tmp_path: Path) 
     part = under_the_law(trace)
     assert len(part) == round(3 / DT)
     assert np.abs(part["f_applied"][:, 0]).max() > 0.5  # N: the wall was felt
+    assert np.abs(part["f_meas"][:, 0]).max() > 0.5  # N: and the hand, over UDP
     assert device.report is not None
     assert device.report.drives == ("switch on disabled",) * 2
     log = ebac.logs.read(tmp_path / "run.mcap")

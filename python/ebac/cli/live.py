@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 #: Time between two pictures [s], and the time a picture looks back [s].
 _PICTURE, _BACK = 0.1, 1.0
-_BAR = 24
+_BAR = 16
 _TINY = 1e-12
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -16,6 +17,7 @@ if TYPE_CHECKING:
     from ebac.trace import Trace
 
 DEFAULT_OUT = Path("ebac-run")
+_OWN = "as the configuration says"
 
 
 def run(
@@ -33,13 +35,28 @@ def run(
         str | None,
         typer.Option("--law", "-l", help="A law by name, see `ebac laws`.", show_default=False),
     ] = None,
-    stiffness: options.Stiffness = None,
-    damping: options.Damping = None,
-    position: options.Position = None,
-    hand: options.HandName = None,
-    target: options.Target = None,
-    rate: options.Rate = None,
-    seconds: options.Seconds = None,
+    stiffness: Annotated[
+        float | None, options.option("--stiffness", "Stiffness K of the wall [N/m]", _OWN, "Wall")
+    ] = None,
+    damping: Annotated[
+        float | None, options.option("--damping", "Damping B of the wall [N s/m]", _OWN, "Wall")
+    ] = None,
+    position: Annotated[
+        float | None, options.option("--position", "Where its surface is [m]", _OWN, "Wall")
+    ] = None,
+    hand: Annotated[
+        str | None,
+        options.option("--hand", "The simulated hand by name, see `ebac presets`", _OWN, "Hand"),
+    ] = None,
+    target: Annotated[
+        float | None, options.option("--target", "Where it wants to be [m]", _OWN, "Hand")
+    ] = None,
+    rate: Annotated[
+        float | None, options.option("--rate", "Ticks per second [Hz]", _OWN, "Run")
+    ] = None,
+    seconds: Annotated[
+        float | None, options.option("--seconds", "How long the law acts [s]", _OWN, "Run")
+    ] = None,
     out: Annotated[Path | None, options.out_folder("log, figure and numbers", DEFAULT_OUT)] = None,
     no_files: Annotated[bool, typer.Option("--no-files", help="Write no files, no log.")] = False,
     live: Annotated[
@@ -50,6 +67,10 @@ def run(
             show_default="live in a terminal",
         ),
     ] = None,
+    detached: Annotated[
+        bool,
+        typer.Option("--detached", help="Go on when the program that started this one has died."),
+    ] = False,
     as_json: output.AsJson = False,
 ) -> None:
     """Run a law on a device in real time.
@@ -89,7 +110,12 @@ def run(
     folder = None if no_files else out or (None if as_json else DEFAULT_OUT)
     stem = _stem(folder)
     shown = output.console(stderr=True).is_terminal if live is None else live
-    _run(known, simulated, stem, shown and not as_json, as_json)
+    try:
+        _run(known, simulated, detached, stem, shown and not as_json, as_json)
+    finally:
+        if stem is not None:
+            with suppress(OSError):  # not empty: it has what the run gave
+                stem.parent.rmdir()
 
 
 def _configuration(
@@ -134,7 +160,12 @@ def _stem(folder: Path | None) -> Path | None:
 
 
 def _run(
-    known: Configuration, simulated: bool, stem: Path | None, live: bool, as_json: bool
+    known: Configuration,
+    simulated: bool,
+    detached: bool,
+    stem: Path | None,
+    live: bool,
+    as_json: bool,
 ) -> None:
     from ebac.hardware import OpenDevice
     from ebac.simulation import LoopFault
@@ -142,14 +173,14 @@ def _run(
     log = None if stem is None else stem.with_suffix(".mcap")
     fault: LoopFault | None = None
     with telling():
-        with OpenDevice.open(known, simulate=simulated) as device:
+        with OpenDevice.open(known, simulate=simulated, detached=detached) as device:
             try:
                 trace = _watched(device, log, live)
             except LoopFault as error:
                 fault, trace = error, error.trace
-            finally:
-                if log is not None and log.exists() and not as_json:
-                    output.say(f"Log: {log}")
+            except BaseException:
+                _tell_end(device, as_json)
+                raise
         report, place = device.report, device.place
     assert report is not None
     with output.refusing():
@@ -164,6 +195,21 @@ def _run(
     if fault is not None:
         kept = "" if log is None else f"; its rows are in {log}"
         output.fail(f"{str(fault).partition('; see')[0]}{kept}", code=output.FAILED)
+
+
+def _tell_end(device: OpenDevice, as_json: bool) -> None:
+    """Say on what a run ended that gives no result, and that nothing has power."""
+    report = device.report
+    if report is None:
+        return
+    console = output.console(stderr=as_json)
+    states = ", ".join(report.drives) or "not known"
+    kept = "" if report.log is None else f"; {report.recorded:,} rows in {report.log}"
+    console.print(
+        f"Ended by {report.ended_by}. Drives after it: {states}{kept}.",
+        soft_wrap=True,
+        markup=False,
+    )
 
 
 def _watched(device: OpenDevice, log: Path | None, live: bool) -> Trace:

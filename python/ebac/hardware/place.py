@@ -14,6 +14,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from ebac.drives.bus import TIMEOUT
 from ebac.drives.errors import BusError
 
 if TYPE_CHECKING:
@@ -26,6 +27,8 @@ if TYPE_CHECKING:
 PRIORITY = 5
 #: How long another process may take to put its drives on a bus [s].
 _START = 60.0
+#: How long a simulated drive may take to answer [s]: it shares its processors with all else.
+_PATIENCE = 5.0
 
 _numbers = itertools.count(1)
 
@@ -44,6 +47,8 @@ class Place:
         For people.
     sensor : SensorConfig or None
         The force sensor, where there is one.
+    patience : float
+        How long an SDO answer may take [s].
     """
 
     interface: str
@@ -51,6 +56,7 @@ class Place:
     bus: str | LoopbackHub
     about: str
     sensor: SensorConfig | None = None
+    patience: float = TIMEOUT
 
 
 @contextmanager
@@ -98,7 +104,12 @@ def simulated(configuration: Configuration) -> Iterator[Place]:
         with _in_a_process(channel, scenario, first, configuration.sensor) as sensor:
             about = f"simulated drives in another process, on {channel}"
             yield Place(
-                interface="socketcan", channel=channel, bus=channel, about=about, sensor=sensor
+                interface="socketcan",
+                channel=channel,
+                bus=channel,
+                about=about,
+                sensor=sensor,
+                patience=_PATIENCE,
             )
         return
     from ebac._core import ForceCell, LoopbackJoystick
@@ -114,7 +125,14 @@ def simulated(configuration: Configuration) -> Iterator[Place]:
     channel = f"run-{os.getpid()}-{next(_numbers)}"
     about = "simulated drives in a thread of their own, on a bus inside this process"
     with standing(channel, nodes) as hub, sensor_of(configuration.sensor, felt) as sensor:
-        yield Place(interface="ebac", channel=channel, bus=hub, about=about, sensor=sensor)
+        yield Place(
+            interface="ebac",
+            channel=channel,
+            bus=hub,
+            about=about,
+            sensor=sensor,
+            patience=_PATIENCE,
+        )
 
 
 @contextmanager

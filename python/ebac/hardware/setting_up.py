@@ -16,10 +16,16 @@ if TYPE_CHECKING:
     from ebac.hardware.configuration import Configuration
     from ebac.hardware.place import Place
 
+#: The shortest period of SYNC a simulated drive is told [s]. It takes the silence of twenty for a broken bus, and an
+#: ordinary kernel under load, or in a virtual machine, pauses a loop for 20 ms now and then.
+_SHORTEST = 10e-3
 
-def nodes_of(configuration: Configuration) -> tuple[Node, ...]:
+
+def nodes_of(configuration: Configuration, *, simulate: bool) -> tuple[Node, ...]:
     """Return the drives, their SYNC period that of the loop."""
     dt = configuration.timing.dt
+    if simulate:
+        dt = max(dt, _SHORTEST)
     return tuple(
         Node(id=node.id, name=node.name, profile=node.profile.replace(sync__period=dt))
         for node in configuration.drives.nodes
@@ -30,7 +36,7 @@ def nodes_of(configuration: Configuration) -> tuple[Node, ...]:
 def drives_at(place: Place, nodes: Sequence[Node]) -> Iterator[list[Drive]]:
     """Give the drives of a place; the bus is closed after the block, so that Python hears no process data."""
     with DriveBus.open(interface=place.interface, channel=place.channel) as bus:
-        yield [bus.drive(node.id) for node in nodes]
+        yield [bus.drive(node.id, timeout=place.patience) for node in nodes]
 
 
 def set_up(
