@@ -19,7 +19,7 @@ constexpr std::size_t kFrames = 4096;
 constexpr std::chrono::milliseconds kLook{2};
 
 can::CanopenSetup drives_of(const DeviceModel& device, const std::vector<int>& nodes,
-                            const py::dict& more) {
+                            const Values& more) {
   can::CanopenSetup drives{.axes = device.axes(), .motor = device.motor, .drive = device.drive};
   if (nodes.size() != static_cast<std::size_t>(drives.axes)) {
     throw std::invalid_argument("RunSetup.nodes: " + std::to_string(nodes.size()) +
@@ -46,7 +46,7 @@ RunSetup make_setup(const DeviceModel& device, const Environment& environment, d
                     const std::vector<int>& nodes, double answer_time, const RunPlan& plan,
                     const std::optional<Limits>& limits,
                     const std::optional<sensor::RdtClientSetup>& sensor, std::size_t rows,
-                    bool ring, rt::Mode mode, const rt::Options& realtime, const py::kwargs& more) {
+                    bool ring, rt::Mode mode, const rt::Options& realtime, const Values& drives) {
   check(Timing{.dt = dt}, "Timing");
   const bool fits = answer_time > 0 && answer_time <= dt;
   if (!fits) {
@@ -57,7 +57,7 @@ RunSetup make_setup(const DeviceModel& device, const Environment& environment, d
           .environment = environment,
           .dt = dt,
           .answer_time = answer_time,
-          .drives = drives_of(device, nodes, more),
+          .drives = drives_of(device, nodes, drives),
           .sensor = sensor,
           .limits = limits,
           .plan = plan,
@@ -159,7 +159,8 @@ void bind_running(py::module_& m) {
       .def(py::init(&make_setup), py::kw_only(), py::arg("device"), py::arg("environment"),
            py::arg("dt"), py::arg("nodes"), py::arg("answer_time"), py::arg("plan"),
            py::arg("limits"), py::arg("sensor"), py::arg("rows"), py::arg("ring"), py::arg("mode"),
-           py::arg("realtime"), "Further keywords are those of the drives on the bus.");
+           py::arg("realtime"), py::arg("drives"),
+           "`drives` are the fields of CanopenSetup by name.");
   bind_running_class(m);
 }
 

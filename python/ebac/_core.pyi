@@ -4914,10 +4914,10 @@ class RunSetup:
         ring: bool,
         mode: RealTimeMode,
         realtime: RealTime,
-        **kwargs,
+        drives: dict[str, typing.Any],
     ) -> None:
         """
-        Further keywords are those of the drives on the bus.
+        `drives` are the fields of CanopenSetup by name.
         """
 
 class Running:

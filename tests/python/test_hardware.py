@@ -60,7 +60,7 @@ def test_a_run_is_rows_a_log_and_drives_without_power(device: OpenDevice, tmp_pa
     assert (log.trace["x"] == trace["x"]).all()
     found = times(part)
     assert 0 < found.compute_p50_s <= found.compute_p99_9_s <= found.compute_most_s
-    assert device.run("tca", seconds=0.1).law == "tca"  # and again, on the same device
+    assert device.run("tca", ebac.Free(), seconds=0.1).law == "tca"  # and again, on the same device
     assert states(device.place) == [drives.State.SWITCH_ON_DISABLED] * 2
 
 
@@ -206,13 +206,26 @@ def test_what_cannot_be_is_refused_before_anything_moves(
         device.run(seconds=1, log=tmp_path / "run.csv")
     with pytest.raises(ValueError, match="seconds = 0 s"):
         device.run(seconds=0)
-    with pytest.raises(ValueError, match="no force sensor"):
-        device.run("tca", kp=0.3)
     with pytest.raises(KeyError, match="no law is called"):
         device.run("ebca")
     assert device.report is None
     with device.start(seconds=60), pytest.raises(RuntimeError, match="under way"):
         device.start(seconds=1)
+
+
+def test_without_a_sensor_a_force_loop_is_refused() -> None:
+    with ebac.Device.open(configuration(sensor=None), simulate=True) as device:
+        with pytest.raises(ValueError, match="no force sensor"):
+            device.run("tca", kp=0.3)
+        trace = device.run("tca", ebac.Free(), seconds=0.1)
+        assert (trace["f_meas"] == 0).all()
+        assert "kp=0.0" in trace.law_repr
+
+
+def test_the_force_loop_is_closed_on_the_sensor(device: OpenDevice) -> None:
+    trace = under_the_law(device.run("tca", ebac.Free(), seconds=0.5, kp=0.0))
+    assert np.abs(trace["f_meas"][:, 0]).max() > 1  # N: the hand pulls the handle away
+    assert (trace["ft.age"][:, 0] >= 0).all()
 
 
 def test_a_drive_that_holds_something_else_is_refused() -> None:

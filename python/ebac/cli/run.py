@@ -147,9 +147,9 @@ def _run(
                 trace = _watched(device, log, live)
             except LoopFault as error:
                 fault, trace = error, error.trace
-            finally:
-                if log is not None and log.exists() and not as_json:
-                    output.say(f"Log: {log}")
+            except BaseException:
+                _tell_end(device, as_json)
+                raise
         report, place = device.report, device.place
     assert report is not None
     with output.refusing():
@@ -164,6 +164,21 @@ def _run(
     if fault is not None:
         kept = "" if log is None else f"; its rows are in {log}"
         output.fail(f"{str(fault).partition('; see')[0]}{kept}", code=output.FAILED)
+
+
+def _tell_end(device: OpenDevice, as_json: bool) -> None:
+    """Say on what a run ended that gives no result, and that nothing has power."""
+    report = device.report
+    if report is None:
+        return
+    console = output.console(stderr=as_json)
+    states = ", ".join(report.drives) or "not known"
+    kept = "" if report.log is None else f"; {report.recorded:,} rows in {report.log}"
+    console.print(
+        f"Ended by {report.ended_by}. Drives after it: {states}{kept}.",
+        soft_wrap=True,
+        markup=False,
+    )
 
 
 def _watched(device: OpenDevice, log: Path | None, live: bool) -> Trace:

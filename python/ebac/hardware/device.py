@@ -169,7 +169,7 @@ class OpenDevice:
         setting_up.start(place, nodes)
         self.interrupts.moving()
         try:
-            running = finished._start(place.bus, setup)
+            running = _started(finished, place, setup)
             run = self._held.run = Run(
                 running,
                 law=finished,
@@ -229,11 +229,13 @@ class OpenDevice:
             ring=True,
             mode=_core.RealTimeMode[known.mode.upper()],
             realtime=known.realtime,
-            silent_ticks=known.silent,
-            enable_ticks=ceil(_ENABLE / dt),
-            heartbeat_timeout=_BEATS * max(watched),
-            own_node=masters.pop() if beat > 0 and len(masters) == 1 else 0,
-            heartbeat_period=max(1e-3, beat / 10) if beat > 0 else 0.01,
+            drives={
+                "silent_ticks": known.silent,
+                "enable_ticks": ceil(_ENABLE / dt),
+                "heartbeat_timeout": _BEATS * max(watched),
+                "own_node": masters.pop() if beat > 0 and len(masters) == 1 else 0,
+                "heartbeat_period": max(1e-3, beat / 10) if beat > 0 else 0.01,
+            },
         )
 
     def close(self) -> None:
@@ -258,6 +260,15 @@ class OpenDevice:
             if error is None:
                 raise
             error.add_note(f"and at the end: {failure}")
+
+
+def _started(law: Any, place: Place, setup: _core.RunSetup) -> _core.Running:
+    if not hasattr(law, "_start"):
+        raise TypeError(
+            f"{law!r}: was bound out of tree without `bind_start_of`, so the real-time loop does not know it"
+        )
+    running: _core.Running = law._start(place.bus, setup)
+    return running
 
 
 class _Held:

@@ -26,7 +26,7 @@ def designed(
     """
     given = dict(changes)
     if not sensor and (isinstance(law, (str, type))):
-        kind = LAWS.get(law) if isinstance(law, str) else law
+        kind: Any = LAWS.get(law) if isinstance(law, str) else law
         names = [one.name for one in kind.fields()] if kind is not None else []
         for gain in FORCE_GAINS:
             if gain in names:

@@ -28,13 +28,14 @@ def table(source: Source, path: Path) -> Mapping[str, Any]:
     ProfileError
         When something else stands there.
     """
-    found: Any = source.table
+    found: Mapping[str, Any] = source.table
     for part in path:
         if part not in found:
             return {}
-        found = found[part]
-        if not isinstance(found, Mapping):
-            raise source.refuse(path, f"{dotted(path)} = {found!r}: must be a table")
+        inner = found[str(part)]
+        if not isinstance(inner, Mapping):
+            raise source.refuse(path, f"{dotted(path)} = {inner!r}: must be a table")
+        found = inner
     return found
 
 
