@@ -123,7 +123,8 @@ void bind_open(py::class_<DeviceModel>& cls) {
       [](const py::args& args, const py::kwargs& more) {
         return py::module_::import("ebac.hardware").attr("OpenDevice").attr("open")(*args, **more);
       },
-      "open(configuration: typing.Any, *, simulate: bool = False) -> ebac.hardware.OpenDevice\n\n"
+      "open(configuration: typing.Any, *, simulate: bool = False, detached: bool = False) -> "
+      "ebac.hardware.OpenDevice\n\n"
       "Opens the drives of a configuration, or of its TOML file: `with Device.open(file) as "
       "device`.");
 }

@@ -1169,7 +1169,9 @@ class Device:
     2 N s/m, built from the paper's motor, encoder and capstan.
     """
     @staticmethod
-    def open(configuration: typing.Any, *, simulate: bool = False) -> ebac.hardware.OpenDevice:
+    def open(
+        configuration: typing.Any, *, simulate: bool = False, detached: bool = False
+    ) -> ebac.hardware.OpenDevice:
         """
         Opens the drives of a configuration, or of its TOML file: `with Device.open(file) as device`.
         """

@@ -5,6 +5,7 @@ import json
 import os
 import signal
 import time
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -23,7 +24,7 @@ def configuration(**changes: object) -> Configuration:
     hand = known.hand.replace(
         path=[ebac.MinimumJerk(target=0.04, at=0, duration=0.2), ebac.Step(target=0)]
     )
-    patient = known.limits.replace(overruns=100_000)
+    patient = known.limits.replace(overruns=100_000, force_age=10)
     return known.replace(
         silent=1000, limits=patient, soft_start=0.05, ramp_down=0.05, hand=hand
     ).replace(**changes)
@@ -33,6 +34,13 @@ def configuration(**changes: object) -> Configuration:
 def device() -> "ebac.hardware.OpenDevice":  # type: ignore[misc]
     with ebac.Device.open(configuration(), simulate=True) as opened:
         yield opened
+
+
+def until(run: Run, reached: Callable[[], bool]) -> None:
+    """Wait for something that happens while it runs."""
+    while not reached():
+        assert not run.done, run.trace()["fault"][-1]
+        time.sleep(0.01)
 
 
 def states(place: object) -> list[drives.State]:
@@ -68,8 +76,7 @@ def test_what_changes_while_it_runs_acts_and_is_in_the_log(
     device: OpenDevice, tmp_path: Path
 ) -> None:
     with device.start("eba", seconds=30, log=tmp_path / "run.mcap") as run:
-        while run.state is not ebac.LoopState.RUN or run.ticks < 300:
-            time.sleep(0.01)
+        until(run, lambda: run.state is ebac.LoopState.RUN and run.ticks >= 300)
         assert run.retune(share=0.5).share == 0.5  # type: ignore[attr-defined]
         assert run.change(stiffness=1e3).stiffness == 1e3  # type: ignore[union-attr]
         with pytest.raises(ValueError, match=r"share = 7: must lie in"):
@@ -77,8 +84,7 @@ def test_what_changes_while_it_runs_acts_and_is_in_the_log(
         with pytest.raises(ValueError, match=r"cannot change from .* while the loop runs"):
             run.retune(damping=1.0)
         seen = run.ticks
-        while run.ticks < seen + 100:
-            time.sleep(0.01)
+        until(run, lambda: run.ticks >= seen + 100)
         tail = run.tail(50)
         assert len(tail) == 50
         inside = tail["x"][:, 0] > 0.0101
@@ -169,8 +175,7 @@ def test_signals_are_python_s_again_afterwards() -> None:
 def test_a_device_that_is_forgotten_stops(tmp_path: Path) -> None:
     opened = ebac.Device.open(configuration(), simulate=True)
     run = opened.start(seconds=60, log=tmp_path / "run.mcap")
-    while run.ticks < 100:
-        time.sleep(0.01)
+    until(run, lambda: run.ticks >= 100)
     del opened
     gc.collect()
     assert run.done
@@ -232,6 +237,12 @@ def test_a_drive_that_holds_something_else_is_refused() -> None:
     known = configuration(interface="ebac", channel="joystick-test", setup="verify")
     with pytest.raises(drives.NotVerified, match="holds something else"):
         ebac.Device.open(known)
+
+
+def test_a_bus_that_cannot_carry_it_is_refused_before_it_is_opened() -> None:
+    fast = configuration(timing=ebac.Timing(dt=2e-4), interface="socketcan", channel="nobody0")
+    with pytest.raises(drives.ProfileError, match="%"):
+        ebac.Device.open(fast)
 
 
 def test_json_of_a_report_is_plain(device: OpenDevice) -> None:

@@ -31,7 +31,7 @@ def config(tmp_path: Path) -> Path:
     """The example, patient with a busy machine."""
     text = EXAMPLE.read_text(encoding="utf-8")
     text = text.replace("silent = 10", "silent = 1000").replace(
-        "[limits]", "[limits]\noverruns = 100000\n"
+        "[limits]", "[limits]\noverruns = 100000\nforce_age = 10.0\n"
     )
     path = tmp_path / "joystick.toml"
     path.write_text(text, encoding="utf-8")

@@ -50,6 +50,10 @@ def run(
             show_default="live in a terminal",
         ),
     ] = None,
+    detached: Annotated[
+        bool,
+        typer.Option("--detached", help="Go on when the program that started this one has died."),
+    ] = False,
     as_json: output.AsJson = False,
 ) -> None:
     """Run a law on a device in real time.
@@ -89,7 +93,7 @@ def run(
     folder = None if no_files else out or (None if as_json else DEFAULT_OUT)
     stem = _stem(folder)
     shown = output.console(stderr=True).is_terminal if live is None else live
-    _run(known, simulated, stem, shown and not as_json, as_json)
+    _run(known, simulated, detached, stem, shown and not as_json, as_json)
 
 
 def _configuration(
@@ -134,7 +138,12 @@ def _stem(folder: Path | None) -> Path | None:
 
 
 def _run(
-    known: Configuration, simulated: bool, stem: Path | None, live: bool, as_json: bool
+    known: Configuration,
+    simulated: bool,
+    detached: bool,
+    stem: Path | None,
+    live: bool,
+    as_json: bool,
 ) -> None:
     from ebac.hardware import OpenDevice
     from ebac.simulation import LoopFault
@@ -142,7 +151,7 @@ def _run(
     log = None if stem is None else stem.with_suffix(".mcap")
     fault: LoopFault | None = None
     with telling():
-        with OpenDevice.open(known, simulate=simulated) as device:
+        with OpenDevice.open(known, simulate=simulated, detached=detached) as device:
             try:
                 trace = _watched(device, log, live)
             except LoopFault as error:

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import atexit
 import tempfile
+import warnings
 import weakref
 from collections.abc import Callable
 from contextlib import ExitStack
+from dataclasses import replace
 from math import ceil
 from pathlib import Path
 from types import TracebackType
@@ -50,6 +52,8 @@ class OpenDevice:
     simulate : bool
         Whether simulated drives, with a simulated device in a simulated hand, stand in for the real ones. All else is
         as it is: the loop's thread, its clock, the bus, the set-up of the drives.
+    detached : bool
+        Whether a run goes on when the program that started this one has died.
 
     Attributes
     ----------
@@ -58,16 +62,30 @@ class OpenDevice:
     place : Place
         The bus with the drives.
 
+    Warns
+    -----
+    UserWarning
+        When the process data take over 70 % of the bus.
+
     Raises
     ------
+    ProfileError
+        When they take over 90 % of it.
     DriveError
         When a drive cannot be reached, is in fault, or holds something else than its profile.
     """
 
-    def __init__(self, configuration: Configuration, *, simulate: bool = False) -> None:
+    def __init__(
+        self, configuration: Configuration, *, simulate: bool = False, detached: bool = False
+    ) -> None:
         self.configuration = configuration
         self.simulated = simulate
-        self._nodes = setting_up.nodes_of(configuration)
+        self._detached = detached
+        self._nodes = setting_up.nodes_of(configuration, simulate=simulate)
+        if not simulate and configuration.interface == "socketcan":
+            network = replace(configuration.drives, nodes=self._nodes)
+            if (warning := network.check_load()) is not None:
+                warnings.warn(warning, stacklevel=2)
         with ExitStack() as stack:
             self.interrupts = stack.enter_context(Interrupts())
             self.place: Place = stack.enter_context(
@@ -90,11 +108,17 @@ class OpenDevice:
         return None if self._held.run is None else self._held.run.report
 
     @classmethod
-    def open(cls, configuration: Configuration | str | Path, *, simulate: bool = False) -> Self:
+    def open(
+        cls,
+        configuration: Configuration | str | Path,
+        *,
+        simulate: bool = False,
+        detached: bool = False,
+    ) -> Self:
         """Open the device of a configuration, or of its file. Raises as `Configuration.load` and the class."""
         if not isinstance(configuration, Configuration):
             configuration = Configuration.load(configuration)
-        return cls(configuration, simulate=simulate)
+        return cls(configuration, simulate=simulate, detached=detached)
 
     def run(
         self,
@@ -176,6 +200,7 @@ class OpenDevice:
                 scenario=scenario,
                 interrupts=self.interrupts,
                 power_off=power_off,
+                detached=self._detached,
             )
         except BaseException:
             self.interrupts.ending()

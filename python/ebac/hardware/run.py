@@ -43,6 +43,7 @@ class Run:
         scenario: Scenario,
         interrupts: Interrupts,
         power_off: Callable[[], list[str]],
+        detached: bool = False,
     ) -> None:
         self.recorder: Recorder | None = None
         self.report: Report | None = None
@@ -57,7 +58,8 @@ class Run:
         self._lock = threading.RLock()  # who changes or ends it
         self._over = threading.Event()
         self._watcher = threading.Thread(target=self._watch, name="ebac-parent", daemon=True)
-        self._watcher.start()
+        if not detached:
+            self._watcher.start()
 
     # --- while it runs ---
 

@@ -16,10 +16,16 @@ if TYPE_CHECKING:
     from ebac.hardware.configuration import Configuration
     from ebac.hardware.place import Place
 
+#: The shortest period of SYNC a simulated drive is told [s]. It takes the silence of twenty for a broken bus, and an
+#: ordinary kernel under load, or in a virtual machine, pauses a loop for 20 ms now and then.
+_SHORTEST = 10e-3
 
-def nodes_of(configuration: Configuration) -> tuple[Node, ...]:
+
+def nodes_of(configuration: Configuration, *, simulate: bool) -> tuple[Node, ...]:
     """Return the drives, their SYNC period that of the loop."""
     dt = configuration.timing.dt
+    if simulate:
+        dt = max(dt, _SHORTEST)
     return tuple(
         Node(id=node.id, name=node.name, profile=node.profile.replace(sync__period=dt))
         for node in configuration.drives.nodes
