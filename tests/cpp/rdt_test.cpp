@@ -117,6 +117,17 @@ TEST(StreamOrder, OneStrayNumberIsNotBelievedTwoAreANewStream) {
   EXPECT_EQ(order.lost(), 0);
 }
 
+TEST(StreamOrder, AStreamThatWasAskedForMayFollowTheEndOfTheOldOne) {
+  StreamOrder order;
+  for (std::uint32_t n = 1000; n < 1010; ++n) order.take(n);
+  order.restart();
+  EXPECT_EQ(order.take(1010), Place::kNewest);  // was under way
+  EXPECT_EQ(order.take(1), Place::kNewest);
+  for (std::uint32_t n = 2; n < 100; ++n) EXPECT_EQ(order.take(n), Place::kNewest);
+  EXPECT_EQ(order.lost() + order.stray() + order.late(), 0);
+  EXPECT_EQ(order.take(1'000'000'000), Place::kStray);  // once only
+}
+
 RdtRecord pushing(std::uint32_t number, double x, double y = 0, double z = 0) {
   const auto counts = [](double newton) { return static_cast<std::int32_t>(1e6 * newton); };
   return {.rdt_sequence = number, .force = {counts(x), counts(y), counts(z)}};

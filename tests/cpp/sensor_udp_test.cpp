@@ -122,6 +122,17 @@ TEST(RdtClient, ASilentSensorIsAskedAgainAndThenGone) {
   EXPECT_EQ(s.client.state(0).lost, 0);
 }
 
+TEST(RdtClient, AnotherStreamBeginsWithNothingOfTheOldOne) {
+  Script s;
+  s.say(500, 9'000'000);
+  s.client.start();  // the record still waits
+  EXPECT_FALSE(s.client.poll(0));
+  s.say(1, 1'000'000);
+  EXPECT_TRUE(s.client.poll(1e-3));
+  EXPECT_EQ(s.client.link().force()[0], 1);
+  EXPECT_EQ(s.client.state(0).lost + s.client.state(0).malformed, 0);
+}
+
 TEST(RdtClient, StopsAStreamAndASensorsBiasIsItsOwn) {
   Script s;
   RdtRequest request;

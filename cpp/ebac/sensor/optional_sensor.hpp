@@ -18,6 +18,9 @@ class OptionalSensor {
   OptionalSensor() = default;
   explicit OptionalSensor(RdtClient client) : client_(std::move(client)) {}
 
+  void start() EBAC_RT {
+    if (client_) client_->start();
+  }
   bool poll(double elapsed) EBAC_RT { return !client_ || client_->poll(elapsed); }
   void fill(Reading& reading) const EBAC_RT {
     if (client_) client_->fill(reading);

@@ -54,6 +54,9 @@ void RdtClient::ask(RdtCommand command) EBAC_RT {
 
 void RdtClient::start() EBAC_RT {
   if (!socket_.open()) return;
+  Datagram old;  // what still waits is of another stream, and may be as old as it likes
+  for (int i = 0; i < kMostPackets && socket_.receive(old) != EAGAIN; ++i) {
+  }
   wanted_ = true;
   state_ = LinkState::kWaiting;
   age_ = since_asked_ = 0;

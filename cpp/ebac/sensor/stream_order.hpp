@@ -32,8 +32,12 @@ class StreamOrder {
     return behind < kWindow ? look_back(behind) : stray(number);
   }
 
-  /// The next packet begins a stream of its own, whatever its number.
-  void restart() EBAC_RT { begun_ = strayed_ = false; }
+  /// Another stream was asked for: the next packet begins it, whatever its number. It may still be
+  /// one of the stream before, so that one leap to anywhere is believed.
+  void restart() EBAC_RT {
+    begun_ = strayed_ = false;
+    leaps_ = true;
+  }
 
   std::int64_t lost() const EBAC_RT { return lost_; }
   std::int64_t late() const EBAC_RT { return late_; }
@@ -60,6 +64,7 @@ class StreamOrder {
     age_ += ahead;
     lost_ += ahead - 1;
     strayed_ = false;
+    if (age_ >= kWindow) leaps_ = false;
     return Place::kNewest;
   }
   Place look_back(std::uint32_t behind) EBAC_RT {
@@ -71,6 +76,10 @@ class StreamOrder {
     return Place::kLate;
   }
   Place stray(std::uint32_t number) EBAC_RT {
+    if (leaps_) {
+      leaps_ = false;
+      return begin(number);
+    }
     if (strayed_ && number == stray_ + 1) {
       ++restarts_;
       return begin(number);
@@ -83,6 +92,7 @@ class StreamOrder {
 
   bool begun_ = false;
   bool strayed_ = false;
+  bool leaps_ = false;  // a stream was asked for, and the old one may not have ended yet
   std::uint32_t newest_ = 0;
   std::uint32_t stray_ = 0;
   std::uint64_t age_ = 0;   // numbers from the first of the stream to the newest

@@ -17,6 +17,7 @@ concept PolledSensor = requires(S sensor, const S& view, double elapsed, Reading
 };
 
 /// A device whose force comes from a sensor beside it. What else the device can do, it still can.
+/// Enabling it asks for the sensor's stream, anew where there was one.
 ///
 /// While it is being enabled, no force is asked, and a sensor may take `patience` seconds to give a
 /// record that is good: only then does the device run. Afterwards the limits judge each one.
@@ -45,6 +46,7 @@ class WithForceSensor {
     }
   {
     device_.enable();
+    if constexpr (requires { sensor_.start(); }) sensor_.start();
     awaited_ = true;
     waited_ = 0;
   }

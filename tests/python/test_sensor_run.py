@@ -1,0 +1,120 @@
+"""A run in real time with a force sensor that fails on the way. No test asserts a deadline."""
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import ebac
+from ebac.hardware import Configuration, OpenDevice, Run, place, under_the_law
+from ebac.sensor import EmulatorTrouble, ForceCell, SensorConfig, SimulatedSensor
+
+EXAMPLE = Path(__file__).parents[2] / "examples" / "joystick.toml"
+
+
+def configuration() -> Configuration:
+    """The example, patient with a busy machine in all but its force sensor."""
+    known = Configuration.load(EXAMPLE)
+    hand = known.hand.replace(
+        path=[ebac.MinimumJerk(target=0.04, at=0, duration=0.2), ebac.Step(target=0)]
+    )
+    limits = known.limits.replace(overruns=100_000, force_age=0.3)
+    return known.replace(silent=1000, limits=limits, soft_start=0.05, ramp_down=0.05, hand=hand)
+
+
+class Desk:
+    """A device on simulated drives, and its simulated sensor."""
+
+    device: OpenDevice
+    sensor: SimulatedSensor
+
+    def run(self, fails: Callable[[], None]) -> None:
+        """Run until the sensor fails, after a while, and its fault is raised."""
+        waits = True
+
+        def look(run: Run) -> None:
+            nonlocal waits
+            if waits and run.ticks > 200:
+                fails()
+                waits = False
+
+        self.device.run(seconds=60, look=look)
+
+
+@pytest.fixture(scope="module")
+def opened() -> Iterator[Desk]:
+    made = Desk()
+
+    @contextmanager
+    def beside(known: SensorConfig, felt: ForceCell) -> Iterator[SensorConfig]:
+        with SimulatedSensor(felt) as made.sensor:
+            yield made.sensor.config
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(place, "sensor_of", beside)
+        patch.setattr(place, "virtual_can", lambda: None)
+        with ebac.Device.open(configuration(), simulate=True) as made.device:
+            yield made
+
+
+@pytest.fixture
+def desk(opened: Desk) -> Desk:
+    """Give the desk with a sensor that works."""
+    opened.sensor.trouble(EmulatorTrouble())
+    return opened
+
+
+@pytest.mark.parametrize("law", ["tca", "ebac"])
+def test_the_force_that_is_felt_comes_back_over_the_network(desk: Desk, law: str) -> None:
+    wall = ebac.Wall(stiffness=2e3, position=0.01)  # soft enough for either law
+    trace = under_the_law(desk.device.run(law, wall, seconds=1.5))
+    push = float(trace["f_meas"][-500:, 0].mean())
+    assert push > 3  # N
+    # At rest the hand pushes as hard as the motor holds: two ways to the same force.
+    assert push == pytest.approx(float(trace["f_applied"][-500:, 0].mean()), rel=0.05)
+    assert trace["ft.received"][-1, 0] > 1000
+    assert trace["ft.lost"][-1, 0] == desk.sensor.counts.dropped == 0
+    assert (trace["ft.malformed"] == 0).all()
+
+
+@pytest.mark.parametrize(
+    ("trouble", "fault"),
+    [
+        (EmulatorTrouble(silent=True), ebac.Fault.FORCE_STALE),
+        (EmulatorTrouble(status=0x80020000), ebac.Fault.FORCE_SATURATED),
+        (EmulatorTrouble(status=0x80000004), ebac.Fault.FORCE_ERROR),
+    ],
+)
+def test_a_sensor_that_fails_ends_the_run_by_name(
+    desk: Desk, trouble: EmulatorTrouble, fault: ebac.Fault
+) -> None:
+    with pytest.raises(ebac.LoopFault) as caught:
+        desk.run(lambda: desk.sensor.trouble(trouble))
+    error = caught.value
+    assert error.fault is fault
+    row = int(np.argmax(error.trace["fault"] != 0))
+    assert (error.trace["current"][row:] == 0).all()
+    assert (error.trace["f_applied"][-1] == 0).all()
+    report = desk.device.report
+    assert report is not None
+    assert report.drives == ("switch on disabled",) * 2
+
+
+def test_a_run_without_its_sensor_does_not_begin(desk: Desk) -> None:
+    desk.sensor.trouble(EmulatorTrouble(silent=True))
+    with pytest.raises(ebac.LoopFault) as caught:
+        desk.device.run(seconds=60)
+    assert caught.value.fault is ebac.Fault.FORCE_DISCONNECTED
+    assert set(caught.value.trace["state"]) <= {1, 3}  # it never ran
+    assert (caught.value.trace["current"] == 0).all()
+
+
+def test_losses_on_the_way_are_counted_and_do_not_stop_it(desk: Desk) -> None:
+    desk.sensor.trouble(EmulatorTrouble(loss=0.1, duplicate=0.1, reorder=0.1))
+    trace = desk.device.run("ebac", ebac.Free(), seconds=1)
+    assert trace["fault"][-1] == 0
+    assert 50 < trace["ft.lost"][-1, 0] < 300
+    assert trace["ft.late"][-1, 0] > 30
+    assert trace["ft.duplicate"][-1, 0] > 30
