@@ -190,6 +190,8 @@ def refused(text: str) -> Any:
         command.make_context(name, words)
     except Exception as error:
         kind = type(error).__name__
+        if "does not exist" in str(getattr(error, "message", "")):  # a file of the reader's own
+            return None
         return (
             None
             if kind in ("Exit", "MissingParameter", "NoArgsIsHelpError")
