@@ -14,6 +14,8 @@ void bind_simulation(pybind11::module_& m);
 void bind_replay(pybind11::module_& m);
 void bind_sweeps(pybind11::module_& m);
 void bind_controllers(pybind11::module_& m);
+void bind_sensor(pybind11::module_& m);
+void bind_sensor_emulator(pybind11::module_& m);
 void bind_drives(pybind11::module_& m);
 void bind_served(pybind11::module_& m);
 void bind_linear_loop(pybind11::module_& m);
@@ -23,5 +25,7 @@ void bind_can(pybind11::module_& m);
 void bind_limits(pybind11::module_& m);
 void bind_realtime(pybind11::module_& m);
 void bind_faults(pybind11::module_& m);
+void bind_running(pybind11::module_& m);
+void bind_running_laws(pybind11::module_& m);
 
 }  // namespace ebac::python

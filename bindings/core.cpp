@@ -46,6 +46,7 @@ void bind_fault(py::module_& m) {
       .value("FORCE_SATURATED", Fault::kForceSaturated)
       .value("FORCE_DISCONNECTED", Fault::kForceDisconnected)
       .value("OVERRUNS", Fault::kOverruns)
+      .value("FORCE_ERROR", Fault::kForceError)
       .finalize();
 }
 

@@ -115,6 +115,19 @@ Values device_dict(const DeviceModel& d) {
                   "compensation"_a = d.compensation);
 }
 
+/// The way from the model of a device to the device itself, which Python opens.
+void bind_open(py::class_<DeviceModel>& cls) {
+  const OwnSignatures own;
+  cls.def_static(
+      "open",
+      [](const py::args& args, const py::kwargs& more) {
+        return py::module_::import("ebac.hardware").attr("OpenDevice").attr("open")(*args, **more);
+      },
+      "open(configuration: typing.Any, *, simulate: bool = False) -> ebac.hardware.OpenDevice\n\n"
+      "Opens the drives of a configuration, or of its TOML file: `with Device.open(file) as "
+      "device`.");
+}
+
 void bind_device(py::module_& m) {
   py::class_<DeviceModel> cls(
       m, "Device",
@@ -148,6 +161,7 @@ void bind_device(py::module_& m) {
       .def("force", &DeviceModel::force, py::arg("current"), "Handle force [N] of a current [A].")
       .def("as_dict", &device_dict, "Parts by name.");
   add_value_methods(cls);
+  bind_open(cls);
 }
 
 }  // namespace

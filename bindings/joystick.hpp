@@ -1,13 +1,17 @@
 #pragma once
 
+#include <memory>
+#include <optional>
+
 #include "ebac/can/joystick.hpp"
+#include "ebac/sensor/felt.hpp"
 #include "ebac/sim/setup.hpp"
 #include "ebac/sim/simulated_device.hpp"
 #include "fields.hpp"
 
 namespace ebac::python {
 
-using PlantOfDrives = can::Joystick<SimulatedDevice>;
+using PlantOfDrives = can::Joystick<sensor::Felt<SimulatedDevice>>;
 
 /// Node ids of drives on `axes` axes, from `node` on.
 inline can::NodeId checked_node(int node, int axes) {
@@ -26,12 +30,15 @@ inline double checked_peak_time(double seconds) {
   return seconds;
 }
 
-/// The device and hand of a setup behind drives.
-inline PlantOfDrives make_joystick(Setup setup, int first, double peak_time) {
+/// The device and hand of a setup behind drives; `felt` is told the force at the handle.
+inline PlantOfDrives make_joystick(Setup setup, int first, double peak_time,
+                                   std::optional<std::shared_ptr<sensor::ForceCell>> felt,
+                                   bool wait_for_power) {
   const can::NodeId node = checked_node(first, setup.device.axes());
   setup.device.drive.permille = true;  // what a drive is told in
   setup.timing.delay = 0;              // its delay is that of the bus
-  return {SimulatedDevice(setup), setup.device, node, checked_peak_time(peak_time)};
+  return {sensor::Felt(SimulatedDevice(setup), felt.value_or(nullptr)), setup.device, node,
+          checked_peak_time(peak_time), wait_for_power};
 }
 
 }  // namespace ebac::python

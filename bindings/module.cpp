@@ -9,6 +9,8 @@ PYBIND11_MODULE(_core, m, pybind11::mod_gil_not_used()) {
   ebac::python::bind_environment(m);
   ebac::python::bind_simulation(m);
   ebac::python::bind_replay(m);
+  ebac::python::bind_sensor(m);
+  ebac::python::bind_sensor_emulator(m);
   ebac::python::bind_drives(m);
   ebac::python::bind_sweeps(m);
   ebac::python::bind_linear_loop(m);
@@ -20,4 +22,6 @@ PYBIND11_MODULE(_core, m, pybind11::mod_gil_not_used()) {
   ebac::python::bind_limits(m);
   ebac::python::bind_realtime(m);
   ebac::python::bind_faults(m);
+  ebac::python::bind_running(m);
+  ebac::python::bind_running_laws(m);
 }

@@ -18,6 +18,8 @@ namespace {
 /// Drives wait for a loop that was held up; more is lost, and counted.
 constexpr std::size_t kFrames = 4096;
 
+using Felt = std::optional<std::shared_ptr<sensor::ForceCell>>;
+
 template <can::WaitingBus Bus>
 using ServedJoystick = can::Served<Bus, PlantOfDrives>;
 
@@ -63,25 +65,29 @@ void bind_served(py::module_& m) {
       m, "LoopbackJoystick",
       "A joystick of simulated drives on a bus inside this process, in real time, in a thread of\n"
       "its own that never waits for Python. A context manager.");
-  inside.def(py::init([](can::LoopbackHub& hub, const Setup& setup, int first, double peak_time) {
-               PlantOfDrives joystick = make_joystick(setup, first, peak_time);
-               return std::make_unique<OnLoopback>(hub.open({.frames = kFrames}),
-                                                   std::move(joystick));
-             }),
-             py::arg("hub"), py::arg("setup"), py::kw_only(), py::arg("first") = 1,
-             py::arg("peak_time") = 2.0);
+  inside.def(
+      py::init([](can::LoopbackHub& hub, const Setup& setup, int first, double peak_time, Felt felt,
+                  bool wait_for_power) {
+        PlantOfDrives joystick =
+            make_joystick(setup, first, peak_time, std::move(felt), wait_for_power);
+        return std::make_unique<OnLoopback>(hub.open({.frames = kFrames}), std::move(joystick));
+      }),
+      py::arg("hub"), py::arg("setup"), py::kw_only(), py::arg("first") = 1,
+      py::arg("peak_time") = 2.0, py::arg("felt") = py::none(), py::arg("wait_for_power") = false);
   add_work(inside);
   py::class_<OnSocketCan> outside(
       m, "SocketCanJoystick",
       "A joystick of simulated drives on a CAN interface of the Linux kernel, in real time, in a\n"
       "thread of its own that never waits for Python. A context manager.");
   outside.def(
-      py::init([](const std::string& interface, const Setup& setup, int first, double peak_time) {
-        PlantOfDrives joystick = make_joystick(setup, first, peak_time);
+      py::init([](const std::string& interface, const Setup& setup, int first, double peak_time,
+                  Felt felt, bool wait_for_power) {
+        PlantOfDrives joystick =
+            make_joystick(setup, first, peak_time, std::move(felt), wait_for_power);
         return std::make_unique<OnSocketCan>(open_socketcan(interface, {}), std::move(joystick));
       }),
       py::arg("interface"), py::arg("setup"), py::kw_only(), py::arg("first") = 1,
-      py::arg("peak_time") = 2.0);
+      py::arg("peak_time") = 2.0, py::arg("felt") = py::none(), py::arg("wait_for_power") = false);
   add_work(outside);
 }
 

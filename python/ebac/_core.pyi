@@ -11,6 +11,8 @@ import typing
 import numpy
 import numpy.typing
 
+import ebac.hardware
+
 __all__: list[str] = [
     "EBA",
     "EBAC",
@@ -36,13 +38,18 @@ __all__: list[str] = [
     "DriveCondition",
     "DriveState",
     "EBACPrinted",
+    "EmulatorCounts",
+    "EmulatorOptions",
+    "EmulatorTrouble",
     "Encoder",
     "ExactPlant",
     "Fault",
     "Field",
     "ForceBounding",
+    "ForceCell",
     "ForceSensor",
     "Free",
+    "FtScale",
     "Gimbal",
     "Grant",
     "Hand",
@@ -51,6 +58,7 @@ __all__: list[str] = [
     "Limits",
     "Linear",
     "LinearLoop",
+    "LinkState",
     "LoopState",
     "LoopbackBus",
     "LoopbackHub",
@@ -62,12 +70,20 @@ __all__: list[str] = [
     "PassivityControl",
     "PlannedFrame",
     "Port",
+    "RdtClient",
+    "RdtEmulator",
+    "RdtSetup",
     "RealTime",
     "RealTimeMode",
     "Recorded",
     "ReplayLog",
     "Rows",
     "RunLimits",
+    "RunPlan",
+    "RunSetup",
+    "Running",
+    "SensorModel",
+    "SensorStatus",
     "Setup",
     "SimulatedDrive",
     "Sine",
@@ -138,6 +154,7 @@ class Fault(enum.IntEnum):
     ENCODER_JUMP = ...
     ENVIRONMENT_NOT_FINITE = ...
     FORCE_DISCONNECTED = ...
+    FORCE_ERROR = ...
     FORCE_NOT_FINITE = ...
     FORCE_SATURATED = ...
     FORCE_STALE = ...
@@ -1151,6 +1168,11 @@ class Device:
     One haptic device, part by part. The default is the reference device: one straight axis of 0.25 kg and
     2 N s/m, built from the paper's motor, encoder and capstan.
     """
+    @staticmethod
+    def open(configuration: typing.Any, *, simulate: bool = False) -> ebac.hardware.OpenDevice:
+        """
+        Opens the drives of a configuration, or of its TOML file: `with Device.open(file) as device`.
+        """
     def __eq__(self, other: typing.Any) -> bool: ...
     def __hash__(self) -> int: ...
     def __init__(
@@ -2091,6 +2113,509 @@ class ReplayLog:
         Number of axes.
         """
 
+class SensorModel(enum.IntEnum):
+    AXIA = ...
+    NET_FT = ...
+    OTHER = ...
+
+class SensorStatus(enum.IntEnum):
+    DISCONNECTED = ...
+    ERROR = ...
+    GOOD = ...
+    SATURATED = ...
+
+class LinkState(enum.IntEnum):
+    CLOSED = ...
+    REFUSED = ...
+    SILENT = ...
+    STOPPED = ...
+    STREAMING = ...
+    UNREACHABLE = ...
+    WAITING = ...
+
+class FtScale:
+    """
+    What the counts of a force/torque sensor are worth.
+
+    Parameters
+    ----------
+    counts_per_force : float
+        counts of one newton [1/N], 0.001 to 1e+12.
+    counts_per_torque : float
+        counts of one newton metre [1/(N m)], 0.001 to 1e+12.
+    force_range : float
+        a force along one of its axes that large is saturated, whatever its status says; 0 to trust the status [N], 0 to 1e+06.
+    torque_range : float
+        the same of a torque [N m], 0 to 1e+06.
+    """
+    @staticmethod
+    def fields() -> list[Field]:
+        """
+        Name, unit, meaning, default and range of every parameter.
+        """
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __init__(
+        self,
+        *,
+        counts_per_force: float = 1000000.0,
+        counts_per_torque: float = 1000000.0,
+        force_range: float = 0.0,
+        torque_range: float = 0.0,
+    ) -> None: ...
+    def __reduce__(self) -> tuple[typing.Any, ...]: ...
+    def __repr__(self) -> str: ...
+    def as_dict(self) -> dict[str, typing.Any]:
+        """
+        Parameters by name.
+        """
+    def replace(self, **changes: typing.Any) -> typing.Self:
+        """
+        A copy with some parameters changed; checked as at construction.
+        """
+    @property
+    def counts_per_force(self) -> float:
+        """
+        counts of one newton [1/N], 0.001 to 1e+12
+        """
+    @property
+    def counts_per_torque(self) -> float:
+        """
+        counts of one newton metre [1/(N m)], 0.001 to 1e+12
+        """
+    @property
+    def force_range(self) -> float:
+        """
+        a force along one of its axes that large is saturated, whatever its status says; 0 to trust the status [N], 0 to 1e+06
+        """
+    @property
+    def torque_range(self) -> float:
+        """
+        the same of a torque [N m], 0 to 1e+06
+        """
+
+class RdtSetup:
+    """
+    Where a force sensor is, and how it sits.
+    """
+    def __init__(
+        self,
+        host: str,
+        port: typing.SupportsInt | typing.SupportsIndex,
+        *,
+        scale: FtScale,
+        rotation: typing.Annotated[
+            collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(9)"
+        ],
+        sign: typing.SupportsInt | typing.SupportsIndex,
+        model: SensorModel,
+        retry: typing.SupportsFloat | typing.SupportsIndex,
+        gone: typing.SupportsFloat | typing.SupportsIndex,
+        bias: typing.Annotated[
+            collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(6)"
+        ],
+    ) -> None: ...
+
+class RdtClient:
+    """
+    A force/torque sensor on the network.
+    """
+    def __init__(self, setup: RdtSetup) -> None: ...
+    def begin_bias(self, records: typing.SupportsInt | typing.SupportsIndex) -> None:
+        """
+        Takes the mean of the next good records as zero.
+        """
+    def bias_sensor(self) -> None:
+        """
+        Has the sensor take what acts now as zero.
+        """
+    def close(self) -> None:
+        """
+        Ends it for good.
+        """
+    def poll(self, timeout: typing.SupportsFloat | typing.SupportsIndex = 0.0) -> bool:
+        """
+        Reads all that came; waits up to `timeout` [s] for a newer record: whether one came.
+        """
+    def start(self) -> None:
+        """
+        Asks for a stream.
+        """
+    def stop(self) -> None:
+        """
+        Ends the stream.
+        """
+    @property
+    def age(self) -> float:
+        """
+        Time since the newest record came [s], as of the last poll.
+        """
+    @property
+    def asked(self) -> int:
+        """
+        Streams asked for.
+        """
+    @property
+    def bias(self) -> typing.Annotated[list[float], "FixedSize(6)"]:
+        """
+        What is taken as zero: force, torque [counts].
+        """
+    @property
+    def biasing(self) -> bool:
+        """
+        Whether a bias is being taken.
+        """
+    @property
+    def duplicate(self) -> int:
+        """
+        Records that came again.
+        """
+    @property
+    def force(self) -> typing.Annotated[list[float], "FixedSize(3)"]:
+        """
+        Force at the handle [N].
+        """
+    @property
+    def foreign(self) -> int:
+        """
+        Packets of somebody else.
+        """
+    @property
+    def ft_sequence(self) -> int:
+        """
+        Number of the sensor's sample in it.
+        """
+    @property
+    def health(self) -> SensorStatus:
+        """
+        What the sensor says of itself.
+        """
+    @property
+    def late(self) -> int:
+        """
+        Records that came after a newer one.
+        """
+    @property
+    def lost(self) -> int:
+        """
+        Records that did not come.
+        """
+    @property
+    def malformed(self) -> int:
+        """
+        Packets of the sensor that are no record.
+        """
+    @property
+    def rdt_sequence(self) -> int:
+        """
+        Number of the newest record.
+        """
+    @property
+    def received(self) -> int:
+        """
+        Records used.
+        """
+    @property
+    def refused(self) -> int:
+        """
+        Requests that did not leave this machine.
+        """
+    @property
+    def state(self) -> LinkState:
+        """
+        How the way to it stands.
+        """
+    @property
+    def status(self) -> int:
+        """
+        Status bits of the newest record.
+        """
+    @property
+    def torque(self) -> typing.Annotated[list[float], "FixedSize(3)"]:
+        """
+        Torque about the handle's axes [N m].
+        """
+
+class EmulatorOptions:
+    """
+    How an emulated force sensor is built.
+
+    Parameters
+    ----------
+    rate : float
+        records a second [Hz], 1 to 7000.
+    counts_per_force : float
+        counts of one newton [1/N], 0.001 to 1e+07.
+    counts_per_torque : float
+        counts of one newton metre [1/(N m)], 0.001 to 1e+08.
+    force_range : float
+        largest force along an axis; it saturates [N], 0.001 to 1e+05.
+    torque_range : float
+        largest torque about an axis [N m], 0.001 to 1e+05.
+    lever : float
+        from the sensor to where the hand holds, along its z axis [m], -1 to 1.
+    load : float
+        what weighs on its z axis besides the hand, until a bias [N], -10000 to 10000.
+    buffer : int
+        records in a packet of a buffered stream, 1 to 40.
+    """
+    @staticmethod
+    def fields() -> list[Field]:
+        """
+        Name, unit, meaning, default and range of every parameter.
+        """
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __init__(
+        self,
+        *,
+        rate: float = 1000.0,
+        counts_per_force: float = 1000000.0,
+        counts_per_torque: float = 1000000.0,
+        force_range: float = 145.0,
+        torque_range: float = 5.0,
+        lever: float = 0.02,
+        load: float = 0.0,
+        buffer: int = 10,
+    ) -> None: ...
+    def __reduce__(self) -> tuple[typing.Any, ...]: ...
+    def __repr__(self) -> str: ...
+    def as_dict(self) -> dict[str, typing.Any]:
+        """
+        Parameters by name.
+        """
+    def replace(self, **changes: typing.Any) -> typing.Self:
+        """
+        A copy with some parameters changed; checked as at construction.
+        """
+    @property
+    def buffer(self) -> int:
+        """
+        records in a packet of a buffered stream, 1 to 40
+        """
+    @property
+    def counts_per_force(self) -> float:
+        """
+        counts of one newton [1/N], 0.001 to 1e+07
+        """
+    @property
+    def counts_per_torque(self) -> float:
+        """
+        counts of one newton metre [1/(N m)], 0.001 to 1e+08
+        """
+    @property
+    def force_range(self) -> float:
+        """
+        largest force along an axis; it saturates [N], 0.001 to 1e+05
+        """
+    @property
+    def lever(self) -> float:
+        """
+        from the sensor to where the hand holds, along its z axis [m], -1 to 1
+        """
+    @property
+    def load(self) -> float:
+        """
+        what weighs on its z axis besides the hand, until a bias [N], -10000 to 10000
+        """
+    @property
+    def rate(self) -> float:
+        """
+        records a second [Hz], 1 to 7000
+        """
+    @property
+    def torque_range(self) -> float:
+        """
+        largest torque about an axis [N m], 0.001 to 1e+05
+        """
+
+class EmulatorTrouble:
+    """
+    What goes wrong with an emulated force sensor.
+
+    Parameters
+    ----------
+    loss : float
+        share of the packets that are not sent, 0 to 1.
+    duplicate : float
+        share that is sent twice, 0 to 1.
+    reorder : float
+        share that is sent after the next one, 0 to 1.
+    silent : bool
+        whether nothing at all is sent, 0 to 1.
+    status : int
+        bits set in every record, 0 to 4294967295.
+    """
+    @staticmethod
+    def fields() -> list[Field]:
+        """
+        Name, unit, meaning, default and range of every parameter.
+        """
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __init__(
+        self,
+        *,
+        loss: float = 0.0,
+        duplicate: float = 0.0,
+        reorder: float = 0.0,
+        silent: bool = False,
+        status: int = 0,
+    ) -> None: ...
+    def __reduce__(self) -> tuple[typing.Any, ...]: ...
+    def __repr__(self) -> str: ...
+    def as_dict(self) -> dict[str, typing.Any]:
+        """
+        Parameters by name.
+        """
+    def replace(self, **changes: typing.Any) -> typing.Self:
+        """
+        A copy with some parameters changed; checked as at construction.
+        """
+    @property
+    def duplicate(self) -> float:
+        """
+        share that is sent twice, 0 to 1
+        """
+    @property
+    def loss(self) -> float:
+        """
+        share of the packets that are not sent, 0 to 1
+        """
+    @property
+    def reorder(self) -> float:
+        """
+        share that is sent after the next one, 0 to 1
+        """
+    @property
+    def silent(self) -> bool:
+        """
+        whether nothing at all is sent, 0 to 1
+        """
+    @property
+    def status(self) -> int:
+        """
+        bits set in every record, 0 to 4294967295
+        """
+
+class EmulatorCounts:
+    """
+    What an emulated sensor did.
+    """
+    @staticmethod
+    def fields() -> list[Field]:
+        """
+        Name, unit, meaning, default and range of every parameter.
+        """
+    @property
+    def doubled(self) -> int:
+        """
+        packets sent twice
+        """
+    @property
+    def dropped(self) -> int:
+        """
+        packets lost on purpose, or while silent
+        """
+    @property
+    def refused(self) -> int:
+        """
+        packets that are no request it knows
+        """
+    @property
+    def requests(self) -> int:
+        """
+        requests obeyed
+        """
+    @property
+    def sent(self) -> int:
+        """
+        packets sent, doubles included
+        """
+    @property
+    def swapped(self) -> int:
+        """
+        packets sent after the next one
+        """
+
+class ForceCell:
+    """
+    The force at a handle: from whoever moves it to an emulated sensor. One writer, one reader.
+    """
+    def __init__(
+        self,
+        force: typing.Annotated[
+            collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(3)"
+        ] = [0.0, 0.0, 0.0],
+    ) -> None: ...
+    def post(
+        self,
+        force: typing.Annotated[
+            collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(3)"
+        ],
+    ) -> None:
+        """
+        The force from now on [N].
+        """
+
+class RdtEmulator:
+    """
+    A force/torque sensor on the network that is none, in real time, in a thread of its own that
+    never waits for Python. `source` is a cell with the force, or device and hand of a setup.
+    """
+    @typing.overload
+    def __init__(
+        self,
+        host: str,
+        port: typing.SupportsInt | typing.SupportsIndex,
+        source: ForceCell,
+        *,
+        options: EmulatorOptions,
+        rotation: typing.Annotated[
+            collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(9)"
+        ],
+        sign: typing.SupportsInt | typing.SupportsIndex,
+        model: SensorModel,
+        seed: typing.SupportsInt | typing.SupportsIndex,
+    ) -> None: ...
+    @typing.overload
+    def __init__(
+        self,
+        host: str,
+        port: typing.SupportsInt | typing.SupportsIndex,
+        source: Setup,
+        *,
+        options: EmulatorOptions,
+        rotation: typing.Annotated[
+            collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(9)"
+        ],
+        sign: typing.SupportsInt | typing.SupportsIndex,
+        model: SensorModel,
+        seed: typing.SupportsInt | typing.SupportsIndex,
+    ) -> None: ...
+    def set(self, trouble: EmulatorTrouble) -> None:
+        """
+        What goes wrong from now on.
+        """
+    def start(self) -> None:
+        """
+        Puts it on the network, once in a life.
+        """
+    def stop(self) -> None:
+        """
+        Takes it off for good.
+        """
+    @property
+    def address(self) -> tuple[str, int]:
+        """
+        Host and port where it is.
+        """
+    @property
+    def counts(self) -> EmulatorCounts:
+        """
+        What it did so far.
+        """
+
 class DriveCondition(enum.IntFlag):
     ENCODER_LOST = ...
     OVER_TEMPERATURE = ...
@@ -2175,6 +2700,8 @@ class Joystick:
         *,
         first: typing.SupportsInt | typing.SupportsIndex = 1,
         peak_time: typing.SupportsFloat | typing.SupportsIndex = 2.0,
+        felt: ForceCell | None = None,
+        wait_for_power: bool = False,
     ) -> None: ...
     def drive(self, axis: typing.SupportsInt | typing.SupportsIndex = 0) -> SimulatedDrive:
         """
@@ -2353,6 +2880,7 @@ class Direct:
         self, log: ReplayLog, device: Device, environment: Free | Wall | Corner | Disc
     ) -> Rows: ...
     def _simulate(self, setup: Setup, through_can: bool = False) -> Rows: ...
+    def _start(self, bus: typing.Any, setup: RunSetup) -> Running: ...
     def _time_step(
         self, setup: Setup, repeats: typing.SupportsInt | typing.SupportsIndex
     ) -> float: ...
@@ -2468,6 +2996,7 @@ class TCA:
         self, log: ReplayLog, device: Device, environment: Free | Wall | Corner | Disc
     ) -> Rows: ...
     def _simulate(self, setup: Setup, through_can: bool = False) -> Rows: ...
+    def _start(self, bus: typing.Any, setup: RunSetup) -> Running: ...
     def _time_step(
         self, setup: Setup, repeats: typing.SupportsInt | typing.SupportsIndex
     ) -> float: ...
@@ -2612,6 +3141,7 @@ class TCADamped:
         self, log: ReplayLog, device: Device, environment: Free | Wall | Corner | Disc
     ) -> Rows: ...
     def _simulate(self, setup: Setup, through_can: bool = False) -> Rows: ...
+    def _start(self, bus: typing.Any, setup: RunSetup) -> Running: ...
     def _time_step(
         self, setup: Setup, repeats: typing.SupportsInt | typing.SupportsIndex
     ) -> float: ...
@@ -2774,6 +3304,7 @@ class PassivityControl:
         self, log: ReplayLog, device: Device, environment: Free | Wall | Corner | Disc
     ) -> Rows: ...
     def _simulate(self, setup: Setup, through_can: bool = False) -> Rows: ...
+    def _start(self, bus: typing.Any, setup: RunSetup) -> Running: ...
     def _time_step(
         self, setup: Setup, repeats: typing.SupportsInt | typing.SupportsIndex
     ) -> float: ...
@@ -2908,6 +3439,7 @@ class VirtualCoupling:
         self, log: ReplayLog, device: Device, environment: Free | Wall | Corner | Disc
     ) -> Rows: ...
     def _simulate(self, setup: Setup, through_can: bool = False) -> Rows: ...
+    def _start(self, bus: typing.Any, setup: RunSetup) -> Running: ...
     def _time_step(
         self, setup: Setup, repeats: typing.SupportsInt | typing.SupportsIndex
     ) -> float: ...
@@ -3038,6 +3570,7 @@ class ForceBounding:
         self, log: ReplayLog, device: Device, environment: Free | Wall | Corner | Disc
     ) -> Rows: ...
     def _simulate(self, setup: Setup, through_can: bool = False) -> Rows: ...
+    def _start(self, bus: typing.Any, setup: RunSetup) -> Running: ...
     def _time_step(
         self, setup: Setup, repeats: typing.SupportsInt | typing.SupportsIndex
     ) -> float: ...
@@ -3191,6 +3724,7 @@ class EBA:
         self, log: ReplayLog, device: Device, environment: Free | Wall | Corner | Disc
     ) -> Rows: ...
     def _simulate(self, setup: Setup, through_can: bool = False) -> Rows: ...
+    def _start(self, bus: typing.Any, setup: RunSetup) -> Running: ...
     def _time_step(
         self, setup: Setup, repeats: typing.SupportsInt | typing.SupportsIndex
     ) -> float: ...
@@ -3358,6 +3892,7 @@ class EBACPrinted:
         self, log: ReplayLog, device: Device, environment: Free | Wall | Corner | Disc
     ) -> Rows: ...
     def _simulate(self, setup: Setup, through_can: bool = False) -> Rows: ...
+    def _start(self, bus: typing.Any, setup: RunSetup) -> Running: ...
     def _time_step(
         self, setup: Setup, repeats: typing.SupportsInt | typing.SupportsIndex
     ) -> float: ...
@@ -3587,6 +4122,7 @@ class EBAC:
         self, log: ReplayLog, device: Device, environment: Free | Wall | Corner | Disc
     ) -> Rows: ...
     def _simulate(self, setup: Setup, through_can: bool = False) -> Rows: ...
+    def _start(self, bus: typing.Any, setup: RunSetup) -> Running: ...
     def _time_step(
         self, setup: Setup, repeats: typing.SupportsInt | typing.SupportsIndex
     ) -> float: ...
@@ -4001,6 +4537,8 @@ class LoopbackJoystick:
         *,
         first: typing.SupportsInt | typing.SupportsIndex = 1,
         peak_time: typing.SupportsFloat | typing.SupportsIndex = 2.0,
+        felt: ForceCell | None = None,
+        wait_for_power: bool = False,
     ) -> None: ...
     def start(self) -> typing.Any:
         """
@@ -4037,6 +4575,8 @@ class SocketCanJoystick:
         *,
         first: typing.SupportsInt | typing.SupportsIndex = 1,
         peak_time: typing.SupportsFloat | typing.SupportsIndex = 2.0,
+        felt: ForceCell | None = None,
+        wait_for_power: bool = False,
     ) -> None: ...
     def start(self) -> typing.Any:
         """
@@ -4286,15 +4826,229 @@ class Grant:
         Why not; empty when it was.
         """
 
+class RunPlan:
+    """
+    How a run begins and ends.
+
+    Parameters
+    ----------
+    soft_start : float
+        time in which the force comes in [s], 0 to 60.
+    ramp_down : float
+        time in which it goes out at a good end [s], 0 to 10.
+    stop_ticks : int
+        ticks with zero force in which the device is told to stop [samples], 1 to 1e+05.
+    arm : bool
+        begin by enabling the device; a run that does always ends by a stop, 0 to 1.
+    ticks : int
+        ticks under the law; 0 for until it is asked [samples], 0 to 9e+15.
+    """
+    @staticmethod
+    def fields() -> list[Field]:
+        """
+        Name, unit, meaning, default and range of every parameter.
+        """
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __init__(
+        self,
+        *,
+        soft_start: float = 0.0,
+        ramp_down: float = 0.0,
+        stop_ticks: int = 10,
+        arm: bool = False,
+        ticks: int = 0,
+    ) -> None: ...
+    def __reduce__(self) -> tuple[typing.Any, ...]: ...
+    def __repr__(self) -> str: ...
+    def as_dict(self) -> dict[str, typing.Any]:
+        """
+        Parameters by name.
+        """
+    def replace(self, **changes: typing.Any) -> typing.Self:
+        """
+        A copy with some parameters changed; checked as at construction.
+        """
+    @property
+    def arm(self) -> bool:
+        """
+        begin by enabling the device; a run that does always ends by a stop, 0 to 1
+        """
+    @property
+    def ramp_down(self) -> float:
+        """
+        time in which it goes out at a good end [s], 0 to 10
+        """
+    @property
+    def soft_start(self) -> float:
+        """
+        time in which the force comes in [s], 0 to 60
+        """
+    @property
+    def stop_ticks(self) -> int:
+        """
+        ticks with zero force in which the device is told to stop [samples], 1 to 1e+05
+        """
+    @property
+    def ticks(self) -> int:
+        """
+        ticks under the law; 0 for until it is asked [samples], 0 to 9e+15
+        """
+
+class RunSetup:
+    """
+    All that a run is but its bus and its law.
+    """
+    def __init__(
+        self,
+        *,
+        device: Device,
+        environment: Free | Wall | Corner | Disc,
+        dt: typing.SupportsFloat | typing.SupportsIndex,
+        nodes: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex],
+        answer_time: typing.SupportsFloat | typing.SupportsIndex,
+        plan: RunPlan,
+        limits: Limits | None,
+        sensor: RdtSetup | None,
+        rows: typing.SupportsInt | typing.SupportsIndex,
+        ring: bool,
+        mode: RealTimeMode,
+        realtime: RealTime,
+        **kwargs,
+    ) -> None:
+        """
+        Further keywords are those of the drives on the bus.
+        """
+
+class Running:
+    """
+    A loop at work in a thread that never touches Python.
+    """
+    def change_world(self, environment: Free | Wall | Corner | Disc) -> int:
+        """
+        Another virtual world from the next tick on.
+        """
+    def changes(
+        self, start: typing.SupportsInt | typing.SupportsIndex = 0
+    ) -> list[tuple[int, int, str]]:
+        """
+        What the loop took: (tick, serial number, what).
+        """
+    def join(self) -> None:
+        """
+        Waits for its end.
+        """
+    def retune(self, law: typing.Any) -> int:
+        """
+        The gains of this law from the next tick on; returns a serial number.
+        """
+    def stop(self) -> None:
+        """
+        Asks for a stop.
+        """
+    def wait(self, seconds: typing.SupportsFloat | typing.SupportsIndex) -> bool:
+        """
+        Whether it ended within so long [s].
+        """
+    @property
+    def at_rest(self) -> bool:
+        """
+        Whether every drive said in the last tick that its power is off. Once it ended.
+        """
+    @property
+    def bus(self) -> BusCounts:
+        """
+        What went over its end of the bus.
+        """
+    @property
+    def changes_lost(self) -> int:
+        """
+        Changes that acted, but of which no note was kept.
+        """
+    @property
+    def done(self) -> bool:
+        """
+        Whether it ended.
+        """
+    @property
+    def grants(self) -> list[Grant]:
+        """
+        What its thread asked of the system, and got.
+        """
+    @property
+    def rows(self) -> Rows:
+        """
+        Its rows; they grow while it runs.
+        """
+    @property
+    def state(self) -> LoopState:
+        """
+        Where it ended: idle, or fault.
+        """
+    @property
+    def unrecorded(self) -> int:
+        """
+        Ticks that found the trace full.
+        """
+
 def _ask_realtime(options: RealTime) -> list[Grant]:
     """
     What a thread of this process would be granted.
     """
 
 def _check_limits(limits: Limits) -> None: ...
+def _check_sensor(
+    port: typing.SupportsInt | typing.SupportsIndex,
+    retry: typing.SupportsFloat | typing.SupportsIndex,
+    gone: typing.SupportsFloat | typing.SupportsIndex,
+    rotation: typing.Annotated[
+        collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(9)"
+    ],
+    sign: typing.SupportsInt | typing.SupportsIndex,
+) -> None:
+    """
+    Throws where one of them cannot be.
+    """
+
+def _decode_record(
+    data: bytes,
+) -> tuple[
+    int,
+    int,
+    int,
+    typing.Annotated[list[int], "FixedSize(3)"],
+    typing.Annotated[list[int], "FixedSize(3)"],
+]:
+    """
+    rdt_sequence, ft_sequence, status, force, torque of 36 bytes.
+    """
+
 def _drive_transitions() -> list[list[DriveState]]:
     """
     The simulated drive's table: a row per state; none, disable voltage, quick stop, shutdown, switch on, enable operation, fault reset.
+    """
+
+def _encode_record(
+    rdt_sequence: typing.SupportsInt | typing.SupportsIndex,
+    ft_sequence: typing.SupportsInt | typing.SupportsIndex,
+    status: typing.SupportsInt | typing.SupportsIndex,
+    force: typing.Annotated[
+        collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex], "FixedSize(3)"
+    ],
+    torque: typing.Annotated[
+        collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex], "FixedSize(3)"
+    ],
+) -> bytes:
+    """
+    The 36 bytes of a record.
+    """
+
+def _encode_request(
+    command: typing.SupportsInt | typing.SupportsIndex,
+    samples: typing.SupportsInt | typing.SupportsIndex = 0,
+) -> bytes:
+    """
+    The 8 bytes of a request.
     """
 
 def _fault_campaign(

@@ -16,8 +16,8 @@ from __future__ import annotations
 import atexit
 import logging
 import time
-from collections.abc import Callable, Sequence
-from contextlib import AbstractContextManager, nullcontext
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import AbstractContextManager, contextmanager, nullcontext
 from dataclasses import dataclass
 from threading import RLock, current_thread
 from typing import TYPE_CHECKING, Any
@@ -118,6 +118,37 @@ def _leave(channel: str) -> None:
             return
         del _CHANNELS[channel]
     entry.nodes.__exit__(None, None, None)
+
+
+@contextmanager
+def hub_of(channel: str) -> Iterator[LoopbackHub]:
+    """Hold a channel, and give its bus: for a loop of C++ among the programs of Python."""
+    end = _join(channel, 1, False)
+    try:
+        yield _CHANNELS[channel].hub
+    finally:
+        end.close()
+        _leave(channel)
+
+
+@contextmanager
+def standing(channel: str, nodes: Nodes) -> Iterator[LoopbackHub]:
+    """Put nodes of your own on a new channel, hold it, and give its bus.
+
+    Raises
+    ------
+    ValueError
+        When there is a channel of that name, or nodes that stand on it.
+    """
+    with _LOCK:
+        if channel in _CHANNELS or nodes_on(channel) is not None:
+            raise ValueError(f"channel = {channel!r}: has nodes of its own; choose another name")
+        NODES[channel] = nodes
+    try:
+        with hub_of(channel) as hub:
+            yield hub
+    finally:
+        del NODES[channel]
 
 
 @atexit.register

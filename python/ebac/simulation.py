@@ -28,7 +28,7 @@ class LoopFault(RuntimeError):
         row = int((trace["fault"] != 0).argmax())
         cause = fault.name.lower().replace("_", " ")
         super().__init__(
-            f"fault {int(fault)} ({cause}) in tick {row}, t = {trace['t'][row]:.6g} s: "
+            f"fault {int(fault)} ({cause}) in tick {trace['tick'][row]}, t = {trace['t'][row]:.6g} s: "
             "the command was set to zero and the loop stopped; see .trace for the rows before it"
         )
 

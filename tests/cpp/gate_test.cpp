@@ -128,6 +128,7 @@ TEST(Gate, NamesWhatItSees) {
   EXPECT_EQ(seen(p, {.force_age = 1}), Fault::kForceStale);
   EXPECT_EQ(seen(p, {.force_status = SensorStatus::kSaturated}), Fault::kForceSaturated);
   EXPECT_EQ(seen(p, {.force_status = SensorStatus::kDisconnected}), Fault::kForceDisconnected);
+  EXPECT_EQ(seen(p, {.force_status = SensorStatus::kError}), Fault::kForceError);
   for (int k = 1; k < p.limits.overruns; ++k) EXPECT_EQ(seen(p, {}, 1), Fault::kNone);
   EXPECT_EQ(seen(p, {}, 1), Fault::kOverruns);
   EXPECT_EQ(seen(p, {}, 0), Fault::kNone);

@@ -12,7 +12,9 @@
 #include "ebac/can/joystick.hpp"
 #include "ebac/can/through_can.hpp"
 #include "ebac/control/laws.hpp"
+#include "ebac/sensor/with_force_sensor.hpp"
 #include "ebac/sim/simulate.hpp"
+#include "through_udp.hpp"
 
 namespace {
 std::size_t allocations = 0;  // the tests have one thread
@@ -117,6 +119,20 @@ TEST(Bus, LoopThroughItDoesNotAllocate) {
   EXPECT_EQ(allocations, before);
   EXPECT_EQ(trace->size(), kTicks);
   EXPECT_EQ(loop.sample().fault, Fault::kNone);
+}
+
+TEST(Sensor, LoopWithOneOnTheNetworkDoesNotAllocate) {
+  const auto setup = busy();
+  auto cell = std::make_shared<sensor::ForceCell>();
+  sensor::WithForceSensor device(sensor::Felt(SimulatedDevice(setup), cell),
+                                 sensor::StepSensor(cell));
+  Loop loop(std::move(device), VirtualClock(setup.timing.dt, 0, 1),
+            PerAxis<Ebac>(designed<Ebac>(setup)), Rig(setup.device, setup.environment), 1);
+  const auto trace = loop.make_trace(kTicks);
+  const std::size_t before = allocations;
+  loop.run(*trace);
+  EXPECT_EQ(allocations, before);
+  EXPECT_EQ(loop.device().sensor().state(0).received, kTicks);
 }
 
 TYPED_TEST(Realtime, LoopWithEverythingOnDoesNotAllocate) {

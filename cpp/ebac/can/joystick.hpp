@@ -15,7 +15,8 @@ namespace ebac::can {
 /// counts are latched and sent; then what was received before the SYNC takes effect. A loop that
 /// sends its currents and SYNC in one exchange thus sees a delay of one tick. A current that changes
 /// between two SYNCs (asynchronous RPDO, SDO, ramp, fault) acts from that moment on. Without any
-/// SYNC for a while, the plant follows the time as it is told.
+/// SYNC for a while, the plant follows the time as it is told. With `wait_for_power` its time begins
+/// when a drive is first enabled: until then nothing moves, the hand neither.
 ///
 /// `D` takes each current as it is given: where it is a simulated device, one without delay, and
 /// with torque in whole thousandths.
@@ -23,8 +24,11 @@ template <Device D>
   requires std::copyable<D>
 class Joystick {
  public:
-  Joystick(D plant, const DeviceModel& device, NodeId first = 1, double peak_time = 2)
-      : plant_(std::move(plant)), axes_(static_cast<std::size_t>(device.axes())) {
+  Joystick(D plant, const DeviceModel& device, NodeId first = 1, double peak_time = 2,
+           bool wait_for_power = false)
+      : plant_(std::move(plant)),
+        axes_(static_cast<std::size_t>(device.axes())),
+        waits_(wait_for_power) {
     for (std::size_t i = 0; i < axes_; ++i) {
       drive_[i] = SimulatedDrive({.node = static_cast<NodeId>(first + i),
                                   .motor = device.motor,
@@ -87,7 +91,15 @@ class Joystick {
 
   /// Moves the plant under the currents that act, and shows its counts to the drives.
   void move(double seconds) EBAC_RT {
+    if (waits_ && !powered()) return;
+    waits_ = false;
     show(plant_.exchange({.current = current_, .elapsed = seconds}));
+  }
+  bool powered() const EBAC_RT {
+    for (std::size_t i = 0; i < axes_; ++i) {
+      if (drive_[i].state() == DriveState::kOperationEnabled) return true;
+    }
+    return false;
   }
   void show(const Reading& reading) EBAC_RT {
     reading_ = reading;
@@ -109,6 +121,7 @@ class Joystick {
   D plant_;
   std::array<SimulatedDrive, kMaxAxes> drive_{};
   std::size_t axes_;
+  bool waits_;                              // until a drive is enabled
   std::array<double, kMaxAxes> current_{};  // A, acting since the plant last moved
   double since_ = 0;                        // s, since the plant last moved
   double silence_ = 2 * kPatience;          // s, since the last SYNC

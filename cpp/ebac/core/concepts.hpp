@@ -34,7 +34,7 @@ struct Command {
 };
 
 /// What the force sensor says of itself.
-enum class SensorStatus : std::uint8_t { kGood, kSaturated, kDisconnected };
+enum class SensorStatus : std::uint8_t { kGood, kSaturated, kDisconnected, kError };
 
 struct Reading {
   std::array<std::int64_t, kMaxAxes> counts{};     // raw, as wide as the counter

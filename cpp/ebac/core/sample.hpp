@@ -34,6 +34,7 @@ enum class Fault : std::uint32_t {
   kForceSaturated = 17,       // the force sensor is at the end of its range
   kForceDisconnected = 18,    // the force sensor does not answer
   kOverruns = 19,             // too many ticks in a row came too late
+  kForceError = 20,           // the force sensor reports an error of its own
 };
 
 /// Where a loop stands. Every way out of kRun is kStop; after it, kIdle or, latched, kFault.

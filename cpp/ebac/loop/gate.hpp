@@ -113,6 +113,7 @@ class Gate {
 
   Fault sensor(const Reading& reading) const EBAC_RT {
     if (reading.force_status == SensorStatus::kDisconnected) return Fault::kForceDisconnected;
+    if (reading.force_status == SensorStatus::kError) return Fault::kForceError;
     if (reading.force_status == SensorStatus::kSaturated) return Fault::kForceSaturated;
     return reading.force_age > limits_.force_age ? Fault::kForceStale : Fault::kNone;
   }

@@ -51,6 +51,7 @@ class Loop {
         },
         row_parts(device_));
     if (gate_.on()) gate_at_ = add_part(*trace, gate_);
+    if constexpr (kTimed) clock_at_ = add_part(*trace, clock_);
     trace->reserve(rows, ring);
     return trace;
   }
@@ -99,6 +100,9 @@ class Loop {
   D& device() EBAC_RT { return device_; }
 
  private:
+  /// Whether the clock tells of its ticks.
+  static constexpr bool kTimed = requires { typename C::State; };
+
   /// One axis, the usual case, gets its own code.
   void step(Mail<Law>* mail) EBAC_RT {
     const std::span<Axis, kMaxAxes> all(sample_.axis);
@@ -132,6 +136,7 @@ class Loop {
       shut(now, axes);
     }
     tell_device();
+    if constexpr (kTimed) clock_.finish();
   }
 
   /// The law's memory starts here: what moved while the device was being enabled is no work.
@@ -188,6 +193,7 @@ class Loop {
         },
         row_parts(device_));
     if (gate_.on()) copy_states(row + gate_at_, gate_, axes);
+    if constexpr (kTimed) copy_states(row + clock_at_, clock_, axes);
   }
 
   template <class Part>
@@ -208,6 +214,7 @@ class Loop {
   Gate gate_;
   Sample sample_{};
   std::size_t gate_at_ = 0;
+  std::size_t clock_at_ = 0;
   std::atomic<std::int64_t> unrecorded_{0};  // ticks
   std::size_t law_at_ = 0;
   std::array<std::size_t, kRowParts<D>> device_at_{};

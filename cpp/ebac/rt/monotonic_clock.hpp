@@ -1,9 +1,11 @@
 #pragma once
 
+#include <array>
 #include <cerrno>
 #include <cmath>
 #include <cstdint>
 #include <ctime>
+#include <string_view>
 
 #include "ebac/core/concepts.hpp"
 
@@ -14,6 +16,16 @@ namespace ebac::rt {
 /// `wait`. Takes the sample time in s.
 class MonotonicClock {
  public:
+  /// What a row tells of it.
+  struct State {
+    double busy = 0;  // s
+    static constexpr auto fields() {
+      return std::array{
+          Field<State>{"busy", &State::busy, "s", "time from the wake-up to the end of the tick"}};
+    }
+  };
+  static constexpr std::string_view kPrefix = "time.";
+
   explicit MonotonicClock(double dt) EBAC_RT : period_(std::llround(dt* kSecond)) {}
 
   Instant wait() EBAC_RT {
@@ -31,6 +43,10 @@ class MonotonicClock {
     last_ = woke;
     return instant;
   }
+
+  /// The work of a tick is done.
+  void finish() EBAC_RT { state_.busy = seconds(now() - last_); }
+  const State& state(std::size_t) const EBAC_RT { return state_; }
 
   std::int64_t skipped() const EBAC_RT { return skipped_; }  // ticks, since the start
 
@@ -59,6 +75,7 @@ class MonotonicClock {
   std::int64_t planned_ = 0;  // ns, of the last tick
   std::int64_t last_ = 0;     // ns, when it woke
   std::int64_t skipped_ = 0;  // ticks
+  State state_{};
 };
 
 static_assert(Clock<MonotonicClock>);

@@ -20,6 +20,8 @@ from ebac.cli import (
     maps,
     paper,
     presets,
+    run,
+    sensor,
     specs,
     study,
     track,
@@ -70,6 +72,7 @@ app.command("conditions")(conditions.conditions)
 app.command("zwidth")(zwidth.zwidth)
 app.command("map")(maps.map_)
 app.command("track")(track.track)
+app.command("run")(run.run)
 app.command("paper")(paper.paper)
 app.command("laws")(laws.laws)
 app.command("specs")(specs.specs)
@@ -80,4 +83,5 @@ app.command("jitter")(jitter.jitter)
 app.command("faults")(faults.faults)
 app.add_typer(drive.app, name="drive")
 app.add_typer(bus.bus, name="bus")
+app.add_typer(sensor.app, name="sensor")
 app.add_typer(log.log, name="log")

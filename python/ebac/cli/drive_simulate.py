@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import signal
+import sys
 import threading
 import time
 from collections.abc import Iterator
@@ -10,7 +11,7 @@ from contextlib import contextmanager
 from math import inf
 from pathlib import Path
 from types import FrameType
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
@@ -57,6 +58,26 @@ def simulate(
         float | None,
         typer.Option(help="Stop after so long [s].", show_default="until Ctrl-C", min=0),
     ] = None,
+    wait_for_power: Annotated[
+        bool,
+        typer.Option(
+            "--wait-for-power", help="The hand holds still until a motor first has power."
+        ),
+    ] = False,
+    sensor: Annotated[
+        bool,
+        typer.Option("--sensor", help="Also a simulated force sensor at the handle, on 127.0.0.1."),
+    ] = False,
+    sensor_counts: Annotated[
+        tuple[float, float],
+        typer.Option("--sensor-counts", help="Its counts of 1 N and of 1 N m."),
+    ] = (1e6, 1e6),
+    until_eof: Annotated[
+        bool,
+        typer.Option(
+            "--until-eof", help="Stop when standard input ends, as it does with a parent."
+        ),
+    ] = False,
 ) -> None:
     """Put the simulated drives of a joystick on a bus, in real time, until Ctrl-C. A simulation.
 
@@ -77,17 +98,30 @@ def simulate(
 
     * `ebac drive simulate --scenario tapping.toml`: with a hand of your own.
     """
+    from ebac._core import ForceCell
     from ebac.drives.simulate import Simulation
+    from ebac.hardware.place import sensor_of
+    from ebac.sensor import SensorConfig
 
     with output.refusing():
-        plant = _plant(scenario, device, hand, seed)
+        plant = plant_of(scenario, device, hand, seed)
         setup = plant.setup()
-    with telling(), _signalled() as over:
-        with _at_work(setup, interface, channel, bitrate, first) as work:
+    with telling(), signalled() as over:
+        known = SensorConfig(counts_per_force=sensor_counts[0], counts_per_torque=sensor_counts[1])
+        felt = ForceCell([0.0, 0.0, 0.0])
+        more = {"first": first, "felt": felt, "wait_for_power": wait_for_power}
+        with (
+            sensor_of(known if sensor else None, felt) as found,
+            _at_work(setup, interface, channel, bitrate, more) as work,
+        ):
+            also = "" if found is None else f" and a force sensor at {found.host}:{found.port}"
             ids = ", ".join(str(first + axis) for axis in range(plant.device.axes))
-            output.say(
-                f"Simulated drives, nodes {ids}, on {interface} {channel}. Ctrl-C stops them."
+            typer.echo(  # one line, for whoever waits for it
+                f"Simulated drives, nodes {ids}, on {interface} {channel}{also}. Ctrl-C stops them."
             )
+            sys.stdout.flush()
+            if until_eof:
+                threading.Thread(target=_until_eof, args=(over,), daemon=True).start()
             end = time.monotonic() + (inf if seconds is None else seconds)
             while not over.wait(min(_LOOK, max(0.0, end - time.monotonic()))):
                 if isinstance(work, Simulation):
@@ -100,7 +134,7 @@ def simulate(
     output.say(f"Stopped: {counts.received} frames received, {counts.sent} sent{refused}{lost}.")
 
 
-def _plant(file: Path | None, device: str | None, hand: str | None, seed: int | None) -> Scenario:
+def plant_of(file: Path | None, device: str | None, hand: str | None, seed: int | None) -> Scenario:
     """Return device and hand: of the file, or a joystick that is held where it is."""
     from ebac import presets
     from ebac.can_interface import resting_joystick
@@ -119,13 +153,14 @@ def _plant(file: Path | None, device: str | None, hand: str | None, seed: int | 
 
 @contextmanager
 def _at_work(
-    setup: Setup, interface: str, channel: str, bitrate: int | None, first: int
+    setup: Setup, interface: str, channel: str, bitrate: int | None, more: dict[str, Any]
 ) -> Iterator[SocketCanJoystick | Simulation]:
     """Put the drives on a bus until the end of the block: SocketCAN is served by C++."""
     from ebac._core import Joystick, SocketCanJoystick
     from ebac.drives import BusError
     from ebac.drives.bus import open_bus
     from ebac.drives.simulate import Simulation
+    from ebac.hardware.place import at_work
 
     if interface == "ebac":
         raise ValueError(
@@ -134,13 +169,13 @@ def _at_work(
         )
     if interface == "socketcan":
         try:
-            served = SocketCanJoystick(channel, setup, first=first)
+            served = SocketCanJoystick(channel, setup, **more)
         except OSError as error:
             raise BusError(error.strerror or str(error)) from error
-        with served:
+        with at_work(served):
             yield served
         return
-    nodes = Joystick(setup, first=first)
+    nodes = Joystick(setup, **more)
     with (
         open_bus(interface=interface, channel=channel, bitrate=bitrate) as bus,
         Simulation(bus, nodes) as simulation,
@@ -148,8 +183,15 @@ def _at_work(
         yield simulation
 
 
+def _until_eof(over: threading.Event) -> None:
+    """Wait for the end of standard input, then stop all."""
+    while sys.stdin.read(1024):
+        pass
+    over.set()
+
+
 @contextmanager
-def _signalled() -> Iterator[threading.Event]:
+def signalled() -> Iterator[threading.Event]:
     """Give an event that Ctrl-C and SIGTERM set."""
     over = threading.Event()
 

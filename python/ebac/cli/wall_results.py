@@ -115,12 +115,17 @@ def show(scenario: Scenario, contacts: list[Contact], through: str | None = None
     """Print the table, a few laws at a time, and what was simulated."""
     from ebac import wording
 
-    for first in range(0, len(contacts), LAWS_ABREAST):
-        _show_table(contacts[first : first + LAWS_ABREAST])
+    show_contacts(contacts)
     output.say("Simulated, not measured:", style="bold")
     output.indented(wording.describe(scenario).replace("; ", "\n"))
     if through is not None:
         output.indented("through a CAN bus in this process, with simulated CANopen drives")
+
+
+def show_contacts(contacts: list[Contact]) -> None:
+    """Print the table, a few laws at a time."""
+    for first in range(0, len(contacts), LAWS_ABREAST):
+        _show_table(contacts[first : first + LAWS_ABREAST])
 
 
 def _show_table(contacts: list[Contact]) -> None:

@@ -1,0 +1,90 @@
+#include "ebac/sensor/served_emulator.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+#include <variant>
+
+namespace ebac::sensor {
+
+ServedEmulator::ServedEmulator(const Endpoint& at, const RdtEmulator<Endpoint>& emulator,
+                               Source source)
+    : socket_(at), emulator_(emulator), source_(std::move(source)), local_(socket_.local()) {}
+
+void ServedEmulator::start() {
+  if (started_)
+    throw std::logic_error("this sensor has been on the network already: make a new one");
+  started_ = true;
+  thread_ = std::thread([this] { work(); });
+}
+
+void ServedEmulator::stop() noexcept {
+  over_.store(true, std::memory_order_relaxed);
+  if (thread_.joinable()) thread_.join();
+  socket_.close();
+}
+
+void ServedEmulator::set(const EmulatorTrouble& trouble) {
+  check(trouble, "EmulatorTrouble");
+  const std::scoped_lock one(posting_);
+  trouble_.post(trouble);
+}
+
+EmulatorCounts ServedEmulator::counts() const {
+  EmulatorCounts counts;
+  for (std::size_t i = 0; const auto& field : EmulatorCounts::fields()) {
+    const std::int64_t value = told_[i++].load(std::memory_order_relaxed);
+    if (const auto* whole = std::get_if<std::int64_t EmulatorCounts::*>(&field.member)) {
+      counts.*(*whole) = value;
+    }
+  }
+  return counts;
+}
+
+/// A thread that is late takes the samples it missed, up to a few: a sensor has a buffer, too.
+void ServedEmulator::work() noexcept {
+  constexpr int kMostMissed = 100;
+  constexpr std::chrono::nanoseconds kLongestNap = std::chrono::milliseconds{5};
+  const auto period =
+      std::chrono::nanoseconds(static_cast<std::int64_t>(1e9 / emulator_.options().rate));
+  for (auto due = Steady::now() + period; !over_.load(std::memory_order_relaxed);) {
+    const auto left = due - Steady::now();
+    if (left.count() > 0) socket_.wait(std::min<std::chrono::nanoseconds>(left, kLongestNap));
+    hear();
+    if (const EmulatorTrouble* trouble = trouble_.take()) emulator_.set(*trouble);
+    for (; due <= Steady::now(); due += period) {
+      const auto missed = (Steady::now() - due) / period;
+      if (missed > kMostMissed) due += (missed - kMostMissed) * period;
+      sample(period);
+    }
+    tell();
+  }
+}
+
+void ServedEmulator::hear() noexcept {
+  constexpr int kMostRequests = 64;
+  Datagram in;
+  for (int i = 0; i < kMostRequests; ++i) {
+    const int error = socket_.receive(in);
+    if (error == EAGAIN) return;
+    if (error == 0) emulator_.hear(in.bytes(), in.from);
+  }
+}
+
+void ServedEmulator::sample(std::chrono::nanoseconds period) noexcept {
+  emulator_.feel(source_(std::chrono::duration<double>(period).count()));
+  emulator_.sample([this](std::span<const std::uint8_t> bytes, const Endpoint& to) noexcept {
+    static_cast<void>(socket_.send(bytes, to));
+  });
+}
+
+void ServedEmulator::tell() noexcept {
+  for (std::size_t i = 0; const auto& field : EmulatorCounts::fields()) {
+    if (const auto* whole = std::get_if<std::int64_t EmulatorCounts::*>(&field.member)) {
+      told_[i].store(emulator_.counts().*(*whole), std::memory_order_relaxed);
+    }
+    ++i;
+  }
+}
+
+}  // namespace ebac::sensor

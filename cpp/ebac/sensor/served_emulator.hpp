@@ -1,0 +1,71 @@
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <chrono>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <thread>
+
+#include "ebac/loop/mailbox.hpp"
+#include "ebac/sensor/emulator.hpp"
+#include "ebac/sensor/udp.hpp"
+
+namespace ebac::sensor {
+
+/// An emulated sensor on the network, in real time, in a thread of its own.
+class ServedEmulator {
+ public:
+  using Force = std::array<double, kMaxAxes>;
+  /// The force of the hand on the handle [N], asked once a sample with the time since the last one
+  /// [s]; only ever by the thread.
+  using Source = std::function<Force(double)>;
+
+  /// Throws std::system_error when the address cannot be had.
+  ServedEmulator(const Endpoint& at, const RdtEmulator<Endpoint>& emulator, Source source);
+  ~ServedEmulator() { stop(); }
+  ServedEmulator(const ServedEmulator&) = delete;
+  ServedEmulator& operator=(const ServedEmulator&) = delete;
+  ServedEmulator(ServedEmulator&&) = delete;
+  ServedEmulator& operator=(ServedEmulator&&) = delete;
+
+  /// Once in a life: throws std::logic_error the second time.
+  void start();
+  /// Silent for good, within a few ms; nothing the second time.
+  void stop() noexcept;
+
+  /// Of any thread, at any time.
+  void set(const EmulatorTrouble& trouble);
+  EmulatorCounts counts() const;
+  Endpoint local() const noexcept { return local_; }
+
+ private:
+  using Steady = std::chrono::steady_clock;
+
+  void work() noexcept;
+  void hear() noexcept;
+  void sample(std::chrono::nanoseconds period) noexcept;
+  void tell() noexcept;
+
+  UdpSocket socket_;
+  RdtEmulator<Endpoint> emulator_;
+  Source source_;
+  Endpoint local_;
+  bool started_ = false;
+  std::atomic<bool> over_{false};
+  std::mutex posting_;  // of who sets trouble; the thread takes it without
+  Mailbox<EmulatorTrouble> trouble_;
+  std::array<std::atomic<std::int64_t>, EmulatorCounts::fields().size()> told_{};
+  std::thread thread_;
+};
+
+/// The newest force in a cell.
+inline ServedEmulator::Source from_cell(std::shared_ptr<Mailbox<ServedEmulator::Force>> cell) {
+  return [cell = std::move(cell), last = ServedEmulator::Force{}](double) mutable {
+    if (const auto* force = cell->take()) last = *force;
+    return last;
+  };
+}
+
+}  // namespace ebac::sensor

@@ -1,0 +1,97 @@
+#pragma once
+
+#include <cstdint>
+
+#include "ebac/core/realtime.hpp"
+
+namespace ebac::sensor {
+
+/// What a numbered packet is to the stream it came in.
+enum class Place : std::uint8_t {
+  kNewest,     // newer than all before it
+  kLate,       // older than another that came before it, and not seen yet
+  kDuplicate,  // seen already
+  kStray,      // far from the stream: not believed until the next number follows it
+};
+
+/// How many numbers of a stream did not come, came late or came twice. A packet that is late is not
+/// lost: it leaves the count again. Numbers are 32 bits wide and wrap.
+class StreamOrder {
+ public:
+  /// How far behind the newest a number is still told apart.
+  static constexpr std::uint32_t kWindow = 64;
+  /// A longer leap ahead is no loss but another stream.
+  static constexpr std::uint32_t kLeap = 1U << 20U;
+
+  Place take(std::uint32_t number) EBAC_RT {
+    if (!begun_) return begin(number);
+    const std::uint32_t ahead = number - newest_;
+    if (ahead == 0) return again();
+    if (ahead <= kLeap) return advance(number, ahead);
+    const std::uint32_t behind = newest_ - number;
+    return behind < kWindow ? look_back(behind) : stray(number);
+  }
+
+  /// The next packet begins a stream of its own, whatever its number.
+  void restart() EBAC_RT { begun_ = strayed_ = false; }
+
+  std::int64_t lost() const EBAC_RT { return lost_; }
+  std::int64_t late() const EBAC_RT { return late_; }
+  std::int64_t duplicate() const EBAC_RT { return duplicate_; }
+  std::int64_t stray() const EBAC_RT { return stray_count_; }
+  std::int64_t restarts() const EBAC_RT { return restarts_; }
+
+ private:
+  Place begin(std::uint32_t number) EBAC_RT {
+    begun_ = true;
+    strayed_ = false;
+    newest_ = number;
+    age_ = 0;
+    seen_ = 1;
+    return Place::kNewest;
+  }
+  Place again() EBAC_RT {
+    ++duplicate_;
+    return Place::kDuplicate;
+  }
+  Place advance(std::uint32_t number, std::uint32_t ahead) EBAC_RT {
+    seen_ = ahead < kWindow ? seen_ << ahead | 1U : 1U;
+    newest_ = number;
+    age_ += ahead;
+    lost_ += ahead - 1;
+    strayed_ = false;
+    return Place::kNewest;
+  }
+  Place look_back(std::uint32_t behind) EBAC_RT {
+    const std::uint64_t bit = std::uint64_t{1} << behind;
+    if ((seen_ & bit) != 0) return again();
+    seen_ |= bit;
+    ++late_;
+    if (behind <= age_) --lost_;  // what came before the first of the stream was never missed
+    return Place::kLate;
+  }
+  Place stray(std::uint32_t number) EBAC_RT {
+    if (strayed_ && number == stray_ + 1) {
+      ++restarts_;
+      return begin(number);
+    }
+    strayed_ = true;
+    stray_ = number;
+    ++stray_count_;
+    return Place::kStray;
+  }
+
+  bool begun_ = false;
+  bool strayed_ = false;
+  std::uint32_t newest_ = 0;
+  std::uint32_t stray_ = 0;
+  std::uint64_t age_ = 0;   // numbers from the first of the stream to the newest
+  std::uint64_t seen_ = 0;  // bit i: the number i before the newest came
+  std::int64_t lost_ = 0;
+  std::int64_t late_ = 0;
+  std::int64_t duplicate_ = 0;
+  std::int64_t stray_count_ = 0;
+  std::int64_t restarts_ = 0;
+};
+
+}  // namespace ebac::sensor

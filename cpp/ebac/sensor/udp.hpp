@@ -1,0 +1,74 @@
+#pragma once
+
+#include <array>
+#include <chrono>
+#include <cstdint>
+#include <span>
+#include <string>
+
+#include "ebac/core/realtime.hpp"
+
+namespace ebac::sensor {
+
+/// An IPv4 address and a port.
+struct Endpoint {
+  std::uint32_t address = 0;  // 127.0.0.1 is 0x7F000001
+  std::uint16_t port = 0;
+
+  bool operator==(const Endpoint&) const = default;
+};
+
+inline constexpr std::uint32_t kLoopbackAddress = 0x7F000001;
+
+/// "192.168.1.1:49152"
+std::string to_string(const Endpoint& at);
+
+/// The endpoint of a host by name or address. Throws std::invalid_argument where there is none; may
+/// wait for a name server.
+Endpoint resolve(const std::string& host, std::uint16_t port);
+
+/// What came: its first bytes. A packet of the protocol is shorter than the room here, so one that
+/// fills it was too long.
+struct Datagram {
+  static constexpr std::size_t kRoom = 64;
+
+  std::array<std::uint8_t, kRoom> data{};
+  std::size_t size = 0;
+  Endpoint from{};
+  std::int64_t stamp = 0;  // ns since 1970, when the kernel had it
+
+  std::span<const std::uint8_t> bytes() const EBAC_RT { return std::span(data).first(size); }
+};
+
+/// A UDP socket that never waits, unless asked to by `wait`.
+class UdpSocket {
+ public:
+  UdpSocket() noexcept = default;  // closed
+  /// Bound to `at`; port 0 takes any free one. Throws std::system_error saying what to do.
+  explicit UdpSocket(const Endpoint& at);
+  ~UdpSocket() { close(); }
+  UdpSocket(UdpSocket&& other) noexcept;
+  UdpSocket& operator=(UdpSocket&& other) noexcept;
+  UdpSocket(const UdpSocket&) = delete;
+  UdpSocket& operator=(const UdpSocket&) = delete;
+
+  /// 0, or the error (errno).
+  int send(std::span<const std::uint8_t> bytes, const Endpoint& to) EBAC_RT;
+  /// 0 with a packet; EAGAIN where none waits; any other error, also one that an earlier `send` met
+  /// on its way (ECONNREFUSED: nobody listens there).
+  int receive(Datagram& in) EBAC_RT;
+  /// Waits for something to receive; false after `timeout` or a signal.
+  bool wait(std::chrono::nanoseconds timeout) const noexcept;
+
+  /// Where it is bound.
+  Endpoint local() const noexcept;
+  bool open() const EBAC_RT { return fd_ >= 0; }
+  void close() noexcept;
+
+ private:
+  void forget_errors() const EBAC_RT;
+
+  int fd_ = -1;
+};
+
+}  // namespace ebac::sensor

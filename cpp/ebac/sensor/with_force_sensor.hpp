@@ -1,0 +1,94 @@
+#pragma once
+
+#include <tuple>
+#include <utility>
+
+#include "ebac/core/concepts.hpp"
+#include "ebac/loop/row_parts.hpp"
+
+namespace ebac::sensor {
+
+/// A force sensor that can be polled within a tick.
+template <class S>
+concept PolledSensor = requires(S sensor, const S& view, double elapsed, Reading& reading) {
+  { sensor.poll(elapsed) } noexcept -> std::same_as<bool>;
+  { view.fill(reading) } noexcept;
+  { view.health() } noexcept -> std::same_as<SensorStatus>;
+};
+
+/// A device whose force comes from a sensor beside it. What else the device can do, it still can.
+///
+/// While it is being enabled, no force is asked, and a sensor may take `patience` seconds to give a
+/// record that is good: only then does the device run. Afterwards the limits judge each one.
+template <Device D, PolledSensor S>
+class WithForceSensor {
+ public:
+  explicit WithForceSensor(D device, S sensor, double patience = 0.5)
+      : device_(std::move(device)), sensor_(std::move(sensor)), patience_(patience) {}
+
+  Reading exchange(const Command& command) EBAC_RT {
+    Reading reading = device_.exchange(command);
+    const bool newer = sensor_.poll(command.elapsed);
+    sensor_.fill(reading);
+    if (awaited_) {
+      waited_ += command.elapsed;
+      awaited_ = waited_ < patience_ && !(newer && sensor_.health() == SensorStatus::kGood);
+      if (awaited_) reading.force_age = 0;
+      if (awaited_) reading.force_status = SensorStatus::kGood;
+    }
+    return reading;
+  }
+
+  void enable() EBAC_RT
+    requires requires(D& d) {
+      { d.enable() } noexcept;
+    }
+  {
+    device_.enable();
+    awaited_ = true;
+    waited_ = 0;
+  }
+  void disable() EBAC_RT
+    requires requires(D& d) {
+      { d.disable() } noexcept;
+    }
+  {
+    device_.disable();
+  }
+  void stop() EBAC_RT
+    requires requires(D& d) { d.stop(); }
+  {
+    device_.stop();
+  }
+  bool running() const EBAC_RT
+    requires requires(const D& d) { d.running(); }
+  {
+    return device_.running() && !awaited_;
+  }
+  bool at_rest() const EBAC_RT
+    requires requires(const D& d) { d.at_rest(); }
+  {
+    return device_.at_rest();
+  }
+  void aim(std::size_t axis, double target) EBAC_RT
+    requires requires(D& d) { d.aim(axis, target); }
+  {
+    device_.aim(axis, target);
+  }
+
+  auto parts() const EBAC_RT { return std::tuple_cat(row_parts(device_), std::tie(sensor_)); }
+
+  D& device() EBAC_RT { return device_; }
+  const D& device() const EBAC_RT { return device_; }
+  S& sensor() EBAC_RT { return sensor_; }
+  const S& sensor() const EBAC_RT { return sensor_; }
+
+ private:
+  D device_;
+  S sensor_;
+  double patience_;       // s
+  double waited_ = 0;     // s
+  bool awaited_ = false;  // a first good record
+};
+
+}  // namespace ebac::sensor

@@ -1,0 +1,150 @@
+"""What `ebac run` gives: tables, a JSON document, a figure."""
+
+from __future__ import annotations
+
+import tomllib
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Self
+
+from ebac.cli import output
+
+if TYPE_CHECKING:
+    from ebac.hardware import Configuration, Report, Times
+    from ebac.metrics import Contact
+    from ebac.simulation import LoopFault
+    from ebac.trace import Trace
+
+#: The lines of the table of times: label, attributes of `Times` for p50, p99.9 and most.
+_TIMES = (
+    ("compute", "compute_p50_s", "compute_p99_9_s", "compute_most_s"),
+    ("exchange", "exchange_p50_s", "exchange_p99_9_s", None),
+    ("late", "late_p50_s", "late_p99_9_s", "late_most_s"),
+)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Result:
+    """A run and what it came to.
+
+    Attributes
+    ----------
+    configuration : Configuration
+        What was asked.
+    trace : Trace
+        The rows in memory.
+    report : Report
+        How it went.
+    place : str
+        Where the drives were.
+    simulated : bool
+        Whether they were simulated.
+    contact : Contact or None
+        The contact with the wall; None where there were too few rows under the law.
+    times : Times or None
+        How quick and punctual the loop was.
+    fault : str or None
+        Why it stopped.
+    """
+
+    configuration: Configuration
+    trace: Trace
+    report: Report
+    place: str
+    simulated: bool
+    contact: Contact | None
+    times: Times | None
+    fault: str | None
+
+    @classmethod
+    def of(
+        cls,
+        configuration: Configuration,
+        trace: Trace,
+        report: Report,
+        place: str,
+        simulated: bool,
+        fault: LoopFault | None,
+    ) -> Self:
+        """Measure a run."""
+        from ebac.hardware import times, under_the_law
+        from ebac.metrics import FEWEST_ROWS, contact
+
+        part = under_the_law(trace)
+        measured = len(part) >= FEWEST_ROWS and fault is None
+        return cls(
+            configuration=configuration,
+            trace=trace,
+            report=report,
+            place=place,
+            simulated=simulated,
+            contact=contact(part) if measured else None,
+            times=times(part) if len(part) else None,
+            fault=None if fault is None else fault.fault.name.lower(),
+        )
+
+    def document(self) -> str:
+        """Return the JSON document."""
+        scenario = tomllib.loads(self.configuration.scenario().to_toml())
+        rows: list[dict[str, Any]] = [] if self.contact is None else [self.contact.row()]
+        return output.document(
+            "run",
+            rows,
+            simulated=self.simulated,
+            place=self.place,
+            scenario=scenario,
+            times=None if self.times is None else asdict(self.times),
+            fault=self.fault,
+            **self.report.row(),
+        )
+
+
+def write(result: Result, stem: Path | None) -> list[str]:
+    """Write figure and numbers beside the log; return the names of all files."""
+    if stem is None:
+        return []
+    from ebac.plot import plot_trace
+
+    names = [f"{stem.name}.mcap"]
+    if len(result.trace) >= 2:
+        plot_trace(result.trace).savefig(stem.with_suffix(".png"))
+        names.append(f"{stem.name}.png")
+    stem.with_suffix(".json").write_text(result.document() + "\n", encoding="utf-8")
+    return [*names, f"{stem.name}.json"]
+
+
+def show(result: Result) -> None:
+    """Print what the run came to."""
+    from ebac.cli import wall_results
+
+    if result.contact is not None:
+        wall_results.show_contacts([result.contact])
+    if result.times is not None:
+        _show_times(result.times)
+    report = result.report
+    kept = (
+        "no log"
+        if report.log is None
+        else f"{report.recorded:,} recorded, {report.lost_rows:,} lost"
+    )
+    output.say(f"{report.ticks:,} ticks, {kept}; ended by {report.ended_by}; on {result.place}.")
+    states = ", ".join(report.drives) or "not asked"
+    output.say(f"Drives after it: {states}.")
+    for grant in report.grants:
+        if not grant.granted:
+            output.say(f"{grant.name}: {grant.asked}, not granted ({grant.why})", style="yellow")
+            output.indented(grant.remedy)
+    if result.simulated:
+        output.say(
+            "Drives, device and hand were simulated; clock, thread and bus were real.", style="bold"
+        )
+
+
+def _show_times(times: Times) -> None:
+    grid = output.table(["time of a tick", "p50", "p99.9", "most"], numbers=range(1, 4))
+    for label, *names in _TIMES:
+        values = [None if name is None else getattr(times, name) for name in names]
+        grid.add_row(label, *("-" if v is None else f"{1e6 * v:,.1f} µs" for v in values))
+    output.console().print(grid)
+    if times.skipped:
+        output.say(f"{times.skipped:,} ticks could not be kept and were skipped.", style="yellow")

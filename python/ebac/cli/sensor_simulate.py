@@ -1,0 +1,133 @@
+"""`ebac sensor simulate`: a force sensor on the network that is none."""
+
+from __future__ import annotations
+
+import sys
+import time
+from math import inf
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from ebac.cli import options, output, sensor_options
+from ebac.cli.drive_simulate import plant_of, signalled
+
+if TYPE_CHECKING:
+    from ebac.scenario import Scenario
+
+_TROUBLE = "Trouble"
+
+
+def _share(what: str) -> Any:
+    return typer.Option(
+        help=f"Share of the packets that {what}.", min=0, max=1, rich_help_panel=_TROUBLE
+    )
+
+
+def simulate(
+    host: Annotated[str, typer.Option(help="Address of this machine to take.")] = "127.0.0.1",
+    port: Annotated[
+        int, typer.Option(help="UDP port; 0 takes any free one.", min=0, max=65535)
+    ] = 49152,
+    http_port: Annotated[
+        int | None,
+        typer.Option(help="Port of its page.", show_default="no page", min=0, max=65535),
+    ] = None,
+    force: Annotated[
+        tuple[float, float, float] | None,
+        typer.Option(help="A steady force of the hand on the handle [N].", show_default=False),
+    ] = None,
+    scenario: Annotated[
+        Path | None,
+        typer.Option(
+            help="Take device, hand and seed from a scenario in TOML.", show_default=False
+        ),
+    ] = None,
+    device: Annotated[
+        str | None,
+        typer.Option(help="A device by name, see `ebac presets`.", show_default="joystick"),
+    ] = None,
+    hand: Annotated[
+        str | None,
+        typer.Option(help="A hand by name, see `ebac presets`.", show_default="resting"),
+    ] = None,
+    seed: options.Seed = None,
+    rate: Annotated[float, typer.Option(help="Records a second [Hz].", min=1, max=7000)] = 1000.0,
+    load: Annotated[
+        float, typer.Option(help="What weighs on its z axis besides the hand, until a bias [N].")
+    ] = 0.0,
+    model: Annotated[
+        str, typer.Option(help="Whose status bits it has: net-ft, axia, other.")
+    ] = "net-ft",
+    loss: Annotated[float, _share("are not sent")] = 0.0,
+    duplicate: Annotated[float, _share("are sent twice")] = 0.0,
+    reorder: Annotated[float, _share("are sent after the next one")] = 0.0,
+    seconds: Annotated[
+        float | None,
+        typer.Option(help="Stop after so long [s].", show_default="until Ctrl-C", min=0),
+    ] = None,
+) -> None:
+    """Put a simulated force sensor on the network, in real time, until Ctrl-C. A simulation.
+
+    It speaks the protocol of the ATI Net F/T (RDT over UDP), so every program for one can talk to it. It
+    feels the hand of a scenario that moves its device without power, or a steady force. One client at a
+    time, as the real one: who asks last has the stream.
+
+    **Examples**
+
+    * `ebac sensor simulate --force 3 0 0`, and in another terminal `ebac sensor read --host 127.0.0.1`
+
+    * `ebac sensor simulate --scenario tapping.toml --rate 7000 --loss 0.01`
+
+    * `ebac sensor simulate --http-port 8080`, then `ebac sensor read --host 127.0.0.1 --page --http-port 8080`
+    """
+    from ebac.sensor import EmulatorOptions, EmulatorTrouble, SimulatedSensor
+
+    with output.refusing():
+        source = _source(force, scenario, device, hand, seed)
+        built = EmulatorOptions(rate=rate, load=load)
+        trouble = EmulatorTrouble(loss=loss, duplicate=duplicate, reorder=reorder)
+    with output.refusing(), sensor_options.telling():
+        work = SimulatedSensor(
+            source,
+            host=host,
+            port=port,
+            http_port=http_port,
+            options=built,
+            model=model,
+            seed=seed or 1,
+        )
+    work.trouble(trouble)
+    with work, signalled() as over:
+        at = "{}:{}".format(*work.address)
+        page = (
+            ""
+            if work.http_address is None
+            else ", its page at http://{}:{}".format(*work.http_address)
+        )
+        output.say(f"Simulated force sensor at {at}{page}. Ctrl-C stops it.")
+        sys.stdout.flush()
+        end = time.monotonic() + (inf if seconds is None else seconds)
+        while time.monotonic() < end and not over.wait(min(0.1, max(0.0, end - time.monotonic()))):
+            pass
+    counts = work.counts
+    output.say(
+        f"Stopped: {counts.requests} requests obeyed, {counts.refused} refused, {counts.sent:,} packets sent, "
+        f"{counts.dropped:,} dropped."
+    )
+
+
+def _source(
+    force: tuple[float, float, float] | None,
+    scenario: Path | None,
+    device: str | None,
+    hand: str | None,
+    seed: int | None,
+) -> Scenario | tuple[float, float, float]:
+    """Return what it feels: a steady force, or a hand on a device."""
+    if force is None:
+        return plant_of(scenario, device, hand, seed)
+    if scenario is not None or device is not None or hand is not None:
+        raise ValueError("--force: stands for hand and device; give it alone")
+    return force

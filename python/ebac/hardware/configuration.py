@@ -1,0 +1,137 @@
+"""The configuration of a run on hardware, in TOML, SI units throughout."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Literal, Self
+
+from ebac._core import Device, Hand, Limits, RealTime, Timing, Wall
+from ebac.drives.errors import ProfileError
+from ebac.drives.network import Network
+from ebac.drives.source import Source
+from ebac.hardware.law import designed
+from ebac.hardware.reading import read
+from ebac.hardware.tables import ConfigurationError
+from ebac.laws import CoreLaw
+from ebac.scenario import Environment, Scenario
+
+if TYPE_CHECKING:
+    from ebac.sensor import SensorConfig
+
+
+@dataclass(frozen=True, kw_only=True)
+class Configuration:
+    """What `Device.open` and `ebac run` need to know.
+
+    Parameters
+    ----------
+    name : str
+        Of the file, for people.
+    text : str
+        The file itself; it goes into every log.
+    interface, channel : str
+        Of the CAN bus: "socketcan" and "can0", or "ebac" and a channel inside this process.
+    drives : Network
+        The drives, one per axis, each with its profile.
+    setup : "verify" or "apply"
+        Whether a drive that holds something else than its profile is refused, or written.
+    silent : int
+        Ticks in a row without process data that are a fault [samples].
+    answer_share : float
+        How long the drives may take to answer, as a share of the sample time.
+    device : Device
+        The haptic device.
+    timing : Timing
+        Sample time and delay.
+    environment : Free, Wall, Corner or Disc
+        The virtual world.
+    law : str
+        Name of the law.
+    changes : mapping
+        Parameters of the law on top of its design, SI units.
+    limits : Limits
+        What the loop allows.
+    seconds, soft_start, ramp_down : float
+        Length of a run, time in which force comes in and goes out [s].
+    mode : "auto", "enforce" or "off"
+        What the loop's thread insists on.
+    realtime : RealTime
+        What it asks of the system.
+    memory : float
+        Rows of so long a time stay in memory [s]; all of them go to the log.
+    sync : float or None
+        Time after which the log is forced to the disk [s].
+    sensor : SensorConfig or None
+        The force sensor, where there is one.
+    hand : Hand
+        Who holds the simulated device.
+    """
+
+    name: str = "a configuration"
+    text: str = ""
+    interface: str = "socketcan"
+    channel: str = "can0"
+    drives: Network
+    setup: Literal["verify", "apply"] = "verify"
+    silent: int = 3
+    answer_share: float = 0.5
+    device: Device
+    timing: Timing = field(default_factory=Timing)
+    environment: Environment = field(default_factory=Wall)
+    law: str = "ebac"
+    changes: Mapping[str, Any] = field(default_factory=dict)
+    limits: Limits
+    seconds: float = 10.0
+    soft_start: float = 0.2
+    ramp_down: float = 0.2
+    mode: Literal["auto", "enforce", "off"] = "auto"
+    realtime: RealTime = field(default_factory=RealTime)
+    memory: float = 60.0
+    sync: float | None = None
+    sensor: SensorConfig | None = None
+    hand: Hand = field(default_factory=Hand)
+
+    @classmethod
+    def load(cls, path: str | Path) -> Self:
+        """Read a configuration file.
+
+        Raises
+        ------
+        FileNotFoundError
+            When there is no such file.
+        ConfigurationError
+            For what cannot be; the message names file, line, key, value, unit, range and remedy.
+        """
+        return cls.from_toml(Path(path).read_text(encoding="utf-8"), name=str(path))
+
+    @classmethod
+    def from_toml(cls, text: str, *, name: str = "configuration") -> Self:
+        """Read a configuration from TOML text. Raises as `load`."""
+        try:
+            return cls(**read(Source(name=name, text=text)))
+        except ConfigurationError:
+            raise
+        except ProfileError as error:
+            raise ConfigurationError(str(error)) from None
+
+    def replace(self, **changes: Any) -> Self:
+        """Return a copy with some parts changed."""
+        return dataclasses.replace(self, **changes)
+
+    def design(self) -> CoreLaw:
+        """Return the law, designed for the device; without a sensor the gains of a force loop are 0."""
+        with_sensor = self.sensor is not None
+        return designed(self.law, self.changes, self.device, self.timing, sensor=with_sensor)
+
+    def scenario(self, *, seconds: float | None = None) -> Scenario:
+        """Return device, hand, virtual world and time as a scenario, for simulations and logs."""
+        return Scenario(
+            device=self.device,
+            hand=self.hand,
+            environment=self.environment,
+            timing=self.timing,
+            seconds=seconds or self.seconds,
+        )

@@ -1,0 +1,293 @@
+"""A device that is open: `with ebac.Device.open(config) as device: trace = device.run(law)`."""
+
+from __future__ import annotations
+
+import atexit
+import tempfile
+import weakref
+from collections.abc import Callable
+from contextlib import ExitStack
+from math import ceil
+from pathlib import Path
+from types import TracebackType
+from typing import TYPE_CHECKING, Any, Self
+
+from ebac import _core
+from ebac.drives import Backups
+from ebac.hardware import setting_up
+from ebac.hardware.configuration import Configuration
+from ebac.hardware.interrupts import Interrupts
+from ebac.hardware.law import designed
+from ebac.hardware.place import hardware, simulated
+from ebac.hardware.report import Report
+from ebac.hardware.run import Run
+
+if TYPE_CHECKING:
+    from ebac.hardware.place import Place
+    from ebac.laws import AnyLaw, CoreLaw
+    from ebac.scenario import Environment
+    from ebac.trace import Trace
+
+#: Rows beside those of the run itself: before the drives are enabled, and while they stop.
+_MORE_ROWS = 4096
+#: The longest the drives may take to be enabled [s].
+_ENABLE = 2.0
+#: Watched for three of a drive's heartbeats.
+_BEATS = 3.0
+
+
+class OpenDevice:
+    """The drives of a device, set up and without power. Get it from `ebac.Device.open`; a context manager.
+
+    Only a run powers the motors. Each ends without power, however it ends: by its time, a fault, `stop`, an exception,
+    SIGINT, SIGTERM, SIGHUP, the end of the program or of its parent. One that is killed leaves the drives to their own
+    watch over the loop's heartbeat.
+
+    Parameters
+    ----------
+    configuration : Configuration
+        What is there, and what is wanted.
+    simulate : bool
+        Whether simulated drives, with a simulated device in a simulated hand, stand in for the real ones. All else is
+        as it is: the loop's thread, its clock, the bus, the set-up of the drives.
+
+    Attributes
+    ----------
+    configuration : Configuration
+        As given.
+    place : Place
+        The bus with the drives.
+
+    Raises
+    ------
+    DriveError
+        When a drive cannot be reached, is in fault, or holds something else than its profile.
+    """
+
+    def __init__(self, configuration: Configuration, *, simulate: bool = False) -> None:
+        self.configuration = configuration
+        self.simulated = simulate
+        self._nodes = setting_up.nodes_of(configuration)
+        with ExitStack() as stack:
+            self.interrupts = stack.enter_context(Interrupts())
+            self.place: Place = stack.enter_context(
+                simulated(configuration) if simulate else hardware(configuration)
+            )
+            backups = None
+            if simulate:
+                backups = Backups(Path(stack.enter_context(tempfile.TemporaryDirectory())))
+            write = simulate or configuration.setup == "apply"
+            setting_up.set_up(self.place, self._nodes, write=write, backups=backups)
+            self._held = _Held(stack.pop_all())
+        # What is forgotten, in a notebook or at the end of its program, is closed all the same.
+        self._forgotten = weakref.finalize(self, self._held.close)
+        self._forgotten.atexit = False  # another exit sees to that, in its place among others
+        atexit.register(self._held.close)
+
+    @property
+    def report(self) -> Report | None:
+        """How the last run went."""
+        return None if self._held.run is None else self._held.run.report
+
+    @classmethod
+    def open(cls, configuration: Configuration | str | Path, *, simulate: bool = False) -> Self:
+        """Open the device of a configuration, or of its file. Raises as `Configuration.load` and the class."""
+        if not isinstance(configuration, Configuration):
+            configuration = Configuration.load(configuration)
+        return cls(configuration, simulate=simulate)
+
+    def run(
+        self,
+        law: AnyLaw | None = None,
+        environment: Environment | None = None,
+        *,
+        seconds: float | None = None,
+        log: str | Path | None = None,
+        look: Callable[[Run], None] = lambda run: None,
+        **changes: Any,
+    ) -> Trace:
+        """Run a law to the end of its time, and return the rows.
+
+        Parameters
+        ----------
+        law : str, law class, Variant or law, optional
+            One of the core; that of the configuration, if not given.
+        environment : Free, Wall, Corner or Disc, optional
+            The virtual world; that of the configuration, if not given.
+        seconds : float, optional
+            How long the law acts [s]; as the configuration says, if not given.
+        log : str or Path, optional
+            File to record to, .mcap; must not exist.
+        look : callable
+            Called about 50 times a second with the run; what it raises ends the run, and is raised after it.
+        **changes
+            Parameters of the law on top of its design, in SI units.
+
+        Returns
+        -------
+        Trace
+            The rows in memory, those of `configuration.memory` seconds at most; the log has all.
+
+        Raises
+        ------
+        LoopFault
+            When the loop ended by a fault; it carries the rows.
+        DriveError, OSError
+            When a drive does not obey, or the log cannot be written.
+        KeyboardInterrupt, Terminated
+            When a signal came; all has stopped before.
+        """
+        run = self.start(law, environment, seconds=seconds, log=log, **changes)
+        with run:
+            run.wait(look=look)
+        return run.finish()
+
+    def start(
+        self,
+        law: AnyLaw | None = None,
+        environment: Environment | None = None,
+        *,
+        seconds: float | None = None,
+        log: str | Path | None = None,
+        **changes: Any,
+    ) -> Run:
+        """Start a run and return at once: to change parameters, to look at the rows, to stop it. As `run`."""
+        if self._held.run is not None and self._held.run.report is None:
+            raise RuntimeError("a run is under way: end it first")
+        known = self.configuration
+        finished = self._law(law, changes)
+        chosen = known if environment is None else known.replace(environment=environment)
+        length = known.seconds if seconds is None else seconds
+        scenario = chosen.scenario(seconds=length)
+        setup = self._setup(chosen, length)
+        path = None if log is None else _free(Path(log))
+        place, nodes = self.place, self._nodes
+
+        def power_off() -> list[str]:
+            return setting_up.power_off(place, nodes)
+
+        setting_up.start(place, nodes)
+        self.interrupts.moving()
+        try:
+            running = finished._start(place.bus, setup)
+            run = self._held.run = Run(
+                running,
+                law=finished,
+                scenario=scenario,
+                interrupts=self.interrupts,
+                power_off=power_off,
+            )
+        except BaseException:
+            self.interrupts.ending()
+            power_off()
+            self.interrupts.forget()
+            raise
+        try:
+            if path is not None:
+                run.record(path, files={"configuration.toml": known.text}, sync=known.sync)
+            self._held.last_to_register()
+        except BaseException:
+            run.end()
+            raise
+        return run
+
+    def _law(self, law: AnyLaw | None, changes: dict[str, Any]) -> CoreLaw:
+        known = self.configuration
+        if law is None:
+            law, changes = known.law, {**known.changes, **changes}
+        with_sensor = self.place.sensor is not None
+        return designed(law, changes, known.device, known.timing, sensor=with_sensor)
+
+    def _setup(self, known: Configuration, seconds: float) -> _core.RunSetup:
+        if not 0.01 <= seconds <= 1e5:
+            raise ValueError(f"seconds = {seconds:g} s: must lie in [0.01, 100000] s")
+        dt = known.timing.dt
+        ticks = max(1, round(seconds / dt))
+        profiles = [node.profile.values for node in self._nodes]
+        watched = [float(values["heartbeat.producer"]) for values in profiles]
+        consumers = [float(values.get("heartbeat.consumer", 0.0)) for values in profiles]
+        masters = {int(values["heartbeat.master"]) for values in profiles}
+        beat = min((one for one in consumers if one > 0), default=0.0)
+        watch = known.limits.watch_force and self.place.sensor is not None
+        limits = known.limits.replace(watch_force=watch)
+        return _core.RunSetup(
+            device=known.device,
+            environment=known.environment,
+            dt=dt,
+            nodes=[node.id for node in self._nodes],
+            answer_time=known.answer_share * dt,
+            plan=_core.RunPlan(
+                soft_start=known.soft_start,
+                ramp_down=known.ramp_down,
+                stop_ticks=max(10, ceil(0.02 / dt)),
+                arm=True,
+                ticks=ticks,
+            ),
+            limits=limits,
+            sensor=None if self.place.sensor is None else self.place.sensor.core(),
+            rows=min(ticks, ceil(known.memory / dt)) + _MORE_ROWS,
+            ring=True,
+            mode=_core.RealTimeMode[known.mode.upper()],
+            realtime=known.realtime,
+            silent_ticks=known.silent,
+            enable_ticks=ceil(_ENABLE / dt),
+            heartbeat_timeout=_BEATS * max(watched),
+            own_node=masters.pop() if beat > 0 and len(masters) == 1 else 0,
+            heartbeat_period=max(1e-3, beat / 10) if beat > 0 else 0.01,
+        )
+
+    def close(self) -> None:
+        """End a run that is under way, and let go of the bus. The drives have no power."""
+        self._forgotten.detach()
+        self._held.close()
+
+    def __enter__(self) -> Self:
+        """Return the device."""
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        """Close it, whatever was raised."""
+        try:
+            self.close()
+        except Exception as failure:
+            if error is None:
+                raise
+            error.add_note(f"and at the end: {failure}")
+
+
+class _Held:
+    """What a device must let go of, whoever forgets it: its run first."""
+
+    def __init__(self, stack: ExitStack) -> None:
+        self.run: Run | None = None
+        self._stack = stack
+
+    def last_to_register(self) -> None:
+        """Be the first to be called at the exit of the interpreter: before the recorder, and simulated drives."""
+        atexit.unregister(self.close)
+        atexit.register(self.close)
+
+    def close(self) -> None:
+        atexit.unregister(self.close)
+        try:
+            if self.run is not None:
+                self.run.end()
+        finally:
+            self._stack.close()
+
+
+def _free(path: Path) -> Path:
+    if path.suffix != ".mcap":
+        raise ValueError(
+            f"log = {path}: must end in .mcap; `ebac log export` makes other formats of it"
+        )
+    if path.exists():
+        raise FileExistsError(
+            17, "There is such a file already; a log is never written over", str(path)
+        )
+    return path

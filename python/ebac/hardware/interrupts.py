@@ -1,0 +1,106 @@
+"""What may end a run from outside: signals, and the death of the parent."""
+
+from __future__ import annotations
+
+import os
+import signal
+import threading
+from types import FrameType, TracebackType
+from typing import Any, Self
+
+#: Signals that end a run; what the system sends when somebody types Ctrl-C, ends a process, or closes a terminal.
+SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
+
+
+class Terminated(SystemExit):
+    """The process was told to end (SIGTERM, SIGHUP); all that moved has been stopped before this was raised.
+
+    Attributes
+    ----------
+    signal : signal.Signals
+        By what.
+    """
+
+    def __init__(self, number: int) -> None:
+        super().__init__(128 + number)
+        self.signal = signal.Signals(number)
+
+
+class Interrupts:
+    """Signals as exceptions in the main thread, but never in the middle of a stop. A context manager.
+
+    The first one while something moves is raised where the main thread stands: KeyboardInterrupt for SIGINT,
+    `Terminated` for the others. From then on, or from `ending`, they are kept until `settled`: a second Ctrl-C does not
+    keep a motor on. Elsewhere than in the main thread Python takes no signals, and nothing changes.
+    """
+
+    def __init__(self) -> None:
+        self._before: dict[int, Any] = {}
+        self._moving = False
+        self._ending = False
+        self._kept: int | None = None
+        self.first: int | None = None  #: number of the signal that ended what moved last
+
+    def __enter__(self) -> Self:
+        if threading.current_thread() is threading.main_thread():
+            self._before = {number: signal.signal(number, self._take) for number in SIGNALS}
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        if threading.current_thread() is threading.main_thread():
+            for number, handler in self._before.items():
+                signal.signal(number, handler)
+        self._before = {}
+
+    def moving(self) -> None:
+        """Take the next signal as the end of what moves from here on."""
+        self._moving, self._ending, self._kept, self.first = True, False, None, None
+
+    def ending(self) -> None:
+        """Keep every signal from here on: what moves is being stopped, and nothing may come in between."""
+        self._ending = True
+
+    def forget(self) -> int | None:
+        """Nothing moves any more; return the signal that came while it was stopped, if any did."""
+        kept, self._kept = self._kept, None
+        self._moving = self._ending = False
+        return kept
+
+    def settled(self) -> None:
+        """Nothing moves any more. A signal that came while it was stopped, and was not the reason, is raised now."""
+        kept = self.forget()
+        here = threading.current_thread() is threading.main_thread()
+        if kept is not None and self.first is None and here:
+            _raise(kept)
+
+    def _take(self, number: int, frame: FrameType | None) -> None:
+        if self._ending:
+            self._kept = number
+            return
+        self._ending = self._moving
+        if self._moving:
+            self.first = number
+        _raise(number)
+
+
+def _raise(number: int) -> None:
+    if number == signal.SIGINT:
+        raise KeyboardInterrupt
+    raise Terminated(number)
+
+
+class Parent:
+    """The process that started this one, and whether it is still there."""
+
+    def __init__(self) -> None:
+        self._id = os.getppid()
+
+    @property
+    def gone(self) -> bool:
+        """Whether it has died: another process has taken its children over."""
+        return os.getppid() != self._id

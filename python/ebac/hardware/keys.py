@@ -1,0 +1,72 @@
+"""Numbers and words of a configuration that belong to no part of the core: unit, range, default."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from ebac.drives.keys import Key
+from ebac.drives.source import Path, Source, dotted
+from ebac.hardware.tables import table
+
+BUS = (
+    Key(
+        name="silent",
+        unit="samples",
+        low=1,
+        high=1000,
+        default=3,
+        whole=True,
+        remedy="ticks in a row without process data that are a fault",
+    ),
+    Key(
+        name="answer_share",
+        low=0.05,
+        high=0.9,
+        default=0.5,
+        remedy="the share of a tick the drives may take to answer",
+    ),
+)
+RUN = (
+    Key(name="seconds", unit="s", low=0.01, high=1e5, default=10.0),
+    Key(name="soft_start", unit="s", low=0.0, high=60.0, default=0.2),
+    Key(name="ramp_down", unit="s", low=0.0, high=10.0, default=0.2),
+)
+RECORDING = (
+    Key(name="memory", unit="s", low=1.0, high=3600.0, default=60.0),
+    Key(name="sync", unit="s", low=0.1, high=3600.0),
+)
+
+
+def number(source: Source, path: Path, key: Key) -> Any:
+    """Return a number of the table at `path`, its default where it is not given.
+
+    Raises
+    ------
+    ProfileError
+        When it is no number, or out of range.
+    """
+    found = table(source, path)
+    if key.name not in found:
+        return key.default
+    wrong = key.check(found[key.name])
+    if wrong is not None:
+        raise source.refuse((*path, key.name), f"{dotted(path)}.{wrong}")
+    return found[key.name]
+
+
+def word(source: Source, path: Path, value: Any, choices: Sequence[str] = ()) -> Any:
+    """Return a word, one of `choices` where there are any.
+
+    Raises
+    ------
+    ProfileError
+        When it is none.
+    """
+    from ebac.document import unknown
+
+    if not isinstance(value, str) or not value:
+        raise source.refuse(path, f"{dotted(path)} = {value!r}: must be text")
+    if choices and value not in choices:
+        raise source.refuse(path, unknown(f"{dotted(path)} = {value!r}", value, list(choices)))
+    return value

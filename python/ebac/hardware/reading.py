@@ -1,0 +1,187 @@
+"""A configuration from its document, table by table."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from ebac import presets
+from ebac._core import Device, Hand, Limits, RealTime, Timing
+from ebac.document import from_document
+from ebac.drives.errors import ProfileError
+from ebac.drives.source import Source
+from ebac.hardware.keys import BUS, RECORDING, RUN, number, word
+from ebac.hardware.tables import known, on_top, refusing, table
+from ebac.laws import LAWS, design
+from ebac.scenario import Environment, Scenario
+
+if TYPE_CHECKING:
+    from ebac.sensor import SensorConfig
+
+TABLES = [
+    "about",
+    "bus",
+    "device",
+    "timing",
+    "environment",
+    "law",
+    "limits",
+    "run",
+    "realtime",
+    "recording",
+    "sensor",
+    "simulated",
+]
+
+
+def read(source: Source) -> dict[str, Any]:
+    """Return the parts of a configuration.
+
+    Raises
+    ------
+    ProfileError
+        For what cannot be, with file and line.
+    """
+    known(source, (), TABLES)
+    values: dict[str, Any] = {"name": source.name, "text": source.text}
+    values |= _bus(source)
+    values["device"] = _device(source)
+    values["timing"] = on_top(source, ("timing",), Timing())
+    values["environment"] = _environment(source)
+    values |= _law(source, values)
+    values["limits"] = _limits(source, values["device"])
+    values |= {key.name: number(source, ("run",), key) for key in RUN}
+    known(source, ("run",), [key.name for key in RUN])
+    values |= _realtime(source)
+    known(source, ("recording",), [key.name for key in RECORDING])
+    values |= {key.name: number(source, ("recording",), key) for key in RECORDING}
+    values["sensor"] = _sensor(source)
+    values["hand"] = _hand(source)
+    _fit(source, values)
+    return values
+
+
+def _bus(source: Source) -> dict[str, Any]:
+    from ebac.drives.network import load
+
+    names = ["interface", "channel", "drives", "setup", *(key.name for key in BUS)]
+    found = known(source, ("bus",), names)
+    asked = word(source, ("bus", "drives"), found.get("drives", "joystick"))
+    beside = Path(source.name).parent / asked
+    try:
+        network = load(beside if beside.is_file() else asked)
+    except ProfileError as error:
+        raise source.refuse(("bus", "drives"), f"bus.drives: {error}") from None
+    return {
+        "interface": word(
+            source, ("bus", "interface"), found.get("interface", "socketcan"), ["socketcan", "ebac"]
+        ),
+        "channel": word(source, ("bus", "channel"), found.get("channel", "can0")),
+        "drives": network,
+        "setup": word(source, ("bus", "setup"), found.get("setup", "verify"), ["verify", "apply"]),
+        **{key.name: number(source, ("bus",), key) for key in BUS},
+    }
+
+
+def _device(source: Source) -> Device:
+    name = table(source, ("device",)).get("preset", "joystick")
+    base = refusing(source, ("device", "preset"), lambda: presets.device(name))
+    made: Device = on_top(source, ("device",), base, apart=("preset",))
+    return made
+
+
+def _hand(source: Source) -> Hand:
+    known(source, ("simulated",), ["hand"])
+    path = ("simulated", "hand")
+    name = table(source, path).get("preset", "reference")
+    base = refusing(source, (*path, "preset"), lambda: presets.hand(name))
+    made: Hand = on_top(source, path, base, apart=("preset",))
+    return made
+
+
+def _sensor(source: Source) -> SensorConfig | None:
+    if "sensor" not in source.table:
+        return None
+    from ebac.sensor import SensorConfig
+
+    found = known(source, ("sensor",), [one.name for one in dataclasses.fields(SensorConfig)])
+    made: SensorConfig = refusing(source, ("sensor",), lambda: SensorConfig.from_table(found))
+    return made
+
+
+def _environment(source: Source) -> Environment:
+    found = table(source, ("environment",))
+    made: Environment = refusing(
+        source, ("environment",), lambda: from_document("environment", found, "environment")
+    )
+    return made
+
+
+def _law(source: Source, values: Mapping[str, Any]) -> dict[str, Any]:
+    found = table(source, ("law",))
+    name = word(source, ("law", "name"), found.get("name", "ebac"), list(LAWS))
+    known(source, ("law",), ["name", *(one.name for one in LAWS[name].fields())])
+    changes = {key: value for key, value in found.items() if key != "name"}
+    refusing(
+        source,
+        ("law",),
+        lambda: design(name, values["device"], values["timing"], **changes),
+    )
+    return {"law": name, "changes": changes}
+
+
+def _limits(source: Source, device: Device) -> Limits:
+    from ebac._core import _check_limits
+
+    limits: Limits = on_top(source, ("limits",), Limits.of(device))
+    refusing(source, ("limits",), lambda: _check_limits(limits))
+    return limits
+
+
+def _realtime(source: Source) -> dict[str, Any]:
+    found = table(source, ("realtime",))
+    modes = ["auto", "enforce", "off"]
+    return {
+        "mode": word(source, ("realtime", "mode"), found.get("mode", "auto"), modes),
+        "realtime": on_top(source, ("realtime",), RealTime(), apart=("mode",)),
+    }
+
+
+#: What profile and device must tell alike: key of the profile, value of the device, its name.
+_SAME: tuple[tuple[str, Callable[[Device], float], str], ...] = (
+    ("motor.torque_constant", lambda d: d.motor.torque_constant, "motor.torque_constant"),
+    ("limits.rated_torque", lambda d: d.motor.rated_torque, "motor.rated_torque"),
+    ("motor.counts_per_turn", lambda d: d.encoder.counts_per_turn, "encoder.counts_per_turn"),
+)
+
+
+def _fit(source: Source, values: Mapping[str, Any]) -> None:
+    """Refuse what does not fit together."""
+    axes, drives = values["device"].axes, values["drives"]
+    if len(drives.nodes) != axes:
+        raise source.refuse(
+            ("bus", "drives"),
+            f"bus.drives: {drives.name} has {len(drives.nodes)} drives, the device {axes} axes: must "
+            "be as many; give another network file, or a device with as many axes",
+        )
+    for node in drives.nodes:
+        for key, mine, name in _SAME:
+            theirs, own = node.profile.values.get(key), mine(values["device"])
+            if theirs is not None and abs(float(theirs) - own) > 0.01 * own:
+                raise source.refuse(
+                    ("bus", "drives"),
+                    f"bus.drives: node {node.id} of {drives.name} has {key} = {float(theirs):g}, the device "
+                    f"{name} = {own:g}: must be the same within 1 %, or every force is wrong; set one of them",
+                )
+    refusing(
+        source,
+        ("environment",),
+        lambda: Scenario(
+            device=values["device"],
+            environment=values["environment"],
+            hand=values["hand"],
+            timing=values["timing"],
+        ).setup(),
+    )

@@ -1,0 +1,124 @@
+"""How a run went, beside its rows."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ebac._core import Grant, LoopState
+from ebac.trace import Trace
+
+
+@dataclass(frozen=True, kw_only=True)
+class Report:
+    """How a run went, beside its rows. SI units, the unit in the name.
+
+    Attributes
+    ----------
+    ended_by : str
+        "time", "fault", "stop", "SIGINT", "SIGTERM", "SIGHUP", "parent", "exception" or "recorder".
+    log : Path or None
+        The log.
+    ticks, recorded, lost_rows : int
+        Ticks of the loop, rows in the log, and rows written over before they were recorded.
+    changes_lost : int
+        Changes that acted but of which no note was kept.
+    drives : tuple of str
+        State of each drive, asked after the run.
+    grants : tuple of Grant
+        What the loop's thread asked of the system, and got.
+    sent, received, refused, lost_frames : int
+        Frames at the loop's end of the bus.
+    """
+
+    ended_by: str
+    log: Path | None
+    ticks: int
+    recorded: int
+    lost_rows: int
+    changes_lost: int
+    drives: tuple[str, ...]
+    grants: tuple[Grant, ...]
+    sent: int
+    received: int
+    refused: int
+    lost_frames: int
+
+    def row(self) -> dict[str, Any]:
+        """Return it as plain values."""
+        values: dict[str, Any] = {one.name: getattr(self, one.name) for one in fields(self)}
+        values["log"] = None if self.log is None else str(self.log)
+        values["grants"] = [
+            {name: getattr(one, name) for name in ("name", "asked", "granted", "why", "remedy")}
+            for one in self.grants
+        ]
+        return values
+
+
+@dataclass(frozen=True, kw_only=True)
+class Times:
+    """How quick and how punctual a loop was. Times in s.
+
+    Attributes
+    ----------
+    compute_p50_s, compute_p99_9_s, compute_most_s : float
+        From wake-up to the end of the tick, less the exchange with the drives.
+    exchange_p50_s, exchange_p99_9_s : float
+        The exchange, waiting for the drives' answers included.
+    late_p50_s, late_p99_9_s, late_most_s : float
+        Wake-up after the planned instant.
+    skipped : int
+        Ticks that could not be kept.
+    """
+
+    compute_p50_s: float
+    compute_p99_9_s: float
+    compute_most_s: float
+    exchange_p50_s: float
+    exchange_p99_9_s: float
+    late_p50_s: float
+    late_p99_9_s: float
+    late_most_s: float
+    skipped: int
+
+
+def times(trace: Trace) -> Times:
+    """Measure the ticks of a run in real time.
+
+    Raises
+    ------
+    ValueError
+        When the trace has no rows, or is not of a run in real time.
+    """
+    if len(trace) == 0 or "time.busy" not in trace:
+        raise ValueError("the trace has no times: it is empty, or of a simulation in virtual time")
+    exchange = trace.axis("time.exchange")
+    compute = np.maximum(trace.axis("time.busy") - exchange, 0.0)
+    late = trace["lateness"]
+
+    def part(values: Any, percent: float) -> float:
+        return float(np.percentile(values, percent))
+
+    return Times(
+        compute_p50_s=part(compute, 50),
+        compute_p99_9_s=part(compute, 99.9),
+        compute_most_s=float(compute.max()),
+        exchange_p50_s=part(exchange, 50),
+        exchange_p99_9_s=part(exchange, 99.9),
+        late_p50_s=part(late, 50),
+        late_p99_9_s=part(late, 99.9),
+        late_most_s=float(late.max()),
+        skipped=int(trace["skipped"].sum()),
+    )
+
+
+def under_the_law(trace: Trace) -> Trace:
+    """Return the rows in which the law acted, their time from its first tick on."""
+    rows = np.flatnonzero(trace["state"] == int(LoopState.RUN))
+    if not len(rows):
+        return trace.rows(0, 0)
+    part = trace.rows(int(rows[0]), int(rows[-1]) + 1)
+    return part.with_column("t", part["t"] - part["t"][0])

@@ -1,0 +1,105 @@
+"""The drives before a run and after it, over SDO: Python configures slowly, the C++ loop runs quickly."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from contextlib import contextmanager
+from typing import TYPE_CHECKING
+
+from ebac.drives import Backups, DriveBus, DriveError, Node, apply, verify
+from ebac.drives.state import State
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from ebac.drives import Drive
+    from ebac.hardware.configuration import Configuration
+    from ebac.hardware.place import Place
+
+
+def nodes_of(configuration: Configuration) -> tuple[Node, ...]:
+    """Return the drives, their SYNC period that of the loop."""
+    dt = configuration.timing.dt
+    return tuple(
+        Node(id=node.id, name=node.name, profile=node.profile.replace(sync__period=dt))
+        for node in configuration.drives.nodes
+    )
+
+
+@contextmanager
+def drives_at(place: Place, nodes: Sequence[Node]) -> Iterator[list[Drive]]:
+    """Give the drives of a place; the bus is closed after the block, so that Python hears no process data."""
+    with DriveBus.open(interface=place.interface, channel=place.channel) as bus:
+        yield [bus.drive(node.id) for node in nodes]
+
+
+def set_up(
+    place: Place, nodes: Sequence[Node], *, write: bool, backups: Backups | None = None
+) -> None:
+    """Bring every drive to its profile, without power.
+
+    Parameters
+    ----------
+    place : Place
+        Where they are.
+    nodes : sequence of Node
+        What they are to be set to.
+    write : bool
+        Whether to write what differs; without, a drive that holds something else is refused.
+    backups : Backups, optional
+        Where what they held before is kept.
+
+    Raises
+    ------
+    DriveFault
+        When a drive is in fault: that is reset by `ebac drive reset-fault`, not by a run.
+    NotVerified
+        When a drive holds something else than its profile.
+    DriveError
+        When a drive does not answer or obey.
+    """
+    with drives_at(place, nodes) as drives:
+        for drive, node in zip(drives, nodes, strict=True):
+            _rest(drive)
+            if write:
+                apply(drive, node, backups=backups)
+            else:
+                verify(drive, node)
+
+
+def start(place: Place, nodes: Sequence[Node]) -> None:
+    """Let the drives take process data; they stay without power until the loop enables them. Raises as `set_up`."""
+    with drives_at(place, nodes) as drives:
+        for drive in drives:
+            _rest(drive)
+        for drive in drives:
+            drive.nmt("start")
+
+
+def _rest(drive: Drive) -> None:
+    """Leave a drive without power; one in fault is told, not reset."""
+    if drive.disable() is State.FAULT:
+        raise drive.fault("being set up")
+
+
+def power_off(place: Place, nodes: Sequence[Node]) -> list[str]:
+    """See that no drive has power, asked one by one; return the state of each.
+
+    Raises
+    ------
+    DriveError
+        When a drive does not obey or answer, after all have been told. Then cut the power.
+    """
+    failed: list[DriveError] = []
+    states: list[str] = []
+    with drives_at(place, nodes) as drives:
+        for drive in drives:
+            try:
+                states.append(drive.disable().value)
+            except DriveError as error:
+                failed.append(error)
+    if failed:
+        for other in failed[1:]:
+            failed[0].add_note(str(other))
+        raise failed[0]
+    return states

@@ -1,0 +1,111 @@
+"""Values of the core from the tables of a configuration: every refusal names file and line."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from typing import Any, TypeVar
+
+from ebac import document
+from ebac.drives.errors import ProfileError
+from ebac.drives.source import Path, Source, dotted
+
+Value = TypeVar("Value")
+
+#: "Wall.stiffness = -3 N/m: ...", where the core names what is out of range.
+_NAMED = re.compile(r"\b[A-Za-z]\w*\.([a-z]\w*)(?: = |:)")
+
+
+class ConfigurationError(ProfileError):
+    """A configuration that cannot be; the message names file, line, key, value, unit, range and remedy."""
+
+
+def table(source: Source, path: Path) -> Mapping[str, Any]:
+    """Return the table at a path; an empty one where there is none.
+
+    Raises
+    ------
+    ProfileError
+        When something else stands there.
+    """
+    found: Any = source.table
+    for part in path:
+        if part not in found:
+            return {}
+        found = found[part]
+        if not isinstance(found, Mapping):
+            raise source.refuse(path, f"{dotted(path)} = {found!r}: must be a table")
+    return found
+
+
+def known(source: Source, path: Path, names: list[str]) -> Mapping[str, Any]:
+    """Return the table at a path, which may have these keys only.
+
+    Raises
+    ------
+    ProfileError
+        For a key nobody knows; the message suggests the nearest.
+    """
+    from ebac.document import unknown
+
+    found = table(source, path)
+    for name in found:
+        if name not in names:
+            raise source.refuse((*path, name), unknown(dotted((*path, name)), name, names))
+    return found
+
+
+def on_top(source: Source, path: Path, base: Value, *, apart: tuple[str, ...] = ()) -> Value:
+    """Return a value of the core with what the table at `path` says on top of it.
+
+    Parameters
+    ----------
+    source : Source
+        The document.
+    path : tuple
+        Where the table stands.
+    base : value of the core
+        What is not named keeps its value.
+    apart : tuple of str
+        Keys of the table that mean something else.
+
+    Raises
+    ------
+    ProfileError
+        For what cannot be.
+    """
+    given: Any = base
+    names = [*given.as_dict(), *apart]
+    changes: dict[str, Any] = {}
+    for name, item in known(source, path, names).items():
+        if name in apart:
+            continue
+        here = (*path, name)
+        part = given.as_dict()[name]
+        nested = isinstance(item, Mapping) and hasattr(part, "as_dict") and "type" not in item
+        if nested:
+            changes[name] = on_top(source, here, part)
+        else:
+            changes[name] = _made(source, here, name, item)
+    return refusing(source, path, lambda: given.replace(**changes))  # type: ignore[no-any-return]
+
+
+def _made(source: Source, path: Path, name: str, item: Any) -> Any:
+    return refusing(source, path, lambda: document.from_document(name, item, dotted(path)))
+
+
+def refusing(source: Source, path: Path, make: Any) -> Any:
+    """Return what `make()` returns; what it refuses is told with its line.
+
+    Raises
+    ------
+    ProfileError
+        When `make` raises ValueError, TypeError or KeyError.
+    """
+    try:
+        return make()
+    except (ValueError, TypeError, KeyError) as error:
+        message = str(error.args[0]) if error.args else str(error)
+        names = _NAMED.findall(message)
+        at = (*path, names[-1]) if names and names[-1] in table(source, path) else path
+        raise source.refuse(at, message) from None

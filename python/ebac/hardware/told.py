@@ -1,0 +1,65 @@
+"""What a loop was told while it runs, as events for its log."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Any
+
+from ebac import _core
+from ebac.logs.events import Event
+from ebac.trace import row_views
+
+
+@dataclass(frozen=True, kw_only=True)
+class Note:
+    """What the log will say of a value once the loop has taken it: in words, and in numbers with units in the key."""
+
+    message: str
+    values: dict[str, Any] = field(default_factory=dict)
+
+
+class Told:
+    """The values sent to a loop, by their serial numbers, until the loop has taken them. Any thread."""
+
+    def __init__(self, running: _core.Running, dt: float) -> None:
+        self._running = running
+        self._dt = dt
+        self._notes: dict[int, Note] = {}
+        self._seen = 0
+        self._lock = threading.Lock()
+
+    def send(self, post: Callable[[], int], note: Note) -> None:
+        """Send a value by `post`, which returns its serial number."""
+        with self._lock:  # nobody asks for the note before it is there
+            self._notes[post()] = note
+
+    def events(self) -> list[Event]:
+        """Return what the loop has taken since the last call, once the rows of it are there."""
+        count = self._running.rows.count
+        found: list[Event] = []
+        for tick, serial, what in self._running.changes(self._seen):
+            if tick >= count and not self._running.done:
+                break
+            self._seen += 1
+            with self._lock:
+                note = self._notes.pop(serial, Note(message=what))
+            found.append(
+                Event(
+                    kind="parameter",
+                    message=note.message,
+                    tick=tick,
+                    t=self._time_of(tick),
+                    values=note.values,
+                )
+            )
+        return found
+
+    def _time_of(self, tick: int) -> float:
+        rows = self._running.rows
+        if rows.first <= tick < rows.count:
+            first, raw = rows.copy(tick, tick + 1)
+            if first == tick and len(raw):
+                return float(row_views(rows, raw)["t"][0])
+        return tick * self._dt

@@ -1,0 +1,163 @@
+"""Where a force sensor is, what its counts are worth, and how it sits in the handle."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from math import isfinite
+from typing import Any, Self, TypeAlias
+
+from ebac import _core
+from ebac.sensor.status import BITS
+
+Row: TypeAlias = tuple[float, float, float]
+Rotation: TypeAlias = tuple[Row, Row, Row]
+#: A force [N] and a torque [N m] together.
+Wrench: TypeAlias = tuple[float, float, float, float, float, float]
+
+#: Models by name.
+MODELS = dict(zip(BITS, _core.SensorModel, strict=True))
+#: Parameters that the core checks as a scale.
+_SCALE = ("counts_per_force", "counts_per_torque", "force_range", "torque_range")
+
+
+@dataclass(frozen=True, kw_only=True)
+class SensorConfig:
+    """A force/torque sensor on the network and its place in the handle.
+
+    Parameters
+    ----------
+    host : str
+        IPv4 address or name; a Net F/T leaves the factory with 192.168.1.1.
+    port : int
+        UDP port, 1 to 65535.
+    model : "net-ft", "axia" or "other"
+        Whose status bits it has; with "other" every bit is an error.
+    counts_per_force, counts_per_torque : float
+        Counts of 1 N and of 1 N m, 1e-3 to 1e12. A sensor's own page tells them: `read_page`.
+    force_range, torque_range : float
+        A force [N] or torque [N m] along one of its axes that large is saturated whatever its status
+        says, 0 to 1e6; 0 trusts the status.
+    rotation : 3 rows of 3
+        Turns what is told in the sensor's axes into the handle's, which are those of the ports:
+        handle = rotation @ sensor. Orthonormal within 1e-6 and no mirror.
+    sign : 1 or -1
+        1 where the sensor shows the force of the hand on the handle, -1 for the opposite.
+    bias : 6 floats
+        What is taken as zero, in the sensor's axes: force [N], torque [N m].
+    retry : float
+        Silence after which the stream is asked for again [s], 1e-3 to 60.
+    gone : float
+        Silence after which the sensor counts as disconnected [s], 1e-3 to 60.
+
+    Raises
+    ------
+    ValueError
+        When a value is out of its range; the message has its name, unit and range.
+    TypeError
+        When a value is of a wrong type.
+    """
+
+    host: str = "192.168.1.1"
+    port: int = 49152
+    model: str = "net-ft"
+    counts_per_force: float = 1e6
+    counts_per_torque: float = 1e6
+    force_range: float = 0.0
+    torque_range: float = 0.0
+    rotation: Rotation = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
+    sign: int = 1
+    bias: Wrench = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    retry: float = 0.25
+    gone: float = 0.5
+
+    def __post_init__(self) -> None:
+        """Check types and ranges; the core checks what it owns."""
+        host: Any = self.host
+        if not isinstance(host, str) or not host.strip():
+            raise TypeError(
+                f"sensor.host = {host!r}: must be an address or a name, as '192.168.1.1'"
+            )
+        for name in ("port", "sign"):
+            value = getattr(self, name)
+            if not isinstance(value, int) or isinstance(value, bool):
+                raise TypeError(f"sensor.{name} = {value!r}: must be a whole number")
+        if self.model not in MODELS:
+            raise ValueError(f"sensor.model = {self.model!r}: must be one of {', '.join(MODELS)}")
+        rows = numbers("rotation", self.rotation, 3, inner=3)
+        object.__setattr__(self, "rotation", rows)
+        object.__setattr__(self, "bias", numbers("bias", self.bias, 6))
+        _core._check_sensor(self.port, self.retry, self.gone, self._flat(), self.sign)
+        self._scale()
+
+    def replace(self, **changes: Any) -> Self:
+        """Return a copy with some parameters changed."""
+        return dataclasses.replace(self, **changes)
+
+    @classmethod
+    def from_table(cls, table: Mapping[str, Any], where: str = "sensor") -> Self:
+        """Return the sensor that a table of TOML describes; what is not named keeps its default.
+
+        Raises
+        ------
+        ValueError, TypeError
+            For an unknown name, a wrong type or a value out of range.
+        """
+        from ebac.document import read_table
+
+        return cls(**read_table(table, dataclasses.fields(cls), where))
+
+    def to_table(self) -> dict[str, Any]:
+        """Return the sensor as a table for TOML, SI units throughout."""
+        table = dataclasses.asdict(self)
+        table["rotation"] = [list(row) for row in self.rotation]
+        table["bias"] = list(self.bias)
+        return table
+
+    def core(self) -> _core.RdtSetup:
+        """Return it as the core takes it; a name is looked up now.
+
+        Raises
+        ------
+        ValueError
+            When there is no such host.
+        """
+        counts = (self.counts_per_force,) * 3 + (self.counts_per_torque,) * 3
+        return _core.RdtSetup(
+            self.host,
+            self.port,
+            scale=self._scale(),
+            rotation=self._flat(),
+            sign=self.sign,
+            model=MODELS[self.model],
+            retry=self.retry,
+            gone=self.gone,
+            bias=[value * scale for value, scale in zip(self.bias, counts, strict=True)],
+        )
+
+    def _scale(self) -> _core.FtScale:
+        try:
+            return _core.FtScale(**{name: getattr(self, name) for name in _SCALE})
+        except (TypeError, ValueError) as error:
+            raise type(error)(str(error).replace("FtScale.", "sensor.")) from None
+
+    def _flat(self) -> list[float]:
+        return [value for row in self.rotation for value in row]
+
+
+def numbers(name: str, given: Any, count: int, *, inner: int = 0) -> tuple[Any, ...]:
+    """Return rows of finite numbers as tuples, or say what is wrong with them."""
+    shape = f"{count} rows of {inner} numbers" if inner else f"{count} numbers"
+    if not isinstance(given, Sequence) or isinstance(given, str) or len(given) != count:
+        given = given.tolist() if hasattr(given, "tolist") else given
+    if not isinstance(given, Sequence) or isinstance(given, str) or len(given) != count:
+        raise TypeError(f"sensor.{name} = {given!r}: must be {shape}")
+    if inner:
+        return tuple(numbers(name, row, inner) for row in given)
+    for value in given:
+        if isinstance(value, bool) or not isinstance(value, (int, float)):
+            raise TypeError(f"sensor.{name} has {value!r}: must be {shape}")
+        if not isfinite(value):
+            raise ValueError(f"sensor.{name} has {value!r}: must be finite")
+    return tuple(float(value) for value in given)

@@ -1,0 +1,184 @@
+"""A force sensor on the network, read from Python."""
+
+from __future__ import annotations
+
+import time
+from types import TracebackType
+from typing import Any, Self
+
+from ebac._core import LinkState, RdtClient, SensorStatus
+from ebac.sensor.configuration import SensorConfig, Wrench
+from ebac.sensor.errors import SensorError, silence
+from ebac.sensor.reading import SensorCounts, SensorReading
+
+#: A record that waited longer [s] is not what acts now: another one is under way.
+_OLD = 0.02
+
+
+class Sensor:
+    """A force/torque sensor that streams to this program. A context manager; see `open`.
+
+    Only the newest record matters: what came between two calls is counted and passed over. The system
+    keeps some 250 for a program that does not read; more than that are lost, and counted as lost.
+    """
+
+    def __init__(self, config: SensorConfig) -> None:
+        self.config = config
+        self._client = RdtClient(config.core())
+
+    @classmethod
+    def open(
+        cls, config: SensorConfig | None = None, *, timeout: float = 2.0, **changes: Any
+    ) -> Self:
+        """Start the stream of a sensor and wait for its first record.
+
+        Parameters
+        ----------
+        config : SensorConfig, optional
+            Default: a Net F/T as it leaves the factory.
+        timeout : float
+            Longest wait for the first record [s], 0 to 3600.
+        **changes
+            Parameters of `SensorConfig` to set on top.
+
+        Raises
+        ------
+        SensorError
+            When no record came; the message says why and what to check.
+        ValueError, TypeError
+            For a configuration that cannot be.
+
+        Examples
+        --------
+        >>> with Sensor.open(host="192.168.1.1") as sensor:  # doctest: +SKIP
+        ...     sensor.bias()
+        ...     print(sensor.read().force)
+        """
+        config = config or SensorConfig()
+        sensor = cls(config.replace(**changes) if changes else config)
+        try:
+            sensor._client.start()
+            sensor.read(timeout=timeout)
+        except BaseException:
+            sensor.close()
+            raise
+        return sensor
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        traceback: TracebackType | None,
+    ) -> None:
+        self.close()
+
+    def close(self) -> None:
+        """End the stream."""
+        self._client.close()
+
+    @property
+    def state(self) -> LinkState:
+        """How the way to the sensor stands, as of the last read."""
+        return self._client.state
+
+    @property
+    def counts(self) -> SensorCounts:
+        """What came and what did not, as of the last read."""
+        names = SensorCounts.__dataclass_fields__
+        return SensorCounts(**{name: getattr(self._client, name) for name in names})
+
+    @property
+    def latest(self) -> SensorReading:
+        """The newest record that is here, however old; waits for nothing."""
+        self._client.poll(0.0)
+        return self._reading()
+
+    def read(self, timeout: float = 1.0) -> SensorReading:
+        """Return the newest record, after waiting for one that is newer than the last.
+
+        Parameters
+        ----------
+        timeout : float
+            Longest wait [s], 0 to 3600.
+
+        Raises
+        ------
+        SensorError
+            When none came.
+        """
+        newer = self._client.poll(timeout)
+        if newer and self._client.age > _OLD:  # the queue ran over while nobody read
+            newer = self._client.poll(timeout)
+        if not newer:
+            raise silence(self.config.host, self.config.port, self._client.state, timeout)
+        return self._reading()
+
+    def bias(self, records: int = 200, *, timeout: float = 1.0) -> Wrench:
+        """Take the mean of the next good records as zero, here and from now on.
+
+        Nobody may touch the handle meanwhile. Saturated records and those with an error do not count.
+
+        Parameters
+        ----------
+        records : int
+            How many, 1 to 1e6.
+        timeout : float
+            Longest wait for each good record [s].
+
+        Returns
+        -------
+        6 floats
+            Force [N] and torque [N m] in the sensor's axes, for `SensorConfig.bias`.
+
+        Raises
+        ------
+        SensorError
+            When no good record came; the bias is then what it was.
+        """
+        self._client.begin_bias(records)
+        last_good = time.monotonic()
+        while self._client.biasing:
+            reading = self.read(timeout)
+            if reading.health is SensorStatus.GOOD:
+                last_good = time.monotonic()
+            elif time.monotonic() - last_good > timeout:
+                raise SensorError(self._not_good(reading))
+        return self._bias()
+
+    def bias_inside(self) -> None:
+        """Have the sensor itself take what acts now as zero (software bias).
+
+        It holds for every program, until the sensor loses its power. Nothing answers: see the next reading.
+        """
+        self._client.bias_sensor()
+
+    def _not_good(self, reading: SensorReading) -> str:
+        from ebac.sensor.status import explain
+
+        what = "; ".join(explain(reading.status, self.config.model)) or "at the end of its range"
+        return (
+            f"sensor at {self.config.host}:{self.config.port}: no good record to take as zero, status "
+            f"0x{reading.status:08X} ({what}); take the load off, or see its manual"
+        )
+
+    def _bias(self) -> Wrench:
+        force, torque = self.config.counts_per_force, self.config.counts_per_torque
+        a, b, c, d, e, f = self._client.bias
+        return (a / force, b / force, c / force, d / torque, e / torque, f / torque)
+
+    def _reading(self) -> SensorReading:
+        client = self._client
+        x, y, z = client.force
+        tx, ty, tz = client.torque
+        return SensorReading(
+            force=(x, y, z),
+            torque=(tx, ty, tz),
+            age=client.age,
+            health=client.health,
+            status=client.status,
+            rdt_sequence=client.rdt_sequence,
+            ft_sequence=client.ft_sequence,
+        )

@@ -1,0 +1,126 @@
+"""The configuration of a run: every refusal names file, line, value, unit, range and remedy."""
+
+from pathlib import Path
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import ebac
+from ebac.hardware import Configuration, ConfigurationError, designed
+
+EXAMPLE = Path(__file__).parents[2] / "examples" / "joystick.toml"
+
+
+def test_the_example_is_what_it_says() -> None:
+    known = Configuration.load(EXAMPLE)
+    assert known.device.axes == 2
+    assert known.environment == ebac.Wall(stiffness=10e3, position=0.01)
+    assert known.limits == ebac.Limits.of(known.device).replace(speed=1.0)
+    assert [node.id for node in known.drives.nodes] == [1, 2]
+    assert known.law == "ebac"
+    assert known.hand.path[0] == ebac.MinimumJerk(target=0.04, at=0.5, duration=1.0)
+    assert known.text == EXAMPLE.read_text(encoding="utf-8")
+
+
+def test_an_empty_one_is_the_paper_s_joystick() -> None:
+    known = Configuration.from_toml("")
+    assert known.device == ebac.presets.device("joystick")
+    assert known.setup == "verify"
+    assert known.seconds == 10
+
+
+@pytest.mark.parametrize(
+    ("text", "line", "words"),
+    [
+        ("[bus]\nchanel = 'can0'\n", 2, "bus.chanel: no such name, did you mean 'channel'"),
+        ("[bus]\n\ninterface = 'kvaser'\n", 3, "bus.interface = 'kvaser'"),
+        ("[bus]\nsilent = 0\n", 2, "silent = 0 samples: must lie in [1, 1000] samples"),
+        ("[bus]\ndrives = 'nobody'\n", 2, "there is no such file"),
+        ("[device]\npreset = 'robot'\n", 2, "no device is called 'robot'"),
+        ("[device.mechanics]\ndamping = -3\n", 2, "damping = -3 N s/m"),
+        ("[timing]\ndelay = 1\ndt = 1\n", 3, "dt = 1 s: must lie in"),
+        ("[environment]\ntype = 'Wall'\nstiffness = -1.0\n", 3, "Wall.stiffness = -1 N/m"),
+        ("[law]\nname = 'ebaac'\n", 2, "did you mean 'ebac'"),
+        ("[law]\nname = 'ebac'\nkq = 1\n", 3, "law.kq: no such name"),
+        ("[law]\nname = 'ebac'\nkp = 7.0\n", 3, "kp = 7"),
+        ("[limits]\nspeed = 0.0\n", 2, "Limits.speed = 0 m/s: must lie in [0.001, 100] m/s"),
+        ("[limits]\nedge = 0.06\nend = 0.05\n", None, "end"),
+        ("[run]\nseconds = 'long'\n", 2, 'run.seconds = "long": must be a number in s'),
+        ("[run]\nsoft_start = 61.0\n", 2, "must lie in [0, 60] s"),
+        ("[realtime]\nmode = 'hard'\n", 2, "realtime.mode = 'hard'"),
+        ("[realtime]\npriority = 100\n", 2, "RealTime.priority = 100: must lie in [1, 99]"),
+        ("[recording]\nmemory = 0.5\n", 2, "recording.memory = 0.5 s: must lie in [1, 3600] s"),
+        ("[simulated.hand]\nmass = -1.0\n", 2, "Hand.mass = -1 kg"),
+        ("[simulated]\nhands = 2\n", 2, "did you mean 'hand'"),
+        ("speed = 1\n", 1, "speed: no such name"),
+        ("bus = 3\n", 1, "bus = 3: must be a table"),
+        ("[device.kinematics]\ntype = 'Linear'\naxes = 1\n", None, "2 drives, the device 1 axes"),
+        ("[device.motor]\ntorque_constant = 0.06\n", None, "motor.torque_constant = 0.0538"),
+        ("[sensor]\nhost = '10.0.0.1'\nport = 70000\n", 3, "port = 70000"),
+        ("[sensor]\ncounts_per_forc = 1.0\n", 2, "did you mean 'counts_per_force'"),
+        ("[run\n", None, "not a TOML document"),
+    ],
+)
+def test_what_cannot_be_is_refused_with_its_line(text: str, line: int | None, words: str) -> None:
+    with pytest.raises(ConfigurationError) as refused:
+        Configuration.from_toml(text, name="mine.toml")
+    message = str(refused.value)
+    assert words in message, message
+    assert message.startswith("mine.toml")
+    if line is not None:
+        assert f"line {line}:" in message, message
+
+
+def test_without_a_sensor_nothing_is_fed_back() -> None:
+    known = Configuration.from_toml("")
+    assert known.design().kp == 0  # type: ignore[attr-defined]
+    felt = Configuration.from_toml("[sensor]\nhost = '10.0.0.1'\n")
+    assert felt.sensor is not None
+    assert felt.design().kp > 0  # type: ignore[attr-defined]
+    with pytest.raises(ValueError, match="no force sensor is configured"):
+        designed("tca", {"kp": 0.2}, known.device, known.timing, sensor=False)
+
+
+def test_a_law_in_python_is_refused() -> None:
+    class Mine:
+        def step(self, port: ebac.Port) -> float:
+            return 0.0
+
+        def reset(self) -> None:
+            pass
+
+    known = Configuration.from_toml("")
+    with pytest.raises(TypeError, match="written in Python"):
+        designed(Mine(), {}, known.device, known.timing, sensor=False)
+
+
+_WORDS = st.sampled_from(
+    ["bus", "device", "law", "run", "limits", "timing", "environment", "hand", "simulated", "type"]
+)
+_VALUES = st.one_of(
+    st.integers(-(2**40), 2**40),
+    st.floats(),
+    st.booleans(),
+    st.text(max_size=5),
+    st.lists(st.integers(0, 3), max_size=2),
+)
+
+
+@given(
+    st.dictionaries(
+        _WORDS,
+        st.one_of(
+            _VALUES, st.dictionaries(st.one_of(_WORDS, st.text(max_size=6)), _VALUES, max_size=3)
+        ),
+        max_size=4,
+    )
+)
+@settings(max_examples=100, deadline=None)
+def test_any_document_is_read_or_refused(table: dict[str, object]) -> None:
+    import tomli_w
+
+    try:
+        Configuration.from_toml(tomli_w.dumps(table))
+    except ConfigurationError as error:
+        assert str(error).startswith("configuration")  # noqa: PT017

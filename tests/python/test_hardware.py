@@ -1,0 +1,227 @@
+"""A law on simulated drives in real time. No test asserts a deadline: the machine decides when a thread wakes."""
+
+import gc
+import json
+import os
+import signal
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import ebac
+from ebac import drives
+from ebac.hardware import Configuration, OpenDevice, Run, Terminated, times, under_the_law
+
+EXAMPLE = Path(__file__).parents[2] / "examples" / "joystick.toml"
+
+
+def configuration(**changes: object) -> Configuration:
+    """The example, patient with a busy machine, and quick."""
+    known = Configuration.load(EXAMPLE)
+    hand = known.hand.replace(
+        path=[ebac.MinimumJerk(target=0.04, at=0, duration=0.2), ebac.Step(target=0)]
+    )
+    patient = known.limits.replace(overruns=100_000)
+    return known.replace(
+        silent=1000, limits=patient, soft_start=0.05, ramp_down=0.05, hand=hand
+    ).replace(**changes)
+
+
+@pytest.fixture
+def device() -> "ebac.hardware.OpenDevice":  # type: ignore[misc]
+    with ebac.Device.open(configuration(), simulate=True) as opened:
+        yield opened
+
+
+def states(place: object) -> list[drives.State]:
+    with drives.DriveBus.open(interface=place.interface, channel=place.channel) as bus:  # type: ignore[attr-defined]
+        return [bus.drive(node).state for node in (1, 2)]
+
+
+def test_a_run_is_rows_a_log_and_drives_without_power(device: OpenDevice, tmp_path: Path) -> None:
+    trace = device.run("ebac", seconds=1, log=tmp_path / "run.mcap")
+    part = under_the_law(trace)
+    assert len(part) == 1000
+    assert set(trace["state"]) == {1, 2, 3}
+    assert (trace["f_applied"][-1] == 0).all()
+    assert np.abs(part["f_applied"][:, 0]).max() > 1  # N: the wall was felt
+    report = device.report
+    assert report is not None
+    assert report.ended_by == "time"
+    assert report.drives == ("switch on disabled",) * 2
+    assert report.lost_rows == 0
+    assert report.recorded == report.ticks == len(trace)
+    log = ebac.logs.read(tmp_path / "run.mcap")
+    assert log.condition.complete
+    assert len(log.trace) == len(trace)
+    assert (log.trace["tick"] == trace["tick"]).all()
+    assert (log.trace["x"] == trace["x"]).all()
+    found = times(part)
+    assert 0 < found.compute_p50_s <= found.compute_p99_9_s <= found.compute_most_s
+    assert device.run("tca", seconds=0.1).law == "tca"  # and again, on the same device
+    assert states(device.place) == [drives.State.SWITCH_ON_DISABLED] * 2
+
+
+def test_what_changes_while_it_runs_acts_and_is_in_the_log(
+    device: OpenDevice, tmp_path: Path
+) -> None:
+    with device.start("eba", seconds=30, log=tmp_path / "run.mcap") as run:
+        while run.state is not ebac.LoopState.RUN or run.ticks < 300:
+            time.sleep(0.01)
+        assert run.retune(share=0.5).share == 0.5  # type: ignore[attr-defined]
+        assert run.change(stiffness=1e3).stiffness == 1e3  # type: ignore[union-attr]
+        with pytest.raises(ValueError, match=r"share = 7: must lie in"):
+            run.retune(share=7.0)
+        with pytest.raises(ValueError, match=r"cannot change from .* while the loop runs"):
+            run.retune(damping=1.0)
+        seen = run.ticks
+        while run.ticks < seen + 100:
+            time.sleep(0.01)
+        tail = run.tail(50)
+        assert len(tail) == 50
+        inside = tail["x"][:, 0] > 0.0101
+        if inside.any():
+            depth = tail["x"][inside, 0] - 0.01
+            assert np.allclose(tail["f_env"][inside, 0], 1e3 * depth)
+        run.stop()
+    trace = run.finish()
+    assert run.report is not None
+    assert run.report.ended_by == "stop"
+    with pytest.raises(RuntimeError, match="has ended"):
+        run.retune(share=1.0)
+    events = [e for e in ebac.logs.read(tmp_path / "run.mcap").events if e.kind == "parameter"]
+    assert [sorted(e.values) for e in events] == [["law.share"], ["environment.stiffness"]]
+    at = events[1].tick
+    row = int(np.searchsorted(trace["tick"], at))
+    assert events[1].t == trace["t"][row]
+
+
+def test_a_fault_is_one_exception_with_the_last_rows(tmp_path: Path) -> None:
+    known = configuration()
+    strict = known.replace(limits=known.limits.replace(speed=0.02))
+    with (
+        ebac.Device.open(strict, simulate=True) as device,
+        pytest.raises(ebac.LoopFault, match="fault 14") as caught,
+    ):
+        device.run(seconds=5, log=tmp_path / "run.mcap")
+    assert caught.value.fault is ebac.Fault.OVERSPEED
+    trace = caught.value.trace
+    first = int((trace["fault"] != 0).argmax())
+    assert f"tick {trace['tick'][first]}" in str(caught.value)
+    assert (trace["current"][first + 1 :] == 0).all()
+    assert device.report is not None
+    assert device.report.ended_by == "fault"
+    assert device.report.drives == ("switch on disabled",) * 2
+    log = ebac.logs.read(tmp_path / "run.mcap")
+    assert log.condition.complete
+    assert [e.values["fault"] for e in log.events if e.kind == "fault"] == [14]
+
+
+def test_an_exception_ends_the_run_and_comes_after_it(device: OpenDevice, tmp_path: Path) -> None:
+    class Mine(Exception):
+        pass
+
+    def look(run: Run) -> None:
+        if run.ticks > 200:
+            raise Mine
+
+    with pytest.raises(Mine):
+        device.run(seconds=60, log=tmp_path / "run.mcap", look=look)
+    assert device.report is not None
+    assert device.report.ended_by == "exception"
+    assert states(device.place) == [drives.State.SWITCH_ON_DISABLED] * 2
+    assert ebac.logs.read(tmp_path / "run.mcap").condition.complete
+
+
+@pytest.mark.parametrize(
+    ("number", "raised"),
+    [
+        (signal.SIGINT, KeyboardInterrupt),
+        (signal.SIGTERM, Terminated),
+        (signal.SIGHUP, Terminated),
+    ],
+)
+def test_a_signal_ends_it_and_a_second_one_does_no_harm(
+    device: OpenDevice, tmp_path: Path, number: signal.Signals, raised: type[BaseException]
+) -> None:
+    def look(run: Run) -> None:
+        if run.ticks > 200:
+            os.kill(os.getpid(), number)
+            time.sleep(1)
+
+    with pytest.raises(raised):
+        device.run(seconds=60, log=tmp_path / "run.mcap", look=look)
+    assert device.report is not None
+    assert device.report.ended_by == number.name
+    assert device.report.drives == ("switch on disabled",) * 2
+    assert ebac.logs.read(tmp_path / "run.mcap").condition.complete
+
+
+def test_signals_are_python_s_again_afterwards() -> None:
+    before = [signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM)]
+    with ebac.Device.open(configuration(), simulate=True):
+        assert signal.getsignal(signal.SIGTERM) not in before
+    assert [signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM)] == before
+
+
+def test_a_device_that_is_forgotten_stops(tmp_path: Path) -> None:
+    opened = ebac.Device.open(configuration(), simulate=True)
+    run = opened.start(seconds=60, log=tmp_path / "run.mcap")
+    while run.ticks < 100:
+        time.sleep(0.01)
+    del opened
+    gc.collect()
+    assert run.done
+    assert run.report is not None
+    assert run.report.drives == ("switch on disabled",) * 2
+    assert ebac.logs.read(tmp_path / "run.mcap").condition.complete
+
+
+def test_long_runs_keep_the_last_rows_in_memory_and_all_on_disk(tmp_path: Path) -> None:
+    known = configuration(memory=1.0)
+    with ebac.Device.open(known, simulate=True) as device:
+        run = device.start(seconds=6.5, log=tmp_path / "run.mcap")
+        with run:
+            run.wait()
+        trace = run.finish()
+    report = device.report
+    assert report is not None
+    assert len(trace) < report.ticks == report.recorded
+    log = ebac.logs.read(tmp_path / "run.mcap")
+    assert len(log.trace) == report.ticks
+    assert log.lost == 0
+    assert (np.diff(log.trace["tick"]) == 1).all()
+
+
+def test_what_cannot_be_is_refused_before_anything_moves(
+    device: OpenDevice, tmp_path: Path
+) -> None:
+    there = tmp_path / "run.mcap"
+    there.write_bytes(b"")
+    with pytest.raises(FileExistsError):
+        device.run(seconds=1, log=there)
+    with pytest.raises(ValueError, match=r"must end in \.mcap"):
+        device.run(seconds=1, log=tmp_path / "run.csv")
+    with pytest.raises(ValueError, match="seconds = 0 s"):
+        device.run(seconds=0)
+    with pytest.raises(ValueError, match="no force sensor"):
+        device.run("tca", kp=0.3)
+    with pytest.raises(KeyError, match="no law is called"):
+        device.run("ebca")
+    assert device.report is None
+    with device.start(seconds=60), pytest.raises(RuntimeError, match="under way"):
+        device.start(seconds=1)
+
+
+def test_a_drive_that_holds_something_else_is_refused() -> None:
+    known = configuration(interface="ebac", channel="joystick-test", setup="verify")
+    with pytest.raises(drives.NotVerified, match="holds something else"):
+        ebac.Device.open(known)
+
+
+def test_json_of_a_report_is_plain(device: OpenDevice) -> None:
+    device.run(seconds=0.05)
+    assert device.report is not None
+    json.dumps(device.report.row())

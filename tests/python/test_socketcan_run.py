@@ -1,0 +1,118 @@
+"""The whole of a run over SocketCAN: loop on the virtual interface that EBAC_CAN names, drives in another process.
+
+`.ci/socketcan/run` gives an interface, under an emulated kernel some ten times as slow as a real one: the loop runs at
+100 Hz there.
+"""
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import ebac
+from ebac import drives
+from ebac.hardware import Configuration, under_the_law
+
+INTERFACE = os.environ.get("EBAC_CAN", "")
+EXAMPLE = Path(__file__).parents[2] / "examples" / "joystick.toml"
+DT = 0.01  # s
+PATIENCE = 180.0  # s
+
+pytestmark = pytest.mark.skipif(
+    not INTERFACE, reason="EBAC_CAN names no virtual CAN interface to test on"
+)
+
+
+@pytest.fixture
+def config(tmp_path: Path) -> Path:
+    """The example on the interface of the test, slow and patient; a wall that 100 Hz can render."""
+    text = EXAMPLE.read_text(encoding="utf-8")
+    for before, after in (
+        ('"can0"', f'"{INTERFACE}"'),
+        ("silent = 10", "silent = 500"),
+        ('setup = "verify"', 'setup = "apply"'),
+        ("dt = 1e-3", f"dt = {DT}"),
+        ("stiffness = 10e3", "stiffness = 200.0"),
+        ("[limits]", "[limits]\noverruns = 100000\njump = 0.05"),
+        ("seconds = 10.0", "seconds = 3.0"),
+    ):
+        assert before in text, before
+        text = text.replace(before, after)
+    path = tmp_path / "joystick.toml"
+    path.write_text(text, encoding="utf-8")
+    assert Configuration.load(path).timing.dt == DT
+    return path
+
+
+@contextmanager
+def served(config: Path) -> Iterator[subprocess.Popen[str]]:
+    """Simulated drives, device and hand in another process."""
+    scenario = config.with_name("scenario.toml")
+    Configuration.load(config).scenario(seconds=10).save(scenario)
+    command = [sys.executable, "-m", "ebac.cli", "drive", "simulate", "--channel", INTERFACE]
+    command += ["--scenario", str(scenario), "--wait-for-power", "--until-eof"]
+    with subprocess.Popen(
+        command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
+    ) as process:
+        assert process.stdout is not None
+        assert process.stdin is not None
+        assert "Simulated drives" in process.stdout.readline()
+        try:
+            yield process
+        finally:
+            process.stdin.close()
+            process.wait(timeout=PATIENCE)
+
+
+def states() -> list[drives.State]:
+    with drives.DriveBus.open(interface="socketcan", channel=INTERFACE) as bus:
+        return [bus.drive(node, timeout=2.0).state for node in (1, 2)]
+
+
+def test_hardware_is_what_stands_on_the_interface(config: Path, tmp_path: Path) -> None:
+    with served(config), ebac.Device.open(config) as device:
+        trace = device.run("ebac", log=tmp_path / "run.mcap")
+        assert states() == [drives.State.SWITCH_ON_DISABLED] * 2
+    part = under_the_law(trace)
+    assert len(part) == round(3 / DT)
+    assert np.abs(part["f_applied"][:, 0]).max() > 0.5  # N: the wall was felt
+    assert device.report is not None
+    assert device.report.drives == ("switch on disabled",) * 2
+    log = ebac.logs.read(tmp_path / "run.mcap")
+    assert log.condition.complete
+    assert len(log.trace) == device.report.ticks
+
+
+def test_simulated_means_another_process_on_the_virtual_interface(config: Path) -> None:
+    with ebac.Device.open(config, simulate=True) as device:
+        assert device.place.interface == "socketcan"
+        assert len(under_the_law(device.run("eba", seconds=1))) == round(1 / DT)
+
+
+def test_a_killed_loop_leaves_the_drives_to_their_own_watch(config: Path, tmp_path: Path) -> None:
+    out = tmp_path / "out"
+    command = [sys.executable, "-m", "ebac.cli", "run", str(config), "--out", str(out), "--no-live"]
+    with served(config):
+        process = subprocess.Popen([*command, "--seconds", "600"])
+        end = time.monotonic() + PATIENCE
+        while time.monotonic() < end and not any(
+            path.stat().st_size > 20_000 for path in out.glob("*.mcap")
+        ):
+            assert process.poll() is None
+            time.sleep(0.05)
+        assert states() == [drives.State.OPERATION_ENABLED] * 2
+        process.send_signal(signal.SIGKILL)
+        process.wait()
+        powered = [drives.State.OPERATION_ENABLED] * 2
+        while (now := states()) == powered and time.monotonic() < end:
+            time.sleep(0.05)
+        assert drives.State.OPERATION_ENABLED not in now
+    (log,) = out.glob("*.mcap")
+    assert len(ebac.logs.repair(log).trace) > 0
