@@ -29,7 +29,7 @@ def lint(session: nox.Session) -> None:
     session.run("ruff", "format", *([] if fix else ["--check"]))
     session.run("ruff", "check", *(["--fix"] if fix else []))
     session.run("clang-format", *(["-i"] if fix else ["--dry-run", "-Werror"]), *cpp_sources())
-    session.run("cmake", "--workflow", "--preset", "tidy")
+    session.run(".ci/tidy", external=True)
 
 
 @nox.session
