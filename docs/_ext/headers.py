@@ -61,10 +61,15 @@ class Headers(SphinxDirective):
 
 
 def types(page: ElementTree.Element) -> Iterator[str]:
-    """Directives of the types a header declares; those inside another type are shown by it."""
+    """Directives of the types a header declares; those inside another type are shown by it, specialisations by none."""
     names = {inner.text: str(inner.get("refid")) for inner in page.iterfind("innerclass")}
     for name, refid in names.items():
-        if name and name.rpartition("::")[0] not in names and "anonymous" not in name:
+        if (
+            name
+            and "<" not in name
+            and name.rpartition("::")[0] not in names
+            and "anonymous" not in name
+        ):
             kind = "doxygenclass" if refid.startswith("class") else "doxygenstruct"
             yield from (f".. {kind}:: {name}", "   :members:", "")
 

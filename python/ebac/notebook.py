@@ -29,7 +29,7 @@ UNITS = {
 #: Longer tables are cut in the middle, and say so.
 MOST_ROWS = 40
 #: Dots an inch of a small picture.
-DPI = 60
+DPI = 72
 
 
 def table(rows: Sequence[Mapping[str, Any]], *, most: int = MOST_ROWS) -> str:
