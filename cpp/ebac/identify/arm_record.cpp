@@ -25,6 +25,8 @@ void require_numbers(const std::vector<double>& values, const std::string& name)
 
 /// Straight pieces through samples weaken a sine by (w T)^2/12; this gives it back beforehand.
 constexpr double kSharpen = 1.0 / 12;
+/// How much of a jump a tick may miss.
+constexpr double kJumpDoubt = 0.15;
 
 /// Covariance of position and velocity, foretold.
 struct Spread {
@@ -129,17 +131,37 @@ ArmRecord::Drive ArmRecord::drive(const ArmGuess& guess) const {
   return out;
 }
 
+/// Where the target jumps, the force jumps within a tick, which its samples do not resolve: the
+/// size of the jump, for the rows it is felt in.
+std::vector<double> ArmRecord::jumps(const ArmGuess& guess) const {
+  std::vector<double> out(rows(), 0.0);
+  const auto level = [&](std::size_t k) {
+    return guess.levels[static_cast<std::size_t>(log_.segments[k])];
+  };
+  for (std::size_t k = 0; k < log_.switches.size(); ++k) {
+    const double size = guess.stiffness * std::abs(level(k + 1) - level(k));
+    const auto row = static_cast<std::ptrdiff_t>((log_.switches[k] + guess.onset) / log_.dt);
+    for (std::ptrdiff_t i = row - 2; i <= row + 3; ++i) {
+      if (i >= 0 && i < static_cast<std::ptrdiff_t>(rows()))
+        out[static_cast<std::size_t>(i)] = size;
+    }
+  }
+  return out;
+}
+
 ArmGains ArmRecord::gains(const ArmGuess& guess, double force_noise) const {
   const ArmStep step(guess, log_.dt);
-  const Eigen::Vector2d kick = step.start * (force_noise * step.per_mass);
+  const Eigen::Vector2d kick = step.start * step.per_mass;
   const Eigen::Vector3d q(kick[0] * kick[0], kick[0] * kick[1], kick[1] * kick[1]);
+  const std::vector<double> jumps = this->jumps(guess);
   ArmGains out;
   out.rows.reserve(rows());
   Spread spread;
   for (std::size_t i = 0; i < rows(); ++i) {
     const double forward = log_.lag - log_.early[i];
     out.rows.push_back(spread.meet(log_.variance[i], forward, out.log_sum));
-    spread.move(step.phi, q);
+    const double doubt = kJumpDoubt * jumps[i];
+    spread.move(step.phi, q * (force_noise * force_noise + doubt * doubt));
   }
   return out;
 }

@@ -88,6 +88,7 @@ class ArmRecord {
   };
 
   Drive drive(const ArmGuess& guess) const;
+  std::vector<double> jumps(const ArmGuess& guess) const;  // N
   double mean_target(std::size_t tick, double onset, std::span<const double> levels,
                      std::size_t& segment) const;
 

@@ -11,8 +11,9 @@ A first look::
 """
 
 from ebac.identify.arm import fit_arm
+from ebac.identify.load import load
 from ebac.identify.recording import Recording
 from ebac.identify.result import ArmResult, Estimate
 from ebac.identify.target import Target
 
-__all__ = ["ArmResult", "Estimate", "Recording", "Target", "fit_arm"]
+__all__ = ["ArmResult", "Estimate", "Recording", "Target", "fit_arm", "load"]

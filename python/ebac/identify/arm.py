@@ -142,9 +142,7 @@ def first_guess(problem: Problem) -> Values:
     positive = [(0.02, 5.0), (0.3, 100.0), (5.0, 5e3)]
     hand = [float(np.clip(v, *limits)) for v, limits in zip(found[:3], positive, strict=True)]
     before = 3
-    for place, part, r in zip(
-        problem.parameters.places, parts, problem.recordings, strict=True
-    ):
+    for place, part, r in zip(problem.parameters.places, parts, problem.recordings, strict=True):
         count = part.columns.shape[1] - 3
         reach = float(np.abs(r.x).max()) + 0.5
         levels = np.clip(found[before : before + count], -reach, reach)
@@ -193,7 +191,11 @@ def _search(problem: Problem, start: Values, robust: float | None) -> _Point:
     gains = problem.gains(values, noise)
     likelihood = found.cost + sum(g.log_sum for g in gains)
     return _Point(
-        found=found, values=values, force_noise=noise, likelihood=likelihood, evaluations=evaluations
+        found=found,
+        values=values,
+        force_noise=noise,
+        likelihood=likelihood,
+        evaluations=evaluations,
     )
 
 

@@ -112,8 +112,7 @@ def _wandering(random: np.random.Generator, reach: float, seconds: float) -> Rec
     """Return a path on a screen: five slow sines around the wall."""
     t = np.arange(0, seconds + 0.01, 0.005)
     waves = sum(
-        np.sin(2 * np.pi * (f * t + random.random()))
-        for f in random.uniform(0.2, 3.0, size=5)
+        np.sin(2 * np.pi * (f * t + random.random())) for f in random.uniform(0.2, 3.0, size=5)
     )
     return Recorded(t=t.tolist(), x=(0.4 * reach * waves).tolist())
 
@@ -186,9 +185,7 @@ class Check:
         free = [c for c in by_case.values() if c[0].task == "free"]
         rest = [c for c in by_case.values() if c[0].task != "free"]
         wrong = [
-            o
-            for o in self.outcomes
-            if o.parameter in HAND and o.determined and abs(o.error) > 0.5
+            o for o in self.outcomes if o.parameter in HAND and o.determined and abs(o.error) > 0.5
         ]
         return {
             "free_cases": len(free),

@@ -51,7 +51,9 @@ def regression(recording: Recording, target: Target) -> Regression:
     )
 
 
-def solve(regressions: list[Regression], instruments: list[NDArray[np.float64]] | None = None) -> Any:
+def solve(
+    regressions: list[Regression], instruments: list[NDArray[np.float64]] | None = None
+) -> Any:
     """Return M0, B0, K0 and for each recording its levels, by least squares or by instruments.
 
     Returns

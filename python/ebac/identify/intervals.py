@@ -39,7 +39,7 @@ def covariance(
     if sure is not None and sure.size:
         known[-sure.size :] = sure**-2.0 / scale[-sure.size :] ** 2
     H = H + np.diag(known)
-    inverse = np.linalg.pinv(H, rcond=1e-13, hermitian=True)
+    inverse = loose_inverse(H)
     used = max(int(np.count_nonzero(errors)) - len(H), 1)
     plain = inverse * max(float((w * errors**2).sum()) / used, 1e-300)
     middle = np.diag(known)
@@ -80,6 +80,12 @@ def with_counts(problem: Problem, found: NDArray[np.float64]) -> NDArray[np.floa
     out = found.copy()
     place = np.array([float(kind(p.names[i]) == "X0") for i in p.free])
     return out + np.outer(place, place) * max(r.count for r in problem.recordings) ** 2 / 12
+
+
+def loose_inverse(H: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Invert an information matrix; what it says nothing about comes out very loose, not sure."""
+    values, vectors = np.linalg.eigh(H)
+    return np.asarray((vectors / np.maximum(values, 1e-14 * values[-1])) @ vectors.T)
 
 
 def newey_west(scores: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -15,7 +15,15 @@ from ebac.identify.target import Target
 
 #: Steps of the differences, as a share of a value and at least.
 STEP_SHARE = 1e-5
-LEAST_STEP = {"M0": 1e-7, "B0": 1e-5, "K0": 1e-3, "delay": 1e-6, "onset": 1e-6, "bend": 1e-4, "X0": 1e-7}
+LEAST_STEP = {
+    "M0": 1e-7,
+    "B0": 1e-5,
+    "K0": 1e-3,
+    "delay": 1e-6,
+    "onset": 1e-6,
+    "bend": 1e-4,
+    "X0": 1e-7,
+}
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -34,7 +42,9 @@ class Problem:
         ]
         object.__setattr__(self, "records", tuple(made))
 
-    def gains(self, values: NDArray[np.float64], force_noise: NDArray[np.float64]) -> list[ArmGains]:
+    def gains(
+        self, values: NDArray[np.float64], force_noise: NDArray[np.float64]
+    ) -> list[ArmGains]:
         """Return the filters made for a guess and a noise of the force [N], one for each recording."""
         return [
             record.gains(values[place], float(noise))
@@ -61,7 +71,9 @@ class Problem:
         for record, place, gain, r in zip(
             self.records, self.parameters.places, gains, self.recordings, strict=True
         ):
-            mine = [(i, int(np.flatnonzero(place == f)[0])) for i, f in enumerate(free) if f in place]
+            mine = [
+                (i, int(np.flatnonzero(place == f)[0])) for i, f in enumerate(free) if f in place
+            ]
             which = [w for _, w in mine]
             steps = [self._step(int(place[w]), values) for w in which]
             rows = slice(start, start + len(r.t))

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from ebac.identify.intervals import loose_inverse
 from ebac.identify.search import least_squares
 
 if TYPE_CHECKING:
@@ -59,7 +60,7 @@ def _inflation(result: ArmResult, index: int, gains: list) -> float:  # type: ig
     """Return how much wider the local variance is than that of white errors of unit size."""
     J = result.problem.jacobian(result.values, gains)
     scale = np.sqrt((J**2).sum(axis=1)) + 1e-300
-    plain = np.linalg.pinv((J @ J.T) / np.outer(scale, scale), rcond=1e-13, hermitian=True)
+    plain = loose_inverse((J @ J.T) / np.outer(scale, scale))
     place = int(np.flatnonzero(result.parameters.free == index)[0])
     white = float(plain[place, place] / scale[place] ** 2)
     return float(result.covariance[place, place]) / white if white > 0 else 1.0

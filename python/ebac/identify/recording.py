@@ -81,7 +81,9 @@ class Recording:
                 f"{self.name}: t does not rise in row {int(np.argmin(step > 0)) + 1}; sort the log by time"
             )
         if np.ptp(step) > 1e-3 * self.dt:
-            raise ValueError(f"{self.name}: t is not equally spaced; read it with ebac.identify.load")
+            raise ValueError(
+                f"{self.name}: t is not equally spaced; read it with ebac.identify.load"
+            )
         if np.ptp(self.x) == 0:
             raise ValueError(
                 f"{self.name}: x is constant at {self.x[0]:g} m: nothing moved, or it is the wrong column"

@@ -39,7 +39,9 @@ class ResidualTests:
 
 def residual_tests(errors: NDArray[np.float64], force: NDArray[np.float64]) -> ResidualTests:
     """Test the errors of one recording, shape (rows,), against themselves and the force [N]."""
-    told = np.flatnonzero(errors)[5:]  # rows with a reading, but for those in which the filter settles
+    told = np.flatnonzero(errors)[
+        5:
+    ]  # rows with a reading, but for those in which the filter settles
     if told.size < 8:
         raise ValueError(f"{told.size} readings that tell something: too few to test errors on")
     e = errors[told] - errors[told].mean()

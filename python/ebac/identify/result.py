@@ -42,7 +42,9 @@ class Estimate:
         if self.fixed:
             return f"{self.name} = {self.value:.4g} {self.unit} (given)"
         loose = "" if self.determined else ", NOT DETERMINED by this log"
-        return f"{self.name} = {self.value:.4g} {self.unit} ({self.low:.4g} to {self.high:.4g}{loose})"
+        return (
+            f"{self.name} = {self.value:.4g} {self.unit} ({self.low:.4g} to {self.high:.4g}{loose})"
+        )
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -100,15 +102,15 @@ class ArmResult:
     def undetermined(self) -> tuple[str, ...]:
         """Names of what this log does not determine."""
         half = Z95 * self.deviation
-        return verdict.undetermined(self.parameters, self.values, half, self._span)
+        return verdict.undetermined(
+            self.parameters, self.values, half, self.correlation, self._span
+        )
 
     @cached_property
     def inseparable(self) -> tuple[tuple[str, str, float], ...]:
         """Pairs that this log cannot tell apart, with their correlation."""
         half = Z95 * self.deviation
-        return verdict.inseparable(
-            self.parameters, self.values, half, self.correlation, self._span
-        )
+        return verdict.inseparable(self.parameters, self.values, half, self.correlation, self._span)
 
     @cached_property
     def estimates(self) -> dict[str, Estimate]:
@@ -166,7 +168,9 @@ class ArmResult:
             path = Recorded(t=r.t.tolist(), x=(target.path + theta[BEFORE_LEVELS]).tolist())
         else:
             path = Step(target=float(theta[BEFORE_LEVELS + target.segments[-1]]))
-        return Hand(mass=float(theta[0]), damping=float(theta[1]), stiffness=float(theta[2]), path=path)
+        return Hand(
+            mass=float(theta[0]), damping=float(theta[1]), stiffness=float(theta[2]), path=path
+        )
 
     def simulated(self, recording: int = 0) -> NDArray[np.float64]:
         """Return the position [m] that a recording's force alone gives with this hand, from the best start."""

@@ -52,7 +52,9 @@ def least_squares(
         held = ((x <= low) & (g > 0)) | ((x >= high) & (g < 0))
         move = ~held
         if not move.any():
-            return Found(values=x, cost=cost, evaluations=evaluations, converged=True, information=H)
+            return Found(
+                values=x, cost=cost, evaluations=evaluations, converged=True, information=H
+            )
         Hs = H[np.ix_(move, move)] / np.outer(scale[move], scale[move])
         gs = g[move] / scale[move]
         for _ in range(12):
@@ -66,11 +68,15 @@ def least_squares(
                 break
             damping *= 8
         else:
-            return Found(values=x, cost=cost, evaluations=evaluations, converged=True, information=H)
+            return Found(
+                values=x, cost=cost, evaluations=evaluations, converged=True, information=H
+            )
         gain = cost - now
         x, e, cost, damping = trial, e_trial, now, max(damping / 10, 1e-9)
         if gain < tolerance:
-            return Found(values=x, cost=cost, evaluations=evaluations, converged=True, information=H)
+            return Found(
+                values=x, cost=cost, evaluations=evaluations, converged=True, information=H
+            )
     return Found(values=x, cost=cost, evaluations=evaluations, converged=False, information=H)
 
 

@@ -67,9 +67,7 @@ class Target:
         count = int(np.floor((start + seconds) / half)) - first
         at = [(first + k) * half for k in range(1, count + 1)]
         at = [t for t in at if start < t < start + seconds]
-        return cls(
-            switches=tuple(at), segments=tuple((first + k) % 2 for k in range(len(at) + 1))
-        )
+        return cls(switches=tuple(at), segments=tuple((first + k) % 2 for k in range(len(at) + 1)))
 
     @classmethod
     def following(cls, path: NDArray[np.float64]) -> Target:
@@ -86,7 +84,9 @@ class Target:
             return cls.steps(path.at) if start < path.at < end else cls.held()
         if isinstance(path, Tapping):
             told = cls.tapping(path.frequency, end - start, start)
-            ticks = np.ceil(np.array(told.switches) / dt - 1e-9)  # a simulated hand changes its mind at a tick
+            ticks = np.ceil(
+                np.array(told.switches) / dt - 1e-9
+            )  # a simulated hand changes its mind at a tick
             return cls(switches=tuple((ticks * dt).tolist()), segments=told.segments)
         return cls.following(_positions(path, t))
 

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from ebac.identify.parameters import Parameters, kind
 
 #: An estimate counts as determined when its 95 % bound is nearer than this share of it.
-DETERMINED = 0.5
+DETERMINED = 0.25
 #: Beyond this correlation two estimates move together.
 TOGETHER = 0.95
 #: ... and when either is looser than this share, the log cannot tell them apart.
@@ -29,16 +29,24 @@ def undetermined(
     parameters: Parameters,
     values: NDArray[np.float64],
     half: NDArray[np.float64],
+    correlation: NDArray[np.float64],
     span: float,
 ) -> tuple[str, ...]:
-    """Return the free parameters the log does not determine: too loose, or at a bound."""
-    out = []
+    """Return the free parameters the log does not determine: too loose, at a bound, or moving with one that is."""
+    out: list[str] = []
     for i in parameters.free:
         name, value = parameters.names[i], float(values[i])
         low, high = parameters.low[i], parameters.high[i]
         at_bound = value <= low + 1e-9 * (high - low) or value >= high - 1e-9 * (high - low)
         if at_bound or not half[i] <= DETERMINED * scale_of(name, value, span):
             out.append(name)
+    names = [parameters.names[i] for i in parameters.free]
+    lost = [names.index(name) for name in out]
+    out += [
+        name
+        for b, name in enumerate(names)
+        if b not in lost and any(abs(correlation[a, b]) > TOGETHER for a in lost)
+    ]
     return tuple(out)
 
 
