@@ -26,7 +26,7 @@ void require_numbers(const std::vector<double>& values, const std::string& name)
 /// Straight pieces through samples weaken a sine by (w T)^2/12; this gives it back beforehand.
 constexpr double kSharpen = 1.0 / 12;
 /// How much of a jump a tick may miss.
-constexpr double kJumpDoubt = 0.15;
+constexpr double kJumpDoubt = 0.3;
 
 /// Covariance of position and velocity, foretold.
 struct Spread {

@@ -323,6 +323,45 @@ def _write(
         return sorted(file.name for file in draft.iterdir())
 
 
+@app.command("device")
+def device(
+    log: Annotated[Path, typer.Argument(help="CSV, .mat or .npz.", show_default=False)],
+    column: ColumnOf = None,
+    unit: UnitOf = None,
+    rate: Rate = None,
+    lag: Lag = None,
+    current_lag: Annotated[float, typer.Option(help="Lag of the current loop [s].", rich_help_panel=_FIT)] = 3e-4,
+    as_json: output.AsJson = False,
+) -> None:
+    """Identify the device: mass and damping, Coulomb and Stribeck friction, weight; and tau_static of eq. (2).
+
+    Needs position, and the motor's force or the hand's, which moves it both ways.
+
+    **Example**: `ebac identify device excited.csv`
+    """
+    from ebac.identify import fit_device
+    from ebac.identify.load import load
+
+    with output.refusing():
+        recording = load(
+            log, columns=pairs(column, "--column"), units=pairs(unit, "--unit"), rate=rate, lag=lag
+        )
+        result = fit_device(recording, current_lag=current_lag)
+    if as_json:
+        more = result.to_dict()
+        rows = more.pop("rows")
+        typer.echo(output.document("identify device", rows, **more, remarks=list(recording.remarks)))
+        return
+    for text in recording.remarks:
+        output.say(text, style="dim")
+    grid = output.table(["", "estimate", "95 % interval", "unit", ""], numbers=(1, 2))
+    for e in result.estimates.values():
+        word = "" if e.determined else "[red]not determined[/]"
+        grid.add_row(e.name, f"{e.value:.4g}", f"{e.low:.4g} to {e.high:.4g}", e.unit, word)
+    output.console().print(grid)
+    output.say(f"Explains {100 * result.explained:.2f} % of the force. For the device: {result.compensation!r}")
+
+
 @app.command("check")
 def check(
     arms: Annotated[int, typer.Option(help="Random arms, devices and noise seeds.")] = 200,
@@ -341,7 +380,6 @@ def check(
     **Example**: `ebac identify check --arms 200 --seed 1`
     """
     from ebac.identify.check import check as run
-    from ebac.identify.check import draw, run_case  # noqa: F401
 
     with output.refusing(), output.counting("identifying", quiet=as_json) as progress:
         found = run(

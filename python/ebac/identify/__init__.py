@@ -10,10 +10,12 @@ A first look::
     scenario = ebac.Scenario(hand=result.hand)
 """
 
+from ebac.identify import excitation
 from ebac.identify.arm import fit_arm
+from ebac.identify.device import DeviceResult, fit_device
 from ebac.identify.load import load
 from ebac.identify.recording import Recording
 from ebac.identify.result import ArmResult, Estimate
 from ebac.identify.target import Target
 
-__all__ = ["ArmResult", "Estimate", "Recording", "Target", "fit_arm", "load"]
+__all__ = ["ArmResult", "DeviceResult", "Estimate", "Recording", "Target", "excitation", "fit_arm", "fit_device", "load"]

@@ -99,14 +99,16 @@ def fit_arm(
     gains = problem.gains(best.values, best.force_noise)
     errors = problem.errors(best.values, gains)
     doubt, sure = nuisances(problem)
-    jacobian = problem.jacobian(best.values, gains, np.concatenate([parameters.free, doubt]))
+    asked = np.concatenate([parameters.free, doubt])
+    jacobian = problem.jacobian(best.values, gains, asked)
+    pretended = problem.noise_jacobian(best.values, gains, best.force_noise, asked)
     return ArmResult(
         problem=problem,
         values=best.values,
         force_noise=best.force_noise,
         errors=errors,
         covariance=with_counts(
-            problem, covariance(jacobian, errors, [len(r.t) for r in recordings], robust, sure)
+            problem, covariance(jacobian, errors, [len(r.t) for r in recordings], robust, sure, pretended)
         ),
         robust=robust,
         converged=best.found.converged,

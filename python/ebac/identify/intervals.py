@@ -16,16 +16,22 @@ from ebac.identify.search import weights
 BLOCKS = 40
 
 
+#: How many times what noise alone seems to tell is taken off what a log tells.
+PRETENCE = 2.0
+
+
 def covariance(
     jacobian: NDArray[np.float64],
     errors: NDArray[np.float64],
     lengths: Sequence[int],
     robust: float | None = None,
     sure: NDArray[np.float64] | None = None,
+    pretended: NDArray[np.float64] | None = None,
 ) -> NDArray[np.float64]:
     """Return the covariance of the free parameters, shape (free, free).
 
-    The last rows of the Jacobian may be nuisances: held, but known only to the standard deviations `sure`.
+    The last rows of the Jacobian may be nuisances: held, but known only to the standard deviations `sure`. `pretended` is the
+    Jacobian that noise alone gives.
 
     The larger one of two, parameter by parameter: the inverse of the information, scaled by the errors; and the sandwich around it, with the
     scores summed over lags of growing length (Newey and West 1987), which also holds when the errors are autocorrelated.
@@ -35,6 +41,8 @@ def covariance(
     scale = np.sqrt((jacobian**2).sum(axis=1))
     scale[scale == 0] = 1.0
     H = np.einsum("ik,jk->ij", jacobian * w, jacobian) / np.outer(scale, scale)
+    if pretended is not None:
+        H = H - PRETENCE * np.einsum("ik,jk->ij", pretended, pretended) / np.outer(scale, scale)
     known = np.zeros(len(H))
     if sure is not None and sure.size:
         known[-sure.size :] = sure**-2.0 / scale[-sure.size :] ** 2

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ebac._core import ArmGains, ArmRecord
 from ebac.identify.noise import readings
-from ebac.identify.parameters import Parameters
+from ebac.identify.parameters import BEFORE_LEVELS, Parameters, kind
 from ebac.identify.recording import Recording
 from ebac.identify.target import Target
 
@@ -65,15 +65,45 @@ class Problem:
         wanted: NDArray[np.intp] | None = None,
     ) -> NDArray[np.float64]:
         """Return d errors / d parameters, shape (parameters, rows); by default of the free ones."""
-        free = self.parameters.free if wanted is None else wanted
-        out = np.zeros((len(free), sum(len(r.t) for r in self.recordings)))
+        chosen = self.parameters.free if wanted is None else wanted
+        return self._jacobian(self.records, values, gains, chosen)
+
+    def noise_jacobian(
+        self,
+        values: NDArray[np.float64],
+        gains: list[ArmGains],
+        force_noise: NDArray[np.float64],
+        wanted: NDArray[np.intp],
+    ) -> NDArray[np.float64]:
+        """Return the Jacobian of a log in which nothing but the noise of the force moves a resting hand.
+
+        What it tells of the parameters, noise pretends to tell.
+        """
+        draw = np.random.Generator(np.random.PCG64(0))
+        still = values.copy()
+        for place in self.parameters.places:
+            still[place[BEFORE_LEVELS:]] = 0.0
+        records = tuple(
+            arm_record(r, replace(t, path=None), noise=float(n) * draw.standard_normal(len(r.t)))
+            for r, t, n in zip(self.recordings, self.targets, force_noise, strict=True)
+        )
+        out = self._jacobian(records, still, gains, wanted)
+        places = [kind(self.parameters.names[i]) in ("X0", "onset") for i in wanted]
+        out[places] = 0.0  # what a target tells, it tells without noise
+        return out
+
+    def _jacobian(
+        self,
+        records: tuple[ArmRecord, ...],
+        values: NDArray[np.float64],
+        gains: list[ArmGains],
+        chosen: NDArray[np.intp],
+    ) -> NDArray[np.float64]:
+        out = np.zeros((len(chosen), sum(len(r.t) for r in self.recordings)))
         start = 0
-        for record, place, gain, r in zip(
-            self.records, self.parameters.places, gains, self.recordings, strict=True
-        ):
-            mine = [
-                (i, int(np.flatnonzero(place == f)[0])) for i, f in enumerate(free) if f in place
-            ]
+        parts = zip(records, self.parameters.places, gains, self.recordings, strict=True)
+        for record, place, gain, r in parts:
+            mine = [(i, int(np.flatnonzero(place == f)[0])) for i, f in enumerate(chosen) if f in place]
             which = [w for _, w in mine]
             steps = [self._step(int(place[w]), values) for w in which]
             rows = slice(start, start + len(r.t))
@@ -82,14 +112,14 @@ class Problem:
         return out
 
     def _step(self, index: int, values: NDArray[np.float64]) -> float:
-        from ebac.identify.parameters import kind
-
         least = LEAST_STEP[kind(self.parameters.names[index])]
         return max(STEP_SHARE * abs(float(values[index])), least)
 
 
-def arm_record(recording: Recording, target: Target) -> ArmRecord:
-    """Hand a recording to the core.
+def arm_record(
+    recording: Recording, target: Target, noise: NDArray[np.float64] | None = None
+) -> ArmRecord:
+    """Hand a recording to the core; with `noise` [N] instead of its force, a hand at rest in its place.
 
     Raises
     ------
@@ -105,8 +135,8 @@ def arm_record(recording: Recording, target: Target) -> ArmRecord:
     known = target.path if target.path is not None else np.zeros(len(recording.t))
     read = readings(recording)
     return ArmRecord(
-        x=read.x.tolist(),
-        force=recording.force.tolist(),
+        x=(read.x if noise is None else np.zeros(len(read.x))).tolist(),
+        force=(recording.force if noise is None else noise).tolist(),
         variance=read.variance.tolist(),
         early=read.early.tolist(),
         known=known.tolist(),
