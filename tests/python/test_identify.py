@@ -24,7 +24,12 @@ def tracked(**changes: object) -> ebac.Scenario:
     device = ebac.Device(
         mechanics=ebac.Mechanics(coulomb=0.05), sensor=ebac.ForceSensor(noise=0.03, quantum=0.01)
     )
-    values = {"hand": hand, "device": device, "environment": ebac.Wall(stiffness=3e3), "seconds": 5.0}
+    values = {
+        "hand": hand,
+        "device": device,
+        "environment": ebac.Wall(stiffness=3e3),
+        "seconds": 5.0,
+    }
     return ebac.Scenario(**{**values, **changes})
 
 
@@ -81,7 +86,10 @@ def test_a_fixed_value_stays_and_a_bound_holds(trace: ebac.Trace, scenario: ebac
 
 
 def test_two_recordings_share_the_hand_and_keep_their_targets(scenario: ebac.Scenario) -> None:
-    parts = [Recording.from_trace(ebac.simulate(scenario.replace(seed=s), "eba"), name=f"run {s}") for s in (1, 2)]
+    parts = [
+        Recording.from_trace(ebac.simulate(scenario.replace(seed=s), "eba"), name=f"run {s}")
+        for s in (1, 2)
+    ]
     targets = [Target.of(scenario.hand, r.t) for r in parts]
     both = fit_arm(parts, targets)
     one = fit_arm(parts[0], targets[0])
@@ -94,7 +102,9 @@ def test_a_hand_that_meets_nothing_is_not_identified() -> None:
     cases = [c for c in (draw(i, 1, 4.0) for i in range(60)) if c.task == "free"][:3]
     assert len(cases) == 3
     for case in cases:
-        assert any(not o.determined for o in run_case(case) if o.parameter in ("M0", "B0", "K0")), case
+        assert any(not o.determined for o in run_case(case) if o.parameter in ("M0", "B0", "K0")), (
+            case
+        )
 
 
 def test_a_case_is_the_same_every_time() -> None:
@@ -105,7 +115,11 @@ def test_a_case_is_the_same_every_time() -> None:
 
 
 def test_no_hand_from_a_log_that_does_not_tell() -> None:
-    scenario = ebac.Scenario(environment=ebac.Free(), seconds=2.0, device=ebac.Device(sensor=ebac.ForceSensor(noise=0.05)))
+    scenario = ebac.Scenario(
+        environment=ebac.Free(),
+        seconds=2.0,
+        device=ebac.Device(sensor=ebac.ForceSensor(noise=0.05)),
+    )
     result = fit_arm(Recording.from_trace(ebac.simulate(scenario, "direct")))
     assert result.undetermined
     with pytest.raises(ValueError, match="not determined by this log"):
@@ -136,7 +150,9 @@ def test_the_device_comes_back() -> None:
         mechanics=ebac.Mechanics(damping=3, coulomb=0.4), sensor=ebac.ForceSensor(noise=0.02)
     )
     hand = ebac.Hand(mass=0.1, damping=10, stiffness=900, path=excitation.path(t, x))
-    scenario = ebac.Scenario(device=device, hand=hand, environment=ebac.Wall(stiffness=500), seconds=8.0)
+    scenario = ebac.Scenario(
+        device=device, hand=hand, environment=ebac.Wall(stiffness=500), seconds=8.0
+    )
     found = fit_device(Recording.from_trace(ebac.simulate(scenario, "direct")))
     assert found.estimates["M_h"].value == pytest.approx(device.mass, rel=0.03)
     assert found.estimates["B_h"].value == pytest.approx(3, rel=0.1)
@@ -156,7 +172,9 @@ def test_a_device_without_any_force_is_refused(trace: ebac.Trace) -> None:
 
 @settings(max_examples=20)
 @given(amplitude=st.floats(1e-3, 1), high=st.floats(2, 20), seed=st.integers(0, 99))
-def test_a_multisine_is_flat_and_within_its_amplitude(amplitude: float, high: float, seed: int) -> None:
+def test_a_multisine_is_flat_and_within_its_amplitude(
+    amplitude: float, high: float, seed: int
+) -> None:
     _, x = excitation.multisine(amplitude, high=high, seconds=4, dt=4e-3, seed=seed, tries=10)
     assert np.abs(x).max() == pytest.approx(amplitude)
     assert excitation.crest(x) < 2.3
@@ -211,7 +229,10 @@ def test_mat_is_read(tmp_path: Path, trace: ebac.Trace) -> None:
         ("t,y\n" + "0,1\n" * 60, "found no position among t, y"),
         ("t,x\n0,1\n1,2\n2,3\n", "3 rows; needs at least 50"),
         ("t,x\n" + "".join(f"{i},5\n" for i in range(60)), "x is constant at 5 m"),
-        ("t,x\n" + "".join(f"{i},{'nan' if i == 7 else i}\n" for i in range(60)), "x is no number in 1 of 60 rows, first in row 8"),
+        (
+            "t,x\n" + "".join(f"{i},{'nan' if i == 7 else i}\n" for i in range(60)),
+            "x is no number in 1 of 60 rows, first in row 8",
+        ),
         ("t,x [furlong]\n" + "".join(f"{i},{i}\n" for i in range(60)), "must be one of m, cm, mm"),
         ("t,x\n" + "".join(f"{i % 9},{i}\n" for i in range(60)), "t does not rise"),
         ("t,x\n0,1\n1\n", "row 2 has 1 cells"),
@@ -230,7 +251,7 @@ def test_bad_files_get_a_clear_error(tmp_path: Path, text: str, message: str) ->
 @settings(max_examples=20)
 def test_the_encoder_step_is_found(count: float, seed: int) -> None:
     t = np.linspace(0, 1, 2000)
-    x = count * np.round((300 * np.sin(2 * np.pi * t) + seed))
+    x = count * np.round(300 * np.sin(2 * np.pi * t) + seed)
     assert count_of(x) == pytest.approx(count, rel=1e-6)
 
 
@@ -240,7 +261,9 @@ def test_the_encoder_step_is_found(count: float, seed: int) -> None:
 def test_the_command_writes_a_report_and_json(tmp_path: Path, trace: ebac.Trace) -> None:
     trace.to_npz(tmp_path / "log.npz")
     out = tmp_path / "report"
-    run = CliRunner().invoke(app, ["identify", "arm", str(tmp_path / "log.npz"), "--json", "--out", str(out)])
+    run = CliRunner().invoke(
+        app, ["identify", "arm", str(tmp_path / "log.npz"), "--json", "--out", str(out)]
+    )
     assert run.exit_code == 0, run.output
     document = json.loads(run.stdout)
     assert document["command"] == "identify arm"

@@ -242,11 +242,13 @@ def _careful(result: ArmResult) -> list[str]:
     for name, t in result.tests.items():
         if not t.white:
             out.append(
-                f"{name}: the errors are not white (largest correlation {abs(t.auto).max():.2f}); the model misses something."
+                f"{name}: the errors are not white "
+                f"(largest correlation {abs(t.auto).max():.2f}); the model misses something."
             )
         if not t.independent:
             out.append(
-                f"{name}: the errors follow the force (correlation {abs(t.cross).max():.2f}); closed loop, or the model misses something."
+                f"{name}: the errors follow the force "
+                f"(correlation {abs(t.cross).max():.2f}); closed loop, or the model misses something."
             )
     return out
 
@@ -273,7 +275,8 @@ def _show(
         )
     for o in opinions:
         output.say(
-            f"{o.name}: direct {o.direct:.4g}, by instruments {o.unbiased:.4g} +- {1.96 * o.unbiased_deviation:.2g} {o.unit}: {abs(o.apart):.1f} deviations apart"
+            f"{o.name}: direct {o.direct:.4g}, by instruments {o.unbiased:.4g} "
+            f"+- {1.96 * o.unbiased_deviation:.2g} {o.unit}: {abs(o.apart):.1f} deviations apart"
         )
     if not opinions:
         output.say(
@@ -330,7 +333,9 @@ def device(
     unit: UnitOf = None,
     rate: Rate = None,
     lag: Lag = None,
-    current_lag: Annotated[float, typer.Option(help="Lag of the current loop [s].", rich_help_panel=_FIT)] = 3e-4,
+    current_lag: Annotated[
+        float, typer.Option(help="Lag of the current loop [s].", rich_help_panel=_FIT)
+    ] = 3e-4,
     as_json: output.AsJson = False,
 ) -> None:
     """Identify the device: mass and damping, Coulomb and Stribeck friction, weight; and tau_static of eq. (2).
@@ -350,7 +355,9 @@ def device(
     if as_json:
         more = result.to_dict()
         rows = more.pop("rows")
-        typer.echo(output.document("identify device", rows, **more, remarks=list(recording.remarks)))
+        typer.echo(
+            output.document("identify device", rows, **more, remarks=list(recording.remarks))
+        )
         return
     for text in recording.remarks:
         output.say(text, style="dim")
@@ -359,7 +366,9 @@ def device(
         word = "" if e.determined else "[red]not determined[/]"
         grid.add_row(e.name, f"{e.value:.4g}", f"{e.low:.4g} to {e.high:.4g}", e.unit, word)
     output.console().print(grid)
-    output.say(f"Explains {100 * result.explained:.2f} % of the force. For the device: {result.compensation!r}")
+    output.say(
+        f"Explains {100 * result.explained:.2f} % of the force. For the device: {result.compensation!r}"
+    )
 
 
 @app.command("check")
@@ -374,7 +383,8 @@ def check(
 ) -> None:
     """Try the method on random arms: how often do the intervals hold the truth? A simulation.
 
-    Each arm taps, follows a path or presses, at a wall under a law, with encoder counts and noise of the force sensor; one in ten
+    Each arm taps, follows a path or presses, at a wall under a law, with encoder counts and noise of the force
+    sensor; one in ten
     never meets the wall, and its log tells nothing. Prints coverage and bias of every parameter.
 
     **Example**: `ebac identify check --arms 200 --seed 1`
@@ -415,7 +425,8 @@ def check(
         grid.add_row(row["parameter"], str(row["cases"]), str(row["determined"]), *share)
     output.console().print(grid)
     output.say(
-        f"Logs that tell nothing of the arm: {calls['free_called']} of {calls['free_cases']} called so; of the others {calls['other_called']} of {calls['other_cases']}."
+        f"Logs that tell nothing of the arm: {calls['free_called']} of {calls['free_cases']} called so; "
+        f"of the others {calls['other_called']} of {calls['other_cases']}."
     )
     output.say(
         f"Said to be determined and wrong by half or more: {calls['determined_and_wrong_by_half']} estimates."
@@ -423,7 +434,8 @@ def check(
     output.say(f"A fit takes {1e3 * found.median_seconds():.0f} ms (median, all cores busy).")
     if times:
         output.say(
-            f"One log alone: {1e3 * times['fit_s']:.0f} ms; the same objective by SciPy {1e3 * times['scipy_s']:.0f} ms, optimum {times['scipy_apart_deviations']:.1g} deviations apart."
+            f"One log alone: {1e3 * times['fit_s']:.0f} ms; the same objective by SciPy "
+            f"{1e3 * times['scipy_s']:.0f} ms, optimum {times['scipy_apart_deviations']:.1g} deviations apart."
         )
     output.say("Simulated, not measured.", style="bold")
 

@@ -18,4 +18,14 @@ from ebac.identify.recording import Recording
 from ebac.identify.result import ArmResult, Estimate
 from ebac.identify.target import Target
 
-__all__ = ["ArmResult", "DeviceResult", "Estimate", "Recording", "Target", "excitation", "fit_arm", "fit_device", "load"]
+__all__ = [
+    "ArmResult",
+    "DeviceResult",
+    "Estimate",
+    "Recording",
+    "Target",
+    "excitation",
+    "fit_arm",
+    "fit_device",
+    "load",
+]

@@ -41,8 +41,10 @@ def fit_arm(
 ) -> ArmResult:
     """Fit M0, B0, K0 and the targets X0 of eq. (4) to one or more recordings of one arm.
 
-    The force of the hand drives the model, the position is compared: what lies on the other side of the force sensor, device, law and
-    wall, need not be known. The force reading is an input with noise, so the errors are those of a Kalman filter one tick ahead; its
+    The force of the hand drives the model, the position is compared: what lies on the other side of the force sensor,
+    device, law and
+    wall, need not be known. The force reading is an input with noise, so the errors are those of a Kalman filter one
+    tick ahead; its
     initial state is free. The noise of the force is estimated along.
 
     Parameters
@@ -108,7 +110,8 @@ def fit_arm(
         force_noise=best.force_noise,
         errors=errors,
         covariance=with_counts(
-            problem, covariance(jacobian, errors, [len(r.t) for r in recordings], robust, sure, pretended)
+            problem,
+            covariance(jacobian, errors, [len(r.t) for r in recordings], robust, sure, pretended),
         ),
         robust=robust,
         converged=best.found.converged,

@@ -1,6 +1,7 @@
 """Is the method honest? Random arms on random devices, simulated and identified; how often the truth lies inside.
 
-Everything here is a simulation: encoder counts, noise of the force sensor, a wall and a law in the loop, friction the fit
+Everything here is a simulation: encoder counts, noise of the force sensor, a wall and a law in the loop, friction the
+fit
 knows nothing of.
 """
 
@@ -35,7 +36,7 @@ class Case:
     scenario: Scenario
 
     def truth(self) -> dict[str, float]:
-        """True values by the names of a fit."""
+        """Return the true values by the names of a fit."""
         hand = self.scenario.hand
         out = {"M0": hand.mass, "B0": hand.damping, "K0": hand.stiffness}
         path = hand.path[0]

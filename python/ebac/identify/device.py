@@ -1,4 +1,4 @@
-"""Identify the device: M_h and B_h of eq. (6), Coulomb and Stribeck friction, weight; from them tau_static of eq. (2)."""
+"""Identify the device: M_h, B_h of eq. (6), friction, weight; from them tau_static of eq. (2)."""
 
 from __future__ import annotations
 
@@ -58,7 +58,8 @@ class DeviceResult:
 
     @property
     def compensation(self) -> Compensation:
-        """Return tau_static of eq. (2), never more than is surely there: the lower bounds of friction and of weight against +x.
+        """Return tau_static of eq. (2), never more than is surely there: the lower bounds of friction and of weight
+        against +x.
 
         Inertia is left alone: given back it costs damping, see `Compensation`.
         """
@@ -105,7 +106,9 @@ def fit_device(recording: Recording, *, current_lag: float = 3e-4) -> DeviceResu
         )
     drive, moved = _signals(recording, current_lag)
     if not ((moved[1] > 0).any() and (moved[1] < 0).any()):
-        raise ValueError(f"{recording.name}: moves one way only; friction shows when it moves both ways")
+        raise ValueError(
+            f"{recording.name}: moves one way only; friction shows when it moves both ways"
+        )
     best = _regress(drive, moved, None)
     speed = None
     if recording.count > 0:

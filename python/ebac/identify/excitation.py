@@ -12,11 +12,15 @@ Values = NDArray[np.float64]
 
 def _times(seconds: float, dt: float) -> Values:
     if not (dt > 0 and seconds >= 2 * dt):
-        raise ValueError(f"seconds = {seconds} s, dt = {dt} s: need at least two steps of a positive time")
-    return np.asarray(dt * np.arange(int(round(seconds / dt)) + 1))
+        raise ValueError(
+            f"seconds = {seconds} s, dt = {dt} s: need at least two steps of a positive time"
+        )
+    return np.asarray(dt * np.arange(round(seconds / dt) + 1))
 
 
-def steps(amplitude: float, *, seconds: float = 10.0, hold: float = 1.0, dt: float = 1e-3) -> tuple[Values, Values]:
+def steps(
+    amplitude: float, *, seconds: float = 10.0, hold: float = 1.0, dt: float = 1e-3
+) -> tuple[Values, Values]:
     """Return times [s] and a square wave between 0 and `amplitude`, each level held for `hold` [s]."""
     t = _times(seconds, dt)
     if not hold >= dt:
@@ -24,14 +28,23 @@ def steps(amplitude: float, *, seconds: float = 10.0, hold: float = 1.0, dt: flo
     return t, amplitude * (np.floor(t / hold + 1e-9) % 2)
 
 
-def tapping(amplitude: float, frequency: float, *, seconds: float = 10.0, dt: float = 1e-3) -> tuple[Values, Values]:
+def tapping(
+    amplitude: float, frequency: float, *, seconds: float = 10.0, dt: float = 1e-3
+) -> tuple[Values, Values]:
     """Return times [s] and a square wave of `frequency` [Hz] between `amplitude` and 0."""
     t = _times(seconds, dt)
     _below_nyquist(frequency, dt)
     return t, amplitude * ((frequency * t) % 1 < 0.5)
 
 
-def chirp(amplitude: float, *, low: float = 0.2, high: float = 20.0, seconds: float = 10.0, dt: float = 1e-3) -> tuple[Values, Values]:
+def chirp(
+    amplitude: float,
+    *,
+    low: float = 0.2,
+    high: float = 20.0,
+    seconds: float = 10.0,
+    dt: float = 1e-3,
+) -> tuple[Values, Values]:
     """Return times [s] and a sine that rises from `low` to `high` [Hz], evenly in octaves."""
     t = _times(seconds, dt)
     _band(low, high, dt)
@@ -40,17 +53,27 @@ def chirp(amplitude: float, *, low: float = 0.2, high: float = 20.0, seconds: fl
 
 
 def multisine(
-    amplitude: float, *, low: float = 0.2, high: float = 10.0, seconds: float = 10.0, dt: float = 1e-3, seed: int = 1, tries: int = 60
+    amplitude: float,
+    *,
+    low: float = 0.2,
+    high: float = 10.0,
+    seconds: float = 10.0,
+    dt: float = 1e-3,
+    seed: int = 1,
+    tries: int = 60,
 ) -> tuple[Values, Values]:
     """Return times [s] and a sum of all whole harmonics of 1/`seconds` in [low, high] Hz, largest value `amplitude`.
 
-    Schroeder's phases (1970), then the best of `tries` small changes of them: the crest factor, peak over root mean square, comes out below 2.
+    Schroeder's phases (1970), then the best of `tries` small changes of them: the crest factor, peak over root mean
+    square, comes out below 2.
     """
     t = _times(seconds, dt)
     _band(low, high, dt)
     lines = np.arange(max(1, int(np.ceil(low * seconds))), int(np.floor(high * seconds)) + 1)
     if lines.size == 0:
-        raise ValueError(f"no multiple of {1 / seconds:.3g} Hz lies in [{low:g}, {high:g}] Hz: record longer")
+        raise ValueError(
+            f"no multiple of {1 / seconds:.3g} Hz lies in [{low:g}, {high:g}] Hz: record longer"
+        )
     k = np.arange(lines.size)
     phase = -np.pi * k * (k - 1) / lines.size
     draw = np.random.Generator(np.random.PCG64(seed))
@@ -85,4 +108,6 @@ def _below_nyquist(frequency: float, dt: float) -> None:
 
 def _band(low: float, high: float, dt: float) -> None:
     if not 0 < low < high < 0.5 / dt:
-        raise ValueError(f"low = {low} Hz, high = {high} Hz: must lie in (0, {0.5 / dt:g}) Hz, low first")
+        raise ValueError(
+            f"low = {low} Hz, high = {high} Hz: must lie in (0, {0.5 / dt:g}) Hz, low first"
+        )

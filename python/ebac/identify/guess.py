@@ -1,7 +1,8 @@
 """First guess, and the unbiased second opinion: linear regression on smoothed signals.
 
 Eq. (4) smoothed by one kernel h on every signal, h * F = -M0 h'' * x - B0 h' * x - K0 h * x + sum of K0 X0_j h * s_j,
-is linear in what is sought. By least squares it is a good start. By instruments, signals that the target moves and noise does
+is linear in what is sought. By least squares it is a good start. By instruments, signals that the target moves and
+noise does
 not, it is unbiased also in closed loop, where the law carries noise from one signal to the other.
 """
 

@@ -30,11 +30,14 @@ def covariance(
 ) -> NDArray[np.float64]:
     """Return the covariance of the free parameters, shape (free, free).
 
-    The last rows of the Jacobian may be nuisances: held, but known only to the standard deviations `sure`. `pretended` is the
+    The last rows of the Jacobian may be nuisances: held, but known only to the standard deviations `sure`.
+    `pretended` is the
     Jacobian that noise alone gives.
 
-    The larger one of two, parameter by parameter: the inverse of the information, scaled by the errors; and the sandwich around it, with the
-    scores summed over lags of growing length (Newey and West 1987), which also holds when the errors are autocorrelated.
+    The larger one of two, parameter by parameter: the inverse of the information, scaled by the errors; and the
+    sandwich around it, with the
+    scores summed over lags of growing length (Newey and West 1987), which also holds when the errors are
+    autocorrelated.
     """
     w = weights(errors, robust)
     scores = jacobian * (w * errors)
@@ -64,7 +67,7 @@ def covariance(
 
 #: What a log at one rate does not tell: when within a tick forces and target changed [ticks], and how the force
 #: bent between two rows, as a share of its second difference (0 for straight, 1/12 for a smooth curve).
-WITHIN_TICK = {"delay": 0.03, "onset": 0.1, "bend": 1 / 24}
+WITHIN_TICK = {"delay": 0.05, "onset": 0.15, "bend": 1 / 18}
 
 
 def nuisances(problem: Problem) -> tuple[NDArray[np.intp], NDArray[np.float64]]:

@@ -35,8 +35,8 @@ def load(
     path : str or Path
         The file; its ending tells what it is.
     columns : mapping, optional
-        Which column is `t`, `x`, `force`, `motor`, `desired`, `target`: `{"force": "Fz"}`. What is not given is guessed by name, and said in
-        `remarks`.
+        Which column is `t`, `x`, `force`, `motor`, `desired`, `target`: `{"force": "Fz"}`. What is not given is
+        guessed by name, and said in `remarks`.
     units : mapping, optional
         Unit of each, as `{"x": "mm"}`; otherwise that of the heading, `pos [mm]`, or SI.
     rate : float, optional

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -35,8 +36,10 @@ REST = 30
 def readings(recording: Recording) -> Readings:
     """Return what the encoder tells.
 
-    A count says most where it changes: then the handle crossed the edge between two counts, in the tick before, wherever in the tick. The rows between say the
-    same thing again, with an error that follows the motion and that a law feeds back into it; they are left out. A long rest counts once.
+    A count says most where it changes: then the handle crossed the edge between two counts, in the tick before,
+    wherever in the tick. The rows between say the
+    same thing again, with an error that follows the motion and that a law feeds back into it; they are left out. A
+    long rest counts once.
     """
     x, count = recording.x, recording.count
     early = np.zeros(len(x))
@@ -55,7 +58,7 @@ def readings(recording: Recording) -> Readings:
     early[edge] = 0.5 * recording.dt
     travel = count / np.maximum(slow[step[changed] < 1.5], 1)  # m, in the tick
     variance[edge] = travel**2 / 12 + (0.02 * count) ** 2
-    for first, last in zip(ends, ends[1:], strict=False):
+    for first, last in pairwise(ends.tolist()):
         if last - first > REST:
             variance[(first + last) // 2] = count**2 / 12
     return Readings(x=position, variance=variance, early=early)

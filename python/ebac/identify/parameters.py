@@ -43,7 +43,7 @@ class Parameters:
         return np.flatnonzero(np.isnan(self.fixed))
 
     def unit(self, name: str) -> str:
-        """Unit of a parameter."""
+        """Return the unit of a parameter."""
         return UNITS[kind(name)]
 
     def clip(self, values: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -71,7 +71,8 @@ def lay_out(
 ) -> Parameters:
     """Name the parameters of recordings with `levels` target levels each.
 
-    A name is `K0`, `K0@2` where recording 2 has its own, `X0/2` for the second level of a target. What is fixed or bounded
+    A name is `K0`, `K0@2` where recording 2 has its own, `X0/2` for the second level of a target. What is fixed or
+    bounded
     under a short name holds for all longer ones.
 
     Raises

@@ -103,7 +103,9 @@ class Problem:
         start = 0
         parts = zip(records, self.parameters.places, gains, self.recordings, strict=True)
         for record, place, gain, r in parts:
-            mine = [(i, int(np.flatnonzero(place == f)[0])) for i, f in enumerate(chosen) if f in place]
+            mine = [
+                (i, int(np.flatnonzero(place == f)[0])) for i, f in enumerate(chosen) if f in place
+            ]
             which = [w for _, w in mine]
             steps = [self._step(int(place[w]), values) for w in which]
             rows = slice(start, start + len(r.t))

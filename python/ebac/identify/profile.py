@@ -17,7 +17,8 @@ if TYPE_CHECKING:
 def profile(result: ArmResult, name: str, level: float) -> tuple[float, float]:
     """Return where the cost has risen by `level` deviations squared on either side.
 
-    The rise is scaled as the local interval is, so that autocorrelated errors count. A side that never rises ends at the bound of the parameter.
+    The rise is scaled as the local interval is, so that autocorrelated errors count. A side that never rises ends at
+    the bound of the parameter.
     """
     p = result.parameters
     if name not in p.names or p.names.index(name) not in p.free:

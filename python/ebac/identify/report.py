@@ -12,8 +12,10 @@ if TYPE_CHECKING:
 
 _STYLE = """
 body { font: 16px/1.5 system-ui, sans-serif; max-width: 60rem; margin: 2rem auto; padding: 0 1rem; color: #222 }
-table { border-collapse: collapse; margin: 1rem 0 } th, td { padding: .25rem .8rem; text-align: right; border-bottom: 1px solid #ddd }
-th:first-child, td:first-child { text-align: left } img { max-width: 100% } .careful { background: #fff3e0; padding: .5rem 1rem }
+table { border-collapse: collapse; margin: 1rem 0 } th, td { padding: .25rem .8rem; text-align: right; border-bottom:
+1px solid #ddd }
+th:first-child, td:first-child { text-align: left } img { max-width: 100% } .careful { background: #fff3e0; padding:
+.5rem 1rem }
 """
 
 

@@ -182,7 +182,8 @@ class ArmResult:
     ) -> tuple[Prediction, ...]:
         """Judge the hand on its own recordings and on others.
 
-        On a recording held out, M0, B0, K0 and delay are kept; where that hand wanted to be and where it started is fitted.
+        On a recording held out, M0, B0, K0 and delay are kept; where that hand wanted to be and where it started is
+        fitted.
         """
         rows = []
         for i, r in enumerate(self.recordings):

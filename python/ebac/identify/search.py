@@ -35,7 +35,8 @@ def least_squares(
 ) -> Found:
     """Minimise the sum of squares, or Huber's loss beyond `robust` deviations.
 
-    Converged when a full step would lower the cost by less than `tolerance`: a ten-thousandth of what moves a 95 % bound.
+    Converged when a full step would lower the cost by less than `tolerance`: a ten-thousandth of what moves a 95 %
+    bound.
     """
     x = np.clip(start, low, high)
     e = errors(x)

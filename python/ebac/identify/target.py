@@ -52,7 +52,7 @@ class Target:
 
     @classmethod
     def steps(cls, *at: float) -> Target:
-        """A new place from each time [s] on."""
+        """Return a target with a new place from each time [s] on."""
         return cls(switches=tuple(at), segments=tuple(range(len(at) + 1)))
 
     @classmethod
@@ -71,12 +71,12 @@ class Target:
 
     @classmethod
     def following(cls, path: NDArray[np.float64]) -> Target:
-        """A path known but for where it starts, one value [m] a row."""
+        """Return a path known but for where it starts, one value [m] a row."""
         return cls(path=np.asarray(path, dtype=float))
 
     @classmethod
     def of(cls, hand: Hand, t: NDArray[np.float64]) -> Target:
-        """The target of a simulated hand, with what an experimenter knows: its times, not its levels."""
+        """Return what an experimenter knows of a simulated hand's target: its times, not its levels."""
         path = hand.path[0]
         start, end = float(t[0]), float(t[-1])
         dt = (end - start) / (len(t) - 1)

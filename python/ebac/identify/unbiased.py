@@ -34,7 +34,8 @@ class Opinion:
 def second_opinion(result: ArmResult) -> tuple[Opinion, ...]:
     """Identify M0, B0, K0 again from what the target moved alone.
 
-    First stage: position, velocity, acceleration are projected on delayed copies of the target; second stage: regression on what is
+    First stage: position, velocity, acceleration are projected on delayed copies of the target; second stage:
+    regression on what is
     left of them. What a law feeds back of noise and tremor does not follow the target and drops out.
 
     Raises
@@ -49,7 +50,8 @@ def second_opinion(result: ArmResult) -> tuple[Opinion, ...]:
         z = instruments(r, target, part.taps)
         if z is None:
             raise ValueError(
-                f"{r.name}: its target never moves, so there is no instrument; let the hand follow a path or tap, and give the target"
+                f"{r.name}: its target never moves, so there is no instrument; "
+                "let the hand follow a path or tap, and give the target"
             )
         parts.append(part)
         given.append(z)
