@@ -16,6 +16,8 @@ __all__: list[str] = [
     "EBAC",
     "TCA",
     "AdaptiveWindow",
+    "ArmGains",
+    "ArmRecord",
     "AxisTruth",
     "BackwardDifference",
     "BusCounts",
@@ -2169,6 +2171,56 @@ class SweepProgress:
     def done(self) -> int:
         """
         Runs done.
+        """
+
+class ArmGains:
+    """
+    How far each row corrects what eq. (4) foretold.
+    """
+
+    @property
+    def log_sum(self) -> float:
+        """
+        Sum of the logarithms of the variances of the errors.
+        """
+
+class ArmRecord:
+    """
+    A log of one hand, and how well eq. (4) foretells it.
+
+    theta: mass [kg], damping [N s/m], stiffness [N/m], delay [s], onset [s], bend [1], then the levels of the target [m].
+    """
+    def __init__(
+        self,
+        *,
+        x: collections.abc.Sequence[typing.SupportsFloat],
+        force: collections.abc.Sequence[typing.SupportsFloat],
+        variance: collections.abc.Sequence[typing.SupportsFloat],
+        early: collections.abc.Sequence[typing.SupportsFloat],
+        known: collections.abc.Sequence[typing.SupportsFloat],
+        switches: collections.abc.Sequence[typing.SupportsFloat],
+        segments: collections.abc.Sequence[typing.SupportsInt],
+        dt: float,
+        lag: float,
+    ) -> None: ...
+    def gains(self, theta: numpy.typing.ArrayLike, force_noise: float) -> ArmGains: ...
+    def innovations(
+        self, theta: numpy.typing.ArrayLike, gains: ArmGains
+    ) -> numpy.typing.NDArray[numpy.float64]: ...
+    def jacobian(
+        self,
+        theta: numpy.typing.ArrayLike,
+        gains: ArmGains,
+        which: collections.abc.Sequence[typing.SupportsInt],
+        steps: collections.abc.Sequence[typing.SupportsFloat],
+    ) -> numpy.typing.NDArray[numpy.float64]: ...
+    def simulate(
+        self, theta: numpy.typing.ArrayLike, x: float, v: float
+    ) -> numpy.typing.NDArray[numpy.float64]: ...
+    @property
+    def parameters(self) -> int:
+        """
+        How long theta is.
         """
 
 class LinearLoop:

@@ -58,10 +58,9 @@ class DeviceResult:
 
     @property
     def compensation(self) -> Compensation:
-        """Return tau_static of eq. (2), never more than is surely there: the lower bounds of friction and of weight
-        against +x.
+        """Return tau_static of eq. (2), never more than is surely there.
 
-        Inertia is left alone: given back it costs damping, see `Compensation`.
+        The lower bounds of friction and of the weight against +x. Inertia is left alone: given back it costs damping, see `Compensation`.
         """
         friction = max(0.0, self.estimates["coulomb"].low)
         weight = max(0.0, -self.estimates["weight"].high)

@@ -67,7 +67,7 @@ def covariance(
 
 #: What a log at one rate does not tell: when within a tick forces and target changed [ticks], and how the force
 #: bent between two rows, as a share of its second difference (0 for straight, 1/12 for a smooth curve).
-WITHIN_TICK = {"delay": 0.05, "onset": 0.15, "bend": 1 / 18}
+WITHIN_TICK = {"delay": 0.07, "onset": 0.15, "bend": 1 / 18}
 
 
 def nuisances(problem: Problem) -> tuple[NDArray[np.intp], NDArray[np.float64]]:
