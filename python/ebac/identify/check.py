@@ -83,14 +83,15 @@ def draw(number: int, seed: int, seconds: float = 10.0) -> Case:
     task = str(random.choice(list(TASKS), p=list(TASKS.values())))
     reach = float(random.uniform(0.01, 0.04))
     stiffness = between(80, min(1000, 30 / reach))
-    path = {
+    makers: dict[str, Callable[[], Step | Tapping | Recorded]] = {
         "tapping": lambda: Tapping(
             target=reach, rest=-float(random.uniform(0.005, 0.02)), frequency=between(0.5, 2)
         ),
         "tracking": lambda: _wandering(random, reach, seconds),
         "press": lambda: Step(target=reach),
         "free": lambda: Step(target=reach),
-    }[task]()
+    }
+    path = makers[task]()
     hand = Hand(mass=between(0.05, 1.2), damping=between(2, 20), stiffness=stiffness, path=path)
     device = Device(
         mechanics=Mechanics(

@@ -25,7 +25,8 @@ def steps(
     t = _times(seconds, dt)
     if not hold >= dt:
         raise ValueError(f"hold = {hold} s: must be at least one step, {dt} s")
-    return t, amplitude * (np.floor(t / hold + 1e-9) % 2)
+    level: Values = np.floor(t / hold + 1e-9) % 2
+    return t, amplitude * level
 
 
 def tapping(
@@ -34,7 +35,7 @@ def tapping(
     """Return times [s] and a square wave of `frequency` [Hz] between `amplitude` and 0."""
     t = _times(seconds, dt)
     _below_nyquist(frequency, dt)
-    return t, amplitude * ((frequency * t) % 1 < 0.5)
+    return t, amplitude * ((frequency * t) % 1 < 0.5).astype(float)
 
 
 def chirp(

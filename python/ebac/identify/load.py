@@ -189,7 +189,7 @@ def _recording(
         if key not in UNITS_OF:
             raise ValueError(unknown(f"{name}: signal {key}", key, list(UNITS_OF)))
     chosen, remarks = assign(name, list(raw), columns)
-    signals: dict[str, NDArray[np.float64]] = {}
+    signals: dict[str, Any] = {}
     for key, column in chosen.items():
         _, written = split_heading(column)
         unit = units.get(key, written)

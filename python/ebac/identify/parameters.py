@@ -97,7 +97,9 @@ def lay_out(
         places.append(np.array(theta))
     for name in (*fixed, *bounds, *free, *own):
         if name not in names and name not in UNITS:
-            raise ValueError(unknown(f"parameter {name}", name, [*UNITS, *names]))
+            raise ValueError(
+                unknown(f"parameter {name}", name, list(dict.fromkeys([*UNITS, *names])))
+            )
     rows = [_limits(name, fixed, bounds, free) for name in names]
     low, high, held = np.array(rows).T
     return Parameters(names=tuple(names), low=low, high=high, fixed=held, places=tuple(places))

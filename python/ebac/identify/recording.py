@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, Self
+from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -116,7 +116,8 @@ class Recording:
     def between(self, start: float, stop: float) -> Self:
         """Return the rows with start <= t < stop [s]."""
         part = slice(*(int(np.searchsorted(self.t, t)) for t in (start, stop)))
-        return replace(self, **{name: values[part] for name, values in self.channels().items()})
+        cut: dict[str, Any] = {name: values[part] for name, values in self.channels().items()}
+        return replace(self, **cut)
 
     @classmethod
     def from_trace(cls, trace: Trace, *, axis: int = 0, name: str = "trace") -> Self:

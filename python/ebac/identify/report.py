@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from base64 import b64encode
+from collections.abc import Sequence
 from html import escape
 from io import BytesIO
 from typing import TYPE_CHECKING
@@ -24,7 +25,7 @@ def page(
     rows: list[dict[str, str]],
     careful: list[str],
     notes: list[str],
-    figures: list[Figure],
+    figures: Sequence[Figure],
 ) -> str:
     """Return HTML with everything inside it."""
     parts = [f"<h1>{escape(title)}</h1>"]
