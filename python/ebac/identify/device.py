@@ -13,12 +13,14 @@ from ebac._core import Compensation
 from ebac.identify.levels import lagged
 from ebac.identify.recording import Recording
 from ebac.identify.result import Z95, Estimate
-from ebac.identify.smooth import kernels, smoothed
+from ebac.identify.smooth import WIDTH, kernels, smoothed
 
 #: Standard gravity [m/s^2].
 GRAVITY = 9.80665
 #: Stribeck speeds that are tried [m/s].
 SPEEDS = np.geomspace(2e-3, 0.1, 15)
+#: Rows in which it must slide.
+LEAST_SLIDING = 200
 NAMES = ("M_h", "B_h", "coulomb", "weight", "stribeck")
 UNITS = ("kg", "N s/m", "N", "N", "N")
 
@@ -60,7 +62,8 @@ class DeviceResult:
     def compensation(self) -> Compensation:
         """Return tau_static of eq. (2), never more than is surely there.
 
-        The lower bounds of friction and of the weight against +x. Inertia is left alone: given back it costs damping, see `Compensation`.
+        The lower bounds of friction and of the weight against +x. Inertia is left alone: given back it costs
+        damping, see `Compensation`.
         """
         friction = max(0.0, self.estimates["coulomb"].low)
         weight = max(0.0, -self.estimates["weight"].high)
@@ -142,9 +145,17 @@ def _signals(r: Recording, current_lag: float) -> tuple[NDArray[np.float64], NDA
         later = np.append(r.motor[1:], r.motor[-1])
         force = force - behind(0.5 * (r.motor + later), current_lag, r.lag)
     x = behind(r.x, r.lag)
-    v = smoothed(x, h[1])
-    sign = np.tanh(v / max(2 * r.count / (16e-3), 1e-4))
-    return smoothed(force, h[0]), np.array([smoothed(x, h[2]), v, sign])
+    quick = kernels(r.dt, 0.25 * WIDTH)
+    edge = quick.shape[1] // 2
+    sign = smoothed(np.sign(smoothed(x, quick[1])), h[0])
+    force, x = force[edge : len(force) - edge], x[edge : len(x) - edge]
+    slides = (
+        np.abs(sign) > 0.99
+    )  # one way throughout the kernel; near a turn friction is what it has to be
+    if slides.sum() < LEAST_SLIDING:
+        raise ValueError(f"{r.name}: slides in {slides.sum()} rows only; needs {LEAST_SLIDING}")
+    moved = np.array([smoothed(x, h[2]), smoothed(x, h[1]), np.sign(sign)])
+    return smoothed(force, h[0])[slides], moved[:, slides]
 
 
 def _regress(

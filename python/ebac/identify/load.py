@@ -205,12 +205,12 @@ def _recording(
         if rate is None:
             raise ValueError(f"{name}: has no time; say how many rows a second: rate=... or --rate")
         signals["t"] = np.arange(len(signals["x"])) / rate
-    signals = _evenly(name, signals, remarks)
-    found = count_of(signals["x"])
+    even: dict[str, Any] = dict(_evenly(name, signals, remarks))
+    found = count_of(even["x"])
     remarks.append(
         f"encoder step of {1e3 * found:.4g} mm found in x" if found else "x shows no encoder step"
     )
-    return Recording(name=name, count=found, remarks=tuple(remarks), **signals)
+    return Recording(name=name, count=found, remarks=tuple(remarks), **even)
 
 
 def _evenly(name: str, signals: Columns, remarks: list[str]) -> Columns:
