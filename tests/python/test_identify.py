@@ -141,6 +141,20 @@ def test_bad_wishes_are_refused(trace: ebac.Trace, change: dict, message: str) -
         fit_arm(Recording.from_trace(trace), **change)
 
 
+@pytest.mark.parametrize(
+    ("target", "message"),
+    [
+        (Target.steps(99.0), r"changes at 99 s: must lie in \(0, 5\) s"),
+        (Target.tapping(300, 4.9), "must hold for 10 rows"),
+    ],
+)
+def test_a_target_outside_the_log_is_refused(
+    trace: ebac.Trace, target: Target, message: str
+) -> None:
+    with pytest.raises(ValueError, match=message):
+        fit_arm(Recording.from_trace(trace), target)
+
+
 # --- device ---
 
 

@@ -133,6 +133,7 @@ def arm_record(
             f"{recording.name}: has no force of the hand; eq. (4) needs one: name its column, or identify from "
             "a log that has one"
         )
+    _check_switches(recording, target)
     t0 = float(recording.t[0])
     known = target.path if target.path is not None else np.zeros(len(recording.t))
     read = readings(recording)
@@ -147,3 +148,19 @@ def arm_record(
         dt=recording.dt,
         lag=recording.lag,
     )
+
+
+def _check_switches(recording: Recording, target: Target) -> None:
+    """Refuse a target that changes outside the log, or faster than its rows."""
+    start, end = float(recording.t[0]), float(recording.t[-1])
+    for at in target.switches:
+        if not start < at < end:
+            raise ValueError(
+                f"{recording.name}: the target changes at {at:g} s: "
+                f"must lie in ({start:g}, {end:g}) s, the time of the log"
+            )
+    if len(target.switches) > 1 and min(np.diff(target.switches)) < 10 * recording.dt:
+        raise ValueError(
+            f"{recording.name}: the target changes again within {min(np.diff(target.switches)):.3g} s: "
+            f"must hold for 10 rows, {10 * recording.dt:g} s"
+        )
