@@ -18,6 +18,8 @@ __all__: list[str] = [
     "TCA",
     "WARNED_LOAD",
     "AdaptiveWindow",
+    "ArmGains",
+    "ArmRecord",
     "AxisTruth",
     "BackwardDifference",
     "BusCounts",
@@ -2205,6 +2207,74 @@ class LinearLoop:
     def stiffness_limit(self, damping: typing.SupportsFloat | typing.SupportsIndex) -> float:
         """
         Largest stiffness [N/m] up to which everything decays; 0 for none.
+        """
+
+class ArmGains:
+    """
+    How far each row corrects what eq. (4) foretold.
+    """
+    @property
+    def log_sum(self) -> float:
+        """
+        Sum of the logarithms of the variances of the errors.
+        """
+
+class ArmRecord:
+    """
+    A log of one hand, and how well eq. (4) foretells it.
+
+    theta: mass [kg], damping [N s/m], stiffness [N/m], delay [s], onset [s], bend [1], then the levels of the target [m].
+    """
+    def __init__(
+        self,
+        *,
+        x: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex],
+        force: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex],
+        variance: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex],
+        early: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex],
+        known: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex],
+        switches: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex],
+        segments: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex],
+        dt: typing.SupportsFloat | typing.SupportsIndex,
+        lag: typing.SupportsFloat | typing.SupportsIndex,
+    ) -> None: ...
+    def gains(
+        self,
+        theta: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
+        force_noise: typing.SupportsFloat | typing.SupportsIndex,
+    ) -> ArmGains:
+        """
+        Gains for a guess, when a force reading has the standard deviation `force_noise` [N].
+        """
+    def innovations(
+        self, theta: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], gains: ArmGains
+    ) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Errors of one tick ahead, each over its standard deviation.
+        """
+    def jacobian(
+        self,
+        theta: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
+        gains: ArmGains,
+        which: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex],
+        steps: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex],
+    ) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        d innovations / d theta[which], shape (which, rows).
+        """
+    def simulate(
+        self,
+        theta: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
+        x: typing.SupportsFloat | typing.SupportsIndex,
+        v: typing.SupportsFloat | typing.SupportsIndex,
+    ) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Position [m] that the recorded force alone gives from a state [m, m/s] on.
+        """
+    @property
+    def parameters(self) -> int:
+        """
+        How long theta is.
         """
 
 class Direct:

@@ -12,6 +12,7 @@ from ebac.cli import (
     bus,
     conditions,
     drive,
+    identify,
     laws,
     maps,
     paper,
@@ -71,3 +72,4 @@ app.command("presets")(presets.presets)
 app.command("bench")(bench.bench)
 app.add_typer(drive.app, name="drive")
 app.add_typer(bus.bus, name="bus")
+app.add_typer(identify.app, name="identify")

@@ -1,0 +1,213 @@
+"""Identify the human arm of eq. (4) from logs."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from time import perf_counter
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ebac.identify.guess import regression, solve
+from ebac.identify.intervals import covariance, nuisances, with_counts
+from ebac.identify.likelihood import likely_noise
+from ebac.identify.parameters import Parameters, lay_out
+from ebac.identify.problem import Problem
+from ebac.identify.recording import Recording
+from ebac.identify.result import ArmResult
+from ebac.identify.search import Found, least_squares
+from ebac.identify.target import Target
+
+Values = NDArray[np.float64]
+
+#: Rounds of: filter for the guess, search with that filter.
+MOST_ROUNDS = 6
+#: Settled when the last round moved by less than this, in deviations squared.
+SETTLED = 1e-2
+
+
+def fit_arm(
+    recordings: Recording | Sequence[Recording],
+    targets: Target | Sequence[Target] | None = None,
+    *,
+    fixed: Mapping[str, float] | None = None,
+    bounds: Mapping[str, tuple[float, float]] | None = None,
+    free: Sequence[str] = (),
+    own: Sequence[str] = (),
+    starts: int = 1,
+    robust: float | None = None,
+    seed: int = 1,
+) -> ArmResult:
+    """Fit M0, B0, K0 and the targets X0 of eq. (4) to one or more recordings of one arm.
+
+    The force of the hand drives the model, the position is compared: what lies on the other side of the force sensor,
+    device, law and
+    wall, need not be known. The force reading is an input with noise, so the errors are those of a Kalman filter one
+    tick ahead; its
+    initial state is free. The noise of the force is estimated along.
+
+    Parameters
+    ----------
+    recordings : Recording or sequence of them
+        With position and force of the hand.
+    targets : Target or sequence of them, optional
+        One for each recording; default: held in one place.
+    fixed : mapping, optional
+        Values that are not fitted, by name: `{"M0": 0.2}` [kg], B0 [N s/m], K0 [N/m], X0, X0/2 [m], delay, onset [s].
+        A name of one recording carries its number: `X0@2`.
+    bounds : mapping, optional
+        (low, high) by name.
+    free : sequence of str, optional
+        Fit `delay` or `onset` too, which are 0 otherwise.
+    own : sequence of str, optional
+        Which of M0, B0, K0, delay every recording has for itself.
+    starts : int
+        From how many points the search starts, at least 1; more cost time and are seldom needed.
+    robust : float, optional
+        Errors beyond so many standard deviations count linearly (Huber); 1.345 keeps 95 % of the efficiency.
+    seed : int
+        Of the further starts.
+
+    Returns
+    -------
+    ArmResult
+
+    Raises
+    ------
+    ValueError
+        For a recording without force, a name that does not exist, a value out of range.
+    """
+    began = perf_counter()
+    if isinstance(recordings, Recording):
+        recordings = [recordings]
+    if targets is None or isinstance(targets, Target):
+        targets = [targets or Target.held()] * len(recordings)
+    _check(recordings, targets, starts, robust)
+    parameters = lay_out(
+        [t.levels for t in targets],
+        fixed=fixed or {},
+        bounds=bounds or {},
+        free=free,
+        own=own,
+    )
+    problem = Problem(recordings=tuple(recordings), targets=tuple(targets), parameters=parameters)
+    best = _search(problem, first_guess(problem), robust)
+    draw = np.random.Generator(np.random.PCG64(seed))
+    for _ in range(starts - 1):
+        other = _search(problem, _elsewhere(best.values, parameters, draw), robust)
+        if other.likelihood < best.likelihood - 1e-3:
+            best = other
+    gains = problem.gains(best.values, best.force_noise)
+    errors = problem.errors(best.values, gains)
+    doubt, sure = nuisances(problem)
+    asked = np.concatenate([parameters.free, doubt])
+    jacobian = problem.jacobian(best.values, gains, asked)
+    pretended = problem.noise_jacobian(best.values, gains, best.force_noise, asked)
+    return ArmResult(
+        problem=problem,
+        values=best.values,
+        force_noise=best.force_noise,
+        errors=errors,
+        covariance=with_counts(
+            problem,
+            covariance(jacobian, errors, [len(r.t) for r in recordings], robust, sure, pretended),
+        ),
+        robust=robust,
+        converged=best.found.converged,
+        evaluations=best.evaluations,
+        seconds=perf_counter() - began,
+    )
+
+
+def _check(
+    recordings: Sequence[Recording],
+    targets: Sequence[Target],
+    starts: int,
+    robust: float | None,
+) -> None:
+    if not recordings:
+        raise ValueError("no recordings: give at least one")
+    if len(targets) != len(recordings):
+        raise ValueError(
+            f"{len(targets)} targets for {len(recordings)} recordings: give one each, or one for all"
+        )
+    if starts < 1:
+        raise ValueError(f"starts = {starts}: must be at least 1")
+    if robust is not None and not robust > 0:
+        raise ValueError(f"robust = {robust}: must be positive, in standard deviations")
+
+
+def first_guess(problem: Problem) -> Values:
+    """Return where a search starts, by linear regression, within the bounds."""
+    parts = [regression(r, t) for r, t in zip(problem.recordings, problem.targets, strict=True)]
+    found, _ = solve(parts)
+    found = np.where(np.isfinite(found), found, 0.0)
+    values = np.zeros(len(problem.parameters.names))
+    positive = [(0.02, 5.0), (0.3, 100.0), (5.0, 5e3)]
+    hand = [float(np.clip(v, *limits)) for v, limits in zip(found[:3], positive, strict=True)]
+    before = 3
+    for place, part, r in zip(problem.parameters.places, parts, problem.recordings, strict=True):
+        count = part.columns.shape[1] - 3
+        reach = float(np.abs(r.x).max()) + 0.5
+        levels = np.clip(found[before : before + count], -reach, reach)
+        values[place] = [*hand, 0.0, 0.0, 0.0, *levels]
+        before += count
+    return problem.parameters.clip(values)
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class _Point:
+    found: Found
+    values: Values
+    force_noise: Values
+    likelihood: float
+    evaluations: int
+
+
+def _search(problem: Problem, start: Values, robust: float | None) -> _Point:
+    """Make the filter for the guess, search with it, until the two agree."""
+    values, noise, evaluations = start, None, 0
+    p = problem.parameters
+    free = p.free
+    for _ in range(MOST_ROUNDS):
+        noise = likely_noise(problem, values, noise)
+        gains = problem.gains(values, noise)
+
+        def spread(part: Values, base: Values = values) -> Values:
+            full = base.copy()
+            full[free] = part
+            return full
+
+        found = least_squares(
+            lambda part, gains=gains, spread=spread: problem.errors(spread(part), gains),  # type: ignore[misc]
+            lambda part, gains=gains, spread=spread: problem.jacobian(spread(part), gains),  # type: ignore[misc]
+            values[free],
+            p.low[free],
+            p.high[free],
+            robust=robust,
+        )
+        evaluations += found.evaluations
+        moved = found.values - values[free]
+        values = spread(found.values)
+        if float(moved @ found.information @ moved) < SETTLED:
+            break
+    assert noise is not None
+    gains = problem.gains(values, noise)
+    likelihood = found.cost + sum(g.log_sum for g in gains)
+    return _Point(
+        found=found,
+        values=values,
+        force_noise=noise,
+        likelihood=likelihood,
+        evaluations=evaluations,
+    )
+
+
+def _elsewhere(values: Values, parameters: Parameters, draw: np.random.Generator) -> Values:
+    """Return another start: M0, B0, K0 up to four times larger or smaller."""
+    out = values.copy()
+    for i, name in enumerate(parameters.names):
+        if name[0] in "MBK":
+            out[i] = max(abs(values[i]), 1e-2) * 4 ** draw.uniform(-1, 1)
+    return parameters.clip(out)

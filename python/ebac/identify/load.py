@@ -1,0 +1,239 @@
+"""Read a recording: one place for every kind of log."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ebac.document import unknown
+from ebac.identify.columns import UNITS_OF, assign, split_heading, unit_factor
+from ebac.identify.recording import Recording, count_of
+from ebac.trace import Trace
+
+Columns = dict[str, NDArray[np.float64]]
+
+
+def load(
+    path: str | Path,
+    *,
+    columns: Mapping[str, str] | None = None,
+    units: Mapping[str, str] | None = None,
+    rate: float | None = None,
+    lag: float | None = None,
+    count: float | None = None,
+    axis: int = 0,
+) -> Recording:
+    """Read CSV, .mat, or NPZ (of `Trace.to_npz`, or plain arrays).
+
+    Parameters
+    ----------
+    path : str or Path
+        The file; its ending tells what it is.
+    columns : mapping, optional
+        Which column is `t`, `x`, `force`, `motor`, `desired`, `target`: `{"force": "Fz"}`. What is not given is
+        guessed by name, and said in `remarks`.
+    units : mapping, optional
+        Unit of each, as `{"x": "mm"}`; otherwise that of the heading, `pos [mm]`, or SI.
+    rate : float, optional
+        Rows per second [Hz], for a file without time.
+    lag : float, optional
+        Lag of the force sensor [s]; default: of the scenario of a trace, else 0.
+    count : float, optional
+        Step of the encoder at the handle [m]; default: found in the position.
+    axis : int
+        Which axis of a trace.
+
+    Returns
+    -------
+    Recording
+
+    Raises
+    ------
+    FileNotFoundError
+        When there is no such file.
+    ValueError
+        When it cannot be read, a column is missing, is no number, or a unit is unknown.
+    """
+    path = Path(path)
+    if not path.exists():
+        raise FileNotFoundError(2, "there is no such file", str(path))
+    trace = _trace(path)
+    if trace is not None and not columns:
+        found = Recording.from_trace(trace, axis=axis, name=path.name)
+    else:
+        raw = _flat(trace) if trace is not None else _read(path)
+        found = _recording(path.name, raw, columns or {}, units or {}, rate)
+    changes: dict[str, Any] = {}
+    if lag is not None:
+        changes["lag"] = lag
+    if count is not None:
+        changes["count"] = count
+    return replace(found, **changes) if changes else found
+
+
+def _trace(path: Path) -> Trace | None:
+    if path.suffix != ".npz":
+        return None
+    with np.load(path, allow_pickle=False) as archive:
+        ours = "about" in archive
+    return Trace.from_npz(path) if ours else None
+
+
+def _flat(trace: Trace) -> Columns:
+    return {name: np.array(values, dtype=float) for name, _, values in trace.flat()}
+
+
+def _read(path: Path) -> Columns:
+    readers = {".csv": _csv, ".txt": _csv, ".tsv": _csv, ".mat": _mat, ".npz": _npz}
+    if path.suffix.lower() not in readers:
+        raise ValueError(
+            f"{path.name}: unknown ending {path.suffix!r}; known are {', '.join(readers)}"
+        )
+    found = readers[path.suffix.lower()](path)
+    if not found:
+        raise ValueError(f"{path.name}: holds no columns of numbers")
+    return found
+
+
+def _csv(path: Path) -> Columns:
+    lines = path.read_text(encoding="utf-8-sig").splitlines()
+    lines = [line for line in lines if line.strip() and not line.startswith(("#", "%"))]
+    if len(lines) < 2:
+        raise ValueError(f"{path.name}: {len(lines)} lines; needs a heading and rows below it")
+    mark = max("\t;,", key=lines[0].count)
+    names = [name.strip().strip('"') for name in lines[0].split(mark)]
+    if all(_is_number(name) for name in names):
+        raise ValueError(
+            f"{path.name}: has no heading; put the names of the columns into its first line"
+        )
+    rows = []
+    for number, line in enumerate(lines[1:], 1):
+        cells = line.split(mark)
+        if len(cells) != len(names):
+            raise ValueError(
+                f"{path.name}: row {number} has {len(cells)} cells, the heading {len(names)}"
+            )
+        rows.append(
+            [
+                _number(cell, path.name, number, name)
+                for cell, name in zip(cells, names, strict=True)
+            ]
+        )
+    return dict(zip(names, np.array(rows).T, strict=True))
+
+
+def _is_number(text: str) -> bool:
+    try:
+        float(text)
+    except ValueError:
+        return False
+    return True
+
+
+def _number(cell: str, file: str, row: int, column: str) -> float:
+    text = cell.strip().strip('"')
+    if text in ("", "-"):
+        return float("nan")
+    try:
+        return float(text)
+    except ValueError:
+        raise ValueError(
+            f"{file}: {text!r} in row {row}, column {column!r}, is no number"
+        ) from None
+
+
+def _npz(path: Path) -> Columns:
+    with np.load(path, allow_pickle=False) as archive:
+        return _series({name: archive[name] for name in archive.files})
+
+
+def _mat(path: Path) -> Columns:
+    try:
+        from scipy.io import loadmat
+    except ImportError:
+        raise ValueError(f"{path.name}: reading .mat needs SciPy: pip install scipy") from None
+    try:
+        content = loadmat(path, squeeze_me=True)
+    except (NotImplementedError, ValueError) as error:
+        raise ValueError(f"{path.name}: cannot be read ({error}); save it with -v7") from None
+    return _series({name: v for name, v in content.items() if not name.startswith("__")})
+
+
+def _series(arrays: Mapping[str, Any]) -> Columns:
+    out = {}
+    for name, values in arrays.items():
+        array = np.asarray(values)
+        if array.dtype.kind not in "fiub":
+            continue
+        array = np.squeeze(array.astype(float))
+        if array.ndim == 1 and array.size > 1:
+            out[name] = array
+        elif array.ndim == 2:
+            out |= {f"{name}_{i}": column for i, column in enumerate(array.T)}
+    return out
+
+
+def _recording(
+    name: str,
+    raw: Columns,
+    columns: Mapping[str, str],
+    units: Mapping[str, str],
+    rate: float | None,
+) -> Recording:
+    for key in (*columns, *units):
+        if key not in UNITS_OF:
+            raise ValueError(unknown(f"{name}: signal {key}", key, list(UNITS_OF)))
+    chosen, remarks = assign(name, list(raw), columns)
+    signals: dict[str, Any] = {}
+    for key, column in chosen.items():
+        _, written = split_heading(column)
+        unit = units.get(key, written)
+        if unit is None:
+            unit = UNITS_OF[key]
+            remarks.append(f"{key}: no unit given, taken as {unit}")
+        signals[key] = raw[column] * unit_factor(name, key, unit)
+    if "x" not in signals:
+        raise ValueError(
+            f"{name}: found no position among {', '.join(raw)}; say which column it is: columns={{'x': ...}} or --x"
+        )
+    if "t" not in signals:
+        if rate is None:
+            raise ValueError(f"{name}: has no time; say how many rows a second: rate=... or --rate")
+        signals["t"] = np.arange(len(signals["x"])) / rate
+    even: dict[str, Any] = dict(_evenly(name, signals, remarks))
+    found = count_of(even["x"])
+    remarks.append(
+        f"encoder step of {1e3 * found:.4g} mm found in x" if found else "x shows no encoder step"
+    )
+    return Recording(name=name, count=found, remarks=tuple(remarks), **even)
+
+
+def _evenly(name: str, signals: Columns, remarks: list[str]) -> Columns:
+    """Return the signals on equal time steps; what jitters is interpolated, and said."""
+    t = signals["t"]
+    for key, values in signals.items():
+        wrong = np.flatnonzero(~np.isfinite(values))
+        if wrong.size:
+            raise ValueError(
+                f"{name}: {key} is no number in {wrong.size} of {len(t)} rows, first in row {wrong[0] + 1} below the "
+                "heading; cut these rows out or fill them"
+            )
+    step = np.diff(t)
+    if step.size == 0 or not (step > 0).all():
+        where = int(np.argmin(step > 0)) + 2 if step.size else 1
+        raise ValueError(f"{name}: t does not rise in row {where}; sort the log by time")
+    dt = float(np.median(step))
+    if np.ptp(step) <= 1e-3 * dt:
+        return signals
+    even = np.arange(t[0], t[-1] + 0.5 * dt, dt)
+    even = even[even <= t[-1]]
+    worst = float(np.abs(step - dt).max())
+    remarks.append(
+        f"time steps differ by up to {1e3 * worst:.3g} ms from {1e3 * dt:.4g} ms: put on equal steps"
+    )
+    return {key: even if key == "t" else np.interp(even, t, v) for key, v in signals.items()}

@@ -1,0 +1,62 @@
+"""The same objective by SciPy: does the search find the same optimum, and in what time."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from time import perf_counter
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ebac.identify.arm import first_guess, fit_arm
+
+if TYPE_CHECKING:
+    from ebac.identify.result import ArmResult
+
+
+@dataclass(frozen=True, kw_only=True)
+class Comparison:
+    """Times [s], and the largest difference of an estimate in standard deviations."""
+
+    ours_s: float
+    scipy_s: float
+    apart: float
+
+
+def compare_with_scipy(result: ArmResult) -> Comparison:
+    """Minimise the last objective of a fit by `scipy.optimize.least_squares`, from the same first guess.
+
+    Raises
+    ------
+    ModuleNotFoundError
+        Without SciPy.
+    """
+    from scipy.optimize import least_squares
+
+    problem, p = result.problem, result.parameters
+    gains = problem.gains(result.values, result.force_noise)
+    start = first_guess(problem)
+    scale = np.maximum(result.deviation[p.free], 1e-12)
+
+    def errors(part: np.ndarray) -> np.ndarray:
+        full = start.copy()
+        full[p.free] = part
+        return problem.errors(full, gains)
+
+    began = perf_counter()
+    found = least_squares(
+        errors,
+        start[p.free],
+        bounds=(p.low[p.free], p.high[p.free]),
+        x_scale=scale,
+        xtol=1e-10,
+        ftol=1e-12,
+    )
+    scipy_s = perf_counter() - began
+    began = perf_counter()
+    fit_arm(list(problem.recordings), list(problem.targets), fixed={
+        n: float(v) for n, v in zip(p.names, p.fixed, strict=True) if not np.isnan(v)
+    }, free=[n for n in ("delay", "onset") if any(p.names[i].startswith(n) for i in p.free)])  # fmt: skip
+    ours = perf_counter() - began
+    apart = np.abs(found.x - result.values[p.free]) / scale
+    return Comparison(ours_s=ours, scipy_s=scipy_s, apart=float(apart.max()))

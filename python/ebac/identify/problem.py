@@ -1,0 +1,166 @@
+"""The objective of an arm: eq. (4) over several recordings, moved in C++."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ebac._core import ArmGains, ArmRecord
+from ebac.identify.noise import readings
+from ebac.identify.parameters import BEFORE_LEVELS, Parameters, kind
+from ebac.identify.recording import Recording
+from ebac.identify.target import Target
+
+#: Steps of the differences, as a share of a value and at least.
+STEP_SHARE = 1e-5
+LEAST_STEP = {
+    "M0": 1e-7,
+    "B0": 1e-5,
+    "K0": 1e-3,
+    "delay": 1e-6,
+    "onset": 1e-6,
+    "bend": 1e-4,
+    "X0": 1e-7,
+}
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Problem:
+    """Errors of one tick ahead, each over its deviation, as a function of the free parameters."""
+
+    recordings: tuple[Recording, ...]
+    targets: tuple[Target, ...]
+    parameters: Parameters
+    records: tuple[ArmRecord, ...] = field(init=False)
+
+    def __post_init__(self) -> None:
+        """Hand the recordings to the core."""
+        made = [
+            arm_record(r, target) for r, target in zip(self.recordings, self.targets, strict=True)
+        ]
+        object.__setattr__(self, "records", tuple(made))
+
+    def gains(
+        self, values: NDArray[np.float64], force_noise: NDArray[np.float64]
+    ) -> list[ArmGains]:
+        """Return the filters made for a guess and a noise of the force [N], one for each recording."""
+        return [
+            record.gains(values[place], float(noise))
+            for record, place, noise in zip(
+                self.records, self.parameters.places, force_noise, strict=True
+            )
+        ]
+
+    def errors(self, values: NDArray[np.float64], gains: list[ArmGains]) -> NDArray[np.float64]:
+        """Return the errors of all recordings, one after the other."""
+        parts = zip(self.records, self.parameters.places, gains, strict=True)
+        return np.concatenate([r.innovations(values[place], g) for r, place, g in parts])
+
+    def jacobian(
+        self,
+        values: NDArray[np.float64],
+        gains: list[ArmGains],
+        wanted: NDArray[np.intp] | None = None,
+    ) -> NDArray[np.float64]:
+        """Return d errors / d parameters, shape (parameters, rows); by default of the free ones."""
+        chosen = self.parameters.free if wanted is None else wanted
+        return self._jacobian(self.records, values, gains, chosen)
+
+    def noise_jacobian(
+        self,
+        values: NDArray[np.float64],
+        gains: list[ArmGains],
+        force_noise: NDArray[np.float64],
+        wanted: NDArray[np.intp],
+    ) -> NDArray[np.float64]:
+        """Return the Jacobian of a log in which nothing but the noise of the force moves a resting hand.
+
+        What it tells of the parameters, noise pretends to tell.
+        """
+        draw = np.random.Generator(np.random.PCG64(0))
+        still = values.copy()
+        for place in self.parameters.places:
+            still[place[BEFORE_LEVELS:]] = 0.0
+        records = tuple(
+            arm_record(r, replace(t, path=None), noise=float(n) * draw.standard_normal(len(r.t)))
+            for r, t, n in zip(self.recordings, self.targets, force_noise, strict=True)
+        )
+        out = self._jacobian(records, still, gains, wanted)
+        places = [kind(self.parameters.names[i]) in ("X0", "onset") for i in wanted]
+        out[places] = 0.0  # what a target tells, it tells without noise
+        return out
+
+    def _jacobian(
+        self,
+        records: tuple[ArmRecord, ...],
+        values: NDArray[np.float64],
+        gains: list[ArmGains],
+        chosen: NDArray[np.intp],
+    ) -> NDArray[np.float64]:
+        out = np.zeros((len(chosen), sum(len(r.t) for r in self.recordings)))
+        start = 0
+        parts = zip(records, self.parameters.places, gains, self.recordings, strict=True)
+        for record, place, gain, r in parts:
+            mine = [
+                (i, int(np.flatnonzero(place == f)[0])) for i, f in enumerate(chosen) if f in place
+            ]
+            which = [w for _, w in mine]
+            steps = [self._step(int(place[w]), values) for w in which]
+            rows = slice(start, start + len(r.t))
+            out[[i for i, _ in mine], rows] = record.jacobian(values[place], gain, which, steps)
+            start = rows.stop
+        return out
+
+    def _step(self, index: int, values: NDArray[np.float64]) -> float:
+        least = LEAST_STEP[kind(self.parameters.names[index])]
+        return max(STEP_SHARE * abs(float(values[index])), least)
+
+
+def arm_record(
+    recording: Recording, target: Target, noise: NDArray[np.float64] | None = None
+) -> ArmRecord:
+    """Hand a recording to the core; with `noise` [N] instead of its force, a hand at rest in its place.
+
+    Raises
+    ------
+    ValueError
+        When it has no force of the hand.
+    """
+    if recording.force is None:
+        raise ValueError(
+            f"{recording.name}: has no force of the hand; eq. (4) needs one: name its column, or identify from "
+            "a log that has one"
+        )
+    _check_switches(recording, target)
+    t0 = float(recording.t[0])
+    known = target.path if target.path is not None else np.zeros(len(recording.t))
+    read = readings(recording)
+    return ArmRecord(
+        x=(read.x if noise is None else np.zeros(len(read.x))).tolist(),
+        force=(recording.force if noise is None else noise).tolist(),
+        variance=read.variance.tolist(),
+        early=read.early.tolist(),
+        known=known.tolist(),
+        switches=[s - t0 for s in target.switches],
+        segments=list(target.segments),
+        dt=recording.dt,
+        lag=recording.lag,
+    )
+
+
+def _check_switches(recording: Recording, target: Target) -> None:
+    """Refuse a target that changes outside the log, or faster than its rows."""
+    start, end = float(recording.t[0]), float(recording.t[-1])
+    for at in target.switches:
+        if not start < at < end:
+            raise ValueError(
+                f"{recording.name}: the target changes at {at:g} s: "
+                f"must lie in ({start:g}, {end:g}) s, the time of the log"
+            )
+    if len(target.switches) > 1 and min(np.diff(target.switches)) < 10 * recording.dt:
+        raise ValueError(
+            f"{recording.name}: the target changes again within {min(np.diff(target.switches)):.3g} s: "
+            f"must hold for 10 rows, {10 * recording.dt:g} s"
+        )
