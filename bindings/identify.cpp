@@ -95,17 +95,18 @@ void bind_identify(py::module_& m) {
   py::class_<ArmRecord>(m, "ArmRecord",
                         "A log of one hand, and how well eq. (4) foretells it.\n\n"
                         "theta: mass [kg], damping [N s/m], stiffness [N/m], delay [s], onset "
-                        "[s], bend [1], then the levels of the target [m].")
+                        "[s], bend [1], stair [1], then the levels of the target [m].")
       .def(
           py::init([](std::vector<double> x, std::vector<double> force,
                       std::vector<double> variance, std::vector<double> early,
-                      std::vector<double> known, std::vector<double> switches,
+                      std::vector<double> known, std::vector<double> ripple,
+                      std::vector<double> switches,
                       std::vector<int> segments, double dt, double lag) {
             return ArmRecord({std::move(x), std::move(force), std::move(variance), std::move(early),
-                              std::move(known), std::move(switches), std::move(segments), dt, lag});
+                              std::move(known), std::move(ripple), std::move(switches), std::move(segments), dt, lag});
           }),
           py::kw_only(), py::arg("x"), py::arg("force"), py::arg("variance"), py::arg("early"),
-          py::arg("known"), py::arg("switches"), py::arg("segments"), py::arg("dt"), py::arg("lag"))
+          py::arg("known"), py::arg("ripple"), py::arg("switches"), py::arg("segments"), py::arg("dt"), py::arg("lag"))
       .def_property_readonly("parameters", &ArmRecord::parameters, "How long theta is.")
       .def("gains", &gains, py::arg("theta"), py::arg("force_noise"),
            "Gains for a guess, when a force reading has the standard deviation `force_noise` [N].")

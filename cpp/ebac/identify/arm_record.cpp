@@ -62,20 +62,22 @@ struct Spread {
 }  // namespace
 
 ArmGuess ArmGuess::from(std::span<const double> theta) {
-  return {theta[0], theta[1], theta[2], theta[3], theta[4], theta[5], theta.subspan(kBeforeLevels)};
+  return {theta[0], theta[1], theta[2], theta[3],
+          theta[4], theta[5], theta[6], theta.subspan(kBeforeLevels)};
 }
 
 ArmRecord::ArmRecord(Log log) : log_(std::move(log)) {
   const std::size_t n = log_.x.size();
   refuse(n < 3, "needs at least 3 rows, got " + std::to_string(n));
   refuse(log_.force.size() != n || log_.variance.size() != n || log_.known.size() != n ||
-             log_.early.size() != n,
-         "x, force, variance, early and known must be equally long");
+             log_.early.size() != n || log_.ripple.size() != n,
+         "x, force, variance, early, known and ripple must be equally long");
   refuse(log_.segments.size() != log_.switches.size() + 1, "needs one segment more than switches");
   refuse(!(log_.dt > 0) || !(log_.lag >= 0), "dt must be positive and lag not negative");
   require_numbers(log_.x, "x");
   require_numbers(log_.force, "force");
   require_numbers(log_.known, "known");
+  require_numbers(log_.ripple, "ripple");
   refuse(!std::is_sorted(log_.switches.begin(), log_.switches.end()), "switches must rise");
   for (const double v : log_.variance) refuse(!(v >= 0), "variance must not be negative");
   for (const int level : log_.segments) {
@@ -83,6 +85,14 @@ ArmRecord::ArmRecord(Log log) : log_(std::move(log)) {
     levels_ = std::max(levels_, static_cast<std::size_t>(level) + 1);
   }
   keep_ = log_.lag > 0 ? std::exp(-log_.dt / log_.lag) : 0.0;
+}
+
+double ArmRecord::whole_ticks(const ArmGuess& guess) const {
+  return std::round(guess.delay / log_.dt);
+}
+
+double ArmRecord::late_by(const ArmGuess& guess) const {
+  return guess.delay - whole_ticks(guess) * log_.dt;
 }
 
 /// The level of the target, averaged over the tick that ends at row `tick`.
@@ -103,10 +113,9 @@ double ArmRecord::mean_target(std::size_t tick, double onset, std::span<const do
 
 ArmRecord::Drive ArmRecord::drive(const ArmGuess& guess) const {
   const std::size_t n = rows();
-  Drive out{std::vector<double>(n), std::vector<double>(n)};
-  const double shift = guess.delay / log_.dt;
-  const auto whole = static_cast<std::ptrdiff_t>(std::floor(shift));
-  const double part = shift - std::floor(shift);
+  Drive out{std::vector<double>(n), std::vector<double>(n), std::vector<double>(n)};
+  const auto whole = static_cast<std::ptrdiff_t>(whole_ticks(guess));
+  const double late = late_by(guess);
   const auto last = static_cast<std::ptrdiff_t>(n) - 1;
   const auto raw = [&](std::ptrdiff_t i) {
     return log_.force[static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(i, 0, last))];
@@ -116,15 +125,17 @@ ArmRecord::Drive ArmRecord::drive(const ArmGuess& guess) const {
     return raw(i) - sharpen * (raw(i + 1) - 2 * raw(i) + raw(i - 1));
   };
   for (std::size_t i = 0; i < n; ++i) {
-    const auto j = static_cast<std::ptrdiff_t>(i) + whole;
-    out.force[i] = part > 0 ? (1 - part) * at(j) + part * at(j + 1) : at(j);
+    out.force[i] = at(static_cast<std::ptrdiff_t>(i) + whole);
+    out.beyond[i] = guess.stair * log_.ripple[i];
   }
   const double lagging = log_.lag > 0 ? log_.lag / log_.dt * (1 - keep_) : 0.0;
   std::size_t segment = 0;
-  double y = mean_target(0, guess.onset, guess.levels, segment) + log_.known[0];
+  const double onset = guess.onset + late;
+  double y = mean_target(0, onset, guess.levels, segment) + log_.known[0];
   for (std::size_t i = 1; i < n; ++i) {
-    const double wanted = mean_target(i, guess.onset, guess.levels, segment) +
-                          0.5 * (log_.known[i - 1] + log_.known[i]);
+    const double moves = log_.known[i] - log_.known[i - 1];
+    const double wanted = mean_target(i, onset, guess.levels, segment) + log_.known[i] -
+                          (0.5 + late / log_.dt) * moves;
     out.target[i] = wanted + (y - wanted) * lagging;
     y = wanted + (y - wanted) * keep_;
   }
@@ -140,7 +151,8 @@ std::vector<double> ArmRecord::jumps(const ArmGuess& guess) const {
   };
   for (std::size_t k = 0; k < log_.switches.size(); ++k) {
     const double size = guess.stiffness * std::abs(level(k + 1) - level(k));
-    const auto row = static_cast<std::ptrdiff_t>((log_.switches[k] + guess.onset) / log_.dt);
+    const double at = log_.switches[k] + guess.onset + late_by(guess);
+    const auto row = static_cast<std::ptrdiff_t>(at / log_.dt);
     for (std::ptrdiff_t i = row - 2; i <= row + 3; ++i) {
       if (i >= 0 && i < static_cast<std::ptrdiff_t>(rows()))
         out[static_cast<std::size_t>(i)] = size;
@@ -154,11 +166,12 @@ ArmGains ArmRecord::gains(const ArmGuess& guess, double force_noise) const {
   const Eigen::Vector2d kick = step.start * step.per_mass;
   const Eigen::Vector3d q(kick[0] * kick[0], kick[0] * kick[1], kick[1] * kick[1]);
   const std::vector<double> jumps = this->jumps(guess);
+  const double late = late_by(guess);
   ArmGains out;
   out.rows.reserve(rows());
   Spread spread;
   for (std::size_t i = 0; i < rows(); ++i) {
-    const double forward = log_.lag - log_.early[i];
+    const double forward = log_.lag + late - log_.early[i];
     out.rows.push_back(spread.meet(log_.variance[i], forward, out.log_sum));
     const double doubt = kJumpDoubt * jumps[i];
     spread.move(step.phi, q * (force_noise * force_noise + doubt * doubt));
@@ -170,20 +183,22 @@ void ArmRecord::innovations(const ArmGuess& guess, const ArmGains& gains,
                             std::span<double> out) const {
   const ArmStep step(guess, log_.dt);
   const Drive drive = this->drive(guess);
+  const double ahead = log_.lag + late_by(guess);
   Eigen::Vector2d z = Eigen::Vector2d::Zero();
   double before = 0;  // m/s, velocity a tick ago
   for (std::size_t i = 0; i < rows(); ++i) {
     const ArmGains::Row& gain = gains.rows[i];
     const double early = log_.early[i];  // half a tick: the mean over the tick, with its bend
     const double bend = early * early / log_.dt * (2.0 / 3.0) * (z[1] - before);
-    const double e = log_.x[i] - z[0] - (log_.lag - early) * z[1] - bend;
+    const double e = log_.x[i] - z[0] - (ahead - early) * z[1] - bend;
     out[i] = e * gain.weight;
     if (i + 1 == rows()) break;
     z[0] += gain.x * e;
     z[1] += gain.v * e;
     before = z[1];
-    const double now = step.push(drive.force[i], drive.target[i + 1]);
-    const double next = step.push(drive.force[i + 1], drive.target[i + 1]);
+    const double beyond = drive.beyond[i];
+    const double now = step.push(drive.force[i] + beyond, drive.target[i + 1]);
+    const double next = step.push(drive.force[i + 1] + beyond, drive.target[i + 1]);
     z = step.phi * z + step.start * now + step.change * (next - now);
   }
 }
@@ -210,10 +225,11 @@ void ArmRecord::simulate(const ArmGuess& guess, double x, double v, std::span<do
   const Drive drive = this->drive(guess);
   Eigen::Vector2d z(x, v);
   for (std::size_t i = 0; i < rows(); ++i) {
-    out[i] = z[0] + log_.lag * z[1];
+    out[i] = z[0] + (log_.lag + late_by(guess)) * z[1];
     if (i + 1 == rows()) break;
-    const double next = step.push(drive.force[i + 1], drive.target[i + 1]);
-    const double now = step.push(drive.force[i], drive.target[i + 1]);
+    const double beyond = drive.beyond[i];
+    const double now = step.push(drive.force[i] + beyond, drive.target[i + 1]);
+    const double next = step.push(drive.force[i + 1] + beyond, drive.target[i + 1]);
     z = step.phi * z + step.start * now + step.change * (next - now);
   }
 }

@@ -10,9 +10,9 @@ namespace ebac {
 
 /// The hand of eq. (4) as a fit moves it: what all recordings share, then what one has for itself.
 ///
-/// In a vector: mass, damping, stiffness, delay, onset, bend, then the levels of the target.
+/// In a vector: mass, damping, stiffness, delay, onset, bend, stair, then the levels of the target.
 struct ArmGuess {
-  static constexpr std::size_t kBeforeLevels = 6;
+  static constexpr std::size_t kBeforeLevels = 7;
 
   double mass = 0.15;      // kg
   double damping = 6;      // N s/m
@@ -20,6 +20,7 @@ struct ArmGuess {
   double delay = 0;        // s, of the force reading behind the motion
   double onset = 0;        // s, of the target behind its switches: reaction time
   double bend = 0;         // 1, of second differences of the force: what it did between two rows
+  double stair = 0;        // 1, share of the motor's ripple that reaches the sensor
   std::span<const double> levels{};  // m
 
   static ArmGuess from(std::span<const double> theta);
@@ -54,6 +55,7 @@ class ArmRecord {
     std::vector<double> variance;  // m^2, of each position; infinite for one to leave out
     std::vector<double> early;     // s, how long before the row each position was true
     std::vector<double> known;     // m, known part of the target
+    std::vector<double> ripple;    // N, mean force over the tick from each row on, beyond its samples
     std::vector<double> switches;  // s after the first row, rising: the target goes to the next
     std::vector<int> segments;     // index into the levels, one more than switches
     double dt = 1e-3;              // s
@@ -84,10 +86,16 @@ class ArmRecord {
  private:
   struct Drive {
     std::vector<double> force;   // N, at each tick
+    std::vector<double> beyond;  // N, what its mean over the tick from there lies above that
     std::vector<double> target;  // m, mean over the tick before, behind the lag
   };
 
   Drive drive(const ArmGuess& guess) const;
+  /// The delay in whole ticks, by which the force is shifted; and the rest of it, which is put on
+  /// the motion as the lag is: a force between two rows would be an average, and less noisy than
+  /// one at a row, which a fit takes for a reason to prefer it.
+  double whole_ticks(const ArmGuess& guess) const;
+  double late_by(const ArmGuess& guess) const;  // s
   std::vector<double> jumps(const ArmGuess& guess) const;  // N
   double mean_target(std::size_t tick, double onset, std::span<const double> levels,
                      std::size_t& segment) const;

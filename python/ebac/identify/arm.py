@@ -10,9 +10,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ebac.identify.guess import regression, solve
-from ebac.identify.intervals import covariance, nuisances, with_counts
+from ebac.identify.bias import without_noise
+from ebac.identify.intervals import covariance, with_counts
 from ebac.identify.likelihood import likely_noise
-from ebac.identify.parameters import Parameters, lay_out
+from ebac.identify.parameters import BEFORE_LEVELS, Parameters, lay_out
 from ebac.identify.problem import Problem
 from ebac.identify.recording import Recording
 from ebac.identify.result import ArmResult
@@ -99,19 +100,20 @@ def fit_arm(
         if other.likelihood < best.likelihood - 1e-3:
             best = other
     gains = problem.gains(best.values, best.force_noise)
-    errors = problem.errors(best.values, gains)
-    doubt, sure = nuisances(problem)
-    asked = np.concatenate([parameters.free, doubt])
-    jacobian = problem.jacobian(best.values, gains, asked)
-    pretended = problem.noise_jacobian(best.values, gains, best.force_noise, asked)
+    values, pretended = without_noise(problem, best.values, best.force_noise, gains)
+    errors = problem.errors(values, gains)
+    jacobian = problem.jacobian(values, gains, problem.moved)
+    sure = problem.doubt.deviation
+    unseen = problem.jacobian(values, gains, problem.unseen.which)
+    unseen *= problem.unseen.deviation[:, None]
     return ArmResult(
         problem=problem,
-        values=best.values,
+        values=values,
         force_noise=best.force_noise,
         errors=errors,
         covariance=with_counts(
             problem,
-            covariance(jacobian, errors, [len(r.t) for r in recordings], robust, sure, pretended),
+            covariance(jacobian, errors, [len(r.t) for r in recordings], robust, sure, pretended, unseen),
         ),
         robust=robust,
         converged=best.found.converged,
@@ -151,7 +153,7 @@ def first_guess(problem: Problem) -> Values:
         count = part.columns.shape[1] - 3
         reach = float(np.abs(r.x).max()) + 0.5
         levels = np.clip(found[before : before + count], -reach, reach)
-        values[place] = [*hand, 0.0, 0.0, 0.0, *levels]
+        values[place] = [*hand, *np.zeros(BEFORE_LEVELS - 3), *levels]
         before += count
     return problem.parameters.clip(values)
 
@@ -169,26 +171,26 @@ def _search(problem: Problem, start: Values, robust: float | None) -> _Point:
     """Make the filter for the guess, search with it, until the two agree."""
     values, noise, evaluations = start, None, 0
     p = problem.parameters
-    free = p.free
+    moved_by = problem.moved
     for _ in range(MOST_ROUNDS):
         noise = likely_noise(problem, values, noise)
         gains = problem.gains(values, noise)
 
         def spread(part: Values, base: Values = values) -> Values:
             full = base.copy()
-            full[free] = part
+            full[moved_by] = part
             return full
 
         found = least_squares(
-            lambda part, gains=gains, spread=spread: problem.errors(spread(part), gains),  # type: ignore[misc]
-            lambda part, gains=gains, spread=spread: problem.jacobian(spread(part), gains),  # type: ignore[misc]
-            values[free],
-            p.low[free],
-            p.high[free],
+            lambda part, gains=gains, spread=spread: problem.objective(spread(part), gains),  # type: ignore[misc]
+            lambda part, gains=gains, spread=spread: problem.slope(spread(part), gains),  # type: ignore[misc]
+            values[moved_by],
+            p.low[moved_by],
+            p.high[moved_by],
             robust=robust,
         )
         evaluations += found.evaluations
-        moved = found.values - values[free]
+        moved = found.values - values[moved_by]
         values = spread(found.values)
         if float(moved @ found.information @ moved) < SETTLED:
             break

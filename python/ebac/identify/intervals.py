@@ -27,12 +27,13 @@ def covariance(
     robust: float | None = None,
     sure: NDArray[np.float64] | None = None,
     pretended: NDArray[np.float64] | None = None,
+    unseen: NDArray[np.float64] | None = None,
 ) -> NDArray[np.float64]:
     """Return the covariance of the free parameters, shape (free, free).
 
     The last rows of the Jacobian may be nuisances: held, but known only to the standard deviations `sure`.
     `pretended` is the
-    Jacobian that noise alone gives.
+    Jacobian that noise alone gives; `unseen` that of what is held in doubt, by one deviation each.
 
     The larger one of two, parameter by parameter: the inverse of the information, scaled by the errors; and the
     sandwich around it, with the
@@ -61,28 +62,12 @@ def covariance(
     sandwich = inverse @ middle @ inverse
     wider = np.sqrt(np.maximum(np.diag(sandwich) / np.maximum(np.diag(plain), 1e-300), 1.0))
     free = len(H) - (0 if sure is None else sure.size)
-    every = plain * np.outer(wider, wider) / np.outer(scale, scale)
+    every = plain * np.outer(wider, wider)
+    if unseen is not None and unseen.size:  # held where they are: what they may be off by is carried over
+        carried = inverse @ np.einsum("ik,jk->ij", jacobian * w / scale[:, None], unseen)
+        every = every + carried @ carried.T
+    every = every / np.outer(scale, scale)
     return np.asarray(every[:free, :free])
-
-
-#: What a log at one rate does not tell: when within a tick forces and target changed [ticks], and how the force
-#: bent between two rows, as a share of its second difference (0 for straight, 1/12 for a smooth curve).
-WITHIN_TICK = {"delay": 0.07, "onset": 0.15, "bend": 1 / 18}
-
-
-def nuisances(problem: Problem) -> tuple[NDArray[np.intp], NDArray[np.float64]]:
-    """Return which held parameters are in doubt, and by how much."""
-    p = problem.parameters
-    dt = max(r.dt for r in problem.recordings)
-    moving = any(t.switches for t in problem.targets)
-    found, sure = [], []
-    for i, name in enumerate(p.names):
-        what = kind(name)
-        if what not in WITHIN_TICK or np.isnan(p.fixed[i]) or (what == "onset" and not moving):
-            continue
-        found.append(i)
-        sure.append(WITHIN_TICK[what] * (1.0 if what == "bend" else dt))
-    return np.array(found, dtype=np.intp), np.array(sure)
 
 
 def with_counts(problem: Problem, found: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -12,8 +12,8 @@ from ebac.document import unknown
 
 SHARED = ("M0", "B0", "K0", "delay")
 #: Of a recording beside the shared ones and the levels.
-OWN = ("onset", "bend")
-UNITS = {"M0": "kg", "B0": "N s/m", "K0": "N/m", "delay": "s", "onset": "s", "bend": "1", "X0": "m"}
+OWN = ("onset", "bend", "stair")
+UNITS = {"M0": "kg", "B0": "N s/m", "K0": "N/m", "delay": "s", "onset": "s", "bend": "1", "stair": "1", "X0": "m"}
 BOUNDS = {
     "M0": (1e-3, 10.0),
     "B0": (0.0, 1e3),
@@ -21,10 +21,11 @@ BOUNDS = {
     "delay": (-0.05, 0.2),
     "onset": (-0.5, 2.0),
     "bend": (-1.0, 1.0),
+    "stair": (-1.0, 2.0),
     "X0": (-10.0, 10.0),
 }
-#: Held at zero unless asked for.
-USUALLY_FIXED = {"delay": 0.0, "onset": 0.0, "bend": 0.0}
+#: Held there unless asked for; of the motor's ripple a hand of M0 feels M0/(M0 + M_h).
+USUALLY_FIXED = {"delay": 0.0, "onset": 0.0, "bend": 0.0, "stair": 0.5}
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

@@ -36,18 +36,20 @@ def compare_with_scipy(result: ArmResult) -> Comparison:
     problem, p = result.problem, result.parameters
     gains = problem.gains(result.values, result.force_noise)
     start = first_guess(problem)
-    scale = np.maximum(result.deviation[p.free], 1e-12)
+    moved = problem.moved
+    doubt = problem.doubt.deviation
+    scale = np.maximum(np.concatenate([result.deviation[p.free], doubt]), 1e-12)
 
     def errors(part: np.ndarray) -> np.ndarray:
         full = start.copy()
-        full[p.free] = part
-        return problem.errors(full, gains)
+        full[moved] = part
+        return problem.objective(full, gains)
 
     began = perf_counter()
     found = least_squares(
         errors,
-        start[p.free],
-        bounds=(p.low[p.free], p.high[p.free]),
+        start[moved],
+        bounds=(p.low[moved], p.high[moved]),
         x_scale=scale,
         xtol=1e-10,
         ftol=1e-12,
@@ -58,5 +60,5 @@ def compare_with_scipy(result: ArmResult) -> Comparison:
         n: float(v) for n, v in zip(p.names, p.fixed, strict=True) if not np.isnan(v)
     }, free=[n for n in ("delay", "onset") if any(p.names[i].startswith(n) for i in p.free)])  # fmt: skip
     ours = perf_counter() - began
-    apart = np.abs(found.x - result.values[p.free]) / scale
+    apart = (np.abs(found.x - result.values[moved]) / scale)[: len(p.free)]
     return Comparison(ours_s=ours, scipy_s=scipy_s, apart=float(apart.max()))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -11,6 +12,7 @@ from ebac._core import ArmGains, ArmRecord
 from ebac.identify.noise import readings
 from ebac.identify.parameters import BEFORE_LEVELS, Parameters, kind
 from ebac.identify.recording import Recording
+from ebac.identify.ripple import ripple
 from ebac.identify.target import Target
 
 #: Steps of the differences, as a share of a value and at least.
@@ -22,6 +24,7 @@ LEAST_STEP = {
     "delay": 1e-6,
     "onset": 1e-6,
     "bend": 1e-4,
+    "stair": 1e-3,
     "X0": 1e-7,
 }
 
@@ -34,6 +37,8 @@ class Problem:
     targets: tuple[Target, ...]
     parameters: Parameters
     records: tuple[ArmRecord, ...] = field(init=False)
+    doubt: Doubt = field(init=False)  # moves with the search
+    unseen: Doubt = field(init=False)  # does not, but widens the intervals
 
     def __post_init__(self) -> None:
         """Hand the recordings to the core."""
@@ -41,6 +46,10 @@ class Problem:
             arm_record(r, target) for r, target in zip(self.recordings, self.targets, strict=True)
         ]
         object.__setattr__(self, "records", tuple(made))
+        object.__setattr__(self, "doubt", doubt_of(self, WITHIN_TICK))
+        driven = all(r.motor is not None for r in self.recordings)
+        unseen = {"bend": BEND, "delay": DELAY_DRIVEN if driven else DELAY}
+        object.__setattr__(self, "unseen", doubt_of(self, unseen))
 
     def gains(
         self, values: NDArray[np.float64], force_noise: NDArray[np.float64]
@@ -58,6 +67,29 @@ class Problem:
         parts = zip(self.records, self.parameters.places, gains, strict=True)
         return np.concatenate([r.innovations(values[place], g) for r, place, g in parts])
 
+    @property
+    def moved(self) -> NDArray[np.intp]:
+        """Indices of what a search moves: the free parameters, then those in doubt."""
+        return np.concatenate([self.parameters.free, self.doubt.which])
+
+    def parameters_within(self, values: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return values within their bounds; what is held for sure stays."""
+        return np.asarray(np.clip(values, self.parameters.low, self.parameters.high))
+
+    def objective(self, values: NDArray[np.float64], gains: list[ArmGains]) -> NDArray[np.float64]:
+        """Return the errors, then how far each parameter in doubt lies from where it is held, in deviations."""
+        doubt = self.doubt
+        off = (values[doubt.which] - self.parameters.fixed[doubt.which]) / doubt.deviation
+        return np.concatenate([self.errors(values, gains), off])
+
+    def slope(self, values: NDArray[np.float64], gains: list[ArmGains]) -> NDArray[np.float64]:
+        """Return d objective / d moved, shape (moved, rows + doubts)."""
+        inner = self.jacobian(values, gains, self.moved)
+        outer = np.zeros((len(inner), len(self.doubt.which)))
+        free = len(self.parameters.free)
+        outer[free:] = np.diag(1 / self.doubt.deviation)
+        return np.hstack([inner, outer])
+
     def jacobian(
         self,
         values: NDArray[np.float64],
@@ -68,18 +100,19 @@ class Problem:
         chosen = self.parameters.free if wanted is None else wanted
         return self._jacobian(self.records, values, gains, chosen)
 
-    def noise_jacobian(
+    def of_noise(
         self,
         values: NDArray[np.float64],
         gains: list[ArmGains],
         force_noise: NDArray[np.float64],
         wanted: NDArray[np.intp],
-    ) -> NDArray[np.float64]:
-        """Return the Jacobian of a log in which nothing but the noise of the force moves a resting hand.
+        seed: int = 0,
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Return Jacobian and errors of a log in which nothing but noise of the force moves a resting hand.
 
         What it tells of the parameters, noise pretends to tell.
         """
-        draw = np.random.Generator(np.random.PCG64(0))
+        draw = np.random.Generator(np.random.PCG64(seed))
         still = values.copy()
         for place in self.parameters.places:
             still[place[BEFORE_LEVELS:]] = 0.0
@@ -90,7 +123,8 @@ class Problem:
         out = self._jacobian(records, still, gains, wanted)
         places = [kind(self.parameters.names[i]) in ("X0", "onset") for i in wanted]
         out[places] = 0.0  # what a target tells, it tells without noise
-        return out
+        parts = zip(records, self.parameters.places, gains, strict=True)
+        return out, np.concatenate([r.innovations(still[place], g) for r, place, g in parts])
 
     def _jacobian(
         self,
@@ -118,6 +152,43 @@ class Problem:
         return max(STEP_SHARE * abs(float(values[index])), least)
 
 
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Doubt:
+    """Parameters that are held, but known only to a standard deviation: they move with the search, on a spring."""
+
+    which: NDArray[np.intp]
+    deviation: NDArray[np.float64]
+
+
+#: What a log at one rate hardly tells, fitted along on a spring: when within a tick the target changed [ticks], and
+#: which share of the motor's ripple the sensor sees.
+WITHIN_TICK = {"onset": 0.15, "stair": 0.4}
+#: Left as they are, and carried into the intervals; a fit would misuse them to smooth the noise of the force. How the
+#: force bent between two rows, as a share of its second difference (0 for straight, 1/12 for a smooth curve).
+BEND = 1 / 18
+#: When within a tick the force was read [ticks]: with the motor's force in the log its ripple is known, without it is
+#: some hundredths of a tick.
+DELAY_DRIVEN, DELAY = 0.005, 0.04
+
+
+def doubt_of(problem: Problem, deviations: Mapping[str, float]) -> Doubt:
+    """Return which held parameters are in doubt, and by how much."""
+    p = problem.parameters
+    dt = max(r.dt for r in problem.recordings)
+    moving = any(t.switches for t in problem.targets)
+    driven = any(r.motor is not None for r in problem.recordings)
+    found, sure = [], []
+    for i, name in enumerate(p.names):
+        what = kind(name)
+        if what not in deviations or np.isnan(p.fixed[i]):
+            continue
+        if (what == "onset" and not moving) or (what == "stair" and not driven):
+            continue
+        found.append(i)
+        sure.append(deviations[what] * (dt if what in ("delay", "onset") else 1.0))
+    return Doubt(which=np.array(found, dtype=np.intp), deviation=np.array(sure))
+
+
 def arm_record(
     recording: Recording, target: Target, noise: NDArray[np.float64] | None = None
 ) -> ArmRecord:
@@ -143,6 +214,7 @@ def arm_record(
         variance=read.variance.tolist(),
         early=read.early.tolist(),
         known=known.tolist(),
+        ripple=(ripple(recording) if noise is None else np.zeros(len(read.x))).tolist(),
         switches=[s - t0 for s in target.switches],
         segments=list(target.segments),
         dt=recording.dt,

@@ -25,13 +25,14 @@ def profile(result: ArmResult, name: str, level: float) -> tuple[float, float]:
         raise ValueError(f"profile of {name}: must be a fitted parameter")
     index = p.names.index(name)
     gains = result.problem.gains(result.values, result.force_noise)
-    others = p.free[p.free != index]
+    moved = result.problem.moved
+    others = moved[moved != index]
 
     def refit(value: float, start: NDArray[np.float64]) -> tuple[float, NDArray[np.float64]]:
         full = start.copy()
         full[index] = value
         if not others.size:
-            e = result.problem.errors(full, gains)
+            e = result.problem.objective(full, gains)
             return float(e @ e), full
 
         def spread(part: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -39,10 +40,10 @@ def profile(result: ArmResult, name: str, level: float) -> tuple[float, float]:
             out[others] = part
             return out
 
-        rows = np.flatnonzero(p.free != index)
+        rows = np.flatnonzero(moved != index)
         found = least_squares(
-            lambda part: result.problem.errors(spread(part), gains),
-            lambda part: result.problem.jacobian(spread(part), gains)[rows],
+            lambda part: result.problem.objective(spread(part), gains),
+            lambda part: result.problem.slope(spread(part), gains)[rows],
             full[others],
             p.low[others],
             p.high[others],
@@ -59,12 +60,12 @@ def profile(result: ArmResult, name: str, level: float) -> tuple[float, float]:
 
 def _inflation(result: ArmResult, index: int, gains: list) -> float:  # type: ignore[type-arg]
     """Return how much wider the local variance is than that of white errors of unit size."""
-    J = result.problem.jacobian(result.values, gains)
+    J = result.problem.slope(result.values, gains)
     scale = np.sqrt((J**2).sum(axis=1)) + 1e-300
     plain = loose_inverse((J @ J.T) / np.outer(scale, scale))
-    place = int(np.flatnonzero(result.parameters.free == index)[0])
+    place = int(np.flatnonzero(result.problem.moved == index)[0])
     white = float(plain[place, place] / scale[place] ** 2)
-    return float(result.covariance[place, place]) / white if white > 0 else 1.0
+    return float(result.deviation[index]) ** 2 / white if white > 0 else 1.0
 
 
 def _end(refit, result, index: int, sign: int, best: float, rise: float) -> float:  # type: ignore[no-untyped-def]

@@ -39,6 +39,8 @@ class Recording:
         Step of the position [m]; 0 when it has none.
     lag : float
         First-order lag of the force sensor [s].
+    current_lag : float
+        First-order lag of the motor's current loop [s].
     remarks : tuple of str
         What was guessed or changed on reading.
 
@@ -57,6 +59,7 @@ class Recording:
     target: NDArray[np.float64] | None = None
     count: float = 0.0
     lag: float = 0.0
+    current_lag: float = 3e-4
     remarks: tuple[str, ...] = field(default=())
 
     def __post_init__(self) -> None:
@@ -88,8 +91,11 @@ class Recording:
             raise ValueError(
                 f"{self.name}: x is constant at {self.x[0]:g} m: nothing moved, or it is the wrong column"
             )
-        if not 0 <= self.lag <= 0.1:
-            raise ValueError(f"{self.name}: lag = {self.lag:g} s: must lie in [0, 0.1] s")
+        for name in ("lag", "current_lag"):
+            if not 0 <= getattr(self, name) <= 0.1:
+                raise ValueError(
+                    f"{self.name}: {name} = {getattr(self, name):g} s: must lie in [0, 0.1] s"
+                )
 
     @property
     def dt(self) -> float:
@@ -122,11 +128,12 @@ class Recording:
     @classmethod
     def from_trace(cls, trace: Trace, *, axis: int = 0, name: str = "trace") -> Self:
         """Look at one axis of a `Trace`; count and lag are taken from its scenario where it has one."""
-        count = lag = 0.0
+        count, lag, current_lag = 0.0, 0.0, 3e-4
         remarks = []
         if trace.scenario is not None:
             device = trace.scenario.device
             count, lag = device.facts.count, device.sensor.lag
+            current_lag = device.drive.current_lag
             remarks.append(
                 f"count {1e3 * count:.4g} mm and sensor lag {1e3 * lag:.3g} ms from the scenario"
             )
@@ -140,6 +147,7 @@ class Recording:
             t=np.array(trace["t"], dtype=float),
             count=count or count_of(columns["x"]),
             lag=lag,
+            current_lag=current_lag,
             remarks=tuple(remarks),
             **columns,
         )

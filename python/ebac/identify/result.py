@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from ebac._core import Hand, Recorded, Step
 from ebac.identify import verdict
-from ebac.identify.parameters import BEFORE_LEVELS, Parameters
+from ebac.identify.parameters import BEFORE_LEVELS, OWN, Parameters
 from ebac.identify.problem import Problem, arm_record
 from ebac.identify.recording import Recording
 from ebac.identify.residuals import ResidualTests, nrmse, residual_tests, vaf
@@ -191,7 +191,7 @@ class ArmResult:
         for r, target in held_out:
             record = arm_record(r, target)
             hand = self.values[self.parameters.places[0]][:4]
-            base = np.concatenate([hand, np.zeros(2 + target.levels)])
+            base = np.concatenate([hand, np.zeros(len(OWN) + target.levels)])
             rows.append(self._judge(r, r.x, best_levels(record, base, r.x), held=True))
         return tuple(rows)
 
