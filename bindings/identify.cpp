@@ -31,7 +31,7 @@ ArmGains gains(const ArmRecord& record, const Numbers& theta, double force_noise
   const auto view = theta_of(record, theta);
   if (!(force_noise >= 0)) throw std::invalid_argument("ArmRecord: force_noise is negative");
   const py::gil_scoped_release release;
-  return record.gains(ArmGuess::from(view), force_noise);
+  return record.gains(ArmGuess::from(view, record.inputs()), force_noise);
 }
 
 void require_same(const ArmRecord& record, const ArmGains& gains) {
@@ -47,7 +47,7 @@ py::array_t<double> innovations(const ArmRecord& record, const Numbers& theta,
   const std::span<double> errors(out.mutable_data(), record.rows());
   {
     const py::gil_scoped_release release;
-    record.innovations(ArmGuess::from(view), gains, errors);
+    record.innovations(ArmGuess::from(view, record.inputs()), gains, errors);
   }
   return out;
 }
@@ -80,7 +80,7 @@ py::array_t<double> simulate(const ArmRecord& record, const Numbers& theta, doub
   const std::span<double> positions(out.mutable_data(), record.rows());
   {
     const py::gil_scoped_release release;
-    record.simulate(ArmGuess::from(view), x, v, positions);
+    record.simulate(ArmGuess::from(view, record.inputs()), x, v, positions);
   }
   return out;
 }
@@ -95,18 +95,20 @@ void bind_identify(py::module_& m) {
   py::class_<ArmRecord>(m, "ArmRecord",
                         "A log of one hand, and how well eq. (4) foretells it.\n\n"
                         "theta: mass [kg], damping [N s/m], stiffness [N/m], delay [s], onset "
-                        "[s], bend [1], stair [1], then the levels of the target [m].")
+                        "[s], bend [1], a share for each input, then the levels of the target [m].")
       .def(
           py::init([](std::vector<double> x, std::vector<double> force,
                       std::vector<double> variance, std::vector<double> early,
-                      std::vector<double> known, std::vector<double> ripple,
-                      std::vector<double> switches,
+                      std::vector<double> known, std::vector<double> doubt,
+                      std::vector<std::vector<double>> inputs, std::vector<double> switches,
                       std::vector<int> segments, double dt, double lag) {
             return ArmRecord({std::move(x), std::move(force), std::move(variance), std::move(early),
-                              std::move(known), std::move(ripple), std::move(switches), std::move(segments), dt, lag});
+                              std::move(known), std::move(doubt), std::move(inputs),
+                              std::move(switches), std::move(segments), dt, lag});
           }),
           py::kw_only(), py::arg("x"), py::arg("force"), py::arg("variance"), py::arg("early"),
-          py::arg("known"), py::arg("ripple"), py::arg("switches"), py::arg("segments"), py::arg("dt"), py::arg("lag"))
+          py::arg("known"), py::arg("doubt"), py::arg("inputs"), py::arg("switches"),
+          py::arg("segments"), py::arg("dt"), py::arg("lag"))
       .def_property_readonly("parameters", &ArmRecord::parameters, "How long theta is.")
       .def("gains", &gains, py::arg("theta"), py::arg("force_noise"),
            "Gains for a guess, when a force reading has the standard deviation `force_noise` [N].")

@@ -61,23 +61,33 @@ struct Spread {
 
 }  // namespace
 
-ArmGuess ArmGuess::from(std::span<const double> theta) {
-  return {theta[0], theta[1], theta[2], theta[3],
-          theta[4], theta[5], theta[6], theta.subspan(kBeforeLevels)};
+ArmGuess ArmGuess::from(std::span<const double> theta, std::size_t inputs) {
+  return {theta[0],
+          theta[1],
+          theta[2],
+          theta[3],
+          theta[4],
+          theta[5],
+          theta.subspan(kBeforeInputs, inputs),
+          theta.subspan(kBeforeInputs + inputs)};
 }
 
 ArmRecord::ArmRecord(Log log) : log_(std::move(log)) {
   const std::size_t n = log_.x.size();
   refuse(n < 3, "needs at least 3 rows, got " + std::to_string(n));
   refuse(log_.force.size() != n || log_.variance.size() != n || log_.known.size() != n ||
-             log_.early.size() != n || log_.ripple.size() != n,
-         "x, force, variance, early, known and ripple must be equally long");
+             log_.early.size() != n || log_.doubt.size() != n,
+         "x, force, variance, early, known and doubt must be equally long");
+  for (const auto& input : log_.inputs) {
+    refuse(input.size() != n, "an input must be as long as x");
+    require_numbers(input, "an input");
+  }
   refuse(log_.segments.size() != log_.switches.size() + 1, "needs one segment more than switches");
   refuse(!(log_.dt > 0) || !(log_.lag >= 0), "dt must be positive and lag not negative");
   require_numbers(log_.x, "x");
   require_numbers(log_.force, "force");
   require_numbers(log_.known, "known");
-  require_numbers(log_.ripple, "ripple");
+  require_numbers(log_.doubt, "doubt");
   refuse(!std::is_sorted(log_.switches.begin(), log_.switches.end()), "switches must rise");
   for (const double v : log_.variance) refuse(!(v >= 0), "variance must not be negative");
   for (const int level : log_.segments) {
@@ -126,7 +136,9 @@ ArmRecord::Drive ArmRecord::drive(const ArmGuess& guess) const {
   };
   for (std::size_t i = 0; i < n; ++i) {
     out.force[i] = at(static_cast<std::ptrdiff_t>(i) + whole);
-    out.beyond[i] = guess.stair * log_.ripple[i];
+    for (std::size_t k = 0; k < guess.shares.size(); ++k) {
+      out.beyond[i] += guess.shares[k] * log_.inputs[k][i];
+    }
   }
   const double lagging = log_.lag > 0 ? log_.lag / log_.dt * (1 - keep_) : 0.0;
   std::size_t segment = 0;
@@ -174,7 +186,8 @@ ArmGains ArmRecord::gains(const ArmGuess& guess, double force_noise) const {
     const double forward = log_.lag + late - log_.early[i];
     out.rows.push_back(spread.meet(log_.variance[i], forward, out.log_sum));
     const double doubt = kJumpDoubt * jumps[i];
-    spread.move(step.phi, q * (force_noise * force_noise + doubt * doubt));
+    const double other = log_.doubt[i];
+    spread.move(step.phi, q * (force_noise * force_noise + doubt * doubt + other * other));
   }
   return out;
 }
@@ -209,12 +222,12 @@ void ArmRecord::jacobian(std::span<const double> theta, const ArmGains& gains,
   const std::size_t n = rows();
   std::vector<double> at(theta.begin(), theta.end());
   std::vector<double> here(n);
-  innovations(ArmGuess::from(at), gains, here);
+  innovations(ArmGuess::from(at, inputs()), gains, here);
   for (std::size_t i = 0; i < which.size(); ++i) {
     const std::span<double> column = out.subspan(i * n, n);
     const double value = at[which[i]];
     at[which[i]] = value + steps[i];
-    innovations(ArmGuess::from(at), gains, column);
+    innovations(ArmGuess::from(at, inputs()), gains, column);
     at[which[i]] = value;
     for (std::size_t k = 0; k < n; ++k) column[k] = (column[k] - here[k]) / steps[i];
   }

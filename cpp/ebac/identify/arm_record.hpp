@@ -10,9 +10,10 @@ namespace ebac {
 
 /// The hand of eq. (4) as a fit moves it: what all recordings share, then what one has for itself.
 ///
-/// In a vector: mass, damping, stiffness, delay, onset, bend, stair, then the levels of the target.
+/// In a vector: mass, damping, stiffness, delay, onset, bend, one share for each input of the log,
+/// then the levels of the target.
 struct ArmGuess {
-  static constexpr std::size_t kBeforeLevels = 7;
+  static constexpr std::size_t kBeforeInputs = 6;
 
   double mass = 0.15;      // kg
   double damping = 6;      // N s/m
@@ -20,10 +21,10 @@ struct ArmGuess {
   double delay = 0;        // s, of the force reading behind the motion
   double onset = 0;        // s, of the target behind its switches: reaction time
   double bend = 0;         // 1, of second differences of the force: what it did between two rows
-  double stair = 0;        // 1, share of the motor's ripple that reaches the sensor
+  std::span<const double> shares{};  // of the inputs, in what makes each of them a force [N]
   std::span<const double> levels{};  // m
 
-  static ArmGuess from(std::span<const double> theta);
+  static ArmGuess from(std::span<const double> theta, std::size_t inputs);
 };
 
 /// How far each row corrects what was foretold: the gains of a Kalman filter, made for one guess and
@@ -55,7 +56,9 @@ class ArmRecord {
     std::vector<double> variance;  // m^2, of each position; infinite for one to leave out
     std::vector<double> early;     // s, how long before the row each position was true
     std::vector<double> known;     // m, known part of the target
-    std::vector<double> ripple;    // N, mean force over the tick from each row on, beyond its samples
+    std::vector<double> doubt;     // N, what else may push over the tick from each row on
+    std::vector<std::vector<double>>
+        inputs;                    // mean force over the tick from each row on, per share
     std::vector<double> switches;  // s after the first row, rising: the target goes to the next
     std::vector<int> segments;     // index into the levels, one more than switches
     double dt = 1e-3;              // s
@@ -66,7 +69,8 @@ class ArmRecord {
   explicit ArmRecord(Log log);
 
   std::size_t rows() const { return log_.x.size(); }
-  std::size_t parameters() const { return ArmGuess::kBeforeLevels + levels_; }
+  std::size_t inputs() const { return log_.inputs.size(); }
+  std::size_t parameters() const { return ArmGuess::kBeforeInputs + inputs() + levels_; }
 
   /// The gains for a guess, when a force reading has the standard deviation `force_noise` [N].
   ArmGains gains(const ArmGuess& guess, double force_noise) const;
@@ -95,7 +99,7 @@ class ArmRecord {
   /// the motion as the lag is: a force between two rows would be an average, and less noisy than
   /// one at a row, which a fit takes for a reason to prefer it.
   double whole_ticks(const ArmGuess& guess) const;
-  double late_by(const ArmGuess& guess) const;  // s
+  double late_by(const ArmGuess& guess) const;             // s
   std::vector<double> jumps(const ArmGuess& guess) const;  // N
   double mean_target(std::size_t tick, double onset, std::span<const double> levels,
                      std::size_t& segment) const;

@@ -3,30 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from time import perf_counter
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ebac.identify.fit import fitted
 from ebac.identify.guess import regression, solve
-from ebac.identify.bias import without_noise
-from ebac.identify.intervals import covariance, with_counts
-from ebac.identify.likelihood import likely_noise
-from ebac.identify.parameters import BEFORE_LEVELS, Parameters, lay_out
+from ebac.identify.intervals import with_counts
+from ebac.identify.parameters import BEFORE_LEVELS, lay_out
 from ebac.identify.problem import Problem
 from ebac.identify.recording import Recording
 from ebac.identify.result import ArmResult
-from ebac.identify.search import Found, least_squares
 from ebac.identify.target import Target
 
 Values = NDArray[np.float64]
-
-#: Rounds of: filter for the guess, search with that filter.
-MOST_ROUNDS = 6
-#: Settled when the last round moved by less than this, in deviations squared.
-SETTLED = 1e-2
-
 
 def fit_arm(
     recordings: Recording | Sequence[Recording],
@@ -93,31 +84,16 @@ def fit_arm(
         own=own,
     )
     problem = Problem(recordings=tuple(recordings), targets=tuple(targets), parameters=parameters)
-    best = _search(problem, first_guess(problem), robust)
-    draw = np.random.Generator(np.random.PCG64(seed))
-    for _ in range(starts - 1):
-        other = _search(problem, _elsewhere(best.values, parameters, draw), robust)
-        if other.likelihood < best.likelihood - 1e-3:
-            best = other
-    gains = problem.gains(best.values, best.force_noise)
-    values, pretended = without_noise(problem, best.values, best.force_noise, gains)
-    errors = problem.errors(values, gains)
-    jacobian = problem.jacobian(values, gains, problem.moved)
-    sure = problem.doubt.deviation
-    unseen = problem.jacobian(values, gains, problem.unseen.which)
-    unseen *= problem.unseen.deviation[:, None]
+    fit = fitted(problem, [first_guess(problem)], starts=starts, robust=robust, seed=seed)
     return ArmResult(
         problem=problem,
-        values=values,
-        force_noise=best.force_noise,
-        errors=errors,
-        covariance=with_counts(
-            problem,
-            covariance(jacobian, errors, [len(r.t) for r in recordings], robust, sure, pretended, unseen),
-        ),
+        values=fit.values,
+        force_noise=fit.force_noise,
+        errors=fit.errors,
+        covariance=with_counts(problem, fit.covariance),
         robust=robust,
-        converged=best.found.converged,
-        evaluations=best.evaluations,
+        converged=fit.converged,
+        evaluations=fit.evaluations,
         seconds=perf_counter() - began,
     )
 
@@ -158,58 +134,3 @@ def first_guess(problem: Problem) -> Values:
     return problem.parameters.clip(values)
 
 
-@dataclass(frozen=True, kw_only=True, eq=False)
-class _Point:
-    found: Found
-    values: Values
-    force_noise: Values
-    likelihood: float
-    evaluations: int
-
-
-def _search(problem: Problem, start: Values, robust: float | None) -> _Point:
-    """Make the filter for the guess, search with it, until the two agree."""
-    values, noise, evaluations = start, None, 0
-    p = problem.parameters
-    moved_by = problem.moved
-    for _ in range(MOST_ROUNDS):
-        noise = likely_noise(problem, values, noise)
-        gains = problem.gains(values, noise)
-
-        def spread(part: Values, base: Values = values) -> Values:
-            full = base.copy()
-            full[moved_by] = part
-            return full
-
-        found = least_squares(
-            lambda part, gains=gains, spread=spread: problem.objective(spread(part), gains),  # type: ignore[misc]
-            lambda part, gains=gains, spread=spread: problem.slope(spread(part), gains),  # type: ignore[misc]
-            values[moved_by],
-            p.low[moved_by],
-            p.high[moved_by],
-            robust=robust,
-        )
-        evaluations += found.evaluations
-        moved = found.values - values[moved_by]
-        values = spread(found.values)
-        if float(moved @ found.information @ moved) < SETTLED:
-            break
-    assert noise is not None
-    gains = problem.gains(values, noise)
-    likelihood = found.cost + sum(g.log_sum for g in gains)
-    return _Point(
-        found=found,
-        values=values,
-        force_noise=noise,
-        likelihood=likelihood,
-        evaluations=evaluations,
-    )
-
-
-def _elsewhere(values: Values, parameters: Parameters, draw: np.random.Generator) -> Values:
-    """Return another start: M0, B0, K0 up to four times larger or smaller."""
-    out = values.copy()
-    for i, name in enumerate(parameters.names):
-        if name[0] in "MBK":
-            out[i] = max(abs(values[i]), 1e-2) * 4 ** draw.uniform(-1, 1)
-    return parameters.clip(out)

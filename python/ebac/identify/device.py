@@ -2,25 +2,26 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
+from time import perf_counter
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ebac._core import Compensation
-from ebac.identify.levels import lagged
+from ebac.identify.device_problem import Drive, Guess, columns_of, device_problem, driven, first_guess
+from ebac.identify.fit import Fitted, fitted
 from ebac.identify.recording import Recording
 from ebac.identify.result import Z95, Estimate
-from ebac.identify.smooth import WIDTH, kernels, smoothed
 
 #: Standard gravity [m/s^2].
 GRAVITY = 9.80665
 #: Stribeck speeds that are tried [m/s].
-SPEEDS = np.geomspace(2e-3, 0.1, 15)
-#: Rows in which it must slide.
-LEAST_SLIDING = 200
+SPEEDS = np.geomspace(2e-3, 0.1, 8)
+#: A friction that falls with speed is believed when it is this many deviations from none and raises the likelihood.
+BELIEVED, GAIN = 4.0, 20.0
 NAMES = ("M_h", "B_h", "coulomb", "weight", "stribeck")
 UNITS = ("kg", "N s/m", "N", "N", "N")
 
@@ -29,11 +30,15 @@ UNITS = ("kg", "N s/m", "N", "N", "N")
 class DeviceResult:
     """The device as identified; `result.compensation` feeds a `Device`."""
 
+    recording: Recording
+    drive: Drive
     names: tuple[str, ...]
     values: NDArray[np.float64]
     covariance: NDArray[np.float64]
     stribeck_speed: float | None
     explained: float
+    converged: bool
+    seconds: float
 
     @cached_property
     def estimates(self) -> dict[str, Estimate]:
@@ -48,10 +53,16 @@ class DeviceResult:
                 low=value - h,
                 high=value + h,
                 fixed=False,
-                determined=name in ("coulomb", "weight", "stribeck") or h <= 0.25 * abs(value),
+                determined=self._determined(name, value, h),
             )
             for name, value, h, unit in rows
         }
+
+    def _determined(self, name: str, value: float, half: float) -> bool:
+        if name in ("M_h", "B_h"):
+            return half <= 0.25 * abs(value)
+        reach = float(np.sqrt(np.mean(self.drive.force[self.drive.slides] ** 2)))
+        return half <= 0.25 * max(abs(value), reach)
 
     @property
     def undetermined(self) -> tuple[str, ...]:
@@ -77,6 +88,8 @@ class DeviceResult:
             "explained_share": self.explained,
             "undetermined": list(self.undetermined),
             "compensation": self.compensation.as_dict(),
+            "converged": self.converged,
+            "seconds_s": self.seconds,
         }
 
     def __repr__(self) -> str:
@@ -85,92 +98,55 @@ class DeviceResult:
         return "\n".join([*lines, f"  explains {100 * self.explained:.2f} % of the force"])
 
 
-def fit_device(recording: Recording, *, current_lag: float = 3e-4) -> DeviceResult:
-    """Fit mass, damping, friction and weight to a log: M_h a + B_h v + friction sign(v) - weight = F_hand - F_motor.
+def fit_device(recording: Recording, *, current_lag: float | None = None) -> DeviceResult:
+    """Identify the device of one axis from motion and forces.
 
-    A hand may hold the device when a force sensor sits between them; without the column `force`, no hand must touch it.
+    The forces on the handle drive it, the hand's where the log has it and the motor's; its position is foretold one
+    tick ahead and compared, as for the arm. While it slides, friction is known but for its size; near a turn, or at
+    rest, it is whatever it has to be, and these rows tell nothing.
 
     Parameters
     ----------
     recording : Recording
-        With motion, and the motor's or the hand's force.
-    current_lag : float
-        Lag of the current loop [s].
+        With motion both ways, and the motor's or the hand's force.
+    current_lag : float, optional
+        Lag of the current loop [s]; default: of the recording.
 
     Raises
     ------
     ValueError
-        When the recording has neither force, or does not move both ways.
+        When the recording has neither force, or does not slide both ways for long enough.
     """
-    if recording.motor is None and recording.force is None:
-        raise ValueError(
-            f"{recording.name}: has neither the motor's force nor the hand's; name one of these columns"
-        )
-    drive, moved = _signals(recording, current_lag)
-    if not ((moved[1] > 0).any() and (moved[1] < 0).any()):
-        raise ValueError(
-            f"{recording.name}: moves one way only; friction shows when it moves both ways"
-        )
-    best = _regress(drive, moved, None)
-    speed = None
-    if recording.count > 0:
-        for trial in SPEEDS:
-            found = _regress(drive, moved, float(trial))
-            stribeck = found[0][4]
-            if found[2] < best[2] * 0.98 and stribeck > 3 * np.sqrt(found[1][4, 4]):
-                best, speed = found, float(trial)
-    values, covariance, left = best
+    began = perf_counter()
+    drive = driven(recording, recording.current_lag if current_lag is None else current_lag)
+    start = first_guess(drive)
+    best, speed = _fit(drive, None, start), None
+    trials = [(float(s), first_guess(drive, float(s))) for s in SPEEDS]
+    tried, guess = min(trials, key=lambda trial: trial[1].cost)
+    if guess.cost < 0.995 * start.cost:
+        other = _fit(drive, tried, guess)
+        rise = other.values[-1] / np.sqrt(max(other.covariance[-1, -1], 1e-300))
+        if other.cost < best.cost - GAIN and rise > BELIEVED:
+            best, speed = other, tried
+    left = drive.smooth_force[drive.slides] + columns_of(drive, speed) @ best.values
     return DeviceResult(
-        names=NAMES[: len(values)],
-        values=values,
-        covariance=covariance,
+        recording=recording,
+        drive=drive,
+        names=NAMES[: len(best.values)],
+        values=best.values,
+        covariance=best.covariance,
         stribeck_speed=speed,
-        explained=1 - left / float(np.var(drive) * len(drive) + 1e-300),
+        explained=1 - float(np.var(left) / (np.var(drive.smooth_force[drive.slides]) + 1e-300)),
+        converged=best.converged,
+        seconds=perf_counter() - began,
     )
 
 
-def _signals(r: Recording, current_lag: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return force, and acceleration, velocity, sign of velocity, smoothed alike and behind both lags."""
-    h = kernels(r.dt)
-
-    def behind(values: NDArray[np.float64], *lags: float) -> NDArray[np.float64]:
-        for lag in lags:
-            values = lagged(values, r.dt, lag)
-        return values
-
-    force = np.zeros(len(r.t))
-    if r.force is not None:
-        force = force + r.force
-    if r.motor is not None:  # acted over the tick before the row, behind the current loop
-        later = np.append(r.motor[1:], r.motor[-1])
-        force = force - behind(0.5 * (r.motor + later), current_lag, r.lag)
-    x = behind(r.x, r.lag)
-    quick = kernels(r.dt, 0.25 * WIDTH)
-    edge = quick.shape[1] // 2
-    sign = smoothed(np.sign(smoothed(x, quick[1])), h[0])
-    force, x = force[edge : len(force) - edge], x[edge : len(x) - edge]
-    slides = (
-        np.abs(sign) > 0.99
-    )  # one way throughout the kernel; near a turn friction is what it has to be
-    if slides.sum() < LEAST_SLIDING:
-        raise ValueError(f"{r.name}: slides in {slides.sum()} rows only; needs {LEAST_SLIDING}")
-    moved = np.array([smoothed(x, h[2]), smoothed(x, h[1]), np.sign(sign)])
-    return smoothed(force, h[0])[slides], moved[:, slides]
-
-
-def _regress(
-    force: NDArray[np.float64], moved: NDArray[np.float64], speed: float | None
-) -> tuple[NDArray[np.float64], NDArray[np.float64], float]:
-    columns = [moved[0], moved[1], moved[2], -np.ones(len(force))]
-    if speed is not None:
-        columns.append(moved[2] * np.exp(-((moved[1] / speed) ** 2)))
-    A = np.array(columns).T
-    scale = np.sqrt((A**2).mean(axis=0)) + 1e-300
-    inverse = np.linalg.pinv((A / scale).T @ (A / scale), rcond=1e-12)
-    raw = inverse @ ((A / scale).T @ force)
-    e = force - (A / scale) @ raw
-    scores = (A / scale) * e[:, None]
-    block = max(64, len(e) // 60)
-    sums = np.add.reduceat(scores, np.arange(0, len(e), block), axis=0)
-    covariance = inverse @ (sums.T @ sums) @ inverse
-    return raw / scale, covariance / np.outer(scale, scale), float(e @ e)
+def _fit(drive: Drive, speed: float | None, guess: Guess) -> Fitted:
+    """Return the fit, with the values of what is fitted alone."""
+    problem, names = device_problem(drive, speed)
+    p = problem.parameters
+    start = np.where(np.isnan(p.fixed), 0.0, p.fixed)
+    start[[p.names.index(n) for n in names]] = guess.values
+    fit = fitted(problem, [p.clip(start)], starts=1, robust=None, seed=1)
+    return replace(fit, values=fit.values[p.free])

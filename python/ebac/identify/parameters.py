@@ -13,17 +13,28 @@ from ebac.document import unknown
 SHARED = ("M0", "B0", "K0", "delay")
 #: Of a recording beside the shared ones and the levels.
 OWN = ("onset", "bend", "stair")
-UNITS = {"M0": "kg", "B0": "N s/m", "K0": "N/m", "delay": "s", "onset": "s", "bend": "1", "stair": "1", "X0": "m"}
-BOUNDS = {
-    "M0": (1e-3, 10.0),
-    "B0": (0.0, 1e3),
-    "K0": (0.0, 1e5),
-    "delay": (-0.05, 0.2),
-    "onset": (-0.5, 2.0),
-    "bend": (-1.0, 1.0),
-    "stair": (-1.0, 2.0),
-    "X0": (-10.0, 10.0),
+#: Forces that are known but for a share: the motor's ripple, friction and weight of a device.
+INPUTS = ("stair", "coulomb", "weight", "stribeck")
+#: Unit, bounds, and the least step of a difference, of every parameter.
+KINDS: dict[str, tuple[str, tuple[float, float], float]] = {
+    "M0": ("kg", (1e-3, 10.0), 1e-7),
+    "B0": ("N s/m", (0.0, 1e3), 1e-5),
+    "K0": ("N/m", (0.0, 1e5), 1e-3),
+    "delay": ("s", (-0.05, 0.2), 1e-6),
+    "onset": ("s", (-0.5, 2.0), 1e-6),
+    "bend": ("1", (-1.0, 1.0), 1e-4),
+    "stair": ("1", (-1.0, 2.0), 1e-3),
+    "X0": ("m", (-10.0, 10.0), 1e-7),
+    "M_h": ("kg", (1e-3, 100.0), 1e-7),
+    "B_h": ("N s/m", (-10.0, 1e3), 1e-5),
+    "spring": ("N/m", (0.0, 0.0), 1e-3),
+    "coulomb": ("N", (-100.0, 100.0), 1e-4),
+    "weight": ("N", (-1e3, 1e3), 1e-4),
+    "stribeck": ("N", (-100.0, 100.0), 1e-4),
 }
+UNITS = {name: unit for name, (unit, _, _) in KINDS.items()}
+BOUNDS = {name: bounds for name, (_, bounds, _) in KINDS.items()}
+STEPS = {name: step for name, (_, _, step) in KINDS.items()}
 #: Held there unless asked for; of the motor's ripple a hand of M0 feels M0/(M0 + M_h).
 USUALLY_FIXED = {"delay": 0.0, "onset": 0.0, "bend": 0.0, "stair": 0.5}
 
@@ -37,6 +48,7 @@ class Parameters:
     high: NDArray[np.float64]
     fixed: NDArray[np.float64]  # NaN where free
     places: tuple[NDArray[np.intp], ...]  # theta of recording i = values[places[i]]
+    before_levels: int  # how much of theta stands before the levels of the target
 
     @property
     def free(self) -> NDArray[np.intp]:
@@ -96,14 +108,15 @@ def lay_out(
         theta += [place(name + mark) for name in OWN]
         theta += [place("X0" + (f"/{j + 1}" if count > 1 else "") + mark) for j in range(count)]
         places.append(np.array(theta))
+    known = (*SHARED, *OWN, "X0")
     for name in (*fixed, *bounds, *free, *own):
-        if name not in names and name not in UNITS:
+        if name not in names and name not in known:
             raise ValueError(
-                unknown(f"parameter {name}", name, list(dict.fromkeys([*UNITS, *names])))
+                unknown(f"parameter {name}", name, list(dict.fromkeys([*known, *names])))
             )
     rows = [_limits(name, fixed, bounds, free) for name in names]
     low, high, held = np.array(rows).T
-    return Parameters(names=tuple(names), low=low, high=high, fixed=held, places=tuple(places))
+    return Parameters(names=tuple(names), low=low, high=high, fixed=held, places=tuple(places), before_levels=BEFORE_LEVELS)
 
 
 def _limits(

@@ -2,31 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
+from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ebac._core import ArmGains, ArmRecord
 from ebac.identify.noise import readings
-from ebac.identify.parameters import BEFORE_LEVELS, Parameters, kind
+from ebac.identify.parameters import INPUTS, STEPS, Parameters, kind
 from ebac.identify.recording import Recording
 from ebac.identify.ripple import ripple
 from ebac.identify.target import Target
 
-#: Steps of the differences, as a share of a value and at least.
+#: Steps of the differences, as a share of a value.
 STEP_SHARE = 1e-5
-LEAST_STEP = {
-    "M0": 1e-7,
-    "B0": 1e-5,
-    "K0": 1e-3,
-    "delay": 1e-6,
-    "onset": 1e-6,
-    "bend": 1e-4,
-    "stair": 1e-3,
-    "X0": 1e-7,
-}
+
+#: Hands a recording to the core; with noise [N] instead of its force, a log in which nothing else moves.
+Make: TypeAlias = Callable[[Recording, Target, NDArray[np.float64] | None], ArmRecord]
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -36,6 +30,7 @@ class Problem:
     recordings: tuple[Recording, ...]
     targets: tuple[Target, ...]
     parameters: Parameters
+    make: Make = field(default_factory=lambda: arm_record)
     records: tuple[ArmRecord, ...] = field(init=False)
     doubt: Doubt = field(init=False)  # moves with the search
     unseen: Doubt = field(init=False)  # does not, but widens the intervals
@@ -43,7 +38,7 @@ class Problem:
     def __post_init__(self) -> None:
         """Hand the recordings to the core."""
         made = [
-            arm_record(r, target) for r, target in zip(self.recordings, self.targets, strict=True)
+            self.make(r, target, None) for r, target in zip(self.recordings, self.targets, strict=True)
         ]
         object.__setattr__(self, "records", tuple(made))
         object.__setattr__(self, "doubt", doubt_of(self, WITHIN_TICK))
@@ -115,13 +110,14 @@ class Problem:
         draw = np.random.Generator(np.random.PCG64(seed))
         still = values.copy()
         for place in self.parameters.places:
-            still[place[BEFORE_LEVELS:]] = 0.0
+            still[place[self.parameters.before_levels :]] = 0.0
         records = tuple(
-            arm_record(r, replace(t, path=None), noise=float(n) * draw.standard_normal(len(r.t)))
+            self.make(r, replace(t, path=None), float(n) * draw.standard_normal(len(r.t)))
             for r, t, n in zip(self.recordings, self.targets, force_noise, strict=True)
         )
         out = self._jacobian(records, still, gains, wanted)
-        places = [kind(self.parameters.names[i]) in ("X0", "onset") for i in wanted]
+        told = ("X0", "onset", *INPUTS)
+        places = [kind(self.parameters.names[i]) in told for i in wanted]
         out[places] = 0.0  # what a target tells, it tells without noise
         parts = zip(records, self.parameters.places, gains, strict=True)
         return out, np.concatenate([r.innovations(still[place], g) for r, place, g in parts])
@@ -148,7 +144,7 @@ class Problem:
         return out
 
     def _step(self, index: int, values: NDArray[np.float64]) -> float:
-        least = LEAST_STEP[kind(self.parameters.names[index])]
+        least = STEPS[kind(self.parameters.names[index])]
         return max(STEP_SHARE * abs(float(values[index])), least)
 
 
@@ -214,7 +210,8 @@ def arm_record(
         variance=read.variance.tolist(),
         early=read.early.tolist(),
         known=known.tolist(),
-        ripple=(ripple(recording) if noise is None else np.zeros(len(read.x))).tolist(),
+        doubt=np.zeros(len(read.x)).tolist(),
+        inputs=[(ripple(recording) if noise is None else np.zeros(len(read.x))).tolist()],
         switches=[s - t0 for s in target.switches],
         segments=list(target.segments),
         dt=recording.dt,
