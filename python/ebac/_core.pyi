@@ -2223,7 +2223,7 @@ class ArmRecord:
     """
     A log of one hand, and how well eq. (4) foretells it.
 
-    theta: mass [kg], damping [N s/m], stiffness [N/m], delay [s], onset [s], bend [1], then the levels of the target [m].
+    theta: mass [kg], damping [N s/m], stiffness [N/m], delay [s], onset [s], bend [1], a share for each input, then the levels of the target [m].
     """
     def __init__(
         self,
@@ -2233,6 +2233,10 @@ class ArmRecord:
         variance: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex],
         early: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex],
         known: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex],
+        doubt: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex],
+        inputs: collections.abc.Sequence[
+            collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex]
+        ],
         switches: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex],
         segments: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex],
         dt: typing.SupportsFloat | typing.SupportsIndex,
@@ -2409,6 +2413,15 @@ class TCA:
     passive: typing.ClassVar[bool] = False
     summary: typing.ClassVar[str] = "eq. (2): desired force plus PD feedback of the F/T sensor"
     @staticmethod
+    def _press(
+        setups: collections.abc.Sequence[Setup],
+        laws: collections.abc.Sequence[TCA],
+        goals: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex],
+        threads: typing.SupportsInt | typing.SupportsIndex,
+        limits: RunLimits,
+        progress: SweepProgress,
+    ) -> dict[str, typing.Any]: ...
+    @staticmethod
     def _sweep(
         setups: collections.abc.Sequence[Setup],
         laws: collections.abc.Sequence[TCA],
@@ -2546,6 +2559,15 @@ class TCADamped:
     name: typing.ClassVar[str] = "tca-damped"
     passive: typing.ClassVar[bool] = False
     summary: typing.ClassVar[str] = "eq. (2) plus a virtual damper in contact"
+    @staticmethod
+    def _press(
+        setups: collections.abc.Sequence[Setup],
+        laws: collections.abc.Sequence[TCADamped],
+        goals: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex],
+        threads: typing.SupportsInt | typing.SupportsIndex,
+        limits: RunLimits,
+        progress: SweepProgress,
+    ) -> dict[str, typing.Any]: ...
     @staticmethod
     def _sweep(
         setups: collections.abc.Sequence[Setup],
@@ -3277,6 +3299,15 @@ class EBACPrinted:
     passive: typing.ClassVar[bool] = False
     summary: typing.ClassVar[str] = "eq. (8) to (10) and (2), read to the letter"
     @staticmethod
+    def _press(
+        setups: collections.abc.Sequence[Setup],
+        laws: collections.abc.Sequence[EBACPrinted],
+        goals: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex],
+        threads: typing.SupportsInt | typing.SupportsIndex,
+        limits: RunLimits,
+        progress: SweepProgress,
+    ) -> dict[str, typing.Any]: ...
+    @staticmethod
     def _sweep(
         setups: collections.abc.Sequence[Setup],
         laws: collections.abc.Sequence[EBACPrinted],
@@ -3493,6 +3524,15 @@ class EBAC:
     name: typing.ClassVar[str] = "ebac"
     passive: typing.ClassVar[bool] = False
     summary: typing.ClassVar[str] = "eq. (8) to (10) and (2), completed: recovery, damping, guard"
+    @staticmethod
+    def _press(
+        setups: collections.abc.Sequence[Setup],
+        laws: collections.abc.Sequence[EBAC],
+        goals: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex],
+        threads: typing.SupportsInt | typing.SupportsIndex,
+        limits: RunLimits,
+        progress: SweepProgress,
+    ) -> dict[str, typing.Any]: ...
     @staticmethod
     def _sweep(
         setups: collections.abc.Sequence[Setup],

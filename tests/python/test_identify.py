@@ -12,7 +12,8 @@ from typer.testing import CliRunner
 import ebac
 from ebac.cli import app
 from ebac.identify import Recording, Target, excitation, fit_arm, fit_device, load
-from ebac.identify.check import Case, draw, run_case
+from ebac.identify.cases import Case, draw
+from ebac.identify.check import run_case
 from ebac.identify.peer import compare_with_scipy
 from ebac.identify.recording import count_of
 from ebac.identify.unbiased import second_opinion

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from ebac.cli import output
+from ebac.cli.identify_arm_results import show, write
 from ebac.cli.identify_options import (
     FIT,
     Axis,
@@ -26,7 +27,6 @@ from ebac.cli.identify_options import (
     numbers,
     target_of,
 )
-from ebac.cli.identify_arm_results import show, write
 
 if TYPE_CHECKING:
     from ebac.identify import ArmResult
@@ -129,5 +129,3 @@ def _opinions(result: ArmResult) -> tuple[Any, ...]:
         return second_opinion(result)
     except ValueError:
         return ()
-
-

@@ -12,6 +12,7 @@ if TYPE_CHECKING:
 
 
 def careful(result: ArmResult) -> list[str]:
+    """Return what to be careful about, a sentence each."""
     out = [f"{name} is not determined by this log." for name in result.undetermined]
     out += [
         f"{a} and {b} cannot be told apart in this log (correlation {r:+.3f})."
@@ -34,6 +35,7 @@ def careful(result: ArmResult) -> list[str]:
 def show(
     result: ArmResult, profiles: Any, predictions: Any, opinions: Any, remarks: dict[str, list[str]]
 ) -> None:
+    """Print the table and what is to be said about it."""
     for name, lines in remarks.items():
         for text in lines:
             output.say(f"{name}: {text}", style="dim")
@@ -71,6 +73,7 @@ def write(
     opinions: Any,
     remarks: dict[str, list[str]],
 ) -> list[str]:
+    """Write the report page and its figures; return the names of the files."""
     from ebac.identify.figures import plot_arm
     from ebac.identify.report import page
 
@@ -102,5 +105,3 @@ def write(
             page("The arm of eq. (4)", rows, careful(result), notes, figures), encoding="utf-8"
         )
         return sorted(file.name for file in draft.iterdir())
-
-

@@ -15,7 +15,9 @@ if TYPE_CHECKING:
 LOG, FIT, RUN = "Log", "Fit", "Run"
 Logs = Annotated[
     list[Path],
-    typer.Argument(help="MCAP, CSV, .mat or .npz; several are fitted together.", show_default=False),
+    typer.Argument(
+        help="MCAP, CSV, .mat or .npz; several are fitted together.", show_default=False
+    ),
 ]
 ColumnOf = Annotated[
     list[str] | None,
@@ -51,9 +53,7 @@ Lag = Annotated[
         rich_help_panel=LOG,
     ),
 ]
-Axis = Annotated[
-    int, typer.Option(help="Axis of a recorded run.", min=0, rich_help_panel=LOG)
-]
+Axis = Annotated[int, typer.Option(help="Axis of a recorded run.", min=0, rich_help_panel=LOG)]
 CurrentLag = Annotated[
     float | None,
     typer.Option(
@@ -123,7 +123,6 @@ def numbers(given: list[str] | None, option: str) -> dict[str, float]:
         except ValueError:
             raise ValueError(f"{option} {name}={text}: {text!r} is no number") from None
     return out
-
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -19,6 +19,7 @@ from ebac.identify.target import Target
 
 Values = NDArray[np.float64]
 
+
 def fit_arm(
     recordings: Recording | Sequence[Recording],
     targets: Target | Sequence[Target] | None = None,
@@ -88,6 +89,7 @@ def fit_arm(
     return ArmResult(
         problem=problem,
         values=fit.values,
+        optimum=fit.optimum,
         force_noise=fit.force_noise,
         errors=fit.errors,
         covariance=with_counts(problem, fit.covariance),
@@ -132,5 +134,3 @@ def first_guess(problem: Problem) -> Values:
         values[place] = [*hand, *np.zeros(BEFORE_LEVELS - 3), *levels]
         before += count
     return problem.parameters.clip(values)
-
-

@@ -15,6 +15,8 @@ Values = NDArray[np.float64]
 DRAWS = 4
 #: Largest correction, as a share of what is left of a parameter's information.
 LARGEST_SHARE = 0.5
+#: Least information, as a share of the best direction's, by which anything is corrected.
+LEAST_SHARE = 1e-9
 
 
 def without_noise(
@@ -46,7 +48,8 @@ def without_noise(
     scale = np.sqrt(np.diag(H))
     scale[scale == 0] = 1.0
     known = (H - information) / np.outer(scale, scale)
-    if np.linalg.eigvalsh(known)[0] < LARGEST_SHARE * np.linalg.eigvalsh(H / np.outer(scale, scale))[0]:
+    least = np.linalg.eigvalsh(H / np.outer(scale, scale))[0]
+    if np.linalg.eigvalsh(known)[0] < max(LARGEST_SHARE * least, LEAST_SHARE):
         return values, pretended  # noise is most of what there is: nothing to correct by
     out = values.copy()
     out[moved] += np.linalg.solve(known, score / scale) / scale

@@ -7,44 +7,21 @@ knows nothing of.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
-from ebac._core import Device, ForceSensor, Free, Hand, Mechanics, Recorded, Step, Tapping, Wall
 from ebac.identify.arm import fit_arm
+from ebac.identify.cases import Case, draw, draw_device
+from ebac.identify.device import fit_device
 from ebac.identify.recording import Recording
+from ebac.identify.result import Estimate
 from ebac.identify.target import Target
-from ebac.scenario import Scenario
 
-#: What the hand does, and its share of the arms: `free` never meets a wall and tells nothing of the arm.
-TASKS = {"tapping": 0.4, "tracking": 0.3, "press": 0.2, "free": 0.1}
-LAWS = ("ebac", "eba", "tca-damped")
 HAND = ("M0", "B0", "K0")
-
-
-@dataclass(frozen=True, kw_only=True)
-class Case:
-    """One arm on one device under one law."""
-
-    number: int
-    task: str
-    law: str
-    scenario: Scenario
-
-    def truth(self) -> dict[str, float]:
-        """Return the true values by the names of a fit."""
-        hand = self.scenario.hand
-        out = {"M0": hand.mass, "B0": hand.damping, "K0": hand.stiffness}
-        path = hand.path[0]
-        if isinstance(path, Tapping):
-            out |= {"X0/1": path.target, "X0/2": path.rest}
-        elif isinstance(path, Step):
-            out["X0"] = path.target
-        return out
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -73,52 +50,6 @@ class Outcome:
         return (self.value - self.truth) / abs(self.truth)
 
 
-def draw(number: int, seed: int, seconds: float = 10.0) -> Case:
-    """Draw case `number`; the same numbers give the same case."""
-    random = np.random.Generator(np.random.PCG64([seed, number]))
-
-    def between(low: float, high: float) -> float:  # log-uniform
-        return float(low * (high / low) ** random.random())
-
-    task = str(random.choice(list(TASKS), p=list(TASKS.values())))
-    reach = float(random.uniform(0.01, 0.04))
-    stiffness = between(80, min(1000, 30 / reach))
-    makers: dict[str, Callable[[], Step | Tapping | Recorded]] = {
-        "tapping": lambda: Tapping(
-            target=reach, rest=-float(random.uniform(0.005, 0.02)), frequency=between(0.5, 2)
-        ),
-        "tracking": lambda: _wandering(random, reach, seconds),
-        "press": lambda: Step(target=reach),
-        "free": lambda: Step(target=reach),
-    }
-    path = makers[task]()
-    hand = Hand(mass=between(0.05, 1.2), damping=between(2, 20), stiffness=stiffness, path=path)
-    device = Device(
-        mechanics=Mechanics(
-            handle_mass=between(0.05, 0.5), damping=between(1, 5), coulomb=between(0.005, 0.1)
-        ),
-        sensor=ForceSensor(noise=between(0.01, 0.1), quantum=0.01),
-    )
-    wall = Wall(stiffness=between(1e3, 10e3))
-    scenario = Scenario(
-        hand=hand,
-        device=device,
-        environment=Free() if task == "free" else wall,
-        seconds=seconds,
-        seed=int(random.integers(1, 2**31)),
-    )
-    return Case(number=number, task=task, law=str(random.choice(LAWS)), scenario=scenario)
-
-
-def _wandering(random: np.random.Generator, reach: float, seconds: float) -> Recorded:
-    """Return a path on a screen: five slow sines around the wall."""
-    t = np.arange(0, seconds + 0.01, 0.005)
-    waves = sum(
-        np.sin(2 * np.pi * (f * t + random.random())) for f in random.uniform(0.2, 3.0, size=5)
-    )
-    return Recorded(t=t.tolist(), x=(0.4 * reach * waves).tolist())
-
-
 def run_case(case: Case) -> list[Outcome]:
     """Simulate and identify one case."""
     from ebac.simulation import simulate
@@ -126,7 +57,28 @@ def run_case(case: Case) -> list[Outcome]:
     trace = simulate(case.scenario, case.law)
     recording = Recording.from_trace(trace, name=f"case {case.number}")
     result = fit_arm(recording, Target.of(case.scenario.hand, recording.t))
-    truth = case.truth()
+    free = {name: e for name, e in result.estimates.items() if not e.fixed}
+    return _outcomes(case, free, case.truth(), result.seconds)
+
+
+def run_device_case(case: Case) -> list[Outcome]:
+    """Simulate one case and identify its device; a log that is refused has no outcome but that."""
+    from ebac.simulation import simulate
+
+    trace = simulate(case.scenario, case.law)
+    truth = case.device_truth()
+    try:
+        result = fit_device(Recording.from_trace(trace, name=f"case {case.number}"))
+    except ValueError:
+        nothing = {n: Estimate(name=n, value=0.0, unit="", low=-np.inf, high=np.inf, fixed=False, determined=False)
+                   for n in truth}  # fmt: skip
+        return _outcomes(case, nothing, truth, 0.0)
+    return _outcomes(case, result.estimates, truth, result.seconds)
+
+
+def _outcomes(
+    case: Case, estimates: Mapping[str, Estimate], truth: Mapping[str, float], seconds: float
+) -> list[Outcome]:
     return [
         Outcome(
             case=case.number,
@@ -138,15 +90,17 @@ def run_case(case: Case) -> list[Outcome]:
             low=e.low,
             high=e.high,
             determined=e.determined,
-            seconds=result.seconds,
+            seconds=seconds,
         )
-        for name, e in result.estimates.items()
-        if not e.fixed
+        for name, e in estimates.items()
     ]
 
 
-def _run(job: tuple[int, int, float]) -> list[Outcome]:
-    return run_case(draw(*job))
+def _run(job: tuple[str, int, int, float]) -> list[Outcome]:
+    what, number, seed, seconds = job
+    if what == "device":
+        return run_device_case(draw_device(number, seed, seconds))
+    return run_case(draw(number, seed, seconds))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -205,6 +159,7 @@ class Check:
 def check(
     arms: int = 200,
     *,
+    what: str = "arm",
     seed: int = 1,
     seconds: float = 10.0,
     workers: int | None = None,
@@ -216,6 +171,8 @@ def check(
     ----------
     arms : int
         How many, at least 1.
+    what : str
+        What is identified: `arm` or `device`.
     seed : int
         Of arms, devices, tasks, laws and noise.
     seconds : float
@@ -230,13 +187,15 @@ def check(
     ValueError
         For a number out of range.
     """
+    if what not in ("arm", "device"):
+        raise ValueError(f"what = {what!r}: must be arm or device")
     if arms < 1:
         raise ValueError(f"arms = {arms}: must be at least 1")
     if not 1 <= seconds <= 1000:
         raise ValueError(f"seconds = {seconds} s: must lie in [1, 1000] s")
     if workers is not None and workers < 1:
         raise ValueError(f"workers = {workers}: must be at least 1")
-    jobs = [(i, seed, seconds) for i in range(arms)]
+    jobs = [(what, i, seed, seconds) for i in range(arms)]
     outcomes: list[Outcome] = []
     with ProcessPoolExecutor(workers) as pool:
         for done, found in enumerate(pool.map(_run, jobs), 1):

@@ -11,7 +11,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ebac._core import Compensation
-from ebac.identify.device_problem import Drive, Guess, columns_of, device_problem, driven, first_guess
+from ebac.identify.device_problem import (
+    Drive,
+    Guess,
+    columns_of,
+    device_problem,
+    driven,
+    first_guess,
+)
 from ebac.identify.fit import Fitted, fitted
 from ebac.identify.recording import Recording
 from ebac.identify.result import Z95, Estimate

@@ -92,9 +92,7 @@ def driven(r: Recording, current_lag: float) -> Drive:
             f"{r.name}: slides in {slides.sum()} rows only, faster than {1e3 * slow:.2g} mm/s; needs {LEAST_SLIDING}"
         )
     if not ((sign[slides] > 0).any() and (sign[slides] < 0).any()):
-        raise ValueError(
-            f"{r.name}: moves one way only; friction shows when it moves both ways"
-        )
+        raise ValueError(f"{r.name}: moves one way only; friction shows when it moves both ways")
     return Drive(
         recording=r,
         force=force,
@@ -133,7 +131,14 @@ def device_problem(drive: Drive, speed: float | None) -> tuple[Problem, tuple[st
     extra = ("coulomb", "weight") + (() if speed is None else ("stribeck",))
     names = (*inner, *extra, "X0")
     both = drive.recording.force is not None
-    held = {"spring": 0.0, "delay": 0.0, "onset": 0.0, "bend": 0.0, "stair": 0.5 if both else 1.0, "X0": 0.0}
+    held = {
+        "spring": 0.0,
+        "delay": 0.0,
+        "onset": 0.0,
+        "bend": 0.0,
+        "stair": 0.5 if both else 1.0,
+        "X0": 0.0,
+    }
     parameters = Parameters(
         names=names,
         low=np.array([BOUNDS[n][0] for n in names]),

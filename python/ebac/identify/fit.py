@@ -28,6 +28,7 @@ class Fitted:
     """Values of all parameters, covariance of the free ones, and what is left over."""
 
     values: Values
+    optimum: Values  # of the search, before the noise of the input is taken off
     force_noise: Values
     errors: Values
     covariance: NDArray[np.float64]
@@ -74,6 +75,7 @@ def fitted(
     )
     return Fitted(
         values=values,
+        optimum=best.values,
         force_noise=best.force_noise,
         errors=errors,
         covariance=spread,

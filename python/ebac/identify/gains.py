@@ -21,6 +21,8 @@ Values = NDArray[np.float64]
 LARGEST = {"kp": 2.0, "kd": 0.01}
 #: First looks, as shares of the largest gains; squared, since small gains matter most.
 LOOKS = (0.0, 0.15, 0.4, 0.8)
+#: How much deeper than the default gains others may go, where no limit is given.
+SLACK = 1.25
 #: A broken constraint costs so much more than the worst of what keeps them.
 PENALTY = 10.0
 
@@ -32,7 +34,7 @@ class Limits:
     Parameters
     ----------
     overshoot : float, optional
-        How much deeper than an ideal wall rests [m]; default: what the default gains show, and one count.
+        How much deeper than an ideal wall rests [m]; default: a quarter more than the default gains show.
     force : float, optional
         Largest applied force [N]; default: the motor's peak.
     current : float, optional
@@ -60,7 +62,9 @@ class Limits:
         for name, unit in units.items():
             value = getattr(self, name)
             if value is not None and not (value > 0 or (name == "energy" and value == 0)):
-                raise ValueError(f"Limits.{name} = {value:g} {unit}".rstrip() + ": must be positive")
+                raise ValueError(
+                    f"Limits.{name} = {value:g} {unit}".rstrip() + ": must be positive"
+                )
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -231,9 +235,9 @@ def fit_gains(
 ) -> GainsResult:
     """Choose K_p and K_d of eq. (2) for the loop of a log.
 
-    Every pair is simulated on a press of the identified hand, of the ends of its interval, and of hands `vary` away from
-    it. The cost is the mean over them of time-weighted error, swing and noise, each over what the default gains give;
-    the constraints hold for the worst. First a few looks over the whole range, then NLopt's COBYLA from the best of
+    Every pair is simulated on a press of the identified hand, of the ends of its interval, and of hands `vary` away
+    from it. The cost is the mean over them of time-weighted error, swing and noise, each over what the default gains
+    give; the constraints hold for the worst. First a few looks over the whole range, then NLopt's COBYLA from the best of
     them; the best point seen that keeps all constraints is the answer.
 
     Parameters
@@ -265,7 +269,9 @@ def fit_gains(
     """
     known = force_loop_laws()
     if law not in known:
-        raise ValueError(f"law {law!r}: has no force loop of eq. (2); must be one of {', '.join(known)}")
+        raise ValueError(
+            f"law {law!r}: has no force loop of eq. (2); must be one of {', '.join(known)}"
+        )
     if not 0 <= vary <= 3:
         raise ValueError(f"vary = {vary:g}: must lie in [0, 3]")
     if evaluations < 1:
@@ -388,17 +394,14 @@ class _Search:
 def _complete(limits: Limits, loop: LoopModel, base: Presses) -> Limits:
     """Fill in what was left to the device and to the default gains."""
     device = loop.device
+    peak = device.peak_force * (1 + 1e-9)
     overshoot = limits.overshoot
     if overshoot is None:
-        overshoot = max(float(np.nanmax(base.overshoot)), 0.0) + device.count
+        overshoot = SLACK * max(float(np.nanmax(base.overshoot)), 0.0) + device.count
     return Limits(
         overshoot=overshoot,
-        force=limits.force if limits.force is not None else device.peak_force * (1 + 1e-9),
-        current=limits.current
-        if limits.current is not None
-        else device.drive.peak_current(device.motor) * (1 + 1e-9)
-        if hasattr(device.drive, "peak_current")
-        else device.peak_force / device.force(1.0) * (1 + 1e-9),
+        force=limits.force if limits.force is not None else peak,
+        current=limits.current if limits.current is not None else peak / device.force(1.0),
         noise_gain=limits.noise_gain,
         energy=limits.energy,
     )

@@ -63,7 +63,9 @@ def covariance(
     wider = np.sqrt(np.maximum(np.diag(sandwich) / np.maximum(np.diag(plain), 1e-300), 1.0))
     free = len(H) - (0 if sure is None else sure.size)
     every = plain * np.outer(wider, wider)
-    if unseen is not None and unseen.size:  # held where they are: what they may be off by is carried over
+    if (
+        unseen is not None and unseen.size
+    ):  # held where they are: what they may be off by is carried over
         carried = inverse @ np.einsum("ik,jk->ij", jacobian * w / scale[:, None], unseen)
         every = every + carried @ carried.T
     every = every / np.outer(scale, scale)

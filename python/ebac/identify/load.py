@@ -25,6 +25,7 @@ def load(
     units: Mapping[str, str] | None = None,
     rate: float | None = None,
     lag: float | None = None,
+    current_lag: float | None = None,
     count: float | None = None,
     axis: int = 0,
 ) -> Recording:
@@ -43,6 +44,8 @@ def load(
         Rows per second [Hz], for a file without time.
     lag : float, optional
         Lag of the force sensor [s]; default: of the scenario of a trace, else 0.
+    current_lag : float, optional
+        Lag of the motor's current loop [s]; default: of the scenario of a trace, else 0.3 ms.
     count : float, optional
         Step of the encoder at the handle [m]; default: found in the position.
     axis : int
@@ -69,10 +72,9 @@ def load(
         raw = _flat(trace) if trace is not None else _read(path)
         found = _recording(path.name, raw, columns or {}, units or {}, rate)
     changes: dict[str, Any] = {}
-    if lag is not None:
-        changes["lag"] = lag
-    if count is not None:
-        changes["count"] = count
+    for name, value in (("lag", lag), ("current_lag", current_lag), ("count", count)):
+        if value is not None:
+            changes[name] = value
     return replace(found, **changes) if changes else found
 
 

@@ -119,9 +119,7 @@ def _device_of(r: Recording, remarks: list[str]) -> DeviceResult | None:
         return None
 
 
-def _merged(
-    device: Device, found: DeviceResult | None, r: Recording, remarks: list[str]
-) -> Device:
+def _merged(device: Device, found: DeviceResult | None, r: Recording, remarks: list[str]) -> Device:
     """Return the device with what the log tells of it."""
     assert r.force is not None
     sensor = device.sensor.replace(noise=rough(r.force), lag=r.lag)

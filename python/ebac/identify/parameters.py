@@ -116,7 +116,14 @@ def lay_out(
             )
     rows = [_limits(name, fixed, bounds, free) for name in names]
     low, high, held = np.array(rows).T
-    return Parameters(names=tuple(names), low=low, high=high, fixed=held, places=tuple(places), before_levels=BEFORE_LEVELS)
+    return Parameters(
+        names=tuple(names),
+        low=low,
+        high=high,
+        fixed=held,
+        places=tuple(places),
+        before_levels=BEFORE_LEVELS,
+    )
 
 
 def _limits(

@@ -34,7 +34,7 @@ def compare_with_scipy(result: ArmResult) -> Comparison:
     from scipy.optimize import least_squares
 
     problem, p = result.problem, result.parameters
-    gains = problem.gains(result.values, result.force_noise)
+    gains = problem.gains(result.optimum, result.force_noise)
     start = first_guess(problem)
     moved = problem.moved
     doubt = problem.doubt.deviation
@@ -60,5 +60,5 @@ def compare_with_scipy(result: ArmResult) -> Comparison:
         n: float(v) for n, v in zip(p.names, p.fixed, strict=True) if not np.isnan(v)
     }, free=[n for n in ("delay", "onset") if any(p.names[i].startswith(n) for i in p.free)])  # fmt: skip
     ours = perf_counter() - began
-    apart = (np.abs(found.x - result.values[moved]) / scale)[: len(p.free)]
+    apart = (np.abs(found.x - result.optimum[moved]) / scale)[: len(p.free)]
     return Comparison(ours_s=ours, scipy_s=scipy_s, apart=float(apart.max()))

@@ -78,7 +78,7 @@ class Presses:
     @property
     def whole(self) -> Values:
         """Whether each press came to its end."""
-        return np.asarray((self.columns["fault"] == 0) & ~self.columns["diverged"])
+        return np.asarray((self.columns["fault"] == 0) & (self.columns["diverged"] == 0))
 
     @property
     def settled(self) -> Values:

@@ -38,7 +38,8 @@ class Problem:
     def __post_init__(self) -> None:
         """Hand the recordings to the core."""
         made = [
-            self.make(r, target, None) for r, target in zip(self.recordings, self.targets, strict=True)
+            self.make(r, target, None)
+            for r, target in zip(self.recordings, self.targets, strict=True)
         ]
         object.__setattr__(self, "records", tuple(made))
         object.__setattr__(self, "doubt", doubt_of(self, WITHIN_TICK))

@@ -72,9 +72,7 @@ class Response:
         return np.asarray(np.abs(self.stiffness) * np.sqrt((1 - c) / c / (2 * self.independent)))
 
 
-def spectra(
-    signals: Values, dt: float, segment: int
-) -> tuple[Values, NDArray[np.complex128], int]:
+def spectra(signals: Values, dt: float, segment: int) -> tuple[Values, NDArray[np.complex128], int]:
     """Return lines [Hz] and cross spectral densities, shape (signals, signals, lines), by Welch's method.
 
     Hann's window, half overlapping, the mean of each segment taken off; one-sided, as `scipy.signal.csd`.
@@ -90,7 +88,7 @@ def spectra(
     density[..., 0] /= 2
     if segment % 2 == 0:
         density[..., -1] /= 2
-    return np.fft.rfftfreq(segment, dt), density, len(starts)
+    return np.asarray(np.fft.rfftfreq(segment, dt), dtype=float), density, len(starts)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

@@ -63,6 +63,7 @@ class ArmResult:
 
     problem: Problem
     values: NDArray[np.float64]
+    optimum: NDArray[np.float64]  # of the search, before the noise of the input is taken off
     force_noise: NDArray[np.float64]
     errors: NDArray[np.float64]
     covariance: NDArray[np.float64]

@@ -67,8 +67,8 @@ def by_rule(name: str, device: Device, timing: Timing) -> tuple[float, float]:
 
     `step-response`: the paper takes its "quasi-optimal" set from the step response by its reference [12], whose formula
     it does not print. Taken here: Chien, Hrones and Reswick (1952), no overshoot after a step of the command, for the
-    reaction curve of the force with the handle held. K_p = 0.3 T/(k L) as for a proportional controller, since the feed-
-    forward of eq. (2) stands in for the integral; the derivative acts over half the dead time, K_d = K_p L/2.
+    reaction curve of the force with the handle held. K_p = 0.3 T/(k L) as for a proportional controller, since the
+    feed-forward of eq. (2) stands in for the integral; the derivative acts over half the dead time, K_d = K_p L/2.
 
     Raises
     ------
