@@ -237,8 +237,8 @@ def fit_gains(
 
     Every pair is simulated on a press of the identified hand, of the ends of its interval, and of hands `vary` away
     from it. The cost is the mean over them of time-weighted error, swing and noise, each over what the default gains
-    give; the constraints hold for the worst. First a few looks over the whole range, then NLopt's COBYLA from the best of
-    them; the best point seen that keeps all constraints is the answer.
+    give; the constraints hold for the worst. First a few looks over the whole range, then NLopt's COBYLA from the best
+    of them; the best point seen that keeps all constraints is the answer.
 
     Parameters
     ----------
