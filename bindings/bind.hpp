@@ -11,6 +11,7 @@ void bind_devices(pybind11::module_& m);
 void bind_hands(pybind11::module_& m);
 void bind_environment(pybind11::module_& m);
 void bind_simulation(pybind11::module_& m);
+void bind_replay(pybind11::module_& m);
 void bind_sweeps(pybind11::module_& m);
 void bind_controllers(pybind11::module_& m);
 void bind_drives(pybind11::module_& m);
@@ -20,5 +21,8 @@ void bind_identify(pybind11::module_& m);
 void bind_python_law(pybind11::module_& m);
 void bind_can_plan(pybind11::module_& m);
 void bind_can(pybind11::module_& m);
+void bind_limits(pybind11::module_& m);
+void bind_realtime(pybind11::module_& m);
+void bind_faults(pybind11::module_& m);
 
 }  // namespace ebac::python

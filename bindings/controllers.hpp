@@ -6,6 +6,7 @@
 #include "ebac/sim/benchmark.hpp"
 #include "fields.hpp"
 #include "press.hpp"
+#include "replay.hpp"
 #include "simulate_either.hpp"
 #include "sweep.hpp"
 
@@ -99,6 +100,7 @@ void bind_controller(py::module_& m, const char* name) {
         return simulate_either(setup, PerAxis<Law>(law), through_can);
       },
       py::arg("setup"), py::arg("through_can") = false);
+  bind_replay_of(cls);
   bind_sweep(cls);
   if constexpr (HasForceLoop<Law>) bind_press(cls);
   cls.def(

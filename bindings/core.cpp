@@ -39,6 +39,31 @@ void bind_fault(py::module_& m) {
       .value("DRIVE_EMERGENCY", Fault::kDriveEmergency)
       .value("HEARTBEAT_LOST", Fault::kHeartbeatLost)
       .value("BUS_DOWN", Fault::kBusDown)
+      .value("ENCODER_JUMP", Fault::kEncoderJump)
+      .value("OVERSPEED", Fault::kOverspeed)
+      .value("WORKSPACE", Fault::kWorkspace)
+      .value("FORCE_STALE", Fault::kForceStale)
+      .value("FORCE_SATURATED", Fault::kForceSaturated)
+      .value("FORCE_DISCONNECTED", Fault::kForceDisconnected)
+      .value("OVERRUNS", Fault::kOverruns)
+      .finalize();
+}
+
+void bind_states(py::module_& m) {
+  py::native_enum<LoopState>(m, "LoopState", "enum.IntEnum", "Where a loop stands.")
+      .value("IDLE", LoopState::kIdle)
+      .value("ARM", LoopState::kArm)
+      .value("RUN", LoopState::kRun)
+      .value("STOP", LoopState::kStop)
+      .value("FAULT", LoopState::kFault)
+      .finalize();
+  py::native_enum<Limited>(m, "Limited", "enum.IntFlag", "What held a current back in a tick.")
+      .value("PEAK", Limited::kPeak)
+      .value("THERMAL", Limited::kThermal)
+      .value("SLEW", Limited::kSlew)
+      .value("EDGE", Limited::kEdge)
+      .value("RAMP", Limited::kRamp)
+      .value("NOT_FINITE", Limited::kNotFinite)
       .finalize();
 }
 
@@ -58,6 +83,7 @@ void bind_core(py::module_& m) {
   m.def("_rebuild", &rebuild);
   bind_field_info(m);
   bind_fault(m);
+  bind_states(m);
   bind_port(m);
   bind_fields<Timing>(m, "Timing", "What every law must know about time.");
   bind_fields<DeviceFacts>(m, "DeviceFacts",

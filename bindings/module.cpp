@@ -8,6 +8,7 @@ PYBIND11_MODULE(_core, m, pybind11::mod_gil_not_used()) {
   ebac::python::bind_hands(m);
   ebac::python::bind_environment(m);
   ebac::python::bind_simulation(m);
+  ebac::python::bind_replay(m);
   ebac::python::bind_drives(m);
   ebac::python::bind_sweeps(m);
   ebac::python::bind_linear_loop(m);
@@ -17,4 +18,7 @@ PYBIND11_MODULE(_core, m, pybind11::mod_gil_not_used()) {
   ebac::python::bind_can_plan(m);
   ebac::python::bind_can(m);
   ebac::python::bind_served(m);
+  ebac::python::bind_limits(m);
+  ebac::python::bind_realtime(m);
+  ebac::python::bind_faults(m);
 }

@@ -6,6 +6,7 @@
 
 #include "bind.hpp"
 #include "fields.hpp"
+#include "replay.hpp"
 #include "simulate_either.hpp"
 
 namespace ebac::python {
@@ -69,6 +70,17 @@ void bind_python_law(py::module_& m) {
         return trace;
       },
       py::arg("setup"), py::arg("law"), py::arg("through_can") = false);
+  m.def(
+      "_replay_python",
+      [](const std::shared_ptr<ReplayLog>& log, const py::object& law, const DeviceModel& device,
+         const Environment& environment) {
+        PythonLaw wrapped(law, device.axes());
+        const auto raised = wrapped.raised();
+        const auto trace = replay_on(log, std::move(wrapped), device, environment);
+        if (*raised) std::rethrow_exception(*raised);
+        return trace;
+      },
+      py::arg("log"), py::arg("law"), py::arg("device"), py::arg("environment"));
 }
 
 }  // namespace ebac::python

@@ -11,6 +11,59 @@ namespace ebac::python {
 
 namespace {
 
+using Bytes = py::array_t<std::uint8_t, py::array::c_style>;
+
+/// Copies rows `start` to `stop`, less those a ring has written over.
+std::pair<std::size_t, Bytes> copy_of(const Trace& trace, std::size_t start, std::size_t stop) {
+  if (start > stop || stop > trace.size()) {
+    throw py::index_error("rows " + std::to_string(start) + " to " + std::to_string(stop) +
+                          ": the trace has had " + std::to_string(trace.size()));
+  }
+  const std::size_t from = std::clamp(trace.first(), start, stop);
+  std::vector<std::byte> copied((stop - from) * trace.row_bytes());
+  std::size_t lost = 0;
+  {
+    const py::gil_scoped_release release;
+    lost = trace.copy(from, copied);
+  }
+  const std::size_t gone = lost * trace.row_bytes();
+  Bytes rows(static_cast<py::ssize_t>(copied.size() - gone));
+  if (rows.size() > 0) std::memcpy(rows.mutable_data(), copied.data() + gone, copied.size() - gone);
+  return {from + lost, rows};
+}
+
+Bytes bytes_of(const std::shared_ptr<Trace>& trace) {
+  if (trace->ring()) {
+    Bytes rows = copy_of(*trace, trace->first(), trace->size()).second;
+    rows.attr("setflags")(py::arg("write") = false);
+    return rows;
+  }
+  Bytes view(static_cast<py::ssize_t>(trace->size() * trace->row_bytes()),
+             reinterpret_cast<const std::uint8_t*>(trace->data()), py::cast(trace));
+  view.attr("setflags")(py::arg("write") = false);
+  return view;
+}
+
+std::shared_ptr<Trace> empty_like(const Trace& trace, std::size_t capacity, bool ring) {
+  if (capacity < 1)
+    throw std::invalid_argument("Rows.empty_like: capacity = 0 rows: must be at least 1");
+  return std::make_shared<Trace>(trace, capacity, ring);
+}
+
+void append_row(Trace& trace, const Bytes& row) {
+  if (static_cast<std::size_t>(row.size()) != trace.row_bytes()) {
+    throw std::invalid_argument("Rows.append: " + std::to_string(row.size()) +
+                                " bytes: a row has " + std::to_string(trace.row_bytes()));
+  }
+  std::byte* next = trace.next();
+  if (next == nullptr) {
+    throw py::index_error("Rows.append: the trace is full with " + std::to_string(trace.size()) +
+                          " rows");
+  }
+  std::memcpy(next, row.data(), trace.row_bytes());
+  trace.commit();
+}
+
 void bind_trace(py::module_& m) {
   py::class_<Column>(m, "Column", "Where a named quantity lies in a row.")
       .def_readonly("name", &Column::name, "Name.")
@@ -20,24 +73,27 @@ void bind_trace(py::module_& m) {
       .def_readonly("offset", &Column::offset, "Bytes from the start of the row to the first axis.")
       .def_readonly("stride", &Column::stride, "Bytes from axis to axis; 0 for one value per row.");
   py::class_<Trace, std::shared_ptr<Trace>>(m, "Rows", "The rows of a run, as the loop wrote them.")
-      .def("__len__", &Trace::size)
+      .def("__len__", [](const Trace& trace) { return trace.size() - trace.first(); })
+      .def_property_readonly("count", &Trace::size, "Rows appended since the start.")
+      .def_property_readonly("first", &Trace::first, "Number of the first row still in memory.")
+      .def_property_readonly("capacity", &Trace::capacity, "Rows there is room for.")
+      .def_property_readonly("ring", &Trace::ring,
+                             "Whether it keeps the last rows and never is full.")
       .def_property_readonly("axes", &Trace::axes, "Number of axes.")
       .def_property_readonly("row_bytes", &Trace::row_bytes, "Bytes per row.")
       .def_property_readonly("columns", &Trace::columns, "Columns in their order.")
-      .def(
-          "bytes",
-          [](const std::shared_ptr<Trace>& trace) {
-            const py::array_t<std::uint8_t> view(
-                static_cast<py::ssize_t>(trace->size() * trace->row_bytes()),
-                reinterpret_cast<const std::uint8_t*>(trace->data()), py::cast(trace));
-            view.attr("setflags")(py::arg("write") = false);
-            return view;
-          },
-          "Every row, read-only, without a copy.")
+      .def("bytes", &bytes_of, "Every row in memory, read-only; a ring gives a copy, others none.")
+      .def("copy", &copy_of, py::arg("start"), py::arg("stop"),
+           "A copy of the rows start to stop, less those a ring has written over: (number of the "
+           "first row in it, rows).")
+      .def("empty_like", &empty_like, py::arg("capacity"), py::arg("ring") = false,
+           "No rows yet, in the same layout.")
+      .def("append", &append_row, py::arg("row"), "Adds one row of `row_bytes` bytes.")
       .def(
           "port",
           [](const Trace& trace, std::size_t row, std::size_t axis) {
-            if (row >= trace.size() || axis >= static_cast<std::size_t>(trace.axes())) {
+            if (row < trace.first() || row >= trace.size() ||
+                axis >= static_cast<std::size_t>(trace.axes())) {
               throw py::index_error("row " + std::to_string(row) + ", axis " +
                                     std::to_string(axis) + ": the trace has " +
                                     std::to_string(trace.size()) + " rows and " +

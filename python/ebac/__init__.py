@@ -11,7 +11,7 @@ A first look::
 
 from importlib.metadata import version as _version
 
-from ebac import maps, presets, zwidth
+from ebac import logs, maps, presets, zwidth
 from ebac._core import (
     EBA,
     EBAC,
@@ -35,7 +35,10 @@ from ebac._core import (
     Free,
     Gimbal,
     Hand,
+    Limited,
+    Limits,
     Linear,
+    LoopState,
     LowPass,
     Mechanics,
     MinimumJerk,
@@ -56,6 +59,7 @@ from ebac._core import (
     estimate_velocity,
 )
 from ebac.laws import LAWS, PythonLaw, Variant, design
+from ebac.logs import load, replay
 from ebac.metrics import Contact, contact, ideal_rest
 from ebac.operators import Operators
 from ebac.scenario import Scenario
@@ -96,8 +100,11 @@ __all__ = [
     "Free",
     "Gimbal",
     "Hand",
+    "Limited",
+    "Limits",
     "Linear",
     "LoopFault",
+    "LoopState",
     "LowPass",
     "Mechanics",
     "MinimumJerk",
@@ -131,8 +138,11 @@ __all__ = [
     "design",
     "estimate_velocity",
     "ideal_rest",
+    "load",
+    "logs",
     "maps",
     "presets",
+    "replay",
     "simulate",
     "spec_sheet",
     "study",

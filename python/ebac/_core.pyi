@@ -46,10 +46,14 @@ __all__: list[str] = [
     "ForceSensor",
     "Free",
     "Gimbal",
+    "Grant",
     "Hand",
     "Joystick",
+    "Limited",
+    "Limits",
     "Linear",
     "LinearLoop",
+    "LoopState",
     "LoopbackBus",
     "LoopbackHub",
     "LoopbackJoystick",
@@ -60,7 +64,10 @@ __all__: list[str] = [
     "PassivityControl",
     "PlannedFrame",
     "Port",
+    "RealTime",
+    "RealTimeMode",
     "Recorded",
+    "ReplayLog",
     "Rows",
     "RunLimits",
     "Setup",
@@ -130,13 +137,35 @@ class Fault(enum.IntEnum):
     DRIVE_EMERGENCY = ...
     DRIVE_FAULT = ...
     DRIVE_SILENT = ...
+    ENCODER_JUMP = ...
     ENVIRONMENT_NOT_FINITE = ...
+    FORCE_DISCONNECTED = ...
     FORCE_NOT_FINITE = ...
+    FORCE_SATURATED = ...
+    FORCE_STALE = ...
     HEARTBEAT_LOST = ...
     LAW_NOT_FINITE = ...
     NONE = ...
+    OVERRUNS = ...
+    OVERSPEED = ...
     POSITION_NOT_FINITE = ...
     TORQUE_NOT_FINITE = ...
+    WORKSPACE = ...
+
+class LoopState(enum.IntEnum):
+    ARM = ...
+    FAULT = ...
+    IDLE = ...
+    RUN = ...
+    STOP = ...
+
+class Limited(enum.IntFlag):
+    EDGE = ...
+    NOT_FINITE = ...
+    PEAK = ...
+    RAMP = ...
+    SLEW = ...
+    THERMAL = ...
 
 class Port:
     """
@@ -1838,9 +1867,27 @@ class Rows:
     The rows of a run, as the loop wrote them.
     """
     def __len__(self) -> int: ...
+    def append(self, row: typing.Annotated[numpy.typing.ArrayLike, numpy.uint8]) -> None:
+        """
+        Adds one row of `row_bytes` bytes.
+        """
     def bytes(self) -> numpy.typing.NDArray[numpy.uint8]:
         """
-        Every row, read-only, without a copy.
+        Every row in memory, read-only; a ring gives a copy, others none.
+        """
+    def copy(
+        self,
+        start: typing.SupportsInt | typing.SupportsIndex,
+        stop: typing.SupportsInt | typing.SupportsIndex,
+    ) -> tuple[int, numpy.typing.NDArray[numpy.uint8]]:
+        """
+        A copy of the rows start to stop, less those a ring has written over: (number of the first row in it, rows).
+        """
+    def empty_like(
+        self, capacity: typing.SupportsInt | typing.SupportsIndex, ring: bool = False
+    ) -> Rows:
+        """
+        No rows yet, in the same layout.
         """
     def port(
         self,
@@ -1856,9 +1903,29 @@ class Rows:
         Number of axes.
         """
     @property
+    def capacity(self) -> int:
+        """
+        Rows there is room for.
+        """
+    @property
     def columns(self) -> list[Column]:
         """
         Columns in their order.
+        """
+    @property
+    def count(self) -> int:
+        """
+        Rows appended since the start.
+        """
+    @property
+    def first(self) -> int:
+        """
+        Number of the first row still in memory.
+        """
+    @property
+    def ring(self) -> bool:
+        """
+        Whether it keeps the last rows and never is full.
         """
     @property
     def row_bytes(self) -> int:
@@ -1999,6 +2066,31 @@ class SteppedPlant:
     def truth(self, axis: typing.SupportsInt | typing.SupportsIndex = 0) -> AxisTruth:
         """
         The state of one axis.
+        """
+
+class ReplayLog:
+    """
+    A recorded log as hardware.
+    """
+    def __init__(
+        self,
+        *,
+        t: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
+        dt: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
+        lateness: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
+        fault: typing.Annotated[numpy.typing.ArrayLike, numpy.uint32],
+        counts: typing.Annotated[numpy.typing.ArrayLike, numpy.int64],
+        current_applied: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
+        force: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
+        f_env: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
+        f_cmd: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
+        current: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
+    ) -> None: ...
+    def __len__(self) -> int: ...
+    @property
+    def axes(self) -> int:
+        """
+        Number of axes.
         """
 
 class DriveCondition(enum.IntFlag):
@@ -2331,6 +2423,9 @@ class Direct:
     def __init__(self, *, peak_force: float = 42.4, timing: Timing = ...) -> None: ...
     def __reduce__(self) -> tuple[typing.Any, ...]: ...
     def __repr__(self) -> str: ...
+    def _replay(
+        self, log: ReplayLog, device: Device, environment: Free | Wall | Corner | Disc
+    ) -> Rows: ...
     def _simulate(self, setup: Setup, through_can: bool = False) -> Rows: ...
     def _time_step(
         self, setup: Setup, repeats: typing.SupportsInt | typing.SupportsIndex
@@ -2452,6 +2547,9 @@ class TCA:
     ) -> None: ...
     def __reduce__(self) -> tuple[typing.Any, ...]: ...
     def __repr__(self) -> str: ...
+    def _replay(
+        self, log: ReplayLog, device: Device, environment: Free | Wall | Corner | Disc
+    ) -> Rows: ...
     def _simulate(self, setup: Setup, through_can: bool = False) -> Rows: ...
     def _time_step(
         self, setup: Setup, repeats: typing.SupportsInt | typing.SupportsIndex
@@ -2602,6 +2700,9 @@ class TCADamped:
     ) -> None: ...
     def __reduce__(self) -> tuple[typing.Any, ...]: ...
     def __repr__(self) -> str: ...
+    def _replay(
+        self, log: ReplayLog, device: Device, environment: Free | Wall | Corner | Disc
+    ) -> Rows: ...
     def _simulate(self, setup: Setup, through_can: bool = False) -> Rows: ...
     def _time_step(
         self, setup: Setup, repeats: typing.SupportsInt | typing.SupportsIndex
@@ -2761,6 +2862,9 @@ class PassivityControl:
     ) -> None: ...
     def __reduce__(self) -> tuple[typing.Any, ...]: ...
     def __repr__(self) -> str: ...
+    def _replay(
+        self, log: ReplayLog, device: Device, environment: Free | Wall | Corner | Disc
+    ) -> Rows: ...
     def _simulate(self, setup: Setup, through_can: bool = False) -> Rows: ...
     def _time_step(
         self, setup: Setup, repeats: typing.SupportsInt | typing.SupportsIndex
@@ -2892,6 +2996,9 @@ class VirtualCoupling:
     ) -> None: ...
     def __reduce__(self) -> tuple[typing.Any, ...]: ...
     def __repr__(self) -> str: ...
+    def _replay(
+        self, log: ReplayLog, device: Device, environment: Free | Wall | Corner | Disc
+    ) -> Rows: ...
     def _simulate(self, setup: Setup, through_can: bool = False) -> Rows: ...
     def _time_step(
         self, setup: Setup, repeats: typing.SupportsInt | typing.SupportsIndex
@@ -3019,6 +3126,9 @@ class ForceBounding:
     ) -> None: ...
     def __reduce__(self) -> tuple[typing.Any, ...]: ...
     def __repr__(self) -> str: ...
+    def _replay(
+        self, log: ReplayLog, device: Device, environment: Free | Wall | Corner | Disc
+    ) -> Rows: ...
     def _simulate(self, setup: Setup, through_can: bool = False) -> Rows: ...
     def _time_step(
         self, setup: Setup, repeats: typing.SupportsInt | typing.SupportsIndex
@@ -3169,6 +3279,9 @@ class EBA:
     ) -> None: ...
     def __reduce__(self) -> tuple[typing.Any, ...]: ...
     def __repr__(self) -> str: ...
+    def _replay(
+        self, log: ReplayLog, device: Device, environment: Free | Wall | Corner | Disc
+    ) -> Rows: ...
     def _simulate(self, setup: Setup, through_can: bool = False) -> Rows: ...
     def _time_step(
         self, setup: Setup, repeats: typing.SupportsInt | typing.SupportsIndex
@@ -3342,6 +3455,9 @@ class EBACPrinted:
     ) -> None: ...
     def __reduce__(self) -> tuple[typing.Any, ...]: ...
     def __repr__(self) -> str: ...
+    def _replay(
+        self, log: ReplayLog, device: Device, environment: Free | Wall | Corner | Disc
+    ) -> Rows: ...
     def _simulate(self, setup: Setup, through_can: bool = False) -> Rows: ...
     def _time_step(
         self, setup: Setup, repeats: typing.SupportsInt | typing.SupportsIndex
@@ -3577,6 +3693,9 @@ class EBAC:
     ) -> None: ...
     def __reduce__(self) -> tuple[typing.Any, ...]: ...
     def __repr__(self) -> str: ...
+    def _replay(
+        self, log: ReplayLog, device: Device, environment: Free | Wall | Corner | Disc
+    ) -> Rows: ...
     def _simulate(self, setup: Setup, through_can: bool = False) -> Rows: ...
     def _time_step(
         self, setup: Setup, repeats: typing.SupportsInt | typing.SupportsIndex
@@ -4048,9 +4167,267 @@ class SocketCanJoystick:
         How the bus stands.
         """
 
+class Limits:
+    """
+    What a loop allows on every axis.
+
+    Parameters
+    ----------
+    continuous_current : float
+        current the motor takes for ever [A], 0.001 to 1000.
+    peak_current : float
+        largest current at any time [A], 0.001 to 1000.
+    thermal_time : float
+        time constant of the winding in the i2t model (indicative: RE 30 data sheet, from memory) [s], 0.01 to 10000.
+    slew : float
+        fastest change of the current [A/s], 1 to 1e+09.
+    speed : float
+        faster is a fault [m/s], 0.001 to 100.
+    jump : float
+        a longer way in one tick is an encoder's fault [m], 1e-06 to 1.
+    edge : float
+        way from the middle at which a soft wall begins [m], 0.001 to 10.
+    edge_stiffness : float
+        stiffness of that wall [N/m], 0 to 1e+05.
+    edge_damping : float
+        damping of that wall [N s/m], 0 to 500.
+    end : float
+        way from the middle that is a fault [m], 0.001 to 10.
+    force_age : float
+        an older force is a fault [s], 1e-04 to 10.
+    watch_force : bool
+        whether a force sensor that is stale, saturated or gone is a fault, 0 to 1.
+    overruns : int
+        ticks in a row that came a tick or more too late, which are a fault [samples], 1 to 1e+05.
+    """
+    @staticmethod
+    def fields() -> list[Field]:
+        """
+        Name, unit, meaning, default and range of every parameter.
+        """
+    @staticmethod
+    def of(device: Device) -> Limits:
+        """
+        What the motor, the drive and the lever of a device can take.
+        """
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __init__(
+        self,
+        *,
+        continuous_current: float = 0.985,
+        peak_current: float = 3.94,
+        thermal_time: float = 16.0,
+        slew: float = 8000.0,
+        speed: float = 1.5,
+        jump: float = 0.005,
+        edge: float = 0.0474,
+        edge_stiffness: float = 500.0,
+        edge_damping: float = 2.0,
+        end: float = 0.0574,
+        force_age: float = 0.02,
+        watch_force: bool = True,
+        overruns: int = 10,
+    ) -> None: ...
+    def __reduce__(self) -> tuple[typing.Any, ...]: ...
+    def __repr__(self) -> str: ...
+    def as_dict(self) -> dict[str, typing.Any]:
+        """
+        Parameters by name.
+        """
+    def replace(self, **changes: typing.Any) -> typing.Self:
+        """
+        A copy with some parameters changed; checked as at construction.
+        """
+    @property
+    def continuous_current(self) -> float:
+        """
+        current the motor takes for ever [A], 0.001 to 1000
+        """
+    @property
+    def edge(self) -> float:
+        """
+        way from the middle at which a soft wall begins [m], 0.001 to 10
+        """
+    @property
+    def edge_damping(self) -> float:
+        """
+        damping of that wall [N s/m], 0 to 500
+        """
+    @property
+    def edge_stiffness(self) -> float:
+        """
+        stiffness of that wall [N/m], 0 to 1e+05
+        """
+    @property
+    def end(self) -> float:
+        """
+        way from the middle that is a fault [m], 0.001 to 10
+        """
+    @property
+    def force_age(self) -> float:
+        """
+        an older force is a fault [s], 1e-04 to 10
+        """
+    @property
+    def jump(self) -> float:
+        """
+        a longer way in one tick is an encoder's fault [m], 1e-06 to 1
+        """
+    @property
+    def overruns(self) -> int:
+        """
+        ticks in a row that came a tick or more too late, which are a fault [samples], 1 to 1e+05
+        """
+    @property
+    def peak_current(self) -> float:
+        """
+        largest current at any time [A], 0.001 to 1000
+        """
+    @property
+    def slew(self) -> float:
+        """
+        fastest change of the current [A/s], 1 to 1e+09
+        """
+    @property
+    def speed(self) -> float:
+        """
+        faster is a fault [m/s], 0.001 to 100
+        """
+    @property
+    def thermal_time(self) -> float:
+        """
+        time constant of the winding in the i2t model (indicative: RE 30 data sheet, from memory) [s], 0.01 to 10000
+        """
+    @property
+    def watch_force(self) -> bool:
+        """
+        whether a force sensor that is stale, saturated or gone is a fault, 0 to 1
+        """
+
+class RealTimeMode(enum.IntEnum):
+    AUTO = ...
+    ENFORCE = ...
+    OFF = ...
+
+class RealTime:
+    """
+    What a loop's thread asks of the system.
+
+    Parameters
+    ----------
+    priority : int
+        priority under SCHED_FIFO, 1 to 99.
+    cpu : int
+        the CPU it stays on; -1 for any, -1 to 1023.
+    lock_memory : bool
+        keep all pages of the process in memory (mlockall), 0 to 1.
+    stack : int
+        stack touched before the start; 0 for none [bytes], 0 to 4194304.
+    """
+    @staticmethod
+    def fields() -> list[Field]:
+        """
+        Name, unit, meaning, default and range of every parameter.
+        """
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __init__(
+        self, *, priority: int = 80, cpu: int = -1, lock_memory: bool = True, stack: int = 262144
+    ) -> None: ...
+    def __reduce__(self) -> tuple[typing.Any, ...]: ...
+    def __repr__(self) -> str: ...
+    def as_dict(self) -> dict[str, typing.Any]:
+        """
+        Parameters by name.
+        """
+    def replace(self, **changes: typing.Any) -> typing.Self:
+        """
+        A copy with some parameters changed; checked as at construction.
+        """
+    @property
+    def cpu(self) -> int:
+        """
+        the CPU it stays on; -1 for any, -1 to 1023
+        """
+    @property
+    def lock_memory(self) -> bool:
+        """
+        keep all pages of the process in memory (mlockall), 0 to 1
+        """
+    @property
+    def priority(self) -> int:
+        """
+        priority under SCHED_FIFO, 1 to 99
+        """
+    @property
+    def stack(self) -> int:
+        """
+        stack touched before the start; 0 for none [bytes], 0 to 4194304
+        """
+
+class Grant:
+    """
+    One thing a thread asked of the system.
+    """
+    @property
+    def asked(self) -> str:
+        """
+        What was asked.
+        """
+    @property
+    def granted(self) -> bool:
+        """
+        Whether it was granted.
+        """
+    @property
+    def name(self) -> str:
+        """
+        priority, cpu, memory or stack.
+        """
+    @property
+    def remedy(self) -> str:
+        """
+        The command that would grant it.
+        """
+    @property
+    def why(self) -> str:
+        """
+        Why not; empty when it was.
+        """
+
+def _ask_realtime(options: RealTime) -> list[Grant]:
+    """
+    What a thread of this process would be granted.
+    """
+
+def _check_limits(limits: Limits) -> None: ...
 def _drive_transitions() -> list[list[DriveState]]:
     """
     The simulated drive's table: a row per state; none, disable voltage, quick stop, shutdown, switch on, enable operation, fault reset.
+    """
+
+def _fault_campaign(
+    cases: typing.SupportsInt | typing.SupportsIndex,
+    seed: typing.SupportsInt | typing.SupportsIndex,
+    threads: typing.SupportsInt | typing.SupportsIndex,
+    progress: SweepProgress,
+) -> tuple[dict[str, typing.Any], list[str]]:
+    """
+    A column per property of the cases, and the names of the verdicts.
+    """
+
+def _fault_case(
+    seed: typing.SupportsInt | typing.SupportsIndex,
+    index: typing.SupportsInt | typing.SupportsIndex,
+) -> tuple[Rows, int, int, int]:
+    """
+    Rows, first tick, ticks and axis of one case.
+    """
+
+def _fault_kinds() -> list[tuple[str, str]]:
+    """
+    Name and meaning of every kind of fault; case i is of kind i modulo their number.
     """
 
 def _ideal_contacts(
@@ -4068,7 +4445,20 @@ def _measure_contact(
     clamped: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None,
     pull: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None,
 ) -> dict[str, typing.Any]: ...
+def _measure_jitter(
+    dt: typing.SupportsFloat | typing.SupportsIndex,
+    ticks: typing.SupportsInt | typing.SupportsIndex,
+    mode: RealTimeMode,
+    options: RealTime,
+) -> tuple[numpy.typing.NDArray[numpy.float64], int, list[Grant]]:
+    """
+    Lateness of every wake-up [s], ticks skipped, what was granted.
+    """
+
 def _rebuild(arg0: typing.Any, arg1: dict[str, typing.Any]) -> typing.Any: ...
+def _replay_python(
+    log: ReplayLog, law: typing.Any, device: Device, environment: Free | Wall | Corner | Disc
+) -> Rows: ...
 def _simulate_python(setup: Setup, law: typing.Any, through_can: bool = False) -> Rows: ...
 def _stored_energy(
     environment: Free | Wall | Corner | Disc,
@@ -4090,6 +4480,13 @@ def _time_own_exchange(
     ticks: typing.SupportsInt | typing.SupportsIndex,
     repeats: typing.SupportsInt | typing.SupportsIndex,
 ) -> float: ...
+def _with_loop(
+    setup: Setup, *, soft_start: typing.SupportsFloat | typing.SupportsIndex, limits: Limits | None
+) -> Setup:
+    """
+    The same run, with a soft start [s] and limits.
+    """
+
 def copley_current(
     torque_permille: typing.SupportsFloat | typing.SupportsIndex,
     continuous_torque_1e5: typing.SupportsFloat | typing.SupportsIndex,

@@ -7,7 +7,20 @@ from collections.abc import Mapping, Sequence
 from typing import Any, ClassVar, Protocol, TypeAlias, cast, runtime_checkable
 
 from ebac import _core
-from ebac._core import Device, DeviceFacts, Field, Port, Rows, Setup, Timing
+from ebac._core import (
+    Corner,
+    Device,
+    DeviceFacts,
+    Disc,
+    Field,
+    Free,
+    Port,
+    ReplayLog,
+    Rows,
+    Setup,
+    Timing,
+    Wall,
+)
 
 
 @runtime_checkable
@@ -41,6 +54,10 @@ class CoreLaw(Protocol):
         ...
 
     def _simulate(self, setup: Setup, through_can: bool = False) -> Rows: ...
+
+    def _replay(
+        self, log: ReplayLog, device: Device, environment: Free | Wall | Corner | Disc
+    ) -> Rows: ...
 
 
 #: Every law of this package by its name, in the order in which they are bound.

@@ -34,7 +34,13 @@ class LoopFault(RuntimeError):
 
 
 def simulate(
-    scenario: Scenario, law: AnyLaw = "ebac", *, through: str | None = None, **changes: Any
+    scenario: Scenario,
+    law: AnyLaw = "ebac",
+    *,
+    through: str | None = None,
+    limits: _core.Limits | bool = False,
+    soft_start: float = 0.0,
+    **changes: Any,
 ) -> Trace:
     """Run a scenario under a law to its end.
 
@@ -49,6 +55,11 @@ def simulate(
         one per axis, enabled before the first tick and disabled after the last; torque then goes in whole
         thousandths of the rated torque, and the trace has columns `bus.*`. All others are the same, to the bit,
         as those of a run without a bus whose drive has `permille=True`.
+    limits : Limits or bool
+        False runs without limits, True with those of the device (`Limits.of(device)`): current, i2t, slew, edge of
+        the workspace; and what else must end a run is then a fault. The trace has columns `limit.*`.
+    soft_start : float
+        Time in which the force comes in at the start [s], 0 to 60.
     **changes
         Parameters to set on top of the design, in their SI units.
 
@@ -65,7 +76,7 @@ def simulate(
     Raises
     ------
     LoopFault
-        When a stage gave no finite number; carries the trace.
+        When a stage gave no finite number, or the device left its limits; carries the trace.
     KeyError, TypeError, ValueError
         For a law that does not exist or cannot be made; see `design`. Through CAN also for a delay of 0 samples,
         and when the process data would take over 90 % of a bus of 1 Mbit/s.
@@ -74,6 +85,11 @@ def simulate(
         scenario = on_bus(scenario, through)
     finished = design(law, scenario.device, scenario.known_timing, **changes)
     setup = scenario.setup()
+    if limits is not False or soft_start != 0:
+        allowed = limits if isinstance(limits, _core.Limits) else None
+        if limits is True:
+            allowed = _core.Limits.of(scenario.device)
+        setup = _core._with_loop(setup, soft_start=soft_start, limits=allowed)
     if isinstance(finished, CoreLaw):
         rows = finished._simulate(setup, through is not None)
     else:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from html import escape
 from pathlib import Path
@@ -20,6 +20,8 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 _KINDS = {"f": np.float64, "i": np.int64, "w": np.int32, "u": np.uint32, "b": np.bool_}
+#: Rows turned into text at a time.
+_CSV_ROWS = 10_000
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -61,18 +63,7 @@ class Trace:
         cls, rows: _core.Rows, *, scenario: Scenario | None, law: str, law_repr: str
     ) -> Self:
         """Look at rows of the core."""
-        raw = rows.bytes()
-        data = {}
-        columns = {}
-        for c in rows.columns:
-            shape: tuple[int, ...] = (len(rows),)
-            strides: tuple[int, ...] = (rows.row_bytes,)
-            if c.stride > 0 and rows.axes > 1:
-                shape, strides = (*shape, rows.axes), (*strides, c.stride)
-            view = np.ndarray(shape, _KINDS[c.kind], raw, c.offset, strides)
-            view.setflags(write=False)
-            data[c.name] = view
-            columns[c.name] = ColumnInfo(name=c.name, unit=c.unit, meaning=c.meaning)
+        data, columns = row_views(rows, rows.bytes()), column_infos(rows)
         return cls(
             data=data,
             columns=columns,
@@ -128,9 +119,34 @@ class Trace:
         t = self._data["t"]
         first = 0 if start is None else int(np.searchsorted(t, start))
         last = len(t) if stop is None else int(np.searchsorted(t, stop))
+        return self.rows(first, last)
+
+    def rows(self, first: int, last: int) -> Self:
+        """Return the rows first, ..., last - 1, as views."""
         part = {name: values[first:last] for name, values in self._data.items()}
         return type(self)(
             data=part,
+            columns=self.columns,
+            axes=self.axes,
+            scenario=self.scenario,
+            law=self.law,
+            law_repr=self.law_repr,
+        )
+
+    def with_column(self, name: str, values: NDArray[Any]) -> Self:
+        """Return the trace with other values in a column it has.
+
+        Raises
+        ------
+        KeyError
+            When there is no such column.
+        ValueError
+            When the shape is another.
+        """
+        if values.shape != self[name].shape:
+            raise ValueError(f"{name}: shape {values.shape}, must be {self[name].shape}")
+        return type(self)(
+            data={**self._data, name: values},
             columns=self.columns,
             axes=self.axes,
             scenario=self.scenario,
@@ -157,7 +173,48 @@ class Trace:
         frame.attrs["units"] = {name: info.unit for name, info, _ in columns}
         return frame
 
-    def to_csv(self, path: str | Path) -> None:
+    def save(self, path: str | Path, *, progress: Callable[[int, int], None] | None = None) -> None:
+        """Write a file, the format by its extension: .mcap, .npz, .csv, .parquet, .mat or .h5.
+
+        A log, .mcap, opens in PlotJuggler and Foxglove and holds all a trace has. The file appears when it is whole,
+        and replaces one of that name.
+
+        Parameters
+        ----------
+        path : str or Path
+            Name of the file.
+        progress : callable, optional
+            Called with rows written and rows in all.
+
+        Raises
+        ------
+        ValueError
+            For another extension.
+        ModuleNotFoundError
+            When the library a format needs is not installed; the message says what to install.
+        """
+        from ebac.logs.files import save
+
+        save(self, path, progress=progress)
+
+    @classmethod
+    def load(cls, path: str | Path) -> Trace:
+        """Read a file, the format by its extension: .mcap (whole, or cut by a kill), .npz or .csv.
+
+        Raises
+        ------
+        FileNotFoundError
+            When there is no such file.
+        ValueError
+            For another extension, or a file that is not what its extension says.
+        """
+        from ebac.logs.files import load
+
+        return load(path)
+
+    def to_csv(
+        self, path: str | Path, *, progress: Callable[[int, int], None] | None = None
+    ) -> None:
         """Write CSV with the unit in each heading, `x [m]`; numbers keep every digit."""
         columns = list(self.flat())
         heading = ",".join(
@@ -165,9 +222,13 @@ class Trace:
         )
         with Path(path).open("w", encoding="utf-8") as file:
             file.write(heading + "\n")
-            lists = [values.tolist() for _, _, values in columns]
-            for row in zip(*lists, strict=True):
-                file.write(",".join(_text(value) for value in row) + "\n")
+            for first in range(0, len(self), _CSV_ROWS):
+                part = slice(first, first + _CSV_ROWS)
+                lists = [values[part].tolist() for _, _, values in columns]
+                for row in zip(*lists, strict=True):
+                    file.write(",".join(_text(value) for value in row) + "\n")
+                if progress is not None:
+                    progress(min(first + _CSV_ROWS, len(self)), len(self))
 
     def to_npz(self, path: str | Path) -> None:
         """Write a compressed NumPy archive: the columns, and units, scenario and law under `about`."""
@@ -242,6 +303,29 @@ class Trace:
         )
         cells = "".join(f"<td>{number:.6g}</td>" for number in shown)
         return f"<tr><th>{escape(name)}</th><td>{info.unit}</td>{cells}<td>{escape(info.meaning)}</td></tr>"
+
+
+def row_views(rows: _core.Rows, raw: NDArray[np.uint8]) -> dict[str, NDArray[Any]]:
+    """Return the columns of whole rows as read-only views of their bytes."""
+    count = len(raw) // rows.row_bytes
+    data = {}
+    for c in rows.columns:
+        shape: tuple[int, ...] = (count,)
+        strides: tuple[int, ...] = (rows.row_bytes,)
+        if c.stride > 0 and rows.axes > 1:
+            shape, strides = (*shape, rows.axes), (*strides, c.stride)
+        if count:
+            view = np.ndarray(shape, _KINDS[c.kind], raw, c.offset, strides)
+        else:
+            view = np.empty(shape, _KINDS[c.kind])
+        view.setflags(write=False)
+        data[c.name] = view
+    return data
+
+
+def column_infos(rows: _core.Rows) -> dict[str, ColumnInfo]:
+    """Return unit and meaning of every column of rows."""
+    return {c.name: ColumnInfo(name=c.name, unit=c.unit, meaning=c.meaning) for c in rows.columns}
 
 
 def _text(value: Any) -> str:

@@ -97,9 +97,9 @@ struct LoopRun {
     loop.run(*trace);
   }
 
-  /// Ran until `tick`, then with zero force and the fault for kStopTicks rows.
+  /// Ran until `tick`, then with zero force and the fault for the ticks of a stop.
   void expect_stop(std::size_t tick, Fault fault) const {
-    constexpr int kStopTicks = Loop<FakeDevice, VirtualClock, Scripted>::kStopTicks;
+    constexpr int kStopTicks = RunPlan{}.stop_ticks;
     ASSERT_EQ(trace->size(), tick + kStopTicks);
     for (std::size_t row = 0; row < trace->size(); ++row) {
       const Sample sample = trace->sample(row);

@@ -29,6 +29,7 @@ MAY_SEE = {
     "can": {"core", "model", "control", "loop"},
     "sensor": {"core", "model", "control", "loop"},
     "rt": {"core", "model", "control", "loop"},
+    "faults": {"core", "model", "control", "loop", "sim", "can"},
 }
 
 #: Nothing that allocates, locks or prints is known where a tick runs, but for
@@ -184,7 +185,19 @@ def test_drives_know_nothing_of_the_loop() -> None:
 
 
 def test_importing_the_package_loads_nothing_heavy() -> None:
-    heavy = ["matplotlib", "pandas", "scipy", "typer", "rich", "tomli_w", "can", "canopen"]
+    heavy = [
+        "matplotlib",
+        "pandas",
+        "scipy",
+        "typer",
+        "rich",
+        "tomli_w",
+        "can",
+        "canopen",
+        "mcap",
+        "zstandard",
+        "h5py",
+    ]
     code = (
         f"import ebac, ebac.drives, sys; print([name for name in {heavy} if name in sys.modules])"
     )

@@ -86,9 +86,12 @@ class CanDesk {
   const Can& can() const EBAC_RT { return can_; }
   Joystick<Still<D>>& joystick() EBAC_RT { return other_.joystick(); }
   const D& plant() const EBAC_RT { return other_.plant(); }
-  /// N, of the sensor at the handle, which is not on this bus.
-  const std::array<double, kMaxAxes>& force() const EBAC_RT {
-    return other_.joystick().reading().force;
+  /// What the sensor at the handle tells, which is not on this bus.
+  void add_sensor(Reading& reading) const EBAC_RT {
+    const Reading& plant = other_.joystick().reading();
+    reading.force = plant.force;
+    reading.force_age = plant.force_age;
+    reading.force_status = plant.force_status;
   }
 
  private:

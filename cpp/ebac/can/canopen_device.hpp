@@ -102,9 +102,18 @@ class CanopenDevice {
       ++i;
       link.told(bus_->send(link.command(power_.command(link.state()), torque)));
     }
+    beat(command.elapsed);
     if (!bus_->send({.id = kSync})) {
       for (NodeLink& link : links()) ++link.row().refused;
     }
+  }
+
+  /// The loop's own heartbeat, for drives that watch it (0x1016).
+  void beat(double elapsed) EBAC_RT {
+    since_beat_ += elapsed;
+    if (setup_.own_node == 0 || since_beat_ < setup_.heartbeat_period) return;
+    since_beat_ = 0;
+    bus_->send(frame(heartbeat(static_cast<NodeId>(setup_.own_node)), {NodeLink::kOperational}));
   }
 
   void collect() EBAC_RT {
@@ -186,6 +195,7 @@ class CanopenDevice {
   std::array<NodeLink, kMaxAxes> link_{NodeLink(setup_.node[0]), NodeLink(setup_.node[1]),
                                        NodeLink(setup_.node[2])};
   std::int64_t foreign_ = 0;
+  double since_beat_ = 0;  // s
   Fault fault_ = Fault::kNone;
 };
 

@@ -18,6 +18,8 @@ struct CanopenSetup {
   int enable_ticks = 1000;                     // samples
   double heartbeat_timeout = 0;                // s
   bool quick_stop = false;
+  int own_node = 0;
+  double heartbeat_period = 0.01;  // s
 
   static constexpr auto fields() {
     using F = Field<CanopenSetup>;
@@ -31,6 +33,11 @@ struct CanopenSetup {
           "longest time between two heartbeats of a node; 0 watches none", 0, 60},
         F{"quick_stop", &CanopenSetup::quick_stop, "1",
           "stop by the drive's quick stop instead of letting the motor coast", 0, 1},
+        F{"own_node", &CanopenSetup::own_node, "1",
+          "node number under which the loop sends a heartbeat of its own; 0 sends none", 0,
+          kLastNode},
+        F{"heartbeat_period", &CanopenSetup::heartbeat_period, "s",
+          "time between two of the loop's own heartbeats", 1e-3, 60},
     };
   }
 };

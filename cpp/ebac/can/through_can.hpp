@@ -29,7 +29,7 @@ class ThroughCan {
 
   Reading exchange(const Command& command) EBAC_RT {
     Reading reading = desk_->can().exchange(hold(command));
-    reading.force = desk_->force();
+    desk_->add_sensor(reading);
     return reading;
   }
   void stop() EBAC_RT { desk_->can().stop(); }
@@ -108,7 +108,7 @@ std::shared_ptr<Trace> simulate_through_can(const Setup& setup, Law law, std::si
   auto device = device_through_can<Plant>(setup);
   device.enable();
   Loop loop(std::move(device), VirtualClock(setup.timing.dt, setup.jitter, setup.seed),
-            std::move(law), Rig(setup.device, setup.environment), setup.device.axes());
+            std::move(law), Rig(setup.device, setup.environment), setup.device.axes(), setup.loop);
   auto trace = loop.make_trace(rows);
   loop.run(*trace);
   loop.device().disable();

@@ -37,6 +37,7 @@ class Direct {
   double step(const Port& port) EBAC_RT {
     return std::clamp(port.f_env, -params_.peak_force, params_.peak_force);
   }
+  void retune(const Direct& next) EBAC_RT { params_ = next.params_; }
   void reset() EBAC_RT {}
   const State& state() const EBAC_RT { return state_; }
   const Params& params() const EBAC_RT { return params_; }

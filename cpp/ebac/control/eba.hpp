@@ -88,6 +88,10 @@ class Eba {
     return command_;
   }
 
+  void retune(const Eba& next) EBAC_RT {
+    params_ = next.params_;
+    c_ = next.c_;
+  }
   void reset() EBAC_RT {
     account_ = CoveredForce(params_.damping, params_.count, params_.current_lag, timing_);
     command_ = 0;

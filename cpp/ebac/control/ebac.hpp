@@ -79,6 +79,12 @@ class Ebac {
     return command;
   }
 
+  void retune(const Ebac& next) EBAC_RT {
+    params_ = next.params_;
+    loop_.retune(params_.kp, params_.kd, params_.filter);
+    recovery_time_ = next.recovery_time_;
+    guard_ = next.guard_;
+  }
   void reset() EBAC_RT {
     loop_.reset();
     damper_.reset();

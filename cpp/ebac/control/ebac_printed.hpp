@@ -87,6 +87,10 @@ class EbacPrinted {
     return std::clamp(command, -params_.peak_force, params_.peak_force);
   }
 
+  void retune(const EbacPrinted& next) EBAC_RT {
+    params_ = next.params_;
+    loop_.retune(params_.kp, params_.kd, params_.filter);
+  }
   void reset() EBAC_RT {
     loop_.reset();
     state_ = {};

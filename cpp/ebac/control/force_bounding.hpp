@@ -75,6 +75,7 @@ class ForceBounding {
     return command;
   }
 
+  void retune(const ForceBounding& next) EBAC_RT { params_ = next.params_; }
   void reset() EBAC_RT {
     account_ = CoveredForce(params_.damping, params_.count, params_.current_lag, timing_);
     state_ = {};

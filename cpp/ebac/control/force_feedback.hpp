@@ -20,6 +20,12 @@ class ForceFeedback {
     }
     return kp_ * error + kd_ * rate_;
   }
+  void retune(double kp, double kd, double filter) EBAC_RT {
+    if (kd_ == 0 && kd != 0) reset();  // nothing was followed until now
+    kp_ = kp;
+    kd_ = kd;
+    filter_ = filter;
+  }
   void reset() EBAC_RT { error_ = rate_ = 0; }
 
  private:

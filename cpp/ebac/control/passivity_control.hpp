@@ -77,6 +77,7 @@ class PassivityControl {
     return std::clamp(command, -params_.peak_force, params_.peak_force);
   }
 
+  void retune(const PassivityControl& next) EBAC_RT { params_ = next.params_; }
   void reset() EBAC_RT {
     state_ = {};
     last_env_ = 0;

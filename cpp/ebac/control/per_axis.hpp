@@ -22,6 +22,7 @@ template <Controller Law>
 class PerAxis {
  public:
   using State = Law::State;
+  using Scalar = Law;
 
   explicit PerAxis(const Law& law) : laws_{law, law, law} {
     static_assert(kMaxAxes == 3);
@@ -35,6 +36,12 @@ class PerAxis {
   void reset() EBAC_RT {
     for (Law& law : laws_) law.reset();
     turned_ = {};
+  }
+  /// The gains of `next` from now on; memory, and what the law knows of the device, stay.
+  void retune(const Law& next) EBAC_RT
+    requires requires(Law law) { law.retune(next); }
+  {
+    for (Law& law : laws_) law.retune(next);
   }
   const State& state(std::size_t i) const EBAC_RT { return laws_[i].state(); }
 

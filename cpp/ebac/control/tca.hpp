@@ -54,6 +54,10 @@ class Tca {
     state_.feedback = loop_.step(port.f_env, port.f_meas, port.dt);
     return std::clamp(port.f_env + state_.feedback, -params_.peak_force, params_.peak_force);
   }
+  void retune(const Tca& next) EBAC_RT {
+    params_ = next.params_;
+    loop_.retune(params_.kp, params_.kd, params_.filter);
+  }
   void reset() EBAC_RT {
     loop_.reset();
     state_ = {};

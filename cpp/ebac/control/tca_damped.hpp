@@ -86,6 +86,10 @@ class TcaDamped {
     return std::clamp(desired + state_.feedback, -params_.peak_force, params_.peak_force);
   }
 
+  void retune(const TcaDamped& next) EBAC_RT {
+    params_ = next.params_;
+    loop_.retune(params_.kp, params_.kd, params_.filter);
+  }
   void reset() EBAC_RT {
     loop_.reset();
     damper_.reset();

@@ -67,6 +67,7 @@ class VirtualCoupling {
     state_.clamped = command != port.f_env;
     return command;
   }
+  void retune(const VirtualCoupling& next) EBAC_RT { params_ = next.params_; }
   void reset() EBAC_RT { state_ = {}; }
   const State& state() const EBAC_RT { return state_; }
   const Params& params() const EBAC_RT { return params_; }

@@ -33,10 +33,15 @@ struct Command {
   double elapsed = 0;                      // s, since the last exchange; 0 in the first
 };
 
+/// What the force sensor says of itself.
+enum class SensorStatus : std::uint8_t { kGood, kSaturated, kDisconnected };
+
 struct Reading {
   std::array<std::int64_t, kMaxAxes> counts{};     // raw, as wide as the counter
   std::array<double, kMaxAxes> current_applied{};  // A, over the interval that ended now
   std::array<double, kMaxAxes> force{};            // N, force sensor at the handle
+  double force_age = 0;                            // s, of that force
+  SensorStatus force_status = SensorStatus::kGood;
   Fault fault = Fault::kNone;
 };
 
@@ -48,9 +53,10 @@ concept Device = requires(D device, const Command& command) {
 };
 
 struct Instant {
-  double t = 0;         // s, since the start
-  double dt = 0;        // s, since the last tick; 0 in the first
-  double lateness = 0;  // s
+  double t = 0;              // s, since the start
+  double dt = 0;             // s, since the last tick; 0 in the first
+  double lateness = 0;       // s
+  std::int64_t skipped = 0;  // ticks before this one that could not be kept
 };
 
 /// What the loop waits on.

@@ -27,6 +27,32 @@ enum class Fault : std::uint32_t {
   kDriveEmergency = 10,       // a drive sent an emergency
   kHeartbeatLost = 11,        // a node gave no heartbeat, or is no longer operational
   kBusDown = 12,              // the bus is off, down or closed
+  kEncoderJump = 13,          // an encoder moved further in a tick than the device can
+  kOverspeed = 14,            // an axis moves faster than allowed
+  kWorkspace = 15,            // an axis left the workspace
+  kForceStale = 16,           // the force is older than allowed
+  kForceSaturated = 17,       // the force sensor is at the end of its range
+  kForceDisconnected = 18,    // the force sensor does not answer
+  kOverruns = 19,             // too many ticks in a row came too late
+};
+
+/// Where a loop stands. Every way out of kRun is kStop; after it, kIdle or, latched, kFault.
+enum class LoopState : std::int32_t {
+  kIdle = 0,   // not begun, or ended well
+  kArm = 1,    // waits for the device to be enabled; no force
+  kRun = 2,    // the law acts
+  kStop = 3,   // force to zero, then the device is told to stop
+  kFault = 4,  // ended by a fault; stands until it is reset
+};
+
+/// What held a current back in a tick, or added to it: bits of `limited`.
+enum class Limited : std::int32_t {
+  kPeak = 1,        // the largest current
+  kThermal = 2,     // what the motor's temperature allows (i2t)
+  kSlew = 4,        // the fastest change of a current
+  kEdge = 8,        // the soft wall at the edge of the workspace pushes
+  kRamp = 16,       // soft start, or the ramp of a stop
+  kNotFinite = 32,  // was no number; zero instead
 };
 
 /// What the hardware has, one per motor.
@@ -96,6 +122,9 @@ struct Sample {
   double lateness = 0;  // s, wake-up after the planned instant
   std::int64_t axes = 1;
   Fault fault = Fault::kNone;
+  int state = static_cast<int>(LoopState::kRun);
+  int limited = 0;
+  int skipped = 0;  // ticks
   std::array<Axis, kMaxAxes> axis{};
 
   static constexpr auto fields() {
@@ -105,6 +134,11 @@ struct Sample {
         F{"t", &Sample::t, "s", "time since the start"},
         F{"lateness", &Sample::lateness, "s", "wake-up after the planned instant"},
         F{"fault", &Sample::fault, "1", "0, or why the loop stopped"},
+        F{"state", &Sample::state, "1", "0 idle, 1 arm, 2 run, 3 stop, 4 fault"},
+        F{"limited", &Sample::limited, "1",
+          "sum of what held a current back: 1 peak, 2 thermal, 4 slew, 8 edge, 16 ramp, 32 no "
+          "number"},
+        F{"skipped", &Sample::skipped, "1", "ticks before this one that could not be kept"},
     };
   }
 };

@@ -16,6 +16,15 @@ class Rig {
  public:
   Rig(const DeviceModel& device, const Environment& environment);
 
+  /// Another virtual world, from this tick on.
+  void change(const Environment& environment) EBAC_RT { environment_ = environment; }
+
+  /// Velocity and acceleration begin anew.
+  void forget() EBAC_RT {
+    velocity_ = {};
+    speed_ = acceleration_ = {};
+  }
+
   /// counts -> q, dq
   void measure(const Reading& reading, double dt, std::span<Axis> axes) EBAC_RT;
 

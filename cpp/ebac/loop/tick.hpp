@@ -34,13 +34,12 @@ inline Fault first_fault(std::span<const Axis> axes) EBAC_RT {
   return first;
 }
 
-/// One tick of the loop. What is computed here acts `delay` ticks later, in simulation and on the
-/// bus alike.
-template <AxesController Law, Device D, std::size_t N>
-void tick(Rig& rig, Law& law, D& device, const Instant& now, Sample& s,
-          std::span<Axis, N> axes) EBAC_RT {
+/// The device's part of a tick: currents of the last one out, then counts to ports.
+template <Device D, std::size_t N>
+Reading sense(Rig& rig, D& device, const Instant& now, Sample& s, std::span<Axis, N> axes) EBAC_RT {
   s.t = now.t;
   s.lateness = now.lateness;
+  s.skipped = static_cast<int>(now.skipped);
 
   Command command{.elapsed = now.dt};
   for (std::size_t i = 0; i < axes.size(); ++i) command.current[i] = axes[i].joint.current;
@@ -48,13 +47,38 @@ void tick(Rig& rig, Law& law, D& device, const Instant& now, Sample& s,
 
   rig.measure(reading, now.dt, axes);
   rig.forward(reading, now.dt, axes);
+  return reading;
+}
+
+/// The law's part: ports to currents.
+template <AxesController Law, std::size_t N>
+void render(Rig& rig, Law& law, const Instant& now, std::span<Axis, N> axes) EBAC_RT {
   rig.account(axes);
   const Touch touch = rig.ask(axes);
   law.step(axes, touch);
   rig.drive(now.dt, axes);
+}
 
-  if (s.fault == Fault::kNone) s.fault = reading.fault;
-  if (s.fault == Fault::kNone) s.fault = first_fault(axes);
+/// No force asked, none given.
+inline void rest(std::span<Axis> axes) EBAC_RT {
+  for (Axis& axis : axes) {
+    axis.port.f_env = axis.port.f_cmd = axis.joint.tau = axis.joint.current = 0;
+  }
+}
+
+/// The first fault that the device or a stage reports.
+inline Fault judge(const Reading& reading, std::span<const Axis> axes) EBAC_RT {
+  return reading.fault != Fault::kNone ? reading.fault : first_fault(axes);
+}
+
+/// One tick of the loop. What is computed here acts `delay` ticks later, in simulation and on the
+/// bus alike.
+template <AxesController Law, Device D, std::size_t N>
+void tick(Rig& rig, Law& law, D& device, const Instant& now, Sample& s,
+          std::span<Axis, N> axes) EBAC_RT {
+  const Reading reading = sense(rig, device, now, s, axes);
+  render(rig, law, now, axes);
+  if (s.fault == Fault::kNone) s.fault = judge(reading, axes);
   if (s.fault != Fault::kNone) {  // from here on, zero force
     for (Axis& axis : axes) axis.port.f_cmd = axis.joint.tau = axis.joint.current = 0;
   }

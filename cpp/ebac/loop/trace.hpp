@@ -1,8 +1,11 @@
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <cstddef>
+#include <cstdint>
 #include <cstring>
+#include <span>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -24,6 +27,9 @@ struct Column {
 /// The rows of a run, preallocated. A row is the used prefix of a Sample, then the law's state of
 /// each axis, then what the device adds. Appending is a copy and one release store; readers may
 /// look on while it grows.
+///
+/// As a ring it never is full and keeps the last rows: for runs of any length, whose rows a recorder
+/// takes to disk. A reader copies; it is told which rows were written over before it had them.
 class Trace {
  public:
   /// A trace without rows; `reserve` fixes the layout and makes room.
@@ -33,6 +39,12 @@ class Trace {
     add<Joint>("", first + offsetof(Axis, joint), sizeof(Axis));
     add<Port>("", first + offsetof(Axis, port), sizeof(Axis));
     row_ = first + sizeof(Axis) * static_cast<std::size_t>(axes);
+  }
+
+  /// No rows yet, in the layout of another trace.
+  Trace(const Trace& layout, std::size_t rows, bool ring)
+      : axes_(layout.axes_), columns_(layout.columns_), row_(layout.row_) {
+    reserve(rows, ring);
   }
 
   /// Appends a block of T per axis to the row; its columns are called prefix + field name.
@@ -46,30 +58,58 @@ class Trace {
     return at;
   }
 
-  void reserve(std::size_t rows) {
+  /// Room for `rows` rows; as a ring for the last `rows`.
+  void reserve(std::size_t rows, bool ring = false) {
+    row_ = (row_ + sizeof(Word) - 1) / sizeof(Word) * sizeof(Word);
     capacity_ = rows;
-    data_.resize(rows * row_);
+    ring_ = ring;
+    data_.resize((ring ? rows + 1 : rows) * words());  // one more: the row that is being written
+    staged_.resize(ring ? words() : 0);
   }
 
   /// Where the next row goes, or nullptr when the trace is full; `commit` makes it visible.
   std::byte* next() EBAC_RT {
+    if (ring_) return reinterpret_cast<std::byte*>(staged_.data());
     const std::size_t n = count_.load(std::memory_order_relaxed);
-    return n < capacity_ ? data_.data() + n * row_ : nullptr;
+    return n < capacity_ ? bytes() + n * row_ : nullptr;
   }
   void commit() EBAC_RT {
-    count_.store(count_.load(std::memory_order_relaxed) + 1, std::memory_order_release);
+    const std::size_t n = count_.load(std::memory_order_relaxed);
+    if (ring_) publish(n);
+    count_.store(n + 1, std::memory_order_release);
   }
 
+  /// Rows appended since the start; a ring still has those from `first()` on.
   std::size_t size() const EBAC_RT { return count_.load(std::memory_order_acquire); }
+  std::size_t first() const EBAC_RT {
+    const std::size_t n = size();
+    return n > capacity_ ? n - capacity_ : 0;
+  }
+  bool ring() const { return ring_; }
+  std::size_t capacity() const { return capacity_; }
   std::size_t row_bytes() const { return row_; }
   int axes() const { return axes_; }
   const std::vector<Column>& columns() const { return columns_; }
-  const std::byte* data() const { return data_.data(); }
+  /// The rows as they lie; of a ring, use `copy`.
+  const std::byte* data() const { return reinterpret_cast<const std::byte*>(data_.data()); }
+
+  /// Copies rows `from`, `from` + 1, ... to `out`, as many as fit in it; all of them are below
+  /// `size()`. Returns how many at its start were written over before or during the copy: what
+  /// `out` holds of them is worth nothing.
+  std::size_t copy(std::size_t from, std::span<std::byte> out) const EBAC_RT {
+    const std::size_t rows = out.size() / row_;
+    if (ring_) {
+      for (std::size_t i = 0; i < rows; ++i) take(from + i, out.data() + i * row_);
+    } else {
+      std::memcpy(out.data(), data() + from * row_, rows * row_);
+    }
+    return std::clamp(first(), from, from + rows) - from;
+  }
 
   /// The sample of row `i`; axes beyond the ones in use are zero.
   Sample sample(std::size_t i) const {
     Sample s;
-    std::memcpy(static_cast<void*>(&s), data_.data() + i * row_,
+    std::memcpy(static_cast<void*>(&s), data_.data() + (ring_ ? slot(i) : i * words()),
                 offsetof(Sample, axis) + sizeof(Axis) * static_cast<std::size_t>(axes_));
     return s;
   }
@@ -102,11 +142,35 @@ class Trace {
     if constexpr (std::is_same_v<Value, bool>) return 'b';
   }
 
+  using Word = std::uint64_t;
+
+  std::size_t words() const EBAC_RT { return row_ / sizeof(Word); }
+  std::byte* bytes() EBAC_RT { return reinterpret_cast<std::byte*>(data_.data()); }
+  std::size_t slot(std::size_t row) const EBAC_RT { return row % (capacity_ + 1) * words(); }
+
+  /// Word by word, released: a reader that sees a word of row n also sees that n rows are complete,
+  /// and so knows that the row it wanted is gone.
+  void publish(std::size_t row) EBAC_RT {
+    Word* to = data_.data() + slot(row);
+    for (std::size_t i = 0; i < words(); ++i) {
+      std::atomic_ref(to[i]).store(staged_[i], std::memory_order_release);
+    }
+  }
+  void take(std::size_t row, std::byte* out) const EBAC_RT {
+    Word* from = data_.data() + slot(row);
+    for (std::size_t i = 0; i < words(); ++i) {
+      const Word word = std::atomic_ref(from[i]).load(std::memory_order_acquire);
+      std::memcpy(out + i * sizeof(Word), &word, sizeof(Word));
+    }
+  }
+
   int axes_;
   std::vector<Column> columns_;
-  std::size_t row_ = 0;
+  std::size_t row_ = 0;  // bytes, in whole words
   std::size_t capacity_ = 0;
-  std::vector<std::byte> data_;
+  bool ring_ = false;
+  mutable std::vector<Word> data_;  // mutable: an atomic look at a word takes it as one to write
+  std::vector<Word> staged_;        // the row a ring takes next
   std::atomic<std::size_t> count_{0};
 };
 

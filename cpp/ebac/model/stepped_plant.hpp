@@ -26,6 +26,8 @@ class SteppedPlant {
   /// Moves by `quanta` of 2^-20 tick from time `t` on, under the motor currents `current` [A].
   void advance(const Axes& current, double t, std::int64_t quanta) EBAC_RT;
 
+  void aim(std::size_t axis, double target) EBAC_RT { hand_.aim(axis, target); }
+
   std::size_t axes() const EBAC_RT { return static_cast<std::size_t>(axes_); }
   const AxisTruth& truth(std::size_t axis) const EBAC_RT { return truth_[axis]; }
   double motor_angle(std::size_t axis) const EBAC_RT { return motor_angle_[axis]; }

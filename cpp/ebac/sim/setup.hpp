@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "ebac/core/timing.hpp"
+#include "ebac/loop/loop.hpp"
 #include "ebac/model/device.hpp"
 #include "ebac/model/environment.hpp"
 #include "ebac/model/hand.hpp"
@@ -18,6 +19,7 @@ struct Setup {
   double seconds = 6;  // s
   double jitter = 0;   // of a tick
   std::uint64_t seed = 1;
+  LoopOptions loop{};  // soft start and limits; none by default
 };
 
 }  // namespace ebac

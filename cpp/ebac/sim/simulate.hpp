@@ -14,7 +14,8 @@ namespace ebac {
 template <AxesController Law>
 Loop<SimulatedDevice, VirtualClock, Law> simulated_loop(const Setup& setup, Law law) {
   return {SimulatedDevice(setup), VirtualClock(setup.timing.dt, setup.jitter, setup.seed),
-          std::move(law), Rig(setup.device, setup.environment), setup.device.axes()};
+          std::move(law),         Rig(setup.device, setup.environment),
+          setup.device.axes(),    setup.loop};
 }
 
 inline std::size_t row_count(const Setup& setup) {

@@ -44,6 +44,11 @@ class SimulatedDevice {
     return std::visit([&](const auto& plant) EBAC_RT { return latch(plant); }, plant_);
   }
 
+  /// From now on the hand wants to be at `target` [m]; only a hand whose path is a Step can be told.
+  void aim(std::size_t axis, double target) EBAC_RT {
+    std::visit([&](auto& plant) EBAC_RT { plant.aim(axis, target); }, plant_);
+  }
+
   const State& state(std::size_t axis) const EBAC_RT {
     return std::visit([&](const auto& plant) EBAC_RT -> const State& { return plant.truth(axis); },
                       plant_);
@@ -90,6 +95,9 @@ class SimulatedDevice {
       reading.counts[i] = device_.encoder.read(angle + phase_[i]);
       reading.current_applied[i] = applied_[static_cast<Eigen::Index>(i)];
       reading.force[i] = device_.sensor.read(plant.truth(i).f_sensor, random_);
+      if (std::abs(reading.force[i]) >= device_.sensor.range) {
+        reading.force_status = SensorStatus::kSaturated;
+      }
     }
     return reading;
   }

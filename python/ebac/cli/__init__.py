@@ -11,9 +11,13 @@ from ebac.cli import (
     bench,
     bus,
     conditions,
+    doctor,
     drive,
+    faults,
     identify,
+    jitter,
     laws,
+    log,
     maps,
     paper,
     presets,
@@ -70,6 +74,10 @@ app.command("laws")(laws.laws)
 app.command("specs")(specs.specs)
 app.command("presets")(presets.presets)
 app.command("bench")(bench.bench)
+app.command("doctor")(doctor.doctor)
+app.command("jitter")(jitter.jitter)
+app.command("faults")(faults.faults)
 app.add_typer(drive.app, name="drive")
 app.add_typer(bus.bus, name="bus")
 app.add_typer(identify.app, name="identify")
+app.add_typer(log.log, name="log")

@@ -44,6 +44,15 @@ def wall(
     out: Annotated[
         Path | None, options.out_folder("table, figure, logs and scenario", DEFAULT_OUT)
     ] = None,
+    log: Annotated[
+        Path | None,
+        typer.Option(
+            "--log",
+            help="Also write the rows to this file: .mcap (PlotJuggler, Foxglove), .npz, .csv, .parquet, .mat or .h5; "
+            "with several laws, run.mcap becomes run-tca.mcap, run-eba.mcap, ...",
+            show_default=False,
+        ),
+    ] = None,
     no_files: Annotated[bool, typer.Option("--no-files", help="Write no files.")] = False,
     as_json: output.AsJson = False,
 ) -> None:
@@ -60,6 +69,8 @@ def wall(
 
     * `ebac wall --hand finger --target 0.02 --json`: a finger pressing to 20 mm, as JSON.
 
+    * `ebac wall --law ebac --log ebac.mcap`: a log for PlotJuggler or Foxglove.
+
     * `ebac wall --through can`: the same over a CAN bus, through simulated drives.
 
     * `ebac wall --scenario ebac-wall/scenario.toml --seed 7`: the same again, another seed.
@@ -68,6 +79,7 @@ def wall(
         output.fail("--no-files and --out exclude each other: leave one of them out")
     with output.refusing():
         names = setting.law_names(law or DEFAULT_LAWS)
+        logs = wall_results.log_names(log, names)
         base = setting.base_scenario(scenario)
         chosen = base.replace(
             device=setting.choose_device(base.device, device, noise=noise, permille=permille),
@@ -87,7 +99,7 @@ def wall(
     if warning and not as_json:
         output.say(f"Warning: {warning}.", style="yellow")
     folder = None if no_files else out or (None if as_json else DEFAULT_OUT)
-    _run(chosen, names, through, folder, as_json)
+    _run(chosen, names, through, folder, logs, as_json)
 
 
 def _on_bus(scenario: Scenario, through: str) -> tuple[Scenario, str]:
@@ -110,13 +122,18 @@ def _check_length(scenario: Scenario) -> None:
 
 
 def _run(
-    scenario: Scenario, names: list[str], through: str | None, out: Path | None, as_json: bool
+    scenario: Scenario,
+    names: list[str],
+    through: str | None,
+    out: Path | None,
+    logs: list[Path],
+    as_json: bool,
 ) -> None:
     from ebac.metrics import contact
     from ebac.simulation import LoopFault
 
     files: list[str] = []
-    steps = len(names) * (1 if out is None else 2) + (out is not None)
+    steps = len(names) * (1 if out is None else 2) + (out is not None) + len(logs)
     try:
         with (
             output.results(out) as draft,
@@ -128,6 +145,7 @@ def _run(
             text = wall_results.document(scenario, contacts, through)
             if draft is not None:
                 files = wall_results.write(draft, scenario, traces, text, step)
+            wall_results.write_logs(logs, traces, step)
     except LoopFault as fault:
         wall_results.report_fault(fault, out)
     if as_json:
@@ -136,6 +154,8 @@ def _run(
     wall_results.show(scenario, contacts, through)
     if out is not None:
         output.list_files(out, files)
+    for path in logs:
+        output.say(f"Log: {path}")
 
 
 def _simulate(

@@ -56,6 +56,40 @@ def write(
     return files
 
 
+def log_names(log: Path | None, names: list[str]) -> list[Path]:
+    """Return the file of each law's log: `--log` itself for one, `run-tca.mcap` and so on for several.
+
+    Raises
+    ------
+    ValueError
+        When the extension is none of a log.
+    FileNotFoundError
+        When its folder does not exist.
+    """
+    if log is None:
+        return []
+    from ebac.logs.files import FORMATS, extension
+
+    kind = extension(log, tuple(FORMATS))
+    if not log.parent.is_dir():
+        raise FileNotFoundError(2, "No such folder", str(log.parent))
+    if len(names) == 1:
+        return [log]
+    return [log.with_name(f"{log.stem}-{name}{kind}") for name in names]
+
+
+def write_logs(logs: list[Path], traces: list[Trace], step: Callable[[str], None]) -> None:
+    """Write the log of each trace, if logs are wanted."""
+    for path, trace in zip(logs, traces, strict=False):  # no logs, no pairs
+        step(f"writing {path.name}")
+        try:
+            trace.save(path)
+        except ModuleNotFoundError as error:
+            output.fail(f"--log {path}: {error}")
+        except OSError as error:
+            output.fail(f"--log {path}: cannot be written ({error.strerror})")
+
+
 def document(scenario: Scenario, contacts: list[Contact], through: str | None = None) -> str:
     """Return the JSON document."""
     import tomllib

@@ -1,6 +1,9 @@
 """Figures of traces and studies; they use no global state of pyplot, so any thread may draw."""
 
 from ebac.plot.ablation import plot_ablation
+from ebac.plot.columns import plot_columns
+from ebac.plot.faults import plot_fault
+from ebac.plot.jitter import plot_jitter
 from ebac.plot.maps import plot_map
 from ebac.plot.run import plot_trace
 from ebac.plot.study import plot_study
@@ -19,6 +22,9 @@ __all__ = [
     "line",
     "new_figure",
     "plot_ablation",
+    "plot_columns",
+    "plot_fault",
+    "plot_jitter",
     "plot_map",
     "plot_study",
     "plot_trace",

@@ -65,7 +65,11 @@ def title(trace: Trace) -> str:
     name = f"law {trace.law}" if trace.law else "a run"
     if trace.scenario is None:
         return name
+    if "log.f_cmd" in trace:
+        return f"{name}, over a recorded log: the handle moved as it did, whatever is commanded"
     parts = wording.describe(trace.scenario).split("; ")
+    if "true.x" not in trace:  # whose hand it was, nobody knows
+        return f"{name}, recorded: {parts[0]}\n{'; '.join(parts[2:-1])}"
     return f"{name}, simulated: {parts[0]}; {parts[1]}\n{'; '.join(parts[2:])}"
 
 
@@ -88,12 +92,16 @@ def _force(ax: Axes, trace: Trace, axis: int) -> None:
     line(ax, t, trace.axis("f_meas", axis), color="0.6", lw=1.4, label="measured, $F_M$")
     line(ax, t, trace.axis("f_cmd", axis), color="#56b4e9", lw=2.2, label="commanded, $F_d$")
     line(ax, t, trace.axis("f_applied", axis), color=colour(trace.law), lw=1.0, label="applied")
+    if "log.f_cmd" in trace:
+        line(
+            ax, t, trace.axis("log.f_cmd", axis), color="black", ls=":", label="commanded, recorded"
+        )
     limited = np.concatenate([trace.axis(n, axis) for n in ("f_meas", "f_cmd", "f_applied")])
     low, high = float(limited.min()), float(limited.max())
     room = 0.15 * max(high - low, 1.0)
     ax.set_ylim(low - room, high + room)  # what is asked may go far beyond
     dress(ax, "force [N]")
-    legend(ax)
+    legend(ax, columns=5)
 
 
 def _beta(ax: Axes, trace: Trace, axis: int) -> None:

@@ -97,7 +97,9 @@ def landmarks(ax: Axes, trace: Trace) -> None:
     scenario = trace.scenario
     if scenario is None:
         return
-    ideal = ideal_rest(scenario)
+    ideal = (
+        ideal_rest(scenario) if "true.x" in trace else None
+    )  # a real hand is not that of a scenario
     if isinstance(scenario.environment, Wall) and scenario.environment.angle == 0:
         surface = 1e3 * scenario.environment.position
         ax.axhline(surface, color="0.35", lw=1, label="wall surface")

@@ -1,0 +1,60 @@
+#include <tuple>
+
+#include "bind.hpp"
+#include "ebac/faults/campaign.hpp"
+#include "fields.hpp"
+#include "sweep.hpp"
+
+namespace ebac::python {
+
+namespace {
+
+using faults::Result;
+
+constexpr std::array kVerdicts{"passed",   "missed",       "false_alarm", "wrong_name",  "not_zero",
+                               "still_on", "beyond_limit", "restarted",   "not_recorded"};
+
+std::tuple<Values, std::vector<std::string>> run(std::size_t cases, std::uint64_t seed, int threads,
+                                                 SweepProgress& progress) {
+  faults::Campaign campaign;
+  {
+    const py::gil_scoped_release release;
+    campaign = faults::run_campaign(cases, seed, threads, progress);
+  }
+  const auto& rows = campaign.results;
+  Values columns;
+  columns["verdict"] =
+      column<int>(rows, [](const Result& r) { return static_cast<int>(r.verdict); });
+  columns["fault"] = column<int>(rows, [](const Result& r) { return static_cast<int>(r.fault); });
+  columns["detected"] = column<std::int64_t>(rows, [](const Result& r) { return r.detected; });
+  columns["to_zero"] = column<std::int64_t>(rows, [](const Result& r) { return r.to_zero; });
+  columns["to_off"] = column<std::int64_t>(rows, [](const Result& r) { return r.to_off; });
+  columns["done"] = column<bool>(campaign.done, [](char done) { return done != 0; });
+  return {columns, std::vector<std::string>(kVerdicts.begin(), kVerdicts.end())};
+}
+
+}  // namespace
+
+void bind_faults(py::module_& m) {
+  m.def("_fault_campaign", &run, py::arg("cases"), py::arg("seed"), py::arg("threads"),
+        py::arg("progress"), "A column per property of the cases, and the names of the verdicts.");
+  m.def(
+      "_fault_case",
+      [](std::uint64_t seed, std::uint64_t index) {
+        const faults::Trouble trouble = faults::trouble_of(seed, index);
+        std::shared_ptr<Trace> trace;
+        faults::run_case(trouble, &trace);
+        return std::make_tuple(trace, trouble.at, trouble.ticks, trouble.axis);
+      },
+      py::arg("seed"), py::arg("index"), "Rows, first tick, ticks and axis of one case.");
+  m.def(
+      "_fault_kinds",
+      [] {
+        std::vector<std::pair<std::string, std::string>> kinds;
+        for (const auto& kind : faults::kKindFacts) kinds.emplace_back(kind.name, kind.what);
+        return kinds;
+      },
+      "Name and meaning of every kind of fault; case i is of kind i modulo their number.");
+}
+
+}  // namespace ebac::python

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "ebac/faults/case.hpp"
+#include "ebac/sim/sweep.hpp"
+
+namespace ebac::faults {
+
+/// Cases 0 to `cases` - 1 of a seed, over `threads` threads, 0 for one per core. A case depends on
+/// its number alone. After a cancellation those not done are missing at the end or in between, and
+/// `done` says which.
+struct Campaign {
+  std::vector<Result> results;
+  std::vector<char> done;
+};
+
+Campaign run_campaign(std::size_t cases, std::uint64_t seed, int threads, SweepProgress& progress);
+
+}  // namespace ebac::faults

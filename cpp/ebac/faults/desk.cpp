@@ -1,0 +1,107 @@
+#include "ebac/faults/desk.hpp"
+
+#include "ebac/can/torque_settings.hpp"
+
+namespace ebac::faults {
+
+namespace {
+
+constexpr std::int64_t kProducer = 10;  // ms, heartbeat of a drive
+constexpr std::int64_t kConsumer = 50;  // ms, heartbeat of the loop
+constexpr std::int64_t kRpdoTimer = 5;  // ms, longest time between two torques
+
+/// The loop watches the drives, and they watch the loop.
+can::CanopenSetup can_setup(const DeviceModel& device) {
+  return {.axes = device.axes(),
+          .motor = device.motor,
+          .drive = device.drive,
+          .heartbeat_timeout = 1e-3 * static_cast<double>(kConsumer),
+          .own_node = Desk::kOwnNode,
+          .heartbeat_period = 1e-3 * static_cast<double>(kProducer)};
+}
+
+SimulatedDevice plant_of(Setup setup) {
+  setup.timing.delay = 0;  // its delay is that of the bus
+  setup.device.drive.permille = true;
+  return SimulatedDevice(setup);
+}
+
+constexpr int kBefore = 2 * kProducer;  // ticks of 1 ms, until every drive says it is operational
+
+}  // namespace
+
+Desk::Desk(const Setup& setup, Trouble& trouble)
+    : trouble_(&trouble),
+      other_(FaultyPlant(plant_of(setup), trouble), setup.device, hub_.open()),
+      near_(hub_.open(), trouble),
+      can_(near_, can::RunOther(other_), can_setup(setup.device)) {
+  const auto most =
+      static_cast<int>(can::TorqueScale::of(setup.device.motor, setup.device.drive).most);
+  for (std::size_t i = 0; i < axes(); ++i) set_up(drive(i), most);
+  near_.send(can::frame(can::kNmt, {static_cast<std::uint8_t>(can::NmtCommand::kStart), 0}));
+  for (int i = 0; i < kBefore; ++i) static_cast<void>(can_.exchange({.elapsed = 1e-3}));
+}
+
+void Desk::set_up(can::SimulatedDrive& drive, int most) const {
+  const auto write = [&](std::uint16_t index, std::uint8_t sub, std::int64_t value) {
+    if (drive.write(index, sub, value) != can::Abort{}) {
+      throw std::logic_error("a simulated drive refused object " + std::to_string(index) + ":" +
+                             std::to_string(sub));
+    }
+  };
+  write(0x1017, 0, kProducer);
+  write(0x1016, 1, std::int64_t{kOwnNode} << 16 | kConsumer);
+  write(0x6007, 0, 1);  // a lost connection is a fault
+  write(0x1400, 5, kRpdoTimer);
+  for (const can::ObjectWrite& one : can::torque_settings(drive.node(), most)) {
+    write(one.index, one.sub, one.value);
+  }
+}
+
+void Desk::spoil_drive() EBAC_RT {
+  can::SimulatedDrive& drive = this->drive(trouble_->axis);
+  if (trouble_->begins(Kind::kSilentNode)) drive.set_condition(can::Condition::kSilent, true);
+  if (trouble_->begins(Kind::kDriveFault)) {
+    constexpr std::array kAll{can::Condition::kOverVoltage, can::Condition::kEncoderLost,
+                              can::Condition::kOverTemperature};
+    drive.set_condition(kAll[trouble_->chance % kAll.size()], true);
+  }
+}
+
+void Desk::spoil_sensor(Reading& reading) EBAC_RT {
+  const std::size_t axis = trouble_->axis;
+  if (trouble_->on(Kind::kNanCurrent)) reading.current_applied[axis] = kNoNumber;
+  if (trouble_->on(Kind::kNanForce)) reading.force[axis] = kNoNumber;
+  if (trouble_->on(Kind::kForceStale)) reading.force_age = force_age_;
+  if (trouble_->on(Kind::kForceSaturated)) reading.force_status = SensorStatus::kSaturated;
+  if (trouble_->on(Kind::kForceDisconnected)) reading.force_status = SensorStatus::kDisconnected;
+}
+
+Reading Desk::exchange(const Command& command) EBAC_RT {
+  spoil_drive();
+  Reading reading = can_.exchange(command);
+  const Reading& seen = other_.joystick().reading();
+  reading.force = seen.force;
+  reading.force_status = seen.force_status;
+  force_age_ = trouble_->on(Kind::kForceStale) ? force_age_ + command.elapsed : 0;
+  spoil_sensor(reading);
+  for (std::size_t i = 0; i < axes(); ++i) {
+    const double current = std::abs(drive(i).current());
+    trouble_->most_current = std::max(trouble_->most_current, current);
+    if (current > 0) trouble_->last_current = trouble_->tick;
+    if (can_.state(i).target_permille != 0) trouble_->last_command = trouble_->tick;
+  }
+  return reading;
+}
+
+bool Desk::off() EBAC_RT {
+  for (std::size_t i = 0; i < axes(); ++i) {
+    const can::DriveState state = drive(i).state();
+    const bool on =
+        state == can::DriveState::kOperationEnabled || state == can::DriveState::kQuickStopActive;
+    if (on || drive(i).current() != 0) return false;
+  }
+  return true;
+}
+
+}  // namespace ebac::faults

@@ -1,0 +1,162 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
+#include <string_view>
+
+#include "ebac/core/concepts.hpp"
+#include "ebac/model/limits.hpp"
+#include "ebac/model/thermal.hpp"
+
+namespace ebac {
+
+/// The last gate before the drives: what the limits leave of each current, why, and what about the
+/// device must end the run. `watch` comes before the currents are known, `pass` last.
+class Gate {
+ public:
+  /// What a trace tells of it, per axis.
+  struct State {
+    double heat = 0;     // of what the continuous current reaches
+    double ceiling = 0;  // A
+    static constexpr auto fields() {
+      using F = Field<State>;
+      return std::array{
+          F{"heat", &State::heat, "1",
+            "heat of the winding (i2t) over that of its continuous current"},
+          F{"ceiling", &State::ceiling, "A", "largest current allowed in this tick"},
+      };
+    }
+  };
+  static constexpr std::string_view kPrefix = "limit.";
+
+  Gate() = default;
+  /// Throws std::invalid_argument for limits that cannot be. `dt` is the sample time [s].
+  Gate(const Limits& limits, const DeviceModel& device, double dt)
+      : on_(true),
+        limits_(limits),
+        dt_(dt),
+        radius_(device.radius()),
+        amp_per_newton_(1 / device.force(1)) {
+    check_limits(limits);
+    thermal_.fill(Thermal(limits.continuous_current, limits.thermal_time));
+  }
+
+  bool on() const EBAC_RT { return on_; }
+
+  /// Kept in numbers of the device: what about its motion, its sensor or its time is a fault.
+  Fault watch(const Reading& reading, const Instant& now, std::span<const Axis> axes) EBAC_RT {
+    if (!on_) return Fault::kNone;
+    overruns_ = now.skipped > 0 ? overruns_ + 1 : 0;
+    Fault found = motion(axes);
+    if (found == Fault::kNone && limits_.watch_force) found = sensor(reading);
+    if (found == Fault::kNone && overruns_ >= limits_.overruns) found = Fault::kOverruns;
+    return found;
+  }
+
+  /// Holds the currents within the limits; `gain` in [0, 1] is that of soft start and stop. Returns
+  /// the bits of what it had to do.
+  int pass(std::span<Axis> axes, double gain, double elapsed) EBAC_RT {
+    int limited = gain < 1 ? bit(Limited::kRamp) : 0;
+    for (std::size_t i = 0; i < axes.size(); ++i) {
+      Joint& joint = axes[i].joint;
+      if (on_) {
+        const double before = last_[i];
+        thermal_[i].heat(before, elapsed);
+        joint.current = held(i, gain * (joint.current + edge(axes[i], limited)), before, limited);
+        last_[i] = joint.current;
+      } else if (gain != 1) {
+        joint.current *= gain;
+      }
+    }
+    return limited;
+  }
+
+  /// No current at all, at once.
+  void shut(std::span<Axis> axes, double elapsed) EBAC_RT {
+    for (std::size_t i = 0; i < axes.size(); ++i) {
+      axes[i].joint.current = 0;
+      if (on_) thermal_[i].heat(last_[i], elapsed);
+      last_[i] = 0;
+      state_[i] = {.heat = thermal_[i].heat(), .ceiling = 0};
+    }
+  }
+
+  /// The motors stay as warm as they are; everything else is forgotten.
+  void restart() EBAC_RT {
+    last_ = {};
+    overruns_ = 0;
+    moved_ = false;
+  }
+
+  const State& state(std::size_t axis) const EBAC_RT { return state_[axis]; }
+
+ private:
+  static int bit(Limited why) EBAC_RT { return static_cast<int>(why); }
+
+  Fault motion(std::span<const Axis> axes) EBAC_RT {
+    Fault found = Fault::kNone;
+    const auto note = [&](bool bad, Fault fault) EBAC_RT {
+      if (bad && (found == Fault::kNone || fault < found)) found = fault;
+    };
+    for (std::size_t i = 0; i < axes.size(); ++i) {
+      const Joint& joint = axes[i].joint;
+      note(moved_ && std::abs(radius_ * (joint.q - q_[i])) > limits_.jump, Fault::kEncoderJump);
+      note(std::abs(radius_ * joint.dq) > limits_.speed, Fault::kOverspeed);
+      note(std::abs(radius_ * joint.q) > limits_.end, Fault::kWorkspace);
+      q_[i] = joint.q;
+    }
+    moved_ = true;
+    return found;
+  }
+
+  Fault sensor(const Reading& reading) const EBAC_RT {
+    if (reading.force_status == SensorStatus::kDisconnected) return Fault::kForceDisconnected;
+    if (reading.force_status == SensorStatus::kSaturated) return Fault::kForceSaturated;
+    return reading.force_age > limits_.force_age ? Fault::kForceStale : Fault::kNone;
+  }
+
+  /// What the soft wall at the edge adds [A]; it pushes inwards only.
+  double edge(const Axis& axis, int& limited) const EBAC_RT {
+    const double x = radius_ * axis.joint.q;
+    const double depth = std::abs(x) - limits_.edge;
+    if (!(depth > 0)) return 0;
+    const double side = x > 0 ? 1 : -1;
+    const double v = side * radius_ * axis.joint.dq;
+    const double push = limits_.edge_stiffness * depth + limits_.edge_damping * v;
+    limited |= bit(Limited::kEdge);
+    return side * std::max(push, 0.0) * amp_per_newton_;
+  }
+
+  double held(std::size_t i, double wanted, double before, int& limited) EBAC_RT {
+    const double cool = thermal_[i].allowed(dt_);
+    const double ceiling = std::min(cool, limits_.peak_current);
+    state_[i] = {.heat = thermal_[i].heat(), .ceiling = ceiling};
+    if (!std::isfinite(wanted)) {
+      limited |= bit(Limited::kNotFinite);
+      return 0;
+    }
+    const double step = limits_.slew * dt_;
+    const double slow = std::clamp(wanted, before - step, before + step);
+    if (slow != wanted) limited |= bit(Limited::kSlew);
+    const double value = std::clamp(slow, -ceiling, ceiling);  // a hot motor waits for no slew
+    if (value != slow)
+      limited |= bit(cool < limits_.peak_current ? Limited::kThermal : Limited::kPeak);
+    return value;
+  }
+
+  bool on_ = false;
+  Limits limits_{};
+  double dt_ = 1e-3;           // s
+  double radius_ = 1;          // m
+  double amp_per_newton_ = 1;  // A/N
+  std::array<Thermal, kMaxAxes> thermal_{};
+  std::array<double, kMaxAxes> last_{};  // A, of the last tick
+  std::array<double, kMaxAxes> q_{};     // rad, of the last tick
+  std::array<State, kMaxAxes> state_{};
+  bool moved_ = false;
+  int overruns_ = 0;  // samples in a row
+};
+
+}  // namespace ebac

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <type_traits>
+
+#include "ebac/core/realtime.hpp"
+
+namespace ebac {
+
+/// The newest value, from one writer to one reader, neither of which ever waits. A value that is
+/// replaced before it was taken is lost, as it should be. Three places: one is the writer's, one the
+/// reader's, and the third changes hands.
+template <class T>
+  requires std::is_trivially_copyable_v<T>
+class Mailbox {
+ public:
+  /// `initial` only fills the places; there is nothing to take until `post`.
+  explicit Mailbox(const T& initial = {}) : places_{initial, initial, initial} {}
+
+  /// Writer.
+  void post(const T& value) EBAC_RT {
+    places_[writers_] = value;
+    writers_ = shared_.exchange(writers_ | kNew, std::memory_order_acq_rel) & kPlace;
+  }
+
+  /// Reader: the newest value not taken yet, or nullptr. It stays as it is until the next call.
+  const T* take() EBAC_RT {
+    if ((shared_.load(std::memory_order_relaxed) & kNew) == 0) return nullptr;
+    readers_ = shared_.exchange(readers_, std::memory_order_acq_rel) & kPlace;
+    return &places_[readers_];
+  }
+
+ private:
+  static constexpr std::uint32_t kPlace = 3;
+  static constexpr std::uint32_t kNew = 4;
+
+  std::array<T, 3> places_;
+  std::uint32_t writers_ = 0;
+  std::uint32_t readers_ = 1;
+  std::atomic<std::uint32_t> shared_{2};
+};
+
+}  // namespace ebac

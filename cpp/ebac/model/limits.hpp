@@ -1,0 +1,69 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+
+#include "ebac/model/device.hpp"
+
+namespace ebac {
+
+/// What a loop allows on every axis. `of` a device: what its motor, drive and lever can take.
+struct Limits {
+  double continuous_current = 0.985;  // A
+  double peak_current = 3.94;         // A
+  double thermal_time = 16;           // s
+  double slew = 8000;                 // A/s
+  double speed = 1.5;                 // m/s
+  double jump = 5e-3;                 // m
+  double edge = 0.0474;               // m
+  double edge_stiffness = 500;        // N/m
+  double edge_damping = 2;            // N s/m
+  double end = 0.0574;                // m
+  double force_age = 0.02;            // s
+  bool watch_force = true;
+  int overruns = 10;  // samples
+
+  /// The edge lies 5 mm before 30 degrees of the lever, the end as far behind it.
+  static Limits of(const DeviceModel& device) EBAC_RT {
+    constexpr double kSwing = 0.5235987755982988;  // rad, 30 degrees (facts of the joystick)
+    constexpr double kZone = 5e-3;                 // m
+    constexpr double kPeakTick = 1e-3;             // s, from one peak to none
+    Limits limits;
+    limits.continuous_current = device.motor.current(device.motor.rated_torque);
+    limits.peak_current = device.drive.peak_current(device.motor);
+    limits.slew = 2 * limits.peak_current / kPeakTick;
+    limits.edge = std::max(device.radius() * kSwing - kZone, kZone);
+    limits.end = limits.edge + 2 * kZone;
+    return limits;
+  }
+
+  static constexpr auto fields() {
+    using F = Field<Limits>;
+    return std::array{
+        F{"continuous_current", &Limits::continuous_current, "A",
+          "current the motor takes for ever", 1e-3, 1e3},
+        F{"peak_current", &Limits::peak_current, "A", "largest current at any time", 1e-3, 1e3},
+        F{"thermal_time", &Limits::thermal_time, "s",
+          "time constant of the winding in the i2t model (indicative: RE 30 data sheet, from "
+          "memory)",
+          0.01, 1e4},
+        F{"slew", &Limits::slew, "A/s", "fastest change of the current", 1, 1e9},
+        F{"speed", &Limits::speed, "m/s", "faster is a fault", 1e-3, 100},
+        F{"jump", &Limits::jump, "m", "a longer way in one tick is an encoder's fault", 1e-6, 1},
+        F{"edge", &Limits::edge, "m", "way from the middle at which a soft wall begins", 1e-3, 10},
+        F{"edge_stiffness", &Limits::edge_stiffness, "N/m", "stiffness of that wall", 0, 1e5},
+        F{"edge_damping", &Limits::edge_damping, "N s/m", "damping of that wall", 0, 500},
+        F{"end", &Limits::end, "m", "way from the middle that is a fault", 1e-3, 10},
+        F{"force_age", &Limits::force_age, "s", "an older force is a fault", 1e-4, 10},
+        F{"watch_force", &Limits::watch_force, "1",
+          "whether a force sensor that is stale, saturated or gone is a fault", 0, 1},
+        F{"overruns", &Limits::overruns, "samples",
+          "ticks in a row that came a tick or more too late, which are a fault", 1, 100000},
+    };
+  }
+};
+
+/// Throws std::invalid_argument where two limits contradict each other.
+void check_limits(const Limits& limits);
+
+}  // namespace ebac

@@ -1,0 +1,123 @@
+#include "ebac/rt/grants.hpp"
+
+#include <alloca.h>
+#include <pthread.h>
+#include <sched.h>
+#include <sys/mman.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <string>
+
+namespace ebac::rt {
+
+namespace {
+
+constexpr const char* kLimitsFile = "/etc/security/limits.d/ebac.conf";
+constexpr int kCapIpcLock = 14;  // linux/capability.h
+
+std::string soft_limit(int resource) {
+  rlimit limit{};
+  getrlimit(static_cast<__rlimit_resource>(resource), &limit);
+  return limit.rlim_cur == RLIM_INFINITY ? "unlimited" : std::to_string(limit.rlim_cur);
+}
+
+/// `line` is what pam_limits reads, `unit` what systemd does, `cap` what setcap gives.
+std::string limit_remedy(const std::string& line, const std::string& unit, const std::string& cap) {
+  return "echo \"$(id -un) - " + line + "\" | sudo tee -a " + kLimitsFile +
+         "  # then log in again; for a systemd service: " + unit +
+         "; for one program: sudo setcap " + cap +
+         "+ep \"$(readlink -f \"$(command -v python)\")\"";
+}
+
+bool has_capability(int bit) {
+  std::ifstream status("/proc/self/status");
+  for (std::string line; std::getline(status, line);) {
+    if (line.starts_with("CapEff:")) {
+      return (std::stoull(line.substr(7), nullptr, 16) >> bit & 1U) != 0;
+    }
+  }
+  return false;
+}
+
+std::string cpu_list(const cpu_set_t& set) {
+  std::string text;
+  for (int cpu = 0; cpu < CPU_SETSIZE; ++cpu) {
+    if (!CPU_ISSET(cpu, &set)) continue;
+    if (!text.empty()) text += ',';
+    text += std::to_string(cpu);
+  }
+  return text;
+}
+
+std::atomic<int> holders{0};  // threads that have the memory locked
+
+}  // namespace
+
+Grant ask_priority(int priority) {
+  const std::string asked = "SCHED_FIFO " + std::to_string(priority);
+  const sched_param parameters{.sched_priority = priority};
+  const int error = pthread_setschedparam(pthread_self(), SCHED_FIFO, &parameters);
+  if (error == 0) return {"priority", asked, true, "", ""};
+  return {"priority", asked, false,
+          std::string(std::strerror(error)) + "; the limit of real-time priority is " +
+              soft_limit(RLIMIT_RTPRIO),
+          limit_remedy("rtprio " + std::to_string(priority),
+                       "LimitRTPRIO=" + std::to_string(priority), "cap_sys_nice")};
+}
+
+Grant ask_cpu(int cpu) {
+  const std::string asked = "CPU " + std::to_string(cpu);
+  cpu_set_t allowed;
+  CPU_ZERO(&allowed);
+  sched_getaffinity(0, sizeof(allowed), &allowed);
+  cpu_set_t wanted;
+  CPU_ZERO(&wanted);
+  CPU_SET(static_cast<std::size_t>(cpu), &wanted);
+  const int error = pthread_setaffinity_np(pthread_self(), sizeof(wanted), &wanted);
+  if (error == 0) return {"cpu", asked, true, "", ""};
+  const std::string list = cpu_list(allowed);
+  return {"cpu", asked, false, std::string(std::strerror(error)) + "; this process may use " + list,
+          "choose one of " + list + ", or start with: taskset -c " + std::to_string(cpu) + " ..."};
+}
+
+Grant ask_memory() {
+  const std::string limit = soft_limit(RLIMIT_MEMLOCK);
+  const std::string remedy =
+      limit_remedy("memlock unlimited", "LimitMEMLOCK=infinity", "cap_ipc_lock");
+  const std::string asked = "all pages locked";
+  if (limit != "unlimited" && !has_capability(kCapIpcLock)) {
+    return {"memory", asked, false, "the limit of locked memory is " + limit + " bytes", remedy};
+  }
+  if (mlockall(MCL_CURRENT | MCL_FUTURE) != 0) {
+    return {"memory", asked, false, std::strerror(errno), remedy};
+  }
+  ++holders;
+  return {"memory", asked, true, "", ""};
+}
+
+void release_memory() noexcept {
+  if (--holders == 0) munlockall();
+}
+
+Grant touch_stack(int bytes) {
+  const auto size = static_cast<std::size_t>(bytes);
+  auto* memory = static_cast<volatile char*>(alloca(size + 1));
+  const auto page = static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+  for (std::size_t i = 0; i < size; i += page) memory[i] = 0;
+  return {"stack", std::to_string(bytes) + " bytes touched", true, "", ""};
+}
+
+Report ask(const Options& options) {
+  Report report;
+  if (options.stack > 0) report.grants.push_back(touch_stack(options.stack));
+  if (options.cpu >= 0) report.grants.push_back(ask_cpu(options.cpu));
+  report.grants.push_back(ask_priority(options.priority));
+  return report;
+}
+
+}  // namespace ebac::rt

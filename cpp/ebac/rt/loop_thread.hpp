@@ -1,0 +1,53 @@
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <utility>
+
+#include "ebac/loop/loop.hpp"
+#include "ebac/rt/thread.hpp"
+
+namespace ebac::rt {
+
+/// A loop in a thread of its own. While it runs, anyone may read its trace up to `size()`, one may
+/// post to its mail. Its end, whatever comes first, is a stop that the loop drives to its last frame.
+template <Device D, Clock C, AxesController Law>
+class LoopThread {
+ public:
+  /// Starts. `mail` and `trace`, made by the loop, are shared with the caller. Throws as Thread.
+  LoopThread(std::unique_ptr<Loop<D, C, Law>> loop, std::shared_ptr<Trace> trace,
+             std::shared_ptr<Mail<Law>> mail, Mode mode, const Options& options)
+      : loop_(std::move(loop)),
+        trace_(std::move(trace)),
+        mail_(std::move(mail)),
+        thread_(mode, options, [this] {
+          loop_->run(*trace_, mail_.get());
+          done_.store(true, std::memory_order_release);
+        }) {}
+  ~LoopThread() { stop(); }
+  LoopThread(const LoopThread&) = delete;
+  LoopThread& operator=(const LoopThread&) = delete;
+  LoopThread(LoopThread&&) = delete;
+  LoopThread& operator=(LoopThread&&) = delete;
+
+  /// Asks for a stop; `join` waits for its end.
+  void stop() EBAC_RT { mail_->stop(); }
+  void join() { thread_.join(); }
+  bool done() const EBAC_RT { return done_.load(std::memory_order_acquire); }
+
+  Mail<Law>& mail() EBAC_RT { return *mail_; }
+  const Trace& trace() const EBAC_RT { return *trace_; }
+  const Report& report() const { return thread_.report(); }
+  std::int64_t unrecorded() const EBAC_RT { return loop_->unrecorded(); }
+  /// The loop itself: only once it is done.
+  Loop<D, C, Law>& loop() EBAC_RT { return *loop_; }
+
+ private:
+  std::unique_ptr<Loop<D, C, Law>> loop_;
+  std::shared_ptr<Trace> trace_;
+  std::shared_ptr<Mail<Law>> mail_;
+  std::atomic<bool> done_{false};
+  Thread thread_;  // last: it is joined before the others go
+};
+
+}  // namespace ebac::rt

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace ebac::rt {
+
+/// One thing a thread asked of the system.
+struct Grant {
+  std::string name;   // "priority", "memory", "stack", "cpu"
+  std::string asked;  // "SCHED_FIFO 80"
+  bool granted;
+  std::string why;     // why not; empty where it was granted
+  std::string remedy;  // the command that would grant it; empty where it was granted
+};
+
+/// What a thread asked, and what it got.
+struct Report {
+  std::vector<Grant> grants;
+
+  bool complete() const {
+    for (const Grant& grant : grants) {
+      if (!grant.granted) return false;
+    }
+    return true;
+  }
+};
+
+}  // namespace ebac::rt

@@ -1,0 +1,93 @@
+#include "ebac/rt/thread.hpp"
+
+#include <pthread.h>
+
+#include <csignal>
+#include <future>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "ebac/core/check.hpp"
+#include "ebac/rt/grants.hpp"
+
+namespace ebac::rt {
+
+namespace {
+
+/// No signal is delivered to the calling thread, nor to those it makes, while this lives.
+class NoSignals {
+ public:
+  NoSignals() {
+    sigset_t all;
+    sigfillset(&all);
+    pthread_sigmask(SIG_SETMASK, &all, &before_);
+  }
+  ~NoSignals() { pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
+  NoSignals(const NoSignals&) = delete;
+  NoSignals& operator=(const NoSignals&) = delete;
+  NoSignals(NoSignals&&) = delete;
+  NoSignals& operator=(NoSignals&&) = delete;
+
+ private:
+  sigset_t before_{};
+};
+
+}  // namespace
+
+std::string refusals(const Report& report) {
+  std::string text;
+  for (const Grant& grant : report.grants) {
+    if (grant.granted) continue;
+    if (!text.empty()) text += '\n';
+    text +=
+        grant.name + ": " + grant.asked + " was not granted (" + grant.why + "); " + grant.remedy;
+  }
+  return text;
+}
+
+Thread::Thread(Mode mode, const Options& options, std::function<void()> work) {
+  check(options, "RealTime");
+  if (mode != Mode::kOff && options.lock_memory) {
+    report_.grants.push_back(ask_memory());
+    locked_ = report_.grants.back().granted;
+  }
+  try {
+    begin(mode, options, std::move(work));
+  } catch (...) {
+    if (locked_) release_memory();
+    throw;
+  }
+}
+
+void Thread::begin(Mode mode, const Options& options, std::function<void()> work) {
+  std::promise<Report> asking;
+  std::promise<bool> go;
+  auto asked = asking.get_future();
+  {
+    const NoSignals inherited;
+    thread_ = std::thread([mode, options, work = std::move(work), asking = std::move(asking),
+                           start = go.get_future()]() mutable {
+      asking.set_value(mode == Mode::kOff ? Report{} : ask(options));
+      if (start.get()) work();
+    });
+  }
+  Report own = asked.get();
+  for (Grant& grant : own.grants) report_.grants.push_back(std::move(grant));
+  const bool enough = mode != Mode::kEnforce || report_.complete();
+  go.set_value(enough);
+  if (enough) return;
+  thread_.join();
+  throw std::runtime_error("the thread of the loop did not start:\n" + refusals(report_));
+}
+
+Thread::~Thread() {
+  join();
+  if (locked_) release_memory();
+}
+
+void Thread::join() {
+  if (thread_.joinable()) thread_.join();
+}
+
+}  // namespace ebac::rt

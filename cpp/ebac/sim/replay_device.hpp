@@ -1,0 +1,99 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <memory>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "ebac/core/concepts.hpp"
+
+/// A recorded log as hardware: its counts, applied currents and forces drive a law open loop.
+/// Nothing the new law commands comes back: the hand and the device move as they did.
+namespace ebac {
+
+/// What a log knows of one axis in one tick.
+struct ReplayAxis {
+  /// What the recorded law asked and commanded, beside what the new one does.
+  struct State {
+    double f_env = 0;    // N
+    double f_cmd = 0;    // N
+    double current = 0;  // A
+
+    static constexpr auto fields() {
+      using F = Field<State>;
+      return std::array{
+          F{"f_env", &State::f_env, "N", "force the virtual world asked for when it was recorded"},
+          F{"f_cmd", &State::f_cmd, "N", "force the recorded law commanded"},
+          F{"current", &State::current, "A", "motor current asked when it was recorded"},
+      };
+    }
+  };
+
+  std::int64_t counts = 0;     // raw or unwrapped
+  double current_applied = 0;  // A, over the interval that ended now
+  double force = 0;            // N, force sensor
+  State recorded;
+};
+
+/// The ticks of a log. Row i has `axes` entries in `axis`, from i * axes on.
+struct ReplayLog {
+  std::size_t axes = 1;
+  std::vector<Instant> instant;
+  std::vector<Fault> fault;  // of the device; kNone where a law or the world was at fault
+  std::vector<ReplayAxis> axis;
+
+  std::size_t rows() const EBAC_RT { return instant.size(); }
+};
+
+/// The log in the device's place. It answers tick after tick, whatever it is told.
+class ReplayDevice {
+ public:
+  using State = ReplayAxis::State;
+  static constexpr std::string_view kPrefix = "log.";
+
+  /// A log of one row at least.
+  explicit ReplayDevice(std::shared_ptr<const ReplayLog> log) : log_(std::move(log)) {}
+
+  Reading exchange(const Command&) EBAC_RT {
+    at_ = std::min(next_, log_->rows() - 1);
+    ++next_;
+    Reading reading{.fault = log_->fault[at_]};
+    for (std::size_t i = 0; i < log_->axes; ++i) {
+      const ReplayAxis& axis = log_->axis[at_ * log_->axes + i];
+      reading.counts[i] = axis.counts;
+      reading.current_applied[i] = axis.current_applied;
+      reading.force[i] = axis.force;
+    }
+    return reading;
+  }
+
+  const State& state(std::size_t axis) const EBAC_RT {
+    return log_->axis[at_ * log_->axes + axis].recorded;
+  }
+
+ private:
+  std::shared_ptr<const ReplayLog> log_;
+  std::size_t next_ = 0;
+  std::size_t at_ = 0;
+};
+
+static_assert(Device<ReplayDevice>);
+
+/// The instants at which the log was recorded.
+class ReplayClock {
+ public:
+  explicit ReplayClock(std::shared_ptr<const ReplayLog> log) : log_(std::move(log)) {}
+
+  Instant wait() EBAC_RT { return log_->instant[std::min(next_++, log_->rows() - 1)]; }
+
+ private:
+  std::shared_ptr<const ReplayLog> log_;
+  std::size_t next_ = 0;
+};
+
+static_assert(Clock<ReplayClock>);
+
+}  // namespace ebac

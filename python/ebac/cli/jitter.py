@@ -1,0 +1,99 @@
+"""`ebac jitter`: how late a thread wakes on this machine."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from ebac.cli import options, output
+
+if TYPE_CHECKING:
+    from ebac.realtime import Jitter
+
+DEFAULT_OUT = Path("ebac-jitter")
+
+
+def jitter(
+    seconds: Annotated[float, typer.Option(help="How long to measure [s].")] = 10.0,
+    rate: Annotated[float, typer.Option(help="Ticks a second [Hz].")] = 1000.0,
+    rt: Annotated[
+        str,
+        typer.Option(help="auto: take what is granted; enforce: all or nothing; off: ask nothing."),
+    ] = "auto",
+    priority: Annotated[int, typer.Option(help="Priority under SCHED_FIFO.", min=1, max=99)] = 80,
+    cpu: Annotated[int, typer.Option(help="CPU to stay on; -1 for any.", min=-1)] = -1,
+    alone: Annotated[
+        bool, typer.Option("--alone", help="Do not run cyclictest, even where it is installed.")
+    ] = False,
+    out: Annotated[Path | None, options.out_folder("histogram and numbers", DEFAULT_OUT)] = None,
+    as_json: output.AsJson = False,
+) -> None:
+    """Measure how late a thread wakes that does nothing but wait for its ticks.
+
+    Where `cyclictest` (Debian: rt-tests) is installed it runs afterwards, as long and with what the thread was
+    granted. On a virtual machine the tail is the host's.
+
+    **Examples**
+
+    * `ebac jitter --seconds 60`
+
+    * `ebac jitter --rt enforce --cpu 1`: all that a loop asks for, or the command that grants it.
+    """
+    from ebac.realtime import RealTime, cyclictest, measure
+
+    with output.refusing():
+        wanted = RealTime(priority=priority, cpu=cpu)
+        try:
+            found = measure(seconds=seconds, rate=rate, mode=rt, options=wanted)  # type: ignore[arg-type]
+        except RuntimeError as refused:
+            output.fail(str(refused), code=output.FAILED)
+    fifo = any(g.name == "priority" and g.granted for g in found.grants)
+    other = None
+    if not alone:
+        other = cyclictest(seconds=seconds, rate=rate, priority=priority if fifo else None)
+    rows = [found.row()] + ([other.row()] if other else [])
+    more = _more(found, rows, rate, rt)
+    folder = out or (None if as_json else DEFAULT_OUT)
+    with output.results(folder) as draft:
+        if draft is not None:
+            from ebac.plot import plot_jitter
+
+            plot_jitter(found, other).savefig(draft / "jitter.png")
+            text = output.document("jitter", rows, **more)
+            (draft / "jitter.json").write_text(text + "\n", encoding="utf-8")
+    if as_json:
+        typer.echo(output.document("jitter", rows, **more))
+        return
+    _show(rows, found, more)
+    if folder is not None:
+        output.list_files(folder, ["jitter.png", "jitter.json"])
+
+
+def _more(found: Jitter, rows: list[dict[str, Any]], rate: float, mode: str) -> dict[str, Any]:
+    ratio = (
+        rows[0]["p99_9_s"] / rows[1]["p99_9_s"] if len(rows) > 1 and rows[1]["p99_9_s"] else None
+    )
+    names = ("name", "asked", "granted", "why", "remedy")
+    grants = [{name: getattr(grant, name) for name in names} for grant in found.grants]
+    return {"rate_Hz": rate, "mode": mode, "grants": grants, "times_cyclictest_p99_9": ratio}
+
+
+def _show(rows: list[dict[str, Any]], found: Jitter, more: dict[str, Any]) -> None:
+    heads = ["program", "wake-ups", "mean", "p50", "p99", "p99.9", "latest", "ticks skipped"]
+    grid = output.table(heads, numbers=range(1, 8))
+    for row in rows:
+        times = [row[f"{name}_s"] for name in ("mean", "p50", "p99", "p99_9", "most")]
+        skipped = "-" if row["skipped"] is None else f"{row['skipped']:,}"
+        shown = [f"{1e6 * value:,.0f} µs" for value in times]
+        grid.add_row(row["program"], f"{row['wakeups']:,}", *shown, skipped)
+    output.console().print(grid)
+    if more["times_cyclictest_p99_9"] is not None:
+        output.say(f"p99.9 is {more['times_cyclictest_p99_9']:.2f} times that of cyclictest.")
+    for grant in found.grants:
+        if grant.granted:
+            output.say(f"{grant.name}: {grant.asked}, granted")
+        else:
+            output.say(f"{grant.name}: {grant.asked}, not granted ({grant.why})", style="yellow")
+            output.indented(grant.remedy)

@@ -1,0 +1,203 @@
+"""Fault injection: thousands of runs in which something goes wrong, each judged. All of it is simulation."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from threading import Thread
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ebac import _core
+from ebac.trace import Trace
+
+
+@dataclass(frozen=True, kw_only=True)
+class FaultRow:
+    """All cases of one kind.
+
+    Attributes
+    ----------
+    kind, what : str
+        Name and meaning.
+    cases, found, failures : int
+        Cases run, cases in which a fault was found, cases that did not pass.
+    worst_ticks_to_zero : int
+        From the row with the fault to zero torque on the bus [ticks of 1 ms].
+    worst_ticks_to_off : int
+        From that row to no current in any simulated motor; a drive that hears nothing keeps its last
+        torque until it misses its torques (5 ms) or the heartbeat of the loop (50 ms).
+    reasons : dict
+        Failures by their verdict.
+    first_failure : int or None
+        Number of the first case that failed.
+    """
+
+    kind: str
+    what: str
+    cases: int
+    found: int
+    failures: int
+    worst_ticks_to_zero: int
+    worst_ticks_to_off: int
+    reasons: dict[str, int]
+    first_failure: int | None
+
+    def row(self) -> dict[str, Any]:
+        """Return it as a row of `--json`."""
+        return {
+            "kind": self.kind,
+            "what": self.what,
+            "count": self.cases,
+            "found": self.found,
+            "worst_ticks_to_zero": self.worst_ticks_to_zero,
+            "worst_ticks_to_off": self.worst_ticks_to_off,
+            "failures": self.failures,
+            "reasons": self.reasons,
+            "first_failure": self.first_failure,
+        }
+
+
+@dataclass(frozen=True, kw_only=True)
+class FaultCampaign:
+    """What a campaign came to: one row per kind."""
+
+    seed: int
+    cases: int
+    passed: int
+    rows: list[FaultRow]
+
+
+@dataclass(frozen=True, kw_only=True)
+class FaultCase:
+    """One case, run again with its rows.
+
+    Attributes
+    ----------
+    kind : str
+        What goes wrong.
+    trace : Trace
+        Every row, the stop included.
+    at, ticks : int
+        First tick of the trouble, and how many it lasts.
+    axis : int
+        Where.
+    """
+
+    kind: str
+    trace: Trace
+    at: int
+    ticks: int
+    axis: int
+
+
+def kinds() -> dict[str, str]:
+    """Return the kinds of trouble and what they mean; case i is of kind i modulo their number."""
+    return dict(_core._fault_kinds())
+
+
+def run_campaign(
+    cases: int = 10_000,
+    *,
+    seed: int = 1,
+    threads: int = 0,
+    step: Callable[[int, int], None] | None = None,
+) -> FaultCampaign:
+    """Run cases in virtual time: two simulated drives on a CAN bus, hand, wall, law, limits, states.
+
+    In every case the command must be zero within 2 ticks of the fault in the row, every drive disabled at
+    the end, no limit exceeded at any tick, the fault named rightly, and nothing may start again by itself. A
+    trouble too short to matter must not stop the loop.
+
+    Parameters
+    ----------
+    cases : int
+        1 to 10 million; every kind in turn.
+    seed : int
+        The same seed gives the same cases, on any number of threads; 0 to 2^63 - 1.
+    threads : int
+        0 for one per core.
+    step : callable, optional
+        Told (done, total) now and then.
+
+    Raises
+    ------
+    ValueError
+        For a number out of range.
+    """
+    for name, value, low, high in (
+        ("cases", cases, 1, 10_000_000),
+        ("seed", seed, 0, 2**63 - 1),
+        ("threads", threads, 0, 1024),
+    ):
+        if not low <= value <= high:
+            raise ValueError(f"{name} = {value}: must lie in [{low}, {high}]")
+    columns, verdicts = _run(cases, seed, threads, step)
+    names = list(kinds().items())
+    rows = [
+        _row(name, what, columns, verdicts, np.arange(cases) % len(names) == i)
+        for i, (name, what) in enumerate(names)
+        if i < cases
+    ]
+    passed = int((columns["verdict"] == 0).sum())
+    return FaultCampaign(seed=seed, cases=cases, passed=passed, rows=rows)
+
+
+def _run(
+    cases: int, seed: int, threads: int, step: Callable[[int, int], None] | None
+) -> tuple[dict[str, NDArray[Any]], list[str]]:
+    progress = _core.SweepProgress()
+    found: list[Any] = []
+    raised: list[BaseException] = []
+
+    def work() -> None:
+        try:
+            found.append(_core._fault_campaign(cases, seed, threads, progress))
+        except BaseException as error:
+            raised.append(error)
+
+    worker = Thread(target=work, name="ebac faults")
+    worker.start()
+    try:
+        while worker.is_alive():
+            worker.join(0.05)
+            if step is not None:
+                step(progress.done, cases)
+    except BaseException:
+        progress.cancel()
+        worker.join()
+        raise
+    if raised:
+        raise raised[0]
+    columns, verdicts = found[0]
+    return columns, verdicts
+
+
+def _row(
+    kind: str, what: str, columns: dict[str, NDArray[Any]], verdicts: list[str], mine: NDArray[Any]
+) -> FaultRow:
+    verdict = columns["verdict"][mine]
+    failed = np.flatnonzero(mine)[verdict != 0]
+    return FaultRow(
+        kind=kind,
+        what=what,
+        cases=int(mine.sum()),
+        found=int((columns["fault"][mine] != 0).sum()),
+        failures=len(failed),
+        worst_ticks_to_zero=int(columns["to_zero"][mine].max()),
+        worst_ticks_to_off=int(columns["to_off"][mine].max()),
+        reasons={verdicts[v]: int((verdict == v).sum()) for v in np.unique(verdict) if v != 0},
+        first_failure=int(failed[0]) if len(failed) else None,
+    )
+
+
+def run_case(index: int, *, seed: int = 1) -> FaultCase:
+    """Run one case of a campaign again and keep its rows."""
+    if index < 0:
+        raise ValueError(f"index = {index}: must be at least 0")
+    rows, at, ticks, axis = _core._fault_case(seed, index)
+    names = list(kinds())
+    trace = Trace.from_rows(rows, scenario=None, law="ebac", law_repr="")
+    return FaultCase(kind=names[index % len(names)], trace=trace, at=at, ticks=ticks, axis=axis)

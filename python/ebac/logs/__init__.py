@@ -1,0 +1,35 @@
+"""Logs: MCAP files of a run, one message per row, written while it runs and read in any state.
+
+::
+
+    with ebac.logs.Recorder(rows, "run.mcap", law="ebac"):
+        ...
+    log = ebac.logs.read("run.mcap")
+    log.trace.plot()
+"""
+
+from ebac.logs.about import About
+from ebac.logs.events import Event
+from ebac.logs.files import FORMATS, load, save
+from ebac.logs.reader import Gap, Log, read
+from ebac.logs.recorder import Recorder
+from ebac.logs.records import Condition
+from ebac.logs.repair import repair
+from ebac.logs.replay import replay
+from ebac.logs.writer import LogWriter
+
+__all__ = [
+    "FORMATS",
+    "About",
+    "Condition",
+    "Event",
+    "Gap",
+    "Log",
+    "LogWriter",
+    "Recorder",
+    "load",
+    "read",
+    "repair",
+    "replay",
+    "save",
+]

@@ -1,0 +1,92 @@
+"""What a log tells of itself: law, scenario, versions, machine."""
+
+from __future__ import annotations
+
+import functools
+import os
+import platform
+import subprocess
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from ebac.scenario import Scenario
+
+SCENARIO_FILE = "scenario.toml"
+
+
+@functools.cache
+def versions() -> dict[str, str]:
+    """Return versions and machine: ebac, the state of its checkout if it has one, Python, NumPy, system."""
+    import numpy as np
+
+    from ebac import __version__
+
+    return {
+        "ebac": __version__,
+        "git": _checkout(),
+        "python": platform.python_version(),
+        "numpy": np.__version__,
+        "machine": f"{platform.machine()}, {os.cpu_count()} processors",
+        "system": platform.platform(),
+    }
+
+
+def _checkout() -> str:
+    """Return commit and cleanness of the checkout the package runs from; empty for an installed one."""
+    root = Path(__file__).resolve().parents[3]
+    if not (root / ".git").exists():
+        return ""
+    command = ["git", "-C", str(root), "describe", "--always", "--dirty", "--abbrev=12"]
+    try:
+        done = subprocess.run(command, capture_output=True, text=True, timeout=5, check=True)
+    except (OSError, subprocess.SubprocessError):
+        return ""
+    return done.stdout.strip()
+
+
+@dataclass(frozen=True, kw_only=True)
+class About:
+    """What stands beside the rows of a log.
+
+    Attributes
+    ----------
+    axes : int
+        Axes in use.
+    law, law_repr : str
+        Name of the law; the law with its parameters, as Python text.
+    scenario : Scenario or None
+        Attached as `scenario.toml`.
+    start_ns : int
+        When t was 0, in nanoseconds since 1970 (UTC); 0 for a simulation, whose time is its own.
+    files : mapping of str to str
+        Further attachments by file name, such as the configuration of the run.
+    made_by : mapping of str to str
+        Versions and machine.
+    """
+
+    axes: int
+    law: str = ""
+    law_repr: str = ""
+    scenario: Scenario | None = None
+    start_ns: int = 0
+    files: Mapping[str, str] = field(default_factory=dict)
+    made_by: Mapping[str, str] = field(default_factory=versions)
+
+    @property
+    def metadata(self) -> dict[str, str]:
+        """The metadata record `ebac`."""
+        return {
+            "format": "1",
+            "axes": str(self.axes),
+            "law": self.law,
+            "law_repr": self.law_repr,
+            "start_ns": str(self.start_ns),
+            **self.made_by,
+        }
+
+    @property
+    def attachments(self) -> dict[str, str]:
+        """Text files inside the log by their names."""
+        own = {} if self.scenario is None else {SCENARIO_FILE: self.scenario.to_toml()}
+        return {**own, **self.files}

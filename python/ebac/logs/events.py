@@ -1,0 +1,97 @@
+"""What happened during a run, beside its rows: parameter changes, faults, rows lost."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass, field
+from typing import Any, Self
+
+SCHEMA_NAME = "foxglove.Log"  # a type Foxglove shows in its Log panel by itself
+#: Severity of each kind, in the numbers of that type; any other kind is information.
+INFO, WARNING, FATAL = 2, 3, 5
+LEVELS = {"lost": WARNING, "fault": FATAL}
+
+_TIME = {"type": "object", "properties": {"sec": {"type": "integer"}, "nsec": {"type": "integer"}}}
+SCHEMA = {
+    "type": "object",
+    "properties": {
+        "timestamp": _TIME,
+        "level": {"type": "integer", "description": "2 information, 3 warning, 5 fatal"},
+        "message": {"type": "string", "description": "what happened, in words"},
+        "name": {
+            "type": "string",
+            "description": "kind: parameter, fault, lost, or the user's own",
+        },
+        "file": {"type": "string"},
+        "line": {"type": "integer"},
+        "tick": {"type": "integer", "description": "number of the tick"},
+        "t": {"type": "number", "description": "[s] time since the start"},
+        "values": {"type": "object", "description": "what belongs to it, units in the keys"},
+    },
+}
+
+
+@dataclass(frozen=True, kw_only=True)
+class Event:
+    """Something that happened in a tick.
+
+    Attributes
+    ----------
+    kind : str
+        `parameter`, `fault`, `lost`, or a word of your own.
+    message : str
+        What happened, in words.
+    tick : int
+        Number of the tick.
+    t : float
+        Time since the start [s].
+    values : dict
+        Numbers and words that belong to it, the unit in the key.
+    """
+
+    kind: str
+    message: str
+    tick: int
+    t: float
+    values: dict[str, Any] = field(default_factory=dict)
+
+    def time_ns(self, start_ns: int) -> int:
+        """Return when it was [ns], for a run whose t was 0 at `start_ns`."""
+        return max(0, start_ns + round(1e9 * self.t))
+
+    def to_json(self, start_ns: int) -> bytes:
+        """Return it as the message in a log."""
+        seconds, nanoseconds = divmod(self.time_ns(start_ns), 1_000_000_000)
+        message = {
+            "timestamp": {"sec": seconds, "nsec": nanoseconds},
+            "level": LEVELS.get(self.kind, INFO),
+            "message": self.message,
+            "name": self.kind,
+            "file": "",
+            "line": 0,
+            "tick": self.tick,
+            "t": self.t,
+            "values": self.values,
+        }
+        return json.dumps(message).encode()
+
+    @classmethod
+    def from_json(cls, data: bytes) -> Self:
+        """Read what `to_json` wrote.
+
+        Raises
+        ------
+        ValueError
+            When it is not that.
+        """
+        try:
+            told = json.loads(data)
+            return cls(
+                kind=str(told["name"]),
+                message=str(told["message"]),
+                tick=int(told["tick"]),
+                t=float(told["t"]),
+                values=dict(told["values"]),
+            )
+        except (KeyError, TypeError, ValueError) as error:
+            raise ValueError(f"not an event of ebac ({error})") from None

@@ -1,0 +1,104 @@
+"""Traces in the formats of other programs: Parquet, MATLAB, HDF5."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from ebac.trace import Trace
+
+Progress = Callable[[int, int], None]
+
+#: Names of MATLAB are at most this long.
+MATLAB_NAME = 63
+
+
+def facts(trace: Trace) -> dict[str, str]:
+    """Return what stands beside the rows as text: law, parameters, scenario, versions."""
+    from ebac.logs.about import versions
+
+    return {
+        "law": trace.law,
+        "law_repr": trace.law_repr,
+        "axes": str(trace.axes),
+        "scenario": trace.scenario.to_toml() if trace.scenario else "",
+        **versions(),
+    }
+
+
+def to_parquet(trace: Trace, path: Path, progress: Progress) -> None:
+    """Write Parquet: a column per axis, `x_0`, `x_1`; unit and meaning in the metadata of each."""
+    _need("pyarrow", "sweep")
+    import pyarrow as pa
+    import pyarrow.parquet
+
+    columns = list(trace.flat())
+    fields = [
+        pa.field(
+            name,
+            pa.from_numpy_dtype(values.dtype),
+            metadata={"unit": info.unit, "meaning": info.meaning},
+        )
+        for name, info, values in columns
+    ]
+    schema = pa.schema(fields, metadata=facts(trace))
+    arrays = [pa.array(np.ascontiguousarray(values)) for _, _, values in columns]
+    pyarrow.parquet.write_table(pa.Table.from_arrays(arrays, schema=schema), path)
+    progress(len(trace), len(trace))
+
+
+def to_mat(trace: Trace, path: Path, progress: Progress) -> None:
+    """Write a MATLAB file: a matrix (rows, axes) per column, `law_beta` for `law.beta`.
+
+    Beside them stand the structs `units`, `meanings` and `about`.
+
+    Raises
+    ------
+    ValueError
+        When it has 2 GiB or more, which the format cannot hold.
+    """
+    _need("scipy", "log")
+    from scipy.io import savemat
+
+    names = {name: name.replace(".", "_")[:MATLAB_NAME] for name in trace}
+    values: dict[str, Any] = {names[name]: trace[name] for name in trace}
+    size = sum(column.nbytes for column in values.values())
+    if size >= 1 << 31:
+        raise ValueError(
+            f"{size / 2**30:.1f} GiB: a .mat file holds less than 2 GiB; export .h5, which MATLAB reads, or a part"
+        )
+    values["units"] = {names[name]: trace.columns[name].unit for name in trace}
+    values["meanings"] = {names[name]: trace.columns[name].meaning for name in trace}
+    values["about"] = facts(trace)
+    with path.open("wb") as file:  # a file, because SciPy appends .mat to a name
+        savemat(file, values, long_field_names=True, do_compression=True, oned_as="column")
+    progress(len(trace), len(trace))
+
+
+def to_hdf5(trace: Trace, path: Path, progress: Progress) -> None:
+    """Write HDF5: a data set per column, attributes `unit` and `meaning`; law, scenario and versions on the file."""
+    _need("h5py", "log")
+    import h5py
+
+    with h5py.File(path, "w") as file:
+        file.attrs.update(facts(trace))
+        for i, name in enumerate(trace):
+            values = trace[name]
+            packed = {"compression": "gzip", "compression_opts": 1, "shuffle": True}
+            data = file.create_dataset(name, data=values, **(packed if len(values) else {}))
+            data.attrs["unit"] = trace.columns[name].unit
+            data.attrs["meaning"] = trace.columns[name].meaning
+            progress((i + 1) * len(trace) // len(list(trace)), len(trace))
+
+
+def _need(module: str, extra: str) -> None:
+    from importlib.util import find_spec
+
+    if find_spec(module) is None:
+        raise ModuleNotFoundError(
+            f"this format needs {module}: pip install 'ebac[{extra}]'", name=module
+        )

@@ -1,0 +1,127 @@
+"""Traces as files: the format by the extension."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from ebac.logs.about import About
+from ebac.logs.layout import Layout
+
+if TYPE_CHECKING:
+    from ebac.trace import Trace
+
+Progress = Callable[[int, int], None]
+
+#: Rows of a chunk in a log written at once: some 0.5 MB.
+CHUNK_ROWS = 2048
+
+#: What each extension is.
+FORMATS = {
+    ".mcap": "MCAP: PlotJuggler, Foxglove, ebac",
+    ".npz": "NumPy archive",
+    ".csv": "CSV, units in the headings",
+    ".parquet": "Parquet, units in the metadata of each column",
+    ".mat": "MATLAB, with structs `units` and `meanings`",
+    ".h5": "HDF5, units as attributes",
+}
+#: Those that can be read back as a trace.
+READABLE = (".mcap", ".npz", ".csv")
+
+
+def save(trace: Trace, path: str | Path, *, progress: Progress | None = None) -> None:
+    """Write a trace in the format of the extension; the file appears when it is whole.
+
+    Parameters
+    ----------
+    trace : Trace
+        Any number of rows.
+    path : str or Path
+        Ends in one of `FORMATS`; a file of that name is replaced.
+    progress : callable, optional
+        Called with rows written and rows in all, where the format is written in parts.
+
+    Raises
+    ------
+    ValueError
+        For another extension.
+    ModuleNotFoundError
+        When the library of a format is not installed; the message says which.
+    OSError
+        When the file cannot be written.
+    """
+    from ebac.logs import export
+
+    path = Path(path)
+    writers: dict[str, Callable[[Trace, Path, Progress], Any]] = {
+        ".mcap": write_mcap,
+        ".npz": lambda t, p, _: t.to_npz(p),
+        ".csv": lambda t, p, told: t.to_csv(p, progress=told),
+        ".parquet": export.to_parquet,
+        ".mat": export.to_mat,
+        ".h5": export.to_hdf5,
+    }
+    write = writers[extension(path, tuple(FORMATS))]
+    draft = path.with_name(f".{path.name}.{os.getpid()}.draft")
+    try:
+        write(trace, draft, progress or (lambda done, total: None))
+        draft.replace(path)
+    finally:
+        draft.unlink(missing_ok=True)
+
+
+def extension(path: Path, known: tuple[str, ...]) -> str:
+    """Return the extension of a file, one of `known`.
+
+    Raises
+    ------
+    ValueError
+        For another one.
+    """
+    found = path.suffix.lower()
+    if found not in known:
+        raise ValueError(f"{path}: must end in {', '.join(known)}")
+    return found
+
+
+def load(path: str | Path, *, progress: Progress | None = None) -> Trace:
+    """Read a trace: MCAP (whole or cut), NPZ or CSV, by the extension.
+
+    Parameters
+    ----------
+    path : str or Path
+        What `Trace.save` or a recorder wrote. CSV holds neither scenario nor law.
+    progress : callable, optional
+        Called with bytes read and bytes in all, for MCAP.
+
+    Raises
+    ------
+    FileNotFoundError
+        When there is no such file.
+    ValueError
+        For another extension, or a file that is not what its extension says.
+    """
+    from ebac.logs.csv_file import read_csv
+    from ebac.logs.reader import read
+    from ebac.trace import Trace
+
+    path = Path(path)
+    kind = extension(path, READABLE)
+    if kind == ".mcap":
+        return read(path, progress=progress).trace
+    return Trace.from_npz(path) if kind == ".npz" else read_csv(path)
+
+
+def write_mcap(trace: Trace, path: Path, progress: Progress) -> None:
+    """Write a trace as a log; its time is t itself, so the same run gives the same file."""
+    from ebac.logs.writer import LogWriter
+
+    data = {name: trace[name] for name in trace}
+    about = About(axes=trace.axes, law=trace.law, law_repr=trace.law_repr, scenario=trace.scenario)
+    with LogWriter(path, layout=Layout.of(data, trace.columns), about=about) as log:
+        for first in range(0, len(trace), CHUNK_ROWS):
+            log.write({name: v[first : first + CHUNK_ROWS] for name, v in data.items()})
+            progress(min(first + CHUNK_ROWS, len(trace)), len(trace))
+        log.close(rows=len(trace), lost=0)

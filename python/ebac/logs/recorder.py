@@ -1,0 +1,304 @@
+"""Records a run while it runs: a thread of its own reads the rows and writes them to disk."""
+
+from __future__ import annotations
+
+import atexit
+import contextlib
+import threading
+import time
+import warnings
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+from types import TracebackType
+from typing import TYPE_CHECKING, Any, Self
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ebac.logs.about import About
+from ebac.logs.events import Event
+from ebac.logs.layout import Layout
+from ebac.logs.writer import LogWriter
+from ebac.scenario import Scenario
+from ebac.trace import column_infos, row_views
+
+if TYPE_CHECKING:
+    from ebac._core import Rows
+
+#: Time between two chunks [s]. Rows of at most this and of what the system lets the thread wait are lost by a kill.
+INTERVAL = 0.02
+#: Rows of one chunk at most: more wait for the next, so that a late recorder catches up in steps.
+MOST_ROWS = 16_384
+
+
+class Recorder:
+    """Writes the rows of a running loop to a log.
+
+    The loop knows nothing of it: the recorder is one more reader of its rows. It wakes every `interval`, copies what
+    is new and writes it as one chunk. Killed, the process loses the rows since the last chunk. Where the loop keeps its
+    rows in a ring and the recorder comes too late, rows are lost: they are counted, written as an event and told by
+    `close`.
+
+    Parameters
+    ----------
+    rows : Rows
+        The rows of the loop, of any length, or a ring.
+    path : str or Path
+        The log; must not exist.
+    scenario : Scenario, optional
+        Goes into the log.
+    law, law_repr : str
+        Name of the law; the law with its parameters.
+    files : mapping of str to str, optional
+        Texts to attach by file name: the configuration of the run.
+    watch : callable, optional
+        Called before each chunk, in the thread of the recorder; the events it returns go into the log: how changes of
+        parameters come from a running loop. What it raises ends the recording.
+    interval : float
+        Time between two chunks [s], in [0.001, 10]. At 0.02 s a kill costs less than 50 ms as long as the system
+        lets the thread run within 30 ms; Python code that holds the interpreter longer than that delays it.
+    sync : float, optional
+        Time [s], in [0.1, 3600], after which what is written is forced to the disk, in another thread. Without it
+        that happens at the end only: a killed process loses nothing by it, a computer without power does.
+    start : float, optional
+        When t was 0, in seconds since 1970 (UTC); now, if not given.
+
+    Attributes
+    ----------
+    written, lost : int
+        Rows so far.
+    error : Exception or None
+        Why nothing is written any more; raised by `close`.
+
+    Raises
+    ------
+    FileExistsError
+        When there is such a file.
+    ValueError
+        For an interval out of range.
+
+    Examples
+    --------
+    >>> with Recorder(rows, "run.mcap", law="ebac") as recorder:  # doctest: +SKIP
+    ...     recorder.event("parameter", "damping raised", damping_Ns_per_m=40)
+    """
+
+    def __init__(
+        self,
+        rows: Rows,
+        path: str | Path,
+        *,
+        scenario: Scenario | None = None,
+        law: str = "",
+        law_repr: str = "",
+        files: Mapping[str, str] | None = None,
+        watch: Callable[[], Sequence[Event]] | None = None,
+        interval: float = INTERVAL,
+        sync: float | None = None,
+        start: float | None = None,
+    ) -> None:
+        _check("interval", interval, 1e-3, 10)
+        if sync is not None:
+            _check("sync", sync, 0.1, 3600)
+        self._rows = rows
+        self._interval = interval
+        self._watch = watch or _nothing
+        about = About(
+            axes=rows.axes,
+            law=law,
+            law_repr=law_repr,
+            scenario=scenario,
+            start_ns=time.time_ns() if start is None else round(1e9 * start),
+            files=dict(files or {}),
+        )
+        none = row_views(rows, np.empty(0, np.uint8))
+        self._writer = LogWriter(path, layout=Layout.of(none, column_infos(rows)), about=about)
+        self._seen = 0
+        self._last: tuple[int, float, int] = (-1, 0.0, 0)  # tick, t, fault of the last row
+        self._waiting: list[Event] = []
+        self._lock = threading.Lock()
+        self._ends = threading.Event()
+        self.written = 0
+        self.lost = 0
+        self.error: Exception | None = None
+        self._threads = [threading.Thread(target=self._run, name="ebac-recorder", daemon=True)]
+        if sync is not None:
+            self._threads.append(
+                threading.Thread(target=self._sync, args=(sync,), name="ebac-sync", daemon=True)
+            )
+        atexit.register(self._at_exit)
+        for thread in self._threads:
+            thread.start()
+
+    @property
+    def path(self) -> Path:
+        """The log."""
+        return self._writer.path
+
+    def event(self, kind: str, message: str, *, tick: int | None = None, **values: Any) -> None:
+        """Note what happened, beside the rows; it is written with the next chunk.
+
+        Parameters
+        ----------
+        kind : str
+            `parameter` for a change of parameters, or a word of your own; `fault` and `lost` are noted by themselves.
+        message : str
+            What happened, in words.
+        tick : int, optional
+            When; the last row the recorder has seen, if not given.
+        **values
+            Numbers and words that belong to it, the unit in the key.
+
+        Raises
+        ------
+        ValueError
+            When the recorder is closed.
+        """
+        if self._ends.is_set():
+            raise ValueError(f"{self.path}: the recorder is closed; note events while it runs")
+        last, t, _ = self._last
+        at = last if tick is None else tick
+        with self._lock:
+            self._waiting.append(Event(kind=kind, message=message, tick=at, t=t, values=values))
+
+    def close(self) -> None:
+        """Write what is left and the summary, and close the file.
+
+        Warns
+        -----
+        UserWarning
+            When rows were lost.
+
+        Raises
+        ------
+        OSError
+            When the file could not be written to its end; what was written before can be read.
+        """
+        if self._ends.is_set():
+            return
+        self._ends.set()
+        atexit.unregister(self._at_exit)
+        for thread in self._threads:
+            thread.join()
+        self._take_all()
+        if self.error is None:
+            try:
+                self._writer.close(rows=self.written, lost=self.lost)
+            except OSError as error:
+                self.error = error
+        if self.error is not None:
+            self._writer.abandon()
+            raise OSError(
+                f"{self.path}: recording stopped after {self.written} rows: {self.error}; "
+                "what was written can be read, and repaired by `ebac log repair`"
+            ) from self.error
+        if self.lost:
+            warnings.warn(
+                f"{self.path}: {self.lost} rows were lost, the recorder came too late; "
+                "the log says where. Give the loop a longer ring",
+                stacklevel=2,
+            )
+
+    def _run(self) -> None:
+        while self.error is None and not self._ends.wait(self._interval):
+            self._take_all()
+
+    def _sync(self, seconds: float) -> None:
+        while self.error is None and not self._ends.wait(seconds):
+            try:
+                self._writer.sync()
+            except OSError as error:
+                self.error = error
+
+    def _take_all(self) -> None:
+        """Write all there is; an error ends the recording and is kept for `close`."""
+        try:
+            while self.error is None and self._take():
+                pass
+        except Exception as error:  # whatever it is: the loop must not end by it, nor it be silent
+            self.error = error
+
+    def _take(self) -> bool:
+        """Write one chunk; return whether there was anything to write."""
+        with self._lock:
+            happened, self._waiting = self._waiting, []
+        happened += self._watch()
+        start = max(self._seen, self._rows.first)
+        stop = min(self._rows.count, start + MOST_ROWS)
+        first, raw = self._rows.copy(start, stop)
+        if not len(raw) and first == self._seen and not happened:
+            return False
+        data = row_views(self._rows, raw)
+        if first > self._seen:
+            happened.append(self._lose(first - self._seen, data))
+        happened += self._faults(data)
+        self._writer.write(data, happened)
+        self._seen = stop
+        self.written += len(data["t"])
+        if len(data["t"]):
+            self._last = int(data["tick"][-1]), float(data["t"][-1]), int(data["fault"][-1])
+        return True
+
+    def _lose(self, rows: int, data: Mapping[str, NDArray[Any]]) -> Event:
+        self.lost += rows
+        tick, t, _ = self._last
+        if len(data["t"]):
+            tick, t = int(data["tick"][0]), float(data["t"][0])
+        message = f"{rows} rows before tick {tick} were written over before they were recorded"
+        return Event(kind="lost", message=message, tick=tick, t=t, values={"rows": rows})
+
+    def _faults(self, data: Mapping[str, NDArray[Any]]) -> list[Event]:
+        """Return an event for each row in which a fault appears or changes."""
+        fault = data["fault"].astype(np.int64)
+        new = np.flatnonzero((fault != 0) & (np.diff(fault, prepend=self._last[2]) != 0))
+        return [
+            Event(
+                kind="fault",
+                message=f"fault {fault[i]} ({fault_name(int(fault[i]))})",
+                tick=int(data["tick"][i]),
+                t=float(data["t"][i]),
+                values={"fault": int(fault[i])},
+            )
+            for i in new
+        ]
+
+    def _at_exit(self) -> None:
+        with contextlib.suppress(OSError):  # the interpreter ends: nobody is left to be told
+            self.close()
+
+    def __enter__(self) -> Self:
+        """Return the recorder, which runs."""
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        """Close the log, whatever was raised."""
+        self.close()
+
+    def __repr__(self) -> str:
+        """Return file, rows written and lost."""
+        state = "closed" if self._ends.is_set() else "recording"
+        return f"<Recorder of {self.path}: {state}, {self.written} rows, {self.lost} lost>"
+
+
+def _nothing() -> Sequence[Event]:
+    return ()
+
+
+def fault_name(number: int) -> str:
+    """Return the name of a fault in words."""
+    from ebac._core import Fault
+
+    try:
+        return Fault(number).name.lower().replace("_", " ")
+    except ValueError:
+        return "unknown to this version"
+
+
+def _check(name: str, value: float, low: float, high: float) -> None:
+    if not low <= value <= high:
+        raise ValueError(f"Recorder.{name} = {value:g} s: must lie in [{low:g}, {high:g}] s")

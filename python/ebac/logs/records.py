@@ -1,0 +1,157 @@
+"""The records of an MCAP file that may be cut or damaged anywhere: what is whole is given, what is not is told."""
+
+from __future__ import annotations
+
+import struct
+import threading
+import zlib
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
+from io import BytesIO
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    import mmap
+
+MAGIC = b"\x89MCAP0\r\n"
+FOOTER, SCHEMA, CHANNEL, CHUNK, METADATA, ATTACHMENT = 0x02, 0x03, 0x04, 0x06, 0x0C, 0x09
+#: A chunk larger than this is damage: ebac writes at most some MB.
+MOST_CHUNK = 1 << 31
+_HEAD = struct.Struct("<BQ")
+_CHUNK = struct.Struct(
+    "<QQQII"
+)  # first and last time, size, checksum, letters of the compression's name
+_LENGTH = struct.Struct("<Q")
+_OF_THREAD = threading.local()
+
+
+@dataclass
+class Condition:
+    """What was wrong with a file.
+
+    Attributes
+    ----------
+    complete : bool
+        Whether it ends as a log that was closed.
+    damaged : int
+        Chunks and other records that could not be read and were left out.
+    bytes_left : int
+        Bytes at the end that are no whole record.
+    """
+
+    complete: bool = False
+    damaged: int = 0
+    bytes_left: int = 0
+    remarks: list[str] = field(default_factory=list)
+
+    def leave_out(self, what: str, at: int, why: object) -> None:
+        """Note a record that is left out."""
+        self.damaged += 1
+        if self.damaged <= 5:
+            self.remarks.append(f"{what} at byte {at} left out: {why}")
+
+
+def records(
+    data: bytes | mmap.mmap, condition: Condition, told: Callable[[int, int], None]
+) -> Iterator[tuple[int, int, int]]:
+    """Yield (opcode, first byte, byte after the last) of the content of each whole record.
+
+    Parameters
+    ----------
+    data : bytes or mmap
+        The file.
+    condition : Condition
+        Takes what is wrong.
+    told : callable
+        Progress: bytes done, bytes in all.
+    """
+    at, size = len(MAGIC), len(data)
+    while at + _HEAD.size <= size:
+        opcode, length = _HEAD.unpack_from(data, at)
+        start = at + _HEAD.size
+        if opcode == 0 or length > size - start:
+            break
+        yield opcode, start, start + length
+        at = start + length
+        told(at, size)
+        if opcode == FOOTER:
+            condition.complete = data[at : at + len(MAGIC)] == MAGIC
+            if condition.complete:
+                at += len(MAGIC)
+            break
+    condition.bytes_left = max(0, size - at)
+
+
+def parsed(kind: Any, data: bytes) -> Any:
+    """Return a record of the `mcap` library from its content.
+
+    Raises
+    ------
+    ValueError
+        When the content is not that of such a record.
+    """
+    from mcap.data_stream import ReadDataStream
+    from mcap.exceptions import McapError
+
+    stream = BytesIO(data)
+    try:
+        return kind.read(ReadDataStream(stream))
+    except (McapError, struct.error, UnicodeDecodeError, MemoryError, OverflowError) as error:
+        raise ValueError(f"not a {kind.__name__} ({error})") from None
+
+
+def unpacked(data: bytes) -> bytes:
+    """Return the content of a chunk record, checked against its size and its sum.
+
+    Raises
+    ------
+    ValueError
+        When it is damaged, or packed in a way ebac does not know.
+    """
+    try:
+        _, _, size, checksum, letters = _CHUNK.unpack_from(data)
+        at = _CHUNK.size + letters
+        how = data[_CHUNK.size : at].decode()
+        (length,) = _LENGTH.unpack_from(data, at)
+    except (struct.error, UnicodeDecodeError) as error:
+        raise ValueError(f"not a chunk ({error})") from None
+    at += _LENGTH.size
+    if at + length != len(data):
+        raise ValueError("it ends too early or too late")
+    content = _decompress(how, data[at:], size)
+    if len(content) != size:
+        raise ValueError(f"{len(content)} bytes instead of {size}")
+    if checksum not in (0, zlib.crc32(content)):
+        raise ValueError("its checksum is wrong")
+    return content
+
+
+def _zstd() -> Any:
+    """Return the decompressor of this thread: making one takes longer than a chunk does."""
+    if not hasattr(_OF_THREAD, "zstd"):
+        import zstandard
+
+        _OF_THREAD.zstd = zstandard.ZstdDecompressor()
+    return _OF_THREAD.zstd
+
+
+def _decompress(how: str, data: bytes, size: int) -> bytes:
+    if size > MOST_CHUNK:
+        raise ValueError(f"it says it has {size} bytes")
+    if how == "":
+        return data
+    if how == "zstd":
+        import zstandard
+
+        try:
+            return bytes(_zstd().decompress(data, max_output_size=size))
+        except zstandard.ZstdError as error:
+            raise ValueError(str(error)) from None
+    if how == "lz4":
+        import lz4.frame
+
+        try:
+            return bytes(lz4.frame.decompress(data))
+        except (RuntimeError, EOFError) as error:
+            raise ValueError(str(error)) from None
+    raise ValueError(f"packed as {how!r}: must be zstd, lz4 or nothing")

@@ -1,0 +1,70 @@
+"""Makes a whole log of one that was cut or damaged."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+from ebac.logs.files import CHUNK_ROWS, extension
+from ebac.logs.layout import Layout
+from ebac.logs.reader import Log, read
+from ebac.logs.writer import LogWriter
+
+
+def repair(
+    path: str | Path,
+    out: str | Path | None = None,
+    *,
+    progress: Callable[[int, int], None] | None = None,
+) -> Log:
+    """Write what can be read of a log to a new file, with the summary that any reader of MCAP accepts.
+
+    Rows, events, law, scenario and attachments are those of the old file, to the bit. The old file stays as it is.
+
+    Parameters
+    ----------
+    path : str or Path
+        The log.
+    out : str or Path, optional
+        The new file; `run.repaired.mcap` beside `run.mcap`, if not given.
+    progress : callable, optional
+        Called with bytes read and bytes in all.
+
+    Returns
+    -------
+    Log
+        The new log, read back.
+
+    Raises
+    ------
+    FileExistsError
+        When `out` exists: nothing is ever written over.
+    FileNotFoundError, ValueError
+        As `read`; ValueError also for an `out` that does not end in .mcap.
+    """
+    path = Path(path)
+    out = repaired_name(path) if out is None else Path(out)
+    extension(out, (".mcap",))
+    if out.exists():
+        raise FileExistsError(17, "File exists", str(out))
+    log = read(path, progress=progress)
+    data = {name: log.trace[name] for name in log.trace}
+    try:
+        with LogWriter(out, layout=Layout.of(data, log.trace.columns), about=log.about) as new:
+            for first in range(0, len(log.trace), CHUNK_ROWS):
+                new.write({name: v[first : first + CHUNK_ROWS] for name, v in data.items()})
+            if log.events:
+                new.write({name: v[:0] for name, v in data.items()}, log.events)
+            ended = {name: int(n) for name, n in log.ended.items() if n.isdecimal()}
+            new.close(**{"rows": len(log.trace), **ended, "repaired": 1})
+    except FileExistsError:
+        raise
+    except BaseException:
+        out.unlink(missing_ok=True)  # ours, and not whole
+        raise
+    return read(out)
+
+
+def repaired_name(path: Path) -> Path:
+    """Return the name a repaired log gets."""
+    return path.with_name(f"{path.stem}.repaired.mcap")

@@ -1,0 +1,157 @@
+"""A recorded log as hardware: yesterday's session for a new law."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ebac import _core
+from ebac.laws import AnyLaw, CoreLaw, design, law_name
+from ebac.logs.reader import Log
+
+if TYPE_CHECKING:
+    from ebac.scenario import Scenario
+    from ebac.trace import Trace
+
+#: The state of a loop in which the law acts, in the column `state` of a log that has one.
+RUN = 2
+
+#: What a replay reads of each axis: the name of the argument, the column.
+_EACH = {
+    "counts": "counts",
+    "current_applied": "current_applied",
+    "force": "f_meas",
+    "f_env": "f_env",
+    "f_cmd": "f_cmd",
+    "current": "current",
+}
+
+
+def replay(
+    log: Trace | Log | str | Path,
+    law: AnyLaw = "ebac",
+    *,
+    scenario: Scenario | None = None,
+    **changes: Any,
+) -> Trace:
+    """Drive a law with a recorded log, open loop: what it would have commanded had the handle moved as it did.
+
+    Encoder counts, currents applied, measured forces and the time of each tick come from the log; estimation,
+    kinematics, virtual world, law and limits are those of the loop. The law that was recorded, with its parameters,
+    gives the recorded commands to the bit, for a log from its first tick on without gaps. At a gap the time of the
+    tick is that since the row before.
+
+    **What a replay cannot tell**: nothing the law commands reaches hand or device. Whether a contact is stable, where
+    it would rest, and how the hand would have answered stay unknown; energies are those of the recorded force along
+    the recorded path. A law that seems calm here may swing on the device. Use it to see what a law does with real
+    noise, real timing and real encoder steps, and to check a law for errors.
+
+    Parameters
+    ----------
+    log : Trace, Log, str or Path
+        A log of at least one row, or the file of one.
+    law : str, law class, Variant, law or PythonLaw
+        As for `simulate`: a name is designed for the scenario's device and timing.
+    scenario : Scenario, optional
+        Device, virtual world and timing; that of the log, if not given. Its hand is not used.
+    **changes
+        Parameters to set on top of the design, in their SI units.
+
+    Returns
+    -------
+    Trace
+        The rows in which the law ran, with the new law's `f_env`, `f_cmd`, `current`, `law.*`, and what was recorded
+        beside them: `log.f_env`, `log.f_cmd`, `log.current`. It ends early where the log ends in a fault.
+
+    Raises
+    ------
+    ValueError
+        When the log has no rows, lacks a column, has no scenario, or has other axes than the device.
+    LoopFault
+        When a stage of the replay gave no finite number; carries the trace.
+    """
+    from ebac.trace import Trace
+
+    recorded = _ran(_trace_of(log))
+    scenario = scenario or recorded.scenario
+    if scenario is None:
+        raise ValueError(
+            "replay: the log has no scenario, so device and virtual world are unknown; give scenario=..."
+        )
+    _check(recorded)
+    source = _source(recorded)
+    finished = design(law, scenario.device, scenario.known_timing, **changes)
+    if isinstance(finished, CoreLaw):
+        rows = finished._replay(source, scenario.device, scenario.environment)
+    else:
+        rows = _core._replay_python(source, finished, scenario.device, scenario.environment)
+    trace = Trace.from_rows(
+        rows, scenario=scenario, law=law_name(finished), law_repr=repr(finished)
+    )
+    trace = trace.with_column("tick", recorded["tick"][: len(trace)])
+    return _unless_faulty(trace)
+
+
+def _trace_of(log: Trace | Log | str | Path) -> Trace:
+    from ebac.logs.files import load
+
+    if isinstance(log, Log):
+        return log.trace
+    return load(log) if isinstance(log, (str, Path)) else log
+
+
+def _ran(recorded: Trace) -> Trace:
+    """Return the rows in which the law ran: not those before the drives were enabled, nor those of a stop."""
+    if "state" not in recorded:
+        return recorded
+    ran = np.flatnonzero(recorded["state"] == RUN)
+    if len(recorded) and not len(ran):
+        raise ValueError("replay: the log has no row in which the law ran (state 2)")
+    return recorded.rows(int(ran[0]), int(ran[-1]) + 1) if len(ran) else recorded
+
+
+def _check(recorded: Trace) -> None:
+    missing = [
+        name
+        for name in ("tick", "dt", "lateness", "fault", *_EACH.values())
+        if name not in recorded
+    ]
+    if missing:
+        raise ValueError(f"replay: the log has no column {', '.join(missing)}")
+    if len(recorded) == 0:
+        raise ValueError("replay: the log has no rows")
+
+
+def _source(recorded: Trace) -> _core.ReplayLog:
+    t = recorded["t"]
+    dt = recorded.axis("dt").copy()
+    gap = np.flatnonzero(np.diff(recorded["tick"]) != 1) + 1
+    dt[gap] = t[gap] - t[gap - 1]
+    dt[0] = 0
+    fault = recorded["fault"].astype(np.uint32)
+    each = {name: _per_axis(recorded, column) for name, column in _EACH.items()}
+    return _core.ReplayLog(
+        t=t,
+        dt=dt,
+        lateness=recorded["lateness"],
+        # What a stage of the loop found, the loop finds again, or not: that is for the new law to show.
+        fault=np.where(fault >= int(_core.Fault.DEVICE), fault, 0),
+        **each,
+    )
+
+
+def _per_axis(recorded: Trace, column: str) -> NDArray[Any]:
+    values = recorded[column]
+    return values.reshape(len(values), -1)
+
+
+def _unless_faulty(trace: Trace) -> Trace:
+    from ebac.simulation import LoopFault
+
+    fault = _core.Fault(int(trace["fault"][-1]))
+    if fault is not _core.Fault.NONE and int(fault) < int(_core.Fault.DEVICE):
+        raise LoopFault(fault, trace)
+    return trace

@@ -1,0 +1,64 @@
+"""One case of a fault campaign: what the loop did about it."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from matplotlib.axes import Axes
+
+from ebac._core import Fault
+from ebac.plot.style import Numbers, Picture, dress, legend, new_figure
+
+if TYPE_CHECKING:
+    from ebac.faults import FaultCase
+
+_STATES = {0: "idle", 1: "arm", 2: "run", 3: "stop", 4: "fault"}
+_AXES = ("#0072b2", "#d55e00")
+
+
+def plot_fault(case: FaultCase) -> Picture:
+    """Draw position, current asked and applied, and state of a case, with the trouble marked.
+
+    Parameters
+    ----------
+    case : FaultCase
+        What `ebac.faults.run_case` returned. All of it is simulation.
+    """
+    trace = case.trace
+    t = 1e3 * trace["t"]
+    figure = new_figure(8.5, 6.5)
+    position, current, state = figure.subplots(3, 1, sharex=True, height_ratios=[2, 2, 1])
+    for i in range(trace.axes):
+        position.plot(t, 1e3 * trace.axis("true.x", i), color=_AXES[i], lw=1.4, label=f"axis {i}")
+        current.plot(t, trace.axis("current", i), color=_AXES[i], lw=1.4, label=f"asked, axis {i}")
+        applied = trace.axis("current_applied", i)
+        current.plot(t, applied, color=_AXES[i], lw=1, ls=":", label=f"drive says, axis {i}")
+    state.step(t, trace["state"], where="post", color="black", lw=1.4)
+    state.set_yticks(list(_STATES), list(_STATES.values()))
+    state.set_ylim(-0.3, 4.3)
+    for ax in (position, current, state):
+        _mark(ax, case, t)
+    dress(position, "position [mm]")
+    dress(current, "current [A]")
+    dress(state, "state")
+    legend(position)
+    legend(current)
+    state.set_xlabel("time [ms]")
+    figure.suptitle(_title(case), fontsize="medium", fontweight="bold")
+    return figure
+
+
+def _mark(ax: Axes, case: FaultCase, t: Numbers) -> None:
+    last = len(t) - 1
+    begin, end = min(case.at, last), min(case.at + case.ticks, last)
+    ax.axvspan(t[begin], t[end], color="#e6ab02", alpha=0.25, lw=0, label="trouble")
+    faults = case.trace["fault"].nonzero()[0]
+    if len(faults):
+        ax.axvline(t[faults[0]], color="#cc0000", lw=1.2, ls=(0, (5, 3)), label="fault in the row")
+
+
+def _title(case: FaultCase) -> str:
+    fault = Fault(int(case.trace["fault"][-1]))
+    name = "no fault" if fault is Fault.NONE else f"fault {int(fault)}, {fault.name}"
+    lasts = f"{case.ticks} ticks" if case.ticks < len(case.trace) else "to the end"
+    return f"simulation: {case.kind} on axis {case.axis}, {lasts}: {name}"

@@ -1,0 +1,17 @@
+"""What the machine can do for a loop, and how to get the rest."""
+
+from ebac._core import Grant, RealTime, RealTimeMode
+from ebac.realtime.doctor import Finding, examine
+from ebac.realtime.jitter import Cyclictest, Jitter, cyclictest, measure
+
+__all__ = [
+    "Cyclictest",
+    "Finding",
+    "Grant",
+    "Jitter",
+    "RealTime",
+    "RealTimeMode",
+    "cyclictest",
+    "examine",
+    "measure",
+]

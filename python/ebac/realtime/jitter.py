@@ -1,0 +1,184 @@
+"""How late a thread wakes that does nothing but wait for its ticks."""
+
+from __future__ import annotations
+
+import re
+import shutil
+import subprocess
+from dataclasses import dataclass
+from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ebac import _core
+
+Mode = Literal["auto", "enforce", "off"]
+#: Shares of the wake-ups told in numbers.
+PERCENTILES = (50.0, 99.0, 99.9)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Jitter:
+    """Wake-ups of a thread.
+
+    Attributes
+    ----------
+    lateness : array, shape (wake-ups,)
+        From the planned instant to the wake-up [s].
+    dt : float
+        Time between two planned instants [s].
+    skipped : int
+        Ticks that could not be kept.
+    grants : list of Grant
+        What the thread asked of the system, and what it got.
+    """
+
+    lateness: NDArray[np.float64]
+    dt: float
+    skipped: int
+    grants: list[_core.Grant]
+
+    def row(self) -> dict[str, Any]:
+        """Return its numbers as a row of `--json`."""
+        p50, p99, p999 = np.percentile(self.lateness, PERCENTILES)
+        return {
+            "program": "ebac",
+            "wakeups": len(self.lateness),
+            "mean_s": float(self.lateness.mean()),
+            "p50_s": float(p50),
+            "p99_s": float(p99),
+            "p99_9_s": float(p999),
+            "most_s": float(self.lateness.max()),
+            "skipped": self.skipped,
+        }
+
+
+@dataclass(frozen=True, kw_only=True)
+class Cyclictest:
+    """The same of `cyclictest` (rt-tests), in whole microseconds.
+
+    Attributes
+    ----------
+    counts : array, shape (microseconds,)
+        Wake-ups that were so many whole microseconds late.
+    beyond : int
+        Wake-ups later than the longest of these.
+    most : float
+        Latest wake-up [s].
+    """
+
+    counts: NDArray[np.int64]
+    beyond: int
+    most: float
+
+    def percentile(self, share: float) -> float:
+        """Return the lateness [s] that `share` percent of the wake-ups do not exceed."""
+        total = self.counts.sum() + self.beyond
+        at = int(np.searchsorted(np.cumsum(self.counts), share / 100 * total))
+        return at * 1e-6 if at < len(self.counts) else self.most
+
+    def row(self) -> dict[str, Any]:
+        """Return its numbers as a row of `--json`."""
+        p50, p99, p999 = (self.percentile(share) for share in PERCENTILES)
+        inside = self.counts.sum()
+        mean = float(np.arange(len(self.counts)) @ self.counts) / max(1, inside) * 1e-6
+        return {
+            "program": "cyclictest",
+            "wakeups": int(inside + self.beyond),
+            "mean_s": mean,
+            "p50_s": p50,
+            "p99_s": p99,
+            "p99_9_s": p999,
+            "most_s": self.most,
+            "skipped": None,
+        }
+
+
+def measure(
+    *,
+    seconds: float = 10.0,
+    rate: float = 1000.0,
+    mode: Mode = "auto",
+    options: _core.RealTime | None = None,
+) -> Jitter:
+    """Let a thread wait for its ticks.
+
+    Parameters
+    ----------
+    seconds : float
+        How long [s], above 0, at most 86400.
+    rate : float
+        Ticks a second [Hz], 10 to 100000.
+    mode : "auto", "enforce" or "off"
+        Take what the system grants; insist on all of it; ask for nothing.
+    options : RealTime, optional
+        What the thread asks for.
+
+    Raises
+    ------
+    ValueError
+        For a time, a rate or a mode that cannot be.
+    RuntimeError
+        With "enforce", when something was not granted: what, why, and the command that would grant it.
+    """
+    if not 0 < seconds <= 86400:
+        raise ValueError(f"seconds = {seconds:g} s: must lie in (0, 86400] s")
+    if not 10 <= rate <= 1e5:
+        raise ValueError(f"rate = {rate:g} Hz: must lie in [10, 100000] Hz")
+    if mode not in ("auto", "enforce", "off"):
+        raise ValueError(f"mode = {mode!r}: must be 'auto', 'enforce' or 'off'")
+    lateness, skipped, grants = _core._measure_jitter(
+        1 / rate,
+        max(2, round(seconds * rate)),
+        _core.RealTimeMode[mode.upper()],
+        options or _core.RealTime(),
+    )
+    return Jitter(lateness=lateness, dt=1 / rate, skipped=skipped, grants=grants)
+
+
+#: Lateness that `cyclictest` counts one by one [us].
+_LONGEST = 20_000
+
+
+def cyclictest(
+    *, seconds: float, rate: float, priority: int | None, program: str | None = None
+) -> Cyclictest | None:
+    """Run `cyclictest`; None when it is not installed or is not allowed to run.
+
+    Parameters
+    ----------
+    seconds, rate : float
+        How long [s], and ticks a second [Hz].
+    priority : int or None
+        Priority under SCHED_FIFO with locked memory; None for an ordinary thread.
+    program : str, optional
+        Its path; default: where the shell finds it.
+    """
+    program = program or shutil.which("cyclictest") or shutil.which("cyclictest", path="/usr/sbin")
+    if program is None:
+        return None
+    command = [program, "-q", "-t1", f"-i{round(1e6 / rate)}", f"-l{max(2, round(seconds * rate))}"]
+    command += [f"-h{_LONGEST}"]
+    command += ["--policy=other"] if priority is None else [f"-p{priority}", "-m"]
+    run = subprocess.run(
+        command, capture_output=True, text=True, check=False, timeout=3 * seconds + 60
+    )
+    return None if run.returncode else parse_cyclictest(run.stdout)
+
+
+def parse_cyclictest(text: str) -> Cyclictest | None:
+    """Return what a histogram of `cyclictest -h` says; None when there is none."""
+    bins = re.findall(r"^(\d{6}) (\d+)", text, re.MULTILINE)
+    if not bins:
+        return None
+    counts = np.zeros(int(bins[-1][0]) + 1, np.int64)
+    for lateness, count in bins:
+        counts[int(lateness)] = int(count)
+    beyond = re.search(r"^# Histogram Overflows: *(\d+)", text, re.MULTILINE)
+    most = re.search(r"^# Max Latencies: *(\d+)", text, re.MULTILINE)
+    return Cyclictest(
+        counts=counts,
+        beyond=int(beyond[1]) if beyond else 0,
+        most=(int(most[1]) if most else len(counts) - 1) * 1e-6,
+    )

@@ -1,0 +1,202 @@
+// Limits, as the last gate: what they leave of a current, and what ends a run.
+#include "ebac/loop/gate.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "ebac/control/direct.hpp"
+#include "ebac/sim/simulate.hpp"
+
+namespace ebac {
+namespace {
+
+constexpr double kDt = 1e-3;
+const DeviceModel kDevice{};
+
+/// A gate with one axis, pushed by hand.
+struct Pushed {
+  Limits limits = Limits::of(kDevice);
+  Gate gate{limits, kDevice, kDt};
+  std::array<Axis, 1> axes{};
+  int limited = 0;
+
+  double pass(double current, double gain = 1) {
+    axes[0].joint.current = current;
+    limited = gate.pass(axes, gain, kDt);
+    return axes[0].joint.current;
+  }
+  bool because(Limited why) const { return (limited & static_cast<int>(why)) != 0; }
+};
+
+TEST(Gate, LimitsOfADeviceAreItsMotors) {
+  const Limits limits = Limits::of(kDevice);
+  EXPECT_NEAR(kDevice.force(limits.continuous_current), 10.6, 0.01);  // N, the paper's
+  EXPECT_NEAR(kDevice.force(limits.peak_current), 42.4, 0.01);
+}
+
+TEST(Gate, LeavesAloneWhatIsAllowed) {
+  Pushed p;
+  EXPECT_EQ(p.pass(0.5), 0.5);
+  EXPECT_EQ(p.limited, 0);
+}
+
+TEST(Gate, HoldsThePeak) {
+  Pushed p;
+  p.pass(3);
+  EXPECT_EQ(p.pass(100), p.limits.peak_current);
+  EXPECT_TRUE(p.because(Limited::kPeak));
+  EXPECT_EQ(p.pass(std::nan("")), 0);
+  EXPECT_TRUE(p.because(Limited::kNotFinite));
+}
+
+TEST(Gate, HoldsTheSlew) {
+  Pushed p;
+  p.limits.slew = 1000;
+  p.gate = Gate(p.limits, kDevice, kDt);
+  EXPECT_DOUBLE_EQ(p.pass(3), 1);
+  EXPECT_TRUE(p.because(Limited::kSlew));
+  EXPECT_DOUBLE_EQ(p.pass(3), 2);
+  EXPECT_DOUBLE_EQ(p.pass(-3), 1);
+}
+
+TEST(Gate, AWarmMotorComesDownToItsContinuousCurrentAndNeverGetsHotter) {
+  Pushed p;
+  double warm = 0;  // s, until the peak is over
+  for (int k = 0; k < 100'000; ++k) {
+    const double current = p.pass(100);
+    EXPECT_LE(p.gate.state(0).heat, 1 + 1e-12);
+    if (current == p.limits.peak_current) warm = k * kDt;
+  }
+  // i2t in closed form: heat = 16 (1 - exp(-t/tau)) reaches 1.
+  const double ratio = std::pow(p.limits.peak_current / p.limits.continuous_current, 2);
+  EXPECT_NEAR(warm, -p.limits.thermal_time * std::log(1 - 1 / ratio), 2 * kDt);
+  EXPECT_NEAR(p.pass(100), p.limits.continuous_current, 1e-6);
+  EXPECT_TRUE(p.because(Limited::kThermal));
+  for (int k = 0; k < 100'000; ++k) p.pass(0);
+  EXPECT_EQ(p.pass(100), p.limits.peak_current) << "it has cooled";
+}
+
+TEST(Gate, AStopDoesNotCoolTheModel) {
+  Pushed p;
+  for (int k = 0; k < 1000; ++k) p.pass(100);
+  const double heat = p.gate.state(0).heat;
+  p.gate.restart();
+  p.pass(0);
+  EXPECT_NEAR(p.gate.state(0).heat, heat, 0.01);
+}
+
+TEST(Gate, TheEdgePushesInwardsOnly) {
+  Pushed p;
+  for (const double side : {1.0, -1.0}) {
+    const double depth = 2e-3;
+    p.axes[0].joint.q = side * (p.limits.edge + depth) / kDevice.radius();
+    const double wanted = p.limits.edge_stiffness * depth;
+    EXPECT_NEAR(kDevice.force(p.pass(0)), side * wanted, 1e-9);
+    EXPECT_TRUE(p.because(Limited::kEdge));
+    p.axes[0].joint.dq = -side * 10;  // on its way back: it never pulls
+    EXPECT_EQ(p.pass(0), 0);
+    p.axes[0].joint.dq = 0;
+  }
+}
+
+TEST(Gate, AGainOfARampScalesTheForce) {
+  Pushed p;
+  EXPECT_EQ(p.pass(1, 0.25), 0.25);
+  EXPECT_TRUE(p.because(Limited::kRamp));
+}
+
+Fault seen(Pushed& p, const Reading& reading = {}, std::int64_t skipped = 0) {
+  return p.gate.watch(reading, {.skipped = skipped}, p.axes);
+}
+
+TEST(Gate, NamesWhatItSees) {
+  const double radius = kDevice.radius();
+  Pushed p;
+  EXPECT_EQ(seen(p), Fault::kNone);
+  p.axes[0].joint.q = 2 * p.limits.jump / radius;
+  EXPECT_EQ(seen(p), Fault::kEncoderJump);
+  EXPECT_EQ(seen(p), Fault::kNone);
+  p.axes[0].joint.dq = -2 * p.limits.speed / radius;
+  EXPECT_EQ(seen(p), Fault::kOverspeed);
+  p.axes[0].joint.dq = 0;
+  p.axes[0].joint.q = -1.01 * p.limits.end / radius;
+  p.gate.restart();
+  EXPECT_EQ(seen(p), Fault::kWorkspace);
+  p.axes[0].joint.q = 0;
+  p.gate.restart();
+  EXPECT_EQ(seen(p, {.force_age = 1}), Fault::kForceStale);
+  EXPECT_EQ(seen(p, {.force_status = SensorStatus::kSaturated}), Fault::kForceSaturated);
+  EXPECT_EQ(seen(p, {.force_status = SensorStatus::kDisconnected}), Fault::kForceDisconnected);
+  for (int k = 1; k < p.limits.overruns; ++k) EXPECT_EQ(seen(p, {}, 1), Fault::kNone);
+  EXPECT_EQ(seen(p, {}, 1), Fault::kOverruns);
+  EXPECT_EQ(seen(p, {}, 0), Fault::kNone);
+}
+
+TEST(Gate, RefusesLimitsThatContradictEachOther) {
+  Limits limits;
+  limits.continuous_current = 2 * limits.peak_current;
+  EXPECT_THROW(Gate(limits, kDevice, kDt), std::invalid_argument);
+  limits = {};
+  limits.end = 0.5 * limits.edge;
+  EXPECT_THROW(Gate(limits, kDevice, kDt), std::invalid_argument);
+}
+
+TEST(Course, RampsInRunsRampsOutAndStops) {
+  ebac::Setup setup;
+  Loop loop(SimulatedDevice(setup), VirtualClock(kDt, 0, 1), PerAxis<Direct>(Direct({})),
+            Rig(setup.device, setup.environment), 1,
+            {.plan = {.soft_start = 0.1, .ramp_down = 0.05, .arm = true, .ticks = 500}});
+  const auto trace = loop.make_trace(1000);
+  EXPECT_EQ(loop.state(), LoopState::kIdle);
+  EXPECT_TRUE(loop.run(*trace));
+  EXPECT_EQ(loop.state(), LoopState::kIdle);
+  ASSERT_EQ(trace->size(), 500U + 50U + RunPlan{}.stop_ticks - 1);
+  for (std::size_t row = 0; row < trace->size(); ++row) {
+    const Sample s = trace->sample(row);
+    EXPECT_EQ(s.state, static_cast<int>(row < 500 ? LoopState::kRun : LoopState::kStop)) << row;
+    EXPECT_EQ(s.fault, Fault::kNone);
+    if (row >= 549) {
+      EXPECT_EQ(s.axis[0].joint.current, 0) << row;
+    }
+    if (row == 520) {  // in the wall, 21 of 50 ms of the ramp gone
+      EXPECT_NEAR(
+          s.axis[0].joint.current,
+          setup.device.motor.current(s.axis[0].joint.tau / setup.device.capstan.ratio()) * 29 / 50,
+          1e-9);
+    }
+  }
+}
+
+TEST(Course, AFaultLatchesUntilItIsReset) {
+  Course course({.stop_ticks = 3});
+  EXPECT_TRUE(course.start());
+  course.advance(true, false, kDt);
+  course.fail(Fault::kDevice);
+  course.fail(Fault::kLawNotFinite);
+  EXPECT_EQ(course.fault(), Fault::kDevice);
+  EXPECT_EQ(course.gain(), 0);
+  EXPECT_FALSE(course.reset()) << "it is still stopping";
+  for (int k = 0; k < 2; ++k) {
+    EXPECT_FALSE(course.finish());
+    course.advance(true, false, kDt);
+  }
+  EXPECT_TRUE(course.finish());
+  EXPECT_EQ(course.state(), LoopState::kFault);
+  EXPECT_FALSE(course.start());
+  EXPECT_TRUE(course.reset());
+  EXPECT_TRUE(course.start());
+}
+
+TEST(Course, AStopWhileArmingNeverRuns) {
+  Course course({.arm = true});
+  course.start();
+  course.advance(false, true, kDt);
+  EXPECT_EQ(course.state(), LoopState::kStop);
+  course.advance(true, false, kDt);
+  EXPECT_EQ(course.state(), LoopState::kStop);
+  EXPECT_EQ(course.gain(), 0);
+}
+
+}  // namespace
+}  // namespace ebac

@@ -1,0 +1,139 @@
+// One writer, one reader, nobody waits: values arrive whole, in order, the newest first of all.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <thread>
+#include <tuple>
+
+#include "ebac/control/laws.hpp"
+#include "ebac/loop/mail.hpp"
+#include "ebac/loop/retune.hpp"
+#include "ebac/sim/simulate.hpp"
+
+namespace ebac {
+namespace {
+
+TEST(Mailbox, IsEmptyUntilSomethingIsPosted) {
+  Mailbox<int> box(7);
+  EXPECT_EQ(box.take(), nullptr);
+  box.post(1);
+  box.post(2);
+  const int* got = box.take();
+  ASSERT_NE(got, nullptr);
+  EXPECT_EQ(*got, 2);  // 1 was replaced before it was taken
+  EXPECT_EQ(box.take(), nullptr);
+  EXPECT_EQ(*got, 2);  // and stays while nothing is taken
+}
+
+TEST(Mailbox, NeverTearsAValueBetweenThreads) {
+  using Block = std::array<std::uint64_t, 32>;
+  constexpr std::uint64_t kLast = 20'000;
+  Mailbox<Block> box;
+  std::thread writer([&] {
+    for (std::uint64_t i = 1; i <= kLast; ++i) {
+      Block block;
+      block.fill(i);
+      box.post(block);
+    }
+  });
+  std::uint64_t seen = 0;
+  while (seen < kLast) {
+    const Block* block = box.take();
+    if (block == nullptr) {
+      std::this_thread::yield();
+      continue;
+    }
+    for (const std::uint64_t one : *block) ASSERT_EQ(one, (*block)[0]);
+    ASSERT_GT((*block)[0], seen);
+    seen = (*block)[0];
+  }
+  writer.join();
+  EXPECT_EQ(seen, kLast);
+}
+
+TEST(Mail, ActsFromTheTickThatIsNoted) {
+  ebac::Setup setup;
+  setup.hand.path[0] = Step{.target = 0.03};
+  const Tca law(Tca::Params{.kp = 0});
+  auto loop = simulated_loop(setup, PerAxis<Tca>(law));
+  const auto trace = loop.make_trace(600);
+  Mail<PerAxis<Tca>> mail(law);
+  const std::uint64_t first = mail.post(Environment(Wall{.stiffness = 100}));
+  const std::uint64_t second = mail.post(Tca({.kp = 0, .peak_force = 0.5}));
+  const std::uint64_t third = mail.post(Aim{.target = {0.02, 0, 0}});
+  EXPECT_TRUE(loop.run(*trace, &mail));
+  ASSERT_EQ(mail.changes().size(), 3U);
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(mail.changes()[i].tick, 0);
+  EXPECT_EQ(mail.changes()[0].serial, second);
+  EXPECT_EQ(mail.changes()[1].serial, first);
+  EXPECT_EQ(mail.changes()[2].serial, third);
+  double most = 0;
+  double furthest = 0;
+  for (std::size_t row = 0; row < trace->size(); ++row) {
+    const Port port = trace->sample(row).axis[0].port;
+    most = std::max(most, port.f_cmd);
+    furthest = std::max(furthest, port.f_env / 100);
+  }
+  EXPECT_EQ(most, 0.5);
+  EXPECT_GT(furthest, 0.018);  // towards 20 mm, overshoot added, not the 30 mm of the start
+  EXPECT_LT(furthest, 0.028);
+}
+
+TEST(Mail, ALawKeepsItsMemoryWhenItsGainsChange) {
+  Port port{.dx = 1e-5, .v = 0.01, .dt = 1e-3, .f_env = 1};
+  Tca law(Tca::Params{.kp = 0, .kd = 0.01});
+  for (int i = 0; i < 50; ++i) law.step(port);
+  port.f_env = 2;
+  Tca same = law;
+  same.retune(Tca(law.params()));
+  EXPECT_EQ(law.step(port), same.step(port));
+  Tca fresh{law.params()};
+  EXPECT_NE(law.step(port), fresh.step(port));
+}
+
+template <class... Law>
+constexpr bool all_tunable(std::tuple<Law...>*) {
+  return (Tunable<Law> && ...) && (std::is_trivially_copyable_v<Law> && ...);
+}
+static_assert(all_tunable(static_cast<Laws*>(nullptr)));
+
+TEST(Retune, TellsWhatMayNotChange) {
+  const Ebac now(Ebac::Params{});
+  EXPECT_NO_THROW(check_retune(now, Ebac({.kp = 0.2})));
+  try {
+    check_retune(now, Ebac({.mass = 0.3}));
+    FAIL() << "the mass changed";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_STREQ(error.what(),
+                 "ebac.mass = 0.3 kg: cannot change from 0.25 while the loop runs; stop it first");
+  }
+  EXPECT_THROW(check_retune(now, Ebac({}, {.delay = 2})), std::invalid_argument);
+}
+
+/// Retuned to what it is, a law goes on as if nothing had happened.
+template <class Law>
+void expect_same_after_retune() {
+  const ebac::Setup setup;
+  const Law law(Law::Params::design(setup.device.facts(), setup.timing), setup.timing);
+  const auto plain = simulate(setup, law);
+  auto loop = simulated_loop(setup, PerAxis<Law>(law));
+  const auto trace = loop.make_trace(row_count(setup));
+  Mail<PerAxis<Law>> mail(law);
+  mail.post(law);
+  loop.run(*trace, &mail);
+  ASSERT_EQ(mail.changes().size(), 1U);
+  ASSERT_EQ(trace->size(), plain->size());
+  for (std::size_t row = 0; row < trace->size(); ++row) {
+    ASSERT_EQ(trace->sample(row).axis[0].port.f_cmd, plain->sample(row).axis[0].port.f_cmd)
+        << Law::kName << ", row " << row;
+  }
+}
+
+TEST(Retune, ToTheSameChangesNothing) {
+  [&]<class... Law>(std::tuple<Law...>*) {
+    (expect_same_after_retune<Law>(), ...);
+  }(static_cast<Laws*>(nullptr));
+}
+
+}  // namespace
+}  // namespace ebac

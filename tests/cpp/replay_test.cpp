@@ -1,0 +1,98 @@
+#include "ebac/sim/replay.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <cstring>
+
+#include "ebac/control/ebac.hpp"
+#include "ebac/control/tca.hpp"
+#include "ebac/sim/simulate.hpp"
+
+namespace ebac {
+namespace {
+
+/// The log of a run, as a recorder would have kept it.
+std::shared_ptr<ReplayLog> log_of(const Trace& trace) {
+  auto log = std::make_shared<ReplayLog>();
+  log->axes = static_cast<std::size_t>(trace.axes());
+  for (std::size_t i = 0; i < trace.size(); ++i) {
+    const Sample s = trace.sample(i);
+    log->instant.push_back({s.t, s.axis[0].port.dt, s.lateness});
+    log->fault.push_back(Fault::kNone);
+    for (std::size_t a = 0; a < log->axes; ++a) {
+      const auto& [joint, port] = s.axis[a];
+      log->axis.push_back({.counts = joint.counts,
+                           .current_applied = joint.current_applied,
+                           .force = port.f_meas,
+                           .recorded = {port.f_env, port.f_cmd, joint.current}});
+    }
+  }
+  return log;
+}
+
+Setup two_axes() {
+  Setup setup;
+  setup.device.kinematics = Linear{.axes = 2};
+  setup.device.encoder.counter_bits = 10;  // wraps during the run
+  setup.jitter = 0.2;
+  setup.seconds = 0.5;
+  return setup;
+}
+
+template <Controller Law>
+Law designed(const Setup& setup) {
+  return Law(Law::Params::design(setup.device.facts(), setup.timing), setup.timing);
+}
+
+TEST(Replay, TheSameLawCommandsTheSameBits) {
+  const auto setup = two_axes();
+  const auto law = designed<Ebac>(setup);
+  const auto recorded = simulate(setup, law);
+  const auto again = replay(log_of(*recorded), PerAxis<Ebac>(law), setup.device, setup.environment);
+  ASSERT_EQ(again->size(), recorded->size());
+  for (std::size_t i = 0; i < recorded->size(); ++i) {
+    const std::byte* was = recorded->data() + i * recorded->row_bytes() + offsetof(Sample, axis);
+    const std::byte* is = again->data() + i * again->row_bytes() + offsetof(Sample, axis);
+    ASSERT_EQ(std::memcmp(was, is, 2 * sizeof(Axis)), 0) << "row " << i;
+  }
+}
+
+TEST(Replay, AnotherLawMovesNothing) {
+  const auto setup = two_axes();
+  const auto recorded = simulate(setup, designed<Ebac>(setup));
+  const auto other = replay(log_of(*recorded), PerAxis<Tca>(designed<Tca>(setup)), setup.device,
+                            setup.environment);
+  bool differs = false;
+  for (std::size_t i = 0; i < recorded->size(); ++i) {
+    const Axis was = recorded->sample(i).axis[0];
+    const Axis is = other->sample(i).axis[0];
+    ASSERT_EQ(was.port.x, is.port.x);
+    ASSERT_EQ(was.port.f_applied, is.port.f_applied);
+    differs |= was.port.f_cmd != is.port.f_cmd;
+  }
+  EXPECT_TRUE(differs);
+}
+
+TEST(Replay, TheFaultOfTheDeviceComesInItsTick) {
+  const auto setup = two_axes();
+  const auto law = designed<Ebac>(setup);
+  const auto log = log_of(*simulate(setup, law));
+  log->fault[100] = Fault::kDriveSilent;
+  const auto again = replay(std::shared_ptr<const ReplayLog>(log), PerAxis<Ebac>(law), setup.device,
+                            setup.environment);
+  EXPECT_EQ(again->size(), 110u);
+  EXPECT_EQ(again->sample(99).fault, Fault::kNone);
+  EXPECT_EQ(again->sample(100).fault, Fault::kDriveSilent);
+  EXPECT_EQ(again->sample(100).axis[0].port.f_cmd, 0);
+}
+
+TEST(Replay, BeyondItsEndALogStandsStill) {
+  const auto log = log_of(*simulate(two_axes(), designed<Ebac>(two_axes())));
+  ReplayDevice device(log);
+  for (std::size_t i = 0; i < log->rows() + 5; ++i) device.exchange({});
+  EXPECT_EQ(device.exchange({}).counts[0], log->axis[(log->rows() - 1) * 2].counts);
+}
+
+}  // namespace
+}  // namespace ebac

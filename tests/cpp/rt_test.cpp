@@ -1,0 +1,141 @@
+// A loop in a thread of its own. No test asserts a deadline: the machine decides when it wakes.
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <stdexcept>
+#include <thread>
+
+#include "ebac/control/direct.hpp"
+#include "ebac/rt/grants.hpp"
+#include "ebac/rt/jitter.hpp"
+#include "ebac/rt/loop_thread.hpp"
+#include "ebac/rt/monotonic_clock.hpp"
+#include "ebac/sim/simulate.hpp"
+
+namespace ebac::rt {
+namespace {
+
+TEST(MonotonicClock, NeverWakesBeforeItsInstantAndCountsWhatItSkips) {
+  constexpr double kDt = 1e-3;
+  MonotonicClock clock(kDt);
+  EXPECT_EQ(clock.wait().t, 0);
+  double t = 0;
+  std::int64_t ticks = 0;
+  for (int i = 0; i < 60; ++i) {
+    if (i == 20) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    const Instant now = clock.wait();
+    ticks += 1 + now.skipped;
+    EXPECT_GT(now.dt, 0);
+    EXPECT_NEAR(now.t, t + now.dt, 1e-12);
+    EXPECT_GE(now.lateness, 0);
+    EXPECT_LT(now.lateness, kDt);  // a whole tick late is a tick skipped
+    EXPECT_NEAR(now.t, static_cast<double>(ticks) * kDt + now.lateness, 1e-9);
+    if (i == 20) {
+      EXPECT_GE(now.skipped, 8);
+    }
+    t = now.t;
+  }
+  EXPECT_EQ(clock.skipped(), ticks - 60);
+}
+
+TEST(Thread, ReportsWhatItGotAndHowToGetTheRest) {
+  std::atomic<int> runs = 0;
+  const Options options{.priority = 10, .cpu = 1023, .stack = 65536};
+  {
+    Thread thread(Mode::kAuto, options, [&] { ++runs; });
+    thread.join();
+    ASSERT_EQ(thread.report().grants.size(), 4U);
+    for (const Grant& grant : thread.report().grants) {
+      EXPECT_EQ(grant.granted, grant.remedy.empty()) << grant.name;
+      EXPECT_EQ(grant.granted, grant.why.empty()) << grant.name;
+    }
+    const Grant& cpu = thread.report().grants[2];
+    EXPECT_EQ(cpu.name, "cpu");
+    EXPECT_FALSE(cpu.granted);  // no machine of the tests has 1024
+    EXPECT_NE(cpu.remedy.find("taskset -c 1023"), std::string::npos) << cpu.remedy;
+  }
+  EXPECT_EQ(runs, 1);
+}
+
+TEST(Thread, EnforceRunsNothingWithoutItAll) {
+  std::atomic<int> runs = 0;
+  try {
+    const Thread thread(Mode::kEnforce, {.cpu = 1023}, [&] { ++runs; });
+    FAIL() << "it started";
+  } catch (const std::runtime_error& error) {
+    EXPECT_NE(std::string(error.what()).find("CPU 1023"), std::string::npos) << error.what();
+  }
+  EXPECT_EQ(runs, 0);
+}
+
+TEST(Thread, OffAsksForNothing) {
+  std::atomic<int> runs = 0;
+  Thread thread(Mode::kOff, {.cpu = 1023}, [&] { ++runs; });
+  thread.join();
+  EXPECT_TRUE(thread.report().grants.empty());
+  EXPECT_EQ(runs, 1);
+}
+
+TEST(Thread, RefusesOptionsOutOfRange) {
+  EXPECT_THROW(Thread(Mode::kAuto, {.priority = 0}, [] {}), std::invalid_argument);
+}
+
+TEST(Jitter, HasAWakeUpForEveryTickThatWasKept) {
+  const std::atomic<bool> cancelled = false;
+  const Jitter jitter = measure_jitter(1e-3, 100, Mode::kOff, {}, cancelled);
+  EXPECT_LE(jitter.lateness.size(), 100U);
+  EXPECT_GE(static_cast<std::int64_t>(jitter.lateness.size()) + jitter.skipped, 100);
+  for (const double late : jitter.lateness) EXPECT_GE(late, 0);
+}
+
+using LiveLoop = Loop<SimulatedDevice, MonotonicClock, PerAxis<Direct>>;
+
+struct Live {
+  Setup setup{};
+  Direct law{Direct::Params{}};
+  std::shared_ptr<Mail<PerAxis<Direct>>> mail = std::make_shared<Mail<PerAxis<Direct>>>(law);
+  std::unique_ptr<LiveLoop> loop = std::make_unique<LiveLoop>(
+      SimulatedDevice(setup), MonotonicClock(1e-3), PerAxis<Direct>(law),
+      Rig(setup.device, setup.environment), 1,
+      LoopOptions{.plan = {.soft_start = 0.01, .ramp_down = 0.01, .arm = true}});
+  std::shared_ptr<Trace> trace = loop->make_trace(3000);
+};
+
+TEST(LoopThread, IsReadAndToldWhileItRunsAndStops) {
+  Live live;
+  LoopThread<SimulatedDevice, MonotonicClock, PerAxis<Direct>> thread(
+      std::move(live.loop), live.trace, live.mail, Mode::kAuto, {.priority = 1});
+  double sum = 0;
+  for (int i = 0; i < 30; ++i) {
+    while (thread.trace().size() < static_cast<std::size_t>(5 * (i + 1)) && !thread.done()) {
+      std::this_thread::yield();
+    }
+    live.mail->post(Environment(Wall{.stiffness = 1000.0 + i}));
+    live.mail->post(Direct({.peak_force = 10.0 + i}));
+    sum += thread.trace().sample(thread.trace().size() - 1).t;
+  }
+  EXPECT_GT(sum, 0);
+  thread.stop();
+  thread.join();
+  EXPECT_TRUE(thread.done());
+  EXPECT_EQ(thread.loop().state(), LoopState::kIdle);
+  EXPECT_GT(live.mail->changes().size(), 0U);
+  EXPECT_EQ(thread.unrecorded(), 0);
+  const Sample last = live.trace->sample(live.trace->size() - 1);
+  EXPECT_EQ(last.state, static_cast<int>(LoopState::kStop));
+  EXPECT_EQ(last.axis[0].joint.current, 0);
+}
+
+TEST(LoopThread, AFullTraceIsAStopAndNothingIsSilent) {
+  Live live;
+  live.trace = live.loop->make_trace(20);
+  LoopThread<SimulatedDevice, MonotonicClock, PerAxis<Direct>> thread(
+      std::move(live.loop), live.trace, live.mail, Mode::kOff, {});
+  thread.join();
+  EXPECT_EQ(live.trace->size(), 20U);
+  EXPECT_GE(thread.unrecorded(), 10);
+  EXPECT_EQ(thread.loop().state(), LoopState::kIdle);
+}
+
+}  // namespace
+}  // namespace ebac::rt

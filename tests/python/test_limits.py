@@ -1,0 +1,155 @@
+"""Limits, states and soft start of a simulated run: nothing exceeds them, and without them nothing changes."""
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import ebac
+from ebac import _core
+
+Limits = _core.Limits
+
+
+def scenario(**changes: object) -> ebac.Scenario:
+    return ebac.Scenario(seconds=0.5).replace(**changes)
+
+
+def test_without_limits_a_row_has_the_bits_it_always_had() -> None:
+    plain = ebac.simulate(scenario())
+    wide = Limits(
+        continuous_current=900,
+        peak_current=1000,
+        slew=1e9,
+        speed=100,
+        jump=1,
+        edge=9,
+        end=10,
+        force_age=10,
+    )
+    limited = ebac.simulate(scenario(), limits=wide)
+    for name in plain:
+        assert np.array_equal(plain[name], limited[name], equal_nan=True), name
+    assert set(limited) - set(plain) == {"limit.heat", "limit.ceiling"}
+    assert (plain["state"] == int(_core.LoopState.RUN)).all()
+    assert (plain["limited"] == 0).all()
+
+
+def test_limits_of_the_device_do_not_touch_the_reference_wall_after_its_impact() -> None:
+    trace = ebac.simulate(ebac.Scenario(), limits=True)
+    assert trace["limit.heat"].max() < 1
+    assert not trace["fault"].any()
+
+
+@settings(max_examples=25)
+@given(
+    peak=st.floats(0.05, 3),
+    share=st.floats(0.1, 1),
+    slew=st.floats(5, 5000),
+    thermal=st.floats(0.01, 10),
+    law=st.sampled_from(["direct", "tca", "ebac"]),
+)
+def test_no_tick_exceeds_a_limit(
+    peak: float, share: float, slew: float, thermal: float, law: str
+) -> None:
+    limits = Limits(
+        continuous_current=peak * share,
+        peak_current=peak,
+        slew=slew,
+        thermal_time=thermal,
+        edge=1,
+        end=2,
+        speed=100,
+        jump=1,
+    )
+    run = scenario()
+    try:
+        trace = ebac.simulate(run, law, limits=limits)
+    except ebac.LoopFault as stopped:
+        trace = stopped.trace
+    current = trace["current"]
+    assert np.abs(current).max() <= peak
+    assert (
+        np.abs(np.diff(current, prepend=0)).max() <= slew * run.timing.dt * (1 + 1e-9)
+        or (trace["limited"] & int(_core.Limited.THERMAL)).any()
+    )
+    assert trace["limit.heat"].max() <= 1 + 1e-12
+    held = np.abs(current) < np.abs(trace["tau"]) / (0.0538 * 20) * (1 - 1e-9)
+    assert (trace["limited"][held] != 0).all(), "what was held back has a reason"
+
+
+def test_soft_start_brings_the_force_in() -> None:
+    trace = ebac.simulate(scenario(hand=ebac.Hand()), "direct", soft_start=0.2)
+    share = trace["current"] * 0.0538 * 20 / np.where(trace["tau"] == 0, 1, trace["tau"])
+    rows = (trace["tau"] != 0) & (trace["t"] < 0.19)
+    assert rows.any()
+    assert share[rows] == pytest.approx(trace["t"][rows] / 0.2, rel=1e-9)
+    assert (trace["limited"][rows] == int(_core.Limited.RAMP)).all()
+    later = (trace["t"] > 0.21) & (trace["tau"] != 0)
+    assert share[later] == pytest.approx(1)
+
+
+def test_leaving_the_workspace_is_a_fault_with_zero_force() -> None:
+    hand = ebac.Hand(path=ebac.Step(target=0.2))
+    with pytest.raises(ebac.LoopFault) as stopped:
+        ebac.simulate(
+            scenario(hand=hand, environment=ebac.Free()), limits=Limits(speed=50, jump=0.5)
+        )
+    assert stopped.value.fault is _core.Fault.WORKSPACE
+    trace = stopped.value.trace
+    row = int((trace["fault"] != 0).argmax())
+    assert (trace["state"][row:] == int(_core.LoopState.STOP)).all()
+    assert len(trace) - row == 10
+    assert (trace["current"][row:] == 0).all()
+    assert (trace["limited"][:row] & int(_core.Limited.EDGE)).any(), "the soft wall came first"
+
+
+def test_a_fast_hand_is_named() -> None:
+    hand = ebac.Hand(path=ebac.Step(target=0.04), stiffness=5000, damping=1)
+    with pytest.raises(ebac.LoopFault) as stopped:
+        ebac.simulate(scenario(hand=hand, environment=ebac.Free()), limits=True)
+    assert stopped.value.fault is _core.Fault.OVERSPEED
+
+
+def test_through_can_limits_are_the_same() -> None:
+    plain = ebac.simulate(
+        ebac.Scenario(seconds=0.3, device=ebac.Device(drive=ebac.Drive(permille=True))),
+        limits=True,
+    )
+    bus = ebac.simulate(ebac.Scenario(seconds=0.3), through="can", limits=True)
+    for name in plain:
+        assert np.array_equal(plain[name], bus[name], equal_nan=True), name
+
+
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        ({"peak_current": 0.5}, "Limits.continuous_current = 0.985 A: must lie in"),
+        ({"end": 0.01}, "Limits.edge = 0.0474 m: must lie in"),
+    ],
+)
+def test_limits_that_contradict_each_other_are_refused(
+    changes: dict[str, float], words: str
+) -> None:
+    with pytest.raises(ValueError, match=words.replace(".", r"\.")):
+        ebac.simulate(scenario(), limits=Limits(**changes))
+
+
+def test_a_bad_soft_start_is_refused() -> None:
+    with pytest.raises(ValueError, match="soft_start = -1 s"):
+        ebac.simulate(scenario(), soft_start=-1)
+    with pytest.raises(ValueError, match="soft_start"):
+        ebac.simulate(scenario(), soft_start=math.nan)
+
+
+def test_every_fault_and_every_limit_is_documented() -> None:
+    from pathlib import Path
+
+    text = (Path(__file__).parents[2] / "docs" / "faults.md").read_text(encoding="utf-8")
+    for fault in _core.Fault:
+        if fault is not _core.Fault.NONE:
+            assert f"| {int(fault)} | `{fault.name}` |" in text
+    for bit in _core.Limited:
+        assert f"| {int(bit)} | `{bit.name}` |" in text

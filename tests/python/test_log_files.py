@@ -1,0 +1,300 @@
+"""Traces in files of every format, and `ebac log`."""
+
+import json
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+from typer.testing import CliRunner
+
+import ebac
+from ebac.cli import app
+from ebac.logs import FORMATS, Event, Recorder, read
+
+runner = CliRunner()
+
+
+@pytest.fixture(params=[1, 2], ids=["one axis", "two axes"])
+def trace(request: pytest.FixtureRequest, run: Any) -> ebac.Trace:
+    device = ebac.Device(kinematics=ebac.Linear(axes=request.param))
+    world = ebac.Corner() if request.param > 1 else ebac.Wall()
+    traced = run("ebac", device=device, environment=world, seconds=0.2, jitter=0.2)
+    assert isinstance(traced, ebac.Trace)
+    return traced
+
+
+# --- formats ---
+
+
+def test_csv_comes_back(trace: ebac.Trace, tmp_path: Path) -> None:
+    trace.save(tmp_path / "run.csv")
+    back = ebac.load(tmp_path / "run.csv")
+    assert list(back) == list(trace)
+    assert back.axes == trace.axes
+    for name in trace:
+        assert back[name].shape == trace[name].shape, name
+        assert (back[name] == trace[name]).all() or np.array_equal(
+            back[name], trace[name], equal_nan=True
+        ), name
+        assert back.columns[name].unit == trace.columns[name].unit
+    assert back["counts"].dtype == np.int64
+    assert back["x"].dtype == np.float64
+
+
+def test_npz_and_mcap_come_back_whole(trace: ebac.Trace, tmp_path: Path) -> None:
+    for name in ("run.npz", "run.mcap", "RUN.MCAP"):
+        trace.save(tmp_path / name)
+        back = ebac.load(tmp_path / name)
+        assert back.scenario == trace.scenario
+        assert (back.law, back.law_repr, back.columns) == (trace.law, trace.law_repr, trace.columns)
+        for column in trace:
+            assert back[column].tobytes() == trace[column].tobytes()
+
+
+def test_parquet_holds_numbers_and_units(trace: ebac.Trace, tmp_path: Path) -> None:
+    parquet = pytest.importorskip("pyarrow.parquet")
+    trace.save(tmp_path / "run.parquet")
+    table = parquet.read_table(tmp_path / "run.parquet")
+    for name, info, values in trace.flat():
+        assert table[name].to_numpy().tobytes() == values.tobytes(), name
+        told = table.schema.field(name).metadata
+        assert (told[b"unit"].decode(), told[b"meaning"].decode()) == (info.unit, info.meaning)
+    assert ebac.Scenario.from_toml(table.schema.metadata[b"scenario"].decode()) == trace.scenario
+    frame = pd.read_parquet(tmp_path / "run.parquet")
+    assert len(frame) == len(trace)
+
+
+def test_mat_holds_numbers_and_units(trace: ebac.Trace, tmp_path: Path) -> None:
+    from scipy.io import loadmat
+
+    trace.save(tmp_path / "run.mat")
+    read_back = loadmat(tmp_path / "run.mat")
+    for name in trace:
+        values = read_back[name.replace(".", "_")]
+        assert values.shape == (len(trace), 1 if trace[name].ndim == 1 else trace.axes)
+        expected = np.ascontiguousarray(trace[name]).reshape(values.shape)
+        assert np.ascontiguousarray(values).astype(expected.dtype).tobytes() == expected.tobytes()
+        unit = read_back["units"][0, 0][name.replace(".", "_")].item()
+        assert unit == trace.columns[name].unit
+    assert read_back["about"][0, 0]["law"].item() == "ebac"
+
+
+def test_hdf5_holds_numbers_and_units(trace: ebac.Trace, tmp_path: Path) -> None:
+    h5py = pytest.importorskip("h5py")
+    for part in (trace, trace[5:6]):
+        part.save(tmp_path / "run.h5")
+        with h5py.File(tmp_path / "run.h5") as file:
+            assert set(file) == set(trace)
+            for name in part:
+                assert file[name][()].tobytes() == part[name].tobytes(), name
+                assert file[name].attrs["unit"] == trace.columns[name].unit
+            assert file.attrs["law_repr"] == trace.law_repr
+
+
+@pytest.mark.parametrize("kind", FORMATS)
+def test_a_file_appears_whole_or_not_at_all(
+    kind: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    trace = ebac.simulate(ebac.Scenario(seconds=0.1), "tca")
+    path = tmp_path / f"run{kind}"
+    trace.save(path)
+    before = path.read_bytes()
+    monkeypatch.setattr(Path, "replace", lambda *_: (_ for _ in ()).throw(OSError("no")))
+    with pytest.raises(OSError, match="no"):
+        trace.save(path)
+    assert path.read_bytes() == before
+    assert list(tmp_path.iterdir()) == [path]
+
+
+def test_an_unknown_extension_is_refused(tmp_path: Path) -> None:
+    trace = ebac.simulate(ebac.Scenario(seconds=0.1), "tca")
+    with pytest.raises(ValueError, match=r"run\.xlsx: must end in \.mcap, \.npz, \.csv, \.parquet"):
+        trace.save(tmp_path / "run.xlsx")
+    with pytest.raises(ValueError, match=r"run\.mat: must end in \.mcap, \.npz, \.csv$"):
+        ebac.load(tmp_path / "run.mat")
+    for name in ("run.mcap", "run.npz", "run.csv"):
+        with pytest.raises(FileNotFoundError):
+            ebac.load(tmp_path / name)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_missing_library_says_what_to_install(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    trace = ebac.simulate(ebac.Scenario(seconds=0.1), "tca")
+    monkeypatch.setattr("importlib.util.find_spec", lambda name: None)
+    for kind, extra in ((".mat", "log"), (".h5", "log"), (".parquet", "sweep")):
+        with pytest.raises(ModuleNotFoundError, match=rf"pip install 'ebac\[{extra}\]'"):
+            trace.save(tmp_path / f"run{kind}")
+    assert list(tmp_path.iterdir()) == []
+
+
+@given(text=st.text(alphabet="tx[m], _01.e-\n", max_size=60))
+@settings(
+    deadline=None, max_examples=60, suppress_health_check=[HealthCheck.function_scoped_fixture]
+)
+def test_any_text_as_csv_is_read_or_refused_by_its_name(tmp_path: Path, text: str) -> None:
+    path = tmp_path / "any.csv"
+    for start in ("", "tick,t [s],x [m]\n0,0.0,1.0\n"):
+        path.write_text(start + text)
+        try:
+            assert "t" in ebac.load(path)
+        except ValueError as error:
+            if "any.csv" not in str(error):
+                raise
+
+
+# --- the command line ---
+
+
+def invoke(*words: object, code: int = 0) -> str:
+    result = runner.invoke(app, ["log", *map(str, words)])
+    assert result.exit_code == code, result.output
+    return " ".join(result.output.split())
+
+
+@pytest.fixture
+def recorded(tmp_path: Path) -> Path:
+    """A recorded log with a lost row, a parameter change and an attachment."""
+    source = ebac.EBAC()._simulate(ebac.Scenario(seconds=0.2).setup())
+    rows = source.empty_like(500)
+    path = tmp_path / "run.mcap"
+    with Recorder(
+        rows, path, law="ebac", law_repr="EBAC()", start=1.6e9, files={"joystick.toml": "[drive]"},
+        scenario=ebac.Scenario(seconds=0.2),
+    ) as recorder:  # fmt: skip
+        _, raw = source.copy(0, source.count)
+        for i, row in enumerate(raw.reshape(-1, source.row_bytes)):
+            if i != 100:
+                rows.append(row)
+        recorder.event("parameter", "damping raised", damping_Ns_per_m=40)
+    return path
+
+
+def test_info_tells_what_is_in_a_log(recorded: Path) -> None:
+    told = json.loads(invoke("info", recorded, "--json"))
+    assert told["command"] == "log info"
+    assert (told["complete"], told["log_rows"], told["lost_rows"]) == (True, 200, 1)
+    assert told["gaps"] == [{"after_tick": 99, "t_s": pytest.approx(0.099), "rows": 1}]
+    assert told["rate_Hz"] == pytest.approx(1000)
+    assert told["start_s"] == 1.6e9
+    assert told["events"][0]["values"] == {"damping_Ns_per_m": 40}
+    assert set(told["attachments"]) == {"scenario.toml", "joystick.toml"}
+    by_name = {row["column"]: row for row in told["rows"]}
+    assert (by_name["x"]["unit"], by_name["x"]["type"]) == ("m", "float64")
+    shown = invoke("info", recorded)
+    for words in ("complete", "200", "1 missing", "2020-09-13 12:26:40 UTC", "1 rows after tick 99",
+                  "damping raised", "handle position"):  # fmt: skip
+        assert words in shown, words
+
+
+def test_info_of_a_log_that_was_cut(recorded: Path) -> None:
+    whole = recorded.read_bytes()
+    recorded.write_bytes(whole[:-30])
+    assert json.loads(invoke("info", recorded, "--json"))["complete"] is False
+    assert "its end is missing" in invoke("info", recorded)
+    recorded.write_bytes(whole[:100])
+    assert "cut before its columns" in invoke("info", recorded, code=2)
+
+
+def test_repair_on_the_command_line(recorded: Path) -> None:
+    recorded.write_bytes(recorded.read_bytes()[:-30])
+    (row,) = json.loads(invoke("repair", recorded, "--json"))["rows"]
+    new = recorded.with_name("run.repaired.mcap")
+    assert (row["file"], row["rows"], row["events"], row["lost_rows"]) == (str(new), 200, 1, 1)
+    assert read(new).condition.complete
+    assert "there is such a file" in invoke("repair", recorded, code=2)
+    assert "200 rows" in invoke("repair", recorded, "--out", recorded.with_name("b.mcap"))
+
+
+@pytest.mark.parametrize("kind", FORMATS)
+def test_export_to_every_format(kind: str, recorded: Path) -> None:
+    out = recorded.with_name(f"out{kind}")
+    (row,) = json.loads(invoke("export", recorded, out, "--json"))["rows"]
+    assert (row["rows"], row["bytes"]) == (200, out.stat().st_size)
+    assert "--force" in invoke("export", recorded, out, code=2)
+    assert "51 rows" in invoke("export", recorded, out, "--from", 0.1, "--to", 0.1515, "--force")
+
+
+def test_export_refuses(recorded: Path) -> None:
+    assert "must end in" in invoke("export", recorded, "out.xls", code=2)
+    assert "no such file" in invoke("export", "none.mcap", recorded.with_name("a.csv"), code=2)
+    refused = invoke("export", recorded, recorded.with_name("a.csv"), "--from", 7, code=2)
+    assert "the log has 0 to 0.2 s" in refused
+    assert not recorded.with_name("a.csv").exists()
+    missing = recorded.parent / "no folder" / "a.csv"
+    assert "a.csv: cannot be written" in invoke("export", recorded, missing, code=2)
+    assert "no rows to -1 s" in invoke(
+        "export", recorded, recorded.with_name("a.csv"), "--to", -1, code=2
+    )
+    assert "x.csv: must end in .mcap" in invoke("repair", recorded, "--out", "x.csv", code=2)
+    assert "cannot be written" in invoke(
+        "repair", recorded, "--out", missing.with_suffix(".mcap"), code=2
+    )
+
+
+def test_a_log_without_rows_is_told_and_exported(tmp_path: Path) -> None:
+    trace = ebac.simulate(ebac.Scenario(seconds=0.1), "ebac")
+    path = tmp_path / "none.mcap"
+    trace[5:6].save(path)
+    assert json.loads(invoke("info", path, "--json"))["log_rows"] == 0
+    assert "none" in invoke("info", path)
+    assert "0 rows" in invoke("export", path, tmp_path / "none.csv")
+    assert len(ebac.load(tmp_path / "none.csv")) == 0
+    assert "at least 2" in invoke("plot", path, code=2)
+
+
+def test_plot_draws_the_figure_or_columns(recorded: Path) -> None:
+    assert "run.png" in invoke("plot", recorded)
+    assert recorded.with_suffix(".png").read_bytes().startswith(b"\x89PNG")
+    out = recorded.with_name("two.svg")
+    invoke(
+        "plot",
+        recorded,
+        "-c",
+        "x",
+        "-c",
+        "v",
+        "-c",
+        "tick",
+        "-c",
+        "x",
+        "--from",
+        0.05,
+        "--out",
+        out,
+    )
+    assert "<svg" in out.read_text()
+    assert "no column 'speed'" in invoke("plot", recorded, "-c", "speed", code=2)
+    assert "must end in .png" in invoke("plot", recorded, "--out", "a.txt", code=2)
+    assert "at least 2" in invoke("plot", recorded, "--from", 0.1995, code=2)
+
+
+def test_wall_writes_logs(tmp_path: Path) -> None:
+    words = ["wall", "--seconds", "0.2", "--no-files", "--json"]
+    result = runner.invoke(app, [*words, "-l", "tca", "--log", str(tmp_path / "one.mcap")])
+    assert result.exit_code == 0, result.output
+    assert read(tmp_path / "one.mcap").trace.law == "tca"
+    result = runner.invoke(
+        app, [*words, "-l", "tca", "-l", "ebac", "--log", str(tmp_path / "a.csv")]
+    )
+    assert result.exit_code == 0, result.output
+    assert sorted(path.name for path in tmp_path.iterdir()) == [
+        "a-ebac.csv",
+        "a-tca.csv",
+        "one.mcap",
+    ]
+    for bad in ("a.xls", str(tmp_path / "none" / "a.mcap")):
+        result = runner.invoke(app, [*words, "--log", bad])
+        assert result.exit_code == 2
+
+
+def test_events_of_people_are_shown_as_they_are(recorded: Path) -> None:
+    event = Event(kind="note", message="a [bold] word", tick=1, t=0.0)
+    assert Event.from_json(event.to_json(0)) == event
+    with pytest.raises(ValueError, match="not an event"):
+        Event.from_json(b"[]")
