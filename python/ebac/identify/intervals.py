@@ -72,12 +72,19 @@ def covariance(
     return np.asarray(every[:free, :free])
 
 
+#: 95 % of a uniform error over its width, in deviations of a normal one.
+UNIFORM = 0.475 / 1.96
+
+
 def with_counts(problem: Problem, found: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Add what the encoder leaves open of every place: its zero lies anywhere within a count."""
+    """Add what the encoder leaves open of every place: its zero lies anywhere within a count.
+
+    As the normal error whose 95 % are as wide as those of one that is uniform over a count.
+    """
     p = problem.parameters
     out = found.copy()
     place = np.array([float(kind(p.names[i]) == "X0") for i in p.free])
-    return out + np.outer(place, place) * max(r.count for r in problem.recordings) ** 2 / 12
+    return out + np.outer(place, place) * (UNIFORM * max(r.count for r in problem.recordings)) ** 2
 
 
 def loose_inverse(H: NDArray[np.float64]) -> NDArray[np.float64]:
