@@ -145,11 +145,14 @@ TEST(ArmRecord, WhatIsLeftOutTellsNothing) {
 
 TEST(ArmRecord, DoubtLetsTheHandGo) {
   ArmRecord::Log log = log_of(wave());
-  log.x = simulated(ArmRecord(log), kHand);
-  for (std::size_t i = 300; i < kRows; ++i) log.x[i] += 0.01;  // something pushed it
-  EXPECT_GT(worst(ArmRecord(log), kHand), 100.0);
-  for (std::size_t i = 296; i < 304; ++i) log.doubt[i] = 1e5;
-  EXPECT_LT(worst(ArmRecord(log), kHand), 50.0);
+  for (std::size_t i = 300; i < 308; ++i) log.inputs[0][i] = 50;  // a push nobody recorded
+  std::vector<double> pushed = kHand;
+  pushed[kShare] = 1;
+  log.x = simulated(ArmRecord(log), pushed);
+  log.inputs[0].assign(kRows, 0.0);
+  EXPECT_GT(worst(ArmRecord(log), kHand), 50.0);
+  for (std::size_t i = 299; i < 309; ++i) log.doubt[i] = 100;
+  EXPECT_LT(worst(ArmRecord(log), kHand), 2.0);
 }
 
 TEST(ArmRecord, TheJacobianIsTheSlopeOfTheErrors) {

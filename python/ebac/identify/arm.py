@@ -11,9 +11,12 @@ from numpy.typing import NDArray
 from ebac.identify.fit import fitted
 from ebac.identify.guess import regression, solve
 from ebac.identify.intervals import with_counts
+from ebac.identify.likelihood import minus_two_log
+from ebac.identify.noise import rough
 from ebac.identify.parameters import BEFORE_LEVELS, lay_out
 from ebac.identify.problem import Problem
 from ebac.identify.recording import Recording
+from ebac.identify.response import guess_by_response
 from ebac.identify.result import ArmResult
 from ebac.identify.target import Target
 
@@ -85,7 +88,7 @@ def fit_arm(
         own=own,
     )
     problem = Problem(recordings=tuple(recordings), targets=tuple(targets), parameters=parameters)
-    fit = fitted(problem, [first_guess(problem)], starts=starts, robust=robust, seed=seed)
+    fit = fitted(problem, [better_guess(problem)], starts=starts, robust=robust, seed=seed)
     return ArmResult(
         problem=problem,
         values=fit.values,
@@ -116,6 +119,27 @@ def _check(
         raise ValueError(f"starts = {starts}: must be at least 1")
     if robust is not None and not robust > 0:
         raise ValueError(f"robust = {robust}: must be positive, in standard deviations")
+
+
+def better_guess(problem: Problem) -> Values:
+    """Return the likelier one of two guesses: by regression over time, and by the spectra of the first recording."""
+    by_time = first_guess(problem)
+    place = problem.parameters.places[0]
+    recording, target = problem.recordings[0], problem.targets[0]
+    try:
+        found = guess_by_response(recording, target, by_time[place[BEFORE_LEVELS:]])
+    except ValueError:  # too short for spectra
+        return by_time
+    if found is None or not (found > 0).all():
+        return by_time
+    other = by_time.copy()
+    other[place[:3]] = found
+    other = problem.parameters.clip(other)
+    assert recording.force is not None
+    noise = max(rough(recording.force), 1e-5 * float(np.ptp(recording.force)), 1e-9)
+    record = problem.records[0]
+    costs = [minus_two_log(record, guess[place], noise) for guess in (by_time, other)]
+    return other if costs[1] < costs[0] else by_time
 
 
 def first_guess(problem: Problem) -> Values:

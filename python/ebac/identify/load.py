@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from ebac.document import unknown
 from ebac.identify.columns import UNITS_OF, assign, split_heading, unit_factor
-from ebac.identify.recording import Recording, count_of
+from ebac.identify.recording import OF_TRACE, Recording, count_of, trace_facts
 from ebac.trace import Trace
 
 Columns = dict[str, NDArray[np.float64]]
@@ -29,7 +29,7 @@ def load(
     count: float | None = None,
     axis: int = 0,
 ) -> Recording:
-    """Read CSV, .mat, or NPZ (of `Trace.to_npz`, or plain arrays).
+    """Read MCAP, CSV, .mat, or NPZ (of `Trace.to_npz`, or plain arrays).
 
     Parameters
     ----------
@@ -65,9 +65,9 @@ def load(
     path = Path(path)
     if not path.exists():
         raise FileNotFoundError(2, "there is no such file", str(path))
-    trace = _trace(path)
+    trace, wrong = _trace(path)
     if trace is not None and not columns:
-        found = Recording.from_trace(trace, axis=axis, name=path.name)
+        found = _of_trace(trace, path.name, axis, wrong)
     else:
         raw = _flat(trace) if trace is not None else _read(path)
         found = _recording(path.name, raw, columns or {}, units or {}, rate)
@@ -78,12 +78,44 @@ def load(
     return replace(found, **changes) if changes else found
 
 
-def _trace(path: Path) -> Trace | None:
+def _trace(path: Path) -> tuple[Trace | None, list[str]]:
+    """Return the trace in a file of ours, and what is wrong with it; None for a file of someone else."""
+    if path.suffix == ".mcap":
+        from ebac.logs import read
+
+        log = read(path)
+        if len(log.trace) == 0:
+            raise ValueError(
+                f"{path.name}: the log holds no rows; ebac log info says what it does hold"
+            )
+        remarks = [] if log.condition.complete else [f"the log is not whole: {log.condition}"]
+        remarks += [f"{gap.rows} rows are missing after t = {gap.t:.4g} s" for gap in log.gaps]
+        return log.trace, remarks
     if path.suffix != ".npz":
-        return None
+        return None, []
     with np.load(path, allow_pickle=False) as archive:
         ours = "about" in archive
-    return Trace.from_npz(path) if ours else None
+    return (Trace.from_npz(path) if ours else None), []
+
+
+def _of_trace(trace: Trace, name: str, axis: int, wrong: list[str]) -> Recording:
+    """Return one axis of a trace; rows that are missing, or late, are put on equal steps, and said."""
+    if not 0 <= axis < trace.axes:
+        raise ValueError(f"{name}: axis = {axis}: must lie in [0, {trace.axes - 1}]")
+    t = np.array(trace["t"], dtype=float)
+    step = np.diff(t)
+    if len(t) > 1 and (step > 0).all() and np.ptp(step) <= 1e-3 * float(np.median(step)):
+        found = Recording.from_trace(trace, axis=axis, name=name)
+        return replace(found, remarks=(*found.remarks, *wrong))
+    signals: Columns = {
+        key: np.array(trace.axis(column, axis), dtype=float)
+        for key, column in OF_TRACE.items()
+        if column in trace
+    }
+    even = _evenly(name, {"t": t, **signals}, wrong)
+    facts = trace_facts(trace)
+    values: dict[str, Any] = dict(even)
+    return Recording(name=name, remarks=(*facts.pop("remarks"), *wrong), **facts, **values)
 
 
 def _flat(trace: Trace) -> Columns:
@@ -207,12 +239,31 @@ def _recording(
         if rate is None:
             raise ValueError(f"{name}: has no time; say how many rows a second: rate=... or --rate")
         signals["t"] = np.arange(len(signals["x"])) / rate
+    _plausible(name, signals)
     even: dict[str, Any] = dict(_evenly(name, signals, remarks))
     found = count_of(even["x"])
     remarks.append(
         f"encoder step of {1e3 * found:.4g} mm found in x" if found else "x shows no encoder step"
     )
     return Recording(name=name, count=found, remarks=tuple(remarks), **even)
+
+
+#: What no hand does, by signal: more than this is a wrong unit [m, N].
+FARTHEST = {"x": 2.5, "target": 2.5, "force": 5e3, "motor": 5e3, "desired": 5e3}
+
+
+def _plausible(name: str, signals: Columns) -> None:
+    """Refuse numbers in a wrong unit, as far as that shows."""
+    for key, most in FARTHEST.items():
+        if key not in signals:
+            continue
+        span = float(np.nanmax(signals[key]) - np.nanmin(signals[key]))
+        if span > most:
+            unit = UNITS_OF[key]
+            raise ValueError(
+                f"{name}: {key} spans {span:.4g} {unit}, a hand {most:g} {unit} at most: is its unit right? "
+                f"Say it: units={{'{key}': 'm{unit}'}} or --unit {key}=m{unit}"
+            )
 
 
 def _evenly(name: str, signals: Columns, remarks: list[str]) -> Columns:

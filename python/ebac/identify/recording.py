@@ -128,29 +128,15 @@ class Recording:
     @classmethod
     def from_trace(cls, trace: Trace, *, axis: int = 0, name: str = "trace") -> Self:
         """Look at one axis of a `Trace`; count and lag are taken from its scenario where it has one."""
-        count, lag, current_lag = 0.0, 0.0, 3e-4
-        remarks = []
-        if trace.scenario is not None:
-            device = trace.scenario.device
-            count, lag = device.facts.count, device.sensor.lag
-            current_lag = device.drive.current_lag
-            remarks.append(
-                f"count {1e3 * count:.4g} mm and sensor lag {1e3 * lag:.3g} ms from the scenario"
-            )
         columns = {
             key: np.array(trace.axis(column, axis), dtype=float)
-            for key, column in _COLUMNS.items()
+            for key, column in OF_TRACE.items()
             if column in trace
         }
-        return cls(
-            name=name,
-            t=np.array(trace["t"], dtype=float),
-            count=count or count_of(columns["x"]),
-            lag=lag,
-            current_lag=current_lag,
-            remarks=tuple(remarks),
-            **columns,
-        )
+        facts = trace_facts(trace)
+        if not facts["count"]:
+            facts["count"] = count_of(columns["x"])
+        return cls(name=name, t=np.array(trace["t"], dtype=float), **facts, **columns)
 
     def __repr__(self) -> str:
         """Return one line: name, rows, rate, channels."""
@@ -160,7 +146,23 @@ class Recording:
         )
 
 
-_COLUMNS = {"x": "x", "force": "f_meas", "motor": "f_applied", "desired": "f_env"}
+#: Signals of a recording, and the columns of a trace they are.
+OF_TRACE = {"x": "x", "force": "f_meas", "motor": "f_applied", "desired": "f_env"}
+
+
+def trace_facts(trace: Trace) -> dict[str, Any]:
+    """Return count, lags and a remark, from the scenario of a trace where it has one."""
+    if trace.scenario is None:
+        return {"count": 0.0, "lag": 0.0, "current_lag": 3e-4, "remarks": ()}
+    device = trace.scenario.device
+    count, lag = device.facts.count, device.sensor.lag
+    said = f"count {1e3 * count:.4g} mm and sensor lag {1e3 * lag:.3g} ms from the scenario"
+    return {
+        "count": count,
+        "lag": lag,
+        "current_lag": device.drive.current_lag,
+        "remarks": (said,),
+    }
 
 
 def count_of(x: NDArray[np.float64]) -> float:
