@@ -118,7 +118,8 @@ def _say_arm(found: Check, more: dict[str, Any]) -> None:
         output.say(
             f"One log alone: {1e3 * more['fit_s']:.0f} ms ({1e3 * more['fit_processor_s']:.0f} ms of the processor); "
             f"the last of its objectives by SciPy {1e3 * more['scipy_s']:.0f} ms "
-            f"({1e3 * more['scipy_processor_s']:.0f} ms), optimum {more['scipy_apart_deviations']:.1g} deviations apart."
+            f"({1e3 * more['scipy_processor_s']:.0f} ms), optimum {more['scipy_apart_deviations']:.1g} deviations "
+            "apart."
         )
 
 

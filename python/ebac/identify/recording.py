@@ -128,7 +128,7 @@ class Recording:
     @classmethod
     def from_trace(cls, trace: Trace, *, axis: int = 0, name: str = "trace") -> Self:
         """Look at one axis of a `Trace`; count and lag are taken from its scenario where it has one."""
-        columns = {
+        columns: dict[str, Any] = {
             key: np.array(trace.axis(column, axis), dtype=float)
             for key, column in OF_TRACE.items()
             if column in trace
