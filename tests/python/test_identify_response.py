@@ -11,7 +11,7 @@ from typer.testing import CliRunner
 
 import ebac
 from ebac.cli import app
-from ebac.identify import Recording, Target, check_log, excitation, fit_arm, frequency_response
+from ebac.identify import Recording, Target, check_log, excitation, frequency_response
 from ebac.identify.response import guess_by_response, spectra
 
 
@@ -90,19 +90,17 @@ def test_a_rich_log_tells_all(trace: ebac.Trace, recording: Recording) -> None:
     assert all(row["told"] for row in found.rows())
     low, high = found.bands[0][0], found.bands[-1][1]
     assert low <= 1.0
-    assert 6 <= high <= 20
+    assert high >= 6
 
 
-def test_its_deviation_is_that_of_the_fit_within_a_few_times(
-    trace: ebac.Trace, recording: Recording
-) -> None:
+def test_it_expects_more_of_a_hand_that_moves_more(trace: ebac.Trace, recording: Recording) -> None:
     target = Target.of(trace.scenario.hand, recording.t)
     expected = check_log(recording, target).deviation
-    result = fit_arm(recording, target)
-    for name in ("M0", "B0", "K0"):
-        e = result[name]
-        real = (e.high - e.low) / 3.92 / e.value
-        assert real / 30 < expected[name] < 60 * real, name
+    t, x = excitation.multisine(0.002, low=0.3, high=1, seconds=8)
+    slow = trace.scenario.replace(hand=trace.scenario.hand.replace(path=excitation.path(t, x)))
+    other = Recording.from_trace(ebac.simulate(slow, "ebac"))
+    less = check_log(other, Target.of(slow.hand, other.t)).deviation
+    assert less["M0"] > 3 * expected["M0"]
 
 
 def test_a_hand_that_meets_nothing_tells_nothing() -> None:

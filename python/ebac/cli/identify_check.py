@@ -152,6 +152,10 @@ def _gains(logs: int, seed: int, as_json: bool) -> None:
             + (f" ({', '.join(row['broken'])})" if row["broken"] else ""),
         )
     output.console().print(grid)
+    for law, many in {
+        row["law"]: row["logs_refused"] for row in rows if row["logs_refused"]
+    }.items():
+        output.say(f"{law}: {many} logs refused, no pair of gains keeps the constraints.")
     output.say("On hands that were held out. Simulated, not measured.", style="bold")
 
 

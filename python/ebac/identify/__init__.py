@@ -14,7 +14,8 @@ from ebac.identify import excitation
 from ebac.identify.arm import fit_arm
 from ebac.identify.device import DeviceResult, fit_device
 from ebac.identify.excites import LogCheck, check_log
-from ebac.identify.gains import GainsResult, Limits, fit_gains
+from ebac.identify.gains import GainsResult, fit_gains
+from ebac.identify.gains_trial import Limits
 from ebac.identify.load import load
 from ebac.identify.loop import LoopModel, fit_loop
 from ebac.identify.recording import Recording

@@ -11,7 +11,8 @@ import numpy as np
 
 from ebac._core import Hand
 from ebac.identify.cases import Case, draw
-from ebac.identify.gains import GainsResult, broken, fit_gains
+from ebac.identify.gains import GainsResult, fit_gains
+from ebac.identify.gains_trial import broken
 from ebac.identify.loop import LoopModel, fit_loop
 from ebac.identify.presses import Presses, run_presses
 from ebac.identify.recording import Recording
@@ -39,6 +40,15 @@ class GainsCase:
         """Return which constraints of the choice these presses break."""
         candidate = self.result.chosen if presses is self.chosen else self.result.default
         return broken(presses, candidate.noise_gain, self.result.limits)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Refused:
+    """A log for which no pair of gains keeps the constraints, and why."""
+
+    case: int
+    law: str
+    why: str
 
 
 def held_out(case: Case, loop: LoopModel, seed: int) -> list[Scenario]:
@@ -71,7 +81,7 @@ def check_gains(
     seed: int = 1,
     laws: Sequence[str] = LAWS,
     progress: Callable[[int], None] | None = None,
-) -> list[GainsCase]:
+) -> list[GainsCase | Refused]:
     """Identify `logs` random logs of a hand that taps or tracks, choose gains for each law, press with other hands.
 
     Parameters
@@ -94,7 +104,7 @@ def check_gains(
 
     if logs < 1:
         raise ValueError(f"logs = {logs}: must be at least 1")
-    out: list[GainsCase] = []
+    out: list[GainsCase | Refused] = []
     done = 0
     for number in count():
         if done == logs:
@@ -111,14 +121,17 @@ def check_gains(
         done += 1
         others = held_out(case, loop, seed)
         for law in laws:
-            result = fit_gains(loop, law)
-            out.append(_compare(case, law, result, others))
+            out.append(_choose(case, law, loop, others))
             if progress is not None:
                 progress(len(out))
     return out
 
 
-def _compare(case: Case, law: str, result: GainsResult, others: list[Scenario]) -> GainsCase:
+def _choose(case: Case, law: str, loop: LoopModel, others: list[Scenario]) -> GainsCase | Refused:
+    try:
+        result = fit_gains(loop, law)
+    except ValueError as error:
+        return Refused(case=case.number, law=law, why=str(error))
     presses = [
         run_presses(others, law, {"kp": c.kp, "kd": c.kd}) for c in (result.default, result.chosen)
     ]
@@ -127,14 +140,19 @@ def _compare(case: Case, law: str, result: GainsResult, others: list[Scenario]) 
     )
 
 
-def gains_rows(cases: Sequence[GainsCase]) -> list[dict[str, Any]]:
-    """Return a row for each law and kind of gains, over all presses that were held out."""
+def gains_rows(cases: Sequence[GainsCase | Refused]) -> list[dict[str, Any]]:
+    """Return a row for each law and kind of gains, over all presses that were held out.
+
+    A law of which every log was refused has no row.
+    """
     rows = []
     for law in dict.fromkeys(c.law for c in cases):
-        mine = [c for c in cases if c.law == law]
-        for kind in ("default", "chosen"):
+        mine = [c for c in cases if isinstance(c, GainsCase) and c.law == law]
+        refused = sum(isinstance(c, Refused) and c.law == law for c in cases)
+        for kind in ("default", "chosen") if mine else ():
             presses: list[Presses] = [getattr(c, kind) for c in mine]
-            rows.append({"law": law, "gains": kind, **_row(mine, presses)})
+            row = _row(mine, presses)
+            rows.append({"law": law, "gains": kind, **row, "logs_refused": refused})
     return rows
 
 

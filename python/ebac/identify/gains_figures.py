@@ -11,7 +11,8 @@ from ebac.plot.style import dress, legend, line, new_figure
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-    from ebac.identify.gains import Candidate, GainsResult
+    from ebac.identify.gains import GainsResult
+    from ebac.identify.gains_trial import Candidate
     from ebac.plot.style import Picture
 
 COLOURS = {"default": "#d55e00", "step-response": "#0072b2", "chosen": "#009e73"}

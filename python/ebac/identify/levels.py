@@ -18,11 +18,15 @@ def indicators(recording: Recording, target: Target) -> NDArray[np.float64]:
     return np.array([lagged(row, recording.dt, recording.lag) for row in out])
 
 
+#: A lag has settled after so many of its time constants: to 1e-11.
+SETTLES = 25
+
+
 def lagged(values: NDArray[np.float64], dt: float, lag: float) -> NDArray[np.float64]:
     """Return a signal behind a first-order lag [s], by its impulse response."""
     if lag <= 0:
         return values
-    taps = int(np.ceil(12 * lag / dt)) + 1
+    taps = int(np.ceil(SETTLES * lag / dt)) + 1
     response = np.exp(-dt * np.arange(taps) / lag)
     response /= response.sum()
     padded = np.concatenate([np.full(taps - 1, values[0]), values])

@@ -8,14 +8,12 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ebac.document import unknown
 from ebac.identify.columns import UNITS_OF, assign, split_heading, unit_factor
+from ebac.identify.files import Columns, read_columns
 from ebac.identify.recording import OF_TRACE, Recording, count_of, trace_facts
 from ebac.trace import Trace
-
-Columns = dict[str, NDArray[np.float64]]
 
 
 def load(
@@ -69,7 +67,7 @@ def load(
     if trace is not None and not columns:
         found = _of_trace(trace, path.name, axis, wrong)
     else:
-        raw = _flat(trace) if trace is not None else _read(path)
+        raw = _flat(trace) if trace is not None else read_columns(path)
         found = _recording(path.name, raw, columns or {}, units or {}, rate)
     changes: dict[str, Any] = {}
     for name, value in (("lag", lag), ("current_lag", current_lag), ("count", count)):
@@ -122,96 +120,6 @@ def _flat(trace: Trace) -> Columns:
     return {name: np.array(values, dtype=float) for name, _, values in trace.flat()}
 
 
-def _read(path: Path) -> Columns:
-    readers = {".csv": _csv, ".txt": _csv, ".tsv": _csv, ".mat": _mat, ".npz": _npz}
-    if path.suffix.lower() not in readers:
-        raise ValueError(
-            f"{path.name}: unknown ending {path.suffix!r}; known are {', '.join(readers)}"
-        )
-    found = readers[path.suffix.lower()](path)
-    if not found:
-        raise ValueError(f"{path.name}: holds no columns of numbers")
-    return found
-
-
-def _csv(path: Path) -> Columns:
-    lines = path.read_text(encoding="utf-8-sig").splitlines()
-    lines = [line for line in lines if line.strip() and not line.startswith(("#", "%"))]
-    if len(lines) < 2:
-        raise ValueError(f"{path.name}: {len(lines)} lines; needs a heading and rows below it")
-    mark = max("\t;,", key=lines[0].count)
-    names = [name.strip().strip('"') for name in lines[0].split(mark)]
-    if all(_is_number(name) for name in names):
-        raise ValueError(
-            f"{path.name}: has no heading; put the names of the columns into its first line"
-        )
-    rows = []
-    for number, line in enumerate(lines[1:], 1):
-        cells = line.split(mark)
-        if len(cells) != len(names):
-            raise ValueError(
-                f"{path.name}: row {number} has {len(cells)} cells, the heading {len(names)}"
-            )
-        rows.append(
-            [
-                _number(cell, path.name, number, name)
-                for cell, name in zip(cells, names, strict=True)
-            ]
-        )
-    return dict(zip(names, np.array(rows).T, strict=True))
-
-
-def _is_number(text: str) -> bool:
-    try:
-        float(text)
-    except ValueError:
-        return False
-    return True
-
-
-def _number(cell: str, file: str, row: int, column: str) -> float:
-    text = cell.strip().strip('"')
-    if text in ("", "-"):
-        return float("nan")
-    try:
-        return float(text)
-    except ValueError:
-        raise ValueError(
-            f"{file}: {text!r} in row {row}, column {column!r}, is no number"
-        ) from None
-
-
-def _npz(path: Path) -> Columns:
-    with np.load(path, allow_pickle=False) as archive:
-        return _series({name: archive[name] for name in archive.files})
-
-
-def _mat(path: Path) -> Columns:
-    try:
-        from scipy.io import loadmat
-    except ImportError:
-        raise ValueError(f"{path.name}: reading .mat needs SciPy: pip install scipy") from None
-    try:
-        content = loadmat(path, squeeze_me=True)
-    except (NotImplementedError, ValueError) as error:
-        raise ValueError(f"{path.name}: cannot be read ({error}); save it with -v7") from None
-    return _series({name: v for name, v in content.items() if not name.startswith("__")})
-
-
-def _series(arrays: Mapping[str, Any]) -> Columns:
-    out = {}
-    for name, values in arrays.items():
-        array = np.asarray(values)
-        if array.dtype.kind not in "fiub":
-            continue
-        array = np.squeeze(array.astype(float))
-        if array.ndim == 1 and array.size > 1:
-            out[name] = array
-        elif array.ndim == 2:
-            out |= {f"{name}_{i}": column for i, column in enumerate(array.T)}
-    return out
-
-
 def _recording(
     name: str,
     raw: Columns,
@@ -239,8 +147,8 @@ def _recording(
         if rate is None:
             raise ValueError(f"{name}: has no time; say how many rows a second: rate=... or --rate")
         signals["t"] = np.arange(len(signals["x"])) / rate
-    _plausible(name, signals)
     even: dict[str, Any] = dict(_evenly(name, signals, remarks))
+    _plausible(name, even)
     found = count_of(even["x"])
     remarks.append(
         f"encoder step of {1e3 * found:.4g} mm found in x" if found else "x shows no encoder step"
@@ -257,7 +165,7 @@ def _plausible(name: str, signals: Columns) -> None:
     for key, most in FARTHEST.items():
         if key not in signals:
             continue
-        span = float(np.nanmax(signals[key]) - np.nanmin(signals[key]))
+        span = float(np.ptp(signals[key]))
         if span > most:
             unit = UNITS_OF[key]
             raise ValueError(
