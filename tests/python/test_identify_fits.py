@@ -95,7 +95,7 @@ def test_every_start_ends_at_the_same_place(trace: ebac.Trace) -> None:
 def test_outliers_count_less_with_a_robust_loss(trace: ebac.Trace) -> None:
     r = Recording.from_trace(trace)
     x = r.x.copy()
-    draw_rows = np.random.Generator(np.random.PCG64(1)).choice(len(x), 40, replace=False)
+    draw_rows = np.random.Generator(np.random.PCG64(1)).choice(len(x), 10, replace=False)
     x[draw_rows] += 40 * r.count  # lost counts that come back
     spoilt = Recording(
         name="spoilt", t=r.t, x=x, force=r.force, motor=r.motor, count=r.count, lag=r.lag

@@ -28,7 +28,7 @@ def trace() -> ebac.Trace:
     scenario = ebac.Scenario(
         hand=hand,
         device=ebac.Device(sensor=ebac.ForceSensor(noise=0.03, quantum=0.01)),
-        environment=ebac.Wall(stiffness=5e3),
+        environment=ebac.Wall(stiffness=3e3),
         seconds=4.0,
     )
     return ebac.simulate(scenario, "ebac")
@@ -46,7 +46,7 @@ def chosen(loop):
 
 
 def test_the_loop_is_that_of_the_log(loop) -> None:
-    assert loop.wall.stiffness == pytest.approx(5e3, rel=0.01)
+    assert loop.wall.stiffness == pytest.approx(3e3, rel=0.01)
     assert loop.device.mass == pytest.approx(0.25, rel=0.02)
     assert loop.arm["K0"].value == pytest.approx(300, rel=0.01)
     assert loop.scenario.hand.mass == pytest.approx(0.2, rel=0.02)
@@ -188,7 +188,7 @@ def test_the_rule_and_its_step_response() -> None:
 
 
 def test_chosen_gains_beat_the_default_on_held_out_hands() -> None:
-    cases = check_gains(1, seed=2, laws=("tca",))
+    cases = check_gains(2, seed=1, laws=("tca",))
     default, chosen = gains_rows(cases)
     assert chosen["settled"] > default["settled"]
     assert chosen["swing_worst_m"] < default["swing_worst_m"]

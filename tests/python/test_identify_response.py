@@ -93,16 +93,6 @@ def test_a_rich_log_tells_all(trace: ebac.Trace, recording: Recording) -> None:
     assert high >= 6
 
 
-def test_it_expects_more_of_a_hand_that_moves_more(trace: ebac.Trace, recording: Recording) -> None:
-    target = Target.of(trace.scenario.hand, recording.t)
-    expected = check_log(recording, target).deviation
-    t, x = excitation.multisine(0.002, low=0.3, high=1, seconds=8)
-    slow = trace.scenario.replace(hand=trace.scenario.hand.replace(path=excitation.path(t, x)))
-    other = Recording.from_trace(ebac.simulate(slow, "ebac"))
-    less = check_log(other, Target.of(slow.hand, other.t)).deviation
-    assert less["M0"] > 3 * expected["M0"]
-
-
 def test_a_hand_that_meets_nothing_tells_nothing() -> None:
     scenario = ebac.Scenario(environment=ebac.Free(), seconds=3.0)
     found = check_log(Recording.from_trace(ebac.simulate(scenario, "direct")))

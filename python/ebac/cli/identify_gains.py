@@ -82,7 +82,7 @@ def gains(
         typer.Option(
             help="Noise of the command per noise of the force reading.", rich_help_panel=LIMITS
         ),
-    ] = 1.0,
+    ] = 0.5,
     energy: Annotated[
         float,
         typer.Option(help="Most energy the port may give away [J].", rich_help_panel=LIMITS),

@@ -100,7 +100,7 @@ def _search(problem: Problem, start: Values, robust: float | None) -> _Point:
     p = problem.parameters
     moved_by = problem.moved
     for _ in range(MOST_ROUNDS):
-        noise = likely_noise(problem, values, noise)
+        noise = likely_noise(problem, values, noise, robust)
         gains = problem.gains(values, noise)
 
         def spread(part: Values, base: Values = values) -> Values:

@@ -38,7 +38,7 @@ class Limits:
     overshoot: float | None = None
     force: float | None = None
     current: float | None = None
-    noise_gain: float = 1.0
+    noise_gain: float = 0.5
     energy: float = 0.010
 
     def __post_init__(self) -> None:

@@ -8,20 +8,26 @@ from numpy.typing import NDArray
 from ebac._core import ArmRecord
 from ebac.identify.noise import rough
 from ebac.identify.problem import Problem
+from ebac.identify.search import loss
 
 #: How far from what the force signal itself shows the noise may lie.
 WIDEST = 300.0
 
 
-def minus_two_log(record: ArmRecord, theta: NDArray[np.float64], force_noise: float) -> float:
-    """Return -2 log of the likelihood, but for a constant."""
+def minus_two_log(
+    record: ArmRecord, theta: NDArray[np.float64], force_noise: float, robust: float | None = None
+) -> float:
+    """Return -2 log of the likelihood, but for a constant; with Huber's loss beyond `robust` deviations."""
     gains = record.gains(theta, force_noise)
     e = record.innovations(theta, gains)
-    return float(e @ e) + gains.log_sum
+    return loss(e, robust) + gains.log_sum
 
 
 def likely_noise(
-    problem: Problem, values: NDArray[np.float64], before: NDArray[np.float64] | None = None
+    problem: Problem,
+    values: NDArray[np.float64],
+    before: NDArray[np.float64] | None = None,
+    robust: float | None = None,
 ) -> NDArray[np.float64]:
     """Return the standard deviation of each recording's force [N], by golden section.
 
@@ -37,15 +43,21 @@ def likely_noise(
             reach = np.log(WIDEST)
         else:
             centre, reach = float(before[i]), 0.5
-        found.append(_golden(record, theta, float(np.log(centre)), reach))
+        found.append(_golden(record, theta, float(np.log(centre)), reach, robust))
     return np.array(found)
 
 
-def _golden(record: ArmRecord, theta: NDArray[np.float64], centre: float, reach: float) -> float:
+def _golden(
+    record: ArmRecord,
+    theta: NDArray[np.float64],
+    centre: float,
+    reach: float,
+    robust: float | None,
+) -> float:
     ratio = 0.6180339887498949
 
     def at(z: float) -> float:
-        return minus_two_log(record, theta, float(np.exp(z)))
+        return minus_two_log(record, theta, float(np.exp(z)), robust)
 
     a, b = centre - 0.3 * reach, centre + reach
     c, d = b - ratio * (b - a), a + ratio * (b - a)
