@@ -23,7 +23,7 @@ Press one(const Setup& setup, const Law& law, double goal) {
 }
 
 TEST(EffortWatch, MeasuresWhatItSees) {
-  const SimulatedDevice device(Setup{});
+  const SimulatedDevice device(pressing());
   EffortWatch watch(1000, 0.5);
   Sample s{};
   s.axes = 1;
@@ -48,7 +48,7 @@ TEST(EffortWatch, ARunTooShortHasNoNoise) {
 }
 
 TEST(Press, IsTheRunOfASweepAndMore) {
-  const Setup setup = pressing();
+  const auto setup = pressing();
   const Ebac law(Ebac::Params::design(setup.device.facts(), setup.timing), setup.timing);
   const Press found = one(setup, law, 1.165e-3);
   ContactRecorder recorder;
@@ -62,7 +62,7 @@ TEST(Press, IsTheRunOfASweepAndMore) {
 }
 
 TEST(Press, AGoalFartherAwayIsLater) {
-  const Setup setup = pressing();
+  const auto setup = pressing();
   const Tca law(Tca::Params{}, setup.timing);
   EXPECT_LT(one(setup, law, 0.0).effort.lateness, one(setup, law, 0.1).effort.lateness);
 }

@@ -54,7 +54,7 @@ def test_the_loop_is_that_of_the_log(loop) -> None:
 
 def test_the_choice_keeps_all_and_costs_less(chosen) -> None:
     assert chosen.chosen.broken == ()
-    assert chosen.chosen.cost < 0.5  # of the default, which shakes
+    assert chosen.chosen.cost < 0.8  # of the default, which shakes
     assert chosen.default.cost == pytest.approx(1.0)
     assert chosen.chosen.cost == min(c.cost for c in chosen.tried if not c.broken)
     numbers, before = chosen.chosen.presses.numbers(), chosen.default.presses.numbers()
