@@ -19,6 +19,7 @@ void bind_sensor_emulator(pybind11::module_& m);
 void bind_drives(pybind11::module_& m);
 void bind_served(pybind11::module_& m);
 void bind_linear_loop(pybind11::module_& m);
+void bind_identify(pybind11::module_& m);
 void bind_python_law(pybind11::module_& m);
 void bind_can_plan(pybind11::module_& m);
 void bind_can(pybind11::module_& m);

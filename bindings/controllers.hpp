@@ -5,6 +5,7 @@
 
 #include "ebac/sim/benchmark.hpp"
 #include "fields.hpp"
+#include "press.hpp"
 #include "replay.hpp"
 #include "simulate_either.hpp"
 #include "sweep.hpp"
@@ -101,6 +102,7 @@ void bind_controller(py::module_& m, const char* name) {
       py::arg("setup"), py::arg("through_can") = false);
   bind_replay_of(cls);
   bind_sweep(cls);
+  if constexpr (HasForceLoop<Law>) bind_press(cls);
   cls.def(
       "_time_step",
       [](const Law& law, const Setup& setup, int repeats) {

@@ -14,6 +14,7 @@ PYBIND11_MODULE(_core, m, pybind11::mod_gil_not_used()) {
   ebac::python::bind_drives(m);
   ebac::python::bind_sweeps(m);
   ebac::python::bind_linear_loop(m);
+  ebac::python::bind_identify(m);
   ebac::python::bind_controllers(m);
   ebac::python::bind_python_law(m);
   ebac::python::bind_can_plan(m);

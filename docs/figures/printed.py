@@ -40,7 +40,11 @@ class Printed:
         file = self.folder / (re.sub(r"[^\w.=,]+", "-", command) + ".json")
         if not file.exists():
             print(f"ebac {command}", flush=True)
-            many = self.threads is not None and command.split()[0] not in ("bench", "wall")
+            many = self.threads is not None and command.split()[0] not in (
+                "bench",
+                "wall",
+                "identify",
+            )
             words = [
                 *command.split(),
                 "--json",

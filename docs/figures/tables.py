@@ -15,13 +15,16 @@ from collections.abc import Callable
 from pathlib import Path
 
 import adversaries as hostile
+import identify_tables as identified
 import law_tables as laws
 import population_tables as populations
 import story_tables as story
 from printed import Printed, names, put
 
 DOCS = Path(__file__).parents[1]
-PAGES = (DOCS / "evidence.md", DOCS / "story.md", DOCS / "robustness.md")
+PAGES = tuple(
+    DOCS / name for name in ("evidence.md", "story.md", "robustness.md", "identification.md")
+)
 TABLES: dict[str, Callable[[Printed], str]] = {
     "grid": populations.grid,
     "hands": story.hands,
@@ -35,6 +38,9 @@ TABLES: dict[str, Callable[[Printed], str]] = {
     "zwidth": laws.z_width,
     "adversaries": hostile.adversaries,
     "walls": story.walls,
+    "identify-arm": identified.arm,
+    "identify-device": identified.device,
+    "identify-gains": identified.gains,
     "speed": laws.speed,
 }
 #: Left out unless asked for: what they say depends on what else the machine does.

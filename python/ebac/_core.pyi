@@ -20,6 +20,8 @@ __all__: list[str] = [
     "TCA",
     "WARNED_LOAD",
     "AdaptiveWindow",
+    "ArmGains",
+    "ArmRecord",
     "AxisTruth",
     "BackwardDifference",
     "BusCounts",
@@ -2828,6 +2830,78 @@ class LinearLoop:
         Largest stiffness [N/m] up to which everything decays; 0 for none.
         """
 
+class ArmGains:
+    """
+    How far each row corrects what eq. (4) foretold.
+    """
+    @property
+    def log_sum(self) -> float:
+        """
+        Sum of the logarithms of the variances of the errors.
+        """
+
+class ArmRecord:
+    """
+    A log of one hand, and how well eq. (4) foretells it.
+
+    theta: mass [kg], damping [N s/m], stiffness [N/m], delay [s], onset [s], bend [1], a share for each input, then the levels of the target [m].
+    """
+    def __init__(
+        self,
+        *,
+        x: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex],
+        force: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex],
+        variance: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex],
+        early: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex],
+        known: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex],
+        doubt: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex],
+        inputs: collections.abc.Sequence[
+            collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex]
+        ],
+        switches: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex],
+        segments: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex],
+        dt: typing.SupportsFloat | typing.SupportsIndex,
+        lag: typing.SupportsFloat | typing.SupportsIndex,
+    ) -> None: ...
+    def gains(
+        self,
+        theta: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
+        force_noise: typing.SupportsFloat | typing.SupportsIndex,
+    ) -> ArmGains:
+        """
+        Gains for a guess, when a force reading has the standard deviation `force_noise` [N].
+        """
+    def innovations(
+        self, theta: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], gains: ArmGains
+    ) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Errors of one tick ahead, each over its standard deviation.
+        """
+    def jacobian(
+        self,
+        theta: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
+        gains: ArmGains,
+        which: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex],
+        steps: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex],
+    ) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        d innovations / d theta[which], shape (which, rows).
+        """
+    def simulate(
+        self,
+        theta: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
+        x: typing.SupportsFloat | typing.SupportsIndex,
+        v: typing.SupportsFloat | typing.SupportsIndex,
+    ) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Position [m] that the recorded force alone gives from a state [m, m/s] on.
+        """
+    @property
+    def parameters(self) -> int:
+        """
+        How long theta is.
+        """
+
 class Direct:
     """
     no law: the command is what the virtual world asks.
@@ -2963,6 +3037,15 @@ class TCA:
     name: typing.ClassVar[str] = "tca"
     passive: typing.ClassVar[bool] = False
     summary: typing.ClassVar[str] = "eq. (2): desired force plus PD feedback of the F/T sensor"
+    @staticmethod
+    def _press(
+        setups: collections.abc.Sequence[Setup],
+        laws: collections.abc.Sequence[TCA],
+        goals: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex],
+        threads: typing.SupportsInt | typing.SupportsIndex,
+        limits: RunLimits,
+        progress: SweepProgress,
+    ) -> dict[str, typing.Any]: ...
     @staticmethod
     def _sweep(
         setups: collections.abc.Sequence[Setup],
@@ -3105,6 +3188,15 @@ class TCADamped:
     name: typing.ClassVar[str] = "tca-damped"
     passive: typing.ClassVar[bool] = False
     summary: typing.ClassVar[str] = "eq. (2) plus a virtual damper in contact"
+    @staticmethod
+    def _press(
+        setups: collections.abc.Sequence[Setup],
+        laws: collections.abc.Sequence[TCADamped],
+        goals: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex],
+        threads: typing.SupportsInt | typing.SupportsIndex,
+        limits: RunLimits,
+        progress: SweepProgress,
+    ) -> dict[str, typing.Any]: ...
     @staticmethod
     def _sweep(
         setups: collections.abc.Sequence[Setup],
@@ -3856,6 +3948,15 @@ class EBACPrinted:
     passive: typing.ClassVar[bool] = False
     summary: typing.ClassVar[str] = "eq. (8) to (10) and (2), read to the letter"
     @staticmethod
+    def _press(
+        setups: collections.abc.Sequence[Setup],
+        laws: collections.abc.Sequence[EBACPrinted],
+        goals: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex],
+        threads: typing.SupportsInt | typing.SupportsIndex,
+        limits: RunLimits,
+        progress: SweepProgress,
+    ) -> dict[str, typing.Any]: ...
+    @staticmethod
     def _sweep(
         setups: collections.abc.Sequence[Setup],
         laws: collections.abc.Sequence[EBACPrinted],
@@ -4076,6 +4177,15 @@ class EBAC:
     name: typing.ClassVar[str] = "ebac"
     passive: typing.ClassVar[bool] = False
     summary: typing.ClassVar[str] = "eq. (8) to (10) and (2), completed: recovery, damping, guard"
+    @staticmethod
+    def _press(
+        setups: collections.abc.Sequence[Setup],
+        laws: collections.abc.Sequence[EBAC],
+        goals: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex],
+        threads: typing.SupportsInt | typing.SupportsIndex,
+        limits: RunLimits,
+        progress: SweepProgress,
+    ) -> dict[str, typing.Any]: ...
     @staticmethod
     def _sweep(
         setups: collections.abc.Sequence[Setup],

@@ -23,6 +23,7 @@ MAY_SEE = {
     "core": set(),
     "model": {"core"},
     "control": {"core", "model"},
+    "identify": {"core", "model"},
     "loop": {"core", "model", "control"},
     "sim": {"core", "model", "control", "loop"},
     "can": {"core", "model", "control", "loop"},

@@ -68,10 +68,16 @@ bool keep_row(const Sample& s, const SimulatedDevice& device, const Law& law, co
   return x.cwiseAbs().maxCoeff() <= limits.position && energy >= -limits.energy;
 }
 
-/// One run: the ticks of `simulate`, kept as metrics.
-template <Controller Scalar>
+/// Looks at the rows of a run and keeps nothing.
+struct NoWatch {
+  void operator()(const Sample&, const SimulatedDevice&) const EBAC_RT {}
+};
+
+/// One run: the ticks of `simulate`, kept as metrics; `watch` sees every row.
+template <Controller Scalar, class Watch = const NoWatch>
 Outcome measure_run(const Setup& setup, const Scalar& scalar, const RunLimits& limits,
-                    ContactRecorder& recorder, const std::atomic<bool>& cancelled) {
+                    ContactRecorder& recorder, const std::atomic<bool>& cancelled,
+                    Watch& watch = NoWatch{}) {
   constexpr std::size_t kLook = 256;  // ticks between two looks at `cancelled`
   PerAxis<Scalar> law(scalar);
   SimulatedDevice device(setup);
@@ -86,6 +92,7 @@ Outcome measure_run(const Setup& setup, const Scalar& scalar, const RunLimits& l
     if (outcome.ticks % kLook == 0 && cancelled.load(std::memory_order_relaxed)) return outcome;
     tick(rig, law, device, clock.wait(), sample);
     outcome.diverged = !keep_row(sample, device, law, setup, limits, recorder);
+    watch(sample, device);
     outcome.fault = sample.fault;
     ++sample.tick;
     ++outcome.ticks;

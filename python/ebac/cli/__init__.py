@@ -14,6 +14,7 @@ from ebac.cli import (
     doctor,
     drive,
     faults,
+    identify,
     jitter,
     laws,
     log,
@@ -84,4 +85,5 @@ app.command("faults")(faults.faults)
 app.add_typer(drive.app, name="drive")
 app.add_typer(bus.bus, name="bus")
 app.add_typer(sensor.app, name="sensor")
+app.add_typer(identify.app, name="identify")
 app.add_typer(log.log, name="log")

@@ -1,0 +1,123 @@
+#include <pybind11/numpy.h>
+#include <pybind11/stl.h>
+
+#include "bind.hpp"
+#include "ebac/identify/arm_record.hpp"
+
+namespace ebac::python {
+
+namespace py = pybind11;
+
+namespace {
+
+using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
+
+std::span<const double> theta_of(const ArmRecord& record, const Numbers& theta) {
+  const auto size = static_cast<std::size_t>(theta.size());
+  if (size != record.parameters()) {
+    throw std::invalid_argument("ArmRecord: theta has " + std::to_string(size) +
+                                " numbers, needs " + std::to_string(record.parameters()));
+  }
+  const std::span<const double> view(theta.data(), size);
+  if (!(view[0] > 0)) throw std::invalid_argument("ArmRecord: the mass must be positive");
+  return view;
+}
+
+py::array_t<double> rows_of(const ArmRecord& record) {
+  return py::array_t<double>(static_cast<py::ssize_t>(record.rows()));
+}
+
+ArmGains gains(const ArmRecord& record, const Numbers& theta, double force_noise) {
+  const auto view = theta_of(record, theta);
+  if (!(force_noise >= 0)) throw std::invalid_argument("ArmRecord: force_noise is negative");
+  const py::gil_scoped_release release;
+  return record.gains(ArmGuess::from(view, record.inputs()), force_noise);
+}
+
+void require_same(const ArmRecord& record, const ArmGains& gains) {
+  if (gains.rows.size() == record.rows()) return;
+  throw std::invalid_argument("ArmRecord: the gains belong to another record");
+}
+
+py::array_t<double> innovations(const ArmRecord& record, const Numbers& theta,
+                                const ArmGains& gains) {
+  const auto view = theta_of(record, theta);
+  require_same(record, gains);
+  auto out = rows_of(record);
+  const std::span<double> errors(out.mutable_data(), record.rows());
+  {
+    const py::gil_scoped_release release;
+    record.innovations(ArmGuess::from(view, record.inputs()), gains, errors);
+  }
+  return out;
+}
+
+py::array_t<double> jacobian(const ArmRecord& record, const Numbers& theta, const ArmGains& gains,
+                             const std::vector<std::size_t>& which,
+                             const std::vector<double>& steps) {
+  const auto view = theta_of(record, theta);
+  require_same(record, gains);
+  if (which.size() != steps.size()) {
+    throw std::invalid_argument("ArmRecord: needs one step for each parameter");
+  }
+  for (std::size_t i = 0; i < which.size(); ++i) {
+    if (which[i] >= view.size() || !(steps[i] > 0)) {
+      throw std::invalid_argument("ArmRecord: no such parameter, or its step is not positive");
+    }
+  }
+  py::array_t<double> out({which.size(), record.rows()});
+  const std::span<double> columns(out.mutable_data(), which.size() * record.rows());
+  {
+    const py::gil_scoped_release release;
+    record.jacobian(view, gains, which, steps, columns);
+  }
+  return out;
+}
+
+py::array_t<double> simulate(const ArmRecord& record, const Numbers& theta, double x, double v) {
+  const auto view = theta_of(record, theta);
+  auto out = rows_of(record);
+  const std::span<double> positions(out.mutable_data(), record.rows());
+  {
+    const py::gil_scoped_release release;
+    record.simulate(ArmGuess::from(view, record.inputs()), x, v, positions);
+  }
+  return out;
+}
+
+}  // namespace
+
+void bind_identify(py::module_& m) {
+  py::class_<ArmGains>(m, "ArmGains", "How far each row corrects what eq. (4) foretold.")
+      .def_property_readonly(
+          "log_sum", [](const ArmGains& gains) { return gains.log_sum; },
+          "Sum of the logarithms of the variances of the errors.");
+  py::class_<ArmRecord>(m, "ArmRecord",
+                        "A log of one hand, and how well eq. (4) foretells it.\n\n"
+                        "theta: mass [kg], damping [N s/m], stiffness [N/m], delay [s], onset "
+                        "[s], bend [1], a share for each input, then the levels of the target [m].")
+      .def(
+          py::init([](std::vector<double> x, std::vector<double> force,
+                      std::vector<double> variance, std::vector<double> early,
+                      std::vector<double> known, std::vector<double> doubt,
+                      std::vector<std::vector<double>> inputs, std::vector<double> switches,
+                      std::vector<int> segments, double dt, double lag) {
+            return ArmRecord({std::move(x), std::move(force), std::move(variance), std::move(early),
+                              std::move(known), std::move(doubt), std::move(inputs),
+                              std::move(switches), std::move(segments), dt, lag});
+          }),
+          py::kw_only(), py::arg("x"), py::arg("force"), py::arg("variance"), py::arg("early"),
+          py::arg("known"), py::arg("doubt"), py::arg("inputs"), py::arg("switches"),
+          py::arg("segments"), py::arg("dt"), py::arg("lag"))
+      .def_property_readonly("parameters", &ArmRecord::parameters, "How long theta is.")
+      .def("gains", &gains, py::arg("theta"), py::arg("force_noise"),
+           "Gains for a guess, when a force reading has the standard deviation `force_noise` [N].")
+      .def("innovations", &innovations, py::arg("theta"), py::arg("gains"),
+           "Errors of one tick ahead, each over its standard deviation.")
+      .def("jacobian", &jacobian, py::arg("theta"), py::arg("gains"), py::arg("which"),
+           py::arg("steps"), "d innovations / d theta[which], shape (which, rows).")
+      .def("simulate", &simulate, py::arg("theta"), py::arg("x"), py::arg("v"),
+           "Position [m] that the recorded force alone gives from a state [m, m/s] on.");
+}
+
+}  // namespace ebac::python

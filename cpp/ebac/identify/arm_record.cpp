@@ -1,0 +1,250 @@
+#include "ebac/identify/arm_record.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "ebac/identify/arm_step.hpp"
+
+namespace ebac {
+
+namespace {
+
+void refuse(bool wrong, const std::string& why) {
+  if (wrong) throw std::invalid_argument("ArmRecord: " + why);
+}
+
+void require_numbers(const std::vector<double>& values, const std::string& name) {
+  const auto wrong = std::find_if_not(values.begin(), values.end(),
+                                      [](double value) { return std::isfinite(value); });
+  refuse(wrong != values.end(),
+         name + " has no finite number in row " + std::to_string(wrong - values.begin()));
+}
+
+/// Straight pieces through samples weaken a sine by (w T)^2/12; this gives it back beforehand.
+constexpr double kSharpen = 1.0 / 12;
+/// How much of a jump a tick may miss.
+constexpr double kJumpDoubt = 0.3;
+
+/// Covariance of position and velocity, foretold.
+struct Spread {
+  static constexpr double kFreePosition = 1;  // m^2: says nothing about a handle
+  static constexpr double kFreeVelocity = 1e2;
+
+  double p00 = kFreePosition, p01 = 0, p11 = kFreeVelocity;
+
+  /// Takes a reading of x + forward v of some variance in.
+  ArmGains::Row meet(double variance, double forward, double& log_sum) EBAC_RT {
+    if (std::isinf(variance)) return {};
+    const double c0 = p00 + forward * p01;
+    const double c1 = p01 + forward * p11;
+    const double s = c0 + forward * c1 + variance;
+    p00 -= c0 * c0 / s;
+    p01 -= c0 * c1 / s;
+    p11 -= c1 * c1 / s;
+    log_sum += std::log(s);
+    return {c0 / s, c1 / s, 1 / std::sqrt(s)};
+  }
+
+  void move(const Eigen::Matrix2d& f, const Eigen::Vector3d& q) EBAC_RT {
+    const double a = f(0, 0) * p00 + f(0, 1) * p01;
+    const double b = f(0, 0) * p01 + f(0, 1) * p11;
+    const double c = f(1, 0) * p00 + f(1, 1) * p01;
+    const double d = f(1, 0) * p01 + f(1, 1) * p11;
+    p00 = a * f(0, 0) + b * f(0, 1) + q[0];
+    p01 = a * f(1, 0) + b * f(1, 1) + q[1];
+    p11 = c * f(1, 0) + d * f(1, 1) + q[2];
+  }
+};
+
+}  // namespace
+
+ArmGuess ArmGuess::from(std::span<const double> theta, std::size_t inputs) {
+  return {theta[0],
+          theta[1],
+          theta[2],
+          theta[3],
+          theta[4],
+          theta[5],
+          theta.subspan(kBeforeInputs, inputs),
+          theta.subspan(kBeforeInputs + inputs)};
+}
+
+ArmRecord::ArmRecord(Log log) : log_(std::move(log)) {
+  const std::size_t n = log_.x.size();
+  refuse(n < 3, "needs at least 3 rows, got " + std::to_string(n));
+  refuse(log_.force.size() != n || log_.variance.size() != n || log_.known.size() != n ||
+             log_.early.size() != n || log_.doubt.size() != n,
+         "x, force, variance, early, known and doubt must be equally long");
+  for (const auto& input : log_.inputs) {
+    refuse(input.size() != n, "an input must be as long as x");
+    require_numbers(input, "an input");
+  }
+  refuse(log_.segments.size() != log_.switches.size() + 1, "needs one segment more than switches");
+  refuse(!(log_.dt > 0) || !(log_.lag >= 0), "dt must be positive and lag not negative");
+  require_numbers(log_.x, "x");
+  require_numbers(log_.force, "force");
+  require_numbers(log_.known, "known");
+  require_numbers(log_.doubt, "doubt");
+  refuse(!std::is_sorted(log_.switches.begin(), log_.switches.end()), "switches must rise");
+  for (const double v : log_.variance) refuse(!(v >= 0), "variance must not be negative");
+  for (const int level : log_.segments) {
+    refuse(level < 0, "a segment names a negative level");
+    levels_ = std::max(levels_, static_cast<std::size_t>(level) + 1);
+  }
+  keep_ = log_.lag > 0 ? std::exp(-log_.dt / log_.lag) : 0.0;
+}
+
+double ArmRecord::whole_ticks(const ArmGuess& guess) const {
+  return std::round(guess.delay / log_.dt);
+}
+
+double ArmRecord::late_by(const ArmGuess& guess) const {
+  return guess.delay - whole_ticks(guess) * log_.dt;
+}
+
+/// The level of the target, averaged over the tick that ends at row `tick`.
+double ArmRecord::mean_target(std::size_t tick, double onset, std::span<const double> levels,
+                              std::size_t& segment) const {
+  const double end = log_.dt * static_cast<double>(tick);
+  double from = end - log_.dt;
+  double sum = 0;
+  const auto level = [&] { return levels[static_cast<std::size_t>(log_.segments[segment])]; };
+  while (segment < log_.switches.size() && log_.switches[segment] + onset < end) {
+    const double at = std::max(from, log_.switches[segment] + onset);
+    sum += (at - from) * level();
+    from = at;
+    ++segment;
+  }
+  return (sum + (end - from) * level()) / log_.dt;
+}
+
+ArmRecord::Drive ArmRecord::drive(const ArmGuess& guess) const {
+  const std::size_t n = rows();
+  Drive out{std::vector<double>(n), std::vector<double>(n), std::vector<double>(n)};
+  const auto whole = static_cast<std::ptrdiff_t>(whole_ticks(guess));
+  const double late = late_by(guess);
+  const auto last = static_cast<std::ptrdiff_t>(n) - 1;
+  const auto raw = [&](std::ptrdiff_t i) {
+    return log_.force[static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(i, 0, last))];
+  };
+  const double sharpen = kSharpen + guess.bend;
+  const auto at = [&](std::ptrdiff_t i) {
+    return raw(i) - sharpen * (raw(i + 1) - 2 * raw(i) + raw(i - 1));
+  };
+  for (std::size_t i = 0; i < n; ++i) {
+    out.force[i] = at(static_cast<std::ptrdiff_t>(i) + whole);
+    for (std::size_t k = 0; k < guess.shares.size(); ++k) {
+      out.beyond[i] += guess.shares[k] * log_.inputs[k][i];
+    }
+  }
+  const double lagging = log_.lag > 0 ? log_.lag / log_.dt * (1 - keep_) : 0.0;
+  std::size_t segment = 0;
+  const double onset = guess.onset + late;
+  double y = mean_target(0, onset, guess.levels, segment) + log_.known[0];
+  for (std::size_t i = 1; i < n; ++i) {
+    const double moves = log_.known[i] - log_.known[i - 1];
+    const double wanted = mean_target(i, onset, guess.levels, segment) + log_.known[i] -
+                          (0.5 + late / log_.dt) * moves;
+    out.target[i] = wanted + (y - wanted) * lagging;
+    y = wanted + (y - wanted) * keep_;
+  }
+  return out;
+}
+
+/// Where the target jumps, the force jumps within a tick, which its samples do not resolve: the
+/// size of the jump, for the rows it is felt in.
+std::vector<double> ArmRecord::jumps(const ArmGuess& guess) const {
+  std::vector<double> out(rows(), 0.0);
+  const auto level = [&](std::size_t k) {
+    return guess.levels[static_cast<std::size_t>(log_.segments[k])];
+  };
+  for (std::size_t k = 0; k < log_.switches.size(); ++k) {
+    const double size = guess.stiffness * std::abs(level(k + 1) - level(k));
+    const double at = log_.switches[k] + guess.onset + late_by(guess);
+    const auto row = static_cast<std::ptrdiff_t>(at / log_.dt);
+    for (std::ptrdiff_t i = row - 2; i <= row + 3; ++i) {
+      if (i >= 0 && i < static_cast<std::ptrdiff_t>(rows()))
+        out[static_cast<std::size_t>(i)] = size;
+    }
+  }
+  return out;
+}
+
+ArmGains ArmRecord::gains(const ArmGuess& guess, double force_noise) const {
+  const ArmStep step(guess, log_.dt);
+  const Eigen::Vector2d kick = step.start * step.per_mass;
+  const Eigen::Vector3d q(kick[0] * kick[0], kick[0] * kick[1], kick[1] * kick[1]);
+  const std::vector<double> jumps = this->jumps(guess);
+  const double late = late_by(guess);
+  ArmGains out;
+  out.rows.reserve(rows());
+  Spread spread;
+  for (std::size_t i = 0; i < rows(); ++i) {
+    const double forward = log_.lag + late - log_.early[i];
+    out.rows.push_back(spread.meet(log_.variance[i], forward, out.log_sum));
+    const double doubt = kJumpDoubt * jumps[i];
+    const double other = log_.doubt[i];
+    spread.move(step.phi, q * (force_noise * force_noise + doubt * doubt + other * other));
+  }
+  return out;
+}
+
+void ArmRecord::innovations(const ArmGuess& guess, const ArmGains& gains,
+                            std::span<double> out) const {
+  const ArmStep step(guess, log_.dt);
+  const Drive drive = this->drive(guess);
+  const double ahead = log_.lag + late_by(guess);
+  Eigen::Vector2d z = Eigen::Vector2d::Zero();
+  double before = 0;  // m/s, velocity a tick ago
+  for (std::size_t i = 0; i < rows(); ++i) {
+    const ArmGains::Row& gain = gains.rows[i];
+    const double early = log_.early[i];  // half a tick: the mean over the tick, with its bend
+    const double bend = early * early / log_.dt * (2.0 / 3.0) * (z[1] - before);
+    const double e = log_.x[i] - z[0] - (ahead - early) * z[1] - bend;
+    out[i] = e * gain.weight;
+    if (i + 1 == rows()) break;
+    z[0] += gain.x * e;
+    z[1] += gain.v * e;
+    before = z[1];
+    const double beyond = drive.beyond[i];
+    const double now = step.push(drive.force[i] + beyond, drive.target[i + 1]);
+    const double next = step.push(drive.force[i + 1] + beyond, drive.target[i + 1]);
+    z = step.phi * z + step.start * now + step.change * (next - now);
+  }
+}
+
+void ArmRecord::jacobian(std::span<const double> theta, const ArmGains& gains,
+                         std::span<const std::size_t> which, std::span<const double> steps,
+                         std::span<double> out) const {
+  const std::size_t n = rows();
+  std::vector<double> at(theta.begin(), theta.end());
+  std::vector<double> here(n);
+  innovations(ArmGuess::from(at, inputs()), gains, here);
+  for (std::size_t i = 0; i < which.size(); ++i) {
+    const std::span<double> column = out.subspan(i * n, n);
+    const double value = at[which[i]];
+    at[which[i]] = value + steps[i];
+    innovations(ArmGuess::from(at, inputs()), gains, column);
+    at[which[i]] = value;
+    for (std::size_t k = 0; k < n; ++k) column[k] = (column[k] - here[k]) / steps[i];
+  }
+}
+
+void ArmRecord::simulate(const ArmGuess& guess, double x, double v, std::span<double> out) const {
+  const ArmStep step(guess, log_.dt);
+  const Drive drive = this->drive(guess);
+  Eigen::Vector2d z(x, v);
+  for (std::size_t i = 0; i < rows(); ++i) {
+    out[i] = z[0] + (log_.lag + late_by(guess)) * z[1];
+    if (i + 1 == rows()) break;
+    const double beyond = drive.beyond[i];
+    const double now = step.push(drive.force[i] + beyond, drive.target[i + 1]);
+    const double next = step.push(drive.force[i + 1] + beyond, drive.target[i + 1]);
+    z = step.phi * z + step.start * now + step.change * (next - now);
+  }
+}
+
+}  // namespace ebac

@@ -1,0 +1,112 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "ebac/core/realtime.hpp"
+
+namespace ebac {
+
+/// The hand of eq. (4) as a fit moves it: what all recordings share, then what one has for itself.
+///
+/// In a vector: mass, damping, stiffness, delay, onset, bend, one share for each input of the log,
+/// then the levels of the target.
+struct ArmGuess {
+  static constexpr std::size_t kBeforeInputs = 6;
+
+  double mass = 0.15;      // kg
+  double damping = 6;      // N s/m
+  double stiffness = 300;  // N/m
+  double delay = 0;        // s, of the force reading behind the motion
+  double onset = 0;        // s, of the target behind its switches: reaction time
+  double bend = 0;         // 1, of second differences of the force: what it did between two rows
+  std::span<const double> shares{};  // of the inputs, in what makes each of them a force [N]
+  std::span<const double> levels{};  // m
+
+  static ArmGuess from(std::span<const double> theta, std::size_t inputs);
+};
+
+/// How far each row corrects what was foretold: the gains of a Kalman filter, made for one guess and
+/// kept while a search moves, so that its errors are those of a plain least-squares problem.
+struct ArmGains {
+  struct Row {
+    double x = 0;       // 1
+    double v = 0;       // 1/s
+    double weight = 0;  // 1/m, one over the standard deviation of the error
+  };
+  std::vector<Row> rows;
+  double log_sum = 0;  // of the logarithms of the variances
+};
+
+/// A log of one hand, and how well eq. (4) foretells it.
+///
+/// The recorded force drives the hand; its position is foretold one tick ahead by a Kalman filter
+/// and compared with the encoder. Force noise enters as an input, a count as noise of the output,
+/// so that the errors are white when model and noise are right. The initial state is free.
+///
+/// The force sensor's lag is put on the motion instead: the hand is linear, so a lagged force moves
+/// a lagged hand xl, and x = xl + lag xl'. A position may be read `early` before the row's instant:
+/// where a count changes, the handle crossed its edge somewhere in the tick before.
+class ArmRecord {
+ public:
+  struct Log {
+    std::vector<double> x;         // m, as read
+    std::vector<double> force;     // N, of the hand on the handle
+    std::vector<double> variance;  // m^2, of each position; infinite for one to leave out
+    std::vector<double> early;     // s, how long before the row each position was true
+    std::vector<double> known;     // m, known part of the target
+    std::vector<double> doubt;     // N, what else may push over the tick from each row on
+    std::vector<std::vector<double>>
+        inputs;                    // mean force over the tick from each row on, per share
+    std::vector<double> switches;  // s after the first row, rising: the target goes to the next
+    std::vector<int> segments;     // index into the levels, one more than switches
+    double dt = 1e-3;              // s
+    double lag = 0;                // s, of the force sensor
+  };
+
+  /// Throws std::invalid_argument when the lists do not fit each other or hold no number.
+  explicit ArmRecord(Log log);
+
+  std::size_t rows() const { return log_.x.size(); }
+  std::size_t inputs() const { return log_.inputs.size(); }
+  std::size_t parameters() const { return ArmGuess::kBeforeInputs + inputs() + levels_; }
+
+  /// The gains for a guess, when a force reading has the standard deviation `force_noise` [N].
+  ArmGains gains(const ArmGuess& guess, double force_noise) const;
+
+  /// Writes the errors of one tick ahead, each over its standard deviation.
+  void innovations(const ArmGuess& guess, const ArmGains& gains, std::span<double> out) const;
+
+  /// Writes d innovations / d theta[which[i]], one column after the other, by differences of
+  /// `steps`.
+  void jacobian(std::span<const double> theta, const ArmGains& gains,
+                std::span<const std::size_t> which, std::span<const double> steps,
+                std::span<double> out) const;
+
+  /// Writes the position at each row that the recorded force alone gives from a state [m, m/s] on.
+  void simulate(const ArmGuess& guess, double x, double v, std::span<double> out) const;
+
+ private:
+  struct Drive {
+    std::vector<double> force;   // N, at each tick
+    std::vector<double> beyond;  // N, what its mean over the tick from there lies above that
+    std::vector<double> target;  // m, mean over the tick before, behind the lag
+  };
+
+  Drive drive(const ArmGuess& guess) const;
+  /// The delay in whole ticks, by which the force is shifted; and the rest of it, which is put on
+  /// the motion as the lag is: a force between two rows would be an average, and less noisy than
+  /// one at a row, which a fit takes for a reason to prefer it.
+  double whole_ticks(const ArmGuess& guess) const;
+  double late_by(const ArmGuess& guess) const;             // s
+  std::vector<double> jumps(const ArmGuess& guess) const;  // N
+  double mean_target(std::size_t tick, double onset, std::span<const double> levels,
+                     std::size_t& segment) const;
+
+  Log log_;
+  std::size_t levels_ = 0;
+  double keep_ = 0;  // share that a lagged signal keeps over a tick
+};
+
+}  // namespace ebac

@@ -1,0 +1,74 @@
+"""The tables of identification: `ebac identify check`."""
+
+from __future__ import annotations
+
+from printed import Printed, Row, code, table
+
+#: The doubts within a tick were set on seeds 1 to 3; what is shown is none of these.
+ARM, DEVICE = "identify check arm --logs 200 --seed 4", "identify check device --logs 200 --seed 4"
+GAINS = "identify check gains --logs 4 --seed 1"
+
+
+def share(value: float | None) -> str:
+    """Return a share in percent."""
+    return "-" if value is None else f"{100 * value:.2f} %"
+
+
+def coverage(rows: list[Row]) -> str:
+    """Return how often the intervals hold the truth."""
+    heads = ["", "logs", "determined", "covered", "median bias", "median error"]
+    shown = [row for row in rows if row["cases"] >= 20]
+    return table(
+        heads,
+        [
+            [
+                row["parameter"],
+                str(row["cases"]),
+                str(row["determined"]),
+                "-" if row["covered_share"] is None else f"{100 * row['covered_share']:.1f} %",
+                share(row["median_bias"]),
+                share(row["median_error"]),
+            ]
+            for row in shown
+        ],
+    )
+
+
+def arm(printed: Printed) -> str:
+    """200 random arms."""
+    d = printed.document(ARM)
+    text = (
+        f"Of {d['free_cases']} logs that tell nothing of the arm {d['free_called']} are called so, and "
+        f"{d['other_called']} of the {d['other_cases']} others; estimates that are "
+        f"wrong by half and said to be determined: {d['determined_and_wrong_by_half']}."
+    )
+    return coverage(d["rows"]) + "\n\n" + text
+
+
+def device(printed: Printed) -> str:
+    """200 random devices."""
+    return coverage(printed.rows(DEVICE))
+
+
+def gains(printed: Printed) -> str:
+    """Gains chosen from ten logs, on hands that were held out."""
+    heads = ["law", "gains", "Kp", "Kd", "settle", "median", "swing, worst", "noise of the command", "least energy",
+             "logs with a broken constraint"]  # fmt: skip
+    rows = []
+    for row in printed.rows(GAINS):
+        median = row["settled_median_s"]
+        rows.append(
+            [
+                code(row["law"]),
+                row["gains"],
+                f"{row['kp_median']:.2g}",
+                f"{1e3 * row['kd_median_s']:.2g} ms",
+                f"{row['settled']} of {row['presses']}",
+                "never" if median is None else f"{median:.3f} s",
+                f"{1e3 * row['swing_worst_m']:.3f} mm",
+                f"{1e3 * row['noise_median_N']:.1f} mN",
+                f"{1e3 * row['least_energy_J']:.1f} mJ",
+                f"{row['logs_with_broken_constraint']} of {row['logs']}",
+            ]
+        )
+    return table(heads, rows)

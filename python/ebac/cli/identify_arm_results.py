@@ -1,0 +1,107 @@
+"""What `ebac identify arm` shows and writes."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from ebac.cli import output
+
+if TYPE_CHECKING:
+    from ebac.identify import ArmResult
+
+
+def careful(result: ArmResult) -> list[str]:
+    """Return what to be careful about, a sentence each."""
+    out = [f"{name} is not determined by this log." for name in result.undetermined]
+    out += [
+        f"{a} and {b} cannot be told apart in this log (correlation {r:+.3f})."
+        for a, b, r in result.inseparable
+    ]
+    for name, t in result.tests.items():
+        if not t.white:
+            out.append(
+                f"{name}: the errors are not white "
+                f"(largest correlation {abs(t.auto).max():.2f}); the model misses something."
+            )
+        if not t.independent:
+            out.append(
+                f"{name}: the errors follow the force "
+                f"(correlation {abs(t.cross).max():.2f}); closed loop, or the model misses something."
+            )
+    return out
+
+
+def show(
+    result: ArmResult, profiles: Any, predictions: Any, opinions: Any, remarks: dict[str, list[str]]
+) -> None:
+    """Print the table and what is to be said about it."""
+    for name, lines in remarks.items():
+        for text in lines:
+            output.say(f"{name}: {text}", style="dim")
+    grid = output.table(["", "estimate", "95 % interval", "profile", "unit", ""], numbers=(1, 2, 3))
+    for e in result.estimates.values():
+        if e.fixed and e.name not in ("M0", "B0", "K0"):
+            continue
+        wide = "-" if e.fixed else f"{e.low:.4g} to {e.high:.4g}"
+        prof = "-" if e.name not in profiles else "{:.4g} to {:.4g}".format(*profiles[e.name])
+        word = "given" if e.fixed else "" if e.determined else "[red]not determined[/]"
+        grid.add_row(e.name, f"{e.value:.4g}", wide, prof, e.unit, word)
+    output.console().print(grid)
+    for p in predictions:
+        kind = "held out" if p.held_out else "fitted"
+        output.say(
+            f"{p.recording} ({kind}): from the force alone VAF {100 * p.vaf:.2f} %, NRMSE {100 * p.nrmse:.2f} %"
+        )
+    for o in opinions:
+        output.say(
+            f"{o.name}: direct {o.direct:.4g}, by instruments {o.unbiased:.4g} "
+            f"+- {1.96 * o.unbiased_deviation:.2g} {o.unit}: {abs(o.apart):.1f} deviations apart"
+        )
+    if not opinions:
+        output.say(
+            "A log of a closed loop is fitted directly; without a moving target there is no second opinion."
+        )
+    for text in careful(result):
+        output.say(text, style="bold red")
+
+
+def write(
+    folder: Path | None,
+    result: ArmResult,
+    predictions: Any,
+    opinions: Any,
+    remarks: dict[str, list[str]],
+) -> list[str]:
+    """Write the report page and its figures; return the names of the files."""
+    from ebac.identify.figures import plot_arm
+    from ebac.identify.report import page
+
+    with output.results(folder) as draft:
+        if draft is None:
+            return []
+        figures = [plot_arm(result, i) for i in range(len(result.recordings))]
+        for i, figure in enumerate(figures):
+            figure.savefig(draft / f"arm-{i + 1}.png")
+        rows = [
+            {
+                "parameter": e.name,
+                "estimate": f"{e.value:.5g}",
+                "95 % interval": "given" if e.fixed else f"{e.low:.5g} to {e.high:.5g}",
+                "unit": e.unit,
+            }
+            for e in result.estimates.values()
+        ]
+        notes = [f"{name}: {text}" for name, lines in remarks.items() for text in lines]
+        notes += [
+            f"{p.recording}: VAF {100 * p.vaf:.2f} %, NRMSE {100 * p.nrmse:.2f} %{' (held out)' if p.held_out else ''}"
+            for p in predictions
+        ]
+        notes += [
+            f"{o.name}: direct {o.direct:.4g} {o.unit}, by instruments {o.unbiased:.4g} {o.unit}"
+            for o in opinions
+        ]
+        (draft / "arm.html").write_text(
+            page("The arm of eq. (4)", rows, careful(result), notes, figures), encoding="utf-8"
+        )
+        return sorted(file.name for file in draft.iterdir())

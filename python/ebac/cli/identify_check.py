@@ -1,0 +1,182 @@
+"""`ebac identify check`: the methods tried on what is known."""
+
+from __future__ import annotations
+
+from enum import StrEnum
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from ebac.cli import output
+
+if TYPE_CHECKING:
+    from ebac.identify.check import Check
+
+
+class What(StrEnum):
+    """What is tried."""
+
+    ARM = "arm"
+    DEVICE = "device"
+    GAINS = "gains"
+
+
+#: How many logs each table takes.
+LOGS = {What.ARM: 200, What.DEVICE: 200, What.GAINS: 10}
+
+
+def check(
+    what: Annotated[What, typer.Argument(help="What is tried.")] = What.ARM,
+    logs: Annotated[
+        int | None,
+        typer.Option(
+            "--logs",
+            "--arms",
+            help="Random logs: arms, devices, noise seeds.",
+            show_default="200; 10 of gains",
+        ),
+    ] = None,
+    seed: Annotated[int, typer.Option(help="Seed of all of them.")] = 1,
+    seconds: Annotated[float, typer.Option(help="Length of each log [s].")] = 10.0,
+    workers: Annotated[
+        int | None, typer.Option(help="Processes.", show_default="one per core")
+    ] = None,
+    as_json: output.AsJson = False,
+) -> None:
+    """Try the methods on random arms and devices: how often do the intervals hold the truth? A simulation.
+
+    Each arm taps, follows a path or presses, at a wall under a law, with encoder counts and noise of the force sensor;
+    one in ten never meets the wall, and its log tells nothing of the arm. Prints coverage and bias of every parameter.
+    With `gains`, K_p and K_d are chosen from each log and tried on hands that were not in it.
+
+    **Examples**
+
+    * `ebac identify check arm --logs 200 --seed 4`
+
+    * `ebac identify check gains --logs 10`
+    """
+    many = LOGS[what] if logs is None else logs
+    if what is What.GAINS:
+        _gains(many, seed, as_json)
+    else:
+        _intervals(what, many, seed, seconds, workers, as_json)
+
+
+def _intervals(
+    what: What, logs: int, seed: int, seconds: float, workers: int | None, as_json: bool
+) -> None:
+    from ebac.identify.check import check as run
+
+    with output.refusing(), output.counting("identifying", quiet=as_json) as progress:
+        found = run(
+            logs,
+            what=what.value,
+            seed=seed,
+            seconds=seconds,
+            workers=workers,
+            progress=lambda done: progress(done, logs),
+        )
+    rows = found.rows()
+    more: dict[str, Any] = {"median_fit_s": found.median_seconds()}
+    if what is What.ARM:
+        more |= found.unidentifiable() | _times(seed, seconds)
+    if as_json:
+        typer.echo(
+            output.document("identify check", rows, what=what.value, logs=logs, seed=seed, **more)
+        )
+        return
+    _table(rows)
+    if what is What.ARM:
+        _say_arm(found, more)
+    output.say(f"A fit takes {1e3 * found.median_seconds():.0f} ms (median, all cores busy).")
+    output.say("Simulated, not measured.", style="bold")
+
+
+def _table(rows: list[dict[str, Any]]) -> None:
+    grid = output.table(
+        ["", "logs", "determined", "covered", "median bias", "median error"],
+        numbers=(1, 2, 3, 4, 5),
+    )
+    for row in rows:
+        share = [
+            f"{100 * v:.2f} %" if v is not None else "-"
+            for v in (row["covered_share"], row["median_bias"], row["median_error"])
+        ]
+        grid.add_row(row["parameter"], str(row["cases"]), str(row["determined"]), *share)
+    output.console().print(grid)
+
+
+def _say_arm(found: Check, more: dict[str, Any]) -> None:
+    output.say(
+        f"Logs that tell nothing of the arm: {more['free_called']} of {more['free_cases']} called so; "
+        f"of the others {more['other_called']} of {more['other_cases']}."
+    )
+    output.say(
+        f"Said to be determined and wrong by half or more: {more['determined_and_wrong_by_half']} estimates."
+    )
+    if "fit_s" in more:
+        output.say(
+            f"One log alone: {1e3 * more['fit_s']:.0f} ms ({1e3 * more['fit_processor_s']:.0f} ms of the processor); "
+            f"the last of its objectives by SciPy {1e3 * more['scipy_s']:.0f} ms "
+            f"({1e3 * more['scipy_processor_s']:.0f} ms), optimum {more['scipy_apart_deviations']:.1g} deviations "
+            "apart."
+        )
+
+
+def _gains(logs: int, seed: int, as_json: bool) -> None:
+    from ebac.identify.gains_check import LAWS, check_gains, gains_rows
+
+    total = logs * len(LAWS)
+    with output.refusing(), output.counting("choosing", quiet=as_json) as progress:
+        cases = check_gains(logs, seed=seed, progress=lambda done: progress(done, total))
+    rows = gains_rows(cases)
+    if as_json:
+        typer.echo(output.document("identify check", rows, what="gains", logs=logs, seed=seed))
+        return
+    headings = ["law", "gains", "Kp", "Kd", "settle", "median", "swing, worst", "noise", "least energy",
+                "logs that break a constraint"]  # fmt: skip
+    grid = output.table(headings, numbers=tuple(range(2, 10)))
+    for row in rows:
+        median = row["settled_median_s"]
+        grid.add_row(
+            row["law"],
+            row["gains"],
+            f"{row['kp_median']:.3g}",
+            f"{1e3 * row['kd_median_s']:.3g} ms",
+            f"{row['settled']} of {row['presses']}",
+            f"{median:.3f} s" if median < 1e9 else "never",
+            f"{1e3 * row['swing_worst_m']:.3f} mm",
+            f"{1e3 * row['noise_median_N']:.1f} mN",
+            f"{1e3 * row['least_energy_J']:.1f} mJ",
+            f"{row['logs_with_broken_constraint']} of {row['logs']}"
+            + (f" ({', '.join(row['broken'])})" if row["broken"] else ""),
+        )
+    output.console().print(grid)
+    for law, many in {
+        row["law"]: row["logs_refused"] for row in rows if row["logs_refused"]
+    }.items():
+        output.say(f"{law}: {many} logs refused, no pair of gains keeps the constraints.")
+    output.say("On hands that were held out. Simulated, not measured.", style="bold")
+
+
+def _times(seed: int, seconds: float) -> dict[str, float]:
+    """Time a fit and SciPy's `least_squares` on the same objective, in one run."""
+    from ebac.identify import Recording, Target, fit_arm
+    from ebac.identify.cases import draw
+    from ebac.identify.peer import compare_with_scipy
+    from ebac.simulation import simulate
+
+    case = next(c for c in (draw(i, seed, seconds) for i in range(1000)) if c.task == "tapping")
+    recording = Recording.from_trace(simulate(case.scenario, case.law))
+    result = fit_arm(recording, Target.of(case.scenario.hand, recording.t))
+    try:
+        c = compare_with_scipy(result)
+    except ModuleNotFoundError:
+        return {}
+    return {
+        "fit_s": c.ours_s,
+        "fit_processor_s": c.ours_cpu_s,
+        "scipy_s": c.scipy_s,
+        "scipy_processor_s": c.scipy_cpu_s,
+        "scipy_apart_deviations": c.apart,
+    }

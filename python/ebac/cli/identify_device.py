@@ -1,0 +1,108 @@
+"""`ebac identify device`: mass, damping, friction and weight of a device."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from ebac.cli import output
+from ebac.cli.identify_options import (
+    Axis,
+    ColumnOf,
+    CurrentLag,
+    Lag,
+    Out,
+    Rate,
+    Reading,
+    UnitOf,
+)
+
+if TYPE_CHECKING:
+    from ebac.identify import DeviceResult
+
+
+def device(
+    log: Annotated[Path, typer.Argument(help="MCAP, CSV, .mat or .npz.", show_default=False)],
+    column: ColumnOf = None,
+    unit: UnitOf = None,
+    rate: Rate = None,
+    lag: Lag = None,
+    current_lag: CurrentLag = None,
+    axis: Axis = 0,
+    out: Out = None,
+    as_json: output.AsJson = False,
+) -> None:
+    """Identify the device: mass and damping, Coulomb and Stribeck friction, weight; and tau_static of eq. (2).
+
+    Needs position, and the motor's force or the hand's, which moves it both ways.
+
+    **Examples**
+
+    * `ebac identify device excited.csv`
+
+    * `ebac identify device run.mcap --axis 1 --out report`
+    """
+    from ebac.identify import fit_device
+
+    reading = Reading(
+        column=column, unit=unit, rate=rate, lag=lag, current_lag=current_lag, axis=axis
+    )
+    with output.refusing():
+        recording = reading.load(log)
+        result = fit_device(recording)
+    files = _write(out, result)
+    if as_json:
+        more = result.to_dict()
+        rows = more.pop("rows")
+        typer.echo(
+            output.document("identify device", rows, **more, remarks=list(recording.remarks))
+        )
+        return
+    for text in recording.remarks:
+        output.say(text, style="dim")
+    grid = output.table(["", "estimate", "95 % interval", "unit", ""], numbers=(1, 2))
+    for e in result.estimates.values():
+        word = "" if e.determined else "[red]not determined[/]"
+        grid.add_row(e.name, f"{e.value:.4g}", f"{e.low:.4g} to {e.high:.4g}", e.unit, word)
+    output.console().print(grid)
+    for text in _notes(result):
+        output.say(text)
+    if out is not None:
+        output.list_files(out, files)
+
+
+def _notes(result: DeviceResult) -> list[str]:
+    given = result.compensation
+    return [
+        f"Explains {100 * result.explained:.2f} % of the force where it slides, "
+        f"{100 * result.drive.slides.mean():.0f} % of the log.",
+        f"For the device: Compensation(friction={given.friction:.4g} N, gravity_mass={given.gravity_mass:.4g} kg), "
+        "the lower bounds of what was found.",
+    ]
+
+
+def _write(folder: Path | None, result: DeviceResult) -> list[str]:
+    from ebac.identify.figures import plot_device
+    from ebac.identify.report import page
+
+    with output.results(folder) as draft:
+        if draft is None:
+            return []
+        figure = plot_device(result)
+        figure.savefig(draft / "device.png")
+        rows = [
+            {
+                "parameter": e.name,
+                "estimate": f"{e.value:.5g}",
+                "95 % interval": f"{e.low:.5g} to {e.high:.5g}",
+                "unit": e.unit,
+            }
+            for e in result.estimates.values()
+        ]
+        careful = [f"{name} is not determined by this log." for name in result.undetermined]
+        notes = [*result.recording.remarks, *_notes(result)]
+        text = page("The device of eq. (6)", rows, careful, notes, [figure])
+        (draft / "device.html").write_text(text, encoding="utf-8")
+        return sorted(file.name for file in draft.iterdir())

@@ -1,0 +1,189 @@
+"""`ebac identify gains`: K_p and K_d of eq. (2) from logged steps."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from ebac.cli import output
+from ebac.cli.identify_options import (
+    FIT,
+    Axis,
+    ColumnOf,
+    CurrentLag,
+    Fix,
+    Lag,
+    Logs,
+    Out,
+    Rate,
+    Reading,
+    Robust,
+    Switch,
+    Tapping,
+    UnitOf,
+    numbers,
+    target_of,
+)
+
+if TYPE_CHECKING:
+    from ebac.identify import GainsResult
+
+LIMITS = "Constraints"
+
+
+def gains(
+    logs: Logs,
+    law: Annotated[
+        str, typer.Option(help="A law with the force loop of eq. (2).", rich_help_panel=FIT)
+    ] = "ebac",
+    column: ColumnOf = None,
+    unit: UnitOf = None,
+    rate: Rate = None,
+    lag: Lag = None,
+    current_lag: CurrentLag = None,
+    axis: Axis = 0,
+    switch: Switch = None,
+    tapping: Tapping = None,
+    fix: Fix = None,
+    robust: Robust = None,
+    delay: Annotated[
+        int, typer.Option(help="Transport delay [samples].", min=0, rich_help_panel=FIT)
+    ] = 1,
+    vary: Annotated[
+        float,
+        typer.Option(
+            help="Hands this share beyond the identified one are tried too.", rich_help_panel=FIT
+        ),
+    ] = 0.3,
+    overshoot: Annotated[
+        float | None,
+        typer.Option(
+            help="Deepest beyond the rest of an ideal wall [m].",
+            show_default="a quarter more than the default gains show",
+            rich_help_panel=LIMITS,
+        ),
+    ] = None,
+    force: Annotated[
+        float | None,
+        typer.Option(
+            help="Largest force [N].", show_default="the motor's peak", rich_help_panel=LIMITS
+        ),
+    ] = None,
+    current: Annotated[
+        float | None,
+        typer.Option(
+            help="Largest current [A].", show_default="the drive's peak", rich_help_panel=LIMITS
+        ),
+    ] = None,
+    noise_gain: Annotated[
+        float,
+        typer.Option(
+            help="Noise of the command per noise of the force reading.", rich_help_panel=LIMITS
+        ),
+    ] = 0.5,
+    energy: Annotated[
+        float,
+        typer.Option(help="Most energy the port may give away [J].", rich_help_panel=LIMITS),
+    ] = 0.010,
+    out: Out = None,
+    as_json: output.AsJson = False,
+) -> None:
+    """Choose K_p and K_d of eq. (2) from logged steps: identify arm, device and wall, then search.
+
+    Every pair is simulated on the identified hand, on the ends of its interval and on hands around it; the cost is
+    time-weighted error, swing and noise over what the default gains give, and no hand may break a constraint. Beside
+    it stands the paper's way, a rule on the step response. The table is a simulation.
+
+    **Examples**
+
+    * `ebac identify gains tap.mcap --tapping 1.5 --law tca`
+
+    * `ebac identify gains press.csv --switch 1.0 --law ebac --noise-gain 0.2 --out report`
+    """
+    from ebac import Timing
+    from ebac.identify import Limits, fit_gains, fit_loop
+
+    reading = Reading(
+        column=column, unit=unit, rate=rate, lag=lag, current_lag=current_lag, axis=axis
+    )
+    with output.refusing(), output.counting("choosing", quiet=as_json) as progress:
+        limits = Limits(
+            overshoot=overshoot, force=force, current=current, noise_gain=noise_gain, energy=energy
+        )
+        recordings = [reading.load(path) for path in logs]
+        targets = [target_of(r, switch, tapping) for r in recordings]
+        timing = Timing(dt=round(recordings[0].dt, 9), delay=delay)
+        loop = fit_loop(
+            recordings, targets, timing=timing, fixed=numbers(fix, "--fix"), robust=robust
+        )
+        result = fit_gains(loop, law, limits=limits, vary=vary, progress=progress)
+    files = _write(out, result)
+    if as_json:
+        more = result.to_dict()
+        rows = more.pop("rows")
+        typer.echo(output.document("identify gains", rows, **more))
+        return
+    for text in loop.remarks:
+        output.say(text, style="dim")
+    table = _cells(result)
+    grid = output.table(list(table[0]), numbers=tuple(range(1, len(table[0]) - 1)))
+    for row in table:
+        grid.add_row(*row.values())
+    output.console().print(grid)
+    for text in _notes(result):
+        output.say(text)
+    output.say("Simulated, not measured.", style="bold")
+    if out is not None:
+        output.list_files(out, files)
+
+
+def _cells(result: GainsResult) -> list[dict[str, str]]:
+    def seconds(value: float) -> str:
+        return f"{value:.3f} s" if value < 1e9 else "never"
+
+    return [
+        {
+            "gains": row["gains"],
+            "Kp": f"{row['kp']:.3g}",
+            "Kd": f"{1e3 * row['kd_s']:.3g} ms",
+            "cost": f"{row['cost']:.3f}",
+            "settles (median)": seconds(row["settled_median_s"]),
+            "swing (worst)": f"{1e3 * row['swing_worst_m']:.3f} mm",
+            "noise": f"{row['noise_mean_N']:.3f} N",
+            "noise gain": f"{row['noise_gain']:.2f}",
+            "overshoot (worst)": f"{1e3 * row['overshoot_worst_m']:.2f} mm",
+            "least energy": f"{1e3 * row['least_energy_J']:.1f} mJ",
+            "breaks": ", ".join(row["broken"]) or "nothing",
+        }
+        for row in result.rows()
+    ]
+
+
+def _notes(result: GainsResult) -> list[str]:
+    limits = result.limits
+    return [
+        f"{len(result.chosen.presses.goals)} hands, {len(result.tried)} pairs of gains. Constraints: overshoot "
+        f"{1e3 * (limits.overshoot or 0):.2f} mm, force {limits.force:.1f} N, current {limits.current:.2f} A, "
+        f"noise gain {limits.noise_gain:g}, energy {1e3 * limits.energy:g} mJ.",
+        f'In Python: ebac.laws.Variant("{result.name}", {{"kp": {result.kp:.4g}, "kd": {result.kd:.4g}}})',
+    ]
+
+
+def _write(folder: Path | None, result: GainsResult) -> list[str]:
+    from ebac.identify.gains_figures import plot_gains
+    from ebac.identify.report import page
+
+    with output.results(folder) as draft:
+        if draft is None:
+            return []
+        figure = plot_gains(result)
+        figure.savefig(draft / "gains.png")
+        notes = [str(e) for e in result.loop.arm.estimates.values() if e.name in ("M0", "B0", "K0")]
+        notes += [*result.loop.remarks, *_notes(result), "Simulated, not measured."]
+        text = page(
+            f"K_p and K_d of eq. (2) for {result.name}", _cells(result), [], notes, [figure]
+        )
+        (draft / "gains.html").write_text(text, encoding="utf-8")
+        return sorted(file.name for file in draft.iterdir())

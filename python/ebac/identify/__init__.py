@@ -1,0 +1,45 @@
+"""From logs to models: the arm of eq. (4), the device, the gains of eq. (2).
+
+A first look::
+
+    from ebac import identify
+
+    recording = identify.load("press.csv")
+    result = identify.fit_arm(recording)
+    print(result)  # estimates, intervals, what cannot be told apart
+    scenario = ebac.Scenario(hand=result.hand)
+"""
+
+from ebac.identify import excitation
+from ebac.identify.arm import fit_arm
+from ebac.identify.device import DeviceResult, fit_device
+from ebac.identify.excites import LogCheck, check_log
+from ebac.identify.gains import GainsResult, fit_gains
+from ebac.identify.gains_trial import Limits
+from ebac.identify.load import load
+from ebac.identify.loop import LoopModel, fit_loop
+from ebac.identify.recording import Recording
+from ebac.identify.response import Response, frequency_response
+from ebac.identify.result import ArmResult, Estimate
+from ebac.identify.target import Target
+
+__all__ = [
+    "ArmResult",
+    "DeviceResult",
+    "Estimate",
+    "GainsResult",
+    "Limits",
+    "LogCheck",
+    "LoopModel",
+    "Recording",
+    "Response",
+    "Target",
+    "check_log",
+    "excitation",
+    "fit_arm",
+    "fit_device",
+    "fit_gains",
+    "fit_loop",
+    "frequency_response",
+    "load",
+]

@@ -1,0 +1,160 @@
+"""Identify the human arm of eq. (4) from logs."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from time import perf_counter
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ebac.identify.fit import fitted
+from ebac.identify.guess import regression, solve
+from ebac.identify.intervals import with_counts
+from ebac.identify.likelihood import minus_two_log
+from ebac.identify.noise import rough
+from ebac.identify.parameters import BEFORE_LEVELS, lay_out
+from ebac.identify.problem import Problem
+from ebac.identify.recording import Recording
+from ebac.identify.response import guess_by_response
+from ebac.identify.result import ArmResult
+from ebac.identify.target import Target
+
+Values = NDArray[np.float64]
+
+
+def fit_arm(
+    recordings: Recording | Sequence[Recording],
+    targets: Target | Sequence[Target] | None = None,
+    *,
+    fixed: Mapping[str, float] | None = None,
+    bounds: Mapping[str, tuple[float, float]] | None = None,
+    free: Sequence[str] = (),
+    own: Sequence[str] = (),
+    starts: int = 1,
+    robust: float | None = None,
+    seed: int = 1,
+) -> ArmResult:
+    """Fit M0, B0, K0 and the targets X0 of eq. (4) to one or more recordings of one arm.
+
+    The force of the hand drives the model, the position is compared: what lies on the other side of the force sensor,
+    device, law and
+    wall, need not be known. The force reading is an input with noise, so the errors are those of a Kalman filter one
+    tick ahead; its
+    initial state is free. The noise of the force is estimated along.
+
+    Parameters
+    ----------
+    recordings : Recording or sequence of them
+        With position and force of the hand.
+    targets : Target or sequence of them, optional
+        One for each recording; default: held in one place.
+    fixed : mapping, optional
+        Values that are not fitted, by name: `{"M0": 0.2}` [kg], B0 [N s/m], K0 [N/m], X0, X0/2 [m], delay, onset [s].
+        A name of one recording carries its number: `X0@2`.
+    bounds : mapping, optional
+        (low, high) by name.
+    free : sequence of str, optional
+        Fit `delay` or `onset` too, which are 0 otherwise.
+    own : sequence of str, optional
+        Which of M0, B0, K0, delay every recording has for itself.
+    starts : int
+        From how many points the search starts, at least 1; more cost time and are seldom needed.
+    robust : float, optional
+        Errors beyond so many standard deviations count linearly (Huber); 1.345 keeps 95 % of the efficiency.
+    seed : int
+        Of the further starts.
+
+    Returns
+    -------
+    ArmResult
+
+    Raises
+    ------
+    ValueError
+        For a recording without force, a name that does not exist, a value out of range.
+    """
+    began = perf_counter()
+    if isinstance(recordings, Recording):
+        recordings = [recordings]
+    if targets is None or isinstance(targets, Target):
+        targets = [targets or Target.held()] * len(recordings)
+    _check(recordings, targets, starts, robust)
+    parameters = lay_out(
+        [t.levels for t in targets],
+        fixed=fixed or {},
+        bounds=bounds or {},
+        free=free,
+        own=own,
+    )
+    problem = Problem(recordings=tuple(recordings), targets=tuple(targets), parameters=parameters)
+    fit = fitted(problem, [better_guess(problem)], starts=starts, robust=robust, seed=seed)
+    return ArmResult(
+        problem=problem,
+        values=fit.values,
+        optimum=fit.optimum,
+        force_noise=fit.force_noise,
+        errors=fit.errors,
+        covariance=with_counts(problem, fit.covariance),
+        robust=robust,
+        converged=fit.converged,
+        evaluations=fit.evaluations,
+        seconds=perf_counter() - began,
+    )
+
+
+def _check(
+    recordings: Sequence[Recording],
+    targets: Sequence[Target],
+    starts: int,
+    robust: float | None,
+) -> None:
+    if not recordings:
+        raise ValueError("no recordings: give at least one")
+    if len(targets) != len(recordings):
+        raise ValueError(
+            f"{len(targets)} targets for {len(recordings)} recordings: give one each, or one for all"
+        )
+    if starts < 1:
+        raise ValueError(f"starts = {starts}: must be at least 1")
+    if robust is not None and not robust > 0:
+        raise ValueError(f"robust = {robust}: must be positive, in standard deviations")
+
+
+def better_guess(problem: Problem) -> Values:
+    """Return the likelier one of two guesses: by regression over time, and by the spectra of the first recording."""
+    by_time = first_guess(problem)
+    place = problem.parameters.places[0]
+    recording, target = problem.recordings[0], problem.targets[0]
+    try:
+        found = guess_by_response(recording, target, by_time[place[BEFORE_LEVELS:]])
+    except ValueError:  # too short for spectra
+        return by_time
+    if found is None or not (found > 0).all():
+        return by_time
+    other = by_time.copy()
+    other[place[:3]] = found
+    other = problem.parameters.clip(other)
+    assert recording.force is not None
+    noise = max(rough(recording.force), 1e-5 * float(np.ptp(recording.force)), 1e-9)
+    record = problem.records[0]
+    costs = [minus_two_log(record, guess[place], noise) for guess in (by_time, other)]
+    return other if costs[1] < costs[0] else by_time
+
+
+def first_guess(problem: Problem) -> Values:
+    """Return where a search starts, by linear regression, within the bounds."""
+    parts = [regression(r, t) for r, t in zip(problem.recordings, problem.targets, strict=True)]
+    found, _ = solve(parts)
+    found = np.where(np.isfinite(found), found, 0.0)
+    values = np.zeros(len(problem.parameters.names))
+    positive = [(0.02, 5.0), (0.3, 100.0), (5.0, 5e3)]
+    hand = [float(np.clip(v, *limits)) for v, limits in zip(found[:3], positive, strict=True)]
+    before = 3
+    for place, part, r in zip(problem.parameters.places, parts, problem.recordings, strict=True):
+        count = part.columns.shape[1] - 3
+        reach = float(np.abs(r.x).max()) + 0.5
+        levels = np.clip(found[before : before + count], -reach, reach)
+        values[place] = [*hand, *np.zeros(BEFORE_LEVELS - 3), *levels]
+        before += count
+    return problem.parameters.clip(values)

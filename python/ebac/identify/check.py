@@ -1,0 +1,205 @@
+"""Is the method honest? Random arms on random devices, simulated and identified; how often the truth lies inside.
+
+Everything here is a simulation: encoder counts, noise of the force sensor, a wall and a law in the loop, friction the
+fit
+knows nothing of.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from concurrent.futures import ProcessPoolExecutor
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from ebac.identify.arm import fit_arm
+from ebac.identify.cases import Case, draw, draw_device
+from ebac.identify.device import fit_device
+from ebac.identify.recording import Recording
+from ebac.identify.result import Estimate
+from ebac.identify.target import Target
+
+HAND = ("M0", "B0", "K0")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Outcome:
+    """Estimate, interval and truth of one parameter of one case."""
+
+    case: int
+    task: str
+    law: str
+    parameter: str
+    truth: float
+    value: float
+    low: float
+    high: float
+    determined: bool
+    seconds: float
+
+    @property
+    def covered(self) -> bool:
+        """Whether the interval holds the truth."""
+        return self.low <= self.truth <= self.high
+
+    @property
+    def error(self) -> float:
+        """Relative error of the estimate."""
+        return (self.value - self.truth) / abs(self.truth)
+
+
+def run_case(case: Case) -> list[Outcome]:
+    """Simulate and identify one case."""
+    from ebac.simulation import simulate
+
+    trace = simulate(case.scenario, case.law)
+    recording = Recording.from_trace(trace, name=f"case {case.number}")
+    result = fit_arm(recording, Target.of(case.scenario.hand, recording.t))
+    free = {name: e for name, e in result.estimates.items() if not e.fixed}
+    return _outcomes(case, free, case.truth(), result.seconds)
+
+
+def run_device_case(case: Case) -> list[Outcome]:
+    """Simulate one case and identify its device; a log that is refused has no outcome but that."""
+    from ebac.simulation import simulate
+
+    trace = simulate(case.scenario, case.law)
+    truth = case.device_truth()
+    try:
+        result = fit_device(Recording.from_trace(trace, name=f"case {case.number}"))
+    except ValueError:
+        nothing = {n: Estimate(name=n, value=0.0, unit="", low=-np.inf, high=np.inf, fixed=False, determined=False)
+                   for n in truth}  # fmt: skip
+        return _outcomes(case, nothing, truth, 0.0)
+    return _outcomes(case, result.estimates, truth, result.seconds)
+
+
+def _outcomes(
+    case: Case, estimates: Mapping[str, Estimate], truth: Mapping[str, float], seconds: float
+) -> list[Outcome]:
+    return [
+        Outcome(
+            case=case.number,
+            task=case.task,
+            law=case.law,
+            parameter=name,
+            truth=truth.get(name, 0.0),
+            value=e.value,
+            low=e.low,
+            high=e.high,
+            determined=e.determined,
+            seconds=seconds,
+        )
+        for name, e in estimates.items()
+    ]
+
+
+def _run(job: tuple[str, int, int, float]) -> list[Outcome]:
+    what, number, seed, seconds = job
+    if what == "device":
+        return run_device_case(draw_device(number, seed, seconds))
+    return run_case(draw(number, seed, seconds))
+
+
+@dataclass(frozen=True, kw_only=True)
+class Check:
+    """The outcomes of many cases."""
+
+    outcomes: tuple[Outcome, ...]
+
+    def rows(self) -> list[dict[str, Any]]:
+        """Return coverage and bias of each parameter, over the cases that determine it."""
+        names = dict.fromkeys(o.parameter for o in self.outcomes)
+        return [self._row(name) for name in names]
+
+    def _row(self, name: str) -> dict[str, Any]:
+        every = [o for o in self.outcomes if o.parameter == name]
+        known = [o for o in every if o.determined]
+        errors = np.array([o.error if o.truth else np.nan for o in known])
+        has_truth = bool(np.isfinite(errors).any())
+        return {
+            "parameter": name,
+            "cases": len(every),
+            "determined": len(known),
+            "covered_share": float(np.mean([o.covered for o in known])) if known else None,
+            "covered_share_all": float(np.mean([o.covered for o in every])),
+            "median_bias": float(np.nanmedian(errors)) if has_truth else None,
+            "median_error": float(np.nanmedian(np.abs(errors))) if has_truth else None,
+        }
+
+    def unidentifiable(self) -> dict[str, int]:
+        """Count what became of the cases that tell nothing of the arm, and of the others."""
+        by_case: dict[int, list[Outcome]] = {}
+        for o in self.outcomes:
+            by_case.setdefault(o.case, []).append(o)
+
+        def called(outcomes: list[Outcome]) -> bool:
+            return any(not o.determined for o in outcomes if o.parameter in HAND)
+
+        free = [c for c in by_case.values() if c[0].task == "free"]
+        rest = [c for c in by_case.values() if c[0].task != "free"]
+        wrong = [
+            o for o in self.outcomes if o.parameter in HAND and o.determined and abs(o.error) > 0.5
+        ]
+        return {
+            "free_cases": len(free),
+            "free_called": sum(map(called, free)),
+            "other_cases": len(rest),
+            "other_called": sum(map(called, rest)),
+            "determined_and_wrong_by_half": len(wrong),
+        }
+
+    def median_seconds(self) -> float:
+        """Median time of a fit [s]."""
+        return float(np.median([o.seconds for o in self.outcomes]))
+
+
+def check(
+    arms: int = 200,
+    *,
+    what: str = "arm",
+    seed: int = 1,
+    seconds: float = 10.0,
+    workers: int | None = None,
+    progress: Callable[[int], None] | None = None,
+) -> Check:
+    """Simulate and identify `arms` random arms, in parallel.
+
+    Parameters
+    ----------
+    arms : int
+        How many, at least 1.
+    what : str
+        What is identified: `arm` or `device`.
+    seed : int
+        Of arms, devices, tasks, laws and noise.
+    seconds : float
+        Length of each log [s], [1, 1000].
+    workers : int, optional
+        Processes; default: one for each core.
+    progress : callable, optional
+        Told how many are done.
+
+    Raises
+    ------
+    ValueError
+        For a number out of range.
+    """
+    if what not in ("arm", "device"):
+        raise ValueError(f"what = {what!r}: must be arm or device")
+    if arms < 1:
+        raise ValueError(f"arms = {arms}: must be at least 1")
+    if not 1 <= seconds <= 1000:
+        raise ValueError(f"seconds = {seconds} s: must lie in [1, 1000] s")
+    if workers is not None and workers < 1:
+        raise ValueError(f"workers = {workers}: must be at least 1")
+    jobs = [(what, i, seed, seconds) for i in range(arms)]
+    outcomes: list[Outcome] = []
+    with ProcessPoolExecutor(workers) as pool:
+        for done, found in enumerate(pool.map(_run, jobs), 1):
+            outcomes += found
+            if progress is not None:
+                progress(done)
+    return Check(outcomes=tuple(outcomes))

@@ -1,0 +1,159 @@
+"""Identify the device: M_h, B_h of eq. (6), friction, weight; from them tau_static of eq. (2)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+from time import perf_counter
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ebac._core import Compensation
+from ebac.identify.device_problem import (
+    Drive,
+    Guess,
+    columns_of,
+    device_problem,
+    driven,
+    first_guess,
+)
+from ebac.identify.fit import Fitted, fitted
+from ebac.identify.recording import Recording
+from ebac.identify.result import Z95, Estimate
+
+#: Standard gravity [m/s^2].
+GRAVITY = 9.80665
+#: Stribeck speeds that are tried [m/s].
+SPEEDS = np.geomspace(2e-3, 0.1, 8)
+#: A friction that falls with speed is believed when it is this many deviations from none and raises the likelihood.
+BELIEVED, GAIN = 4.0, 20.0
+NAMES = ("M_h", "B_h", "coulomb", "weight", "stribeck")
+UNITS = ("kg", "N s/m", "N", "N", "N")
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class DeviceResult:
+    """The device as identified; `result.compensation` feeds a `Device`."""
+
+    recording: Recording
+    drive: Drive
+    names: tuple[str, ...]
+    values: NDArray[np.float64]
+    covariance: NDArray[np.float64]
+    stribeck_speed: float | None
+    explained: float
+    converged: bool
+    seconds: float
+
+    @cached_property
+    def estimates(self) -> dict[str, Estimate]:
+        """Every parameter by name: M_h, B_h, coulomb, weight (towards +x), stribeck (breakaway above Coulomb)."""
+        half = Z95 * np.sqrt(np.diag(self.covariance))
+        rows = zip(self.names, self.values.tolist(), half.tolist(), UNITS, strict=False)
+        return {
+            name: Estimate(
+                name=name,
+                value=value,
+                unit=unit,
+                low=value - h,
+                high=value + h,
+                fixed=False,
+                determined=self._determined(name, value, h),
+            )
+            for name, value, h, unit in rows
+        }
+
+    def _determined(self, name: str, value: float, half: float) -> bool:
+        if name in ("M_h", "B_h"):
+            return half <= 0.25 * abs(value)
+        reach = float(np.sqrt(np.mean(self.drive.force[self.drive.slides] ** 2)))
+        return half <= 0.25 * max(abs(value), reach)
+
+    @property
+    def undetermined(self) -> tuple[str, ...]:
+        """Names of what the log does not determine."""
+        return tuple(name for name, e in self.estimates.items() if not e.determined)
+
+    @property
+    def compensation(self) -> Compensation:
+        """Return tau_static of eq. (2), never more than is surely there.
+
+        The lower bounds of friction and of the weight against +x. Inertia is left alone: given back it costs
+        damping, see `Compensation`.
+        """
+        friction = max(0.0, self.estimates["coulomb"].low)
+        weight = max(0.0, -self.estimates["weight"].high)
+        return Compensation(friction=friction, gravity_mass=weight / GRAVITY)
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return plain numbers in SI units, for JSON."""
+        return {
+            "rows": [vars(e) for e in self.estimates.values()],
+            "stribeck_speed_m_per_s": self.stribeck_speed,
+            "explained_share": self.explained,
+            "undetermined": list(self.undetermined),
+            "compensation": self.compensation.as_dict(),
+            "converged": self.converged,
+            "seconds_s": self.seconds,
+        }
+
+    def __repr__(self) -> str:
+        """Return the estimates, one a line."""
+        lines = ["Device:"] + [f"  {e}" for e in self.estimates.values()]
+        return "\n".join([*lines, f"  explains {100 * self.explained:.2f} % of the force"])
+
+
+def fit_device(recording: Recording, *, current_lag: float | None = None) -> DeviceResult:
+    """Identify the device of one axis from motion and forces.
+
+    The forces on the handle drive it, the hand's where the log has it and the motor's; its position is foretold one
+    tick ahead and compared, as for the arm. While it slides, friction is known but for its size; near a turn, or at
+    rest, it is whatever it has to be, and these rows tell nothing.
+
+    Parameters
+    ----------
+    recording : Recording
+        With motion both ways, and the motor's or the hand's force.
+    current_lag : float, optional
+        Lag of the current loop [s]; default: of the recording.
+
+    Raises
+    ------
+    ValueError
+        When the recording has neither force, or does not slide both ways for long enough.
+    """
+    began = perf_counter()
+    drive = driven(recording, recording.current_lag if current_lag is None else current_lag)
+    start = first_guess(drive)
+    best, speed = _fit(drive, None, start), None
+    trials = [(float(s), first_guess(drive, float(s))) for s in SPEEDS]
+    tried, guess = min(trials, key=lambda trial: trial[1].cost)
+    if guess.cost < 0.995 * start.cost:
+        other = _fit(drive, tried, guess)
+        rise = other.values[-1] / np.sqrt(max(other.covariance[-1, -1], 1e-300))
+        if other.cost < best.cost - GAIN and rise > BELIEVED:
+            best, speed = other, tried
+    left = drive.smooth_force[drive.slides] + columns_of(drive, speed) @ best.values
+    return DeviceResult(
+        recording=recording,
+        drive=drive,
+        names=NAMES[: len(best.values)],
+        values=best.values,
+        covariance=best.covariance,
+        stribeck_speed=speed,
+        explained=1 - float(np.var(left) / (np.var(drive.smooth_force[drive.slides]) + 1e-300)),
+        converged=best.converged,
+        seconds=perf_counter() - began,
+    )
+
+
+def _fit(drive: Drive, speed: float | None, guess: Guess) -> Fitted:
+    """Return the fit, with the values of what is fitted alone."""
+    problem, names = device_problem(drive, speed)
+    p = problem.parameters
+    start = np.where(np.isnan(p.fixed), 0.0, p.fixed)
+    start[[p.names.index(n) for n in names]] = guess.values
+    fit = fitted(problem, [p.clip(start)], starts=1, robust=None, seed=1)
+    return replace(fit, values=fit.values[p.free])

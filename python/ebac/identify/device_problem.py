@@ -1,0 +1,201 @@
+"""The device as a problem: eq. (6) with friction and weight, driven by the forces on its handle."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ebac._core import ArmRecord
+from ebac.identify.noise import readings, rough
+from ebac.identify.parameters import BOUNDS, Parameters
+from ebac.identify.problem import Problem
+from ebac.identify.recording import Recording
+from ebac.identify.ripple import stair
+from ebac.identify.smooth import kernels, smoothed
+from ebac.identify.target import Target
+
+Values = NDArray[np.float64]
+
+#: Rows in which it must slide.
+LEAST_SLIDING = 200
+#: Slides one way when it does so for this long before and after [s].
+AROUND = 0.012
+#: Slowest sliding [m/s], and in counts over the width of the kernel.
+SLOWEST, COUNTS = 1e-3, 0.5
+#: Where it does not slide, friction is whatever it has to be: so many times the largest force.
+WHATEVER = 100.0
+#: A force jumps where it bends by so many deviations of its noise; a tick may miss this share of it, felt for so many
+#: rows before and after.
+NOISY, JUMP, FELT = 5.0, 0.5, 4
+FITTED = ("M_h", "B_h", "coulomb", "weight", "stribeck")
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Drive:
+    """What drives a device, and when it slides; one value a row."""
+
+    recording: Recording  # with the lag that all of it stands behind
+    force: Values  # N, motor less hand: what resists +x
+    beyond: Values  # N, ripple of the motor
+    slides: NDArray[np.bool_]
+    sign: Values  # of the velocity, 0 where it does not slide
+    velocity: Values  # m/s
+    acceleration: Values  # m/s^2
+    smooth_force: Values  # N, behind the same kernel as the motion
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Guess:
+    """Values in the order of `FITTED`, and the sum of squares they leave [N^2]."""
+
+    values: Values
+    cost: float
+    columns: Values
+
+
+def driven(r: Recording, current_lag: float) -> Drive:
+    """Return what drives the device.
+
+    Raises
+    ------
+    ValueError
+        Without any force, or when it does not slide both ways for long enough.
+    """
+    if r.motor is None and r.force is None:
+        raise ValueError(
+            f"{r.name}: has neither the motor's force nor the hand's; name one of these columns"
+        )
+    if r.force is None:
+        r = replace(r, lag=0.0)
+    force, beyond = np.zeros(len(r.t)), np.zeros(len(r.t))
+    if r.motor is not None:
+        force, beyond = stair(r.motor, r.dt, current_lag, r.lag)
+    if r.force is not None:
+        force = force - r.force
+    h = kernels(r.dt)
+    edge = h.shape[1] // 2
+
+    def whole(values: Values) -> Values:
+        return np.pad(values, edge, mode="edge")
+
+    velocity, acceleration = whole(smoothed(r.x, h[1])), whole(smoothed(r.x, h[2]))
+    slow = max(SLOWEST, COUNTS * r.count / (0.5 * edge * r.dt))
+    sign = np.where(np.abs(velocity) > slow, np.sign(velocity), 0.0)
+    width = 2 * max(1, round(AROUND / r.dt)) + 1
+    steady = np.convolve(sign, np.ones(width), mode="same")
+    slides = np.abs(steady) > width - 0.5
+    slides[:edge] = slides[-edge:] = False
+    if slides.sum() < LEAST_SLIDING:
+        raise ValueError(
+            f"{r.name}: slides in {slides.sum()} rows only, faster than {1e3 * slow:.2g} mm/s; needs {LEAST_SLIDING}"
+        )
+    if not ((sign[slides] > 0).any() and (sign[slides] < 0).any()):
+        raise ValueError(f"{r.name}: moves one way only; friction shows when it moves both ways")
+    return Drive(
+        recording=r,
+        force=force,
+        beyond=beyond,
+        slides=slides,
+        sign=np.where(slides, np.sign(sign), 0.0),
+        velocity=velocity,
+        acceleration=acceleration,
+        smooth_force=whole(smoothed(force, h[0])),
+    )
+
+
+def columns_of(drive: Drive, speed: float | None) -> Values:
+    """Return what each of `FITTED` multiplies in the force that moves the device, where it slides."""
+    on = drive.slides
+    v, s = drive.velocity[on], drive.sign[on]
+    columns = [drive.acceleration[on], v, s, -np.ones(int(on.sum()))]
+    if speed is not None:
+        columns.append(s * np.exp(-((v / speed) ** 2)))
+    return np.array(columns).T
+
+
+def first_guess(drive: Drive, speed: float | None = None) -> Guess:
+    """Return where a search starts, by linear regression on smoothed signals."""
+    A = columns_of(drive, speed)
+    y = -drive.smooth_force[drive.slides]
+    scale = np.sqrt((A**2).mean(axis=0)) + 1e-300
+    raw, *_ = np.linalg.lstsq(A / scale, y, rcond=1e-10)
+    e = y - (A / scale) @ raw
+    return Guess(values=np.asarray(raw / scale), cost=float(e @ e), columns=A)
+
+
+def device_problem(drive: Drive, speed: float | None) -> tuple[Problem, tuple[str, ...]]:
+    """Return the problem of a device, and the names of what is fitted."""
+    inner = ("M_h", "B_h", "spring", "delay", "onset", "bend", "stair")
+    extra = ("coulomb", "weight") + (() if speed is None else ("stribeck",))
+    names = (*inner, *extra, "X0")
+    both = drive.recording.force is not None
+    held = {
+        "spring": 0.0,
+        "delay": 0.0,
+        "onset": 0.0,
+        "bend": 0.0,
+        "stair": 0.5 if both else 1.0,
+        "X0": 0.0,
+    }
+    parameters = Parameters(
+        names=names,
+        low=np.array([BOUNDS[n][0] for n in names]),
+        high=np.array([BOUNDS[n][1] for n in names]),
+        fixed=np.array([held.get(n, np.nan) for n in names]),
+        places=(np.arange(len(names)),),
+        before_levels=len(names) - 1,
+    )
+
+    def make(r: Recording, _: Target, noise: Values | None) -> ArmRecord:
+        return _record(drive, speed, r, noise)
+
+    r = drive.recording
+    as_force = replace(r, force=drive.force)
+    problem = Problem(
+        recordings=(as_force,), targets=(Target.held(),), parameters=parameters, make=make
+    )
+    return problem, tuple(n for n in FITTED if n in names)
+
+
+def jumps(r: Recording) -> Values:
+    """Return what a tick may miss of a force that jumps within it [N]: the hand changed its mind.
+
+    Where the reading bends by more than its noise does, a share of that, for the rows around it.
+    """
+    if r.force is None:
+        return np.zeros(len(r.t))
+    bends = np.abs(np.diff(r.force, 2, prepend=r.force[0], append=r.force[-1]))
+    size = JUMP * np.where(bends > NOISY * np.sqrt(6.0) * rough(r.force), bends, 0.0)
+    out = size.copy()
+    for k in range(1, FELT + 1):
+        out[k:] = np.maximum(out[k:], size[:-k])
+        out[:-k] = np.maximum(out[:-k], size[k:])
+    return out
+
+
+def _record(drive: Drive, speed: float | None, r: Recording, noise: Values | None) -> ArmRecord:
+    assert r.force is not None
+    n = len(r.t)
+    read = readings(r)
+    ahead = np.append(drive.sign[1:], 0.0)
+    falls = np.exp(-((drive.velocity / (speed or 1.0)) ** 2))
+    inputs = [drive.beyond, ahead, -np.ones(n)]
+    if speed is not None:
+        inputs.append(ahead * falls)
+    largest = float(np.abs(r.force).max()) + 1e-9
+    still = np.zeros(n)
+    return ArmRecord(
+        x=(read.x if noise is None else still).tolist(),
+        force=(r.force if noise is None else noise).tolist(),
+        variance=np.where(drive.slides, read.variance, np.inf).tolist(),
+        early=read.early.tolist(),
+        known=still.tolist(),
+        doubt=np.where(drive.slides, jumps(drive.recording), WHATEVER * largest).tolist(),
+        inputs=[(values if noise is None else still).tolist() for values in inputs],
+        switches=[],
+        segments=[0],
+        dt=r.dt,
+        lag=r.lag,
+    )

@@ -1,0 +1,114 @@
+"""Signals that make a log tell something: steps, chirps, multisines, tapping."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ebac._core import Recorded
+
+Values = NDArray[np.float64]
+
+
+def _times(seconds: float, dt: float) -> Values:
+    if not (dt > 0 and seconds >= 2 * dt):
+        raise ValueError(
+            f"seconds = {seconds} s, dt = {dt} s: need at least two steps of a positive time"
+        )
+    return np.asarray(dt * np.arange(round(seconds / dt) + 1))
+
+
+def steps(
+    amplitude: float, *, seconds: float = 10.0, hold: float = 1.0, dt: float = 1e-3
+) -> tuple[Values, Values]:
+    """Return times [s] and a square wave between 0 and `amplitude`, each level held for `hold` [s]."""
+    t = _times(seconds, dt)
+    if not hold >= dt:
+        raise ValueError(f"hold = {hold} s: must be at least one step, {dt} s")
+    level: Values = np.floor(t / hold + 1e-9) % 2
+    return t, amplitude * level
+
+
+def tapping(
+    amplitude: float, frequency: float, *, seconds: float = 10.0, dt: float = 1e-3
+) -> tuple[Values, Values]:
+    """Return times [s] and a square wave of `frequency` [Hz] between `amplitude` and 0."""
+    t = _times(seconds, dt)
+    _below_nyquist(frequency, dt)
+    return t, amplitude * ((frequency * t) % 1 < 0.5).astype(float)
+
+
+def chirp(
+    amplitude: float,
+    *,
+    low: float = 0.2,
+    high: float = 20.0,
+    seconds: float = 10.0,
+    dt: float = 1e-3,
+) -> tuple[Values, Values]:
+    """Return times [s] and a sine that rises from `low` to `high` [Hz], evenly in octaves."""
+    t = _times(seconds, dt)
+    _band(low, high, dt)
+    rate = np.log(high / low) / seconds
+    return t, amplitude * np.sin(2 * np.pi * low / rate * np.expm1(rate * t))
+
+
+def multisine(
+    amplitude: float,
+    *,
+    low: float = 0.2,
+    high: float = 10.0,
+    seconds: float = 10.0,
+    dt: float = 1e-3,
+    seed: int = 1,
+    tries: int = 60,
+) -> tuple[Values, Values]:
+    """Return times [s] and a sum of all whole harmonics of 1/`seconds` in [low, high] Hz, largest value `amplitude`.
+
+    Schroeder's phases (1970), then the best of `tries` small changes of them: the crest factor, peak over root mean
+    square, comes out below 2.
+    """
+    t = _times(seconds, dt)
+    _band(low, high, dt)
+    lines = np.arange(max(1, int(np.ceil(low * seconds))), int(np.floor(high * seconds)) + 1)
+    if lines.size == 0:
+        raise ValueError(
+            f"no multiple of {1 / seconds:.3g} Hz lies in [{low:g}, {high:g}] Hz: record longer"
+        )
+    k = np.arange(lines.size)
+    phase = -np.pi * k * (k - 1) / lines.size
+    draw = np.random.Generator(np.random.PCG64(seed))
+    waves = 2 * np.pi * np.outer(lines / seconds, t)
+
+    def made(p: Values) -> Values:
+        return np.asarray(np.cos(waves + p[:, None]).sum(axis=0))
+
+    best, at = made(phase), phase
+    for _ in range(tries):
+        trial = at + 0.3 * draw.standard_normal(lines.size)
+        wave = made(trial)
+        if crest(wave) < crest(best):
+            best, at = wave, trial
+    return t, amplitude * best / np.abs(best).max()
+
+
+def crest(values: Values) -> float:
+    """Return the crest factor: largest over root mean square; 1.41 for a sine."""
+    return float(np.abs(values).max() / np.sqrt(np.mean(values**2)))
+
+
+def path(t: Values, x: Values) -> Recorded:
+    """Return a signal [m] as the intended path of a hand."""
+    return Recorded(t=t.tolist(), x=x.tolist())
+
+
+def _below_nyquist(frequency: float, dt: float) -> None:
+    if not 0 < frequency < 0.5 / dt:
+        raise ValueError(f"frequency = {frequency} Hz: must lie in (0, {0.5 / dt:g}) Hz")
+
+
+def _band(low: float, high: float, dt: float) -> None:
+    if not 0 < low < high < 0.5 / dt:
+        raise ValueError(
+            f"low = {low} Hz, high = {high} Hz: must lie in (0, {0.5 / dt:g}) Hz, low first"
+        )

@@ -1,0 +1,109 @@
+"""Columns of numbers in files of others: CSV, .mat, NPZ."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+Columns: TypeAlias = dict[str, NDArray[np.float64]]
+
+
+def read_columns(path: Path) -> Columns:
+    """Return every column of numbers by its heading; the ending tells what the file is.
+
+    Raises
+    ------
+    ValueError
+        When it cannot be read, or holds none.
+    """
+    readers = {".csv": _csv, ".txt": _csv, ".tsv": _csv, ".mat": _mat, ".npz": _npz}
+    if path.suffix.lower() not in readers:
+        raise ValueError(
+            f"{path.name}: unknown ending {path.suffix!r}; known are {', '.join(readers)}"
+        )
+    found = readers[path.suffix.lower()](path)
+    if not found:
+        raise ValueError(f"{path.name}: holds no columns of numbers")
+    return found
+
+
+def _csv(path: Path) -> Columns:
+    lines = path.read_text(encoding="utf-8-sig").splitlines()
+    lines = [line for line in lines if line.strip() and not line.startswith(("#", "%"))]
+    if len(lines) < 2:
+        raise ValueError(f"{path.name}: {len(lines)} lines; needs a heading and rows below it")
+    mark = max("\t;,", key=lines[0].count)
+    names = [name.strip().strip('"') for name in lines[0].split(mark)]
+    if all(_is_number(name) for name in names):
+        raise ValueError(
+            f"{path.name}: has no heading; put the names of the columns into its first line"
+        )
+    rows = []
+    for number, line in enumerate(lines[1:], 1):
+        cells = line.split(mark)
+        if len(cells) != len(names):
+            raise ValueError(
+                f"{path.name}: row {number} has {len(cells)} cells, the heading {len(names)}"
+            )
+        rows.append(
+            [
+                _number(cell, path.name, number, name)
+                for cell, name in zip(cells, names, strict=True)
+            ]
+        )
+    return dict(zip(names, np.array(rows).T, strict=True))
+
+
+def _is_number(text: str) -> bool:
+    try:
+        float(text)
+    except ValueError:
+        return False
+    return True
+
+
+def _number(cell: str, file: str, row: int, column: str) -> float:
+    text = cell.strip().strip('"')
+    if text in ("", "-"):
+        return float("nan")
+    try:
+        return float(text)
+    except ValueError:
+        raise ValueError(
+            f"{file}: {text!r} in row {row}, column {column!r}, is no number"
+        ) from None
+
+
+def _npz(path: Path) -> Columns:
+    with np.load(path, allow_pickle=False) as archive:
+        return _series({name: archive[name] for name in archive.files})
+
+
+def _mat(path: Path) -> Columns:
+    try:
+        from scipy.io import loadmat
+    except ImportError:
+        raise ValueError(f"{path.name}: reading .mat needs SciPy: pip install scipy") from None
+    try:
+        content = loadmat(path, squeeze_me=True)
+    except (NotImplementedError, ValueError) as error:
+        raise ValueError(f"{path.name}: cannot be read ({error}); save it with -v7") from None
+    return _series({name: v for name, v in content.items() if not name.startswith("__")})
+
+
+def _series(arrays: Mapping[str, Any]) -> Columns:
+    out = {}
+    for name, values in arrays.items():
+        array = np.asarray(values)
+        if array.dtype.kind not in "fiub":
+            continue
+        array = np.squeeze(array.astype(float))
+        if array.ndim == 1 and array.size > 1:
+            out[name] = array
+        elif array.ndim == 2:
+            out |= {f"{name}_{i}": column for i, column in enumerate(array.T)}
+    return out

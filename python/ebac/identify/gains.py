@@ -1,0 +1,144 @@
+"""K_p and K_d of eq. (2), chosen on the loop of a log."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+from ebac.identify.gains_search import GainsSearch
+from ebac.identify.gains_trial import Candidate, Limits
+from ebac.identify.loop import LoopModel
+from ebac.identify.presses import arms_around, force_loop_laws
+from ebac.laws import Variant
+from ebac.scenario import Scenario
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class GainsResult:
+    """Gains chosen on a loop; `result.law` runs in any `Scenario`."""
+
+    loop: LoopModel
+    name: str
+    limits: Limits
+    chosen: Candidate
+    default: Candidate
+    rules: tuple[Candidate, ...]
+    tried: tuple[Candidate, ...]
+
+    @property
+    def kp(self) -> float:
+        """K_p of eq. (2) [1]."""
+        return self.chosen.kp
+
+    @property
+    def kd(self) -> float:
+        """K_d of eq. (2) [s]."""
+        return self.chosen.kd
+
+    @property
+    def law(self) -> Variant:
+        """The law with these gains, designed for the device it runs on."""
+        return Variant(self.name, {"kp": self.kp, "kd": self.kd})
+
+    @property
+    def scenario(self) -> Scenario:
+        """The loop they were chosen on."""
+        return self.loop.scenario
+
+    def rows(self) -> list[dict[str, Any]]:
+        """Return default, rules and choice, one row each."""
+        return [c.row() for c in (self.default, *self.rules, self.chosen)]
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return plain numbers in SI units, for JSON."""
+        return {
+            "rows": self.rows(),
+            "law": self.name,
+            "kp": self.kp,
+            "kd_s": self.kd,
+            "limits": vars(self.limits),
+            "hands": len(self.chosen.presses.goals),
+            "tried": [
+                {"kp": c.kp, "kd_s": c.kd, "cost": c.cost, "broken": list(c.broken)}
+                for c in self.tried
+            ],
+            "remarks": list(self.loop.remarks),
+        }
+
+    def __repr__(self) -> str:
+        """Return the choice and what it comes to."""
+        n = self.chosen.presses.numbers()
+        return (
+            f"<Gains of {self.name}: kp = {self.kp:.3g}, kd = {1e3 * self.kd:.3g} ms; settles in "
+            f"{n['settled_median_s']:.3g} s, swings {1e3 * n['swing_worst_m']:.3g} mm at most, cost "
+            f"{self.chosen.cost:.3g} of the default's 1>"
+        )
+
+
+def fit_gains(
+    loop: LoopModel,
+    law: str = "ebac",
+    *,
+    limits: Limits | None = None,
+    vary: float = 0.3,
+    evaluations: int = 60,
+    threads: int = 0,
+    progress: Callable[[int, int], None] | None = None,
+) -> GainsResult:
+    """Choose K_p and K_d of eq. (2) for the loop of a log.
+
+    Every pair is simulated on a press of the identified hand, of the ends of its interval, and of hands `vary` away
+    from it. The cost is the mean over them of time-weighted error, swing and noise, each over what the default gains
+    give; the constraints hold for the worst. First a few looks over the whole range, then NLopt's COBYLA from the best
+    of them; the best point seen that keeps all constraints is the answer.
+
+    Parameters
+    ----------
+    loop : LoopModel
+        From `fit_loop`.
+    law : str
+        A law with the force loop of eq. (2): `tca`, `tca-damped`, `ebac`.
+    limits : Limits, optional
+        What must be kept.
+    vary : float
+        How far hands are tried beyond the interval, as a share, [0, 3].
+    evaluations : int
+        Pairs that COBYLA may try, at least 1.
+    threads : int
+        Threads of the simulation; 0 for one per core.
+    progress : callable, optional
+        Told how many pairs are done, and of how many at most.
+
+    Returns
+    -------
+    GainsResult
+
+    Raises
+    ------
+    ValueError
+        When the log does not determine the hand, the law has no force loop, a number is out of range, or no pair keeps
+        the constraints; the message says which.
+    """
+    known = force_loop_laws()
+    if law not in known:
+        raise ValueError(
+            f"law {law!r}: has no force loop of eq. (2); must be one of {', '.join(known)}"
+        )
+    if not 0 <= vary <= 3:
+        raise ValueError(f"vary = {vary:g}: must lie in [0, 3]")
+    if evaluations < 1:
+        raise ValueError(f"evaluations = {evaluations}: must be at least 1")
+    hands = arms_around(loop.arm, vary)
+    scenarios = tuple(loop.pressing(hand, seed=i + 1) for i, hand in enumerate(hands))
+    search = GainsSearch(law, scenarios, loop, limits or Limits(), threads, progress, evaluations)
+    default, rules, chosen = search.run()
+    return GainsResult(
+        loop=loop,
+        name=law,
+        limits=search.limits,
+        chosen=chosen,
+        default=default,
+        rules=rules,
+        tried=tuple(search.tried),
+    )

@@ -1,0 +1,152 @@
+"""The search for gains: a few looks over the whole range, then NLopt's COBYLA; every pair is kept."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ebac.identify.gains_trial import Candidate, Limits, Trial, excess
+from ebac.identify.loop import LoopModel
+from ebac.identify.presses import Presses
+from ebac.identify.rules import RULES, by_rule
+from ebac.laws import LAWS, design
+from ebac.scenario import Scenario
+
+Values = NDArray[np.float64]
+
+#: Largest gains that are tried: K_p [1], K_d [s]; a law may allow less.
+LARGEST = {"kp": 2.0, "kd": 0.01}
+#: First looks, as shares of the largest gains; squared, since small gains matter most.
+LOOKS = (0.0, 0.15, 0.4, 0.8)
+#: How much deeper than the default gains others may go, where no limit is given.
+SLACK = 1.25
+#: A broken constraint costs so much more than the worst of what keeps them.
+PENALTY = 10.0
+
+
+class GainsSearch:
+    """Looks, then COBYLA; keeps every candidate."""
+
+    def __init__(
+        self,
+        law: str,
+        scenarios: tuple[Scenario, ...],
+        loop: LoopModel,
+        limits: Limits,
+        threads: int,
+        progress: Callable[[int, int], None] | None,
+        evaluations: int,
+    ) -> None:
+        made: Any = design(law, loop.device, loop.timing)
+        self.loop, self.law, self.evaluations = loop, law, evaluations
+        self.kp, self.kd = float(made.kp), float(made.kd)
+        ranges = {f.name: f.high for f in LAWS[law].fields() if f.name in LARGEST}
+        self.largest = np.array([min(LARGEST[n], ranges[n]) for n in ("kp", "kd")])
+        first = Trial(law=law, scenarios=scenarios, limits=limits, threads=threads)
+        base = first.measure(self.kp, self.kd)
+        self.limits = _complete(limits, loop, base)
+        self.trial = Trial(law=law, scenarios=scenarios, limits=self.limits, threads=threads)
+        self.base = base
+        self.tried: list[Candidate] = []
+        self.tell = progress or (lambda done, of: None)
+        self.most = len(LOOKS) ** 2 + evaluations + len(RULES) + 1
+
+    def judge(self, name: str, kp: float, kd: float) -> Candidate:
+        """Measure one pair, and keep it."""
+        found = self.trial.judge(name, kp, kd, self.base)
+        self.tried.append(found)
+        self.tell(len(self.tried), self.most)
+        return found
+
+    def run(self) -> tuple[Candidate, tuple[Candidate, ...], Candidate]:
+        """Return default, rules and choice.
+
+        Raises
+        ------
+        ValueError
+            When no pair keeps the constraints.
+        """
+        default = self.judge("default", self.kp, self.kd)
+        device, timing = self.loop.device, self.loop.timing
+        rules = []
+        for name in RULES:
+            wanted = np.minimum(by_rule(name, device, timing), self.largest)
+            rules.append(self.judge(name, *wanted.tolist()))
+        for a in LOOKS:
+            for b in LOOKS:
+                kp, kd = (np.array([a, b]) ** 2 * self.largest).tolist()
+                self.judge("look", kp, kd)
+        self._descend()
+        best = min(self.tried, key=lambda c: (bool(c.broken), c.cost))
+        if best.broken:
+            raise ValueError(
+                "no pair of gains keeps the constraints: broken are "
+                f"{', '.join(best.broken)} even at kp = {best.kp:.3g}, kd = {best.kd:.3g} s; loosen them, or choose "
+                "another law"
+            )
+        chosen = Candidate(**{**vars(best), "name": "chosen"})
+        return default, tuple(rules), chosen
+
+    def _descend(self) -> None:
+        import nlopt
+
+        seen: dict[tuple[float, float], Candidate] = {}
+        raised: list[BaseException] = []
+        optimiser = nlopt.opt(nlopt.LN_COBYLA, 2)
+        optimiser.set_exceptions_enabled(False)
+
+        def at(point: Values) -> Candidate:
+            kp, kd = (np.clip(point, 0, 1) ** 2 * self.largest).tolist()
+            if (kp, kd) not in seen:
+                seen[kp, kd] = self.judge("search", kp, kd)
+            return seen[kp, kd]
+
+        def objective(point: Values, _: Any) -> float:
+            try:
+                return min(at(point).cost, PENALTY)
+            except BaseException as error:  # would be lost inside of NLopt
+                raised.append(error)
+                optimiser.force_stop()
+                return PENALTY
+
+        def constraint(point: Values, _: Any) -> float:
+            if raised:
+                return 0.0
+            try:
+                c = at(point)
+                return max(excess(c.presses, c.noise_gain, self.limits).values())
+            except BaseException as error:
+                raised.append(error)
+                optimiser.force_stop()
+                return 0.0
+
+        best = min(self.tried, key=lambda c: (bool(c.broken), c.cost))
+        optimiser.set_min_objective(objective)
+        optimiser.add_inequality_constraint(constraint, 1e-9)
+        optimiser.set_lower_bounds(np.zeros(2))
+        optimiser.set_upper_bounds(np.ones(2))
+        optimiser.set_initial_step(0.15)
+        optimiser.set_xtol_abs(5e-3)
+        optimiser.set_maxeval(self.evaluations)
+        optimiser.optimize(np.clip(np.sqrt(np.array([best.kp, best.kd]) / self.largest), 0, 1))
+        if raised:
+            raise raised[0]
+
+
+def _complete(limits: Limits, loop: LoopModel, base: Presses) -> Limits:
+    """Fill in what was left to the device and to the default gains."""
+    device = loop.device
+    peak = device.peak_force * (1 + 1e-9)
+    overshoot = limits.overshoot
+    if overshoot is None:
+        overshoot = SLACK * max(float(np.nanmax(base.overshoot)), 0.0) + device.count
+    return Limits(
+        overshoot=overshoot,
+        force=limits.force if limits.force is not None else peak,
+        current=limits.current if limits.current is not None else peak / device.force(1.0),
+        noise_gain=limits.noise_gain,
+        energy=limits.energy,
+    )

@@ -1,0 +1,127 @@
+"""First guess, and the unbiased second opinion: linear regression on smoothed signals.
+
+Eq. (4) smoothed by one kernel h on every signal, h * F = -M0 h'' * x - B0 h' * x - K0 h * x + sum of K0 X0_j h * s_j,
+is linear in what is sought. By least squares it is a good start. By instruments, signals that the target moves and
+noise does
+not, it is unbiased also in closed loop, where the law carries noise from one signal to the other.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ebac.identify.levels import indicators, lagged
+from ebac.identify.recording import Recording
+from ebac.identify.smooth import kernels, smoothed
+from ebac.identify.target import Target
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Regression:
+    """h * F = columns @ (-M0, -B0, -K0, K0 X0_1, ...), behind the lag of the sensor."""
+
+    force: NDArray[np.float64]
+    columns: NDArray[np.float64]  # (rows, 3 + levels)
+    taps: int
+
+
+def regression(recording: Recording, target: Target) -> Regression:
+    """Set the smoothed eq. (4) up.
+
+    Raises
+    ------
+    ValueError
+        When the recording has no force.
+    """
+    if recording.force is None:
+        raise ValueError(f"{recording.name}: has no force of the hand; name its column")
+    h = kernels(recording.dt)
+    x = lagged(recording.x, recording.dt, recording.lag)
+    moved = [smoothed(x, h[2]), smoothed(x, h[1]), smoothed(x, h[0])]
+    if target.path is not None:
+        moved[2] = moved[2] - smoothed(lagged(target.path, recording.dt, recording.lag), h[0])
+    levels = [smoothed(row, h[0]) for row in indicators(recording, target)]
+    return Regression(
+        force=smoothed(recording.force, h[0]),
+        columns=np.array([*moved, *levels]).T,
+        taps=h.shape[1],
+    )
+
+
+def solve(
+    regressions: list[Regression], instruments: list[NDArray[np.float64]] | None = None
+) -> Any:
+    """Return M0, B0, K0 and for each recording its levels, by least squares or by instruments.
+
+    Returns
+    -------
+    values : array, shape (3 + all levels,)
+    covariance : array
+        Of the values, residual autocorrelation taken into account.
+    """
+    counts = [r.columns.shape[1] - 3 for r in regressions]
+    width = 3 + sum(counts)
+    blocks, before = [], 3
+    for r, count in zip(regressions, counts, strict=True):
+        block = np.zeros((len(r.force), width))
+        block[:, :3] = r.columns[:, :3]
+        block[:, before : before + count] = r.columns[:, 3:]
+        blocks.append(block)
+        before += count
+    A, y = np.vstack(blocks), np.concatenate([r.force for r in regressions])
+    Z = A if instruments is None else _projected(A, instruments, regressions)
+    scale = np.sqrt(np.mean(A**2, axis=0)) + 1e-300
+    left = np.linalg.pinv((Z / scale).T @ (A / scale), rcond=1e-10)
+    raw = left @ ((Z / scale).T @ y)
+    e = y - (A / scale) @ raw
+    scores = (Z / scale) * e[:, None]
+    block_rows = max(regressions[0].taps, len(scores) // 60)
+    ends = np.add.reduceat(scores, np.arange(0, len(scores), block_rows), axis=0)
+    raw_cov = left @ (ends.T @ ends) @ left.T
+    k = raw[2] / scale[2]
+    turn = np.ones(width) / scale
+    turn[:3] *= -1
+    values = raw * turn
+    values[3:] /= max(-k, 1e-9)
+    turn[3:] /= max(-k, 1e-9)
+    return values, raw_cov * np.outer(turn, turn)
+
+
+def _projected(
+    A: NDArray[np.float64], instruments: list[NDArray[np.float64]], parts: list[Regression]
+) -> NDArray[np.float64]:
+    """Return what of the columns the instruments explain: the first of the two stages."""
+    out = A.copy()
+    start = 0
+    for Z, part in zip(instruments, parts, strict=True):
+        rows = slice(start, start + len(part.force))
+        found, *_ = np.linalg.lstsq(Z, A[rows], rcond=1e-8)
+        out[rows] = Z @ found
+        start = rows.stop
+    return out
+
+
+#: How far back the target is felt in what the instruments explain [s], and their spacing.
+MEMORY, SPACING = 0.6, 0.012
+
+
+def instruments(recording: Recording, target: Target, taps: int) -> NDArray[np.float64] | None:
+    """Return delayed copies of the target, shape (rows, instruments); None when the target never moves."""
+    path = indicators(recording, target)[1:]
+    if target.path is not None:
+        path = np.vstack([path, target.path[None, :]])
+    if path.size == 0 or not (np.ptp(path, axis=1) > 0).any():
+        return None
+    dt = recording.dt
+    h = kernels(dt)[0]
+    delays = np.round(np.arange(0, MEMORY, max(SPACING, dt)) / dt).astype(int)
+    columns = [np.ones(len(recording.t) - taps + 1)]
+    for row in path:
+        for delay in delays:
+            late = np.concatenate([np.full(delay, row[0]), row[: len(row) - delay]])
+            columns.append(smoothed(late, h))
+    return np.array(columns).T

@@ -1,0 +1,200 @@
+"""Read a recording: one place for every kind of log."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ebac.document import unknown
+from ebac.identify.columns import UNITS_OF, assign, split_heading, unit_factor
+from ebac.identify.files import Columns, read_columns
+from ebac.identify.recording import OF_TRACE, Recording, count_of, trace_facts
+from ebac.trace import Trace
+
+
+def load(
+    path: str | Path,
+    *,
+    columns: Mapping[str, str] | None = None,
+    units: Mapping[str, str] | None = None,
+    rate: float | None = None,
+    lag: float | None = None,
+    current_lag: float | None = None,
+    count: float | None = None,
+    axis: int = 0,
+) -> Recording:
+    """Read MCAP, CSV, .mat, or NPZ (of `Trace.to_npz`, or plain arrays).
+
+    Parameters
+    ----------
+    path : str or Path
+        The file; its ending tells what it is.
+    columns : mapping, optional
+        Which column is `t`, `x`, `force`, `motor`, `desired`, `target`: `{"force": "Fz"}`. What is not given is
+        guessed by name, and said in `remarks`.
+    units : mapping, optional
+        Unit of each, as `{"x": "mm"}`; otherwise that of the heading, `pos [mm]`, or SI.
+    rate : float, optional
+        Rows per second [Hz], for a file without time.
+    lag : float, optional
+        Lag of the force sensor [s]; default: of the scenario of a trace, else 0.
+    current_lag : float, optional
+        Lag of the motor's current loop [s]; default: of the scenario of a trace, else 0.3 ms.
+    count : float, optional
+        Step of the encoder at the handle [m]; default: found in the position.
+    axis : int
+        Which axis of a trace.
+
+    Returns
+    -------
+    Recording
+
+    Raises
+    ------
+    FileNotFoundError
+        When there is no such file.
+    ValueError
+        When it cannot be read, a column is missing, is no number, or a unit is unknown.
+    """
+    path = Path(path)
+    if not path.exists():
+        raise FileNotFoundError(2, "there is no such file", str(path))
+    trace, wrong = _trace(path)
+    if trace is not None and not columns:
+        found = _of_trace(trace, path.name, axis, wrong)
+    else:
+        raw = _flat(trace) if trace is not None else read_columns(path)
+        found = _recording(path.name, raw, columns or {}, units or {}, rate)
+    changes: dict[str, Any] = {}
+    for name, value in (("lag", lag), ("current_lag", current_lag), ("count", count)):
+        if value is not None:
+            changes[name] = value
+    return replace(found, **changes) if changes else found
+
+
+def _trace(path: Path) -> tuple[Trace | None, list[str]]:
+    """Return the trace in a file of ours, and what is wrong with it; None for a file of someone else."""
+    if path.suffix == ".mcap":
+        from ebac.logs import read
+
+        log = read(path)
+        if len(log.trace) == 0:
+            raise ValueError(
+                f"{path.name}: the log holds no rows; ebac log info says what it does hold"
+            )
+        remarks = [] if log.condition.complete else [f"the log is not whole: {log.condition}"]
+        remarks += [f"{gap.rows} rows are missing after t = {gap.t:.4g} s" for gap in log.gaps]
+        return log.trace, remarks
+    if path.suffix != ".npz":
+        return None, []
+    with np.load(path, allow_pickle=False) as archive:
+        ours = "about" in archive
+    return (Trace.from_npz(path) if ours else None), []
+
+
+def _of_trace(trace: Trace, name: str, axis: int, wrong: list[str]) -> Recording:
+    """Return one axis of a trace; rows that are missing, or late, are put on equal steps, and said."""
+    if not 0 <= axis < trace.axes:
+        raise ValueError(f"{name}: axis = {axis}: must lie in [0, {trace.axes - 1}]")
+    t = np.array(trace["t"], dtype=float)
+    step = np.diff(t)
+    if len(t) > 1 and (step > 0).all() and np.ptp(step) <= 1e-3 * float(np.median(step)):
+        found = Recording.from_trace(trace, axis=axis, name=name)
+        return replace(found, remarks=(*found.remarks, *wrong))
+    signals: Columns = {
+        key: np.array(trace.axis(column, axis), dtype=float)
+        for key, column in OF_TRACE.items()
+        if column in trace
+    }
+    even = _evenly(name, {"t": t, **signals}, wrong)
+    facts = trace_facts(trace)
+    values: dict[str, Any] = dict(even)
+    return Recording(name=name, remarks=(*facts.pop("remarks"), *wrong), **facts, **values)
+
+
+def _flat(trace: Trace) -> Columns:
+    return {name: np.array(values, dtype=float) for name, _, values in trace.flat()}
+
+
+def _recording(
+    name: str,
+    raw: Columns,
+    columns: Mapping[str, str],
+    units: Mapping[str, str],
+    rate: float | None,
+) -> Recording:
+    for key in (*columns, *units):
+        if key not in UNITS_OF:
+            raise ValueError(unknown(f"{name}: signal {key}", key, list(UNITS_OF)))
+    chosen, remarks = assign(name, list(raw), columns)
+    signals: dict[str, Any] = {}
+    for key, column in chosen.items():
+        _, written = split_heading(column)
+        unit = units.get(key, written)
+        if unit is None:
+            unit = UNITS_OF[key]
+            remarks.append(f"{key}: no unit given, taken as {unit}")
+        signals[key] = raw[column] * unit_factor(name, key, unit)
+    if "x" not in signals:
+        raise ValueError(
+            f"{name}: found no position among {', '.join(raw)}; say which column it is: columns={{'x': ...}} or --x"
+        )
+    if "t" not in signals:
+        if rate is None:
+            raise ValueError(f"{name}: has no time; say how many rows a second: rate=... or --rate")
+        signals["t"] = np.arange(len(signals["x"])) / rate
+    even: dict[str, Any] = dict(_evenly(name, signals, remarks))
+    _plausible(name, even)
+    found = count_of(even["x"])
+    remarks.append(
+        f"encoder step of {1e3 * found:.4g} mm found in x" if found else "x shows no encoder step"
+    )
+    return Recording(name=name, count=found, remarks=tuple(remarks), **even)
+
+
+#: What no hand does, by signal: more than this is a wrong unit [m, N].
+FARTHEST = {"x": 2.5, "target": 2.5, "force": 5e3, "motor": 5e3, "desired": 5e3}
+
+
+def _plausible(name: str, signals: Columns) -> None:
+    """Refuse numbers in a wrong unit, as far as that shows."""
+    for key, most in FARTHEST.items():
+        if key not in signals:
+            continue
+        span = float(np.ptp(signals[key]))
+        if span > most:
+            unit = UNITS_OF[key]
+            raise ValueError(
+                f"{name}: {key} spans {span:.4g} {unit}, a hand {most:g} {unit} at most: is its unit right? "
+                f"Say it: units={{'{key}': 'm{unit}'}} or --unit {key}=m{unit}"
+            )
+
+
+def _evenly(name: str, signals: Columns, remarks: list[str]) -> Columns:
+    """Return the signals on equal time steps; what jitters is interpolated, and said."""
+    t = signals["t"]
+    for key, values in signals.items():
+        wrong = np.flatnonzero(~np.isfinite(values))
+        if wrong.size:
+            raise ValueError(
+                f"{name}: {key} is no number in {wrong.size} of {len(t)} rows, first in row {wrong[0] + 1} below the "
+                "heading; cut these rows out or fill them"
+            )
+    step = np.diff(t)
+    if step.size == 0 or not (step > 0).all():
+        where = int(np.argmin(step > 0)) + 2 if step.size else 1
+        raise ValueError(f"{name}: t does not rise in row {where}; sort the log by time")
+    dt = float(np.median(step))
+    if np.ptp(step) <= 1e-3 * dt:
+        return signals
+    even = np.arange(t[0], t[-1] + 0.5 * dt, dt)
+    even = even[even <= t[-1]]
+    worst = float(np.abs(step - dt).max())
+    remarks.append(
+        f"time steps differ by up to {1e3 * worst:.3g} ms from {1e3 * dt:.4g} ms: put on equal steps"
+    )
+    return {key: even if key == "t" else np.interp(even, t, v) for key, v in signals.items()}

@@ -1,0 +1,154 @@
+"""The loop of a log: whose hand, which device, which wall; what gains are chosen on."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ebac._core import Device, Hand, Step, Timing, Wall
+from ebac.identify.arm import fit_arm
+from ebac.identify.device import DeviceResult, fit_device
+from ebac.identify.noise import rough
+from ebac.identify.recording import Recording
+from ebac.identify.result import ArmResult
+from ebac.identify.target import Target
+from ebac.scenario import Scenario
+
+#: A hand comes this far through free air before it meets the wall [m].
+APPROACH = 0.01
+#: How deep it wants to press where the log does not say [m], and its largest pull as a share of the motor's force.
+DEPTH, PULL = 0.03, 0.8
+#: Rows with a force asked for that a wall is told from.
+LEAST_TOUCHED = 50
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class LoopModel:
+    """Arm, device, wall and timing of a log, as far as it tells them; `scenario` presses on the wall again."""
+
+    arm: ArmResult
+    device: Device
+    found: DeviceResult | None
+    wall: Wall
+    timing: Timing
+    remarks: tuple[str, ...]
+
+    @property
+    def scenario(self) -> Scenario:
+        """The identified hand pressing on the wall after a short way through free air."""
+        return self.pressing(self.arm.hand)
+
+    def pressing(self, hand: Hand, *, depth: float | None = None, seed: int = 1) -> Scenario:
+        """Return a scenario in which a hand presses on this wall, its target `depth` [m] behind the surface."""
+        most = PULL * min(self.device.peak_force, 35.0)
+        deep = min(depth or DEPTH, most / max(hand.stiffness, 1e-9))
+        return Scenario(
+            hand=hand.replace(path=Step(target=APPROACH + deep)),
+            device=self.device,
+            environment=self.wall.replace(position=APPROACH),
+            timing=self.timing,
+            seconds=3.0,
+            seed=seed,
+        )
+
+
+def fit_loop(
+    recordings: Recording | Sequence[Recording],
+    targets: Target | Sequence[Target] | None = None,
+    *,
+    device: Device | None = None,
+    wall: Wall | None = None,
+    timing: Timing | None = None,
+    **arm: Any,
+) -> LoopModel:
+    """Identify what stands in the loop of eq. (2) from logged steps.
+
+    Parameters
+    ----------
+    recordings, targets
+        As for `fit_arm`.
+    device : Device, optional
+        What is known of it: motor, drive, encoder. Mass, damping, friction and noise come from the log where it
+        determines them. Default: the reference device.
+    wall : Wall, optional
+        Default: told from the column `desired`, and where that is missing, the paper's.
+    timing : Timing, optional
+        Sample time [s] and transport delay [samples]; default: one sample.
+    **arm
+        As for `fit_arm`: fixed, bounds, free, own, starts, robust.
+
+    Raises
+    ------
+    ValueError
+        As `fit_arm`.
+    """
+    result = fit_arm(recordings, targets, **arm)
+    first = result.recordings[0]
+    remarks: list[str] = []
+    found = _device_of(first, remarks)
+    known = _merged(device or Device(), found, first, remarks)
+    if wall is None:
+        wall = wall_of(first)
+        remarks.append(
+            "wall: of 10 kN/m, the log has no force asked for"
+            if wall is None
+            else f"wall: {wall.stiffness:.4g} N/m, from the force asked for"
+        )
+    return LoopModel(
+        arm=result,
+        device=known,
+        found=found,
+        wall=wall or Wall(),
+        timing=timing or Timing(dt=round(first.dt, 9)),
+        remarks=tuple(remarks),
+    )
+
+
+def _device_of(r: Recording, remarks: list[str]) -> DeviceResult | None:
+    if r.motor is None:
+        remarks.append("device: as given, the log has no force of the motor")
+        return None
+    try:
+        return fit_device(r, current_lag=r.current_lag)
+    except ValueError as error:
+        remarks.append(f"device: as given, not told by this log ({error})")
+        return None
+
+
+def _merged(device: Device, found: DeviceResult | None, r: Recording, remarks: list[str]) -> Device:
+    """Return the device with what the log tells of it."""
+    assert r.force is not None
+    sensor = device.sensor.replace(noise=rough(r.force), lag=r.lag)
+    mechanics = device.mechanics
+    if found is not None:
+        estimates = found.estimates
+        told = {name: e.value for name, e in estimates.items() if e.determined and e.value > 0}
+        if "M_h" in told:
+            handle = max(told["M_h"] - device.reflected_mass, 1e-3)
+            mechanics = mechanics.replace(handle_mass=handle)
+        if "B_h" in told:
+            mechanics = mechanics.replace(damping=told["B_h"])
+        if "coulomb" in told:
+            mechanics = mechanics.replace(coulomb=told["coulomb"])
+        remarks.append(
+            "device: " + ", ".join(f"{n} = {v:.4g} {estimates[n].unit}" for n, v in told.items())
+        )
+    return device.replace(sensor=sensor, mechanics=mechanics)
+
+
+def wall_of(r: Recording) -> Wall | None:
+    """Return the wall whose force was asked for, F = K (x - surface) where it is touched; None where none shows."""
+    if r.desired is None:
+        return None
+    touched = r.desired > 0.01 * float(np.abs(r.desired).max(initial=0.0))
+    if touched.sum() < LEAST_TOUCHED or np.ptp(r.x[touched]) <= 3 * r.count:
+        return None
+    A: NDArray[np.float64] = np.array([r.x[touched], np.ones(touched.sum())]).T
+    (stiffness, offset), *_ = np.linalg.lstsq(A, r.desired[touched], rcond=None)
+    if not 0 < stiffness < 1e6:
+        return None
+    return Wall(stiffness=float(stiffness), position=float(-offset / stiffness))

@@ -1,0 +1,236 @@
+"""The objective of an arm: eq. (4) over several recordings, moved in C++."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
+from typing import TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ebac._core import ArmGains, ArmRecord
+from ebac.identify.noise import readings
+from ebac.identify.parameters import INPUTS, STEPS, Parameters, kind
+from ebac.identify.recording import Recording
+from ebac.identify.ripple import ripple
+from ebac.identify.target import Target
+
+#: Steps of the differences, as a share of a value.
+STEP_SHARE = 1e-5
+
+#: Hands a recording to the core; with noise [N] instead of its force, a log in which nothing else moves.
+Make: TypeAlias = Callable[[Recording, Target, NDArray[np.float64] | None], ArmRecord]
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Problem:
+    """Errors of one tick ahead, each over its deviation, as a function of the free parameters."""
+
+    recordings: tuple[Recording, ...]
+    targets: tuple[Target, ...]
+    parameters: Parameters
+    make: Make = field(default_factory=lambda: arm_record)
+    records: tuple[ArmRecord, ...] = field(init=False)
+    doubt: Doubt = field(init=False)  # moves with the search
+    unseen: Doubt = field(init=False)  # does not, but widens the intervals
+
+    def __post_init__(self) -> None:
+        """Hand the recordings to the core."""
+        made = [
+            self.make(r, target, None)
+            for r, target in zip(self.recordings, self.targets, strict=True)
+        ]
+        object.__setattr__(self, "records", tuple(made))
+        object.__setattr__(self, "doubt", doubt_of(self, WITHIN_TICK))
+        driven = all(r.motor is not None for r in self.recordings)
+        unseen = {"bend": BEND, "delay": DELAY_DRIVEN if driven else DELAY}
+        object.__setattr__(self, "unseen", doubt_of(self, unseen))
+
+    def gains(
+        self, values: NDArray[np.float64], force_noise: NDArray[np.float64]
+    ) -> list[ArmGains]:
+        """Return the filters made for a guess and a noise of the force [N], one for each recording."""
+        return [
+            record.gains(values[place], float(noise))
+            for record, place, noise in zip(
+                self.records, self.parameters.places, force_noise, strict=True
+            )
+        ]
+
+    def errors(self, values: NDArray[np.float64], gains: list[ArmGains]) -> NDArray[np.float64]:
+        """Return the errors of all recordings, one after the other."""
+        parts = zip(self.records, self.parameters.places, gains, strict=True)
+        return np.concatenate([r.innovations(values[place], g) for r, place, g in parts])
+
+    @property
+    def moved(self) -> NDArray[np.intp]:
+        """Indices of what a search moves: the free parameters, then those in doubt."""
+        return np.concatenate([self.parameters.free, self.doubt.which])
+
+    def parameters_within(self, values: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return values within their bounds; what is held for sure stays."""
+        return np.asarray(np.clip(values, self.parameters.low, self.parameters.high))
+
+    def objective(self, values: NDArray[np.float64], gains: list[ArmGains]) -> NDArray[np.float64]:
+        """Return the errors, then how far each parameter in doubt lies from where it is held, in deviations."""
+        doubt = self.doubt
+        off = (values[doubt.which] - self.parameters.fixed[doubt.which]) / doubt.deviation
+        return np.concatenate([self.errors(values, gains), off])
+
+    def slope(self, values: NDArray[np.float64], gains: list[ArmGains]) -> NDArray[np.float64]:
+        """Return d objective / d moved, shape (moved, rows + doubts)."""
+        inner = self.jacobian(values, gains, self.moved)
+        outer = np.zeros((len(inner), len(self.doubt.which)))
+        free = len(self.parameters.free)
+        outer[free:] = np.diag(1 / self.doubt.deviation)
+        return np.hstack([inner, outer])
+
+    def jacobian(
+        self,
+        values: NDArray[np.float64],
+        gains: list[ArmGains],
+        wanted: NDArray[np.intp] | None = None,
+    ) -> NDArray[np.float64]:
+        """Return d errors / d parameters, shape (parameters, rows); by default of the free ones."""
+        chosen = self.parameters.free if wanted is None else wanted
+        return self._jacobian(self.records, values, gains, chosen)
+
+    def of_noise(
+        self,
+        values: NDArray[np.float64],
+        gains: list[ArmGains],
+        force_noise: NDArray[np.float64],
+        wanted: NDArray[np.intp],
+        seed: int = 0,
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Return Jacobian and errors of a log in which nothing but noise of the force moves a resting hand.
+
+        What it tells of the parameters, noise pretends to tell.
+        """
+        draw = np.random.Generator(np.random.PCG64(seed))
+        still = values.copy()
+        for place in self.parameters.places:
+            still[place[self.parameters.before_levels :]] = 0.0
+        records = tuple(
+            self.make(r, replace(t, path=None), float(n) * draw.standard_normal(len(r.t)))
+            for r, t, n in zip(self.recordings, self.targets, force_noise, strict=True)
+        )
+        out = self._jacobian(records, still, gains, wanted)
+        told = ("X0", "onset", *INPUTS)
+        places = [kind(self.parameters.names[i]) in told for i in wanted]
+        out[places] = 0.0  # what a target tells, it tells without noise
+        parts = zip(records, self.parameters.places, gains, strict=True)
+        return out, np.concatenate([r.innovations(still[place], g) for r, place, g in parts])
+
+    def _jacobian(
+        self,
+        records: tuple[ArmRecord, ...],
+        values: NDArray[np.float64],
+        gains: list[ArmGains],
+        chosen: NDArray[np.intp],
+    ) -> NDArray[np.float64]:
+        out = np.zeros((len(chosen), sum(len(r.t) for r in self.recordings)))
+        start = 0
+        parts = zip(records, self.parameters.places, gains, self.recordings, strict=True)
+        for record, place, gain, r in parts:
+            mine = [
+                (i, int(np.flatnonzero(place == f)[0])) for i, f in enumerate(chosen) if f in place
+            ]
+            which = [w for _, w in mine]
+            steps = [self._step(int(place[w]), values) for w in which]
+            rows = slice(start, start + len(r.t))
+            out[[i for i, _ in mine], rows] = record.jacobian(values[place], gain, which, steps)
+            start = rows.stop
+        return out
+
+    def _step(self, index: int, values: NDArray[np.float64]) -> float:
+        least = STEPS[kind(self.parameters.names[index])]
+        return max(STEP_SHARE * abs(float(values[index])), least)
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Doubt:
+    """Parameters that are held, but known only to a standard deviation: they move with the search, on a spring."""
+
+    which: NDArray[np.intp]
+    deviation: NDArray[np.float64]
+
+
+#: What a log at one rate hardly tells, fitted along on a spring: when within a tick the target changed [ticks], and
+#: which share of the motor's ripple the sensor sees.
+WITHIN_TICK = {"onset": 0.15, "stair": 0.4}
+#: Left as they are, and carried into the intervals; a fit would misuse them to smooth the noise of the force. How the
+#: force bent between two rows, as a share of its second difference (0 for straight, 1/12 for a smooth curve).
+BEND = 1 / 18
+#: When within a tick the force was read [ticks]: with the motor's force in the log its ripple is known, without it is
+#: some hundredths of a tick.
+DELAY_DRIVEN, DELAY = 0.005, 0.04
+
+
+def doubt_of(problem: Problem, deviations: Mapping[str, float]) -> Doubt:
+    """Return which held parameters are in doubt, and by how much."""
+    p = problem.parameters
+    dt = max(r.dt for r in problem.recordings)
+    moving = any(t.switches for t in problem.targets)
+    driven = any(r.motor is not None for r in problem.recordings)
+    found, sure = [], []
+    for i, name in enumerate(p.names):
+        what = kind(name)
+        if what not in deviations or np.isnan(p.fixed[i]):
+            continue
+        if (what == "onset" and not moving) or (what == "stair" and not driven):
+            continue
+        found.append(i)
+        sure.append(deviations[what] * (dt if what in ("delay", "onset") else 1.0))
+    return Doubt(which=np.array(found, dtype=np.intp), deviation=np.array(sure))
+
+
+def arm_record(
+    recording: Recording, target: Target, noise: NDArray[np.float64] | None = None
+) -> ArmRecord:
+    """Hand a recording to the core; with `noise` [N] instead of its force, a hand at rest in its place.
+
+    Raises
+    ------
+    ValueError
+        When it has no force of the hand.
+    """
+    if recording.force is None:
+        raise ValueError(
+            f"{recording.name}: has no force of the hand; eq. (4) needs one: name its column, or identify from "
+            "a log that has one"
+        )
+    _check_switches(recording, target)
+    t0 = float(recording.t[0])
+    known = target.path if target.path is not None else np.zeros(len(recording.t))
+    read = readings(recording)
+    return ArmRecord(
+        x=(read.x if noise is None else np.zeros(len(read.x))).tolist(),
+        force=(recording.force if noise is None else noise).tolist(),
+        variance=read.variance.tolist(),
+        early=read.early.tolist(),
+        known=known.tolist(),
+        doubt=np.zeros(len(read.x)).tolist(),
+        inputs=[(ripple(recording) if noise is None else np.zeros(len(read.x))).tolist()],
+        switches=[s - t0 for s in target.switches],
+        segments=list(target.segments),
+        dt=recording.dt,
+        lag=recording.lag,
+    )
+
+
+def _check_switches(recording: Recording, target: Target) -> None:
+    """Refuse a target that changes outside the log, or faster than its rows."""
+    start, end = float(recording.t[0]), float(recording.t[-1])
+    for at in target.switches:
+        if not start < at < end:
+            raise ValueError(
+                f"{recording.name}: the target changes at {at:g} s: "
+                f"must lie in ({start:g}, {end:g}) s, the time of the log"
+            )
+    if len(target.switches) > 1 and min(np.diff(target.switches)) < 10 * recording.dt:
+        raise ValueError(
+            f"{recording.name}: the target changes again within {min(np.diff(target.switches)):.3g} s: "
+            f"must hold for 10 rows, {10 * recording.dt:g} s"
+        )

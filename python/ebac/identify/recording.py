@@ -1,0 +1,186 @@
+"""A recording: what a log says of one axis, in SI units, on one time step."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING, Any, Self
+
+import numpy as np
+from numpy.typing import NDArray
+
+if TYPE_CHECKING:
+    from ebac.trace import Trace
+
+#: Fewer rows say nothing about a hand.
+LEAST_ROWS = 50
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Recording:
+    """Position and forces of one axis over time, equally spaced.
+
+    Parameters
+    ----------
+    name : str
+        For messages and tables.
+    t : array, shape (rows,)
+        Time [s], equally spaced.
+    x : array, shape (rows,)
+        Position of the handle [m].
+    force : array, shape (rows,), or None
+        Force of the hand on the handle [N], towards +x, as the F/T sensor shows it.
+    motor : array, shape (rows,), or None
+        Force of the motor over the interval that ends at each row [N], positive when it resists +x.
+    desired : array, shape (rows,), or None
+        Force the law was asked for [N], F_D of eq. (2).
+    target : array, shape (rows,), or None
+        Where the hand was told to be [m], when that was recorded.
+    count : float
+        Step of the position [m]; 0 when it has none.
+    lag : float
+        First-order lag of the force sensor [s].
+    current_lag : float
+        First-order lag of the motor's current loop [s].
+    remarks : tuple of str
+        What was guessed or changed on reading.
+
+    Raises
+    ------
+    ValueError
+        When a column holds no number, is constant, too short or of another length.
+    """
+
+    name: str
+    t: NDArray[np.float64]
+    x: NDArray[np.float64]
+    force: NDArray[np.float64] | None = None
+    motor: NDArray[np.float64] | None = None
+    desired: NDArray[np.float64] | None = None
+    target: NDArray[np.float64] | None = None
+    count: float = 0.0
+    lag: float = 0.0
+    current_lag: float = 3e-4
+    remarks: tuple[str, ...] = field(default=())
+
+    def __post_init__(self) -> None:
+        """Check lengths, numbers and times."""
+        n = len(self.t)
+        if n < LEAST_ROWS:
+            raise ValueError(f"{self.name}: {n} rows; needs at least {LEAST_ROWS}")
+        for name, values in self.channels().items():
+            if values.shape != (n,):
+                raise ValueError(
+                    f"{self.name}: {name} has the shape {values.shape}, t has ({n},); give one value a row"
+                )
+            wrong = np.flatnonzero(~np.isfinite(values))
+            if wrong.size:
+                raise ValueError(
+                    f"{self.name}: {name} is no number in {wrong.size} of {n} rows, first in row {wrong[0]} "
+                    "(counted from 0); cut these rows out or fill them"
+                )
+        step = np.diff(self.t)
+        if not (step > 0).all():
+            raise ValueError(
+                f"{self.name}: t does not rise in row {int(np.argmin(step > 0)) + 1}; sort the log by time"
+            )
+        if np.ptp(step) > 1e-3 * self.dt:
+            raise ValueError(
+                f"{self.name}: t is not equally spaced; read it with ebac.identify.load"
+            )
+        if np.ptp(self.x) == 0:
+            raise ValueError(
+                f"{self.name}: x is constant at {self.x[0]:g} m: nothing moved, or it is the wrong column"
+            )
+        for name in ("lag", "current_lag"):
+            if not 0 <= getattr(self, name) <= 0.1:
+                raise ValueError(
+                    f"{self.name}: {name} = {getattr(self, name):g} s: must lie in [0, 0.1] s"
+                )
+
+    @property
+    def dt(self) -> float:
+        """Time step [s]."""
+        return float(self.t[-1] - self.t[0]) / (len(self.t) - 1)
+
+    @property
+    def seconds(self) -> float:
+        """Length [s]."""
+        return float(self.t[-1] - self.t[0])
+
+    def channels(self) -> dict[str, NDArray[np.float64]]:
+        """Return what was recorded, by name; times apart."""
+        every = {
+            "t": self.t,
+            "x": self.x,
+            "force": self.force,
+            "motor": self.motor,
+            "desired": self.desired,
+            "target": self.target,
+        }
+        return {name: values for name, values in every.items() if values is not None}
+
+    def between(self, start: float, stop: float) -> Self:
+        """Return the rows with start <= t < stop [s]."""
+        part = slice(*(int(np.searchsorted(self.t, t)) for t in (start, stop)))
+        cut: dict[str, Any] = {name: values[part] for name, values in self.channels().items()}
+        return replace(self, **cut)
+
+    @classmethod
+    def from_trace(cls, trace: Trace, *, axis: int = 0, name: str = "trace") -> Self:
+        """Look at one axis of a `Trace`; count and lag are taken from its scenario where it has one."""
+        columns: dict[str, Any] = {
+            key: np.array(trace.axis(column, axis), dtype=float)
+            for key, column in OF_TRACE.items()
+            if column in trace
+        }
+        facts = trace_facts(trace)
+        if not facts["count"]:
+            facts["count"] = count_of(columns["x"])
+        return cls(name=name, t=np.array(trace["t"], dtype=float), **facts, **columns)
+
+    def __repr__(self) -> str:
+        """Return one line: name, rows, rate, channels."""
+        return (
+            f"<Recording {self.name}: {len(self.t)} rows, {self.seconds:.4g} s at {1 / self.dt:.5g} Hz; "
+            f"{', '.join(self.channels())}; count {1e3 * self.count:.4g} mm>"
+        )
+
+
+#: Signals of a recording, and the columns of a trace they are.
+OF_TRACE = {"x": "x", "force": "f_meas", "motor": "f_applied", "desired": "f_env"}
+
+
+def trace_facts(trace: Trace) -> dict[str, Any]:
+    """Return count, lags and a remark, from the scenario of a trace where it has one."""
+    if trace.scenario is None:
+        return {"count": 0.0, "lag": 0.0, "current_lag": 3e-4, "remarks": ()}
+    device = trace.scenario.device
+    count, lag = device.facts.count, device.sensor.lag
+    said = f"count {1e3 * count:.4g} mm and sensor lag {1e3 * lag:.3g} ms from the scenario"
+    return {
+        "count": count,
+        "lag": lag,
+        "current_lag": device.drive.current_lag,
+        "remarks": (said,),
+    }
+
+
+def count_of(x: NDArray[np.float64]) -> float:
+    """Return the step of a quantised signal, or 0 when it has none.
+
+    The least difference that most differences are whole multiples of.
+    """
+    steps = np.abs(np.diff(x))
+    span = float(np.ptp(x))
+    steps = steps[steps > 1e-9 * span]
+    if steps.size < 5:
+        return 0.0
+    least = float(steps.min())
+    for _ in range(3):  # a refined mean over the multiples
+        whole = np.round(steps / least)
+        near = np.abs(steps / least - whole) < 0.1
+        if near.mean() < 0.95 or whole.max() > 1e7:
+            return 0.0
+        least = float(np.sum(steps[near]) / np.sum(whole[near]))
+    share = np.unique(np.round((x - x.min()) / least)).size
+    return least if share < 0.9 * x.size else 0.0

@@ -1,0 +1,261 @@
+"""What a fit of an arm found, and how sure it is."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ebac._core import Hand, Recorded, Step
+from ebac.identify import verdict
+from ebac.identify.foretell import best_levels, best_start
+from ebac.identify.parameters import BEFORE_LEVELS, OWN, Parameters
+from ebac.identify.problem import Problem, arm_record
+from ebac.identify.recording import Recording
+from ebac.identify.residuals import ResidualTests, nrmse, residual_tests, vaf
+from ebac.identify.target import Target
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+#: Of a standard normal, two-sided 95 %.
+Z95 = 1.959963984540054
+
+
+@dataclass(frozen=True, kw_only=True)
+class Estimate:
+    """One number of a fit with its 95 % interval, all in `unit`."""
+
+    name: str
+    value: float
+    unit: str
+    low: float
+    high: float
+    fixed: bool
+    determined: bool
+
+    def __str__(self) -> str:
+        """Return "K0 = 301.2 N/m (298.1 to 304.3)"."""
+        if self.fixed:
+            return f"{self.name} = {self.value:.4g} {self.unit} (given)"
+        loose = "" if self.determined else ", NOT DETERMINED by this log"
+        return (
+            f"{self.name} = {self.value:.4g} {self.unit} ({self.low:.4g} to {self.high:.4g}{loose})"
+        )
+
+
+@dataclass(frozen=True, kw_only=True)
+class Prediction:
+    """How well the hand foretells a recording from its force alone: 1 and 0 are perfect."""
+
+    recording: str
+    held_out: bool
+    vaf: float
+    nrmse: float
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class ArmResult:
+    """The arm of eq. (4) as identified; `result.hand` feeds a `Scenario`."""
+
+    problem: Problem
+    values: NDArray[np.float64]
+    optimum: NDArray[np.float64]  # of the search, before the noise of the input is taken off
+    force_noise: NDArray[np.float64]
+    errors: NDArray[np.float64]
+    covariance: NDArray[np.float64]
+    robust: float | None
+    converged: bool
+    evaluations: int
+    seconds: float
+
+    @property
+    def parameters(self) -> Parameters:
+        """Names, bounds, what is free."""
+        return self.problem.parameters
+
+    @property
+    def recordings(self) -> tuple[Recording, ...]:
+        """What was fitted to."""
+        return self.problem.recordings
+
+    @cached_property
+    def deviation(self) -> NDArray[np.float64]:
+        """Standard deviation of each parameter, 0 for fixed ones."""
+        out = np.zeros(len(self.values))
+        out[self.parameters.free] = np.sqrt(np.maximum(np.diag(self.covariance), 0))
+        return out
+
+    @cached_property
+    def correlation(self) -> NDArray[np.float64]:
+        """Correlations of the free parameters, shape (free, free)."""
+        d = np.sqrt(np.maximum(np.diag(self.covariance), 1e-300))
+        return np.asarray(self.covariance / np.outer(d, d))
+
+    @cached_property
+    def _span(self) -> float:
+        return max(float(np.ptp(r.x)) for r in self.recordings)
+
+    @cached_property
+    def undetermined(self) -> tuple[str, ...]:
+        """Names of what this log does not determine."""
+        half = Z95 * self.deviation
+        return verdict.undetermined(
+            self.parameters, self.values, half, self.correlation, self._span
+        )
+
+    @cached_property
+    def inseparable(self) -> tuple[tuple[str, str, float], ...]:
+        """Pairs that this log cannot tell apart, with their correlation."""
+        half = Z95 * self.deviation
+        return verdict.inseparable(self.parameters, self.values, half, self.correlation, self._span)
+
+    @cached_property
+    def estimates(self) -> dict[str, Estimate]:
+        """Every parameter by name."""
+        out = {}
+        free = set(self.parameters.free.tolist())
+        for i, name in enumerate(self.parameters.names):
+            value, half = float(self.values[i]), Z95 * float(self.deviation[i])
+            out[name] = Estimate(
+                name=name,
+                value=value,
+                unit=self.parameters.unit(name),
+                low=value - half,
+                high=value + half,
+                fixed=i not in free,
+                determined=name not in self.undetermined,
+            )
+        return out
+
+    def __getitem__(self, name: str) -> Estimate:
+        """Return one parameter."""
+        if name not in self.estimates:
+            raise KeyError(f"no parameter {name!r}; there are: {', '.join(self.estimates)}")
+        return self.estimates[name]
+
+    @cached_property
+    def tests(self) -> dict[str, ResidualTests]:
+        """Whiteness and independence of the errors, by recording."""
+        out, start = {}, 0
+        for r in self.recordings:
+            assert r.force is not None
+            out[r.name] = residual_tests(self.errors[start : start + len(r.t)], r.force)
+            start += len(r.t)
+        return out
+
+    @cached_property
+    def hand(self) -> Hand:
+        """The hand, for a `Scenario`: of the first recording, its last level as target.
+
+        Raises
+        ------
+        ValueError
+            When mass, damping or stiffness is not determined by the log.
+        """
+        lost = [n for n in self.undetermined if n[:2] in ("M0", "B0", "K0")]
+        if lost:
+            raise ValueError(
+                f"{', '.join(lost)}: not determined by this log, so there is no hand to simulate; record one with "
+                "more excitation, or fix some of the values"
+            )
+        theta = self.values[self.parameters.places[0]]
+        target, r = self.problem.targets[0], self.recordings[0]
+        path: Step | Recorded
+        if target.path is not None:
+            path = Recorded(t=r.t.tolist(), x=(target.path + theta[BEFORE_LEVELS]).tolist())
+        else:
+            path = Step(target=float(theta[BEFORE_LEVELS + target.segments[-1]]))
+        return Hand(
+            mass=float(theta[0]), damping=float(theta[1]), stiffness=float(theta[2]), path=path
+        )
+
+    def simulated(self, recording: int = 0) -> NDArray[np.float64]:
+        """Return the position [m] that a recording's force alone gives with this hand, from the best start."""
+        theta = self.values[self.parameters.places[recording]]
+        return best_start(self.problem.records[recording], theta, self.recordings[recording].x)
+
+    def predictions(
+        self, held_out: Sequence[tuple[Recording, Target]] = ()
+    ) -> tuple[Prediction, ...]:
+        """Judge the hand on its own recordings and on others.
+
+        On a recording held out, M0, B0, K0 and delay are kept; where that hand wanted to be and where it started is
+        fitted.
+        """
+        rows = []
+        for i, r in enumerate(self.recordings):
+            rows.append(self._judge(r, r.x, self.simulated(i), held=False))
+        for r, target in held_out:
+            record = arm_record(r, target)
+            hand = self.values[self.parameters.places[0]][:4]
+            base = np.concatenate([hand, np.zeros(len(OWN) + target.levels)])
+            rows.append(self._judge(r, r.x, best_levels(record, base, r.x), held=True))
+        return tuple(rows)
+
+    @staticmethod
+    def _judge(
+        r: Recording, measured: NDArray[np.float64], model: NDArray[np.float64], *, held: bool
+    ) -> Prediction:
+        return Prediction(
+            recording=r.name,
+            held_out=held,
+            vaf=vaf(measured, model),
+            nrmse=nrmse(measured, model),
+        )
+
+    def profile(self, name: str, level: float = Z95**2) -> tuple[float, float]:
+        """Return the 95 % interval of a parameter by profile likelihood: all others are fitted anew along it."""
+        from ebac.identify.profile import profile
+
+        return profile(self, name, level)
+
+    def plot(self) -> Figure:
+        """Draw fit, errors, their correlations and the frequency response."""
+        from ebac.identify.figures import plot_arm
+
+        return plot_arm(self)
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return plain numbers in SI units, for JSON."""
+        return {
+            "rows": [vars(e) for e in self.estimates.values()],
+            "correlation": self.correlation.tolist(),
+            "free": [self.parameters.names[i] for i in self.parameters.free],
+            "inseparable": [list(pair) for pair in self.inseparable],
+            "undetermined": list(self.undetermined),
+            "force_noise_N": self.force_noise.tolist(),
+            "predictions": [vars(p) for p in self.predictions()],
+            "residuals": {
+                name: {
+                    "white": t.white,
+                    "whiteness_p": t.whiteness_p,
+                    "independent": t.independent,
+                    "independence_p": t.independence_p,
+                }
+                for name, t in self.tests.items()
+            },
+            "converged": self.converged,
+            "evaluations": self.evaluations,
+            "seconds_s": self.seconds,
+        }
+
+    def __repr__(self) -> str:
+        """Return the estimates, one a line, and what to be careful about."""
+        names = ", ".join(r.name for r in self.recordings)
+        lines = [f"Arm of eq. (4) from {names}:"]
+        lines += [f"  {e}" for e in self.estimates.values()]
+        lines += [
+            f"  {a} and {b} cannot be told apart in this log (correlation {r:+.3f})"
+            for a, b, r in self.inseparable
+        ]
+        for name, t in self.tests.items():
+            if not t.white:
+                lines.append(f"  errors of {name} are not white: the model misses something")
+        if not self.converged:
+            lines.append("  the search did not converge")
+        return "\n".join(lines)

@@ -1,0 +1,223 @@
+"""Gains from a log: what is chosen keeps its constraints, costs no more than the default, and runs in a scenario."""
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from typer.testing import CliRunner
+
+import ebac
+from ebac.cli import app
+from ebac.identify import Limits, Recording, Target, fit_gains, fit_loop
+from ebac.identify.gains_check import check_gains, gains_rows
+from ebac.identify.presses import arms_around, force_loop_laws, noise_gain, run_presses
+from ebac.identify.rules import blocked_step, by_rule, by_tangent
+
+
+@pytest.fixture(scope="module")
+def trace() -> ebac.Trace:
+    hand = ebac.Hand(
+        mass=0.2,
+        damping=5,
+        stiffness=300,
+        path=ebac.Tapping(target=0.03, rest=-0.01, frequency=1.5),
+    )
+    scenario = ebac.Scenario(
+        hand=hand,
+        device=ebac.Device(sensor=ebac.ForceSensor(noise=0.03, quantum=0.01)),
+        environment=ebac.Wall(stiffness=3e3),
+        seconds=4.0,
+    )
+    return ebac.simulate(scenario, "ebac")
+
+
+@pytest.fixture(scope="module")
+def loop(trace: ebac.Trace):
+    recording = Recording.from_trace(trace)
+    return fit_loop(recording, Target.of(trace.scenario.hand, recording.t))
+
+
+@pytest.fixture(scope="module")
+def chosen(loop):
+    return fit_gains(loop, "tca", evaluations=15)
+
+
+def test_the_loop_is_that_of_the_log(loop) -> None:
+    assert loop.wall.stiffness == pytest.approx(3e3, rel=0.01)
+    assert loop.device.mass == pytest.approx(0.25, rel=0.02)
+    assert loop.arm["K0"].value == pytest.approx(300, rel=0.01)
+    assert loop.scenario.hand.mass == pytest.approx(0.2, rel=0.02)
+
+
+def test_the_choice_keeps_all_and_costs_less(chosen) -> None:
+    assert chosen.chosen.broken == ()
+    assert chosen.chosen.cost < 0.8  # of the default, which shakes
+    assert chosen.default.cost == pytest.approx(1.0)
+    assert chosen.chosen.cost == min(c.cost for c in chosen.tried if not c.broken)
+    numbers, before = chosen.chosen.presses.numbers(), chosen.default.presses.numbers()
+    assert numbers["swing_worst_m"] < before["swing_worst_m"]
+    assert numbers["least_energy_J"] >= -chosen.limits.energy
+
+
+def test_the_law_runs_in_a_scenario(chosen) -> None:
+    contact = ebac.contact(ebac.simulate(chosen.scenario, chosen.law))
+    assert contact.settled_s is not None
+    assert contact.swing_m < 0.25e-3
+
+
+def test_a_tighter_constraint_holds(loop) -> None:
+    found = fit_gains(loop, "ebac", limits=Limits(noise_gain=0.05), evaluations=10)
+    assert found.chosen.noise_gain <= 0.05
+    assert found.chosen.kp <= 0.05
+
+
+def test_what_no_gains_keep_is_refused(loop) -> None:
+    with pytest.raises(
+        ValueError, match=r"no pair of gains keeps the constraints: broken are .*force"
+    ):
+        fit_gains(loop, "ebac", limits=Limits(force=0.1), evaluations=2)
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ({"law": "eba"}, "law 'eba': has no force loop of eq. "),
+        ({"vary": -1.0}, r"vary = -1: must lie in \[0, 3\]"),
+        ({"evaluations": 0}, "evaluations = 0: must be at least 1"),
+    ],
+)
+def test_bad_wishes_are_refused(loop, change: dict, message: str) -> None:
+    with pytest.raises(ValueError, match=message):
+        fit_gains(loop, **change)
+
+
+@pytest.mark.parametrize("name", ["overshoot", "force", "current", "noise_gain", "energy"])
+def test_a_limit_below_zero_is_refused(name: str) -> None:
+    with pytest.raises(ValueError, match=f"Limits.{name} = -1.*must be positive"):
+        Limits(**{name: -1.0})
+
+
+def test_a_hand_that_is_not_told_has_no_gains() -> None:
+    scenario = ebac.Scenario(environment=ebac.Free(), seconds=2.0)
+    loop = fit_loop(Recording.from_trace(ebac.simulate(scenario, "direct")))
+    with pytest.raises(ValueError, match="not determined by this log"):
+        fit_gains(loop)
+
+
+# --- pieces ---
+
+
+def test_the_laws_with_a_force_loop() -> None:
+    assert {"tca", "tca-damped", "ebac"} <= set(force_loop_laws())
+    assert "eba" not in force_loop_laws()
+
+
+@settings(max_examples=25, deadline=None)
+@given(
+    kp=st.floats(0, 2),
+    kd=st.floats(0, 5e-3),
+    filter_s=st.floats(1e-3, 2e-2),
+)
+def test_the_noise_gain_is_what_the_law_does_to_noise(
+    kp: float, kd: float, filter_s: float
+) -> None:
+    """The answer of eq. (2) to one reading, by the law itself."""
+    law = ebac.TCA(kp=kp, kd=kd, filter=filter_s, peak_force=1e4)
+    answer = []
+    for k in range(400):
+        port = ebac.Port(dt=1e-3, f_meas=1.0 if k == 1 else 0.0)
+        answer.append(law.step(port))
+    assert noise_gain(kp, kd, filter_s, 1e-3) == pytest.approx(
+        float(np.linalg.norm(answer)), rel=1e-6, abs=1e-9
+    )
+
+
+def test_hands_around_hold_the_interval(loop) -> None:
+    hands = arms_around(loop.arm, 0.3)
+    assert len(hands) == 15
+    assert hands[0] == loop.arm.hand
+    lightest, heaviest = min(h.mass for h in hands), max(h.mass for h in hands)
+    assert lightest == pytest.approx(hands[0].mass / 1.3)
+    assert heaviest == pytest.approx(hands[0].mass * 1.3)
+    narrow = arms_around(loop.arm, 0.0)
+    e = loop.arm["K0"]
+    assert max(h.stiffness for h in narrow) <= e.high + 0.2 * (e.high - e.low)
+
+
+def test_presses_are_the_runs_of_a_simulation(loop) -> None:
+    scenario = loop.scenario
+    found = run_presses([scenario], "ebac", {"kp": 0.2})
+    trace = ebac.simulate(scenario, ebac.laws.Variant("ebac", {"kp": 0.2}))
+    contact = ebac.contact(trace)
+    assert found.columns["rest"][0] == pytest.approx(contact.rest_m, abs=1e-12)
+    assert found.columns["most_force"][0] == pytest.approx(np.abs(trace["f_applied"]).max())
+    assert found.overshoot[0] == pytest.approx(contact.peak_m - contact.ideal_m, abs=1e-9)
+
+
+@settings(deadline=None)
+@given(dead=st.floats(1e-4, 1e-2), rise=st.floats(1e-4, 1e-2))
+def test_a_tangent_finds_a_dead_time(dead: float, rise: float) -> None:
+    t = np.linspace(0, dead + 12 * rise, 20001)
+    y = np.where(t > dead, 1 - np.exp(-(t - dead) / rise), 0.0)
+    read = by_tangent(t, y)
+    assert read.gain == pytest.approx(1, rel=1e-3)
+    assert read.dead_time == pytest.approx(dead, abs=0.02 * (dead + rise))
+    assert read.rise_time == pytest.approx(rise, rel=0.05)
+
+
+def test_the_rule_and_its_step_response() -> None:
+    device, timing = ebac.Device(), ebac.Timing()
+    t, y = blocked_step(device, timing)
+    assert y[t <= 1e-3].max() == 0
+    assert y[-1] == pytest.approx(1, abs=1e-4)
+    kp, kd = by_rule("step-response", device, timing)
+    assert 0.1 < kp < 1
+    assert 0 < kd < 1e-3
+    slower = by_rule("step-response", device, ebac.Timing(delay=3))
+    assert slower[0] < kp  # more dead time, less gain
+    with pytest.raises(ValueError, match="rule 'magic': must be one of step-response"):
+        by_rule("magic", device, timing)
+    with pytest.raises(ValueError, match="does not rise"):
+        by_tangent(t, -y)
+
+
+# --- on hands that were not in the log ---
+
+
+def test_chosen_gains_beat_the_default_on_held_out_hands() -> None:
+    cases = check_gains(2, seed=1, laws=("tca",))
+    default, chosen = gains_rows(cases)
+    assert chosen["settled"] > default["settled"]
+    assert chosen["swing_worst_m"] < default["swing_worst_m"]
+    assert chosen["noise_median_N"] < default["noise_median_N"]
+    assert chosen["logs_with_broken_constraint"] == 0
+    with pytest.raises(ValueError, match="logs = 0: must be at least 1"):
+        check_gains(0)
+
+
+def test_the_command_writes_a_report_and_json(tmp_path: Path, trace: ebac.Trace) -> None:
+    trace.to_npz(tmp_path / "log.npz")
+    out = tmp_path / "report"
+    run = CliRunner().invoke(
+        app,
+        ["identify", "gains", str(tmp_path / "log.npz"), "--tapping", "1.5", "--law", "tca-damped",
+         "--json", "--out", str(out)],
+    )  # fmt: skip
+    assert run.exit_code == 0, run.output
+    document = json.loads(run.stdout)
+    assert [row["gains"] for row in document["rows"]] == ["default", "step-response", "chosen"]
+    assert document["rows"][-1]["broken"] == []
+    assert (out / "gains.html").read_text().count("data:image/png") == 1
+    assert (out / "gains.png").stat().st_size > 10_000
+
+
+def test_the_command_refuses_a_law_without_force_loop(tmp_path: Path, trace: ebac.Trace) -> None:
+    trace.to_npz(tmp_path / "log.npz")
+    run = CliRunner().invoke(
+        app, ["identify", "gains", str(tmp_path / "log.npz"), "--tapping", "1.5", "--law", "eba"]
+    )
+    assert run.exit_code == 2
+    assert "has no force loop" in " ".join(run.stderr.split())
