@@ -54,7 +54,7 @@ def config(tmp_path: Path) -> Path:
 
 @contextmanager
 def served(config: Path) -> Iterator[subprocess.Popen[str]]:
-    """Simulated drives and their world in another process; the configuration says where the sensor is."""
+    """Simulated drives, device, hand and sensor in another process; the configuration says where the sensor is."""
     scenario = config.with_name("scenario.toml")
     Configuration.load(config).scenario(seconds=10).save(scenario)
     command = [sys.executable, "-m", "ebac.cli", "drive", "simulate", "--channel", INTERFACE]
