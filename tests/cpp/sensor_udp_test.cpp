@@ -105,6 +105,17 @@ TEST(RdtClient, AgeCountsFromWhenTheKernelHadTheRecord) {
   EXPECT_LE(client.age(), passed.count() + 0.001);
 }
 
+TEST(RdtClient, WhoReadsSeldomDoesNotAskAgain) {
+  UdpSocket sensor(kAnyPort);
+  RdtClient client({.sensor = sensor.local(), .retry = 0.02});
+  client.start();
+  sensor.send(encode(RdtRecord{.rdt_sequence = 1}), client.local());
+  std::this_thread::sleep_for(milliseconds{40});  // it waits in the queue, as old as silence
+  EXPECT_TRUE(client.poll(0.04));
+  EXPECT_GT(client.age(), 0.02);
+  EXPECT_EQ(client.asked(), 1);
+}
+
 TEST(RdtClient, ASilentSensorIsAskedAgainAndThenGone) {
   Script s;
   s.say(5);

@@ -20,7 +20,7 @@ def configuration() -> Configuration:
     hand = known.hand.replace(
         path=[ebac.MinimumJerk(target=0.04, at=0, duration=0.2), ebac.Step(target=0)]
     )
-    limits = known.limits.replace(overruns=100_000, force_age=0.3)
+    limits = known.limits.replace(overruns=100_000, jump=1.0, speed=100.0, force_age=0.3)
     return known.replace(silent=1000, limits=limits, soft_start=0.05, ramp_down=0.05, hand=hand)
 
 
@@ -43,8 +43,8 @@ class Desk:
         self.device.run(seconds=60, look=look)
 
 
-@pytest.fixture(scope="module")
-def opened() -> Iterator[Desk]:
+@contextmanager
+def a_desk() -> Iterator[Desk]:
     made = Desk()
 
     @contextmanager
@@ -59,6 +59,12 @@ def opened() -> Iterator[Desk]:
             yield made
 
 
+@pytest.fixture(scope="module")
+def opened() -> Iterator[Desk]:
+    with a_desk() as made:
+        yield made
+
+
 @pytest.fixture
 def desk(opened: Desk) -> Desk:
     """Give the desk with a sensor that works."""
@@ -67,9 +73,10 @@ def desk(opened: Desk) -> Desk:
 
 
 @pytest.mark.parametrize("law", ["tca", "ebac"])
-def test_the_force_that_is_felt_comes_back_over_the_network(desk: Desk, law: str) -> None:
+def test_the_force_that_is_felt_comes_back_over_the_network(law: str) -> None:
     wall = ebac.Wall(stiffness=2e3, position=0.01)  # soft enough for either law
-    trace = under_the_law(desk.device.run(law, wall, seconds=1.5))
+    with a_desk() as desk:
+        trace = under_the_law(desk.device.run(law, wall, seconds=1.5))
     push = float(trace["f_meas"][-500:, 0].mean())
     assert push > 3  # N
     # At rest the hand pushes as hard as the motor holds: two ways to the same force.

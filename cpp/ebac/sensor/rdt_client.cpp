@@ -59,7 +59,7 @@ void RdtClient::start() EBAC_RT {
   }
   wanted_ = true;
   state_ = LinkState::kWaiting;
-  age_ = since_asked_ = 0;
+  age_ = quiet_ = since_asked_ = 0;
   ++asked_;
   link_.restart();
   ask(RdtCommand::kStart);
@@ -80,6 +80,7 @@ void RdtClient::close() noexcept {
 
 bool RdtClient::poll(double elapsed) EBAC_RT {
   age_ += elapsed;
+  quiet_ += elapsed;
   since_asked_ += elapsed;
   bool newer = false;
   Datagram in;
@@ -92,8 +93,9 @@ bool RdtClient::poll(double elapsed) EBAC_RT {
       newer = take(in) || newer;
     }
   }
-  if (!newer && state_ == LinkState::kStreaming && age_ > setup_.gone) state_ = LinkState::kSilent;
-  if (wanted_ && std::min(age_, since_asked_) > setup_.retry) {  // it may have lost its power
+  if (!newer && state_ == LinkState::kStreaming && quiet_ > setup_.gone)
+    state_ = LinkState::kSilent;
+  if (wanted_ && std::min(quiet_, since_asked_) > setup_.retry) {  // it may have lost its power
     since_asked_ = 0;
     ++asked_;
     link_.restart();
@@ -110,6 +112,7 @@ bool RdtClient::take(const Datagram& in) EBAC_RT {
   }
   if (!link_.take(in.bytes())) return false;
   age_ = setup_.stamped && in.stamp != 0 ? since(in.stamp) : 0;
+  quiet_ = 0;
   if (wanted_) state_ = LinkState::kStreaming;
   return true;
 }

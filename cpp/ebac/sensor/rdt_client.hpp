@@ -91,6 +91,7 @@ class RdtClient {
   LinkState state_ = LinkState::kStopped;
   bool wanted_ = false;     // a stream
   double age_ = 0;          // s
+  double quiet_ = 0;        // s, since a poll last read a record
   double since_asked_ = 0;  // s
   std::int64_t foreign_ = 0;
   std::int64_t asked_ = 0;
