@@ -99,6 +99,15 @@ class DeviceResult:
             "seconds_s": self.seconds,
         }
 
+    def _repr_html_(self) -> str:
+        """Return the figure and the estimates, for a notebook."""
+        from ebac import notebook
+        from ebac.identify.figures import plot_device
+
+        title = f"Device: explains {100 * self.explained:.2f} % of the force"
+        rows = [e.row() for e in self.estimates.values()]
+        return notebook.result(title, rows, lambda: plot_device(self))
+
     def __repr__(self) -> str:
         """Return the estimates, one a line."""
         lines = ["Device:"] + [f"  {e}" for e in self.estimates.values()]

@@ -66,6 +66,13 @@ class GainsResult:
             "remarks": list(self.loop.remarks),
         }
 
+    def _repr_html_(self) -> str:
+        """Return the figure and default, rules and choice, for a notebook."""
+        from ebac import notebook
+        from ebac.identify.gains_figures import plot_gains
+
+        return notebook.result(repr(self), self.rows(), lambda: plot_gains(self))
+
     def __repr__(self) -> str:
         """Return the choice and what it comes to."""
         n = self.chosen.presses.numbers()

@@ -38,6 +38,17 @@ class Estimate:
     fixed: bool
     determined: bool
 
+    def row(self) -> dict[str, str]:
+        """Return it in words, for a table."""
+        bounds = "" if self.fixed else f"{self.low:.4g} to {self.high:.4g}"
+        said = "given" if self.fixed else "yes" if self.determined else "NO"
+        return {
+            "parameter": self.name,
+            "value": f"{self.value:.4g} {self.unit}",
+            "95 % interval": bounds,
+            "determined": said,
+        }
+
     def __str__(self) -> str:
         """Return "K0 = 301.2 N/m (298.1 to 304.3)"."""
         if self.fixed:
@@ -243,6 +254,17 @@ class ArmResult:
             "evaluations": self.evaluations,
             "seconds_s": self.seconds,
         }
+
+    def _repr_html_(self) -> str:
+        """Return the figure, the estimates and what to be careful about, for a notebook."""
+        from ebac import notebook
+
+        names = ", ".join(r.name for r in self.recordings)
+        careful = "; ".join(
+            f"{a} and {b} cannot be told apart ({r:+.3f})" for a, b, r in self.inseparable
+        )
+        title = f"Arm of eq. (4) from {names}" + (f". {careful}" if careful else "")
+        return notebook.result(title, [e.row() for e in self.estimates.values()], self.plot)
 
     def __repr__(self) -> str:
         """Return the estimates, one a line, and what to be careful about."""

@@ -1,0 +1,16 @@
+"""An identified arm shows itself in a notebook: its estimates with units and intervals, and the fit."""
+
+import ebac
+from ebac import identify
+
+
+def test_an_arm_shows_its_estimates_and_its_fit() -> None:
+    hand = ebac.Hand(mass=0.35, damping=6.0, stiffness=300.0, path=[ebac.Tapping(frequency=0.8)])
+    trace = ebac.simulate(ebac.Scenario(hand=hand, seconds=4), "ebac")
+    recording = identify.Recording.from_trace(trace, name="<tapping>")
+    result = identify.fit_arm(recording, identify.Target.of(hand, recording.t))
+    html = result._repr_html_()
+    assert html.count('<img alt="figure"') == 1
+    assert "from &lt;tapping&gt;" in html
+    for name, unit in (("M0", "kg"), ("B0", "N s/m"), ("K0", "N/m")):
+        assert f"<td>{name}</td><td>{result[name].value:.4g} {unit}</td>" in html
