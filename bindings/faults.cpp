@@ -51,6 +51,7 @@ void bind_faults(py::module_& m) {
       "_fault_kinds",
       [] {
         std::vector<std::pair<std::string, std::string>> kinds;
+        kinds.reserve(faults::kKindFacts.size());
         for (const auto& kind : faults::kKindFacts) kinds.emplace_back(kind.name, kind.what);
         return kinds;
       },

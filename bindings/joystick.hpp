@@ -32,7 +32,7 @@ inline double checked_peak_time(double seconds) {
 
 /// The device and hand of a setup behind drives; `felt` is told the force at the handle.
 inline PlantOfDrives make_joystick(Setup setup, int first, double peak_time,
-                                   std::optional<std::shared_ptr<sensor::ForceCell>> felt,
+                                   const std::optional<std::shared_ptr<sensor::ForceCell>>& felt,
                                    bool wait_for_power) {
   const can::NodeId node = checked_node(first, setup.device.axes());
   setup.device.drive.permille = true;  // what a drive is told in

@@ -10,7 +10,7 @@ namespace ebac::python {
 
 /// A law with the force loop of eq. (2).
 template <class Law>
-concept HasForceLoop = requires(typename Law::Params params) {
+concept HasForceLoop = requires(Law::Params params) {
   params.kp;
   params.kd;
 };
@@ -33,6 +33,7 @@ void bind_press(py::class_<Law>& cls) {
           rows = press(setups, laws, goals, threads, limits, progress);
         }
         std::vector<Outcome> outcomes;
+        outcomes.reserve(rows.size());
         for (const Press& row : rows) outcomes.push_back(row.outcome);
         Values columns = columns_of(outcomes);
         add_columns<PressEffort>(columns, rows,

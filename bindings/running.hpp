@@ -109,7 +109,7 @@ class HardwareLoop {
       client.start();
       sensor = sensor::OptionalSensor(std::move(client));
     }
-    return Hardware(sensor::WithForceSensor(std::move(drives), std::move(sensor)));
+    return Hardware(sensor::WithForceSensor(drives, std::move(sensor)));
   }
   static LoopOptions options(const RunSetup& setup) {
     LoopOptions options{.plan = setup.plan};

@@ -138,7 +138,8 @@ void bind_setup(py::module_& m) {
 
 /// Waits for a newer record without the interpreter's lock: false when the time is over.
 bool poll(TimedClient& self, double timeout) {
-  if (!(timeout >= 0 && timeout <= 3600)) {
+  const bool fits = timeout >= 0 && timeout <= 3600;  // not a NaN
+  if (!fits) {
     throw std::invalid_argument(range_message("read", "timeout", timeout, "s", 0, 3600));
   }
   const auto until = Steady::now() + std::chrono::duration_cast<Steady::duration>(

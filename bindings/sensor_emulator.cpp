@@ -44,7 +44,7 @@ std::unique_ptr<ServedEmulator> serve(const std::string& host, int port,
 
 template <class Source, class Turn>
 void add_init(py::class_<ServedEmulator>& cls, Turn turn) {
-  cls.def(py::init([turn](const std::string& host, int port, Source source,
+  cls.def(py::init([turn](const std::string& host, int port, const Source& source,
                           const EmulatorOptions& options, const std::array<double, 9>& rotation,
                           int sign, sensor::SensorModel model, std::uint64_t seed) {
             return serve(host, port, options, rotation, sign, model, seed, turn(source));

@@ -63,7 +63,10 @@ class RdtEmulator {
     const auto bytes = encode(record());
     std::ranges::copy(bytes, packet_.begin() + static_cast<std::ptrdiff_t>(size_));
     size_ += bytes.size();
-    if (samples_ > 0 && --samples_ == 0) streaming_ = false;
+    if (samples_ > 0) {
+      --samples_;
+      if (samples_ == 0) streaming_ = false;
+    }
     if (++fill_ < records_ && streaming_) return;
     fill_ = 0;
     leave(send);
