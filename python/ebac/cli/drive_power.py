@@ -19,6 +19,7 @@ from ebac.cli.drive_options import (
     opened,
     sure,
 )
+from ebac.leaving import noted_on
 
 if TYPE_CHECKING:
     from ebac.drives import Drive
@@ -73,13 +74,9 @@ def enable(
 
 def _off(powered: list[Drive], error: BaseException) -> None:
     """Disable every drive, also when one of them does not obey."""
-    from ebac.drives import DriveError
-
     for one in powered:
-        try:
+        with noted_on(error, f"and node {one.node} could not be disabled"):
             one.disable()
-        except DriveError as failure:
-            error.add_note(f"and node {one.node} could not be disabled: {failure}")
 
 
 def disable(

@@ -11,6 +11,7 @@ from ebac.drives import faults
 from ebac.drives.errors import DriveError, DriveFault, WrongAnswer, WrongState
 from ebac.drives.node import Node
 from ebac.drives.state import AUTOMATIC, Command, State, Statusword, path
+from ebac.leaving import noted_on
 
 #: Modes of operation this package uses (CiA 402-2, object 0x6060).
 MODES = {4: "profile torque", 10: "cyclic synchronous torque"}
@@ -33,12 +34,8 @@ class Drive(Node):
         error: BaseException | None,
         traceback: TracebackType | None,
     ) -> None:
-        try:
+        with noted_on(error, "and the drive could not be disabled"):
             self.disable()
-        except DriveError as failure:
-            if error is None:
-                raise
-            error.add_note(f"and the drive could not be disabled: {failure}")
 
     @property
     def statusword(self) -> Statusword:
@@ -136,10 +133,8 @@ class Drive(Node):
         try:
             self.go(State.OPERATION_ENABLED, timeout=timeout)
         except DriveError as error:
-            try:
+            with noted_on(error, "and the drive could not be disabled"):
                 self.disable()
-            except DriveError as failure:
-                error.add_note(f"and the drive could not be disabled: {failure}")
             raise
 
     def _zero_torque(self) -> None:

@@ -23,6 +23,7 @@ from ebac.hardware.law import designed
 from ebac.hardware.place import hardware, simulated
 from ebac.hardware.report import Report
 from ebac.hardware.run import Run
+from ebac.leaving import noted_on
 
 if TYPE_CHECKING:
     from ebac.hardware.place import Place
@@ -279,12 +280,8 @@ class OpenDevice:
         trace: TracebackType | None,
     ) -> None:
         """Close it, whatever was raised."""
-        try:
+        with noted_on(error, "and at the end"):
             self.close()
-        except Exception as failure:
-            if error is None:
-                raise
-            error.add_note(f"and at the end: {failure}")
 
 
 def _started(law: Any, place: Place, setup: _core.RunSetup) -> _core.Running:

@@ -15,6 +15,7 @@ from ebac.drives.errors import DriveError
 from ebac.hardware.interrupts import Interrupts, Parent
 from ebac.hardware.report import Report
 from ebac.hardware.told import Note, Told
+from ebac.leaving import noted_on
 from ebac.trace import Trace, column_infos, row_views
 
 if TYPE_CHECKING:
@@ -326,12 +327,8 @@ class Run:
         """End it, whatever was raised."""
         if error is not None:
             self._note_end("exception")
-        try:
+        with noted_on(error, "and at the end of the run"):
             self.end()
-        except Exception as failure:
-            if error is None:
-                raise
-            error.add_note(f"and at the end of the run: {failure}")
 
     def _note_end(self, by: str) -> None:
         if not self._ended_by and not self.done:
