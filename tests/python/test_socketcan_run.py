@@ -117,8 +117,7 @@ def test_a_killed_loop_leaves_the_drives_to_their_own_watch(config: Path, tmp_pa
         assert states() == [drives.State.OPERATION_ENABLED] * 2
         process.send_signal(signal.SIGKILL)
         process.wait()
-        powered = [drives.State.OPERATION_ENABLED] * 2
-        while (now := states()) == powered and time.monotonic() < end:
+        while drives.State.OPERATION_ENABLED in (now := states()) and time.monotonic() < end:
             time.sleep(0.05)
         assert drives.State.OPERATION_ENABLED not in now
     (log,) = out.glob("*.mcap")
