@@ -66,10 +66,9 @@ void bind_served(py::module_& m) {
       "A joystick of simulated drives on a bus inside this process, in real time, in a thread of\n"
       "its own that never waits for Python. A context manager.");
   inside.def(
-      py::init([](can::LoopbackHub& hub, const Setup& setup, int first, double peak_time, Felt felt,
-                  bool wait_for_power) {
-        PlantOfDrives joystick =
-            make_joystick(setup, first, peak_time, std::move(felt), wait_for_power);
+      py::init([](can::LoopbackHub& hub, const Setup& setup, int first, double peak_time,
+                  const Felt& felt, bool wait_for_power) {
+        PlantOfDrives joystick = make_joystick(setup, first, peak_time, felt, wait_for_power);
         return std::make_unique<OnLoopback>(hub.open({.frames = kFrames}), std::move(joystick));
       }),
       py::arg("hub"), py::arg("setup"), py::kw_only(), py::arg("first") = 1,
@@ -81,9 +80,8 @@ void bind_served(py::module_& m) {
       "thread of its own that never waits for Python. A context manager.");
   outside.def(
       py::init([](const std::string& interface, const Setup& setup, int first, double peak_time,
-                  Felt felt, bool wait_for_power) {
-        PlantOfDrives joystick =
-            make_joystick(setup, first, peak_time, std::move(felt), wait_for_power);
+                  const Felt& felt, bool wait_for_power) {
+        PlantOfDrives joystick = make_joystick(setup, first, peak_time, felt, wait_for_power);
         return std::make_unique<OnSocketCan>(open_socketcan(interface, {}), std::move(joystick));
       }),
       py::arg("interface"), py::arg("setup"), py::kw_only(), py::arg("first") = 1,
