@@ -127,10 +127,11 @@ def gains(
         return
     for text in loop.remarks:
         output.say(text, style="dim")
-    table = _cells(result)
-    grid = output.table(list(table[0]), numbers=tuple(range(1, len(table[0]) - 1)))
-    for row in table:
-        grid.add_row(*row.values())
+    table = _cells(result)  # a pair of gains is a column: eleven of them would not fit side by side
+    heading, *names = table[0]
+    grid = output.table([heading, *(row[heading] for row in table)], numbers=(1, 2, 3))
+    for name in names:
+        grid.add_row(name, *(row[name] for row in table))
     output.console().print(grid)
     for text in _notes(result):
         output.say(text)
