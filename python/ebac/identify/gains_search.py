@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ebac.carried import Carried
 from ebac.identify.gains_trial import Candidate, Limits, Trial, excess
 from ebac.identify.loop import LoopModel
 from ebac.identify.presses import Presses
@@ -94,9 +95,8 @@ class GainsSearch:
         import nlopt
 
         seen: dict[tuple[float, float], Candidate] = {}
-        raised: list[BaseException] = []
         optimiser = nlopt.opt(nlopt.LN_COBYLA, 2)
-        optimiser.set_exceptions_enabled(False)
+        carried = Carried(optimiser)
 
         def at(point: Values) -> Candidate:
             kp, kd = (np.clip(point, 0, 1) ** 2 * self.largest).tolist()
@@ -104,36 +104,23 @@ class GainsSearch:
                 seen[kp, kd] = self.judge("search", kp, kd)
             return seen[kp, kd]
 
-        def objective(point: Values, _: Any) -> float:
-            try:
-                return min(at(point).cost, PENALTY)
-            except BaseException as error:  # would be lost inside of NLopt
-                raised.append(error)
-                optimiser.force_stop()
-                return PENALTY
+        def cost(point: Values) -> float:
+            return min(at(point).cost, PENALTY)
 
-        def constraint(point: Values, _: Any) -> float:
-            if raised:
-                return 0.0
-            try:
-                c = at(point)
-                return max(excess(c.presses, c.noise_gain, self.limits).values())
-            except BaseException as error:
-                raised.append(error)
-                optimiser.force_stop()
-                return 0.0
+        def too_much(point: Values) -> float:
+            c = at(point)
+            return max(excess(c.presses, c.noise_gain, self.limits).values())
 
         best = min(self.tried, key=lambda c: (bool(c.broken), c.cost))
-        optimiser.set_min_objective(objective)
-        optimiser.add_inequality_constraint(constraint, 1e-9)
+        optimiser.set_min_objective(carried(cost, instead=PENALTY))
+        optimiser.add_inequality_constraint(carried(too_much, instead=0.0), 1e-9)
         optimiser.set_lower_bounds(np.zeros(2))
         optimiser.set_upper_bounds(np.ones(2))
         optimiser.set_initial_step(0.15)
         optimiser.set_xtol_abs(5e-3)
         optimiser.set_maxeval(self.evaluations)
         optimiser.optimize(np.clip(np.sqrt(np.array([best.kp, best.kd]) / self.largest), 0, 1))
-        if raised:
-            raise raised[0]
+        carried.settle()
 
 
 def _complete(limits: Limits, loop: LoopModel, base: Presses) -> Limits:

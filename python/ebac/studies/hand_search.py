@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ebac._core import RunLimits
+from ebac.carried import Carried
 from ebac.scenario import Scenario
 from ebac.simulation import LoopFault, simulate
 from ebac.studies.families import Family
@@ -140,28 +141,21 @@ class HandSearch:
             return
         n = len(self.family.parameters)
         optimiser = nlopt.opt(nlopt.LN_SBPLX, n)
-        optimiser.set_exceptions_enabled(False)
+        carried = Carried(optimiser)
         optimiser.set_lower_bounds(np.zeros(n))
         optimiser.set_upper_bounds(np.ones(n))
-        raised: list[BaseException] = []
 
-        def objective(point: NDArray[np.float64], _: object) -> float:
-            try:
-                return float(self.measure(np.clip(point, 0, 1)[None])[0])
-            except BaseException as error:  # would be lost inside of NLopt
-                raised.append(error)
-                optimiser.force_stop()
-                return 0.0
+        def drawn(point: NDArray[np.float64]) -> float:
+            return float(self.measure(np.clip(point, 0, 1)[None])[0])
 
-        optimiser.set_max_objective(objective)
+        optimiser.set_max_objective(carried(drawn, instead=0.0))
         optimiser.set_initial_step(0.02)
         end = self.runs + runs
         while self.runs < end:  # one that converged begins again from the best
             before = self.runs
             optimiser.set_maxeval(end - self.runs)
             optimiser.optimize(np.clip(self.best[0], 0, 1))
-            if raised:
-                raise raised[0]
+            carried.settle()
             if self.runs == before:
                 break
 

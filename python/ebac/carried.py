@@ -1,0 +1,48 @@
+"""Exceptions carried out of NLopt's callbacks, in which it would lose them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+Values = NDArray[np.float64]
+
+
+class Carried:
+    """Callbacks of one optimiser: the first exception in any of them stops it, and is raised by `settle`.
+
+    Parameters
+    ----------
+    optimiser : nlopt.opt
+        Whose own exceptions are switched off.
+    """
+
+    def __init__(self, optimiser: Any) -> None:
+        optimiser.set_exceptions_enabled(False)
+        self._optimiser = optimiser
+        self._raised: BaseException | None = None
+
+    def __call__(
+        self, function: Callable[[Values], float], *, instead: float
+    ) -> Callable[[Values, Any], float]:
+        """Return `function` as NLopt calls it; `instead` is what it gives once something was raised."""
+
+        def called(point: Values, gradient: Any) -> float:
+            if self._raised is not None:
+                return instead
+            try:
+                return function(point)
+            except BaseException as error:
+                self._raised = error
+                self._optimiser.force_stop()
+                return instead
+
+        return called
+
+    def settle(self) -> None:
+        """Raise what was raised in a callback."""
+        if self._raised is not None:
+            raise self._raised
