@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from concurrent.futures import wait
 from dataclasses import dataclass
-from threading import Thread
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ebac import _core
+from ebac.aside import aside
 from ebac.trace import Trace
 
 
@@ -149,29 +150,20 @@ def _run(
     cases: int, seed: int, threads: int, step: Callable[[int, int], None] | None
 ) -> tuple[dict[str, NDArray[Any]], list[str]]:
     progress = _core.SweepProgress()
-    found: list[Any] = []
-    raised: list[BaseException] = []
-
-    def work() -> None:
-        try:
-            found.append(_core._fault_campaign(cases, seed, threads, progress))
-        except BaseException as error:
-            raised.append(error)
-
-    worker = Thread(target=work, name="ebac faults")
-    worker.start()
+    campaign = aside(
+        lambda: _core._fault_campaign(cases, seed, threads, progress), name="ebac faults"
+    )
     try:
-        while worker.is_alive():
-            worker.join(0.05)
+        while not wait([campaign], timeout=0.05).done:
             if step is not None:
                 step(progress.done, cases)
     except BaseException:
         progress.cancel()
-        worker.join()
+        wait([campaign])
         raise
-    if raised:
-        raise raised[0]
-    columns, verdicts = found[0]
+    if step is not None:
+        step(progress.done, cases)
+    columns, verdicts = campaign.result()
     return columns, verdicts
 
 

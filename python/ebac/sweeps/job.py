@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import threading
 from collections.abc import Callable, Iterator
 from concurrent.futures import Executor, Future, as_completed, wait
 from typing import TypeAlias
 
 from ebac._core import RunLimits
+from ebac.aside import aside
 from ebac.sweeps.measure import Columns, Run, Watch, cores, empty, measure
 from ebac.sweeps.store import Store
 
@@ -102,13 +102,4 @@ def _measure(
 
 def _start(runs: list[Run], threads: int, limits: RunLimits, watch: Watch) -> Future[Columns]:
     """Measure a bundle in another thread of this process."""
-    future: Future[Columns] = Future()
-
-    def work() -> None:
-        try:
-            future.set_result(_measure(runs, threads, limits, watch))
-        except BaseException as error:  # told to the thread that waits
-            future.set_exception(error)
-
-    threading.Thread(target=work, name="ebac sweep", daemon=True).start()
-    return future
+    return aside(lambda: _measure(runs, threads, limits, watch), name="ebac sweep")
