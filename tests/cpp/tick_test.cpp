@@ -3,11 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstring>
 #include <limits>
 #include <memory>
 #include <span>
 #include <vector>
 
+#include "ebac/control/ebac.hpp"
 #include "ebac/sim/simulate.hpp"
 
 namespace ebac {
@@ -198,6 +200,45 @@ TEST(Fault, EarliestStageOfAllAxesWins) {
   axes[1].port.f_meas = kNaN;
   axes[2].port.f_cmd = kNaN;
   EXPECT_EQ(first_fault(axes), Fault::kForceNotFinite);
+}
+
+/// Everything a tick needs, in a world that is met, left and met again.
+struct Parts {
+  Setup setup{.environment = Wall{.damping = 5}};
+  Rig rig{setup.device, setup.environment};
+  PerAxis<Ebac> law{Ebac(Ebac::Params::design(setup.device.facts(), setup.timing), setup.timing)};
+  SimulatedDevice device{[this] {
+    setup.hand.path[0] = Tapping{};
+    return setup;
+  }()};
+  Sample sample{};
+};
+
+TEST(Tick, OfOneAxisHasTheBitsOfTheOneForSeveral) {
+  Parts one, several;
+  VirtualClock clock(one.setup.timing.dt, 0, 1);
+  double force = 0;
+  for (int k = 0; k < 3000; ++k) {
+    const Instant now = clock.wait();
+    tick(one.rig, one.law, one.device, now, one.sample);
+    tick(several.rig, several.law, several.device, now, several.sample,
+         axes_in_use(several.sample));
+    ASSERT_EQ(std::memcmp(&one.sample.axis[0], &several.sample.axis[0], sizeof(Axis)), 0) << k;
+    force = std::max(force, one.sample.axis[0].port.f_cmd);
+  }
+  EXPECT_GT(force, 5);  // N: there was a contact to compare
+}
+
+TEST(VirtualClock, WithoutJitterKeepsWholeTicksToTheBit) {
+  constexpr double kDt = 0.7e-3;
+  VirtualClock clock(kDt, 0, 1);
+  for (std::int64_t k = 0; k < 100000; ++k) {
+    const Instant now = clock.wait();
+    const auto quanta = static_cast<double>(k * kQuanta);
+    ASSERT_EQ(now.t, kDt * (quanta / static_cast<double>(kQuanta)));
+    ASSERT_EQ(now.dt, k > 0 ? kDt : 0.0);
+    ASSERT_EQ(now.lateness, 0);
+  }
 }
 
 TEST(Fault, LatchesOnTheSimulatedDeviceToo) {

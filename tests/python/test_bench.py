@@ -60,7 +60,7 @@ def test_the_comparison(monkeypatch: pytest.MonkeyPatch) -> None:
         ("subject", "program", "value", "unit", "times_ebac", "target", "note")
     }
     rates = {(row["subject"], row["program"]): row for row in rows if row["times_ebac"]}
-    assert len(rates) == 6
+    assert len(rates) == 8
     assert all(row["note"] for row in rates.values())
     rest = {row["program"]: row["value"] for row in rows if row["subject"] == "rest in contact"}
     assert rest["MuJoCo"] == pytest.approx(0.001165, rel=0.01)

@@ -16,6 +16,7 @@ class BehindLag {
     ticks_ = lag_ / dt;
     decay_ = lag_ > 0 ? std::exp(-dt / lag_) : 0.0;
     share_ = ticks_ * (1 - decay_);
+    later_ = decay_ / (1 - decay_);
   }
 
   /// Holds `command` for one interval; returns the mean force over it.
@@ -31,7 +32,7 @@ class BehindLag {
   double ticks() const EBAC_RT { return ticks_; }
 
   /// How many ticks later than the next one, on average, it does so.
-  double later() const EBAC_RT { return decay_ / (1 - decay_); }
+  double later() const EBAC_RT { return later_; }
 
  private:
   double lag_;        // s
@@ -39,6 +40,7 @@ class BehindLag {
   double ticks_ = 0;
   double decay_ = 0;  // of a transient, over one interval
   double share_ = 0;  // of a transient, in the mean over one interval
+  double later_ = 0;
 };
 
 }  // namespace ebac

@@ -29,7 +29,8 @@ class PerAxis {
     reset();
   }
 
-  void step(std::span<Axis> axes, const Touch& touch) EBAC_RT {
+  template <std::size_t N>
+  void step(std::span<Axis, N> axes, const Touch& touch) EBAC_RT {
     turned_.step(axes, touch,
                  [this](std::size_t i, const Port& port) EBAC_RT { return laws_[i].step(port); });
   }

@@ -14,8 +14,8 @@ namespace ebac {
 class TurnedPorts {
  public:
   /// Asks for the force of every direction, `ask(i, port)`, and gives it to the device.
-  template <class Ask>
-  void step(std::span<Axis> axes, const Touch& touch, Ask ask) EBAC_RT {
+  template <std::size_t N, class Ask>
+  void step(std::span<Axis, N> axes, const Touch& touch, Ask ask) EBAC_RT {
     if (touch.turned && axes.size() > 1) {
       enter(axes, touch);
       for (std::size_t i = 0; i < axes.size(); ++i) port_[i].f_cmd = ask(i, port_[i]);

@@ -71,12 +71,11 @@ class Loop {
       std::byte* row = trace.next();
       if (row == nullptr && !course_.plan().arm) return course_.leave(), true;
       if (row == nullptr) course_.end();
-      step(mail);
+      step(mail, row);
       if (row == nullptr) {
         unrecorded_.store(unrecorded_.load(std::memory_order_relaxed) + 1,
                           std::memory_order_relaxed);
       } else {
-        append(row);
         trace.commit();
       }
       ++sample_.tick;
@@ -103,18 +102,20 @@ class Loop {
   /// Whether the clock tells of its ticks.
   static constexpr bool kTimed = requires { typename C::State; };
 
-  /// One axis, the usual case, gets its own code.
-  void step(Mail<Law>* mail) EBAC_RT {
-    const std::span<Axis, kMaxAxes> all(sample_.axis);
-    if (sample_.axes == 1) {
-      step(mail, all.template first<1>());
-    } else {
-      step(mail, all.first(static_cast<std::size_t>(sample_.axes)));
+  /// A tick, and its row if there is room for one.
+  void step(Mail<Law>* mail, std::byte* row) EBAC_RT {
+    if constexpr (Quick<D>) {
+      if (sample_.axes == 1) return step_one(mail, row);
     }
+    step(mail, row, axes_in_use(sample_));
+  }
+
+  [[gnu::flatten]] void step_one(Mail<Law>* mail, std::byte* row) EBAC_RT {
+    step(mail, row, only_axis(sample_));
   }
 
   template <std::size_t N>
-  void step(Mail<Law>* mail, std::span<Axis, N> axes) EBAC_RT {
+  void step(Mail<Law>* mail, std::byte* row, std::span<Axis, N> axes) EBAC_RT {
     const Instant now = clock_.wait();
     if (mail != nullptr) mail->deliver(sample_.tick, law_, rig_, device_);
     const bool arming = course_.state() == LoopState::kArm;
@@ -137,6 +138,7 @@ class Loop {
     }
     tell_device();
     if constexpr (kTimed) clock_.finish();
+    if (row != nullptr) append(row, axes.size());
   }
 
   /// The law's memory starts here: what moved while the device was being enabled is no work.
@@ -182,8 +184,7 @@ class Loop {
     return trace.template add_block<typename Part::State>(std::string(Part::kPrefix));
   }
 
-  void append(std::byte* row) const EBAC_RT {
-    const auto axes = static_cast<std::size_t>(sample_.axes);
+  void append(std::byte* row, std::size_t axes) const EBAC_RT {
     std::memcpy(row, &sample_, offsetof(Sample, axis) + axes * sizeof(Axis));
     copy_states(row + law_at_, law_, axes);
     std::apply(

@@ -34,6 +34,12 @@ inline Fault first_fault(std::span<const Axis> axes) EBAC_RT {
   return first;
 }
 
+/// One function for each device, whatever the law, so that a bus and its drives are compiled once.
+template <Device D>
+[[gnu::noinline]] Reading exchange_with(D& device, const Command& command) EBAC_RT {
+  return device.exchange(command);
+}
+
 /// The device's part of a tick: currents of the last one out, then counts to ports.
 template <Device D, std::size_t N>
 Reading sense(Rig& rig, D& device, const Instant& now, Sample& s, std::span<Axis, N> axes) EBAC_RT {
@@ -43,7 +49,7 @@ Reading sense(Rig& rig, D& device, const Instant& now, Sample& s, std::span<Axis
 
   Command command{.elapsed = now.dt};
   for (std::size_t i = 0; i < axes.size(); ++i) command.current[i] = axes[i].joint.current;
-  const Reading reading = device.exchange(command);
+  const Reading reading = exchange_with(device, command);
 
   rig.measure(reading, now.dt, axes);
   rig.forward(reading, now.dt, axes);
@@ -84,15 +90,28 @@ void tick(Rig& rig, Law& law, D& device, const Instant& now, Sample& s,
   }
 }
 
-/// One axis, the usual case, gets its own code: without the loops a tick is up to a tenth shorter.
+/// A device that is no more than arithmetic. With it the tick of one axis, the usual case, is one
+/// function, of which all it calls is part: a sixth less time.
+template <class D>
+concept Quick = Device<D> && D::kQuick;
+
+inline std::span<Axis> axes_in_use(Sample& s) EBAC_RT {
+  return {s.axis.data(), static_cast<std::size_t>(s.axes)};
+}
+inline std::span<Axis, 1> only_axis(Sample& s) EBAC_RT { return std::span(s.axis).first<1>(); }
+
+template <AxesController Law, Device D>
+[[gnu::flatten]] void tick_one(Rig& rig, Law& law, D& device, const Instant& now,
+                               Sample& s) EBAC_RT {
+  tick(rig, law, device, now, s, only_axis(s));
+}
+
 template <AxesController Law, Device D>
 void tick(Rig& rig, Law& law, D& device, const Instant& now, Sample& s) EBAC_RT {
-  const std::span<Axis, kMaxAxes> all(s.axis);
-  if (s.axes == 1) {
-    tick(rig, law, device, now, s, all.template first<1>());
-  } else {
-    tick(rig, law, device, now, s, all.first(static_cast<std::size_t>(s.axes)));
+  if constexpr (Quick<D>) {
+    if (s.axes == 1) return tick_one(rig, law, device, now, s);
   }
+  tick(rig, law, device, now, s, axes_in_use(s));
 }
 
 }  // namespace ebac

@@ -24,7 +24,9 @@ struct Free {
 /// as printed could, so the force stops at zero.
 inline double push(double stiffness, double damping, double depth, double speed) EBAC_RT {
   if (std::isnan(depth)) return depth;
-  return depth >= 0 ? std::max(0.0, stiffness * depth + damping * speed) : 0.0;
+  if (!(depth >= 0)) return 0;
+  const double spring = stiffness * depth;
+  return std::max(0.0, damping == 0 ? spring : spring + damping * speed);
 }
 
 /// A flat wall.
@@ -35,6 +37,11 @@ struct Wall {
   double angle = 0;         // rad
 
   Axes normal() const EBAC_RT { return {std::cos(angle), std::sin(angle), 0}; }
+
+  /// How far `x` lies behind the surface [m], negative before it.
+  double depth(const Axes& x) const EBAC_RT {
+    return (angle == 0 ? x[0] : normal().dot(x)) - position;
+  }
 
   double push_along(double x, double v) const EBAC_RT {
     return push(stiffness, damping, x - position, v);

@@ -49,49 +49,27 @@ ExactAxis::ExactAxis(const AxisParameters& parameters, double tick)
       damping_(parameters.device_damping + parameters.hand_damping),
       tick_(tick),
       slide_(sliding_matrix(parameters), velocity_row(), tick),
-      stick_(sticking_matrix(parameters), velocity_row(), tick) {}
+      stick_(parameters.coulomb > 0 ? LinearFlow(sticking_matrix(parameters), velocity_row(), tick)
+                                    : slide_) {}  // without friction it never is
 
 void ExactAxis::take_over(const ExactAxis& other) EBAC_RT {
   truth_ = other.truth_;
   direction_ = other.direction_;
 }
 
-double ExactAxis::standing_force(const Vector& w) const EBAC_RT {
-  return -p_.hand_stiffness * w[kXi] - w[kPhi] - w[kF];
-}
-
-double ExactAxis::moving_force(const Vector& w) const EBAC_RT {
-  return standing_force(w) - damping_ * w[kV];
-}
-
-double ExactAxis::hand_force(const Vector& w) const EBAC_RT {
-  const bool stuck = p_.coulomb > 0 && direction_ == 0;
-  const double a = stuck ? 0.0 : moving_force(w) / mass_;
-  return -p_.hand_stiffness * w[kXi] - p_.hand_damping * w[kV] - p_.hand_mass * a;  // eq. (4)
-}
-
-void ExactAxis::advance(double u, double target, double rate, std::int64_t quanta) EBAC_RT {
-  const double load = u - p_.weight;
+/// The same with events in it, or over a part of a tick.
+void ExactAxis::advance_in_parts(Vector w, double u, double target, std::int64_t quanta) EBAC_RT {
   const double time = tick_ * static_cast<double>(quanta) / static_cast<double>(kQuanta);
-  Vector w;
-  w << truth_.x - target, truth_.v, p_.current_lag > 0 ? truth_.f_motor - u : 0.0, truth_.f_sensor,
-      load, rate;
-  if (p_.coulomb == 0) {
-    std::int64_t left = quanta;
-    slide(w, left);
-    truth_.x = w[kXi] + target + rate * time;
-  } else if (slide_and_stick(w, quanta)) {
-    truth_.x = w[kXi] + target + rate * time;  // else not even the last bit of x changes
-  }
-  w[kF] = load + direction_ * p_.coulomb;
-  truth_.v = w[kV];
-  truth_.f_motor = w[kPhi] + u;
-  truth_.f_hand = hand_force(w);
-  truth_.f_sensor = p_.sensor_lag > 0 ? w[kY] : truth_.f_hand;
+  const double load = w[kF];
+  const double travel = w[kR] * time;
+  const bool moved = move(w, quanta);
+  if (moved) truth_.x = w[kXi] + target + travel;  // else not even its last bit changes
+  arrive(w, u, load);
 }
 
 /// Segment by segment, sliding or stuck; whether it moved at all.
-bool ExactAxis::slide_and_stick(Vector& w, std::int64_t left) EBAC_RT {
+bool ExactAxis::move(Vector& w, std::int64_t left) EBAC_RT {
+  if (p_.coulomb == 0) return slide(w, left), true;
   constexpr int kMostEvents = 64;  // a rigid axis has one or two in a tick
   const double load = w[kF];
   bool moved = false;
@@ -121,7 +99,8 @@ void ExactAxis::slide(Vector& w, std::int64_t& left) EBAC_RT {
   };
   flow_while(slide_, w, left, slides);
   while (left > 0 && passes_dip(w, left)) flow_while(slide_, w, left, slides);
-  account(before, w, tick_ * static_cast<double>(quanta - left) / static_cast<double>(kQuanta));
+  account(before, w, square_,
+          tick_ * static_cast<double>(quanta - left) / static_cast<double>(kQuanta));
   if (left > 0) {
     w[kV] = 0;
     w[kF] -= s * p_.coulomb;
@@ -136,7 +115,7 @@ bool ExactAxis::passes_dip(Vector& w, std::int64_t& left) EBAC_RT {
   const LinearFlow::Step& quantum = slide_.level(kQuantaBits);
   const Vector next = quantum.from(w);
   if (!(next[kV] * direction_ > 0)) return false;
-  square_ += w.dot(quantum.square * w);
+  square_ += quantum.along(w);
   w = next;
   --left;
   return true;
@@ -172,28 +151,11 @@ void ExactAxis::flow_while(const LinearFlow& flow, Vector& w, std::int64_t& left
     while (left >= size) {
       const Vector next = step.from(w);
       if (!holds(w, next)) break;
-      square_ += w.dot(step.square * w);
+      square_ += step.along(w);
       w = next;
       left -= size;
     }
   }
-}
-
-/// Energy of one slide, from the equation of motion times v: int (f_motor v + b v^2 + f_coulomb
-/// |v|) = -m d(v^2)/2 - B0 int v^2 - k int xi v + weight dx, with int xi v = d(xi^2)/2 + r int xi,
-/// and int xi from the equation of motion itself.
-void ExactAxis::account(const Vector& before, const Vector& after, double time) EBAC_RT {
-  const double r = before[kR];
-  const double k = p_.hand_stiffness;
-  const double dv = after[kV] - before[kV];
-  const double dx = after[kXi] - before[kXi] + r * time;
-  double spring = 0.5 * k * (after[kXi] * after[kXi] - before[kXi] * before[kXi]);
-  if (r != 0) {
-    const double lag = p_.current_lag * (before[kPhi] - after[kPhi]);  // int phi
-    spring -= r * (mass_ * dv + damping_ * dx + lag + before[kF] * time);
-  }
-  const double kinetic = 0.5 * mass_ * (after[kV] * after[kV] - before[kV] * before[kV]);
-  truth_.energy += p_.weight * dx - kinetic - p_.hand_damping * square_ - spring;
 }
 
 }  // namespace ebac

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 
 #include "ebac/core/realtime.hpp"
@@ -55,13 +56,15 @@ class ExactAxis {
   double standing_force(const Vector& w) const EBAC_RT;  // what friction must hold while stuck
   double hand_force(const Vector& w) const EBAC_RT;
 
-  bool slide_and_stick(Vector& w, std::int64_t left) EBAC_RT;
+  void advance_in_parts(Vector w, double u, double target, std::int64_t quanta) EBAC_RT;
+  void arrive(Vector w, double u, double load) EBAC_RT;
+  bool move(Vector& w, std::int64_t left) EBAC_RT;
   void slide(Vector& w, std::int64_t& left) EBAC_RT;
   bool passes_dip(Vector& w, std::int64_t& left) EBAC_RT;
   void stick(Vector& w, std::int64_t& left) EBAC_RT;
   template <class Holds>
   void flow_while(const LinearFlow& flow, Vector& w, std::int64_t& left, Holds holds) EBAC_RT;
-  void account(const Vector& before, const Vector& after, double time) EBAC_RT;
+  void account(const Vector& before, const Vector& after, double square, double time) EBAC_RT;
 
   AxisParameters p_;
   double mass_;
@@ -73,5 +76,61 @@ class ExactAxis {
   double direction_ = 0;  // of sliding: -1, +1, or 0 while stuck
   double square_ = 0;     // int v^2 dt over the current slide
 };
+
+// Inline: a whole tick without friction has no event, so it is one step of the flow.
+
+inline double ExactAxis::standing_force(const Vector& w) const EBAC_RT {
+  return -p_.hand_stiffness * w[kXi] - w[kPhi] - w[kF];
+}
+
+inline double ExactAxis::moving_force(const Vector& w) const EBAC_RT {
+  return standing_force(w) - damping_ * w[kV];
+}
+
+inline double ExactAxis::hand_force(const Vector& w) const EBAC_RT {
+  const bool stuck = p_.coulomb > 0 && direction_ == 0;
+  const double a = stuck ? 0.0 : moving_force(w) / mass_;
+  return -p_.hand_stiffness * w[kXi] - p_.hand_damping * w[kV] - p_.hand_mass * a;  // eq. (4)
+}
+
+inline void ExactAxis::advance(double u, double target, double rate, std::int64_t quanta) EBAC_RT {
+  const double load = u - p_.weight;
+  Vector w;
+  w << truth_.x - target, truth_.v, p_.current_lag > 0 ? truth_.f_motor - u : 0.0, truth_.f_sensor,
+      load, rate;
+  if (p_.coulomb > 0 || quanta != kQuanta) return advance_in_parts(w, u, target, quanta);
+  const LinearFlow::Step& tick = slide_.level(0);
+  const Vector next = tick.from(w);
+  account(w, next, tick.along(w), tick_);
+  truth_.x = next[kXi] + target + rate * tick_;
+  arrive(next, u, load);
+}
+
+/// The truth after an interval, but for x.
+inline void ExactAxis::arrive(Vector w, double u, double load) EBAC_RT {
+  w[kF] = load + direction_ * p_.coulomb;
+  truth_.v = w[kV];
+  truth_.f_motor = w[kPhi] + u;
+  truth_.f_hand = hand_force(w);
+  truth_.f_sensor = p_.sensor_lag > 0 ? w[kY] : truth_.f_hand;
+}
+
+/// Energy of one slide, from the equation of motion times v: int (f_motor v + b v^2 + f_coulomb
+/// |v|) = -m d(v^2)/2 - B0 int v^2 - k int xi v + weight dx, with int xi v = d(xi^2)/2 + r int xi,
+/// and int xi from the equation of motion itself.
+inline void ExactAxis::account(const Vector& before, const Vector& after, double square,
+                               double time) EBAC_RT {
+  const double r = before[kR];
+  const double k = p_.hand_stiffness;
+  const double dv = after[kV] - before[kV];
+  const double dx = after[kXi] - before[kXi] + r * time;
+  double spring = 0.5 * k * (after[kXi] * after[kXi] - before[kXi] * before[kXi]);
+  if (r != 0) {
+    const double lag = p_.current_lag * (before[kPhi] - after[kPhi]);  // int phi
+    spring -= r * (mass_ * dv + damping_ * dx + lag + before[kF] * time);
+  }
+  const double kinetic = 0.5 * mass_ * (after[kV] * after[kV] - before[kV] * before[kV]);
+  truth_.energy += p_.weight * dx - kinetic - p_.hand_damping * square - spring;
+}
 
 }  // namespace ebac

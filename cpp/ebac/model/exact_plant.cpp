@@ -46,14 +46,4 @@ void ExactPlant::let_go() EBAC_RT {
   released_ = true;
 }
 
-void ExactPlant::advance(const Axes& current, double t, std::int64_t quanta) EBAC_RT {
-  if (!released_ && t >= hand_.release_at) let_go();
-  const double time = tick_ * static_cast<double>(quanta) / static_cast<double>(kQuanta);
-  for (std::size_t i = 0; i < axes_.size(); ++i) {
-    const Target target = hand_.target(static_cast<int>(i), t, time);
-    axes_[i].advance(force_per_amp_ * current[static_cast<Eigen::Index>(i)], target.x, target.rate,
-                     quanta);
-  }
-}
-
 }  // namespace ebac

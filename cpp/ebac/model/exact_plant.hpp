@@ -21,7 +21,15 @@ class ExactPlant {
   static bool covers(const DeviceModel& device);
 
   /// Moves by `quanta` of 2^-20 tick from time `t` on, under the motor currents `current` [A].
-  void advance(const Axes& current, double t, std::int64_t quanta) EBAC_RT;
+  void advance(const Axes& current, double t, std::int64_t quanta) EBAC_RT {
+    if (!released_ && t >= hand_.release_at) let_go();
+    const double time = tick_ * static_cast<double>(quanta) / static_cast<double>(kQuanta);
+    int i = 0;
+    for (ExactAxis& axis : axes_) {
+      const Target target = hand_.target(i, t, time);
+      axis.advance(force_per_amp_ * current[i++], target.x, target.rate, quanta);
+    }
+  }
 
   void aim(std::size_t axis, double target) EBAC_RT { hand_.aim(axis, target); }
 

@@ -47,7 +47,7 @@ double Recorded::position(double t) const EBAC_RT {
   return xs[after - 1] + share * (xs[after] - xs[after - 1]);
 }
 
-Target Hand::target(int axis, double t, double dt) const EBAC_RT {
+Target Hand::moving_target(int axis, double t, double dt) const EBAC_RT {
   Target result = std::visit(
       [&](const auto& p) {
         const double x = p.position(t);

@@ -123,12 +123,18 @@ struct Hand {
   double release_at = std::numeric_limits<double>::infinity();  // s
 
   /// The intended path of one axis over [t, t + dt], tremor on top.
-  Target target(int axis, double t, double dt) const EBAC_RT;
+  Target target(int axis, double t, double dt) const EBAC_RT {
+    const auto* step = std::get_if<Step>(&path[static_cast<std::size_t>(axis)]);
+    if (step != nullptr && !(tremor_amplitude > 0)) return {.x = step->position(t)};
+    return moving_target(axis, t, dt);
+  }
 
   /// Another target [m], from now on; where the path of that axis is a Step.
   void aim(std::size_t axis, double target) EBAC_RT {
     if (auto* step = std::get_if<Step>(&path[axis])) *step = {.target = target, .at = 0};
   }
+
+  Target moving_target(int axis, double t, double dt) const EBAC_RT;
 
   /// How hard it pulls at time t, |K0 (X0 - x)| [N]: what of eq. (4) can give energy without end. 0
   /// once it let go.

@@ -30,9 +30,18 @@ class LinearFlow {
     Matrix square;
 
     Vector from(const Vector& w) const EBAC_RT {
-      Vector next = w;
+      Vector next;
       next.head<kMoving>().noalias() = phi * w;
+      next.tail<kSize - kMoving>() << w[kMoving], w[kMoving + 1];
       return next;
+    }
+
+    /// The integral, in two sums whatever the width of the processor's vectors.
+    double along(const Vector& w) const EBAC_RT {
+      const Vector s = square * w;
+      const double even = w[0] * s[0] + (w[2] * s[2] + w[4] * s[4]);
+      const double odd = w[1] * s[1] + (w[3] * s[3] + w[5] * s[5]);
+      return even + odd;
     }
   };
 

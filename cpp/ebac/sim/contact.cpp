@@ -118,7 +118,7 @@ double spring(double stiffness, double depth) EBAC_RT {
 }
 
 double stored_in(const Wall& wall, const Axes& x) EBAC_RT {
-  return spring(wall.stiffness, wall.normal().dot(x) - wall.position);
+  return spring(wall.stiffness, wall.depth(x));
 }
 
 double stored_in(const Disc& disc, const Axes& x) EBAC_RT {

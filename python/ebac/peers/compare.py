@@ -26,6 +26,8 @@ SOLVE_AIM = "at least 500"
 NOTES = {
     "ebac": "plant with current and sensor lag, exact; encoder, delay, wall, the law EBAC, energy account, a row of "
     "the log; one thread",
+    "ebac, in a sweep": "the same, of a run that is kept as metrics: no rows, but the setting up and the metrics "
+    "included; one thread",
     "MuJoCo": "its threaded rollout of mass, spring and damper, in contact a sphere on a plane as stiff as the wall, a "
     "row of the state; no law, lag, delay, encoder, account; per step and thread, the better of one thread and all",
     "MuJoCo, ten substeps": "steps of 0.1 ms, the wall a spring in Python every 1 ms; no lag, delay, encoder, account",
@@ -80,6 +82,7 @@ def _steps(scenario: Scenario, repeats: int, step: Callable[[str], None]) -> Ite
         setting = scenario if wall else scenario.replace(environment=Free())
         mine = own.tick(setting, repeats)
         yield _time(subject, "ebac", mine, mine)
+        yield _time(subject, "ebac, in a sweep", own.sweep_tick(setting, repeats), mine)
         step(f"MuJoCo, {subject}")
         threads = sorted({1, cores()})
         theirs = min(

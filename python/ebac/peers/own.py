@@ -1,4 +1,4 @@
-"""What ebac itself takes: a tick, a map, two threads, memory."""
+"""What ebac itself takes: a tick, a run of a sweep, a map, two threads, memory."""
 
 from __future__ import annotations
 
@@ -25,6 +25,16 @@ def tick(scenario: Scenario, repeats: int) -> float:
     """Return the time of a tick of the closed loop under EBAC [s]: law, account and row included."""
     law: Any = design("ebac", scenario.device, scenario.timing)
     return float(1e-9 * law._time_tick(scenario.setup(), repeats))
+
+
+def sweep_tick(scenario: Scenario, repeats: int) -> float:
+    """Return the time of a tick in a sweep under EBAC [s]: one thread, metrics, the run's setting up included."""
+    law: Any = design("ebac", scenario.device, scenario.timing)
+    setups, ticks = [scenario.setup()], round(scenario.seconds / scenario.timing.dt) + 1
+    return (
+        quickest(repeats, lambda: type(law)._sweep(setups, [law], 1, Limits(), SweepProgress()))
+        / ticks
+    )
 
 
 def free_run(scenario: Scenario) -> Numbers:

@@ -1,0 +1,57 @@
+#include "ebac/sim/simulated_device.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ebac {
+
+/// Sets the currents of the next interval: the command of `delay` exchanges ago.
+void SimulatedDevice::drive(const Command& command) EBAC_RT {
+  for (std::size_t i = 0; i < axes_; ++i) {
+    double current = std::clamp(command.current[i], -peak_current_, peak_current_);
+    if (device_.drive.permille) current = whole_permille(current);
+    if (delay_ > 0) std::swap(current, queue_[head_][i]);
+    applied_[static_cast<Eigen::Index>(i)] = current;
+  }
+  if (++head_ >= delay_) head_ = 0;
+}
+
+std::int64_t SimulatedDevice::quanta(double seconds) const EBAC_RT {
+  return seconds == tick_ ? kQuanta : std::llround(seconds / tick_ * static_cast<double>(kQuanta));
+}
+
+double SimulatedDevice::whole_permille(double current) const EBAC_RT {
+  const double one = device_.motor.current(device_.motor.rated_torque) / 1000;
+  return one * (std::round(current / one) + 0.0);  // a whole number has no negative zero
+}
+
+template <class P>
+Reading SimulatedDevice::latch(const P& plant) EBAC_RT {
+  Reading reading = blank_;
+  for (std::size_t i = 0; i < axes_; ++i) {
+    const double angle = plant.motor_angle(i);
+    if (!std::isfinite(angle)) {
+      reading.fault = Fault::kDevice;
+      continue;
+    }
+    reading.counts[i] = device_.encoder.read(angle + phase_[i]);
+    reading.current_applied[i] = applied_[static_cast<Eigen::Index>(i)];
+    reading.force[i] = device_.sensor.read(plant.truth(i).f_sensor, random_);
+    if (std::abs(reading.force[i]) >= device_.sensor.range) {
+      reading.force_status = SensorStatus::kSaturated;
+    }
+  }
+  return reading;
+}
+
+[[gnu::flatten]] Reading SimulatedDevice::exchange(const Command& command) EBAC_RT {
+  if (command.elapsed > 0) {
+    drive(command);
+    std::visit([&](auto& plant) EBAC_RT { plant.advance(applied_, t_, quanta(command.elapsed)); },
+               plant_);
+    t_ += command.elapsed;
+  }
+  return std::visit([&](const auto& plant) EBAC_RT { return latch(plant); }, plant_);
+}
+
+}  // namespace ebac
