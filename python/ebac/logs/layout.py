@@ -5,7 +5,7 @@ from __future__ import annotations
 import functools
 import json
 import struct
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, Self
 
@@ -72,6 +72,11 @@ class LoggedColumn:
     def field(self) -> str:
         """Its name in a ROS 2 message, where a dot cannot be."""
         return self.name.replace(".", "_")
+
+    @property
+    def native(self) -> np.dtype[Any]:
+        """Its type in a trace."""
+        return _KINDS[self.kind].newbyteorder("=")
 
     @property
     def width(self) -> int:
@@ -204,6 +209,12 @@ class Layout:
             rows[column.name] = data[column.name]
         return rows
 
+    def only_rows(self, chunk: bytes, channel: int) -> bool:
+        """Return whether the content of a chunk is whole records of this channel and nothing else."""
+        ours = self._head(channel)
+        whole = len(chunk) % self.record.itemsize == 0
+        return whole and self._run(chunk, 0, ours) * self.record.itemsize == len(chunk)
+
     def find(self, chunk: bytes, channel: int) -> list[bytes]:
         """Return the records of a channel in the content of a chunk, one piece for each unbroken run.
 
@@ -213,7 +224,7 @@ class Layout:
             When the chunk ends inside a record.
         """
         record = self.record
-        ours = _MESSAGE_HEAD.pack(MESSAGE, record.itemsize - _BEFORE_DATA, channel)
+        ours = self._head(channel)
         found: list[bytes] = []
         at = 0
         while at < len(chunk):
@@ -229,6 +240,10 @@ class Layout:
             raise ValueError("a chunk ends inside a record")
         return found
 
+    def _head(self, channel: int) -> bytes:
+        """Return what every record of a row begins with."""
+        return _MESSAGE_HEAD.pack(MESSAGE, self.length, channel)
+
     def _run(self, chunk: bytes, at: int, ours: bytes) -> int:
         """Return how many records in a row begin as ours do."""
         size = self.record.itemsize
@@ -238,11 +253,3 @@ class Layout:
         heads = np.frombuffer(chunk, np.uint8, fit * size, at).reshape(fit, size)[:, : len(ours)]
         same = (heads == np.frombuffer(ours, np.uint8)).all(axis=1)
         return fit if same.all() else int(same.argmin())
-
-    def gather(self, runs: Sequence[bytes]) -> dict[str, NDArray[Any]]:
-        """Return records as contiguous columns in the order of the layout."""
-        rows = np.frombuffer(b"".join(runs), self.record)
-        return {
-            c.name: np.ascontiguousarray(rows[c.name], _KINDS[c.kind].newbyteorder("="))
-            for c in self.columns
-        }
