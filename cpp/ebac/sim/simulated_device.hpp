@@ -44,7 +44,7 @@ class SimulatedDevice {
     return std::visit([&](const auto& plant) EBAC_RT { return latch(plant); }, plant_);
   }
 
-  /// From now on the hand wants to be at `target` [m]; only a hand whose path is a Step can be told.
+  /// From now on the hand wants to be at `target` [m], unless its path is a recorded one.
   void aim(std::size_t axis, double target) EBAC_RT {
     std::visit([&](auto& plant) EBAC_RT { plant.aim(axis, target); }, plant_);
   }

@@ -201,6 +201,8 @@ class OpenDevice:
                 scenario=scenario,
                 interrupts=self.interrupts,
                 power_off=power_off,
+                grants=place.grants,
+                hand=place.aim is not None,
                 detached=self._detached,
             )
         except BaseException:
@@ -255,6 +257,7 @@ class OpenDevice:
             ring=True,
             mode=_core.RealTimeMode[known.mode.upper()],
             realtime=known.realtime,
+            aim=self.place.aim,
             drives={
                 "silent_ticks": known.silent,
                 "enable_ticks": ceil(_ENABLE / dt),
