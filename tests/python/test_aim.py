@@ -4,6 +4,7 @@ import json
 import os
 import subprocess
 import sys
+import time
 from collections.abc import Callable
 from pathlib import Path
 
@@ -17,6 +18,8 @@ from ebac.cli import app
 from ebac.hardware import Configuration, Run
 from ebac.hardware.schedule import Order, Schedule
 
+pytestmark = pytest.mark.real_time
+
 EXAMPLE = Path(__file__).parents[2] / "examples" / "joystick.toml"
 STAY = float("nan")
 
@@ -26,7 +29,7 @@ def patient(**changes: object) -> Configuration:
     known = Configuration.load(EXAMPLE)
     return known.replace(
         silent=1000,
-        limits=known.limits.replace(overruns=100_000, force_age=10),
+        limits=known.limits.replace(overruns=100_000, force_age=10, jump=1.0, speed=100.0),
         environment=ebac.Free(),
         hand=known.hand.replace(path=[ebac.Step(target=0.0)] * 3),
         soft_start=0.05,
@@ -87,10 +90,10 @@ def test_what_is_no_cell_is_refused(tmp_path: Path) -> None:
 
 def until(run: Run, reached: Callable[[], bool]) -> None:
     """Wait for something that happens while it runs."""
-    import time
-
     while not reached():
-        assert not run.done, run.trace()["fault"][-1]
+        if run.done:
+            run.finish()  # raises, where it was a fault
+        assert not run.done
         time.sleep(0.01)
 
 
@@ -192,11 +195,9 @@ def test_on_hardware_no_target_is_taken() -> None:
 
 def test_the_command_changes_parameters_at_their_times(tmp_path: Path) -> None:
     text = EXAMPLE.read_text(encoding="utf-8").replace("silent = 10", "silent = 1000")
+    limits = "overruns = 100000\nforce_age = 10.0\njump = 1.0\nspeed = 100.0"
     config = tmp_path / "joystick.toml"
-    config.write_text(
-        text.replace("[limits]", "[limits]\noverruns = 100000\nforce_age = 10.0\n"),
-        encoding="utf-8",
-    )
+    config.write_text(text.replace("speed = 1.0", limits), encoding="utf-8")
     orders = ["1 hand.target=-0.01", "0.5 environment.stiffness=5e3 law.kp=0"]
     command = ["run", str(config), "--simulated", "--seconds", "1.5", "--out", str(tmp_path / "o")]
     ran = CliRunner().invoke(
