@@ -31,6 +31,10 @@ SCHEMA = {
 }
 
 
+#: An event beyond so long a time [s], or so many ticks, is damage.
+MOST_TIME, MOST_TICK = 1e9, 1 << 62
+
+
 @dataclass(frozen=True, kw_only=True)
 class Event:
     """Something that happened in a tick.
@@ -86,12 +90,15 @@ class Event:
         """
         try:
             told = json.loads(data)
-            return cls(
+            event = cls(
                 kind=str(told["name"]),
                 message=str(told["message"]),
                 tick=int(told["tick"]),
                 t=float(told["t"]),
                 values=dict(told["values"]),
             )
-        except (KeyError, TypeError, ValueError) as error:
+        except (KeyError, TypeError, ValueError, OverflowError, RecursionError) as error:
             raise ValueError(f"not an event of ebac ({error})") from None
+        if not abs(event.t) < MOST_TIME or not abs(event.tick) < MOST_TICK:
+            raise ValueError(f"an event in tick {event.tick}, at {event.t:g} s: cannot be")
+        return event

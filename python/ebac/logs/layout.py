@@ -24,6 +24,8 @@ TYPES = {
 }
 _KINDS = {name: np.dtype(form) for name, form in TYPES.values()}
 
+#: A column has a value for each axis at most; more is damage.
+_MOST_VALUES = 64
 #: Message record of MCAP, then the header of CDR in little-endian: what stands before the numbers of a row.
 #: No column has a # in its name.
 _ENVELOPE = [
@@ -62,6 +64,14 @@ class LoggedColumn:
     meaning: str
     kind: str
     size: int
+
+    @property
+    def sound(self) -> bool:
+        """Whether all of it is what it must be: somebody else may have told it."""
+        words = all(isinstance(word, str) for word in (self.name, self.unit, self.meaning))
+        whole = isinstance(self.size, int) and not isinstance(self.size, bool)
+        known = isinstance(self.kind, str) and self.kind in _KINDS
+        return words and whole and known and bool(self.name) and 1 <= self.size <= _MOST_VALUES
 
     @property
     def info(self) -> ColumnInfo:
@@ -131,10 +141,9 @@ class Layout:
         """
         try:
             columns = tuple(LoggedColumn(**column) for column in json.loads(text))
-            known = all(c.kind in _KINDS and 1 <= c.size <= 64 for c in columns)
-        except (TypeError, ValueError):
-            known = False
-        if not known or not columns:
+        except (TypeError, ValueError, RecursionError):
+            columns = ()
+        if not columns or not all(column.sound for column in columns):
             raise ValueError("its columns are not described as ebac does")
         return cls(columns)._checked()
 
@@ -146,9 +155,13 @@ class Layout:
         sizes = {column.size for column in self.columns} - {1}
         if len(sizes) > 1:
             raise ValueError(f"columns of {sizes} values: must be one, or one per axis")
-        whole = {column.name for column in self.columns if column.size == 1}
-        if not {"t", "tick"} <= whole:
+        numbers = {column.name: column.kind for column in self.columns if column.size == 1}
+        if not {"t", "tick"} <= set(numbers):
             raise ValueError("the columns t and tick are missing: a row is known by them")
+        if numbers["t"] == "bool" or numbers["tick"] in ("bool", "float64"):
+            raise ValueError("the columns t and tick must be numbers, tick a whole one")
+        if any(column.name.startswith("#") for column in self.columns):
+            raise ValueError("no column of a log has a name that begins with #")
         return self
 
     @property

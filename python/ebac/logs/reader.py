@@ -29,6 +29,9 @@ from ebac.logs.writer import EVENTS_TOPIC, ROWS_TOPIC
 from ebac.scenario import Scenario
 from ebac.trace import Trace
 
+#: Digits of the largest whole number in a file.
+_DIGITS = 19
+
 
 @dataclass(frozen=True, kw_only=True)
 class Gap:
@@ -88,7 +91,7 @@ class Log:
     def gaps(self) -> list[Gap]:
         """Where rows are missing between two rows of the log."""
         tick, t = self.trace["tick"], self.trace["t"]
-        steps = np.diff(tick)
+        steps = np.diff(tick.astype(np.int64))
         return [
             Gap(after_tick=int(tick[i]), t=float(t[i]), rows=int(steps[i]) - 1)
             for i in np.flatnonzero(steps != 1)
@@ -141,32 +144,41 @@ def read(path: str | Path, *, progress: Callable[[int, int], None] | None = None
         When it is no log of ebac, or was cut before its columns were written.
     """
     path = Path(path)
-    condition, found = Condition(), _Found()
     with path.open("rb") as file:
         size = file.seek(0, 2)
-        file.seek(0)
-        if not MAGIC.startswith(file.read(len(MAGIC))):
-            raise ValueError(f"{path}: not an MCAP file (it does not begin like one)")
-        if size < len(MAGIC):
-            raise ValueError(f"{path}: {size} bytes, cut before anything was written")
-        with (
-            mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ) as data,
-            Chunks() as chunks,
-        ):
-            for opcode, start, stop in records(data, condition, progress or _silent):
-                try:
-                    if opcode != CHUNK:
-                        _take(found, opcode, data[start:stop])
-                    elif found.where is None:
-                        raise ValueError("it stands before the columns are described")
-                    else:
-                        for content in chunks.put(found.where, start, data[start:stop]):
-                            _take_content(found, condition, content, size)
-                except ValueError as error:
-                    condition.leave_out(_NAMES.get(opcode, "a record"), start, error)
-            if found.where is not None:
-                for content in chunks.rest(found.where):
-                    _take_content(found, condition, content, size)
+        if size == 0:
+            return read_bytes(b"", path)
+        with mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ) as data:
+            return read_bytes(data, path, progress=progress)
+
+
+def read_bytes(
+    data: bytes | mmap.mmap,
+    name: str | Path,
+    *,
+    progress: Callable[[int, int], None] | None = None,
+) -> Log:
+    """Read a log that is in memory; `name` is for messages. As `read`."""
+    path, condition, found, size = Path(name), Condition(), _Found(), len(data)
+    if not MAGIC.startswith(data[: len(MAGIC)]):
+        raise ValueError(f"{path}: not an MCAP file (it does not begin like one)")
+    if size < len(MAGIC):
+        raise ValueError(f"{path}: {size} bytes, cut before anything was written")
+    with Chunks() as chunks:
+        for opcode, start, stop in records(data, condition, progress or _silent):
+            try:
+                if opcode != CHUNK:
+                    _take(found, opcode, data[start:stop])
+                elif found.where is None:
+                    raise ValueError("it stands before the columns are described")
+                else:
+                    for content in chunks.put(found.where, start, data[start:stop]):
+                        _take_content(found, condition, content, size)
+            except ValueError as error:
+                condition.leave_out(_NAMES.get(opcode, "a record"), start, error)
+        if found.where is not None:
+            for content in chunks.rest(found.where):
+                _take_content(found, condition, content, size)
     return _log(path, found, condition, size)
 
 
@@ -242,6 +254,13 @@ def _log(path: Path, found: _Found, condition: Condition, size: int) -> Log:
     )
 
 
+def whole(text: str) -> int | None:
+    """Return the whole number a text tells, from 0 to what a file can hold; None for anything else."""
+    if not text.isdecimal() or len(text) > _DIGITS:
+        return None
+    return int(text) if int(text) < 1 << 63 else None
+
+
 def _about(found: _Found, condition: Condition, axes: int) -> About:
     told = dict(found.metadata.get("ebac", {}))
     own = {name: told.pop(name, "") for name in ("format", "axes", "law", "law_repr", "start_ns")}
@@ -258,7 +277,7 @@ def _about(found: _Found, condition: Condition, axes: int) -> About:
         law=own["law"],
         law_repr=own["law_repr"],
         scenario=scenario,
-        start_ns=int(own["start_ns"]) if own["start_ns"].isdecimal() else 0,
+        start_ns=whole(own["start_ns"]) or 0,
         files=files,
         made_by=told,
     )
