@@ -65,13 +65,21 @@ class LoggedColumn:
     kind: str
     size: int
 
-    @property
-    def sound(self) -> bool:
-        """Whether all of it is what it must be: somebody else may have told it."""
-        words = all(isinstance(word, str) for word in (self.name, self.unit, self.meaning))
-        whole = isinstance(self.size, int) and not isinstance(self.size, bool)
-        known = isinstance(self.kind, str) and self.kind in _KINDS
-        return words and whole and known and bool(self.name) and 1 <= self.size <= _MOST_VALUES
+    @classmethod
+    def told(cls, column: Any) -> Self:
+        """Return what JSON told of a column.
+
+        Raises
+        ------
+        TypeError, KeyError
+            When something in it is not what it must be: somebody else may have written it.
+        """
+        size: Any = column["size"]
+        words: list[Any] = [column[name] for name in ("name", "unit", "meaning", "kind")]
+        known = all(isinstance(word, str) for word in words) and words[0] and words[3] in _KINDS
+        if not known or type(size) is not int or not 1 <= size <= _MOST_VALUES:
+            raise TypeError(f"{column!r}: no column")
+        return cls(**column)
 
     @property
     def info(self) -> ColumnInfo:
@@ -140,10 +148,10 @@ class Layout:
             When it is not that.
         """
         try:
-            columns = tuple(LoggedColumn(**column) for column in json.loads(text))
-        except (TypeError, ValueError, RecursionError):
+            columns = tuple(LoggedColumn.told(column) for column in json.loads(text))
+        except (TypeError, KeyError, ValueError, RecursionError):
             columns = ()
-        if not columns or not all(column.sound for column in columns):
+        if not columns:
             raise ValueError("its columns are not described as ebac does")
         return cls(columns)._checked()
 
