@@ -153,8 +153,12 @@ def _decompress(how: str, data: bytes, size: int) -> bytes:
     if how == "lz4":
         import lz4.frame
 
+        frame = lz4.frame.LZ4FrameDecompressor()
         try:
-            return bytes(lz4.frame.LZ4FrameDecompressor().decompress(data, max_length=size))
+            content = bytes(frame.decompress(data, max_length=size))
+            if not frame.eof:
+                raise ValueError(f"more than {size} bytes, or its end is missing")
+            return content
         except (RuntimeError, EOFError) as error:
             raise ValueError(str(error)) from None
     raise ValueError(f"packed as {how!r}: must be zstd, lz4 or nothing")
