@@ -152,6 +152,14 @@ def test_text_that_is_no_toml_is_refused_by_name(text: str) -> None:
         ebac.Scenario.from_toml(text)
 
 
+@pytest.mark.parametrize("name", [r"\u0000", "/", "."])
+def test_drives_that_are_no_file_are_refused_by_line(name: str) -> None:
+    with pytest.raises(
+        ConfigurationError, match=r"mine\.toml, line 2: bus\.drives: .*cannot be read"
+    ):
+        Configuration.from_toml(f'[bus]\ndrives = "{name}"\n', name="mine.toml")
+
+
 def test_a_file_that_is_no_text_is_refused_by_name(tmp_path: Path) -> None:
     path = tmp_path / "mine.toml"
     path.write_bytes(b"[run]\nseconds = 1 # \xff\n")

@@ -41,14 +41,14 @@ class Columns:
 
     def finish(self) -> dict[str, NDArray[Any]]:
         """Return the columns in the order of the layout; there is nothing more to take."""
-        self._resize(self._rows)
+        for values in self._data.values():
+            values.resize((self._rows, *values.shape[1:]), refcheck=False)  # gives back what is over
         return self._data
 
     def _make_room(self, rows: int, share: float) -> None:
         likely = int(1.02 * rows / max(share, 1e-9))
-        self._resize(max(rows, min(likely, _GROWTH * rows)))
-
-    def _resize(self, rows: int) -> None:
-        self._room = rows
-        for values in self._data.values():
-            values.resize((rows, *values.shape[1:]), refcheck=False)
+        self._room = max(rows, min(likely, _GROWTH * rows))
+        for name, old in self._data.items():
+            new = np.empty((self._room, *old.shape[1:]), old.dtype)
+            new[: self._rows] = old[: self._rows]
+            self._data[name] = new
