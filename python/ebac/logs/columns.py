@@ -42,7 +42,9 @@ class Columns:
     def finish(self) -> dict[str, NDArray[Any]]:
         """Return the columns in the order of the layout; there is nothing more to take."""
         for values in self._data.values():
-            values.resize((self._rows, *values.shape[1:]), refcheck=False)  # gives back what is over
+            values.resize(
+                (self._rows, *values.shape[1:]), refcheck=False
+            )  # gives back what is over
         return self._data
 
     def _make_room(self, rows: int, share: float) -> None:
