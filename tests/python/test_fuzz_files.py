@@ -163,10 +163,10 @@ def rubbish(data: bytes, chance: random.Random) -> bytes:
 
 def other_text(data: bytes, chance: random.Random) -> bytes:
     """Replace a number or a word in what is text: names, JSON, TOML."""
-    words = list(re.finditer(rb"-?\d+|[a-z_]{2,}|[\[\]{}:,=\"]", data))
-    if not words:
+    begin = chance.randrange(max(1, len(data)))
+    word = re.compile(rb"-?\d+|[a-z_]{2,}|[\[\]{}:,=\"]").search(data, begin)
+    if word is None:
         return data
-    word = chance.choice(words)
     return data[: word.start()] + chance.choice(WORDS) + data[word.end() :]
 
 
