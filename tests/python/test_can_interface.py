@@ -19,7 +19,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from ebac import _core, can_interface
+from ebac import _core, can_channels
 from ebac._core import CanFrame, LoopbackHub
 from ebac.can_interface import NODES, EbacBus
 
@@ -28,7 +28,7 @@ from ebac.can_interface import NODES, EbacBus
 def channel(request: pytest.FixtureRequest) -> Iterator[str]:
     """The name of a channel of its own, which must be gone afterwards."""
     yield request.node.name
-    assert can_interface._CHANNELS == {}
+    assert can_channels.CHANNELS == {}
 
 
 def bus(channel: str, **options: Any) -> EbacBus:
@@ -113,7 +113,7 @@ def test_two_channels_are_two_buses(channel: str) -> None:
 
 def test_a_channel_goes_with_the_last_who_leaves(channel: str) -> None:
     first, second = bus(channel), bus(channel)
-    hub = can_interface._CHANNELS[channel].hub
+    hub = can_channels.CHANNELS[channel].hub
     assert hub.ends == 2
     first.shutdown()
     first.shutdown()
@@ -121,7 +121,7 @@ def test_a_channel_goes_with_the_last_who_leaves(channel: str) -> None:
     second.shutdown()
     assert hub.ends == 0
     with bus(channel):
-        assert can_interface._CHANNELS[channel].hub is not hub
+        assert can_channels.CHANNELS[channel].hub is not hub
 
 
 @pytest.mark.parametrize(
@@ -523,11 +523,11 @@ def test_nodes_stand_on_the_channel_they_are_for(
 
 def test_the_longest_name_says_what_stands_on_a_channel(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(NODES, "rig", Echo)
-    longer: can_interface.Nodes = lambda hub: Echo(hub)  # noqa: E731
+    longer: can_channels.Nodes = lambda hub: Echo(hub)  # noqa: E731
     monkeypatch.setitem(NODES, "rig-two", longer)
-    assert can_interface.nodes_on("rig1") is Echo
-    assert can_interface.nodes_on("rig-two-b") is longer
-    assert can_interface.nodes_on("other") is None
+    assert can_channels.nodes_on("rig1") is Echo
+    assert can_channels.nodes_on("rig-two-b") is longer
+    assert can_channels.nodes_on("other") is None
 
 
 def test_nodes_that_cannot_stand_leave_no_channel(

@@ -175,7 +175,7 @@ def simulate(
 def plant_of(file: Path | None, device: str | None, hand: str | None, seed: int | None) -> Scenario:
     """Return device and hand: of the file, or a joystick that is held where it is."""
     from ebac import presets
-    from ebac.can_interface import resting_joystick
+    from ebac.can_channels import resting_joystick
 
     if file is None:
         base = resting_joystick()

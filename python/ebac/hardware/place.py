@@ -79,7 +79,7 @@ def hardware(configuration: Configuration) -> Iterator[Place]:
             sensor=configuration.sensor,
         )
         return
-    from ebac.can_interface import hub_of
+    from ebac.can_channels import hub_of
 
     with hub_of(channel) as hub:
         about = f"the bus {channel!r} inside this process"
@@ -122,7 +122,7 @@ def simulated(configuration: Configuration) -> Iterator[Place]:
                 grants=grants,
             )
         return
-    from ebac.can_interface import standing
+    from ebac.can_channels import standing
 
     # The loop's thread asks for the memory of this process.
     request = Request.beside(configuration.mode, configuration.realtime, lock_memory=False)

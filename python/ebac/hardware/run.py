@@ -14,8 +14,9 @@ from ebac.drives.errors import DriveError
 from ebac.hardware.interrupts import Interrupts, OfParent
 from ebac.hardware.newest import Newest
 from ebac.hardware.report import Report
+from ebac.hardware.watched import Watched
 from ebac.leaving import noted_on
-from ebac.trace import Trace, column_infos, row_views
+from ebac.trace import Trace
 
 if TYPE_CHECKING:
     from ebac.laws import CoreLaw
@@ -26,7 +27,7 @@ if TYPE_CHECKING:
 LOOK = 0.02
 
 
-class Run:
+class Run(Watched):
     """A loop at work. Get it from `OpenDevice.start`; a context manager that ends it.
 
     Whatever comes first ends it: its time, a fault, `stop`, an exception, a signal, the end of the program or of its
@@ -48,85 +49,19 @@ class Run:
         self.recorder: Recorder | None = None
         self.report: Report | None = None
         self._ended_by = ""
-        self._running = running
+        super().__init__(running, scenario, Newest(running, law=law, scenario=scenario, hand=hand))
         self._interrupts = interrupts
         self._power_off = power_off
         self._grants = [*running.grants, *grants]
-        self._scenario = scenario
-        self._newest = Newest(running, law=law, scenario=scenario, hand=hand)
         self._lock = threading.RLock()  # who changes or ends it
         self._parent = None if detached else OfParent(self._parent_is_gone)
 
     # --- while it runs ---
 
     @property
-    def done(self) -> bool:
-        """Whether the loop has ended."""
-        return self._running.done
-
-    @property
-    def ticks(self) -> int:
-        """Rows so far."""
-        return self._running.rows.count
-
-    @property
     def grants(self) -> list[_core.Grant]:
         """What its threads asked of the system, and what they got: the loop's, then those of what is simulated."""
         return list(self._grants)
-
-    @property
-    def law(self) -> CoreLaw:
-        """The law with its newest gains."""
-        return self._newest.law
-
-    @property
-    def environment(self) -> Environment:
-        """The newest virtual world."""
-        return self._newest.world
-
-    @property
-    def target(self) -> tuple[float | None, ...]:
-        """Where a simulated hand was told to go last, by axis [m]; None where it follows the path it has."""
-        return self._newest.target
-
-    def tail(self, rows: int = 1000) -> Trace:
-        """Return a copy of the last rows, also while it runs.
-
-        Parameters
-        ----------
-        rows : int
-            How many at most, at least 1.
-
-        Returns
-        -------
-        Trace
-
-        Raises
-        ------
-        ValueError
-            For a number below 1.
-        """
-        if rows < 1:
-            raise ValueError(f"rows = {rows}: must be at least 1")
-        all_rows = self._running.rows
-        stop = all_rows.count
-        _, raw = all_rows.copy(max(all_rows.first, stop - rows), stop)
-        return Trace(
-            data=row_views(all_rows, raw),
-            columns=column_infos(all_rows),
-            axes=all_rows.axes,
-            scenario=self._scenario,
-            law=self.law.name,
-            law_repr=repr(self.law),
-        )
-
-    @property
-    def state(self) -> _core.LoopState:
-        """Where the loop stands: arm, run, stop, idle or fault."""
-        if self.done:
-            return self._running.state
-        last = self.tail(1)
-        return _core.LoopState(int(last["state"][-1])) if len(last) else _core.LoopState.ARM
 
     def retune(self, **changes: Any) -> CoreLaw:
         """Change parameters of the law from the next tick on; its memory stays. Return the law with its new gains.
@@ -295,15 +230,6 @@ class Run:
             self._interrupts.forget()
             raise failures[0]
         self._interrupts.settled()
-
-    def trace(self) -> Trace:
-        """Return all rows in memory, shared and not copied where they are no ring's."""
-        return Trace.from_rows(
-            self._running.rows,
-            scenario=self._scenario,
-            law=self.law.name,
-            law_repr=repr(self.law),
-        )
 
     def __enter__(self) -> Run:
         """Return the run."""
