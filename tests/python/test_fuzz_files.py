@@ -24,7 +24,7 @@ import zstandard
 from mcap.exceptions import McapError
 
 import ebac
-from ebac.cli.log import _document
+from ebac.cli.log_info import document
 from ebac.drives import network
 from ebac.hardware import Configuration, ConfigurationError
 from ebac.logs.about import About
@@ -364,7 +364,7 @@ def read_a_log(chance: random.Random) -> bool:
     look_at(log)
     if chance.random() < 0.02:
         mended(log)
-        assert json.loads(_document(log))["command"] == "log info"
+        assert json.loads(document(log))["command"] == "log info"
     return True
 
 

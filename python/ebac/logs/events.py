@@ -3,8 +3,12 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any, Self
+
+import numpy as np
+from numpy.typing import NDArray
 
 SCHEMA_NAME = "foxglove.Log"  # a type Foxglove shows in its Log panel by itself
 #: Severity of each kind, in the numbers of that type; any other kind is information.
@@ -102,3 +106,29 @@ class Event:
         if not abs(event.t) < MOST_TIME or not abs(event.tick) < MOST_TICK:
             raise ValueError(f"an event in tick {event.tick}, at {event.t:g} s: cannot be")
         return event
+
+
+def faults_of(data: Mapping[str, NDArray[Any]], before: int) -> list[Event]:
+    """Return an event for each row in which a fault appears or changes; `before` is that of the row before them."""
+    fault = data["fault"].astype(np.int64)
+    new = np.flatnonzero((fault != 0) & (np.diff(fault, prepend=before) != 0))
+    return [
+        Event(
+            kind="fault",
+            message=f"fault {fault[i]} ({fault_name(int(fault[i]))})",
+            tick=int(data["tick"][i]),
+            t=float(data["t"][i]),
+            values={"fault": int(fault[i])},
+        )
+        for i in new
+    ]
+
+
+def fault_name(number: int) -> str:
+    """Return the name of a fault in words."""
+    from ebac._core import Fault
+
+    try:
+        return Fault(number).name.lower().replace("_", " ")
+    except ValueError:
+        return "unknown to this version"
