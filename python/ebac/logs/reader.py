@@ -25,7 +25,7 @@ from ebac.logs.records import (
     parsed,
     records,
 )
-from ebac.logs.writer import EVENTS_TOPIC, ROWS_TOPIC
+from ebac.logs.summary import EVENTS_TOPIC, ROWS_TOPIC
 from ebac.scenario import Scenario
 from ebac.trace import Trace
 
