@@ -3,20 +3,17 @@
 from __future__ import annotations
 
 import json
-import signal
 import sys
 import threading
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from math import inf
-from pathlib import Path
-from types import FrameType
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from ebac.cli import options, output, setting
+from ebac.cli import options, output, simulated
 from ebac.cli.drive_options import Bitrate, telling
 from ebac.cli.grants import show_refused
 
@@ -24,7 +21,6 @@ if TYPE_CHECKING:
     from ebac._core import Grant, Setup, SocketCanJoystick
     from ebac.drives.simulate import Simulation
     from ebac.hardware.place import Request
-    from ebac.scenario import Scenario
 
 MODES = ("auto", "enforce", "off")
 #: How often the main thread looks after the others [s].
@@ -42,26 +38,11 @@ def simulate(
     first: Annotated[
         int, typer.Option("--first", help="Node id of the first drive.", min=1, max=126)
     ] = 1,
-    scenario: Annotated[
-        Path | None,
-        typer.Option(
-            help="Take device, hand and seed from a scenario in TOML; other options come on top.",
-            show_default=False,
-        ),
-    ] = None,
-    device: Annotated[
-        str | None,
-        typer.Option(help="A device by name, see `ebac presets`.", show_default="joystick"),
-    ] = None,
-    hand: Annotated[
-        str | None,
-        typer.Option(help="A hand by name, see `ebac presets`.", show_default="resting"),
-    ] = None,
+    scenario: simulated.PlantFile = None,
+    device: simulated.PlantDevice = None,
+    hand: simulated.PlantHand = None,
     seed: options.Seed = None,
-    seconds: Annotated[
-        float | None,
-        typer.Option(help="Stop after so long [s].", show_default="until Ctrl-C", min=0),
-    ] = None,
+    seconds: simulated.Seconds = None,
     wait_for_power: Annotated[
         bool,
         typer.Option(
@@ -138,12 +119,12 @@ def simulate(
         output.fail(f"--realtime {realtime}: must be one of {', '.join(MODES)}")
     grants: list[Grant] = []
     with output.refusing():
-        plant = plant_of(scenario, device, hand, seed)
+        plant = simulated.plant_of(scenario, device, hand, seed)
         setup = plant.setup()
         loop = RealTime(priority=beside, lock_memory=lock_memory)
         request = Request.beside(realtime, loop)
         cell = None if aim is None else AimCell(aim)
-    with telling(), signalled() as over:
+    with telling(), simulated.signalled() as over:
         known = SensorConfig(counts_per_force=sensor_counts[0], counts_per_torque=sensor_counts[1])
         felt = ForceCell([0.0, 0.0, 0.0])
         more = {"first": first, "felt": felt, "wait_for_power": wait_for_power, "aim": cell}
@@ -170,23 +151,6 @@ def simulate(
     refused = f", {counts.refused} refused by the bus" if counts.refused else ""
     lost = f", {counts.lost} lost before they were read" if counts.lost else ""
     output.say(f"Stopped: {counts.received} frames received, {counts.sent} sent{refused}{lost}.")
-
-
-def plant_of(file: Path | None, device: str | None, hand: str | None, seed: int | None) -> Scenario:
-    """Return device and hand: of the file, or a joystick that is held where it is."""
-    from ebac import presets
-    from ebac.can_channels import resting_joystick
-
-    if file is None:
-        base = resting_joystick()
-    else:
-        base = setting.base_scenario(file)
-    parts = setting.given(
-        device=None if device is None else presets.device(device),
-        hand=None if hand is None else presets.hand(hand),
-        seed=seed,
-    )
-    return base.replace(**parts)
 
 
 @contextmanager
@@ -242,19 +206,3 @@ def _until_eof(over: threading.Event) -> None:
     while sys.stdin.read(1024):
         pass
     over.set()
-
-
-@contextmanager
-def signalled() -> Iterator[threading.Event]:
-    """Give an event that Ctrl-C and SIGTERM set."""
-    over = threading.Event()
-
-    def stop(number: int, frame: FrameType | None) -> None:
-        over.set()
-
-    before = {number: signal.signal(number, stop) for number in (signal.SIGINT, signal.SIGTERM)}
-    try:
-        yield over
-    finally:
-        for number, handler in before.items():
-            signal.signal(number, handler)
