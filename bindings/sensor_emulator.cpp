@@ -86,8 +86,9 @@ void bind_sensor_emulator(py::module_& m) {
   add_init<Setup>(cls, [](const Setup& setup) { return from_hand(setup); });
   cls.def("start", &ServedEmulator::start, py::arg_v("mode", rt::Mode::kOff, "RealTimeMode.OFF"),
           py::arg("realtime") = rt::Options{}, "Puts it on the network, once in a life.")
-      .def_property_readonly("grants", &ServedEmulator::grants,
-                             "What its thread asked of the system, and got; once it is started.")
+      .def_property_readonly(
+          "grants", &ServedEmulator::grants,
+          "What its thread asked of the system, and got; nothing before it is started.")
       .def("stop", &ServedEmulator::stop, py::call_guard<py::gil_scoped_release>(),
            "Takes it off for good.")
       .def("set", &ServedEmulator::set, py::arg("trouble"), "What goes wrong from now on.")

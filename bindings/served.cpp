@@ -54,8 +54,9 @@ void add_work(py::class_<ServedJoystick<Bus>>& cls) {
           },
           py::arg("kind") = py::none(), py::arg("error") = py::none(),
           py::arg("traceback") = py::none())
-      .def_property_readonly("grants", &Work::grants,
-                             "What its thread asked of the system, and got; once it is started.")
+      .def_property_readonly(
+          "grants", &Work::grants,
+          "What its thread asked of the system, and got; nothing before it is started.")
       .def_property_readonly("state", &Work::state, "How the bus stands.")
       .def_property_readonly("counts", &Work::counts, "What went over their end of the bus.");
 }

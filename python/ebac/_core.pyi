@@ -2739,7 +2739,7 @@ class RdtEmulator:
     @property
     def grants(self) -> list[Grant]:
         """
-        What its thread asked of the system, and got; once it is started.
+        What its thread asked of the system, and got; nothing before it is started.
         """
 
 class DriveCondition(enum.IntFlag):
@@ -4801,7 +4801,7 @@ class LoopbackJoystick:
     @property
     def grants(self) -> list[Grant]:
         """
-        What its thread asked of the system, and got; once it is started.
+        What its thread asked of the system, and got; nothing before it is started.
         """
     @property
     def state(self) -> BusState:
@@ -4845,7 +4845,7 @@ class SocketCanJoystick:
     @property
     def grants(self) -> list[Grant]:
         """
-        What its thread asked of the system, and got; once it is started.
+        What its thread asked of the system, and got; nothing before it is started.
         """
     @property
     def state(self) -> BusState:

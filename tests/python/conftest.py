@@ -3,7 +3,7 @@
 More examples than usual: `pytest --hypothesis-profile=explore`.
 
 A test marked `real_time` runs a loop against the clock. Where a loop in it ended because this machine kept it or what
-answers it waiting, the test is repeated, twice at most, and the summary says so; any other failure is one at once.
+answers it waiting, the test is repeated, four times at most, and the summary says so; any other failure is one at once.
 """
 
 import re
@@ -58,7 +58,7 @@ def open_bus() -> Iterator[Callable[[], "can.BusABC"]]:
 #: or its own ticks did. On simulated hardware nobody else can be the reason.
 _LATE = re.compile(r"fault (?:9|11|16|19) \((?:drive silent|heartbeat lost|force stale|overruns)\)")
 #: How often a test is run at most.
-_TRIES = 3
+_TRIES = 5
 
 
 def pytest_configure(config: pytest.Config) -> None:

@@ -57,8 +57,10 @@ class Served {
     bus_.close();
   }
 
-  /// What its thread asked of the system, and got; once it is started.
-  const std::vector<rt::Grant>& grants() const { return thread_.value().report().grants; }
+  /// What its thread asked of the system, and got; nothing before it is started.
+  std::vector<rt::Grant> grants() const {
+    return thread_ ? thread_->report().grants : std::vector<rt::Grant>{};
+  }
 
   /// Of any thread, at any time.
   BusState state() const noexcept { return bus_.state(); }

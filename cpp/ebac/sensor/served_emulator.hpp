@@ -37,8 +37,10 @@ class ServedEmulator {
   /// Silent for good, within a few ms; nothing the second time.
   void stop() noexcept;
 
-  /// What its thread asked of the system, and got; once it is started.
-  const std::vector<rt::Grant>& grants() const { return thread_.value().report().grants; }
+  /// What its thread asked of the system, and got; nothing before it is started.
+  std::vector<rt::Grant> grants() const {
+    return thread_ ? thread_->report().grants : std::vector<rt::Grant>{};
+  }
 
   /// Of any thread, at any time.
   void set(const EmulatorTrouble& trouble);

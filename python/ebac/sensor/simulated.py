@@ -125,7 +125,7 @@ class SimulatedSensor:
 
     @property
     def grants(self) -> list[Grant]:
-        """What its thread asked of the system, and got; once it is started."""
+        """What its thread asked of the system, and got; nothing before it is started."""
         return self._work.grants
 
     def start(
