@@ -6,6 +6,7 @@
 namespace ebac::python {
 
 void bind_core(pybind11::module_& m);
+void bind_realtime(pybind11::module_& m);
 void bind_kinematics(pybind11::module_& m);
 void bind_devices(pybind11::module_& m);
 void bind_hands(pybind11::module_& m);
@@ -24,7 +25,6 @@ void bind_python_law(pybind11::module_& m);
 void bind_can_plan(pybind11::module_& m);
 void bind_can(pybind11::module_& m);
 void bind_limits(pybind11::module_& m);
-void bind_realtime(pybind11::module_& m);
 void bind_faults(pybind11::module_& m);
 void bind_running(pybind11::module_& m);
 void bind_running_laws(pybind11::module_& m);

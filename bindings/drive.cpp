@@ -114,7 +114,7 @@ void bind_joystick(py::module_& m) {
                                 "Simulated drives on the axes of one simulated device and hand.");
   cls.def(py::init(&make_joystick), py::arg("setup"), py::kw_only(), py::arg("first") = 1,
           py::arg("peak_time") = 2.0, py::arg("felt") = py::none(),
-          py::arg("wait_for_power") = false)
+          py::arg("wait_for_power") = false, py::arg("aim") = py::none())
       .def_property_readonly("axes", &PlantOfDrives::axes, "Number of axes.")
       .def(
           "drive",
@@ -133,7 +133,7 @@ void bind_joystick(py::module_& m) {
               throw py::index_error("axis " + std::to_string(axis) + ": the joystick has " +
                                     std::to_string(joystick.axes()));
             }
-            return joystick.plant().device().state(axis);
+            return joystick.plant().device().device().state(axis);
           },
           py::arg("axis") = 0, "What only the simulation knows of one axis.");
   def_frames<PlantOfDrives>(

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "ebac/can/joystick.hpp"
+#include "ebac/rt/aimed.hpp"
 #include "ebac/sensor/felt.hpp"
 #include "ebac/sim/setup.hpp"
 #include "ebac/sim/simulated_device.hpp"
@@ -11,7 +12,7 @@
 
 namespace ebac::python {
 
-using PlantOfDrives = can::Joystick<sensor::Felt<SimulatedDevice>>;
+using PlantOfDrives = can::Joystick<sensor::Felt<rt::Aimed<SimulatedDevice>>>;
 
 /// Node ids of drives on `axes` axes, from `node` on.
 inline can::NodeId checked_node(int node, int axes) {
@@ -30,15 +31,20 @@ inline double checked_peak_time(double seconds) {
   return seconds;
 }
 
-/// The device and hand of a setup behind drives; `felt` is told the force at the handle.
+template <class Cell>
+using Shared = std::optional<std::shared_ptr<Cell>>;
+
+/// The device and hand of a setup behind drives; `felt` is told the force at the handle, `aim` tells
+/// the hand where to go.
 inline PlantOfDrives make_joystick(Setup setup, int first, double peak_time,
-                                   const std::optional<std::shared_ptr<sensor::ForceCell>>& felt,
-                                   bool wait_for_power) {
+                                   const Shared<sensor::ForceCell>& felt, bool wait_for_power,
+                                   const Shared<rt::AimCell>& aim) {
   const can::NodeId node = checked_node(first, setup.device.axes());
   setup.device.drive.permille = true;  // what a drive is told in
   setup.timing.delay = 0;              // its delay is that of the bus
-  return {sensor::Felt(SimulatedDevice(setup), felt.value_or(nullptr)), setup.device, node,
-          checked_peak_time(peak_time), wait_for_power};
+  return {sensor::Felt(rt::Aimed(SimulatedDevice(setup), aim.value_or(nullptr)),
+                       felt.value_or(nullptr)),
+          setup.device, node, checked_peak_time(peak_time), wait_for_power};
 }
 
 }  // namespace ebac::python

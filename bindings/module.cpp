@@ -3,6 +3,7 @@
 PYBIND11_MODULE(_core, m, pybind11::mod_gil_not_used()) {
   m.doc() = "The C++ core of ebac. Use it through the package `ebac`.";
   ebac::python::bind_core(m);
+  ebac::python::bind_realtime(m);
   ebac::python::bind_kinematics(m);
   ebac::python::bind_devices(m);
   ebac::python::bind_hands(m);
@@ -21,7 +22,6 @@ PYBIND11_MODULE(_core, m, pybind11::mod_gil_not_used()) {
   ebac::python::bind_can(m);
   ebac::python::bind_served(m);
   ebac::python::bind_limits(m);
-  ebac::python::bind_realtime(m);
   ebac::python::bind_faults(m);
   ebac::python::bind_running(m);
   ebac::python::bind_running_laws(m);

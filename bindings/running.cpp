@@ -3,6 +3,7 @@
 #include <pybind11/stl.h>
 
 #include <algorithm>
+#include <array>
 #include <thread>
 #include <tuple>
 
@@ -46,7 +47,8 @@ RunSetup make_setup(const DeviceModel& device, const Environment& environment, d
                     const std::vector<int>& nodes, double answer_time, const RunPlan& plan,
                     const std::optional<Limits>& limits,
                     const std::optional<sensor::RdtClientSetup>& sensor, std::size_t rows,
-                    bool ring, rt::Mode mode, const rt::Options& realtime, const Values& drives) {
+                    bool ring, rt::Mode mode, const rt::Options& realtime, const Values& drives,
+                    const std::optional<std::shared_ptr<rt::AimCell>>& aim) {
   check(Timing{.dt = dt}, "Timing");
   const bool fits = answer_time > 0 && answer_time <= dt;
   if (!fits) {
@@ -59,6 +61,7 @@ RunSetup make_setup(const DeviceModel& device, const Environment& environment, d
           .answer_time = answer_time,
           .drives = drives_of(device, nodes, drives),
           .sensor = sensor,
+          .aim = aim.value_or(nullptr),
           .limits = limits,
           .plan = plan,
           .rows = rows,
@@ -137,6 +140,13 @@ void bind_running_class(py::module_& m) {
           "change_world",
           [](const Running& run, const Environment& world) { return run.change_world(world); },
           py::arg("environment"), "Another virtual world from the next tick on.")
+      .def(
+          "aim",
+          [](const Running& run, const std::array<double, kMaxAxes>& target) {
+            return run.aim({.target = target});
+          },
+          py::arg("target"),
+          "Where a simulated hand should go [m]; no number leaves an axis alone.")
       .def("changes", &changes_from, py::arg("start") = 0,
            "What the loop took: (tick, serial number, what).")
       .def_property_readonly(
@@ -159,7 +169,7 @@ void bind_running(py::module_& m) {
       .def(py::init(&make_setup), py::kw_only(), py::arg("device"), py::arg("environment"),
            py::arg("dt"), py::arg("nodes"), py::arg("answer_time"), py::arg("plan"),
            py::arg("limits"), py::arg("sensor"), py::arg("rows"), py::arg("ring"), py::arg("mode"),
-           py::arg("realtime"), py::arg("drives"),
+           py::arg("realtime"), py::arg("drives"), py::arg("aim") = py::none(),
            "`drives` are the fields of CanopenSetup by name.");
   bind_running_class(m);
 }

@@ -13,6 +13,7 @@
 #include "ebac/can/either_bus.hpp"
 #include "ebac/can/wait_on.hpp"
 #include "ebac/loop/retune.hpp"
+#include "ebac/rt/aimed.hpp"
 #include "ebac/rt/loop_thread.hpp"
 #include "ebac/rt/monotonic_clock.hpp"
 #include "ebac/rt/timed.hpp"
@@ -24,8 +25,9 @@
 namespace ebac::python {
 
 using Drives = can::CanopenDevice<can::EitherBus, can::WaitOn<can::EitherBus>>;
-/// Drives, and a force sensor beside them where there is one.
-using Hardware = rt::Timed<sensor::WithForceSensor<Drives, sensor::OptionalSensor>>;
+/// Drives, and a force sensor beside them where there is one; the hand is told where to go, where it
+/// is a simulated one.
+using Hardware = rt::Timed<rt::Aiming<sensor::WithForceSensor<Drives, sensor::OptionalSensor>>>;
 
 /// All that a run is but its bus and its law.
 struct RunSetup {
@@ -35,6 +37,7 @@ struct RunSetup {
   double answer_time = 5e-4;  // s, of every tick: how long the drives may take
   can::CanopenSetup drives;
   std::optional<sensor::RdtClientSetup> sensor;
+  std::shared_ptr<rt::AimCell> aim;  // of a simulated hand, where it is one
   std::optional<Limits> limits;
   RunPlan plan;
   std::size_t rows = 0;
@@ -54,6 +57,7 @@ struct Running {
   std::function<std::int64_t()> unrecorded;
   std::function<std::uint64_t(const py::object&)> retune;
   std::function<std::uint64_t(const Environment&)> change_world;
+  std::function<std::uint64_t(const Aim&)> aim;
   std::function<const Changes&()> changes;
   std::function<can::BusCounts()> bus;
   std::vector<rt::Grant> grants;
@@ -80,7 +84,7 @@ class HardwareLoop {
   /// Once it is done: nobody needs the sensor's stream any more.
   void join() {
     thread_->join();
-    auto& sensor = thread_->loop().device().device().sensor();
+    auto& sensor = thread_->loop().device().device().device().sensor();
     if (sensor.client() != nullptr) sensor.client()->stop();
   }
   const std::shared_ptr<Trace>& trace() const { return trace_; }
@@ -97,6 +101,10 @@ class HardwareLoop {
     const std::scoped_lock one_writer(writers_);
     return mail_->post(world);
   }
+  std::uint64_t aim(const Aim& aim) {
+    const std::scoped_lock one_writer(writers_);
+    return mail_->post(aim);
+  }
 
  private:
   Hardware hardware(const RunSetup& setup) {
@@ -109,7 +117,7 @@ class HardwareLoop {
       client.start();
       sensor = sensor::OptionalSensor(std::move(client));
     }
-    return Hardware(sensor::WithForceSensor(drives, std::move(sensor)));
+    return Hardware(rt::Aiming(sensor::WithForceSensor(drives, std::move(sensor)), setup.aim));
   }
   static LoopOptions options(const RunSetup& setup) {
     LoopOptions options{.plan = setup.plan};
@@ -138,6 +146,7 @@ Running start_running(can::EitherBus bus, const Law& law, const RunSetup& setup)
           .unrecorded = [work] { return work->thread().unrecorded(); },
           .retune = [work](const py::object& next) { return work->retune(next.cast<Law>()); },
           .change_world = [work](const Environment& w) { return work->change_world(w); },
+          .aim = [work](const Aim& aim) { return work->aim(aim); },
           .changes = [work]() -> const Changes& { return work->mail().changes(); },
           .bus = [work] { return work->bus(); },
           .grants = work->thread().report().grants};
@@ -156,6 +165,9 @@ void bind_start_of() {
         return start_running(take_bus(bus), law, setup);
       },
       py::arg("bus"), py::arg("setup"));
+  cls.def(
+      "_check_retune", [](const Law& law, const Law& next) { check_retune(law, next); },
+      py::arg("next"));
 }
 
 }  // namespace ebac::python

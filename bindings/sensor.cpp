@@ -250,7 +250,7 @@ void bind_sensor(py::module_& m) {
   bind_setup(m);
   py::class_<TimedClient> cls(m, "RdtClient", "A force/torque sensor on the network.");
   cls.def(py::init([](const RdtClientSetup& setup) {
-            return from_network([&] { return std::make_unique<TimedClient>(setup); });
+            return from_system([&] { return std::make_unique<TimedClient>(setup); });
           }),
           py::arg("setup"));
   add_work(cls);

@@ -3,11 +3,11 @@
 #include <array>
 #include <stdexcept>
 #include <string>
-#include <system_error>
 
 #include "ebac/sensor/mounting.hpp"
 #include "ebac/sensor/udp.hpp"
 #include "fields.hpp"
+#include "from_system.hpp"
 
 namespace ebac::python {
 
@@ -23,18 +23,6 @@ inline sensor::Mounting checked_mounting(const std::array<double, 9>& rotation, 
   const sensor::Mounting mounting{.rotation = rotation, .sign = sign};
   sensor::check_mounting(mounting);
   return mounting;
-}
-
-/// Python's OSError with the number and the remedy, where the network does not give it.
-template <class Make>
-auto from_network(Make make) {
-  try {
-    return make();
-  } catch (const std::system_error& error) {
-    const py::tuple what = py::make_tuple(error.code().value(), error.what());
-    PyErr_SetObject(PyExc_OSError, what.ptr());
-    throw py::error_already_set();
-  }
 }
 
 }  // namespace ebac::python

@@ -38,7 +38,7 @@ std::unique_ptr<ServedEmulator> serve(const std::string& host, int port,
   const sensor::Endpoint at = sensor::resolve(host, checked_port(port, 0));
   const RdtEmulator<sensor::Endpoint> emulator(options, checked_mounting(rotation, sign),
                                                sensor::StatusBits::of(model), seed);
-  return from_network(
+  return from_system(
       [&] { return std::make_unique<ServedEmulator>(at, emulator, std::move(source)); });
 }
 
@@ -84,7 +84,11 @@ void bind_sensor_emulator(py::module_& m) {
   add_init<std::shared_ptr<ForceCell>>(
       cls, [](std::shared_ptr<ForceCell> cell) { return sensor::from_cell(std::move(cell)); });
   add_init<Setup>(cls, [](const Setup& setup) { return from_hand(setup); });
-  cls.def("start", &ServedEmulator::start, "Puts it on the network, once in a life.")
+  cls.def("start", &ServedEmulator::start, py::arg_v("mode", rt::Mode::kOff, "RealTimeMode.OFF"),
+          py::arg("realtime") = rt::Options{}, "Puts it on the network, once in a life.")
+      .def_property_readonly(
+          "grants", &ServedEmulator::grants,
+          "What its thread asked of the system, and got; nothing before it is started.")
       .def("stop", &ServedEmulator::stop, py::call_guard<py::gil_scoped_release>(),
            "Takes it off for good.")
       .def("set", &ServedEmulator::set, py::arg("trouble"), "What goes wrong from now on.")

@@ -92,7 +92,10 @@ def directive(name: str, thing: Any, text: str) -> list[str]:
     """Return the directive that shows a thing."""
     if inspect.isclass(thing):
         left_out = ["   :exclude-members: set"] if hasattr(thing, "savefig") else []
-        return [f".. autoclass:: {name}", "   :members:", *left_out, ""]
+        bases = thing.__mro__[1:-1]
+        own = bases and all(base.__module__.startswith("ebac.") for base in bases)
+        inherited = ["   :inherited-members:"] if own else []
+        return [f".. autoclass:: {name}", "   :members:", *inherited, *left_out, ""]
     if is_data(thing):
         return [f".. py:data:: {name}", "", f"   {first_line(text)}", ""]
     return [f".. autofunction:: {name}", ""]

@@ -20,6 +20,7 @@ __all__: list[str] = [
     "TCA",
     "WARNED_LOAD",
     "AdaptiveWindow",
+    "AimCell",
     "ArmGains",
     "ArmRecord",
     "AxisTruth",
@@ -427,6 +428,122 @@ class DeviceFacts:
     def peak_force(self) -> float:
         """
         largest force the motor can give [N], 0.001 to 10000
+        """
+
+class RealTimeMode(enum.IntEnum):
+    AUTO = ...
+    ENFORCE = ...
+    OFF = ...
+
+class RealTime:
+    """
+    What a loop's thread asks of the system.
+
+    Parameters
+    ----------
+    priority : int
+        priority under SCHED_FIFO, 1 to 99.
+    cpu : int
+        the CPU it stays on; -1 for any, -1 to 1023.
+    lock_memory : bool
+        keep all pages of the process in memory (mlockall), 0 to 1.
+    stack : int
+        stack touched before the start; 0 for none [bytes], 0 to 4194304.
+    """
+    @staticmethod
+    def fields() -> list[Field]:
+        """
+        Name, unit, meaning, default and range of every parameter.
+        """
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __init__(
+        self, *, priority: int = 80, cpu: int = -1, lock_memory: bool = True, stack: int = 262144
+    ) -> None: ...
+    def __reduce__(self) -> tuple[typing.Any, ...]: ...
+    def __repr__(self) -> str: ...
+    def as_dict(self) -> dict[str, typing.Any]:
+        """
+        Parameters by name.
+        """
+    def replace(self, **changes: typing.Any) -> typing.Self:
+        """
+        A copy with some parameters changed; checked as at construction.
+        """
+    @property
+    def cpu(self) -> int:
+        """
+        the CPU it stays on; -1 for any, -1 to 1023
+        """
+    @property
+    def lock_memory(self) -> bool:
+        """
+        keep all pages of the process in memory (mlockall), 0 to 1
+        """
+    @property
+    def priority(self) -> int:
+        """
+        priority under SCHED_FIFO, 1 to 99
+        """
+    @property
+    def stack(self) -> int:
+        """
+        stack touched before the start; 0 for none [bytes], 0 to 4194304
+        """
+
+class Grant:
+    """
+    One thing a thread asked of the system.
+    """
+    def __init__(self, *, name: str, asked: str, granted: bool, why: str, remedy: str) -> None: ...
+    @property
+    def asked(self) -> str:
+        """
+        What was asked.
+        """
+    @property
+    def granted(self) -> bool:
+        """
+        Whether it was granted.
+        """
+    @property
+    def name(self) -> str:
+        """
+        priority, cpu, memory or stack.
+        """
+    @property
+    def remedy(self) -> str:
+        """
+        The command that would grant it.
+        """
+    @property
+    def why(self) -> str:
+        """
+        Why not; empty when it was.
+        """
+
+class AimCell:
+    """
+    Where a simulated hand should go: from a loop to who simulates the hand, in another thread
+    or in another process, which has it by the descriptor handed down. One writer, one reader.
+    """
+    @typing.overload
+    def __init__(self) -> None: ...
+    @typing.overload
+    def __init__(self, descriptor: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def post(
+        self,
+        target: typing.Annotated[
+            collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(3)"
+        ],
+    ) -> None:
+        """
+        The target from now on [m]; no number leaves an axis alone.
+        """
+    @property
+    def descriptor(self) -> int:
+        """
+        To be handed down.
         """
 
 class Linear:
@@ -2601,7 +2718,7 @@ class RdtEmulator:
         """
         What goes wrong from now on.
         """
-    def start(self) -> None:
+    def start(self, mode: RealTimeMode = ..., realtime: RealTime = ...) -> None:
         """
         Puts it on the network, once in a life.
         """
@@ -2618,6 +2735,11 @@ class RdtEmulator:
     def counts(self) -> EmulatorCounts:
         """
         What it did so far.
+        """
+    @property
+    def grants(self) -> list[Grant]:
+        """
+        What its thread asked of the system, and got; nothing before it is started.
         """
 
 class DriveCondition(enum.IntFlag):
@@ -2706,6 +2828,7 @@ class Joystick:
         peak_time: typing.SupportsFloat | typing.SupportsIndex = 2.0,
         felt: ForceCell | None = None,
         wait_for_power: bool = False,
+        aim: AimCell | None = None,
     ) -> None: ...
     def drive(self, axis: typing.SupportsInt | typing.SupportsIndex = 0) -> SimulatedDrive:
         """
@@ -2952,6 +3075,7 @@ class Direct:
     def __init__(self, *, peak_force: float = 42.4, timing: Timing = ...) -> None: ...
     def __reduce__(self) -> tuple[typing.Any, ...]: ...
     def __repr__(self) -> str: ...
+    def _check_retune(self, next: Direct) -> None: ...
     def _replay(
         self, log: ReplayLog, device: Device, environment: Free | Wall | Corner | Disc
     ) -> Rows: ...
@@ -3077,6 +3201,7 @@ class TCA:
     ) -> None: ...
     def __reduce__(self) -> tuple[typing.Any, ...]: ...
     def __repr__(self) -> str: ...
+    def _check_retune(self, next: TCA) -> None: ...
     def _replay(
         self, log: ReplayLog, device: Device, environment: Free | Wall | Corner | Disc
     ) -> Rows: ...
@@ -3231,6 +3356,7 @@ class TCADamped:
     ) -> None: ...
     def __reduce__(self) -> tuple[typing.Any, ...]: ...
     def __repr__(self) -> str: ...
+    def _check_retune(self, next: TCADamped) -> None: ...
     def _replay(
         self, log: ReplayLog, device: Device, environment: Free | Wall | Corner | Disc
     ) -> Rows: ...
@@ -3394,6 +3520,7 @@ class PassivityControl:
     ) -> None: ...
     def __reduce__(self) -> tuple[typing.Any, ...]: ...
     def __repr__(self) -> str: ...
+    def _check_retune(self, next: PassivityControl) -> None: ...
     def _replay(
         self, log: ReplayLog, device: Device, environment: Free | Wall | Corner | Disc
     ) -> Rows: ...
@@ -3529,6 +3656,7 @@ class VirtualCoupling:
     ) -> None: ...
     def __reduce__(self) -> tuple[typing.Any, ...]: ...
     def __repr__(self) -> str: ...
+    def _check_retune(self, next: VirtualCoupling) -> None: ...
     def _replay(
         self, log: ReplayLog, device: Device, environment: Free | Wall | Corner | Disc
     ) -> Rows: ...
@@ -3660,6 +3788,7 @@ class ForceBounding:
     ) -> None: ...
     def __reduce__(self) -> tuple[typing.Any, ...]: ...
     def __repr__(self) -> str: ...
+    def _check_retune(self, next: ForceBounding) -> None: ...
     def _replay(
         self, log: ReplayLog, device: Device, environment: Free | Wall | Corner | Disc
     ) -> Rows: ...
@@ -3814,6 +3943,7 @@ class EBA:
     ) -> None: ...
     def __reduce__(self) -> tuple[typing.Any, ...]: ...
     def __repr__(self) -> str: ...
+    def _check_retune(self, next: EBA) -> None: ...
     def _replay(
         self, log: ReplayLog, device: Device, environment: Free | Wall | Corner | Disc
     ) -> Rows: ...
@@ -3991,6 +4121,7 @@ class EBACPrinted:
     ) -> None: ...
     def __reduce__(self) -> tuple[typing.Any, ...]: ...
     def __repr__(self) -> str: ...
+    def _check_retune(self, next: EBACPrinted) -> None: ...
     def _replay(
         self, log: ReplayLog, device: Device, environment: Free | Wall | Corner | Disc
     ) -> Rows: ...
@@ -4230,6 +4361,7 @@ class EBAC:
     ) -> None: ...
     def __reduce__(self) -> tuple[typing.Any, ...]: ...
     def __repr__(self) -> str: ...
+    def _check_retune(self, next: EBAC) -> None: ...
     def _replay(
         self, log: ReplayLog, device: Device, environment: Free | Wall | Corner | Disc
     ) -> Rows: ...
@@ -4651,8 +4783,9 @@ class LoopbackJoystick:
         peak_time: typing.SupportsFloat | typing.SupportsIndex = 2.0,
         felt: ForceCell | None = None,
         wait_for_power: bool = False,
+        aim: AimCell | None = None,
     ) -> None: ...
-    def start(self) -> typing.Any:
+    def start(self, mode: RealTimeMode = ..., realtime: RealTime = ...) -> typing.Any:
         """
         Puts them on the bus, once in a life.
         """
@@ -4664,6 +4797,11 @@ class LoopbackJoystick:
     def counts(self) -> BusCounts:
         """
         What went over their end of the bus.
+        """
+    @property
+    def grants(self) -> list[Grant]:
+        """
+        What its thread asked of the system, and got; nothing before it is started.
         """
     @property
     def state(self) -> BusState:
@@ -4689,8 +4827,9 @@ class SocketCanJoystick:
         peak_time: typing.SupportsFloat | typing.SupportsIndex = 2.0,
         felt: ForceCell | None = None,
         wait_for_power: bool = False,
+        aim: AimCell | None = None,
     ) -> None: ...
-    def start(self) -> typing.Any:
+    def start(self, mode: RealTimeMode = ..., realtime: RealTime = ...) -> typing.Any:
         """
         Puts them on the bus, once in a life.
         """
@@ -4702,6 +4841,11 @@ class SocketCanJoystick:
     def counts(self) -> BusCounts:
         """
         What went over their end of the bus.
+        """
+    @property
+    def grants(self) -> list[Grant]:
+        """
+        What its thread asked of the system, and got; nothing before it is started.
         """
     @property
     def state(self) -> BusState:
@@ -4847,97 +4991,6 @@ class Limits:
         whether a force sensor that is stale, saturated or gone is a fault, 0 to 1
         """
 
-class RealTimeMode(enum.IntEnum):
-    AUTO = ...
-    ENFORCE = ...
-    OFF = ...
-
-class RealTime:
-    """
-    What a loop's thread asks of the system.
-
-    Parameters
-    ----------
-    priority : int
-        priority under SCHED_FIFO, 1 to 99.
-    cpu : int
-        the CPU it stays on; -1 for any, -1 to 1023.
-    lock_memory : bool
-        keep all pages of the process in memory (mlockall), 0 to 1.
-    stack : int
-        stack touched before the start; 0 for none [bytes], 0 to 4194304.
-    """
-    @staticmethod
-    def fields() -> list[Field]:
-        """
-        Name, unit, meaning, default and range of every parameter.
-        """
-    def __eq__(self, other: typing.Any) -> bool: ...
-    def __hash__(self) -> int: ...
-    def __init__(
-        self, *, priority: int = 80, cpu: int = -1, lock_memory: bool = True, stack: int = 262144
-    ) -> None: ...
-    def __reduce__(self) -> tuple[typing.Any, ...]: ...
-    def __repr__(self) -> str: ...
-    def as_dict(self) -> dict[str, typing.Any]:
-        """
-        Parameters by name.
-        """
-    def replace(self, **changes: typing.Any) -> typing.Self:
-        """
-        A copy with some parameters changed; checked as at construction.
-        """
-    @property
-    def cpu(self) -> int:
-        """
-        the CPU it stays on; -1 for any, -1 to 1023
-        """
-    @property
-    def lock_memory(self) -> bool:
-        """
-        keep all pages of the process in memory (mlockall), 0 to 1
-        """
-    @property
-    def priority(self) -> int:
-        """
-        priority under SCHED_FIFO, 1 to 99
-        """
-    @property
-    def stack(self) -> int:
-        """
-        stack touched before the start; 0 for none [bytes], 0 to 4194304
-        """
-
-class Grant:
-    """
-    One thing a thread asked of the system.
-    """
-    @property
-    def asked(self) -> str:
-        """
-        What was asked.
-        """
-    @property
-    def granted(self) -> bool:
-        """
-        Whether it was granted.
-        """
-    @property
-    def name(self) -> str:
-        """
-        priority, cpu, memory or stack.
-        """
-    @property
-    def remedy(self) -> str:
-        """
-        The command that would grant it.
-        """
-    @property
-    def why(self) -> str:
-        """
-        Why not; empty when it was.
-        """
-
 class RunPlan:
     """
     How a run begins and ends.
@@ -5027,6 +5080,7 @@ class RunSetup:
         mode: RealTimeMode,
         realtime: RealTime,
         drives: dict[str, typing.Any],
+        aim: AimCell | None = None,
     ) -> None:
         """
         `drives` are the fields of CanopenSetup by name.
@@ -5036,6 +5090,15 @@ class Running:
     """
     A loop at work in a thread that never touches Python.
     """
+    def aim(
+        self,
+        target: typing.Annotated[
+            collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(3)"
+        ],
+    ) -> int:
+        """
+        Where a simulated hand should go [m]; no number leaves an axis alone.
+        """
     def change_world(self, environment: Free | Wall | Corner | Disc) -> int:
         """
         Another virtual world from the next tick on.

@@ -13,45 +13,22 @@ channel hear each other, and the C++ loop on the same `ebac._core.LoopbackHub` h
 
 from __future__ import annotations
 
-import atexit
 import logging
 import time
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import AbstractContextManager, contextmanager, nullcontext
-from dataclasses import dataclass
-from threading import RLock, current_thread
-from typing import TYPE_CHECKING, Any
+from collections.abc import Sequence
+from threading import current_thread
+from typing import Any
 from weakref import WeakSet
 
 import can
 from can.typechecking import AutoDetectedConfig
 
-from ebac._core import BusCounts, BusState, CanFrame, LoopbackBus, LoopbackHub, LoopbackJoystick
+from ebac._core import BusCounts, BusState, CanFrame
+from ebac.can_channels import CHANNELS, LOCK, NODES, join, leave
 
-if TYPE_CHECKING:
-    from ebac.scenario import Scenario
+__all__ = ["DEFAULT_CHANNEL", "DEFAULT_QUEUE", "MOST_FRAMES", "NODES", "EbacBus"]
 
 _LOG = logging.getLogger("can.ebac")
-
-#: What builds the nodes of a channel: given the bus, a context in which they stand on it.
-Nodes = Callable[[LoopbackHub], AbstractContextManager[object]]
-
-
-def resting_joystick() -> Scenario:
-    """Return the scenario of the joystick on a channel: the paper's, in a hand that holds it where it is."""
-    from ebac import presets
-    from ebac.scenario import Scenario
-
-    return Scenario(device=presets.device("joystick"), hand=presets.hand("resting"))
-
-
-def joystick(hub: LoopbackHub) -> LoopbackJoystick:
-    """Return the simulated joystick, nodes 1 and 2."""
-    return LoopbackJoystick(hub, resting_joystick().setup())
-
-
-#: Nodes by the start of a channel's name: "joystick" stands for joystick2 and joystick-left too, each with its own.
-NODES: dict[str, Nodes] = {"joystick": joystick}
 
 #: The channel that is meant where none is named.
 DEFAULT_CHANNEL = "joystick"
@@ -60,103 +37,6 @@ DEFAULT_CHANNEL = "joystick"
 DEFAULT_QUEUE = 16_384
 #: The most there can be.
 MOST_FRAMES = 1_048_576
-
-
-def nodes_on(channel: str) -> Nodes | None:
-    """Return what builds the nodes of a channel; None where it carries but those who open it."""
-    names = [name for name in NODES if channel.startswith(name)]
-    return NODES[max(names, key=len)] if names else None
-
-
-def populate(channel: str, hub: LoopbackHub) -> AbstractContextManager[object]:
-    """Return the context in which a channel's nodes stand on its bus.
-
-    It is entered when the first bus on the channel is open, which so hears them boot, and left after the last one shut
-    down.
-    """
-    nodes = nodes_on(channel)
-    return nullcontext() if nodes is None else nodes(hub)
-
-
-@dataclass(kw_only=True)
-class _Channel:
-    """A bus by name, and how many hold it."""
-
-    hub: LoopbackHub
-    nodes: AbstractContextManager[object]
-    users: int = 0
-
-
-_CHANNELS: dict[str, _Channel] = {}
-_LOCK = RLock()
-
-
-def _join(channel: str, queue: int, own: bool) -> LoopbackBus:
-    """Return an end of the bus of a channel, and hold it; the first one puts its nodes on."""
-    with _LOCK:
-        entry = _CHANNELS.get(channel)
-        hub = LoopbackHub(stamps=True) if entry is None else entry.hub
-        end = hub.open(frames=queue, own=own)
-        if entry is None:
-            try:
-                nodes = populate(channel, hub)
-                nodes.__enter__()
-            except BaseException:
-                end.close()
-                raise
-            entry = _CHANNELS[channel] = _Channel(hub=hub, nodes=nodes)
-        entry.users += 1
-        return end
-
-
-def _leave(channel: str) -> None:
-    """Let go of a channel; the last one takes its nodes off."""
-    with _LOCK:
-        entry = _CHANNELS[channel]
-        entry.users -= 1
-        if entry.users:
-            return
-        del _CHANNELS[channel]
-    entry.nodes.__exit__(None, None, None)
-
-
-@contextmanager
-def hub_of(channel: str) -> Iterator[LoopbackHub]:
-    """Hold a channel, and give its bus: for a loop of C++ among the programs of Python."""
-    end = _join(channel, 1, False)
-    try:
-        yield _CHANNELS[channel].hub
-    finally:
-        end.close()
-        _leave(channel)
-
-
-@contextmanager
-def standing(channel: str, nodes: Nodes) -> Iterator[LoopbackHub]:
-    """Put nodes of your own on a new channel, hold it, and give its bus.
-
-    Raises
-    ------
-    ValueError
-        When there is a channel of that name, or nodes that stand on it.
-    """
-    with _LOCK:
-        if channel in _CHANNELS or nodes_on(channel) is not None:
-            raise ValueError(f"channel = {channel!r}: has nodes of its own; choose another name")
-        NODES[channel] = nodes
-    try:
-        with hub_of(channel) as hub:
-            yield hub
-    finally:
-        del NODES[channel]
-
-
-@atexit.register
-def _leave_all() -> None:
-    """Take off what a program forgot, before the interpreter ends."""
-    while _CHANNELS:
-        _, entry = _CHANNELS.popitem()
-        entry.nodes.__exit__(None, None, None)
 
 
 class EbacBus(can.BusABC):
@@ -195,7 +75,7 @@ class EbacBus(can.BusABC):
     ) -> None:
         _refuse_fd(kwargs)
         name = str(channel)
-        self._end = _join(name, _checked_queue(rx_queue_size), receive_own_messages)
+        self._end = join(name, _checked_queue(rx_queue_size), receive_own_messages)
         self.channel = name
         self.channel_info = f"ebac channel '{name}'"
         self._tasks: WeakSet[Any] = WeakSet()
@@ -298,16 +178,16 @@ class EbacBus(can.BusABC):
     def shutdown(self) -> None:
         """Leave the channel. A thread that waits in `recv` gets `can.CanOperationError`."""
         super().shutdown()
-        with _LOCK:
+        with LOCK:
             if self._end.state == BusState.CLOSED:
                 return
             self._end.close()
-        _leave(self.channel)
+        leave(self.channel)
 
     @staticmethod
     def _detect_available_configs() -> Sequence[AutoDetectedConfig]:
-        with _LOCK:
-            names = sorted({*_CHANNELS, DEFAULT_CHANNEL})
+        with LOCK:
+            names = sorted({*CHANNELS, DEFAULT_CHANNEL})
         return [{"interface": "ebac", "channel": name} for name in names]
 
 

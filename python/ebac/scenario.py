@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import dataclasses
-import tomllib
 from dataclasses import dataclass, field
 from math import cos
 from pathlib import Path
@@ -11,6 +10,7 @@ from typing import Any, Self, TypeAlias
 
 from ebac import document
 from ebac._core import Corner, Device, Disc, Free, Hand, Setup, Step, Timing, Wall
+from ebac.toml_text import parsed
 
 Environment: TypeAlias = Free | Wall | Corner | Disc
 
@@ -126,8 +126,8 @@ class Scenario:
             For a number out of range, an unknown name or a syntax error; the message says where.
         """
         try:
-            table = tomllib.loads(text)
-        except tomllib.TOMLDecodeError as error:
+            table = parsed(text)
+        except ValueError as error:
             raise ValueError(f"not a TOML document: {error}") from None
         try:
             return cls(**document.read_table(table, dataclasses.fields(cls), "scenario"))

@@ -226,9 +226,8 @@ class Trace:
             file.write(heading + "\n")
             for first in range(0, len(self), _CSV_ROWS):
                 part = slice(first, first + _CSV_ROWS)
-                lists = [values[part].tolist() for _, _, values in columns]
-                for row in zip(*lists, strict=True):
-                    file.write(",".join(_text(value) for value in row) + "\n")
+                texts = [_texts(values[part]) for _, _, values in columns]
+                file.writelines(",".join(row) + "\n" for row in zip(*texts, strict=True))
                 if progress is not None:
                     progress(min(first + _CSV_ROWS, len(self)), len(self))
 
@@ -343,5 +342,6 @@ def column_infos(rows: _core.Rows) -> dict[str, ColumnInfo]:
     return {c.name: ColumnInfo(name=c.name, unit=c.unit, meaning=c.meaning) for c in rows.columns}
 
 
-def _text(value: Any) -> str:
-    return str(int(value)) if isinstance(value, bool) else repr(value)
+def _texts(values: NDArray[Any]) -> Iterator[str]:
+    """Give numbers as text, with every digit."""
+    return map(repr, (values.astype(np.int8) if values.dtype == bool else values).tolist())

@@ -96,8 +96,8 @@ TEST(RdtClient, AgeCountsFromWhenTheKernelHadTheRecord) {
   UdpSocket sensor(kAnyPort);
   RdtClient client({.sensor = sensor.local()});
   client.start();
+  const auto sent = std::chrono::steady_clock::now();  // or a little before
   sensor.send(encode(RdtRecord{.rdt_sequence = 1}), client.local());
-  const auto sent = std::chrono::steady_clock::now();
   std::this_thread::sleep_for(milliseconds{30});
   EXPECT_TRUE(client.poll(0));
   const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - sent;

@@ -1,6 +1,6 @@
 """Who may include whom.
 
-core <- model <- control <- loop <- { sim | can, sensor, rt } <- bindings <- python
+core <- model <- control <- loop <- { sim | rt <- can, sensor } <- bindings <- python
 """
 
 import ast
@@ -26,9 +26,9 @@ MAY_SEE = {
     "identify": {"core", "model"},
     "loop": {"core", "model", "control"},
     "sim": {"core", "model", "control", "loop"},
-    "can": {"core", "model", "control", "loop"},
-    "sensor": {"core", "model", "control", "loop"},
     "rt": {"core", "model", "control", "loop"},
+    "can": {"core", "model", "control", "loop", "rt"},
+    "sensor": {"core", "model", "control", "loop", "rt"},
     "faults": {"core", "model", "control", "loop", "sim", "can"},
 }
 

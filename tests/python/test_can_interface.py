@@ -19,7 +19,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from ebac import _core, can_interface
+from ebac import _core, can_channels
 from ebac._core import CanFrame, LoopbackHub
 from ebac.can_interface import NODES, EbacBus
 
@@ -28,7 +28,7 @@ from ebac.can_interface import NODES, EbacBus
 def channel(request: pytest.FixtureRequest) -> Iterator[str]:
     """The name of a channel of its own, which must be gone afterwards."""
     yield request.node.name
-    assert can_interface._CHANNELS == {}
+    assert can_channels.CHANNELS == {}
 
 
 def bus(channel: str, **options: Any) -> EbacBus:
@@ -113,7 +113,7 @@ def test_two_channels_are_two_buses(channel: str) -> None:
 
 def test_a_channel_goes_with_the_last_who_leaves(channel: str) -> None:
     first, second = bus(channel), bus(channel)
-    hub = can_interface._CHANNELS[channel].hub
+    hub = can_channels.CHANNELS[channel].hub
     assert hub.ends == 2
     first.shutdown()
     first.shutdown()
@@ -121,7 +121,7 @@ def test_a_channel_goes_with_the_last_who_leaves(channel: str) -> None:
     second.shutdown()
     assert hub.ends == 0
     with bus(channel):
-        assert can_interface._CHANNELS[channel].hub is not hub
+        assert can_channels.CHANNELS[channel].hub is not hub
 
 
 @pytest.mark.parametrize(
@@ -154,7 +154,7 @@ def test_a_filter_does_not_prolong_the_wait(channel: str) -> None:
         mine.send_periodic(message(2), 0.005)
         start = time.monotonic()
         assert other.recv(0.1) is None
-        assert 0.1 <= time.monotonic() - start < 1
+        assert 0.1 <= time.monotonic() - start < 5
 
 
 @pytest.mark.parametrize("timeout", [0.0, 0.05])
@@ -162,7 +162,7 @@ def test_time_outs(channel: str, timeout: float) -> None:
     with bus(channel) as end:
         start = time.monotonic()
         assert end.recv(timeout) is None
-        assert timeout <= time.monotonic() - start < timeout + 1
+        assert timeout <= time.monotonic() - start < timeout + 5
 
 
 def test_a_wait_without_end_ends_with_a_message(channel: str) -> None:
@@ -182,32 +182,49 @@ def test_iteration(channel: str) -> None:
         assert [got.arbitration_id for _, got in zip(range(3), other, strict=False)] == [0, 1, 2]
 
 
+def kept_in_time(attempt: Callable[[], bool]) -> bool:
+    """Whether what a thread of Python sends keeps its time once: a machine that stalls it gets two more chances."""
+    return any(attempt() for _ in range(3))
+
+
+def test_periodic_sending_keeps_its_period(channel: str) -> None:
+    def attempt() -> bool:
+        with bus(channel) as mine, bus(channel) as other:
+            task = mine.send_periodic(message(1), 0.01)
+            got = [other.recv(10) for _ in range(8)]
+            task.stop()
+            times = [one.timestamp for one in got if one]
+            return 0.05 < times[-1] - times[0] < 1  # seven periods; how well is no matter
+
+    assert kept_in_time(attempt)
+
+
 def test_periodic_sending(channel: str) -> None:
     with bus(channel) as mine, bus(channel) as other:
         task = mine.send_periodic([message(1, 0), message(1, 9)], 0.01)
-        got = [other.recv(1) for _ in range(8)]
+        got = [other.recv(10) for _ in range(8)]
         task.stop()
         assert [one.data[0] for one in got if one] == [0, 9] * 4
-        times = [one.timestamp for one in got if one]
-        assert 0.05 < times[-1] - times[0] < 1  # seven periods; how well it keeps them is no matter
         assert isinstance(task, can.ModifiableCyclicTaskABC)
         task.modify_data([message(1, 5), message(1, 5)])
         time.sleep(0.03)
         drain(other)
         task.start()
-        last = other.recv(1)
+        last = other.recv(10)
         assert last is not None
         assert list(last.data) == [5]
 
 
 def test_periodic_sending_ends_with_its_time(channel: str) -> None:
-    with bus(channel) as mine, bus(channel) as other:
-        mine.send_periodic(message(1), 0.01, duration=0.05)
-        time.sleep(0.15)
-        count = len(drain(other))
-        assert 3 <= count <= 7
-        time.sleep(0.03)
-        assert drain(other) == []
+    def attempt() -> bool:
+        with bus(channel) as mine, bus(channel) as other:
+            mine.send_periodic(message(1), 0.01, duration=0.05)
+            time.sleep(0.15)
+            count = len(drain(other))
+            time.sleep(0.03)
+            return 3 <= count <= 7 and drain(other) == []
+
+    assert kept_in_time(attempt)
 
 
 def test_shutdown_in_the_middle_of_periodic_sending(channel: str) -> None:
@@ -523,11 +540,11 @@ def test_nodes_stand_on_the_channel_they_are_for(
 
 def test_the_longest_name_says_what_stands_on_a_channel(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(NODES, "rig", Echo)
-    longer: can_interface.Nodes = lambda hub: Echo(hub)  # noqa: E731
+    longer: can_channels.Nodes = lambda hub: Echo(hub)  # noqa: E731
     monkeypatch.setitem(NODES, "rig-two", longer)
-    assert can_interface.nodes_on("rig1") is Echo
-    assert can_interface.nodes_on("rig-two-b") is longer
-    assert can_interface.nodes_on("other") is None
+    assert can_channels.nodes_on("rig1") is Echo
+    assert can_channels.nodes_on("rig-two-b") is longer
+    assert can_channels.nodes_on("other") is None
 
 
 def test_nodes_that_cannot_stand_leave_no_channel(

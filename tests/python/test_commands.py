@@ -144,6 +144,7 @@ def environment(home: Path) -> dict[str, str]:
     }
 
 
+@pytest.mark.real_time  # where a run of a page ends by a stall, the whole page is run again
 @by_page
 def test_the_commands_of_a_page_run(page: Path, tmp_path: Path) -> None:
     wanted = [c for c in commands(page) if c.runs and (ALL or not c.slow)]

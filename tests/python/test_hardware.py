@@ -15,6 +15,8 @@ import ebac
 from ebac import drives
 from ebac.hardware import Configuration, OpenDevice, Run, Terminated, times, under_the_law
 
+pytestmark = pytest.mark.real_time
+
 EXAMPLE = Path(__file__).parents[2] / "examples" / "joystick.toml"
 
 
@@ -24,7 +26,8 @@ def configuration(**changes: object) -> Configuration:
     hand = known.hand.replace(
         path=[ebac.MinimumJerk(target=0.04, at=0, duration=0.2), ebac.Step(target=0)]
     )
-    patient = known.limits.replace(overruns=100_000, force_age=10)
+    # An answer that comes after others were missed looks like a leap.
+    patient = known.limits.replace(overruns=100_000, force_age=10, jump=1.0, speed=100.0)
     return known.replace(
         silent=1000, limits=patient, soft_start=0.05, ramp_down=0.05, hand=hand
     ).replace(**changes)
@@ -39,7 +42,9 @@ def device() -> "ebac.hardware.OpenDevice":  # type: ignore[misc]
 def until(run: Run, reached: Callable[[], bool]) -> None:
     """Wait for something that happens while it runs."""
     while not reached():
-        assert not run.done, run.trace()["fault"][-1]
+        if run.done:
+            run.finish()  # raises, where it was a fault
+        assert not run.done
         time.sleep(0.01)
 
 

@@ -16,7 +16,7 @@ import pytest
 from typer.testing import CliRunner
 
 import ebac
-from ebac import can_interface, drives
+from ebac import can_channels, drives
 from ebac._core import BusState, LoopbackHub, LoopbackJoystick
 from ebac.can_interface import EbacBus
 from ebac.cli import app
@@ -29,7 +29,7 @@ def channel() -> Iterator[str]:
     """The name of a channel with a joystick of its own, which must be gone afterwards."""
     name = f"joystick-channel-{next(_NUMBERS)}"
     yield name
-    assert name not in can_interface._CHANNELS
+    assert name not in can_channels.CHANNELS
 
 
 def first_of(bus: can.BusABC, identifier: int) -> can.Message:
@@ -50,14 +50,14 @@ def test_who_opens_the_channel_hears_the_drives_boot(channel: str) -> None:
 def test_drives_go_with_the_last_who_leaves(channel: str) -> None:
     first = EbacBus(channel)
     second = EbacBus(channel)
-    hub = can_interface._CHANNELS[channel].hub
+    hub = can_channels.CHANNELS[channel].hub
     assert hub.ends == 3
     first.shutdown()
     assert hub.ends == 2
     second.shutdown()
     assert hub.ends == 0
     with EbacBus(channel) as again:
-        assert can_interface._CHANNELS[channel].hub is not hub
+        assert can_channels.CHANNELS[channel].hub is not hub
         first_of(again, 0x701)
 
 

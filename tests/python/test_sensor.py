@@ -167,7 +167,8 @@ def test_the_axes_of_the_sensor_are_turned_into_the_handles() -> None:
 
 
 def test_losses_are_counted_exactly() -> None:
-    with SimulatedSensor(options=EmulatorOptions(rate=5000)) as simulated:
+    # The system's queue holds the records of half a second: who reads is kept waiting so long by no machine of ours.
+    with SimulatedSensor(options=EmulatorOptions(rate=500)) as simulated:
         with Sensor.open(simulated.config) as sensor:
             simulated.trouble(EmulatorTrouble(loss=0.2, duplicate=0.2, reorder=0.2))
             for _ in range(200):

@@ -11,6 +11,8 @@ import ebac
 from ebac.hardware import Configuration, OpenDevice, Run, place, under_the_law
 from ebac.sensor import EmulatorTrouble, ForceCell, SensorConfig, SimulatedSensor
 
+pytestmark = pytest.mark.real_time
+
 EXAMPLE = Path(__file__).parents[2] / "examples" / "joystick.toml"
 
 
@@ -48,7 +50,7 @@ def a_desk() -> Iterator[Desk]:
     made = Desk()
 
     @contextmanager
-    def beside(known: SensorConfig, felt: ForceCell) -> Iterator[SensorConfig]:
+    def beside(known: SensorConfig, felt: ForceCell, *_: object) -> Iterator[SensorConfig]:
         with SimulatedSensor(felt) as made.sensor:
             yield made.sensor.config
 

@@ -103,6 +103,38 @@ def test_simulated_means_another_process_on_the_virtual_interface(config: Path) 
         assert len(under_the_law(device.run("eba", seconds=1))) == round(1 / DT)
 
 
+def test_a_hand_in_another_process_is_told_where_to_go(config: Path, tmp_path: Path) -> None:
+    text = config.read_text(encoding="utf-8")
+    for before, after in (
+        ('type = "Wall"', 'type = "Free"'),
+        ("stiffness = 200.0", ""),
+        ("position = 0.01", ""),
+        ("at = 0.5", "at = 500"),
+    ):
+        assert before in text, before
+        text = text.replace(before, after)
+    config.write_text(text, encoding="utf-8")
+    with ebac.Device.open(config, simulate=True) as device:
+        assert "another process" in device.place.about
+        with device.start(seconds=60, log=tmp_path / "run.mcap") as run:
+            end = time.monotonic() + PATIENCE
+            while run.state is not ebac.LoopState.RUN:
+                assert time.monotonic() < end
+                time.sleep(0.05)
+            assert run.aim(-0.02) == (-0.02, None)
+            while run.tail(1)["x"][-1, 0] > -0.015:
+                assert not run.done
+                assert time.monotonic() < end
+                time.sleep(0.05)
+            run.stop()
+        run.finish()
+        names = [grant.name for grant in run.grants]
+        assert "priority of the simulated drives" in names
+        assert "priority of the simulated sensor" in names
+    (event,) = [e for e in ebac.logs.read(tmp_path / "run.mcap").events if e.kind == "parameter"]
+    assert event.values == {"hand.target_0": -0.02}
+
+
 def test_a_killed_loop_leaves_the_drives_to_their_own_watch(config: Path, tmp_path: Path) -> None:
     out = tmp_path / "out"
     command = [sys.executable, "-m", "ebac.cli", "run", str(config), "--out", str(out), "--no-live"]

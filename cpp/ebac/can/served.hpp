@@ -5,11 +5,13 @@
 #include <chrono>
 #include <concepts>
 #include <cstdint>
+#include <optional>
 #include <stdexcept>
-#include <thread>
 #include <utility>
+#include <vector>
 
 #include "ebac/can/serve.hpp"
+#include "ebac/rt/thread.hpp"
 
 namespace ebac::can {
 
@@ -42,18 +44,22 @@ class Served {
   Served& operator=(Served&&) = delete;
   ~Served() { stop(); }
 
-  /// Once in a life: throws std::logic_error the second time.
-  void start() {
-    if (started_)
+  /// Once in a life: throws std::logic_error the second time, and as rt::Thread.
+  void start(rt::Mode mode = rt::Mode::kOff, const rt::Options& options = {}) {
+    if (thread_)
       throw std::logic_error("these nodes have been on their bus already: make new ones");
-    started_ = true;
-    thread_ = std::thread([this] { work(); });
+    thread_.emplace(mode, options, [this] { work(); });
   }
   /// Takes them off the bus, within a few ms; nothing the second time.
   void stop() noexcept {
     over_.store(true, std::memory_order_relaxed);
-    if (thread_.joinable()) thread_.join();
+    if (thread_) thread_->join();
     bus_.close();
+  }
+
+  /// What its thread asked of the system, and got; nothing before it is started.
+  std::vector<rt::Grant> grants() const {
+    return thread_ ? thread_->report().grants : std::vector<rt::Grant>{};
   }
 
   /// Of any thread, at any time.
@@ -99,10 +105,9 @@ class Served {
 
   B bus_;
   N node_;
-  bool started_ = false;
   std::atomic<bool> over_{false};
-  Steady::time_point last_;  // until then time has passed for the nodes
-  std::thread thread_;
+  Steady::time_point last_;           // until then time has passed for the nodes
+  std::optional<rt::Thread> thread_;  // last: it is joined before the others go
 };
 
 }  // namespace ebac::can

@@ -75,6 +75,7 @@ void Desk::spoil_sensor(Reading& reading) EBAC_RT {
   if (trouble_->on(Kind::kForceStale)) reading.force_age = force_age_;
   if (trouble_->on(Kind::kForceSaturated)) reading.force_status = SensorStatus::kSaturated;
   if (trouble_->on(Kind::kForceDisconnected)) reading.force_status = SensorStatus::kDisconnected;
+  if (trouble_->on(Kind::kForceError)) reading.force_status = SensorStatus::kError;
 }
 
 Reading Desk::exchange(const Command& command) EBAC_RT {

@@ -30,11 +30,12 @@ enum class Kind : std::uint8_t {
   kForceStale,
   kForceSaturated,
   kForceDisconnected,
+  kForceError,
   kOverruns,
   kParameterWrites,
   kStop,
 };
-inline constexpr std::size_t kKinds = 23;
+inline constexpr std::size_t kKinds = 24;
 
 struct KindFacts {
   std::string_view name;
@@ -108,6 +109,7 @@ inline constexpr std::array<KindFacts, kKinds> kKindFacts{{
      1,
      0,
      {Fault::kForceDisconnected}},
+    {"force_error", "the force sensor reports an error", 1, 20, 1, 0, {Fault::kForceError}},
     {"overruns", "ticks come one or two too late", 1, 20, 10, 0, {Fault::kOverruns}},
     {"parameter_writes", "gains and walls change at any moment", kForEver, kForEver, 0, 0, {}},
     {"stop", "a stop is asked for", 1, 1, 0, 0, {}},

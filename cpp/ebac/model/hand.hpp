@@ -129,9 +129,10 @@ struct Hand {
     return moving_target(axis, t, dt);
   }
 
-  /// Another target [m], from now on; where the path of that axis is a Step.
+  /// Another target [m], from now on, in place of the path of that axis; a recorded one stays: its
+  /// points cannot be freed within a tick.
   void aim(std::size_t axis, double target) EBAC_RT {
-    if (auto* step = std::get_if<Step>(&path[axis])) *step = {.target = target, .at = 0};
+    if (!std::holds_alternative<Recorded>(path[axis])) path[axis] = Step{.target = target};
   }
 
   Target moving_target(int axis, double t, double dt) const EBAC_RT;

@@ -78,7 +78,8 @@ void Thread::begin(Mode mode, const Options& options, std::function<void()> work
   go.set_value(enough);
   if (enough) return;
   thread_.join();
-  throw std::runtime_error("the thread of the loop did not start:\n" + refusals(report_));
+  throw std::runtime_error("a thread did not start, for it must have what it asked:\n" +
+                           refusals(report_));
 }
 
 Thread::~Thread() {

@@ -34,6 +34,11 @@ class Timed {
   }
   void enable() EBAC_RT { device_.enable(); }
   void disable() EBAC_RT { device_.disable(); }
+  void aim(std::size_t axis, double target) EBAC_RT
+    requires requires(D& d) { d.aim(axis, target); }
+  {
+    device_.aim(axis, target);
+  }
   void stop() EBAC_RT { device_.stop(); }
   bool running() const EBAC_RT { return device_.running(); }
   bool at_rest() const EBAC_RT { return device_.at_rest(); }

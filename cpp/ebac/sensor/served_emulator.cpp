@@ -11,16 +11,15 @@ ServedEmulator::ServedEmulator(const Endpoint& at, const RdtEmulator<Endpoint>& 
                                Source source)
     : socket_(at), emulator_(emulator), source_(std::move(source)), local_(socket_.local()) {}
 
-void ServedEmulator::start() {
-  if (started_)
+void ServedEmulator::start(rt::Mode mode, const rt::Options& options) {
+  if (thread_)
     throw std::logic_error("this sensor has been on the network already: make a new one");
-  started_ = true;
-  thread_ = std::thread([this] { work(); });
+  thread_.emplace(mode, options, [this] { work(); });
 }
 
 void ServedEmulator::stop() noexcept {
   over_.store(true, std::memory_order_relaxed);
-  if (thread_.joinable()) thread_.join();
+  if (thread_) thread_->join();
   socket_.close();
 }
 

@@ -6,9 +6,11 @@
 #include <functional>
 #include <memory>
 #include <mutex>
-#include <thread>
+#include <optional>
+#include <vector>
 
 #include "ebac/loop/mailbox.hpp"
+#include "ebac/rt/thread.hpp"
 #include "ebac/sensor/emulator.hpp"
 #include "ebac/sensor/udp.hpp"
 
@@ -30,10 +32,15 @@ class ServedEmulator {
   ServedEmulator(ServedEmulator&&) = delete;
   ServedEmulator& operator=(ServedEmulator&&) = delete;
 
-  /// Once in a life: throws std::logic_error the second time.
-  void start();
+  /// Once in a life: throws std::logic_error the second time, and as rt::Thread.
+  void start(rt::Mode mode = rt::Mode::kOff, const rt::Options& options = {});
   /// Silent for good, within a few ms; nothing the second time.
   void stop() noexcept;
+
+  /// What its thread asked of the system, and got; nothing before it is started.
+  std::vector<rt::Grant> grants() const {
+    return thread_ ? thread_->report().grants : std::vector<rt::Grant>{};
+  }
 
   /// Of any thread, at any time.
   void set(const EmulatorTrouble& trouble);
@@ -52,12 +59,11 @@ class ServedEmulator {
   RdtEmulator<Endpoint> emulator_;
   Source source_;
   Endpoint local_;
-  bool started_ = false;
   std::atomic<bool> over_{false};
   std::mutex posting_;  // of who sets trouble; the thread takes it without
   Mailbox<EmulatorTrouble> trouble_;
   std::array<std::atomic<std::int64_t>, EmulatorCounts::fields().size()> told_{};
-  std::thread thread_;
+  std::optional<rt::Thread> thread_;  // last: it is joined before the others go
 };
 
 /// The newest force in a cell.

@@ -37,7 +37,7 @@ class SimulatedDevice {
 
   Reading exchange(const Command& command) EBAC_RT;
 
-  /// From now on the hand wants to be at `target` [m]; only a hand whose path is a Step can be told.
+  /// From now on the hand wants to be at `target` [m], unless its path is a recorded one.
   void aim(std::size_t axis, double target) EBAC_RT {
     std::visit([&](auto& plant) EBAC_RT { plant.aim(axis, target); }, plant_);
   }

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from ebac.cli import bench_can, output, peers
+from ebac.cli import bench_can, bench_logs, output, peers
 
 if TYPE_CHECKING:
     from ebac.scenario import Scenario
@@ -41,6 +41,9 @@ def bench(
             "--can", help="Time frames and exchanges on a CAN bus in the process instead."
         ),
     ] = False,
+    with_logs: Annotated[
+        bool, typer.Option("--logs", help="Time the writing and reading of logs instead.")
+    ] = False,
     side: Annotated[
         int, typer.Option(help="Of the map that --peers times, side x side runs.", min=2, max=5000)
     ] = 200,
@@ -57,10 +60,15 @@ def bench(
 
     * `ebac bench --peers`: the same plant, step and wall in MuJoCo and SciPy; a map, two threads, memory.
 
+    * `ebac bench --logs`: a log of a million rows, written and read, beside the official reader of MCAP.
+
     * `ebac bench --can`: a tick on the bus with two simulated drives; frames per second beside python-can's `virtual`.
     """
-    if with_peers and with_can:
-        output.fail("--peers and --can are two comparisons: give one of them")
+    if with_peers + with_can + with_logs > 1:
+        output.fail("--peers, --can and --logs are comparisons of their own: give one of them")
+    if with_logs:
+        bench_logs.run(as_json=as_json)
+        return
     if with_can:
         bench_can.run(repeats, as_json=as_json)
         return

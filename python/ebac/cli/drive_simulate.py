@@ -2,27 +2,27 @@
 
 from __future__ import annotations
 
-import signal
+import json
 import sys
 import threading
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from math import inf
-from pathlib import Path
-from types import FrameType
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from ebac.cli import options, output, setting
+from ebac.cli import options, output, simulated
 from ebac.cli.drive_options import Bitrate, telling
+from ebac.cli.grants import show_refused
 
 if TYPE_CHECKING:
-    from ebac._core import Setup, SocketCanJoystick
+    from ebac._core import Grant, Setup, SocketCanJoystick
     from ebac.drives.simulate import Simulation
-    from ebac.scenario import Scenario
+    from ebac.hardware.place import Request
 
+MODES = ("auto", "enforce", "off")
 #: How often the main thread looks after the others [s].
 _LOOK = 0.1
 
@@ -38,26 +38,11 @@ def simulate(
     first: Annotated[
         int, typer.Option("--first", help="Node id of the first drive.", min=1, max=126)
     ] = 1,
-    scenario: Annotated[
-        Path | None,
-        typer.Option(
-            help="Take device, hand and seed from a scenario in TOML; other options come on top.",
-            show_default=False,
-        ),
-    ] = None,
-    device: Annotated[
-        str | None,
-        typer.Option(help="A device by name, see `ebac presets`.", show_default="joystick"),
-    ] = None,
-    hand: Annotated[
-        str | None,
-        typer.Option(help="A hand by name, see `ebac presets`.", show_default="resting"),
-    ] = None,
+    scenario: simulated.PlantFile = None,
+    device: simulated.PlantDevice = None,
+    hand: simulated.PlantHand = None,
     seed: options.Seed = None,
-    seconds: Annotated[
-        float | None,
-        typer.Option(help="Stop after so long [s].", show_default="until Ctrl-C", min=0),
-    ] = None,
+    seconds: simulated.Seconds = None,
     wait_for_power: Annotated[
         bool,
         typer.Option(
@@ -72,12 +57,39 @@ def simulate(
         tuple[float, float],
         typer.Option("--sensor-counts", help="Its counts of 1 N and of 1 N m."),
     ] = (1e6, 1e6),
+    realtime: Annotated[
+        str,
+        typer.Option(
+            help="Real-time priority of their threads on SocketCAN: auto, enforce or off.",
+            rich_help_panel="Real time",
+        ),
+    ] = "auto",
+    beside: Annotated[
+        int,
+        typer.Option(
+            help="Priority of the loop they serve; theirs is one below.",
+            min=1,
+            max=99,
+            rich_help_panel="Real time",
+        ),
+    ] = 80,
+    lock_memory: Annotated[
+        bool,
+        typer.Option(
+            "--lock-memory/--no-lock-memory",
+            help="Keep all pages of this process in memory.",
+            rich_help_panel="Real time",
+        ),
+    ] = True,
     until_eof: Annotated[
         bool,
         typer.Option(
-            "--until-eof", help="Stop when standard input ends, as it does with a parent."
+            "--until-eof",
+            help="Stop when standard input ends, as it does with a parent; tell it as JSON, in a second line, "
+            "what the threads were granted.",
         ),
     ] = False,
+    aim: Annotated[int | None, typer.Option(hidden=True)] = None,
 ) -> None:
     """Put the simulated drives of a joystick on a bus, in real time, until Ctrl-C. A simulation.
 
@@ -98,27 +110,34 @@ def simulate(
 
     * `ebac drive simulate --scenario tapping.toml`: with a hand of your own.
     """
-    from ebac._core import ForceCell
+    from ebac._core import AimCell, ForceCell, RealTime
     from ebac.drives.simulate import Simulation
-    from ebac.hardware.place import sensor_of
+    from ebac.hardware.place import Request, sensor_of
     from ebac.sensor import SensorConfig
 
+    if realtime not in MODES:
+        output.fail(f"--realtime {realtime}: must be one of {', '.join(MODES)}")
+    grants: list[Grant] = []
     with output.refusing():
-        plant = plant_of(scenario, device, hand, seed)
+        plant = simulated.plant_of(scenario, device, hand, seed)
         setup = plant.setup()
-    with telling(), signalled() as over:
+        loop = RealTime(priority=beside, lock_memory=lock_memory)
+        request = Request.beside(realtime, loop)
+        cell = None if aim is None else AimCell(aim)
+    with telling(), simulated.signalled() as over:
         known = SensorConfig(counts_per_force=sensor_counts[0], counts_per_torque=sensor_counts[1])
         felt = ForceCell([0.0, 0.0, 0.0])
-        more = {"first": first, "felt": felt, "wait_for_power": wait_for_power}
+        more = {"first": first, "felt": felt, "wait_for_power": wait_for_power, "aim": cell}
         with (
-            sensor_of(known if sensor else None, felt) as found,
-            _at_work(setup, interface, channel, bitrate, more) as work,
+            sensor_of(known if sensor else None, felt, request, grants) as found,
+            _at_work(setup, interface, channel, bitrate, more, request, grants) as work,
         ):
             also = "" if found is None else f" and a force sensor at {found.host}:{found.port}"
             ids = ", ".join(str(first + axis) for axis in range(plant.device.axes))
             typer.echo(  # one line, for whoever waits for it
                 f"Simulated drives, nodes {ids}, on {interface} {channel}{also}. Ctrl-C stops them."
             )
+            _tell(grants, as_json=until_eof)
             sys.stdout.flush()
             if until_eof:
                 threading.Thread(target=_until_eof, args=(over,), daemon=True).start()
@@ -134,26 +153,15 @@ def simulate(
     output.say(f"Stopped: {counts.received} frames received, {counts.sent} sent{refused}{lost}.")
 
 
-def plant_of(file: Path | None, device: str | None, hand: str | None, seed: int | None) -> Scenario:
-    """Return device and hand: of the file, or a joystick that is held where it is."""
-    from ebac import presets
-    from ebac.can_interface import resting_joystick
-
-    if file is None:
-        base = resting_joystick()
-    else:
-        base = setting.base_scenario(file)
-    parts = setting.given(
-        device=None if device is None else presets.device(device),
-        hand=None if hand is None else presets.hand(hand),
-        seed=seed,
-    )
-    return base.replace(**parts)
-
-
 @contextmanager
 def _at_work(
-    setup: Setup, interface: str, channel: str, bitrate: int | None, more: dict[str, Any]
+    setup: Setup,
+    interface: str,
+    channel: str,
+    bitrate: int | None,
+    more: dict[str, Any],
+    request: Request,
+    grants: list[Grant],
 ) -> Iterator[SocketCanJoystick | Simulation]:
     """Put the drives on a bus until the end of the block: SocketCAN is served by C++."""
     from ebac._core import Joystick, SocketCanJoystick
@@ -172,7 +180,7 @@ def _at_work(
             served = SocketCanJoystick(channel, setup, **more)
         except OSError as error:
             raise BusError(error.strerror or str(error)) from error
-        with at_work(served):
+        with at_work(served, request, "the simulated drives", grants):
             yield served
         return
     nodes = Joystick(setup, **more)
@@ -183,24 +191,18 @@ def _at_work(
         yield simulation
 
 
+def _tell(grants: list[Grant], *, as_json: bool) -> None:
+    """Tell what the threads were not granted; a program, all of it."""
+    from ebac.hardware.report import grant_row
+
+    if as_json:
+        typer.echo(json.dumps([grant_row(one) for one in grants]))
+    else:
+        show_refused(grants)
+
+
 def _until_eof(over: threading.Event) -> None:
     """Wait for the end of standard input, then stop all."""
     while sys.stdin.read(1024):
         pass
     over.set()
-
-
-@contextmanager
-def signalled() -> Iterator[threading.Event]:
-    """Give an event that Ctrl-C and SIGTERM set."""
-    over = threading.Event()
-
-    def stop(number: int, frame: FrameType | None) -> None:
-        over.set()
-
-    before = {number: signal.signal(number, stop) for number in (signal.SIGINT, signal.SIGTERM)}
-    try:
-        yield over
-    finally:
-        for number, handler in before.items():
-            signal.signal(number, handler)

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from ebac.cli import options, output
+from ebac.cli.grants import show_refused
 
 if TYPE_CHECKING:
     from ebac.realtime import Jitter
@@ -94,6 +95,4 @@ def _show(rows: list[dict[str, Any]], found: Jitter, more: dict[str, Any]) -> No
     for grant in found.grants:
         if grant.granted:
             output.say(f"{grant.name}: {grant.asked}, granted")
-        else:
-            output.say(f"{grant.name}: {grant.asked}, not granted ({grant.why})", style="yellow")
-            output.indented(grant.remedy)
+    show_refused(found.grants)

@@ -13,7 +13,8 @@ from ebac.cli import options, output, run_results, setting
 from ebac.cli.drive_options import telling
 
 if TYPE_CHECKING:
-    from ebac.hardware import Configuration, OpenDevice
+    from ebac.hardware import Configuration, OpenDevice, Run
+    from ebac.hardware.schedule import Schedule
     from ebac.trace import Trace
 
 DEFAULT_OUT = Path("ebac-run")
@@ -57,6 +58,15 @@ def run(
     seconds: Annotated[
         float | None, options.option("--seconds", "How long the law acts [s]", _OWN, "Run")
     ] = None,
+    at: Annotated[
+        list[str] | None,
+        typer.Option(
+            help="Change parameters while it runs: the time [s], then law.NAME=NUMBER, environment.NAME=NUMBER or, "
+            "simulated, hand.target=NUMBER. May be given several times.",
+            show_default=False,
+            rich_help_panel="Run",
+        ),
+    ] = None,
     out: Annotated[Path | None, options.out_folder("log, figure and numbers", DEFAULT_OUT)] = None,
     no_files: Annotated[bool, typer.Option("--no-files", help="Write no files, no log.")] = False,
     live: Annotated[
@@ -93,8 +103,13 @@ def run(
 
     * `ebac run my-joystick.toml --seconds 60 --out session-3`: a minute on the device of that file.
 
+    * `ebac run examples/joystick.toml --simulated --at "3 environment.stiffness=2e4" --at "6 hand.target=0"`: a
+      harder wall after 3 s; the hand goes back after 6 s. The log has the tick from which each acts.
+
     * `ebac log info ebac-run/run-20260101-120000.mcap`: what the log holds.
     """
+    from ebac.hardware.schedule import Schedule
+
     if no_files and out is not None:
         output.fail("--no-files and --out exclude each other: leave one of them out")
     with output.refusing(), telling():
@@ -107,11 +122,13 @@ def run(
             hand,
             target,
         )
+        schedule = Schedule.parse(at or [])
+        schedule.check(known, simulated=simulated)
     folder = None if no_files else out or (None if as_json else DEFAULT_OUT)
     stem = _stem(folder)
     shown = output.console(stderr=True).is_terminal if live is None else live
     try:
-        _run(known, simulated, detached, stem, shown and not as_json, as_json)
+        _run(known, simulated, detached, stem, shown and not as_json, as_json, schedule)
     finally:
         if stem is not None:
             with suppress(OSError):  # not empty: it has what the run gave
@@ -166,6 +183,7 @@ def _run(
     stem: Path | None,
     live: bool,
     as_json: bool,
+    schedule: Schedule,
 ) -> None:
     from ebac.hardware import OpenDevice
     from ebac.simulation import LoopFault
@@ -175,7 +193,7 @@ def _run(
     with telling():
         with OpenDevice.open(known, simulate=simulated, detached=detached) as device:
             try:
-                trace = _watched(device, log, live)
+                trace = _watched(device, log, live, schedule)
             except LoopFault as error:
                 fault, trace = error, error.trace
             except BaseException:
@@ -212,8 +230,13 @@ def _tell_end(device: OpenDevice, as_json: bool) -> None:
     )
 
 
-def _watched(device: OpenDevice, log: Path | None, live: bool) -> Trace:
+def _watched(device: OpenDevice, log: Path | None, live: bool, schedule: Schedule) -> Trace:
     from ebac.cli.live import view
 
-    with view(device.configuration, shown=live) as look:
+    with view(device.configuration, shown=live) as picture:
+
+        def look(run: Run) -> None:
+            schedule.look(run)
+            picture(run)
+
         return device.run(log=log, look=look)

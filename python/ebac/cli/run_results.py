@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Self
 
 from ebac.cli import output
+from ebac.cli.grants import show_refused
 
 if TYPE_CHECKING:
     from ebac.hardware import Configuration, Report, Times
@@ -130,10 +131,7 @@ def show(result: Result) -> None:
     output.say(f"{report.ticks:,} ticks, {kept}; ended by {report.ended_by}; on {result.place}.")
     states = ", ".join(report.drives) or "not asked"
     output.say(f"Drives after it: {states}.")
-    for grant in report.grants:
-        if not grant.granted:
-            output.say(f"{grant.name}: {grant.asked}, not granted ({grant.why})", style="yellow")
-            output.indented(grant.remedy)
+    show_refused(report.grants)
     if result.simulated:
         output.say(
             "Drives, device and hand were simulated; clock, thread and bus were real.", style="bold"

@@ -100,13 +100,12 @@ def opened(config: SensorConfig, timeout: float) -> Iterator[Sensor]:
 
 
 def _table(file: Path) -> SensorConfig:
-    import tomllib
-
     from ebac.sensor import SensorConfig
+    from ebac.toml_text import parsed
 
     try:
-        text = tomllib.loads(file.read_text(encoding="utf-8"))
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+        text = parsed(file.read_text(encoding="utf-8"))
+    except ValueError as error:
         raise ValueError(f"--config {file}: is no TOML ({error})") from None
     table = text.get("sensor")
     if not isinstance(table, dict):

@@ -10,8 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from ebac.cli import options, output, sensor_options
-from ebac.cli.drive_simulate import plant_of, signalled
+from ebac.cli import options, output, sensor_options, simulated
 
 if TYPE_CHECKING:
     from ebac.scenario import Scenario
@@ -38,20 +37,9 @@ def simulate(
         tuple[float, float, float] | None,
         typer.Option(help="A steady force of the hand on the handle [N].", show_default=False),
     ] = None,
-    scenario: Annotated[
-        Path | None,
-        typer.Option(
-            help="Take device, hand and seed from a scenario in TOML.", show_default=False
-        ),
-    ] = None,
-    device: Annotated[
-        str | None,
-        typer.Option(help="A device by name, see `ebac presets`.", show_default="joystick"),
-    ] = None,
-    hand: Annotated[
-        str | None,
-        typer.Option(help="A hand by name, see `ebac presets`.", show_default="resting"),
-    ] = None,
+    scenario: simulated.PlantFile = None,
+    device: simulated.PlantDevice = None,
+    hand: simulated.PlantHand = None,
     seed: options.Seed = None,
     rate: Annotated[float, typer.Option(help="Records a second [Hz].", min=1, max=7000)] = 1000.0,
     load: Annotated[
@@ -63,10 +51,7 @@ def simulate(
     loss: Annotated[float, _share("are not sent")] = 0.0,
     duplicate: Annotated[float, _share("are sent twice")] = 0.0,
     reorder: Annotated[float, _share("are sent after the next one")] = 0.0,
-    seconds: Annotated[
-        float | None,
-        typer.Option(help="Stop after so long [s].", show_default="until Ctrl-C", min=0),
-    ] = None,
+    seconds: simulated.Seconds = None,
 ) -> None:
     """Put a simulated force sensor on the network, in real time, until Ctrl-C. A simulation.
 
@@ -99,7 +84,7 @@ def simulate(
             seed=seed or 1,
         )
     work.trouble(trouble)
-    with work, signalled() as over:
+    with work, simulated.signalled() as over:
         at = "{}:{}".format(*work.address)
         page = (
             ""
@@ -127,7 +112,7 @@ def _source(
 ) -> Scenario | tuple[float, float, float]:
     """Return what it feels: a steady force, or a hand on a device."""
     if force is None:
-        return plant_of(scenario, device, hand, seed)
+        return simulated.plant_of(scenario, device, hand, seed)
     if scenario is not None or device is not None or hand is not None:
         raise ValueError("--force: stands for hand and device; give it alone")
     return force

@@ -111,8 +111,8 @@ def read_source(name: str | Path) -> Source:
         raise ProfileError(
             f"{path}: there is no such file, and no profile of that name; there are: {known}"
         ) from None
-    except (OSError, UnicodeDecodeError) as error:
-        raise ProfileError(f"{path}: cannot be read ({error})") from None
+    except (OSError, ValueError) as error:  # ValueError: no text, or no name of a file
+        raise ProfileError(f"{str(path)!r}: cannot be read ({error})") from None
 
 
 def read_profile(source: Source, *, base: Profile | None = None, at: Where = ()) -> Profile:

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import tomllib
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Any, TypeAlias
 
 from ebac.drives.errors import ProfileError
+from ebac.toml_text import parsed
 
 #: Where a value stands: names of tables and keys, and places in lists.
 Path: TypeAlias = tuple[str | int, ...]
@@ -29,8 +29,8 @@ class Source:
     def __post_init__(self) -> None:
         """Parse the text."""
         try:
-            table = tomllib.loads(self.text)
-        except tomllib.TOMLDecodeError as error:
+            table = parsed(self.text)
+        except ValueError as error:
             raise ProfileError(f"{self.name}: not a TOML document: {error}") from None
         object.__setattr__(self, "table", table)
 
@@ -40,8 +40,8 @@ class Source:
         begin = 1
         for end in range(1, len(lines) + 1):
             try:
-                table = tomllib.loads("".join(lines[:end]))
-            except tomllib.TOMLDecodeError:
+                table = parsed("".join(lines[:end]))
+            except ValueError:
                 continue  # within a value of several lines
             if path in set(_paths(table)):
                 return begin

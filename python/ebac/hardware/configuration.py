@@ -105,7 +105,11 @@ class Configuration:
         ConfigurationError
             For what cannot be; the message names file, line, key, value, unit, range and remedy.
         """
-        return cls.from_toml(Path(path).read_text(encoding="utf-8"), name=str(path))
+        try:
+            text = Path(path).read_text(encoding="utf-8")
+        except UnicodeDecodeError as error:
+            raise ConfigurationError(f"{path}: is no text in UTF-8 ({error})") from None
+        return cls.from_toml(text, name=str(path))
 
     @classmethod
     def from_toml(cls, text: str, *, name: str = "configuration") -> Self:

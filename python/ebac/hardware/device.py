@@ -9,12 +9,10 @@ import weakref
 from collections.abc import Callable
 from contextlib import ExitStack
 from dataclasses import replace
-from math import ceil
 from pathlib import Path
 from types import TracebackType
 from typing import TYPE_CHECKING, Any, Self
 
-from ebac import _core
 from ebac.drives import Backups
 from ebac.hardware import setting_up
 from ebac.hardware.configuration import Configuration
@@ -23,6 +21,7 @@ from ebac.hardware.law import designed
 from ebac.hardware.place import hardware, simulated
 from ebac.hardware.report import Report
 from ebac.hardware.run import Run
+from ebac.hardware.run_setup import run_setup, started
 from ebac.leaving import noted_on
 
 if TYPE_CHECKING:
@@ -30,13 +29,6 @@ if TYPE_CHECKING:
     from ebac.laws import AnyLaw, CoreLaw
     from ebac.scenario import Environment
     from ebac.trace import Trace
-
-#: Rows beside those of the run itself: before the drives are enabled, and while they stop.
-_MORE_ROWS = 4096
-#: The longest the drives may take to be enabled [s].
-_ENABLE = 2.0
-#: Watched for three of a drive's heartbeats.
-_BEATS = 3.0
 
 
 class OpenDevice:
@@ -184,7 +176,7 @@ class OpenDevice:
         chosen = known if environment is None else known.replace(environment=environment)
         length = known.seconds if seconds is None else seconds
         scenario = chosen.scenario(seconds=length)
-        setup = self._setup(chosen, length)
+        setup = run_setup(chosen, self._nodes, place=self.place, seconds=length)
         path = None if log is None else _free(Path(log))
         place, nodes = self.place, self._nodes
 
@@ -194,13 +186,15 @@ class OpenDevice:
         setting_up.start(place, nodes)
         self.interrupts.moving()
         try:
-            running = _started(finished, place, setup)
+            running = started(finished, place, setup)
             run = self._held.run = Run(
                 running,
                 law=finished,
                 scenario=scenario,
                 interrupts=self.interrupts,
                 power_off=power_off,
+                grants=place.grants,
+                hand=place.aim is not None,
                 detached=self._detached,
             )
         except BaseException:
@@ -224,46 +218,6 @@ class OpenDevice:
         with_sensor = self.place.sensor is not None
         return designed(law, changes, known.device, known.timing, sensor=with_sensor)
 
-    def _setup(self, known: Configuration, seconds: float) -> _core.RunSetup:
-        if not 0.01 <= seconds <= 1e5:
-            raise ValueError(f"seconds = {seconds:g} s: must lie in [0.01, 100000] s")
-        dt = known.timing.dt
-        ticks = max(1, round(seconds / dt))
-        profiles = [node.profile.values for node in self._nodes]
-        watched = [float(values["heartbeat.producer"]) for values in profiles]
-        consumers = [float(values.get("heartbeat.consumer", 0.0)) for values in profiles]
-        masters = {int(values["heartbeat.master"]) for values in profiles}
-        beat = min((one for one in consumers if one > 0), default=0.0)
-        watch = known.limits.watch_force and self.place.sensor is not None
-        limits = known.limits.replace(watch_force=watch)
-        return _core.RunSetup(
-            device=known.device,
-            environment=known.environment,
-            dt=dt,
-            nodes=[node.id for node in self._nodes],
-            answer_time=known.answer_share * dt,
-            plan=_core.RunPlan(
-                soft_start=known.soft_start,
-                ramp_down=known.ramp_down,
-                stop_ticks=max(10, ceil(0.02 / dt)),
-                arm=True,
-                ticks=ticks,
-            ),
-            limits=limits,
-            sensor=None if self.place.sensor is None else self.place.sensor.core(),
-            rows=min(ticks, ceil(known.memory / dt)) + _MORE_ROWS,
-            ring=True,
-            mode=_core.RealTimeMode[known.mode.upper()],
-            realtime=known.realtime,
-            drives={
-                "silent_ticks": known.silent,
-                "enable_ticks": ceil(_ENABLE / dt),
-                "heartbeat_timeout": _BEATS * max(watched),
-                "own_node": masters.pop() if beat > 0 and len(masters) == 1 else 0,
-                "heartbeat_period": max(1e-3, beat / 10) if beat > 0 else 0.01,
-            },
-        )
-
     def close(self) -> None:
         """End a run that is under way, and let go of the bus. The drives have no power."""
         self._forgotten.detach()
@@ -282,15 +236,6 @@ class OpenDevice:
         """Close it, whatever was raised."""
         with noted_on(error, "and at the end"):
             self.close()
-
-
-def _started(law: Any, place: Place, setup: _core.RunSetup) -> _core.Running:
-    if not hasattr(law, "_start"):
-        raise TypeError(
-            f"{law!r}: was bound out of tree without `bind_start_of`, so the real-time loop does not know it"
-        )
-    running: _core.Running = law._start(place.bus, setup)
-    return running
 
 
 class _Held:

@@ -5,11 +5,14 @@ from __future__ import annotations
 import os
 import signal
 import threading
+from collections.abc import Callable
 from types import FrameType, TracebackType
 from typing import Any, Self
 
 #: Signals that end a run; what the system sends when somebody types Ctrl-C, ends a process, or closes a terminal.
 SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
+#: How often somebody looks whether the parent is still there [s].
+PARENT = 0.1
 
 
 class Terminated(SystemExit):
@@ -104,3 +107,21 @@ class Parent:
     def gone(self) -> bool:
         """Whether it has died: another process has taken its children over."""
         return os.getppid() != self._id
+
+
+class OfParent(threading.Thread):
+    """Looks whether the parent has died, until `over` is set; then nobody is left who could end what runs."""
+
+    def __init__(self, gone: Callable[[], None]) -> None:
+        super().__init__(name="ebac-parent", daemon=True)
+        self.over = threading.Event()
+        self._gone = gone
+        self.start()
+
+    def run(self) -> None:
+        """Look until it is over."""
+        parent = Parent()
+        while not self.over.wait(PARENT):
+            if parent.gone:
+                self._gone()
+                return

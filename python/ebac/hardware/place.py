@@ -4,29 +4,30 @@ from __future__ import annotations
 
 import itertools
 import os
-import re
-import subprocess
-import sys
-import tempfile
-from collections.abc import Iterator
-from contextlib import AbstractContextManager, contextmanager, suppress
+from collections.abc import Iterator, Sequence
+from contextlib import AbstractContextManager, contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Self
 
 from ebac.drives.bus import TIMEOUT
-from ebac.drives.errors import BusError
+from ebac.hardware.another_process import in_a_process
+from ebac.hardware.report import grant_row
 
 if TYPE_CHECKING:
-    from ebac._core import ForceCell, LoopbackHub, LoopbackJoystick, SocketCanJoystick
+    from ebac._core import (
+        AimCell,
+        ForceCell,
+        Grant,
+        LoopbackHub,
+        LoopbackJoystick,
+        RealTime,
+        RealTimeMode,
+        SocketCanJoystick,
+    )
     from ebac.hardware.configuration import Configuration
-    from ebac.scenario import Scenario
     from ebac.sensor import SensorConfig, SimulatedSensor
 
-#: Priority of the simulated drives' thread under SCHED_FIFO, where it is granted: below any loop's.
-PRIORITY = 5
-#: How long another process may take to put its drives on a bus [s].
-_START = 60.0
 #: How long a simulated drive may take to answer [s]: it shares its processors with all else.
 _PATIENCE = 5.0
 
@@ -49,6 +50,10 @@ class Place:
         The force sensor, where there is one.
     patience : float
         How long an SDO answer may take [s].
+    aim : AimCell or None
+        By which the loop tells a simulated hand where to go; None where the hand is no simulated one.
+    grants : sequence of Grant
+        What the threads of what is simulated asked of the system, and got.
     """
 
     interface: str
@@ -57,6 +62,8 @@ class Place:
     about: str
     sensor: SensorConfig | None = None
     patience: float = TIMEOUT
+    aim: AimCell | None = None
+    grants: Sequence[Grant] = ()
 
 
 @contextmanager
@@ -72,7 +79,7 @@ def hardware(configuration: Configuration) -> Iterator[Place]:
             sensor=configuration.sensor,
         )
         return
-    from ebac.can_interface import hub_of
+    from ebac.can_channels import hub_of
 
     with hub_of(channel) as hub:
         about = f"the bus {channel!r} inside this process"
@@ -99,47 +106,75 @@ def simulated(configuration: Configuration) -> Iterator[Place]:
     """
     scenario = configuration.scenario(seconds=10)
     first = min(node.id for node in configuration.drives.nodes)
-    channel = virtual_can()
+    from ebac._core import AimCell, ForceCell, LoopbackJoystick
+
+    channel, aim = virtual_can(), AimCell()
     if channel is not None:
-        with _in_a_process(channel, scenario, first, configuration.sensor) as sensor:
-            about = f"simulated drives in another process, on {channel}"
+        with in_a_process(channel, configuration, scenario, first, aim) as (sensor, grants):
             yield Place(
                 interface="socketcan",
                 channel=channel,
                 bus=channel,
-                about=about,
+                about=f"simulated drives in another process, on {channel}",
                 sensor=sensor,
                 patience=_PATIENCE,
+                aim=aim,
+                grants=grants,
             )
         return
-    from ebac._core import ForceCell, LoopbackJoystick
-    from ebac.can_interface import standing
+    from ebac.can_channels import standing
 
-    felt = ForceCell([0.0, 0.0, 0.0])
+    # The loop's thread asks for the memory of this process.
+    request = Request.beside(configuration.mode, configuration.realtime, lock_memory=False)
+    felt, grants = ForceCell([0.0, 0.0, 0.0]), []
 
     def nodes(hub: LoopbackHub) -> AbstractContextManager[object]:
-        setup = scenario.setup()
-        served = LoopbackJoystick(hub, setup, first=first, felt=felt, wait_for_power=True)
-        return at_work(served)
+        served = LoopbackJoystick(
+            hub, scenario.setup(), first=first, felt=felt, wait_for_power=True, aim=aim
+        )
+        return at_work(served, request, "the simulated drives", grants)
 
     channel = f"run-{os.getpid()}-{next(_numbers)}"
-    about = "simulated drives in a thread of their own, on a bus inside this process"
-    with standing(channel, nodes) as hub, sensor_of(configuration.sensor, felt) as sensor:
+    with (
+        standing(channel, nodes) as hub,
+        sensor_of(configuration.sensor, felt, request, grants) as sensor,
+    ):
         yield Place(
             interface="ebac",
             channel=channel,
             bus=hub,
-            about=about,
+            about="simulated drives in a thread of their own, on a bus inside this process",
             sensor=sensor,
             patience=_PATIENCE,
+            aim=aim,
+            grants=grants,
         )
 
 
+@dataclass(frozen=True, kw_only=True)
+class Request:
+    """What the threads of what is simulated ask of the system."""
+
+    mode: RealTimeMode
+    realtime: RealTime
+
+    @classmethod
+    def beside(cls, mode: str, loop: RealTime, *, lock_memory: bool | None = None) -> Self:
+        """Return the request of a loop, one priority below and on any CPU: metal is never kept waiting."""
+        from ebac._core import RealTimeMode
+
+        lock = loop.lock_memory if lock_memory is None else lock_memory
+        asked = loop.replace(priority=max(1, loop.priority - 1), cpu=-1, lock_memory=lock)
+        return cls(mode=RealTimeMode[mode.upper()], realtime=asked)
+
+
 @contextmanager
-def sensor_of(known: SensorConfig | None, felt: ForceCell) -> Iterator[SensorConfig | None]:
+def sensor_of(
+    known: SensorConfig | None, felt: ForceCell, request: Request, grants: list[Grant]
+) -> Iterator[SensorConfig | None]:
     """Put a simulated sensor that feels a force on this machine's own network; give where it is, None for none.
 
-    It tells counts as the known one does, and sits in the handle as that one.
+    It tells counts as the known one does, and sits in the handle as that one. `grants` gets what its thread got.
     """
     if known is None:
         yield None
@@ -153,7 +188,7 @@ def sensor_of(known: SensorConfig | None, felt: ForceCell) -> Iterator[SensorCon
     emulated = SimulatedSensor(
         felt, options=options, rotation=known.rotation, sign=known.sign, model=known.model
     )
-    with at_work(emulated):
+    with at_work(emulated, request, "the simulated sensor", grants):
         host, port = emulated.address
         yield known.replace(host=host, port=port, bias=(0.0,) * 6)
 
@@ -173,64 +208,26 @@ def virtual_can(root: Path = Path("/sys/class/net")) -> str | None:
 
 
 @contextmanager
-def at_work(served: LoopbackJoystick | SocketCanJoystick | SimulatedSensor) -> Iterator[None]:
-    """Start what is simulated, with a priority where the system grants it: a thread has that of who makes it."""
-    policy, parameter = os.sched_getscheduler(0), os.sched_getparam(0)
+def at_work(
+    served: LoopbackJoystick | SocketCanJoystick | SimulatedSensor,
+    request: Request,
+    whose: str,
+    grants: list[Grant],
+) -> Iterator[None]:
+    """Start what is simulated, and stop it after the block; `grants` gets what its thread was granted.
+
+    Raises
+    ------
+    RuntimeError
+        When something is not granted that must be, and nothing has started.
+    """
+    from ebac._core import Grant
+
+    served.start(request.mode, request.realtime)
     try:
-        with suppress(PermissionError):
-            os.sched_setscheduler(0, os.SCHED_FIFO, os.sched_param(PRIORITY))
-        served.start()
-    finally:
-        os.sched_setscheduler(0, policy, parameter)
-    try:
+        grants += [
+            Grant(**{**grant_row(one), "name": f"{one.name} of {whose}"}) for one in served.grants
+        ]
         yield
     finally:
         served.stop()
-
-
-def _emulated(known: SensorConfig, port: int) -> SensorConfig:
-    """Return where a simulated sensor in another process is; it sits straight in the handle."""
-    straight = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
-    return known.replace(
-        host="127.0.0.1", port=port, rotation=straight, sign=1, model="net-ft", bias=(0.0,) * 6
-    )
-
-
-@contextmanager
-def _in_a_process(
-    channel: str, scenario: Scenario, first: int, sensor: SensorConfig | None
-) -> Iterator[SensorConfig | None]:
-    with tempfile.TemporaryDirectory() as folder:
-        file = Path(folder) / "scenario.toml"
-        scenario.save(file)
-        command = [sys.executable, "-m", "ebac.cli", "drive", "simulate"]
-        command += ["--channel", channel, "--scenario", str(file), "--first", str(first)]
-        command += ["--wait-for-power", "--until-eof"]
-        if sensor is not None:
-            counts = [f"{sensor.counts_per_force!r}", f"{sensor.counts_per_torque!r}"]
-            command += ["--sensor", "--sensor-counts", *counts]
-        with (
-            subprocess.Popen(
-                command,
-                stdin=subprocess.PIPE,
-                stdout=subprocess.PIPE,
-                stderr=subprocess.PIPE,
-                text=True,
-                start_new_session=True,  # Ctrl-C is for the loop: its drives must be there until it has stopped
-            ) as process
-        ):
-            try:
-                assert process.stdout is not None
-                said = process.stdout.readline()
-                if not said:
-                    _, told = process.communicate(timeout=_START)
-                    raise BusError(f"simulated drives on {channel}: {' '.join(told.split())}")
-                port = re.search(r"force sensor at 127\.0\.0\.1:(\d+)", said)
-                yield _emulated(sensor, int(port[1])) if sensor and port else None
-            finally:
-                assert process.stdin is not None
-                process.stdin.close()
-                try:
-                    process.wait(timeout=5)
-                except subprocess.TimeoutExpired:
-                    process.kill()

@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
+import signal
+from collections.abc import Sequence
 from dataclasses import dataclass, fields
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
 
-from ebac._core import Grant, LoopState
+from ebac._core import Grant, LoopState, Running
 from ebac.trace import Trace
+
+if TYPE_CHECKING:
+    from ebac.logs import Recorder
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -29,7 +34,7 @@ class Report:
     drives : tuple of str
         State of each drive, asked after the run.
     grants : tuple of Grant
-        What the loop's thread asked of the system, and got.
+        What its threads asked of the system, and got: the loop's, then those of what is simulated.
     sent, received, refused, lost_frames : int
         Frames at the loop's end of the bus.
     """
@@ -47,15 +52,49 @@ class Report:
     refused: int
     lost_frames: int
 
+    @classmethod
+    def of(
+        cls,
+        running: Running,
+        *,
+        recorder: Recorder | None,
+        drives: Sequence[str],
+        grants: Sequence[Grant],
+        ended_by: str,
+        by_signal: int | None,
+    ) -> Self:
+        """Return how a loop went that has ended: by a fault, a signal, or what else is known, else by its time."""
+        if running.state is LoopState.FAULT:
+            ended_by = "fault"
+        elif by_signal is not None:
+            ended_by = signal.Signals(by_signal).name
+        bus = running.bus
+        return cls(
+            ended_by=ended_by or "time",
+            log=None if recorder is None else recorder.path,
+            ticks=running.rows.count,
+            recorded=0 if recorder is None else recorder.written,
+            lost_rows=0 if recorder is None else recorder.lost,
+            changes_lost=running.changes_lost,
+            drives=tuple(drives),
+            grants=tuple(grants),
+            sent=bus.sent,
+            received=bus.received,
+            refused=bus.refused,
+            lost_frames=bus.lost,
+        )
+
     def row(self) -> dict[str, Any]:
         """Return it as plain values."""
         values: dict[str, Any] = {one.name: getattr(self, one.name) for one in fields(self)}
         values["log"] = None if self.log is None else str(self.log)
-        values["grants"] = [
-            {name: getattr(one, name) for name in ("name", "asked", "granted", "why", "remedy")}
-            for one in self.grants
-        ]
+        values["grants"] = [grant_row(one) for one in self.grants]
         return values
+
+
+def grant_row(grant: Grant) -> dict[str, Any]:
+    """Return a grant as plain values."""
+    return {name: getattr(grant, name) for name in ("name", "asked", "granted", "why", "remedy")}
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -2,21 +2,21 @@
 
 from __future__ import annotations
 
-import signal
 import threading
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from types import TracebackType
 from typing import TYPE_CHECKING, Any
 
 from ebac import _core
 from ebac.drives.errors import DriveError
-from ebac.hardware.interrupts import Interrupts, Parent
+from ebac.hardware.interrupts import Interrupts, OfParent
+from ebac.hardware.newest import Newest
 from ebac.hardware.report import Report
-from ebac.hardware.told import Note, Told
+from ebac.hardware.watched import Watched
 from ebac.leaving import noted_on
-from ebac.trace import Trace, column_infos, row_views
+from ebac.trace import Trace
 
 if TYPE_CHECKING:
     from ebac.laws import CoreLaw
@@ -25,11 +25,9 @@ if TYPE_CHECKING:
 
 #: How often the main thread looks after the loop [s]: a signal is late by at most this.
 LOOK = 0.02
-#: How often somebody looks whether the parent is still there [s].
-PARENT = 0.1
 
 
-class Run:
+class Run(Watched):
     """A loop at work. Get it from `OpenDevice.start`; a context manager that ends it.
 
     Whatever comes first ends it: its time, a fault, `stop`, an exception, a signal, the end of the program or of its
@@ -44,89 +42,26 @@ class Run:
         scenario: Scenario,
         interrupts: Interrupts,
         power_off: Callable[[], list[str]],
+        grants: Sequence[_core.Grant] = (),
+        hand: bool = False,
         detached: bool = False,
     ) -> None:
         self.recorder: Recorder | None = None
         self.report: Report | None = None
         self._ended_by = ""
-        self._running = running
+        super().__init__(running, scenario, Newest(running, law=law, scenario=scenario, hand=hand))
         self._interrupts = interrupts
         self._power_off = power_off
-        self._law = law
-        self._scenario = scenario
-        self._world: Environment = scenario.environment
-        self._told = Told(running, scenario.timing.dt)
+        self._grants = [*running.grants, *grants]
         self._lock = threading.RLock()  # who changes or ends it
-        self._over = threading.Event()
-        self._watcher = threading.Thread(target=self._watch, name="ebac-parent", daemon=True)
-        if not detached:
-            self._watcher.start()
+        self._parent = None if detached else OfParent(self._parent_is_gone)
 
     # --- while it runs ---
 
     @property
-    def done(self) -> bool:
-        """Whether the loop has ended."""
-        return self._running.done
-
-    @property
-    def ticks(self) -> int:
-        """Rows so far."""
-        return self._running.rows.count
-
-    @property
     def grants(self) -> list[_core.Grant]:
-        """What the loop's thread asked of the system, and what it got."""
-        return self._running.grants
-
-    @property
-    def law(self) -> CoreLaw:
-        """The law with its newest gains."""
-        return self._law
-
-    @property
-    def environment(self) -> Environment:
-        """The newest virtual world."""
-        return self._world
-
-    def tail(self, rows: int = 1000) -> Trace:
-        """Return a copy of the last rows, also while it runs.
-
-        Parameters
-        ----------
-        rows : int
-            How many at most, at least 1.
-
-        Returns
-        -------
-        Trace
-
-        Raises
-        ------
-        ValueError
-            For a number below 1.
-        """
-        if rows < 1:
-            raise ValueError(f"rows = {rows}: must be at least 1")
-        all_rows = self._running.rows
-        stop = all_rows.count
-        _, raw = all_rows.copy(max(all_rows.first, stop - rows), stop)
-        return Trace(
-            data=row_views(all_rows, raw),
-            columns=column_infos(all_rows),
-            axes=all_rows.axes,
-            scenario=self._scenario,
-            law=self._law.name,
-            law_repr=repr(self._law),
-        )
-
-    @property
-    def state(self) -> _core.LoopState:
-        """Where the loop stands: arm, run, stop, idle or fault."""
-        if self.done:
-            return self._running.state
-        last = self.tail(1)
-        return _core.LoopState(int(last["state"][-1])) if len(last) else _core.LoopState.ARM
+        """What its threads asked of the system, and what they got: the loop's, then those of what is simulated."""
+        return list(self._grants)
 
     def retune(self, **changes: Any) -> CoreLaw:
         """Change parameters of the law from the next tick on; its memory stays. Return the law with its new gains.
@@ -145,17 +80,7 @@ class Run:
         """
         with self._lock:
             self._check()
-            before, after = self._law, self._law.replace(**changes)
-            parts = [
-                f"{name} {getattr(before, name)!r} -> {value!r}" for name, value in changes.items()
-            ]
-            note = Note(
-                message=f"law {after.name}: {', '.join(parts)}",
-                values={f"law.{name}": value for name, value in changes.items()},
-            )
-            self._told.send(lambda: self._running.retune(after), note)
-            self._law = after
-            return after
+            return self._newest.retune(**changes)
 
     def change(self, environment: Environment | None = None, **changes: Any) -> Environment:
         """Change the virtual world from the next tick on: another one, or numbers of the present one. Return it.
@@ -176,15 +101,32 @@ class Run:
         """
         with self._lock:
             self._check()
-            world = self._world if environment is None else environment
-            world = world.replace(**changes) if changes else world
-            note = Note(
-                message=f"environment {world!r}",
-                values={f"environment.{name}": value for name, value in changes.items()},
-            )
-            self._told.send(lambda: self._running.change_world(world), note)
-            self._world = world
-            return world
+            return self._newest.change(environment, **changes)
+
+    def aim(self, *target: float | None) -> tuple[float | None, ...]:
+        """Tell a simulated hand where to go from the next tick on, in place of its path. Return all its targets.
+
+        Parameters
+        ----------
+        *target
+            By axis, -10 to 10 m; None for an axis that stays as it is.
+
+        Returns
+        -------
+        tuple
+            What each axis was told last [m]; None where it still follows its path.
+
+        Raises
+        ------
+        ValueError
+            For a number out of range, for more numbers than axes, where the path is a recorded one, and on hardware: a
+            hand of flesh goes where it wants.
+        RuntimeError
+            When the loop has ended.
+        """
+        with self._lock:
+            self._check()
+            return self._newest.aim(*target)
 
     def _check(self) -> None:
         if self.done:
@@ -205,10 +147,10 @@ class Run:
             self._running.rows,
             path,
             scenario=self._scenario,
-            law=self._law.name,
-            law_repr=repr(self._law),
+            law=self.law.name,
+            law_repr=repr(self.law),
             files=files,
-            watch=self._told.events,
+            watch=self._newest.told.events,
             sync=sync,
             start=time.time() - self._age(),
         )
@@ -261,7 +203,8 @@ class Run:
             self._interrupts.ending()
             self._running.stop()
             self._running.join()
-            self._over.set()
+            if self._parent is not None:
+                self._parent.over.set()
             failures: list[Exception] = []
             drives: list[str] = []
             try:
@@ -273,46 +216,20 @@ class Run:
                     self.recorder.close()
                 except OSError as error:
                     failures.append(error)
-            self.report = self._report(drives)
+            self.report = Report.of(
+                self._running,
+                recorder=self.recorder,
+                drives=drives,
+                grants=self._grants,
+                ended_by=self._ended_by,
+                by_signal=self._interrupts.first,
+            )
         for other in failures[1:]:
             failures[0].add_note(str(other))
         if failures:
             self._interrupts.forget()
             raise failures[0]
         self._interrupts.settled()
-
-    def _report(self, drives: list[str]) -> Report:
-        bus, recorder = self._running.bus, self.recorder
-        return Report(
-            ended_by=self._why(),
-            log=None if recorder is None else recorder.path,
-            ticks=self._running.rows.count,
-            recorded=0 if recorder is None else recorder.written,
-            lost_rows=0 if recorder is None else recorder.lost,
-            changes_lost=self._running.changes_lost,
-            drives=tuple(drives),
-            grants=tuple(self._running.grants),
-            sent=bus.sent,
-            received=bus.received,
-            refused=bus.refused,
-            lost_frames=bus.lost,
-        )
-
-    def _why(self) -> str:
-        if self._running.state is _core.LoopState.FAULT:
-            return "fault"
-        if self._interrupts.first is not None:
-            return signal.Signals(self._interrupts.first).name
-        return self._ended_by or "time"
-
-    def trace(self) -> Trace:
-        """Return all rows in memory, shared and not copied where they are no ring's."""
-        return Trace.from_rows(
-            self._running.rows,
-            scenario=self._scenario,
-            law=self._law.name,
-            law_repr=repr(self._law),
-        )
 
     def __enter__(self) -> Run:
         """Return the run."""
@@ -334,11 +251,6 @@ class Run:
         if not self._ended_by and not self.done:
             self._ended_by = by
 
-    def _watch(self) -> None:
-        """End the run when the parent has died: nobody is left who could."""
-        parent = Parent()
-        while not self._over.wait(PARENT):
-            if parent.gone:
-                self._note_end("parent")
-                self.end()
-                return
+    def _parent_is_gone(self) -> None:
+        self._note_end("parent")
+        self.end()

@@ -3,8 +3,12 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any, Self
+
+import numpy as np
+from numpy.typing import NDArray
 
 SCHEMA_NAME = "foxglove.Log"  # a type Foxglove shows in its Log panel by itself
 #: Severity of each kind, in the numbers of that type; any other kind is information.
@@ -29,6 +33,10 @@ SCHEMA = {
         "values": {"type": "object", "description": "what belongs to it, units in the keys"},
     },
 }
+
+
+#: An event beyond so long a time [s], or so many ticks, is damage.
+MOST_TIME, MOST_TICK = 1e9, 1 << 62
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -86,12 +94,41 @@ class Event:
         """
         try:
             told = json.loads(data)
-            return cls(
+            event = cls(
                 kind=str(told["name"]),
                 message=str(told["message"]),
                 tick=int(told["tick"]),
                 t=float(told["t"]),
                 values=dict(told["values"]),
             )
-        except (KeyError, TypeError, ValueError) as error:
+        except (KeyError, TypeError, ValueError, OverflowError, RecursionError) as error:
             raise ValueError(f"not an event of ebac ({error})") from None
+        if not abs(event.t) < MOST_TIME or not abs(event.tick) < MOST_TICK:
+            raise ValueError(f"an event in tick {event.tick}, at {event.t:g} s: cannot be")
+        return event
+
+
+def faults_of(data: Mapping[str, NDArray[Any]], before: int) -> list[Event]:
+    """Return an event for each row in which a fault appears or changes; `before` is that of the row before them."""
+    fault = data["fault"].astype(np.int64)
+    new = np.flatnonzero((fault != 0) & (np.diff(fault, prepend=before) != 0))
+    return [
+        Event(
+            kind="fault",
+            message=f"fault {fault[i]} ({fault_name(int(fault[i]))})",
+            tick=int(data["tick"][i]),
+            t=float(data["t"][i]),
+            values={"fault": int(fault[i])},
+        )
+        for i in new
+    ]
+
+
+def fault_name(number: int) -> str:
+    """Return the name of a fault in words."""
+    from ebac._core import Fault
+
+    try:
+        return Fault(number).name.lower().replace("_", " ")
+    except ValueError:
+        return "unknown to this version"

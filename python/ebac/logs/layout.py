@@ -5,7 +5,7 @@ from __future__ import annotations
 import functools
 import json
 import struct
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, Self
 
@@ -24,6 +24,8 @@ TYPES = {
 }
 _KINDS = {name: np.dtype(form) for name, form in TYPES.values()}
 
+#: A column has a value for each axis at most; more is damage.
+_MOST_VALUES = 64
 #: Message record of MCAP, then the header of CDR in little-endian: what stands before the numbers of a row.
 #: No column has a # in its name.
 _ENVELOPE = [
@@ -63,6 +65,22 @@ class LoggedColumn:
     kind: str
     size: int
 
+    @classmethod
+    def told(cls, column: Any) -> Self:
+        """Return what JSON told of a column.
+
+        Raises
+        ------
+        TypeError, KeyError
+            When something in it is not what it must be: somebody else may have written it.
+        """
+        size: Any = column["size"]
+        words: list[Any] = [column[name] for name in ("name", "unit", "meaning", "kind")]
+        known = all(isinstance(word, str) for word in words) and words[0] and words[3] in _KINDS
+        if not known or type(size) is not int or not 1 <= size <= _MOST_VALUES:
+            raise TypeError(f"{column!r}: no column")
+        return cls(**column)
+
     @property
     def info(self) -> ColumnInfo:
         """What a trace tells of it."""
@@ -72,6 +90,11 @@ class LoggedColumn:
     def field(self) -> str:
         """Its name in a ROS 2 message, where a dot cannot be."""
         return self.name.replace(".", "_")
+
+    @property
+    def native(self) -> np.dtype[Any]:
+        """Its type in a trace."""
+        return _KINDS[self.kind].newbyteorder("=")
 
     @property
     def width(self) -> int:
@@ -125,11 +148,10 @@ class Layout:
             When it is not that.
         """
         try:
-            columns = tuple(LoggedColumn(**column) for column in json.loads(text))
-            known = all(c.kind in _KINDS and 1 <= c.size <= 64 for c in columns)
-        except (TypeError, ValueError):
-            known = False
-        if not known or not columns:
+            columns = tuple(LoggedColumn.told(column) for column in json.loads(text))
+        except (TypeError, KeyError, ValueError, RecursionError):
+            columns = ()
+        if not columns:
             raise ValueError("its columns are not described as ebac does")
         return cls(columns)._checked()
 
@@ -141,9 +163,13 @@ class Layout:
         sizes = {column.size for column in self.columns} - {1}
         if len(sizes) > 1:
             raise ValueError(f"columns of {sizes} values: must be one, or one per axis")
-        whole = {column.name for column in self.columns if column.size == 1}
-        if not {"t", "tick"} <= whole:
+        numbers = {column.name: column.kind for column in self.columns if column.size == 1}
+        if not {"t", "tick"} <= set(numbers):
             raise ValueError("the columns t and tick are missing: a row is known by them")
+        if numbers["t"] == "bool" or numbers["tick"] in ("bool", "float64"):
+            raise ValueError("the columns t and tick must be numbers, tick a whole one")
+        if any(column.name.startswith("#") for column in self.columns):
+            raise ValueError("no column of a log has a name that begins with #")
         return self
 
     @property
@@ -204,6 +230,12 @@ class Layout:
             rows[column.name] = data[column.name]
         return rows
 
+    def only_rows(self, chunk: bytes, channel: int) -> bool:
+        """Return whether the content of a chunk is whole records of this channel and nothing else."""
+        ours = self._head(channel)
+        whole = len(chunk) % self.record.itemsize == 0
+        return whole and self._run(chunk, 0, ours) * self.record.itemsize == len(chunk)
+
     def find(self, chunk: bytes, channel: int) -> list[bytes]:
         """Return the records of a channel in the content of a chunk, one piece for each unbroken run.
 
@@ -213,7 +245,7 @@ class Layout:
             When the chunk ends inside a record.
         """
         record = self.record
-        ours = _MESSAGE_HEAD.pack(MESSAGE, record.itemsize - _BEFORE_DATA, channel)
+        ours = self._head(channel)
         found: list[bytes] = []
         at = 0
         while at < len(chunk):
@@ -229,6 +261,10 @@ class Layout:
             raise ValueError("a chunk ends inside a record")
         return found
 
+    def _head(self, channel: int) -> bytes:
+        """Return what every record of a row begins with."""
+        return _MESSAGE_HEAD.pack(MESSAGE, self.length, channel)
+
     def _run(self, chunk: bytes, at: int, ours: bytes) -> int:
         """Return how many records in a row begin as ours do."""
         size = self.record.itemsize
@@ -238,11 +274,3 @@ class Layout:
         heads = np.frombuffer(chunk, np.uint8, fit * size, at).reshape(fit, size)[:, : len(ours)]
         same = (heads == np.frombuffer(ours, np.uint8)).all(axis=1)
         return fit if same.all() else int(same.argmin())
-
-    def gather(self, runs: Sequence[bytes]) -> dict[str, NDArray[Any]]:
-        """Return records as contiguous columns in the order of the layout."""
-        rows = np.frombuffer(b"".join(runs), self.record)
-        return {
-            c.name: np.ascontiguousarray(rows[c.name], _KINDS[c.kind].newbyteorder("="))
-            for c in self.columns
-        }

@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import mmap
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ebac.logs.about import SCENARIO_FILE, About
+from ebac.logs.chunks import Chunks, Content, Where
+from ebac.logs.columns import Columns
 from ebac.logs.events import Event
 from ebac.logs.layout import Layout
 from ebac.logs.records import (
@@ -23,14 +24,13 @@ from ebac.logs.records import (
     Condition,
     parsed,
     records,
-    unpacked,
 )
-from ebac.logs.writer import EVENTS_TOPIC, ROWS_TOPIC
+from ebac.logs.summary import EVENTS_TOPIC, ROWS_TOPIC
 from ebac.scenario import Scenario
 from ebac.trace import Trace
 
-#: Bytes of rows gathered before they become columns: what a long log takes beside its columns.
-_BATCH = 64 << 20
+#: Digits of the largest whole number in a file.
+_DIGITS = 19
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -91,7 +91,7 @@ class Log:
     def gaps(self) -> list[Gap]:
         """Where rows are missing between two rows of the log."""
         tick, t = self.trace["tick"], self.trace["t"]
-        steps = np.diff(tick)
+        steps = np.diff(tick.astype(np.int64))
         return [
             Gap(after_tick=int(tick[i]), t=float(t[i]), rows=int(steps[i]) - 1)
             for i in np.flatnonzero(steps != 1)
@@ -110,20 +110,12 @@ class Log:
 class _Found:
     """What the records of a file have told so far."""
 
-    layout: Layout | None = None
-    rows: int | None = None  # number of the channel
+    where: Where | None = None
+    columns: Columns | None = None
     events_channel: int | None = None
-    columns: list[dict[str, NDArray[Any]]] = field(default_factory=list)
-    runs: list[bytes] = field(default_factory=list)
-    waiting: int = 0  # bytes in runs
     events: list[Event] = field(default_factory=list)
     metadata: dict[str, dict[str, str]] = field(default_factory=dict)
     files: dict[str, str] = field(default_factory=dict)
-
-    def gather(self) -> None:
-        if self.layout is not None and (self.runs or not self.columns):
-            self.columns.append(self.layout.gather(self.runs))
-        self.runs, self.waiting = [], 0
 
 
 def read(path: str | Path, *, progress: Callable[[int, int], None] | None = None) -> Log:
@@ -152,20 +144,41 @@ def read(path: str | Path, *, progress: Callable[[int, int], None] | None = None
         When it is no log of ebac, or was cut before its columns were written.
     """
     path = Path(path)
-    condition, found = Condition(), _Found()
     with path.open("rb") as file:
         size = file.seek(0, 2)
-        file.seek(0)
-        if not MAGIC.startswith(file.read(len(MAGIC))):
-            raise ValueError(f"{path}: not an MCAP file (it does not begin like one)")
-        if size < len(MAGIC):
-            raise ValueError(f"{path}: {size} bytes, cut before anything was written")
+        if size == 0:
+            return read_bytes(b"", path)
         with mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ) as data:
-            for opcode, start, stop in records(data, condition, progress or _silent):
-                try:
-                    _take(found, opcode, data, start, stop)
-                except ValueError as error:
-                    condition.leave_out(_NAMES.get(opcode, "a record"), start, error)
+            return read_bytes(data, path, progress=progress)
+
+
+def read_bytes(
+    data: bytes | mmap.mmap,
+    name: str | Path,
+    *,
+    progress: Callable[[int, int], None] | None = None,
+) -> Log:
+    """Read a log that is in memory; `name` is for messages. As `read`."""
+    path, condition, found, size = Path(name), Condition(), _Found(), len(data)
+    if not MAGIC.startswith(data[: len(MAGIC)]):
+        raise ValueError(f"{path}: not an MCAP file (it does not begin like one)")
+    if size < len(MAGIC):
+        raise ValueError(f"{path}: {size} bytes, cut before anything was written")
+    with Chunks() as chunks:
+        for opcode, start, stop in records(data, condition, progress or _silent):
+            try:
+                if opcode != CHUNK:
+                    _take(found, opcode, data[start:stop])
+                elif found.where is None:
+                    raise ValueError("it stands before the columns are described")
+                else:
+                    for content in chunks.put(found.where, start, data[start:stop]):
+                        _take_content(found, condition, content, size)
+            except ValueError as error:
+                condition.leave_out(_NAMES.get(opcode, "a record"), start, error)
+        if found.where is not None:
+            for content in chunks.rest(found.where):
+                _take_content(found, condition, content, size)
     return _log(path, found, condition, size)
 
 
@@ -176,73 +189,55 @@ def _silent(done: int, total: int) -> None:
     pass
 
 
-def _take(found: _Found, opcode: int, data: mmap.mmap, start: int, stop: int) -> None:
-    if opcode == CHUNK:
-        _take_chunk(found, unpacked(data[start:stop]))
+def _take(found: _Found, opcode: int, data: bytes) -> None:
+    if opcode not in _NAMES:
         return
     from mcap.records import Attachment, Channel, Metadata
 
     if opcode == CHANNEL:
-        _take_channel(found, parsed(Channel, data[start:stop]))
+        _take_channel(found, parsed(Channel, data))
     elif opcode == METADATA:
-        record = parsed(Metadata, data[start:stop])
+        record = parsed(Metadata, data)
         found.metadata[record.name] = record.metadata
-    elif opcode == ATTACHMENT:
-        record = parsed(Attachment, data[start:stop])
+    else:
+        record = parsed(Attachment, data)
         found.files[record.name] = record.data.decode()
 
 
 def _take_channel(found: _Found, channel: Any) -> None:
-    if channel.topic == ROWS_TOPIC and channel.message_encoding == "cdr" and found.layout is None:
-        found.layout = Layout.from_json(channel.metadata.get("columns", ""))
-        found.rows = channel.id
+    if channel.topic == ROWS_TOPIC and channel.message_encoding == "cdr" and found.where is None:
+        layout = Layout.from_json(channel.metadata.get("columns", ""))
+        found.where = Where(layout=layout, rows=channel.id, events=found.events_channel)
+        found.columns = Columns(layout)
     elif channel.topic == EVENTS_TOPIC and channel.message_encoding == "json":
         found.events_channel = channel.id
+        if found.where is not None:
+            found.where = replace(found.where, events=channel.id)
 
 
-def _take_chunk(found: _Found, content: bytes) -> None:
-    if found.layout is None or found.rows is None:
-        raise ValueError("it stands before the columns are described")
-    runs = found.layout.find(content, found.rows)
-    if sum(map(len, runs)) < len(content):
-        found.events += _events(found, content)
-    found.runs += runs
-    found.waiting += len(content)
-    if found.waiting > _BATCH:
-        found.gather()
-
-
-def _events(found: _Found, content: bytes) -> list[Event]:
-    from ebac.logs.layout import MESSAGE
-
-    events, at = [], 0
-    while at < len(content):
-        stop = at + 9 + int.from_bytes(content[at + 1 : at + 9], "little")
-        channel = int.from_bytes(content[at + 9 : at + 11], "little")
-        if content[at] == MESSAGE and channel == found.events_channel:
-            events.append(Event.from_json(content[at + 31 : stop]))
-        at = stop
-    return events
+def _take_content(found: _Found, condition: Condition, content: Content, size: int) -> None:
+    assert found.columns is not None
+    for start, error in content.wrong:
+        condition.leave_out(_NAMES[CHUNK], start, error)
+    for run in content.runs:
+        found.columns.take(run, content.end / size)
+    found.events += content.events
 
 
 def _log(path: Path, found: _Found, condition: Condition, size: int) -> Log:
-    if found.layout is None:
+    if found.where is None or found.columns is None:
         why = condition.remarks[0] if condition.remarks else "no channel /ebac with its columns"
         raise ValueError(
             f"{path}: no log of ebac, or cut before its columns were written: {why} ({size} bytes)"
         )
-    found.gather()
-    about = _about(found, condition)
-    parts = found.columns
-    data = {
-        name: parts[0][name] if len(parts) == 1 else np.concatenate([p.pop(name) for p in parts])
-        for name in list(parts[0])
-    }
+    columns = found.where.layout.columns
+    about = _about(found, condition, max(column.size for column in columns))
+    data = found.columns.finish()
     for values in data.values():
         values.setflags(write=False)
     trace = Trace(
         data=data,
-        columns={c.name: c.info for c in found.layout.columns},
+        columns={c.name: c.info for c in columns},
         axes=about.axes,
         scenario=about.scenario,
         law=about.law,
@@ -259,7 +254,14 @@ def _log(path: Path, found: _Found, condition: Condition, size: int) -> Log:
     )
 
 
-def _about(found: _Found, condition: Condition) -> About:
+def whole(text: str) -> int | None:
+    """Return the whole number a text tells, from 0 to what a file can hold; None for anything else."""
+    if not text.isdecimal() or len(text) > _DIGITS:
+        return None
+    return int(text) if int(text) < 1 << 63 else None
+
+
+def _about(found: _Found, condition: Condition, axes: int) -> About:
     told = dict(found.metadata.get("ebac", {}))
     own = {name: told.pop(name, "") for name in ("format", "axes", "law", "law_repr", "start_ns")}
     files = dict(found.files)
@@ -271,11 +273,11 @@ def _about(found: _Found, condition: Condition) -> About:
         except ValueError as error:
             condition.remarks.append(f"the scenario in it is not used: {error}")
     return About(
-        axes=max(column.size for column in found.layout.columns) if found.layout else 1,
+        axes=axes,
         law=own["law"],
         law_repr=own["law_repr"],
         scenario=scenario,
-        start_ns=int(own["start_ns"]) if own["start_ns"].isdecimal() else 0,
+        start_ns=whole(own["start_ns"]) or 0,
         files=files,
         made_by=told,
     )

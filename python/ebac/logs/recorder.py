@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ebac.logs.about import About
-from ebac.logs.events import Event
+from ebac.logs.events import Event, faults_of
 from ebac.logs.layout import Layout
 from ebac.logs.writer import LogWriter
 from ebac.scenario import Scenario
@@ -231,7 +231,7 @@ class Recorder:
         data = row_views(self._rows, raw)
         if first > self._seen:
             happened.append(self._lose(first - self._seen, data))
-        happened += self._faults(data)
+        happened += faults_of(data, self._last[2])
         self._writer.write(data, happened)
         self._seen = stop
         self.written += len(data["t"])
@@ -246,21 +246,6 @@ class Recorder:
             tick, t = int(data["tick"][0]), float(data["t"][0])
         message = f"{rows} rows before tick {tick} were written over before they were recorded"
         return Event(kind="lost", message=message, tick=tick, t=t, values={"rows": rows})
-
-    def _faults(self, data: Mapping[str, NDArray[Any]]) -> list[Event]:
-        """Return an event for each row in which a fault appears or changes."""
-        fault = data["fault"].astype(np.int64)
-        new = np.flatnonzero((fault != 0) & (np.diff(fault, prepend=self._last[2]) != 0))
-        return [
-            Event(
-                kind="fault",
-                message=f"fault {fault[i]} ({fault_name(int(fault[i]))})",
-                tick=int(data["tick"][i]),
-                t=float(data["t"][i]),
-                values={"fault": int(fault[i])},
-            )
-            for i in new
-        ]
 
     def _at_exit(self) -> None:
         with contextlib.suppress(OSError):  # the interpreter ends: nobody is left to be told
@@ -287,16 +272,6 @@ class Recorder:
 
 def _nothing() -> Sequence[Event]:
     return ()
-
-
-def fault_name(number: int) -> str:
-    """Return the name of a fault in words."""
-    from ebac._core import Fault
-
-    try:
-        return Fault(number).name.lower().replace("_", " ")
-    except ValueError:
-        return "unknown to this version"
 
 
 def _check(name: str, value: float, low: float, high: float) -> None:

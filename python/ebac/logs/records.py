@@ -15,8 +15,8 @@ if TYPE_CHECKING:
 
 MAGIC = b"\x89MCAP0\r\n"
 FOOTER, SCHEMA, CHANNEL, CHUNK, METADATA, ATTACHMENT = 0x02, 0x03, 0x04, 0x06, 0x0C, 0x09
-#: A chunk larger than this is damage: ebac writes at most some MB.
-MOST_CHUNK = 1 << 31
+#: A chunk larger than this is damage: ebac writes at most some MB, other programs 4.
+MOST_CHUNK = 1 << 26
 _HEAD = struct.Struct("<BQ")
 _CHUNK = struct.Struct(
     "<QQQII"
@@ -144,14 +144,21 @@ def _decompress(how: str, data: bytes, size: int) -> bytes:
         import zstandard
 
         try:
+            told = zstandard.frame_content_size(data)
+            if told not in (size, -1):  # -1: it does not say
+                raise ValueError(f"{told} bytes instead of {size}")
             return bytes(_zstd().decompress(data, max_output_size=size))
         except zstandard.ZstdError as error:
             raise ValueError(str(error)) from None
     if how == "lz4":
         import lz4.frame
 
+        frame = lz4.frame.LZ4FrameDecompressor()
         try:
-            return bytes(lz4.frame.decompress(data))
+            content = bytes(frame.decompress(data, max_length=size))
+            if not frame.eof:
+                raise ValueError(f"more than {size} bytes, or its end is missing")
+            return content
         except (RuntimeError, EOFError) as error:
             raise ValueError(str(error)) from None
     raise ValueError(f"packed as {how!r}: must be zstd, lz4 or nothing")

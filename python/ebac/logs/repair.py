@@ -7,7 +7,7 @@ from pathlib import Path
 
 from ebac.logs.files import CHUNK_ROWS, extension
 from ebac.logs.layout import Layout
-from ebac.logs.reader import Log, read
+from ebac.logs.reader import Log, read, whole
 from ebac.logs.writer import LogWriter
 
 
@@ -55,7 +55,8 @@ def repair(
                 new.write({name: v[first : first + CHUNK_ROWS] for name, v in data.items()})
             if log.events:
                 new.write({name: v[:0] for name, v in data.items()}, log.events)
-            ended = {name: int(n) for name, n in log.ended.items() if n.isdecimal()}
+            told = {name: whole(text) for name, text in log.ended.items()}
+            ended = {name: n for name, n in told.items() if n is not None}
             new.close(**{"rows": len(log.trace), **ended, "repaired": 1})
     except FileExistsError:
         raise

@@ -72,7 +72,7 @@ def _by_python() -> Iterator[can.BusABC]:
     import can
 
     from ebac._core import Joystick
-    from ebac.can_interface import resting_joystick
+    from ebac.can_channels import resting_joystick
     from ebac.drives.simulate import Simulation
 
     with ExitStack() as stack:

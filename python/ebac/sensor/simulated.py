@@ -13,7 +13,10 @@ from ebac._core import (
     EmulatorOptions,
     EmulatorTrouble,
     ForceCell,
+    Grant,
     RdtEmulator,
+    RealTime,
+    RealTimeMode,
     Setup,
 )
 from ebac.sensor.configuration import MODELS, Rotation, SensorConfig, numbers
@@ -120,9 +123,22 @@ class SimulatedSensor:
         """Make it lose, double or swap packets, fall silent, or tell of an error, from now on."""
         self._work.set(trouble)
 
-    def start(self) -> Self:
-        """Put it on the network, once in a life."""
-        self._work.start()
+    @property
+    def grants(self) -> list[Grant]:
+        """What its thread asked of the system, and got; nothing before it is started."""
+        return self._work.grants
+
+    def start(
+        self, mode: RealTimeMode = RealTimeMode.OFF, realtime: RealTime | None = None
+    ) -> Self:
+        """Put it on the network, once in a life; its thread asks of the system what `realtime` names.
+
+        Raises
+        ------
+        RuntimeError
+            The second time; with `RealTimeMode.ENFORCE` when something is not granted.
+        """
+        self._work.start(mode, realtime or RealTime())
         atexit.register(self.stop)
         if self._page is not None:
             self._thread = threading.Thread(

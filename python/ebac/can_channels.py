@@ -1,0 +1,134 @@
+"""Channels of the interface `ebac`: buses of this process by name, and the nodes that stand on them."""
+
+from __future__ import annotations
+
+import atexit
+from collections.abc import Callable, Iterator
+from contextlib import AbstractContextManager, contextmanager, nullcontext
+from dataclasses import dataclass
+from threading import RLock
+from typing import TYPE_CHECKING
+
+from ebac._core import LoopbackBus, LoopbackHub, LoopbackJoystick
+
+if TYPE_CHECKING:
+    from ebac.scenario import Scenario
+
+#: What builds the nodes of a channel: given the bus, a context in which they stand on it.
+Nodes = Callable[[LoopbackHub], AbstractContextManager[object]]
+
+
+def resting_joystick() -> Scenario:
+    """Return the scenario of the joystick on a channel: the paper's, in a hand that holds it where it is."""
+    from ebac import presets
+    from ebac.scenario import Scenario
+
+    return Scenario(device=presets.device("joystick"), hand=presets.hand("resting"))
+
+
+def joystick(hub: LoopbackHub) -> LoopbackJoystick:
+    """Return the simulated joystick, nodes 1 and 2."""
+    return LoopbackJoystick(hub, resting_joystick().setup())
+
+
+#: Nodes by the start of a channel's name: "joystick" stands for joystick2 and joystick-left too, each with its own.
+NODES: dict[str, Nodes] = {"joystick": joystick}
+
+
+def nodes_on(channel: str) -> Nodes | None:
+    """Return what builds the nodes of a channel; None where it carries but those who open it."""
+    names = [name for name in NODES if channel.startswith(name)]
+    return NODES[max(names, key=len)] if names else None
+
+
+def populate(channel: str, hub: LoopbackHub) -> AbstractContextManager[object]:
+    """Return the context in which a channel's nodes stand on its bus.
+
+    It is entered when the first bus on the channel is open, which so hears them boot, and left after the last one shut
+    down.
+    """
+    nodes = nodes_on(channel)
+    return nullcontext() if nodes is None else nodes(hub)
+
+
+@dataclass(kw_only=True)
+class _Channel:
+    """A bus by name, and how many hold it."""
+
+    hub: LoopbackHub
+    nodes: AbstractContextManager[object]
+    users: int = 0
+
+
+#: Those that somebody holds.
+CHANNELS: dict[str, _Channel] = {}
+#: Of who comes and goes.
+LOCK = RLock()
+
+
+def join(channel: str, queue: int, own: bool) -> LoopbackBus:
+    """Return an end of the bus of a channel, and hold it; the first one puts its nodes on."""
+    with LOCK:
+        entry = CHANNELS.get(channel)
+        hub = LoopbackHub(stamps=True) if entry is None else entry.hub
+        end = hub.open(frames=queue, own=own)
+        if entry is None:
+            try:
+                nodes = populate(channel, hub)
+                nodes.__enter__()
+            except BaseException:
+                end.close()
+                raise
+            entry = CHANNELS[channel] = _Channel(hub=hub, nodes=nodes)
+        entry.users += 1
+        return end
+
+
+def leave(channel: str) -> None:
+    """Let go of a channel; the last one takes its nodes off."""
+    with LOCK:
+        entry = CHANNELS[channel]
+        entry.users -= 1
+        if entry.users:
+            return
+        del CHANNELS[channel]
+    entry.nodes.__exit__(None, None, None)
+
+
+@contextmanager
+def hub_of(channel: str) -> Iterator[LoopbackHub]:
+    """Hold a channel, and give its bus: for a loop of C++ among the programs of Python."""
+    end = join(channel, 1, False)
+    try:
+        yield CHANNELS[channel].hub
+    finally:
+        end.close()
+        leave(channel)
+
+
+@contextmanager
+def standing(channel: str, nodes: Nodes) -> Iterator[LoopbackHub]:
+    """Put nodes of your own on a new channel, hold it, and give its bus.
+
+    Raises
+    ------
+    ValueError
+        When there is a channel of that name, or nodes that stand on it.
+    """
+    with LOCK:
+        if channel in CHANNELS or nodes_on(channel) is not None:
+            raise ValueError(f"channel = {channel!r}: has nodes of its own; choose another name")
+        NODES[channel] = nodes
+    try:
+        with hub_of(channel) as hub:
+            yield hub
+    finally:
+        del NODES[channel]
+
+
+@atexit.register
+def _leave_all() -> None:
+    """Take off what a program forgot, before the interpreter ends."""
+    while CHANNELS:
+        _, entry = CHANNELS.popitem()
+        entry.nodes.__exit__(None, None, None)

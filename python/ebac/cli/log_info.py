@@ -1,0 +1,134 @@
+"""What `ebac log info` tells of a log: a JSON document, or tables for people."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from ebac.cli import output
+
+if TYPE_CHECKING:
+    from ebac.logs import Log
+    from ebac.trace import Trace
+
+#: Gaps, faults and events shown to people; `--json` has all.
+MOST_SHOWN = 10
+
+
+def document(read: Log) -> str:
+    """Return the JSON document."""
+    trace = read.trace
+    t = trace["t"]
+    rows = [
+        {"column": name, "unit": info.unit, "meaning": info.meaning, "type": str(trace[name].dtype),
+         "values_per_row": 1 if trace[name].ndim == 1 else trace[name].shape[1]}
+        for name, info in trace.columns.items()
+    ]  # fmt: skip
+    return output.document(
+        "log info",
+        rows,
+        file=str(read.path),
+        bytes=read.bytes,
+        complete=read.condition.complete,
+        damaged=read.condition.damaged,
+        bytes_left=read.condition.bytes_left,
+        remarks=read.condition.remarks,
+        log_rows=len(trace),
+        first_s=float(t[0]) if len(t) else None,
+        last_s=float(t[-1]) if len(t) else None,
+        rate_Hz=_rate(trace),
+        axes=trace.axes,
+        law=trace.law or None,
+        law_repr=trace.law_repr or None,
+        start_s=read.about.start_ns / 1e9 if read.about.start_ns else None,
+        made_by=dict(read.about.made_by),
+        attachments=list(read.about.attachments),
+        lost_rows=read.lost,
+        gaps=[{"after_tick": g.after_tick, "t_s": g.t, "rows": g.rows} for g in read.gaps],
+        faults=[{"fault": n, "t_s": at, "tick": tick} for n, at, tick in read.faults],
+        events=[{"kind": e.kind, "message": e.message, "tick": e.tick, "t_s": e.t, "values": e.values}
+                for e in read.events],
+    )  # fmt: skip
+
+
+def _rate(trace: Trace) -> float | None:
+    """Return ticks per second: the median, which no gap changes."""
+    import numpy as np
+
+    if len(trace) < 2:
+        return None
+    step = float(np.median(np.diff(trace["t"])))
+    return 1 / step if step > 0 else None
+
+
+def show(read: Log) -> None:
+    """Print it."""
+    from ebac.logs.events import fault_name
+
+    grid = output.table(["", read.path.name])
+    for name, text in _lines(read):
+        grid.add_row(name, _escaped(text))
+    output.console().print(grid)
+    output.console().print(_columns(read.trace))
+    _list("Gaps", [f"{g.rows} rows after tick {g.after_tick}, {g.t:.3f} s" for g in read.gaps])
+    _list(
+        "Faults",
+        [f"{n} ({fault_name(n)}) in tick {tick}, {t:.3f} s" for n, t, tick in read.faults],
+    )
+    _list("Events", [f"{e.kind} in tick {e.tick}, {e.t:.3f} s: {e.message}" for e in read.events])
+
+
+def _lines(read: Log) -> list[tuple[str, str]]:
+    from datetime import UTC, datetime
+
+    trace, condition = read.trace, read.condition
+    t = trace["t"]
+    rate = _rate(trace)
+    span = f"{t[0]:.3f} to {t[-1]:.3f} s" if len(t) else "none"
+    state = "complete" if condition.complete else "cut: its end is missing"
+    if condition.damaged:
+        state += f", {condition.damaged} damaged parts left out"
+    start = read.about.start_ns
+    lines = [
+        ("file", f"{state}; {read.bytes / 1e6:.3g} MB"),
+        ("rows", f"{len(trace)}, {trace.axes} axis(es), {read.lost} missing between them"),
+        ("time", span + (f" at {rate:.6g} Hz" if rate else "")),
+        ("law", trace.law_repr or trace.law or "not told"),
+        ("events", str(len(read.events))),
+        ("attached", ", ".join(read.about.attachments) or "nothing"),
+        (
+            "made by",
+            ", ".join(f"{k} {v}" for k, v in read.about.made_by.items() if v) or "not told",
+        ),
+    ]
+    if start:
+        began = datetime.fromtimestamp(start / 1e9, UTC)
+        lines.insert(3, ("began", f"{began:%Y-%m-%d %H:%M:%S} UTC"))
+    lines += [("remark", remark) for remark in condition.remarks]
+    return lines
+
+
+def _columns(trace: Trace) -> Any:
+    import numpy as np
+
+    grid = output.table(["column", "unit", "least", "most", "meaning"], numbers=(2, 3))
+    for name, info, values in trace.flat():
+        known = values[np.isfinite(values)].astype(float) if len(values) else values
+        least, most = (f"{known.min():.4g}", f"{known.max():.4g}") if len(known) else ("-", "-")
+        grid.add_row(name, info.unit, least, most, _escaped(info.meaning))
+    return grid
+
+
+def _escaped(text: str) -> str:
+    from rich.markup import escape
+
+    return escape(text)
+
+
+def _list(title: str, lines: list[str]) -> None:
+    if not lines:
+        return
+    output.say(f"{title}:", style="bold")
+    for line in lines[:MOST_SHOWN]:
+        output.indented(line)
+    if len(lines) > MOST_SHOWN:
+        output.indented(f"and {len(lines) - MOST_SHOWN} more, see --json")

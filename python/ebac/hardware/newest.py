@@ -1,0 +1,111 @@
+"""What a loop was told last: its law, its virtual world, where a simulated hand should go."""
+
+from __future__ import annotations
+
+from math import nan
+from typing import TYPE_CHECKING, Any
+
+from ebac._core import Recorded, Step
+from ebac.hardware.told import Note, Told
+
+if TYPE_CHECKING:
+    from ebac import _core
+    from ebac._core import Hand
+    from ebac.laws import CoreLaw
+    from ebac.scenario import Environment, Scenario
+
+#: What a mailbox has room for.
+_MOST_AXES = 3
+
+
+class Newest:
+    """Law, world and target of a loop, each checked before it is sent, and noted for the log. One thread at a time."""
+
+    def __init__(
+        self,
+        running: _core.Running,
+        *,
+        law: CoreLaw,
+        scenario: Scenario,
+        hand: bool,
+    ) -> None:
+        self.law = law
+        self.world: Environment = scenario.environment
+        self.target: tuple[float | None, ...] = (None,) * scenario.device.axes
+        self.told = Told(running, scenario.timing.dt)
+        self._running = running
+        self._hand = scenario.hand if hand else None
+
+    def retune(self, **changes: Any) -> CoreLaw:
+        """Send the law with other gains."""
+        before, after = self.law, self.law.replace(**changes)
+        parts = [
+            f"{name} {getattr(before, name)!r} -> {value!r}" for name, value in changes.items()
+        ]
+        note = Note(
+            message=f"law {after.name}: {', '.join(parts)}",
+            values={f"law.{name}": value for name, value in changes.items()},
+        )
+        self.told.send(lambda: self._running.retune(after), note)
+        self.law = after
+        return after
+
+    def change(self, environment: Environment | None, **changes: Any) -> Environment:
+        """Send another world, or the present one with other numbers."""
+        world = self.world if environment is None else environment
+        world = world.replace(**changes) if changes else world
+        note = Note(
+            message=f"environment {world!r}",
+            values={f"environment.{name}": value for name, value in changes.items()},
+        )
+        self.told.send(lambda: self._running.change_world(world), note)
+        self.world = world
+        return world
+
+    def aim(self, *target: float | None) -> tuple[float | None, ...]:
+        """Send another target of the hand; None leaves an axis as it is."""
+        wanted = aimed(self._hand, self.target, *target)
+        places = [nan if one is None else one for one in wanted]
+        places += [nan] * (_MOST_AXES - len(places))
+        names = [f"hand.target_{axis}" for axis in range(len(target))]
+        values = {name: one for name, one in zip(names, target, strict=True) if one is not None}
+        shown = ", ".join("as before" if one is None else f"{one:g} m" for one in wanted)
+        note = Note(message=f"hand target: {shown}", values=values)
+        self.told.send(lambda: self._running.aim(places), note)
+        self.target = wanted
+        return wanted
+
+
+def aimed(
+    hand: Hand | None, before: tuple[float | None, ...], *target: float | None
+) -> tuple[float | None, ...]:
+    """Return the targets of a hand [m], by axis, with these on top of those told before.
+
+    Raises
+    ------
+    ValueError
+        When there is no simulated hand, for too many axes, for a number out of range, for a recorded path.
+    """
+    axes = len(before)
+    if hand is None:
+        raise ValueError(
+            "the target of the hand: no simulated hand holds this device, so nobody can be told where to go; "
+            "open it with simulate=True (ebac run --simulated)"
+        )
+    if not 1 <= len(target) <= axes:
+        raise ValueError(
+            f"the target of the hand: {len(target)} numbers for {axes} axes: give 1 to {axes}, None for one that stays"
+        )
+    for axis, one in enumerate(target):
+        if one is None:
+            continue
+        Step(target=one)
+        if isinstance(hand.path[axis], Recorded):
+            raise ValueError(
+                f"the target of the hand on axis {axis}: follows a recorded path, which cannot be left while it "
+                "runs; give it a Step, MinimumJerk, Sine or Tapping"
+            )
+    padded = (*target, *(None for _ in range(axes - len(target))))
+    return tuple(
+        old if new is None else float(new) for new, old in zip(padded, before, strict=True)
+    )

@@ -1,0 +1,88 @@
+"""All that a loop on hardware is made of, from a configuration and the place of its drives."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from math import ceil
+from typing import TYPE_CHECKING, Any
+
+from ebac import _core
+
+if TYPE_CHECKING:
+    from ebac.drives import Node
+    from ebac.hardware.configuration import Configuration
+    from ebac.hardware.place import Place
+
+#: Rows beside those of the run itself: before the drives are enabled, and while they stop.
+_MORE_ROWS = 4096
+#: The longest the drives may take to be enabled [s].
+_ENABLE = 2.0
+#: Watched for three of a drive's heartbeats.
+_BEATS = 3.0
+
+
+def run_setup(
+    known: Configuration, nodes: Sequence[Node], *, place: Place, seconds: float
+) -> _core.RunSetup:
+    """Return what a loop is made of: device and world, drives, plan, limits, rows.
+
+    Raises
+    ------
+    ValueError
+        For a time out of range.
+    """
+    if not 0.01 <= seconds <= 1e5:
+        raise ValueError(f"seconds = {seconds:g} s: must lie in [0.01, 100000] s")
+    dt = known.timing.dt
+    ticks = max(1, round(seconds / dt))
+    profiles = [node.profile.values for node in nodes]
+    watched = [float(values["heartbeat.producer"]) for values in profiles]
+    consumers = [float(values.get("heartbeat.consumer", 0.0)) for values in profiles]
+    masters = {int(values["heartbeat.master"]) for values in profiles}
+    beat = min((one for one in consumers if one > 0), default=0.0)
+    watch = known.limits.watch_force and place.sensor is not None
+    limits = known.limits.replace(watch_force=watch)
+    return _core.RunSetup(
+        device=known.device,
+        environment=known.environment,
+        dt=dt,
+        nodes=[node.id for node in nodes],
+        answer_time=known.answer_share * dt,
+        plan=_core.RunPlan(
+            soft_start=known.soft_start,
+            ramp_down=known.ramp_down,
+            stop_ticks=max(10, ceil(0.02 / dt)),
+            arm=True,
+            ticks=ticks,
+        ),
+        limits=limits,
+        sensor=None if place.sensor is None else place.sensor.core(),
+        rows=min(ticks, ceil(known.memory / dt)) + _MORE_ROWS,
+        ring=True,
+        mode=_core.RealTimeMode[known.mode.upper()],
+        realtime=known.realtime,
+        aim=place.aim,
+        drives={
+            "silent_ticks": known.silent,
+            "enable_ticks": ceil(_ENABLE / dt),
+            "heartbeat_timeout": _BEATS * max(watched),
+            "own_node": masters.pop() if beat > 0 and len(masters) == 1 else 0,
+            "heartbeat_period": max(1e-3, beat / 10) if beat > 0 else 0.01,
+        },
+    )
+
+
+def started(law: Any, place: Place, setup: _core.RunSetup) -> _core.Running:
+    """Start a loop, and return it.
+
+    Raises
+    ------
+    TypeError
+        For a law that no loop knows.
+    """
+    if not hasattr(law, "_start"):
+        raise TypeError(
+            f"{law!r}: was bound out of tree without `bind_start_of`, so the real-time loop does not know it"
+        )
+    running: _core.Running = law._start(place.bus, setup)
+    return running

@@ -1,0 +1,95 @@
+"""What can be seen of a loop while it runs, and afterwards."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from ebac import _core
+from ebac.trace import Trace, column_infos, row_views
+
+if TYPE_CHECKING:
+    from ebac.hardware.newest import Newest
+    from ebac.laws import CoreLaw
+    from ebac.scenario import Environment, Scenario
+
+
+class Watched:
+    """The rows of a loop at work and what it was told last, for any thread, at any time."""
+
+    def __init__(self, running: _core.Running, scenario: Scenario, newest: Newest) -> None:
+        self._running = running
+        self._scenario = scenario
+        self._newest = newest
+
+    @property
+    def law(self) -> CoreLaw:
+        """The law with its newest gains."""
+        return self._newest.law
+
+    @property
+    def environment(self) -> Environment:
+        """The newest virtual world."""
+        return self._newest.world
+
+    @property
+    def target(self) -> tuple[float | None, ...]:
+        """Where a simulated hand was told to go last, by axis [m]; None where it follows the path it has."""
+        return self._newest.target
+
+    @property
+    def done(self) -> bool:
+        """Whether the loop has ended."""
+        return self._running.done
+
+    @property
+    def ticks(self) -> int:
+        """Rows so far."""
+        return self._running.rows.count
+
+    def tail(self, rows: int = 1000) -> Trace:
+        """Return a copy of the last rows, also while it runs.
+
+        Parameters
+        ----------
+        rows : int
+            How many at most, at least 1.
+
+        Returns
+        -------
+        Trace
+
+        Raises
+        ------
+        ValueError
+            For a number below 1.
+        """
+        if rows < 1:
+            raise ValueError(f"rows = {rows}: must be at least 1")
+        all_rows = self._running.rows
+        stop = all_rows.count
+        _, raw = all_rows.copy(max(all_rows.first, stop - rows), stop)
+        return Trace(
+            data=row_views(all_rows, raw),
+            columns=column_infos(all_rows),
+            axes=all_rows.axes,
+            scenario=self._scenario,
+            law=self.law.name,
+            law_repr=repr(self.law),
+        )
+
+    @property
+    def state(self) -> _core.LoopState:
+        """Where the loop stands: arm, run, stop, idle or fault."""
+        if self.done:
+            return self._running.state
+        last = self.tail(1)
+        return _core.LoopState(int(last["state"][-1])) if len(last) else _core.LoopState.ARM
+
+    def trace(self) -> Trace:
+        """Return all rows in memory, shared and not copied where they are no ring's."""
+        return Trace.from_rows(
+            self._running.rows,
+            scenario=self._scenario,
+            law=self.law.name,
+            law_repr=repr(self.law),
+        )

@@ -1,0 +1,136 @@
+"""The chunks of a log, unpacked several at a time and in several threads, given in their order."""
+
+from __future__ import annotations
+
+import os
+from collections import deque
+from collections.abc import Iterator
+from concurrent.futures import Future, ThreadPoolExecutor
+from dataclasses import dataclass, field
+from types import TracebackType
+from typing import Self
+
+from ebac.logs.events import Event
+from ebac.logs.layout import MESSAGE, Layout
+from ebac.logs.records import unpacked
+
+#: Packed bytes that are unpacked together: the rows of a log on disk come twenty at a time.
+_TOGETHER = 1 << 18
+#: Threads at most; the packing library and the checksum leave the interpreter alone meanwhile.
+_THREADS = 4
+
+
+@dataclass(frozen=True, kw_only=True)
+class Where:
+    """Which messages of a chunk are rows, and which are events."""
+
+    layout: Layout
+    rows: int
+    events: int | None
+
+
+@dataclass(kw_only=True)
+class Content:
+    """What some chunks held.
+
+    Attributes
+    ----------
+    runs : list of bytes
+        Message records of rows, each an unbroken run.
+    events : list of Event
+        What happened.
+    wrong : list of (int, ValueError)
+        Chunks that cannot be read: first byte, why.
+    end : int
+        First byte after the last of these chunks.
+    """
+
+    end: int
+    runs: list[bytes] = field(default_factory=list)
+    events: list[Event] = field(default_factory=list)
+    wrong: list[tuple[int, ValueError]] = field(default_factory=list)
+
+
+class Chunks:
+    """Takes chunks as they stand in a file, gives what they hold in that order. A context manager."""
+
+    def __init__(self) -> None:
+        self._batch: list[tuple[int, bytes]] = []
+        self._bytes = 0
+        self._pool: ThreadPoolExecutor | None = None
+        self._threads = min(_THREADS, len(os.sched_getaffinity(0)))
+        self._under_way: deque[Future[Content]] = deque()
+
+    def put(self, where: Where, start: int, data: bytes) -> Iterator[Content]:
+        """Take a chunk whose content begins at byte `start`; give what is ready."""
+        self._batch.append((start, data))
+        self._bytes += len(data)
+        if self._bytes < _TOGETHER:
+            return
+        if self._pool is None:
+            self._pool = ThreadPoolExecutor(self._threads, thread_name_prefix="ebac-log")
+        self._under_way.append(self._pool.submit(_content, where, self._taken()))
+        while len(self._under_way) > 2 * self._threads:
+            yield self._under_way.popleft().result()
+
+    def rest(self, where: Where) -> Iterator[Content]:
+        """Give all that was put and not given yet."""
+        while self._under_way:
+            yield self._under_way.popleft().result()
+        if self._batch:
+            yield _content(where, self._taken())
+
+    def _taken(self) -> list[tuple[int, bytes]]:
+        batch, self._batch, self._bytes = self._batch, [], 0
+        return batch
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        traceback: TracebackType | None,
+    ) -> None:
+        if self._pool is not None:
+            self._pool.shutdown(cancel_futures=True)
+
+
+def _content(where: Where, batch: list[tuple[int, bytes]]) -> Content:
+    """Return what chunks hold; one that cannot be read costs no other."""
+    start, data = batch[-1]
+    content = Content(end=start + len(data))
+    parts: list[tuple[int, bytes]] = []
+    for start, data in batch:
+        try:
+            parts.append((start, unpacked(data)))
+        except ValueError as error:
+            content.wrong.append((start, error))
+    size = where.layout.record.itemsize
+    if all(len(part) % size == 0 for _, part in parts):
+        joined = b"".join(part for _, part in parts)
+        if where.layout.only_rows(joined, where.rows):
+            content.runs = [joined] if joined else []
+            return content
+    for start, part in parts:
+        try:
+            runs = where.layout.find(part, where.rows)
+            events = [] if sum(map(len, runs)) == len(part) else list(_events(where, part))
+        except ValueError as error:
+            content.wrong.append((start, error))
+        else:
+            content.runs += runs
+            content.events += events
+    content.wrong.sort(key=lambda one: one[0])
+    return content
+
+
+def _events(where: Where, content: bytes) -> Iterator[Event]:
+    at = 0
+    while at < len(content):
+        stop = at + 9 + int.from_bytes(content[at + 1 : at + 9], "little")
+        channel = int.from_bytes(content[at + 9 : at + 11], "little")
+        if content[at] == MESSAGE and channel == where.events:
+            yield Event.from_json(content[at + 31 : stop])
+        at = stop

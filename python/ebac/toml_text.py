@@ -1,0 +1,20 @@
+"""TOML text, and one kind of error for all that is none."""
+
+from __future__ import annotations
+
+import tomllib
+from typing import Any
+
+
+def parsed(text: str) -> dict[str, Any]:
+    """Return the table of a document.
+
+    Raises
+    ------
+    ValueError
+        When it is none; also for what the standard library's parser gives up on with another exception.
+    """
+    try:
+        return tomllib.loads(text)
+    except RecursionError:
+        raise ValueError("lists or tables within one another too deeply") from None

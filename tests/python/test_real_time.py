@@ -1,0 +1,61 @@
+"""A test of the clock is repeated where the machine stalled its loop, and only there."""
+
+from pathlib import Path
+
+import pytest
+
+CONFTEST = Path(__file__).with_name("conftest.py")
+
+TEST = """
+    import pytest
+
+    failed = {}
+
+    @pytest.fixture
+    def room():
+        yield []
+
+    def fail(name, room, times, message):
+        room.append(1)
+        assert len(room) == 1, "the fixture of before"
+        failed[name] = failed.get(name, 0) + 1
+        assert failed[name] > times, message
+
+    @pytest.mark.real_time
+    @pytest.mark.parametrize(("times", "message"), [
+        (0, "fault 16 (force stale)"),
+        (2, "fault 16 (force stale) in tick 7"),
+        (1, "fault 19 (overruns)"),
+        (5, "fault 9 (drive silent)"),
+        (1, "fault 14 (overspeed)"),
+        (1, "wrong"),
+    ])
+    def test_marked(room, times, message):
+        fail(message, room, times, message)
+
+    def test_bare(room):
+        fail("bare", room, 1, "fault 16 (force stale)")
+"""
+
+
+@pytest.mark.parametrize("more", [(), ("-n", "1")], ids=["here", "in a worker"])
+def test_only_a_stall_is_repeated(pytester: pytest.Pytester, more: tuple[str, ...]) -> None:
+    if more:
+        pytest.importorskip("xdist")
+    pytester.makeconftest(CONFTEST.read_text(encoding="utf-8"))
+    pytester.makepyfile(test_mine=TEST)
+    result = pytester.runpytest_subprocess("-p", "no:cacheprovider", *more)
+    result.assert_outcomes(passed=3, failed=4)
+    said = [line for line in result.outlines if line.startswith("repeated, this machine stalled")]
+    assert [line.count("fault ", line.index("]")) for line in sorted(said)] == [1, 2, 4]
+
+
+def test_the_words_are_those_of_a_fault() -> None:
+    import ebac
+
+    names = {9: "drive silent", 11: "heartbeat lost", 16: "force stale", 19: "overruns"}
+    text = CONFTEST.read_text(encoding="utf-8")
+    for number, name in names.items():
+        fault = ebac.Fault(number)
+        assert fault.name.lower().replace("_", " ") == name
+        assert name in text
