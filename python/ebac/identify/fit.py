@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from ebac.identify.bias import without_noise
 from ebac.identify.intervals import covariance
-from ebac.identify.likelihood import likely_noise
+from ebac.identify.likelihood import likely_noise, shown_noise
 from ebac.identify.parameters import Parameters
 from ebac.identify.problem import Problem
 from ebac.identify.search import Found, least_squares
@@ -95,12 +95,18 @@ class _Point:
 
 
 def _search(problem: Problem, start: Values, robust: float | None) -> _Point:
-    """Make the filter for the guess, search with it, until the two agree."""
-    values, noise, evaluations = start, None, 0
+    """Make the filter for the guess, search with it, until the two agree.
+
+    The first filter is made for the noise that the force shows: at a bad guess a far larger one is likelier, and with
+    it anything fits.
+    """
+    values, evaluations = start, 0
+    noise = np.array([shown_noise(r) for r in problem.recordings])
     p = problem.parameters
     moved_by = problem.moved
-    for _ in range(MOST_ROUNDS):
-        noise = likely_noise(problem, values, noise, robust)
+    for i in range(MOST_ROUNDS):
+        if i > 0:
+            noise = likely_noise(problem, values, noise, robust)
         gains = problem.gains(values, noise)
 
         def spread(part: Values, base: Values = values) -> Values:
@@ -119,9 +125,8 @@ def _search(problem: Problem, start: Values, robust: float | None) -> _Point:
         evaluations += found.evaluations
         moved = found.values - values[moved_by]
         values = spread(found.values)
-        if float(moved @ found.information @ moved) < SETTLED:
+        if i > 0 and float(moved @ found.information @ moved) < SETTLED:
             break
-    assert noise is not None
     gains = problem.gains(values, noise)
     likelihood = found.cost + sum(g.log_sum for g in gains)
     return _Point(
