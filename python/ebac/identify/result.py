@@ -115,8 +115,9 @@ class ArmResult:
     def undetermined(self) -> tuple[str, ...]:
         """Names of what this log does not determine."""
         half = Z95 * self.deviation
+        dt = max(r.dt for r in self.recordings)
         return verdict.undetermined(
-            self.parameters, self.values, half, self.correlation, self._span
+            self.parameters, self.values, half, self.correlation, self._span, dt
         )
 
     @cached_property
