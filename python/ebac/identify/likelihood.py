@@ -78,8 +78,17 @@ def lowest(
         a, b, fa, fb = b, a, fb, fa
     while True:  # b is below a; c is beyond b
         c = min(max(b + 2 * (b - a), low), high)
-        if c == b:
-            return b
+        if c == b:  # a bound: is it the lowest, or something before it?
+            while abs(b - a) > NEAR:
+                middle = 0.5 * (a + b)
+                fm = f(middle)
+                if fm < fb:
+                    c, fc, b, fb = b, fb, middle, fm
+                    break
+                a, fa = middle, fm
+            else:
+                return b
+            break
         fc = f(c)
         if fc >= fb:
             break
@@ -90,7 +99,10 @@ def lowest(
             return b
         bottom = b - 0.5 * ((b - a) * left - (b - c) * right) / (left - right)
         if abs(bottom - b) < NEAR:
-            return bottom
+            far = a if abs(a - b) > abs(c - b) else c
+            if abs(far - b) < 5 * NEAR:
+                return bottom
+            bottom = b + float(np.copysign(2 * NEAR, far - b))  # a parabola creeps from the side
         fn = f(bottom)
         if fn < fb:  # the lowest of three, and its neighbours
             a, fa = (b, fb) if (bottom - b) * (a - b) < 0 else (a, fa)

@@ -55,17 +55,20 @@ def least_squares(
         near = _Parabola(H, g, ~(((x <= low) & (g > 0)) | ((x >= high) & (g < 0))))
         done = near.depth < tolerance
         while not done:
-            step = np.clip(x + near.step(damping), low, high) - x
+            full = near.step(damping)
+            step = np.clip(x + full, low, high) - x
+            inside = bool(np.allclose(step, full, rtol=1e-9, atol=0.0))
             foretold = near.lowers(step)
             e_trial = errors(x + step)
             evaluations += 1
             gain = cost - loss(e_trial, robust)
             if gain >= 0:
                 left = abs(gain - foretold) + near.depth - foretold
-                done = gain < tolerance or left < tolerance
+                done = left < tolerance or (gain < tolerance and inside)
                 x, e, cost, damping = x + step, e_trial, cost - gain, max(damping / 10, 1e-9)
                 break
-            done = abs(foretold) < tolerance
+            # A step that a bound has bent may lead up; along the slope, by much damping, none does.
+            done = abs(foretold) < tolerance and (inside or damping > 1)
             damping *= 8
         if done:
             return Found(
