@@ -10,7 +10,7 @@ from ebac.identify import Recording, Target, fit_arm
 from ebac.identify.arm import better_guess
 from ebac.identify.cases import draw
 from ebac.identify.check import run_case
-from ebac.identify.likelihood import NEAR, lowest, shown_noise
+from ebac.identify.likelihood import NEAR, lowest
 from ebac.identify.parameters import lay_out
 from ebac.identify.problem import Problem
 from ebac.identify.pull import Pull
@@ -90,7 +90,7 @@ def test_forces_and_levels_say_the_same(problem: Problem, hand: list[float], lev
 
 def test_the_slope_along_forces_is_that_of_the_objective(problem: Problem) -> None:
     pull, values = Pull.of(problem), better_guess(problem)
-    gains = problem.gains(values, np.array([shown_noise(problem.recordings[0])]))
+    gains = problem.gains(values, problem.shown)
     slope, at = pull.slope(values, gains), pull.moved(values)
     onset = problem.parameters.names.index("onset")  # has a kink where it is held
     for i in np.flatnonzero(pull.which != onset):

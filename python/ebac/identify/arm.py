@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from ebac.identify.fit import fitted
 from ebac.identify.guess import regression, solve
 from ebac.identify.intervals import with_counts
-from ebac.identify.likelihood import minus_two_log, shown_noise
+from ebac.identify.likelihood import minus_two_log
 from ebac.identify.parameters import BEFORE_LEVELS, kind, lay_out
 from ebac.identify.problem import Problem
 from ebac.identify.recording import Recording
@@ -154,7 +154,7 @@ def better_guess(problem: Problem) -> Values:
     other = by_time.copy()
     other[place[:3]] = found
     other = problem.parameters.clip(other)
-    noise, record = shown_noise(recording), problem.records[0]
+    noise, record = float(problem.shown[0]), problem.records[0]
     costs = [minus_two_log(record, g[place], g[place], noise) for g in (by_time, other)]
     return other if costs[1] < costs[0] else by_time
 

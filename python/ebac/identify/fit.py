@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from ebac._core import ArmGains
 from ebac.identify.bias import without_noise
 from ebac.identify.intervals import covariance
-from ebac.identify.likelihood import likely_noise, shown_noise
+from ebac.identify.likelihood import likely_noise
 from ebac.identify.parameters import Parameters
 from ebac.identify.problem import Problem
 from ebac.identify.pull import Pull
@@ -98,8 +98,7 @@ def _spread(
 
 def spread_at(problem: Problem, values: Values) -> NDArray[np.float64]:
     """Return the covariance that a log gives at values that are known, as only a simulation knows them."""
-    noise = np.array([shown_noise(r) for r in problem.recordings])
-    noise = likely_noise(problem, values, noise)
+    noise = likely_noise(problem, values, problem.shown)
     gains = problem.gains(values, noise)
     _, pretended = without_noise(problem, values, noise, gains)
     return _spread(problem, values, gains, problem.errors(values, gains), pretended, None)
@@ -120,8 +119,7 @@ def _search(problem: Problem, start: Values, robust: float | None) -> _Point:
     The first filter is made for the noise that the force shows: at a bad guess a far larger one is likelier, and with
     it anything fits.
     """
-    values, evaluations = start, 0
-    noise = np.array([shown_noise(r) for r in problem.recordings])
+    values, noise, evaluations = start, problem.shown, 0
     pull = Pull.of(problem)
     for i in range(MOST_ROUNDS):
         if i > 0:

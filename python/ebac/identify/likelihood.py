@@ -8,9 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ebac._core import ArmRecord
-from ebac.identify.noise import rough
 from ebac.identify.problem import Problem
-from ebac.identify.recording import Recording
 from ebac.identify.search import loss
 
 #: The noise that moves a hand is at least what the force signal itself shows, and so many times that at most.
@@ -42,9 +40,8 @@ def likely_noise(
     """
     found = []
     quiet = problem.held(values)
-    parts = zip(problem.records, problem.parameters.places, problem.recordings, strict=True)
-    for i, (record, place, recording) in enumerate(parts):
-        shown = float(np.log(shown_noise(recording)))
+    parts = zip(problem.records, problem.parameters.places, np.log(problem.shown), strict=True)
+    for i, (record, place, shown) in enumerate(parts):
 
         def unlikely(
             z: float,
@@ -54,15 +51,9 @@ def likely_noise(
         ) -> float:
             return minus_two_log(record, theta, held, float(np.exp(z)), robust)
 
-        limits = shown, shown + float(np.log(WIDEST))
+        limits = float(shown), float(shown + np.log(WIDEST))
         found.append(float(np.exp(lowest(unlikely, float(np.log(before[i])), STEP, *limits))))
     return np.array(found)
-
-
-def shown_noise(recording: Recording) -> float:
-    """Return the noise that the force signal itself shows [N], never none."""
-    assert recording.force is not None
-    return max(rough(recording.force), 1e-5 * float(np.ptp(recording.force)), 1e-9)
 
 
 def lowest(

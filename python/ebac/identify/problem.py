@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ebac._core import ArmGains, ArmRecord
-from ebac.identify.noise import readings
+from ebac.identify.noise import readings, rough
 from ebac.identify.parameters import INPUTS, STEPS, Parameters, kind
 from ebac.identify.recording import Recording
 from ebac.identify.ripple import ripple
@@ -31,6 +31,7 @@ class Problem:
     targets: tuple[Target, ...]
     parameters: Parameters
     make: Make = field(default_factory=lambda: arm_record)
+    quietest: float = 1.0  # times what the force shows: the least noise that is believed
     records: tuple[ArmRecord, ...] = field(init=False)
     doubt: Doubt = field(init=False)  # moves with the search
     unseen: Doubt = field(init=False)  # does not, but widens the intervals
@@ -46,6 +47,14 @@ class Problem:
         driven = all(r.motor is not None for r in self.recordings)
         unseen = {"bend": BEND, "delay": DELAY_DRIVEN if driven else DELAY}
         object.__setattr__(self, "unseen", doubt_of(self, unseen))
+
+    @property
+    def shown(self) -> NDArray[np.float64]:
+        """Return the least noise of each force that is believed [N]: what its signal shows, never none."""
+        forces = [r.force for r in self.recordings if r.force is not None]
+        return np.array(
+            [self.quietest * max(rough(f), 1e-5 * float(np.ptp(f)), 1e-9) for f in forces]
+        )
 
     def gains(
         self, values: NDArray[np.float64], force_noise: NDArray[np.float64]
