@@ -29,10 +29,8 @@ WHATEVER = 100.0
 #: A force jumps where it bends by so many deviations of its noise; a tick may miss this share of it, felt for so many
 #: rows before and after.
 NOISY, JUMP, FELT = 5.0, 0.5, 4
-#: Friction is less even than a noise: errors count as if the force had so many times the noise it shows.
-import os
-
-UNEVEN = float(os.environ.get("UNEVEN", "1.3"))
+#: Friction and impacts are less even than noise: errors count as if the force had so many times what it shows.
+UNEVEN = 1.6
 FITTED = ("M_h", "B_h", "coulomb", "weight", "stribeck")
 
 
