@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from html import escape
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Self, overload
+from zipfile import BadZipFile
 
 import numpy as np
 from numpy.typing import NDArray
@@ -260,10 +261,10 @@ class Trace:
             with np.load(path, allow_pickle=False) as archive:
                 about = json.loads(str(archive["about"]))
                 data = {name: archive[name] for name in about["columns"]}
-        except (KeyError, OSError, ValueError) as error:
+        except (BadZipFile, EOFError, KeyError, OSError, TypeError, ValueError) as error:
             if isinstance(error, FileNotFoundError):
                 raise
-            raise ValueError(f"{path}: not a trace written by to_npz ({error})") from None
+            raise ValueError(f"{path}: not a trace written by to_npz ({_reason(error)})") from None
         return cls(
             data=data,
             columns={
@@ -341,6 +342,11 @@ def row_views(rows: _core.Rows, raw: NDArray[np.uint8]) -> dict[str, NDArray[Any
 def column_infos(rows: _core.Rows) -> dict[str, ColumnInfo]:
     """Return unit and meaning of every column of rows."""
     return {c.name: ColumnInfo(name=c.name, unit=c.unit, meaning=c.meaning) for c in rows.columns}
+
+
+def _reason(error: Exception) -> str:
+    """Return why a file is no archive; NumPy speaks of pickles where it knows no better."""
+    return "no archive" if "pickle" in str(error) or not str(error) else str(error)
 
 
 def _text(value: Any) -> str:

@@ -75,9 +75,16 @@ def device(
 
 def _notes(result: DeviceResult) -> list[str]:
     given = result.compensation
+    share = f"{100 * result.drive.slides.mean():.0f} % of the log"
+    explained = (
+        f"Explains {100 * result.explained:.2f} % of the force where it slides, {share}."
+        if result.explained > 0
+        else f"Explains nothing of the force where it slides, {share}: eq. (6) with these forces is no model of it."
+    )
+    alone = "The log has no force of the motor: true only of a device whose motor gave none."
     return [
-        f"Explains {100 * result.explained:.2f} % of the force where it slides, "
-        f"{100 * result.drive.slides.mean():.0f} % of the log.",
+        explained,
+        *([alone] if result.recording.motor is None else []),
         f"For the device: Compensation(friction={given.friction:.4g} N, gravity_mass={given.gravity_mass:.4g} kg), "
         "the lower bounds of what was found.",
     ]

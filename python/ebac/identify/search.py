@@ -48,6 +48,10 @@ def least_squares(
     for _ in range(most):
         J = jacobian(x)
         evaluations += 1
+        if not (np.isfinite(cost) and np.isfinite(J).all()):
+            raise ValueError(
+                "no fit: the model runs away from what was recorded; is a force of the wrong sign, or the wrong column?"
+            )
         w = weights(e, robust)
         Jw = J * w
         H = np.einsum("ik,jk->ij", Jw, J)  # not by BLAS: its threads cost more than they save
