@@ -62,7 +62,7 @@ def gains(printed: Printed) -> str:
                 code(row["law"]),
                 row["gains"],
                 f"{row['kp_median']:.2g}",
-                f"{1e3 * row['kd_median_s']:.2g} ms",
+                f"{1e3 * row['kd_median_s']:.3f} ms",
                 f"{row['settled']} of {row['presses']}",
                 "never" if median is None else f"{median:.3f} s",
                 f"{1e3 * row['swing_worst_m']:.3f} mm",

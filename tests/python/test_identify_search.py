@@ -10,11 +10,13 @@ from ebac.identify import Recording, Target, fit_arm
 from ebac.identify.arm import better_guess
 from ebac.identify.cases import draw
 from ebac.identify.check import run_case
+from ebac.identify.levels import lagged
 from ebac.identify.likelihood import NEAR, lowest
 from ebac.identify.parameters import lay_out
 from ebac.identify.problem import Problem
 from ebac.identify.pull import Pull
 from ebac.identify.search import least_squares
+from ebac.identify.unbiased import second_opinion
 
 
 @pytest.fixture(scope="module")
@@ -143,3 +145,35 @@ def test_a_target_that_changes_at_the_last_row_does_not_count() -> None:
 
 def test_less_than_half_a_tap_is_one_level() -> None:
     assert Target.tapping(1.0, 0.3, start=0.6).levels == 1
+
+
+# --- lags and the second opinion ---
+
+
+@given(lag=st.floats(5e-5, 5e-3), frequency=st.floats(1, 40))
+def test_a_lagged_sine_is_that_of_the_formula(lag: float, frequency: float) -> None:
+    t, w = 1e-3 * np.arange(400), 2 * np.pi * frequency
+    found = lagged(np.sin(w * t), 1e-3, lag)[200:]
+    true = (np.exp(1j * w * t) / (1 + 1j * w * lag)).imag[200:]
+    assert np.abs(found - true).max() < 1.2 * (w * 1e-3) ** 2 / 12 + 1e-9
+
+
+@given(lag=st.floats(5e-5, 5e-3), at=st.integers(20, 60))
+def test_a_lagged_step_is_that_of_the_formula(lag: float, at: int) -> None:
+    """A row tells the value since the row before."""
+    t = 1e-3 * np.arange(100)
+    found = lagged((np.arange(100) > at).astype(float), 1e-3, lag, stepping=True)
+    true = 1 - np.exp(-np.maximum(t - t[at], 0.0) / lag)
+    assert found == pytest.approx(true, abs=1e-9)
+
+
+@pytest.mark.parametrize("number", [0, 1, 2, 3])
+def test_the_second_opinion_is_near_the_truth_and_says_how_near(number: int) -> None:
+    tracked = [i for i in range(40) if draw(i, 11).task == "tracking"]
+    case = draw(tracked[number], 11)
+    r = Recording.from_trace(ebac.simulate(case.scenario, case.law))
+    opinions = second_opinion(fit_arm(r, Target.of(case.scenario.hand, r.t)))
+    for opinion in opinions:
+        truth = case.truth()[opinion.name]
+        assert abs(opinion.unbiased / truth - 1) < 0.02, opinion
+        assert abs(opinion.unbiased - truth) < 4 * opinion.unbiased_deviation, opinion

@@ -40,9 +40,7 @@ def show(
         for text in lines:
             output.say(f"{name}: {text}", style="dim")
     grid = output.table(["", "estimate", "95 % interval", "profile", "unit", ""], numbers=(1, 2, 3))
-    for e in result.estimates.values():
-        if e.fixed and e.name not in ("M0", "B0", "K0"):
-            continue
+    for e in result.shown:
         wide = "-" if e.fixed else f"{e.low:.4g} to {e.high:.4g}"
         prof = "-" if e.name not in profiles else "{:.4g} to {:.4g}".format(*profiles[e.name])
         word = "given" if e.fixed else "" if e.determined else "[red]not determined[/]"
@@ -90,7 +88,7 @@ def write(
                 "95 % interval": "given" if e.fixed else f"{e.low:.5g} to {e.high:.5g}",
                 "unit": e.unit,
             }
-            for e in result.estimates.values()
+            for e in result.shown
         ]
         notes = [f"{name}: {text}" for name, lines in remarks.items() for text in lines]
         notes += [

@@ -142,7 +142,7 @@ def _gains(logs: int, seed: int, as_json: bool) -> None:
             row["law"],
             row["gains"],
             f"{row['kp_median']:.3g}",
-            f"{1e3 * row['kd_median_s']:.3g} ms",
+            f"{1e3 * row['kd_median_s']:.3f} ms",
             f"{row['settled']} of {row['presses']}",
             f"{median:.3f} s" if median < 1e9 else "never",
             f"{1e3 * row['swing_worst_m']:.3f} mm",

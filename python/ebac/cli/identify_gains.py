@@ -148,7 +148,7 @@ def _cells(result: GainsResult) -> list[dict[str, str]]:
         {
             "gains": row["gains"],
             "Kp": f"{row['kp']:.3g}",
-            "Kd": f"{1e3 * row['kd_s']:.3g} ms",
+            "Kd": f"{1e3 * row['kd_s']:.3f} ms",
             "cost": f"{row['cost']:.3f}",
             "settles (median)": seconds(row["settled_median_s"]),
             "swing (worst)": f"{1e3 * row['swing_worst_m']:.3f} mm",

@@ -12,7 +12,7 @@ from ebac._core import ArmGains
 from ebac.identify.bias import without_noise
 from ebac.identify.intervals import covariance
 from ebac.identify.likelihood import likely_noise
-from ebac.identify.parameters import Parameters
+from ebac.identify.parameters import Parameters, kind
 from ebac.identify.problem import Problem
 from ebac.identify.pull import Pull
 from ebac.identify.search import Found, least_squares
@@ -158,10 +158,15 @@ def _with_filter(
     )
 
 
+#: Where hands are, from fingers to arms: M0 [kg], B0 [N s/m], K0 [N/m].
+HANDS = {"M0": (0.01, 3.0), "B0": (0.5, 40.0), "K0": (30.0, 2000.0)}
+
+
 def _elsewhere(values: Values, parameters: Parameters, draw: np.random.Generator) -> Values:
-    """Return another start: M0, B0, K0 up to four times larger or smaller."""
+    """Return another start: a hand as hands are, the rest as it was."""
     out = values.copy()
     for i, name in enumerate(parameters.names):
-        if name[0] in "MBK":
-            out[i] = max(abs(values[i]), 1e-2) * 4 ** draw.uniform(-1, 1)
+        if kind(name) in HANDS:
+            low, high = HANDS[kind(name)]
+            out[i] = low * (high / low) ** draw.random()
     return parameters.clip(out)

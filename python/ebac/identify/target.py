@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -44,6 +44,10 @@ class Target:
     def levels(self) -> int:
         """How many levels are fitted."""
         return max(self.segments) + 1
+
+    def late(self, seconds: float) -> Target:
+        """Return the same with every switch later by some time [s]."""
+        return replace(self, switches=tuple(at + seconds for at in self.switches))
 
     @classmethod
     def held(cls) -> Target:
