@@ -12,7 +12,7 @@ import numpy as np
 from ebac.document import unknown
 from ebac.identify.columns import UNITS_OF, assign, split_heading, unit_factor
 from ebac.identify.files import Columns, archive_of, read_columns
-from ebac.identify.recording import OF_TRACE, Recording, count_of, trace_facts
+from ebac.identify.recording import LEAST_ROWS, OF_TRACE, Recording, count_of, trace_facts
 from ebac.trace import Trace
 
 
@@ -168,7 +168,7 @@ SLOWEST = 0.1
 def _plausible(name: str, signals: Columns) -> None:
     """Refuse numbers in a wrong unit, as far as that shows, and a force that says nothing."""
     dt, reach = float(np.diff(signals["t"]).mean()), float(np.ptp(signals["x"]))
-    if dt > SLOWEST:
+    if len(signals["t"]) >= LEAST_ROWS and reach > 0 and dt > SLOWEST:
         raise ValueError(
             f"{name}: rows are {dt:.4g} s apart, {SLOWEST:g} s at most tell a hand: is the unit of t right? "
             "Say it: units={'t': 'ms'} or --unit t=ms"
