@@ -11,12 +11,13 @@ from types import TracebackType
 from typing import TYPE_CHECKING, Any
 
 from ebac import _core
+from ebac.columns import column_infos, row_views
 from ebac.drives.errors import DriveError
 from ebac.hardware.interrupts import Interrupts, Parent
 from ebac.hardware.report import Report
 from ebac.hardware.told import Note, Told
 from ebac.leaving import noted_on
-from ebac.trace import Trace, column_infos, row_views
+from ebac.trace import Trace
 
 if TYPE_CHECKING:
     from ebac.laws import CoreLaw
