@@ -147,7 +147,7 @@ class ArmResult:
 
     @property
     def shown(self) -> tuple[Estimate, ...]:
-        """Return what a table shows: what was fitted, and of the hand what was given."""
+        """Return the rows of a table, what was fitted and what of the hand was given."""
         return tuple(e for e in self.estimates.values() if not e.fixed or kind(e.name) in HAND)
 
     def __getitem__(self, name: str) -> Estimate:
