@@ -20,6 +20,7 @@ extensions = [
     "public_names",  # `.. public::`: all of a package's public names, none forgotten
     "error_tables",  # tables of faults and errors, from the code
     "repository_links",  # links to files of the repository that are no pages
+    "whole_properties",  # no types in docstrings of properties
 ]
 exclude_patterns = ["_build", "figures/*.py", "jupyter_execute"]
 html_theme = "furo"

@@ -38,9 +38,9 @@ def arm(printed: Printed) -> str:
     """200 random arms."""
     d = printed.document(ARM)
     text = (
-        f"Of {d['free_cases']} logs that tell nothing of the arm {d['free_called']} are called so, and "
-        f"{d['other_called']} of the {d['other_cases']} others; estimates that are "
-        f"wrong by half and said to be determined: {d['determined_and_wrong_by_half']}."
+        f"{d['silent_cases']} of the logs cannot tell M0, B0 and K0, by the information at the true values; "
+        f"{d['silent_called']} of them are called so, and {d['telling_called']} of the {d['telling_cases']} others. "
+        f"Estimates that are wrong by half and said to be determined: {d['determined_and_wrong_by_half']}."
     )
     return coverage(d["rows"]) + "\n\n" + text
 
@@ -62,7 +62,7 @@ def gains(printed: Printed) -> str:
                 code(row["law"]),
                 row["gains"],
                 f"{row['kp_median']:.2g}",
-                f"{1e3 * row['kd_median_s']:.2g} ms",
+                f"{1e3 * row['kd_median_s']:.3f} ms",
                 f"{row['settled']} of {row['presses']}",
                 "never" if median is None else f"{median:.3f} s",
                 f"{1e3 * row['swing_worst_m']:.3f} mm",

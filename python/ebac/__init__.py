@@ -58,6 +58,7 @@ from ebac._core import (
     copley_current,
     estimate_velocity,
 )
+from ebac.columns import ColumnInfo
 from ebac.laws import LAWS, PythonLaw, Variant, design
 from ebac.logs import load, replay
 from ebac.metrics import Contact, contact, ideal_rest
@@ -67,7 +68,7 @@ from ebac.simulation import LoopFault, simulate
 from ebac.specs import Spec, spec_sheet
 from ebac.studies import CONDITIONS, Ablation, Condition, Study, Worst, ablation, study, worst
 from ebac.sweeps import SweepInterrupted, SweepResult, sweep
-from ebac.trace import ColumnInfo, Trace
+from ebac.trace import Trace
 
 __version__ = _version("ebac")
 

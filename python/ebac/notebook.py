@@ -3,15 +3,20 @@
 from __future__ import annotations
 
 from base64 import b64encode
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from html import escape
 from io import BytesIO
 from typing import TYPE_CHECKING, Any
+
+import numpy as np
 
 from ebac import wording
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+    from numpy.typing import NDArray
+
+    from ebac.columns import ColumnInfo
 
 #: Endings of a key and the SI unit they stand for, the longer ones first.
 UNITS = {
@@ -57,6 +62,23 @@ def table(rows: Sequence[Mapping[str, Any]], *, most: int = MOST_ROWS) -> str:
         gap = f'<tr><td colspan="{len(rows[0])}">... {left_out} more ...</td></tr>'
         lines.insert(most // 2, gap)
     return f"<table><tr>{head}</tr>{''.join(lines)}</table>"
+
+
+def table_of_columns(columns: Iterable[tuple[str, ColumnInfo, NDArray[Any]]]) -> str:
+    """Return a folded table of columns: name, unit, first, last, least and largest value, meaning."""
+    titles = ("column", "unit", "first", "last", "least", "most", "meaning")
+    head = "<tr>" + "".join(f"<th>{title}</th>" for title in titles) + "</tr>"
+    lines = [head, *(_column(*column) for column in columns)]
+    return f"<details><summary>columns</summary><table>{''.join(lines)}</table></details>"
+
+
+def _column(name: str, info: ColumnInfo, values: NDArray[Any]) -> str:
+    numbers = values.astype(float)
+    known = numbers[np.isfinite(numbers)]
+    nan = float("nan")
+    shown = [numbers[0], numbers[-1], known.min(), known.max()] if len(known) else [nan] * 4
+    cells = "".join(f"<td>{number:.6g}</td>" for number in shown)
+    return f"<tr><th>{escape(name)}</th><td>{info.unit}</td>{cells}<td>{escape(info.meaning)}</td></tr>"
 
 
 def picture(draw: Callable[[], Figure]) -> str:

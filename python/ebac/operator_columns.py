@@ -56,7 +56,7 @@ def read_csv(path: str | Path) -> dict[str, list[str]]:
     except csv.Error as error:
         raise ValueError(str(error)) from None
     if not lines:
-        raise ValueError("the file is empty: needs a heading and one operator a line")
+        raise ValueError("the file is empty: needs a heading and rows below it")
     heading, *rows = lines
     names = [cell.strip() for cell in heading]
     if len(set(names)) < len(names):

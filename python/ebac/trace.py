@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
 from html import escape
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Self, overload
@@ -13,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ebac import _core
+from ebac.columns import ColumnInfo, column_infos, row_views
 from ebac.scenario import Scenario
 
 if TYPE_CHECKING:
@@ -20,19 +19,6 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from ebac.explore import Exploration
-
-_KINDS = {"f": np.float64, "i": np.int64, "w": np.int32, "u": np.uint32, "b": np.bool_}
-#: Rows turned into text at a time.
-_CSV_ROWS = 10_000
-
-
-@dataclass(frozen=True, kw_only=True)
-class ColumnInfo:
-    """Unit and meaning of a column."""
-
-    name: str
-    unit: str
-    meaning: str
 
 
 class Trace:
@@ -218,31 +204,15 @@ class Trace:
         self, path: str | Path, *, progress: Callable[[int, int], None] | None = None
     ) -> None:
         """Write CSV with the unit in each heading, `x [m]`; numbers keep every digit."""
-        columns = list(self.flat())
-        heading = ",".join(
-            name if info.unit == "1" else f"{name} [{info.unit}]" for name, info, _ in columns
-        )
-        with Path(path).open("w", encoding="utf-8") as file:
-            file.write(heading + "\n")
-            for first in range(0, len(self), _CSV_ROWS):
-                part = slice(first, first + _CSV_ROWS)
-                texts = [_texts(values[part]) for _, _, values in columns]
-                file.writelines(",".join(row) + "\n" for row in zip(*texts, strict=True))
-                if progress is not None:
-                    progress(min(first + _CSV_ROWS, len(self)), len(self))
+        from ebac.trace_files import write_csv
+
+        write_csv(self, path, progress)
 
     def to_npz(self, path: str | Path) -> None:
         """Write a compressed NumPy archive: the columns, and units, scenario and law under `about`."""
-        about = {
-            "axes": self.axes,
-            "law": self.law,
-            "law_repr": self.law_repr,
-            "scenario": self.scenario.to_toml() if self.scenario else None,
-            "columns": {c.name: [c.unit, c.meaning] for c in self.columns.values()},
-        }
-        with Path(path).open("wb") as file:  # a file, because NumPy appends .npz to a name
-            arrays: dict[str, Any] = {"about": np.array(json.dumps(about)), **self._data}
-            np.savez_compressed(file, **arrays)
+        from ebac.trace_files import write_npz
+
+        write_npz(self, path)
 
     @classmethod
     def from_npz(cls, path: str | Path) -> Self:
@@ -255,25 +225,9 @@ class Trace:
         ValueError
             When it is not such an archive.
         """
-        try:
-            with np.load(path, allow_pickle=False) as archive:
-                about = json.loads(str(archive["about"]))
-                data = {name: archive[name] for name in about["columns"]}
-        except (KeyError, OSError, ValueError) as error:
-            if isinstance(error, FileNotFoundError):
-                raise
-            raise ValueError(f"{path}: not a trace written by to_npz ({error})") from None
-        return cls(
-            data=data,
-            columns={
-                name: ColumnInfo(name=name, unit=unit, meaning=meaning)
-                for name, (unit, meaning) in about["columns"].items()
-            },
-            axes=about["axes"],
-            scenario=Scenario.from_toml(about["scenario"]) if about["scenario"] else None,
-            law=about["law"],
-            law_repr=about["law_repr"],
-        )
+        from ebac.trace_files import npz_parts
+
+        return cls(**npz_parts(path))
 
     def plot(self) -> Figure:
         """Draw position, force, beta and energy over time."""
@@ -299,49 +253,7 @@ class Trace:
 
     def _repr_html_(self) -> str:
         """Return a small picture and a table of the columns for a notebook."""
-        from ebac.notebook import picture
+        from ebac.notebook import picture, table_of_columns
 
-        titles = ("column", "unit", "first", "last", "least", "most", "meaning")
-        head = "<tr>" + "".join(f"<th>{title}</th>" for title in titles) + "</tr>"
-        lines = [head, *(self._html_row(*column) for column in self.flat())]
-        table = f"<details><summary>columns</summary><table>{''.join(lines)}</table></details>"
-        return f"<p>{escape(repr(self))}</p>{picture(self.plot) if len(self) > 1 else ''}{table}"
-
-    def _html_row(self, name: str, info: ColumnInfo, values: NDArray[Any]) -> str:
-        numbers = values.astype(float)
-        known = numbers[np.isfinite(numbers)]
-        shown = (
-            [numbers[0], numbers[-1], known.min(), known.max()]
-            if len(known)
-            else [float("nan")] * 4
-        )
-        cells = "".join(f"<td>{number:.6g}</td>" for number in shown)
-        return f"<tr><th>{escape(name)}</th><td>{info.unit}</td>{cells}<td>{escape(info.meaning)}</td></tr>"
-
-
-def row_views(rows: _core.Rows, raw: NDArray[np.uint8]) -> dict[str, NDArray[Any]]:
-    """Return the columns of whole rows as read-only views of their bytes."""
-    count = len(raw) // rows.row_bytes
-    data = {}
-    for c in rows.columns:
-        shape: tuple[int, ...] = (count,)
-        strides: tuple[int, ...] = (rows.row_bytes,)
-        if c.stride > 0 and rows.axes > 1:
-            shape, strides = (*shape, rows.axes), (*strides, c.stride)
-        if count:
-            view = np.ndarray(shape, _KINDS[c.kind], raw, c.offset, strides)
-        else:
-            view = np.empty(shape, _KINDS[c.kind])
-        view.setflags(write=False)
-        data[c.name] = view
-    return data
-
-
-def column_infos(rows: _core.Rows) -> dict[str, ColumnInfo]:
-    """Return unit and meaning of every column of rows."""
-    return {c.name: ColumnInfo(name=c.name, unit=c.unit, meaning=c.meaning) for c in rows.columns}
-
-
-def _texts(values: NDArray[Any]) -> Iterator[str]:
-    """Give numbers as text, with every digit."""
-    return map(repr, (values.astype(np.int8) if values.dtype == bool else values).tolist())
+        shown = picture(self.plot) if len(self) > 1 else ""
+        return f"<p>{escape(repr(self))}</p>{shown}{table_of_columns(self.flat())}"

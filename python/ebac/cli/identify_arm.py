@@ -7,63 +7,50 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from ebac.cli import identify_options as given
 from ebac.cli import output
 from ebac.cli.identify_arm_results import show, write
-from ebac.cli.identify_options import (
-    FIT,
-    Axis,
-    ColumnOf,
-    CurrentLag,
-    Fix,
-    Lag,
-    Logs,
-    Out,
-    Rate,
-    Reading,
-    Robust,
-    Switch,
-    Tapping,
-    UnitOf,
-    numbers,
-    target_of,
-)
 
 if TYPE_CHECKING:
     from ebac.identify import ArmResult
 
 
 def arm(
-    logs: Logs,
-    column: ColumnOf = None,
-    unit: UnitOf = None,
-    rate: Rate = None,
-    lag: Lag = None,
-    current_lag: CurrentLag = None,
-    axis: Axis = 0,
-    switch: Switch = None,
-    tapping: Tapping = None,
-    fix: Fix = None,
+    logs: given.Logs,
+    column: given.ColumnOf = None,
+    unit: given.UnitOf = None,
+    rate: given.Rate = None,
+    lag: given.Lag = None,
+    current_lag: given.CurrentLag = None,
+    axis: given.Axis = 0,
+    switch: given.Switch = None,
+    tapping: given.Tapping = None,
+    fix: given.Fix = None,
     free: Annotated[
         list[str] | None,
-        typer.Option(help="Fit delay or onset too.", show_default=False, rich_help_panel=FIT),
+        typer.Option(help="Fit delay or onset too.", show_default=False, rich_help_panel=given.FIT),
     ] = None,
     hold_out: Annotated[
         list[Path] | None,
         typer.Option(
             help="A log of the same arm to judge the fit on; not fitted.",
             show_default=False,
-            rich_help_panel=FIT,
+            rich_help_panel=given.FIT,
         ),
     ] = None,
-    robust: Robust = None,
-    starts: Annotated[int, typer.Option(help="Starts of the search.", rich_help_panel=FIT)] = 1,
+    robust: given.Robust = None,
+    starts: Annotated[
+        int, typer.Option(help="Starts of the search.", rich_help_panel=given.FIT)
+    ] = 1,
     profile: Annotated[
         bool,
         typer.Option(
-            "--profile", help="Profile likelihood intervals too (slower).", rich_help_panel=FIT
+            "--profile",
+            help="Profile likelihood intervals too (slower).",
+            rich_help_panel=given.FIT,
         ),
     ] = False,
-    out: Out = None,
+    out: given.Out = None,
     as_json: output.AsJson = False,
 ) -> None:
     """Identify the human arm of eq. (4): M0, B0, K0 and where it wanted to be.
@@ -78,17 +65,17 @@ def arm(
     """
     from ebac.identify import fit_arm
 
-    reading = Reading(
+    reading = given.Reading(
         column=column, unit=unit, rate=rate, lag=lag, current_lag=current_lag, axis=axis
     )
     with output.refusing():
         recordings = [reading.load(path) for path in logs]
-        targets = [target_of(r, switch, tapping) for r in recordings]
-        held = [(r, target_of(r, switch, tapping)) for r in map(reading.load, hold_out or [])]
+        targets = [given.target_of(r, switch, tapping) for r in recordings]
+        held = [(r, given.target_of(r, switch, tapping)) for r in map(reading.load, hold_out or [])]
         result = fit_arm(
             recordings,
             targets,
-            fixed=numbers(fix, "--fix"),
+            fixed=given.numbers(fix, "--fix"),
             free=free or [],
             robust=robust,
             starts=starts,

@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from ebac.cli import identify_options as given
 from ebac.cli import output
 
 if TYPE_CHECKING:
@@ -40,9 +41,7 @@ def show(
         for text in lines:
             output.say(f"{name}: {text}", style="dim")
     grid = output.table(["", "estimate", "95 % interval", "profile", "unit", ""], numbers=(1, 2, 3))
-    for e in result.estimates.values():
-        if e.fixed and e.name not in ("M0", "B0", "K0"):
-            continue
+    for e in result.shown:
         wide = "-" if e.fixed else f"{e.low:.4g} to {e.high:.4g}"
         prof = "-" if e.name not in profiles else "{:.4g} to {:.4g}".format(*profiles[e.name])
         word = "given" if e.fixed else "" if e.determined else "[red]not determined[/]"
@@ -74,34 +73,25 @@ def write(
     remarks: dict[str, list[str]],
 ) -> list[str]:
     """Write the report page and its figures; return the names of the files."""
-    from ebac.identify.figures import plot_arm
-    from ebac.identify.report import page
+    from functools import partial
 
-    with output.results(folder) as draft:
-        if draft is None:
-            return []
-        figures = [plot_arm(result, i) for i in range(len(result.recordings))]
-        for i, figure in enumerate(figures):
-            figure.savefig(draft / f"arm-{i + 1}.png")
-        rows = [
-            {
-                "parameter": e.name,
-                "estimate": f"{e.value:.5g}",
-                "95 % interval": "given" if e.fixed else f"{e.low:.5g} to {e.high:.5g}",
-                "unit": e.unit,
-            }
-            for e in result.estimates.values()
-        ]
-        notes = [f"{name}: {text}" for name, lines in remarks.items() for text in lines]
-        notes += [
-            f"{p.recording}: VAF {100 * p.vaf:.2f} %, NRMSE {100 * p.nrmse:.2f} %{' (held out)' if p.held_out else ''}"
-            for p in predictions
-        ]
-        notes += [
-            f"{o.name}: direct {o.direct:.4g} {o.unit}, by instruments {o.unbiased:.4g} {o.unit}"
-            for o in opinions
-        ]
-        (draft / "arm.html").write_text(
-            page("The arm of eq. (4)", rows, careful(result), notes, figures), encoding="utf-8"
-        )
-        return sorted(file.name for file in draft.iterdir())
+    from ebac.identify.figures import plot_arm
+
+    notes = [f"{name}: {text}" for name, lines in remarks.items() for text in lines]
+    notes += [
+        f"{p.recording}: VAF {100 * p.vaf:.2f} %, NRMSE {100 * p.nrmse:.2f} %{' (held out)' if p.held_out else ''}"
+        for p in predictions
+    ]
+    notes += [
+        f"{o.name}: direct {o.direct:.4g} {o.unit}, by instruments {o.unbiased:.4g} {o.unit}"
+        for o in opinions
+    ]
+    return given.report(
+        folder,
+        "arm",
+        title="The arm of eq. (4)",
+        rows=[given.line(e) for e in result.shown],
+        careful=careful(result),
+        notes=notes,
+        draw=[partial(plot_arm, result, i) for i in range(len(result.recordings))],
+    )

@@ -108,8 +108,8 @@ def _table(rows: list[dict[str, Any]]) -> None:
 
 def _say_arm(found: Check, more: dict[str, Any]) -> None:
     output.say(
-        f"Logs that tell nothing of the arm: {more['free_called']} of {more['free_cases']} called so; "
-        f"of the others {more['other_called']} of {more['other_cases']}."
+        f"Logs that cannot tell M0, B0 and K0, by the truth: {more['silent_called']} of {more['silent_cases']} called "
+        f"so; of those that can {more['telling_called']} of {more['telling_cases']}."
     )
     output.say(
         f"Said to be determined and wrong by half or more: {more['determined_and_wrong_by_half']} estimates."
@@ -142,7 +142,7 @@ def _gains(logs: int, seed: int, as_json: bool) -> None:
             row["law"],
             row["gains"],
             f"{row['kp_median']:.3g}",
-            f"{1e3 * row['kd_median_s']:.3g} ms",
+            f"{1e3 * row['kd_median_s']:.3f} ms",
             f"{row['settled']} of {row['presses']}",
             f"{median:.3f} s" if median < 1e9 else "never",
             f"{1e3 * row['swing_worst_m']:.3f} mm",

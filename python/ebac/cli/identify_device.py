@@ -7,17 +7,8 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from ebac.cli import identify_options as given
 from ebac.cli import output
-from ebac.cli.identify_options import (
-    Axis,
-    ColumnOf,
-    CurrentLag,
-    Lag,
-    Out,
-    Rate,
-    Reading,
-    UnitOf,
-)
 
 if TYPE_CHECKING:
     from ebac.identify import DeviceResult
@@ -25,13 +16,13 @@ if TYPE_CHECKING:
 
 def device(
     log: Annotated[Path, typer.Argument(help="MCAP, CSV, .mat or .npz.", show_default=False)],
-    column: ColumnOf = None,
-    unit: UnitOf = None,
-    rate: Rate = None,
-    lag: Lag = None,
-    current_lag: CurrentLag = None,
-    axis: Axis = 0,
-    out: Out = None,
+    column: given.ColumnOf = None,
+    unit: given.UnitOf = None,
+    rate: given.Rate = None,
+    lag: given.Lag = None,
+    current_lag: given.CurrentLag = None,
+    axis: given.Axis = 0,
+    out: given.Out = None,
     as_json: output.AsJson = False,
 ) -> None:
     """Identify the device: mass and damping, Coulomb and Stribeck friction, weight; and tau_static of eq. (2).
@@ -46,7 +37,7 @@ def device(
     """
     from ebac.identify import fit_device
 
-    reading = Reading(
+    reading = given.Reading(
         column=column, unit=unit, rate=rate, lag=lag, current_lag=current_lag, axis=axis
     )
     with output.refusing():
@@ -74,35 +65,31 @@ def device(
 
 
 def _notes(result: DeviceResult) -> list[str]:
-    given = result.compensation
+    static = result.compensation
+    share = f"{100 * result.drive.slides.mean():.0f} % of the log"
+    explained = (
+        f"Explains {100 * result.explained:.2f} % of the force where it slides, {share}."
+        if result.explained > 0
+        else f"Explains nothing of the force where it slides, {share}: eq. (6) with these forces is no model of it."
+    )
+    alone = "The log has no force of the motor: true only of a device whose motor gave none."
     return [
-        f"Explains {100 * result.explained:.2f} % of the force where it slides, "
-        f"{100 * result.drive.slides.mean():.0f} % of the log.",
-        f"For the device: Compensation(friction={given.friction:.4g} N, gravity_mass={given.gravity_mass:.4g} kg), "
+        explained,
+        *([alone] if result.recording.motor is None else []),
+        f"For the device: Compensation(friction={static.friction:.4g} N, gravity_mass={static.gravity_mass:.4g} kg), "
         "the lower bounds of what was found.",
     ]
 
 
 def _write(folder: Path | None, result: DeviceResult) -> list[str]:
     from ebac.identify.figures import plot_device
-    from ebac.identify.report import page
 
-    with output.results(folder) as draft:
-        if draft is None:
-            return []
-        figure = plot_device(result)
-        figure.savefig(draft / "device.png")
-        rows = [
-            {
-                "parameter": e.name,
-                "estimate": f"{e.value:.5g}",
-                "95 % interval": f"{e.low:.5g} to {e.high:.5g}",
-                "unit": e.unit,
-            }
-            for e in result.estimates.values()
-        ]
-        careful = [f"{name} is not determined by this log." for name in result.undetermined]
-        notes = [*result.recording.remarks, *_notes(result)]
-        text = page("The device of eq. (6)", rows, careful, notes, [figure])
-        (draft / "device.html").write_text(text, encoding="utf-8")
-        return sorted(file.name for file in draft.iterdir())
+    return given.report(
+        folder,
+        "device",
+        title="The device of eq. (6)",
+        rows=[given.line(e) for e in result.estimates.values()],
+        careful=[f"{name} is not determined by this log." for name in result.undetermined],
+        notes=[*result.recording.remarks, *_notes(result)],
+        draw=[lambda: plot_device(result)],
+    )

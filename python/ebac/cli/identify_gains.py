@@ -7,25 +7,8 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from ebac.cli import identify_options as given
 from ebac.cli import output
-from ebac.cli.identify_options import (
-    FIT,
-    Axis,
-    ColumnOf,
-    CurrentLag,
-    Fix,
-    Lag,
-    Logs,
-    Out,
-    Rate,
-    Reading,
-    Robust,
-    Switch,
-    Tapping,
-    UnitOf,
-    numbers,
-    target_of,
-)
 
 if TYPE_CHECKING:
     from ebac.identify import GainsResult
@@ -34,27 +17,28 @@ LIMITS = "Constraints"
 
 
 def gains(
-    logs: Logs,
+    logs: given.Logs,
     law: Annotated[
-        str, typer.Option(help="A law with the force loop of eq. (2).", rich_help_panel=FIT)
+        str, typer.Option(help="A law with the force loop of eq. (2).", rich_help_panel=given.FIT)
     ] = "ebac",
-    column: ColumnOf = None,
-    unit: UnitOf = None,
-    rate: Rate = None,
-    lag: Lag = None,
-    current_lag: CurrentLag = None,
-    axis: Axis = 0,
-    switch: Switch = None,
-    tapping: Tapping = None,
-    fix: Fix = None,
-    robust: Robust = None,
+    column: given.ColumnOf = None,
+    unit: given.UnitOf = None,
+    rate: given.Rate = None,
+    lag: given.Lag = None,
+    current_lag: given.CurrentLag = None,
+    axis: given.Axis = 0,
+    switch: given.Switch = None,
+    tapping: given.Tapping = None,
+    fix: given.Fix = None,
+    robust: given.Robust = None,
     delay: Annotated[
-        int, typer.Option(help="Transport delay [samples].", min=0, rich_help_panel=FIT)
+        int, typer.Option(help="Transport delay [samples].", min=0, rich_help_panel=given.FIT)
     ] = 1,
     vary: Annotated[
         float,
         typer.Option(
-            help="Hands this share beyond the identified one are tried too.", rich_help_panel=FIT
+            help="Hands this share beyond the identified one are tried too.",
+            rich_help_panel=given.FIT,
         ),
     ] = 0.3,
     overshoot: Annotated[
@@ -87,7 +71,7 @@ def gains(
         float,
         typer.Option(help="Most energy the port may give away [J].", rich_help_panel=LIMITS),
     ] = 0.010,
-    out: Out = None,
+    out: given.Out = None,
     as_json: output.AsJson = False,
 ) -> None:
     """Choose K_p and K_d of eq. (2) from logged steps: identify arm, device and wall, then search.
@@ -105,7 +89,7 @@ def gains(
     from ebac import Timing
     from ebac.identify import Limits, fit_gains, fit_loop
 
-    reading = Reading(
+    reading = given.Reading(
         column=column, unit=unit, rate=rate, lag=lag, current_lag=current_lag, axis=axis
     )
     with output.refusing(), output.counting("choosing", quiet=as_json) as progress:
@@ -113,10 +97,10 @@ def gains(
             overshoot=overshoot, force=force, current=current, noise_gain=noise_gain, energy=energy
         )
         recordings = [reading.load(path) for path in logs]
-        targets = [target_of(r, switch, tapping) for r in recordings]
+        targets = [given.target_of(r, switch, tapping) for r in recordings]
         timing = Timing(dt=round(recordings[0].dt, 9), delay=delay)
         loop = fit_loop(
-            recordings, targets, timing=timing, fixed=numbers(fix, "--fix"), robust=robust
+            recordings, targets, timing=timing, fixed=given.numbers(fix, "--fix"), robust=robust
         )
         result = fit_gains(loop, law, limits=limits, vary=vary, progress=progress)
     files = _write(out, result)
@@ -148,7 +132,7 @@ def _cells(result: GainsResult) -> list[dict[str, str]]:
         {
             "gains": row["gains"],
             "Kp": f"{row['kp']:.3g}",
-            "Kd": f"{1e3 * row['kd_s']:.3g} ms",
+            "Kd": f"{1e3 * row['kd_s']:.3f} ms",
             "cost": f"{row['cost']:.3f}",
             "settles (median)": seconds(row["settled_median_s"]),
             "swing (worst)": f"{1e3 * row['swing_worst_m']:.3f} mm",
@@ -174,17 +158,14 @@ def _notes(result: GainsResult) -> list[str]:
 
 def _write(folder: Path | None, result: GainsResult) -> list[str]:
     from ebac.identify.gains_figures import plot_gains
-    from ebac.identify.report import page
 
-    with output.results(folder) as draft:
-        if draft is None:
-            return []
-        figure = plot_gains(result)
-        figure.savefig(draft / "gains.png")
-        notes = [str(e) for e in result.loop.arm.estimates.values() if e.name in ("M0", "B0", "K0")]
-        notes += [*result.loop.remarks, *_notes(result), "Simulated, not measured."]
-        text = page(
-            f"K_p and K_d of eq. (2) for {result.name}", _cells(result), [], notes, [figure]
-        )
-        (draft / "gains.html").write_text(text, encoding="utf-8")
-        return sorted(file.name for file in draft.iterdir())
+    hand = [str(e) for e in result.loop.arm.estimates.values() if e.name in ("M0", "B0", "K0")]
+    return given.report(
+        folder,
+        "gains",
+        title=f"K_p and K_d of eq. (2) for {result.name}",
+        rows=_cells(result),
+        careful=[],
+        notes=[*hand, *result.loop.remarks, *_notes(result), "Simulated, not measured."],
+        draw=[lambda: plot_gains(result)],
+    )

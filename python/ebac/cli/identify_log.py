@@ -6,39 +6,27 @@ from typing import Annotated
 
 import typer
 
+from ebac.cli import identify_options as given
 from ebac.cli import output
-from ebac.cli.identify_options import (
-    FIT,
-    Axis,
-    ColumnOf,
-    Lag,
-    Logs,
-    Rate,
-    Reading,
-    Switch,
-    Tapping,
-    UnitOf,
-    target_of,
-)
 
 
 def log(
-    logs: Logs,
+    logs: given.Logs,
     ask: Annotated[
         list[str] | None,
         typer.Option(
             help="A parameter the log shall tell: M0, B0, K0; repeat it.",
             show_default="all three",
-            rich_help_panel=FIT,
+            rich_help_panel=given.FIT,
         ),
     ] = None,
-    column: ColumnOf = None,
-    unit: UnitOf = None,
-    rate: Rate = None,
-    lag: Lag = None,
-    axis: Axis = 0,
-    switch: Switch = None,
-    tapping: Tapping = None,
+    column: given.ColumnOf = None,
+    unit: given.UnitOf = None,
+    rate: given.Rate = None,
+    lag: given.Lag = None,
+    axis: given.Axis = 0,
+    switch: given.Switch = None,
+    tapping: given.Tapping = None,
     as_json: output.AsJson = False,
 ) -> None:
     """Say what a log excites: its bands, and whether it can tell what is asked of it.
@@ -49,12 +37,14 @@ def log(
     """
     from ebac.identify import check_log
 
-    reading = Reading(column=column, unit=unit, rate=rate, lag=lag, axis=axis)
+    reading = given.Reading(column=column, unit=unit, rate=rate, lag=lag, axis=axis)
     with output.refusing():
         found = []
         for path in logs:
             r = reading.load(path)
-            found.append(check_log(r, target_of(r, switch, tapping), ask=ask or ("M0", "B0", "K0")))
+            found.append(
+                check_log(r, given.target_of(r, switch, tapping), ask=ask or ("M0", "B0", "K0"))
+            )
     rows = [row for one in found for row in one.rows()]
     if as_json:
         bands = {one.name: [list(band) for band in one.bands] for one in found}

@@ -1,15 +1,20 @@
-"""What the commands of `ebac identify` share: how a log is read, what the hand was told to do."""
+"""What the commands of `ebac identify` share: how a log is read, what the hand was told to do, the report."""
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from ebac.cli import output
+
 if TYPE_CHECKING:
-    from ebac.identify import Recording, Target
+    from matplotlib.figure import Figure
+
+    from ebac.identify import Estimate, Recording, Target
 
 #: Panels of the help.
 LOG, FIT, RUN = "Log", "Fit", "Run"
@@ -162,3 +167,37 @@ def target_of(r: Recording, switch: list[float] | None, tapping: float | None) -
     if switch:
         return Target.steps(*sorted(switch))
     return Target.held() if r.target is None else Target.following(r.target)
+
+
+def line(e: Estimate) -> dict[str, str]:
+    """Return an estimate as a row of a report."""
+    return {
+        "parameter": e.name,
+        "estimate": f"{e.value:.5g}",
+        "95 % interval": "given" if e.fixed else f"{e.low:.5g} to {e.high:.5g}",
+        "unit": e.unit,
+    }
+
+
+def report(
+    folder: Path | None,
+    name: str,
+    *,
+    title: str,
+    rows: list[dict[str, str]],
+    careful: list[str],
+    notes: list[str],
+    draw: Sequence[Callable[[], Figure]],
+) -> list[str]:
+    """Write `name`.html, which holds everything, and its figures beside it; return the names of the files."""
+    from ebac.identify.report import page
+
+    with output.results(folder) as draft:
+        if draft is None:
+            return []
+        figures = [one() for one in draw]
+        for i, figure in enumerate(figures, 1):
+            figure.savefig(draft / (f"{name}-{i}.png" if len(figures) > 1 else f"{name}.png"))
+        text = page(title, rows, careful, notes, figures)
+        (draft / f"{name}.html").write_text(text, encoding="utf-8")
+        return sorted(file.name for file in draft.iterdir())

@@ -8,8 +8,8 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from ebac import _core
+from ebac.columns import row_views
 from ebac.logs.events import Event
-from ebac.trace import row_views
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -12,8 +12,7 @@ from ebac.identify.fit import fitted
 from ebac.identify.guess import regression, solve
 from ebac.identify.intervals import with_counts
 from ebac.identify.likelihood import minus_two_log
-from ebac.identify.noise import rough
-from ebac.identify.parameters import BEFORE_LEVELS, lay_out
+from ebac.identify.parameters import BEFORE_LEVELS, kind, lay_out
 from ebac.identify.problem import Problem
 from ebac.identify.recording import Recording
 from ebac.identify.response import guess_by_response
@@ -21,6 +20,9 @@ from ebac.identify.result import ArmResult
 from ebac.identify.target import Target
 
 Values = NDArray[np.float64]
+
+#: Starts of a search whose first outcome determines a part of the hand only.
+AGAIN = 4
 
 
 def fit_arm(
@@ -59,7 +61,8 @@ def fit_arm(
     own : sequence of str, optional
         Which of M0, B0, K0, delay every recording has for itself.
     starts : int
-        From how many points the search starts, at least 1; more cost time and are seldom needed.
+        From how many points the search starts, at least 1; from 4 at least where the first one tells a part of the
+        hand only.
     robust : float, optional
         Errors beyond so many standard deviations count linearly (Huber); 1.345 keeps 95 % of the efficiency.
     seed : int
@@ -88,6 +91,15 @@ def fit_arm(
         own=own,
     )
     problem = Problem(recordings=tuple(recordings), targets=tuple(targets), parameters=parameters)
+    result = _searched(problem, starts, robust, seed, began)
+    if starts < AGAIN and _partly_told(result):
+        result = _searched(problem, AGAIN, robust, seed, began)
+    return result
+
+
+def _searched(
+    problem: Problem, starts: int, robust: float | None, seed: int, began: float
+) -> ArmResult:
     fit = fitted(problem, [better_guess(problem)], starts=starts, robust=robust, seed=seed)
     return ArmResult(
         problem=problem,
@@ -101,6 +113,13 @@ def fit_arm(
         evaluations=fit.evaluations,
         seconds=perf_counter() - began,
     )
+
+
+def _partly_told(result: ArmResult) -> bool:
+    """Return whether some of M0, B0, K0 are determined and others not: often an optimum beside the true one."""
+    p = result.parameters
+    hand = {p.names[i] for i in p.free if kind(p.names[i]) in ("M0", "B0", "K0")}
+    return 0 < len(hand.intersection(result.undetermined)) < len(hand)
 
 
 def _check(
@@ -135,10 +154,8 @@ def better_guess(problem: Problem) -> Values:
     other = by_time.copy()
     other[place[:3]] = found
     other = problem.parameters.clip(other)
-    assert recording.force is not None
-    noise = max(rough(recording.force), 1e-5 * float(np.ptp(recording.force)), 1e-9)
-    record = problem.records[0]
-    costs = [minus_two_log(record, guess[place], noise) for guess in (by_time, other)]
+    noise, record = float(problem.shown[0]), problem.records[0]
+    costs = [minus_two_log(record, g[place], g[place], noise) for g in (by_time, other)]
     return other if costs[1] < costs[0] else by_time
 
 

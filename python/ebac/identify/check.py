@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from concurrent.futures import ProcessPoolExecutor
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -17,8 +17,9 @@ import numpy as np
 from ebac.identify.arm import fit_arm
 from ebac.identify.cases import Case, draw, draw_device
 from ebac.identify.device import fit_device
+from ebac.identify.fit import spread_at
 from ebac.identify.recording import Recording
-from ebac.identify.result import Estimate
+from ebac.identify.result import ArmResult, Estimate
 from ebac.identify.target import Target
 
 HAND = ("M0", "B0", "K0")
@@ -38,6 +39,7 @@ class Outcome:
     high: float
     determined: bool
     seconds: float
+    told: bool = True  # by the log, at the true values; only of the arm
 
     @property
     def covered(self) -> bool:
@@ -58,7 +60,18 @@ def run_case(case: Case) -> list[Outcome]:
     recording = Recording.from_trace(trace, name=f"case {case.number}")
     result = fit_arm(recording, Target.of(case.scenario.hand, recording.t))
     free = {name: e for name, e in result.estimates.items() if not e.fixed}
-    return _outcomes(case, free, case.truth(), result.seconds)
+    truth = case.truth()
+    told = told_by(result, truth)
+    found = _outcomes(case, free, truth, result.seconds)
+    return [replace(o, told=o.parameter in told) for o in found]
+
+
+def told_by(result: ArmResult, truth: Mapping[str, float]) -> set[str]:
+    """Return what a log tells, by the measure of the verdict at the true values; only a simulation knows them."""
+    p = result.parameters
+    values = np.array([truth.get(n, v) for n, v in zip(p.names, result.values, strict=True)])
+    known = replace(result, values=values, covariance=spread_at(result.problem, values))
+    return set(p.names) - set(known.undetermined)
 
 
 def run_device_case(case: Case) -> list[Outcome]:
@@ -130,24 +143,21 @@ class Check:
         }
 
     def unidentifiable(self) -> dict[str, int]:
-        """Count what became of the cases that tell nothing of the arm, and of the others."""
+        """Count the logs that cannot tell the arm, those that can, and what was said of each."""
         by_case: dict[int, list[Outcome]] = {}
         for o in self.outcomes:
-            by_case.setdefault(o.case, []).append(o)
-
-        def called(outcomes: list[Outcome]) -> bool:
-            return any(not o.determined for o in outcomes if o.parameter in HAND)
-
-        free = [c for c in by_case.values() if c[0].task == "free"]
-        rest = [c for c in by_case.values() if c[0].task != "free"]
+            if o.parameter in HAND:
+                by_case.setdefault(o.case, []).append(o)
+        called = {n: any(not o.determined for o in case) for n, case in by_case.items()}
+        silent = {n for n, case in by_case.items() if any(not o.told for o in case)}
         wrong = [
             o for o in self.outcomes if o.parameter in HAND and o.determined and abs(o.error) > 0.5
         ]
         return {
-            "free_cases": len(free),
-            "free_called": sum(map(called, free)),
-            "other_cases": len(rest),
-            "other_called": sum(map(called, rest)),
+            "silent_cases": len(silent),
+            "silent_called": sum(called[n] for n in silent),
+            "telling_cases": len(by_case) - len(silent),
+            "telling_called": sum(called[n] for n in by_case if n not in silent),
             "determined_and_wrong_by_half": len(wrong),
         }
 

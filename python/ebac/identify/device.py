@@ -29,6 +29,8 @@ GRAVITY = 9.80665
 SPEEDS = np.geomspace(2e-3, 0.1, 8)
 #: A friction that falls with speed is believed when it is this many deviations from none and raises the likelihood.
 BELIEVED, GAIN = 4.0, 20.0
+#: A search starts from at least this mass [kg] and damping [N s/m]: from less the model runs away.
+LEAST_START = (0.02, 0.1)
 NAMES = ("M_h", "B_h", "coulomb", "weight", "stribeck")
 UNITS = ("kg", "N s/m", "N", "N", "N")
 
@@ -164,5 +166,6 @@ def _fit(drive: Drive, speed: float | None, guess: Guess) -> Fitted:
     p = problem.parameters
     start = np.where(np.isnan(p.fixed), 0.0, p.fixed)
     start[[p.names.index(n) for n in names]] = guess.values
+    start[[p.names.index(n) for n in ("M_h", "B_h")]] = np.maximum(guess.values[:2], LEAST_START)
     fit = fitted(problem, [p.clip(start)], starts=1, robust=None, seed=1)
     return replace(fit, values=fit.values[p.free])

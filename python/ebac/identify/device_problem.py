@@ -29,6 +29,8 @@ WHATEVER = 100.0
 #: A force jumps where it bends by so many deviations of its noise; a tick may miss this share of it, felt for so many
 #: rows before and after.
 NOISY, JUMP, FELT = 5.0, 0.5, 4
+#: Friction and impacts are less even than noise: errors count as if the force had so many times what it shows.
+UNEVEN = 1.6
 FITTED = ("M_h", "B_h", "coulomb", "weight", "stribeck")
 
 
@@ -154,7 +156,11 @@ def device_problem(drive: Drive, speed: float | None) -> tuple[Problem, tuple[st
     r = drive.recording
     as_force = replace(r, force=drive.force)
     problem = Problem(
-        recordings=(as_force,), targets=(Target.held(),), parameters=parameters, make=make
+        recordings=(as_force,),
+        targets=(Target.held(),),
+        parameters=parameters,
+        make=make,
+        quietest=UNEVEN,
     )
     return problem, tuple(n for n in FITTED if n in names)
 

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, TypeAlias
+from zipfile import BadZipFile
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,7 +25,7 @@ def read_columns(path: Path) -> Columns:
     readers = {".csv": _csv, ".txt": _csv, ".tsv": _csv, ".mat": _mat, ".npz": _npz}
     if path.suffix.lower() not in readers:
         raise ValueError(
-            f"{path.name}: unknown ending {path.suffix!r}; known are {', '.join(readers)}"
+            f"{path.name}: unknown ending {path.suffix!r}; known are .mcap, {', '.join(readers)}"
         )
     found = readers[path.suffix.lower()](path)
     if not found:
@@ -32,11 +34,18 @@ def read_columns(path: Path) -> Columns:
 
 
 def _csv(path: Path) -> Columns:
-    lines = path.read_text(encoding="utf-8-sig").splitlines()
+    try:
+        lines = path.read_text(encoding="utf-8-sig").splitlines()
+    except UnicodeDecodeError:
+        raise ValueError(
+            f"{path.name}: is no text in UTF-8; export it as CSV once more, or name what it is by its ending"
+        ) from None
     lines = [line for line in lines if line.strip() and not line.startswith(("#", "%"))]
     if len(lines) < 2:
-        raise ValueError(f"{path.name}: {len(lines)} lines; needs a heading and rows below it")
+        raise ValueError(f"{path.name}: lines = {len(lines)}: needs a heading and rows below it")
     mark = max("\t;,", key=lines[0].count)
+    if mark != ",":  # then a comma within a number is a decimal one
+        lines[1:] = [line.replace(",", ".") for line in lines[1:]]
     names = [name.strip().strip('"') for name in lines[0].split(mark)]
     if all(_is_number(name) for name in names):
         raise ValueError(
@@ -78,19 +87,40 @@ def _number(cell: str, file: str, row: int, column: str) -> float:
         ) from None
 
 
+@contextmanager
+def archive_of(path: Path) -> Iterator[Any]:
+    """Open an .npz file.
+
+    Raises
+    ------
+    ValueError
+        When it is none.
+    """
+    try:
+        archive = np.load(path, allow_pickle=False)
+        names = archive.files
+    except (AttributeError, BadZipFile, EOFError, ValueError):
+        raise ValueError(f"{path.name}: is no NumPy archive; write it by numpy.savez") from None
+    with archive:
+        if not names:
+            raise ValueError(f"{path.name}: holds no arrays")
+        yield archive
+
+
 def _npz(path: Path) -> Columns:
-    with np.load(path, allow_pickle=False) as archive:
+    with archive_of(path) as archive:
         return _series({name: archive[name] for name in archive.files})
 
 
 def _mat(path: Path) -> Columns:
     try:
         from scipy.io import loadmat
+        from scipy.io.matlab import MatReadError
     except ImportError:
         raise ValueError(f"{path.name}: reading .mat needs SciPy: pip install scipy") from None
     try:
         content = loadmat(path, squeeze_me=True)
-    except (NotImplementedError, ValueError) as error:
+    except (MatReadError, NotImplementedError, TypeError, ValueError) as error:
         raise ValueError(f"{path.name}: cannot be read ({error}); save it with -v7") from None
     return _series({name: v for name, v in content.items() if not name.startswith("__")})
 

@@ -8,11 +8,13 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from ebac._core import ArmGains
 from ebac.identify.bias import without_noise
 from ebac.identify.intervals import covariance
 from ebac.identify.likelihood import likely_noise
-from ebac.identify.parameters import Parameters
+from ebac.identify.parameters import Parameters, kind
 from ebac.identify.problem import Problem
+from ebac.identify.pull import Pull
 from ebac.identify.search import Found, least_squares
 
 Values = NDArray[np.float64]
@@ -66,23 +68,40 @@ def fitted(
     gains = problem.gains(best.values, best.force_noise)
     values, pretended = without_noise(problem, best.values, best.force_noise, gains)
     errors = problem.errors(values, gains)
-    jacobian = problem.jacobian(values, gains, problem.moved)
-    unseen = problem.jacobian(values, gains, problem.unseen.which)
-    unseen *= problem.unseen.deviation[:, None]
-    lengths = [len(r.t) for r in problem.recordings]
-    spread = covariance(
-        jacobian, errors, lengths, robust, problem.doubt.deviation, pretended, unseen
-    )
     return Fitted(
         values=values,
         optimum=best.values,
         force_noise=best.force_noise,
         errors=errors,
-        covariance=spread,
+        covariance=_spread(problem, values, gains, errors, pretended, robust),
         cost=best.likelihood,
         converged=best.found.converged,
         evaluations=best.evaluations,
     )
+
+
+def _spread(
+    problem: Problem,
+    values: Values,
+    gains: list[ArmGains],
+    errors: Values,
+    pretended: Values,
+    robust: float | None,
+) -> NDArray[np.float64]:
+    """Return the covariance of the free parameters at some values."""
+    jacobian = problem.jacobian(values, gains, problem.moved)
+    unseen = problem.jacobian(values, gains, problem.unseen.which)
+    unseen *= problem.unseen.deviation[:, None]
+    lengths = [len(r.t) for r in problem.recordings]
+    return covariance(jacobian, errors, lengths, robust, problem.doubt.deviation, pretended, unseen)
+
+
+def spread_at(problem: Problem, values: Values) -> NDArray[np.float64]:
+    """Return the covariance that a log gives at values that are known, as only a simulation knows them."""
+    noise = likely_noise(problem, values, problem.shown)
+    gains = problem.gains(values, noise)
+    _, pretended = without_noise(problem, values, noise, gains)
+    return _spread(problem, values, gains, problem.errors(values, gains), pretended, None)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -95,33 +114,23 @@ class _Point:
 
 
 def _search(problem: Problem, start: Values, robust: float | None) -> _Point:
-    """Make the filter for the guess, search with it, until the two agree."""
-    values, noise, evaluations = start, None, 0
-    p = problem.parameters
-    moved_by = problem.moved
-    for _ in range(MOST_ROUNDS):
-        noise = likely_noise(problem, values, noise, robust)
-        gains = problem.gains(values, noise)
+    """Make the filter for the guess, search with it, until the two agree.
 
-        def spread(part: Values, base: Values = values) -> Values:
-            full = base.copy()
-            full[moved_by] = part
-            return full
-
-        found = least_squares(
-            lambda part, gains=gains, spread=spread: problem.objective(spread(part), gains),  # type: ignore[misc]
-            lambda part, gains=gains, spread=spread: problem.slope(spread(part), gains),  # type: ignore[misc]
-            values[moved_by],
-            p.low[moved_by],
-            p.high[moved_by],
-            robust=robust,
-        )
+    The first filter is made for the noise that the force shows: at a bad guess a far larger one is likelier, and with
+    it anything fits.
+    """
+    values, noise, evaluations = start, problem.shown, 0
+    pull = Pull.of(problem)
+    for i in range(MOST_ROUNDS):
+        if i > 0:
+            noise = likely_noise(problem, values, noise, robust)
+        began = pull.moved(values)
+        found = _with_filter(problem, values, noise, pull, robust)
         evaluations += found.evaluations
-        moved = found.values - values[moved_by]
-        values = spread(found.values)
-        if float(moved @ found.information @ moved) < SETTLED:
+        values = pull.full(found.values, values)
+        step = found.values - began
+        if i > 0 and float(step @ found.information @ step) < SETTLED:
             break
-    assert noise is not None
     gains = problem.gains(values, noise)
     likelihood = found.cost + sum(g.log_sum for g in gains)
     return _Point(
@@ -133,10 +142,31 @@ def _search(problem: Problem, start: Values, robust: float | None) -> _Point:
     )
 
 
+def _with_filter(
+    problem: Problem, values: Values, noise: Values, pull: Pull, robust: float | None
+) -> Found:
+    """Search from some values with the filter made for them."""
+    gains = problem.gains(values, noise)
+    low, high = pull.bounds
+    return least_squares(
+        lambda part: problem.objective(pull.full(part, values), gains),
+        lambda part: pull.slope(pull.full(part, values), gains),
+        pull.moved(values),
+        low,
+        high,
+        robust=robust,
+    )
+
+
+#: Where hands are, from fingers to arms: M0 [kg], B0 [N s/m], K0 [N/m].
+HANDS = {"M0": (0.01, 3.0), "B0": (0.5, 40.0), "K0": (30.0, 2000.0)}
+
+
 def _elsewhere(values: Values, parameters: Parameters, draw: np.random.Generator) -> Values:
-    """Return another start: M0, B0, K0 up to four times larger or smaller."""
+    """Return another start: a hand as hands are, the rest as it was."""
     out = values.copy()
     for i, name in enumerate(parameters.names):
-        if name[0] in "MBK":
-            out[i] = max(abs(values[i]), 1e-2) * 4 ** draw.uniform(-1, 1)
+        if kind(name) in HANDS:
+            low, high = HANDS[kind(name)]
+            out[i] = low * (high / low) ** draw.random()
     return parameters.clip(out)

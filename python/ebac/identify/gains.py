@@ -77,7 +77,7 @@ class GainsResult:
         """Return the choice and what it comes to."""
         n = self.chosen.presses.numbers()
         return (
-            f"<Gains of {self.name}: kp = {self.kp:.3g}, kd = {1e3 * self.kd:.3g} ms; settles in "
+            f"<Gains of {self.name}: kp = {self.kp:.3g}, kd = {1e3 * self.kd:.3f} ms; settles in "
             f"{n['settled_median_s']:.3g} s, swings {1e3 * n['swing_worst_m']:.3g} mm at most, cost "
             f"{self.chosen.cost:.3g} of the default's 1>"
         )

@@ -46,7 +46,7 @@ def plot_gains(result: GainsResult) -> Picture:
 
 
 def _label(c: Candidate) -> str:
-    return f"{c.name}: Kp {c.kp:.3g}, Kd {1e3 * c.kd:.3g} ms"
+    return f"{c.name}: Kp {c.kp:.3g}, Kd {1e3 * c.kd:.3f} ms"
 
 
 def _map(ax: Axes, result: GainsResult) -> None:

@@ -35,8 +35,8 @@ def covariance(
     `pretended` is the
     Jacobian that noise alone gives; `unseen` that of what is held in doubt, by one deviation each.
 
-    The larger one of two, parameter by parameter: the inverse of the information, scaled by the errors; and the
-    sandwich around it, with the
+    The larger one of two, parameter by parameter: the inverse of the information, scaled by the errors where they are
+    larger than foretold; and the sandwich around it, with the
     scores summed over lags of growing length (Newey and West 1987), which also holds when the errors are
     autocorrelated.
     """
@@ -53,7 +53,7 @@ def covariance(
     H = H + np.diag(known)
     inverse = loose_inverse(H)
     used = max(int(np.count_nonzero(errors)) - len(H), 1)
-    plain = inverse * max(float((w * errors**2).sum()) / used, 1e-300)
+    plain = inverse * max(float((w * errors**2).sum()) / used, 1.0)
     middle = np.diag(known)
     start = 0
     for length in lengths:

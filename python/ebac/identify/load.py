@@ -11,8 +11,8 @@ import numpy as np
 
 from ebac.document import unknown
 from ebac.identify.columns import UNITS_OF, assign, split_heading, unit_factor
-from ebac.identify.files import Columns, read_columns
-from ebac.identify.recording import OF_TRACE, Recording, count_of, trace_facts
+from ebac.identify.files import Columns, archive_of, read_columns
+from ebac.identify.recording import LEAST_ROWS, OF_TRACE, Recording, count_of, trace_facts
 from ebac.trace import Trace
 
 
@@ -63,6 +63,8 @@ def load(
     path = Path(path)
     if not path.exists():
         raise FileNotFoundError(2, "there is no such file", str(path))
+    if path.is_dir():
+        raise ValueError(f"{path.name}: is a folder; give a file in it")
     trace, wrong = _trace(path)
     if trace is not None and not columns:
         found = _of_trace(trace, path.name, axis, wrong)
@@ -91,7 +93,7 @@ def _trace(path: Path) -> tuple[Trace | None, list[str]]:
         return log.trace, remarks
     if path.suffix != ".npz":
         return None, []
-    with np.load(path, allow_pickle=False) as archive:
+    with archive_of(path) as archive:
         ours = "about" in archive
     return (Trace.from_npz(path) if ours else None), []
 
@@ -141,7 +143,7 @@ def _recording(
         signals[key] = raw[column] * unit_factor(name, key, unit)
     if "x" not in signals:
         raise ValueError(
-            f"{name}: found no position among {', '.join(raw)}; say which column it is: columns={{'x': ...}} or --x"
+            f"{name}: found no position among {', '.join(raw)}; which is it? columns={{'x': ...}} or --column x=NAME"
         )
     if "t" not in signals:
         if rate is None:
@@ -156,12 +158,30 @@ def _recording(
     return Recording(name=name, count=found, remarks=tuple(remarks), **even)
 
 
-#: What no hand does, by signal: more than this is a wrong unit [m, N].
+#: What no hand does, by signal: more than this is a wrong unit [m, N], and so is less [m].
 FARTHEST = {"x": 2.5, "target": 2.5, "force": 5e3, "motor": 5e3, "desired": 5e3}
+NEAREST = 1e-5
+#: Rows farther apart say nothing of a hand [s].
+SLOWEST = 0.1
 
 
 def _plausible(name: str, signals: Columns) -> None:
-    """Refuse numbers in a wrong unit, as far as that shows."""
+    """Refuse numbers in a wrong unit, as far as that shows, and a force that says nothing."""
+    dt, reach = float(np.diff(signals["t"]).mean()), float(np.ptp(signals["x"]))
+    if len(signals["t"]) >= LEAST_ROWS and reach > 0 and dt > SLOWEST:
+        raise ValueError(
+            f"{name}: rows are {dt:.4g} s apart, {SLOWEST:g} s at most tell a hand: is the unit of t right? "
+            "Say it: units={'t': 'ms'} or --unit t=ms"
+        )
+    if 0 < reach < NEAREST:
+        raise ValueError(
+            f"{name}: x spans {1e6 * reach:.4g} um, less than a hand that holds still: is its unit right? "
+            "Say it: units={'x': 'm'} or --unit x=m"
+        )
+    if "force" in signals and np.ptp(signals["force"]) == 0:
+        raise ValueError(
+            f"{name}: force is constant at {signals['force'][0]:g} N: the sensor was off, or it is the wrong column"
+        )
     for key, most in FARTHEST.items():
         if key not in signals:
             continue
@@ -187,7 +207,9 @@ def _evenly(name: str, signals: Columns, remarks: list[str]) -> Columns:
     step = np.diff(t)
     if step.size == 0 or not (step > 0).all():
         where = int(np.argmin(step > 0)) + 2 if step.size else 1
-        raise ValueError(f"{name}: t does not rise in row {where}; sort the log by time")
+        raise ValueError(
+            f"{name}: t does not rise in row {where}; sort the log by time, or give times with more digits"
+        )
     dt = float(np.median(step))
     if np.ptp(step) <= 1e-3 * dt:
         return signals

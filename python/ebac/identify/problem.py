@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ebac._core import ArmGains, ArmRecord
-from ebac.identify.noise import readings
+from ebac.identify.noise import readings, rough
 from ebac.identify.parameters import INPUTS, STEPS, Parameters, kind
 from ebac.identify.recording import Recording
 from ebac.identify.ripple import ripple
@@ -31,6 +31,7 @@ class Problem:
     targets: tuple[Target, ...]
     parameters: Parameters
     make: Make = field(default_factory=lambda: arm_record)
+    quietest: float = 1.0  # times what the force shows: the least noise that is believed
     records: tuple[ArmRecord, ...] = field(init=False)
     doubt: Doubt = field(init=False)  # moves with the search
     unseen: Doubt = field(init=False)  # does not, but widens the intervals
@@ -47,16 +48,34 @@ class Problem:
         unseen = {"bend": BEND, "delay": DELAY_DRIVEN if driven else DELAY}
         object.__setattr__(self, "unseen", doubt_of(self, unseen))
 
+    @property
+    def shown(self) -> NDArray[np.float64]:
+        """Return the least noise of each force that is believed [N]: what its signal shows, never none."""
+        forces = [r.force for r in self.recordings if r.force is not None]
+        return np.array(
+            [self.quietest * max(rough(f), 1e-5 * float(np.ptp(f)), 1e-9) for f in forces]
+        )
+
     def gains(
         self, values: NDArray[np.float64], force_noise: NDArray[np.float64]
     ) -> list[ArmGains]:
-        """Return the filters made for a guess and a noise of the force [N], one for each recording."""
+        """Return the filters made for a guess and a noise of the force [N], one for each recording.
+
+        What is in doubt within a tick stays where it is held: the row a jump falls into must not flicker.
+        """
+        held = self.held(values)
         return [
-            record.gains(values[place], float(noise))
+            record.gains(held[place], float(noise))
             for record, place, noise in zip(
                 self.records, self.parameters.places, force_noise, strict=True
             )
         ]
+
+    def held(self, values: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return values with what is in doubt where it is held."""
+        out = values.copy()
+        out[self.doubt.which] = self.parameters.fixed[self.doubt.which]
+        return out
 
     def errors(self, values: NDArray[np.float64], gains: list[ArmGains]) -> NDArray[np.float64]:
         """Return the errors of all recordings, one after the other."""
@@ -116,10 +135,10 @@ class Problem:
             self.make(r, replace(t, path=None), float(n) * draw.standard_normal(len(r.t)))
             for r, t, n in zip(self.recordings, self.targets, force_noise, strict=True)
         )
-        out = self._jacobian(records, still, gains, wanted)
-        told = ("X0", "onset", *INPUTS)
-        places = [kind(self.parameters.names[i]) in told for i in wanted]
-        out[places] = 0.0  # what a target tells, it tells without noise
+        told = ("X0", "onset", *INPUTS)  # what a target tells, it tells without noise
+        places = [kind(self.parameters.names[i]) not in told for i in wanted]
+        out = np.zeros((len(wanted), sum(len(r.t) for r in self.recordings)))
+        out[places] = self._jacobian(records, still, gains, wanted[places])
         parts = zip(records, self.parameters.places, gains, strict=True)
         return out, np.concatenate([r.innovations(still[place], g) for r, place, g in parts])
 

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ebac.identify.intervals import loose_inverse
-from ebac.identify.search import least_squares
+from ebac.identify.search import least_squares, squares
 
 if TYPE_CHECKING:
     from ebac.identify.result import ArmResult
@@ -33,7 +33,7 @@ def profile(result: ArmResult, name: str, level: float) -> tuple[float, float]:
         full[index] = value
         if not others.size:
             e = result.problem.objective(full, gains)
-            return float(e @ e), full
+            return squares(e), full
 
         def spread(part: NDArray[np.float64]) -> NDArray[np.float64]:
             out = full.copy()
@@ -62,7 +62,7 @@ def _inflation(result: ArmResult, index: int, gains: list) -> float:  # type: ig
     """Return how much wider the local variance is than that of white errors of unit size."""
     J = result.problem.slope(result.values, gains)
     scale = np.sqrt((J**2).sum(axis=1)) + 1e-300
-    plain = loose_inverse((J @ J.T) / np.outer(scale, scale))
+    plain = loose_inverse(np.einsum("ik,jk->ij", J, J) / np.outer(scale, scale))
     place = int(np.flatnonzero(result.problem.moved == index)[0])
     white = float(plain[place, place] / scale[place] ** 2)
     return float(result.deviation[index]) ** 2 / white if white > 0 else 1.0

@@ -13,8 +13,8 @@ if TYPE_CHECKING:
 
 _STYLE = """
 body { font: 16px/1.5 system-ui, sans-serif; max-width: 60rem; margin: 2rem auto; padding: 0 1rem; color: #222 }
-table { border-collapse: collapse; margin: 1rem 0 } th, td { padding: .25rem .8rem; text-align: right; border-bottom:
-1px solid #ddd }
+.wide { overflow-x: auto } table { border-collapse: collapse; margin: 1rem 0 } td { white-space: nowrap }
+th, td { padding: .25rem .8rem; text-align: right; border-bottom: 1px solid #ddd }
 th:first-child, td:first-child { text-align: left } img { max-width: 100% } .careful { background: #fff3e0; padding:
 .5rem 1rem }
 """
@@ -36,13 +36,14 @@ def page(
             "<tr>" + "".join(f"<td>{escape(cell)}</td>" for cell in row.values()) + "</tr>"
             for row in rows
         )
-        parts.append(f"<table><tr>{head}</tr>{body}</table>")
+        parts.append(f'<div class="wide"><table><tr>{head}</tr>{body}</table></div>')
     parts += [f"<p>{escape(text)}</p>" for text in notes]
     parts += [
         f'<img alt="figure" src="data:image/png;base64,{_png(figure)}">' for figure in figures
     ]
     return (
         f'<!doctype html><html lang="en"><meta charset="utf-8"><title>{escape(title)}</title>'
+        '<meta name="viewport" content="width=device-width, initial-scale=1">'
         f"<style>{_STYLE}</style><body>{''.join(parts)}</body></html>\n"
     )
 

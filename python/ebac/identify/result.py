@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from ebac._core import Hand, Recorded, Step
 from ebac.identify import verdict
 from ebac.identify.foretell import best_levels, best_start
-from ebac.identify.parameters import BEFORE_LEVELS, OWN, Parameters
+from ebac.identify.parameters import BEFORE_LEVELS, OWN, Parameters, kind
 from ebac.identify.problem import Problem, arm_record
 from ebac.identify.recording import Recording
 from ebac.identify.residuals import ResidualTests, nrmse, residual_tests, vaf
@@ -24,6 +24,7 @@ if TYPE_CHECKING:
 
 #: Of a standard normal, two-sided 95 %.
 Z95 = 1.959963984540054
+HAND = ("M0", "B0", "K0")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -115,8 +116,9 @@ class ArmResult:
     def undetermined(self) -> tuple[str, ...]:
         """Names of what this log does not determine."""
         half = Z95 * self.deviation
+        dt = max(r.dt for r in self.recordings)
         return verdict.undetermined(
-            self.parameters, self.values, half, self.correlation, self._span
+            self.parameters, self.values, half, self.correlation, self._span, dt
         )
 
     @cached_property
@@ -142,6 +144,11 @@ class ArmResult:
                 determined=name not in self.undetermined,
             )
         return out
+
+    @property
+    def shown(self) -> tuple[Estimate, ...]:
+        """Return the rows of a table, what was fitted and what of the hand was given."""
+        return tuple(e for e in self.estimates.values() if not e.fixed or kind(e.name) in HAND)
 
     def __getitem__(self, name: str) -> Estimate:
         """Return one parameter."""
@@ -264,13 +271,13 @@ class ArmResult:
             f"{a} and {b} cannot be told apart ({r:+.3f})" for a, b, r in self.inseparable
         )
         title = f"Arm of eq. (4) from {names}" + (f". {careful}" if careful else "")
-        return notebook.result(title, [e.row() for e in self.estimates.values()], self.plot)
+        return notebook.result(title, [e.row() for e in self.shown], self.plot)
 
     def __repr__(self) -> str:
         """Return the estimates, one a line, and what to be careful about."""
         names = ", ".join(r.name for r in self.recordings)
         lines = [f"Arm of eq. (4) from {names}:"]
-        lines += [f"  {e}" for e in self.estimates.values()]
+        lines += [f"  {e}" for e in self.shown]
         lines += [
             f"  {a} and {b} cannot be told apart in this log (correlation {r:+.3f})"
             for a, b, r in self.inseparable

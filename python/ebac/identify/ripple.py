@@ -38,7 +38,7 @@ def stair(levels: Values, dt: float, first: float, second: float) -> tuple[Value
         return levels, ahead - _smooth_mean(levels)
     here, mean = np.zeros(len(levels)), np.zeros(len(levels))
     for lag, share in ((first, first / (first - second)), (second, second / (second - first))):
-        follows = lagged(levels, dt, lag)
+        follows = lagged(levels, dt, lag, stepping=True)
         kept = lag / dt * -np.expm1(-dt / lag) if lag > 0 else 0.0
         here += share * follows
         mean += share * (ahead + (follows - ahead) * kept)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -45,6 +45,10 @@ class Target:
         """How many levels are fitted."""
         return max(self.segments) + 1
 
+    def late(self, seconds: float) -> Target:
+        """Return the same with every switch later by some time [s]."""
+        return replace(self, switches=tuple(at + seconds for at in self.switches))
+
     @classmethod
     def held(cls) -> Target:
         """One place, all the time."""
@@ -67,6 +71,8 @@ class Target:
         count = int(np.floor((start + seconds) / half)) - first
         at = [(first + k) * half for k in range(1, count + 1)]
         at = [t for t in at if start < t < start + seconds]
+        if not at:  # one half of one period: one level
+            return cls()
         return cls(switches=tuple(at), segments=tuple((first + k) % 2 for k in range(len(at) + 1)))
 
     @classmethod
@@ -84,10 +90,10 @@ class Target:
             return cls.steps(path.at) if start < path.at < end else cls.held()
         if isinstance(path, Tapping):
             told = cls.tapping(path.frequency, end - start, start)
-            ticks = np.ceil(
-                np.array(told.switches) / dt - 1e-9
-            )  # a simulated hand changes its mind at a tick
-            return cls(switches=tuple((ticks * dt).tolist()), segments=told.segments)
+            # A simulated hand changes its mind at a tick; one at the last row changes nothing that is recorded.
+            ticks = np.ceil(np.array(told.switches) / dt - 1e-9)
+            at = tuple(s for s in (ticks * dt).tolist() if s < end - 0.5 * dt)
+            return cls(switches=at, segments=told.segments[: len(at) + 1])
         return cls.following(_positions(path, t))
 
 

@@ -2,15 +2,23 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ebac.identify.guess import instruments, regression, solve
+from ebac.identify.parameters import BEFORE_LEVELS, OWN
+from ebac.identify.recording import Recording
+from ebac.identify.target import Target
 
 if TYPE_CHECKING:
     from ebac.identify.result import ArmResult
+
+
+#: When within a tick a force was read [ticks]: here nothing is known of the ripple of the motor.
+WITHIN_TICK = 0.1
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -37,6 +45,7 @@ def second_opinion(result: ArmResult) -> tuple[Opinion, ...]:
     First stage: position, velocity, acceleration are projected on delayed copies of the target; second stage:
     regression on what is
     left of them. What a law feeds back of noise and tremor does not follow the target and drops out.
+    When within a tick a force was read is in doubt, and widens the deviations.
 
     Raises
     ------
@@ -44,18 +53,17 @@ def second_opinion(result: ArmResult) -> tuple[Opinion, ...]:
         When a target never moves: then nothing tells hand from loop, and the direct fit stands alone.
     """
     problem = result.problem
-    parts, given = [], []
-    for r, target in zip(problem.recordings, problem.targets, strict=True):
-        part = regression(r, target)
-        z = instruments(r, target, part.taps)
-        if z is None:
-            raise ValueError(
-                f"{r.name}: its target never moves, so there is no instrument; "
-                "let the hand follow a path or tap, and give the target"
-            )
-        parts.append(part)
-        given.append(z)
-    values, covariance = solve(parts, given)
+    onset = BEFORE_LEVELS - len(OWN)
+    pairs = [
+        (r, target.late(float(result.values[place[onset]])))
+        for r, target, place in zip(
+            problem.recordings, problem.targets, result.parameters.places, strict=True
+        )
+    ]
+    values, covariance = _two_stages(pairs)
+    late = [(replace(r, lag=r.lag + WITHIN_TICK * r.dt), target) for r, target in pairs]
+    apart = _two_stages(late)[0] - values
+    covariance = covariance + np.outer(apart, apart)
     return tuple(
         Opinion(
             name=name,
@@ -68,3 +76,18 @@ def second_opinion(result: ArmResult) -> tuple[Opinion, ...]:
         for i, name in enumerate(("M0", "B0", "K0"))
         if name in result.estimates
     )
+
+
+def _two_stages(pairs: Sequence[tuple[Recording, Target]]) -> Any:
+    parts, given = [], []
+    for r, target in pairs:
+        part = regression(r, target)
+        z = instruments(r, target, part.taps)
+        if z is None:
+            raise ValueError(
+                f"{r.name}: its target never moves, so there is no instrument; "
+                "let the hand follow a path or tap, and give the target"
+            )
+        parts.append(part)
+        given.append(z)
+    return solve(parts, given)

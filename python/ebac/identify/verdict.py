@@ -13,6 +13,8 @@ DETERMINED = 0.25
 TOGETHER = 0.95
 #: ... and when either is looser than this share, the log cannot tell them apart.
 LOOSE = 0.2
+#: A hand that answers within so many rows, M0/B0, is told by what a force does between rows: by nothing recorded.
+FASTEST = 2.0
 
 
 def scale_of(name: str, value: float, span: float) -> float:
@@ -31,8 +33,13 @@ def undetermined(
     half: NDArray[np.float64],
     correlation: NDArray[np.float64],
     span: float,
+    dt: float,
 ) -> tuple[str, ...]:
-    """Return the free parameters the log does not determine: too loose, at a bound, or moving with one that is."""
+    """Return the free parameters the log does not determine: too loose, at a bound, or moving with one that is.
+
+    Where nothing tells M0, B0 and K0 apart, all multiples of the whole device and hand fit alike, but for the least
+    ones, which fit the noise between two rows of `dt` [s]: a hand that fast is not believed.
+    """
     out: list[str] = []
     for i in parameters.free:
         name, value = parameters.names[i], float(values[i])
@@ -41,6 +48,7 @@ def undetermined(
         if at_bound or not half[i] <= DETERMINED * scale_of(name, value, span):
             out.append(name)
     names = [parameters.names[i] for i in parameters.free]
+    out += [name for name in _too_fast(parameters, values, correlation, dt) if name not in out]
     lost = [names.index(name) for name in out]
     out += [
         name
@@ -48,6 +56,25 @@ def undetermined(
         if b not in lost and any(abs(correlation[a, b]) > TOGETHER for a in lost)
     ]
     return tuple(out)
+
+
+def _too_fast(
+    parameters: Parameters,
+    values: NDArray[np.float64],
+    correlation: NDArray[np.float64],
+    dt: float,
+) -> list[str]:
+    """Return each M0 that moves together with its B0 and whose M0/B0 is below `FASTEST` rows."""
+    free = parameters.free.tolist()
+    pairs = {(int(p[0]), int(p[1])) for p in parameters.places}
+    return [
+        parameters.names[m]
+        for m, b in sorted(pairs)
+        if m in free
+        and b in free
+        and abs(correlation[free.index(m), free.index(b)]) > TOGETHER
+        and values[m] < FASTEST * dt * values[b]
+    ]
 
 
 def inseparable(

@@ -10,7 +10,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ebac.trace import ColumnInfo, Trace
+from ebac.columns import ColumnInfo
+from ebac.trace import Trace
 
 _HEADING = re.compile(r"^(?P<name>[^\[\],]+?)(?: \[(?P<unit>[^\]]*)\])?$")
 _WHOLE = re.compile(r"^[+-]?\d+$")

@@ -12,7 +12,7 @@ from typing import Any, Self
 import numpy as np
 from numpy.typing import NDArray
 
-from ebac.trace import ColumnInfo
+from ebac.columns import ColumnInfo
 
 #: Kind of a NumPy type: its name in a ROS 2 message, its little-endian form.
 TYPES = {

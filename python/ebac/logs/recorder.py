@@ -15,12 +15,12 @@ from typing import TYPE_CHECKING, Any, Self
 import numpy as np
 from numpy.typing import NDArray
 
+from ebac.columns import column_infos, row_views
 from ebac.logs.about import About
 from ebac.logs.events import Event, faults_of
 from ebac.logs.layout import Layout
 from ebac.logs.writer import LogWriter
 from ebac.scenario import Scenario
-from ebac.trace import column_infos, row_views
 
 if TYPE_CHECKING:
     from ebac._core import Rows

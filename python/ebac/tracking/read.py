@@ -109,6 +109,10 @@ def _from_text(path: Path, columns: Sequence[str] | None, unit: str | None) -> R
     if len(told) > 1:
         raise ValueError(f"columns {', '.join(chosen)} have several units: give files with one")
     found = unit or next(iter(told))
+    if found is not None and found not in UNITS:
+        raise ValueError(
+            f"columns {', '.join(chosen)} are in {found!r}: must be one of {', '.join(UNITS)}; --unit names it"
+        )
     how = ""
     if found is None:
         found = "m" if float(np.nanmax(np.abs(points))) < FARTHEST else "mm"
@@ -125,8 +129,6 @@ def _bare(heading: str) -> tuple[str, str | None]:
     if match is None:
         return heading, None
     name, unit = match[1], match[2].replace("µ", "u")
-    if unit not in UNITS:
-        return name, None
     return name, unit
 
 

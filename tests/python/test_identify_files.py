@@ -1,0 +1,131 @@
+"""Files that are no recording: each gets one sentence that names it, what is wrong and what to do."""
+
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+import ebac
+from ebac.cli import app
+from ebac.identify import Target, fit_arm, fit_device, load
+from ebac.tracking import read_path
+
+ROWS = 200
+T = 1e-3 * np.arange(ROWS)
+X = 3e-5 * np.round(1e3 * np.sin(20 * T))
+F = np.cos(20 * T)
+
+
+def text(head: str, *columns: np.ndarray, mark: str = ",") -> bytes:
+    rows = [mark.join(f"{value:.6g}" for value in row) for row in zip(*columns, strict=True)]
+    return "\n".join([head, *rows, ""]).encode()
+
+
+HOLE = np.where(np.arange(ROWS) == 100, np.nan, X)
+NOISE = np.random.default_rng(1).bytes(3000)
+BAD: dict[str, tuple[bytes, str]] = {
+    "no_position.csv": (text("t,force", T, F), "found no position among t, force"),
+    "no_time.csv": (text("x,force", X, F), "has no time; say how many rows a second"),
+    "hole.csv": (
+        text("t,x,force", T, HOLE, F),
+        "x is no number in 1 of 200 rows, first in row 101",
+    ),
+    "still.csv": (text("t,x,force", T, 0 * T, F), "x is constant at 0 m"),
+    "same_force.csv": (text("t,x,force", T, X, 0 * T + 1), "force is constant at 1 N"),
+    "unknown.csv": (text("t,x [furlong],force", T, X, F), "must be one of m, cm, mm"),
+    "large.csv": (text("t,x,force", T, 1e3 * X, F), "x spans .* a hand 2.5 m at most.*--unit x=mm"),
+    "small.csv": (text("t,x [um],force", T, X, F), "less than a hand that holds still.*--unit x=m"),
+    "slow.csv": (text("t,x,force", 1e3 * T, X, F), "rows are 1 s apart.*--unit t=ms"),
+    "backwards.csv": (text("t,x,force", T[::-1], X, F), "t does not rise in row 2"),
+    "three.csv": (text("t,x,force", T[:3], X[:3], F[:3]), "3 rows; needs at least 50"),
+    "empty.csv": (b"", "lines = 0: needs a heading"),
+    "heading.csv": (b"t,x,force\n", "lines = 1: needs a heading"),
+    "words.csv": (b"t,x,force\n0,left,1\n", "'left' in row 1, column 'x', is no number"),
+    "ragged.csv": (b"t,x,force\n0,1,1\n1,2\n", "row 2 has 2 cells, the heading 3"),
+    "binary.csv": (NOISE, "is no text in UTF-8"),
+    "binary.npz": (NOISE, "is no NumPy archive"),
+    "empty.npz": (b"", "is no NumPy archive"),
+    "binary.mat": (NOISE, "cannot be read"),
+    "empty.mat": (b"", "cannot be read"),
+    "binary.mcap": (NOISE, "not an MCAP file"),
+    "empty.mcap": (b"", "0 bytes"),
+    "sheet.xlsx": (b"PK", "unknown ending '.xlsx'; known are .mcap, .csv"),
+}
+by_file = pytest.mark.parametrize("name", BAD)
+
+
+@pytest.fixture
+def bad(tmp_path: Path) -> Callable[[str], Path]:
+    def write(name: str) -> Path:
+        (tmp_path / name).write_bytes(BAD[name][0])
+        return tmp_path / name
+
+    return write
+
+
+@by_file
+def test_what_is_no_recording_is_refused_with_a_reason(
+    name: str, bad: Callable[[str], Path]
+) -> None:
+    with pytest.raises(ValueError, match=rf"(?s){name}.*{BAD[name][1]}"):
+        load(bad(name))
+
+
+@by_file
+@pytest.mark.parametrize("command", ["arm", "device", "gains", "log"])
+def test_a_command_says_it_in_one_line(command: str, name: str, bad: Callable[[str], Path]) -> None:
+    result = CliRunner().invoke(app, ["identify", command, str(bad(name))])
+    assert result.exit_code == 2
+    told = [line for line in result.stderr.splitlines() if line.strip()]
+    assert len(told) == 1, result.stderr
+    assert told[0].startswith("Error: ")
+    assert name in told[0]
+
+
+def test_a_folder_is_no_recording(tmp_path: Path) -> None:
+    with pytest.raises(ValueError, match="is a folder"):
+        load(tmp_path)
+
+
+@pytest.mark.parametrize(
+    ("name", "content", "why"),
+    [
+        ("empty.csv", b"", "needs a heading and rows below it"),
+        ("empty.npz", b"", "not a trace written by to_npz"),
+        ("binary.npz", NOISE, r"not a trace written by to_npz \(no archive\)"),
+        ("binary.csv", NOISE, "is no text"),
+        ("far.csv", text("x [furlong],y [furlong]", T, T), "'furlong': must be one of m, mm"),
+        ("both.csv", text("x [mm],y [m]", T, T), "have several units"),
+        ("hole.csv", text("x,y", HOLE, T), "row 101: nan is not finite"),
+    ],
+)
+def test_what_is_no_path_is_refused_with_a_reason(
+    name: str, content: bytes, why: str, tmp_path: Path
+) -> None:
+    (tmp_path / name).write_bytes(content)
+    with pytest.raises(ValueError, match=why):
+        read_path(tmp_path / name)
+    result = CliRunner().invoke(app, ["track", str(tmp_path / name)])
+    assert result.exit_code == 2
+
+
+def test_decimal_commas_are_read(tmp_path: Path) -> None:
+    plain, german = tmp_path / "plain.csv", tmp_path / "german.csv"
+    plain.write_bytes(text("t,x [mm],force", T, 1e3 * X, F))
+    german.write_bytes(text("t;x [mm];force", T, 1e3 * X, F, mark=";").replace(b".", b","))
+    a, b = load(plain), load(german)
+    assert (a.x == b.x).all()
+    assert (a.force == b.force).all()
+
+
+def test_a_wall_that_pushes_unrecorded_is_no_device(tmp_path: Path) -> None:
+    """The hand's force alone, while a law pushed: nothing is determined, and nothing runs away."""
+    hand = ebac.Hand(path=[ebac.Tapping()])
+    trace = ebac.simulate(ebac.Scenario(hand=hand, seconds=3), "ebac")
+    columns = (np.array(trace[name]) for name in ("t", "x", "f_meas"))
+    (tmp_path / "hand.csv").write_bytes(text("t,x,force", *columns))
+    r = load(tmp_path / "hand.csv")
+    assert fit_arm(r, Target.tapping(1.5, r.seconds)).undetermined == ()
+    assert fit_device(r).explained < 0.9
