@@ -10,7 +10,6 @@ from types import TracebackType
 from typing import TYPE_CHECKING, Any
 
 from ebac import _core
-from ebac.columns import column_infos, row_views
 from ebac.drives.errors import DriveError
 from ebac.hardware.interrupts import Interrupts, OfParent
 from ebac.hardware.newest import Newest

@@ -5,7 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from ebac import _core
-from ebac.trace import Trace, column_infos, row_views
+from ebac.columns import column_infos, row_views
+from ebac.trace import Trace
 
 if TYPE_CHECKING:
     from ebac.hardware.newest import Newest
