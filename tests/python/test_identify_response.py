@@ -11,7 +11,7 @@ from typer.testing import CliRunner
 
 import ebac
 from ebac.cli import app
-from ebac.identify import Recording, Target, check_log, excitation, frequency_response
+from ebac.identify import LogCheck, Recording, Target, check_log, excitation, frequency_response
 from ebac.identify.response import guess_by_response, spectra
 
 
@@ -119,3 +119,14 @@ def test_the_command_says_so_and_ends_with_1(tmp_path: Path, trace: ebac.Trace) 
     run = CliRunner().invoke(app, ["identify", "log", str(tmp_path / "rich.csv"), "--lag", "8e-4"])
     assert run.exit_code == 0, run.output
     assert "excites" in run.stdout
+
+
+def test_the_many_lines_of_a_tap_are_told_in_few_words() -> None:
+    bands = tuple((3.0 * k + 1, 3.0 * k + 2) for k in range(20))
+    names = ("M0", "B0", "K0")
+    one = LogCheck(
+        name="tap", asked=names, bands=bands, deviation=dict.fromkeys(names, 0.01), outside=True
+    )
+    assert one.bands_in_words() == "1 to 2 Hz, 4 to 5 Hz, 7 to 8 Hz, ..., 58 to 59 Hz (20 bands)"
+    few = LogCheck(name="tap", asked=names, bands=bands[:2], deviation=one.deviation, outside=True)
+    assert few.bands_in_words() == "1 to 2 Hz, 4 to 5 Hz"

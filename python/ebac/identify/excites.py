@@ -27,6 +27,8 @@ REMEDIES = {
 }
 #: A line is excited where the motion stands so far above what the encoder's step alone would show.
 ABOVE = 10.0
+#: More bands than this are told by a few of them: a tap has a line at every harmonic.
+MOST_BANDS = 6
 #: Largest gap inside of a band [Hz].
 GAP = 1.1
 
@@ -60,8 +62,11 @@ class LogCheck:
         return self.deviation[name] * 1.96 <= DETERMINED
 
     def bands_in_words(self) -> str:
-        """Return "0.5 to 6 Hz, 9 to 10 Hz", or that there is nothing."""
-        return ", ".join(f"{a:.3g} to {b:.3g} Hz" for a, b in self.bands) or "nothing"
+        """Return "0.5 to 6 Hz, 9 to 10 Hz", or that there is nothing; of many bands the first and the last."""
+        words = [f"{a:.3g} to {b:.3g} Hz" for a, b in self.bands]
+        if len(words) > MOST_BANDS:
+            words = [*words[:3], "...", f"{words[-1]} ({len(words)} bands)"]
+        return ", ".join(words) or "nothing"
 
     def rows(self) -> list[dict[str, Any]]:
         """Return one row for each parameter that was asked for."""
