@@ -7,6 +7,7 @@ answers it waiting, the test is repeated, four times at most, and the summary sa
 """
 
 import re
+import time
 from collections.abc import Callable, Iterator
 from functools import cache
 from itertools import count
@@ -20,6 +21,8 @@ import ebac
 
 if TYPE_CHECKING:
     import can
+
+    from ebac.hardware import Run
 
 settings.register_profile("ebac", deadline=None, derandomize=True, database=None)
 settings.register_profile("explore", deadline=None, max_examples=5000, database=None)
@@ -39,6 +42,20 @@ def run() -> Callable[..., ebac.Trace]:
         return _run(law, tuple(sorted(changes.items())))
 
     return simulate
+
+
+@pytest.fixture(scope="session")
+def until() -> Callable[["Run", Callable[[], bool]], None]:
+    """A function that waits for something that happens while a loop runs."""
+
+    def wait(run: "Run", reached: Callable[[], bool]) -> None:
+        while not reached():
+            if run.done:
+                run.finish()  # raises, where it was a fault
+            assert not run.done
+            time.sleep(0.01)
+
+    return wait
 
 
 _CHANNELS = count()

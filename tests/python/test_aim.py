@@ -4,7 +4,6 @@ import json
 import os
 import subprocess
 import sys
-import time
 from collections.abc import Callable
 from pathlib import Path
 
@@ -19,6 +18,9 @@ from ebac.hardware import Configuration, Run
 from ebac.hardware.schedule import Order, Schedule
 
 pytestmark = pytest.mark.real_time
+
+#: The fixture: waits for something that happens while a loop runs.
+Until = Callable[[Run, Callable[[], bool]], None]
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "joystick.toml"
 STAY = float("nan")
@@ -88,16 +90,7 @@ def test_what_is_no_cell_is_refused(tmp_path: Path) -> None:
             AimCell(number)
 
 
-def until(run: Run, reached: Callable[[], bool]) -> None:
-    """Wait for something that happens while it runs."""
-    while not reached():
-        if run.done:
-            run.finish()  # raises, where it was a fault
-        assert not run.done
-        time.sleep(0.01)
-
-
-def test_a_target_acts_within_a_run_and_is_in_its_log(tmp_path: Path) -> None:
+def test_a_target_acts_within_a_run_and_is_in_its_log(tmp_path: Path, until: Until) -> None:
     log = tmp_path / "run.mcap"
     with ebac.Device.open(patient(), simulate=True) as device:
         with device.start(seconds=60, log=log) as run:

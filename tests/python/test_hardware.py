@@ -17,6 +17,9 @@ from ebac.hardware import Configuration, OpenDevice, Run, Terminated, times, und
 
 pytestmark = pytest.mark.real_time
 
+#: The fixture: waits for something that happens while a loop runs.
+Until = Callable[[Run, Callable[[], bool]], None]
+
 EXAMPLE = Path(__file__).parents[2] / "examples" / "joystick.toml"
 
 
@@ -37,15 +40,6 @@ def configuration(**changes: object) -> Configuration:
 def device() -> "ebac.hardware.OpenDevice":  # type: ignore[misc]
     with ebac.Device.open(configuration(), simulate=True) as opened:
         yield opened
-
-
-def until(run: Run, reached: Callable[[], bool]) -> None:
-    """Wait for something that happens while it runs."""
-    while not reached():
-        if run.done:
-            run.finish()  # raises, where it was a fault
-        assert not run.done
-        time.sleep(0.01)
 
 
 def states(place: object) -> list[drives.State]:
@@ -78,7 +72,7 @@ def test_a_run_is_rows_a_log_and_drives_without_power(device: OpenDevice, tmp_pa
 
 
 def test_what_changes_while_it_runs_acts_and_is_in_the_log(
-    device: OpenDevice, tmp_path: Path
+    device: OpenDevice, tmp_path: Path, until: Until
 ) -> None:
     with device.start("eba", seconds=30, log=tmp_path / "run.mcap") as run:
         until(run, lambda: run.state is ebac.LoopState.RUN and run.ticks >= 300)
@@ -177,7 +171,7 @@ def test_signals_are_python_s_again_afterwards() -> None:
     assert [signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM)] == before
 
 
-def test_a_device_that_is_forgotten_stops(tmp_path: Path) -> None:
+def test_a_device_that_is_forgotten_stops(tmp_path: Path, until: Until) -> None:
     opened = ebac.Device.open(configuration(), simulate=True)
     run = opened.start(seconds=60, log=tmp_path / "run.mcap")
     until(run, lambda: run.ticks >= 100)

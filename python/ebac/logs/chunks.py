@@ -7,8 +7,6 @@ from collections import deque
 from collections.abc import Iterator
 from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import dataclass, field
-from types import TracebackType
-from typing import Self
 
 from ebac.logs.events import Event
 from ebac.logs.layout import MESSAGE, Layout
@@ -18,6 +16,8 @@ from ebac.logs.records import unpacked
 _TOGETHER = 1 << 18
 #: Threads at most; the packing library and the checksum leave the interpreter alone meanwhile.
 _THREADS = 4
+#: So many of those are under way at most, that memory does not fill with what nobody has taken yet.
+_AHEAD = 2 * _THREADS
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -51,14 +51,20 @@ class Content:
     wrong: list[tuple[int, ValueError]] = field(default_factory=list)
 
 
-class Chunks:
-    """Takes chunks as they stand in a file, gives what they hold in that order. A context manager."""
+def unpackers() -> ThreadPoolExecutor:
+    """Return threads that unpack; none is made before there is work for it. A context manager."""
+    return ThreadPoolExecutor(
+        min(_THREADS, len(os.sched_getaffinity(0))), thread_name_prefix="ebac-log"
+    )
 
-    def __init__(self) -> None:
+
+class Chunks:
+    """Takes chunks as they stand in a file, gives what they hold in that order. A small log needs no thread."""
+
+    def __init__(self, pool: ThreadPoolExecutor) -> None:
         self._batch: list[tuple[int, bytes]] = []
         self._bytes = 0
-        self._pool: ThreadPoolExecutor | None = None
-        self._threads = min(_THREADS, len(os.sched_getaffinity(0)))
+        self._pool = pool
         self._under_way: deque[Future[Content]] = deque()
 
     def put(self, where: Where, start: int, data: bytes) -> Iterator[Content]:
@@ -67,10 +73,8 @@ class Chunks:
         self._bytes += len(data)
         if self._bytes < _TOGETHER:
             return
-        if self._pool is None:
-            self._pool = ThreadPoolExecutor(self._threads, thread_name_prefix="ebac-log")
         self._under_way.append(self._pool.submit(_content, where, self._taken()))
-        while len(self._under_way) > 2 * self._threads:
+        while len(self._under_way) > _AHEAD:
             yield self._under_way.popleft().result()
 
     def rest(self, where: Where) -> Iterator[Content]:
@@ -83,18 +87,6 @@ class Chunks:
     def _taken(self) -> list[tuple[int, bytes]]:
         batch, self._batch, self._bytes = self._batch, [], 0
         return batch
-
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        traceback: TracebackType | None,
-    ) -> None:
-        if self._pool is not None:
-            self._pool.shutdown(cancel_futures=True)
 
 
 def _content(where: Where, batch: list[tuple[int, bytes]]) -> Content:

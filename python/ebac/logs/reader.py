@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from ebac.logs.about import SCENARIO_FILE, About
-from ebac.logs.chunks import Chunks, Content, Where
+from ebac.logs.chunks import Chunks, Content, Where, unpackers
 from ebac.logs.columns import Columns
 from ebac.logs.events import Event
 from ebac.logs.layout import Layout
@@ -164,7 +164,8 @@ def read_bytes(
         raise ValueError(f"{path}: not an MCAP file (it does not begin like one)")
     if size < len(MAGIC):
         raise ValueError(f"{path}: {size} bytes, cut before anything was written")
-    with Chunks() as chunks:
+    with unpackers() as pool:
+        chunks = Chunks(pool)
         for opcode, start, stop in records(data, condition, progress or _silent):
             try:
                 if opcode != CHUNK:
