@@ -13,6 +13,7 @@
 #include "ebac/control/injection.hpp"
 #include "ebac/control/motion_guard.hpp"
 #include "ebac/control/pending.hpp"
+#include "ebac/control/recovery.hpp"
 #include "ebac/core/concepts.hpp"
 #include "ebac/model/velocity.hpp"
 
@@ -44,7 +45,7 @@ class Ebac {
       : params_(checked(params, "EBAC")),
         timing_(checked(timing, "Timing")),
         show_(params.mass, params.count, params.current_lag, timing),
-        recovery_time_(kPace * (params.heaviest_hand + params.mass) / show_.damping),
+        recovery_(kPace * (params.heaviest_hand + params.mass) / show_.damping, show_.stiffness),
         loop_(params.kp, params.kd, params.filter),
         ledger_(params.damping, params.count, params.current_lag, params.reserve),
         edge_(params.count),
@@ -82,7 +83,7 @@ class Ebac {
   void retune(const Ebac& next) EBAC_RT {
     params_ = next.params_;
     loop_.retune(params_.kp, params_.kd, params_.filter);
-    recovery_time_ = next.recovery_time_;
+    recovery_ = next.recovery_;
     guard_ = next.guard_;
   }
   void reset() EBAC_RT {
@@ -103,11 +104,10 @@ class Ebac {
 
  private:
   // Chosen on a grid of 60 hands and 36 cells of delay, damping and stiffness; `ebac study` runs it.
-  static constexpr double kPace = 2.2;  // recovery against what B_v damps, for the heaviest hand
-  static constexpr double kLeastExcess = 0.25;  // of K/c_h - 1: recovery of a wall as soft as c_h
-  static constexpr double kFloor = 0.5;         // of c_h: slope that continuity always allows
-  static constexpr double kYield = 0.01;        // s, F_d follows a command the guard holds back
-  static constexpr int kWindow = 16;            // samples, velocity the guard counts with
+  static constexpr double kPace = 2.2;    // recovery against what B_v damps, for the heaviest hand
+  static constexpr double kFloor = 0.5;   // of c_h: slope that continuity always allows
+  static constexpr double kYield = 0.01;  // s, F_d follows a command the guard holds back
+  static constexpr int kWindow = 16;      // samples, velocity the guard counts with
 
   /// What follows from the time since the last tick alone.
   void set_tick(double dt) EBAC_RT {
@@ -149,12 +149,10 @@ class Ebac {
 
   void recover(const Port& port) EBAC_RT {
     const double slope = contact_.slope_at_rest();
-    const double excess = std::max(slope / show_.stiffness - 1, kLeastExcess);
-    const double time = recovery_time_ / contact_.pace() * excess;
     const double open = 0.5 * slope * params_.count;  // what a reading leaves open
     const double off = port.f_env - state_.f_d;
     const double sure = std::max(off - open, 0.0) + std::min(off + open, 0.0);
-    const double change = sure * (port.dt / (time + port.dt));
+    const double change = sure * recovery_.share(slope, contact_.pace(), port.dt);
     ledger_.charge_unseen(change);
     state_.f_d += change;
     state_.tell(0, 0, 0, 0);
@@ -201,8 +199,8 @@ class Ebac {
 
   Params params_;
   Timing timing_;
-  Injection show_;        // what the device can show while it moves
-  double recovery_time_;  // s, T_r
+  Injection show_;  // what the device can show while it moves
+  Recovery recovery_;
   ForceFeedback loop_;
   EnergyLedger ledger_;
   EdgePosition edge_;
