@@ -17,6 +17,8 @@ if TYPE_CHECKING:
 
 #: Rows of a log, and how many of them the official reader gets to read: it takes them one by one.
 ROWS, FEW = 1_000_000, 50_000
+#: How often a log is read; the quickest counts.
+READINGS = 3
 #: Rows a chunk: as a recorder writes them at 1 kHz, and as `Trace.save` does.
 CHUNKS = {"recorded": 20, "saved": 2048}
 AIM = "1,000,000 rows/s"
@@ -91,14 +93,17 @@ def _write(trace: Trace, path: Path, rows: int, chunk: int) -> float:
 
 
 def _read(path: Path, rows: int) -> float:
+    """Return the best of several readings: the first one also waits for the memory of the machine."""
     from ebac.logs import read
 
-    start = perf_counter()
-    found = len(read(path).trace)
-    took = perf_counter() - start
-    if found != rows:
-        raise RuntimeError(f"{path}: {found} rows read, {rows} written")
-    return rows / took
+    best = 0.0
+    for _ in range(READINGS):
+        start = perf_counter()
+        found = len(read(path).trace)
+        best = max(best, found / (perf_counter() - start))
+        if found != rows:
+            raise RuntimeError(f"{path}: {found} rows read, {rows} written")
+    return best
 
 
 def _official(path: Path, rows: int) -> float:
