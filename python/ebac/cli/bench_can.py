@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import typer
 
-from ebac.cli import output
+from ebac.cli import bench_table, output
 
 if TYPE_CHECKING:
     from ebac.peers import PeerRow
@@ -27,16 +27,7 @@ def run(repeats: int, *, as_json: bool) -> None:
 
 
 def _show(rows: list[PeerRow]) -> None:
-    grid = output.table(["what", "program", "", "times ebac", "aim"], numbers=(2, 3))
-    last = ""
-    for row in rows:
-        if last and row.subject != last:
-            grid.add_section()
-        subject = "" if row.subject == last else row.subject
-        times = "" if row.times_ebac is None else f"{row.times_ebac:,.2f}"
-        grid.add_row(subject, row.program, _quantity(row), times, row.target)
-        last = row.subject
-    output.console().print(grid)
+    bench_table.show(rows, _quantity, digits=2)
     output.say("What each program does:", style="bold")
     output.indented("\n".join({f"{row.program}: {row.note}": None for row in rows}))
     output.say(

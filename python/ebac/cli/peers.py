@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import typer
 
-from ebac.cli import output
+from ebac.cli import bench_table, output
 
 if TYPE_CHECKING:
     from ebac.peers import PeerRow
@@ -30,16 +30,7 @@ def run(repeats: int, side: int, *, as_json: bool) -> None:
 def _show(rows: list[PeerRow]) -> None:
     from ebac.peers import NOTES
 
-    grid = output.table(["what", "program", "", "times ebac", "aim"], numbers=(2, 3))
-    last = ""
-    for row in rows:
-        if last and row.subject != last:
-            grid.add_section()
-        subject = "" if row.subject == last else row.subject
-        times = "" if row.times_ebac is None else f"{row.times_ebac:,.1f}"
-        grid.add_row(subject, row.program, _quantity(row), times, row.target)
-        last = row.subject
-    output.console().print(grid)
+    bench_table.show(rows, _quantity, digits=1)
     output.say("What each program does in a step:", style="bold")
     output.indented("\n".join(f"{name}: {note}" for name, note in NOTES.items()))
     others = {row.subject: row.note for row in rows if row.note not in NOTES.values()}
