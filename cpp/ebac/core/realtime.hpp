@@ -8,6 +8,14 @@
 #define EBAC_RT noexcept
 #endif
 
+/// What it calls becomes part of the function: no calls within a simulated tick. Only in optimised code:
+/// a sanitizer would make minutes of compiling of it.
+#if defined(__OPTIMIZE__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#define EBAC_ONE_FUNCTION [[gnu::flatten]]
+#else
+#define EBAC_ONE_FUNCTION
+#endif
+
 namespace ebac {
 
 /// Capacity of every fixed array. The number of axes in use is a run-time count.

@@ -110,7 +110,7 @@ class Loop {
     step(mail, row, axes_in_use(sample_));
   }
 
-  [[gnu::flatten]] void step_one(Mail<Law>* mail, std::byte* row) EBAC_RT {
+  EBAC_ONE_FUNCTION void step_one(Mail<Law>* mail, std::byte* row) EBAC_RT {
     step(mail, row, only_axis(sample_));
   }
 

@@ -101,8 +101,8 @@ inline std::span<Axis> axes_in_use(Sample& s) EBAC_RT {
 inline std::span<Axis, 1> only_axis(Sample& s) EBAC_RT { return std::span(s.axis).first<1>(); }
 
 template <AxesController Law, Device D>
-[[gnu::flatten]] void tick_one(Rig& rig, Law& law, D& device, const Instant& now,
-                               Sample& s) EBAC_RT {
+EBAC_ONE_FUNCTION void tick_one(Rig& rig, Law& law, D& device, const Instant& now,
+                                Sample& s) EBAC_RT {
   tick(rig, law, device, now, s, only_axis(s));
 }
 

@@ -44,7 +44,7 @@ Reading SimulatedDevice::latch(const P& plant) EBAC_RT {
   return reading;
 }
 
-[[gnu::flatten]] Reading SimulatedDevice::exchange(const Command& command) EBAC_RT {
+EBAC_ONE_FUNCTION Reading SimulatedDevice::exchange(const Command& command) EBAC_RT {
   if (command.elapsed > 0) {
     drive(command);
     std::visit([&](auto& plant) EBAC_RT { plant.advance(applied_, t_, quanta(command.elapsed)); },
