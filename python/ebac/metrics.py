@@ -122,7 +122,7 @@ class Contact:
         return {name: value for name, value in asdict(self).items() if name not in MORE}
 
 
-def contact(trace: Trace, *, axis: int = 0) -> Contact:
+def contact(trace: Trace, *, axis: int = 0, truth: bool = True) -> Contact:
     """Measure a wall contact.
 
     Parameters
@@ -131,6 +131,9 @@ def contact(trace: Trace, *, axis: int = 0) -> Contact:
         At least 10 rows.
     axis : int
         Which axis to measure, [0, trace.axes).
+    truth : bool
+        Whether to take what a simulation knows, where the trace has it; False measures it by its readings, as a
+        recorded run is measured.
 
     Returns
     -------
@@ -143,8 +146,8 @@ def contact(trace: Trace, *, axis: int = 0) -> Contact:
     """
     if len(trace) < FEWEST_ROWS:
         raise ValueError(f"the trace has {len(trace)} rows: a contact needs at least {FEWEST_ROWS}")
-    true = "true.x" in trace
-    energy = _columns(trace, "true.energy").sum(axis=1) if "true.energy" in trace else None
+    true, told = (truth and name in trace for name in ("true.x", "true.energy"))
+    energy = _columns(trace, "true.energy").sum(axis=1) if told else None
     stored = None
     if trace.scenario is not None and true:
         stored = _stored_energy(trace.scenario.environment, _columns(trace, "true.x"))

@@ -108,6 +108,16 @@ def test_the_true_position_goes_before_the_measured_one() -> None:
     assert row.rest_m == pytest.approx(0.001)
 
 
+def test_without_the_truth_a_simulation_is_measured_as_a_recording() -> None:
+    trace = ebac.simulate(ebac.Scenario(seconds=1))
+    told = {name: info for name, info in trace.columns.items() if not name.startswith("true.")}
+    data = {name: trace[name] for name in told}
+    recorded = ebac.Trace(data=data, columns=told, axes=1, law="ebac", scenario=trace.scenario)
+    assert ebac.contact(trace, truth=False) == ebac.contact(recorded)
+    assert ebac.contact(trace, truth=False).least_energy_J is None
+    assert ebac.contact(trace) != ebac.contact(recorded)
+
+
 def test_clamped_share_is_the_share_of_ticks() -> None:
     clamped = np.arange(200) % 4 == 0
     row = ebac.contact(synthetic(np.zeros(200), **{"law.clamped": clamped}))

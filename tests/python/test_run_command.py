@@ -72,13 +72,15 @@ def test_a_run_gives_rows_verdict_figure_and_a_log_that_others_read(
     assert told["drives"] == ["switch on disabled"] * 2
     assert told["times"]["compute_p50_s"] > 0
     (contact,) = told["rows"]
-    scenario = Configuration.load(config).scenario(seconds=3)
-    wanted = ebac.contact(ebac.simulate(scenario, "ebac"))
+    known = Configuration.load(config)
+    wanted = ebac.contact(known.simulate(seconds=3), truth=False)
+    assert told["expected"] == wanted.row()
     assert contact["swing_m"] < 0.25e-3
     assert wanted.quiet
     assert wanted.exact
     assert wanted.ideal_m is not None
-    assert abs(contact["rest_m"] - wanted.ideal_m) < 3 * scenario.device.count
+    assert abs(contact["rest_m"] - wanted.ideal_m) < 3 * known.device.count
+    assert abs(contact["rest_m"] - wanted.rest_m) < 3 * known.device.count
     (log,) = out.glob("*.mcap")
     trace = ebac.load(log)
     assert len(trace) == told["recorded"]

@@ -202,7 +202,9 @@ def _run(
         report, place = device.report, device.place
     assert report is not None
     with output.refusing():
-        result = run_results.Result.of(known, trace, report, place.about, simulated, fault)
+        result = run_results.Result.of(
+            known, trace, report, place.about, simulated, fault, changed=bool(schedule.orders)
+        )
     files = run_results.write(result, stem)
     if as_json:
         typer.echo(result.document())

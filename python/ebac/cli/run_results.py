@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import tomllib
+import warnings
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Self
@@ -15,6 +16,9 @@ if TYPE_CHECKING:
     from ebac.metrics import Contact
     from ebac.simulation import LoopFault
     from ebac.trace import Trace
+
+#: The longest run that is also shown on a virtual clock [ticks]: about a second of computing, 100 MB of rows.
+LONGEST_EXPECTED = 100_000
 
 #: The lines of the table of times: label, attributes of `Times` for p50, p99.9 and most.
 _TIMES = (
@@ -42,6 +46,8 @@ class Result:
         Whether they were simulated.
     contact : Contact or None
         The contact with the wall; None where there were too few rows under the law.
+    expected : Contact or None
+        The same of `Configuration.simulate`, by its readings; None on hardware, and where a run changed on its way.
     times : Times or None
         How quick and punctual the loop was.
     fault : str or None
@@ -54,6 +60,7 @@ class Result:
     place: str
     simulated: bool
     contact: Contact | None
+    expected: Contact | None
     times: Times | None
     fault: str | None
 
@@ -66,13 +73,16 @@ class Result:
         place: str,
         simulated: bool,
         fault: LoopFault | None,
+        *,
+        changed: bool = False,
     ) -> Self:
-        """Measure a run."""
+        """Measure a run; `changed` on its way, it has no simulation to stand beside."""
         from ebac.hardware import times, under_the_law
         from ebac.metrics import FEWEST_ROWS, contact
 
         part = under_the_law(trace)
         measured = len(part) >= FEWEST_ROWS and fault is None
+        whole = report.ended_by == "time" and not changed
         return cls(
             configuration=configuration,
             trace=trace,
@@ -80,6 +90,7 @@ class Result:
             place=place,
             simulated=simulated,
             contact=contact(part) if measured else None,
+            expected=_expected(configuration) if measured and whole and simulated else None,
             times=times(part) if len(part) else None,
             fault=None if fault is None else fault.fault.name.lower(),
         )
@@ -93,11 +104,26 @@ class Result:
             rows,
             simulated=self.simulated,
             place=self.place,
+            expected=None if self.expected is None else self.expected.row(),
             scenario=scenario,
             times=None if self.times is None else asdict(self.times),
             fault=self.fault,
             **self.report.row(),
         )
+
+
+def _expected(configuration: Configuration) -> Contact | None:
+    """Return the contact of the same run on a virtual clock; None where it is long, or leaves its limits."""
+    from ebac.metrics import contact
+    from ebac.simulation import LoopFault
+
+    if configuration.seconds > LONGEST_EXPECTED * configuration.timing.dt:
+        return None
+    with warnings.catch_warnings(action="ignore"):  # the run has told how full the bus is
+        try:
+            return contact(configuration.simulate(), truth=False)
+        except LoopFault:
+            return None
 
 
 def write(result: Result, stem: Path | None) -> list[str]:
@@ -119,7 +145,10 @@ def show(result: Result) -> None:
     from ebac.cli import wall_results
 
     if result.contact is not None:
-        wall_results.show_contacts([result.contact])
+        columns = {result.contact.law: result.contact}
+        if result.expected is not None:
+            columns = {"real time": result.contact, "virtual clock": result.expected}
+        wall_results.show_table(columns)
     if result.times is not None:
         _show_times(result.times)
     report = result.report

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, NoReturn
 
@@ -125,13 +125,16 @@ def show(scenario: Scenario, contacts: list[Contact], through: str | None = None
 def show_contacts(contacts: list[Contact]) -> None:
     """Print the table, a few laws at a time."""
     for first in range(0, len(contacts), LAWS_ABREAST):
-        _show_table(contacts[first : first + LAWS_ABREAST])
+        part = contacts[first : first + LAWS_ABREAST]
+        show_table({contact.law: contact for contact in part})
 
 
-def _show_table(contacts: list[Contact]) -> None:
+def show_table(columns: Mapping[str, Contact]) -> None:
+    """Print contacts side by side, each under its heading."""
     from ebac import wording
 
-    grid = output.table(["", *(contact.law for contact in contacts)], numbers=range(1, 99))
+    contacts = list(columns.values())
+    grid = output.table(["", *columns], numbers=range(1, 99))
     for label, name, unit, none in LINES:
         cells = (getattr(contact, name) for contact in contacts)
         signed = name == "deviation_m"

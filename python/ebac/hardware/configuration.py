@@ -20,6 +20,7 @@ from ebac.scenario import Environment, Scenario
 
 if TYPE_CHECKING:
     from ebac.sensor import SensorConfig
+    from ebac.trace import Trace
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -138,4 +139,30 @@ class Configuration:
             environment=self.environment,
             timing=self.timing,
             seconds=seconds or self.seconds,
+        )
+
+    def simulate(self, *, seconds: float | None = None) -> Trace:
+        """Run it on a virtual clock: same law, drives and bus, every tick on time. What a run should come to.
+
+        Time begins as the drives have power. No answer is late here and no packet lost, the force is read at the
+        handle without a network, and the first run after power-on is meant: the drives count from 0.
+
+        Parameters
+        ----------
+        seconds : float, optional
+            Length of the run [s]; default as configured.
+
+        Raises
+        ------
+        LoopFault
+            When the device leaves its limits; carries the trace.
+        """
+        from ebac.simulation import simulate
+
+        return simulate(
+            self.scenario(seconds=seconds),
+            self.design(),
+            through="can",
+            limits=self.limits,
+            soft_start=self.soft_start,
         )
