@@ -449,6 +449,8 @@ class RealTime:
         keep all pages of the process in memory (mlockall), 0 to 1.
     stack : int
         stack touched before the start; 0 for none [bytes], 0 to 4194304.
+    stay_awake : bool
+        keep idle CPUs from sleeping while it runs (/dev/cpu_dma_latency), 0 to 1.
     """
     @staticmethod
     def fields() -> list[Field]:
@@ -458,7 +460,13 @@ class RealTime:
     def __eq__(self, other: typing.Any) -> bool: ...
     def __hash__(self) -> int: ...
     def __init__(
-        self, *, priority: int = 80, cpu: int = -1, lock_memory: bool = True, stack: int = 262144
+        self,
+        *,
+        priority: int = 80,
+        cpu: int = -1,
+        lock_memory: bool = True,
+        stack: int = 262144,
+        stay_awake: bool = True,
     ) -> None: ...
     def __reduce__(self) -> tuple[typing.Any, ...]: ...
     def __repr__(self) -> str: ...
@@ -489,6 +497,11 @@ class RealTime:
     def stack(self) -> int:
         """
         stack touched before the start; 0 for none [bytes], 0 to 4194304
+        """
+    @property
+    def stay_awake(self) -> bool:
+        """
+        keep idle CPUs from sleeping while it runs (/dev/cpu_dma_latency), 0 to 1
         """
 
 class Grant:

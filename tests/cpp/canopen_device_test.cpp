@@ -394,6 +394,22 @@ TEST(Answers, LateOnesAreCountedAndUsed) {
   EXPECT_EQ(desk.row().age, 1);
 }
 
+TEST(Answers, CountsTellHowOldTheyAre) {
+  Desk desk;
+  desk.enable();
+  EXPECT_EQ(desk.tick().counts_age[0], 0);
+  desk.drives.drive[0].copies = 0;
+  EXPECT_EQ(desk.tick().counts_age[0], kTick);
+  EXPECT_EQ(desk.tick().counts_age[0], 2 * kTick);
+  desk.bus.waiting.push_back(
+      answer(1, 0x27, 77, 0));  // to the last SYNC, after its tick was closed
+  EXPECT_EQ(desk.tick().counts_age[0], kTick);
+  desk.drives.drive[0].copies = 1;
+  const Reading reading = desk.tick();
+  EXPECT_EQ(reading.counts_age[0], 0);
+  EXPECT_EQ(reading.counts_age[1], 0);
+}
+
 TEST(Answers, DuplicatesAreCounted) {
   Desk desk;
   desk.enable();

@@ -110,6 +110,23 @@ Fault seen(Pushed& p, const Reading& reading = {}, std::int64_t skipped = 0) {
   return p.gate.watch(reading, {.skipped = skipped}, p.axes);
 }
 
+TEST(Gate, WhatNobodySawForSomeTicksMayHaveGoneSoMuchFurther) {
+  const double radius = kDevice.radius();
+  const auto jumped = [&](double share, double age) {
+    Pushed p;
+    p.gate.watch({}, {}, p.axes);
+    Reading held;
+    held.counts_age[0] = age;
+    if (age > 0) p.gate.watch(held, {.dt = age}, p.axes);
+    p.axes[0].joint.q = share * p.limits.jump / radius;
+    return p.gate.watch({}, {.dt = kDt}, p.axes);
+  };
+  EXPECT_EQ(jumped(0.99, 0), Fault::kNone);
+  EXPECT_EQ(jumped(1.01, 0), Fault::kEncoderJump);
+  EXPECT_EQ(jumped(3.99, 3 * kDt), Fault::kNone);
+  EXPECT_EQ(jumped(4.01, 3 * kDt), Fault::kEncoderJump);
+}
+
 TEST(Gate, NamesWhatItSees) {
   const double radius = kDevice.radius();
   Pushed p;

@@ -1,6 +1,7 @@
 // A loop in a thread of its own. No test asserts a deadline: the machine decides when it wakes.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <stdexcept>
 #include <thread>
@@ -44,7 +45,7 @@ TEST(Thread, ReportsWhatItGotAndHowToGetTheRest) {
   {
     Thread thread(Mode::kAuto, options, [&] { ++runs; });
     thread.join();
-    ASSERT_EQ(thread.report().grants.size(), 4U);
+    ASSERT_EQ(thread.report().grants.size(), 5U);
     for (const Grant& grant : thread.report().grants) {
       EXPECT_EQ(grant.granted, grant.remedy.empty()) << grant.name;
       EXPECT_EQ(grant.granted, grant.why.empty()) << grant.name;
@@ -55,6 +56,17 @@ TEST(Thread, ReportsWhatItGotAndHowToGetTheRest) {
     EXPECT_NE(cpu.remedy.find("taskset -c 1023"), std::string::npos) << cpu.remedy;
   }
   EXPECT_EQ(runs, 1);
+}
+
+TEST(Thread, KeepsCpusAwakeOnlyWhereThatIsAsked) {
+  const auto asked = [](bool awake) {
+    Thread thread(Mode::kAuto, {.stay_awake = awake}, [] {});
+    thread.join();
+    const auto& grants = thread.report().grants;
+    return std::ranges::any_of(grants, [](const Grant& one) { return one.name == "sleep"; });
+  };
+  EXPECT_TRUE(asked(true));
+  EXPECT_FALSE(asked(false));
 }
 
 TEST(Thread, EnforceRunsNothingWithoutItAll) {

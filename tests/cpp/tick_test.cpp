@@ -202,6 +202,36 @@ TEST(Fault, EarliestStageOfAllAxesWins) {
   EXPECT_EQ(first_fault(axes), Fault::kForceNotFinite);
 }
 
+/// A device at a steady pace that answers some ticks only, or a tick late.
+class Speed : public ::testing::TestWithParam<Velocity> {};
+
+TEST_P(Speed, DoesNotLeapWhereAnswersAreMissing) {
+  constexpr double kDt = 1e-3;
+  constexpr int kPace = 10;  // counts a tick: 0.3 m/s
+  DeviceModel model;
+  model.velocity = GetParam();
+  Rig rig(model, Free{});
+  std::array<Axis, 1> axes{};
+  const double pace = kPace * model.encoder.count() / model.capstan.ratio() / kDt;
+  Reading reading;
+  for (int k = 0; k < 400; ++k) {
+    const bool answered = k < 100 || k % 7 == 0;
+    const bool late = k % 7 == 3;  // what comes now was latched a tick ago
+    reading.counts_age[0] += kDt;
+    if (answered || late) {
+      reading.counts[0] = kPace * (late && !answered ? k - 1 : k);
+      reading.counts_age[0] = late && !answered ? kDt : 0;
+    }
+    rig.measure(reading, k > 0 ? kDt : 0, axes);
+    if (k > 90) ASSERT_NEAR(axes[0].joint.dq, pace, 1e-6 * pace) << k;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Estimators, Speed,
+                         ::testing::Values(Velocity{BackwardDifference{}},
+                                           Velocity{LowPass{.time_constant = 2e-3}},
+                                           Velocity{AdaptiveWindow{}}));
+
 /// Everything a tick needs, in a world that is met, left and met again.
 struct Parts {
   Setup setup{.environment = Wall{.damping = 5}};

@@ -141,6 +141,30 @@ def test_jitter_on_the_command_line(tmp_path: Path) -> None:
     assert "CPU 1023" in refused.output
 
 
+def test_turns_are_pooled() -> None:
+    one = realtime.Jitter(lateness=np.array([1e-6, 2e-6]), dt=1e-3, skipped=1, grants=[])
+    two = realtime.Jitter(lateness=np.array([9e-6]), dt=1e-3, skipped=2, grants=[])
+    both = realtime.Jitter.pooled([one, two])
+    assert both.lateness.tolist() == [1e-6, 2e-6, 9e-6]
+    assert both.skipped == 3
+    few = realtime.Cyclictest(counts=np.array([1, 2]), beyond=1, most=5e-3)
+    many = realtime.Cyclictest(counts=np.array([1, 0, 4]), beyond=0, most=2e-6)
+    pooled = realtime.Cyclictest.pooled([few, many])
+    assert (pooled.counts.tolist(), pooled.beyond, pooled.most) == ([2, 2, 4], 1, 5e-3)
+
+
+def test_both_programs_take_turns() -> None:
+    turns: list[tuple[int, int]] = []
+    found, other = realtime.beside_cyclictest(
+        seconds=2.2, rate=100, mode="off", progress=lambda *turn: turns.append(turn)
+    )
+    assert turns == [(1, 2), (2, 2)]
+    assert len(found.lateness) + found.skipped >= 220
+    assert (other is None) == (realtime.cyclictest(seconds=0.1, rate=100, priority=None) is None)
+    if other is not None:
+        assert other.row()["wakeups"] == 220
+
+
 def test_a_figure_with_both_programs(tmp_path: Path) -> None:
     from ebac.plot import plot_jitter
 

@@ -181,6 +181,7 @@ class CanopenDevice {
     Reading out{.fault = fault_};
     for (std::size_t i = 0; const NodeLink& link : links()) {
       out.counts[i] = link.counts();
+      out.counts_age[i] = link.counts_age();
       out.current_applied[i] = scale_.current(link.actual_permille());
       ++i;
     }

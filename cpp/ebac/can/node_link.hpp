@@ -47,7 +47,11 @@ class NodeLink {
   }
 
   /// A tick begins, `elapsed` s after the last one.
-  void open(double elapsed) EBAC_RT { quiet_ += elapsed; }
+  void open(double elapsed) EBAC_RT {
+    elapsed_ = elapsed;
+    quiet_ += elapsed;
+    counts_age_ += elapsed;
+  }
   /// What was left of the last tick is read: from here on, process data answer this one.
   void sync() EBAC_RT {
     answered_ = false;
@@ -74,6 +78,7 @@ class NodeLink {
   double quiet() const EBAC_RT { return quiet_; }    // s, since the last heartbeat
   bool left() const EBAC_RT { return row_.heartbeat >= 0 && row_.heartbeat != kOperational; }
   std::int64_t counts() const EBAC_RT { return counts_; }
+  double counts_age() const EBAC_RT { return counts_age_; }  // s, since their SYNC
   std::int16_t actual_permille() const EBAC_RT {
     return static_cast<std::int16_t>(row_.actual_permille);
   }
@@ -91,6 +96,7 @@ class NodeLink {
     if (!answered_ && !synced_ && heard_) ++row_.late;
     answered_ = true;
     row_.age = 0;
+    counts_age_ = synced_ ? 0 : elapsed_;
     row_.statusword = get<std::uint16_t>(frame.bytes(), 0);
     unwrap(get<std::uint32_t>(frame.bytes(), 2));
     row_.actual_permille = get<std::int16_t>(frame.bytes(), 6);
@@ -127,7 +133,9 @@ class NodeLink {
   bool synced_ = false;
   bool heard_ = false;
   bool alarmed_ = false;
-  double quiet_ = 0;  // s
+  double elapsed_ = 0;     // s, since the last tick
+  double quiet_ = 0;       // s
+  double counts_age_ = 0;  // s
   int untold_ = 0;
   std::int64_t counts_ = 0;
   BusRow row_{};

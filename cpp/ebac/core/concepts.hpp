@@ -38,6 +38,7 @@ enum class SensorStatus : std::uint8_t { kGood, kSaturated, kDisconnected, kErro
 
 struct Reading {
   std::array<std::int64_t, kMaxAxes> counts{};     // raw, as wide as the counter
+  std::array<double, kMaxAxes> counts_age{};       // s, since they were latched
   std::array<double, kMaxAxes> current_applied{};  // A, over the interval that ended now
   std::array<double, kMaxAxes> force{};            // N, force sensor at the handle
   double force_age = 0;                            // s, of that force

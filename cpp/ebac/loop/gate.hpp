@@ -49,7 +49,7 @@ class Gate {
   Fault watch(const Reading& reading, const Instant& now, std::span<const Axis> axes) EBAC_RT {
     if (!on_) return Fault::kNone;
     overruns_ = now.skipped > 0 ? overruns_ + 1 : 0;
-    Fault found = motion(axes);
+    Fault found = motion(reading, now.dt, axes);
     if (found == Fault::kNone && limits_.watch_force) found = sensor(reading);
     if (found == Fault::kNone && overruns_ >= limits_.overruns) found = Fault::kOverruns;
     return found;
@@ -95,17 +95,21 @@ class Gate {
  private:
   static int bit(Limited why) EBAC_RT { return static_cast<int>(why); }
 
-  Fault motion(std::span<const Axis> axes) EBAC_RT {
+  Fault motion(const Reading& reading, double elapsed, std::span<const Axis> axes) EBAC_RT {
     Fault found = Fault::kNone;
     const auto note = [&](bool bad, Fault fault) EBAC_RT {
       if (bad && (found == Fault::kNone || fault < found)) found = fault;
     };
     for (std::size_t i = 0; i < axes.size(); ++i) {
       const Joint& joint = axes[i].joint;
-      note(moved_ && std::abs(radius_ * (joint.q - q_[i])) > limits_.jump, Fault::kEncoderJump);
+      const double ticks =
+          (elapsed + counts_age_[i] - reading.counts_age[i]) / dt_;  // it had to go
+      const double way = limits_.jump * std::max(1.0, ticks);
+      note(moved_ && std::abs(radius_ * (joint.q - q_[i])) > way, Fault::kEncoderJump);
       note(std::abs(radius_ * joint.dq) > limits_.speed, Fault::kOverspeed);
       note(std::abs(radius_ * joint.q) > limits_.end, Fault::kWorkspace);
       q_[i] = joint.q;
+      counts_age_[i] = reading.counts_age[i];
     }
     moved_ = true;
     return found;
@@ -153,8 +157,9 @@ class Gate {
   double radius_ = 1;          // m
   double amp_per_newton_ = 1;  // A/N
   std::array<Thermal, kMaxAxes> thermal_{};
-  std::array<double, kMaxAxes> last_{};  // A, of the last tick
-  std::array<double, kMaxAxes> q_{};     // rad, of the last tick
+  std::array<double, kMaxAxes> last_{};        // A, of the last tick
+  std::array<double, kMaxAxes> q_{};           // rad, of the last tick
+  std::array<double, kMaxAxes> counts_age_{};  // s, of the last tick
   std::array<State, kMaxAxes> state_{};
   bool moved_ = false;
   int overruns_ = 0;  // samples in a row

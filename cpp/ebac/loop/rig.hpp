@@ -84,6 +84,7 @@ class Rig {
   bool linear_;
   bool compensates_;
   std::array<VelocityState, kMaxAxes> velocity_{};
+  std::array<double, kMaxAxes> counts_age_{};    // s, of the last reading
   std::array<double, kMaxAxes> speed_{};         // m/s, at the handle
   std::array<double, kMaxAxes> acceleration_{};  // m/s^2, filtered
 };
@@ -114,7 +115,11 @@ inline void Rig::measure(const Reading& reading, double dt, std::span<Axis> axes
     const double before = joint.q;
     joint.counts = dt > 0 ? encoder_.unwrap(reading.counts[i], joint.counts) : reading.counts[i];
     joint.q = rad_per_count_ * static_cast<double>(joint.counts);
-    joint.dq = velocity_[i].update(estimator_, joint.q, joint.q - before, dt, rad_per_count_);
+    const double since = dt > 0 ? dt + counts_age_[i] - reading.counts_age[i] : 0.0;
+    counts_age_[i] = reading.counts_age[i];
+    if (since > 0 || dt == 0) {  // otherwise no new counts came, and the estimate stands
+      joint.dq = velocity_[i].update(estimator_, joint.q, joint.q - before, since, rad_per_count_);
+    }
     joint.current_applied = reading.current_applied[i];
   }
 }

@@ -18,7 +18,8 @@ void release_memory() noexcept;
 /// Touches `bytes` of the stack of the calling thread.
 Grant touch_stack(int bytes);
 
-/// All that `options` name, for the calling thread; memory is the process's and asked for apart.
+/// What `options` name for the calling thread. Memory is the process's and sleep the machine's: those
+/// are asked for apart.
 Report ask(const Options& options);
 
 }  // namespace ebac::rt

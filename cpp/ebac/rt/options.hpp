@@ -19,6 +19,7 @@ struct Options {
   int cpu = -1;
   bool lock_memory = true;
   int stack = 262144;  // bytes
+  bool stay_awake = true;
 
   static constexpr auto fields() {
     using F = Field<Options>;
@@ -29,6 +30,8 @@ struct Options {
           "keep all pages of the process in memory (mlockall)", 0, 1},
         F{"stack", &Options::stack, "bytes", "stack touched before the start; 0 for none", 0,
           4194304},
+        F{"stay_awake", &Options::stay_awake, "1",
+          "keep idle CPUs from sleeping while it runs (/dev/cpu_dma_latency)", 0, 1},
     };
   }
 };

@@ -7,7 +7,7 @@ namespace ebac::rt {
 
 /// One thing a thread asked of the system.
 struct Grant {
-  std::string name;   // "priority", "memory", "stack", "cpu"
+  std::string name;   // "priority", "memory", "stack", "cpu", "sleep"
   std::string asked;  // "SCHED_FIFO 80"
   bool granted;
   std::string why;     // why not; empty where it was granted

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "ebac/core/check.hpp"
+#include "ebac/rt/awake_cpus.hpp"
 #include "ebac/rt/grants.hpp"
 
 namespace ebac::rt {
@@ -68,7 +69,10 @@ void Thread::begin(Mode mode, const Options& options, std::function<void()> work
     const NoSignals inherited;
     thread_ = std::thread([mode, options, work = std::move(work), asking = std::move(asking),
                            start = go.get_future()]() mutable {
-      asking.set_value(mode == Mode::kOff ? Report{} : ask(options));
+      AwakeCpus awake;  // as long as it works
+      Report own = mode == Mode::kOff ? Report{} : ask(options);
+      if (mode != Mode::kOff && options.stay_awake) own.grants.push_back(awake.ask());
+      asking.set_value(std::move(own));
       if (start.get()) work();
     });
   }

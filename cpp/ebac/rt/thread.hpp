@@ -8,8 +8,8 @@
 
 namespace ebac::rt {
 
-/// A thread for a loop: priority, CPU, locked memory, touched stack, and no signals, which are the
-/// main thread's business. What it runs must not touch Python.
+/// A thread for a loop: priority, CPU, locked memory, touched stack, a machine that stays awake, and
+/// no signals, which are the main thread's business. What it runs must not touch Python.
 class Thread {
  public:
   /// Asks for what `options` name, then runs `work`. Returns when the thread knows what it got.

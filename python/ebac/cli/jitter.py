@@ -11,7 +11,7 @@ from ebac.cli import options, output
 from ebac.cli.grants import show_refused
 
 if TYPE_CHECKING:
-    from ebac.realtime import Jitter
+    from ebac.realtime import Cyclictest, Jitter
 
 DEFAULT_OUT = Path("ebac-jitter")
 
@@ -25,6 +25,10 @@ def jitter(
     ] = "auto",
     priority: Annotated[int, typer.Option(help="Priority under SCHED_FIFO.", min=1, max=99)] = 80,
     cpu: Annotated[int, typer.Option(help="CPU to stay on; -1 for any.", min=-1)] = -1,
+    stay_awake: Annotated[
+        bool,
+        typer.Option("--stay-awake/--no-stay-awake", help="Keep idle CPUs from sleeping."),
+    ] = True,
     alone: Annotated[
         bool, typer.Option("--alone", help="Do not run cyclictest, even where it is installed.")
     ] = False,
@@ -33,27 +37,31 @@ def jitter(
 ) -> None:
     """Measure how late a thread wakes that does nothing but wait for its ticks.
 
-    Where `cyclictest` (Debian: rt-tests) is installed it runs afterwards, as long and with what the thread was
-    granted. On a virtual machine the tail is the host's.
+    Where `cyclictest` (Debian: rt-tests) is installed the two take turns of 2 s, with what the thread was granted.
+    On a virtual machine the tail is the host's.
 
     **Examples**
 
     * `ebac jitter --seconds 60`
 
     * `ebac jitter --rt enforce --cpu 1`: all that a loop asks for, or the command that grants it.
+
+    * `ebac jitter --no-stay-awake`: what it costs to let idle CPUs sleep; cyclictest never does.
     """
-    from ebac.realtime import RealTime, cyclictest, measure
+    from ebac.realtime import RealTime, beside_cyclictest, measure
 
     with output.refusing():
-        wanted = RealTime(priority=priority, cpu=cpu)
+        asked = RealTime(priority=priority, cpu=cpu, stay_awake=stay_awake)
+        what: Any = {"seconds": seconds, "rate": rate, "mode": rt, "options": asked}
+        other: Cyclictest | None = None
         try:
-            found = measure(seconds=seconds, rate=rate, mode=rt, options=wanted)  # type: ignore[arg-type]
+            if alone:
+                found = measure(**what)
+            else:
+                with output.counting("turns", quiet=as_json) as progress:
+                    found, other = beside_cyclictest(**what, progress=progress)
         except RuntimeError as refused:
             output.fail(str(refused), code=output.FAILED)
-    fifo = any(g.name == "priority" and g.granted for g in found.grants)
-    other = None
-    if not alone:
-        other = cyclictest(seconds=seconds, rate=rate, priority=priority if fifo else None)
     rows = [found.row()] + ([other.row()] if other else [])
     more = _more(found, rows, rate, rt)
     folder = out or (None if as_json else DEFAULT_OUT)

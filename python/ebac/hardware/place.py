@@ -160,11 +160,15 @@ class Request:
 
     @classmethod
     def beside(cls, mode: str, loop: RealTime, *, lock_memory: bool | None = None) -> Self:
-        """Return the request of a loop, one priority below and on any CPU: metal is never kept waiting."""
+        """Return the request of a loop, one priority below and on any CPU: metal is never kept waiting.
+
+        That CPUs stay awake holds for the machine, so the loop's own request is enough.
+        """
         from ebac._core import RealTimeMode
 
         lock = loop.lock_memory if lock_memory is None else lock_memory
-        asked = loop.replace(priority=max(1, loop.priority - 1), cpu=-1, lock_memory=lock)
+        priority = max(1, loop.priority - 1)
+        asked = loop.replace(priority=priority, cpu=-1, lock_memory=lock, stay_awake=False)
         return cls(mode=RealTimeMode[mode.upper()], realtime=asked)
 
 

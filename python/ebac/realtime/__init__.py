@@ -2,7 +2,7 @@
 
 from ebac._core import Grant, RealTime, RealTimeMode
 from ebac.realtime.doctor import Finding, examine
-from ebac.realtime.jitter import Cyclictest, Jitter, cyclictest, measure
+from ebac.realtime.jitter import Cyclictest, Jitter, beside_cyclictest, cyclictest, measure
 
 __all__ = [
     "Cyclictest",
@@ -11,6 +11,7 @@ __all__ = [
     "Jitter",
     "RealTime",
     "RealTimeMode",
+    "beside_cyclictest",
     "cyclictest",
     "examine",
     "measure",

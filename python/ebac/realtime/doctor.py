@@ -138,12 +138,16 @@ def _throttling(root: Path) -> Finding:
     return Finding(what=what, found=f"{100 * share:.0f} %", verdict=verdict, remedy=remedy)
 
 
+#: What a thread can do without, at the price of lateness.
+_COSTS_TIME = ("sleep",)
+
+
 def _grants(options: _core.RealTime) -> list[Finding]:
     return [
         Finding(
             what=f"thread: {grant.name}",
             found=f"{grant.asked}: {'granted' if grant.granted else grant.why}",
-            verdict="good" if grant.granted else "bad",
+            verdict="good" if grant.granted else "fair" if grant.name in _COSTS_TIME else "bad",
             remedy=grant.remedy,
         )
         for grant in _core._ask_realtime(options)

@@ -5,8 +5,10 @@ from __future__ import annotations
 import re
 import shutil
 import subprocess
-from dataclasses import dataclass
-from typing import Any, Literal
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from math import ceil
+from typing import Any, Literal, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,6 +16,10 @@ from numpy.typing import NDArray
 from ebac import _core
 
 Mode = Literal["auto", "enforce", "off"]
+#: The longest that is measured [s].
+LONGEST = 86400.0
+#: Turns of two programs that are measured side by side last no longer [s].
+_TURN = 2.0
 #: Shares of the wake-ups told in numbers.
 PERCENTILES = (50.0, 99.0, 99.9)
 
@@ -38,6 +44,15 @@ class Jitter:
     dt: float
     skipped: int
     grants: list[_core.Grant]
+
+    @classmethod
+    def pooled(cls, parts: Sequence[Self]) -> Self:
+        """Return several measurements of one thread as one."""
+        return replace(
+            parts[0],
+            lateness=np.concatenate([part.lateness for part in parts]),
+            skipped=sum(part.skipped for part in parts),
+        )
 
     def row(self) -> dict[str, Any]:
         """Return its numbers as a row of `--json`."""
@@ -71,6 +86,15 @@ class Cyclictest:
     counts: NDArray[np.int64]
     beyond: int
     most: float
+
+    @classmethod
+    def pooled(cls, parts: Sequence[Self]) -> Self:
+        """Return several measurements as one."""
+        counts = np.zeros(max(len(part.counts) for part in parts), np.int64)
+        for part in parts:
+            counts[: len(part.counts)] += part.counts
+        beyond, most = sum(part.beyond for part in parts), max(part.most for part in parts)
+        return cls(counts=counts, beyond=beyond, most=most)
 
     def percentile(self, share: float) -> float:
         """Return the lateness [s] that `share` percent of the wake-ups do not exceed."""
@@ -122,8 +146,8 @@ def measure(
     RuntimeError
         With "enforce", when something was not granted: what, why, and the command that would grant it.
     """
-    if not 0 < seconds <= 86400:
-        raise ValueError(f"seconds = {seconds:g} s: must lie in (0, 86400] s")
+    if not 0 < seconds <= LONGEST:
+        raise ValueError(f"seconds = {seconds:g} s: must lie in (0, {LONGEST:g}] s")
     if not 10 <= rate <= 1e5:
         raise ValueError(f"rate = {rate:g} Hz: must lie in [10, 100000] Hz")
     if mode not in ("auto", "enforce", "off"):
@@ -135,6 +159,50 @@ def measure(
         options or _core.RealTime(),
     )
     return Jitter(lateness=lateness, dt=1 / rate, skipped=skipped, grants=grants)
+
+
+def beside_cyclictest(
+    *,
+    seconds: float = 10.0,
+    rate: float = 1000.0,
+    mode: Mode = "auto",
+    options: _core.RealTime | None = None,
+    progress: Callable[[int, int], None] | None = None,
+) -> tuple[Jitter, Cyclictest | None]:
+    """Measure both programs in turns of at most 2 s: what the machine does now and then meets both.
+
+    Parameters
+    ----------
+    seconds, rate, mode, options
+        As `measure`, for each of the two.
+    progress : callable, optional
+        Called with how many turns are over, and of how many.
+
+    Returns
+    -------
+    tuple
+        What was found; the same of `cyclictest` with what the thread was granted, None where it is not installed or
+        not allowed to run.
+
+    Raises
+    ------
+    ValueError, RuntimeError
+        As `measure`.
+    """
+    wanted = options or _core.RealTime()
+    turns = max(1, ceil(seconds / _TURN)) if 0 < seconds <= LONGEST else 1
+    own: list[Jitter] = []
+    others: list[Cyclictest] = []
+    for turn in range(turns):
+        own.append(measure(seconds=seconds / turns, rate=rate, mode=mode, options=wanted))
+        fifo = any(grant.name == "priority" and grant.granted for grant in own[-1].grants)
+        priority = wanted.priority if fifo else None
+        other = cyclictest(seconds=seconds / turns, rate=rate, priority=priority)
+        others += [] if other is None else [other]
+        if progress is not None:
+            progress(turn + 1, turns)
+    whole = Cyclictest.pooled(others) if len(others) == turns else None
+    return Jitter.pooled(own), whole
 
 
 #: Lateness that `cyclictest` counts one by one [us].
