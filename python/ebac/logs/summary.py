@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+import tempfile
+from collections.abc import Callable, Mapping
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ebac.logs import events
@@ -14,16 +16,28 @@ if TYPE_CHECKING:
 
 ROWS, EVENTS = 1, 2  # numbers of channel and schema
 ROWS_TOPIC, EVENTS_TOPIC = "/ebac", "/ebac/events"
+#: Indexes of chunks are copied to the log in parts of this many bytes.
+_PART = 1 << 20
 
 
 class Summary:
-    """What a log holds, and where, noted while it is written."""
+    """What a log holds, and where, noted while it is written.
 
-    def __init__(self, layout: Layout) -> None:
+    The indexes of chunks, 50 a second for hours, wait in a nameless file beside the log: memory stays as it is.
+
+    Parameters
+    ----------
+    layout : Layout
+        Columns of a row.
+    folder : Path
+        Where the log is.
+    """
+
+    def __init__(self, layout: Layout, folder: Path) -> None:
         from mcap.records import Statistics
 
         self._layout = layout
-        self._chunks = bytearray()  # their indexes, written out: 50 a second for hours
+        self._chunks = tempfile.TemporaryFile(dir=folder)  # noqa: SIM115 - closed by `close`
         self._attached: list[McapRecord] = []
         self._described: list[McapRecord] = []
         self._counts = Statistics(
@@ -50,19 +64,18 @@ class Summary:
         """Note a chunk of `length` bytes at byte `at`; by channel, where its index is, and its messages."""
         from mcap.records import ChunkIndex
 
-        self._chunks += record_bytes(
-            ChunkIndex(
-                chunk_length=length,
-                chunk_start_offset=at,
-                compression=chunk.compression,
-                compressed_size=len(chunk.data),
-                message_end_time=chunk.message_end_time,
-                message_index_length=indexes_length,
-                message_index_offsets=dict(indexes),
-                message_start_time=chunk.message_start_time,
-                uncompressed_size=chunk.uncompressed_size,
-            )
+        index = ChunkIndex(
+            chunk_length=length,
+            chunk_start_offset=at,
+            compression=chunk.compression,
+            compressed_size=len(chunk.data),
+            message_end_time=chunk.message_end_time,
+            message_index_length=indexes_length,
+            message_index_offsets=dict(indexes),
+            message_start_time=chunk.message_start_time,
+            uncompressed_size=chunk.uncompressed_size,
         )
+        self._chunks.write(record_bytes(index))
         all_ = self._counts
         first, last = chunk.message_start_time, chunk.message_end_time
         new = all_.message_count == 0
@@ -97,24 +110,40 @@ class Summary:
         )
         self._counts.attachment_count += 1
 
-    def written(self, start: int) -> tuple[bytes, bytes]:
-        """Return the groups of the summary, which begins at byte `start`, and where each of them starts."""
-        from mcap.records import SummaryOffset
-
+    def write(self, write: Callable[[bytes], None], start: int) -> int:
+        """Write the groups of the summary, from byte `start` on, and where each begins; return where that is told."""
         known = described(self._layout)
         groups = (known[:2], known[2:], [self._counts], self._attached, self._described)
-        summary, offsets = b"", b""
-        packed = [b"".join(map(record_bytes, group)) for group in groups]
-        for written in (*packed, bytes(self._chunks)):
-            if written:
-                place = SummaryOffset(
-                    group_opcode=written[0],
-                    group_start=start + len(summary),
-                    group_length=len(written),
-                )
-                offsets += record_bytes(place)
-                summary += written
-        return summary, offsets
+        at, offsets = start, b""
+        for group in groups:
+            packed = b"".join(map(record_bytes, group))
+            write(packed)
+            offsets += _place(packed[:1], at, len(packed))
+            at += len(packed)
+        length = self._chunks.tell()
+        self._chunks.seek(0)
+        first = b""
+        while part := self._chunks.read(_PART):
+            first = first or part[:1]
+            write(part)
+        offsets += _place(first, at, length)
+        write(offsets)
+        return at + length
+
+    def close(self) -> None:
+        """Forget what waits; nothing the second time."""
+        self._chunks.close()
+
+
+def _place(first: bytes, start: int, length: int) -> bytes:
+    """Return where a group of records lies, all of the kind of the first; nothing for an empty one."""
+    from mcap.records import SummaryOffset
+
+    if length == 0:
+        return b""
+    return record_bytes(
+        SummaryOffset(group_opcode=first[0], group_start=start, group_length=length)
+    )
 
 
 def described(layout: Layout) -> list[McapRecord]:

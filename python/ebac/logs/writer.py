@@ -53,10 +53,10 @@ class LogWriter:
         self.about = about
         self.rows = 0
         self._compress = zstandard.ZstdCompressor(level=1).compress
-        self._summary = Summary(layout)
         self._at = 0
         self._file = self.path.open("xb", buffering=0)
         try:
+            self._summary = Summary(layout, self.path.parent)
             self._begin()
         except BaseException:
             self._file.close()
@@ -182,21 +182,25 @@ class LogWriter:
         try:
             self._metadata("ebac/end", {name: str(n) for name, n in ended.items()})
             self._write(record_bytes(DataEnd(0)))
-            start = self._at
-            summary, offsets = self._summary.written(start)
-            footer = struct.pack("<BQQQ", 0x02, 20, start, start + len(summary))
-            crc = zlib.crc32(summary + offsets + footer)
-            end = Footer(
-                summary_start=start, summary_offset_start=start + len(summary), summary_crc=crc
-            )
-            self._write(summary + offsets + record_bytes(end) + MAGIC)
+            start, crc = self._at, 0
+
+            def write(part: bytes) -> None:
+                nonlocal crc
+                crc = zlib.crc32(part, crc)
+                self._write(part)
+
+            offsets = self._summary.write(write, start)
+            crc = zlib.crc32(struct.pack("<BQQQ", 0x02, 20, start, offsets), crc)
+            end = Footer(summary_start=start, summary_offset_start=offsets, summary_crc=crc)
+            self._write(record_bytes(end) + MAGIC)
             self.sync()
         finally:
-            self._file.close()
+            self.abandon()
 
     def abandon(self) -> None:
         """Close the file as it is, as if the process had been killed."""
         self._file.close()
+        self._summary.close()
 
     def __enter__(self) -> Self:
         """Return the writer."""
