@@ -4,6 +4,7 @@ import json
 import re
 import subprocess
 import sys
+import time
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -469,6 +470,25 @@ def test_a_recorder_writes_every_row_of_a_growing_trace(ring: bool, tmp_path: Pa
     assert_official(tmp_path / "run.mcap", log.trace)
 
 
+def test_what_comes_while_a_chunk_is_written_waits_for_the_next(tmp_path: Path) -> None:
+    source = rows_of()
+    rows = source.empty_like(2000)
+    calls = 0
+
+    def grow() -> list[Event]:  # as a loop at 10 kHz: some rows more whenever somebody looks
+        nonlocal calls
+        calls += 1
+        if rows.count < 900:
+            fed(source, rows, rows.count + 3, rows.count)
+        return []
+
+    begun = time.monotonic()
+    with Recorder(rows, tmp_path / "run.mcap", watch=grow, interval=0.02) as recorder:
+        wait_until(lambda: recorder.written > 30)
+    assert calls <= (time.monotonic() - begun) / 0.02 + 1  # one more at the end
+    assert recorder.written == rows.count
+
+
 def test_a_recorder_asks_for_events(tmp_path: Path) -> None:
     waiting = [Event(kind="parameter", message=f"change {i}", tick=i, t=1e-3 * i) for i in range(5)]
     told = list(waiting)
@@ -503,8 +523,6 @@ def test_a_ring_keeps_the_last_rows_and_the_log_has_all(tmp_path: Path) -> None:
 
 
 def wait_until(true: Callable[[], bool]) -> None:
-    import time
-
     end = time.monotonic() + 60
     while not true():
         assert time.monotonic() < end, "it never came"

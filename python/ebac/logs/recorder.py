@@ -219,12 +219,15 @@ class Recorder:
             self.error = error
 
     def _take(self) -> bool:
-        """Write one chunk; return whether there was anything to write."""
+        """Write one chunk; return whether there was more than it holds.
+
+        What came while it was written waits for the next interval: a fast loop always has a row or two more.
+        """
         with self._lock:
             happened, self._waiting = self._waiting, []
         happened += self._watch()
-        start = max(self._seen, self._rows.first)
-        stop = min(self._rows.count, start + MOST_ROWS)
+        start, count = max(self._seen, self._rows.first), self._rows.count
+        stop = min(count, start + MOST_ROWS)
         first, raw = self._rows.copy(start, stop)
         if not len(raw) and first == self._seen and not happened:
             return False
@@ -237,7 +240,7 @@ class Recorder:
         self.written += len(data["t"])
         if len(data["t"]):
             self._last = int(data["tick"][-1]), float(data["t"][-1]), int(data["fault"][-1])
-        return True
+        return stop < count
 
     def _lose(self, rows: int, data: Mapping[str, NDArray[Any]]) -> Event:
         self.lost += rows
