@@ -205,3 +205,35 @@ def test_the_cut_is_a_quantile_of_students_t(freedom: int) -> None:
     special = pytest.importorskip("scipy.special")
     rare = 0.5 * math.erfc(CUT / math.sqrt(2))
     assert cut(freedom) == pytest.approx(-special.stdtrit(freedom, rare), rel=0.03)
+
+
+@by_shape
+@settings(max_examples=15)
+@given(seed=seeds, share=st.floats(0.02, 0.35))
+def test_a_rest_is_one_place(shape: str, seed: int, share: float) -> None:
+    """A recording that starts long before the motion: two thirds of its rows are the same."""
+    random = np.random.default_rng(seed)
+    points = followed(shape, random)
+    bad = some(random, len(points), share)
+    points[bad] += np.array([0.02, 0.03]) + 0.005 * random.standard_normal((int(bad.sum()), 2))
+    rested = np.concatenate([np.tile(points[0], (240, 1)), points])
+    one, other = (FITS[shape](p, robust=True) for p in (points, rested))
+    assert (other.inliers[240:] == one.inliers).all()
+    assert (other.inliers[:240] == one.inliers[0]).all()
+
+
+@pytest.mark.parametrize("robust", [False, True])
+def test_few_different_points_are_refused_or_counted(robust: bool) -> None:
+    two = np.repeat([[0.0, 0.0], [1.0, 1.0]], 5, axis=0)
+    assert fit_line(two, robust=robust).inliers.all()
+    with pytest.raises(ValueError, match="lie on a line: their circle has no radius"):
+        fit_circle(two, robust=robust)
+
+
+def test_a_line_is_as_long_as_what_counts_and_points_along_it() -> None:
+    """Outliers at its ends neither lengthen nor turn it."""
+    points = followed("line", np.random.default_rng(1))
+    points[:2], points[-2:] = (0.3, 0.01), (-0.3, 0.01)
+    fit = fit_line(points, robust=True)
+    assert fit.length_m == pytest.approx(0.08 * 115 / 119, abs=5 * SD)
+    assert fit.direction[0] > 0.99

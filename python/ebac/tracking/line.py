@@ -20,7 +20,7 @@ class LineFit:
     point : array, shape (2,) or (3,)
         Its point nearest to the middle of the path [m].
     direction : array, shape (2,) or (3,)
-        Unit vector along it, from the first point of the path to the last.
+        Unit vector along it, from the first counted point of the path to the last.
     residuals : array, shape (n,) or (n, 2)
         Distances across it [m]: in the plane with a sign, positive to the left; in space in two directions.
     along : array, shape (n,)
@@ -41,6 +41,11 @@ class LineFit:
     direction_sd_rad: float
     offset_sd_m: float
     inliers: np.ndarray[tuple[int, ...], np.dtype[np.bool_]]
+
+    @property
+    def length_m(self) -> float:
+        """Way along it from end to end of what was counted [m]."""
+        return float(np.ptp(self.along[self.inliers]))
 
     @property
     def angle_rad(self) -> float:
@@ -73,8 +78,9 @@ def fit_line(points: ArrayLike, *, robust: bool = False) -> LineFit:
     if robust:
         floor = 1e-12 * float(np.ptp(path, axis=0).max())
         inliers = counted(path, 2, _off, floor)
-    point, direction = _principal(path[inliers])
-    if direction @ (path[-1] - path[0]) < 0:
+    kept = path[inliers]
+    point, direction = _principal(kept)
+    if direction @ (kept[-1] - kept[0]) < 0:
         direction = -direction
     centred = path - point
     along = centred @ direction

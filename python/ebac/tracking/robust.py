@@ -36,7 +36,7 @@ STEPS = 50
 
 
 def counted(points: Numbers, size: int, off: Off, floor: float) -> NDArray[np.bool_]:
-    """Return which points belong to their path.
+    """Return which points belong to their path. Rows that are the same are one point: a rest is no majority.
 
     Parameters
     ----------
@@ -48,12 +48,24 @@ def counted(points: Numbers, size: int, off: Off, floor: float) -> NDArray[np.bo
     floor : float
         What rounding may be; nothing nearer is an outlier.
     """
-    first = _best_half(points[:: 1 + (len(points) - 1) // MOST], size, off)
-    distances = None if first is None else off(first, points)
+    _, first, same = np.unique(points, axis=0, return_index=True, return_inverse=True)
+    order = np.argsort(first)  # as recorded
+    places = points[first[order]]
+    inside = _grown(places, size, off, floor) if len(places) > size else np.ones(len(places), bool)
+    among = np.empty(len(places), bool)
+    among[order] = inside
+    return among[same.reshape(-1)]
+
+
+def _grown(points: Numbers, size: int, off: Off, floor: float) -> NDArray[np.bool_]:
+    """Return which of different points belong to the path of the best half."""
+    best = _best_half(points[:: 1 + (len(points) - 1) // MOST], size, off)
+    distances = None if best is None else off(best, points)
+    inside = np.ones(len(points), bool)
     if distances is None:
-        return np.ones(len(points), bool)
-    inside = np.zeros(len(points), bool)
-    inside[_nearest(distances, _half(len(points), size))] = True
+        return inside
+    half = _half(len(points), size)
+    inside = distances <= np.partition(distances, half - 1)[half - 1]
     for _ in range(STEPS):
         freedom = max(int(inside.sum()) - size, 2)
         spread = float(np.sqrt((distances[inside] ** 2).sum() / freedom))
