@@ -285,6 +285,16 @@ def test_what_is_no_text_is_refused(tmp_path: Path) -> None:
         read_path(file)
 
 
+def test_a_trace_is_in_metres(tmp_path: Path) -> None:
+    device = ebac.presets.device("joystick")
+    scenario = ebac.Scenario(device=device, environment=ebac.Free(), seconds=0.05)
+    file = tmp_path / "a.npz"
+    ebac.simulate(scenario, "direct").to_npz(file)
+    assert read_path(file, unit="m").points.shape[1] == 2
+    with pytest.raises(ValueError, match="unit = 'mm': a trace is in m"):
+        read_path(file, unit="mm")
+
+
 @pytest.mark.parametrize("shape", FITS)
 def test_auto_finds_what_was_followed(tmp_path: Path, shape: str) -> None:
     path = read_path(write(tmp_path / "a.csv", "x [m],y [m]", noisy(shape, 5)))
