@@ -245,6 +245,7 @@ def write(path: Path, heading: str, points: Numbers) -> Path:
         ("x [mm],y [mm]", 1e3, "columns x, y in mm"),
         ("x_mm,y_mm", 1e3, "columns x, y in mm"),
         ("X (cm),Y (cm)", 1e2, "columns X, Y in cm"),
+        ("x [\u00b5m],y [\u03bcm]", 1e6, "columns x, y in um"),
         ("x,y", 1e3, "columns x, y in mm (no unit given; mm guessed from the size, --unit to change it)"),
         ("x,y", 1, "columns x, y in m (no unit given; m guessed"),
     ],

@@ -130,7 +130,10 @@ def _bare(heading: str) -> tuple[str, str | None]:
     )
     if match is None:
         return heading, None
-    name, unit = match[1], match[2].replace("µ", "u")
+    name, unit = (
+        match[1],
+        re.sub("[\u00b5\u03bc]", "u", match[2]),
+    )  # the micro sign, the Greek letter
     return name, unit
 
 
