@@ -97,14 +97,19 @@ def count(number: int | None) -> str:
 
 
 def joules(energy: float | None, unit: str = "") -> str:
-    """Return an energy [J] in mJ, with `unit` behind it, or from 1 J on in J, which is written; 0 below `NOTHING`."""
+    """Return an energy [J] in mJ, with `unit` behind it, or from 1 J on in J, which is written; 0 below `NOTHING`.
+
+    No line breaks between number and unit.
+    """
     if energy is None:
         return "-"
     if abs(energy) < NOTHING:
         return "0"
     if abs(energy) < 0.9995:
-        return f"{1e3 * energy:.3g}{unit}"
-    return f"{energy:.0f} J" if abs(energy) >= 99.95 else f"{energy:.1f} J"
+        told = f"{1e3 * energy:.3g}{unit}"
+    else:
+        told = f"{energy:.0f} J" if abs(energy) >= 99.95 else f"{energy:.1f} J"
+    return told.replace(" ", "\u00a0")
 
 
 def fixed(number: float | None, digits: int, scale: float = 1.0) -> str:

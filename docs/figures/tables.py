@@ -19,11 +19,13 @@ import identify_tables as identified
 import law_tables as laws
 import population_tables as populations
 import story_tables as story
+import tracking_tables as tracked
 from printed import Printed, names, put
 
 DOCS = Path(__file__).parents[1]
 PAGES = tuple(
-    DOCS / name for name in ("evidence.md", "story.md", "robustness.md", "identification.md")
+    DOCS / name
+    for name in ("evidence.md", "story.md", "robustness.md", "identification.md", "tracking.md")
 )
 TABLES: dict[str, Callable[[Printed], str]] = {
     "grid": populations.grid,
@@ -41,6 +43,7 @@ TABLES: dict[str, Callable[[Printed], str]] = {
     "identify-arm": identified.arm,
     "identify-device": identified.device,
     "identify-gains": identified.gains,
+    "outliers": tracked.outliers,
     "speed": laws.speed,
 }
 #: Left out unless asked for: what they say depends on what else the machine does.

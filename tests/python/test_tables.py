@@ -57,8 +57,8 @@ def test_energies_as_they_are_written() -> None:
         0.0: "0",
         -9.29e-3: "-9.29",
         -0.9994: "-999",
-        -0.9996: "-1.0 J",
-        99.96: "100 J",
+        -0.9996: "-1.0\N{NO-BREAK SPACE}J",
+        99.96: "100\N{NO-BREAK SPACE}J",
     }
     assert {e: printed.joules(e) for e in told} == told
     assert printed.joules(-0.0) == "0"

@@ -55,6 +55,8 @@ def test_json_has_the_documented_keys_and_writes_nothing() -> None:
     ]  # fmt: skip
     assert row["radius_m"] == pytest.approx(fit_circle(points()).radius)
     assert [f.name for f in Path().iterdir()] == ["circle.csv"]
+    assert ebac_command("circle.csv").exit_code == 0
+    assert json.loads(Path("ebac-track/track.json").read_text()) == answer
 
 
 def test_two_files_of_one_name_keep_two_figures() -> None:

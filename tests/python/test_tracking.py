@@ -142,33 +142,6 @@ def test_in_space_the_same_path_has_the_same_fit(shape: str, seed: int) -> None:
         assert other.direction == pytest.approx(turn @ [*flat.direction, 0], abs=1e-7)
 
 
-# --- outliers ---
-
-
-@pytest.mark.parametrize("shape", FITS)
-@settings(max_examples=25)
-@given(seed=seeds, share=st.floats(0.02, 0.35))
-def test_a_robust_fit_leaves_outliers_out(shape: str, seed: int, share: float) -> None:
-    points, random = noisy(shape, seed, n=120, sd=1e-4), np.random.default_rng(seed)
-    bad = random.random(len(points)) < share
-    bad[0] = bad[-1] = False
-    away = points.copy()
-    away[bad] += np.array([0.02, 0.03]) + 0.005 * random.standard_normal((int(bad.sum()), 2))
-    fit = FITS[shape](away, robust=True)
-    assert fit.deviation.sd_m == pytest.approx(
-        1e-4, rel=0.6
-    )  # a few circles: twice, why is not known
-    if shape == "circle":
-        assert fit.radius == pytest.approx(0.04, abs=1e-4)
-        off = np.abs(np.hypot(*(away[bad] - fit.centre).T) - fit.radius)
-    else:
-        assert abs(math.sin(fit.angle_rad)) < 2e-3
-        off = np.abs(away[bad, 1])
-    assert not fit.inliers[bad][off > 1e-3].any()
-    if bad.sum() > 3:
-        assert FITS[shape](away).deviation.sd_m > 2e-3
-
-
 # --- uncertainty ---
 
 
@@ -272,6 +245,7 @@ def write(path: Path, heading: str, points: Numbers) -> Path:
         ("x [mm],y [mm]", 1e3, "columns x, y in mm"),
         ("x_mm,y_mm", 1e3, "columns x, y in mm"),
         ("X (cm),Y (cm)", 1e2, "columns X, Y in cm"),
+        ("x [\u00b5m],y [\u03bcm]", 1e6, "columns x, y in um"),
         ("x,y", 1e3, "columns x, y in mm (no unit given; mm guessed from the size, --unit to change it)"),
         ("x,y", 1, "columns x, y in m (no unit given; m guessed"),
     ],
@@ -310,6 +284,16 @@ def test_what_is_no_text_is_refused(tmp_path: Path) -> None:
     file.write_bytes(b"\x89PNG\xff\xfe")
     with pytest.raises(ValueError, match="is no text; give a CSV file"):
         read_path(file)
+
+
+def test_a_trace_is_in_metres(tmp_path: Path) -> None:
+    device = ebac.presets.device("joystick")
+    scenario = ebac.Scenario(device=device, environment=ebac.Free(), seconds=0.05)
+    file = tmp_path / "a.npz"
+    ebac.simulate(scenario, "direct").to_npz(file)
+    assert read_path(file, unit="m").points.shape[1] == 2
+    with pytest.raises(ValueError, match="unit = 'mm': a trace is in m"):
+        read_path(file, unit="mm")
 
 
 @pytest.mark.parametrize("shape", FITS)

@@ -113,7 +113,7 @@ def track(
             for file in files or []
         ]
     folder = out or (None if as_json else DEFAULT_OUT)
-    names = _write(folder, found) if folder else []
+    names = _write(folder, found, robust) if folder else []
     if as_json:
         typer.echo(output.document("track", [t.row() for t in found], robust=robust))
         return
@@ -122,13 +122,13 @@ def track(
         output.list_files(folder, names)
 
 
-def _write(folder: Path, found: list[Tracking]) -> list[str]:
+def _write(folder: Path, found: list[Tracking], robust: bool) -> list[str]:
     from ebac.plot import plot_tracking
 
     with output.results(folder) as draft:
         if draft is None:
             return []
-        document = output.document("track", [t.row() for t in found])
+        document = output.document("track", [t.row() for t in found], robust=robust)
         (draft / "track.json").write_text(document + "\n", encoding="utf-8")
         for i, tracking in enumerate(found):
             stem = Path(tracking.path.name).stem

@@ -33,7 +33,7 @@ def plot_tracking(tracking: Tracking) -> Picture:
     if d.outliers:
         left.plot(*(1e3 * flat[~counted].T), "x", ms=5, color="#cc79a7", label="outliers")
     left.plot(*(1e3 * draw.T), color=FIT, lw=1.4, label="fit")
-    factor = _factor(float(np.ptp(flat, axis=0).max()), d.largest_m)
+    factor = _factor(float(np.ptp(flat[counted], axis=0).max()), d.largest_m)
     nearest = flat - across
     shown = (nearest + factor * across)[counted]
     middle.plot(*(1e3 * draw.T), color=FIT, lw=1.2, label="fit")
@@ -45,9 +45,10 @@ def plot_tracking(tracking: Tracking) -> Picture:
         legend(ax, columns=3)
     _histogram(right, fit)
     what = f"circle of radius {1e3 * fit.radius:.3f} mm" if isinstance(fit, CircleFit) else "line"
+    left_out = f" and {d.outliers} outliers" if d.outliers else ""
     figure.suptitle(
         f"{tracking.path.name}: {what}, SD {1e3 * d.sd_m:.3f} mm, path error {1e3 * d.error_m:.3f} mm, "
-        f"largest {1e3 * d.largest_m:.3f} mm, {d.n} points",
+        f"largest {1e3 * d.largest_m:.3f} mm, {d.n} points{left_out}",
         fontsize="medium",
     )
     return figure

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ebac.tracking.deviation import Deviation, Numbers, checked, measure
-from ebac.tracking.robust import STEPS, start, weights
+from ebac.tracking.robust import counted
 
 #: A radius beyond this many times the size of the path is a line.
 FLATTEST = 1e3
@@ -64,8 +64,8 @@ def fit_circle(points: ArrayLike, *, robust: bool = False) -> CircleFit:
     points : array-like, shape (n, 2) or (n, 3)
         The path [m], n >= 4, in the order of recording. In space the plane is fitted first, by the distances from it.
     robust : bool
-        Whether to fit by Tukey's biweight from a least median of squares, so that nearly half of the points may lie
-        anywhere (in space: anywhere near the plane).
+        Whether to leave outliers out: least trimmed squares, and from there all points within 3.5 standard deviations
+        (`ebac.tracking.robust`). Up to (n - 3) / 2 points may lie anywhere.
 
     Returns
     -------
@@ -77,33 +77,27 @@ def fit_circle(points: ArrayLike, *, robust: bool = False) -> CircleFit:
         For points that are too few, not finite, all the same, or on a line.
     """
     path = checked(points, 4, "a circle")
-    flat, origin, axes, normal, height = _plane(path)
-    middle, size = flat.mean(axis=0), float(np.ptp(flat, axis=0).max())
-    unit = (flat - middle) / size
-    weight = np.ones(len(unit))
+    middle, size = path.mean(axis=0), float(np.ptp(path, axis=0).max())
+    unit = (path - middle) / size
+    inliers = np.ones(len(unit), bool)
     if robust:
-        weight = start(unit, 3, lambda three: _off(unit, three)).astype(float)
-        for _ in range(STEPS):
-            circle = _geometric(unit, weight)
-            before, weight = weight, weights(np.abs(_radial(unit, circle)), 1e-12)
-            if np.abs(weight - before).max() < 1e-9:
-                break
-    circle = _geometric(unit, weight)
+        inliers = counted(unit, 3, _off, 1e-12)
+    origin, axes, normal = _plane(unit[inliers])
+    flat, height = (unit - origin) @ axes.T, _height(unit, origin, normal)
+    circle = _geometric(flat[inliers])
     if circle[2] > FLATTEST:
         raise ValueError("the points lie on a line: their circle has no radius; fit a line")
-    inliers = weight > 0
-    centre, radius = middle + size * circle[:2], size * float(circle[2])
-    residuals = size * _radial(unit, circle)
+    residuals = size * _radial(flat, circle)
     deviation = measure(residuals, inliers, 3)
-    away = flat - centre
+    away = flat - circle[:2]
     angle = np.arctan2(away[:, 1], away[:, 0])
     sd = _uncertainty(angle[inliers], deviation)
     return CircleFit(
-        centre=origin + centre @ axes,
-        radius=radius,
+        centre=middle + size * (origin + circle[:2] @ axes),
+        radius=size * float(circle[2]),
         normal=normal,
         residuals=residuals,
-        out_of_plane=height,
+        out_of_plane=size * height,
         angle=angle,
         deviation=deviation,
         radius_sd_m=sd[0],
@@ -113,46 +107,49 @@ def fit_circle(points: ArrayLike, *, robust: bool = False) -> CircleFit:
     )
 
 
-def _plane(path: Numbers) -> tuple[Numbers, Numbers, Numbers, Numbers, Numbers]:
-    """Return points in the plane, its origin, its two axes, its normal and the heights above it."""
-    if path.shape[1] == 2:
-        return path, np.zeros(2), np.eye(2), np.array([0.0, 0.0, 1.0]), np.zeros(len(path))
-    origin = path.mean(axis=0)
-    _, _, axes = np.linalg.svd(path - origin, full_matrices=False)
-    normal = np.cross(axes[0], axes[1])
-    return (path - origin) @ axes[:2].T, origin, axes[:2], normal, (path - origin) @ normal
+def _plane(points: Numbers) -> tuple[Numbers, Numbers, Numbers]:
+    """Return the origin of the plane of points, its two axes and its normal."""
+    if points.shape[1] == 2:
+        return np.zeros(2), np.eye(2), np.array([0.0, 0.0, 1.0])
+    origin = points.mean(axis=0)
+    _, _, axes = np.linalg.svd(points - origin, full_matrices=False)
+    return origin, axes[:2], np.cross(axes[0], axes[1])
+
+
+def _height(points: Numbers, origin: Numbers, normal: Numbers) -> Numbers:
+    flat = points.shape[1] == 2
+    return np.zeros(len(points)) if flat else np.asarray((points - origin) @ normal)
 
 
 def _radial(points: Numbers, circle: Numbers) -> Numbers:
     return np.asarray(np.hypot(points[:, 0] - circle[0], points[:, 1] - circle[1]) - circle[2])
 
 
-def _algebraic(points: Numbers, weight: Numbers) -> Numbers | None:
+def _algebraic(points: Numbers) -> Numbers | None:
     """Solve x^2 + y^2 = 2 a x + 2 b y + c, a good start; None where the points lie on a line."""
-    root = np.sqrt(weight)
-    left = root[:, None] * np.column_stack([2 * points, np.ones(len(points))])
-    answer, _, rank, sizes = np.linalg.lstsq(left, root * (points**2).sum(axis=1), rcond=None)
+    left = np.column_stack([2 * points, np.ones(len(points))])
+    answer, _, rank, sizes = np.linalg.lstsq(left, (points**2).sum(axis=1), rcond=None)
     if rank < 3 or sizes[-1] < 1e-9 * sizes[0]:
         return None
     return np.array([*answer[:2], np.sqrt(max(answer[2] + answer[:2] @ answer[:2], 0.0))])
 
 
-def _geometric(points: Numbers, weight: Numbers) -> Numbers:
-    """Minimise the weighted squares of the radial distances by Levenberg and Marquardt's steps; unit size."""
-    circle = _algebraic(points, weight)
+def _geometric(points: Numbers) -> Numbers:
+    """Minimise the squares of the radial distances by Levenberg and Marquardt's steps; unit size."""
+    circle = _algebraic(points)
     if circle is None:
         raise ValueError("the points lie on a line: their circle has no radius; fit a line")
-    damping, cost = 1e-3, float(weight @ _radial(points, circle) ** 2)
+    damping, cost = 1e-3, float((_radial(points, circle) ** 2).sum())
     for _ in range(200):
         away = points - circle[:2]
         distance = np.maximum(np.hypot(away[:, 0], away[:, 1]), 1e-300)
         slope = np.column_stack([-away / distance[:, None], -np.ones(len(points))])
-        normal = slope.T @ (weight[:, None] * slope)
-        gradient = slope.T @ (weight * (distance - circle[2]))
+        normal = slope.T @ slope
+        gradient = slope.T @ (distance - circle[2])
         step = np.linalg.lstsq(normal + damping * np.diag(np.diag(normal)), -gradient, rcond=None)[
             0
         ]
-        tried = float(weight @ _radial(points, circle + step) ** 2)
+        tried = float((_radial(points, circle + step) ** 2).sum())
         if tried <= cost:
             circle, damping = circle + step, damping / 10
             if float(np.abs(step).max()) < 1e-14 * (1 + abs(circle[2])):
@@ -179,6 +176,14 @@ def _arc(angle: Numbers) -> float:
     return float(2 * np.pi - gaps.max())
 
 
-def _off(points: Numbers, three: Numbers) -> Numbers | None:
-    circle = _algebraic(three, np.ones(3))
-    return None if circle is None or circle[2] > FLATTEST else np.abs(_radial(points, circle))
+def _off(fitted: Numbers, measured: Numbers) -> Numbers | None:
+    """Return |distances| of measured points from the circle through the fitted ones; None where these lie on a line."""
+    origin, axes, normal = _plane(fitted)
+    flat = (fitted - origin) @ axes.T
+    circle = _algebraic(flat)
+    if circle is not None and len(fitted) > 3:
+        circle = _geometric(flat)
+    if circle is None or circle[2] > FLATTEST:
+        return None
+    radial = _radial((measured - origin) @ axes.T, circle)
+    return np.asarray(np.hypot(radial, _height(measured, origin, normal)))

@@ -48,7 +48,7 @@ class Tracking:
         }
         if isinstance(fit, LineFit):
             more = {
-                "length_m": float(np.ptp(fit.along)),
+                "length_m": fit.length_m,
                 "angle_deg": degrees(fit.angle_rad),
                 "angle_sd_deg": degrees(fit.direction_sd_rad),
                 "point_m": [float(v) for v in fit.point],

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ebac.tracking.deviation import Deviation, Numbers, checked, measure
-from ebac.tracking.robust import STEPS, start, weights
+from ebac.tracking.robust import counted
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -20,7 +20,7 @@ class LineFit:
     point : array, shape (2,) or (3,)
         Its point nearest to the middle of the path [m].
     direction : array, shape (2,) or (3,)
-        Unit vector along it, from the first point of the path to the last.
+        Unit vector along it, from the first counted point of the path to the last.
     residuals : array, shape (n,) or (n, 2)
         Distances across it [m]: in the plane with a sign, positive to the left; in space in two directions.
     along : array, shape (n,)
@@ -43,6 +43,11 @@ class LineFit:
     inliers: np.ndarray[tuple[int, ...], np.dtype[np.bool_]]
 
     @property
+    def length_m(self) -> float:
+        """Way along it from end to end of what was counted [m]."""
+        return float(np.ptp(self.along[self.inliers]))
+
+    @property
     def angle_rad(self) -> float:
         """Direction in the plane of the first two axes, (-pi, pi] [rad]."""
         return float(np.arctan2(self.direction[1], self.direction[0]))
@@ -56,8 +61,8 @@ def fit_line(points: ArrayLike, *, robust: bool = False) -> LineFit:
     points : array-like, shape (n, 2) or (n, 3)
         The path [m], n >= 3, in the order of recording.
     robust : bool
-        Whether to fit by Tukey's biweight from a least median of squares, so that up to half of the points may lie
-        anywhere.
+        Whether to leave outliers out: least trimmed squares, and from there all points within 3.5 standard deviations
+        (`ebac.tracking.robust`). Up to (n - 2) / 2 points may lie anywhere.
 
     Returns
     -------
@@ -69,21 +74,16 @@ def fit_line(points: ArrayLike, *, robust: bool = False) -> LineFit:
         For points that are too few, not finite, all the same, or without one direction of their own.
     """
     path = checked(points, 3, "a line")
-    weight = np.ones(len(path))
+    inliers = np.ones(len(path), bool)
     if robust:
         floor = 1e-12 * float(np.ptp(path, axis=0).max())
-        weight = start(path, 2, lambda two: _across(path, two)).astype(float)
-        for _ in range(STEPS):
-            point, direction = _principal(path, weight)
-            before, weight = weight, weights(_size(path, point, direction), floor)
-            if np.abs(weight - before).max() < 1e-9:
-                break
-    point, direction = _principal(path, weight)
-    if direction @ (path[-1] - path[0]) < 0:
+        inliers = counted(path, 2, _off, floor)
+    kept = path[inliers]
+    point, direction = _principal(kept)
+    if direction @ (kept[-1] - kept[0]) < 0:
         direction = -direction
     centred = path - point
     along = centred @ direction
-    inliers = weight > 0
     point = point + direction * 0.5 * float(along[inliers].max() + along[inliers].min())
     along = (path - point) @ direction
     residuals = centred @ _normals(direction).T
@@ -104,9 +104,9 @@ def fit_line(points: ArrayLike, *, robust: bool = False) -> LineFit:
     )
 
 
-def _principal(path: Numbers, weight: Numbers) -> tuple[Numbers, Numbers]:
-    point = np.average(path, axis=0, weights=weight)
-    _, sizes, axes = np.linalg.svd(np.sqrt(weight)[:, None] * (path - point), full_matrices=False)
+def _principal(path: Numbers) -> tuple[Numbers, Numbers]:
+    point = path.mean(axis=0)
+    _, sizes, axes = np.linalg.svd(path - point, full_matrices=False)
     if sizes[0] - sizes[1] <= 1e-9 * sizes[0]:
         raise ValueError(
             "the points spread alike in all directions: they have no line; fit a circle?"
@@ -128,7 +128,9 @@ def _size(path: Numbers, point: Numbers, direction: Numbers) -> Numbers:
     return np.asarray(np.linalg.norm((path - point) @ _normals(direction).T, axis=1))
 
 
-def _across(path: Numbers, two: Numbers) -> Numbers | None:
-    step = two[1] - two[0]
-    length = float(np.linalg.norm(step))
-    return None if length == 0 else _size(path, two[0], step / length)
+def _off(fitted: Numbers, measured: Numbers) -> Numbers | None:
+    """Return |distances| of measured points from the line through the fitted ones; None where these have none."""
+    try:
+        return _size(measured, *_principal(fitted))
+    except ValueError:
+        return None

@@ -72,7 +72,7 @@ def read_path(
         raise ValueError(f"columns = {','.join(columns)}: must be two or three, like x,y")
     try:
         if path.suffix == ".npz":
-            return _from_trace(path, columns)
+            return _from_trace(path, columns, unit)
         return _from_text(path, columns, unit)
     except UnicodeDecodeError:
         raise ValueError(f"{path}: is no text; give a CSV file or a trace (.npz)") from None
@@ -81,7 +81,9 @@ def read_path(
         raise ValueError(text if text.startswith(str(path)) else f"{path}: {text}") from None
 
 
-def _from_trace(path: Path, columns: Sequence[str] | None) -> RecordedPath:
+def _from_trace(path: Path, columns: Sequence[str] | None, unit: str | None) -> RecordedPath:
+    if unit not in (None, "m"):
+        raise ValueError(f"unit = {unit!r}: a trace is in m")
     trace = Trace.from_npz(path)
     every = {name: values for name, _, values in trace.flat()}
     if columns is None and trace.axes < 2:
@@ -128,7 +130,10 @@ def _bare(heading: str) -> tuple[str, str | None]:
     )
     if match is None:
         return heading, None
-    name, unit = match[1], match[2].replace("µ", "u")
+    name, unit = (
+        match[1],
+        re.sub("[\u00b5\u03bc]", "u", match[2]),
+    )  # the micro sign, the Greek letter
     return name, unit
 
 
