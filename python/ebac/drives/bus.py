@@ -183,8 +183,8 @@ def _telling(interface: str | None, channel: str | None) -> Iterator[None]:
 def _remedy(number: int | None) -> str:
     if number == errno.EAFNOSUPPORT:
         return (
-            "this kernel has no SocketCAN: load the modules (`sudo modprobe can can_raw`) or use "
-            "another interface, such as --interface ebac --channel joystick (simulated drives)"
+            "this kernel has no SocketCAN: load the modules (`sudo modprobe can can_raw`). Simulated drives do "
+            "without: `ebac run --simulated`, or elsewhere --interface ebac --channel joystick"
         )
     if number == errno.ENODEV:
         return "there is no such interface: `ip link` lists them"
