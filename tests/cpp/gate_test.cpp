@@ -107,7 +107,7 @@ TEST(Gate, AGainOfARampScalesTheForce) {
 }
 
 Fault seen(Pushed& p, const Reading& reading = {}, std::int64_t skipped = 0) {
-  return p.gate.watch(reading, {.skipped = skipped}, p.axes);
+  return p.gate.watch(reading, {.dt = kDt, .skipped = skipped}, p.axes);
 }
 
 TEST(Gate, WhatNobodySawForSomeTicksMayHaveGoneSoMuchFurther) {
@@ -125,6 +125,23 @@ TEST(Gate, WhatNobodySawForSomeTicksMayHaveGoneSoMuchFurther) {
   EXPECT_EQ(jumped(1.01, 0), Fault::kEncoderJump);
   EXPECT_EQ(jumped(3.99, 3 * kDt), Fault::kNone);
   EXPECT_EQ(jumped(4.01, 3 * kDt), Fault::kEncoderJump);
+}
+
+/// A late tick and the next one on time are close together, above all at 10 kHz.
+TEST(Gate, ACountInAShortTickIsNoSpeed) {
+  constexpr double kShort = 15e-6;  // s
+  const double count = kDevice.facts().count;
+  const double limit = Limits::of(kDevice).speed;
+  const auto seen_after = [&](double way, double dt) {
+    Pushed p;
+    p.axes[0].joint.dq = way / dt / kDevice.radius();
+    return p.gate.watch({}, {.dt = dt}, p.axes);
+  };
+  ASSERT_GT(count / kShort, limit);
+  EXPECT_EQ(seen_after(count, kShort), Fault::kNone);
+  EXPECT_EQ(seen_after(limit * kShort + 1.01 * count, kShort), Fault::kOverspeed);
+  EXPECT_EQ(seen_after(limit * kDt + 0.99 * count, kDt), Fault::kNone);
+  EXPECT_EQ(seen_after(limit * kDt + 1.01 * count, kDt), Fault::kOverspeed);
 }
 
 TEST(Gate, NamesWhatItSees) {

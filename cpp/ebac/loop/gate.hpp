@@ -38,6 +38,7 @@ class Gate {
         limits_(limits),
         dt_(dt),
         radius_(device.radius()),
+        count_(device.facts().count),
         amp_per_newton_(1 / device.force(1)) {
     check_limits(limits);
     thermal_.fill(Thermal(limits.continuous_current, limits.thermal_time));
@@ -102,11 +103,11 @@ class Gate {
     };
     for (std::size_t i = 0; i < axes.size(); ++i) {
       const Joint& joint = axes[i].joint;
-      const double ticks =
-          (elapsed + counts_age_[i] - reading.counts_age[i]) / dt_;  // it had to go
-      const double way = limits_.jump * std::max(1.0, ticks);
+      const double since = elapsed + counts_age_[i] - reading.counts_age[i];  // s, for this way
+      const double way = limits_.jump * std::max(1.0, since / dt_);
       note(moved_ && std::abs(radius_ * (joint.q - q_[i])) > way, Fault::kEncoderJump);
-      note(std::abs(radius_ * joint.dq) > limits_.speed, Fault::kOverspeed);
+      note(std::abs(radius_ * joint.dq) * since > limits_.speed * since + count_,
+           Fault::kOverspeed);
       note(std::abs(radius_ * joint.q) > limits_.end, Fault::kWorkspace);
       q_[i] = joint.q;
       counts_age_[i] = reading.counts_age[i];
@@ -155,6 +156,7 @@ class Gate {
   Limits limits_{};
   double dt_ = 1e-3;           // s
   double radius_ = 1;          // m
+  double count_ = 0;           // m, a way may be wrong by it
   double amp_per_newton_ = 1;  // A/N
   std::array<Thermal, kMaxAxes> thermal_{};
   std::array<double, kMaxAxes> last_{};        // A, of the last tick
