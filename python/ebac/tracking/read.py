@@ -130,11 +130,8 @@ def _bare(heading: str) -> tuple[str, str | None]:
     )
     if match is None:
         return heading, None
-    name, unit = (
-        match[1],
-        re.sub("[\u00b5\u03bc]", "u", match[2]),
-    )  # the micro sign, the Greek letter
-    return name, unit
+    # The micro sign and the Greek letter look alike.
+    return match[1], re.sub("[\u00b5\u03bc]", "u", match[2])
 
 
 def _guess(names: list[str], bare: dict[str, str]) -> list[str]:

@@ -5,10 +5,10 @@
    these concentration steps with smaller squares (Rousseeuw and Leroy, Robust Regression and Outlier Detection, 1987;
    Rousseeuw and Van Driessen, Computing LTS regression for large data sets, 2006).
 2. From that half outwards: fit, count what lies within the cut of the spread of what was counted, and again until
-   nothing changes (Bab-Hadiashar and Suter, Robust segmentation of visual data using ranked unbiased
-   scale estimate, Robotica, 1999).
+   nothing changes (Bab-Hadiashar and Suter, Robust segmentation of visual data using ranked unbiased scale
+   estimate, Robotica, 1999).
 
-The spread comes from counted points only. A median over all points grows with every outlier, 2.1 times with 45 % of
+The spread comes from counted points only. A median over all points grows with every outlier, 2.5 times with 45 % of
 them, and so lets in what is near.
 """
 
