@@ -8,9 +8,9 @@ from time import perf_counter
 import numpy as np
 from numpy.typing import NDArray
 
+from ebac.identify.counts import with_counts
 from ebac.identify.fit import fitted
 from ebac.identify.guess import regression, solve
-from ebac.identify.intervals import with_counts
 from ebac.identify.likelihood import minus_two_log
 from ebac.identify.parameters import BEFORE_LEVELS, kind, lay_out
 from ebac.identify.problem import Problem

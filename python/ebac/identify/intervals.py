@@ -8,8 +8,6 @@ from math import erf, sqrt
 import numpy as np
 from numpy.typing import NDArray
 
-from ebac.identify.parameters import kind
-from ebac.identify.problem import Problem
 from ebac.identify.search import weights
 
 #: Shortest stretch of rows that counts as independent of the next.
@@ -70,21 +68,6 @@ def covariance(
         every = every + carried @ carried.T
     every = every / np.outer(scale, scale)
     return np.asarray(every[:free, :free])
-
-
-#: 95 % of a uniform error over its width, in deviations of a normal one.
-UNIFORM = 0.475 / 1.96
-
-
-def with_counts(problem: Problem, found: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Add what the encoder leaves open of every place: its zero lies anywhere within a count.
-
-    As the normal error whose 95 % are as wide as those of one that is uniform over a count.
-    """
-    p = problem.parameters
-    out = found.copy()
-    place = np.array([float(kind(p.names[i]) == "X0") for i in p.free])
-    return out + np.outer(place, place) * (UNIFORM * max(r.count for r in problem.recordings)) ** 2
 
 
 def loose_inverse(H: NDArray[np.float64]) -> NDArray[np.float64]:
