@@ -8,6 +8,7 @@ from math import erf, sqrt
 import numpy as np
 from numpy.typing import NDArray
 
+from ebac.identify.folds import Fold, folded
 from ebac.identify.search import weights
 
 #: Shortest stretch of rows that counts as independent of the next.
@@ -26,6 +27,7 @@ def covariance(
     sure: NDArray[np.float64] | None = None,
     pretended: NDArray[np.float64] | None = None,
     unseen: NDArray[np.float64] | None = None,
+    folds: Sequence[Fold | None] | None = None,
 ) -> NDArray[np.float64]:
     """Return the covariance of the free parameters, shape (free, free).
 
@@ -33,10 +35,10 @@ def covariance(
     `pretended` is the
     Jacobian that noise alone gives; `unseen` that of what is held in doubt, by one deviation each.
 
-    The larger one of two, parameter by parameter: the inverse of the information, scaled by the errors where they are
-    larger than foretold; and the sandwich around it, with the
-    scores summed over lags of growing length (Newey and West 1987), which also holds when the errors are
-    autocorrelated.
+    The largest one of three, parameter by parameter: the inverse of the information, scaled by the errors where they
+    are larger than foretold; the sandwich around it, with the scores summed over lags of growing length (Newey and
+    West 1987), which also holds when the errors are autocorrelated; and the same along a log that is folded, one fold
+    for each recording, which also holds when its errors repeat.
     """
     w = weights(errors, robust)
     scores = jacobian * (w * errors)
@@ -52,13 +54,19 @@ def covariance(
     inverse = loose_inverse(H)
     used = max(int(np.count_nonzero(errors)) - len(H), 1)
     plain = inverse * max(float((w * errors**2).sum()) / used, 1.0)
-    middle = np.diag(known)
+    scores = scores / scale[:, None]
+    straight, repeated = np.diag(known), np.diag(known)
     start = 0
-    for length in lengths:
-        middle += newey_west(scores[:, start : start + length] / scale[:, None])
+    for length, fold in zip(lengths, folds or [None] * len(lengths), strict=True):
+        mine = scores[:, start : start + length]
+        along = newey_west(mine)
+        straight = straight + along
+        repeated = repeated + (along if fold is None else newey_west(folded(mine, fold)))
         start += length
-    sandwich = inverse @ middle @ inverse
-    wider = np.sqrt(np.maximum(np.diag(sandwich) / np.maximum(np.diag(plain), 1e-300), 1.0))
+    wider = np.ones(len(H))
+    for middle in (straight, repeated):
+        sandwich = np.diag(inverse @ middle @ inverse)
+        wider = np.maximum(wider, np.sqrt(sandwich / np.maximum(np.diag(plain), 1e-300)))
     free = len(H) - (0 if sure is None else sure.size)
     every = plain * np.outer(wider, wider)
     if (

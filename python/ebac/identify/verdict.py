@@ -15,6 +15,8 @@ TOGETHER = 0.95
 LOOSE = 0.2
 #: A hand that answers within so many rows, M0/B0, is told by what a force does between rows: by nothing recorded.
 FASTEST = 2.0
+#: ... unless its M0 and B0 are told apart better than by this correlation.
+FAST_TOGETHER = 0.85
 
 
 def scale_of(name: str, value: float, span: float) -> float:
@@ -64,17 +66,17 @@ def _too_fast(
     correlation: NDArray[np.float64],
     dt: float,
 ) -> list[str]:
-    """Return each M0 that moves together with its B0 and whose M0/B0 is below `FASTEST` rows."""
+    """Return M0, B0, K0 of each hand whose M0 moves together with its B0 and whose M0/B0 is below `FASTEST` rows."""
     free = parameters.free.tolist()
-    pairs = {(int(p[0]), int(p[1])) for p in parameters.places}
-    return [
-        parameters.names[m]
-        for m, b in sorted(pairs)
-        if m in free
-        and b in free
-        and abs(correlation[free.index(m), free.index(b)]) > TOGETHER
-        and values[m] < FASTEST * dt * values[b]
-    ]
+    out: list[str] = []
+    for place in parameters.places:
+        m, b = int(place[0]), int(place[1])
+        if not (m in free and b in free and values[m] < FASTEST * dt * values[b]):
+            continue
+        if abs(correlation[free.index(m), free.index(b)]) > FAST_TOGETHER:
+            names = [parameters.names[i] for i in place[:3] if i in free]
+            out += [name for name in names if name not in out]
+    return out
 
 
 def inseparable(
