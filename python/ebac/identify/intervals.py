@@ -11,10 +11,6 @@ from numpy.typing import NDArray
 from ebac.identify.folds import Fold, folded
 from ebac.identify.search import weights
 
-#: Shortest stretch of rows that counts as independent of the next.
-BLOCKS = 40
-
-
 #: How many times what noise alone seems to tell is taken off what a log tells.
 PRETENCE = 2.0
 
@@ -66,7 +62,8 @@ def covariance(
     wider = np.ones(len(H))
     for middle in (straight, repeated):
         sandwich = np.diag(inverse @ middle @ inverse)
-        wider = np.maximum(wider, np.sqrt(sandwich / np.maximum(np.diag(plain), 1e-300)))
+        times = sandwich / np.maximum(np.diag(plain), 1e-300)
+        wider = np.maximum(wider, np.sqrt(np.maximum(times, 1.0)))
     free = len(H) - (0 if sure is None else sure.size)
     every = plain * np.outer(wider, wider)
     if (
@@ -84,10 +81,10 @@ def loose_inverse(H: NDArray[np.float64]) -> NDArray[np.float64]:
     return np.asarray((vectors / np.maximum(values, 1e-14 * values[-1])) @ vectors.T)
 
 
-def newey_west(scores: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return the long-run covariance of scores, shape (parameters, rows), by Bartlett's window."""
+def newey_west(scores: NDArray[np.float64], reach: int | None = None) -> NDArray[np.float64]:
+    """Return the long-run covariance of scores, shape (parameters, rows), by Bartlett's window of some reach [rows]."""
     n = scores.shape[1]
-    reach = min(int(4 * (n / 100) ** (2 / 9)) + 12, n - 1)
+    reach = min(int(4 * (n / 100) ** (2 / 9)) + 12 if reach is None else reach, n - 1)
     out = np.einsum("ik,jk->ij", scores, scores)
     for lag in range(1, reach + 1):
         part = np.einsum("ik,jk->ij", scores[:, lag:], scores[:, :-lag])
