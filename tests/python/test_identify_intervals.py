@@ -10,7 +10,9 @@ from ebac.identify.counts import half_width
 from ebac.identify.folds import by_place, by_target, folded
 from ebac.identify.intervals import covariance, newey_west
 from ebac.identify.noise import readings
+from ebac.identify.parameters import lay_out
 from ebac.identify.smooth import kernels
+from ebac.identify.verdict import undetermined
 
 COUNT = 3e-5  # m
 
@@ -152,3 +154,23 @@ def test_the_second_derivative_is_that_of_the_same_kernel(hertz: float) -> None:
     w = 2 * np.pi * hertz
     wave = np.cos(w * 1e-3 * np.arange(-half, half + 1))
     assert h[2] @ wave == pytest.approx(-(w**2) * (h[0] @ wave), rel=2e-4)
+
+
+# --- the verdict on a hand that answers within two rows ---
+
+
+@pytest.mark.parametrize(
+    ("mass", "together", "lost"),
+    [(5e-3, 0.9, True), (5e-3, 0.5, False), (1e-3, 0.5, True), (0.2, 0.9, False)],
+)
+def test_a_hand_faster_than_rows_is_believed_only_when_told_apart(
+    mass: float, together: float, lost: bool
+) -> None:
+    """A finger that taps is; one at the least mass there is, or whose mass and damping move together, is not."""
+    p = lay_out([1], fixed={}, bounds={}, free=(), own=())
+    values = np.zeros(len(p.names))
+    values[p.free] = [mass, 6.0, 300.0, 0.02]
+    correlation = np.eye(4)
+    correlation[0, 1] = correlation[1, 0] = together
+    said = undetermined(p, values, 0.01 * values, correlation, 0.04, 1e-3)
+    assert ({"M0", "B0", "K0"} <= set(said)) is lost

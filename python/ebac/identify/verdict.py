@@ -45,9 +45,9 @@ def undetermined(
     out: list[str] = []
     for i in parameters.free:
         name, value = parameters.names[i], float(values[i])
-        low, high = parameters.low[i], parameters.high[i]
-        at_bound = value <= low + 1e-9 * (high - low) or value >= high - 1e-9 * (high - low)
-        if at_bound or not half[i] <= DETERMINED * scale_of(name, value, span):
+        if _at_bound(parameters, int(i), value) or not half[i] <= DETERMINED * scale_of(
+            name, value, span
+        ):
             out.append(name)
     names = [parameters.names[i] for i in parameters.free]
     out += [name for name in _too_fast(parameters, values, correlation, dt) if name not in out]
@@ -60,20 +60,26 @@ def undetermined(
     return tuple(out)
 
 
+def _at_bound(parameters: Parameters, index: int, value: float) -> bool:
+    low, high = float(parameters.low[index]), float(parameters.high[index])
+    return value <= low + 1e-9 * (high - low) or value >= high - 1e-9 * (high - low)
+
+
 def _too_fast(
     parameters: Parameters,
     values: NDArray[np.float64],
     correlation: NDArray[np.float64],
     dt: float,
 ) -> list[str]:
-    """Return M0, B0, K0 of each hand whose M0 moves together with its B0 and whose M0/B0 is below `FASTEST` rows."""
+    """Return M0, B0, K0 of each hand faster than `FASTEST` rows whose M0 moves with its B0 or lies at a bound."""
     free = parameters.free.tolist()
     out: list[str] = []
     for place in parameters.places:
         m, b = int(place[0]), int(place[1])
         if not (m in free and b in free and values[m] < FASTEST * dt * values[b]):
             continue
-        if abs(correlation[free.index(m), free.index(b)]) > FAST_TOGETHER:
+        together = abs(correlation[free.index(m), free.index(b)]) > FAST_TOGETHER
+        if together or _at_bound(parameters, m, float(values[m])):
             names = [parameters.names[i] for i in place[:3] if i in free]
             out += [name for name in names if name not in out]
     return out
