@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from math import sqrt
+
 from printed import Printed, Row, code, table
 
 #: The doubts within a tick were set on seeds 1 to 3; what is shown is none of these.
@@ -12,6 +14,16 @@ GAINS = "identify check gains --logs 10 --seed 4"
 def share(value: float | None) -> str:
     """Return a share in percent."""
     return "-" if value is None else f"{100 * value:.2f} %"
+
+
+def held(covered: float | None, logs: int) -> str:
+    """Return a coverage in percent and its own 95 % interval, by Wilson (1927)."""
+    if covered is None:
+        return "-"
+    z2 = 1.96**2
+    middle = (covered + z2 / (2 * logs)) / (1 + z2 / logs)
+    half = sqrt(z2 * (covered * (1 - covered) / logs + z2 / (4 * logs**2))) / (1 + z2 / logs)
+    return f"{100 * covered:.1f} % ({100 * (middle - half):.0f} to {100 * (middle + half):.0f})"
 
 
 def coverage(rows: list[Row]) -> str:
@@ -25,7 +37,7 @@ def coverage(rows: list[Row]) -> str:
                 row["parameter"],
                 str(row["cases"]),
                 str(row["determined"]),
-                "-" if row["covered_share"] is None else f"{100 * row['covered_share']:.1f} %",
+                held(row["covered_share"], row["determined"]),
                 share(row["median_bias"]),
                 share(row["median_error"]),
             ]

@@ -8,9 +8,9 @@ from time import perf_counter
 import numpy as np
 from numpy.typing import NDArray
 
+from ebac.identify.counts import with_counts
 from ebac.identify.fit import fitted
 from ebac.identify.guess import regression, solve
-from ebac.identify.intervals import with_counts
 from ebac.identify.likelihood import minus_two_log
 from ebac.identify.parameters import BEFORE_LEVELS, kind, lay_out
 from ebac.identify.problem import Problem
@@ -18,10 +18,11 @@ from ebac.identify.recording import Recording
 from ebac.identify.response import guess_by_response
 from ebac.identify.result import ArmResult
 from ebac.identify.target import Target
+from ebac.identify.verdict import FASTEST
 
 Values = NDArray[np.float64]
 
-#: Starts of a search whose first outcome determines a part of the hand only.
+#: Starts of a search whose first outcome determines a part of the hand only, or one that answers within a few rows.
 AGAIN = 4
 
 
@@ -62,7 +63,7 @@ def fit_arm(
         Which of M0, B0, K0, delay every recording has for itself.
     starts : int
         From how many points the search starts, at least 1; from 4 at least where the first one tells a part of the
-        hand only.
+        hand only, or a hand that answers within two rows.
     robust : float, optional
         Errors beyond so many standard deviations count linearly (Huber); 1.345 keeps 95 % of the efficiency.
     seed : int
@@ -92,7 +93,7 @@ def fit_arm(
     )
     problem = Problem(recordings=tuple(recordings), targets=tuple(targets), parameters=parameters)
     result = _searched(problem, starts, robust, seed, began)
-    if starts < AGAIN and _partly_told(result):
+    if starts < AGAIN and (_partly_told(result) or _too_fast(result)):
         result = _searched(problem, AGAIN, robust, seed, began)
     return result
 
@@ -120,6 +121,14 @@ def _partly_told(result: ArmResult) -> bool:
     p = result.parameters
     hand = {p.names[i] for i in p.free if kind(p.names[i]) in ("M0", "B0", "K0")}
     return 0 < len(hand.intersection(result.undetermined)) < len(hand)
+
+
+def _too_fast(result: ArmResult) -> bool:
+    """Return whether a hand answers within a few rows: in free air the errors between rows make such an optimum."""
+    dt = max(r.dt for r in result.recordings)
+    return any(
+        result.values[p[0]] < FASTEST * dt * result.values[p[1]] for p in result.parameters.places
+    )
 
 
 def _check(

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ebac._core import ArmRecord
+from ebac.identify.folds import by_place
 from ebac.identify.noise import readings, rough
 from ebac.identify.parameters import BOUNDS, Parameters
 from ebac.identify.problem import Problem
@@ -29,8 +30,6 @@ WHATEVER = 100.0
 #: A force jumps where it bends by so many deviations of its noise; a tick may miss this share of it, felt for so many
 #: rows before and after.
 NOISY, JUMP, FELT = 5.0, 0.5, 4
-#: Friction and impacts are less even than noise: errors count as if the force had so many times what it shows.
-UNEVEN = 1.6
 FITTED = ("M_h", "B_h", "coulomb", "weight", "stribeck")
 
 
@@ -160,7 +159,7 @@ def device_problem(drive: Drive, speed: float | None) -> tuple[Problem, tuple[st
         targets=(Target.held(),),
         parameters=parameters,
         make=make,
-        quietest=UNEVEN,
+        folds=(by_place(r, drive.velocity),),
     )
     return problem, tuple(n for n in FITTED if n in names)
 

@@ -93,7 +93,8 @@ def _spread(
     unseen = problem.jacobian(values, gains, problem.unseen.which)
     unseen *= problem.unseen.deviation[:, None]
     lengths = [len(r.t) for r in problem.recordings]
-    return covariance(jacobian, errors, lengths, robust, problem.doubt.deviation, pretended, unseen)
+    sure = problem.doubt.deviation
+    return covariance(jacobian, errors, lengths, robust, sure, pretended, unseen, problem.folds)
 
 
 def spread_at(problem: Problem, values: Values) -> NDArray[np.float64]:

@@ -8,12 +8,15 @@ not, it is unbiased also in closed loop, where the law carries noise from one si
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ebac.identify.folds import Fold, folded
+from ebac.identify.intervals import newey_west
 from ebac.identify.levels import indicators, lagged
 from ebac.identify.recording import Recording
 from ebac.identify.smooth import kernels, smoothed
@@ -53,9 +56,13 @@ def regression(recording: Recording, target: Target) -> Regression:
 
 
 def solve(
-    regressions: list[Regression], instruments: list[NDArray[np.float64]] | None = None
+    regressions: list[Regression],
+    instruments: list[NDArray[np.float64]] | None = None,
+    folds: Sequence[Fold | None] = (),
 ) -> Any:
     """Return M0, B0, K0 and for each recording its levels, by least squares or by instruments.
+
+    `folds` tells where the recordings repeat themselves, see `folds`.
 
     Returns
     -------
@@ -82,6 +89,8 @@ def solve(
     block_rows = max(regressions[0].taps, len(scores) // 60)
     ends = np.add.reduceat(scores, np.arange(0, len(scores), block_rows), axis=0)
     raw_cov = left @ (ends.T @ ends) @ left.T
+    if any(fold is not None for fold in folds):
+        raw_cov = _wider(raw_cov, left @ _repeated(scores.T, regressions, folds) @ left.T)
     k = raw[2] / scale[2]
     turn = np.ones(width) / scale
     turn[:3] *= -1
@@ -89,6 +98,26 @@ def solve(
     values[3:] /= max(-k, 1e-9)
     turn[3:] /= max(-k, 1e-9)
     return values, raw_cov * np.outer(turn, turn)
+
+
+def _repeated(
+    scores: NDArray[np.float64], parts: list[Regression], folds: Sequence[Fold | None]
+) -> NDArray[np.float64]:
+    """Return the long-run covariance of scores, shape (values, rows), along the folded recordings."""
+    out, start = np.zeros((len(scores), len(scores))), 0
+    for part, fold in zip(parts, folds, strict=True):
+        rows, half = slice(start, start + len(part.force)), part.taps // 2
+        mine = scores[:, rows]
+        out += newey_west(mine if fold is None else folded(mine, fold[half:-half]), reach=half)
+        start = rows.stop
+    return out
+
+
+def _wider(first: NDArray[np.float64], second: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the first covariance, with the larger variances of both."""
+    a, b = np.diag(first), np.diag(second)
+    more = np.sqrt(np.maximum(b / np.maximum(a, 1e-300), 1.0))
+    return np.asarray(first * np.outer(more, more))
 
 
 def _projected(

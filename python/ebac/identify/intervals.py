@@ -8,13 +8,8 @@ from math import erf, sqrt
 import numpy as np
 from numpy.typing import NDArray
 
-from ebac.identify.parameters import kind
-from ebac.identify.problem import Problem
+from ebac.identify.folds import Fold, folded
 from ebac.identify.search import weights
-
-#: Shortest stretch of rows that counts as independent of the next.
-BLOCKS = 40
-
 
 #: How many times what noise alone seems to tell is taken off what a log tells.
 PRETENCE = 2.0
@@ -28,6 +23,7 @@ def covariance(
     sure: NDArray[np.float64] | None = None,
     pretended: NDArray[np.float64] | None = None,
     unseen: NDArray[np.float64] | None = None,
+    folds: Sequence[Fold | None] | None = None,
 ) -> NDArray[np.float64]:
     """Return the covariance of the free parameters, shape (free, free).
 
@@ -35,10 +31,10 @@ def covariance(
     `pretended` is the
     Jacobian that noise alone gives; `unseen` that of what is held in doubt, by one deviation each.
 
-    The larger one of two, parameter by parameter: the inverse of the information, scaled by the errors where they are
-    larger than foretold; and the sandwich around it, with the
-    scores summed over lags of growing length (Newey and West 1987), which also holds when the errors are
-    autocorrelated.
+    The largest one of three, parameter by parameter: the inverse of the information, scaled by the errors where they
+    are larger than foretold; the sandwich around it, with the scores summed over lags of growing length (Newey and
+    West 1987), which also holds when the errors are autocorrelated; and the same along a log that is folded, one fold
+    for each recording, which also holds when its errors repeat.
     """
     w = weights(errors, robust)
     scores = jacobian * (w * errors)
@@ -54,13 +50,20 @@ def covariance(
     inverse = loose_inverse(H)
     used = max(int(np.count_nonzero(errors)) - len(H), 1)
     plain = inverse * max(float((w * errors**2).sum()) / used, 1.0)
-    middle = np.diag(known)
+    scores = scores / scale[:, None]
+    straight, repeated = np.diag(known), np.diag(known)
     start = 0
-    for length in lengths:
-        middle += newey_west(scores[:, start : start + length] / scale[:, None])
+    for length, fold in zip(lengths, folds or [None] * len(lengths), strict=True):
+        mine = scores[:, start : start + length]
+        along = newey_west(mine)
+        straight = straight + along
+        repeated = repeated + (along if fold is None else newey_west(folded(mine, fold)))
         start += length
-    sandwich = inverse @ middle @ inverse
-    wider = np.sqrt(np.maximum(np.diag(sandwich) / np.maximum(np.diag(plain), 1e-300), 1.0))
+    wider = np.ones(len(H))
+    for middle in (straight, repeated):
+        sandwich = np.diag(inverse @ middle @ inverse)
+        times = sandwich / np.maximum(np.diag(plain), 1e-300)
+        wider = np.maximum(wider, np.sqrt(np.maximum(times, 1.0)))
     free = len(H) - (0 if sure is None else sure.size)
     every = plain * np.outer(wider, wider)
     if (
@@ -72,31 +75,16 @@ def covariance(
     return np.asarray(every[:free, :free])
 
 
-#: 95 % of a uniform error over its width, in deviations of a normal one.
-UNIFORM = 0.475 / 1.96
-
-
-def with_counts(problem: Problem, found: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Add what the encoder leaves open of every place: its zero lies anywhere within a count.
-
-    As the normal error whose 95 % are as wide as those of one that is uniform over a count.
-    """
-    p = problem.parameters
-    out = found.copy()
-    place = np.array([float(kind(p.names[i]) == "X0") for i in p.free])
-    return out + np.outer(place, place) * (UNIFORM * max(r.count for r in problem.recordings)) ** 2
-
-
 def loose_inverse(H: NDArray[np.float64]) -> NDArray[np.float64]:
     """Invert an information matrix; what it says nothing about comes out very loose, not sure."""
     values, vectors = np.linalg.eigh(H)
     return np.asarray((vectors / np.maximum(values, 1e-14 * values[-1])) @ vectors.T)
 
 
-def newey_west(scores: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return the long-run covariance of scores, shape (parameters, rows), by Bartlett's window."""
+def newey_west(scores: NDArray[np.float64], reach: int | None = None) -> NDArray[np.float64]:
+    """Return the long-run covariance of scores, shape (parameters, rows), by Bartlett's window of some reach [rows]."""
     n = scores.shape[1]
-    reach = min(int(4 * (n / 100) ** (2 / 9)) + 12, n - 1)
+    reach = min(int(4 * (n / 100) ** (2 / 9)) + 12 if reach is None else reach, n - 1)
     out = np.einsum("ik,jk->ij", scores, scores)
     for lag in range(1, reach + 1):
         part = np.einsum("ik,jk->ij", scores[:, lag:], scores[:, :-lag])

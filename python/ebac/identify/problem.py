@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ebac._core import ArmGains, ArmRecord
+from ebac.identify.folds import Fold, by_target
 from ebac.identify.noise import readings, rough
 from ebac.identify.parameters import INPUTS, STEPS, Parameters, kind
 from ebac.identify.recording import Recording
@@ -31,7 +32,7 @@ class Problem:
     targets: tuple[Target, ...]
     parameters: Parameters
     make: Make = field(default_factory=lambda: arm_record)
-    quietest: float = 1.0  # times what the force shows: the least noise that is believed
+    folds: tuple[Fold | None, ...] | None = None  # by default as the targets repeat
     records: tuple[ArmRecord, ...] = field(init=False)
     doubt: Doubt = field(init=False)  # moves with the search
     unseen: Doubt = field(init=False)  # does not, but widens the intervals
@@ -43,6 +44,9 @@ class Problem:
             for r, target in zip(self.recordings, self.targets, strict=True)
         ]
         object.__setattr__(self, "records", tuple(made))
+        if self.folds is None:
+            pairs = zip(self.recordings, self.targets, strict=True)
+            object.__setattr__(self, "folds", tuple(by_target(r, target) for r, target in pairs))
         object.__setattr__(self, "doubt", doubt_of(self, WITHIN_TICK))
         driven = all(r.motor is not None for r in self.recordings)
         unseen = {"bend": BEND, "delay": DELAY_DRIVEN if driven else DELAY}
@@ -52,9 +56,7 @@ class Problem:
     def shown(self) -> NDArray[np.float64]:
         """Return the least noise of each force that is believed [N]: what its signal shows, never none."""
         forces = [r.force for r in self.recordings if r.force is not None]
-        return np.array(
-            [self.quietest * max(rough(f), 1e-5 * float(np.ptp(f)), 1e-9) for f in forces]
-        )
+        return np.array([max(rough(f), 1e-5 * float(np.ptp(f)), 1e-9) for f in forces])
 
     def gains(
         self, values: NDArray[np.float64], force_noise: NDArray[np.float64]

@@ -15,6 +15,8 @@ TOGETHER = 0.95
 LOOSE = 0.2
 #: A hand that answers within so many rows, M0/B0, is told by what a force does between rows: by nothing recorded.
 FASTEST = 2.0
+#: ... unless its M0 and B0 are told apart better than by this correlation.
+FAST_TOGETHER = 0.85
 
 
 def scale_of(name: str, value: float, span: float) -> float:
@@ -43,9 +45,9 @@ def undetermined(
     out: list[str] = []
     for i in parameters.free:
         name, value = parameters.names[i], float(values[i])
-        low, high = parameters.low[i], parameters.high[i]
-        at_bound = value <= low + 1e-9 * (high - low) or value >= high - 1e-9 * (high - low)
-        if at_bound or not half[i] <= DETERMINED * scale_of(name, value, span):
+        if _at_bound(parameters, int(i), value) or not half[i] <= DETERMINED * scale_of(
+            name, value, span
+        ):
             out.append(name)
     names = [parameters.names[i] for i in parameters.free]
     out += [name for name in _too_fast(parameters, values, correlation, dt) if name not in out]
@@ -58,23 +60,29 @@ def undetermined(
     return tuple(out)
 
 
+def _at_bound(parameters: Parameters, index: int, value: float) -> bool:
+    low, high = float(parameters.low[index]), float(parameters.high[index])
+    return value <= low + 1e-9 * (high - low) or value >= high - 1e-9 * (high - low)
+
+
 def _too_fast(
     parameters: Parameters,
     values: NDArray[np.float64],
     correlation: NDArray[np.float64],
     dt: float,
 ) -> list[str]:
-    """Return each M0 that moves together with its B0 and whose M0/B0 is below `FASTEST` rows."""
+    """Return M0, B0, K0 of each hand faster than `FASTEST` rows whose M0 moves with its B0 or lies at a bound."""
     free = parameters.free.tolist()
-    pairs = {(int(p[0]), int(p[1])) for p in parameters.places}
-    return [
-        parameters.names[m]
-        for m, b in sorted(pairs)
-        if m in free
-        and b in free
-        and abs(correlation[free.index(m), free.index(b)]) > TOGETHER
-        and values[m] < FASTEST * dt * values[b]
-    ]
+    out: list[str] = []
+    for place in parameters.places:
+        m, b = int(place[0]), int(place[1])
+        if not (m in free and b in free and values[m] < FASTEST * dt * values[b]):
+            continue
+        together = abs(correlation[free.index(m), free.index(b)]) > FAST_TOGETHER
+        if together or _at_bound(parameters, m, float(values[m])):
+            names = [parameters.names[i] for i in place[:3] if i in free]
+            out += [name for name in names if name not in out]
+    return out
 
 
 def inseparable(
