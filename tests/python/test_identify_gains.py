@@ -12,7 +12,8 @@ from typer.testing import CliRunner
 import ebac
 from ebac.cli import app
 from ebac.identify import Limits, Recording, Target, fit_gains, fit_loop
-from ebac.identify.gains_check import check_gains, gains_rows
+from ebac.identify.gains_check import check_gains
+from ebac.identify.gains_table import compare, gains_rows
 from ebac.identify.presses import arms_around, force_loop_laws, noise_gain, run_presses
 from ebac.identify.rules import blocked_step, by_rule, by_tangent
 

@@ -124,7 +124,8 @@ def _say_arm(found: Check, more: dict[str, Any]) -> None:
 
 
 def _gains(logs: int, seed: int, as_json: bool) -> None:
-    from ebac.identify.gains_check import LAWS, check_gains, gains_rows
+    from ebac.identify.gains_check import LAWS, check_gains
+    from ebac.identify.gains_table import gains_rows
 
     total = logs * len(LAWS)
     with output.refusing(), output.counting("choosing", quiet=as_json) as progress:

@@ -1,0 +1,92 @@
+"""Default gains and chosen ones side by side, on hands that were held out."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ebac.identify.gains_check import MEASURES, GainsCase, Refused
+from ebac.identify.presses import Presses
+
+Values = NDArray[np.float64]
+
+#: Nothing finer is told apart: one tick [s], a micrometre, a millinewton.
+FINEST = {"settled": 1e-3, "swing": 1e-6, "noise": 1e-3}
+#: Over which logs: all, those whose held-out presses keep all constraints under the default gains, and the others.
+OVER = ("all", "default keeps", "default breaks")
+
+
+def gains_rows(cases: Sequence[GainsCase | Refused]) -> list[dict[str, Any]]:
+    """Return a row for each law, group of logs and kind of gains, over all presses that were held out.
+
+    A law of which every log was refused has no row, nor has a group without a log.
+    """
+    rows = []
+    for law in dict.fromkeys(c.law for c in cases):
+        mine = [c for c in cases if isinstance(c, GainsCase) and c.law == law]
+        refused = sum(isinstance(c, Refused) and c.law == law for c in cases)
+        for over in OVER:
+            group = [c for c in mine if over in ("all", _side(c))]
+            for kind in ("default", "chosen") if group else ():
+                row = {"law": law, "over": over, "gains": kind, **_numbers(group, kind)}
+                if kind == "chosen":
+                    row |= _against_default(group)
+                rows.append(row | ({"logs_refused": refused} if over == "all" else {}))
+    return rows
+
+
+def compare(chosen: Values, default: Values, scatter: Values, finest: float) -> dict[str, int]:
+    """Return on how many presses the choice is better, equal, worse.
+
+    Equal: apart by no more than another seed of the noise changes, one standard deviation, and than `finest`. What
+    never settles is infinite: equal to what never does either, worse than all else.
+    """
+    with np.errstate(invalid="ignore"):  # inf - inf: neither better nor worse
+        apart = chosen - default
+    within = np.maximum(np.nan_to_num(scatter, nan=0.0, posinf=0.0), finest) * (1 + 1e-9)
+    better, worse = int((apart < -within).sum()), int((apart > within).sum())
+    return {"better": better, "equal": len(apart) - better - worse, "worse": worse}
+
+
+def _side(case: GainsCase) -> str:
+    return "default breaks" if case.broken(case.default) else "default keeps"
+
+
+def _column(presses: Sequence[Presses], name: str) -> Values:
+    return np.concatenate([p.settled if name == "settled" else p.columns[name] for p in presses])
+
+
+def _against_default(cases: Sequence[GainsCase]) -> dict[str, int]:
+    out = {}
+    for name in MEASURES:
+        chosen, default = (
+            _column([getattr(c, kind) for c in cases], name) for kind in ("chosen", "default")
+        )
+        scatter = np.concatenate([c.scatter[name] for c in cases])
+        found = compare(chosen, default, scatter, FINEST[name])
+        out |= {f"{name}_{how}": many for how, many in found.items()}
+    return out
+
+
+def _numbers(cases: Sequence[GainsCase], kind: str) -> dict[str, Any]:
+    presses: list[Presses] = [getattr(c, kind) for c in cases]
+    gains = [getattr(c.result, kind) for c in cases]
+    breaks = [c.broken(p) for c, p in zip(cases, presses, strict=True)]
+    settled, swing = _column(presses, "settled"), _column(presses, "swing")
+    return {
+        "kp_median": float(np.median([g.kp for g in gains])),
+        "kd_median_s": float(np.median([g.kd for g in gains])),
+        "presses": len(settled),
+        "settled": int(np.isfinite(settled).sum()),
+        "settled_median_s": float(np.median(settled)),
+        "swing_median_m": float(np.median(swing)),
+        "swing_worst_m": float(np.max(swing)),
+        "noise_median_N": float(np.median(_column(presses, "noise"))),
+        "least_energy_J": float(np.min(_column(presses, "least_energy"))),
+        "logs": len(cases),
+        "logs_with_broken_constraint": sum(map(bool, breaks)),
+        "broken": sorted({name for names in breaks for name in names}),
+    }
