@@ -41,6 +41,7 @@ TABLES: dict[str, Callable[[Printed], str]] = {
     "identify-arm": identified.arm,
     "identify-device": identified.device,
     "identify-gains": identified.gains,
+    "identify-gains-seeds": identified.gains_by_seed,
     "speed": laws.speed,
 }
 #: Left out unless asked for: what they say depends on what else the machine does.

@@ -90,6 +90,7 @@ def check_gains(
     *,
     seed: int = 1,
     laws: Sequence[str] = LAWS,
+    evaluations: int = 75,
     progress: Callable[[int], None] | None = None,
 ) -> list[GainsCase | Refused]:
     """Identify `logs` random logs of a hand that taps or tracks, choose gains for each law, press with other hands.
@@ -102,6 +103,8 @@ def check_gains(
         Of all that is drawn.
     laws : sequence of str
         Laws with the force loop of eq. (2).
+    evaluations : int
+        As for `fit_gains`.
     progress : callable, optional
         Told how many choices are made.
 
@@ -114,6 +117,8 @@ def check_gains(
 
     if logs < 1:
         raise ValueError(f"logs = {logs}: must be at least 1")
+    if evaluations < 1:
+        raise ValueError(f"evaluations = {evaluations}: must be at least 1")
     out: list[GainsCase | Refused] = []
     done = 0
     for number in count():
@@ -131,15 +136,17 @@ def check_gains(
         done += 1
         others = held_out(case, loop, seed)
         for law in laws:
-            out.append(_choose(case, law, loop, others))
+            out.append(_choose(case, law, loop, others, evaluations))
             if progress is not None:
                 progress(len(out))
     return out
 
 
-def _choose(case: Case, law: str, loop: LoopModel, others: list[Scenario]) -> GainsCase | Refused:
+def _choose(
+    case: Case, law: str, loop: LoopModel, others: list[Scenario], evaluations: int
+) -> GainsCase | Refused:
     try:
-        result = fit_gains(loop, law)
+        result = fit_gains(loop, law, evaluations=evaluations)
     except ValueError as error:
         return Refused(case=case.number, law=law, why=str(error))
     presses = [

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -17,6 +17,20 @@ Values = NDArray[np.float64]
 FINEST = {"settled": 1e-3, "swing": 1e-6, "noise": 1e-3}
 #: Over which logs: all, those whose held-out presses keep all constraints under the default gains, and the others.
 OVER = ("all", "default keeps", "default breaks")
+
+HOW = ("better", "equal", "worse")
+#: What a table shows: its words, the name in a row, what is compared press by press, scale and digits.
+NUMBERS = (
+    ("settling, median [ms]", "settled_median_s", "settled", 1e3, 1),
+    ("swing, median [um]", "swing_median_m", "swing", 1e6, 2),
+    ("noise of the command, median [mN]", "noise_median_N", "noise", 1e3, 1),
+    ("swing, worst [um]", "swing_worst_m", "", 1e6, 1),
+    ("presses that settle [1]", "settled", "", 1, 0),
+    ("least energy [mJ]", "least_energy_J", "", 1e3, 1),
+    ("logs with a broken constraint [1]", "logs_with_broken_constraint", "", 1, 0),
+    ("Kp, median [1]", "kp_median", "", 1, 4),
+    ("Kd, median [ms]", "kd_median_s", "", 1e3, 3),
+)
 
 
 def gains_rows(cases: Sequence[GainsCase | Refused]) -> list[dict[str, Any]]:
@@ -34,8 +48,35 @@ def gains_rows(cases: Sequence[GainsCase | Refused]) -> list[dict[str, Any]]:
                 row = {"law": law, "over": over, "gains": kind, **_numbers(group, kind)}
                 if kind == "chosen":
                     row |= _against_default(group)
-                rows.append(row | ({"logs_refused": refused} if over == "all" else {}))
+                rows.append(row | {"logs_refused": refused})
     return rows
+
+
+def side_by_side(rows: Sequence[Mapping[str, Any]]) -> list[list[str]]:
+    """Return heading and cells of `gains_rows`, a line for each number, units in the first column of it.
+
+    A number that is None, as JSON has it, is one that is not finite.
+    """
+    heading = ["law", "logs", "presses [1]", "number", "default", "chosen"]
+    heading += [f"{how} [1]" for how in HOW]
+    pairs: dict[tuple[str, str], dict[str, Mapping[str, Any]]] = {}
+    for row in rows:
+        pairs.setdefault((row["law"], row["over"]), {})[row["gains"]] = row
+    lines = [heading]
+    for (law, over), pair in pairs.items():
+        default, chosen = pair["default"], pair["chosen"]
+        first = [law, f"{over} ({default['logs']})", str(default["presses"])]
+        for text, name, measure, scale, digits in NUMBERS if over == "all" else NUMBERS[:3]:
+            values = [written(row[name], scale, digits) for row in (default, chosen)]
+            counts = [str(chosen[f"{measure}_{how}"]) if measure else "" for how in HOW]
+            lines.append([*first, text, *values, *counts])
+            first = ["", "", ""]
+    return lines
+
+
+def written(value: float | None, scale: float, digits: int) -> str:
+    """Return a number as a table has it; "never" for a time without end."""
+    return f"{scale * value:.{digits}f}" if value is not None and np.isfinite(value) else "never"
 
 
 def compare(chosen: Values, default: Values, scatter: Values, finest: float) -> dict[str, int]:
@@ -48,7 +89,7 @@ def compare(chosen: Values, default: Values, scatter: Values, finest: float) -> 
         apart = chosen - default
     within = np.maximum(np.nan_to_num(scatter, nan=0.0, posinf=0.0), finest) * (1 + 1e-9)
     better, worse = int((apart < -within).sum()), int((apart > within).sum())
-    return {"better": better, "equal": len(apart) - better - worse, "worse": worse}
+    return dict(zip(HOW, (better, len(apart) - better - worse, worse), strict=True))
 
 
 def _side(case: GainsCase) -> str:
@@ -60,7 +101,7 @@ def _column(presses: Sequence[Presses], name: str) -> Values:
 
 
 def _against_default(cases: Sequence[GainsCase]) -> dict[str, int]:
-    out = {}
+    out: dict[str, int] = {}
     for name in MEASURES:
         chosen, default = (
             _column([getattr(c, kind) for c in cases], name) for kind in ("chosen", "default")

@@ -143,10 +143,14 @@ def ratios(presses: Presses, base: Presses, scenario: Scenario) -> dict[str, flo
 
 
 def allowances(base: Presses, scenario: Scenario) -> dict[str, float]:
-    """Return by what share each number may be longer or larger and still be called equal: one tick, one percent."""
-    settled = np.minimum(base.settled, scenario.seconds)
-    tick = scenario.timing.dt / float(np.exp(np.mean(np.log(settled + scenario.timing.dt))))
-    return {"settling": tick, "swing": ALIKE, "noise": ALIKE}
+    """Return by what share each number may be longer or larger and still be called equal.
+
+    Half a tick, since a settling time is a whole number of them; of swing and noise one percent.
+    """
+    tick = scenario.timing.dt
+    settled = np.minimum(base.settled, scenario.seconds) + tick
+    half = 0.5 * tick / float(np.exp(np.mean(np.log(settled))))
+    return {"settling": half, "swing": ALIKE, "noise": ALIKE}
 
 
 def cost(over: dict[str, float], alike: dict[str, float]) -> float:
