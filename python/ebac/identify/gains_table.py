@@ -53,7 +53,7 @@ def gains_rows(cases: Sequence[GainsCase | Refused]) -> list[dict[str, Any]]:
 
 
 def side_by_side(rows: Sequence[Mapping[str, Any]]) -> list[list[str]]:
-    """Return heading and cells of `gains_rows`, a line for each number, units in the first column of it.
+    """Return heading and cells of `gains_rows`: a line for each number, its unit beside its name.
 
     A number that is None, as JSON has it, is one that is not finite.
     """
@@ -65,6 +65,8 @@ def side_by_side(rows: Sequence[Mapping[str, Any]]) -> list[list[str]]:
     lines = [heading]
     for (law, over), pair in pairs.items():
         default, chosen = pair["default"], pair["chosen"]
+        if over != "all" and default["logs"] == pairs[law, "all"]["default"]["logs"]:
+            continue  # the same once more
         first = [law, f"{over} ({default['logs']})", str(default["presses"])]
         for text, name, measure, scale, digits in NUMBERS if over == "all" else NUMBERS[:3]:
             values = [written(row[name], scale, digits) for row in (default, chosen)]
