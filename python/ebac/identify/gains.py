@@ -20,7 +20,11 @@ DEPTHS = (DEPTH, 0.5 * DEPTH)
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class GainsResult:
-    """Gains chosen on a loop; `result.law` runs in any `Scenario`."""
+    """Gains chosen on a loop; `result.law` runs in any `Scenario`.
+
+    `turned_down` is the largest share of the default gains that keeps all constraints with something to spare, in
+    tenths; None where the default itself does, or no share of it.
+    """
 
     loop: LoopModel
     name: str
@@ -28,6 +32,7 @@ class GainsResult:
     limits: Limits
     chosen: Candidate
     default: Candidate
+    turned_down: Candidate | None
     rules: tuple[Candidate, ...]
     tried: tuple[Candidate, ...]
 
@@ -151,7 +156,7 @@ def fit_gains(
         for j, depth in enumerate(DEPTHS)
     )
     search = GainsSearch(law, scenarios, loop, limits or Limits(), threads, progress, evaluations)
-    default, rules, chosen = search.run()
+    default, turned_down, rules, chosen = search.run()
     return GainsResult(
         loop=loop,
         name=law,
@@ -159,6 +164,7 @@ def fit_gains(
         limits=search.limits,
         chosen=chosen,
         default=default,
+        turned_down=turned_down,
         rules=rules,
         tried=tuple(search.tried),
     )

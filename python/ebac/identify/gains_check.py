@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from ebac._core import Hand
 from ebac.identify.cases import Case, draw
 from ebac.identify.gains import GainsResult, fit_gains
-from ebac.identify.gains_trial import broken
+from ebac.identify.gains_trial import Candidate, broken
 from ebac.identify.loop import LoopModel, fit_loop
 from ebac.identify.presses import Presses, run_presses
 from ebac.identify.recording import Recording
@@ -44,12 +44,14 @@ class GainsCase:
     result: GainsResult
     default: Presses
     chosen: Presses
+    turned_down: Presses | None
     scatter: dict[str, Values]
 
-    def broken(self, presses: Presses) -> tuple[str, ...]:
-        """Return which constraints of the choice these presses break."""
-        candidate = self.result.chosen if presses is self.chosen else self.result.default
-        return broken(presses, candidate.noise_gain, self.result.limits)
+    def broken(self, kind: str) -> tuple[str, ...]:
+        """Return which constraints of the choice are broken by its presses, the default's, or what is left of that."""
+        return broken(
+            getattr(self, kind), getattr(self.result, kind).noise_gain, self.result.limits
+        )
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -149,16 +151,19 @@ def _choose(
         result = fit_gains(loop, law, evaluations=evaluations)
     except ValueError as error:
         return Refused(case=case.number, law=law, why=str(error))
-    presses = [
-        run_presses(others, law, {"kp": c.kp, "kd": c.kd}) for c in (result.default, result.chosen)
-    ]
+
+    def press(gains: Candidate) -> Presses:
+        return run_presses(others, law, {"kp": gains.kp, "kd": gains.kd})
+
+    default, less = press(result.default), result.turned_down
     return GainsCase(
         case=case.number,
         law=law,
         result=result,
-        default=presses[0],
-        chosen=presses[1],
-        scatter=_scatter(others, law, result, presses[0]),
+        default=default,
+        chosen=press(result.chosen),
+        turned_down=press(less) if less is not None else None,
+        scatter=_scatter(others, law, result, default),
     )
 
 

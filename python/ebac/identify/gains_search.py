@@ -22,7 +22,9 @@ Values = NDArray[np.float64]
 LARGEST = {"kp": 2.0, "kd": 0.01}
 #: First looks, as shares of the largest gains; squared, since small gains matter most.
 LOOKS = (0.0, 0.25, 0.5, 0.75, 0.95)
-#: COBYLA starts from the default gains, and from so many of the best looks.
+#: Where the default gains break a constraint, shares of them down to the first that keeps all.
+SHARES = (0.9, 0.8, 0.7, 0.6, 0.5, 0.4, 0.3, 0.2, 0.1)
+#: COBYLA starts from the default gains or what is left of them, and from so many of the best looks.
 STARTS = 2
 #: How much deeper than the default gains others may go, where no limit is given.
 SLACK = 1.25
@@ -60,7 +62,7 @@ class GainsSearch:
         self.base = base
         self.tried: list[Candidate] = []
         self.tell = progress or (lambda done, of: None)
-        self.most = len(LOOKS) ** 2 + evaluations + len(RULES) + 1  # at most
+        self.most = len(LOOKS) ** 2 + evaluations + len(RULES) + len(SHARES) + 1  # at most
 
     def judge(self, name: str, kp: float, kd: float) -> Candidate:
         """Measure one pair, and keep it."""
@@ -69,8 +71,8 @@ class GainsSearch:
         self.tell(len(self.tried), self.most)
         return found
 
-    def run(self) -> tuple[Candidate, tuple[Candidate, ...], Candidate]:
-        """Return default, rules and choice.
+    def run(self) -> tuple[Candidate, Candidate | None, tuple[Candidate, ...], Candidate]:
+        """Return default, what is left of it where it breaks a constraint, rules and choice.
 
         Raises
         ------
@@ -78,6 +80,7 @@ class GainsSearch:
             When no pair keeps the constraints.
         """
         default = self.judge("default", self.kp, self.kd)
+        turned = self._turned_down(default)
         device, timing = self.loop.device, self.loop.timing
         rules = []
         for name in RULES:
@@ -88,7 +91,7 @@ class GainsSearch:
                 kp, kd = (np.array([a, b]) ** 2 * self.largest).tolist()
                 if noise_gain(kp, kd, self.filter, timing.dt) <= self.limits.noise_gain:
                     self.judge("look", kp, kd)
-        for start in (default, *sorted(self.tried, key=_merit)[:STARTS]):
+        for start in (turned or default, *sorted(self.tried, key=_merit)[:STARTS]):
             self._descend(start)
         best = min(self.tried, key=_merit)
         if best.broken:
@@ -98,7 +101,17 @@ class GainsSearch:
                 "another law"
             )
         chosen = Candidate(**{**vars(best), "name": "chosen"})
-        return default, tuple(rules), chosen
+        return default, turned, tuple(rules), chosen
+
+    def _turned_down(self, default: Candidate) -> Candidate | None:
+        """Return the largest share of the default that keeps all constraints; None where all of it or none does."""
+        if not (default.broken or default.close):
+            return None
+        for share in SHARES:
+            found = self.judge("turned down", share * self.kp, share * self.kd)
+            if not (found.broken or found.close):
+                return found
+        return None
 
     def _descend(self, start: Candidate) -> None:
         import nlopt

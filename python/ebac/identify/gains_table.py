@@ -15,9 +15,9 @@ Values = NDArray[np.float64]
 
 #: Nothing finer is told apart: one tick [s], a micrometre, a millinewton.
 FINEST = {"settled": 1e-3, "swing": 1e-6, "noise": 1e-3}
-#: Over which logs: all, those whose held-out presses keep all constraints under the default gains, and the others.
-OVER = ("all", "default keeps", "default breaks")
-
+#: Over which logs: all, those whose held-out presses keep all constraints under the default gains, and the others; at
+#: last those whose default had to be turned down for the presses it was chosen on, and that in place of the default.
+OVER = ("all", "default keeps", "default breaks", "default turned down")
 HOW = ("better", "equal", "worse")
 #: What a table shows: its words, the name in a row, what is compared press by press, scale and digits.
 NUMBERS = (
@@ -43,11 +43,13 @@ def gains_rows(cases: Sequence[GainsCase | Refused]) -> list[dict[str, Any]]:
         mine = [c for c in cases if isinstance(c, GainsCase) and c.law == law]
         refused = sum(isinstance(c, Refused) and c.law == law for c in cases)
         for over in OVER:
-            group = [c for c in mine if over in ("all", _side(c))]
-            for kind in ("default", "chosen") if group else ():
-                row = {"law": law, "over": over, "gains": kind, **_numbers(group, kind)}
+            base = "turned_down" if over == OVER[-1] else "default"
+            group = [c for c in mine if over in ("all", *_sides(c))]
+            for kind in (base, "chosen") if group else ():
+                name = "chosen" if kind == "chosen" else "default"
+                row = {"law": law, "over": over, "gains": name, **_numbers(group, kind)}
                 if kind == "chosen":
-                    row |= _against_default(group)
+                    row |= _against(group, base)
                 rows.append(row | {"logs_refused": refused})
     return rows
 
@@ -65,7 +67,7 @@ def side_by_side(rows: Sequence[Mapping[str, Any]]) -> list[list[str]]:
     lines = [heading]
     for (law, over), pair in pairs.items():
         default, chosen = pair["default"], pair["chosen"]
-        if over != "all" and default["logs"] == pairs[law, "all"]["default"]["logs"]:
+        if over in OVER[1:3] and default["logs"] == pairs[law, "all"]["default"]["logs"]:
             continue  # the same once more
         first = [law, f"{over} ({default['logs']})", str(default["presses"])]
         for text, name, measure, scale, digits in NUMBERS if over == "all" else NUMBERS[:3]:
@@ -94,19 +96,20 @@ def compare(chosen: Values, default: Values, scatter: Values, finest: float) -> 
     return dict(zip(HOW, (better, len(apart) - better - worse, worse), strict=True))
 
 
-def _side(case: GainsCase) -> str:
-    return "default breaks" if case.broken(case.default) else "default keeps"
+def _sides(case: GainsCase) -> tuple[str, ...]:
+    side = "default breaks" if case.broken("default") else "default keeps"
+    return (side,) if case.turned_down is None else (side, "default turned down")
 
 
 def _column(presses: Sequence[Presses], name: str) -> Values:
     return np.concatenate([p.settled if name == "settled" else p.columns[name] for p in presses])
 
 
-def _against_default(cases: Sequence[GainsCase]) -> dict[str, int]:
+def _against(cases: Sequence[GainsCase], base: str) -> dict[str, int]:
     out: dict[str, int] = {}
     for name in MEASURES:
         chosen, default = (
-            _column([getattr(c, kind) for c in cases], name) for kind in ("chosen", "default")
+            _column([getattr(c, kind) for c in cases], name) for kind in ("chosen", base)
         )
         scatter = np.concatenate([c.scatter[name] for c in cases])
         found = compare(chosen, default, scatter, FINEST[name])
@@ -117,7 +120,7 @@ def _against_default(cases: Sequence[GainsCase]) -> dict[str, int]:
 def _numbers(cases: Sequence[GainsCase], kind: str) -> dict[str, Any]:
     presses: list[Presses] = [getattr(c, kind) for c in cases]
     gains = [getattr(c.result, kind) for c in cases]
-    breaks = [c.broken(p) for c, p in zip(cases, presses, strict=True)]
+    breaks = [c.broken(kind) for c in cases]
     settled, swing = _column(presses, "settled"), _column(presses, "swing")
     return {
         "kp_median": float(np.median([g.kp for g in gains])),
