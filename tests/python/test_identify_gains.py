@@ -67,13 +67,27 @@ def test_the_choice_keeps_all_and_costs_less(chosen) -> None:
 @pytest.mark.parametrize("law", ["ebac", "tca-damped"])
 def test_nothing_of_a_sound_default_is_given_back(loop, law: str) -> None:
     """Of defaults that keep all constraints: settling, swing and noise are each no worse."""
-    found = fit_gains(loop, law, limits=Limits(energy=0.2), evaluations=15)
+    found = fit_gains(loop, law, limits=Limits(energy=0.2), evaluations=6)
+    assert found.turned_down is None
     assert found.default.broken == ()
     assert not found.default.close
     alike = allowances(found.default.presses, loop.scenario)
     assert all(found.chosen.ratios[name] <= 1 + a for name, a in alike.items())
     assert found.chosen.cost <= found.default.cost == pytest.approx(1.0)
     assert set(found.default.ratios.values()) == {1.0}
+
+
+def test_a_default_that_breaks_a_constraint_is_turned_down(loop) -> None:
+    """The choice costs no more than what is left of it."""
+    found = fit_gains(loop, "tca-damped", evaluations=6)
+    less = found.turned_down
+    assert found.default.broken == ("energy",)
+    assert less is not None
+    assert not less.broken
+    assert not less.close
+    assert 0 < less.kp < found.default.kp
+    assert found.chosen.cost <= less.cost
+    assert found.chosen.broken == ()
 
 
 def test_other_hands_find_something_to_spare(chosen) -> None:
@@ -237,7 +251,8 @@ def test_chosen_gains_beat_the_default_on_held_out_hands() -> None:
     for name in MEASURES:
         assert chosen[f"{name}_better"] > chosen[f"{name}_worse"]
         assert sum(chosen[f"{name}_{how}"] for how in HOW) == chosen["presses"]
-    assert sum(r["presses"] for r in rows) == 2 * (default["presses"] + chosen["presses"])  # groups
+    sides = [r for r in rows if r["over"] in ("default keeps", "default breaks")]
+    assert sum(r["presses"] for r in sides) == default["presses"] + chosen["presses"]
     with pytest.raises(ValueError, match="logs = 0: must be at least 1"):
         check_gains(0)
     heading, *lines = side_by_side(json.loads(json.dumps(rows)))
