@@ -5,12 +5,14 @@ from __future__ import annotations
 from printed import Printed, Row, code, table
 
 from ebac.identify.gains_check import LAWS
-from ebac.identify.gains_table import HOW, NUMBERS, side_by_side, written
+from ebac.identify.gains_table import HOW, NUMBERS, OVER, side_by_side, written
 
 #: The doubts within a tick were set on seeds 1 to 3; what is shown is none of these.
 ARM, DEVICE = "identify check arm --logs 200 --seed 4", "identify check device --logs 200 --seed 4"
 GAINS_LOGS, GAINS_SEEDS = "identify check gains --logs 10 --seed", (1, 2, 3, 4, 5)
 GAINS = f"{GAINS_LOGS} 4"
+#: Groups of logs that the table of seeds shows; the default of `ebac` keeps all constraints in all of them.
+SHOWN = {"tca": OVER[:2], "tca-damped": OVER, "ebac": OVER[:1]}
 
 
 def share(value: float | None) -> str:
@@ -68,14 +70,13 @@ def gains_by_seed(printed: Printed) -> str:
     heads.append("logs with a broken constraint [1]")
     found = []
     for seed in GAINS_SEEDS:
-        rows = [r for r in printed.rows(f"{GAINS_LOGS} {seed}") if r["over"] == "all"]
-        found += [(seed, *pair) for pair in zip(rows[::2], rows[1::2], strict=True)]
-    found.sort(
-        key=lambda each: [each[1]["law"] != name for name in LAWS]
-    )  # stable: seeds stay in order
+        rows = printed.rows(f"{GAINS_LOGS} {seed}")
+        pairs = zip(rows[::2], rows[1::2], strict=True)
+        found += [(seed, *pair) for pair in pairs if pair[0]["over"] in SHOWN[pair[0]["law"]]]
+    found.sort(key=lambda each: (LAWS.index(each[1]["law"]), OVER.index(each[1]["over"])))
     lines = []
     for seed, default, chosen in found:
-        line = [code(chosen["law"]), str(seed), str(chosen["logs"])]
+        line = [code(chosen["law"]), str(seed), f"{chosen['over']} ({chosen['logs']})"]
         for _, name, measure, scale, digits in NUMBERS[:3]:
             line += [
                 " to ".join(written(row[name], scale, digits) for row in (default, chosen)),
