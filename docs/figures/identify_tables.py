@@ -67,7 +67,7 @@ def gains_by_seed(printed: Printed) -> str:
     heads = ["law", "seed", "logs"]
     for text, *_ in NUMBERS[:3]:
         heads += [text, "better / equal / worse [1]"]
-    heads.append("logs with a broken constraint [1]")
+    heads.append("logs that break a constraint [1]")
     found = []
     for seed in GAINS_SEEDS:
         rows = printed.rows(f"{GAINS_LOGS} {seed}")

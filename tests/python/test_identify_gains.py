@@ -290,3 +290,23 @@ def test_the_command_refuses_a_law_without_force_loop(tmp_path: Path, trace: eba
     )
     assert run.exit_code == 2
     assert "has no force loop" in " ".join(run.stderr.split())
+
+
+def test_the_check_shows_units_and_gives_plain_numbers(monkeypatch: pytest.MonkeyPatch) -> None:
+    cases = check_gains(1, seed=4, evaluations=3)
+    monkeypatch.setattr("ebac.identify.gains_check.check_gains", lambda *_, **__: cases)
+    monkeypatch.setenv("COLUMNS", "110")
+    run = CliRunner().invoke(app, ["identify", "check", "gains", "--logs", "1", "--seed", "4"])
+    assert run.exit_code == 0, run.output
+    for unit in (
+        "settling, median [ms]",
+        "swing, median [um]",
+        "[mJ]",
+        "worse [1]",
+        "noise, median [mN]",
+    ):
+        assert unit in run.stdout
+    run = CliRunner().invoke(app, ["identify", "check", "gains", "--json"])
+    rows = json.loads(run.stdout)["rows"]
+    assert {r["law"] for r in rows} == {"tca", "tca-damped", "ebac"}
+    assert all(("settled_worse" in r) == (r["gains"] == "chosen") for r in rows)

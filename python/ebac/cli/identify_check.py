@@ -124,6 +124,8 @@ def _say_arm(found: Check, more: dict[str, Any]) -> None:
 
 
 def _gains(logs: int, seed: int, as_json: bool) -> None:
+    from rich.markup import escape
+
     from ebac.identify.gains_check import LAWS, check_gains
     from ebac.identify.gains_table import gains_rows, side_by_side
 
@@ -134,8 +136,8 @@ def _gains(logs: int, seed: int, as_json: bool) -> None:
     if as_json:
         typer.echo(output.document("identify check", rows, what="gains", logs=logs, seed=seed))
         return
-    heading, *lines = side_by_side(rows)
-    grid = output.table(heading, numbers=(2, 4, 5, 6, 7, 8))
+    heading, *lines = ([escape(cell) for cell in line] for line in side_by_side(rows))
+    grid = output.table(heading, numbers=(3, 4, 5))
     for line in lines:
         grid.add_row(*line)
     output.console().print(grid)

@@ -23,11 +23,11 @@ HOW = ("better", "equal", "worse")
 NUMBERS = (
     ("settling, median [ms]", "settled_median_s", "settled", 1e3, 1),
     ("swing, median [um]", "swing_median_m", "swing", 1e6, 2),
-    ("noise of the command, median [mN]", "noise_median_N", "noise", 1e3, 1),
+    ("noise, median [mN]", "noise_median_N", "noise", 1e3, 1),
     ("swing, worst [um]", "swing_worst_m", "", 1e6, 1),
-    ("presses that settle [1]", "settled", "", 1, 0),
+    ("settled presses [1]", "settled", "", 1, 0),
     ("least energy [mJ]", "least_energy_J", "", 1e3, 1),
-    ("logs with a broken constraint [1]", "logs_with_broken_constraint", "", 1, 0),
+    ("logs that break [1]", "logs_with_broken_constraint", "", 1, 0),
     ("Kp, median [1]", "kp_median", "", 1, 4),
     ("Kd, median [ms]", "kd_median_s", "", 1e3, 3),
 )
@@ -59,8 +59,14 @@ def side_by_side(rows: Sequence[Mapping[str, Any]]) -> list[list[str]]:
 
     A number that is None, as JSON has it, is one that is not finite.
     """
-    heading = ["law", "logs", "presses [1]", "number", "default", "chosen"]
-    heading += [f"{how} [1]" for how in HOW]
+    heading = [
+        "law",
+        "logs, presses [1]",
+        "number",
+        "default",
+        "chosen",
+        "better / equal / worse [1]",
+    ]
     pairs: dict[tuple[str, str], dict[str, Mapping[str, Any]]] = {}
     for row in rows:
         pairs.setdefault((row["law"], row["over"]), {})[row["gains"]] = row
@@ -69,12 +75,12 @@ def side_by_side(rows: Sequence[Mapping[str, Any]]) -> list[list[str]]:
         default, chosen = pair["default"], pair["chosen"]
         if over in OVER[1:3] and default["logs"] == pairs[law, "all"]["default"]["logs"]:
             continue  # the same once more
-        first = [law, f"{over} ({default['logs']})", str(default["presses"])]
+        first = [law, f"{over}: {default['logs']}, {default['presses']}"]
         for text, name, measure, scale, digits in NUMBERS if over == "all" else NUMBERS[:3]:
             values = [written(row[name], scale, digits) for row in (default, chosen)]
-            counts = [str(chosen[f"{measure}_{how}"]) if measure else "" for how in HOW]
-            lines.append([*first, text, *values, *counts])
-            first = ["", "", ""]
+            counts = " / ".join(str(chosen[f"{measure}_{how}"]) for how in HOW) if measure else ""
+            lines.append([*first, text, *values, counts])
+            first = ["", ""]
     return lines
 
 
