@@ -6,9 +6,15 @@ from math import sqrt
 
 from printed import Printed, Row, code, table
 
+from ebac.identify.gains_check import LAWS
+from ebac.identify.gains_table import HOW, NUMBERS, OVER, side_by_side, written
+
 #: The doubts within a tick were set on seeds 1 to 3; what is shown is none of these.
 ARM, DEVICE = "identify check arm --logs 200 --seed 4", "identify check device --logs 200 --seed 4"
-GAINS = "identify check gains --logs 10 --seed 4"
+GAINS_LOGS, GAINS_SEEDS = "identify check gains --logs 10 --seed", (1, 2, 3, 4, 5)
+GAINS = f"{GAINS_LOGS} 4"
+#: Groups of logs that the table of seeds shows; the default of `ebac` keeps all constraints in all of them.
+SHOWN = {"tca": OVER[:2], "tca-damped": OVER, "ebac": OVER[:1]}
 
 
 def share(value: float | None) -> str:
@@ -64,23 +70,30 @@ def device(printed: Printed) -> str:
 
 def gains(printed: Printed) -> str:
     """Gains chosen from ten logs, on hands that were held out."""
-    heads = ["law", "gains", "Kp", "Kd", "settle", "median", "swing, worst", "noise of the command", "least energy",
-             "logs with a broken constraint"]  # fmt: skip
-    rows = []
-    for row in printed.rows(GAINS):
-        median = row["settled_median_s"]
-        rows.append(
-            [
-                code(row["law"]),
-                row["gains"],
-                f"{row['kp_median']:.2g}",
-                f"{1e3 * row['kd_median_s']:.3f} ms",
-                f"{row['settled']} of {row['presses']}",
-                "never" if median is None else f"{median:.3f} s",
-                f"{1e3 * row['swing_worst_m']:.3f} mm",
-                f"{1e3 * row['noise_median_N']:.1f} mN",
-                f"{1e3 * row['least_energy_J']:.1f} mJ",
-                f"{row['logs_with_broken_constraint']} of {row['logs']}",
+    heads, *lines = side_by_side(printed.rows(GAINS))
+    return table(heads, [[code(line[0]) if line[0] else "", *line[1:]] for line in lines])
+
+
+def gains_by_seed(printed: Printed) -> str:
+    """The same for five seeds, the medians and what is broken."""
+    heads = ["law", "seed", "logs"]
+    for text, *_ in NUMBERS[:3]:
+        heads += [text, "better / equal / worse [1]"]
+    heads.append("logs that break a constraint [1]")
+    found = []
+    for seed in GAINS_SEEDS:
+        rows = printed.rows(f"{GAINS_LOGS} {seed}")
+        pairs = zip(rows[::2], rows[1::2], strict=True)
+        found += [(seed, *pair) for pair in pairs if pair[0]["over"] in SHOWN[pair[0]["law"]]]
+    found.sort(key=lambda each: (LAWS.index(each[1]["law"]), OVER.index(each[1]["over"])))
+    lines = []
+    for seed, default, chosen in found:
+        line = [code(chosen["law"]), str(seed), f"{chosen['over']} ({chosen['logs']})"]
+        for _, name, measure, scale, digits in NUMBERS[:3]:
+            line += [
+                " to ".join(written(row[name], scale, digits) for row in (default, chosen)),
+                " / ".join(str(chosen[f"{measure}_{how}"]) for how in HOW),
             ]
-        )
-    return table(heads, rows)
+        broken = [str(row["logs_with_broken_constraint"]) for row in (default, chosen)]
+        lines.append([*line, " to ".join(broken)])
+    return table(heads, lines)

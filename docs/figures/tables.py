@@ -44,6 +44,7 @@ TABLES: dict[str, Callable[[Printed], str]] = {
     "identify-device": identified.device,
     "identify-gains": identified.gains,
     "outliers": tracked.outliers,
+    "identify-gains-seeds": identified.gains_by_seed,
     "speed": laws.speed,
 }
 #: Left out unless asked for: what they say depends on what else the machine does.

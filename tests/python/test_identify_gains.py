@@ -12,7 +12,9 @@ from typer.testing import CliRunner
 import ebac
 from ebac.cli import app
 from ebac.identify import Limits, Recording, Target, fit_gains, fit_loop
-from ebac.identify.gains_check import check_gains, gains_rows
+from ebac.identify.gains_check import MEASURES, check_gains
+from ebac.identify.gains_table import HOW, compare, gains_rows, side_by_side
+from ebac.identify.gains_trial import ALIKE, allowances, cost, spare
 from ebac.identify.presses import arms_around, force_loop_laws, noise_gain, run_presses
 from ebac.identify.rules import blocked_step, by_rule, by_tangent
 
@@ -62,6 +64,42 @@ def test_the_choice_keeps_all_and_costs_less(chosen) -> None:
     assert numbers["least_energy_J"] >= -chosen.limits.energy
 
 
+@pytest.mark.parametrize("law", ["ebac", "tca-damped"])
+def test_nothing_of_a_sound_default_is_given_back(loop, law: str) -> None:
+    """Of defaults that keep all constraints: settling, swing and noise are each no worse."""
+    found = fit_gains(loop, law, limits=Limits(energy=0.2), evaluations=6)
+    assert found.turned_down is None
+    assert found.default.broken == ()
+    assert not found.default.close
+    alike = allowances(found.default.presses, loop.scenario)
+    assert all(found.chosen.ratios[name] <= 1 + a for name, a in alike.items())
+    assert found.chosen.cost <= found.default.cost == pytest.approx(1.0)
+    assert set(found.default.ratios.values()) == {1.0}
+
+
+def test_a_default_that_breaks_a_constraint_is_turned_down(loop) -> None:
+    """The choice costs no more than what is left of it."""
+    found = fit_gains(loop, "tca-damped", evaluations=6)
+    less = found.turned_down
+    assert found.default.broken == ("energy",)
+    assert less is not None
+    assert not less.broken
+    assert not less.close
+    assert 0 < less.kp < found.default.kp
+    assert found.chosen.cost <= less.cost
+    assert found.chosen.broken == ()
+
+
+def test_other_hands_find_something_to_spare(chosen) -> None:
+    c = chosen.chosen
+    assert not c.close
+    numbers, limits = c.presses.numbers(), chosen.limits
+    assert numbers["overshoot_worst_m"] <= 0.9 * limits.overshoot * (1 + 1e-6)
+    assert numbers["least_energy_J"] >= -0.9 * limits.energy * (1 + 1e-6)
+    none = Limits(energy=0.0)  # of nothing, nothing can be spared
+    assert spare(c.presses, 0.1, none)["energy"] == pytest.approx(-numbers["least_energy_J"] / 1e-6)
+
+
 def test_the_law_runs_in_a_scenario(chosen) -> None:
     contact = ebac.contact(ebac.simulate(chosen.scenario, chosen.law))
     assert contact.settled_s is not None
@@ -108,6 +146,22 @@ def test_a_hand_that_is_not_told_has_no_gains() -> None:
 
 
 # --- pieces ---
+
+RATIOS = st.dictionaries(
+    st.sampled_from(["settling", "swing", "noise"]), st.floats(0.01, 5), min_size=3, max_size=3
+)
+
+
+@given(over=RATIOS, name=st.sampled_from(["settling", "swing", "noise"]), less=st.floats(0.1, 0.99))
+def test_a_cost_pays_no_loss_with_a_gain(over: dict, name: str, less: float) -> None:
+    alike = {"settling": 0.005, "swing": ALIKE, "noise": ALIKE}
+    assert cost(dict.fromkeys(alike, 1.0), alike) == pytest.approx(1.0)
+    found = cost(over, alike)
+    assert found > 0
+    lost = any(over[n] >= 1 + a for n, a in alike.items())
+    assert lost == (found >= cost({n: 1 + a for n, a in alike.items()}, alike))
+    assert cost({**over, name: less * over[name]}, alike) <= found
+    assert cost({**over, name: float("nan")}, alike) > 100
 
 
 def test_the_laws_with_a_force_loop() -> None:
@@ -188,14 +242,29 @@ def test_the_rule_and_its_step_response() -> None:
 
 
 def test_chosen_gains_beat_the_default_on_held_out_hands() -> None:
-    cases = check_gains(2, seed=1, laws=("tca",))
-    default, chosen = gains_rows(cases)
+    rows = gains_rows(check_gains(2, seed=1, laws=("tca",), evaluations=6))
+    default, chosen = (row for row in rows if row["over"] == "all")
     assert chosen["settled"] > default["settled"]
     assert chosen["swing_worst_m"] < default["swing_worst_m"]
     assert chosen["noise_median_N"] < default["noise_median_N"]
     assert chosen["logs_with_broken_constraint"] == 0
+    for name in MEASURES:
+        assert chosen[f"{name}_better"] > chosen[f"{name}_worse"]
+        assert sum(chosen[f"{name}_{how}"] for how in HOW) == chosen["presses"]
+    sides = [r for r in rows if r["over"] in ("default keeps", "default breaks")]
+    assert sum(r["presses"] for r in sides) == default["presses"] + chosen["presses"]
     with pytest.raises(ValueError, match="logs = 0: must be at least 1"):
         check_gains(0)
+    heading, *lines = side_by_side(json.loads(json.dumps(rows)))
+    assert {len(line) for line in lines} == {len(heading)}
+
+
+def test_equal_is_what_noise_changes_and_never_is_never() -> None:
+    inf = np.inf
+    default = np.array([1.0, 1.0, 1.0, 1.0, inf, inf, 1.0])
+    chosen = np.array([0.9, 1.1, 1.02, 0.999, inf, 1.0, inf])
+    scatter = np.array([0.0, 0.05, 0.05, 0.0, np.nan, np.nan, np.nan])
+    assert compare(chosen, default, scatter, 1e-3) == {"better": 2, "equal": 3, "worse": 2}
 
 
 def test_the_command_writes_a_report_and_json(tmp_path: Path, trace: ebac.Trace) -> None:
@@ -221,3 +290,23 @@ def test_the_command_refuses_a_law_without_force_loop(tmp_path: Path, trace: eba
     )
     assert run.exit_code == 2
     assert "has no force loop" in " ".join(run.stderr.split())
+
+
+def test_the_check_shows_units_and_gives_plain_numbers(monkeypatch: pytest.MonkeyPatch) -> None:
+    cases = check_gains(1, seed=4, evaluations=3)
+    monkeypatch.setattr("ebac.identify.gains_check.check_gains", lambda *_, **__: cases)
+    monkeypatch.setenv("COLUMNS", "110")
+    run = CliRunner().invoke(app, ["identify", "check", "gains", "--logs", "1", "--seed", "4"])
+    assert run.exit_code == 0, run.output
+    for unit in (
+        "settling, median [ms]",
+        "swing, median [um]",
+        "[mJ]",
+        "worse [1]",
+        "noise, median [mN]",
+    ):
+        assert unit in run.stdout
+    run = CliRunner().invoke(app, ["identify", "check", "gains", "--json"])
+    rows = json.loads(run.stdout)["rows"]
+    assert {r["law"] for r in rows} == {"tca", "tca-damped", "ebac"}
+    assert all(("settled_worse" in r) == (r["gains"] == "chosen") for r in rows)

@@ -124,7 +124,10 @@ def _say_arm(found: Check, more: dict[str, Any]) -> None:
 
 
 def _gains(logs: int, seed: int, as_json: bool) -> None:
-    from ebac.identify.gains_check import LAWS, check_gains, gains_rows
+    from rich.markup import escape
+
+    from ebac.identify.gains_check import LAWS, check_gains
+    from ebac.identify.gains_table import gains_rows, side_by_side
 
     total = logs * len(LAWS)
     with output.refusing(), output.counting("choosing", quiet=as_json) as progress:
@@ -133,29 +136,18 @@ def _gains(logs: int, seed: int, as_json: bool) -> None:
     if as_json:
         typer.echo(output.document("identify check", rows, what="gains", logs=logs, seed=seed))
         return
-    headings = ["law", "gains", "Kp", "Kd", "settle", "median", "swing, worst", "noise", "least energy",
-                "logs that break a constraint"]  # fmt: skip
-    grid = output.table(headings, numbers=tuple(range(2, 10)))
-    for row in rows:
-        median = row["settled_median_s"]
-        grid.add_row(
-            row["law"],
-            row["gains"],
-            f"{row['kp_median']:.3g}",
-            f"{1e3 * row['kd_median_s']:.3f} ms",
-            f"{row['settled']} of {row['presses']}",
-            f"{median:.3f} s" if median < 1e9 else "never",
-            f"{1e3 * row['swing_worst_m']:.3f} mm",
-            f"{1e3 * row['noise_median_N']:.1f} mN",
-            f"{1e3 * row['least_energy_J']:.1f} mJ",
-            f"{row['logs_with_broken_constraint']} of {row['logs']}"
-            + (f" ({', '.join(row['broken'])})" if row["broken"] else ""),
-        )
+    heading, *lines = ([escape(cell) for cell in line] for line in side_by_side(rows))
+    grid = output.table(heading, numbers=(3, 4, 5))
+    for line in lines:
+        grid.add_row(*line)
     output.console().print(grid)
     for law, many in {
         row["law"]: row["logs_refused"] for row in rows if row["logs_refused"]
     }.items():
         output.say(f"{law}: {many} logs refused, no pair of gains keeps the constraints.")
+    output.say(
+        "Equal: closer than another seed of the noise changes it, than a tick, a micrometre, a millinewton."
+    )
     output.say("On hands that were held out. Simulated, not measured.", style="bold")
 
 

@@ -76,9 +76,9 @@ def gains(
 ) -> None:
     """Choose K_p and K_d of eq. (2) from logged steps: identify arm, device and wall, then search.
 
-    Every pair is simulated on the identified hand, on the ends of its interval and on hands around it; the cost is
-    time-weighted error, swing and noise over what the default gains give, and no hand may break a constraint. Beside
-    it stands the paper's way, a rule on the step response. The table is a simulation.
+    Every pair is simulated on the identified hand, on the ends of its interval and on hands around it. No hand may
+    break a constraint; settling, swing and noise are taken over what the default gains give, and none of the three is
+    given back for another. Beside it stands the paper's way, a rule on the step response. The table is a simulation.
 
     **Examples**
 
@@ -149,7 +149,11 @@ def _cells(result: GainsResult) -> list[dict[str, str]]:
 def _notes(result: GainsResult) -> list[str]:
     limits = result.limits
     return [
-        f"{len(result.chosen.presses.goals)} hands, {len(result.tried)} pairs of gains. Constraints: overshoot "
+        f"{len(result.hands)} hands, {len(result.chosen.presses.goals)} presses, {len(result.tried)} pairs of gains. "
+        "Over the default, geometric mean: "
+        + ", ".join(f"{name} {value:.3f}" for name, value in result.chosen.ratios.items())
+        + ".",
+        "Constraints: overshoot "
         f"{1e3 * (limits.overshoot or 0):.2f} mm, force {limits.force:.1f} N, current {limits.current:.2f} A, "
         f"noise gain {limits.noise_gain:g}, energy {1e3 * limits.energy:g} mJ.",
         f'In Python: ebac.laws.Variant("{result.name}", {{"kp": {result.kp:.4g}, "kd": {result.kd:.4g}}})',

@@ -5,14 +5,14 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from itertools import count
-from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ebac._core import Hand
 from ebac.identify.cases import Case, draw
 from ebac.identify.gains import GainsResult, fit_gains
-from ebac.identify.gains_trial import broken
+from ebac.identify.gains_trial import Candidate, broken
 from ebac.identify.loop import LoopModel, fit_loop
 from ebac.identify.presses import Presses, run_presses
 from ebac.identify.recording import Recording
@@ -24,22 +24,34 @@ HELD_OUT, GRIP = 20, 1.3
 #: How deep they want to press [m].
 DEPTHS = (0.010, 0.030)
 LAWS = ("tca", "tca-damped", "ebac")
+#: How often each press is done to see what noise alone changes, and how far apart its seeds lie.
+REPEATS, SEEDS_APART = 5, 10_000
+#: What is compared.
+MEASURES = ("settled", "swing", "noise")
+
+Values = NDArray[np.float64]
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class GainsCase:
-    """Gains chosen from one log, and what default and choice come to on the hands that were held out."""
+    """Gains chosen from one log, and what default and choice come to on the hands that were held out.
+
+    `scatter`: by how much another seed of the noise alone changes each number of each press, under the default gains.
+    """
 
     case: int
     law: str
     result: GainsResult
     default: Presses
     chosen: Presses
+    turned_down: Presses | None
+    scatter: dict[str, Values]
 
-    def broken(self, presses: Presses) -> tuple[str, ...]:
-        """Return which constraints of the choice these presses break."""
-        candidate = self.result.chosen if presses is self.chosen else self.result.default
-        return broken(presses, candidate.noise_gain, self.result.limits)
+    def broken(self, kind: str) -> tuple[str, ...]:
+        """Return which constraints of the choice are broken by its presses, the default's, or what is left of that."""
+        return broken(
+            getattr(self, kind), getattr(self.result, kind).noise_gain, self.result.limits
+        )
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -80,6 +92,7 @@ def check_gains(
     *,
     seed: int = 1,
     laws: Sequence[str] = LAWS,
+    evaluations: int = 75,
     progress: Callable[[int], None] | None = None,
 ) -> list[GainsCase | Refused]:
     """Identify `logs` random logs of a hand that taps or tracks, choose gains for each law, press with other hands.
@@ -92,6 +105,8 @@ def check_gains(
         Of all that is drawn.
     laws : sequence of str
         Laws with the force loop of eq. (2).
+    evaluations : int
+        As for `fit_gains`.
     progress : callable, optional
         Told how many choices are made.
 
@@ -104,6 +119,8 @@ def check_gains(
 
     if logs < 1:
         raise ValueError(f"logs = {logs}: must be at least 1")
+    if evaluations < 1:
+        raise ValueError(f"evaluations = {evaluations}: must be at least 1")
     out: list[GainsCase | Refused] = []
     done = 0
     for number in count():
@@ -121,62 +138,43 @@ def check_gains(
         done += 1
         others = held_out(case, loop, seed)
         for law in laws:
-            out.append(_choose(case, law, loop, others))
+            out.append(_choose(case, law, loop, others, evaluations))
             if progress is not None:
                 progress(len(out))
     return out
 
 
-def _choose(case: Case, law: str, loop: LoopModel, others: list[Scenario]) -> GainsCase | Refused:
+def _choose(
+    case: Case, law: str, loop: LoopModel, others: list[Scenario], evaluations: int
+) -> GainsCase | Refused:
     try:
-        result = fit_gains(loop, law)
+        result = fit_gains(loop, law, evaluations=evaluations)
     except ValueError as error:
         return Refused(case=case.number, law=law, why=str(error))
-    presses = [
-        run_presses(others, law, {"kp": c.kp, "kd": c.kd}) for c in (result.default, result.chosen)
-    ]
+
+    def press(gains: Candidate) -> Presses:
+        return run_presses(others, law, {"kp": gains.kp, "kd": gains.kd})
+
+    default, less = press(result.default), result.turned_down
     return GainsCase(
-        case=case.number, law=law, result=result, default=presses[0], chosen=presses[1]
+        case=case.number,
+        law=law,
+        result=result,
+        default=default,
+        chosen=press(result.chosen),
+        turned_down=press(less) if less is not None else None,
+        scatter=_scatter(others, law, result, default),
     )
 
 
-def gains_rows(cases: Sequence[GainsCase | Refused]) -> list[dict[str, Any]]:
-    """Return a row for each law and kind of gains, over all presses that were held out.
-
-    A law of which every log was refused has no row.
-    """
-    rows = []
-    for law in dict.fromkeys(c.law for c in cases):
-        mine = [c for c in cases if isinstance(c, GainsCase) and c.law == law]
-        refused = sum(isinstance(c, Refused) and c.law == law for c in cases)
-        for kind in ("default", "chosen") if mine else ():
-            presses: list[Presses] = [getattr(c, kind) for c in mine]
-            row = _row(mine, presses)
-            rows.append({"law": law, "gains": kind, **row, "logs_refused": refused})
-    return rows
-
-
-def _row(cases: list[GainsCase], presses: list[Presses]) -> dict[str, Any]:
-    settled = np.concatenate([p.settled for p in presses])
-
-    def column(name: str) -> Any:
-        return np.concatenate([p.columns[name] for p in presses])
-
-    pairs = list(zip(cases, presses, strict=True))
-    kinds = [c.result.chosen if p is c.chosen else c.result.default for c, p in pairs]
-    return {
-        "kp_median": float(np.median([k.kp for k in kinds])),
-        "kd_median_s": float(np.median([k.kd for k in kinds])),
-        "presses": len(settled),
-        "settled": int(np.isfinite(settled).sum()),
-        "settled_median_s": float(np.median(settled)),
-        "swing_median_m": float(np.median(column("swing"))),
-        "swing_worst_m": float(np.max(column("swing"))),
-        "noise_median_N": float(np.median(column("noise"))),
-        "least_energy_J": float(np.min(column("least_energy"))),
-        "logs": len(cases),
-        "logs_with_broken_constraint": sum(
-            bool(c.broken(p)) for c, p in zip(cases, presses, strict=True)
-        ),
-        "broken": sorted({b for c, p in zip(cases, presses, strict=True) for b in c.broken(p)}),
-    }
+def _scatter(
+    others: list[Scenario], law: str, result: GainsResult, first: Presses
+) -> dict[str, Values]:
+    """Return the deviation of each number of each press over seeds of the noise; NaN where one never settles."""
+    gains = {"kp": result.default.kp, "kd": result.default.kd}
+    again = [
+        run_presses([s.replace(seed=s.seed + SEEDS_APART * i) for s in others], law, gains)
+        for i in range(1, REPEATS)
+    ]
+    runs = {name: np.array([p.columns[name] for p in (first, *again)]) for name in MEASURES}
+    return {name: np.asarray(values.std(axis=0, ddof=1)) for name, values in runs.items()}

@@ -11,6 +11,13 @@ from ebac.identify.presses import Presses, noise_gain, run_presses
 from ebac.laws import design
 from ebac.scenario import Scenario
 
+#: What overshoot and energy must stay below their limits, as a share of them.
+SPARE = 0.1
+#: Swing and noise that differ by less than this share are called equal.
+ALIKE = 0.01
+#: The cost where a press ends in a fault, or flies away.
+RUINED = 1e3
+
 
 @dataclass(frozen=True, kw_only=True)
 class Limits:
@@ -54,7 +61,11 @@ class Limits:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Candidate:
-    """One pair of gains and what it came to."""
+    """One pair of gains and what it came to.
+
+    `ratios`: settling, swing and noise over the default's, geometric mean over the presses. `close`: overshoot or
+    energy come so near their limit that another hand might break it.
+    """
 
     name: str
     kp: float
@@ -62,6 +73,8 @@ class Candidate:
     cost: float
     noise_gain: float
     broken: tuple[str, ...]
+    close: bool
+    ratios: dict[str, float]
     presses: Presses
 
     def row(self) -> dict[str, Any]:
@@ -73,6 +86,7 @@ class Candidate:
             "cost": self.cost,
             "noise_gain": self.noise_gain,
             "broken": list(self.broken),
+            **{f"{name}_ratio": value for name, value in self.ratios.items()},
             **self.presses.numbers(),
         }
 
@@ -93,32 +107,65 @@ class Trial:
     def judge(self, name: str, kp: float, kd: float, base: Presses | None = None) -> Candidate:
         """Measure gains; `base` is what the default comes to, itself when missing."""
         presses = self.measure(kp, kd)
-        first = self.scenarios[0]
+        first, base = self.scenarios[0], base or presses
         made: Any = design(self.law, first.device, first.timing)
         gain = noise_gain(kp, kd, made.filter, first.timing.dt)
+        over = ratios(presses, base, first)
         return Candidate(
             name=name,
             kp=kp,
             kd=kd,
-            cost=cost(presses, base or presses, first.device.count),
+            cost=cost(over, allowances(base, first)) if presses.whole.all() else RUINED,
             noise_gain=gain,
             broken=broken(presses, gain, self.limits),
+            close=max(spare(presses, gain, self.limits).values()) > 1e-9,
+            ratios=over,
             presses=presses,
         )
 
 
-def cost(presses: Presses, base: Presses, count: float) -> float:
-    """Return what gains cost, 1 for the default: time-weighted error, swing, noise, each over the default's.
+def ratios(presses: Presses, base: Presses, scenario: Scenario) -> dict[str, float]:
+    """Return settling, swing, noise over those of `base`: the geometric mean of all presses.
 
-    Time-weighted, since a settling time jumps where the error touches its band.
+    A press that never settles counts with the length of its run; swing counts beyond one encoder count, and noise
+    beyond a thousandth of the force, or two numbers next to nothing would decide.
     """
     c, b = presses.columns, base.columns
-    late = np.mean(c["lateness"] / np.maximum(b["lateness"], 1e-12))
-    swing = np.mean((c["swing"] + count) / (b["swing"] + count))
-    quiet = max(1e-6, 1e-3 * float(np.mean(b["most_force"])))
-    noise = np.mean((c["noise"] + quiet) / (b["noise"] + quiet))
-    total = float((late + swing + noise) / 3)
-    return total if np.isfinite(total) and presses.whole.all() else 1e3
+    count, quiet = scenario.device.count, max(1e-6, 1e-3 * float(np.mean(b["most_force"])))
+    settled, before = (np.minimum(p.settled, scenario.seconds) for p in (presses, base))
+    tick = scenario.timing.dt
+    over = {
+        "settling": (settled + tick) / (before + tick),
+        "swing": (c["swing"] + count) / (b["swing"] + count),
+        "noise": (c["noise"] + quiet) / (b["noise"] + quiet),
+    }
+    return {name: float(np.exp(np.mean(np.log(values)))) for name, values in over.items()}
+
+
+def allowances(base: Presses, scenario: Scenario) -> dict[str, float]:
+    """Return by what share each number may be longer or larger and still be called equal.
+
+    Half a tick, since a settling time is a whole number of them; of swing and noise one percent.
+    """
+    tick = scenario.timing.dt
+    settled = np.minimum(base.settled, scenario.seconds) + tick
+    half = 0.5 * tick / float(np.exp(np.mean(np.log(settled))))
+    return {"settling": half, "swing": ALIKE, "noise": ALIKE}
+
+
+def cost(over: dict[str, float], alike: dict[str, float]) -> float:
+    """Return what gains cost, 1 for the default: less where they win, and never by giving back what the default has.
+
+    What they win of settling, swing and noise is multiplied (Nash 1950): no gain in one pays for a loss in another.
+    Where something is given back, that alone counts.
+    """
+    won = np.array([(1 + a - over[name]) / (1 + a) for name, a in alike.items()])
+    start = np.prod([a / (1 + a) for a in alike.values()]) ** (1 / 3)
+    if not np.isfinite(won).all():
+        return RUINED
+    if (won > 0).all():
+        return float((1 - np.prod(won) ** (1 / 3)) / (1 - start))
+    return float(1 / (1 - start) + np.maximum(-won, 0).sum())
 
 
 def excess(presses: Presses, gain: float, limits: Limits) -> dict[str, float]:
@@ -139,6 +186,15 @@ def excess(presses: Presses, gain: float, limits: Limits) -> dict[str, float]:
     if not presses.whole.all():
         out["stability"] = 1.0
     return {k: v if np.isfinite(v) else 1.0 for k, v in out.items()}
+
+
+def spare(presses: Presses, gain: float, limits: Limits) -> dict[str, float]:
+    """Return the same with something to spare, since held-out hands are others: a tenth of overshoot and energy."""
+    out = excess(presses, gain, limits)
+    for name, limit in (("overshoot", limits.overshoot), ("energy", limits.energy)):
+        if limit:
+            out[name] += SPARE
+    return out
 
 
 def broken(presses: Presses, gain: float, limits: Limits) -> tuple[str, ...]:
