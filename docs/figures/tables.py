@@ -43,8 +43,8 @@ TABLES: dict[str, Callable[[Printed], str]] = {
     "identify-arm": identified.arm,
     "identify-device": identified.device,
     "identify-gains": identified.gains,
-    "outliers": tracked.outliers,
     "identify-gains-seeds": identified.gains_by_seed,
+    "outliers": tracked.outliers,
     "speed": laws.speed,
 }
 #: Left out unless asked for: what they say depends on what else the machine does.
