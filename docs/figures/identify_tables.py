@@ -10,7 +10,10 @@ from ebac.identify.gains_check import LAWS
 from ebac.identify.gains_table import HOW, NUMBERS, OVER, side_by_side, written
 
 #: Seeds 1 to 10 were looked at while the intervals were made; what is shown is the first of those that were not.
-ARM, DEVICE = "identify check arm --logs 200 --seed 11", "identify check device --logs 200 --seed 11"
+ARM, DEVICE = (
+    "identify check arm --logs 200 --seed 11",
+    "identify check device --logs 200 --seed 11",
+)
 GAINS_LOGS, GAINS_SEEDS = "identify check gains --logs 10 --seed", (1, 2, 3, 4, 5)
 GAINS = f"{GAINS_LOGS} 4"
 #: Groups of logs that the table of seeds shows; the default of `ebac` keeps all constraints in all of them.
