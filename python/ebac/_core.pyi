@@ -4881,7 +4881,7 @@ class Limits:
     slew : float
         fastest change of the current [A/s], 1 to 1e+09.
     speed : float
-        faster, beyond any doubt of an encoder count, is a fault [m/s], 0.001 to 100.
+        faster, over 0.9 ms and by more than an encoder count, is a fault [m/s], 0.001 to 100.
     jump : float
         a longer way in one tick is an encoder's fault [m], 1e-06 to 1.
     edge : float
@@ -4991,7 +4991,7 @@ class Limits:
     @property
     def speed(self) -> float:
         """
-        faster, beyond any doubt of an encoder count, is a fault [m/s], 0.001 to 100
+        faster, over 0.9 ms and by more than an encoder count, is a fault [m/s], 0.001 to 100
         """
     @property
     def thermal_time(self) -> float:

@@ -114,6 +114,8 @@ TEST(Gate, WhatNobodySawForSomeTicksMayHaveGoneSoMuchFurther) {
   const double radius = kDevice.radius();
   const auto jumped = [&](double share, double age) {
     Pushed p;
+    p.limits.speed = 100;
+    p.gate = Gate(p.limits, kDevice, kDt);
     p.gate.watch({}, {}, p.axes);
     Reading held;
     held.counts_age[0] = age;
@@ -127,21 +129,41 @@ TEST(Gate, WhatNobodySawForSomeTicksMayHaveGoneSoMuchFurther) {
   EXPECT_EQ(jumped(4.01, 3 * kDt), Fault::kEncoderJump);
 }
 
-/// A late tick and the next one on time are close together, above all at 10 kHz.
-TEST(Gate, ACountInAShortTickIsNoSpeed) {
-  constexpr double kShort = 15e-6;  // s
+/// Ticks of an axis that goes `pace` m/s, as whole counts: what the gate sees in any of them.
+Fault seen_at(double pace, std::initializer_list<double> ticks, const Limits& limits) {
+  Pushed p;
+  p.gate = Gate(limits, kDevice, kDt);
   const double count = kDevice.facts().count;
-  const double limit = Limits::of(kDevice).speed;
-  const auto seen_after = [&](double way, double dt) {
-    Pushed p;
-    p.axes[0].joint.dq = way / dt / kDevice.radius();
-    return p.gate.watch({}, {.dt = dt}, p.axes);
-  };
-  ASSERT_GT(count / kShort, limit);
-  EXPECT_EQ(seen_after(count, kShort), Fault::kNone);
-  EXPECT_EQ(seen_after(limit * kShort + 1.01 * count, kShort), Fault::kOverspeed);
-  EXPECT_EQ(seen_after(limit * kDt + 0.99 * count, kDt), Fault::kNone);
-  EXPECT_EQ(seen_after(limit * kDt + 1.01 * count, kDt), Fault::kOverspeed);
+  double x = 0;
+  Fault found = p.gate.watch({}, {}, p.axes);
+  for (int k = 0; k < 1000; ++k) {
+    for (const double dt : ticks) {
+      x += pace * dt;
+      p.axes[0].joint.q = std::round(x / count) * count / kDevice.radius();
+      if (std::abs(x) > 0.9 * limits.edge) return found;
+      if (found == Fault::kNone) found = p.gate.watch({}, {.dt = dt}, p.axes);
+    }
+  }
+  return found;
+}
+
+TEST(Gate, JudgesSpeedAtAnyRateAndThroughShortTicks) {
+  Limits limits = Limits::of(kDevice);
+  limits.speed = 1;
+  const std::initializer_list<double> at_1_kHz = {1e-3}, late = {1.7e-3, 0.3e-3},
+                                      at_10_kHz = {1e-4}, late_10 = {17e-5, 27e-6, 1e-5, 193e-6};
+  for (const auto& ticks : {at_1_kHz, late, at_10_kHz, late_10}) {
+    EXPECT_EQ(seen_at(0.99, ticks, limits), Fault::kNone);
+    EXPECT_EQ(seen_at(1.08, ticks, limits), Fault::kOverspeed);
+    EXPECT_EQ(seen_at(-1.08, ticks, limits), Fault::kOverspeed);
+  }
+}
+
+TEST(Gate, OneCountIsNoSpeedHoweverSmallTheLimit) {
+  Limits limits = Limits::of(kDevice);
+  limits.speed = 0.01;  // m/s: less than a count in a tick
+  EXPECT_EQ(seen_at(0.0099, {1e-3}, limits), Fault::kNone);
+  EXPECT_EQ(seen_at(0.1, {1e-3}, limits), Fault::kOverspeed);
 }
 
 TEST(Gate, NamesWhatItSees) {
@@ -151,9 +173,8 @@ TEST(Gate, NamesWhatItSees) {
   p.axes[0].joint.q = 2 * p.limits.jump / radius;
   EXPECT_EQ(seen(p), Fault::kEncoderJump);
   EXPECT_EQ(seen(p), Fault::kNone);
-  p.axes[0].joint.dq = -2 * p.limits.speed / radius;
+  p.axes[0].joint.q -= 2 * p.limits.speed * kDt / radius;
   EXPECT_EQ(seen(p), Fault::kOverspeed);
-  p.axes[0].joint.dq = 0;
   p.axes[0].joint.q = -1.01 * p.limits.end / radius;
   p.gate.restart();
   EXPECT_EQ(seen(p), Fault::kWorkspace);

@@ -106,13 +106,23 @@ class Gate {
       const double since = elapsed + counts_age_[i] - reading.counts_age[i];  // s, for this way
       const double way = limits_.jump * std::max(1.0, since / dt_);
       note(moved_ && std::abs(radius_ * (joint.q - q_[i])) > way, Fault::kEncoderJump);
-      note(std::abs(radius_ * joint.dq) * since > limits_.speed * since + count_,
-           Fault::kOverspeed);
+      note(fast(i, joint.q, since), Fault::kOverspeed);
       note(std::abs(radius_ * joint.q) > limits_.end, Fault::kWorkspace);
       q_[i] = joint.q;
       counts_age_[i] = reading.counts_age[i];
     }
     moved_ = true;
+    return found;
+  }
+
+  /// Whether an axis is too fast, over kSpan at least: a tick may be short, and a reading is a count.
+  bool fast(std::size_t i, double q, double since) EBAC_RT {
+    span_[i] += since;
+    if (moved_ && span_[i] < kSpan) return false;
+    const double way = std::abs(radius_ * (q - from_[i]));
+    const bool found = moved_ && way > limits_.speed * span_[i] + count_;
+    from_[i] = q;
+    span_[i] = 0;
     return found;
   }
 
@@ -152,16 +162,20 @@ class Gate {
     return value;
   }
 
+  static constexpr double kSpan = 0.9e-3;  // s
+
   bool on_ = false;
   Limits limits_{};
   double dt_ = 1e-3;           // s
   double radius_ = 1;          // m
-  double count_ = 0;           // m, a way may be wrong by it
+  double count_ = 0;           // m, of the encoder
   double amp_per_newton_ = 1;  // A/N
   std::array<Thermal, kMaxAxes> thermal_{};
   std::array<double, kMaxAxes> last_{};        // A, of the last tick
   std::array<double, kMaxAxes> q_{};           // rad, of the last tick
   std::array<double, kMaxAxes> counts_age_{};  // s, of the last tick
+  std::array<double, kMaxAxes> from_{};        // rad, where the span began
+  std::array<double, kMaxAxes> span_{};        // s
   std::array<State, kMaxAxes> state_{};
   bool moved_ = false;
   int overruns_ = 0;  // samples in a row

@@ -49,7 +49,7 @@ struct Limits {
           0.01, 1e4},
         F{"slew", &Limits::slew, "A/s", "fastest change of the current", 1, 1e9},
         F{"speed", &Limits::speed, "m/s",
-          "faster, beyond any doubt of an encoder count, is a fault", 1e-3, 100},
+          "faster, over 0.9 ms and by more than an encoder count, is a fault", 1e-3, 100},
         F{"jump", &Limits::jump, "m", "a longer way in one tick is an encoder's fault", 1e-6, 1},
         F{"edge", &Limits::edge, "m", "way from the middle at which a soft wall begins", 1e-3, 10},
         F{"edge_stiffness", &Limits::edge_stiffness, "N/m", "stiffness of that wall", 0, 1e5},
