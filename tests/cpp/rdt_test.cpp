@@ -128,6 +128,34 @@ TEST(StreamOrder, AStreamThatWasAskedForMayFollowTheEndOfTheOldOne) {
   EXPECT_EQ(order.take(1'000'000'000), Place::kStray);  // once only
 }
 
+/// A stream that is asked for twice, as by opening a sensor and then by enabling a device: where one
+/// record of a short old stream was still under way, all of the new one up to its number counted as
+/// late, and the force went stale.
+TEST(StreamOrder, AnOldStreamHoweverShortDoesNotHideTheNewOne) {
+  for (std::uint32_t last = 2; last < 200; ++last) {
+    StreamOrder order;
+    std::uint32_t sample = 0xFFFFFF00;  // it wraps on the way
+    for (std::uint32_t n = 1; n < last; ++n) order.take(n, ++sample);
+    order.restart();
+    ASSERT_EQ(order.take(last, ++sample), Place::kNewest);
+    for (std::uint32_t n = 1; n < 300; ++n) {
+      ASSERT_EQ(order.take(n, ++sample), Place::kNewest) << last << " " << n;
+    }
+    ASSERT_EQ(order.late() + order.lost() + order.duplicate() + order.stray(), 0);
+  }
+}
+
+TEST(StreamOrder, APacketThatWasOvertakenIsLateInANewStreamToo) {
+  StreamOrder order;
+  order.restart();
+  EXPECT_EQ(order.take(2, 102), Place::kNewest);
+  EXPECT_EQ(order.take(1, 101), Place::kLate);
+  EXPECT_EQ(order.take(3, 103), Place::kNewest);
+  EXPECT_EQ(order.take(3, 103), Place::kDuplicate);
+  EXPECT_EQ(order.late(), 1);
+  EXPECT_EQ(order.lost(), 0);
+}
+
 RdtRecord pushing(std::uint32_t number, double x, double y = 0, double z = 0) {
   const auto counts = [](double newton) { return static_cast<std::int32_t>(1e6 * newton); };
   return {.rdt_sequence = number, .force = {counts(x), counts(y), counts(z)}};

@@ -39,7 +39,7 @@ class RdtLink {
       ++malformed_;
       return false;
     }
-    const Place place = order_.take(record.rdt_sequence);
+    const Place place = order_.take(record.rdt_sequence, record.ft_sequence);
     if (place != Place::kNewest) return false;
     record_ = record;
     health_ = health(record);

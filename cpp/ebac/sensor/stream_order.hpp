@@ -23,13 +23,11 @@ class StreamOrder {
   /// A longer leap ahead is no loss but another stream.
   static constexpr std::uint32_t kLeap = 1U << 20U;
 
-  Place take(std::uint32_t number) EBAC_RT {
-    if (!begun_) return begin(number);
-    const std::uint32_t ahead = number - newest_;
-    if (ahead == 0) return again();
-    if (ahead <= kLeap) return advance(number, ahead);
-    const std::uint32_t behind = newest_ - number;
-    return behind < kWindow ? look_back(behind) : stray(number);
+  /// `sample` is the sensor's own number of what the packet tells, which no stream begins anew.
+  Place take(std::uint32_t number, std::uint32_t sample = 0) EBAC_RT {
+    const Place place = judge(number, sample);
+    if (place == Place::kNewest) sample_ = sample;
+    return place;
   }
 
   /// Another stream was asked for: the next packet begins it, whatever its number. It may still be
@@ -46,6 +44,18 @@ class StreamOrder {
   std::int64_t restarts() const EBAC_RT { return restarts_; }
 
  private:
+  Place judge(std::uint32_t number, std::uint32_t sample) EBAC_RT {
+    if (!begun_) return begin(number);
+    const std::uint32_t ahead = number - newest_;
+    if (ahead == 0) return again();
+    if (ahead <= kLeap) return advance(number, ahead);
+    const std::uint32_t behind = newest_ - number;
+    if (behind >= kWindow) return stray(number);
+    const bool later = sample - sample_ - 1 < kLeap;  // taken after the newest, yet numbered before
+    if (!leaps_ || !later) return look_back(behind);
+    leaps_ = false;
+    return begin(number);
+  }
   Place begin(std::uint32_t number) EBAC_RT {
     begun_ = true;
     strayed_ = false;
@@ -94,6 +104,7 @@ class StreamOrder {
   bool strayed_ = false;
   bool leaps_ = false;  // a stream was asked for, and the old one may not have ended yet
   std::uint32_t newest_ = 0;
+  std::uint32_t sample_ = 0;  // of the newest
   std::uint32_t stray_ = 0;
   std::uint64_t age_ = 0;   // numbers from the first of the stream to the newest
   std::uint64_t seen_ = 0;  // bit i: the number i before the newest came
