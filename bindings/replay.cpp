@@ -17,7 +17,7 @@ struct LogColumns {
   Numbers t, dt, lateness;
   Faults fault;
   Counts counts;
-  Numbers current_applied, force, f_env, f_cmd, current;
+  Numbers counts_age, current_applied, force, f_env, f_cmd, current;
 };
 
 void require_shape(const py::array& column, const char* name, py::ssize_t rows, py::ssize_t axes) {
@@ -41,6 +41,7 @@ void require_shapes(const LogColumns& c) {
   require_shape(c.lateness, "lateness", rows, 0);
   require_shape(c.fault, "fault", rows, 0);
   require_shape(c.counts, "counts", rows, axes);
+  require_shape(c.counts_age, "counts_age", rows, axes);
   require_shape(c.current_applied, "current_applied", rows, axes);
   require_shape(c.force, "force", rows, axes);
   require_shape(c.f_env, "f_env", rows, axes);
@@ -62,6 +63,7 @@ std::shared_ptr<ReplayLog> make_log(const LogColumns& c) {
   }
   for (std::size_t i = 0; i < rows * log->axes; ++i) {
     log->axis.push_back({.counts = c.counts.data()[i],
+                         .counts_age = c.counts_age.data()[i],
                          .current_applied = c.current_applied.data()[i],
                          .force = c.force.data()[i],
                          .recorded = {.f_env = c.f_env.data()[i],
@@ -76,15 +78,15 @@ std::shared_ptr<ReplayLog> make_log(const LogColumns& c) {
 void bind_replay(py::module_& m) {
   py::class_<ReplayLog, std::shared_ptr<ReplayLog>>(m, "ReplayLog", "A recorded log as hardware.")
       .def(py::init([](const Numbers& t, const Numbers& dt, const Numbers& lateness,
-                       const Faults& fault, const Counts& counts, const Numbers& current_applied,
-                       const Numbers& force, const Numbers& f_env, const Numbers& f_cmd,
-                       const Numbers& current) {
-             return make_log(
-                 {t, dt, lateness, fault, counts, current_applied, force, f_env, f_cmd, current});
+                       const Faults& fault, const Counts& counts, const Numbers& counts_age,
+                       const Numbers& current_applied, const Numbers& force, const Numbers& f_env,
+                       const Numbers& f_cmd, const Numbers& current) {
+             return make_log({t, dt, lateness, fault, counts, counts_age, current_applied, force,
+                              f_env, f_cmd, current});
            }),
            py::kw_only(), py::arg("t"), py::arg("dt"), py::arg("lateness"), py::arg("fault"),
-           py::arg("counts"), py::arg("current_applied"), py::arg("force"), py::arg("f_env"),
-           py::arg("f_cmd"), py::arg("current"))
+           py::arg("counts"), py::arg("counts_age"), py::arg("current_applied"), py::arg("force"),
+           py::arg("f_env"), py::arg("f_cmd"), py::arg("current"))
       .def("__len__", &ReplayLog::rows)
       .def_property_readonly(
           "axes", [](const ReplayLog& log) { return log.axes; }, "Number of axes.");

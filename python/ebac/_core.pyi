@@ -2234,6 +2234,7 @@ class ReplayLog:
         lateness: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
         fault: typing.Annotated[numpy.typing.ArrayLike, numpy.uint32],
         counts: typing.Annotated[numpy.typing.ArrayLike, numpy.int64],
+        counts_age: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
         current_applied: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
         force: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
         f_env: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],

@@ -52,6 +52,29 @@ def test_through_a_log_on_disk_and_a_bus(tmp_path: Path) -> None:
         assert_same_commands(ebac.replay(log, "ebac"), recorded)
 
 
+def test_counts_that_stood_for_want_of_an_answer_are_no_leap() -> None:
+    recorded = ebac.simulate(ebac.Scenario(seconds=0.1), "direct", through="can")
+    data = {name: recorded[name].copy() for name in recorded}
+    data["counts"][51:54] = data["counts"][50]  # three answers are missing, the next is in time
+    data["bus.age"][51:54] = [1, 2, 3]
+    data["counts"][61:63] = data["counts"][60]  # one is missing, and comes a tick late
+    data["counts"][62] = recorded["counts"][61]
+    data["bus.age"][61:63] = 1
+    gaps = ebac.Trace(
+        data=data, columns=recorded.columns, axes=1, scenario=recorded.scenario, law="direct"
+    )
+    replayed = ebac.replay(gaps, "direct")
+    x, v = recorded["x"], replayed["v"]
+    held = recorded["v"][50]
+    assert v[51:54].tolist() == [held] * 3
+    assert v[54] == pytest.approx((x[54] - x[50]) / 4e-3)
+    assert v[61] == v[60]
+    assert v[62] == pytest.approx(recorded["v"][61])
+    assert v[63] == pytest.approx((x[63] - x[61]) / 2e-3)
+    assert v[64:].tolist() == recorded["v"][64:].tolist()
+    assert np.abs(v[54]) > 0.02  # m/s: it moved
+
+
 def test_a_law_in_python_is_driven_too() -> None:
     class Spring:
         name = "spring"

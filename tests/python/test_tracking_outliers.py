@@ -65,13 +65,31 @@ def found(shape: str, points: Numbers, bad: NDArray[np.bool_], spread: float = 0
     return fit
 
 
+def throw(points: Numbers, bad: NDArray[np.bool_], random: np.random.Generator) -> None:
+    """Move points 36 mm away, all to one side."""
+    points[bad] += np.array([0.02, 0.03]) + 0.005 * random.standard_normal((int(bad.sum()), 2))
+
+
+def push(
+    shape: str,
+    points: Numbers,
+    bad: NDArray[np.bool_],
+    random: np.random.Generator,
+    least: float,
+    most: float,
+) -> None:
+    """Move points off their path, to either side [m]."""
+    far = random.choice([-1, 1], len(points)) * random.uniform(least, most, len(points))
+    points[bad] += (far[:, None] * across(shape, points))[bad]
+
+
 @pytest.mark.parametrize("seed", [1734, 685, 1917, 1245, 1064, 1100])
 def test_outliers_that_once_counted_are_left_out(seed: int) -> None:
     """Spreads were up to twice too large; with 1100, of whose 120 points 64 are outliers, 97 times."""
     points, random = followed("circle", np.random.default_rng(seed)), np.random.default_rng(seed)
     bad = random.random(len(points)) < 0.35
     bad[0] = bad[-1] = False
-    points[bad] += np.array([0.02, 0.03]) + 0.005 * random.standard_normal((int(bad.sum()), 2))
+    throw(points, bad, random)
     found("circle", points, bad)
 
 
@@ -82,7 +100,7 @@ def test_a_robust_fit_leaves_outliers_out(shape: str, seed: int, share: float) -
     random = np.random.default_rng(seed)
     points = followed(shape, random)
     bad = some(random, len(points), share)
-    points[bad] += np.array([0.02, 0.03]) + 0.005 * random.standard_normal((int(bad.sum()), 2))
+    throw(points, bad, random)
     found(shape, points, bad)
     if bad.sum() > 3:
         assert FITS[shape](points).deviation.sd_m > 20 * SD
@@ -94,8 +112,7 @@ def test_an_arc_of_60_degrees_is_enough(seed: int, share: float, arc: float) -> 
     random = np.random.default_rng(seed)
     points = followed("circle", random, arc=arc)
     bad = some(random, len(points), share)
-    far = random.choice([-1, 1], len(points)) * random.uniform(0.005, 0.02, len(points))
-    points[bad] += (far[:, None] * across("circle", points))[bad]
+    push("circle", points, bad, random, 0.005, 0.02)
     found("circle", points, bad)
 
 
@@ -119,8 +136,7 @@ def test_outliers_may_lie_near(shape: str, seed: int, share: float) -> None:
     random = np.random.default_rng(seed)
     points = followed(shape, random)
     bad = some(random, len(points), share)
-    far = random.choice([-1, 1], len(points)) * random.uniform(5 * SD, 10 * SD, len(points))
-    points[bad] += (far[:, None] * across(shape, points))[bad]
+    push(shape, points, bad, random, 5 * SD, 10 * SD)
     found(shape, points, bad)
 
 
@@ -215,7 +231,7 @@ def test_a_rest_is_one_place(shape: str, seed: int, share: float) -> None:
     random = np.random.default_rng(seed)
     points = followed(shape, random)
     bad = some(random, len(points), share)
-    points[bad] += np.array([0.02, 0.03]) + 0.005 * random.standard_normal((int(bad.sum()), 2))
+    throw(points, bad, random)
     rested = np.concatenate([np.tile(points[0], (240, 1)), points])
     one, other = (FITS[shape](p, robust=True) for p in (points, rested))
     assert (other.inliers[240:] == one.inliers).all()

@@ -33,6 +33,7 @@ struct ReplayAxis {
   };
 
   std::int64_t counts = 0;     // raw or unwrapped
+  double counts_age = 0;       // s, since they were latched
   double current_applied = 0;  // A, over the interval that ended now
   double force = 0;            // N, force sensor
   State recorded;
@@ -64,6 +65,7 @@ class ReplayDevice {
     for (std::size_t i = 0; i < log_->axes; ++i) {
       const ReplayAxis& axis = log_->axis[at_ * log_->axes + i];
       reading.counts[i] = axis.counts;
+      reading.counts_age[i] = axis.counts_age;
       reading.current_applied[i] = axis.current_applied;
       reading.force[i] = axis.force;
     }

@@ -113,7 +113,7 @@ class Result:
 
 
 def _expected(configuration: Configuration) -> Contact | None:
-    """Return the contact of the same run on a virtual clock; None where it is long, or leaves its limits."""
+    """Return the contact of the same run on a virtual clock; None where it is long, or ends by a fault (told)."""
     from ebac.metrics import contact
     from ebac.simulation import LoopFault
 
@@ -122,7 +122,9 @@ def _expected(configuration: Configuration) -> Contact | None:
     with warnings.catch_warnings(action="ignore"):  # the run has told how full the bus is
         try:
             return contact(configuration.simulate(), truth=False)
-        except LoopFault:
+        except LoopFault as error:
+            what = str(error).partition(": the command")[0]
+            output.console(stderr=True).print(f"On a virtual clock this run ends by {what}.")
             return None
 
 

@@ -137,10 +137,23 @@ def _source(recorded: Trace) -> _core.ReplayLog:
         t=t,
         dt=dt,
         lateness=recorded["lateness"],
+        counts_age=_counts_age(recorded, dt),
         # What a stage of the loop found, the loop finds again, or not: that is for the new law to show.
         fault=np.where(fault >= int(_core.Fault.DEVICE), fault, 0),
         **each,
     )
+
+
+def _counts_age(recorded: Trace, dt: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return how old the counts of each row were [s], from the ticks without an answer that a log of drives tells."""
+    ages = np.zeros((len(recorded), recorded.axes))
+    if "bus.age" not in recorded:
+        return ages
+    ticks = _per_axis(recorded, "bus.age")
+    for row, axis in zip(*np.nonzero(ticks), strict=True):  # few: in the order of the rows
+        before = ages[row - 1, axis] if ticks[row, axis] > 1 and row > 0 else 0.0
+        ages[row, axis] = before + dt[row]
+    return ages
 
 
 def _per_axis(recorded: Trace, column: str) -> NDArray[Any]:
