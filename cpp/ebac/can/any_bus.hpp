@@ -10,10 +10,10 @@
 namespace ebac::can {
 
 /// One end of a bus inside this process or of the kernel, as it was opened. One thread.
-class EitherBus {
+class AnyBus {
  public:
-  explicit EitherBus(LoopbackBus bus) noexcept : bus_(std::move(bus)) {}
-  explicit EitherBus(SocketCan bus) noexcept : bus_(std::move(bus)) {}
+  explicit AnyBus(LoopbackBus bus) noexcept : bus_(std::move(bus)) {}
+  explicit AnyBus(SocketCan bus) noexcept : bus_(std::move(bus)) {}
 
   bool send(const Frame& out) noexcept {
     return std::visit([&](auto& bus) noexcept { return bus.send(out); }, bus_);
@@ -48,6 +48,6 @@ class EitherBus {
   bool waits_ = false;  // to be received
 };
 
-static_assert(Bus<EitherBus>);
+static_assert(Bus<AnyBus>);
 
 }  // namespace ebac::can

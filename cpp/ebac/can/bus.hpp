@@ -7,7 +7,7 @@
 
 namespace ebac::can {
 
-/// How a bus stands. Each is a state to be told, none a reason to crash.
+/// State of a bus. Every value is reported to the caller; none is an exception.
 enum class BusState : std::uint8_t {
   kUp = 0,
   kWarning = 1,  // an error counter passed 96
@@ -17,7 +17,7 @@ enum class BusState : std::uint8_t {
   kClosed = 5,   // never opened, or closed
 };
 
-/// What went over one end of a bus since it was opened.
+/// Frame counts of one end of a bus since it was opened.
 struct BusCounts {
   std::uint64_t sent = 0;
   std::uint64_t refused = 0;   // not taken by `send`

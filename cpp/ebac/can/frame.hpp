@@ -16,17 +16,17 @@ struct Frame {
   std::uint32_t id = 0;    // 11 bits, or 29 when extended
   std::uint8_t size = 0;   // bytes of data, 0 to 8
   bool extended = false;   // 29-bit identifier
-  bool remote = false;     // asks for a frame, carries no data
-  bool error = false;      // told by the controller, not by another node
+  bool remote = false;     // remote frame: requests data, carries none
+  bool error = false;      // error frame of the controller, not of another node
   std::int64_t stamp = 0;  // ns, when it was received; 0 where the bus does not know
   std::array<std::uint8_t, kMaxSize> data{};
-  bool own = false;  // sent by the end that receives it, which asked for that
+  bool own = false;  // the receiving end sent it and has `own` switched on
 
   constexpr std::span<const std::uint8_t> bytes() const EBAC_RT {
     return {data.data(), size < kMaxSize ? size : kMaxSize};
   }
 
-  /// The same frame, whenever it came and whoever sent it.
+  /// Equal up to the time stamp and the sender.
   friend constexpr bool operator==(const Frame& a, const Frame& b) EBAC_RT {
     return a.id == b.id && a.size == b.size && a.extended == b.extended && a.remote == b.remote &&
            a.error == b.error && a.data == b.data;

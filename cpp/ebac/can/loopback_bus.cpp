@@ -6,17 +6,17 @@
 #include <thread>
 #include <vector>
 
-#include "ebac/can/doorbell.hpp"
-#include "ebac/can/ticket_queue.hpp"
+#include "ebac/can/mpmc_queue.hpp"
+#include "ebac/can/wake_event.hpp"
 
 namespace ebac::can {
 
 namespace {
 
-/// Frames sent while somebody else delivers. Filled only while that thread is held up.
+/// Frames sent while another thread delivers. Fills up only while that thread is held up.
 constexpr std::size_t kIntake = 1024;
 
-struct Letter {
+struct Message {
   Frame frame{};
   std::uint64_t from = 0;
 };
@@ -35,13 +35,13 @@ std::int64_t wall_clock() noexcept {  // ns since 1970
 struct LoopbackBus::End {
   explicit End(const LoopbackOptions& options) : own(options.own), queue(options.frames) {}
 
-  /// By the one who delivers.
-  void take(const Letter& letter) noexcept {
-    if (letter.from == id && !own) return;
-    Frame in = letter.frame;
-    in.own = letter.from == id;
+  /// Called by the delivering thread.
+  void take(const Message& message) noexcept {
+    if (message.from == id && !own) return;
+    Frame in = message.frame;
+    in.own = message.from == id;
     if (queue.push(in)) {
-      bell.ring();
+      arrived.signal();
     } else {
       count(lost);
     }
@@ -49,31 +49,32 @@ struct LoopbackBus::End {
 
   std::uint64_t id = 0;
   const bool own;
-  TicketQueue<Frame> queue;
-  Doorbell bell;
+  MpmcQueue<Frame> queue;
+  WakeEvent arrived;
   std::atomic<bool> closed{false};
   Counter sent{0}, refused{0}, received{0}, lost{0};
 };
 
-/// What hub and ends share. `ends` and the reading side of `intake` belong to whoever has the turn.
+/// State shared by hub and ends. The delivering thread owns `ends` and the reading side of `intake`.
 struct LoopbackHub::Shared {
   explicit Shared(Stamps which) : stamps(which) {}
 
-  /// Delivers all there is, or leaves it to the one who is at it. Who gives the turn back looks
-  /// again: both exchanges are of one variable, so a frame whose sender saw the turn taken is seen.
+  /// Delivers every waiting frame, or leaves them to the thread that is delivering. A thread that
+  /// ends its turn looks again: both exchanges act on one variable, so the frame of a sender that
+  /// found the turn taken is not missed.
   void deliver() noexcept {
     do {
       if (busy.exchange(true, std::memory_order_acq_rel)) return;
-      Letter letter;
-      while (intake.pop(letter)) {
-        letter.frame.stamp = stamps == Stamps::kWallClock ? wall_clock() : 0;
-        for (LoopbackBus::End* end : ends) end->take(letter);
+      Message message;
+      while (intake.pop(message)) {
+        message.frame.stamp = stamps == Stamps::kWallClock ? wall_clock() : 0;
+        for (LoopbackBus::End* end : ends) end->take(message);
       }
       busy.exchange(false, std::memory_order_acq_rel);
     } while (intake.ready());
   }
 
-  /// Does something with the list of ends, while nobody delivers.
+  /// Changes the list of ends while no thread delivers.
   template <class Work>
   void alone(Work work) {
     while (busy.exchange(true, std::memory_order_acq_rel)) std::this_thread::yield();
@@ -88,8 +89,8 @@ struct LoopbackHub::Shared {
   }
 
   const Stamps stamps;
-  TicketQueue<Letter> intake{kIntake};
-  std::atomic<bool> busy{false};  // somebody has the turn
+  MpmcQueue<Message> intake{kIntake};
+  std::atomic<bool> busy{false};  // a thread is delivering
   std::vector<LoopbackBus::End*> ends;
   std::uint64_t last_id = 0;
 };
@@ -151,7 +152,7 @@ bool LoopbackBus::receive(Frame& in, std::chrono::nanoseconds timeout) noexcept 
   if (receive(in)) return true;
   if (end_ == nullptr || timeout.count() <= 0) return false;
   bool came = false;
-  end_->bell.wait(timeout, [&] {
+  end_->arrived.wait(timeout, [&] {
     came = receive(in);
     return came || state() == BusState::kClosed;
   });
@@ -172,7 +173,7 @@ BusCounts LoopbackBus::counts() const noexcept {
 void LoopbackBus::close() noexcept {
   if (end_ == nullptr || end_->closed.exchange(true, std::memory_order_acq_rel)) return;
   hub_->alone([&] { std::erase(hub_->ends, end_.get()); });
-  end_->bell.ring_for_all();
+  end_->arrived.signal_all();
 }
 
 }  // namespace ebac::can

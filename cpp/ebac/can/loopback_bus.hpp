@@ -14,8 +14,8 @@ class LoopbackBus;
 struct LoopbackOptions {
   static constexpr std::size_t kMostFrames = std::size_t{1} << 20;
 
-  std::size_t frames = 1024;  // that wait to be received, 1 to kMostFrames; what exceeds it is lost
-  bool own = false;           // receives what it sent itself, too
+  std::size_t frames = 1024;  // receive queue, 1 to kMostFrames; frames beyond it are lost
+  bool own = false;           // also receives its own frames
 };
 
 /// A CAN bus inside one process. Every end receives every frame of the others, all in one order.
@@ -38,9 +38,10 @@ class LoopbackHub {
   std::shared_ptr<Shared> shared_;
 };
 
-/// One end of it. No call allocates, locks or throws, and any thread may make any of them at any
-/// time. A frame sent is put into one small queue for all; whoever finds nobody delivering delivers
-/// until it is empty, so a sender held up by the system holds up no other sender. Closes itself.
+/// One end of a loopback bus. No call allocates, locks or throws, and any thread may call any of
+/// them at any time. A sent frame enters one small queue for all; a sender that finds no other
+/// thread delivering delivers until the queue is empty, so a sender delayed by the system delays no
+/// other sender. Closes itself.
 class LoopbackBus {
  public:
   LoopbackBus() = default;  // an end of nothing: closed
@@ -50,8 +51,8 @@ class LoopbackBus {
   LoopbackBus(const LoopbackBus&) = delete;
   LoopbackBus& operator=(const LoopbackBus&) = delete;
 
-  /// True also where nobody listens, or somebody's queue is full: as on the wire, that is not the
-  /// sender's business.
+  /// True also when no node listens or a receive queue is full: as on the wire, the sender does not
+  /// learn of it.
   bool send(const Frame& out) noexcept;
   bool receive(Frame& in) noexcept;
   /// Waits for a frame, for the tick of no loop: false after `timeout`, a signal, or `close`.
@@ -59,7 +60,7 @@ class LoopbackBus {
 
   BusState state() const noexcept;
   BusCounts counts() const noexcept;
-  /// Leaves the bus; who waits in `receive` returns.
+  /// Leaves the bus; a thread waiting in `receive` returns.
   void close() noexcept;
 
  private:

@@ -9,13 +9,14 @@
 
 namespace ebac::can {
 
-/// A bounded queue for any number of threads on either side: no lock, no allocation after
-/// construction. Every slot counts its turns, even when free and odd when filled, and whoever moves
-/// `tail_` or `head_` past it owns it for one turn (the ticket queue of D. Vyukov, 2010).
+/// A bounded queue for any number of producers and consumers: no lock, no allocation after
+/// construction. Every slot counts its turns, even when free and odd when filled; the thread that
+/// moves `tail_` or `head_` past a slot owns it for one turn (bounded MPMC queue of D. Vyukov,
+/// 2010).
 template <class Item>
-class TicketQueue {
+class MpmcQueue {
  public:
-  explicit TicketQueue(std::size_t capacity)
+  explicit MpmcQueue(std::size_t capacity)
       : capacity_(capacity), slots_(std::make_unique<Slot[]>(capacity)) {}
 
   std::size_t capacity() const EBAC_RT { return capacity_; }
@@ -60,7 +61,7 @@ class TicketQueue {
     }
   }
 
-  /// Whether `pop` would find something now, for one who pops alone.
+  /// Whether `pop` would succeed now, if this is the only consumer.
   bool ready() const EBAC_RT {
     const std::uint64_t at = head_.load(std::memory_order_relaxed);
     return slots_[at % capacity_].turn.load(std::memory_order_acquire) == 2 * (at / capacity_) + 1;

@@ -10,10 +10,33 @@
 #include <utility>
 #include <vector>
 
-#include "ebac/can/serve.hpp"
+#include "ebac/can/bus.hpp"
 #include "ebac/rt/thread.hpp"
 
 namespace ebac::can {
+
+/// A node of a bus: receives frames and queues answers. A drive, or a joystick of drives.
+template <class N>
+concept Node = requires(N node, const Frame& in, Frame& out) {
+  { node.receive(in) } noexcept;
+  { node.take(out) } noexcept -> std::same_as<bool>;
+};
+
+/// Passes waiting frames to the node and its answers to the bus, without waiting. A frame that the
+/// bus refuses is lost and counted by the bus.
+template <Bus B, Node N>
+void serve(B& bus, N& node) EBAC_RT {
+  Frame frame;
+  const auto answer = [&]() EBAC_RT {
+    Frame out;
+    while (node.take(out)) static_cast<void>(bus.send(out));
+  };
+  answer();
+  while (bus.receive(frame)) {
+    node.receive(frame);
+    answer();
+  }
+}
 
 /// A bus on whose end a thread can also wait.
 template <class B>
@@ -30,21 +53,21 @@ concept TimedNode = Node<N> && requires(N node, double seconds) {
   { node.elapse(seconds) } noexcept;
 };
 
-/// Nodes at work on a bus in real time, in a thread of their own: a frame is answered when it comes,
-/// and their timers run with the clock. A frame that waited for the thread counts from when it came,
-/// where the bus stamps it with the time of day: a thread that is late makes answers late, and lets
-/// no watchdog cry.
+/// Runs nodes on a bus in real time, in a thread of their own: a frame is answered when it arrives,
+/// and the timers of the nodes run with the clock. If the bus stamps frames with the time of day, a
+/// frame that waited for the thread counts from its arrival: a late thread makes answers late, but
+/// triggers no watchdog.
 template <WaitingBus B, TimedNode N>
-class Served {
+class NodeServer {
  public:
-  Served(B bus, N node) : bus_(std::move(bus)), node_(std::move(node)) {}
-  Served(const Served&) = delete;
-  Served& operator=(const Served&) = delete;
-  Served(Served&&) = delete;
-  Served& operator=(Served&&) = delete;
-  ~Served() { stop(); }
+  NodeServer(B bus, N node) : bus_(std::move(bus)), node_(std::move(node)) {}
+  NodeServer(const NodeServer&) = delete;
+  NodeServer& operator=(const NodeServer&) = delete;
+  NodeServer(NodeServer&&) = delete;
+  NodeServer& operator=(NodeServer&&) = delete;
+  ~NodeServer() { stop(); }
 
-  /// Once in a life: throws std::logic_error the second time, and as rt::Thread.
+  /// Starts the thread, once: throws std::logic_error the second time, and what rt::Thread throws.
   void start(rt::Mode mode = rt::Mode::kOff, const rt::Options& options = {}) {
     if (thread_)
       throw std::logic_error("these nodes have been on their bus already: make new ones");
@@ -57,16 +80,16 @@ class Served {
     bus_.close();
   }
 
-  /// What its thread asked of the system, and got; nothing before it is started.
+  /// Resources its thread requested and was granted; empty before the start.
   std::vector<rt::Grant> grants() const {
     return thread_ ? thread_->report().grants : std::vector<rt::Grant>{};
   }
 
-  /// Of any thread, at any time.
+  /// May be called by any thread, at any time.
   BusState state() const noexcept { return bus_.state(); }
   BusCounts counts() const noexcept { return bus_.counts(); }
 
-  /// Only while it does not run.
+  /// To be used only while the thread does not run.
   const N& node() const noexcept { return node_; }
 
  private:
@@ -96,7 +119,7 @@ class Served {
     while (node_.take(out)) static_cast<void>(bus_.send(out));
   }
 
-  /// How long it has waited; 0 where nothing tells.
+  /// Time since the frame arrived; 0 if it carries no stamp.
   static std::chrono::nanoseconds age(const Frame& frame) noexcept {
     if (frame.stamp == 0) return std::chrono::nanoseconds{0};
     const std::chrono::nanoseconds now = std::chrono::system_clock::now().time_since_epoch();

@@ -1,4 +1,4 @@
-#include "ebac/can/socketcan_open.hpp"
+#include "ebac/can/raw_socket.hpp"
 
 #include <linux/can.h>
 #include <linux/can/error.h>
@@ -8,15 +8,53 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <system_error>
 #include <utility>
 
 namespace ebac::can {
 
+can_frame to_wire(const Frame& out) noexcept {
+  can_frame wire{};
+  wire.can_id = out.id;
+  if (out.extended) wire.can_id |= CAN_EFF_FLAG;
+  if (out.remote) wire.can_id |= CAN_RTR_FLAG;
+  if (out.error) wire.can_id |= CAN_ERR_FLAG;
+  wire.len = std::min<std::uint8_t>(out.size, CAN_MAX_DLEN);
+  std::copy(out.data.begin(), out.data.end(), wire.data);
+  return wire;
+}
+
+Frame from_wire(const can_frame& in) noexcept {
+  Frame frame;
+  frame.extended = (in.can_id & CAN_EFF_FLAG) != 0;
+  frame.remote = (in.can_id & CAN_RTR_FLAG) != 0;
+  frame.error = (in.can_id & CAN_ERR_FLAG) != 0;
+  frame.id = in.can_id & (frame.extended || frame.error ? CAN_EFF_MASK : CAN_SFF_MASK);
+  frame.size = std::min<std::uint8_t>(in.len, CAN_MAX_DLEN);
+  if (!frame.remote) std::copy_n(in.data, frame.size, frame.data.begin());
+  return frame;
+}
+
+BusState after_error(const Frame& error, BusState before) noexcept {
+  if ((error.id & CAN_ERR_BUSOFF) != 0) return BusState::kBusOff;
+  if ((error.id & CAN_ERR_CRTL) != 0) {
+    const unsigned status = error.data[1];
+    if ((status & (CAN_ERR_CRTL_RX_PASSIVE | CAN_ERR_CRTL_TX_PASSIVE)) != 0) {
+      return BusState::kPassive;
+    }
+    if ((status & (CAN_ERR_CRTL_RX_WARNING | CAN_ERR_CRTL_TX_WARNING)) != 0) {
+      return BusState::kWarning;
+    }
+    if ((status & CAN_ERR_CRTL_ACTIVE) != 0) return BusState::kUp;
+  }
+  return (error.id & CAN_ERR_RESTARTED) != 0 ? BusState::kUp : before;
+}
+
 namespace {
 
-/// The kernel's way to ask about an interface.
+/// Request for information on an interface.
 ifreq asking_for(const std::string& interface) noexcept {
   ifreq request{};
   interface.copy(request.ifr_name, IFNAMSIZ - 1);
@@ -28,7 +66,7 @@ std::string how_to_bring_up(const std::string& interface) {
   return "ip link set " + interface + " up" + (is_virtual ? "" : " type can bitrate 1000000");
 }
 
-/// What is wrong, and what to type.
+/// The error, and the command that repairs it.
 std::string remedy(const std::string& interface, int error) {
   switch (error) {
     case EAFNOSUPPORT:
@@ -78,10 +116,10 @@ bool set(int socket, int level, int option, const Value& value) noexcept {
 }
 
 bool set_options(int socket, const SocketCanOptions& options) {
-  // Single bus errors may come by the thousand; the state needs only what is told of the controller.
-  const can_err_mask_t told =
+  // Single bus errors may come by the thousand; the state depends on controller errors only.
+  const can_err_mask_t reported =
       options.errors ? CAN_ERR_MASK : CAN_ERR_CRTL | CAN_ERR_BUSOFF | CAN_ERR_RESTARTED;
-  return set(socket, SOL_CAN_RAW, CAN_RAW_ERR_FILTER, told) &&
+  return set(socket, SOL_CAN_RAW, CAN_RAW_ERR_FILTER, reported) &&
          set(socket, SOL_CAN_RAW, CAN_RAW_RECV_OWN_MSGS, int{options.own}) &&
          set(socket, SOL_SOCKET, SO_TIMESTAMPNS, 1) && set(socket, SOL_SOCKET, SO_RXQ_OVFL, 1);
 }

@@ -11,8 +11,7 @@
 #include <ctime>
 #include <utility>
 
-#include "ebac/can/socketcan_open.hpp"
-#include "ebac/can/socketcan_wire.hpp"
+#include "ebac/can/raw_socket.hpp"
 
 namespace ebac::can {
 
@@ -25,7 +24,7 @@ constexpr std::chrono::nanoseconds kNap = std::chrono::milliseconds{100};
 
 void count(Counter& counter) noexcept { counter.fetch_add(1, std::memory_order_relaxed); }
 
-/// The interface went away or down: told once, before what still waits in the queue.
+/// The interface disappeared or went down: reported once, before the frames left in the queue.
 bool is_news(int error) noexcept { return error == ENETDOWN || error == ENODEV || error == ENXIO; }
 
 template <class Value>
@@ -56,7 +55,7 @@ struct SocketCan::Socket {
   }
   void close() noexcept { state_.store(BusState::kClosed, std::memory_order_release); }
 
-  /// What a failed call says of the interface.
+  /// State of the interface after a failed call.
   void note(int error) noexcept {
     if (!is_news(error)) return;
     if (error != ENETDOWN) bound.store(false, std::memory_order_release);
@@ -66,7 +65,7 @@ struct SocketCan::Socket {
   /// Whether the interface is there, after looking again where it was not.
   bool ready() noexcept {
     if (state() != BusState::kDown) return state() != BusState::kClosed;
-    forget_error(fd);  // what it says may be of the time before
+    forget_error(fd);  // it may be older than the interface
     int error = look_up(fd, interface);
     if (error == 0 && !bound.load(std::memory_order_acquire)) {
       error = bind_raw(fd, interface, filters);

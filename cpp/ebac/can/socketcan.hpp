@@ -10,7 +10,7 @@
 
 namespace ebac::can {
 
-/// Lets through what agrees with `id` wherever `mask` is 1, in frames of that length of identifier.
+/// Passes frames whose identifier equals `id` wherever `mask` is 1, with this identifier length.
 struct CanFilter {
   std::uint32_t id = 0;
   std::uint32_t mask = kStandardIds;
@@ -20,8 +20,8 @@ struct CanFilter {
 /// How an end of a SocketCAN interface is opened.
 struct SocketCanOptions {
   std::vector<CanFilter> filters{};  // any one of them lets a frame through; none: all pass
-  bool own = false;                  // receives what it sent itself, too
-  bool errors = false;               // hands on what the controller tells, as frames of `error`
+  bool own = false;                  // also receives its own frames
+  bool errors = false;               // passes on error frames of the controller
 };
 
 /// One end of a CAN interface of the Linux kernel: raw, classical frames, stamped by the kernel.
@@ -31,8 +31,8 @@ struct SocketCanOptions {
 class SocketCan {
  public:
   SocketCan() noexcept;  // an end of nothing: closed
-  /// Throws std::system_error telling what to do, when the kernel knows no CAN or the interface is
-  /// missing, down, or something else.
+  /// Throws std::system_error, with the remedy, when the kernel has no CAN support or the interface
+  /// is missing, down, or no CAN interface.
   explicit SocketCan(const std::string& interface, const SocketCanOptions& options = {});
   ~SocketCan();
   SocketCan(SocketCan&&) noexcept;
@@ -48,7 +48,7 @@ class SocketCan {
   /// As far as known from the last `send` or `receive`.
   BusState state() const noexcept;
   BusCounts counts() const noexcept;
-  /// No more frames either way. Who waits in `receive` returns within 0.1 s.
+  /// Stops sending and receiving. A thread waiting in `receive` returns within 0.1 s.
   void close() noexcept;
 
  private:

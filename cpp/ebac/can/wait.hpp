@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <concepts>
 #include <cstdint>
 #include <utility>
@@ -8,16 +9,16 @@
 
 namespace ebac::can {
 
-/// How a device waits for its drives within one exchange. `begin` comes before anything is sent and
-/// tells the time since the last exchange [s]; `more` is asked whenever nothing is left to read:
-/// true to look again, false when the budget is spent.
+/// How a device waits for its drives within one exchange. `begin` is called before anything is
+/// sent, with the time since the last exchange [s]; `more` is called whenever nothing is left to
+/// read and returns true to look again, false when the budget is spent.
 template <class W>
 concept Wait = requires(W wait, double elapsed) {
   { wait.begin(elapsed) } noexcept;
   { wait.more() } noexcept -> std::same_as<bool>;
 };
 
-/// Looks again and again until the budget is spent, by the time that `Now` gives in ns.
+/// Polls until the budget is spent, by the time that `Now` returns in ns.
 template <class Now>
   requires requires(Now now) {
     { now() } noexcept -> std::same_as<std::int64_t>;
@@ -35,8 +36,8 @@ class PollFor {
   std::int64_t end_ = 0;  // ns
 };
 
-/// Lets the other side, which lives in the same thread, do its work once; then all that will come
-/// has come. `run(elapsed)` is told the time since the last exchange [s].
+/// Lets the other side, which lives in the same thread, do its work once; afterwards every answer
+/// has arrived. `run(elapsed)` receives the time since the last exchange [s].
 template <class Other>
   requires requires(Other other, double elapsed) {
     { other.run(elapsed) } noexcept;
@@ -59,6 +60,30 @@ class RunOther {
   Other* other_;
   double elapsed_ = 0;  // s
   bool ran_ = false;
+};
+
+/// Sleeps on the bus until a frame arrives or the budget of the exchange is spent, so that the
+/// answering thread can run. The caller keeps the bus, which must outlive this object.
+template <class B>
+  requires requires(B bus, std::chrono::nanoseconds most) {
+    { bus.wait(most) } noexcept;
+  }
+class WaitOn {
+ public:
+  WaitOn(B& bus, std::chrono::nanoseconds budget) EBAC_RT : bus_(&bus), budget_(budget) {}
+
+  void begin(double) EBAC_RT { end_ = Clock::now() + budget_; }
+  bool more() EBAC_RT {
+    const auto left = end_ - Clock::now();
+    return left.count() > 0 && bus_->wait(left);
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  B* bus_;
+  std::chrono::nanoseconds budget_;
+  Clock::time_point end_{};
 };
 
 }  // namespace ebac::can

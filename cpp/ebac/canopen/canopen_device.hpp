@@ -5,21 +5,22 @@
 #include <utility>
 
 #include "ebac/can/bus.hpp"
-#include "ebac/can/canopen_setup.hpp"
-#include "ebac/can/node_link.hpp"
-#include "ebac/can/power.hpp"
-#include "ebac/can/torque_scale.hpp"
 #include "ebac/can/wait.hpp"
+#include "ebac/canopen/canopen_setup.hpp"
+#include "ebac/canopen/enable_sequence.hpp"
+#include "ebac/canopen/node_link.hpp"
+#include "ebac/canopen/torque.hpp"
 #include "ebac/core/concepts.hpp"
 
 namespace ebac::can {
 
 /// CANopen drives as a device of the loop, one per axis: controlword and target torque out, SYNC,
-/// then statusword, position and actual torque in. The bus stays the caller's and must outlive it.
+/// then statusword, position and actual torque in. The caller keeps the bus, which must outlive
+/// this object.
 ///
-/// It starts at rest: every exchange then tells the drives to stay off. After `enable` each exchange
-/// takes them one state further, with zero torque until all are enabled. A fault of its own stops
-/// them in the next exchange, asked or not, and stands until `enable` is called again.
+/// Starts at rest: every exchange then commands the drives to stay off. After `enable` each
+/// exchange takes them one state further, with zero torque until all are enabled. A fault found
+/// here stops the drives in the next exchange and persists until `enable` is called again.
 template <Bus B, Wait W>
 class CanopenDevice {
  public:
@@ -34,7 +35,7 @@ class CanopenDevice {
         wait_(std::move(wait)),
         setup_(setup),
         scale_(TorqueScale::of(setup.motor, setup.drive)),
-        power_(setup.quick_stop) {
+        sequence_(setup.quick_stop) {
     check_setup(setup);
   }
 
@@ -45,7 +46,7 @@ class CanopenDevice {
     for (NodeLink& link : links()) link.sync();
     send(command);
     collect();
-    power_.tick();
+    sequence_.tick();
     for (NodeLink& link : links()) {
       link.close();
       link.row().foreign = foreign_;
@@ -56,21 +57,23 @@ class CanopenDevice {
 
   void enable() EBAC_RT {
     fault_ = Fault::kNone;
-    power_.want(Power::Goal::kRun);
+    sequence_.want(EnableSequence::Goal::kRun);
     for (NodeLink& link : links()) link.start();
   }
   /// Zero torque, then down the states one by one: the end of a good run.
   void disable() EBAC_RT {
-    if (power_.goal() != Power::Goal::kRest) power_.want(Power::Goal::kRest);
+    if (sequence_.goal() != EnableSequence::Goal::kRest)
+      sequence_.want(EnableSequence::Goal::kRest);
   }
   /// Zero torque, then the shortest way out.
   void stop() EBAC_RT {
-    if (power_.goal() != Power::Goal::kStop) power_.want(Power::Goal::kStop);
+    if (sequence_.goal() != EnableSequence::Goal::kStop)
+      sequence_.want(EnableSequence::Goal::kStop);
   }
 
   /// Every drive is enabled and follows its torque.
-  bool running() const EBAC_RT { return power_.running(); }
-  /// Every drive was heard in the last tick and says that its power is off.
+  bool running() const EBAC_RT { return sequence_.running(); }
+  /// Every drive answered in the last tick and reports that its power is off.
   bool at_rest() const EBAC_RT {
     return std::ranges::all_of(links(), [](const NodeLink& link) {
       const DriveState state = link.state();
@@ -89,7 +92,7 @@ class CanopenDevice {
     return std::span(link_).first(static_cast<std::size_t>(setup_.axes));
   }
 
-  /// Reads what came since the last exchange.
+  /// Reads the frames received since the last exchange.
   void drain() EBAC_RT {
     Frame frame;
     for (int i = 0; i < kMostFrames && bus_->receive(frame); ++i) take(frame);
@@ -98,9 +101,9 @@ class CanopenDevice {
   void send(const Command& command) EBAC_RT {
     for (std::size_t i = 0; NodeLink& link : links()) {
       const std::int16_t torque =
-          power_.running() ? scale_.permille(command.current[i]) : std::int16_t{0};
+          sequence_.running() ? scale_.permille(command.current[i]) : std::int16_t{0};
       ++i;
-      link.told(bus_->send(link.command(power_.command(link.state()), torque)));
+      link.sent(bus_->send(link.command(sequence_.command(link.state()), torque)));
     }
     beat(command.elapsed);
     if (!bus_->send({.id = kSync})) {
@@ -143,14 +146,14 @@ class CanopenDevice {
     const auto enabled = [](const NodeLink& link) {
       return link.answered() && link.state() == DriveState::kOperationEnabled;
     };
-    if (power_.goal() != Power::Goal::kRun) return;
-    if (power_.enabling() && std::ranges::all_of(links(), enabled)) {
+    if (sequence_.goal() != EnableSequence::Goal::kRun) return;
+    if (sequence_.enabling() && std::ranges::all_of(links(), enabled)) {
       for (NodeLink& link : links()) link.start();
-      power_.run();
+      sequence_.run();
     }
     fault_ = down() ? Fault::kBusDown : Fault::kNone;
     for (const NodeLink& link : links()) {
-      if (fault_ == Fault::kNone) fault_ = power_.running() ? lost(link) : not_enabled(link);
+      if (fault_ == Fault::kNone) fault_ = sequence_.running() ? lost(link) : not_enabled(link);
     }
     if (fault_ != Fault::kNone) stop();
   }
@@ -163,7 +166,7 @@ class CanopenDevice {
     if (faulty(link.state())) return Fault::kDriveFault;
     if (link.state() != DriveState::kOperationEnabled) return Fault::kDriveDisabled;
     if (link.row().age >= setup_.silent_ticks) return Fault::kDriveSilent;
-    if (link.untold() >= setup_.silent_ticks) return Fault::kBusDown;
+    if (link.unsent() >= setup_.silent_ticks) return Fault::kBusDown;
     const bool watched = setup_.heartbeat_timeout > 0;
     const bool dead = watched && (link.left() || link.quiet() > setup_.heartbeat_timeout);
     return dead ? Fault::kHeartbeatLost : Fault::kNone;
@@ -172,7 +175,7 @@ class CanopenDevice {
   /// Why a drive will not run.
   Fault not_enabled(const NodeLink& link) const EBAC_RT {
     if (faulty(link.state())) return Fault::kDriveFault;
-    if (power_.ticks() < setup_.enable_ticks) return Fault::kNone;
+    if (sequence_.ticks() < setup_.enable_ticks) return Fault::kNone;
     if (!link.answered()) return Fault::kDriveSilent;
     return link.state() == DriveState::kOperationEnabled ? Fault::kNone : Fault::kDriveDisabled;
   }
@@ -192,7 +195,7 @@ class CanopenDevice {
   W wait_;
   CanopenSetup setup_;
   TorqueScale scale_;
-  Power power_;
+  EnableSequence sequence_;
   std::array<NodeLink, kMaxAxes> link_{NodeLink(setup_.node[0]), NodeLink(setup_.node[1]),
                                        NodeLink(setup_.node[2])};
   std::int64_t foreign_ = 0;

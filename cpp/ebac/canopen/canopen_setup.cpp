@@ -1,6 +1,6 @@
-#include "ebac/can/canopen_setup.hpp"
+#include "ebac/canopen/canopen_setup.hpp"
 
-#include "ebac/can/pdo_plan.hpp"
+#include "ebac/canopen/pdo_plan.hpp"
 #include "ebac/core/check.hpp"
 
 namespace ebac::can {

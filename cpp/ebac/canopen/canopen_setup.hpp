@@ -2,13 +2,13 @@
 
 #include <array>
 
-#include "ebac/can/cob_id.hpp"
+#include "ebac/canopen/cob_id.hpp"
 #include "ebac/core/fields.hpp"
 #include "ebac/model/motor.hpp"
 
 namespace ebac::can {
 
-/// What the loop must know of the drives on its bus, one per axis.
+/// Settings of the drives on the bus of a loop, one per axis.
 struct CanopenSetup {
   int axes = 1;
   std::array<NodeId, kMaxAxes> node{1, 2, 3};  // of each axis, in their order

@@ -20,7 +20,7 @@ enum class DriveState : std::uint8_t {
 };
 inline constexpr std::size_t kDriveStates = 8;
 
-/// What a controlword asks for. `kNone`: bit 7 held, which asks for nothing.
+/// Command of a controlword. `kNone`: bit 7 held, which commands nothing.
 enum class DriveCommand : std::uint8_t {
   kNone,
   kDisableVoltage,
@@ -70,7 +70,7 @@ constexpr DriveState automatic(DriveState state) EBAC_RT {
   }
 }
 
-/// The bits of the statusword that tell the state: 0x6041 & 0x6F.
+/// The bits of the statusword that encode the state: 0x6041 & 0x6F.
 constexpr std::uint16_t status_bits(DriveState state) EBAC_RT {
   constexpr std::array<std::uint16_t, kDriveStates> kBits{0x00, 0x40, 0x21, 0x23,
                                                           0x27, 0x07, 0x0F, 0x08};
@@ -88,7 +88,7 @@ constexpr DriveCommand command_of(std::uint16_t word, std::uint16_t before) EBAC
   return (word & 0x08U) == 0 ? DriveCommand::kSwitchOn : DriveCommand::kEnableOperation;
 }
 
-/// Modes of operation (0x6060) this drive offers, and 0x6502 that says so.
+/// Modes of operation (0x6060) this drive offers, and its 0x6502.
 inline constexpr std::int8_t kNoMode = 0;
 inline constexpr std::int8_t kProfileTorque = 4;
 inline constexpr std::int8_t kCyclicTorque = 10;
@@ -104,5 +104,81 @@ inline constexpr std::uint16_t kFollowsCommand = 1U << 12;  // mode 10
 }  // namespace statusword
 
 inline constexpr std::uint16_t kHalt = 1U << 8;  // controlword, mode 4
+
+/// A word of no state is "not ready": it moves nothing.
+constexpr DriveState state_of(std::uint16_t statusword) EBAC_RT {
+  switch (statusword & 0x4FU) {
+    case 0x40:
+      return DriveState::kSwitchOnDisabled;
+    case 0x0F:
+      return DriveState::kFaultReaction;
+    case 0x08:
+      return DriveState::kFault;
+    default:
+      break;
+  }
+  switch (statusword & 0x6FU) {
+    case 0x21:
+      return DriveState::kReady;
+    case 0x23:
+      return DriveState::kSwitchedOn;
+    case 0x27:
+      return DriveState::kOperationEnabled;
+    case 0x07:
+      return DriveState::kQuickStopActive;
+    default:
+      return DriveState::kNotReady;
+  }
+}
+
+constexpr bool faulty(DriveState state) EBAC_RT {
+  return state == DriveState::kFault || state == DriveState::kFaultReaction;
+}
+
+/// The controlword (0x6040) of a command; none leaves the power off.
+constexpr std::uint16_t word_of(DriveCommand command) EBAC_RT {
+  switch (command) {
+    case DriveCommand::kQuickStop:
+      return 0x02;
+    case DriveCommand::kShutdown:
+      return 0x06;
+    case DriveCommand::kSwitchOn:
+      return 0x07;
+    case DriveCommand::kEnableOperation:
+      return 0x0F;
+    case DriveCommand::kFaultReset:
+      return 0x80;
+    default:
+      return 0x00;
+  }
+}
+
+/// The next command on the way to operation enabled. A fault is left alone: the loop never resets
+/// it.
+constexpr DriveCommand up_from(DriveState state) EBAC_RT {
+  switch (state) {
+    case DriveState::kSwitchOnDisabled:
+      return DriveCommand::kShutdown;
+    case DriveState::kReady:
+      return DriveCommand::kSwitchOn;
+    case DriveState::kSwitchedOn:
+    case DriveState::kOperationEnabled:
+      return DriveCommand::kEnableOperation;
+    default:
+      return DriveCommand::kDisableVoltage;
+  }
+}
+
+/// The next command on the way to switch on disabled.
+constexpr DriveCommand down_from(DriveState state) EBAC_RT {
+  switch (state) {
+    case DriveState::kOperationEnabled:
+      return DriveCommand::kSwitchOn;
+    case DriveState::kSwitchedOn:
+      return DriveCommand::kShutdown;
+    default:
+      return DriveCommand::kDisableVoltage;
+  }
+}
 
 }  // namespace ebac::can

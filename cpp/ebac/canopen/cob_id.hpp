@@ -4,7 +4,7 @@
 
 #include "ebac/core/realtime.hpp"
 
-/// The pre-defined connection set (CiA 301, 7.3.5): which identifier says what.
+/// The pre-defined connection set (CiA 301, 7.3.5): identifiers of the services.
 namespace ebac::can {
 
 using NodeId = std::uint8_t;  // 1 to 127

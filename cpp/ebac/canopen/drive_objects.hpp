@@ -1,7 +1,7 @@
 #pragma once
 
-#include "ebac/can/cia402.hpp"
-#include "ebac/can/object_table.hpp"
+#include "ebac/canopen/cia402.hpp"
+#include "ebac/canopen/object_table.hpp"
 
 /// The one table of the simulated drive: its SDO server, its PDO mapping and its EDS read it.
 namespace ebac::can {
@@ -50,7 +50,7 @@ constexpr void add_communication(DriveTable& t) {
   }
   t.var(0x1017, "Producer heartbeat time", Type::kU16, Access::kRw);  // ms
   t.group(0x1018, "Identity object", Shape::kRecord, 4);
-  t.sub(1, "Vendor-ID", Type::kU32, Access::kConst);  // none: nobody sells this drive
+  t.sub(1, "Vendor-ID", Type::kU32, Access::kConst);                 // 0: not a product
   t.sub(2, "Product code", Type::kU32, Access::kConst, 0x65626163);  // "ebac"
   t.sub(3, "Revision number", Type::kU32, Access::kConst, 0x00010000);
   t.sub(4, "Serial number", Type::kU32, Access::kRo).plus_node = true;

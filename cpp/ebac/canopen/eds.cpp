@@ -1,4 +1,4 @@
-#include "ebac/can/eds.hpp"
+#include "ebac/canopen/eds.hpp"
 
 #include <array>
 #include <iomanip>

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "ebac/can/object_dictionary.hpp"
+#include "ebac/canopen/object_dictionary.hpp"
 
 namespace ebac::can {
 

@@ -1,16 +1,16 @@
 #pragma once
 
-#include "ebac/can/drive_words.hpp"
+#include "ebac/canopen/cia402.hpp"
 
 namespace ebac::can {
 
-/// What the loop wants of its drives, and how long it has wanted it: a command for each state
-/// and tick. Nothing waits; one call of `tick` per exchange.
-class Power {
+/// Takes drives to operation enabled, to rest or to a stop: a command for each drive state and
+/// tick. Never waits; `tick` is called once per exchange.
+class EnableSequence {
  public:
   enum class Goal : std::uint8_t { kRest, kRun, kStop };
 
-  explicit Power(bool quick_stop) EBAC_RT : quick_stop_(quick_stop) {}
+  explicit EnableSequence(bool quick_stop) EBAC_RT : quick_stop_(quick_stop) {}
 
   void want(Goal goal) EBAC_RT {
     goal_ = goal;

@@ -7,7 +7,7 @@
 
 namespace ebac::can {
 
-/// What a node may do (CiA 301, 7.3.2), as its heartbeat tells it.
+/// NMT state of a node (CiA 301, 7.3.2), as in its heartbeat.
 enum class NmtState : std::uint8_t {
   kBoot = 0x00,
   kStopped = 0x04,         // NMT and heartbeat alone
@@ -45,7 +45,7 @@ class Timer {
   std::int64_t due_ = kNever;
 };
 
-/// Cries once when what it waits for stays away longer than its time. Asleep until first fed.
+/// Expires once when it is not fed for longer than its time. Inactive until first fed.
 class Watchdog {
  public:
   void set(std::int64_t period) EBAC_RT {

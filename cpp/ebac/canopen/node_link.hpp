@@ -1,14 +1,59 @@
 #pragma once
 
-#include "ebac/can/bus_row.hpp"
-#include "ebac/can/cob_id.hpp"
-#include "ebac/can/drive_words.hpp"
+#include <array>
+#include <cstdint>
+
 #include "ebac/can/frame.hpp"
-#include "ebac/can/pdo_plan.hpp"
+#include "ebac/canopen/cia402.hpp"
+#include "ebac/canopen/cob_id.hpp"
+#include "ebac/canopen/pdo_plan.hpp"
+#include "ebac/core/fields.hpp"
 
 namespace ebac::can {
 
-/// One drive as the loop sees it: what it was told, what it answered, and what went wrong between.
+/// Columns of a trace for one drive on the bus. Counts only grow.
+struct BusRow {
+  int statusword = 0;
+  int controlword = 0;
+  int target_permille = 0;     // thousandths of the rated torque
+  int actual_permille = 0;     // thousandths of the rated torque
+  int emergency = 0;           // error code, CiA 301 and 402
+  int heartbeat = -1;          // NMT state
+  std::int64_t age = 0;        // samples
+  std::int64_t missing = 0;    // ticks
+  std::int64_t late = 0;       // frames
+  std::int64_t duplicate = 0;  // frames
+  std::int64_t malformed = 0;  // frames
+  std::int64_t foreign = 0;    // frames
+  std::int64_t refused = 0;    // frames
+
+  static constexpr auto fields() {
+    using F = Field<BusRow>;
+    return std::array{
+        F{"statusword", &BusRow::statusword, "1", "last statusword of the drive (0x6041)"},
+        F{"controlword", &BusRow::controlword, "1", "controlword sent in this tick (0x6040)"},
+        F{"target_permille", &BusRow::target_permille, "1",
+          "torque sent in this tick, in thousandths of the rated torque (0x6071)"},
+        F{"actual_permille", &BusRow::actual_permille, "1",
+          "torque the drive says it gave, in thousandths of the rated torque (0x6077)"},
+        F{"emergency", &BusRow::emergency, "1", "error code of the last emergency; 0 for none yet"},
+        F{"heartbeat", &BusRow::heartbeat, "1",
+          "NMT state in the last heartbeat: 0 boot-up, 4 stopped, 5 operational, 127 "
+          "pre-operational; -1 for none yet"},
+        F{"age", &BusRow::age, "samples", "age of the drive's process data; 0 when of this tick"},
+        F{"missing", &BusRow::missing, "1", "ticks without process data of the drive, so far"},
+        F{"late", &BusRow::late, "1", "answers that came after their tick, so far"},
+        F{"duplicate", &BusRow::duplicate, "1", "answers to a tick that had one, so far"},
+        F{"malformed", &BusRow::malformed, "1", "frames of the drive of a wrong length, so far"},
+        F{"foreign", &BusRow::foreign, "1",
+          "frames that belong to no drive of this device, so far; one count for the whole bus"},
+        F{"refused", &BusRow::refused, "1",
+          "frames to the drive, SYNC among them, that the bus did not take, so far"},
+    };
+  }
+};
+
+/// One drive as the loop sees it: commands sent, answers received, and errors in between.
 class NodeLink {
  public:
   static constexpr int kOperational = 0x05;  // NMT state in a heartbeat
@@ -25,13 +70,13 @@ class NodeLink {
     return out;
   }
 
-  /// Whether the bus took that frame. A drive that is told nothing keeps its last torque.
-  void told(bool taken) EBAC_RT {
-    untold_ = taken ? 0 : untold_ + 1;
+  /// Whether the bus took the frame. A drive that receives none keeps its last torque.
+  void sent(bool taken) EBAC_RT {
+    unsent_ = taken ? 0 : unsent_ + 1;
     if (!taken) ++row_.refused;
   }
 
-  /// Reads a data frame with an 11-bit identifier; false for one that is no business of this node.
+  /// Reads a data frame with an 11-bit identifier; false if it does not concern this node.
   bool take(const Frame& frame) EBAC_RT {
     if (frame.id == tpdo(1, node_)) {
       take_process_data(frame);
@@ -40,7 +85,7 @@ class NodeLink {
     } else if (frame.id == heartbeat(node_)) {
       take_heartbeat(frame);
     } else {
-      // Parameters, in parallel to the loop: somebody else's talk, and expected.
+      // SDO traffic of another master in parallel to the loop is expected.
       return frame.id == sdo_answer(node_) || frame.id == sdo_request(node_);
     }
     return true;
@@ -52,7 +97,7 @@ class NodeLink {
     quiet_ += elapsed;
     counts_age_ += elapsed;
   }
-  /// What was left of the last tick is read: from here on, process data answer this one.
+  /// Frames left of the last tick have been read: from here on, process data answer this one.
   void sync() EBAC_RT {
     answered_ = false;
     synced_ = true;
@@ -71,7 +116,7 @@ class NodeLink {
     quiet_ = 0;
   }
 
-  int untold() const EBAC_RT { return untold_; }  // ticks in a row
+  int unsent() const EBAC_RT { return unsent_; }  // ticks in a row
   bool answered() const EBAC_RT { return answered_; }
   bool heard() const EBAC_RT { return heard_; }      // process data, ever
   bool alarmed() const EBAC_RT { return alarmed_; }  // an emergency stands
@@ -136,7 +181,7 @@ class NodeLink {
   double elapsed_ = 0;     // s, since the last tick
   double quiet_ = 0;       // s
   double counts_age_ = 0;  // s
-  int untold_ = 0;
+  int unsent_ = 0;
   std::int64_t counts_ = 0;
   BusRow row_{};
 };

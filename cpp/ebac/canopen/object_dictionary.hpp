@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <span>
 
-#include "ebac/can/abort.hpp"
-#include "ebac/can/drive_objects.hpp"
 #include "ebac/can/frame.hpp"
+#include "ebac/canopen/drive_objects.hpp"
+#include "ebac/canopen/sdo_abort.hpp"
 
 namespace ebac::can {
 
@@ -16,7 +16,7 @@ struct Text {
   std::span<const std::uint8_t> bytes() const EBAC_RT { return {byte.data(), size}; }
 };
 
-/// The values behind the table. It knows lengths and limits; what a value does is the drive's.
+/// The values of the object table. Checks lengths and limits; their effects belong to the drive.
 class ObjectDictionary {
  public:
   explicit ObjectDictionary(std::uint8_t node) : node_(node) { restore(0x1000, 0xFFFF); }
@@ -24,7 +24,7 @@ class ObjectDictionary {
   std::int64_t operator[](std::size_t slot) const EBAC_RT { return value_[slot]; }
   std::int64_t& operator[](std::size_t slot) EBAC_RT { return value_[slot]; }
 
-  /// A value as it stands on the bus, where the object's type is wider than what it is used as.
+  /// A value as sent on the bus, where the object's type is wider than its use.
   template <std::uint16_t Index, std::uint8_t Sub = 0>
   std::int64_t get() const EBAC_RT {
     return value_[kAt<Index, Sub>];
@@ -75,9 +75,9 @@ class ObjectDictionary {
     std::copy_n(bytes.begin(), text.size, text.byte.begin());
   }
 
-  /// Power-on values of the indices from `first` to `last`: what was stored, or the defaults.
+  /// Restores the power-on values of the indices `first` to `last`: stored ones, or the defaults.
   void restore(std::uint16_t first, std::uint16_t last) EBAC_RT;
-  /// What a reset shall bring back from now on: the present values, or the defaults.
+  /// Values that a reset restores from now on: the present ones, or the defaults.
   void store() EBAC_RT {
     stored_ = value_;
     stored_text_ = text_;

@@ -7,7 +7,7 @@
 
 #include "ebac/core/realtime.hpp"
 
-/// What an object dictionary consists of: rows of index, sub-index, name, type, access and limits.
+/// Rows of an object dictionary: index, sub-index, name, type, access and limits.
 namespace ebac::can {
 
 /// Data types by their index in CiA 301, 7.4.7.
@@ -91,7 +91,7 @@ struct ObjectTable {
     open(index, name, Shape::kVar);
     return add({index, 0, name, type, access, mapping, initial, 0, 0, {}, false});
   }
-  /// Opens an array or a record, with the sub-index 0 that tells its highest.
+  /// Opens an array or a record, whose sub-index 0 holds the highest sub-index.
   constexpr Entry& group(std::uint16_t index, std::string_view name, Shape shape,
                          std::int64_t highest_sub, Access access = Access::kConst) {
     open(index, name, shape);

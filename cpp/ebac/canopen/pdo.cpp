@@ -1,4 +1,4 @@
-#include "ebac/can/pdo_mapping.hpp"
+#include "ebac/canopen/pdo.hpp"
 
 namespace ebac::can {
 
@@ -64,7 +64,7 @@ Abort check_communication(const ObjectDictionary& objects, const Entry& entry, D
   switch (entry.sub) {
     case 1:
       return check_cob_id(direction, cob_id, value);
-    case 2:  // 241 to 253 are reserved or ask for remote frames
+    case 2:  // 241 to 253 are reserved or need remote frames
       return value > 240 && value < 254 ? Abort::kValue : Abort::kNone;
     case 3:
       return (cob_id & kInvalid) == 0 ? Abort::kState : Abort::kNone;

@@ -1,14 +1,39 @@
 #pragma once
 
-#include "ebac/can/nmt.hpp"
-#include "ebac/can/pdo_mapping.hpp"
+#include "ebac/canopen/nmt.hpp"
+#include "ebac/canopen/object_dictionary.hpp"
 
 /// The two ends of a PDO in a node (CiA 301, 7.2.2).
 namespace ebac::can {
 
+enum class Direction : std::uint8_t { kReceive, kTransmit };
+
+inline constexpr std::uint16_t kDummy = 0xFFFF;  // bytes that are received and dropped
+
+/// Mapping of one PDO, ready for use.
+struct PdoMap {
+  std::array<std::uint16_t, kMapped> slot{};  // or kDummy
+  std::array<std::uint8_t, kMapped> size{};   // bytes
+  std::uint8_t count = 0;                     // entries
+  std::uint8_t bytes = 0;
+};
+
+/// Whether `index` belongs to a PDO: 0x1400, 0x1600, 0x1800, 0x1A00 and what follows.
+constexpr bool is_pdo(std::uint16_t index) EBAC_RT { return index >= 0x1400 && index < 0x1C00; }
+
+/// Checks a write of `value` to a PDO parameter (CiA 301, 7.5.2.33 to 38): the mapping of a valid
+/// PDO, and the entries of a mapping whose sub-index 0 is not 0, are locked.
+Abort check_pdo(const ObjectDictionary& objects, const Entry& entry, std::int64_t value) EBAC_RT;
+
+/// Identifiers that no PDO and no EMCY may take (CiA 301, table 41).
+bool is_restricted(std::uint32_t id) EBAC_RT;
+
+/// The mapping of PDO `number` (0 to 3), which `check_pdo` let through.
+PdoMap read_map(const ObjectDictionary& objects, Direction direction, std::size_t number) EBAC_RT;
+
 inline constexpr std::uint8_t kLastSynchronous = 240;
 
-/// What both directions are configured by.
+/// Settings common to both directions.
 struct PdoSettings {
   bool valid = false;
   std::uint32_t id = 0;
@@ -66,7 +91,7 @@ class Tpdo {
     due_ = true;
   }
 
-  /// True where this SYNC asks for a frame, which is then in `frame`.
+  /// True if this SYNC triggers a frame, which is then in `frame`.
   bool on_sync(const ObjectDictionary& objects, std::int64_t now, Frame& frame) EBAC_RT {
     if (!settings_.in_use() || !settings_.synchronous()) return false;
     pack(objects, frame);

@@ -1,4 +1,4 @@
-#include "ebac/can/pdo_plan.hpp"
+#include "ebac/canopen/pdo_plan.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -23,7 +23,7 @@ void check_range(const char* name, double value, const char* unit, double low, d
 }
 
 /// "515 us of each 1000 us, 51.5 % of a bus at 1000 kbit/s"
-std::string told(const BusLoad& load) {
+std::string describe(const BusLoad& load) {
   const auto rounded = [](double value) { return shortest(std::round(10 * value) / 10); };
   return rounded(1e6 * load.seconds()) + " us of each " + rounded(1e6 * load.period) + " us, " +
          rounded(100 * load.share()) + " % of a bus at " + rounded(1e-3 * load.bit_rate) +
@@ -76,10 +76,10 @@ std::string check_load(const BusLoad& load) {
   if (!(load.share() > kWarnedLoad)) return {};
   if (load.share() > kRefusedLoad) {
     throw std::invalid_argument(
-        "the process data take " + told(load) +
+        "the process data take " + describe(load) +
         ", at the worst: must be at most 90 %; the remedy: " + remedy(load));
   }
-  return "the process data take " + told(load) +
+  return "the process data take " + describe(load) +
          ", at the worst: over 70 %, little is left for SDO, EMCY and repeated frames; the "
          "remedy: " +
          remedy(load);

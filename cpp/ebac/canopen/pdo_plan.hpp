@@ -5,10 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "ebac/can/cob_id.hpp"
+#include "ebac/canopen/cob_id.hpp"
 
-/// The process data of one device, and what of the bus it takes. Everything here happens before the
-/// loop.
+/// The process data of one device and their share of the bus, computed before the loop starts.
 namespace ebac::can {
 
 /// RPDO 1 of a drive: controlword 0x6040 u16, target torque 0x6071 i16.
@@ -32,7 +31,7 @@ constexpr int worst_bits(int size) EBAC_RT { return 8 * size + 47 + (34 + 8 * si
 /// [1, 127] or one given twice.
 std::vector<PlannedFrame> pdo_plan(std::span<const int> nodes);
 
-/// What a plan takes of a bus.
+/// Bus load of a plan.
 struct BusLoad {
   std::vector<PlannedFrame> frames;
   double bit_rate = 1e6;  // bit/s

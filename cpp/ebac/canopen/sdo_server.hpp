@@ -5,13 +5,13 @@
 #include <concepts>
 #include <span>
 
-#include "ebac/can/abort.hpp"
 #include "ebac/can/frame.hpp"
+#include "ebac/canopen/sdo_abort.hpp"
 
 namespace ebac::can {
 
-/// What an SDO server serves. `prepare_download` refuses before the first byte what could not be
-/// written anyway; `size` is the number of bytes announced, or -1.
+/// Object access of an SDO server. `prepare_download` refuses an impossible write before the first
+/// byte; `size` is the number of bytes announced, or -1.
 template <class O>
 concept SdoObjects =
     requires(O objects, std::uint16_t index, std::uint8_t sub, std::span<const std::uint8_t> in,
@@ -26,7 +26,7 @@ concept SdoObjects =
 /// refused as an unknown command, after which clients fall back.
 class SdoServer {
  public:
-  /// Answers the eight bytes of a request; false where the protocol asks for silence.
+  /// Answers the eight bytes of a request; false where the protocol requires no answer.
   template <SdoObjects O>
   bool answer(std::span<const std::uint8_t> request, O& objects, Frame& reply) EBAC_RT {
     if (request.size() != Frame::kMaxSize) return false;

@@ -1,11 +1,36 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 
-#include "ebac/can/cob_id.hpp"
+#include "ebac/canopen/cob_id.hpp"
+#include "ebac/model/motor.hpp"
 
 namespace ebac::can {
+
+/// Amperes and whole thousandths of the rated torque, as 0x6071 and 0x6077 carry them: eq. (1).
+struct TorqueScale {
+  double one = 1e-3;   // A, of a thousandth of the rated torque
+  double peak = 1;     // A, largest command
+  double most = 1000;  // thousandths: the peak, within 16 bits
+
+  static TorqueScale of(const Motor& motor, const Drive& drive) EBAC_RT {
+    TorqueScale scale{.one = motor.current(motor.rated_torque) / 1000,
+                      .peak = drive.peak_current(motor)};
+    scale.most = std::min(std::round(scale.peak / scale.one), 32767.0);
+    return scale;
+  }
+
+  /// Rounded to the nearest thousandth, held within the limits; NaN gives 0.
+  std::int16_t permille(double current) const EBAC_RT {
+    if (std::isnan(current)) return 0;
+    const double whole = std::round(std::clamp(current, -peak, peak) / one);
+    return static_cast<std::int16_t>(std::clamp(whole, -most, most));
+  }
+  double current(std::int16_t torque_permille) const EBAC_RT { return one * torque_permille; }
+};
 
 /// A number written into the object dictionary of a drive.
 struct ObjectWrite {
@@ -14,11 +39,12 @@ struct ObjectWrite {
   std::int64_t value = 0;
 };
 
-/// What makes a drive follow a torque at every SYNC and answer each with `pdo_plan`'s data, in the
-/// order in which it must be written (CiA 301, 7.5.2.36). `most`: thousandths of the rated torque.
+/// Writes that make a drive follow a torque at every SYNC and answer each with the data of
+/// `pdo_plan`, in the required order (CiA 301, 7.5.2.36). `most`: largest torque, in thousandths of
+/// the rated torque.
 constexpr std::array<ObjectWrite, 18> torque_settings(NodeId node, int most) EBAC_RT {
   constexpr std::int64_t kOff = 1LL << 31;
-  constexpr std::int64_t kAlone = 1LL << 30;  // never asked for by a remote frame
+  constexpr std::int64_t kAlone = 1LL << 30;  // no remote frames
   constexpr std::int64_t kEverySync = 1;
   constexpr std::int64_t kCyclicTorqueMode = 10;
   constexpr std::int64_t kNoCurrentLimit = 0xFFFF;

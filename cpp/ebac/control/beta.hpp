@@ -11,9 +11,9 @@ namespace ebac {
 
 inline constexpr double kUndefined = std::numeric_limits<double>::quiet_NaN();
 
-/// Square of the largest |F_k| that grows the storage F^2/(2c) by no more than port work plus what
-/// the damping B = b/T [N/m] surely took over `dx`: F_k^2 <= F^2 + 2 c (F dx + B dx^2). Never
-/// negative for c <= 2 B.
+/// Square of the largest |F_k| for which the storage F^2/(2c) grows by no more than the port work
+/// plus the energy that the damping B = b/T [N/m] surely dissipated over `dx`: F_k^2 <= F^2 + 2 c
+/// (F dx + B dx^2). Never negative for c <= 2 B.
 inline double energy_bound_squared(double force, double dx, double c,
                                    double damping_per_tick) EBAC_RT {
   const double square = force * force + 2 * c * dx * (force + damping_per_tick * dx);
@@ -27,7 +27,7 @@ struct BetaTrace {
   double beta_min = kUndefined;  // N/m
   double beta_max = kUndefined;  // N/m
 
-  void tell(double before, double after, double dx, double bound) EBAC_RT {
+  void record(double before, double after, double dx, double bound) EBAC_RT {
     if (dx == 0) {
       beta = beta_min = beta_max = kUndefined;
       return;

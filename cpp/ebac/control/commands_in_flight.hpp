@@ -11,9 +11,9 @@ namespace ebac {
 inline constexpr int kMaxDelay = 8;  // samples, as Timing::delay
 
 /// Commands given but not yet acting: the last `delay` of them, oldest first.
-class Pending {
+class CommandsInFlight {
  public:
-  explicit Pending(int delay) EBAC_RT : size_(delay) {}
+  explicit CommandsInFlight(int delay) EBAC_RT : size_(delay) {}
 
   int size() const EBAC_RT { return size_; }
   double operator[](int j) const EBAC_RT { return force_[static_cast<std::size_t>(j)]; }

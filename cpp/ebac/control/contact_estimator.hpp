@@ -10,18 +10,20 @@
 
 namespace ebac {
 
-/// What a law learns of a contact while it lasts: how steep the environment is, and whether it swings.
-class ContactWatch {
+/// Estimates the slope of the environment and detects oscillation, for as long as a contact lasts.
+class ContactEstimator {
  public:
-  ContactWatch(double count, double most) EBAC_RT : count_(count), most_(most), stored_at_(most) {}
+  ContactEstimator(double count, double most) EBAC_RT : count_(count),
+                                                        most_(most),
+                                                        stored_at_(most) {}
 
   double slope() const EBAC_RT { return slope_; }  // N/m, 0 out of contact
 
-  /// The same from one rest to another, which the damping of the environment has no part in.
+  /// The slope from one rest to another, free of the damping of the environment.
   double slope_at_rest() const EBAC_RT { return std::min(slope_, rest_slope_); }
   double pace() const EBAC_RT { return pace_; }  // 1; falls with every reversal of a swing
 
-  /// Stiffness the last contact can have stored energy at [N/m]: its slope, at most what the law shows.
+  /// Stiffness at which the last contact can have stored energy [N/m]: its slope, at most the law's.
   double stored_at() const EBAC_RT { return stored_at_; }
 
   /// Takes one tick; `direction` is that of the motion beyond one count: -1, 0, +1.

@@ -8,7 +8,7 @@
 
 namespace ebac {
 
-/// No law at all: the device gives what the virtual world asks.
+/// No law: the command is the force of the virtual world.
 class Direct {
  public:
   static constexpr std::string_view kName = "direct";

@@ -5,17 +5,17 @@
 #include <cmath>
 #include <string_view>
 
+#include "ebac/control/affordable_force.hpp"
 #include "ebac/control/beta.hpp"
-#include "ebac/control/covered_force.hpp"
 #include "ebac/core/concepts.hpp"
 
 namespace ebac {
 
 /// The energy-bounding algorithm of Kim and Ryu, eq. (8), (9): quiet on any wall and too soft by
-/// design, because the stiffness it shows tends to c = 2 b / ((1 + 2 d) T).
+/// design, because its stiffness tends to c = 2 b / ((1 + 2 d) T).
 ///
-/// Two bounds. The storage bound (E) is the law itself; the account (D) behind it holds for every
-/// history and every delay, and is what the stated passivity rests on.
+/// It has two bounds. The storage bound (E) is the law itself; the account (D) behind it holds for
+/// every history and every delay, and the stated passivity rests on it.
 class Eba {
  public:
   static constexpr std::string_view kName = "eba";
@@ -83,7 +83,7 @@ class Eba {
     const double most = std::min(bound, params_.peak_force);
     command_ = std::clamp(port.f_env, -most, most);  // eq. (8), (9), bounded
     state_.clamped = command_ != port.f_env;
-    state_.tell(before, command_, port.dx, bound);
+    state_.record(before, command_, port.dx, bound);
     account_.give(command_);
     return command_;
   }
@@ -93,7 +93,7 @@ class Eba {
     c_ = next.c_;
   }
   void reset() EBAC_RT {
-    account_ = CoveredForce(params_.damping, params_.count, params_.current_lag, timing_);
+    account_ = AffordableForce(params_.damping, params_.count, params_.current_lag, timing_);
     command_ = 0;
     state_ = {};
   }
@@ -105,7 +105,7 @@ class Eba {
   Params params_;
   Timing timing_;
   double c_;  // N/m
-  CoveredForce account_;
+  AffordableForce account_;
   double command_ = 0;  // F_d(t-1)
   State state_{};
 };

@@ -5,38 +5,38 @@
 #include <cmath>
 #include <string_view>
 
-#include "ebac/control/contact_watch.hpp"
+#include "ebac/control/commands_in_flight.hpp"
+#include "ebac/control/contact_estimator.hpp"
 #include "ebac/control/ebac_params.hpp"
-#include "ebac/control/edge_position.hpp"
 #include "ebac/control/energy_ledger.hpp"
 #include "ebac/control/force_feedback.hpp"
 #include "ebac/control/injection.hpp"
 #include "ebac/control/motion_guard.hpp"
-#include "ebac/control/pending.hpp"
 #include "ebac/control/recovery.hpp"
+#include "ebac/control/sub_count_position.hpp"
 #include "ebac/core/concepts.hpp"
 #include "ebac/model/velocity.hpp"
 
 namespace ebac {
 
 /// The closed-loop energy-bounding algorithm, completed: eq. (8) to (10) while the device moves,
-/// and what the paper leaves open. In the order of `step`:
+/// with the points completed that the paper leaves open. In the order of `step`:
 ///
 ///   1. ledger      the energy the virtual side holds, on the force really applied
 ///   2. motion      eq. (9), the continuity of eq. (10), and the bound last: at most c_h
 ///   3. recovery    where dx = 0 and eq. (9) is undefined, F_d relaxes to F_e
 ///   4. release     contact lost: F_d = 0, always admissible
-///   5. damping     B_v on a play-filtered velocity, what mass and delay can carry
+///   5. damping     B_v on a play-filtered velocity, as large as mass and delay allow
 ///   6. force loop  eq. (2), with a small K_p
-///   7. guard       the total command is held to what the ledger covers
+///   7. guard       the total command is limited to what the ledger can pay for
 ///
-/// Nothing is designed from the wall or the hand; both are met as they come.
+/// The design uses no property of the wall or the hand.
 class Ebac {
  public:
   static constexpr std::string_view kName = "ebac";
   static constexpr std::string_view kSummary =
       "eq. (8) to (10) and (2), completed: recovery, damping, guard";
-  static constexpr bool kPassive = false;  // guarded; what that assumes is in docs/theory.md
+  static constexpr bool kPassive = false;  // guarded; see docs/explanation/theory.md
 
   using Params = EbacParams;
   using State = EbacState;
@@ -48,21 +48,21 @@ class Ebac {
         recovery_(kPace * (params.heaviest_hand + params.mass) / show_.damping, show_.stiffness),
         loop_(params.kp, params.kd, params.filter),
         ledger_(params.damping, params.count, params.current_lag, params.reserve),
-        edge_(params.count),
+        sub_count_(params.count),
         damper_(show_),
         contact_(params.count, show_.stiffness),
         guard_(params.damping, params.mass, params.count, params.pull, timing.longest()),
-        pending_(timing.delay) {
+        in_flight_(timing.delay) {
     reset();
   }
 
   double step(const Port& port) EBAC_RT {
     if (!(port.dt > 0)) return begin(port);
     if (port.dt != dt_) set_tick(port.dt);
-    ledger_.take(port.f_applied, edge_.step(port.x, port.dt), port.dx);  // 1
+    ledger_.take(port.f_applied, sub_count_.step(port.x, port.dt), port.dx);  // 1
     const double damping = damper_.step(port.dx);
     readings_.push(port.x, time_ += port.dt);
-    contact_.watch(port, edge_.direction());
+    contact_.watch(port, sub_count_.direction());
     state_.slope = contact_.slope();
     state_.clamped = false;
     state_.admitted = 1;
@@ -90,11 +90,11 @@ class Ebac {
     loop_.reset();
     damper_.reset();
     ledger_ = EnergyLedger(params_.damping, params_.count, params_.current_lag, params_.reserve);
-    pending_ = Pending(timing_.delay);
+    in_flight_ = CommandsInFlight(timing_.delay);
     readings_.clear();
     state_ = {};
     state_.energy = params_.reserve;
-    contact_ = ContactWatch(params_.count, show_.stiffness);
+    contact_ = ContactEstimator(params_.count, show_.stiffness);
     time_ = dt_ = ratio_ = 0;
   }
 
@@ -109,7 +109,7 @@ class Ebac {
   static constexpr double kYield = 0.01;  // s, F_d follows a command the guard holds back
   static constexpr int kWindow = 16;      // samples, velocity the guard counts with
 
-  /// What follows from the time since the last tick alone.
+  /// Values that depend on the time since the last tick alone.
   void set_tick(double dt) EBAC_RT {
     dt_ = dt;
     ledger_.set_tick(dt);
@@ -117,7 +117,7 @@ class Ebac {
   }
 
   double begin(const Port& port) EBAC_RT {
-    edge_.start(port.x);
+    sub_count_.start(port.x);
     readings_.push(port.x, 0);
     return 0;
   }
@@ -125,7 +125,7 @@ class Ebac {
   void release() EBAC_RT {
     state_.f_d = 0;
     ratio_ = 0;
-    state_.tell(0, 0, 0, 0);
+    state_.record(0, 0, 0, 0);
   }
 
   void move(const Port& port) EBAC_RT {
@@ -143,19 +143,19 @@ class Ebac {
     const double bound = std::abs(before + show_.stiffness * dx);  // eq. (10), rows 1 and 2: last
     state_.f_d = std::clamp(before + rise, -bound, bound);         // eq. (8)
     state_.clamped = state_.f_d != before + rise;
-    state_.tell(before, state_.f_d, dx, bound);
+    state_.record(before, state_.f_d, dx, bound);
     ratio_ = state_.beta;
   }
 
   void recover(const Port& port) EBAC_RT {
     const double slope = contact_.slope_at_rest();
-    const double open = 0.5 * slope * params_.count;  // what a reading leaves open
+    const double open = 0.5 * slope * params_.count;  // uncertainty of a reading
     const double off = port.f_env - state_.f_d;
     const double sure = std::max(off - open, 0.0) + std::min(off + open, 0.0);
     const double change = sure * recovery_.share(slope, contact_.pace(), port.dt);
     ledger_.charge_unseen(change);
     state_.f_d += change;
-    state_.tell(0, 0, 0, 0);
+    state_.record(0, 0, 0, 0);
   }
 
   double complete(const Port& port, double damping) EBAC_RT {
@@ -173,9 +173,9 @@ class Ebac {
   double guarded(double wanted, const Port& port) EBAC_RT {
     const double energy = ledger_.energy();
     const double step = std::abs(port.dx) + params_.count;  // no window slopes by more than this
-    if (guard_.surely_admits(wanted, pending_, ledger_.behind(), energy, step)) return wanted;
+    if (guard_.surely_admits(wanted, in_flight_, ledger_.lagged(), energy, step)) return wanted;
     const double v = adaptive_slope(readings_, kWindow, params_.count);
-    const double command = guard_.admit(wanted, pending_, ledger_.behind(), energy, v);
+    const double command = guard_.admit(wanted, in_flight_, ledger_.lagged(), energy, v);
     if (command != wanted) {
       state_.clamped = true;
       state_.admitted = command / wanted;
@@ -192,25 +192,25 @@ class Ebac {
       loop_.reset();
       state_.injected = 0;
     }
-    pending_.push(command);
+    in_flight_.push(command);
     ledger_.leak(command, contact_.stored_at());
     state_.energy = ledger_.energy();
   }
 
   Params params_;
   Timing timing_;
-  Injection show_;  // what the device can show while it moves
+  Injection show_;  // stiffness and damping that the device can render in motion
   Recovery recovery_;
   ForceFeedback loop_;
   EnergyLedger ledger_;
-  EdgePosition edge_;
+  SubCountPosition sub_count_;
   Damper damper_;
-  ContactWatch contact_;
+  ContactEstimator contact_;
   MotionGuard guard_;
-  Pending pending_;
+  CommandsInFlight in_flight_;
   Readings readings_{};
   State state_{};
-  double dt_ = 0;     // s, what set_tick was told
+  double dt_ = 0;     // s, argument of the last set_tick
   double time_ = 0;   // s
   double ratio_ = 0;  // N/m, beta(t-1)
 };

@@ -8,7 +8,7 @@
 
 namespace ebac {
 
-/// Parameters of `Ebac`: what a user can know of a device, and what the law is made of.
+/// Parameters of `Ebac`: facts about the device, and settings of the law.
 struct EbacParams {
   double damping = 2.0;       // N s/m
   double mass = 0.25;         // kg
@@ -65,7 +65,7 @@ struct EbacParams {
   }
 };
 
-/// What `Ebac` remembers and a trace records.
+/// State of `Ebac`, recorded in a trace.
 struct EbacState : BetaTrace {
   double f_d = 0;       // N
   double injected = 0;  // N

@@ -11,14 +11,14 @@
 
 namespace ebac {
 
-/// Eq. (8) to (10) and (2), read to the letter, so that anyone can see what they do. It neither
-/// settles at the wall nor stays passive; `Ebac` is the completed law.
+/// Eq. (8) to (10) and (2) taken literally, to show their behaviour. This law neither settles at
+/// the wall nor stays passive; `Ebac` is the completed law.
 ///
-/// The letter leaves open what the limits are and what happens at rest: here the limits are the
-/// state-dependent bound of Kim and Ryu (or a constant, if asked for), and at V_d = 0 the force
+/// The paper leaves open the limits and the behaviour at rest: here the limits are the
+/// state-dependent bound of Kim and Ryu (or a constant, if requested), and at V_d = 0 the force
 /// freezes. Kept as printed: the ratios are not sorted, the continuity rows come after the bound
 /// and may leave it, and beta(t-1) = 0 holds beta at zero until the bound (row 1) frees it, so that
-/// a soft wall met from free air is not felt at first.
+/// a soft wall entered from free air is not felt at first.
 class EbacPrinted {
  public:
   static constexpr std::string_view kName = "ebac-printed";
@@ -121,7 +121,7 @@ class EbacPrinted {
 
   /// V_d = 0: eq. (9) has no value, and the force freezes.
   void rest() EBAC_RT {
-    state_.tell(0, 0, 0, 0);
+    state_.record(0, 0, 0, 0);
     state_.clamped = false;
   }
 
@@ -134,7 +134,7 @@ class EbacPrinted {
     const double b = params_.damping / port.dt;
     const double c = 2 * b / (1 + 2 * timing_.delay);
     const double bound = std::sqrt(energy_bound_squared(state_.f_d, port.dx, c, b));
-    state_.tell(state_.f_d, state_.f_d, port.dx, bound);
+    state_.record(state_.f_d, state_.f_d, port.dx, bound);
   }
 
   Params params_;

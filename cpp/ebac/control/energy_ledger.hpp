@@ -3,17 +3,17 @@
 #include <algorithm>
 #include <cmath>
 
-#include "ebac/control/behind_lag.hpp"
+#include "ebac/control/lagged_force.hpp"
 #include "ebac/core/realtime.hpp"
 
 namespace ebac {
 
-/// What the virtual side has taken in and may give back: E += F_bar s + B max(|dx| - count, 0)^2,
-/// with F_bar the mean force behind the current loop, s the displacement as well as it is known, dx
-/// as it was read, and B = b/T. Counted before anything is decided.
+/// Energy that the virtual side has taken in and may give back: E += F_bar s + B max(|dx| - count,
+/// 0)^2, with F_bar the mean force behind the current loop, s the best estimate of the
+/// displacement, dx its reading, and B = b/T. Updated before any decision of the tick.
 ///
-/// An account that only grows would pay for a disaster next week, so it leaks, slowly, towards what
-/// the last contact can have stored.
+/// An account that only grows would later pay for any instability, so it leaks, slowly, towards the
+/// energy that the last contact can have stored.
 class EnergyLedger {
  public:
   EnergyLedger(double damping, double count, double current_lag, double reserve) EBAC_RT
@@ -22,26 +22,26 @@ class EnergyLedger {
         lag_(current_lag),
         reserve_(reserve),
         energy_(reserve),
-        behind_(current_lag) {}
+        lagged_(current_lag) {}
 
   double energy() const EBAC_RT { return energy_; }  // J
-  const BehindLag& behind() const EBAC_RT { return behind_; }
+  const LaggedForce& lagged() const EBAC_RT { return lagged_; }
 
-  /// What the force now behind the current loop can still give out as it decays, lag f^2 / (4 b),
-  /// as the square of a force held for one interval [N^2].
-  double tail_squared() const EBAC_RT { return lag_ * behind_.force() * behind_.force() / dt_; }
+  /// Energy that the force now behind the current loop can still give out as it decays, lag f^2 /
+  /// (4 b), as the square of a force held for one interval [N^2].
+  double tail_squared() const EBAC_RT { return lag_ * lagged_.force() * lagged_.force() / dt_; }
 
   void set_tick(double dt) EBAC_RT {
     dt_ = dt;
     b_ = damping_ / dt;
-    behind_.set_tick(dt);
+    lagged_.set_tick(dt);
     leak_share_ = dt / (kLeakTime + dt);
     leak_keep_ = std::exp(-dt / kLeakTime);
   }
 
   void take(double f_applied, double moved, double dx) EBAC_RT {
     const double sure = std::max(std::abs(dx) - count_, 0.0);
-    energy_ += behind_.hold(f_applied) * moved + b_ * sure * sure;
+    energy_ += lagged_.hold(f_applied) * moved + b_ * sure * sure;
   }
 
   /// Charges a force that changes while no motion is seen, one count of it: past the edge crossed
@@ -64,7 +64,7 @@ class EnergyLedger {
   double lag_;
   double reserve_;
   double energy_;
-  BehindLag behind_;
+  LaggedForce lagged_;
   double peak_ = 0;  // N
   double dt_ = 1;    // s
   double b_ = 0;     // N/m, B = b/T

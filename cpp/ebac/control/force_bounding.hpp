@@ -4,16 +4,16 @@
 #include <array>
 #include <string_view>
 
-#include "ebac/control/covered_force.hpp"
+#include "ebac/control/affordable_force.hpp"
 #include "ebac/core/concepts.hpp"
 
 namespace ebac {
 
 /// Force bounding (the family of Kim and Ryu's energy-bounding algorithm): the accumulated account
-/// alone, F^2 <= 4 B E less what is under way. The stiffest of the strictly passive laws.
+/// alone, F^2 <= 4 B E less the commands in flight. The stiffest of the strictly passive laws.
 ///
 /// Known weakness: the account grows with every motion and is spent at once, so a wall feels
-/// bouncy, and how stiff it is depends on what happened before.
+/// bouncy, and its stiffness depends on the past motion.
 class ForceBounding {
  public:
   static constexpr std::string_view kName = "force-bounding";
@@ -77,7 +77,7 @@ class ForceBounding {
 
   void retune(const ForceBounding& next) EBAC_RT { params_ = next.params_; }
   void reset() EBAC_RT {
-    account_ = CoveredForce(params_.damping, params_.count, params_.current_lag, timing_);
+    account_ = AffordableForce(params_.damping, params_.count, params_.current_lag, timing_);
     state_ = {};
   }
   const State& state() const EBAC_RT { return state_; }
@@ -87,7 +87,7 @@ class ForceBounding {
  private:
   Params params_;
   Timing timing_;
-  CoveredForce account_;
+  AffordableForce account_;
   State state_{};
 };
 

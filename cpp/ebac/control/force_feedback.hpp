@@ -4,10 +4,10 @@
 
 namespace ebac {
 
-/// The PD part of eq. (2): K_p (F_D - F_M) + K_d d/dt(F_D - F_M). The paper's raw difference of a
-/// noisy force is useless at 1 kHz, so the derivative is filtered.
+/// The PD part of eq. (2): K_p (F_D - F_M) + K_d d/dt(F_D - F_M). The raw difference of a noisy
+/// force, as in the paper, is useless at 1 kHz, so the derivative is filtered.
 ///
-/// What it costs: the handle feels M_h / (1 + K_p) and B_h / (1 + K_p).
+/// Its cost: the handle feels M_h / (1 + K_p) and B_h / (1 + K_p).
 class ForceFeedback {
  public:
   ForceFeedback(double kp, double kd, double filter) EBAC_RT : kp_(kp), kd_(kd), filter_(filter) {}

@@ -6,11 +6,11 @@
 
 namespace ebac {
 
-/// The force behind a drive's current loop, f' = (u - f) / lag: what acts is not quite what was
-/// commanded, and a little of it acts after the command has gone.
-class BehindLag {
+/// Force behind a drive's current loop, f' = (u - f) / lag: the force that acts differs from the
+/// command, and a part of it acts after the command has ended.
+class LaggedForce {
  public:
-  explicit BehindLag(double lag) EBAC_RT : lag_(lag) {}
+  explicit LaggedForce(double lag) EBAC_RT : lag_(lag) {}
 
   void set_tick(double dt) EBAC_RT {
     ticks_ = lag_ / dt;

@@ -3,21 +3,21 @@
 #include <algorithm>
 #include <cmath>
 
-#include "ebac/control/behind_lag.hpp"
-#include "ebac/control/pending.hpp"
+#include "ebac/control/commands_in_flight.hpp"
+#include "ebac/control/lagged_force.hpp"
 #include "ebac/core/fields.hpp"
 #include "ebac/core/realtime.hpp"
 
 namespace ebac {
 
-/// How large a command the ledger can pay for, whatever the environment and any hand that pulls
+/// Largest command the ledger can pay for, for any environment and any hand that pulls
 /// with no more than a declared force.
 ///
 /// A mass cannot jerk: the displacement s of an interval lies within u of v T, and u grows by a T^2
 /// with every interval, a = (pull + |F|) / M_h. A force F held over it gives out at most
 ///   R(F, u) = max over s of (-F s - B s^2), at least 0,
 /// which is F^2/(4B) where s = -F/(2B) is within reach and its tangent line beyond. A command is
-/// admitted when the ledger covers R of every force under way, of its own, of what the current loop
+/// admitted when the ledger covers R of every force in flight, of its own, of what the current loop
 /// still gives out when the commands have gone, and one count of the largest.
 class MotionGuard {
  public:
@@ -30,13 +30,13 @@ class MotionGuard {
 
   /// Enough for any velocity with |v| T <= `step`: a cheap test before the exact one needs the
   /// velocity. It takes R <= |F| |s|.
-  bool surely_admits(double force, const Pending& pending, const BehindLag& behind, double energy,
-                     double step) const EBAC_RT {
+  bool surely_admits(double force, const CommandsInFlight& in_flight, const LaggedForce& lagged,
+                     double energy, double step) const EBAC_RT {
     if (force == 0) return true;
-    const double largest = std::max(pending.largest_with(force), std::abs(behind.force()));
-    const double last = step + (1 + pending.size()) * (pull_ + largest) * jump_per_newton_;
+    const double largest = std::max(in_flight.largest_with(force), std::abs(lagged.force()));
+    const double last = step + (1 + in_flight.size()) * (pull_ + largest) * jump_per_newton_;
     // Every interval, and the tails of two forces, at the largest force and the furthest reach.
-    const double intervals = 1 + pending.size() + behind.ticks() * (2 + behind.later());
+    const double intervals = 1 + in_flight.size() + lagged.ticks() * (2 + lagged.later());
     return largest * (intervals * last + count_) <= energy;
   }
 
@@ -44,20 +44,20 @@ class MotionGuard {
   ///
   /// R is convex and R(0) = 0: the mean of a force that follows its command with a lag costs no more
   /// than its two parts.
-  double admit(double force, const Pending& pending, BehindLag behind, double energy,
+  double admit(double force, const CommandsInFlight& in_flight, LaggedForce lagged, double energy,
                double v) const EBAC_RT {
-    const double largest = std::max(pending.largest_with(0), std::abs(behind.force()));
+    const double largest = std::max(in_flight.largest_with(0), std::abs(lagged.force()));
     const double jump = (pull_ + std::max(std::abs(force), largest)) * jump_per_newton_;
     const auto loss = [&](double held, int j) EBAC_RT {
       return Loss(held, v * tick_, (1 + j) * jump, b_).at(std::abs(held));
     };
     double left = energy;
-    for (int j = 0; j < pending.size(); ++j) left -= loss(behind.hold(pending[j]), j);
-    const int d = pending.size();
-    const double tail = behind.force();  // when the new command begins to act
-    left -= behind.ticks() * (loss(tail, d) + std::abs(tail) * jump * behind.later());
+    for (int j = 0; j < in_flight.size(); ++j) left -= loss(lagged.hold(in_flight[j]), j);
+    const int d = in_flight.size();
+    const double tail = lagged.force();  // when the new command begins to act
+    left -= lagged.ticks() * (loss(tail, d) + std::abs(tail) * jump * lagged.later());
     const Loss own(force, v * tick_, (1 + d) * jump, b_);
-    const double line = behind.ticks() * jump;  // its own tail acts one jump further
+    const double line = lagged.ticks() * jump;  // its own tail acts one jump further
     const double above = own.largest_force(left, line + count_);  // when it is itself the largest
     const double most = above >= largest
                             ? above

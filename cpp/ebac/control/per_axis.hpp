@@ -4,6 +4,7 @@
 #include <concepts>
 #include <span>
 
+#include "ebac/control/any_law.hpp"
 #include "ebac/control/turned_ports.hpp"
 #include "ebac/core/concepts.hpp"
 
@@ -11,14 +12,14 @@ namespace ebac {
 
 /// A law for all ports of a device at once: writes `f_cmd` of every axis.
 template <class L>
-concept AxesController = requires(L law, std::span<Axis> axes, const Touch& touch) {
+concept AxesController = requires(L law, std::span<Axis> axes, const ContactForce& contact) {
   typename L::State;
-  { law.step(axes, touch) } noexcept;
+  { law.step(axes, contact) } noexcept;
   { law.reset() } noexcept;
 };
 
 /// A scalar law on every direction the world acts in.
-template <Controller Law>
+template <ScalarLaw Law>
 class PerAxis {
  public:
   using State = Law::State;
@@ -30,21 +31,27 @@ class PerAxis {
   }
 
   template <std::size_t N>
-  void step(std::span<Axis, N> axes, const Touch& touch) EBAC_RT {
-    turned_.step(axes, touch,
+  void step(std::span<Axis, N> axes, const ContactForce& contact) EBAC_RT {
+    turned_.step(axes, contact,
                  [this](std::size_t i, const Port& port) EBAC_RT { return laws_[i].step(port); });
   }
   void reset() EBAC_RT {
     for (Law& law : laws_) law.reset();
     turned_ = {};
   }
-  /// The gains of `next` from now on; memory, and what the law knows of the device, stay.
+  /// Takes the gains of `next`; the memory and the device parameters of the law stay.
   void retune(const Law& next) EBAC_RT
     requires requires(Law law) { law.retune(next); }
   {
     for (Law& law : laws_) law.retune(next);
   }
-  const State& state(std::size_t i) const EBAC_RT { return laws_[i].state(); }
+  decltype(auto) state(std::size_t i) const EBAC_RT { return laws_[i].state(); }
+  /// Of a law whose type is known at run time only.
+  const FieldTable& state_table() const EBAC_RT
+    requires std::same_as<Law, AnyLaw>
+  {
+    return laws_[0].state_table();
+  }
 
  private:
   std::array<Law, kMaxAxes> laws_;

@@ -8,19 +8,19 @@
 
 namespace ebac {
 
-/// Where the device is within an encoder count, as well as the readings tell.
+/// Estimates the position of the device within an encoder count.
 ///
-/// A reading tells a band one count wide; the instant it changes tells a place, the edge between two
-/// counts. A device that hardly moves is taken to be at the edge it crossed last. One that crosses
-/// edge after edge is taken to go on at their pace; where it has just turned, to be in the middle of
-/// the band, at the reading.
+/// A reading gives a band one count wide; the instant of its change gives a position, the edge
+/// between two counts. A device that hardly moves is taken to be at the edge it crossed last. One
+/// that crosses edge after edge is taken to continue at this pace; after a reversal, to be in the
+/// middle of the band, at the reading.
 ///
-/// A force that toggles with the count does its work at the edge. Counted over whole readings, a
+/// A force that toggles with the count does its work at the edge. Computed from whole readings, a
 /// held wall loses half a count times every change of the force, and dissolves within a minute; and
-/// at half a count a tick the pulses of a damper seem to take in up to twice what they do.
-class EdgePosition {
+/// at half a count per tick the pulses of a damper seem to dissipate up to twice their energy.
+class SubCountPosition {
  public:
-  explicit EdgePosition(double count) EBAC_RT : count_(count) {}
+  explicit SubCountPosition(double count) EBAC_RT : count_(count) {}
 
   void start(double x) EBAC_RT {
     edge_ = position_ = x;

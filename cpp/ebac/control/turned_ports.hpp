@@ -4,7 +4,7 @@
 #include <span>
 
 #include "ebac/core/sample.hpp"
-#include "ebac/model/touch.hpp"
+#include "ebac/model/contact_force.hpp"
 
 namespace ebac {
 
@@ -13,21 +13,21 @@ namespace ebac {
 /// direction, not a coordinate.
 class TurnedPorts {
  public:
-  /// Asks for the force of every direction, `ask(i, port)`, and gives it to the device.
+  /// Computes the force in every direction, `ask(i, port)`, and turns it back to the device axes.
   template <std::size_t N, class Ask>
-  void step(std::span<Axis, N> axes, const Touch& touch, Ask ask) EBAC_RT {
-    if (touch.turned && axes.size() > 1) {
-      enter(axes, touch);
+  void step(std::span<Axis, N> axes, const ContactForce& contact, Ask ask) EBAC_RT {
+    if (contact.turned && axes.size() > 1) {
+      enter(axes, contact);
       for (std::size_t i = 0; i < axes.size(); ++i) port_[i].f_cmd = ask(i, port_[i]);
-      leave(axes, touch);
+      leave(axes, contact);
     } else {
       for (std::size_t i = 0; i < axes.size(); ++i) axes[i].port.f_cmd = ask(i, axes[i].port);
     }
   }
 
  private:
-  void enter(std::span<const Axis> axes, const Touch& touch) EBAC_RT {
-    const auto turned = [&](double Port::* member) EBAC_RT { return turn(axes, touch, member); };
+  void enter(std::span<const Axis> axes, const ContactForce& contact) EBAC_RT {
+    const auto turned = [&](double Port::* member) EBAC_RT { return turn(axes, contact, member); };
     Axes dx = turned(&Port::dx);
     const double rounding = 1e-12 * dx.norm();
     dx = (dx.array().abs() < rounding).select(0, dx);  // counts that cancel are no motion
@@ -41,25 +41,26 @@ class TurnedPorts {
       port.dx = dx[e];
       port.v = v[e];
       port.dt = axes[i].port.dt;
-      port.f_env = touch.along[e];
+      port.f_env = contact.along[e];
       port.f_applied = applied[e];
       port.f_meas = measured[e];
     }
   }
 
-  void leave(std::span<Axis> axes, const Touch& touch) const EBAC_RT {
+  void leave(std::span<Axis> axes, const ContactForce& contact) const EBAC_RT {
     Axes f = Axes::Zero();
     for (std::size_t i = 0; i < axes.size(); ++i) f[static_cast<Eigen::Index>(i)] = port_[i].f_cmd;
-    const Axes back = touch.frame.transpose() * f;
+    const Axes back = contact.frame.transpose() * f;
     for (std::size_t i = 0; i < axes.size(); ++i)
       axes[i].port.f_cmd = back[static_cast<Eigen::Index>(i)];
   }
 
-  static Axes turn(std::span<const Axis> axes, const Touch& touch, double Port::* member) EBAC_RT {
+  static Axes turn(std::span<const Axis> axes, const ContactForce& contact,
+                   double Port::* member) EBAC_RT {
     Axes all = Axes::Zero();
     for (std::size_t i = 0; i < axes.size(); ++i)
       all[static_cast<Eigen::Index>(i)] = axes[i].port.*member;
-    return touch.frame * all;
+    return contact.frame * all;
   }
 
   std::array<Port, kMaxAxes> port_{};

@@ -10,11 +10,12 @@
 namespace ebac {
 
 /// A virtual coupling (Colgate, Stanley, Brown 1995; Adams and Hannaford 1999): a spring K_c and a
-/// damper B_c between the device and a proxy that stays on the surface of what it touches. The
-/// world's own force is never exceeded, so a soft world is felt as it is and a stiff one as K_c.
+/// damper B_c between the device and a proxy that stays on the surface of the virtual object. The
+/// force of the virtual world is never exceeded, so a soft wall is rendered as it is and a stiff
+/// one as K_c.
 ///
 /// K_c and B_c are the stiffest that Llewellyn's condition allows on a frequency grid up to
-/// Nyquist. Known weakness: a wall stiffer than K_c rests too deep, by design.
+/// Nyquist. Known weakness: on a wall stiffer than K_c the device rests too deep, by design.
 class VirtualCoupling {
  public:
   static constexpr std::string_view kName = "virtual-coupling";

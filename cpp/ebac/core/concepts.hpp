@@ -33,7 +33,7 @@ struct Command {
   double elapsed = 0;                      // s, since the last exchange; 0 in the first
 };
 
-/// What the force sensor says of itself.
+/// Status reported by the force sensor.
 enum class SensorStatus : std::uint8_t { kGood, kSaturated, kDisconnected, kError };
 
 struct Reading {
@@ -46,7 +46,7 @@ struct Reading {
   Fault fault = Fault::kNone;
 };
 
-/// Hardware, or what stands for it. One call, because on a synchronous bus it is one event: send
+/// Hardware, or a simulation of it. One call, because on a synchronous bus it is one event: send
 /// the currents of the last tick, latch the new counts and forces.
 template <class D>
 concept Device = requires(D device, const Command& command) {
@@ -60,7 +60,7 @@ struct Instant {
   std::int64_t skipped = 0;  // ticks before this one that could not be kept
 };
 
-/// What the loop waits on.
+/// Clock of a loop.
 template <class C>
 concept Clock = requires(C clock) {
   { clock.wait() } noexcept -> std::same_as<Instant>;

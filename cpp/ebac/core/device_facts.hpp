@@ -6,8 +6,8 @@
 
 namespace ebac {
 
-/// What a user can know about a device: all that a law may be designed from. Never the wall, never
-/// the hand.
+/// Facts about a device that a law may be designed from. Properties of the wall and the hand are
+/// left out on purpose.
 struct DeviceFacts {
   double damping = 2.0;       // N s/m
   double mass = 0.25;         // kg

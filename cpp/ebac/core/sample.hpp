@@ -6,7 +6,7 @@
 #include "ebac/core/fields.hpp"
 #include "ebac/core/realtime.hpp"
 
-/// A tick is a row. Each stage of the loop reads what stands to its left and writes what it knows.
+/// A tick is a row. Each stage of the loop reads the values to its left and writes its own.
 ///
 /// Signs: x grows into the wall; a force is positive when it resists +x. Letters: q joint angle, dq
 /// its rate, tau joint torque; x handle position, v its rate, f force.
@@ -17,7 +17,7 @@ enum class Fault : std::uint32_t {
   kNone = 0,
   kPositionNotFinite = 1,     // counts or kinematics gave no number
   kForceNotFinite = 2,        // the force sensor gave no number
-  kEnvironmentNotFinite = 3,  // the virtual world asked for no number
+  kEnvironmentNotFinite = 3,  // the force of the virtual world is not finite
   kLawNotFinite = 4,          // the law answered no number
   kTorqueNotFinite = 5,       // transpose or compensation gave no number
   kDevice = 6,                // the device itself reported a fault
@@ -42,27 +42,27 @@ enum class LoopState : std::int32_t {
   kIdle = 0,   // not begun, or ended well
   kArm = 1,    // waits for the device to be enabled; no force
   kRun = 2,    // the law acts
-  kStop = 3,   // force to zero, then the device is told to stop
+  kStop = 3,   // force to zero, then the device stops
   kFault = 4,  // ended by a fault; stands until it is reset
 };
 
-/// What held a current back in a tick, or added to it: bits of `limited`.
+/// Reasons for which a current was limited or increased in a tick: bits of `limited`.
 enum class Limited : std::int32_t {
   kPeak = 1,        // the largest current
-  kThermal = 2,     // what the motor's temperature allows (i2t)
+  kThermal = 2,     // motor temperature (i2t)
   kSlew = 4,        // the fastest change of a current
   kEdge = 8,        // the soft wall at the edge of the workspace pushes
   kRamp = 16,       // soft start, or the ramp of a stop
   kNotFinite = 32,  // was no number; zero instead
 };
 
-/// What the hardware has, one per motor.
+/// Quantities of the hardware, one per motor.
 struct Joint {
   std::int64_t counts = 0;     // encoder, unwrapped
   double q = 0;                // rad
   double dq = 0;               // rad/s
-  double tau = 0;              // N m, asked
-  double current = 0;          // A, asked
+  double tau = 0;              // N m, commanded
+  double current = 0;          // A, commanded
   double current_applied = 0;  // A, acted over the last interval
 
   static constexpr auto fields() {
@@ -79,18 +79,18 @@ struct Joint {
   }
 };
 
-/// What the theory has: the power-conjugate pair where hand and virtual world meet.
+/// Quantities of the theory: the power-conjugate pair at which hand and virtual world interact.
 struct Port {
   double x = 0;          // m
   double dx = 0;         // m, since the last tick
   double v = 0;          // m/s
   double dt = 0;         // s, since the last tick
-  double f_env = 0;      // N, what the virtual world asks (F_e)
-  double f_cmd = 0;      // N, what the law allows (F_d, force loop included)
+  double f_env = 0;      // N, force of the virtual world (F_e)
+  double f_cmd = 0;      // N, command of the law (F_d, force loop included)
   double f_applied = 0;  // N, acted over the last interval: after limits, after the delay
   double f_meas = 0;     // N, force sensor (F_M)
   double work = 0;       // J, W_k = sum of f_applied dx
-  double damped = 0;     // J, sum of (b/dt) dx^2: what the device's own damping surely took
+  double damped = 0;     // J, sum of (b/dt) dx^2: energy the device's own damping surely dissipated
 
   static constexpr auto fields() {
     using F = Field<Port>;

@@ -7,7 +7,7 @@
 
 namespace ebac {
 
-/// What every law must know about time: the nominal tick, and how late a command acts.
+/// Timing for which a law is designed: the nominal tick, and the delay of a command.
 struct Timing {
   double dt = 1e-3;   // s
   int delay = 1;      // samples

@@ -8,9 +8,9 @@
 
 namespace ebac::faults {
 
-/// Cases 0 to `cases` - 1 of a seed, over `threads` threads, 0 for one per core. A case depends on
-/// its number alone. After a cancellation those not done are missing at the end or in between, and
-/// `done` says which.
+/// Cases 0 to `cases` - 1 of a seed, run in `threads` threads, 0 for one per core. A case depends
+/// on its number alone. After a cancellation some cases may be missing anywhere; `done` marks the
+/// finished ones.
 struct Campaign {
   std::vector<Result> results;
   std::vector<char> done;

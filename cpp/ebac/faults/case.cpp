@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "ebac/faults/desk.hpp"
+#include "ebac/faults/test_bench.hpp"
 #include "ebac/loop/loop.hpp"
 
 namespace ebac::faults {
@@ -19,18 +19,18 @@ constexpr std::int64_t kMostToZero = 2;  // samples
 using FaultyLoop = Loop<FaultyDevice, FaultyClock, FaultyLaw>;
 
 /// A hand that moves into a slanting wall: both axes push.
-Setup setup_of(const Trouble& trouble) {
-  Noise random(trouble.chance, /*stream=*/7);
+Setup setup_of(const InjectedFault& injected) {
+  Noise random(injected.chance, /*stream=*/7);
   const auto between = [&](double low, double high) {
     return low + (high - low) * (0.5 + 0.5 * random.symmetric());
   };
-  Setup setup{.seed = trouble.chance};
+  Setup setup{.seed = injected.chance};
   setup.device.kinematics = Linear{.axes = 2};
   setup.environment = Wall{.stiffness = between(2e3, 20e3), .position = 0.01, .angle = 0.6};
   const double target = between(0.015, 0.035);
   setup.hand.path[0] = MinimumJerk{.target = target, .at = 0.01, .duration = between(0.1, 0.2)};
   setup.hand.path[1] = MinimumJerk{.target = target, .at = 0.03, .duration = between(0.1, 0.2)};
-  if (trouble.kind == Kind::kEncoderWrap) {
+  if (injected.kind == Kind::kEncoderWrap) {
     setup.device.encoder.counter_bits = 11;  // 1024 counts are 31 mm
     setup.environment = Free{};
     setup.hand.path[0] = MinimumJerk{.target = 0.038, .at = 0.01, .duration = between(0.1, 0.15)};
@@ -39,7 +39,7 @@ Setup setup_of(const Trouble& trouble) {
 }
 
 /// The currents of the rows within the limits, tick for tick.
-bool within(const Trace& trace, const Limits& limits, const Trouble& trouble) {
+bool within(const Trace& trace, const Limits& limits, const InjectedFault& injected) {
   constexpr double kRounding = 1 + 1e-9;
   double before[kMaxAxes] = {};
   for (std::size_t row = 0; row < trace.size(); ++row) {
@@ -53,7 +53,7 @@ bool within(const Trace& trace, const Limits& limits, const Trouble& trouble) {
     }
   }
   const double permille = limits.continuous_current / 1000;  // the drives round to it
-  return trouble.most_current <= limits.peak_current + permille;
+  return injected.most_current <= limits.peak_current + permille;
 }
 
 Fault first_fault_of(const Trace& trace, std::int64_t& tick) {
@@ -66,29 +66,30 @@ Fault first_fault_of(const Trace& trace, std::int64_t& tick) {
   return Fault::kNone;
 }
 
-bool named(const Trouble& trouble, Fault fault) {
-  return std::ranges::find(facts_of(trouble.kind).faults, fault) !=
-         facts_of(trouble.kind).faults.end();
+bool named(const InjectedFault& injected, Fault fault) {
+  return std::ranges::find(facts_of(injected.kind).faults, fault) !=
+         facts_of(injected.kind).faults.end();
 }
 
-/// What the fault in the rows says about detection and stop.
-Verdict judge_fault(const Trouble& trouble, const Result& result) {
-  if (result.fault == Fault::kNone) return trouble.fatal() ? Verdict::kMissed : Verdict::kPassed;
-  if (trouble.harmless()) return Verdict::kFalseAlarm;
-  if (!named(trouble, result.fault)) return Verdict::kWrongName;
+/// Judges detection and stop by the fault in the rows.
+Verdict judge_fault(const InjectedFault& injected, const Result& result) {
+  if (result.fault == Fault::kNone) return injected.fatal() ? Verdict::kMissed : Verdict::kPassed;
+  if (injected.harmless()) return Verdict::kFalseAlarm;
+  if (!named(injected, result.fault)) return Verdict::kWrongName;
   return result.to_zero <= kMostToZero ? Verdict::kPassed : Verdict::kNotZero;
 }
 
-/// After the loop: the bus goes on, the trouble goes on or ends, nothing starts again by itself.
-Verdict judge_end(FaultyLoop& loop, Desk& desk, Trouble& trouble, Trace& trace, Fault fault) {
+/// After the loop: the bus continues, the fault continues or ends, and no drive may restart by itself.
+Verdict judge_end(FaultyLoop& loop, TestBench& bench, InjectedFault& injected, Trace& trace,
+                  Fault fault) {
   const std::size_t rows = trace.size();
   if (fault != Fault::kNone && loop.run(trace)) return Verdict::kRestarted;
   bool went_off = false;
   for (int i = 0; i < kAfter; ++i) {
-    ++trouble.tick;
-    static_cast<void>(desk.exchange({.elapsed = kDt}));
-    if (went_off && !desk.off()) return Verdict::kRestarted;
-    went_off = desk.off();
+    ++injected.tick;
+    static_cast<void>(bench.exchange({.elapsed = kDt}));
+    if (went_off && !bench.off()) return Verdict::kRestarted;
+    went_off = bench.off();
   }
   if (trace.size() != rows || rows == kRows) return Verdict::kNotRecorded;
   return went_off ? Verdict::kPassed : Verdict::kStillOn;
@@ -96,55 +97,56 @@ Verdict judge_end(FaultyLoop& loop, Desk& desk, Trouble& trouble, Trace& trace, 
 
 }  // namespace
 
-Trouble trouble_of(std::uint64_t seed, std::uint64_t index) {
+InjectedFault injected_fault_of(std::uint64_t seed, std::uint64_t index) {
   Noise random(seed, /*stream=*/index + 16);
-  Trouble trouble{.kind = static_cast<Kind>(index % kKinds)};
-  const KindFacts& facts = facts_of(trouble.kind);
+  InjectedFault injected{.kind = static_cast<Kind>(index % kKinds)};
+  const KindFacts& facts = facts_of(injected.kind);
   const auto whole = [&](std::int64_t low, std::int64_t high) {
     return low +
            static_cast<std::int64_t>(random.bits() % static_cast<std::uint64_t>(high - low + 1));
   };
-  trouble.at = whole(30, 180);
-  trouble.ticks = static_cast<int>(whole(facts.shortest, facts.longest));
-  trouble.axis = static_cast<std::size_t>(whole(0, 1));
-  trouble.chance = random.bits();
-  return trouble;
+  injected.at = whole(30, 180);
+  injected.ticks = static_cast<int>(whole(facts.shortest, facts.longest));
+  injected.axis = static_cast<std::size_t>(whole(0, 1));
+  injected.chance = random.bits();
+  return injected;
 }
 
-Result run_case(Trouble trouble, std::shared_ptr<Trace>* rows) {
-  const Setup setup = setup_of(trouble);
+Result run_case(InjectedFault injected, std::shared_ptr<Trace>* rows) {
+  const Setup setup = setup_of(injected);
   const Ebac law(Ebac::Params::design(setup.device.facts(), setup.timing), setup.timing);
   DeviceModel known = setup.device;
-  if (trouble.kind == Kind::kNanTorque) {
+  if (injected.kind == Kind::kNanTorque) {
     known.compensation = {.friction = 1, .friction_speed = kNoNumber};
   }
-  Desk desk(setup, trouble);
-  const auto mail = std::make_unique<Mail<FaultyLaw>>(law);
+  TestBench bench(setup, injected);
+  const auto updates = std::make_unique<ParameterUpdates<FaultyLaw>>(law);
   const Limits limits = Limits::of(setup.device);
-  FaultyLoop loop(FaultyDevice(desk), FaultyClock(kDt, trouble, law, *mail),
-                  FaultyLaw(law, trouble), Rig(known, setup.environment), setup.device.axes(),
+  FaultyLoop loop(FaultyDevice(bench), FaultyClock(kDt, injected, law, *updates),
+                  FaultyLaw(law, injected), SignalChain(known, setup.environment),
+                  setup.device.axes(),
                   {.plan = {.soft_start = 0.02, .ramp_down = 0.02, .arm = true, .ticks = kRunTicks},
-                   .gate = Gate(limits, setup.device, kDt)});
+                   .limiter = SafetyLimiter(limits, setup.device, kDt)});
   const std::shared_ptr<Trace> trace = loop.make_trace(kRows);
-  loop.run(*trace, mail.get());
+  loop.run(*trace, updates.get());
 
   Result result;
   std::int64_t tick = 0;
   result.fault = first_fault_of(*trace, tick);
   if (result.fault != Fault::kNone) {
-    result.detected = std::max<std::int64_t>(tick - trouble.at, 0);
-    result.to_zero = std::max<std::int64_t>(trouble.last_command + 1 - tick, 0);
+    result.detected = std::max<std::int64_t>(tick - injected.at, 0);
+    result.to_zero = std::max<std::int64_t>(injected.last_command + 1 - tick, 0);
   }
-  result.verdict = judge_fault(trouble, result);
-  const Verdict end = judge_end(loop, desk, trouble, *trace, result.fault);
+  result.verdict = judge_fault(injected, result);
+  const Verdict end = judge_end(loop, bench, injected, *trace, result.fault);
   if (result.fault != Fault::kNone) {
-    result.to_off = std::max<std::int64_t>(trouble.last_current + 1 - tick, 0);
+    result.to_off = std::max<std::int64_t>(injected.last_current + 1 - tick, 0);
   }
   if (result.verdict == Verdict::kPassed) result.verdict = end;
-  if (result.verdict == Verdict::kPassed && !within(*trace, limits, trouble)) {
+  if (result.verdict == Verdict::kPassed && !within(*trace, limits, injected)) {
     result.verdict = Verdict::kBeyondLimit;
   }
-  if (trouble.kind == Kind::kParameterWrites && mail->changes().size() == 0) {
+  if (injected.kind == Kind::kParameterWrites && updates->applied().size() == 0) {
     result.verdict = Verdict::kNotRecorded;
   }
   if (rows != nullptr) *rows = trace;

@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "ebac/faults/trouble.hpp"
+#include "ebac/faults/injected_fault.hpp"
 #include "ebac/loop/trace.hpp"
 
 namespace ebac::faults {
@@ -28,10 +28,10 @@ struct Result {
   std::int64_t to_off = 0;    // ticks from that row to no current in any simulated motor
 };
 
-/// The trouble of case `index` of a campaign.
-Trouble trouble_of(std::uint64_t seed, std::uint64_t index);
+/// The fault injected in case `index` of a campaign.
+InjectedFault injected_fault_of(std::uint64_t seed, std::uint64_t index);
 
 /// Runs one case and judges it. `trace` gets its rows when it is not null.
-Result run_case(Trouble trouble, std::shared_ptr<Trace>* trace = nullptr);
+Result run_case(InjectedFault injected, std::shared_ptr<Trace>* trace = nullptr);
 
 }  // namespace ebac::faults

@@ -2,26 +2,26 @@
 
 #include <utility>
 
-#include "ebac/can/cob_id.hpp"
 #include "ebac/can/loopback_bus.hpp"
-#include "ebac/faults/trouble.hpp"
+#include "ebac/canopen/cob_id.hpp"
+#include "ebac/faults/injected_fault.hpp"
 
 namespace ebac::faults {
 
 /// The loop's end of a bus, on which frames are lost, late, doubled or damaged.
 class FaultyBus {
  public:
-  FaultyBus(can::LoopbackBus end, const Trouble& trouble)
-      : end_(std::move(end)), trouble_(&trouble) {}
+  FaultyBus(can::LoopbackBus end, const InjectedFault& injected)
+      : end_(std::move(end)), injected_(&injected) {}
 
   bool send(const can::Frame& frame) EBAC_RT {
-    const bool lost = (trouble_->on(Kind::kLostCommand) && frame.id == can::rpdo(1, node())) ||
-                      (trouble_->on(Kind::kHeartbeatOfLoop) && frame.id > can::heartbeat(0));
+    const bool lost = (injected_->on(Kind::kLostCommand) && frame.id == can::rpdo(1, node())) ||
+                      (injected_->on(Kind::kHeartbeatOfLoop) && frame.id > can::heartbeat(0));
     return lost || end_.send(frame);
   }
 
   bool receive(can::Frame& frame) EBAC_RT {
-    if (has_held_ && held_at_ < trouble_->tick) {
+    if (has_held_ && held_at_ < injected_->tick) {
       frame = held_;
       has_held_ = false;
       return true;
@@ -40,34 +40,34 @@ class FaultyBus {
   can::BusState state() const EBAC_RT { return end_.state(); }
 
  private:
-  can::NodeId node() const EBAC_RT { return static_cast<can::NodeId>(trouble_->axis + 1); }
+  can::NodeId node() const EBAC_RT { return static_cast<can::NodeId>(injected_->axis + 1); }
 
-  /// Whether it does, and as what.
+  /// Whether the frame arrives; may alter it.
   bool arrives(can::Frame& frame) EBAC_RT {
-    if (frame.id == can::heartbeat(node())) return !trouble_->on(Kind::kHeartbeatOfNode);
+    if (frame.id == can::heartbeat(node())) return !injected_->on(Kind::kHeartbeatOfNode);
     if (frame.id != can::tpdo(1, node())) return true;
-    if (trouble_->on(Kind::kLostAnswer)) return false;
-    if (trouble_->on(Kind::kLateAnswer)) {
+    if (injected_->on(Kind::kLostAnswer)) return false;
+    if (injected_->on(Kind::kLateAnswer)) {
       held_ = frame;
-      held_at_ = trouble_->tick;
+      held_at_ = injected_->tick;
       has_held_ = true;
       return false;
     }
-    if (trouble_->on(Kind::kDuplicateAnswer)) {
+    if (injected_->on(Kind::kDuplicateAnswer)) {
       twin_ = frame;
       has_twin_ = true;
     }
-    if (trouble_->on(Kind::kShortAnswer)) --frame.size;
+    if (injected_->on(Kind::kShortAnswer)) --frame.size;
     // Bits 8 to 30 of the position: a lower one may be a motion.
-    if (trouble_->on(Kind::kCorruptAnswer)) {
-      const auto bit = 8 + trouble_->chance % 23;
+    if (injected_->on(Kind::kCorruptAnswer)) {
+      const auto bit = 8 + injected_->chance % 23;
       frame.data[2 + bit / 8] ^= static_cast<std::uint8_t>(1U << bit % 8);
     }
     return true;
   }
 
   can::LoopbackBus end_;
-  const Trouble* trouble_;
+  const InjectedFault* injected_;
   can::Frame held_{};
   can::Frame twin_{};
   std::int64_t held_at_ = 0;

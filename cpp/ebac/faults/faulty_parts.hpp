@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "ebac/control/ebac.hpp"
-#include "ebac/faults/trouble.hpp"
-#include "ebac/loop/mail.hpp"
+#include "ebac/faults/injected_fault.hpp"
+#include "ebac/loop/parameter_updates.hpp"
 #include "ebac/sim/simulated_device.hpp"
 
 namespace ebac::faults {
@@ -16,14 +16,14 @@ inline constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
 /// The simulated plant, with an encoder that may jump.
 class FaultyPlant {
  public:
-  FaultyPlant(SimulatedDevice plant, const Trouble& trouble)
-      : plant_(std::move(plant)), trouble_(&trouble) {}
+  FaultyPlant(SimulatedDevice plant, const InjectedFault& injected)
+      : plant_(std::move(plant)), injected_(&injected) {}
 
   Reading exchange(const Command& command) EBAC_RT {
     Reading reading = plant_.exchange(command);
-    if (trouble_->on(Kind::kEncoderJump)) {
-      const auto size = static_cast<std::int64_t>(200 + trouble_->chance % 100'000);
-      reading.counts[trouble_->axis] += (trouble_->chance & 1U) != 0 ? size : -size;
+    if (injected_->on(Kind::kEncoderJump)) {
+      const auto size = static_cast<std::int64_t>(200 + injected_->chance % 100'000);
+      reading.counts[injected_->axis] += (injected_->chance & 1U) != 0 ? size : -size;
     }
     return reading;
   }
@@ -31,7 +31,7 @@ class FaultyPlant {
 
  private:
   SimulatedDevice plant_;
-  const Trouble* trouble_;
+  const InjectedFault* injected_;
 };
 
 /// EBAC on every axis; it may lose its mind.
@@ -40,11 +40,11 @@ class FaultyLaw {
   using State = Ebac::State;
   using Scalar = Ebac;
 
-  FaultyLaw(const Ebac& law, const Trouble& trouble) : law_(law), trouble_(&trouble) {}
+  FaultyLaw(const Ebac& law, const InjectedFault& injected) : law_(law), injected_(&injected) {}
 
-  void step(std::span<Axis> axes, const Touch& touch) EBAC_RT {
-    law_.step(axes, touch);
-    if (trouble_->on(Kind::kNanLaw)) axes[trouble_->axis].port.f_cmd = kNoNumber;
+  void step(std::span<Axis> axes, const ContactForce& contact) EBAC_RT {
+    law_.step(axes, contact);
+    if (injected_->on(Kind::kNanLaw)) axes[injected_->axis].port.f_cmd = kNoNumber;
   }
   void reset() EBAC_RT { law_.reset(); }
   void retune(const Ebac& next) EBAC_RT { law_.retune(next); }
@@ -52,20 +52,21 @@ class FaultyLaw {
 
  private:
   PerAxis<Ebac> law_;
-  const Trouble* trouble_;
+  const InjectedFault* injected_;
 };
 
-/// Virtual time that counts the ticks of the case, may be late, and brings the mail.
+/// Virtual clock that counts the ticks of the case, may be late, and posts the parameter updates.
 class FaultyClock {
  public:
-  FaultyClock(double dt, Trouble& trouble, const Ebac& law, Mail<FaultyLaw>& mail)
-      : dt_(dt), trouble_(&trouble), law_(law), mail_(&mail), random_(trouble.chance) {}
+  FaultyClock(double dt, InjectedFault& injected, const Ebac& law,
+              ParameterUpdates<FaultyLaw>& updates)
+      : dt_(dt), injected_(&injected), law_(law), updates_(&updates), random_(injected.chance) {}
 
   Instant wait() EBAC_RT {
-    ++trouble_->tick;
+    ++injected_->tick;
     write();
-    if (trouble_->tick == 0) return {};
-    const bool late = trouble_->on(Kind::kOverruns);
+    if (injected_->tick == 0) return {};
+    const bool late = injected_->on(Kind::kOverruns);
     const std::int64_t skipped = late ? 1 + static_cast<std::int64_t>(random_.bits() % 2) : 0;
     const double dt = dt_ * static_cast<double>(1 + skipped);
     t_ += dt;
@@ -74,25 +75,26 @@ class FaultyClock {
 
  private:
   void write() EBAC_RT {
-    if (trouble_->begins(Kind::kStop)) mail_->stop();
-    if (trouble_->begins(Kind::kNanWorld)) mail_->post(Environment(Wall{.position = kNoNumber}));
-    if (!trouble_->on(Kind::kParameterWrites)) return;
+    if (injected_->begins(Kind::kStop)) updates_->stop();
+    if (injected_->begins(Kind::kNanWorld))
+      updates_->post(Environment(Wall{.position = kNoNumber}));
+    if (!injected_->on(Kind::kParameterWrites)) return;
     const double some = 0.5 + 0.5 * random_.symmetric();
     if (random_.bits() % 4 == 0) {
-      mail_->post(Environment(Wall{.stiffness = 20e3 * some, .position = 0.01 * some}));
+      updates_->post(Environment(Wall{.stiffness = 20e3 * some, .position = 0.01 * some}));
     }
     if (random_.bits() % 4 == 0) {
       Ebac::Params params = law_.params();
       params.kp *= some;
       params.peak_force *= 0.1 + 0.9 * some;
-      mail_->post(Ebac(params, law_.timing()));
+      updates_->post(Ebac(params, law_.timing()));
     }
   }
 
   double dt_;  // s
-  Trouble* trouble_;
+  InjectedFault* injected_;
   Ebac law_;
-  Mail<FaultyLaw>* mail_;
+  ParameterUpdates<FaultyLaw>* updates_;
   Noise random_;
   double t_ = 0;  // s
 };

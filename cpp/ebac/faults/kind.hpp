@@ -8,7 +8,7 @@
 
 namespace ebac::faults {
 
-/// What a campaign does to a run.
+/// Faults that a campaign injects into a run.
 enum class Kind : std::uint8_t {
   kLostAnswer,
   kLateAnswer,
@@ -46,7 +46,7 @@ struct KindFacts {
   int fatal;
   /// So many ticks below that, finding it and not finding it are both right.
   int slack;
-  /// What it must be called.
+  /// Faults by which it may be reported.
   std::array<Fault, 3> faults;
 };
 

@@ -1,6 +1,6 @@
-#include "ebac/faults/desk.hpp"
+#include "ebac/faults/test_bench.hpp"
 
-#include "ebac/can/torque_settings.hpp"
+#include "ebac/canopen/torque.hpp"
 
 namespace ebac::faults {
 
@@ -16,7 +16,7 @@ can::CanopenSetup can_setup(const DeviceModel& device) {
           .motor = device.motor,
           .drive = device.drive,
           .heartbeat_timeout = 1e-3 * static_cast<double>(kConsumer),
-          .own_node = Desk::kOwnNode,
+          .own_node = TestBench::kOwnNode,
           .heartbeat_period = 1e-3 * static_cast<double>(kProducer)};
 }
 
@@ -26,14 +26,14 @@ SimulatedDevice plant_of(Setup setup) {
   return SimulatedDevice(setup);
 }
 
-constexpr int kBefore = 2 * kProducer;  // ticks of 1 ms, until every drive says it is operational
+constexpr int kBefore = 2 * kProducer;  // ticks of 1 ms, until every drive is operational
 
 }  // namespace
 
-Desk::Desk(const Setup& setup, Trouble& trouble)
-    : trouble_(&trouble),
-      other_(FaultyPlant(plant_of(setup), trouble), setup.device, hub_.open()),
-      near_(hub_.open(), trouble),
+TestBench::TestBench(const Setup& setup, InjectedFault& injected)
+    : injected_(&injected),
+      other_(FaultyPlant(plant_of(setup), injected), setup.device, hub_.open()),
+      near_(hub_.open(), injected),
       can_(near_, can::RunOther(other_), can_setup(setup.device)) {
   const auto most =
       static_cast<int>(can::TorqueScale::of(setup.device.motor, setup.device.drive).most);
@@ -42,7 +42,7 @@ Desk::Desk(const Setup& setup, Trouble& trouble)
   for (int i = 0; i < kBefore; ++i) static_cast<void>(can_.exchange({.elapsed = 1e-3}));
 }
 
-void Desk::set_up(can::SimulatedDrive& drive, int most) const {
+void TestBench::set_up(can::SimulatedDrive& drive, int most) const {
   const auto write = [&](std::uint16_t index, std::uint8_t sub, std::int64_t value) {
     if (drive.write(index, sub, value) != can::Abort{}) {
       throw std::logic_error("a simulated drive refused object " + std::to_string(index) + ":" +
@@ -58,44 +58,44 @@ void Desk::set_up(can::SimulatedDrive& drive, int most) const {
   }
 }
 
-void Desk::spoil_drive() EBAC_RT {
-  can::SimulatedDrive& drive = this->drive(trouble_->axis);
-  if (trouble_->begins(Kind::kSilentNode)) drive.set_condition(can::Condition::kSilent, true);
-  if (trouble_->begins(Kind::kDriveFault)) {
+void TestBench::spoil_drive() EBAC_RT {
+  can::SimulatedDrive& drive = this->drive(injected_->axis);
+  if (injected_->begins(Kind::kSilentNode)) drive.set_condition(can::Condition::kSilent, true);
+  if (injected_->begins(Kind::kDriveFault)) {
     constexpr std::array kAll{can::Condition::kOverVoltage, can::Condition::kEncoderLost,
                               can::Condition::kOverTemperature};
-    drive.set_condition(kAll[trouble_->chance % kAll.size()], true);
+    drive.set_condition(kAll[injected_->chance % kAll.size()], true);
   }
 }
 
-void Desk::spoil_sensor(Reading& reading) EBAC_RT {
-  const std::size_t axis = trouble_->axis;
-  if (trouble_->on(Kind::kNanCurrent)) reading.current_applied[axis] = kNoNumber;
-  if (trouble_->on(Kind::kNanForce)) reading.force[axis] = kNoNumber;
-  if (trouble_->on(Kind::kForceStale)) reading.force_age = force_age_;
-  if (trouble_->on(Kind::kForceSaturated)) reading.force_status = SensorStatus::kSaturated;
-  if (trouble_->on(Kind::kForceDisconnected)) reading.force_status = SensorStatus::kDisconnected;
-  if (trouble_->on(Kind::kForceError)) reading.force_status = SensorStatus::kError;
+void TestBench::spoil_sensor(Reading& reading) EBAC_RT {
+  const std::size_t axis = injected_->axis;
+  if (injected_->on(Kind::kNanCurrent)) reading.current_applied[axis] = kNoNumber;
+  if (injected_->on(Kind::kNanForce)) reading.force[axis] = kNoNumber;
+  if (injected_->on(Kind::kForceStale)) reading.force_age = force_age_;
+  if (injected_->on(Kind::kForceSaturated)) reading.force_status = SensorStatus::kSaturated;
+  if (injected_->on(Kind::kForceDisconnected)) reading.force_status = SensorStatus::kDisconnected;
+  if (injected_->on(Kind::kForceError)) reading.force_status = SensorStatus::kError;
 }
 
-Reading Desk::exchange(const Command& command) EBAC_RT {
+Reading TestBench::exchange(const Command& command) EBAC_RT {
   spoil_drive();
   Reading reading = can_.exchange(command);
   const Reading& seen = other_.joystick().reading();
   reading.force = seen.force;
   reading.force_status = seen.force_status;
-  force_age_ = trouble_->on(Kind::kForceStale) ? force_age_ + command.elapsed : 0;
+  force_age_ = injected_->on(Kind::kForceStale) ? force_age_ + command.elapsed : 0;
   spoil_sensor(reading);
   for (std::size_t i = 0; i < axes(); ++i) {
     const double current = std::abs(drive(i).current());
-    trouble_->most_current = std::max(trouble_->most_current, current);
-    if (current > 0) trouble_->last_current = trouble_->tick;
-    if (can_.state(i).target_permille != 0) trouble_->last_command = trouble_->tick;
+    injected_->most_current = std::max(injected_->most_current, current);
+    if (current > 0) injected_->last_current = injected_->tick;
+    if (can_.state(i).target_permille != 0) injected_->last_command = injected_->tick;
   }
   return reading;
 }
 
-bool Desk::off() EBAC_RT {
+bool TestBench::off() EBAC_RT {
   for (std::size_t i = 0; i < axes(); ++i) {
     const can::DriveState state = drive(i).state();
     const bool on =

@@ -4,28 +4,28 @@
 #include <string>
 #include <utility>
 
-#include "ebac/can/can_desk.hpp"
 #include "ebac/faults/faulty_bus.hpp"
 #include "ebac/faults/faulty_parts.hpp"
+#include "ebac/simulated_drives/can_test_bench.hpp"
 
 namespace ebac::faults {
 
-/// A plant, its drives and a bus on which things go wrong, in virtual time; the drives watch the
-/// loop as the loop watches them. It stays where it is: its parts know each other.
-class Desk {
+/// Test bench: a plant, its drives and a bus with injected faults, in virtual time; the drives
+/// monitor the loop as the loop monitors them. Not movable: its parts refer to each other.
+class TestBench {
  public:
   using Other = can::JoystickOnBus<FaultyPlant>;
   using Can = can::CanopenDevice<FaultyBus, can::RunOther<Other>>;
   static constexpr int kOwnNode = 100;
 
-  Desk(const Setup& setup, Trouble& trouble);
-  Desk(const Desk&) = delete;
-  Desk& operator=(const Desk&) = delete;
-  Desk(Desk&&) = delete;
-  Desk& operator=(Desk&&) = delete;
-  ~Desk() = default;
+  TestBench(const Setup& setup, InjectedFault& injected);
+  TestBench(const TestBench&) = delete;
+  TestBench& operator=(const TestBench&) = delete;
+  TestBench(TestBench&&) = delete;
+  TestBench& operator=(TestBench&&) = delete;
+  ~TestBench() = default;
 
-  /// What the drives do wrong themselves begins and ends here.
+  /// Faults of the drives begin and end here.
   Reading exchange(const Command& command) EBAC_RT;
 
   Can& can() EBAC_RT { return can_; }
@@ -40,7 +40,7 @@ class Desk {
   void spoil_drive() EBAC_RT;
   void spoil_sensor(Reading& reading) EBAC_RT;
 
-  Trouble* trouble_;
+  InjectedFault* injected_;
   can::LoopbackHub hub_;
   Other other_;
   FaultyBus near_;
@@ -48,20 +48,20 @@ class Desk {
   double force_age_ = 0;  // s
 };
 
-/// The desk as the loop's device.
+/// The test bench as the loop's device.
 class FaultyDevice {
  public:
-  explicit FaultyDevice(Desk& desk) EBAC_RT : desk_(&desk) {}
+  explicit FaultyDevice(TestBench& bench) EBAC_RT : bench_(&bench) {}
 
-  Reading exchange(const Command& command) EBAC_RT { return desk_->exchange(command); }
-  void enable() EBAC_RT { desk_->can().enable(); }
-  void disable() EBAC_RT { desk_->can().disable(); }
-  void stop() EBAC_RT { desk_->can().stop(); }
-  bool running() const EBAC_RT { return desk_->can().running(); }
-  auto parts() const EBAC_RT { return std::tie(desk_->plant(), std::as_const(desk_->can())); }
+  Reading exchange(const Command& command) EBAC_RT { return bench_->exchange(command); }
+  void enable() EBAC_RT { bench_->can().enable(); }
+  void disable() EBAC_RT { bench_->can().disable(); }
+  void stop() EBAC_RT { bench_->can().stop(); }
+  bool running() const EBAC_RT { return bench_->can().running(); }
+  auto parts() const EBAC_RT { return std::tie(bench_->plant(), std::as_const(bench_->can())); }
 
  private:
-  Desk* desk_;
+  TestBench* bench_;
 };
 
 static_assert(Device<FaultyDevice>);

@@ -30,13 +30,13 @@ constexpr double kJumpDoubt = 0.3;
 
 /// Covariance of position and velocity, foretold.
 struct Spread {
-  static constexpr double kFreePosition = 1;  // m^2: says nothing about a handle
+  static constexpr double kFreePosition = 1;  // m^2: no information on the position of a handle
   static constexpr double kFreeVelocity = 1e2;
 
   double p00 = kFreePosition, p01 = 0, p11 = kFreeVelocity;
 
   /// Takes a reading of x + forward v of some variance in.
-  ArmGains::Row meet(double variance, double forward, double& log_sum) EBAC_RT {
+  ArmGains::Row weigh(double variance, double forward, double& log_sum) EBAC_RT {
     if (std::isinf(variance)) return {};
     const double c0 = p00 + forward * p01;
     const double c1 = p01 + forward * p11;
@@ -184,7 +184,7 @@ ArmGains ArmRecord::gains(const ArmGuess& guess, double force_noise) const {
   Spread spread;
   for (std::size_t i = 0; i < rows(); ++i) {
     const double forward = log_.lag + late - log_.early[i];
-    out.rows.push_back(spread.meet(log_.variance[i], forward, out.log_sum));
+    out.rows.push_back(spread.weigh(log_.variance[i], forward, out.log_sum));
     const double doubt = kJumpDoubt * jumps[i];
     const double other = log_.doubt[i];
     spread.move(step.phi, q * (force_noise * force_noise + doubt * doubt + other * other));

@@ -8,9 +8,9 @@
 
 namespace ebac {
 
-/// The hand of eq. (4) as a fit moves it: what all recordings share, then what one has for itself.
+/// Parameters of the hand of eq. (4) in a fit: those common to all recordings, then those of each.
 ///
-/// In a vector: mass, damping, stiffness, delay, onset, bend, one share for each input of the log,
+/// As a vector: mass, damping, stiffness, delay, onset, bend, one share for each input of the log,
 /// then the levels of the target.
 struct ArmGuess {
   static constexpr std::size_t kBeforeInputs = 6;
@@ -20,15 +20,15 @@ struct ArmGuess {
   double stiffness = 300;  // N/m
   double delay = 0;        // s, of the force reading behind the motion
   double onset = 0;        // s, of the target behind its switches: reaction time
-  double bend = 0;         // 1, of second differences of the force: what it did between two rows
-  std::span<const double> shares{};  // of the inputs, in what makes each of them a force [N]
+  double bend = 0;         // 1, of second differences of the force, for its course between two rows
+  std::span<const double> shares{};  // of the inputs; each product is a force [N]
   std::span<const double> levels{};  // m
 
   static ArmGuess from(std::span<const double> theta, std::size_t inputs);
 };
 
-/// How far each row corrects what was foretold: the gains of a Kalman filter, made for one guess and
-/// kept while a search moves, so that its errors are those of a plain least-squares problem.
+/// Gains of a Kalman filter, made for one guess and kept during a search, so that its errors are
+/// those of a plain least-squares problem.
 struct ArmGains {
   struct Row {
     double x = 0;       // 1
@@ -56,7 +56,8 @@ class ArmRecord {
     std::vector<double> variance;  // m^2, of each position; infinite for one to leave out
     std::vector<double> early;     // s, how long before the row each position was true
     std::vector<double> known;     // m, known part of the target
-    std::vector<double> doubt;     // N, what else may push over the tick from each row on
+    std::vector<double>
+        doubt;  // N, standard deviation of other forces over the tick from each row on
     std::vector<std::vector<double>>
         inputs;                    // mean force over the tick from each row on, per share
     std::vector<double> switches;  // s after the first row, rising: the target goes to the next

@@ -9,8 +9,7 @@
 
 namespace ebac {
 
-/// Time that passes when asked: t = k T, or with jitter t = (k + e) T, |e| <= jitter, in whole
-/// quanta.
+/// Virtual time: t = k T, or with jitter t = (k + e) T, |e| <= jitter, in whole quanta.
 class VirtualClock {
  public:
   VirtualClock(double dt, double jitter, std::uint64_t seed) EBAC_RT : dt_(dt),

@@ -8,34 +8,35 @@
 #include <utility>
 
 #include "ebac/core/check.hpp"
-#include "ebac/loop/course.hpp"
-#include "ebac/loop/gate.hpp"
-#include "ebac/loop/mail.hpp"
+#include "ebac/loop/parameter_updates.hpp"
 #include "ebac/loop/row_parts.hpp"
+#include "ebac/loop/run_state_machine.hpp"
+#include "ebac/loop/safety_limiter.hpp"
 #include "ebac/loop/tick.hpp"
 #include "ebac/loop/trace.hpp"
 
 namespace ebac {
 
-/// Everything of a loop but its parts: how it begins and ends, and what it allows.
+/// Options of a loop: start and end of a run, and its safety limits.
 struct LoopOptions {
   RunPlan plan{};
-  Gate gate{};
+  SafetyLimiter limiter{};
 };
 
-/// Runs ticks and keeps their rows: Arm, Run, Stop, then Idle or Fault. A fault latches: its row and
-/// the next ones, `stop_ticks` in all, command zero force, a device that can `stop` is told to, and
-/// the loop ends; until `reset` it does not start again.
+/// Runs ticks and records their rows: Arm, Run, Stop, then Idle or Fault. A fault latches: its row
+/// and the next ones, `stop_ticks` in all, command zero force, the device is stopped if it has
+/// `stop`, and the loop ends; it does not start again until `reset`.
 template <Device D, Clock C, AxesController Law>
 class Loop {
  public:
-  Loop(D device, C clock, Law law, const Rig& rig, int axes, const LoopOptions& options = {})
+  Loop(D device, C clock, Law law, const SignalChain& chain, int axes,
+       const LoopOptions& options = {})
       : device_(std::move(device)),
         clock_(std::move(clock)),
         law_(std::move(law)),
-        rig_(rig),
-        course_(options.plan),
-        gate_(options.gate) {
+        chain_(chain),
+        run_state_(options.plan),
+        limiter_(options.limiter) {
     check(options.plan, "RunPlan");
     sample_.axes = axes;
   }
@@ -43,25 +44,26 @@ class Loop {
   /// A trace laid out for this loop, with room for `rows`; as a ring it keeps the last `rows`.
   std::shared_ptr<Trace> make_trace(std::size_t rows, bool ring = false) {
     auto trace = std::make_shared<Trace>(static_cast<int>(sample_.axes));
-    law_at_ = trace->template add_block<typename Law::State>("law.");
+    law_at_ = trace->add_block("law.", law_table());
+    law_bytes_ = law_table().rows.empty() ? 0 : law_table().size;
     std::apply(
         [&](const auto&... part) {
           [[maybe_unused]] std::size_t i = 0;
           ((device_at_[i++] = add_part(*trace, part)), ...);
         },
         row_parts(device_));
-    if (gate_.on()) gate_at_ = add_part(*trace, gate_);
+    if (limiter_.on()) limiter_at_ = add_part(*trace, limiter_);
     if constexpr (kTimed) clock_at_ = add_part(*trace, clock_);
     trace->reserve(rows, ring);
     return trace;
   }
 
-  /// Ticks to the end of the plan, to a fault or to `stop` in the mail; false when a fault stands.
-  /// A full trace ends a simulation, and stops a run that armed its device: ticks without a row are
-  /// counted.
-  bool run(Trace& trace, Mail<Law>* mail = nullptr) EBAC_RT {
-    if (!course_.start()) return false;
-    if (course_.plan().arm) {
+  /// Runs to the end of the plan, to a fault or to a requested stop; returns false if a fault is
+  /// latched. A full trace ends a simulation, and stops a run that armed its device: ticks without
+  /// a row are counted.
+  bool run(Trace& trace, ParameterUpdates<Law>* updates = nullptr) EBAC_RT {
+    if (!run_state_.start()) return false;
+    if (run_state_.plan().arm) {
       if constexpr (requires {
                       { device_.enable() } noexcept;
                     })
@@ -69,9 +71,9 @@ class Loop {
     }
     for (bool over = false; !over;) {
       std::byte* row = trace.next();
-      if (row == nullptr && !course_.plan().arm) return course_.leave(), true;
-      if (row == nullptr) course_.end();
-      step(mail, row);
+      if (row == nullptr && !run_state_.plan().arm) return run_state_.leave(), true;
+      if (row == nullptr) run_state_.end();
+      step(updates, row);
       if (row == nullptr) {
         unrecorded_.store(unrecorded_.load(std::memory_order_relaxed) + 1,
                           std::memory_order_relaxed);
@@ -79,86 +81,86 @@ class Loop {
         trace.commit();
       }
       ++sample_.tick;
-      over = course_.finish();
+      over = run_state_.finish();
     }
     return true;
   }
 
   /// Lets a loop that ended by a fault start again.
   bool reset() EBAC_RT {
-    if (!course_.reset()) return false;
+    if (!run_state_.reset()) return false;
     sample_.fault = Fault::kNone;
     law_.reset();
-    gate_.restart();
+    limiter_.restart();
     return true;
   }
 
-  LoopState state() const EBAC_RT { return course_.state(); }
+  LoopState state() const EBAC_RT { return run_state_.state(); }
   std::int64_t unrecorded() const EBAC_RT { return unrecorded_.load(std::memory_order_relaxed); }
   const Sample& sample() const EBAC_RT { return sample_; }
   D& device() EBAC_RT { return device_; }
 
  private:
-  /// Whether the clock tells of its ticks.
+  /// Whether the clock has columns in the trace.
   static constexpr bool kTimed = requires { typename C::State; };
 
   /// A tick, and its row if there is room for one.
-  void step(Mail<Law>* mail, std::byte* row) EBAC_RT {
+  void step(ParameterUpdates<Law>* updates, std::byte* row) EBAC_RT {
     if constexpr (Quick<D>) {
-      if (sample_.axes == 1) return step_one(mail, row);
+      if (sample_.axes == 1) return step_one(updates, row);
     }
-    step(mail, row, axes_in_use(sample_));
+    step(updates, row, axes_in_use(sample_));
   }
 
-  EBAC_ONE_FUNCTION void step_one(Mail<Law>* mail, std::byte* row) EBAC_RT {
-    step(mail, row, only_axis(sample_));
+  EBAC_ONE_FUNCTION void step_one(ParameterUpdates<Law>* updates, std::byte* row) EBAC_RT {
+    step(updates, row, only_axis(sample_));
   }
 
   template <std::size_t N>
-  void step(Mail<Law>* mail, std::byte* row, std::span<Axis, N> axes) EBAC_RT {
+  void step(ParameterUpdates<Law>* updates, std::byte* row, std::span<Axis, N> axes) EBAC_RT {
     const Instant now = clock_.wait();
-    if (mail != nullptr) mail->deliver(sample_.tick, law_, rig_, device_);
-    const bool arming = course_.state() == LoopState::kArm;
-    if (arming) rig_.forget();  // counts that begin to arrive are no motion
-    const Reading reading = sense(rig_, device_, now, sample_, axes);
-    course_.advance(ready(), mail != nullptr && mail->stop_asked(), now.dt);
-    sample_.state = static_cast<int>(course_.state());
-    if (course_.state() == LoopState::kArm) {
+    if (updates != nullptr) updates->apply(sample_.tick, law_, chain_, device_);
+    const bool arming = run_state_.state() == LoopState::kArm;
+    if (arming) chain_.forget();  // counts that begin to arrive are no motion
+    const Reading reading = sense(chain_, device_, now, sample_, axes);
+    run_state_.advance(ready(), updates != nullptr && updates->stop_asked(), now.dt);
+    sample_.state = static_cast<int>(run_state_.state());
+    if (run_state_.state() == LoopState::kArm) {
       rest(axes);
     } else {
-      if (course_.first()) begin(axes);
-      render(rig_, law_, now, axes);
+      if (run_state_.first()) begin(axes);
+      render(chain_, law_, now, axes);
     }
-    if (arming) gate_.restart();
+    if (arming) limiter_.restart();
     note(reading, now, axes);
-    if (sample_.fault == Fault::kNone && course_.gain() > 0) {
-      sample_.limited = gate_.pass(axes, course_.gain(), now.dt);
+    if (sample_.fault == Fault::kNone && run_state_.gain() > 0) {
+      sample_.limited = limiter_.limit(axes, run_state_.gain(), now.dt);
     } else {
       shut(now, axes);
     }
-    tell_device();
+    stop_device();
     if constexpr (kTimed) clock_.finish();
     if (row != nullptr) append(row, axes.size());
   }
 
-  /// The law's memory starts here: what moved while the device was being enabled is no work.
+  /// The law's memory starts here: motion while the device was being enabled is not counted as work.
   static void begin(std::span<Axis> axes) EBAC_RT {
     for (Axis& axis : axes) axis.port.dx = axis.port.dt = 0;
   }
 
   void note(const Reading& reading, const Instant& now, std::span<const Axis> axes) EBAC_RT {
-    const Fault watched = gate_.watch(reading, now, axes);
+    const Fault watched = limiter_.watch(reading, now, axes);
     if (sample_.fault != Fault::kNone) return;
     const Fault judged = judge(reading, axes);
     sample_.fault = judged != Fault::kNone ? judged : watched;
-    course_.fail(sample_.fault);
-    sample_.state = static_cast<int>(course_.state());
+    run_state_.fail(sample_.fault);
+    sample_.state = static_cast<int>(run_state_.state());
   }
 
   /// Zero force: of a fault, of a stop, before the run.
   void shut(const Instant& now, std::span<Axis> axes) EBAC_RT {
     for (Axis& axis : axes) axis.port.f_cmd = axis.joint.tau = 0;
-    gate_.shut(axes, now.dt);
+    limiter_.shut(axes, now.dt);
     sample_.limited = 0;
   }
 
@@ -167,8 +169,8 @@ class Loop {
     return true;
   }
 
-  void tell_device() EBAC_RT {
-    if (course_.state() != LoopState::kStop || !course_.stopping()) return;
+  void stop_device() EBAC_RT {
+    if (run_state_.state() != LoopState::kStop || !run_state_.stopping()) return;
     if (sample_.fault != Fault::kNone) {
       if constexpr (requires { device_.stop(); }) device_.stop();
     } else {
@@ -179,21 +181,37 @@ class Loop {
     }
   }
 
+  static constexpr bool kAnyLaw = requires(const Law& law) { law.state_table(); };
+
+  const FieldTable& law_table() const {
+    if constexpr (kAnyLaw) {
+      return law_.state_table();
+    } else {
+      return field_table<typename Law::State>();
+    }
+  }
+
   template <class Part>
   static std::size_t add_part(Trace& trace, const Part&) {
-    return trace.template add_block<typename Part::State>(std::string(Part::kPrefix));
+    return trace.add_block(std::string(Part::kPrefix), field_table<typename Part::State>());
   }
 
   void append(std::byte* row, std::size_t axes) const EBAC_RT {
     std::memcpy(row, &sample_, offsetof(Sample, axis) + axes * sizeof(Axis));
-    copy_states(row + law_at_, law_, axes);
+    if constexpr (kAnyLaw) {
+      for (std::size_t i = 0; i < axes; ++i) {
+        std::memcpy(row + law_at_ + i * law_bytes_, law_.state(i), law_bytes_);
+      }
+    } else {
+      copy_states(row + law_at_, law_, axes);
+    }
     std::apply(
         [&](const auto&... part) EBAC_RT {
           [[maybe_unused]] std::size_t i = 0;
           (copy_states(row + device_at_[i++], part, axes), ...);
         },
         row_parts(device_));
-    if (gate_.on()) copy_states(row + gate_at_, gate_, axes);
+    if (limiter_.on()) copy_states(row + limiter_at_, limiter_, axes);
     if constexpr (kTimed) copy_states(row + clock_at_, clock_, axes);
   }
 
@@ -210,14 +228,15 @@ class Loop {
   D device_;
   C clock_;
   Law law_;
-  Rig rig_;
-  Course course_;
-  Gate gate_;
+  SignalChain chain_;
+  RunStateMachine run_state_;
+  SafetyLimiter limiter_;
   Sample sample_{};
-  std::size_t gate_at_ = 0;
+  std::size_t limiter_at_ = 0;
   std::size_t clock_at_ = 0;
   std::atomic<std::int64_t> unrecorded_{0};  // ticks
   std::size_t law_at_ = 0;
+  std::size_t law_bytes_ = 0;  // of its state, on one axis
   std::array<std::size_t, kRowParts<D>> device_at_{};
 };
 

@@ -2,21 +2,20 @@
 
 #include <array>
 #include <atomic>
+#include <concepts>
 #include <cstdint>
-#include <type_traits>
 
 #include "ebac/core/realtime.hpp"
 
 namespace ebac {
 
-/// The newest value, from one writer to one reader, neither of which ever waits. A value that is
-/// replaced before it was taken is lost, as it should be. Three places: one is the writer's, one the
-/// reader's, and the third changes hands.
-template <class T>
-  requires std::is_trivially_copyable_v<T>
+/// Passes the newest value from one writer to one reader without waiting. A value replaced before
+/// it was taken is lost on purpose. Three slots: one is the writer's, one the reader's, and the
+/// third changes hands.
+template <std::copyable T>
 class Mailbox {
  public:
-  /// `initial` only fills the places; there is nothing to take until `post`.
+  /// `initial` only fills the slots; there is nothing to take until `post`.
   explicit Mailbox(const T& initial = {}) : places_{initial, initial, initial} {}
 
   /// Writer.

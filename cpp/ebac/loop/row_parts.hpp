@@ -8,9 +8,10 @@
 
 namespace ebac {
 
-/// What of a device adds to a row. Each part has a State with fields, a `kPrefix` for the names of
-/// its columns, and `state(axis)`. A device made of several devices names them by `parts()`, a tuple
-/// of references; one that has a State is its own only part; any other has none.
+/// The parts of a device that have columns in a trace. Each part has a State with fields, a
+/// `kPrefix` for the names of its columns, and `state(axis)`. A device made of several devices
+/// lists them by `parts()`, a tuple of references; a device with a State is its own only part; any
+/// other has none.
 template <class D>
 auto row_parts(const D& device) EBAC_RT {
   if constexpr (requires { device.parts(); }) {

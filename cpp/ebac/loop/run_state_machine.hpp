@@ -9,7 +9,7 @@
 
 namespace ebac {
 
-/// How a run begins and ends.
+/// Start and end of a run.
 struct RunPlan {
   double soft_start = 0;  // s
   double ramp_down = 0;   // s
@@ -32,12 +32,12 @@ struct RunPlan {
   }
 };
 
-/// Idle, Arm, Run, Stop, Fault: where a loop stands, and how much of its force it may give.
-class Course {
+/// State machine of a run (Idle, Arm, Run, Stop, Fault), with the gain of the force in each state.
+class RunStateMachine {
  public:
-  explicit Course(const RunPlan& plan = {}) EBAC_RT : plan_(plan) {}
+  explicit RunStateMachine(const RunPlan& plan = {}) EBAC_RT : plan_(plan) {}
 
-  /// False where a fault stands: it must be reset first.
+  /// False if a fault is latched: it must be reset first.
   bool start() EBAC_RT {
     if (state_ != LoopState::kIdle) return false;
     state_ = plan_.arm ? LoopState::kArm : LoopState::kRun;
@@ -46,7 +46,7 @@ class Course {
     fault_ = Fault::kNone;
     return true;
   }
-  /// The only way out of a fault. Refused while the loop is still stopping.
+  /// Clears a fault. Refused while the loop is still stopping.
   bool reset() EBAC_RT {
     if (state_ != LoopState::kFault) return false;
     state_ = LoopState::kIdle;
@@ -54,7 +54,7 @@ class Course {
     return true;
   }
 
-  /// A tick begins, `dt` s after the last one.
+  /// Starts a tick, `dt` s after the last one; `asked`: a stop is requested.
   void advance(bool ready, bool asked, double dt) EBAC_RT {
     first_ = false;
     if (state_ == LoopState::kArm && asked) end();
@@ -72,7 +72,7 @@ class Course {
       if (gain_ == 0) ++stopped_;
     }
   }
-  /// Only the first one counts, and only while the loop runs.
+  /// Latches a fault: the first one, and only while the loop runs.
   void fail(Fault fault) EBAC_RT {
     if (fault_ != Fault::kNone || fault == Fault::kNone) return;
     fault_ = fault;
@@ -80,25 +80,25 @@ class Course {
     state_ = LoopState::kStop;
     gain_ = 0;
   }
-  /// After a tick: whether it was the last one.
+  /// Ends a tick; returns whether it was the last one.
   bool finish() EBAC_RT {
     if (state_ == LoopState::kStop && stopped_ >= plan_.stop_ticks) {
       state_ = fault_ == Fault::kNone ? LoopState::kIdle : LoopState::kFault;
     }
     return state_ == LoopState::kIdle || state_ == LoopState::kFault;
   }
-  /// The way out of Arm and Run that is no fault.
+  /// Ends Arm or Run without a fault.
   void end() EBAC_RT {
     if (state_ == LoopState::kArm || state_ == LoopState::kRun) state_ = LoopState::kStop;
   }
-  /// A simulation has no device to stop: its last row is its end.
+  /// Ends at once: a simulation has no device to stop.
   void leave() EBAC_RT { state_ = fault_ == Fault::kNone ? LoopState::kIdle : LoopState::kFault; }
 
   LoopState state() const EBAC_RT { return state_; }
   Fault fault() const EBAC_RT { return fault_; }
   double gain() const EBAC_RT { return gain_; }           // of the force, 0 to 1
   bool first() const EBAC_RT { return first_; }           // the first tick under the law, after Arm
-  bool stopping() const EBAC_RT { return stopped_ > 0; }  // the force is out: tell the device
+  bool stopping() const EBAC_RT { return stopped_ > 0; }  // the force is zero: stop the device
   const RunPlan& plan() const EBAC_RT { return plan_; }
 
  private:

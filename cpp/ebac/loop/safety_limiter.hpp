@@ -12,13 +12,14 @@
 
 namespace ebac {
 
-/// The last gate before the drives: what the limits leave of each current, why, and what about the
-/// device must end the run. `watch` comes before the currents are known, `pass` last.
-class Gate {
+/// The last stage before the drives: limits each current, reports the reason, and finds conditions
+/// of the device that must end the run. `watch` is called before the currents are known, `limit`
+/// last.
+class SafetyLimiter {
  public:
-  /// What a trace tells of it, per axis.
+  /// Columns of a trace, per axis.
   struct State {
-    double heat = 0;     // of what the continuous current reaches
+    double heat = 0;     // relative to that of the continuous current
     double ceiling = 0;  // A
     static constexpr auto fields() {
       using F = Field<State>;
@@ -31,9 +32,9 @@ class Gate {
   };
   static constexpr std::string_view kPrefix = "limit.";
 
-  Gate() = default;
-  /// Throws std::invalid_argument for limits that cannot be. `dt` is the sample time [s].
-  Gate(const Limits& limits, const DeviceModel& device, double dt)
+  SafetyLimiter() = default;
+  /// Throws std::invalid_argument for limits out of range. `dt` is the sample time [s].
+  SafetyLimiter(const Limits& limits, const DeviceModel& device, double dt)
       : on_(true),
         limits_(limits),
         dt_(dt),
@@ -46,7 +47,7 @@ class Gate {
 
   bool on() const EBAC_RT { return on_; }
 
-  /// Kept in numbers of the device: what about its motion, its sensor or its time is a fault.
+  /// Returns the fault, if any, in the motion, the force sensor or the timing of the device.
   Fault watch(const Reading& reading, const Instant& now, std::span<const Axis> axes) EBAC_RT {
     if (!on_) return Fault::kNone;
     overruns_ = now.skipped > 0 ? overruns_ + 1 : 0;
@@ -56,9 +57,9 @@ class Gate {
     return found;
   }
 
-  /// Holds the currents within the limits; `gain` in [0, 1] is that of soft start and stop. Returns
-  /// the bits of what it had to do.
-  int pass(std::span<Axis> axes, double gain, double elapsed) EBAC_RT {
+  /// Limits the currents; `gain` in [0, 1] is that of soft start and stop. Returns the bits of
+  /// `Limited` that apply.
+  int limit(std::span<Axis> axes, double gain, double elapsed) EBAC_RT {
     int limited = gain < 1 ? bit(Limited::kRamp) : 0;
     for (std::size_t i = 0; i < axes.size(); ++i) {
       Joint& joint = axes[i].joint;
@@ -74,7 +75,7 @@ class Gate {
     return limited;
   }
 
-  /// No current at all, at once.
+  /// Sets all currents to zero at once.
   void shut(std::span<Axis> axes, double elapsed) EBAC_RT {
     for (std::size_t i = 0; i < axes.size(); ++i) {
       axes[i].joint.current = 0;
@@ -84,7 +85,7 @@ class Gate {
     }
   }
 
-  /// The motors stay as warm as they are; everything else is forgotten.
+  /// Resets everything but the temperature of the motors.
   void restart() EBAC_RT {
     last_ = {};
     overruns_ = 0;
@@ -115,7 +116,7 @@ class Gate {
     return found;
   }
 
-  /// Whether an axis is too fast, over kSpan at least: a tick may be short, and a reading is a count.
+  /// Whether an axis is too fast, over kSpan at least: a tick may be short, and readings are quantised.
   bool fast(std::size_t i, double q, double since) EBAC_RT {
     span_[i] += since;
     if (moved_ && span_[i] < kSpan) return false;
@@ -133,7 +134,7 @@ class Gate {
     return reading.force_age > limits_.force_age ? Fault::kForceStale : Fault::kNone;
   }
 
-  /// What the soft wall at the edge adds [A]; it pushes inwards only.
+  /// Current of the soft wall at the edge of the workspace [A]; it pushes inwards only.
   double edge(const Axis& axis, int& limited) const EBAC_RT {
     const double x = radius_ * axis.joint.q;
     const double depth = std::abs(x) - limits_.edge;
@@ -156,7 +157,8 @@ class Gate {
     const double step = limits_.slew * dt_;
     const double slow = std::clamp(wanted, before - step, before + step);
     if (slow != wanted) limited |= bit(Limited::kSlew);
-    const double value = std::clamp(slow, -ceiling, ceiling);  // a hot motor waits for no slew
+    const double value =
+        std::clamp(slow, -ceiling, ceiling);  // the thermal limit has priority over the slew limit
     if (value != slow)
       limited |= bit(cool < limits_.peak_current ? Limited::kThermal : Limited::kPeak);
     return value;

@@ -12,9 +12,9 @@ namespace ebac {
 
 /// The control side of one device: the parts that turn counts into ports and forces into currents,
 /// with their memory. Its functions are the stages of `tick`, in order.
-class Rig {
+class SignalChain {
  public:
-  Rig(const DeviceModel& device, const Environment& environment);
+  SignalChain(const DeviceModel& device, const Environment& environment);
 
   /// Another virtual world, from this tick on.
   void change(const Environment& environment) EBAC_RT { environment_ = environment; }
@@ -41,13 +41,13 @@ class Rig {
   }
 
   /// x, v -> f_env
-  Touch ask(std::span<Axis> axes) const EBAC_RT;
+  ContactForce contact(std::span<Axis> axes) const EBAC_RT;
 
   /// f_cmd -> tau -> current: transpose, static compensation of eq. (2), the drive's peak
   void drive(double dt, std::span<Axis> axes) EBAC_RT;
 
  private:
-  /// What follows from the time since the last tick alone.
+  /// Values that depend on the time since the last tick alone.
   void set_tick(double dt) EBAC_RT {
     dt_ = dt;
     b_ = dt > 0 ? damping_ / dt : 0.0;
@@ -71,7 +71,7 @@ class Rig {
   Velocity estimator_;
   Compensation compensation_;
   Environment environment_;
-  double damping_;         // N s/m, lower bound of what the device takes
+  double damping_;         // N s/m, lower bound of the device's own damping
   double rad_per_count_;   // joint
   double radius_;          // m
   double torque_per_amp_;  // N m/A, at the joint
@@ -91,7 +91,7 @@ class Rig {
 
 // Inline: every line of a tick is here or in `tick`.
 
-inline Rig::Rig(const DeviceModel& device, const Environment& environment)
+inline SignalChain::SignalChain(const DeviceModel& device, const Environment& environment)
     : kinematics_(device.kinematics),
       encoder_(device.encoder),
       estimator_(device.velocity),
@@ -108,7 +108,7 @@ inline Rig::Rig(const DeviceModel& device, const Environment& environment)
       linear_(std::holds_alternative<Linear>(device.kinematics)),
       compensates_(device.compensation.active()) {}
 
-inline void Rig::measure(const Reading& reading, double dt, std::span<Axis> axes) EBAC_RT {
+inline void SignalChain::measure(const Reading& reading, double dt, std::span<Axis> axes) EBAC_RT {
   if (dt != dt_) set_tick(dt);
   for (std::size_t i = 0; i < axes.size(); ++i) {
     Joint& joint = axes[i].joint;
@@ -126,12 +126,13 @@ inline void Rig::measure(const Reading& reading, double dt, std::span<Axis> axes
 
 /// One member of every axis, zero for the axes not in use.
 template <class Part>
-Axes Rig::all(std::span<const Axis> axes, Part Axis::* part, double Part::* member) EBAC_RT {
+Axes SignalChain::all(std::span<const Axis> axes, Part Axis::* part,
+                      double Part::* member) EBAC_RT {
   const auto of = [&](std::size_t i) { return i < axes.size() ? axes[i].*part.*member : 0.0; };
   return {of(0), of(1), of(2)};
 }
 
-inline void Rig::forward(const Reading& reading, double dt, std::span<Axis> axes) EBAC_RT {
+inline void SignalChain::forward(const Reading& reading, double dt, std::span<Axis> axes) EBAC_RT {
   if (linear_) {  // the general case below, with J = R
     for (std::size_t i = 0; i < axes.size(); ++i) {
       Port& port = axes[i].port;
@@ -145,7 +146,8 @@ inline void Rig::forward(const Reading& reading, double dt, std::span<Axis> axes
   }
 }
 
-inline void Rig::forward_general(const Reading& reading, double dt, std::span<Axis> axes) EBAC_RT {
+inline void SignalChain::forward_general(const Reading& reading, double dt,
+                                         std::span<Axis> axes) EBAC_RT {
   const Axes q = all(axes, &Axis::joint, &Joint::q);
   Jacobian j = jacobian(kinematics_, q);
   const Axes x = ebac::forward(kinematics_, q);
@@ -160,16 +162,16 @@ inline void Rig::forward_general(const Reading& reading, double dt, std::span<Ax
   }
 }
 
-inline Touch Rig::ask(std::span<Axis> axes) const EBAC_RT {
-  Touch touch =
-      meet(environment_, all(axes, &Axis::port, &Port::x), all(axes, &Axis::port, &Port::v));
+inline ContactForce SignalChain::contact(std::span<Axis> axes) const EBAC_RT {
+  ContactForce contact = ebac::contact(environment_, all(axes, &Axis::port, &Port::x),
+                                       all(axes, &Axis::port, &Port::v));
   for (std::size_t i = 0; i < axes.size(); ++i) {
-    axes[i].port.f_env = touch.force[static_cast<Eigen::Index>(i)];
+    axes[i].port.f_env = contact.force[static_cast<Eigen::Index>(i)];
   }
-  return touch;
+  return contact;
 }
 /// tau_static of eq. (2).
-inline Axes Rig::compensate(double dt, std::span<const Axis> axes) EBAC_RT {
+inline Axes SignalChain::compensate(double dt, std::span<const Axis> axes) EBAC_RT {
   Axes tau = weight(kinematics_, all(axes, &Axis::joint, &Joint::q),
                     compensation_.gravity_mass * gravity_);
   for (std::size_t i = 0; i < axes.size(); ++i) {
@@ -185,12 +187,12 @@ inline Axes Rig::compensate(double dt, std::span<const Axis> axes) EBAC_RT {
 }
 
 /// The current that gives one axis its torque, up to the drive's peak.
-inline void Rig::send(Joint& joint, double tau) const EBAC_RT {
+inline void SignalChain::send(Joint& joint, double tau) const EBAC_RT {
   joint.tau = tau;
   joint.current = std::clamp(tau * amp_per_torque_, -peak_current_, peak_current_);
 }
 
-inline void Rig::drive(double dt, std::span<Axis> axes) EBAC_RT {
+inline void SignalChain::drive(double dt, std::span<Axis> axes) EBAC_RT {
   if (linear_ && !compensates_) {  // the general case below, with J = R
     for (Axis& axis : axes) send(axis.joint, radius_ * axis.port.f_cmd);
   } else {
@@ -198,7 +200,7 @@ inline void Rig::drive(double dt, std::span<Axis> axes) EBAC_RT {
   }
 }
 
-inline void Rig::drive_general(double dt, std::span<Axis> axes) EBAC_RT {
+inline void SignalChain::drive_general(double dt, std::span<Axis> axes) EBAC_RT {
   const Axes q = all(axes, &Axis::joint, &Joint::q);
   Axes tau = transpose(kinematics_, q, all(axes, &Axis::port, &Port::f_cmd));
   if (compensates_) tau += compensate(dt, axes);

@@ -5,7 +5,7 @@
 
 #include "ebac/control/per_axis.hpp"
 #include "ebac/core/concepts.hpp"
-#include "ebac/loop/rig.hpp"
+#include "ebac/loop/signal_chain.hpp"
 
 namespace ebac {
 
@@ -13,7 +13,7 @@ namespace ebac {
 inline Fault first_fault(const Axis& axis) EBAC_RT {
   const Port& port = axis.port;
   const double tau = axis.joint.tau;
-  // What is not finite survives the sum; only then it matters who it was.
+  // A value that is not finite makes the sum not finite; only then look for its stage.
   const double sum = port.x + port.v + port.f_applied + port.f_meas + port.f_env + port.f_cmd + tau;
   if (std::isfinite(sum)) return Fault::kNone;
   if (!std::isfinite(port.x) || !std::isfinite(port.v)) return Fault::kPositionNotFinite;
@@ -42,7 +42,8 @@ template <Device D>
 
 /// The device's part of a tick: currents of the last one out, then counts to ports.
 template <Device D, std::size_t N>
-Reading sense(Rig& rig, D& device, const Instant& now, Sample& s, std::span<Axis, N> axes) EBAC_RT {
+Reading sense(SignalChain& chain, D& device, const Instant& now, Sample& s,
+              std::span<Axis, N> axes) EBAC_RT {
   s.t = now.t;
   s.lateness = now.lateness;
   s.skipped = static_cast<int>(now.skipped);
@@ -51,21 +52,21 @@ Reading sense(Rig& rig, D& device, const Instant& now, Sample& s, std::span<Axis
   for (std::size_t i = 0; i < axes.size(); ++i) command.current[i] = axes[i].joint.current;
   const Reading reading = exchange_with(device, command);
 
-  rig.measure(reading, now.dt, axes);
-  rig.forward(reading, now.dt, axes);
+  chain.measure(reading, now.dt, axes);
+  chain.forward(reading, now.dt, axes);
   return reading;
 }
 
 /// The law's part: ports to currents.
 template <AxesController Law, std::size_t N>
-void render(Rig& rig, Law& law, const Instant& now, std::span<Axis, N> axes) EBAC_RT {
-  rig.account(axes);
-  const Touch touch = rig.ask(axes);
-  law.step(axes, touch);
-  rig.drive(now.dt, axes);
+void render(SignalChain& chain, Law& law, const Instant& now, std::span<Axis, N> axes) EBAC_RT {
+  chain.account(axes);
+  const ContactForce contact = chain.contact(axes);
+  law.step(axes, contact);
+  chain.drive(now.dt, axes);
 }
 
-/// No force asked, none given.
+/// Zero force requested and commanded.
 inline void rest(std::span<Axis> axes) EBAC_RT {
   for (Axis& axis : axes) {
     axis.port.f_env = axis.port.f_cmd = axis.joint.tau = axis.joint.current = 0;
@@ -77,21 +78,21 @@ inline Fault judge(const Reading& reading, std::span<const Axis> axes) EBAC_RT {
   return reading.fault != Fault::kNone ? reading.fault : first_fault(axes);
 }
 
-/// One tick of the loop. What is computed here acts `delay` ticks later, in simulation and on the
+/// One tick of the loop. Commands computed here act `delay` ticks later, in simulation and on the
 /// bus alike.
 template <AxesController Law, Device D, std::size_t N>
-void tick(Rig& rig, Law& law, D& device, const Instant& now, Sample& s,
+void tick(SignalChain& chain, Law& law, D& device, const Instant& now, Sample& s,
           std::span<Axis, N> axes) EBAC_RT {
-  const Reading reading = sense(rig, device, now, s, axes);
-  render(rig, law, now, axes);
+  const Reading reading = sense(chain, device, now, s, axes);
+  render(chain, law, now, axes);
   if (s.fault == Fault::kNone) s.fault = judge(reading, axes);
   if (s.fault != Fault::kNone) {  // from here on, zero force
     for (Axis& axis : axes) axis.port.f_cmd = axis.joint.tau = axis.joint.current = 0;
   }
 }
 
-/// A device that is no more than arithmetic. With it the tick of one axis, the usual case, is one
-/// function, of which all it calls is part: a sixth less time.
+/// A device without input and output. Its tick with one axis, the usual case, is compiled as a
+/// single function with all its calls inlined: a sixth less time.
 template <class D>
 concept Quick = Device<D> && D::kQuick;
 
@@ -101,17 +102,17 @@ inline std::span<Axis> axes_in_use(Sample& s) EBAC_RT {
 inline std::span<Axis, 1> only_axis(Sample& s) EBAC_RT { return std::span(s.axis).first<1>(); }
 
 template <AxesController Law, Device D>
-EBAC_ONE_FUNCTION void tick_one(Rig& rig, Law& law, D& device, const Instant& now,
+EBAC_ONE_FUNCTION void tick_one(SignalChain& chain, Law& law, D& device, const Instant& now,
                                 Sample& s) EBAC_RT {
-  tick(rig, law, device, now, s, only_axis(s));
+  tick(chain, law, device, now, s, only_axis(s));
 }
 
 template <AxesController Law, Device D>
-void tick(Rig& rig, Law& law, D& device, const Instant& now, Sample& s) EBAC_RT {
+void tick(SignalChain& chain, Law& law, D& device, const Instant& now, Sample& s) EBAC_RT {
   if constexpr (Quick<D>) {
-    if (s.axes == 1) return tick_one(rig, law, device, now, s);
+    if (s.axes == 1) return tick_one(chain, law, device, now, s);
   }
-  tick(rig, law, device, now, s, axes_in_use(s));
+  tick(chain, law, device, now, s, axes_in_use(s));
 }
 
 }  // namespace ebac

@@ -7,7 +7,6 @@
 #include <cstring>
 #include <span>
 #include <string>
-#include <type_traits>
 #include <vector>
 
 #include "ebac/core/sample.hpp"
@@ -25,47 +24,26 @@ struct Column {
 };
 
 /// The rows of a run, preallocated. A row is the used prefix of a Sample, then the law's state of
-/// each axis, then what the device adds. Appending is a copy and one release store; readers may
-/// look on while it grows.
+/// each axis, then the columns of the device. Appending is a copy and one release store; readers
+/// may read while it grows.
 ///
-/// As a ring it never is full and keeps the last rows: for runs of any length, whose rows a recorder
-/// takes to disk. A reader copies; it is told which rows were written over before it had them.
+/// As a ring it never fills up and keeps the last rows: for runs of any length, whose rows a
+/// recorder writes to disk. A reader copies rows and learns which of them were overwritten before
+/// the copy.
 class Trace {
  public:
   /// A trace without rows; `reserve` fixes the layout and makes room.
-  explicit Trace(int axes) : axes_(axes) {
-    add<Sample>("", 0, 0);
-    const std::size_t first = offsetof(Sample, axis);
-    add<Joint>("", first + offsetof(Axis, joint), sizeof(Axis));
-    add<Port>("", first + offsetof(Axis, port), sizeof(Axis));
-    row_ = first + sizeof(Axis) * static_cast<std::size_t>(axes);
-  }
+  explicit Trace(int axes);
 
   /// No rows yet, in the layout of another trace.
-  Trace(const Trace& layout, std::size_t rows, bool ring)
-      : axes_(layout.axes_), columns_(layout.columns_), row_(layout.row_) {
-    reserve(rows, ring);
-  }
+  Trace(const Trace& layout, std::size_t rows, bool ring);
 
-  /// Appends a block of T per axis to the row; its columns are called prefix + field name.
-  template <Described T>
-  std::size_t add_block(const std::string& prefix) {
-    static_assert(std::is_trivially_copyable_v<T> && alignof(T) <= alignof(double));
-    const std::size_t at = row_;
-    if (T::fields().size() == 0) return at;
-    add<T>(prefix, at, sizeof(T));
-    row_ += sizeof(T) * static_cast<std::size_t>(axes_);
-    return at;
-  }
+  /// Appends a block of such fields per axis to the row; its columns are called prefix + field name.
+  /// Returns where it begins.
+  std::size_t add_block(const std::string& prefix, const FieldTable& table);
 
   /// Room for `rows` rows; as a ring for the last `rows`.
-  void reserve(std::size_t rows, bool ring = false) {
-    row_ = (row_ + sizeof(Word) - 1) / sizeof(Word) * sizeof(Word);
-    capacity_ = rows;
-    ring_ = ring;
-    data_.resize((ring ? rows + 1 : rows) * words());  // one more: the row that is being written
-    staged_.resize(ring ? words() : 0);
-  }
+  void reserve(std::size_t rows, bool ring = false);
 
   /// Where the next row goes, or nullptr when the trace is full; `commit` makes it visible.
   std::byte* next() EBAC_RT {
@@ -94,8 +72,8 @@ class Trace {
   const std::byte* data() const { return reinterpret_cast<const std::byte*>(data_.data()); }
 
   /// Copies rows `from`, `from` + 1, ... to `out`, as many as fit in it; all of them are below
-  /// `size()`. Returns how many at its start were written over before or during the copy: what
-  /// `out` holds of them is worth nothing.
+  /// `size()`. Returns how many of the first rows were overwritten before or during the copy: their
+  /// content in `out` is invalid.
   std::size_t copy(std::size_t from, std::span<std::byte> out) const EBAC_RT {
     const std::size_t rows = out.size() / row_;
     if (ring_) {
@@ -115,32 +93,8 @@ class Trace {
   }
 
  private:
-  template <Described T>
-  void add(const std::string& prefix, std::size_t base, std::size_t stride) {
-    static const T kZero{};
-    for (const auto& field : T::fields()) {
-      std::visit(
-          [&](auto member) {
-            using Value = std::remove_cvref_t<decltype(kZero.*member)>;
-            const auto* at = reinterpret_cast<const std::byte*>(&(kZero.*member));
-            const auto inside =
-                static_cast<std::size_t>(at - reinterpret_cast<const std::byte*>(&kZero));
-            columns_.push_back({prefix + std::string(field.name), std::string(field.unit),
-                                std::string(field.meaning), kind_of<Value>(), base + inside,
-                                stride});
-          },
-          field.member);
-    }
-  }
-
-  template <class Value>
-  static constexpr char kind_of() {
-    if constexpr (std::is_same_v<Value, double>) return 'f';
-    if constexpr (std::is_same_v<Value, std::int64_t>) return 'i';
-    if constexpr (std::is_same_v<Value, int>) return 'w';
-    if constexpr (std::is_same_v<Value, Fault>) return 'u';
-    if constexpr (std::is_same_v<Value, bool>) return 'b';
-  }
+  void add(const std::string& prefix, const FieldTable& table, std::size_t base,
+           std::size_t stride);
 
   using Word = std::uint64_t;
 

@@ -6,7 +6,7 @@
 
 namespace ebac {
 
-/// What only a simulation can know about an axis.
+/// True values of an axis, which only a simulation knows.
 struct AxisTruth {
   double x = 0;         // m
   double v = 0;         // m/s

@@ -7,8 +7,8 @@
 
 namespace ebac {
 
-/// The cable between rotor and lever, told at the handle: spring and damper, with play between two
-/// flanks. `gap` is how far the lever is ahead of the rotor [m], `rate` its rate [m/s].
+/// The cable between rotor and lever, referred to the handle: spring and damper, with play between
+/// two flanks. `gap` is the lead of the lever over the rotor [m], `rate` its rate [m/s].
 ///
 /// A flank pushes and never pulls: the lever leaves it as soon as spring and damper together would
 /// pull. Without backlash the cable is preloaded, and the two flanks are one.

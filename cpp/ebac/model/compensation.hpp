@@ -8,13 +8,14 @@
 
 namespace ebac {
 
-/// tau_static of eq. (2): gravity, friction and inertia given back to the hand, told at the handle.
+/// tau_static of eq. (2): gravity, friction and inertia given back to the hand, referred to the
+/// handle.
 ///
-/// Both spend the damping that the energy laws live on. The push for friction never exceeds
-/// `friction`, so that real Coulomb friction of at least that size still pays for it, whatever the
-/// delay; what it lacks counts against the viscous damping with the slope (friction -
-/// coulomb)/friction_speed. Inertia given back through a filter is at no frequency and no delay
-/// more than a damper of inertia/inertia_lag.
+/// Friction and inertia compensation spend the damping that the energy laws rely on. The push for
+/// friction never exceeds `friction`, so that real Coulomb friction of at least this size still
+/// pays for it, whatever the delay; a deficit counts against the viscous damping with the slope
+/// (friction - coulomb)/friction_speed. Inertia given back through a filter is at no frequency and
+/// no delay more than a damper of inertia/inertia_lag.
 struct Compensation {
   double gravity_mass = 0;       // kg
   double friction = 0;           // N

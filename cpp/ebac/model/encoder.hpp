@@ -18,8 +18,8 @@ struct Encoder {
   double count() const EBAC_RT { return 2 * std::numbers::pi / counts_per_turn; }  // rad, motor
   double counts_per_rad() const EBAC_RT { return counts_per_turn * (0.5 * std::numbers::inv_pi); }
 
-  /// What the counter shows at a motor angle, wrapped to `counter_bits`, signed. Zero lies in the
-  /// middle of a count, so that a handle resting at the origin does not toggle.
+  /// The counter at a motor angle, wrapped to `counter_bits`, signed. Zero lies in the middle of a
+  /// count, so that a handle resting at the origin does not toggle.
   std::int64_t read(double angle) const EBAC_RT {
     return wrap(std::llrint(angle * counts_per_rad()));
   }

@@ -7,15 +7,15 @@
 #include <variant>
 
 #include "ebac/core/fields.hpp"
+#include "ebac/model/contact_force.hpp"
 #include "ebac/model/kinematics.hpp"
-#include "ebac/model/touch.hpp"
 
-/// The virtual world: a position and a velocity of the handle in, what it does there out. A shape
-/// is a type with `meet(x, v)`; adding one to the variant is all it needs.
+/// The virtual world: maps position and velocity of the handle to a force. A shape is a type with
+/// `contact(x, v)`; a new one is added to the variant.
 namespace ebac {
 
 struct Free {
-  Touch meet(const Axes&, const Axes&) const EBAC_RT { return {}; }
+  ContactForce contact(const Axes&, const Axes&) const EBAC_RT { return {}; }
 
   static constexpr auto fields() { return std::array<Field<Free>, 0>{}; }
 };
@@ -47,10 +47,10 @@ struct Wall {
     return push(stiffness, damping, x - position, v);
   }
 
-  Touch meet(const Axes& x, const Axes& v) const EBAC_RT {
-    if (angle == 0) return Touch::straight({push_along(x[0], v[0]), 0, 0});
+  ContactForce contact(const Axes& x, const Axes& v) const EBAC_RT {
+    if (angle == 0) return ContactForce::straight({push_along(x[0], v[0]), 0, 0});
     const Axes n = normal();
-    return Touch::along_normal(n, push_along(n.dot(x), n.dot(v)));
+    return ContactForce::along_normal(n, push_along(n.dot(x), n.dot(v)));
   }
 
   static constexpr auto fields() {
@@ -71,19 +71,19 @@ struct Corner {
   Wall first{};
   Wall second{.angle = std::numbers::pi / 2};
 
-  Touch meet(const Axes& x, const Axes& v) const EBAC_RT {
+  ContactForce contact(const Axes& x, const Axes& v) const EBAC_RT {
     const Axes n = first.normal();
     const Axes m = second.normal();
     const double one = first.push_along(n.dot(x), n.dot(v));
     const double other = second.push_along(m.dot(x), m.dot(v));
-    Touch touch = Touch::along_normal(n, one);
-    const double across = touch.frame.row(1).dot(m);
+    ContactForce contact = ContactForce::along_normal(n, one);
+    const double across = contact.frame.row(1).dot(m);
     const bool square =
         std::abs(n.dot(m)) < 1e-9;  // then exact, so that an untouched wall is exactly zero
-    touch.along +=
-        square ? Axes{0, std::copysign(other, across), 0} : Axes(other * (touch.frame * m));
-    touch.force += other * m;
-    return touch;
+    contact.along +=
+        square ? Axes{0, std::copysign(other, across), 0} : Axes(other * (contact.frame * m));
+    contact.force += other * m;
+    return contact;
   }
 };
 
@@ -95,13 +95,13 @@ struct Disc {
   double y = 0;             // m
   double radius = 0.02;     // m
 
-  Touch meet(const Axes& at, const Axes& v) const EBAC_RT {
+  ContactForce contact(const Axes& at, const Axes& v) const EBAC_RT {
     const Axes inwards = Axes{x, y, 0} - Axes{at[0], at[1], 0};
     const double distance = inwards.norm();
     if (!(distance > 0))
-      return Touch::straight(Axes::Constant(distance));  // dead centre has no direction
+      return ContactForce::straight(Axes::Constant(distance));  // dead centre has no direction
     const Axes n = inwards / distance;
-    return Touch::along_normal(n, push(stiffness, damping, radius - distance, n.dot(v)));
+    return ContactForce::along_normal(n, push(stiffness, damping, radius - distance, n.dot(v)));
   }
 
   static constexpr auto fields() {
@@ -118,8 +118,8 @@ struct Disc {
 
 using Environment = std::variant<Free, Wall, Corner, Disc>;
 
-inline Touch meet(const Environment& environment, const Axes& x, const Axes& v) EBAC_RT {
-  return std::visit([&](const auto& shape) { return shape.meet(x, v); }, environment);
+inline ContactForce contact(const Environment& environment, const Axes& x, const Axes& v) EBAC_RT {
+  return std::visit([&](const auto& shape) { return shape.contact(x, v); }, environment);
 }
 
 }  // namespace ebac

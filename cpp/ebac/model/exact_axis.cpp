@@ -86,7 +86,7 @@ bool ExactAxis::move(Vector& w, std::int64_t left) EBAC_RT {
   return moved;
 }
 
-/// Slides until the time is up or v = 0; then direction_ says what comes next.
+/// Slides until the time is up or v = 0; direction_ is then the next direction.
 void ExactAxis::slide(Vector& w, std::int64_t& left) EBAC_RT {
   const Vector before = w;
   const std::int64_t quanta = left;
@@ -121,7 +121,7 @@ bool ExactAxis::passes_dip(Vector& w, std::int64_t& left) EBAC_RT {
   return true;
 }
 
-/// Stays until the time is up or friction can no longer hold; then direction_ says where to.
+/// Sticks until the time is up or friction can no longer hold; direction_ is then that of the slip.
 void ExactAxis::stick(Vector& w, std::int64_t& left) EBAC_RT {
   const auto push = [&](const Vector& z) EBAC_RT {  // rate of the standing force
     const double lag = p_.current_lag > 0 ? z[kPhi] / p_.current_lag : 0.0;

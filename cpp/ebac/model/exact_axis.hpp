@@ -9,7 +9,7 @@
 
 namespace ebac {
 
-/// One rigid axis with a hand on it, told at the handle.
+/// One rigid axis with a hand on it, in coordinates of the handle.
 struct AxisParameters {
   double device_mass = 0.25;    // kg
   double device_damping = 2;    // N s/m
@@ -52,8 +52,9 @@ class ExactAxis {
  private:
   using Vector = LinearFlow::Vector;
 
-  double moving_force(const Vector& w) const EBAC_RT;    // m v' while sliding
-  double standing_force(const Vector& w) const EBAC_RT;  // what friction must hold while stuck
+  double moving_force(const Vector& w) const EBAC_RT;  // m v' while sliding
+  double standing_force(
+      const Vector& w) const EBAC_RT;  // force that friction must hold while stuck
   double hand_force(const Vector& w) const EBAC_RT;
 
   void advance_in_parts(Vector w, double u, double target, std::int64_t quanta) EBAC_RT;

@@ -8,11 +8,11 @@
 
 namespace ebac {
 
-/// Dry friction of one joint, told at the handle: Coulomb's, with Stribeck's rise towards
-/// standstill.
+/// Dry friction of one joint, referred to the handle: Coulomb friction, with Stribeck's rise
+/// towards standstill.
 struct Friction {
   double coulomb;    // N
-  double breakaway;  // N, what static friction holds
+  double breakaway;  // N, largest static friction
   double fall;       // m/s, speed over which one becomes the other
 
   explicit Friction(const Mechanics& m)

@@ -137,8 +137,8 @@ struct Hand {
 
   Target moving_target(int axis, double t, double dt) const EBAC_RT;
 
-  /// How hard it pulls at time t, |K0 (X0 - x)| [N]: what of eq. (4) can give energy without end. 0
-  /// once it let go.
+  /// Force with which the hand pulls at time t, |K0 (X0 - x)| [N]: the part of eq. (4) that can
+  /// give energy without end. 0 once it let go.
   double pull(int axis, double t, double x) const EBAC_RT;
 
   static constexpr auto fields() {

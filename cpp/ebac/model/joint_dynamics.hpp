@@ -8,13 +8,13 @@
 
 namespace ebac {
 
-/// What moves, one row per joint. The rotor is told as joint angle; behind a rigid cable it is the
-/// lever, and its columns stay zero. The energy rides along, so that it is as exact as the motion.
+/// State, one row per joint. The rotor is given as joint angle; behind a rigid cable it is the
+/// lever, and its columns stay zero. The energy is part of the state, so that it is as exact as the
+/// motion.
 using JointState = Eigen::Matrix<double, kMaxAxes, 5>;
 enum JointColumn { kQ, kDq, kRotor, kDrotor, kEnergy };  // rad, rad/s, rad, rad/s, J
 
-/// What acts from outside: motor torque behind the current loop [N m] and where the hand wants to
-/// be [m].
+/// External inputs: motor torque behind the current loop [N m] and target position of the hand [m].
 struct Load {
   Axes torque;
   Axes target;
@@ -26,10 +26,10 @@ struct Contact {
   Axes flank = Axes::Zero();  // side on which the cable pushes, 0 inside the play
 };
 
-/// What follows from state, load and contact.
+/// Accelerations and forces from state, load and contact.
 struct Motion {
   JointState rate = JointState::Zero();
-  Axes held = Axes::Zero();    // N m, what static friction must hold where a joint is stuck
+  Axes held = Axes::Zero();    // N m, static friction of a stuck joint
   Axes x = Axes::Zero();       // m
   Axes v = Axes::Zero();       // m/s
   Axes f_hand = Axes::Zero();  // N, eq. (4)
@@ -51,7 +51,7 @@ class JointDynamics {
   /// meaning.
   double margin(const JointState& z, const Motion& at, const Contact& contact) const EBAC_RT;
 
-  /// Stops what slid past zero, then finds the contact that fits; `after` is its motion.
+  /// Stops joints that slid past zero, then finds the consistent contact; `after` is its motion.
   Contact settle(JointState& z, const Load& load, const Contact& before,
                  Motion& after) const EBAC_RT;
 
@@ -97,7 +97,7 @@ class JointDynamics {
   double hand_mass_;       // kg
   double hand_damping_;    // N s/m
   double hand_stiffness_;  // N/m
-  double square_;          // m^2, radius squared: what is told at the handle, seen from a joint
+  double square_;          // m^2, radius squared: from values at the handle to values at a joint
   bool compliant_;
   JointColumn speed_;  // of the motor
 };

@@ -7,8 +7,8 @@
 
 namespace ebac {
 
-/// What a first-order lag does over a step of `z` time constants, free of cancellation however
-/// small z is: decay = exp(-z), phi[k] = int_0^1 exp(-z (1 - s)) s^k / k! ds.
+/// A first-order lag over a step of `z` time constants, free of cancellation however small z is:
+/// decay = exp(-z), phi[k] = int_0^1 exp(-z (1 - s)) s^k / k! ds.
 struct LagStep {
   double z;
   double decay;
@@ -37,7 +37,7 @@ T middle(const T& start, const T& end, const T& mean) EBAC_RT {
 }
 
 /// Output at the end of a step of a lag whose input is the parabola through start, middle and end.
-/// Exact, so a lag far shorter than the step is no trouble.
+/// Exact, so the lag may be far shorter than the step.
 template <class T>
 T follow(const LagStep& step, const T& output, const T& start, const T& mid, const T& end) EBAC_RT {
   const T slope = 4 * mid - 3 * start - end;

@@ -7,7 +7,7 @@
 
 namespace ebac {
 
-/// What a loop allows on every axis. `of` a device: what its motor, drive and lever can take.
+/// Safety limits on every axis. `of` a device: the limits of its motor, drive and lever.
 struct Limits {
   double continuous_current = 0.985;  // A
   double peak_current = 3.94;         // A

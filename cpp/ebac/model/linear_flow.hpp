@@ -14,7 +14,7 @@ inline constexpr int kQuantaBits = 20;
 inline constexpr std::int64_t kQuanta = std::int64_t{1} << kQuantaBits;
 
 /// The exact flow of w' = A w over dyadic parts of a tick, and the exact integral of (row . w)^2
-/// along it. The last rows of A are zero: those entries of w are constant inputs.
+/// along it. The last rows of A are zero: these entries of w are constant inputs.
 ///
 /// Level j moves by 2^-j ticks: w <- (phi w, inputs), and the integral is w^T square w (Van Loan
 /// 1978). Everything is computed once per parameter set, by the matrix exponential.

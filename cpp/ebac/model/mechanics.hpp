@@ -6,10 +6,10 @@
 
 namespace ebac {
 
-/// What moves, told at the handle; every axis of a device is built alike.
+/// Moving parts, referred to the handle; every axis of a device is built alike.
 ///
-/// Rigid and without Stribeck the handle is one mass and the plant is exact between events. A cable
-/// of finite stiffness or a backlash gives the rotor its own coordinate.
+/// Rigid and without Stribeck friction the handle is one mass and the plant is exact between
+/// events. A cable of finite stiffness or a backlash gives the rotor its own coordinate.
 struct Mechanics {
   double handle_mass = 0.114;    // kg
   double damping = 2.0;          // N s/m

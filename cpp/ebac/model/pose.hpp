@@ -6,13 +6,13 @@
 
 namespace ebac {
 
-/// Where a lever is, and what its geometry does to a mass of 1 kg at the handle.
+/// Pose of a lever, and the effect of its geometry on a mass of 1 kg at the handle.
 struct Pose {
   Axes x;         // m, handle
   Jacobian j;     // m
   Axes drift;     // m/s^2, J' dq: acceleration of the port at constant joint rates
   Axes inertia;   // m^2, diagonal of the mass matrix
-  Axes coriolis;  // m^2/s^2, torque that the rates alone ask for
+  Axes coriolis;  // m^2/s^2, torque due to the rates alone
   Axes weight;    // m, joint torque per newton of weight
 };
 

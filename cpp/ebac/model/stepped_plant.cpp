@@ -16,9 +16,9 @@ constexpr double kAccurate =
     1.0 / 16;                         // time constants in a step; measured, see stepped_plant_test
 constexpr double kStable = 1.5;       // time constants in a step; the method diverges from 2.78 on
 constexpr double kLag = 1.0 / 2;      // lags in a step
-constexpr double kSteps = 64;         // a tick, that a lag or Stribeck friction may ask for
-constexpr double kUsualSteps = 1024;  // a tick, that accuracy may ask for
-constexpr double kMostSteps = 16384;  // a tick, that stability may ask for
+constexpr double kSteps = 64;         // per tick, largest number for a lag or Stribeck friction
+constexpr double kUsualSteps = 1024;  // per tick, largest number for accuracy
+constexpr double kMostSteps = 16384;  // per tick, largest number for stability
 constexpr int kMostEvents =
     256;  // located in one advance; later ones take effect at the end of their step
 

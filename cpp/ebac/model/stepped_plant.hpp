@@ -33,7 +33,7 @@ class SteppedPlant {
   double motor_angle(std::size_t axis) const EBAC_RT { return motor_angle_[axis]; }
 
  private:
-  /// What acts over one call of `advance`.
+  /// Inputs over one call of `advance`.
   struct Interval {
     Axes setpoint;  // N m, joint torque the current loop tends to
     Axes target;    // m, at its start

@@ -4,8 +4,9 @@
 
 namespace ebac::rt {
 
-/// While it lives, no idle CPU of this machine sleeps: to wake one takes longer than a tick's work. Power and warmth are
-/// the price. (PM QoS of the kernel: who holds /dev/cpu_dma_latency open tells the longest wake-up.)
+/// Keeps idle CPUs of this machine from sleeping for as long as it lives: waking one takes longer
+/// than the work of a tick. The cost is power and heat. (PM QoS of the kernel: the open file
+/// /dev/cpu_dma_latency holds the longest allowed wake-up latency.)
 class AwakeCpus {
  public:
   AwakeCpus() = default;

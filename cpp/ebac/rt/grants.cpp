@@ -26,7 +26,7 @@ std::string soft_limit(int resource) {
   return limit.rlim_cur == RLIM_INFINITY ? "unlimited" : std::to_string(limit.rlim_cur);
 }
 
-/// `line` is what pam_limits reads, `unit` what systemd does, `cap` what setcap gives.
+/// `line` is for pam_limits, `unit` for systemd, `cap` for setcap.
 std::string limit_remedy(const std::string& line, const std::string& unit, const std::string& cap) {
   return "echo \"$(id -un) - " + line + "\" | sudo tee -a " + kLimitsFile +
          "  # then log in again; for a systemd service: " + unit +

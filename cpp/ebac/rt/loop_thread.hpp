@@ -9,19 +9,19 @@
 
 namespace ebac::rt {
 
-/// A loop in a thread of its own. While it runs, anyone may read its trace up to `size()`, one may
-/// post to its mail. Its end, whatever comes first, is a stop that the loop drives to its last frame.
+/// Runs a loop in a thread of its own. While it runs, any thread may read its trace up to `size()`
+/// and one may post parameter updates. Whatever ends the thread, the loop stops the device first.
 template <Device D, Clock C, AxesController Law>
 class LoopThread {
  public:
-  /// Starts. `mail` and `trace`, made by the loop, are shared with the caller. Throws as Thread.
+  /// Starts. `updates` and `trace`, made by the loop, are shared with the caller. Throws as Thread.
   LoopThread(std::unique_ptr<Loop<D, C, Law>> loop, std::shared_ptr<Trace> trace,
-             std::shared_ptr<Mail<Law>> mail, Mode mode, const Options& options)
+             std::shared_ptr<ParameterUpdates<Law>> updates, Mode mode, const Options& options)
       : loop_(std::move(loop)),
         trace_(std::move(trace)),
-        mail_(std::move(mail)),
+        updates_(std::move(updates)),
         thread_(mode, options, [this] {
-          loop_->run(*trace_, mail_.get());
+          loop_->run(*trace_, updates_.get());
           done_.store(true, std::memory_order_release);
         }) {}
   ~LoopThread() { stop(); }
@@ -30,12 +30,12 @@ class LoopThread {
   LoopThread(LoopThread&&) = delete;
   LoopThread& operator=(LoopThread&&) = delete;
 
-  /// Asks for a stop; `join` waits for its end.
-  void stop() EBAC_RT { mail_->stop(); }
+  /// Requests a stop; `join` waits for its end.
+  void stop() EBAC_RT { updates_->stop(); }
   void join() { thread_.join(); }
   bool done() const EBAC_RT { return done_.load(std::memory_order_acquire); }
 
-  Mail<Law>& mail() EBAC_RT { return *mail_; }
+  ParameterUpdates<Law>& updates() EBAC_RT { return *updates_; }
   const Trace& trace() const EBAC_RT { return *trace_; }
   const Report& report() const { return thread_.report(); }
   std::int64_t unrecorded() const EBAC_RT { return loop_->unrecorded(); }
@@ -45,7 +45,7 @@ class LoopThread {
  private:
   std::unique_ptr<Loop<D, C, Law>> loop_;
   std::shared_ptr<Trace> trace_;
-  std::shared_ptr<Mail<Law>> mail_;
+  std::shared_ptr<ParameterUpdates<Law>> updates_;
   std::atomic<bool> done_{false};
   Thread thread_;  // last: it is joined before the others go
 };

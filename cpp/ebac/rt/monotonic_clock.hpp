@@ -2,21 +2,23 @@
 
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <ctime>
 #include <string_view>
+#include <thread>
 
 #include "ebac/core/concepts.hpp"
 
 namespace ebac::rt {
 
-/// Sleeps to the next absolute tick of CLOCK_MONOTONIC. A tick that could not be kept is skipped and
-/// counted, never made up for: the one after it comes at its planned instant. Starts at the first
-/// `wait`. Takes the sample time in s.
+/// Sleeps to the next absolute tick of CLOCK_MONOTONIC. A missed tick is skipped and counted, never
+/// made up for: the next one comes at its planned instant. Starts at the first `wait`. Takes the
+/// sample time in s.
 class MonotonicClock {
  public:
-  /// What a row tells of it.
+  /// Columns of a trace.
   struct State {
     double busy = 0;  // s
     static constexpr auto fields() {
@@ -50,10 +52,8 @@ class MonotonicClock {
 
   std::int64_t skipped() const EBAC_RT { return skipped_; }  // ticks, since the start
 
-  static std::int64_t now() EBAC_RT {  // ns
-    timespec time{};
-    clock_gettime(CLOCK_MONOTONIC, &time);
-    return time.tv_sec * std::int64_t{kSecond} + time.tv_nsec;
+  static std::int64_t now() EBAC_RT {  // ns; on Linux CLOCK_MONOTONIC
+    return std::chrono::nanoseconds(std::chrono::steady_clock::now().time_since_epoch()).count();
   }
 
  private:
@@ -64,9 +64,13 @@ class MonotonicClock {
     return {};
   }
   static void sleep_to(std::int64_t instant) EBAC_RT {
+#ifdef EBAC_PORTABLE
+    std::this_thread::sleep_for(std::chrono::nanoseconds(instant - now()));
+#else
     const timespec time{.tv_sec = instant / kSecond, .tv_nsec = instant % kSecond};
     while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &time, nullptr) == EINTR) {
     }
+#endif
   }
   static double seconds(std::int64_t ns) EBAC_RT { return static_cast<double>(ns) * 1e-9; }
 

@@ -9,11 +9,11 @@ namespace ebac::rt {
 
 enum class Mode : std::uint8_t {
   kOff,      // an ordinary thread
-  kAuto,     // take what the system grants, and report the rest
+  kAuto,     // use what the system grants and report refusals
   kEnforce,  // all of it, or do not start
 };
 
-/// What a loop's thread asks of the system.
+/// Real-time resources for the thread of a loop.
 struct Options {
   int priority = 80;
   int cpu = -1;

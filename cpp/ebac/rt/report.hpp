@@ -5,7 +5,7 @@
 
 namespace ebac::rt {
 
-/// One thing a thread asked of the system.
+/// One resource that a thread requested.
 struct Grant {
   std::string name;   // "priority", "memory", "stack", "cpu", "sleep"
   std::string asked;  // "SCHED_FIFO 80"
@@ -14,7 +14,7 @@ struct Grant {
   std::string remedy;  // the command that would grant it; empty where it was granted
 };
 
-/// What a thread asked, and what it got.
+/// Resources that a thread requested and was granted.
 struct Report {
   std::vector<Grant> grants;
 

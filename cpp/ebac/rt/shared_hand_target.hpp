@@ -1,24 +1,50 @@
 #pragma once
 
+#include <atomic>
 #include <cmath>
+#include <cstdint>
 #include <memory>
+#include <new>
 #include <utility>
 
 #include "ebac/core/concepts.hpp"
+#include "ebac/loop/parameter_updates.hpp"
 #include "ebac/loop/row_parts.hpp"
-#include "ebac/rt/aim_cell.hpp"
+#include "ebac/rt/shared_memory.hpp"
 
 namespace ebac::rt {
 
-/// A simulated device whose hand is told by a cell where to go, where there is one. Copies share it.
-template <Device D>
-class Aimed {
+/// Target of a simulated hand, shared between a loop and the simulation of the hand in another
+/// thread or another process. One writer, one reader; neither waits.
+class SharedHandTarget {
  public:
-  explicit Aimed(D device, std::shared_ptr<AimCell> cell = nullptr)
+  /// Throws as SharedMemory.
+  SharedHandTarget() : memory_(sizeof(Cell)), cell_(new (memory_.at()) Cell()) {}
+  /// The target shared by the process that passed `descriptor` on. Throws as SharedMemory.
+  explicit SharedHandTarget(int descriptor)
+      : memory_(descriptor, sizeof(Cell)), cell_(static_cast<Cell*>(memory_.at())) {}
+
+  void post(const HandTarget& aim) EBAC_RT { cell_->post(aim); }
+  const HandTarget* take() EBAC_RT { return cell_->take(); }
+  int descriptor() const noexcept { return memory_.descriptor(); }
+
+ private:
+  using Cell = Mailbox<HandTarget>;
+  static_assert(std::atomic<std::uint32_t>::is_always_lock_free, "or it is not for two processes");
+
+  SharedMemory memory_;
+  Cell* cell_;
+};
+
+/// A simulated device whose hand follows a shared target, if there is one. Copies share it.
+template <Device D>
+class TargetSubscriber {
+ public:
+  explicit TargetSubscriber(D device, std::shared_ptr<SharedHandTarget> cell = nullptr)
       : device_(std::move(device)), cell_(std::move(cell)) {}
 
   Reading exchange(const Command& command) EBAC_RT {
-    // Who only looks, and no time passes, takes nothing away.
+    // A reading without elapsed time takes no target.
     if (cell_ != nullptr && command.elapsed > 0) follow(cell_->take());
     return device_.exchange(command);
   }
@@ -27,7 +53,7 @@ class Aimed {
   const D& device() const EBAC_RT { return device_; }
 
  private:
-  void follow(const Aim* aim) EBAC_RT {
+  void follow(const HandTarget* aim) EBAC_RT {
     if (aim == nullptr) return;
     for (std::size_t i = 0; i < kMaxAxes; ++i) {
       if (std::isfinite(aim->target[i])) device_.aim(i, aim->target[i]);
@@ -35,15 +61,15 @@ class Aimed {
   }
 
   D device_;
-  std::shared_ptr<AimCell> cell_;
+  std::shared_ptr<SharedHandTarget> cell_;
 };
 
-/// A device of a loop whose hand is simulated elsewhere: where it should go is passed on with the
-/// next exchange. Without a cell nobody is told. What else the device can do, it still can.
+/// A device of a loop whose hand is simulated elsewhere: passes new targets on with the next
+/// exchange, if there is a shared target. Forwards all other calls to the device.
 template <Device D>
-class Aiming {
+class TargetPublisher {
  public:
-  explicit Aiming(D device, std::shared_ptr<AimCell> cell = nullptr)
+  explicit TargetPublisher(D device, std::shared_ptr<SharedHandTarget> cell = nullptr)
       : device_(std::move(device)), cell_(std::move(cell)) {}
 
   Reading exchange(const Command& command) EBAC_RT {
@@ -51,7 +77,7 @@ class Aiming {
     new_ = false;
     return device_.exchange(command);
   }
-  /// A target that is no number leaves the hand of that axis alone.
+  /// A target that is not finite leaves the hand of this axis unchanged.
   void aim(std::size_t axis, double target) EBAC_RT {
     aim_.target[axis] = target;
     new_ = true;
@@ -68,8 +94,8 @@ class Aiming {
 
  private:
   D device_;
-  std::shared_ptr<AimCell> cell_;
-  Aim aim_;
+  std::shared_ptr<SharedHandTarget> cell_;
+  HandTarget aim_;
   bool new_ = false;
 };
 

@@ -1,8 +1,5 @@
 #include "ebac/rt/thread.hpp"
 
-#include <pthread.h>
-
-#include <csignal>
 #include <future>
 #include <stdexcept>
 #include <string>
@@ -11,30 +8,9 @@
 #include "ebac/core/check.hpp"
 #include "ebac/rt/awake_cpus.hpp"
 #include "ebac/rt/grants.hpp"
+#include "ebac/rt/no_signals.hpp"
 
 namespace ebac::rt {
-
-namespace {
-
-/// No signal is delivered to the calling thread, nor to those it makes, while this lives.
-class NoSignals {
- public:
-  NoSignals() {
-    sigset_t all;
-    sigfillset(&all);
-    pthread_sigmask(SIG_SETMASK, &all, &before_);
-  }
-  ~NoSignals() { pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
-  NoSignals(const NoSignals&) = delete;
-  NoSignals& operator=(const NoSignals&) = delete;
-  NoSignals(NoSignals&&) = delete;
-  NoSignals& operator=(NoSignals&&) = delete;
-
- private:
-  sigset_t before_{};
-};
-
-}  // namespace
 
 std::string refusals(const Report& report) {
   std::string text;

@@ -8,13 +8,13 @@
 
 namespace ebac::rt {
 
-/// A thread for a loop: priority, CPU, locked memory, touched stack, a machine that stays awake, and
-/// no signals, which are the main thread's business. What it runs must not touch Python.
+/// A thread for a loop: priority, CPU, locked memory, prefaulted stack, a machine that stays awake,
+/// and no signals, which belong to the main thread. Its work must not touch Python.
 class Thread {
  public:
-  /// Asks for what `options` name, then runs `work`. Returns when the thread knows what it got.
+  /// Requests the resources in `options`, then runs `work`. Returns when the grants are known.
   /// Throws std::invalid_argument for options out of range; with `kEnforce` std::runtime_error for
-  /// what was not granted, and then `work` never runs.
+  /// a refused resource, and then `work` never runs.
   Thread(Mode mode, const Options& options, std::function<void()> work);
   ~Thread();
   Thread(const Thread&) = delete;
@@ -33,7 +33,7 @@ class Thread {
   std::thread thread_;
 };
 
-/// What was not granted, why, and the command that would grant it; empty when all was.
+/// Refused resources with reasons and remedies; empty if all were granted.
 std::string refusals(const Report& report);
 
 }  // namespace ebac::rt

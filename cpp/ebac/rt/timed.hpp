@@ -11,7 +11,7 @@
 
 namespace ebac::rt {
 
-/// A device whose rows tell how long its exchange took: what is left of a tick is computing.
+/// A device that records the duration of its exchange; the rest of a tick is computing time.
 template <Device D>
 class Timed {
  public:

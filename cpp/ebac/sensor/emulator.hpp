@@ -34,7 +34,7 @@ class RdtEmulator {
     feel({});
   }
 
-  /// What goes wrong from now on; `trouble` lies in its ranges.
+  /// Sets the errors to emulate; `trouble` lies in its ranges.
   void set(const EmulatorTrouble& trouble) EBAC_RT { trouble_ = trouble; }
 
   /// The hand's force on the handle from now on, in the handle's axes [N].
@@ -54,7 +54,7 @@ class RdtEmulator {
     }
   }
 
-  /// Takes one sample, and gives what leaves to `send(bytes, to)`.
+  /// Takes one sample and passes outgoing packets to `send(bytes, to)`.
   template <class Send>
   void sample(Send&& send) EBAC_RT {
     ++ft_sequence_;

@@ -41,7 +41,7 @@ struct EmulatorOptions {
   }
 };
 
-/// What goes wrong with an emulated sensor.
+/// Errors of an emulated sensor.
 struct EmulatorTrouble {
   double loss = 0;
   double duplicate = 0;
@@ -61,7 +61,7 @@ struct EmulatorTrouble {
   }
 };
 
-/// What an emulated sensor did.
+/// Counts of an emulated sensor.
 struct EmulatorCounts {
   std::int64_t requests = 0;
   std::int64_t refused = 0;

@@ -1,4 +1,4 @@
-#include "ebac/sensor/served_emulator.hpp"
+#include "ebac/sensor/emulator_server.hpp"
 
 #include <algorithm>
 #include <stdexcept>
@@ -7,32 +7,32 @@
 
 namespace ebac::sensor {
 
-ServedEmulator::ServedEmulator(const Endpoint& at, const RdtEmulator<Endpoint>& emulator,
+EmulatorServer::EmulatorServer(const Endpoint& at, const RdtEmulator<Endpoint>& emulator,
                                Source source)
     : socket_(at), emulator_(emulator), source_(std::move(source)), local_(socket_.local()) {}
 
-void ServedEmulator::start(rt::Mode mode, const rt::Options& options) {
+void EmulatorServer::start(rt::Mode mode, const rt::Options& options) {
   if (thread_)
     throw std::logic_error("this sensor has been on the network already: make a new one");
   thread_.emplace(mode, options, [this] { work(); });
 }
 
-void ServedEmulator::stop() noexcept {
+void EmulatorServer::stop() noexcept {
   over_.store(true, std::memory_order_relaxed);
   if (thread_) thread_->join();
   socket_.close();
 }
 
-void ServedEmulator::set(const EmulatorTrouble& trouble) {
+void EmulatorServer::set(const EmulatorTrouble& trouble) {
   check(trouble, "EmulatorTrouble");
   const std::scoped_lock one(posting_);
   trouble_.post(trouble);
 }
 
-EmulatorCounts ServedEmulator::counts() const {
+EmulatorCounts EmulatorServer::counts() const {
   EmulatorCounts counts;
   for (std::size_t i = 0; const auto& field : EmulatorCounts::fields()) {
-    const std::int64_t value = told_[i++].load(std::memory_order_relaxed);
+    const std::int64_t value = published_[i++].load(std::memory_order_relaxed);
     if (const auto* whole = std::get_if<std::int64_t EmulatorCounts::*>(&field.member)) {
       counts.*(*whole) = value;
     }
@@ -41,7 +41,7 @@ EmulatorCounts ServedEmulator::counts() const {
 }
 
 /// A thread that is late takes the samples it missed, up to a few: a sensor has a buffer, too.
-void ServedEmulator::work() noexcept {
+void EmulatorServer::work() noexcept {
   constexpr int kMostMissed = 100;
   constexpr std::chrono::nanoseconds kLongestNap = std::chrono::milliseconds{5};
   const auto period =
@@ -56,11 +56,11 @@ void ServedEmulator::work() noexcept {
       if (missed > kMostMissed) due += (missed - kMostMissed) * period;
       sample(period);
     }
-    tell();
+    publish_counts();
   }
 }
 
-void ServedEmulator::hear() noexcept {
+void EmulatorServer::hear() noexcept {
   constexpr int kMostRequests = 64;
   Datagram in;
   for (int i = 0; i < kMostRequests; ++i) {
@@ -70,17 +70,17 @@ void ServedEmulator::hear() noexcept {
   }
 }
 
-void ServedEmulator::sample(std::chrono::nanoseconds period) noexcept {
+void EmulatorServer::sample(std::chrono::nanoseconds period) noexcept {
   emulator_.feel(source_(std::chrono::duration<double>(period).count()));
   emulator_.sample([this](std::span<const std::uint8_t> bytes, const Endpoint& to) noexcept {
     static_cast<void>(socket_.send(bytes, to));
   });
 }
 
-void ServedEmulator::tell() noexcept {
+void EmulatorServer::publish_counts() noexcept {
   for (std::size_t i = 0; const auto& field : EmulatorCounts::fields()) {
     if (const auto* whole = std::get_if<std::int64_t EmulatorCounts::*>(&field.member)) {
-      told_[i].store(emulator_.counts().*(*whole), std::memory_order_relaxed);
+      published_[i].store(emulator_.counts().*(*whole), std::memory_order_relaxed);
     }
     ++i;
   }

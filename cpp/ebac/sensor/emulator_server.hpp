@@ -17,27 +17,27 @@
 namespace ebac::sensor {
 
 /// An emulated sensor on the network, in real time, in a thread of its own.
-class ServedEmulator {
+class EmulatorServer {
  public:
   using Force = std::array<double, kMaxAxes>;
-  /// The force of the hand on the handle [N], asked once a sample with the time since the last one
-  /// [s]; only ever by the thread.
+  /// The force of the hand on the handle [N], requested once per sample with the time since the
+  /// last one [s]; called by the thread only.
   using Source = std::function<Force(double)>;
 
   /// Throws std::system_error when the address cannot be had.
-  ServedEmulator(const Endpoint& at, const RdtEmulator<Endpoint>& emulator, Source source);
-  ~ServedEmulator() { stop(); }
-  ServedEmulator(const ServedEmulator&) = delete;
-  ServedEmulator& operator=(const ServedEmulator&) = delete;
-  ServedEmulator(ServedEmulator&&) = delete;
-  ServedEmulator& operator=(ServedEmulator&&) = delete;
+  EmulatorServer(const Endpoint& at, const RdtEmulator<Endpoint>& emulator, Source source);
+  ~EmulatorServer() { stop(); }
+  EmulatorServer(const EmulatorServer&) = delete;
+  EmulatorServer& operator=(const EmulatorServer&) = delete;
+  EmulatorServer(EmulatorServer&&) = delete;
+  EmulatorServer& operator=(EmulatorServer&&) = delete;
 
   /// Once in a life: throws std::logic_error the second time, and as rt::Thread.
   void start(rt::Mode mode = rt::Mode::kOff, const rt::Options& options = {});
   /// Silent for good, within a few ms; nothing the second time.
   void stop() noexcept;
 
-  /// What its thread asked of the system, and got; nothing before it is started.
+  /// Resources its thread requested and was granted; empty before the start.
   std::vector<rt::Grant> grants() const {
     return thread_ ? thread_->report().grants : std::vector<rt::Grant>{};
   }
@@ -53,22 +53,22 @@ class ServedEmulator {
   void work() noexcept;
   void hear() noexcept;
   void sample(std::chrono::nanoseconds period) noexcept;
-  void tell() noexcept;
+  void publish_counts() noexcept;
 
   UdpSocket socket_;
   RdtEmulator<Endpoint> emulator_;
   Source source_;
   Endpoint local_;
   std::atomic<bool> over_{false};
-  std::mutex posting_;  // of who sets trouble; the thread takes it without
+  std::mutex posting_;  // of callers of `set`; the thread needs no lock
   Mailbox<EmulatorTrouble> trouble_;
-  std::array<std::atomic<std::int64_t>, EmulatorCounts::fields().size()> told_{};
+  std::array<std::atomic<std::int64_t>, EmulatorCounts::fields().size()> published_{};
   std::optional<rt::Thread> thread_;  // last: it is joined before the others go
 };
 
 /// The newest force in a cell.
-inline ServedEmulator::Source from_cell(std::shared_ptr<Mailbox<ServedEmulator::Force>> cell) {
-  return [cell = std::move(cell), last = ServedEmulator::Force{}](double) mutable {
+inline EmulatorServer::Source from_cell(std::shared_ptr<Mailbox<EmulatorServer::Force>> cell) {
+  return [cell = std::move(cell), last = EmulatorServer::Force{}](double) mutable {
     if (const auto* force = cell->take()) last = *force;
     return last;
   };

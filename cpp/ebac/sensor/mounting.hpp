@@ -10,16 +10,16 @@
 
 namespace ebac::sensor {
 
-/// How a sensor sits in the handle. `rotation`, row by row, turns what is told in the sensor's axes
-/// into the handle's, which are those of the ports. `sign` is 1 where the sensor shows the force of
-/// the hand on the handle, -1 where it shows the opposite.
+/// Mounting of a sensor in the handle. `rotation`, row by row, turns values from the axes of the
+/// sensor to those of the handle, which are those of the ports. `sign` is 1 if the sensor measures
+/// the force of the hand on the handle, -1 if it measures the opposite.
 struct Mounting {
   std::array<double, 9> rotation{1, 0, 0, 0, 1, 0, 0, 0, 1};
   int sign = 1;
 
-  Axes to_handle(const Axes& told) const EBAC_RT {
+  Axes to_handle(const Axes& value) const EBAC_RT {
     Axes turned = Axes::Zero();
-    for (std::size_t i = 0; i < 9; ++i) turned[row(i)] += sign * rotation[i] * told[column(i)];
+    for (std::size_t i = 0; i < 9; ++i) turned[row(i)] += sign * rotation[i] * value[column(i)];
     return turned;
   }
   /// The other way: a rotation's inverse is its transpose.

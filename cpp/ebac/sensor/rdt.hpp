@@ -13,12 +13,12 @@ namespace ebac::sensor {
 
 inline constexpr std::uint16_t kRdtPort = 49152;
 
-/// What a client may ask for.
+/// Commands of a client.
 enum class RdtCommand : std::uint16_t {
   kStop = 0,
   kStart = 2,          // one record a packet
   kStartBuffered = 3,  // several records a packet
-  kBias = 0x42,        // what acts now is zero from now on
+  kBias = 0x42,        // the present load becomes zero
 };
 
 struct RdtRequest {

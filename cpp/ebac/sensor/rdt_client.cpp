@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <ctime>
+#include <chrono>
 #include <stdexcept>
 
 namespace ebac::sensor {
@@ -21,10 +21,8 @@ UdpSocket socket_for(const Endpoint& sensor) {
 }
 
 double since(std::int64_t stamp) EBAC_RT {  // s
-  timespec now{};
-  clock_gettime(CLOCK_REALTIME, &now);
-  const std::int64_t ns = std::int64_t{now.tv_sec} * 1'000'000'000 + now.tv_nsec;
-  return std::max(0.0, static_cast<double>(ns - stamp) * 1e-9);
+  const auto now = std::chrono::system_clock::now().time_since_epoch();
+  return std::max(0.0, static_cast<double>(std::chrono::nanoseconds(now).count() - stamp) * 1e-9);
 }
 
 }  // namespace
@@ -54,7 +52,7 @@ void RdtClient::ask(RdtCommand command) EBAC_RT {
 
 void RdtClient::start() EBAC_RT {
   if (!socket_.open()) return;
-  Datagram old;  // what still waits is of another stream, and may be as old as it likes
+  Datagram old;  // packets in the queue belong to another stream of unknown age
   for (int i = 0; i < kMostPackets && socket_.receive(old) != EAGAIN; ++i) {
   }
   wanted_ = true;
@@ -101,7 +99,7 @@ bool RdtClient::poll(double elapsed) EBAC_RT {
     link_.restart();
     ask(RdtCommand::kStart);
   }
-  tell();
+  fill_row();
   return newer;
 }
 
@@ -117,7 +115,7 @@ bool RdtClient::take(const Datagram& in) EBAC_RT {
   return true;
 }
 
-/// What a failed call says of the way to the sensor.
+/// State of the connection after a failed call.
 void RdtClient::note(int error) EBAC_RT {
   if (!wanted_) return;
   state_ = error == ECONNREFUSED ? LinkState::kRefused : LinkState::kUnreachable;
@@ -137,7 +135,7 @@ void RdtClient::fill(Reading& reading) const EBAC_RT {
   reading.force_status = health();
 }
 
-void RdtClient::tell() EBAC_RT {
+void RdtClient::fill_row() EBAC_RT {
   const Axes torque = link_.torque();
   for (std::size_t i = 0; i < kMaxAxes; ++i) {
     row_[i] = {.torque = torque[static_cast<Eigen::Index>(i)],

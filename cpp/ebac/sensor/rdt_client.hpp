@@ -11,21 +11,21 @@
 
 namespace ebac::sensor {
 
-/// How the way to a sensor stands. Each is a state to be told, none a reason to crash.
+/// State of the connection to a sensor. Every value is reported; none is an exception.
 enum class LinkState : std::uint8_t {
   kClosed = 0,       // no socket
   kStopped = 1,      // no stream is wanted
-  kWaiting = 2,      // a stream was asked for, and nothing has come yet
+  kWaiting = 2,      // a stream was requested, and nothing has arrived yet
   kStreaming = 3,    // records come
   kSilent = 4,       // they came, and do not come any more
-  kRefused = 5,      // nobody listens at the sensor's port
+  kRefused = 5,      // no program listens at the sensor's port
   kUnreachable = 6,  // no way leads to its address
 };
 
 struct RdtClientSetup {
   Endpoint sensor{};
   RdtLink::Setup link{};
-  double retry = 0.25;  // s, of silence, then the stream is asked for again
+  double retry = 0.25;  // s, of silence, after which the stream is requested again
   double gone = 0.5;    // s, of silence, then the sensor counts as disconnected
   /// Whether a record's age counts from when the kernel had it. Otherwise from the poll that read it,
   /// as time has to be counted where it is virtual.
@@ -35,7 +35,7 @@ struct RdtClientSetup {
 /// Throws std::invalid_argument for a setup that cannot be; scale and mounting apart.
 void check_client(const RdtClientSetup& setup);
 
-/// A force/torque sensor on the network, polled by whoever has it. No call waits, but `wait`.
+/// A force/torque sensor on the network, polled by its owner. No call waits, except `wait`.
 class RdtClient {
  public:
   using State = RdtRow;
@@ -51,10 +51,10 @@ class RdtClient {
   RdtClient(const RdtClient&) = delete;
   RdtClient& operator=(const RdtClient&) = delete;
 
-  /// Asks for a stream without end.
+  /// Requests an endless stream.
   void start() EBAC_RT;
   void stop() EBAC_RT;
-  /// Has the sensor take what acts now as zero: for everyone, until it loses its power.
+  /// Makes the sensor take the present load as zero, for every client, until it loses power.
   void bias_sensor() EBAC_RT { ask(RdtCommand::kBias); }
   /// Takes the mean of the next `records` as zero, here.
   void begin_bias(int records) EBAC_RT { link_.begin_bias(records); }
@@ -65,7 +65,7 @@ class RdtClient {
   bool wait(std::chrono::nanoseconds timeout) const noexcept { return socket_.wait(timeout); }
   void close() noexcept;
 
-  /// Puts force, age and health into what a device told.
+  /// Writes force, age and status into a reading of a device.
   void fill(Reading& reading) const EBAC_RT;
 
   LinkState state() const EBAC_RT { return state_; }
@@ -74,7 +74,7 @@ class RdtClient {
   double age() const EBAC_RT { return age_; }  // s, of the newest record, or of the wait for one
   SensorStatus health() const EBAC_RT;
   std::int64_t foreign() const EBAC_RT { return foreign_; }
-  std::int64_t asked() const EBAC_RT { return asked_; }      // streams asked for
+  std::int64_t asked() const EBAC_RT { return asked_; }      // streams requested
   std::int64_t refused() const EBAC_RT { return refused_; }  // requests that did not leave
   Endpoint local() const noexcept { return socket_.local(); }
   const RdtClientSetup& setup() const EBAC_RT { return setup_; }
@@ -83,7 +83,7 @@ class RdtClient {
   void ask(RdtCommand command) EBAC_RT;
   bool take(const Datagram& in) EBAC_RT;
   void note(int error) EBAC_RT;
-  void tell() EBAC_RT;
+  void fill_row() EBAC_RT;
 
   RdtClientSetup setup_;
   RdtLink link_;

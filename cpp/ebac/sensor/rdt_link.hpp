@@ -16,8 +16,8 @@
 
 namespace ebac::sensor {
 
-/// What a client makes of the packets that reach it, whichever way they come: order, status, units,
-/// axes, bias. It knows no socket and no clock.
+/// Interprets the packets that reach a client, over any transport: order, status, units, axes,
+/// bias. Knows neither sockets nor clocks.
 class RdtLink {
  public:
   struct Setup {
@@ -39,8 +39,8 @@ class RdtLink {
       ++malformed_;
       return false;
     }
-    const Place place = order_.take(record.rdt_sequence, record.ft_sequence);
-    if (place != Place::kNewest) return false;
+    const Arrival arrival = order_.take(record.rdt_sequence, record.ft_sequence);
+    if (arrival != Arrival::kNewest) return false;
     record_ = record;
     health_ = health(record);
     ++received_;
@@ -57,7 +57,7 @@ class RdtLink {
     left_ = wanted_ = records;
   }
   bool biasing() const EBAC_RT { return left_ > 0; }
-  /// What is taken as zero [counts].
+  /// The zero of the readings [counts].
   const std::array<double, 6>& bias() const EBAC_RT { return bias_; }
 
   Axes force() const EBAC_RT {  // N, at the handle
@@ -80,11 +80,11 @@ class RdtLink {
   }
 
   SensorStatus health(const RdtRecord& record) const EBAC_RT {
-    const SensorStatus told = setup_.bits.judge(record.status);
+    const SensorStatus judged = setup_.bits.judge(record.status);
     const bool beyond =
         full(record.force, setup_.scale.force_range, setup_.scale.counts_per_force) ||
         full(record.torque, setup_.scale.torque_range, setup_.scale.counts_per_torque);
-    return told == SensorStatus::kGood && beyond ? SensorStatus::kSaturated : told;
+    return judged == SensorStatus::kGood && beyond ? SensorStatus::kSaturated : judged;
   }
   /// Whether a count is at the end of its range, or at that of its 32 bits.
   static bool full(const std::array<std::int32_t, 3>& counts, double range, double scale) EBAC_RT {

@@ -7,7 +7,7 @@
 
 namespace ebac::sensor {
 
-/// What a row tells of the force sensor, axis by axis: the counts are those of the whole sensor.
+/// Columns of a trace for the force sensor, per axis; the counts are those of the whole sensor.
 struct RdtRow {
   double torque = 0;  // N m
   double age = 0;     // s

@@ -7,7 +7,7 @@
 
 namespace ebac::sensor {
 
-/// What the counts of a sensor are worth, and how much it can measure.
+/// Units and range of the counts of a sensor.
 struct FtScale {
   double counts_per_force = 1e6;   // 1/N
   double counts_per_torque = 1e6;  // 1/(N m)

@@ -10,15 +10,15 @@
 
 namespace ebac::sensor {
 
-/// The force at a handle, in the handle's axes [N]: from who moves it to who measures it, in another
-/// thread.
-using ForceCell = Mailbox<std::array<double, kMaxAxes>>;
+/// The force at a handle, in the axes of the handle [N]: from the simulation of the hand to an
+/// emulated sensor, in another thread.
+using SharedForce = Mailbox<std::array<double, kMaxAxes>>;
 
-/// A device whose force is also told to a cell, where there is one. Copies share the cell.
+/// A device that also publishes its force to a shared force, if there is one. Copies share it.
 template <Device D>
-class Felt {
+class ForcePublisher {
  public:
-  explicit Felt(D device, std::shared_ptr<ForceCell> cell = nullptr)
+  explicit ForcePublisher(D device, std::shared_ptr<SharedForce> cell = nullptr)
       : device_(std::move(device)), cell_(std::move(cell)) {}
 
   Reading exchange(const Command& command) EBAC_RT {
@@ -38,7 +38,7 @@ class Felt {
 
  private:
   D device_;
-  std::shared_ptr<ForceCell> cell_;
+  std::shared_ptr<SharedForce> cell_;
 };
 
 }  // namespace ebac::sensor

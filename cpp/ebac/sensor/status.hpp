@@ -11,8 +11,8 @@ namespace ebac::sensor {
 /// Whose status bits a record carries.
 enum class SensorModel : std::uint8_t { kNetFt, kAxia, kOther };
 
-/// Which bits of a status say what. Sources: ATI's manuals of the Net F/T (9620-05-NET FT, system
-/// status code) and of the Ethernet Axia (9610-05, table 4.7).
+/// Meaning of the status bits. Sources: ATI's manuals of the Net F/T (9620-05-NET FT, system status
+/// code) and of the Ethernet Axia (9610-05, table 4.7).
 struct StatusBits {
   std::uint32_t saturated = 0;  // more than the sensor can measure
   std::uint32_t harmless = 0;   // no word about the force
@@ -32,10 +32,10 @@ struct StatusBits {
   }
 
   constexpr SensorStatus judge(std::uint32_t status) const EBAC_RT {
-    const std::uint32_t told = status & ~harmless;
-    if (told == 0) return SensorStatus::kGood;
-    const std::uint32_t rest = told & ~saturated & ~kAnyError;
-    return rest == 0 && (told & saturated) != 0 ? SensorStatus::kSaturated : SensorStatus::kError;
+    const std::uint32_t active = status & ~harmless;
+    if (active == 0) return SensorStatus::kGood;
+    const std::uint32_t rest = active & ~saturated & ~kAnyError;
+    return rest == 0 && (active & saturated) != 0 ? SensorStatus::kSaturated : SensorStatus::kError;
   }
 };
 

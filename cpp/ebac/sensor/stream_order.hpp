@@ -6,8 +6,8 @@
 
 namespace ebac::sensor {
 
-/// What a numbered packet is to the stream it came in.
-enum class Place : std::uint8_t {
+/// Arrival of a numbered packet relative to its stream.
+enum class Arrival : std::uint8_t {
   kNewest,     // newer than all before it
   kLate,       // older than another that came before it, and not seen yet
   kDuplicate,  // seen already
@@ -18,20 +18,20 @@ enum class Place : std::uint8_t {
 /// lost: it leaves the count again. Numbers are 32 bits wide and wrap.
 class StreamOrder {
  public:
-  /// How far behind the newest a number is still told apart.
+  /// Distance behind the newest number within which duplicates are recognised.
   static constexpr std::uint32_t kWindow = 64;
-  /// A longer leap ahead is no loss but another stream.
+  /// A longer leap ahead is not a loss but another stream.
   static constexpr std::uint32_t kLeap = 1U << 20U;
 
-  /// `sample` is the sensor's own number of what the packet tells, which no stream begins anew.
-  Place take(std::uint32_t number, std::uint32_t sample = 0) EBAC_RT {
-    const Place place = judge(number, sample);
-    if (place == Place::kNewest) sample_ = sample;
-    return place;
+  /// `sample` is the sensor's own sample number, which continues from stream to stream.
+  Arrival take(std::uint32_t number, std::uint32_t sample = 0) EBAC_RT {
+    const Arrival arrival = judge(number, sample);
+    if (arrival == Arrival::kNewest) sample_ = sample;
+    return arrival;
   }
 
-  /// Another stream was asked for: the next packet begins it, whatever its number. It may still be
-  /// one of the stream before, so that one leap to anywhere is believed.
+  /// To be called when another stream is requested: the next packet begins it, whatever its number.
+  /// That packet may still belong to the stream before, so one leap to any number is accepted.
   void restart() EBAC_RT {
     begun_ = strayed_ = false;
     leaps_ = true;
@@ -44,7 +44,7 @@ class StreamOrder {
   std::int64_t restarts() const EBAC_RT { return restarts_; }
 
  private:
-  Place judge(std::uint32_t number, std::uint32_t sample) EBAC_RT {
+  Arrival judge(std::uint32_t number, std::uint32_t sample) EBAC_RT {
     if (!begun_) return begin(number);
     const std::uint32_t ahead = number - newest_;
     if (ahead == 0) return again();
@@ -56,36 +56,37 @@ class StreamOrder {
     leaps_ = false;
     return begin(number);
   }
-  Place begin(std::uint32_t number) EBAC_RT {
+  Arrival begin(std::uint32_t number) EBAC_RT {
     begun_ = true;
     strayed_ = false;
     newest_ = number;
     age_ = 0;
     seen_ = 1;
-    return Place::kNewest;
+    return Arrival::kNewest;
   }
-  Place again() EBAC_RT {
+  Arrival again() EBAC_RT {
     ++duplicate_;
-    return Place::kDuplicate;
+    return Arrival::kDuplicate;
   }
-  Place advance(std::uint32_t number, std::uint32_t ahead) EBAC_RT {
+  Arrival advance(std::uint32_t number, std::uint32_t ahead) EBAC_RT {
     seen_ = ahead < kWindow ? seen_ << ahead | 1U : 1U;
     newest_ = number;
     age_ += ahead;
     lost_ += ahead - 1;
     strayed_ = false;
     if (age_ >= kWindow) leaps_ = false;
-    return Place::kNewest;
+    return Arrival::kNewest;
   }
-  Place look_back(std::uint32_t behind) EBAC_RT {
+  Arrival look_back(std::uint32_t behind) EBAC_RT {
     const std::uint64_t bit = std::uint64_t{1} << behind;
     if ((seen_ & bit) != 0) return again();
     seen_ |= bit;
     ++late_;
-    if (behind <= age_) --lost_;  // what came before the first of the stream was never missed
-    return Place::kLate;
+    if (behind <= age_)
+      --lost_;  // packets before the first of the stream were never counted as lost
+    return Arrival::kLate;
   }
-  Place stray(std::uint32_t number) EBAC_RT {
+  Arrival stray(std::uint32_t number) EBAC_RT {
     if (leaps_) {
       leaps_ = false;
       return begin(number);
@@ -97,12 +98,12 @@ class StreamOrder {
     strayed_ = true;
     stray_ = number;
     ++stray_count_;
-    return Place::kStray;
+    return Arrival::kStray;
   }
 
   bool begun_ = false;
   bool strayed_ = false;
-  bool leaps_ = false;  // a stream was asked for, and the old one may not have ended yet
+  bool leaps_ = false;  // a stream was requested, and the old one may not have ended yet
   std::uint32_t newest_ = 0;
   std::uint32_t sample_ = 0;  // of the newest
   std::uint32_t stray_ = 0;

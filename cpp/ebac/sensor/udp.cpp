@@ -49,7 +49,7 @@ bool set(int fd, int level, int option) noexcept {
   return ::setsockopt(fd, level, option, &on, sizeof(on)) == 0;
 }
 
-/// When the kernel had the packet; 0 where it does not say.
+/// Arrival time of the packet at the kernel; 0 if unknown.
 std::int64_t stamp_of(msghdr& message) noexcept {
   for (cmsghdr* part = CMSG_FIRSTHDR(&message); part; part = CMSG_NXTHDR(&message, part)) {
     if (part->cmsg_level != SOL_SOCKET || part->cmsg_type != SO_TIMESTAMPNS) continue;
@@ -61,11 +61,6 @@ std::int64_t stamp_of(msghdr& message) noexcept {
 }
 
 }  // namespace
-
-std::string to_string(const Endpoint& at) {
-  const auto byte = [&](unsigned shift) { return std::to_string(at.address >> shift & 0xFFU); };
-  return byte(24) + "." + byte(16) + "." + byte(8) + "." + byte(0) + ":" + std::to_string(at.port);
-}
 
 Endpoint resolve(const std::string& host, std::uint16_t port) {
   addrinfo hints{};
@@ -90,7 +85,7 @@ UdpSocket::UdpSocket(const Endpoint& at)
     : fd_(::socket(AF_INET, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0)) {
   const sockaddr_in wire = to_wire(at);
   const auto* any = reinterpret_cast<const sockaddr*>(&wire);
-  // IP_RECVERR hands on what the way says of a packet sent: without a connection, nothing else does.
+  // IP_RECVERR reports errors of sent packets: without a connection, nothing else does.
   if (fd_ < 0 || !set(fd_, SOL_SOCKET, SO_TIMESTAMPNS) || !set(fd_, IPPROTO_IP, IP_RECVERR) ||
       ::bind(fd_, any, sizeof(wire)) != 0) {
     const int error = errno;
@@ -118,7 +113,7 @@ int UdpSocket::send(std::span<const std::uint8_t> bytes, const Endpoint& to) EBA
   const sockaddr_in wire = to_wire(to);
   const auto* any = reinterpret_cast<const sockaddr*>(&wire);
   int error = 0;
-  // Twice: the first failure may be what an earlier packet met on its way.
+  // Twice: the first failure may belong to an earlier packet.
   for (int i = 0; i < 2; ++i) {
     const ssize_t sent =
         ::sendto(fd_, bytes.data(), bytes.size(), MSG_DONTWAIT | MSG_NOSIGNAL, any, sizeof(wire));
@@ -152,7 +147,7 @@ int UdpSocket::receive(Datagram& in) EBAC_RT {
   return 0;
 }
 
-/// The queue of errors would fill up unread; the error itself has been told.
+/// Empties the error queue, which would fill up unread; the error itself has been reported.
 void UdpSocket::forget_errors() const EBAC_RT {
   constexpr int kMost = 16;
   std::array<char, 64> data{};

@@ -21,14 +21,17 @@ struct Endpoint {
 inline constexpr std::uint32_t kLoopbackAddress = 0x7F000001;
 
 /// "192.168.1.1:49152"
-std::string to_string(const Endpoint& at);
+inline std::string to_string(const Endpoint& at) {
+  const auto byte = [&](unsigned shift) { return std::to_string(at.address >> shift & 0xFFU); };
+  return byte(24) + "." + byte(16) + "." + byte(8) + "." + byte(0) + ":" + std::to_string(at.port);
+}
 
 /// The endpoint of a host by name or address. Throws std::invalid_argument where there is none; may
 /// wait for a name server.
 Endpoint resolve(const std::string& host, std::uint16_t port);
 
-/// What came: its first bytes. A packet of the protocol is shorter than the room here, so one that
-/// fills it was too long.
+/// A received packet: its first bytes. A packet of the protocol is shorter than the room here, so
+/// one that fills it was too long.
 struct Datagram {
   static constexpr std::size_t kRoom = 64;
 
@@ -40,11 +43,11 @@ struct Datagram {
   std::span<const std::uint8_t> bytes() const EBAC_RT { return std::span(data).first(size); }
 };
 
-/// A UDP socket that never waits, unless asked to by `wait`.
+/// A UDP socket that never waits, except in `wait`.
 class UdpSocket {
  public:
   UdpSocket() noexcept = default;  // closed
-  /// Bound to `at`; port 0 takes any free one. Throws std::system_error saying what to do.
+  /// Bound to `at`; port 0 takes any free one. Throws std::system_error with the remedy.
   explicit UdpSocket(const Endpoint& at);
   ~UdpSocket() { close(); }
   UdpSocket(UdpSocket&& other) noexcept;
@@ -54,8 +57,8 @@ class UdpSocket {
 
   /// 0, or the error (errno).
   int send(std::span<const std::uint8_t> bytes, const Endpoint& to) EBAC_RT;
-  /// 0 with a packet; EAGAIN where none waits; any other error, also one that an earlier `send` met
-  /// on its way (ECONNREFUSED: nobody listens there).
+  /// Returns 0 with a packet, EAGAIN if none waits, or any other error, including one of an earlier
+  /// `send` (ECONNREFUSED: no program listens there).
   int receive(Datagram& in) EBAC_RT;
   /// Waits for something to receive; false after `timeout` or a signal.
   bool wait(std::chrono::nanoseconds timeout) const noexcept;

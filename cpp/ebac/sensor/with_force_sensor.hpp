@@ -16,11 +16,11 @@ concept PolledSensor = requires(S sensor, const S& view, double elapsed, Reading
   { view.health() } noexcept -> std::same_as<SensorStatus>;
 };
 
-/// A device whose force comes from a sensor beside it. What else the device can do, it still can.
-/// Enabling it asks for the sensor's stream, anew where there was one.
+/// A device whose force comes from a separate sensor. Forwards all other calls to the device.
+/// Enabling it requests the stream of the sensor, again if there was one.
 ///
-/// While it is being enabled, no force is asked, and a sensor may take `patience` seconds to give a
-/// record that is good: only then does the device run. Afterwards the limits judge each one.
+/// While it is being enabled, no force is commanded, and the sensor may take `patience` seconds to
+/// send a valid record: only then does the device run. Afterwards the limits judge each record.
 template <Device D, PolledSensor S>
 class WithForceSensor {
  public:

@@ -23,7 +23,7 @@ double best_nanoseconds(int repeats, std::size_t steps, Work work) {
 }
 
 /// One law on the ports it met in a run of `setup`.
-template <Controller Law>
+template <ScalarLaw Law>
 double time_law(const Setup& setup, Law law, int repeats) {
   const auto trace = simulate(setup, law);
   std::vector<Port> ports;
@@ -38,8 +38,8 @@ double time_law(const Setup& setup, Law law, int repeats) {
   });
 }
 
-/// The whole closed loop: plant, device, rig, environment, account, law, row.
-template <Controller Law>
+/// The whole closed loop: plant, device, signal chain, environment, account, law, row.
+template <ScalarLaw Law>
 double time_loop(const Setup& setup, const Law& law, int repeats) {
   double best = std::numeric_limits<double>::infinity();
   for (int i = 0; i < repeats; ++i) {

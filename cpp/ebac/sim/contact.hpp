@@ -8,11 +8,11 @@
 #include "ebac/core/fields.hpp"
 #include "ebac/model/environment.hpp"
 
-/// What a contact with a wall comes to: the one definition behind `ebac.contact` and every sweep.
+/// Metrics of a contact with a wall: the one definition behind `ebac.contact` and every sweep.
 namespace ebac {
 
 inline constexpr double kTailShare = 0.3;       // of a run, over which rest and swing are taken
-inline constexpr double kQuietSwing = 0.25e-3;  // m, peak to peak; what swings by less is quiet
+inline constexpr double kQuietSwing = 0.25e-3;  // m, peak to peak; a smaller oscillation is quiet
 inline constexpr std::size_t kFewestRows = 10;  // fewer have no tail to measure
 
 /// A contact in numbers; NaN where a thing does not exist.
@@ -65,7 +65,7 @@ struct ContactRecord {
   std::span<const double> x{};        // m
   std::span<const double> force{};    // N, applied
   std::span<const double> energy{};   // J, physical port energy of all axes
-  std::span<const double> stored{};   // J, what an ideal environment stores at this position
+  std::span<const double> stored{};   // J, energy stored by an ideal environment at this position
   std::span<const double> clamped{};  // 0 or 1
   std::span<const double> pull{};     // N, of the hand; 0 where the virtual world does not act
 };
@@ -74,7 +74,7 @@ struct ContactRecord {
 /// several lengths.
 WallContact measure_contact(const ContactRecord& record);
 
-/// What an ideal environment stores at a position: the sum of K depth^2/2.
+/// Energy that an ideal environment stores at a position: the sum of K depth^2/2.
 double stored_energy(const Environment& environment, const Axes& x) EBAC_RT;
 
 }  // namespace ebac

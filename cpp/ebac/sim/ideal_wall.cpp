@@ -100,7 +100,7 @@ class IdealAxis {
   Hand hand_;
   Wall wall_;
   double tick_;
-  double weight_;  // N, what the motor bears of it
+  double weight_;  // N, part carried by the motor
   ExactAxis free_;
   ExactAxis touching_;
   ExactAxis before_;

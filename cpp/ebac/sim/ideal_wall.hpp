@@ -9,7 +9,7 @@
 namespace ebac {
 
 /// The same hand and device against an ideal wall: continuous, without sampling, delay, encoder or
-/// law. What no law can better by much, and the yardstick for settling.
+/// law. A bound that no law can better by much, and the reference for settling.
 struct IdealContact {
   double rest = WallContact::kNone;     // m
   double swing = WallContact::kNone;    // m

@@ -2,6 +2,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <stdexcept>
 
@@ -26,6 +27,40 @@ void require_linear(const DeviceModel& device) {
 double smoothing(const Velocity& estimator, double tick) {
   const auto* low_pass = std::get_if<LowPass>(&estimator);
   return low_pass != nullptr ? tick / (low_pass->time_constant + tick) : 1.0;
+}
+
+/// Those of the block of two rows at (i, i) of a real Schur form.
+std::array<std::complex<double>, 2> pair_of(const Eigen::MatrixXd& t, Eigen::Index i) {
+  const double half = 0.5 * (t(i, i) - t(i + 1, i + 1));
+  const double below = t(i + 1, i);
+  const double above = t(i, i + 1);
+  const double most = std::max(std::abs(half), std::max(std::abs(below), std::abs(above)));
+  const double share = half / most;  // so that no square overflows
+  const double height = most * std::sqrt(std::abs(share * share + below / most * (above / most)));
+  const double middle = t(i + 1, i + 1) + half;
+  return {std::complex(middle, height), std::complex(middle, -height)};
+}
+
+/// The eigenvalues from the real Schur form. `Eigen::EigenSolver` takes the same steps, to the bit,
+/// but brings the eigenvectors, which take most of the time to compile.
+std::vector<std::complex<double>> eigenvalues_of(const Eigen::MatrixXd& matrix) {
+  const double scale = matrix.cwiseAbs().maxCoeff();
+  const Eigen::HessenbergDecomposition<Eigen::MatrixXd> reduced(matrix / scale);
+  Eigen::RealSchur<Eigen::MatrixXd> schur(matrix.rows());
+  schur.computeFromHessenberg(reduced.matrixH(), Eigen::MatrixXd(), /*computeU=*/false);
+  const Eigen::MatrixXd t = schur.matrixT() * scale;
+  std::vector<std::complex<double>> found;
+  for (Eigen::Index i = 0; i < t.rows();) {
+    if (i == t.rows() - 1 || t(i + 1, i) == 0) {
+      found.emplace_back(t(i, i));
+      i += 1;
+    } else {
+      const auto pair = pair_of(t, i);
+      found.insert(found.end(), pair.begin(), pair.end());
+      i += 2;
+    }
+  }
+  return found;
 }
 
 }  // namespace
@@ -82,9 +117,7 @@ Eigen::MatrixXd LinearLoop::matrix(double stiffness, double damping) const {
 }
 
 std::vector<std::complex<double>> LinearLoop::eigenvalues(double stiffness, double damping) const {
-  const Eigen::EigenSolver<Eigen::MatrixXd> solver(matrix(stiffness, damping), false);
-  const auto& found = solver.eigenvalues();
-  return {found.begin(), found.end()};
+  return eigenvalues_of(matrix(stiffness, damping));
 }
 
 double LinearLoop::spectral_radius(double stiffness, double damping) const {

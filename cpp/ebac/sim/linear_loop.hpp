@@ -10,10 +10,10 @@ namespace ebac {
 
 /// One axis held in a virtual spring and damper without a law: hand, handle, current lag, delay,
 /// velocity estimate and hold, exactly as simulated but without friction, encoder counts, the
-/// wall's edge and the drive's peak. What is left is linear, so its stability is a matter of
-/// eigenvalues.
+/// wall's edge and the drive's peak. The remaining loop is linear, so its stability follows from
+/// its eigenvalues.
 ///
-/// The state at tick k: x, v, f_motor, the last x, the estimated v, and the commands under way.
+/// The state at tick k: x, v, f_motor, the last x, the estimated v, and the commands in flight.
 class LinearLoop {
  public:
   /// The axis of `setup`; its environment is not looked at. Throws std::invalid_argument for a

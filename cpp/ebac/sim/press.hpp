@@ -6,7 +6,7 @@
 
 #include "ebac/sim/sweep.hpp"
 
-/// What a press on a wall costs: what gains are chosen by, beside the contact itself.
+/// Effort of a press on a wall: a criterion for the choice of gains, beside the contact itself.
 namespace ebac {
 
 /// Effort of one run; NaN where a run is too short for it.
@@ -77,7 +77,7 @@ struct Press {
 };
 
 /// Runs setups[i] under *laws[i], of which the first axis ought to come to goals[i] [m].
-template <Controller Law>
+template <ScalarLaw Law>
 std::vector<Press> press(const std::vector<const Setup*>& setups,
                          const std::vector<const Law*>& laws, const std::vector<double>& goals,
                          int threads, const RunLimits& limits, SweepProgress& progress) {

@@ -9,8 +9,8 @@
 
 namespace ebac {
 
-/// Drives `law` with a log to its end and returns every row: what it would have commanded, tick by
-/// tick, had the handle moved as it did.
+/// Drives `law` with a log to its end and returns every row: the commands of the law, tick by tick,
+/// for the recorded motion of the handle.
 template <AxesController Law>
 std::shared_ptr<Trace> replay(std::shared_ptr<const ReplayLog> log, Law law,
                               const DeviceModel& device, const Environment& environment) {
@@ -18,7 +18,7 @@ std::shared_ptr<Trace> replay(std::shared_ptr<const ReplayLog> log, Law law,
   const int axes = static_cast<int>(log->axes);
   ReplayClock clock(log);
   Loop<ReplayDevice, ReplayClock, Law> loop(ReplayDevice(std::move(log)), std::move(clock),
-                                            std::move(law), Rig(device, environment), axes);
+                                            std::move(law), SignalChain(device, environment), axes);
   auto trace = loop.make_trace(rows);
   loop.run(*trace);
   return trace;

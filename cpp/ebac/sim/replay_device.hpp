@@ -14,9 +14,9 @@
 /// Nothing the new law commands comes back: the hand and the device move as they did.
 namespace ebac {
 
-/// What a log knows of one axis in one tick.
+/// Recorded values of one axis in one tick.
 struct ReplayAxis {
-  /// What the recorded law asked and commanded, beside what the new one does.
+  /// Requests and commands of the recorded law, beside those of the new one.
   struct State {
     double f_env = 0;    // N
     double f_cmd = 0;    // N
@@ -49,7 +49,7 @@ struct ReplayLog {
   std::size_t rows() const EBAC_RT { return instant.size(); }
 };
 
-/// The log in the device's place. It answers tick after tick, whatever it is told.
+/// A log as a device. Answers tick after tick, whatever the commands.
 class ReplayDevice {
  public:
   using State = ReplayAxis::State;

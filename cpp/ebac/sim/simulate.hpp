@@ -14,7 +14,7 @@ namespace ebac {
 template <AxesController Law>
 Loop<SimulatedDevice, VirtualClock, Law> simulated_loop(const Setup& setup, Law law) {
   return {SimulatedDevice(setup), VirtualClock(setup.timing.dt, setup.jitter, setup.seed),
-          std::move(law),         Rig(setup.device, setup.environment),
+          std::move(law),         SignalChain(setup.device, setup.environment),
           setup.device.axes(),    setup.loop};
 }
 
@@ -31,7 +31,7 @@ std::shared_ptr<Trace> simulate(const Setup& setup, Law law) {
   return trace;
 }
 
-template <Controller Law>
+template <ScalarLaw Law>
 std::shared_ptr<Trace> simulate(const Setup& setup, const Law& law) {
   return simulate(setup, PerAxis<Law>(law));
 }

@@ -14,9 +14,9 @@
 
 namespace ebac {
 
-/// Takes amperes, returns encoder counts one tick later: the machine's place on the desk.
-/// Everything behind the counts (estimation, kinematics, limits, units, latency) is the same code
-/// as on the machine.
+/// Simulated device: takes currents in amperes, returns encoder counts one tick later. Everything
+/// behind the counts (estimation, kinematics, limits, units, latency) is the same code as on the
+/// machine.
 class SimulatedDevice {
  public:
   using State = AxisTruth;

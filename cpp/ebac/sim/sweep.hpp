@@ -31,13 +31,13 @@ struct RunLimits {
 
 struct Outcome {
   WallContact contact{};
-  std::size_t ticks = 0;  // rows; fewer than asked for after a fault or when diverged
+  std::size_t ticks = 0;  // rows; fewer than requested after a fault or a divergence
   Fault fault = Fault::kNone;
   bool diverged = false;
   bool done = false;  // false when cancelled before its end
 };
 
-/// What a caller in another thread sees of a sweep, and how it stops one.
+/// Progress of a sweep, and its cancellation, for a caller in another thread.
 struct SweepProgress {
   std::atomic<std::size_t> done = 0;  // runs
   std::atomic<bool> cancelled = false;
@@ -46,14 +46,13 @@ struct SweepProgress {
 using SweepWork = std::function<void(std::size_t, ContactRecorder&)>;
 
 /// Calls `work(i, recorder)` for every i < count from `threads` threads, 0 for one per core; a
-/// recorder belongs to a thread. What a call throws ends the sweep and is thrown again here.
+/// recorder belongs to a thread. An exception of a call ends the sweep and is thrown again here.
 void for_each_run(std::size_t count, int threads, SweepProgress& progress, const SweepWork& work);
 
-/// Adds a row of the first axis; the energies are those of all axes. Says whether the run lies
-/// within its limits.
-template <AxesController Law>
-bool keep_row(const Sample& s, const SimulatedDevice& device, const Law& law, const Setup& setup,
-              const RunLimits& limits, ContactRecorder& recorder) {
+/// Adds a row of the first axis; the energies are those of all axes. `clamped` is the law's state of
+/// that name, or nullptr. Returns whether the run is within its limits.
+inline bool keep_row(const Sample& s, const SimulatedDevice& device, const bool* clamped,
+                     const Setup& setup, const RunLimits& limits, ContactRecorder& recorder) {
   Axes x = Axes::Zero();
   double energy = 0;
   for (std::size_t i = 0; i < static_cast<std::size_t>(s.axes); ++i) {
@@ -64,8 +63,22 @@ bool keep_row(const Sample& s, const SimulatedDevice& device, const Law& law, co
   recorder.add(s.t, x[0], port.f_applied, energy, stored_energy(setup.environment, x));
   const bool acts = port.f_env != 0 || port.f_cmd != 0 || port.f_applied != 0;
   recorder.add_pull(acts ? setup.hand.pull(0, s.t, x[0]) : 0.0);
-  if constexpr (requires { law.state(0).clamped; }) recorder.add_clamped(law.state(0).clamped);
+  if (clamped != nullptr) recorder.add_clamped(*clamped);
   return x.cwiseAbs().maxCoeff() <= limits.position && energy >= -limits.energy;
+}
+
+/// Whether the law limited its force, if its state records it.
+template <ScalarLaw Law>
+const bool* clamped_of(const PerAxis<Law>& law) {
+  if constexpr (std::same_as<Law, AnyLaw>) {
+    const FieldRow* field = law.state_table().find("clamped");
+    return field != nullptr && field->kind == FieldKind::kBool ? &field->in<bool>(law.state(0))
+                                                               : nullptr;
+  } else if constexpr (requires { law.state(0).clamped; }) {
+    return &law.state(0).clamped;
+  } else {
+    return nullptr;
+  }
 }
 
 /// Looks at the rows of a run and keeps nothing.
@@ -74,15 +87,16 @@ struct NoWatch {
 };
 
 /// One run: the ticks of `simulate`, kept as metrics; `watch` sees every row.
-template <Controller Scalar, class Watch = const NoWatch>
+template <ScalarLaw Scalar, class Watch = const NoWatch>
 Outcome measure_run(const Setup& setup, const Scalar& scalar, const RunLimits& limits,
                     ContactRecorder& recorder, const std::atomic<bool>& cancelled,
                     Watch& watch = NoWatch{}) {
   constexpr std::size_t kLook = 256;  // ticks between two looks at `cancelled`
   PerAxis<Scalar> law(scalar);
+  const bool* clamped = clamped_of(law);
   SimulatedDevice device(setup);
   VirtualClock clock(setup.timing.dt, setup.jitter, setup.seed);
-  Rig rig(setup.device, setup.environment);
+  SignalChain chain(setup.device, setup.environment);
   Sample sample{};
   sample.axes = setup.device.axes();
   Outcome outcome;
@@ -90,8 +104,8 @@ Outcome measure_run(const Setup& setup, const Scalar& scalar, const RunLimits& l
   recorder.start(rows);
   while (outcome.ticks < rows && outcome.fault == Fault::kNone && !outcome.diverged) {
     if (outcome.ticks % kLook == 0 && cancelled.load(std::memory_order_relaxed)) return outcome;
-    tick(rig, law, device, clock.wait(), sample);
-    outcome.diverged = !keep_row(sample, device, law, setup, limits, recorder);
+    tick(chain, law, device, clock.wait(), sample);
+    outcome.diverged = !keep_row(sample, device, clamped, setup, limits, recorder);
     watch(sample, device);
     outcome.fault = sample.fault;
     ++sample.tick;
@@ -103,9 +117,9 @@ Outcome measure_run(const Setup& setup, const Scalar& scalar, const RunLimits& l
   return outcome;
 }
 
-/// Runs setups[i] under *laws[i] for every i. After a cancellation the runs that were not done say
-/// so.
-template <Controller Law>
+/// Runs setups[i] under *laws[i] for every i. After a cancellation the missing runs are marked as
+/// not done.
+template <ScalarLaw Law>
 std::vector<Outcome> sweep(const std::vector<const Setup*>& setups,
                            const std::vector<const Law*>& laws, int threads,
                            const RunLimits& limits, SweepProgress& progress) {

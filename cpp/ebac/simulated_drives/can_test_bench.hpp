@@ -4,16 +4,16 @@
 #include <string>
 #include <utility>
 
-#include "ebac/can/canopen_device.hpp"
-#include "ebac/can/joystick.hpp"
 #include "ebac/can/loopback_bus.hpp"
-#include "ebac/can/torque_settings.hpp"
+#include "ebac/canopen/canopen_device.hpp"
+#include "ebac/canopen/torque.hpp"
 #include "ebac/model/device.hpp"
+#include "ebac/simulated_drives/joystick.hpp"
 
 namespace ebac::can {
 
-/// A plant that shows the same as long as no time passes, however often it is asked: a SYNC before
-/// the start then draws no noise.
+/// A plant whose reading stays the same as long as no time passes, however often it is read: a SYNC
+/// before the start then draws no noise.
 template <Device D>
 class Still {
  public:
@@ -32,7 +32,7 @@ class Still {
   bool read_ = false;
 };
 
-/// A plant with simulated drives on one end of a bus: hears and answers when it is its turn.
+/// A plant with simulated drives on one end of a bus.
 template <Device D>
 class JoystickOnBus {
  public:
@@ -40,7 +40,7 @@ class JoystickOnBus {
       : joystick_(Still<D>(std::move(plant)), device, /*first=*/1, kPeakTime),
         end_(std::move(end)) {}
 
-  /// Time passes, what was sent is heard, what there is to say is said.
+  /// Advances time, receives the waiting frames and sends the answers.
   void run(double elapsed) EBAC_RT {
     joystick_.elapse(elapsed);
     Frame frame;
@@ -59,16 +59,16 @@ class JoystickOnBus {
   LoopbackBus end_;
 };
 
-/// A plant with simulated drives, a bus, and the loop's side of it, in one thread and in virtual
-/// time. It stays where it is: its parts know each other.
+/// Test bench: a plant with simulated drives, a bus, and the loop's side of it, in one thread and
+/// in virtual time. Not movable: its parts refer to each other.
 template <Device D>
-class CanDesk {
+class CanTestBench {
  public:
   using Can = CanopenDevice<LoopbackBus, RunOther<JoystickOnBus<D>>>;
 
   /// `plant` takes its currents without delay, as a drive sets them at the SYNC. The drives are set
   /// up and operational, and at rest.
-  CanDesk(D plant, const DeviceModel& device)
+  CanTestBench(D plant, const DeviceModel& device)
       : other_(std::move(plant), device, hub_.open()),
         can_(near_, RunOther(other_),
              {.axes = device.axes(), .motor = device.motor, .drive = device.drive}) {
@@ -76,17 +76,17 @@ class CanDesk {
     for (std::size_t i = 0; i < joystick().axes(); ++i) set_up(joystick().drive(i), most);
     near_.send(frame(kNmt, {kStartNode, kAllNodes}));
   }
-  CanDesk(const CanDesk&) = delete;
-  CanDesk& operator=(const CanDesk&) = delete;
-  CanDesk(CanDesk&&) = delete;
-  CanDesk& operator=(CanDesk&&) = delete;
-  ~CanDesk() = default;
+  CanTestBench(const CanTestBench&) = delete;
+  CanTestBench& operator=(const CanTestBench&) = delete;
+  CanTestBench(CanTestBench&&) = delete;
+  CanTestBench& operator=(CanTestBench&&) = delete;
+  ~CanTestBench() = default;
 
   Can& can() EBAC_RT { return can_; }
   const Can& can() const EBAC_RT { return can_; }
   Joystick<Still<D>>& joystick() EBAC_RT { return other_.joystick(); }
   const D& plant() const EBAC_RT { return other_.plant(); }
-  /// What the sensor at the handle tells, which is not on this bus.
+  /// Adds the reading of the force sensor, which is not on this bus.
   void add_sensor(Reading& reading) const EBAC_RT {
     const Reading& plant = other_.joystick().reading();
     reading.force = plant.force;

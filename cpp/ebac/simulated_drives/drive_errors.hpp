@@ -5,7 +5,7 @@
 
 #include "ebac/core/realtime.hpp"
 
-/// What can go wrong in a drive, and how each is told.
+/// Causes of drive errors, with the error code of each.
 namespace ebac::can {
 
 enum class Cause : std::uint8_t {
@@ -48,7 +48,7 @@ constexpr const CauseFacts& facts_of(Cause cause) EBAC_RT {
   return kCauseFacts[static_cast<std::size_t>(cause)];
 }
 
-/// Which causes are there, and which are told and not yet reset.
+/// Present causes, and causes reported but not yet reset.
 class ErrorState {
  public:
   /// True when it is news.
@@ -58,9 +58,9 @@ class ErrorState {
     active_ |= bit(cause);
     return news;
   }
-  /// It is over; it stays told until a reset.
+  /// Ends a cause; it stays reported until a reset.
   void gone(Cause cause) EBAC_RT { present_ &= ~bit(cause); }
-  /// It is over and need not be told any more; true when it was.
+  /// Ends a cause and its report; true if it was reported.
   bool forget(Cause cause) EBAC_RT {
     const bool was = (active_ & bit(cause)) != 0;
     present_ &= ~bit(cause);

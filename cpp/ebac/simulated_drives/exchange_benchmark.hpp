@@ -5,9 +5,9 @@
 #include <limits>
 #include <vector>
 
-#include "ebac/can/through_can.hpp"
+#include "ebac/simulated_drives/through_can.hpp"
 
-/// What a tick takes on the bus, without Python inside: nanoseconds per exchange, the best of
+/// Time of an exchange on the bus, without Python inside: nanoseconds per exchange, the best of
 /// several runs, since noise only adds.
 namespace ebac::can {
 
@@ -18,7 +18,7 @@ struct RestingPlant {
   }
 };
 
-/// A bus whose drives answer at once: what they say was written before. One node after the other.
+/// A bus whose drives answer at once with prepared frames, one node after the other.
 class AnsweringBus {
  public:
   explicit AnsweringBus(int nodes) {

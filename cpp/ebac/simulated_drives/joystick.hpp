@@ -3,23 +3,23 @@
 #include <concepts>
 #include <utility>
 
-#include "ebac/can/simulated_drive.hpp"
 #include "ebac/core/concepts.hpp"
 #include "ebac/model/device.hpp"
+#include "ebac/simulated_drives/simulated_drive.hpp"
 
 namespace ebac::can {
 
 /// Drives on the axes of one plant: node `first` moves axis 0, the next one axis 1, and so on.
 ///
-/// On SYNC the plant moves on over the time since the last one, under the currents set then; its
-/// counts are latched and sent; then what was received before the SYNC takes effect. A loop that
-/// sends its currents and SYNC in one exchange thus sees a delay of one tick. A current that changes
-/// between two SYNCs (asynchronous RPDO, SDO, ramp, fault) acts from that moment on. Without any
-/// SYNC for a while, the plant follows the time as it is told. With `wait_for_power` its time begins
-/// when a drive is first enabled: until then nothing moves, the hand neither.
+/// On SYNC the plant advances by the time since the last one, under the currents set then; its
+/// counts are latched and sent; then the data received before the SYNC take effect. A loop that
+/// sends its currents and SYNC in one exchange thus sees a delay of one tick. A current that
+/// changes between two SYNCs (asynchronous RPDO, SDO, ramp, fault) acts from that moment on.
+/// Without a SYNC for a while, the plant follows the elapsed time. With `wait_for_power` its time
+/// begins when a drive is first enabled: until then neither plant nor hand moves.
 ///
-/// `D` takes each current as it is given: where it is a simulated device, one without delay, and
-/// with torque in whole thousandths.
+/// `D` applies each current as given: a simulated device must have no delay, and torque in whole
+/// thousandths.
 template <Device D>
   requires std::copyable<D>
 class Joystick {
@@ -36,7 +36,7 @@ class Joystick {
                                   .counts_per_turn = device.encoder.counts_per_turn,
                                   .peak_time = peak_time});
     }
-    D peek = plant_;  // what it shows before anything happens costs the plant nothing
+    D peek = plant_;  // the first reading must not change the plant
     show(peek.exchange({}));
   }
 
@@ -53,7 +53,7 @@ class Joystick {
 
   /// Lets `seconds` pass.
   void elapse(double seconds) EBAC_RT {
-    hold();  // what was written to a drive itself
+    hold();  // values written to a drive directly
     since_ += seconds;
     silence_ += seconds;
     if (silence_ > kPatience && since_ > 0) {
@@ -82,7 +82,7 @@ class Joystick {
   SimulatedDrive& drive(std::size_t axis) EBAC_RT { return drive_[axis]; }
   const SimulatedDrive& drive(std::size_t axis) const EBAC_RT { return drive_[axis]; }
   const D& plant() const EBAC_RT { return plant_; }
-  /// What the plant showed last: also what no drive tells, as the force sensor.
+  /// The last reading of the plant, with values that no drive sends, such as the force.
   const Reading& reading() const EBAC_RT { return reading_; }
 
  private:
@@ -125,7 +125,7 @@ class Joystick {
   std::array<double, kMaxAxes> current_{};  // A, acting since the plant last moved
   double since_ = 0;                        // s, since the plant last moved
   double silence_ = 2 * kPatience;          // s, since the last SYNC
-  double rest_ = 0;                         // ns, less than one, not yet told to the drives
+  double rest_ = 0;                         // ns, less than one, not yet passed to the drives
   Reading reading_;
 };
 

@@ -7,7 +7,7 @@
 
 namespace ebac::can {
 
-/// What bounds the torque of a drive.
+/// Limits of the torque of a drive.
 struct StageLimits {
   double ampere = 0.001;  // A per permille of the continuous torque, eq. (1)
   int torque = 1000;      // permille, the lesser of 0x6072 and 0x6073
@@ -15,10 +15,9 @@ struct StageLimits {
   double slope = 1000;    // permille/s, of the profile torque mode
 };
 
-/// From target torque to motor current. The current loop is ideal: what is set acts. The i2t limit
-/// is a budget of (peak^2 - rated^2) peak_time: the excess of current squared over rated squared
-/// draws on it, less than rated fills it up; once spent, the current is held at rated until the
-/// budget is whole again.
+/// From target torque to motor current. The current loop is ideal. The i2t limit is a budget of
+/// (peak^2 - rated^2) peak_time: current squared above rated squared draws on it, below rated fills
+/// it up; once spent, the current is limited to rated until the budget is full again.
 class PowerStage {
  public:
   void configure(const StageLimits& limits) EBAC_RT { limits_ = limits; }
@@ -46,7 +45,7 @@ class PowerStage {
   }
 
   int demand() const EBAC_RT { return static_cast<int>(std::lround(demand_)); }
-  /// What acts, permille of the continuous torque.
+  /// Torque in effect, permille of the continuous torque.
   int torque() const EBAC_RT {
     const int most = holding_ ? std::min(static_cast<int>(kRated), limits_.torque) : limits_.torque;
     return std::clamp(demand(), -most, most);

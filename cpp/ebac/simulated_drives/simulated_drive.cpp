@@ -1,4 +1,4 @@
-#include "ebac/can/simulated_drive.hpp"
+#include "ebac/simulated_drives/simulated_drive.hpp"
 
 namespace ebac::can {
 
@@ -36,7 +36,7 @@ void SimulatedDrive::boot(std::uint16_t last_index) EBAC_RT {
     state_ = DriveState::kNotReady;
     last_word_ = 0;
     stage_.off();
-    // What tells or asks for something now is no setting, though it may have been stored.
+    // Status and command objects are not settings, though they may have been stored.
     for (const std::size_t slot :
          {kAt<0x603F>, kAt<0x2183>, kAt<0x6040>, kAt<0x6071>, kAt<0x60B2>}) {
       objects_[slot] = 0;
@@ -111,7 +111,7 @@ void SimulatedDrive::change(NmtState next) EBAC_RT {
   }
 }
 
-/// Inputs out first, as they are at this SYNC; then what was received before it takes effect.
+/// First sends the inputs as they are at this SYNC; then applies the data received before it.
 void SimulatedDrive::synchronise() EBAC_RT {
   sync_watch_.feed(now_);
   cure(Cause::kSyncLost);
@@ -145,7 +145,7 @@ void SimulatedDrive::receive_pdo(const Frame& frame) EBAC_RT {
   }
 }
 
-/// Writes what a PDO carries. A value its object refuses leaves the old one.
+/// Writes the values of a PDO. If an object refuses a value, it keeps the old one.
 void SimulatedDrive::apply(const Rpdo& rpdo, const Frame& frame) EBAC_RT {
   const PdoMap& map = rpdo.settings.map;
   std::size_t at = 0;

@@ -1,12 +1,12 @@
 #pragma once
 
-#include "ebac/can/cob_id.hpp"
-#include "ebac/can/drive_errors.hpp"
 #include "ebac/can/frame_queue.hpp"
-#include "ebac/can/pdo.hpp"
-#include "ebac/can/power_stage.hpp"
-#include "ebac/can/sdo_server.hpp"
+#include "ebac/canopen/cob_id.hpp"
+#include "ebac/canopen/pdo.hpp"
+#include "ebac/canopen/sdo_server.hpp"
 #include "ebac/model/motor.hpp"
+#include "ebac/simulated_drives/drive_errors.hpp"
+#include "ebac/simulated_drives/power_stage.hpp"
 
 namespace ebac::can {
 
@@ -19,12 +19,12 @@ struct DriveSettings {
   double peak_time = 2;        // s, at the peak current before i2t acts
 };
 
-/// What may be wrong with a drive, on request; bits of 0x5F00.
+/// Conditions that can be injected into a drive; bits of 0x5F00.
 enum class Condition : std::uint8_t {
   kOverVoltage = 1,
   kEncoderLost = 2,
   kOverTemperature = 4,
-  kSilent = 8,  // hears nothing and says nothing
+  kSilent = 8,  // neither receives nor sends
 };
 
 /// A CANopen servo drive (CiA 301, CiA 402-2): a state machine that takes frames, lets time pass
@@ -40,9 +40,9 @@ class SimulatedDrive {
   /// The next frame on its way out; false where none is.
   bool take(Frame& frame) EBAC_RT { return out_.pop(frame); }
 
-  /// What the encoder shows now.
+  /// Sets the present encoder counts.
   void set_position(std::int64_t counts) EBAC_RT;
-  /// What the motor gets now, A. Zero unless the operation is enabled.
+  /// Present motor current [A]. Zero unless the operation is enabled.
   double current() const EBAC_RT { return stage_.current(); }
   int torque() const EBAC_RT { return stage_.torque(); }  // permille of the continuous torque
 
@@ -56,7 +56,7 @@ class SimulatedDrive {
   const ObjectDictionary& objects() const EBAC_RT { return objects_; }
   std::uint64_t frames_refused() const EBAC_RT { return out_.refused(); }
 
-  // What the SDO server asks for; also the way to configure a drive without a bus.
+  // Object access of the SDO server; also configures a drive without a bus.
   Abort prepare_download(std::uint16_t index, std::uint8_t sub,
                          std::int64_t announced) const EBAC_RT;
   Abort download(std::uint16_t index, std::uint8_t sub,
@@ -81,11 +81,11 @@ class SimulatedDrive {
   void watch() EBAC_RT;
   void send_events() EBAC_RT;
 
-  // what values are allowed: simulated_drive_checks.cpp
+  // access checks: simulated_drive_objects.cpp
   Abort check(std::size_t slot, std::int64_t value) const EBAC_RT;
   Abort check_producer(std::size_t slot, std::int64_t value) const EBAC_RT;
 
-  // and what they do: simulated_drive_objects.cpp
+  // effects of the values: simulated_drive_objects.cpp
   Abort set(std::size_t slot, std::int64_t value) EBAC_RT;
   bool execute(std::size_t slot, std::int64_t value, Abort& why) EBAC_RT;
   void take_effect(std::size_t slot) EBAC_RT;
@@ -108,7 +108,7 @@ class SimulatedDrive {
   }
   bool remote() const EBAC_RT { return objects_.get<0x2300>() == 30; }
 
-  // what goes wrong: simulated_drive_errors.cpp
+  // errors: simulated_drive_errors.cpp
   void raise(Cause cause) EBAC_RT;
   void trip(Cause cause) EBAC_RT;
   void cure(Cause cause) EBAC_RT;

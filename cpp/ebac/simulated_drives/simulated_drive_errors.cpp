@@ -1,5 +1,5 @@
-// What goes wrong in a simulated drive: how it stops, how it is told, how it is over.
-#include "ebac/can/simulated_drive.hpp"
+// Errors of a simulated drive: reaction, report, and end.
+#include "ebac/simulated_drives/simulated_drive.hpp"
 
 namespace ebac::can {
 
@@ -16,7 +16,7 @@ void SimulatedDrive::trip(Cause cause) EBAC_RT {
   stage_.off();
 }
 
-/// Something that had been told is well again. What stopped the drive waits for its reset.
+/// Ends a reported cause. A cause that stopped the drive waits for its reset.
 void SimulatedDrive::cure(Cause cause) EBAC_RT {
   if (!in_fault() && errors_.forget(cause)) push_emcy(0);
 }
@@ -26,7 +26,7 @@ void SimulatedDrive::reset_errors() EBAC_RT {
   if (errors_.reset()) push_emcy(0);
 }
 
-/// i2t holds the current at rated; 0x2183 keeps it. It is a fault only where 0x2182 says so.
+/// i2t holds the current at rated; 0x2183 keeps it. It is a fault only if 0x2182 is set.
 void SimulatedDrive::overload() EBAC_RT {
   const std::int64_t bit = facts_of(Cause::kOverload).latched;
   objects_[kAt<0x2183>] |= bit;
@@ -35,7 +35,7 @@ void SimulatedDrive::overload() EBAC_RT {
   errors_.gone(Cause::kOverload);  // without current it is over at once
 }
 
-/// What 0x1029 and 0x6007 say about a master that is not heard any more.
+/// Reaction to a lost heartbeat of the master (0x1029, 0x6007).
 void SimulatedDrive::lose_connection(Cause cause) EBAC_RT {
   if (motor_on()) {
     switch (objects_.get<0x6007>()) {
@@ -80,7 +80,7 @@ void SimulatedDrive::set_condition(Condition condition, bool present) EBAC_RT {
   refresh();
 }
 
-/// Queues an EMCY and writes it into the history; code 0 tells that the errors are over.
+/// Queues an EMCY and writes it into the history; code 0 reports that all errors are over.
 void SimulatedDrive::push_emcy(std::uint16_t code) EBAC_RT {
   const auto latched = static_cast<std::uint32_t>(objects_.get<0x2183>());
   Frame emergency{.id = 0, .size = 8};

@@ -1,5 +1,5 @@
 // From controlword to current: the state machine of CiA 402, its torque.
-#include "ebac/can/simulated_drive.hpp"
+#include "ebac/simulated_drives/simulated_drive.hpp"
 
 namespace ebac::can {
 
@@ -79,7 +79,7 @@ void SimulatedDrive::aim() EBAC_RT {
   }
 }
 
-/// Brings every object that tells something up to date.
+/// Updates the status objects.
 void SimulatedDrive::refresh() EBAC_RT {
   aim();
   const auto i16 = [](double value) { return std::llround(std::clamp(value, -32768.0, 32767.0)); };

@@ -9,10 +9,10 @@
 #include <utility>
 #include <vector>
 
-#include "ebac/can/can_desk.hpp"
-#include "ebac/can/pdo_plan.hpp"
+#include "ebac/canopen/pdo_plan.hpp"
 #include "ebac/loop/clock.hpp"
 #include "ebac/loop/loop.hpp"
+#include "ebac/simulated_drives/can_test_bench.hpp"
 
 /// A simulated run whose currents and counts go over a CAN bus, through simulated drives. It gives
 /// the bits of one without, where the torque is in whole thousandths and the delay is one tick.
@@ -24,31 +24,31 @@ template <Device D>
 class ThroughCan {
  public:
   ThroughCan(D plant, const DeviceModel& device, int delay)
-      : desk_(std::make_unique<CanDesk<D>>(std::move(plant), device)),
+      : bench_(std::make_unique<CanTestBench<D>>(std::move(plant), device)),
         held_(static_cast<std::size_t>(delay - 1)) {}
 
   Reading exchange(const Command& command) EBAC_RT {
-    Reading reading = desk_->can().exchange(hold(command));
-    desk_->add_sensor(reading);
+    Reading reading = bench_->can().exchange(hold(command));
+    bench_->add_sensor(reading);
     return reading;
   }
-  void stop() EBAC_RT { desk_->can().stop(); }
+  void stop() EBAC_RT { bench_->can().stop(); }
 
-  auto parts() const EBAC_RT { return std::tie(desk_->plant(), std::as_const(*desk_).can()); }
-  CanDesk<D>& desk() EBAC_RT { return *desk_; }
+  auto parts() const EBAC_RT { return std::tie(bench_->plant(), std::as_const(*bench_).can()); }
+  CanTestBench<D>& bench() EBAC_RT { return *bench_; }
 
   /// Enables the drives before the first tick, without time passing. Throws std::runtime_error
   /// with their fault when they do not come up.
   void enable() {
-    desk_->can().enable();
-    settle([this] { return desk_->can().running(); });
-    if (!desk_->can().running()) fail("reach operation enabled");
+    bench_->can().enable();
+    settle([this] { return bench_->can().running(); });
+    if (!bench_->can().running()) fail("reach operation enabled");
   }
   /// Disables them after the last one. A drive that is in its fault state is off already.
   void disable() {
-    desk_->can().disable();
-    settle([this] { return desk_->can().at_rest(); });
-    if (!desk_->can().at_rest()) fail("switch off");
+    bench_->can().disable();
+    settle([this] { return bench_->can().at_rest(); });
+    if (!bench_->can().at_rest()) fail("switch off");
   }
 
  private:
@@ -61,7 +61,7 @@ class ThroughCan {
   [[noreturn]] void fail(const char* what) const {
     throw std::runtime_error(
         std::string("the simulated drives did not ") + what + "; fault " +
-        std::to_string(static_cast<unsigned>(std::as_const(*desk_).can().fault())));
+        std::to_string(static_cast<unsigned>(std::as_const(*bench_).can().fault())));
   }
 
   /// The command of `held_` exchanges ago; while no time passes, nothing moves on.
@@ -72,13 +72,13 @@ class ThroughCan {
     return command;
   }
 
-  std::unique_ptr<CanDesk<D>> desk_;
+  std::unique_ptr<CanTestBench<D>> bench_;
   std::size_t held_;
   std::array<std::array<double, kMaxAxes>, 8> queue_{};  // A, oldest at head_
   std::size_t head_ = 0;
 };
 
-/// Refuses what no such bus can do: std::invalid_argument with the remedy.
+/// Throws std::invalid_argument, with the remedy, for a timing that no such bus can keep.
 inline void check_through_can(int axes, const Timing& timing) {
   if (timing.delay < 1) {
     throw std::invalid_argument(
@@ -108,7 +108,8 @@ std::shared_ptr<Trace> simulate_through_can(const Setup& setup, Law law, std::si
   auto device = device_through_can<Plant>(setup);
   device.enable();
   Loop loop(std::move(device), VirtualClock(setup.timing.dt, setup.jitter, setup.seed),
-            std::move(law), Rig(setup.device, setup.environment), setup.device.axes(), setup.loop);
+            std::move(law), SignalChain(setup.device, setup.environment), setup.device.axes(),
+            setup.loop);
   auto trace = loop.make_trace(rows);
   loop.run(*trace);
   loop.device().disable();

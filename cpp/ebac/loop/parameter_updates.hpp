@@ -1,0 +1,127 @@
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <concepts>
+#include <cstdint>
+#include <type_traits>
+
+#include "ebac/core/realtime.hpp"
+#include "ebac/loop/mailbox.hpp"
+#include "ebac/model/environment.hpp"
+
+namespace ebac {
+
+enum class UpdateOf : std::uint32_t { kLaw, kEnvironment, kTarget };
+
+/// A parameter update that a running loop applied.
+struct AppliedUpdate {
+  std::int64_t tick = 0;     // first tick with the new value
+  std::uint64_t serial = 0;  // number given by the writer
+  UpdateOf what = UpdateOf::kLaw;
+};
+
+/// The updates applied in a run, beside its trace: written by the loop, readable from any thread.
+class AppliedUpdates {
+ public:
+  static constexpr std::size_t kMost = 4096;
+
+  void add(const AppliedUpdate& change) EBAC_RT {
+    const std::size_t n = count_.load(std::memory_order_relaxed);
+    if (n == kMost) {
+      lost_.store(lost_.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
+      return;
+    }
+    all_[n] = change;
+    count_.store(n + 1, std::memory_order_release);
+  }
+
+  std::size_t size() const EBAC_RT { return count_.load(std::memory_order_acquire); }
+  const AppliedUpdate& operator[](std::size_t i) const EBAC_RT { return all_[i]; }
+  /// Updates that were applied but not recorded, because this list was full.
+  std::size_t lost() const EBAC_RT { return lost_.load(std::memory_order_relaxed); }
+
+ private:
+  std::array<AppliedUpdate, kMost> all_{};
+  std::atomic<std::size_t> count_{0};
+  std::atomic<std::size_t> lost_{0};
+};
+
+/// The scalar law inside a law for all axes, if it has one: the type that can be sent to a running loop.
+template <class Law>
+struct ScalarOf {
+  struct Type {};  // nothing to send
+};
+template <class Law>
+  requires requires(Law law, const Law::Scalar& scalar) { law.retune(scalar); }
+struct ScalarOf<Law> {
+  using Type = Law::Scalar;
+};
+
+/// Target position of a simulated hand, per axis.
+struct HandTarget {
+  std::array<double, kMaxAxes> target{};  // m
+};
+
+/// Parameter updates for a running loop, from one writer; neither side waits. Values are checked
+/// before they are posted; the loop applies them at the start of a tick and records that it did.
+template <class Law>
+class ParameterUpdates {
+ public:
+  using Scalar = ScalarOf<Law>::Type;
+
+  /// `law` only fills the memory; it is not sent.
+  explicit ParameterUpdates(const Scalar& law) : law_({0, law}) {}
+
+  /// Sends new gains of the law (its memory stays), a new environment or a new hand target. Returns
+  /// the serial number of the update.
+  std::uint64_t post(const Scalar& law) EBAC_RT { return send(law_, law); }
+  std::uint64_t post(const Environment& world) EBAC_RT { return send(world_, world); }
+  std::uint64_t post(const HandTarget& aim) EBAC_RT { return send(aim_, aim); }
+  void stop() EBAC_RT { stop_.store(true, std::memory_order_release); }
+
+  bool stop_asked() const EBAC_RT { return stop_.load(std::memory_order_acquire); }
+  const AppliedUpdates& applied() const EBAC_RT { return applied_; }
+
+  /// Called by the loop: passes every new value to `law`, `chain` or `device`.
+  template <class AnyLaw, class Chain, class Device>
+  void apply(std::int64_t tick, AnyLaw& law, Chain& chain, Device& device) EBAC_RT {
+    if constexpr (requires(const Scalar& s) { law.retune(s); }) {
+      if (const auto* message = law_.take()) {
+        law.retune(message->value);
+        applied_.add({tick, message->serial, UpdateOf::kLaw});
+      }
+    }
+    if (const auto* message = world_.take()) {
+      chain.change(message->value);
+      applied_.add({tick, message->serial, UpdateOf::kEnvironment});
+    }
+    if constexpr (requires { device.aim(std::size_t{}, 0.0); }) {
+      if (const auto* message = aim_.take()) {
+        for (std::size_t i = 0; i < kMaxAxes; ++i) device.aim(i, message->value.target[i]);
+        applied_.add({tick, message->serial, UpdateOf::kTarget});
+      }
+    }
+  }
+
+ private:
+  template <class T>
+  struct Message {
+    std::uint64_t serial;
+    T value;
+  };
+  template <class T>
+  std::uint64_t send(Mailbox<Message<T>>& box, const T& value) EBAC_RT {
+    box.post({++serial_, value});
+    return serial_;
+  }
+
+  Mailbox<Message<Scalar>> law_;
+  Mailbox<Message<Environment>> world_{{0, Free{}}};
+  Mailbox<Message<HandTarget>> aim_{{0, HandTarget{}}};
+  std::uint64_t serial_ = 0;  // the writer's
+  AppliedUpdates applied_;
+  std::atomic<bool> stop_{false};
+};
+
+}  // namespace ebac

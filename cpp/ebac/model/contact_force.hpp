@@ -1,0 +1,31 @@
+#pragma once
+
+#include "ebac/model/kinematics.hpp"
+
+namespace ebac {
+
+/// Force of the virtual world at a point, and the directions in which it acts.
+///
+/// A law for one port belongs to a direction of the world, not of the device: along the normal it
+/// renders a wall, across the normal there is nothing to render. `frame` has these directions as
+/// rows (orthonormal), and `along` the force in them, exactly zero without contact.
+struct ContactForce {
+  Axes force = Axes::Zero();
+  Axes along = Axes::Zero();
+  Jacobian frame = Jacobian::Identity();
+  bool turned = false;  // whether the frame is other than the axes of the device
+
+  static ContactForce straight(const Axes& force) EBAC_RT {
+    return {.force = force, .along = force};
+  }
+
+  /// A push along the unit vector `n`, in the plane of the first two axes.
+  static ContactForce along_normal(const Axes& n, double push) EBAC_RT {
+    ContactForce contact{.force = push * n, .along = {push, 0, 0}, .turned = n[0] != 1};
+    contact.frame.row(0) = n;
+    contact.frame.row(1) << -n[1], n[0], 0;
+    return contact;
+  }
+};
+
+}  // namespace ebac

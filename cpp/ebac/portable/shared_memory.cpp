@@ -1,0 +1,16 @@
+#include "ebac/rt/shared_memory.hpp"
+
+#include "ebac/portable/needs_linux.hpp"
+
+namespace ebac::rt {
+
+SharedMemory::SharedMemory(std::size_t bytes) : bytes_(bytes), descriptor_(-1) {
+  need_linux("memory shared with another process");
+}
+SharedMemory::SharedMemory(int descriptor, std::size_t bytes)
+    : bytes_(bytes), descriptor_(descriptor) {
+  need_linux("memory shared with another process");
+}
+SharedMemory::~SharedMemory() = default;
+
+}  // namespace ebac::rt
