@@ -18,7 +18,7 @@ void bind_controllers(pybind11::module_& m);
 void bind_sensor(pybind11::module_& m);
 void bind_sensor_emulator(pybind11::module_& m);
 void bind_drives(pybind11::module_& m);
-void bind_served(pybind11::module_& m);
+void bind_node_server(pybind11::module_& m);
 void bind_linear_loop(pybind11::module_& m);
 void bind_identify(pybind11::module_& m);
 void bind_python_law(pybind11::module_& m);
@@ -27,6 +27,5 @@ void bind_can(pybind11::module_& m);
 void bind_limits(pybind11::module_& m);
 void bind_faults(pybind11::module_& m);
 void bind_running(pybind11::module_& m);
-void bind_running_laws(pybind11::module_& m);
 
 }  // namespace ebac::python

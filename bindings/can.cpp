@@ -61,22 +61,24 @@ void bind_frame(py::module_& m) {
   py::class_<Frame>(m, "CanFrame", "A classical CAN frame.")
       .def(py::init(&make_frame), py::arg("id"), py::arg("data") = py::bytes(), py::kw_only(),
            py::arg("extended") = false, py::arg("remote") = false, py::arg("error") = false,
-           py::arg("size") = py::none(), "A frame; `size` is needed where it asks for data.")
+           py::arg("size") = py::none(), "A frame; a remote frame needs `size`.")
       .def_readonly("id", &Frame::id, "Identifier, 11 bits, or 29 when extended.")
-      .def_readonly("size", &Frame::size, "Bytes of data, or asked for, 0 to 8.")
+      .def_readonly("size", &Frame::size,
+                    "Length of the data [bytes], or of the requested data, 0 to 8.")
       .def_property_readonly("data", &bytes_of, "The data; none in a remote frame.")
       .def_readonly("extended", &Frame::extended, "Whether the identifier has 29 bits.")
-      .def_readonly("remote", &Frame::remote, "Whether it asks for data.")
-      .def_readonly("error", &Frame::error, "Whether the controller tells an error.")
-      .def_readonly("own", &Frame::own, "Whether the end that received it had sent it.")
-      .def_readonly("stamp", &Frame::stamp, "When it was received [ns since 1970]; 0 when unknown.")
+      .def_readonly("remote", &Frame::remote,
+                    "Whether this is a remote frame, which requests data.")
+      .def_readonly("error", &Frame::error, "Whether this is an error frame of the CAN controller.")
+      .def_readonly("own", &Frame::own, "Whether the receiving end sent this frame itself.")
+      .def_readonly("stamp", &Frame::stamp, "Time of reception [ns since 1970]; 0 if unknown.")
       .def("__repr__", [](const Frame& frame) {
         return py::str("CanFrame(0x{:03X}, {!r})").format(frame.id, bytes_of(frame));
       });
 }
 
 void bind_state(py::module_& m) {
-  py::native_enum<BusState>(m, "BusState", "enum.IntEnum", "How a bus stands.")
+  py::native_enum<BusState>(m, "BusState", "enum.IntEnum", "State of a CAN bus.")
       .value("UP", BusState::kUp)
       .value("WARNING", BusState::kWarning)
       .value("PASSIVE", BusState::kPassive)
@@ -84,11 +86,11 @@ void bind_state(py::module_& m) {
       .value("DOWN", BusState::kDown)
       .value("CLOSED", BusState::kClosed)
       .finalize();
-  py::class_<BusCounts>(m, "BusCounts", "What went over one end of a bus since it was opened.")
+  py::class_<BusCounts>(m, "BusCounts", "Frame counts of one end of a bus since it was opened.")
       .def_readonly("sent", &BusCounts::sent, "Frames sent.")
-      .def_readonly("refused", &BusCounts::refused, "Frames that `send` did not take.")
+      .def_readonly("refused", &BusCounts::refused, "Frames refused by `send`.")
       .def_readonly("received", &BusCounts::received, "Frames received.")
-      .def_readonly("lost", &BusCounts::lost, "Frames that found the receive queue full.");
+      .def_readonly("lost", &BusCounts::lost, "Frames lost because the receive queue was full.");
 }
 
 /// Waits without the interpreter's lock; None when the time is over or the end is closed.
@@ -117,12 +119,13 @@ std::optional<Frame> receive(End& end, std::optional<double> timeout) {
 /// What both kinds of ends have.
 template <can::Bus End, class Class>
 void add_end(Class& cls) {
-  cls.def("send", &End::send, py::arg("frame"), "Sends; false when the bus did not take the frame.")
+  cls.def("send", &End::send, py::arg("frame"), "Send a frame; return False if the bus refuses it.")
       .def("receive", &receive<End>, py::arg("timeout") = 0.0,
-           "Waits up to `timeout` [s], None for no end. None when nothing came or it was closed.")
-      .def_property_readonly("state", &End::state, "How the bus stands.")
-      .def_property_readonly("counts", &End::counts, "What went over this end so far.")
-      .def("close", &End::close, "Leaves the bus; who waits in `receive` returns.");
+           "Return a frame, waiting up to `timeout` [s], None for ever; None without one or if "
+           "closed.")
+      .def_property_readonly("state", &End::state, "State of the bus.")
+      .def_property_readonly("counts", &End::counts, "Frame counts of this end.")
+      .def("close", &End::close, "Leave the bus; a thread waiting in `receive` returns.");
 }
 
 void bind_loopback(py::module_& m) {
@@ -142,8 +145,8 @@ void bind_loopback(py::module_& m) {
             return hub.open({.frames = frames, .own = own});
           },
           py::kw_only(), py::arg("frames") = can::LoopbackOptions{}.frames, py::arg("own") = false,
-          "A new end; `frames` wait to be received, what exceeds them is lost and counted.")
-      .def_property_readonly("ends", &LoopbackHub::ends, "How many ends are open.");
+          "Open a new end with a receive queue of `frames`; frames beyond it are lost and counted.")
+      .def_property_readonly("ends", &LoopbackHub::ends, "Number of open ends.");
 }
 
 void bind_socketcan(py::module_& m) {
@@ -160,7 +163,7 @@ void bind_socketcan(py::module_& m) {
           }),
           py::arg("interface"), py::kw_only(), py::arg("filters") = std::vector<Filter>{},
           py::arg("own") = false, py::arg("errors") = false,
-          "Opens it; `filters` are (id, mask, extended). OSError tells what to do.");
+          "Open an interface; `filters` are (id, mask, extended). An OSError contains the remedy.");
   add_end<SocketCan>(end);
 }
 

@@ -1,8 +1,8 @@
 #include <pybind11/stl.h>
 
 #include "bind.hpp"
-#include "ebac/can/exchange_benchmark.hpp"
-#include "ebac/can/pdo_plan.hpp"
+#include "ebac/canopen/pdo_plan.hpp"
+#include "ebac/simulated_drives/exchange_benchmark.hpp"
 
 namespace ebac::python {
 
@@ -16,29 +16,31 @@ void bind_can_plan(py::module_& m) {
              return PlannedFrame{std::move(what), id, size, count};
            }),
            py::kw_only(), py::arg("what"), py::arg("id"), py::arg("size"), py::arg("count") = 1)
-      .def_readonly("what", &PlannedFrame::what, "Who sends what.")
+      .def_readonly("what", &PlannedFrame::what, "Sender and content.")
       .def_readonly("id", &PlannedFrame::id, "COB-ID.")
       .def_readonly("size", &PlannedFrame::size, "Bytes of data.")
       .def_readonly("count", &PlannedFrame::count, "Frames per period.");
-  py::class_<BusLoad>(m, "BusLoad", "What frames sent in every period take of a bus, at the worst.")
+  py::class_<BusLoad>(m, "BusLoad", "Worst-case load of a bus by frames sent in every period.")
       .def(py::init([](std::vector<PlannedFrame> frames, double bit_rate, double period) {
              return BusLoad{std::move(frames), bit_rate, period};
            }),
            py::kw_only(), py::arg("frames"), py::arg("bit_rate") = 1e6, py::arg("period") = 1e-3)
       .def_readonly("frames", &BusLoad::frames, "The frames.")
-      .def_readonly("bit_rate", &BusLoad::bit_rate, "Of the bus [bit/s].")
-      .def_readonly("period", &BusLoad::period, "Between two SYNC [s].")
+      .def_readonly("bit_rate", &BusLoad::bit_rate, "Bit rate of the bus [bit/s].")
+      .def_readonly("period", &BusLoad::period, "Time between two SYNC frames [s].")
       .def("bits", py::overload_cast<const PlannedFrame&>(&BusLoad::bits, py::const_),
-           py::arg("frame"), "Bits a kind of frame takes in every period, stuff bits included.")
+           py::arg("frame"),
+           "Return the bits of one kind of frame per period, stuff bits included.")
       .def("frame_share", py::overload_cast<const PlannedFrame&>(&BusLoad::share, py::const_),
-           py::arg("frame"), "Share of the bus one kind takes.")
+           py::arg("frame"), "Return the share of the bus used by one kind of frame, 0 to 1.")
       .def_property_readonly(
           "seconds", [](const BusLoad& load) { return load.seconds(); },
-          "Time all take of every period [s].")
+          "Time used by all frames in every period [s].")
       .def_property_readonly(
-          "share", [](const BusLoad& load) { return load.share(); }, "Share of the bus all take.")
+          "share", [](const BusLoad& load) { return load.share(); },
+          "Share of the bus used by all frames, 0 to 1.")
       .def_property_readonly("highest_rate", &BusLoad::highest_rate,
-                             "Rate [Hz] at which the same frames would still fit.")
+                             "Highest rate at which the same frames fit on the bus [Hz].")
       .def("check", &can::check_load,
            "Return a warning over 70 % of the bus, else an empty text.\n\n"
            "Raises\n------\nValueError\n    Over 90 %, or for numbers no CAN bus has; with the "

@@ -14,7 +14,7 @@ void bind_field_info(py::module_& m) {
   py::class_<FieldInfo>(m, "Field", "One parameter or column: name, unit, meaning, default, range.")
       .def_readonly("name", &FieldInfo::name, "Name.")
       .def_readonly("unit", &FieldInfo::unit, "SI unit; '1' for a pure number.")
-      .def_readonly("meaning", &FieldInfo::meaning, "What it is.")
+      .def_readonly("meaning", &FieldInfo::meaning, "Meaning.")
       .def_readonly("kind", &FieldInfo::kind, "Python type.")
       .def_readonly("default", &FieldInfo::initial, "Default.")
       .def_readonly("low", &FieldInfo::low, "Smallest value allowed.")
@@ -51,14 +51,15 @@ void bind_fault(py::module_& m) {
 }
 
 void bind_states(py::module_& m) {
-  py::native_enum<LoopState>(m, "LoopState", "enum.IntEnum", "Where a loop stands.")
+  py::native_enum<LoopState>(m, "LoopState", "enum.IntEnum", "State of a loop.")
       .value("IDLE", LoopState::kIdle)
       .value("ARM", LoopState::kArm)
       .value("RUN", LoopState::kRun)
       .value("STOP", LoopState::kStop)
       .value("FAULT", LoopState::kFault)
       .finalize();
-  py::native_enum<Limited>(m, "Limited", "enum.IntFlag", "What held a current back in a tick.")
+  py::native_enum<Limited>(m, "Limited", "enum.IntFlag",
+                           "Reasons for which a current was limited in a tick.")
       .value("PEAK", Limited::kPeak)
       .value("THERMAL", Limited::kThermal)
       .value("SLEW", Limited::kSlew)
@@ -71,10 +72,13 @@ void bind_states(py::module_& m) {
 /// A port is what a law reads, so a law written in Python, or stepped from there, needs to fill one
 /// in.
 void bind_port(py::module_& m) {
-  auto cls = bind_fields<Port>(m, "Port", "What a law sees of one axis in one tick.");
-  for (const auto& field : Port::fields()) {
-    const auto member = std::get<double Port::*>(field.member);
-    cls.def_readwrite(std::string(field.name).c_str(), member, describe(field).c_str());
+  auto cls = bind_fields<Port>(m, "Port", "Input of a law: one axis in one tick.");
+  for (const FieldRow& field : field_table<Port>().rows) {
+    cls.def_property(
+        std::string(field.name).c_str(),
+        [row = &field](const Port& port) { return row->in<double>(&port); },
+        [row = &field](Port& port, double value) { row->in<double>(&port) = value; },
+        describe(field).c_str());
   }
 }
 
@@ -86,9 +90,8 @@ void bind_core(py::module_& m) {
   bind_fault(m);
   bind_states(m);
   bind_port(m);
-  bind_fields<Timing>(m, "Timing", "What every law must know about time.");
-  bind_fields<DeviceFacts>(m, "DeviceFacts",
-                           "What a user can know about a device; laws are designed from it.");
+  bind_fields<Timing>(m, "Timing", "Timing for which a law is designed.");
+  bind_fields<DeviceFacts>(m, "DeviceFacts", "Facts about a device from which laws are designed.");
 }
 
 }  // namespace ebac::python

@@ -13,10 +13,12 @@ namespace {
 void bind_motor(py::module_& m) {
   bind_fields<Motor>(m, "Motor", "A brushed DC motor; defaults: the paper's Maxon RE 30.")
       .def("current", &Motor::current, py::arg("torque"),
-           "Current [A] for a torque [N m], eq. (1) in SI.")
-      .def("torque", &Motor::torque, py::arg("current"), "Torque [N m] of a current [A].");
+           "Return the current [A] for a torque [N m], eq. (1) in SI.")
+      .def("torque", &Motor::torque, py::arg("current"),
+           "Return the torque [N m] of a current [A].");
   bind_fields<Drive>(m, "Drive", "The drive in front of the motor.")
-      .def("peak_current", &Drive::peak_current, py::arg("motor"), "Largest current it sets [A].");
+      .def("peak_current", &Drive::peak_current, py::arg("motor"),
+           "Return the largest current of the drive [A].");
   m.def("copley_current", &copley_current, py::arg("torque_permille"),
         py::arg("continuous_torque_1e5"), py::arg("torque_constant_1e5"),
         "Eq. (1) in Copley's units: I = 0.001 T Tc / Ts [A], T in thousandths of the continuous "
@@ -27,10 +29,9 @@ void bind_encoder(py::module_& m) {
   bind_fields<Encoder>(m, "Encoder",
                        "An incremental encoder on the motor shaft, behind a counter that wraps.")
       .def_property_readonly("count", &Encoder::count, "One count [rad] of the motor.")
-      .def("read", &Encoder::read, py::arg("angle"),
-           "What the counter shows at a motor angle [rad].")
+      .def("read", &Encoder::read, py::arg("angle"), "Return the counter at a motor angle [rad].")
       .def("unwrap", &Encoder::unwrap, py::arg("raw"), py::arg("last"),
-           "The unwrapped count nearest to `last` that the counter shows as `raw`.");
+           "Return the count nearest to `last` whose wrapped value is `raw`.");
   auto capstan =
       bind_fields<Capstan>(m, "Capstan", "A cable from the motor's drum to a sector on the lever.");
   capstan.def_property_readonly("ratio", &Capstan::ratio, "Motor angle over joint angle.");
@@ -63,46 +64,43 @@ void bind_velocity(py::module_& m) {
 
 void bind_parts(py::module_& m) {
   bind_fields<Mechanics>(m, "Mechanics",
-                         "What moves, told at the handle; every axis is built alike.");
+                         "Moving parts, referred to the handle; every axis is built alike.");
   bind_fields<ForceSensor>(m, "ForceSensor", "A force/torque sensor between handle and hand.");
   bind_fields<Compensation>(
       m, "Compensation",
-      "tau_static of eq. (2): gravity, friction and inertia given back to the hand.")
-      .def("force", &Compensation::force, py::arg("v"), py::arg("a"),
-           "Force [N] that helps a motion of v [m/s] and a [m/s^2]; positive resists +x.")
+      "Static compensation (tau_static of eq. (2)): gravity, friction and inertia.")
+      .def(
+          "force", &Compensation::force, py::arg("v"), py::arg("a"),
+          "Return the force [N] that helps a motion of v [m/s] and a [m/s^2]; positive resists +x.")
       .def("damping_left", &Compensation::damping_left, py::arg("damping"), py::arg("coulomb"),
            "Lower bound of the viscous damping left [N s/m], given real damping [N s/m] and "
            "friction [N].");
 }
 
-template <class Part>
-void take(py::dict& given, const char* name, Part& part) {
-  if (!given.contains(name)) return;
-  const py::object value = given.attr("pop")(name);
-  try {
-    part = value.cast<Part>();
-  } catch (const py::cast_error&) {
-    throw py::type_error("Device." + std::string(name) + " = " +
-                         py::cast<std::string>(py::repr(value)) + ": not such a part");
-  }
+const std::vector<std::string>& part_names() {
+  static const std::vector<std::string> kParts{"kinematics", "motor",    "drive",
+                                               "encoder",    "capstan",  "mechanics",
+                                               "sensor",     "velocity", "compensation"};
+  return kParts;
 }
 
-DeviceModel make_device(py::dict given) {
+DeviceModel make_device(const py::args& args, const py::kwargs& keywords) {
+  refuse_positional("Device", args, part_names());
   DeviceModel device;
-  take(given, "kinematics", device.kinematics);
-  take(given, "motor", device.motor);
-  take(given, "drive", device.drive);
-  take(given, "encoder", device.encoder);
-  take(given, "capstan", device.capstan);
-  take(given, "mechanics", device.mechanics);
-  take(given, "sensor", device.sensor);
-  take(given, "velocity", device.velocity);
-  take(given, "compensation", device.compensation);
-  for (const auto& [key, value] : given) {
-    refuse_keyword("Device", py::cast<std::string>(key),
-                   {"kinematics", "motor", "drive", "encoder", "capstan", "mechanics", "sensor",
-                    "velocity", "compensation"});
-  }
+  py::dict given(keywords);
+  const auto take = [&](const char* name, auto& part, const char* kind) {
+    take_part(given, "Device", name, part, kind);
+  };
+  take("kinematics", device.kinematics, "Linear or Gimbal");
+  take("motor", device.motor, "a Motor");
+  take("drive", device.drive, "a Drive");
+  take("encoder", device.encoder, "an Encoder");
+  take("capstan", device.capstan, "a Capstan");
+  take("mechanics", device.mechanics, "Mechanics");
+  take("sensor", device.sensor, "a ForceSensor");
+  take("velocity", device.velocity, "BackwardDifference, LowPass or AdaptiveWindow");
+  take("compensation", device.compensation, "a Compensation");
+  refuse_rest("Device", given, part_names());
   check_device(device);
   return device;
 }
@@ -134,12 +132,11 @@ void bind_device(py::module_& m) {
       m, "Device",
       "One haptic device, part by part. The default is the reference device: one straight axis of "
       "0.25 kg and\n2 N s/m, built from the paper's motor, encoder and capstan.");
-  def_init(
-      cls, [](const py::kwargs& given) { return make_device(py::dict(given)); },
-      "__init__(self, *, kinematics: Linear | Gimbal = ..., motor: Motor = ..., drive: Drive "
-      "= ..., encoder: Encoder = ..., capstan: Capstan = ..., mechanics: Mechanics = ..., "
-      "sensor: ForceSensor = ..., velocity: BackwardDifference | LowPass | AdaptiveWindow = "
-      "..., compensation: Compensation = ...) -> None");
+  def_init(cls, &make_device,
+           "__init__(self, *, kinematics: Linear | Gimbal = ..., motor: Motor = ..., drive: Drive "
+           "= ..., encoder: Encoder = ..., capstan: Capstan = ..., mechanics: Mechanics = ..., "
+           "sensor: ForceSensor = ..., velocity: BackwardDifference | LowPass | AdaptiveWindow = "
+           "..., compensation: Compensation = ...) -> None");
   cls.def_readonly("kinematics", &DeviceModel::kinematics, "Joints to handle.")
       .def_readonly("motor", &DeviceModel::motor, "Motor of each axis.")
       .def_readonly("drive", &DeviceModel::drive, "Drive of each axis.")
@@ -158,10 +155,16 @@ void bind_device(py::module_& m) {
       .def_property_readonly("continuous_force", &DeviceModel::continuous_force,
                              "Force at rated torque [N].")
       .def_property_readonly("peak_force", &DeviceModel::peak_force, "Largest force [N].")
-      .def_property_readonly("facts", &DeviceModel::facts, "What laws are designed from.")
-      .def("force", &DeviceModel::force, py::arg("current"), "Handle force [N] of a current [A].")
-      .def("as_dict", &device_dict, "Parts by name.");
+      .def_property_readonly("facts", &DeviceModel::facts, "Facts from which laws are designed.")
+      .def("force", &DeviceModel::force, py::arg("current"),
+           "Return the handle force [N] of a current [A].")
+      .def("as_dict", &device_dict, "Return the parts by name.");
   add_value_methods(cls);
+  std::vector<std::pair<std::string, py::object>> parts;
+  for (const auto& [name, part] : device_dict(DeviceModel{})) {
+    parts.emplace_back(py::cast<std::string>(name), py::reinterpret_borrow<py::object>(part));
+  }
+  add_signature(cls, FieldTable{}, parts);
   bind_open(cls);
 }
 

@@ -4,7 +4,7 @@
 #include <tuple>
 
 #include "bind.hpp"
-#include "ebac/can/eds.hpp"
+#include "ebac/canopen/eds.hpp"
 #include "joystick.hpp"
 
 namespace ebac::python {
@@ -49,7 +49,7 @@ double checked_time(double seconds) {
 
 void bind_enums(py::module_& m) {
   py::native_enum<can::Condition>(m, "DriveCondition", "enum.IntFlag",
-                                  "What may be wrong with a simulated drive, on request.")
+                                  "Conditions that can be injected into a simulated drive.")
       .value("OVER_VOLTAGE", can::Condition::kOverVoltage)
       .value("ENCODER_LOST", can::Condition::kEncoderLost)
       .value("OVER_TEMPERATURE", can::Condition::kOverTemperature)
@@ -77,15 +77,15 @@ void def_frames(Class& cls, Elapse elapse) {
            node.receive(frame_of(id, data, remote));
          },
          py::arg("id"), py::arg("data") = py::bytes(), py::kw_only(), py::arg("remote") = false,
-         "Takes one frame of the bus.")
-      .def("elapse", elapse, py::arg("seconds"), "Lets time pass [s].")
-      .def("take", &take_all<Node>, "Every frame on its way out: (id, data).");
+         "Receive one frame from the bus.")
+      .def("elapse", elapse, py::arg("seconds"), "Advance time by `seconds` [s].")
+      .def("take", &take_all<Node>, "Return all waiting answers as (id, data).");
 }
 
 void bind_simulated_drive(py::module_& m) {
   py::class_<SimulatedDrive> cls(
       m, "SimulatedDrive",
-      "A CANopen servo drive without a motor: takes frames, lets time pass, leaves frames.");
+      "A simulated CANopen servo drive without a motor: receives frames, advances time, answers.");
   cls.def(py::init([](int node, const Motor& motor, const Drive& drive, double peak_time) {
             return SimulatedDrive({.node = checked_node(node, 1),
                                    .motor = motor,
@@ -99,11 +99,11 @@ void bind_simulated_drive(py::module_& m) {
       .def_property_readonly("current", &SimulatedDrive::current, "Motor current [A].")
       .def(
           "eds", [](const SimulatedDrive& drive) { return can::eds(drive.objects()); },
-          "Its electronic data sheet (CiA 306).")
+          "Electronic data sheet (CiA 306).")
       .def("set_position", &SimulatedDrive::set_position, py::arg("counts"),
-           "Turns the motor to where its encoder shows `counts`.")
+           "Set the encoder to `counts`.")
       .def("set_condition", &SimulatedDrive::set_condition, py::arg("condition"),
-           py::arg("present"), "Makes something wrong with it, or right again.");
+           py::arg("present"), "Inject a condition, or remove it.");
   def_frames<SimulatedDrive>(cls, [](SimulatedDrive& drive, double seconds) {
     drive.elapse(std::llround(checked_time(seconds) * 1e9));
   });
@@ -113,7 +113,7 @@ void bind_joystick(py::module_& m) {
   py::class_<PlantOfDrives> cls(m, "Joystick",
                                 "Simulated drives on the axes of one simulated device and hand.");
   cls.def(py::init(&make_joystick), py::arg("setup"), py::kw_only(), py::arg("first") = 1,
-          py::arg("peak_time") = 2.0, py::arg("felt") = py::none(),
+          py::arg("peak_time") = 2.0, py::arg("force") = py::none(),
           py::arg("wait_for_power") = false, py::arg("aim") = py::none())
       .def_property_readonly("axes", &PlantOfDrives::axes, "Number of axes.")
       .def(
@@ -135,7 +135,7 @@ void bind_joystick(py::module_& m) {
             }
             return joystick.plant().device().device().state(axis);
           },
-          py::arg("axis") = 0, "What only the simulation knows of one axis.");
+          py::arg("axis") = 0, "Return the true state of one axis.");
   def_frames<PlantOfDrives>(
       cls, [](PlantOfDrives& joystick, double seconds) { joystick.elapse(checked_time(seconds)); });
 }

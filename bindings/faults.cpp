@@ -37,16 +37,19 @@ std::tuple<Values, std::vector<std::string>> run(std::size_t cases, std::uint64_
 
 void bind_faults(py::module_& m) {
   m.def("_fault_campaign", &run, py::arg("cases"), py::arg("seed"), py::arg("threads"),
-        py::arg("progress"), "A column per property of the cases, and the names of the verdicts.");
+        py::arg("progress"),
+        "Run a fault campaign; return a column per property of the cases, and the names of "
+        "verdicts.");
   m.def(
       "_fault_case",
       [](std::uint64_t seed, std::uint64_t index) {
-        const faults::Trouble trouble = faults::trouble_of(seed, index);
+        const faults::InjectedFault injected = faults::injected_fault_of(seed, index);
         std::shared_ptr<Trace> trace;
-        faults::run_case(trouble, &trace);
-        return std::make_tuple(trace, trouble.at, trouble.ticks, trouble.axis);
+        faults::run_case(injected, &trace);
+        return std::make_tuple(trace, injected.at, injected.ticks, injected.axis);
       },
-      py::arg("seed"), py::arg("index"), "Rows, first tick, ticks and axis of one case.");
+      py::arg("seed"), py::arg("index"),
+      "Run one case; return its rows, and first tick, ticks and axis of the fault.");
   m.def(
       "_fault_kinds",
       [] {

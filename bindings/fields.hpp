@@ -3,7 +3,6 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
-#include <cmath>
 #include <string>
 #include <vector>
 
@@ -11,7 +10,7 @@
 #include "values.hpp"
 
 /// Python classes made from field lists: the one list gives names, units, ranges, errors and
-/// documentation.
+/// documentation. All of it is compiled once, over `FieldTable`; a type adds its constructor.
 namespace ebac::python {
 
 /// One entry of a field list, as Python sees it.
@@ -21,176 +20,99 @@ struct FieldInfo {
   double low, high;
 };
 
-template <class Value>
-constexpr const char* python_type() {
-  if constexpr (std::is_same_v<Value, double>) return "float";
-  if constexpr (std::is_same_v<Value, bool>) return "bool";
-  if constexpr (std::is_same_v<Value, Fault>) return "Fault";
-  return "int";
-}
-
 /// "rated torque [N m], 1e-05 to 1000"
-template <class T>
-std::string describe(const Field<T>& field) {
-  std::string text(field.meaning);
-  if (field.unit != "1") text += " [" + std::string(field.unit) + "]";
-  const bool low = std::isfinite(field.low);
-  const bool high = std::isfinite(field.high);
-  if (low && high) text += ", " + shortest(field.low) + " to " + shortest(field.high);
-  if (low && !high) text += ", at least " + shortest(field.low);
-  return text;
-}
+std::string describe(const FieldRow& field);
 
+py::object value_of(const FieldRow& field, const void* owner);
+Values values_of(const FieldTable& table, const void* owner);
 template <Described T>
-std::vector<FieldInfo> field_infos() {
-  std::vector<FieldInfo> all;
-  const T initial{};
-  for (const auto& field : T::fields()) {
-    std::visit(
-        [&](auto member) {
-          using Value = std::remove_cvref_t<decltype(initial.*member)>;
-          all.push_back({std::string(field.name), std::string(field.unit),
-                         std::string(field.meaning), python_type<Value>(),
-                         py::cast(initial.*member), field.low, field.high});
-        },
-        field.member);
-  }
-  return all;
+Values values_of(const T& owner) {
+  return values_of(field_table<T>(), &owner);
 }
 
 /// Sets the field `name` of `target`; false when it has none of that name.
-template <Described T>
-bool set_field(T& target, const std::string& owner, const std::string& name, py::handle value) {
-  for (const auto& field : T::fields()) {
-    if (field.name != name) continue;
-    std::visit(
-        [&](auto member) {
-          using Value = std::remove_cvref_t<decltype(target.*member)>;
-          try {
-            if (std::is_same_v<Value, bool> && !py::isinstance<py::bool_>(value)) {
-              throw py::cast_error();
-            }
-            target.*member = value.cast<Value>();
-          } catch (const py::cast_error&) {
-            if (std::is_same_v<Value, int> &&
-                py::isinstance<py::int_>(value)) {  // too large for an int
-              throw std::invalid_argument(range_message(owner, name, value.cast<double>(),
-                                                        field.unit, field.low, field.high));
-            }
-            throw py::type_error(
-                owner + "." + name + " = " + py::cast<std::string>(py::repr(value)) + ": must be " +
-                python_type<Value>() + (field.unit == "1" ? "" : " in " + std::string(field.unit)));
-          }
-        },
-        field.member);
-    return true;
+bool set_field(const FieldTable& table, void* target, const std::string& owner,
+               const std::string& name, py::handle value);
+
+std::vector<std::string> field_names(const FieldTable& table);
+
+/// Refuses an unknown keyword, with the nearest known one.
+[[noreturn]] void refuse_keyword(const std::string& owner, const std::string& name,
+                                 const std::vector<std::string>& known);
+/// Refuses values without a name.
+void refuse_positional(const std::string& owner, const py::args& args,
+                       const std::vector<std::string>& known);
+
+/// Takes the part `name` out of `given` into `part`, where it is given; `kind` says what it must be.
+template <class Part>
+void take_part(py::dict& given, const std::string& owner, const char* name, Part& part,
+               const char* kind) {
+  if (!given.contains(name)) return;
+  const py::object value = given.attr("pop")(name);
+  try {
+    part = value.cast<Part>();
+  } catch (const py::cast_error&) {
+    throw py::type_error(owner + "." + name + " = " + py::cast<std::string>(py::repr(value)) +
+                         ": must be " + kind);
   }
-  return false;
 }
+/// Refuses the keywords that are left over.
+void refuse_rest(const std::string& owner, const py::dict& given,
+                 const std::vector<std::string>& known);
 
-/// Refuses a keyword nobody knows, naming the nearest that exists.
-[[noreturn]] inline void refuse_keyword(const std::string& owner, const std::string& name,
-                                        const std::vector<std::string>& known) {
-  const py::list near = py::module_::import("difflib").attr("get_close_matches")(name, known, 1);
-  std::string text = owner + " has no parameter '" + name + "'";
-  if (!near.empty()) text += ", did you mean '" + py::cast<std::string>(near[0]) + "'";
-  text += "; it has: ";
-  for (const std::string& one : known) text.append(&one == known.data() ? "" : ", ").append(one);
-  throw py::type_error(text);
-}
-
-template <Described T>
-std::vector<std::string> field_names() {
-  std::vector<std::string> names;
-  for (const auto& field : T::fields()) names.emplace_back(field.name);
-  return names;
-}
+/// Sets fields from keywords.
+void set_fields(const FieldTable& table, void* target, const std::string& owner,
+                const py::args& args, const py::kwargs& given);
 
 /// ", damping: float = 2.0" for every field, for a signature in a docstring.
-template <Described T>
-std::string signature(const T& initial) {
-  std::string text;
-  for (const auto& field : T::fields()) {
-    std::visit(
-        [&](auto member) {
-          using Value = std::remove_cvref_t<decltype(initial.*member)>;
-          std::string value = "...";
-          const auto as_double = static_cast<double>(initial.*member);
-          if (std::isfinite(as_double))
-            value = py::cast<std::string>(py::repr(py::cast(initial.*member)));
-          text += ", " + std::string(field.name) + ": " + python_type<Value>() + " = " + value;
-        },
-        field.member);
-  }
-  return text;
-}
+std::string signature(const FieldTable& table);
+/// What `inspect.signature` shows: keywords with their defaults; `more` are (name, default), where
+/// `inspect.Parameter.empty` is none.
+void add_signature(const py::object& cls, const FieldTable& table,
+                   const std::vector<std::pair<std::string, py::object>>& more = {});
 
 /// "Parameters\n----------\ndamping : float\n    ..." for a class docstring.
-template <Described T>
-std::string parameter_table() {
-  std::string text;
-  const T initial{};
-  for (const auto& field : T::fields()) {
-    std::visit(
-        [&](auto member) {
-          using Value = std::remove_cvref_t<decltype(initial.*member)>;
-          text += std::string(field.name) + " : " + python_type<Value>() + "\n    " +
-                  describe(field) + ".\n";
-        },
-        field.member);
-  }
-  return text.empty() ? text : "\n\nParameters\n----------\n" + text;
-}
+std::string parameter_table(const FieldTable& table);
 
-template <Described T>
-Values values_of(const T& value) {
-  Values values;
-  for (const auto& field : T::fields()) {
-    std::visit([&](auto member) { values[py::str(std::string(field.name))] = value.*member; },
-               field.member);
-  }
-  return values;
+/// Where the fields of a Python object lie.
+using Place = const void* (*)(py::handle self);
+
+template <class T>
+const void* place_of(py::handle self) {
+  return self.cast<const T*>();
 }
 
 /// Read-only properties, `fields()` and `as_dict()`.
-template <Described T, class Class, class Get>
-void add_members(Class& cls, Get get) {
-  using Self = Class::type;
-  for (const auto& field : T::fields()) {
-    std::visit(
-        [&](auto member) {
-          cls.def_property_readonly(
-              std::string(field.name).c_str(),
-              [get, member](const Self& self) { return get(self).*member; },
-              describe(field).c_str());
-        },
-        field.member);
-  }
-  cls.def_static("fields", &field_infos<T>,
-                 "Name, unit, meaning, default and range of every parameter.");
+void add_members(const py::object& cls, const FieldTable& table, Place place);
+void add_as_dict(const py::object& cls, const FieldTable& table, Place place, const char* what);
+
+/// A constructor from `make(args, kwargs)`, under the signature it really has.
+template <class Class, class Make>
+void def_init(Class& cls, Make make, const std::string& signature) {
+  const OwnSignatures own;
+  cls.def(py::init(std::move(make)), signature.c_str());
 }
 
 /// A frozen, keyword-only Python class from the field list of T.
 template <Described T>
 py::class_<T> bind_fields(py::module_& m, const char* name, const std::string& doc) {
-  py::class_<T> cls(m, name, (doc + parameter_table<T>()).c_str());
+  const FieldTable& table = field_table<T>();
+  py::class_<T> cls(m, name, (doc + parameter_table(table)).c_str());
   const std::string owner = name;
   def_init(
       cls,
-      [owner](const py::kwargs& given) {
+      [owner](const py::args& args, const py::kwargs& given) {
         T value{};
-        for (const auto& [key, item] : given) {
-          const auto word = py::cast<std::string>(key);
-          if (!set_field(value, owner, word, item)) refuse_keyword(owner, word, field_names<T>());
-        }
-        check(value, owner);
+        set_fields(field_table<T>(), &value, owner, args, given);
+        check_fields(field_table<T>(), &value, owner);
         return value;
       },
-      field_names<T>().empty() ? "__init__(self) -> None"
-                               : "__init__(self, *" + signature(T{}) + ") -> None");
-  add_members<T>(cls, [](const T& self) -> const T& { return self; });
-  cls.def("as_dict", &values_of<T>, "Parameters by name.");
+      table.rows.empty() ? "__init__(self) -> None"
+                         : "__init__(self, *" + signature(table) + ") -> None");
+  add_members(cls, table, &place_of<T>);
+  add_as_dict(cls, table, &place_of<T>, "Return the parameters by name.");
   add_value_methods(cls);
+  add_signature(cls, table);
   return cls;
 }
 

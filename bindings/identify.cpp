@@ -88,12 +88,13 @@ py::array_t<double> simulate(const ArmRecord& record, const Numbers& theta, doub
 }  // namespace
 
 void bind_identify(py::module_& m) {
-  py::class_<ArmGains>(m, "ArmGains", "How far each row corrects what eq. (4) foretold.")
+  py::class_<ArmGains>(m, "ArmGains",
+                       "Kalman gains: correction of the prediction of eq. (4) by each row.")
       .def_property_readonly(
           "log_sum", [](const ArmGains& gains) { return gains.log_sum; },
           "Sum of the logarithms of the variances of the errors.");
   py::class_<ArmRecord>(m, "ArmRecord",
-                        "A log of one hand, and how well eq. (4) foretells it.\n\n"
+                        "A log of one hand, and its prediction by eq. (4).\n\n"
                         "theta: mass [kg], damping [N s/m], stiffness [N/m], delay [s], onset "
                         "[s], bend [1], a share for each input, then the levels of the target [m].")
       .def(
@@ -109,15 +110,16 @@ void bind_identify(py::module_& m) {
           py::kw_only(), py::arg("x"), py::arg("force"), py::arg("variance"), py::arg("early"),
           py::arg("known"), py::arg("doubt"), py::arg("inputs"), py::arg("switches"),
           py::arg("segments"), py::arg("dt"), py::arg("lag"))
-      .def_property_readonly("parameters", &ArmRecord::parameters, "How long theta is.")
+      .def_property_readonly("parameters", &ArmRecord::parameters, "Length of theta.")
       .def("gains", &gains, py::arg("theta"), py::arg("force_noise"),
-           "Gains for a guess, when a force reading has the standard deviation `force_noise` [N].")
+           "Return the gains for theta and force readings of standard deviation `force_noise` [N].")
       .def("innovations", &innovations, py::arg("theta"), py::arg("gains"),
-           "Errors of one tick ahead, each over its standard deviation.")
+           "Return the one-step prediction errors, each divided by its standard deviation.")
       .def("jacobian", &jacobian, py::arg("theta"), py::arg("gains"), py::arg("which"),
-           py::arg("steps"), "d innovations / d theta[which], shape (which, rows).")
-      .def("simulate", &simulate, py::arg("theta"), py::arg("x"), py::arg("v"),
-           "Position [m] that the recorded force alone gives from a state [m, m/s] on.");
+           py::arg("steps"), "Return d innovations / d theta[which], shape (which, rows).")
+      .def(
+          "simulate", &simulate, py::arg("theta"), py::arg("x"), py::arg("v"),
+          "Return the position [m] simulated from a state [m, m/s] with the recorded force alone.");
 }
 
 }  // namespace ebac::python

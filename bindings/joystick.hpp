@@ -3,16 +3,16 @@
 #include <memory>
 #include <optional>
 
-#include "ebac/can/joystick.hpp"
-#include "ebac/rt/aimed.hpp"
-#include "ebac/sensor/felt.hpp"
+#include "ebac/rt/shared_hand_target.hpp"
+#include "ebac/sensor/shared_force.hpp"
 #include "ebac/sim/setup.hpp"
 #include "ebac/sim/simulated_device.hpp"
+#include "ebac/simulated_drives/joystick.hpp"
 #include "fields.hpp"
 
 namespace ebac::python {
 
-using PlantOfDrives = can::Joystick<sensor::Felt<rt::Aimed<SimulatedDevice>>>;
+using PlantOfDrives = can::Joystick<sensor::ForcePublisher<rt::TargetSubscriber<SimulatedDevice>>>;
 
 /// Node ids of drives on `axes` axes, from `node` on.
 inline can::NodeId checked_node(int node, int axes) {
@@ -34,17 +34,18 @@ inline double checked_peak_time(double seconds) {
 template <class Cell>
 using Shared = std::optional<std::shared_ptr<Cell>>;
 
-/// The device and hand of a setup behind drives; `felt` is told the force at the handle, `aim` tells
-/// the hand where to go.
+/// The device and hand of a setup behind drives; publishes the force at the handle to `force`, and
+/// the hand follows the target in `aim`.
 inline PlantOfDrives make_joystick(Setup setup, int first, double peak_time,
-                                   const Shared<sensor::ForceCell>& felt, bool wait_for_power,
-                                   const Shared<rt::AimCell>& aim) {
+                                   const Shared<sensor::SharedForce>& force, bool wait_for_power,
+                                   const Shared<rt::SharedHandTarget>& aim) {
   const can::NodeId node = checked_node(first, setup.device.axes());
   setup.device.drive.permille = true;  // what a drive is told in
   setup.timing.delay = 0;              // its delay is that of the bus
-  return {sensor::Felt(rt::Aimed(SimulatedDevice(setup), aim.value_or(nullptr)),
-                       felt.value_or(nullptr)),
-          setup.device, node, checked_peak_time(peak_time), wait_for_power};
+  return {
+      sensor::ForcePublisher(rt::TargetSubscriber(SimulatedDevice(setup), aim.value_or(nullptr)),
+                             force.value_or(nullptr)),
+      setup.device, node, checked_peak_time(peak_time), wait_for_power};
 }
 
 }  // namespace ebac::python

@@ -18,20 +18,20 @@ void add_kinematics(py::class_<K>& cls) {
           [](const K& k, const std::vector<double>& q) -> Eigen::VectorXd {
             return k.forward(as_axes(q, ebac::axes(k), "q")).head(ebac::axes(k));
           },
-          py::arg("q"), "Handle position [m] at joint angles q [rad], shape (axes,).")
+          py::arg("q"), "Return the handle position [m] at joint angles q [rad], shape (axes,).")
       .def(
           "inverse",
           [](const K& k, const std::vector<double>& x) -> Eigen::VectorXd {
             return k.inverse(as_axes(x, ebac::axes(k), "x")).head(ebac::axes(k));
           },
-          py::arg("x"), "Joint angles [rad] at handle position x [m], shape (axes,).")
+          py::arg("x"), "Return the joint angles [rad] at handle position x [m], shape (axes,).")
       .def(
           "jacobian",
           [](const K& k, const std::vector<double>& q) -> Eigen::MatrixXd {
             return k.jacobian(as_axes(q, ebac::axes(k), "q"))
                 .topLeftCorner(ebac::axes(k), ebac::axes(k));
           },
-          py::arg("q"), "dx/dq [m/rad] at q [rad], shape (axes, axes).")
+          py::arg("q"), "Return the Jacobian dx/dq [m/rad] at q [rad], shape (axes, axes).")
       .def(
           "transpose",
           [](const K& k, const std::vector<double>& q,
@@ -40,13 +40,14 @@ void add_kinematics(py::class_<K>& cls) {
                                    as_axes(f, ebac::axes(k), "f"))
                 .head(ebac::axes(k));
           },
-          py::arg("q"), py::arg("f"), "Joint torques J^T f [N m] that show f [N] at the handle.")
+          py::arg("q"), py::arg("f"),
+          "Return the joint torques J^T f [N m] of a handle force f [N].")
       .def(
           "within_limits",
           [](const K& k, const std::vector<double>& q) {
             return ebac::within_limits(k, as_axes(q, ebac::axes(k), "q"));
           },
-          py::arg("q"), "Whether every joint is within its limit.");
+          py::arg("q"), "Return whether every joint is within its limit.");
 }
 
 }  // namespace
@@ -65,7 +66,7 @@ void bind_kinematics(py::module_& m) {
       [](const Gimbal& k, const std::vector<double>& q) {
         return k.height(as_axes(q, ebac::axes(k), "q"));
       },
-      py::arg("q"), "z of the handle [m] above the joints.");
+      py::arg("q"), "Return the height z of the handle above the joints [m].");
 }
 
 }  // namespace ebac::python

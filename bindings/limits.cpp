@@ -11,20 +11,20 @@
 namespace ebac::python {
 
 void bind_limits(py::module_& m) {
-  auto cls = bind_fields<Limits>(m, "Limits", "What a loop allows on every axis.");
+  auto cls = bind_fields<Limits>(m, "Limits", "Safety limits of a loop on every axis.");
   cls.def_static("of", &Limits::of, py::arg("device"),
-                 "What the motor, the drive and the lever of a device can take.");
+                 "Return the limits of the motor, the drive and the lever of a device.");
   m.def("_check_limits", &check_limits, py::arg("limits"));
   m.def(
       "_with_loop",
       [](Setup setup, double soft_start, const std::optional<Limits>& limits) {
         setup.loop.plan.soft_start = soft_start;
         check(setup.loop.plan, "simulate");
-        if (limits) setup.loop.gate = Gate(*limits, setup.device, setup.timing.dt);
+        if (limits) setup.loop.limiter = SafetyLimiter(*limits, setup.device, setup.timing.dt);
         return setup;
       },
       py::arg("setup"), py::kw_only(), py::arg("soft_start"), py::arg("limits"),
-      "The same run, with a soft start [s] and limits.");
+      "Return the same setup with a soft start [s] and safety limits.");
 }
 
 }  // namespace ebac::python

@@ -14,14 +14,16 @@ void bind_linear_loop(py::module_& m) {
                          "One axis in a virtual spring and damper without a law, linear and exact.")
       .def(py::init<const Setup&>(), py::arg("setup"))
       .def_static("covers", &LinearLoop::covers, py::arg("device"),
-                  "Whether a device is linear deep in a wall, friction and counts apart.")
+                  "Return whether a device is linear deep in a wall, apart from friction and "
+                  "encoder counts.")
       .def("eigenvalues", &LinearLoop::eigenvalues, py::arg("stiffness"), py::arg("damping"),
-           "Eigenvalues from tick to tick; stiffness [N/m], damping [N s/m] of the wall.")
+           "Return the eigenvalues of one tick, for a wall of stiffness [N/m] and damping [N s/m].")
       .def("spectral_radius", &LinearLoop::spectral_radius, py::arg("stiffness"),
-           py::arg("damping"), "Largest modulus of an eigenvalue; below one, everything decays.")
+           py::arg("damping"),
+           "Return the largest modulus of an eigenvalue; the loop is stable below 1.")
       .def("stiffness_limit", &LinearLoop::stiffness_limit, py::arg("damping"),
            py::call_guard<py::gil_scoped_release>(),
-           "Largest stiffness [N/m] up to which everything decays; 0 for none.");
+           "Return the largest stable stiffness [N/m]; 0 for none.");
 }
 
 }  // namespace ebac::python

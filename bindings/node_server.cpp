@@ -1,4 +1,4 @@
-#include "ebac/can/served.hpp"
+#include "ebac/can/node_server.hpp"
 
 #include <pybind11/stl.h>
 
@@ -18,18 +18,18 @@ namespace {
 /// Drives wait for a loop that was held up; more is lost, and counted.
 constexpr std::size_t kFrames = 4096;
 
-using Felt = Shared<sensor::ForceCell>;
-using Aim = Shared<rt::AimCell>;
+using OptionalForce = Shared<sensor::SharedForce>;
+using OptionalTarget = Shared<rt::SharedHandTarget>;
 
 template <can::WaitingBus Bus>
-using ServedJoystick = can::Served<Bus, PlantOfDrives>;
+using JoystickServer = can::NodeServer<Bus, PlantOfDrives>;
 
 py::module_ at_exit() { return py::module_::import("atexit"); }
 
 /// What they are on whichever bus. The interpreter stops those that are forgotten before it ends.
 template <can::WaitingBus Bus>
-void add_work(py::class_<ServedJoystick<Bus>>& cls) {
-  using Work = ServedJoystick<Bus>;
+void add_work(py::class_<JoystickServer<Bus>>& cls) {
+  using Work = JoystickServer<Bus>;
   const auto start = [](const py::object& self, rt::Mode mode, const rt::Options& realtime) {
     self.cast<Work&>().start(mode, realtime);
     at_exit().attr("register")(self.attr("stop"));
@@ -44,8 +44,8 @@ void add_work(py::class_<ServedJoystick<Bus>>& cls) {
     at_exit().attr("unregister")(self.attr("stop"));
   };
   cls.def("start", start, py::arg_v("mode", rt::Mode::kOff, "RealTimeMode.OFF"),
-          py::arg("realtime") = rt::Options{}, "Puts them on the bus, once in a life.")
-      .def("stop", stop, "Takes them off for good.")
+          py::arg("realtime") = rt::Options{}, "Start the drives on the bus; possible once.")
+      .def("stop", stop, "Take the drives off the bus for good.")
       .def("__enter__", [start](const py::object& self) { return start(self, rt::Mode::kOff, {}); })
       .def(
           "__exit__",
@@ -56,42 +56,42 @@ void add_work(py::class_<ServedJoystick<Bus>>& cls) {
           py::arg("traceback") = py::none())
       .def_property_readonly(
           "grants", &Work::grants,
-          "What its thread asked of the system, and got; nothing before it is started.")
-      .def_property_readonly("state", &Work::state, "How the bus stands.")
-      .def_property_readonly("counts", &Work::counts, "What went over their end of the bus.");
+          "Resources that its thread requested and was granted; empty before the start.")
+      .def_property_readonly("state", &Work::state, "State of the bus.")
+      .def_property_readonly("counts", &Work::counts, "Frame counts of their end of the bus.");
 }
 
 }  // namespace
 
-void bind_served(py::module_& m) {
-  using OnLoopback = ServedJoystick<can::LoopbackBus>;
-  using OnSocketCan = ServedJoystick<can::SocketCan>;
+void bind_node_server(py::module_& m) {
+  using OnLoopback = JoystickServer<can::LoopbackBus>;
+  using OnSocketCan = JoystickServer<can::SocketCan>;
   py::class_<OnLoopback> inside(
       m, "LoopbackJoystick",
-      "A joystick of simulated drives on a bus inside this process, in real time, in a thread of\n"
+      "Simulated drives of a joystick on a bus inside this process, in real time, in a thread of\n"
       "its own that never waits for Python. A context manager.");
   inside.def(
       py::init([](can::LoopbackHub& hub, const Setup& setup, int first, double peak_time,
-                  const Felt& felt, bool wait_for_power, const Aim& aim) {
-        PlantOfDrives joystick = make_joystick(setup, first, peak_time, felt, wait_for_power, aim);
+                  const OptionalForce& force, bool wait_for_power, const OptionalTarget& aim) {
+        PlantOfDrives joystick = make_joystick(setup, first, peak_time, force, wait_for_power, aim);
         return std::make_unique<OnLoopback>(hub.open({.frames = kFrames}), std::move(joystick));
       }),
       py::arg("hub"), py::arg("setup"), py::kw_only(), py::arg("first") = 1,
-      py::arg("peak_time") = 2.0, py::arg("felt") = py::none(), py::arg("wait_for_power") = false,
+      py::arg("peak_time") = 2.0, py::arg("force") = py::none(), py::arg("wait_for_power") = false,
       py::arg("aim") = py::none());
   add_work(inside);
   py::class_<OnSocketCan> outside(
       m, "SocketCanJoystick",
-      "A joystick of simulated drives on a CAN interface of the Linux kernel, in real time, in a\n"
+      "Simulated drives of a joystick on a CAN interface of the Linux kernel, in real time, in a\n"
       "thread of its own that never waits for Python. A context manager.");
   outside.def(
       py::init([](const std::string& interface, const Setup& setup, int first, double peak_time,
-                  const Felt& felt, bool wait_for_power, const Aim& aim) {
-        PlantOfDrives joystick = make_joystick(setup, first, peak_time, felt, wait_for_power, aim);
+                  const OptionalForce& force, bool wait_for_power, const OptionalTarget& aim) {
+        PlantOfDrives joystick = make_joystick(setup, first, peak_time, force, wait_for_power, aim);
         return std::make_unique<OnSocketCan>(open_socketcan(interface, {}), std::move(joystick));
       }),
       py::arg("interface"), py::arg("setup"), py::kw_only(), py::arg("first") = 1,
-      py::arg("peak_time") = 2.0, py::arg("felt") = py::none(), py::arg("wait_for_power") = false,
+      py::arg("peak_time") = 2.0, py::arg("force") = py::none(), py::arg("wait_for_power") = false,
       py::arg("aim") = py::none());
   add_work(outside);
 }

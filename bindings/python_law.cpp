@@ -1,8 +1,8 @@
+#include <array>
 #include <exception>
 #include <limits>
 #include <memory>
-#include <span>
-#include <vector>
+#include <string>
 
 #include "bind.hpp"
 #include "fields.hpp"
@@ -16,46 +16,71 @@ namespace {
 /// A law written in Python in the same loop, slowly: an object with `step(port) -> float` and
 /// `reset()`. What it raises becomes NaN, so the loop stops as for any law, and is raised again
 /// after the run.
-class PythonLaw {
+class PythonLaw final : public LawObject {
  public:
-  struct State {
-    static constexpr auto fields() { return std::array<Field<State>, 0>{}; }
+  /// Nothing but the type of any of them: what it has is Python's own.
+  struct Nothing {
+    static constexpr auto fields() { return std::array<Field<Nothing>, 0>{}; }
   };
 
-  PythonLaw(const py::object& law, int axes) : raised_(std::make_shared<std::exception_ptr>()) {
-    const py::object deepcopy = py::module_::import("copy").attr("deepcopy");
-    for (int i = 0; i < axes; ++i) laws_.push_back(deepcopy(law));
-    reset();
+  PythonLaw(const py::object& law, std::shared_ptr<std::exception_ptr> raised)
+      : LawObject(record()), law_(law), raised_(std::move(raised)) {
+    lies_at(&nothing_, &nothing_, &timing_);
   }
 
-  void step(std::span<Axis> axes, const Touch& touch) noexcept {
-    turned_.step(axes, touch,
-                 [this](std::size_t i, const Port& port) noexcept { return ask(laws_[i], port); });
-  }
-  void reset() noexcept {
-    try {
-      for (const py::object& law : laws_) law.attr("reset")();
-    } catch (...) {
-      *raised_ = std::current_exception();
-    }
-  }
-  const std::shared_ptr<std::exception_ptr>& raised() const { return raised_; }
-
- private:
-  double ask(const py::object& law, const Port& port) noexcept {
+  double step(const Port& port) noexcept override {
     if (*raised_) return std::numeric_limits<double>::quiet_NaN();
     try {
-      return law.attr("step")(port).cast<double>();
+      return force_of(law_.attr("step")(port));
     } catch (...) {
       *raised_ = std::current_exception();
       return std::numeric_limits<double>::quiet_NaN();
     }
   }
+  void reset() noexcept override {
+    try {
+      law_.attr("reset")();
+    } catch (...) {
+      *raised_ = std::current_exception();
+    }
+  }
+  void retune(const LawObject&) noexcept override {}
+  std::unique_ptr<LawObject> clone() const override {
+    return std::make_unique<PythonLaw>(py::module_::import("copy").attr("deepcopy")(law_), raised_);
+  }
 
-  std::vector<py::object> laws_;
-  TurnedPorts turned_{};
+ private:
+  double force_of(const py::object& answer) const {
+    try {
+      return answer.cast<double>();
+    } catch (const py::cast_error&) {
+      const py::str text("{}.step returned {!r}: must return the force [N] of one axis, a number");
+      throw py::type_error(std::string(text.format(py::type::of(law_).attr("__name__"), answer)));
+    }
+  }
+  static const LawType& record() {
+    static const LawType kType{.name = "python",
+                               .summary = "a law written in Python",
+                               .params = field_table<Nothing>(),
+                               .state = field_table<Nothing>()};
+    return kType;
+  }
+
+  py::object law_;
   std::shared_ptr<std::exception_ptr> raised_;
+  Nothing nothing_{};
+  Timing timing_{};
 };
+
+/// `run(law)`, then what the law raised.
+template <class Run>
+std::shared_ptr<Trace> run_python(const py::object& law, Run run) {
+  const auto raised = std::make_shared<std::exception_ptr>();
+  const AnyLaw wrapped(std::make_unique<PythonLaw>(law, raised));
+  const std::shared_ptr<Trace> trace = run(wrapped);
+  if (*raised) std::rethrow_exception(*raised);
+  return trace;
+}
 
 }  // namespace
 
@@ -63,22 +88,16 @@ void bind_python_law(py::module_& m) {
   m.def(
       "_simulate_python",
       [](const Setup& setup, const py::object& law, bool through_can) {
-        PythonLaw wrapped(law, setup.device.axes());
-        const auto raised = wrapped.raised();
-        const auto trace = simulate_either(setup, std::move(wrapped), through_can);
-        if (*raised) std::rethrow_exception(*raised);
-        return trace;
+        return run_python(
+            law, [&](const AnyLaw& any) { return simulate_either(setup, any, through_can); });
       },
       py::arg("setup"), py::arg("law"), py::arg("through_can") = false);
   m.def(
       "_replay_python",
       [](const std::shared_ptr<ReplayLog>& log, const py::object& law, const DeviceModel& device,
          const Environment& environment) {
-        PythonLaw wrapped(law, device.axes());
-        const auto raised = wrapped.raised();
-        const auto trace = replay_on(log, std::move(wrapped), device, environment);
-        if (*raised) std::rethrow_exception(*raised);
-        return trace;
+        return run_python(
+            law, [&](const AnyLaw& any) { return replay_on(log, any, device, environment); });
       },
       py::arg("log"), py::arg("law"), py::arg("device"), py::arg("environment"));
 }

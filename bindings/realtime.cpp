@@ -14,8 +14,8 @@
 
 #include "bind.hpp"
 #include "ebac/core/timing.hpp"
-#include "ebac/rt/aim_cell.hpp"
 #include "ebac/rt/jitter.hpp"
+#include "ebac/rt/shared_hand_target.hpp"
 #include "ebac/rt/thread.hpp"
 #include "fields.hpp"
 #include "from_system.hpp"
@@ -25,13 +25,14 @@ namespace ebac::python {
 namespace {
 
 void bind_options(py::module_& m) {
-  py::native_enum<rt::Mode>(m, "RealTimeMode", "enum.IntEnum", "What a loop's thread insists on.")
+  py::native_enum<rt::Mode>(m, "RealTimeMode", "enum.IntEnum",
+                            "Treatment of refused real-time resources.")
       .value("OFF", rt::Mode::kOff)
       .value("AUTO", rt::Mode::kAuto)
       .value("ENFORCE", rt::Mode::kEnforce)
       .finalize();
-  bind_fields<rt::Options>(m, "RealTime", "What a loop's thread asks of the system.");
-  py::class_<rt::Grant>(m, "Grant", "One thing a thread asked of the system.")
+  bind_fields<rt::Options>(m, "RealTime", "Real-time resources for the thread of a loop.");
+  py::class_<rt::Grant>(m, "Grant", "One resource that a thread requested from the system.")
       .def(py::init([](std::string name, std::string asked, bool granted, std::string why,
                        std::string remedy) {
              return rt::Grant{std::move(name), std::move(asked), granted, std::move(why),
@@ -40,29 +41,31 @@ void bind_options(py::module_& m) {
            py::kw_only(), py::arg("name"), py::arg("asked"), py::arg("granted"), py::arg("why"),
            py::arg("remedy"))
       .def_readonly("name", &rt::Grant::name, "priority, cpu, memory or stack.")
-      .def_readonly("asked", &rt::Grant::asked, "What was asked.")
+      .def_readonly("asked", &rt::Grant::asked, "Requested resource.")
       .def_readonly("granted", &rt::Grant::granted, "Whether it was granted.")
-      .def_readonly("why", &rt::Grant::why, "Why not; empty when it was.")
+      .def_readonly("why", &rt::Grant::why, "Reason of a refusal; empty if granted.")
       .def_readonly("remedy", &rt::Grant::remedy, "The command that would grant it.");
 }
 
 void bind_aim(py::module_& m) {
-  py::class_<rt::AimCell, std::shared_ptr<rt::AimCell>>(
-      m, "AimCell",
-      "Where a simulated hand should go: from a loop to who simulates the hand, in another thread\n"
-      "or in another process, which has it by the descriptor handed down. One writer, one reader.")
-      .def(py::init([] { return from_system([] { return std::make_shared<rt::AimCell>(); }); }))
+  py::class_<rt::SharedHandTarget, std::shared_ptr<rt::SharedHandTarget>>(
+      m, "SharedHandTarget",
+      "Target of a simulated hand, from a loop to the simulation of the hand in another thread\n"
+      "or another process, which opens it by its descriptor. One writer, one reader.")
+      .def(py::init(
+          [] { return from_system([] { return std::make_shared<rt::SharedHandTarget>(); }); }))
       .def(py::init([](int descriptor) {
-             return from_system([&] { return std::make_shared<rt::AimCell>(descriptor); });
+             return from_system([&] { return std::make_shared<rt::SharedHandTarget>(descriptor); });
            }),
            py::arg("descriptor"))
       .def(
           "post",
-          [](rt::AimCell& cell, const std::array<double, kMaxAxes>& target) {
+          [](rt::SharedHandTarget& cell, const std::array<double, kMaxAxes>& target) {
             cell.post({.target = target});
           },
-          py::arg("target"), "The target from now on [m]; no number leaves an axis alone.")
-      .def_property_readonly("descriptor", &rt::AimCell::descriptor, "To be handed down.");
+          py::arg("target"), "Set the target [m] per axis; NaN leaves an axis unchanged.")
+      .def_property_readonly("descriptor", &rt::SharedHandTarget::descriptor,
+                             "File descriptor to pass to another process.");
 }
 
 /// Waits in short pieces for what runs in another thread, so that an interrupt of Python ends it.
@@ -104,7 +107,8 @@ void bind_realtime(py::module_& m) {
   bind_options(m);
   bind_aim(m);
   m.def("_measure_jitter", &jitter, py::arg("dt"), py::arg("ticks"), py::arg("mode"),
-        py::arg("options"), "Lateness of every wake-up [s], ticks skipped, what was granted.");
+        py::arg("options"),
+        "Measure the lateness of every wake-up [s]; return it with skipped ticks and grants.");
   m.def(
       "_ask_realtime",
       [](const rt::Options& options) {
@@ -112,7 +116,7 @@ void bind_realtime(py::module_& m) {
         const rt::Thread thread(rt::Mode::kAuto, options, [] {});
         return thread.report().grants;
       },
-      py::arg("options"), "What a thread of this process would be granted.");
+      py::arg("options"), "Return the grants for a thread of this process.");
 }
 
 }  // namespace ebac::python

@@ -3,6 +3,7 @@
 #include <pybind11/numpy.h>
 
 #include "bind.hpp"
+#include "values.hpp"
 
 namespace ebac::python {
 
@@ -76,7 +77,7 @@ std::shared_ptr<ReplayLog> make_log(const LogColumns& c) {
 }  // namespace
 
 void bind_replay(py::module_& m) {
-  py::class_<ReplayLog, std::shared_ptr<ReplayLog>>(m, "ReplayLog", "A recorded log as hardware.")
+  py::class_<ReplayLog, std::shared_ptr<ReplayLog>>(m, "ReplayLog", "A recorded log as a device.")
       .def(py::init([](const Numbers& t, const Numbers& dt, const Numbers& lateness,
                        const Faults& fault, const Counts& counts, const Numbers& counts_age,
                        const Numbers& current_applied, const Numbers& force, const Numbers& f_env,

@@ -36,8 +36,9 @@ can::CanopenSetup drives_of(const DeviceModel& device, const std::vector<int>& n
   }
   for (const auto& [key, item] : more) {
     const auto word = py::cast<std::string>(key);
-    if (!set_field(drives, "RunSetup", word, item))
-      refuse_keyword("RunSetup", word, field_names<can::CanopenSetup>());
+    const FieldTable& table = field_table<can::CanopenSetup>();
+    if (!set_field(table, &drives, "RunSetup", word, item))
+      refuse_keyword("RunSetup", word, field_names(table));
   }
   check_setup(drives);
   return drives;
@@ -48,7 +49,7 @@ RunSetup make_setup(const DeviceModel& device, const Environment& environment, d
                     const std::optional<Limits>& limits,
                     const std::optional<sensor::RdtClientSetup>& sensor, std::size_t rows,
                     bool ring, rt::Mode mode, const rt::Options& realtime, const Values& drives,
-                    const std::optional<std::shared_ptr<rt::AimCell>>& aim) {
+                    const std::optional<std::shared_ptr<rt::SharedHandTarget>>& aim) {
   check(Timing{.dt = dt}, "Timing");
   const bool fits = answer_time > 0 && answer_time <= dt;
   if (!fits) {
@@ -74,19 +75,19 @@ using Told = std::tuple<std::int64_t, std::uint64_t, std::string>;
 
 /// Changes from number `start` on: from which tick, serial number, of what.
 std::vector<Told> changes_from(const Running& run, std::size_t start) {
-  const auto name = [](ChangeOf what) {
+  const auto name = [](UpdateOf what) {
     switch (what) {
-      case ChangeOf::kLaw:
+      case UpdateOf::kLaw:
         return "law";
-      case ChangeOf::kEnvironment:
+      case UpdateOf::kEnvironment:
         return "environment";
-      case ChangeOf::kTarget:
+      case UpdateOf::kTarget:
         return "target";
     }
     return "";
   };
   std::vector<Told> told;
-  const Changes& changes = run.changes();
+  const AppliedUpdates& changes = run.changes();
   for (std::size_t i = start; i < changes.size(); ++i) {
     told.emplace_back(changes[i].tick, changes[i].serial, name(changes[i].what));
   }
@@ -107,65 +108,73 @@ void require_done(const Running& run) {
 }
 
 void bind_running_class(py::module_& m) {
-  py::class_<Running>(m, "Running", "A loop at work in a thread that never touches Python.")
-      .def_readonly("rows", &Running::trace, "Its rows; they grow while it runs.")
-      .def_readonly("grants", &Running::grants, "What its thread asked of the system, and got.")
+  py::class_<Running, std::shared_ptr<Running>>(
+      m, "Running", "A loop running in a thread that never touches Python.")
+      .def_property_readonly(
+          "rows", [](const Running& run) { return run.trace(); },
+          "Rows of the trace; they grow while the loop runs.")
+      .def_property_readonly(
+          "grants", [](const Running& run) { return run.grants(); },
+          "Resources that its thread requested and was granted.")
       .def(
-          "stop", [](const Running& run) { run.stop(); }, "Asks for a stop.")
+          "stop", [](const Running& run) { run.stop(); }, "Request a stop.")
       .def(
           "join",
           [](const Running& run) {
             const py::gil_scoped_release others_run;
             run.join();
           },
-          "Waits for its end.")
-      .def("wait", &wait_for, py::arg("seconds"), "Whether it ended within so long [s].")
+          "Wait until the loop has ended.")
+      .def("wait", &wait_for, py::arg("seconds"),
+           "Wait up to `seconds` [s]; return whether the loop has ended.")
       .def_property_readonly(
-          "done", [](const Running& run) { return run.done(); }, "Whether it ended.")
+          "done", [](const Running& run) { return run.done(); }, "Whether the loop has ended.")
       .def_property_readonly(
           "at_rest", [](const Running& run) { return require_done(run), run.at_rest(); },
-          "Whether every drive said in the last tick that its power is off. Once it ended.")
+          "Whether every drive reported power off in the last tick. Only after the loop has ended.")
       .def_property_readonly(
           "state", [](const Running& run) { return require_done(run), run.state(); },
-          "Where it ended: idle, or fault.")
+          "Final state: idle or fault.")
       .def_property_readonly(
           "unrecorded", [](const Running& run) { return run.unrecorded(); },
-          "Ticks that found the trace full.")
+          "Ticks not recorded because the trace was full.")
       .def_property_readonly(
-          "bus", [](const Running& run) { return run.bus(); }, "What went over its end of the bus.")
+          "bus", [](const Running& run) { return run.bus(); },
+          "Frame counts of its end of the bus.")
       .def(
-          "retune", [](const Running& run, const py::object& law) { return run.retune(law); },
-          py::arg("law"), "The gains of this law from the next tick on; returns a serial number.")
+          "retune", [](Running& run, const AnyLaw& law) { return run.retune(law); }, py::arg("law"),
+          "Apply the gains of `law` from the next tick on; return the serial number of the update.")
       .def(
-          "change_world",
-          [](const Running& run, const Environment& world) { return run.change_world(world); },
-          py::arg("environment"), "Another virtual world from the next tick on.")
+          "change_world", [](Running& run, const Environment& world) { return run.post(world); },
+          py::arg("environment"),
+          "Apply another environment from the next tick on; return the serial number of the "
+          "update.")
       .def(
           "aim",
-          [](const Running& run, const std::array<double, kMaxAxes>& target) {
-            return run.aim({.target = target});
+          [](Running& run, const std::array<double, kMaxAxes>& target) {
+            return run.post(HandTarget{.target = target});
           },
           py::arg("target"),
-          "Where a simulated hand should go [m]; no number leaves an axis alone.")
+          "Set the target of a simulated hand [m]; NaN leaves an axis unchanged.")
       .def("changes", &changes_from, py::arg("start") = 0,
-           "What the loop took: (tick, serial number, what).")
+           "Return the applied updates: (tick, serial number, parameter).")
       .def_property_readonly(
           "changes_lost", [](const Running& run) { return run.changes().lost(); },
-          "Changes that acted, but of which no note was kept.");
+          "Updates that were applied but not recorded.");
 }
 
 }  // namespace
 
-can::EitherBus take_bus(const py::object& bus) {
+can::AnyBus take_bus(const py::object& bus) {
   if (py::isinstance<py::str>(bus)) {
-    return can::EitherBus(open_socketcan(bus.cast<std::string>(), {}));
+    return can::AnyBus(open_socketcan(bus.cast<std::string>(), {}));
   }
-  return can::EitherBus(bus.cast<can::LoopbackHub&>().open({.frames = kFrames}));
+  return can::AnyBus(bus.cast<can::LoopbackHub&>().open({.frames = kFrames}));
 }
 
 void bind_running(py::module_& m) {
-  bind_fields<RunPlan>(m, "RunPlan", "How a run begins and ends.");
-  py::class_<RunSetup>(m, "RunSetup", "All that a run is but its bus and its law.")
+  bind_fields<RunPlan>(m, "RunPlan", "Start and end of a run.");
+  py::class_<RunSetup>(m, "RunSetup", "Setup of a run on hardware, without its bus and its law.")
       .def(py::init(&make_setup), py::kw_only(), py::arg("device"), py::arg("environment"),
            py::arg("dt"), py::arg("nodes"), py::arg("answer_time"), py::arg("plan"),
            py::arg("limits"), py::arg("sensor"), py::arg("rows"), py::arg("ring"), py::arg("mode"),

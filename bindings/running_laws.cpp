@@ -1,19 +1,59 @@
-#include "bind.hpp"
-#include "ebac/control/laws.hpp"
+#include "ebac/loop/retune.hpp"
+#include "law_class.hpp"
 #include "running.hpp"
 
 namespace ebac::python {
 
-namespace {
-
-template <class... Law>
-void bind_starts(const std::tuple<Law...>*) {
-  (bind_start_of<Law>(), ...);
+Running::Running(can::AnyBus bus, const AnyLaw& law, const RunSetup& setup)
+    : bus_(std::move(bus)), newest_(law), updates_(std::make_shared<ParameterUpdates<All>>(law)) {
+  LoopOptions options{.plan = setup.plan};
+  if (setup.limits) options.limiter = SafetyLimiter(*setup.limits, setup.device, setup.dt);
+  auto loop = std::make_unique<Work>(hardware(setup), rt::MonotonicClock(setup.dt), All(law),
+                                     SignalChain(setup.device, setup.environment),
+                                     setup.device.axes(), options);
+  trace_ = loop->make_trace(setup.rows, setup.ring);
+  thread_ = std::make_unique<Thread>(std::move(loop), trace_, updates_, setup.mode, setup.realtime);
 }
 
-}  // namespace
+Hardware Running::hardware(const RunSetup& setup) {
+  const std::chrono::duration<double> budget(setup.answer_time);
+  Drives drives(bus_, {bus_, std::chrono::duration_cast<std::chrono::nanoseconds>(budget)},
+                setup.drives);
+  sensor::OptionalSensor sensor;
+  if (setup.sensor) {
+    sensor::RdtClient client(*setup.sensor);
+    client.start();
+    sensor = sensor::OptionalSensor(std::move(client));
+  }
+  return Hardware(
+      rt::TargetPublisher(sensor::WithForceSensor(drives, std::move(sensor)), setup.aim));
+}
 
-/// Every law in a loop of real time. After the laws and what a run is made of.
-void bind_running_laws(py::module_&) { bind_starts(static_cast<const Laws*>(nullptr)); }
+void Running::join() const {
+  thread_->join();
+  auto& sensor = thread_->loop().device().device().device().sensor();
+  if (sensor.client() != nullptr) sensor.client()->stop();
+}
+
+std::uint64_t Running::retune(const AnyLaw& next) {
+  const std::scoped_lock one_writer(writers_);
+  check_retune(newest_, next);
+  newest_ = next;
+  return updates_->post(next);
+}
+
+void add_start(const LawClass& law) {
+  if (!law.type->tunable) return;
+  law.def(
+      "_start",
+      [](const AnyLaw& any, const py::object& bus, const RunSetup& setup) {
+        return std::make_shared<Running>(take_bus(bus), any, setup);
+      },
+      "(self: LAW, bus: object, setup: ebac._core.RunSetup) -> ebac._core.Running", "",
+      py::arg("bus"), py::arg("setup"));
+  law.def(
+      "_check_retune", [](const AnyLaw& any, const AnyLaw& next) { check_retune(any, next); },
+      "(self: LAW, next: LAW) -> None", "", py::arg("next"));
+}
 
 }  // namespace ebac::python

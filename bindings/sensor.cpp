@@ -24,7 +24,7 @@ using Steady = std::chrono::steady_clock;
 /// How often a long wait looks whether Python wants something, as after Ctrl-C.
 constexpr std::chrono::milliseconds kSlice{50};
 
-/// A client with the clock that tells it how much time has passed.
+/// A client with a clock.
 struct TimedClient {
   sensor::RdtClient client;
   Steady::time_point last = Steady::now();
@@ -37,20 +37,21 @@ struct TimedClient {
   }
 };
 
-void bind_enums(py::module_& m) {
-  py::native_enum<SensorModel>(m, "SensorModel", "enum.IntEnum", "Whose status bits a sensor has.")
+void bind_sensor_enums(py::module_& m) {
+  py::native_enum<SensorModel>(m, "SensorModel", "enum.IntEnum",
+                               "Sensor model, which defines the status bits.")
       .value("NET_FT", SensorModel::kNetFt)
       .value("AXIA", SensorModel::kAxia)
       .value("OTHER", SensorModel::kOther)
       .finalize();
   py::native_enum<SensorStatus>(m, "SensorStatus", "enum.IntEnum",
-                                "What the force sensor says of itself.")
+                                "Status reported by the force sensor.")
       .value("GOOD", SensorStatus::kGood)
       .value("SATURATED", SensorStatus::kSaturated)
       .value("DISCONNECTED", SensorStatus::kDisconnected)
       .value("ERROR", SensorStatus::kError)
       .finalize();
-  py::native_enum<LinkState>(m, "LinkState", "enum.IntEnum", "How the way to a sensor stands.")
+  py::native_enum<LinkState>(m, "LinkState", "enum.IntEnum", "State of the connection to a sensor.")
       .value("CLOSED", LinkState::kClosed)
       .value("STOPPED", LinkState::kStopped)
       .value("WAITING", LinkState::kWaiting)
@@ -91,20 +92,20 @@ void bind_wire(py::module_& m) {
         return bytes_of(RdtRecord{rdt, ft, status, force, torque});
       },
       py::arg("rdt_sequence"), py::arg("ft_sequence"), py::arg("status"), py::arg("force"),
-      py::arg("torque"), "The 36 bytes of a record.");
+      py::arg("torque"), "Return the 36 bytes of a record.");
   m.def(
       "_decode_record",
       [](const py::bytes& data) -> Words {
         const auto r = decoded<RdtRecord>(data, "record");
         return {r.rdt_sequence, r.ft_sequence, r.status, r.force, r.torque};
       },
-      py::arg("data"), "rdt_sequence, ft_sequence, status, force, torque of 36 bytes.");
+      py::arg("data"), "Return rdt_sequence, ft_sequence, status, force and torque of 36 bytes.");
   m.def(
       "_encode_request",
       [](std::uint16_t command, std::uint32_t samples) {
         return bytes_of(sensor::RdtRequest{command, samples});
       },
-      py::arg("command"), py::arg("samples") = 0, "The 8 bytes of a request.");
+      py::arg("command"), py::arg("samples") = 0, "Return the 8 bytes of a request.");
 }
 
 /// What `RdtSetup` would refuse, but for the host: that is looked up when it is needed.
@@ -117,8 +118,8 @@ void check_sensor(int port, double retry, double gone, const std::array<double, 
 }
 
 void bind_setup(py::module_& m) {
-  bind_fields<FtScale>(m, "FtScale", "What the counts of a force/torque sensor are worth.");
-  py::class_<RdtClientSetup>(m, "RdtSetup", "Where a force sensor is, and how it sits.")
+  bind_fields<FtScale>(m, "FtScale", "Units and range of the counts of a force/torque sensor.");
+  py::class_<RdtClientSetup>(m, "RdtSetup", "Address and mounting of a force sensor.")
       .def(py::init([](const std::string& host, int port, const FtScale& scale,
                        const std::array<double, 9>& rotation, int sign, SensorModel model,
                        double retry, double gone, const std::array<double, 6>& bias) {
@@ -133,7 +134,7 @@ void bind_setup(py::module_& m) {
            py::arg("host"), py::arg("port"), py::kw_only(), py::arg("scale"), py::arg("rotation"),
            py::arg("sign"), py::arg("model"), py::arg("retry"), py::arg("gone"), py::arg("bias"));
   m.def("_check_sensor", &check_sensor, py::arg("port"), py::arg("retry"), py::arg("gone"),
-        py::arg("rotation"), py::arg("sign"), "Throws where one of them cannot be.");
+        py::arg("rotation"), py::arg("sign"), "Raise ValueError if a value is out of range.");
 }
 
 /// Waits for a newer record without the interpreter's lock: false when the time is over.
@@ -160,16 +161,17 @@ std::array<double, 3> three(const Axes& axes) { return {axes[0], axes[1], axes[2
 
 void add_work(py::class_<TimedClient>& cls) {
   cls.def(
-         "start", [](TimedClient& self) { self.client.start(); }, "Asks for a stream.")
+         "start", [](TimedClient& self) { self.client.start(); }, "Request a stream.")
       .def(
-          "stop", [](TimedClient& self) { self.client.stop(); }, "Ends the stream.")
+          "stop", [](TimedClient& self) { self.client.stop(); }, "End the stream.")
       .def(
-          "close", [](TimedClient& self) { self.client.close(); }, "Ends it for good.")
+          "close", [](TimedClient& self) { self.client.close(); }, "Close the connection.")
       .def("poll", &poll, py::arg("timeout") = 0.0,
-           "Reads all that came; waits up to `timeout` [s] for a newer record: whether one came.")
+           "Read all records, waiting up to `timeout` [s] for a new one; return whether one "
+           "arrived.")
       .def(
           "bias_sensor", [](TimedClient& self) { self.client.bias_sensor(); },
-          "Has the sensor take what acts now as zero.")
+          "Make the sensor take the present load as zero.")
       .def(
           "begin_bias",
           [](TimedClient& self, int records) {
@@ -179,73 +181,74 @@ void add_work(py::class_<TimedClient>& cls) {
             }
             self.client.begin_bias(records);
           },
-          py::arg("records"), "Takes the mean of the next good records as zero.");
+          py::arg("records"), "Take the mean of the next `records` valid records as zero.");
 }
 
 /// A read-only property of the client, and of the link within.
 template <class Get>
-void tell(py::class_<TimedClient>& cls, const char* name, Get get, const char* what) {
+void add_property(py::class_<TimedClient>& cls, const char* name, Get get, const char* what) {
   cls.def_property_readonly(
       name, [get](const TimedClient& self) { return get(self.client); }, what);
 }
 
 void add_readings(py::class_<TimedClient>& cls) {
   using Client = sensor::RdtClient;
-  tell(
+  add_property(
       cls, "force", [](const Client& c) { return three(c.link().force()); },
       "Force at the handle [N].");
-  tell(
+  add_property(
       cls, "torque", [](const Client& c) { return three(c.link().torque()); },
-      "Torque about the handle's axes [N m].");
-  tell(
+      "Torque about the axes of the handle [N m].");
+  add_property(
       cls, "age", [](const Client& c) { return c.age(); },
-      "Time since the newest record came [s], as of the last poll.");
-  tell(
-      cls, "health", [](const Client& c) { return c.health(); }, "What the sensor says of itself.");
-  tell(cls, "state", [](const Client& c) { return c.state(); }, "How the way to it stands.");
-  tell(
+      "Age of the newest record at the last poll [s].");
+  add_property(
+      cls, "health", [](const Client& c) { return c.health(); }, "Status reported by the sensor.");
+  add_property(cls, "state", [](const Client& c) { return c.state(); }, "State of the connection.");
+  add_property(
       cls, "status", [](const Client& c) { return c.link().record().status; },
       "Status bits of the newest record.");
-  tell(
+  add_property(
       cls, "rdt_sequence", [](const Client& c) { return c.link().record().rdt_sequence; },
       "Number of the newest record.");
-  tell(
+  add_property(
       cls, "ft_sequence", [](const Client& c) { return c.link().record().ft_sequence; },
-      "Number of the sensor's sample in it.");
-  tell(
+      "Sample number of the sensor in the newest record.");
+  add_property(
       cls, "biasing", [](const Client& c) { return c.link().biasing(); },
       "Whether a bias is being taken.");
-  tell(
+  add_property(
       cls, "bias", [](const Client& c) { return c.link().bias(); },
-      "What is taken as zero: force, torque [counts].");
+      "Zero of the readings: force, torque [counts].");
 }
 
 void add_counts(py::class_<TimedClient>& cls) {
   using Client = sensor::RdtClient;
-  tell(cls, "received", [](const Client& c) { return c.link().received(); }, "Records used.");
-  tell(
-      cls, "lost", [](const Client& c) { return c.link().order().lost(); },
-      "Records that did not come.");
-  tell(
+  add_property(
+      cls, "received", [](const Client& c) { return c.link().received(); }, "Records used.");
+  add_property(
+      cls, "lost", [](const Client& c) { return c.link().order().lost(); }, "Lost records.");
+  add_property(
       cls, "late", [](const Client& c) { return c.link().order().late(); },
-      "Records that came after a newer one.");
-  tell(
+      "Records that arrived after a newer one.");
+  add_property(
       cls, "duplicate", [](const Client& c) { return c.link().order().duplicate(); },
-      "Records that came again.");
-  tell(
+      "Duplicate records.");
+  add_property(
       cls, "malformed", [](const Client& c) { return c.link().malformed(); },
-      "Packets of the sensor that are no record.");
-  tell(cls, "foreign", [](const Client& c) { return c.foreign(); }, "Packets of somebody else.");
-  tell(cls, "asked", [](const Client& c) { return c.asked(); }, "Streams asked for.");
-  tell(
+      "Packets of the sensor that are not valid records.");
+  add_property(
+      cls, "foreign", [](const Client& c) { return c.foreign(); }, "Packets from other senders.");
+  add_property(cls, "asked", [](const Client& c) { return c.asked(); }, "Streams requested.");
+  add_property(
       cls, "refused", [](const Client& c) { return c.refused(); },
-      "Requests that did not leave this machine.");
+      "Requests that this machine could not send.");
 }
 
 }  // namespace
 
 void bind_sensor(py::module_& m) {
-  bind_enums(m);
+  bind_sensor_enums(m);
   bind_wire(m);
   bind_setup(m);
   py::class_<TimedClient> cls(m, "RdtClient", "A force/torque sensor on the network.");

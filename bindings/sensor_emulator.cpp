@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "bind.hpp"
-#include "ebac/sensor/felt.hpp"
-#include "ebac/sensor/served_emulator.hpp"
+#include "ebac/sensor/emulator_server.hpp"
+#include "ebac/sensor/shared_force.hpp"
 #include "ebac/sim/setup.hpp"
 #include "ebac/sim/simulated_device.hpp"
 #include "sensor.hpp"
@@ -18,32 +18,32 @@ namespace {
 
 using sensor::EmulatorCounts;
 using sensor::EmulatorOptions;
+using sensor::EmulatorServer;
 using sensor::EmulatorTrouble;
-using sensor::ForceCell;
 using sensor::RdtEmulator;
-using sensor::ServedEmulator;
+using sensor::SharedForce;
 
 /// The hand of a setup on its device, whose motors have no current.
-ServedEmulator::Source from_hand(const Setup& setup) {
+EmulatorServer::Source from_hand(const Setup& setup) {
   return [device = SimulatedDevice(setup)](double elapsed) mutable {
     return device.exchange({.elapsed = elapsed}).force;
   };
 }
 
-std::unique_ptr<ServedEmulator> serve(const std::string& host, int port,
+std::unique_ptr<EmulatorServer> serve(const std::string& host, int port,
                                       const EmulatorOptions& options,
                                       const std::array<double, 9>& rotation, int sign,
                                       sensor::SensorModel model, std::uint64_t seed,
-                                      ServedEmulator::Source source) {
+                                      EmulatorServer::Source source) {
   const sensor::Endpoint at = sensor::resolve(host, checked_port(port, 0));
   const RdtEmulator<sensor::Endpoint> emulator(options, checked_mounting(rotation, sign),
                                                sensor::StatusBits::of(model), seed);
   return from_system(
-      [&] { return std::make_unique<ServedEmulator>(at, emulator, std::move(source)); });
+      [&] { return std::make_unique<EmulatorServer>(at, emulator, std::move(source)); });
 }
 
 template <class Source, class Turn>
-void add_init(py::class_<ServedEmulator>& cls, Turn turn) {
+void add_init(py::class_<EmulatorServer>& cls, Turn turn) {
   cls.def(py::init([turn](const std::string& host, int port, const Source& source,
                           const EmulatorOptions& options, const std::array<double, 9>& rotation,
                           int sign, sensor::SensorModel model, std::uint64_t seed) {
@@ -54,53 +54,51 @@ void add_init(py::class_<ServedEmulator>& cls, Turn turn) {
 }
 
 void bind_values(py::module_& m) {
-  bind_fields<EmulatorOptions>(m, "EmulatorOptions", "How an emulated force sensor is built.");
-  bind_fields<EmulatorTrouble>(m, "EmulatorTrouble",
-                               "What goes wrong with an emulated force sensor.");
-  py::class_<EmulatorCounts> counts(m, "EmulatorCounts", "What an emulated sensor did.");
-  add_members<EmulatorCounts>(
-      counts, [](const EmulatorCounts& self) -> const EmulatorCounts& { return self; });
-  py::class_<ForceCell, std::shared_ptr<ForceCell>>(
-      m, "ForceCell",
-      "The force at a handle: from whoever moves it to an emulated sensor. One writer, one reader.")
+  bind_fields<EmulatorOptions>(m, "EmulatorOptions", "Properties of an emulated force sensor.");
+  bind_fields<EmulatorTrouble>(m, "EmulatorTrouble", "Errors of an emulated force sensor.");
+  py::class_<EmulatorCounts> counts(m, "EmulatorCounts", "Counts of an emulated sensor.");
+  add_members(counts, field_table<EmulatorCounts>(), &place_of<EmulatorCounts>);
+  py::class_<SharedForce, std::shared_ptr<SharedForce>>(
+      m, "SharedForce",
+      "The force at a handle, from a simulated hand to an emulated sensor. One writer, one reader.")
       .def(py::init([](const std::array<double, kMaxAxes>& force) {
-             auto cell = std::make_shared<ForceCell>();
+             auto cell = std::make_shared<SharedForce>();
              cell->post(force);
              return cell;
            }),
            py::arg("force") = std::array<double, kMaxAxes>{})
-      .def("post", &ForceCell::post, py::arg("force"), "The force from now on [N].");
+      .def("post", &SharedForce::post, py::arg("force"), "Set the force [N].");
 }
 
 }  // namespace
 
 void bind_sensor_emulator(py::module_& m) {
   bind_values(m);
-  py::class_<ServedEmulator> cls(
+  py::class_<EmulatorServer> cls(
       m, "RdtEmulator",
-      "A force/torque sensor on the network that is none, in real time, in a thread of its own "
+      "An emulated force/torque sensor on the network, in real time, in a thread of its own "
       "that\n"
-      "never waits for Python. `source` is a cell with the force, or device and hand of a setup.");
-  add_init<std::shared_ptr<ForceCell>>(
-      cls, [](std::shared_ptr<ForceCell> cell) { return sensor::from_cell(std::move(cell)); });
+      "never waits for Python. `source` is a shared force, or a setup with device and hand.");
+  add_init<std::shared_ptr<SharedForce>>(
+      cls, [](std::shared_ptr<SharedForce> cell) { return sensor::from_cell(std::move(cell)); });
   add_init<Setup>(cls, [](const Setup& setup) { return from_hand(setup); });
-  cls.def("start", &ServedEmulator::start, py::arg_v("mode", rt::Mode::kOff, "RealTimeMode.OFF"),
-          py::arg("realtime") = rt::Options{}, "Puts it on the network, once in a life.")
+  cls.def("start", &EmulatorServer::start, py::arg_v("mode", rt::Mode::kOff, "RealTimeMode.OFF"),
+          py::arg("realtime") = rt::Options{}, "Start the sensor on the network; possible once.")
       .def_property_readonly(
-          "grants", &ServedEmulator::grants,
-          "What its thread asked of the system, and got; nothing before it is started.")
-      .def("stop", &ServedEmulator::stop, py::call_guard<py::gil_scoped_release>(),
-           "Takes it off for good.")
-      .def("set", &ServedEmulator::set, py::arg("trouble"), "What goes wrong from now on.")
-      .def_property_readonly("counts", &ServedEmulator::counts, "What it did so far.")
+          "grants", &EmulatorServer::grants,
+          "Resources that its thread requested and was granted; empty before the start.")
+      .def("stop", &EmulatorServer::stop, py::call_guard<py::gil_scoped_release>(),
+           "Stop the sensor for good.")
+      .def("set", &EmulatorServer::set, py::arg("trouble"), "Set the errors to emulate.")
+      .def_property_readonly("counts", &EmulatorServer::counts, "Counts so far.")
       .def_property_readonly(
           "address",
-          [](const ServedEmulator& self) {
+          [](const EmulatorServer& self) {
             const std::string text = to_string(self.local());
             return std::make_pair(text.substr(0, text.find(':')),
                                   static_cast<int>(self.local().port));
           },
-          "Host and port where it is.");
+          "Host and port.");
 }
 
 }  // namespace ebac::python

@@ -65,30 +65,32 @@ void append_row(Trace& trace, const Bytes& row) {
 }
 
 void bind_trace(py::module_& m) {
-  py::class_<Column>(m, "Column", "Where a named quantity lies in a row.")
+  py::class_<Column>(m, "Column", "Position of a named quantity in a row.")
       .def_readonly("name", &Column::name, "Name.")
       .def_readonly("unit", &Column::unit, "SI unit; '1' for a pure number.")
-      .def_readonly("meaning", &Column::meaning, "What it is.")
+      .def_readonly("meaning", &Column::meaning, "Meaning.")
       .def_readonly("kind", &Column::kind, "f double, i int64, w int32, u uint32, b bool.")
       .def_readonly("offset", &Column::offset, "Bytes from the start of the row to the first axis.")
       .def_readonly("stride", &Column::stride, "Bytes from axis to axis; 0 for one value per row.");
-  py::class_<Trace, std::shared_ptr<Trace>>(m, "Rows", "The rows of a run, as the loop wrote them.")
+  py::class_<Trace, std::shared_ptr<Trace>>(m, "Rows", "The rows of a run, as written by the loop.")
       .def("__len__", [](const Trace& trace) { return trace.size() - trace.first(); })
       .def_property_readonly("count", &Trace::size, "Rows appended since the start.")
       .def_property_readonly("first", &Trace::first, "Number of the first row still in memory.")
-      .def_property_readonly("capacity", &Trace::capacity, "Rows there is room for.")
-      .def_property_readonly("ring", &Trace::ring,
-                             "Whether it keeps the last rows and never is full.")
+      .def_property_readonly("capacity", &Trace::capacity, "Largest number of rows.")
+      .def_property_readonly(
+          "ring", &Trace::ring,
+          "Whether this is a ring, which keeps the last rows and never fills up.")
       .def_property_readonly("axes", &Trace::axes, "Number of axes.")
       .def_property_readonly("row_bytes", &Trace::row_bytes, "Bytes per row.")
       .def_property_readonly("columns", &Trace::columns, "Columns in their order.")
-      .def("bytes", &bytes_of, "Every row in memory, read-only; a ring gives a copy, others none.")
+      .def("bytes", &bytes_of,
+           "Return all rows in memory, read-only; a ring returns a copy, others a view.")
       .def("copy", &copy_of, py::arg("start"), py::arg("stop"),
-           "A copy of the rows start to stop, less those a ring has written over: (number of the "
-           "first row in it, rows).")
+           "Copy the rows start to stop, without rows overwritten by a ring; return (number of the "
+           "first row, rows).")
       .def("empty_like", &empty_like, py::arg("capacity"), py::arg("ring") = false,
-           "No rows yet, in the same layout.")
-      .def("append", &append_row, py::arg("row"), "Adds one row of `row_bytes` bytes.")
+           "Return an empty trace of the same layout.")
+      .def("append", &append_row, py::arg("row"), "Append one row of `row_bytes` bytes.")
       .def(
           "port",
           [](const Trace& trace, std::size_t row, std::size_t axis) {
@@ -101,11 +103,11 @@ void bind_trace(py::module_& m) {
             }
             return trace.sample(row).axis[axis].port;
           },
-          py::arg("row"), py::arg("axis") = 0, "What the law saw in a tick.");
+          py::arg("row"), py::arg("axis") = 0, "Return the port as the law saw it in a tick.");
 }
 
 void bind_setup(py::module_& m) {
-  py::class_<Setup>(m, "Setup", "Everything of a simulated run but the law.")
+  py::class_<Setup>(m, "Setup", "Setup of a simulated run, without the law.")
       .def(py::init([](const DeviceModel& device, const Hand& hand, const Environment& environment,
                        const Timing& timing, double seconds, double jitter, std::uint64_t seed) {
              return Setup{device, hand, environment, timing, seconds, jitter, seed};
@@ -137,7 +139,7 @@ void bind_plant(py::module_& m, const char* name, const char* doc) {
             plant.advance(amperes, t, std::llround(share * static_cast<double>(kQuanta)));
           },
           py::arg("current"), py::arg("t"), py::arg("share") = 1.0,
-          "Moves by `share` of a tick from time t [s] on, under constant motor currents [A].")
+          "Advance by `share` of a tick from time t [s] on, under constant motor currents [A].")
       .def(
           "truth",
           [](const Plant& plant, std::size_t axis) {
@@ -147,7 +149,7 @@ void bind_plant(py::module_& m, const char* name, const char* doc) {
             }
             return plant.truth(axis);
           },
-          py::arg("axis") = 0, "The state of one axis.");
+          py::arg("axis") = 0, "Return the state of one axis.");
 }
 
 }  // namespace
@@ -155,7 +157,7 @@ void bind_plant(py::module_& m, const char* name, const char* doc) {
 void bind_simulation(py::module_& m) {
   bind_trace(m);
   bind_setup(m);
-  bind_fields<AxisTruth>(m, "AxisTruth", "What only a simulation can know about an axis.");
+  bind_fields<AxisTruth>(m, "AxisTruth", "True state of an axis, known only in a simulation.");
   bind_plant<ExactPlant>(m, "ExactPlant",
                          "Independent rigid axes with a hand on each, integrated exactly.");
   bind_plant<SteppedPlant>(m, "SteppedPlant",

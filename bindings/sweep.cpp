@@ -70,14 +70,15 @@ Values ideal_contacts(const std::vector<const Setup*>& setups, int threads,
 
 void bind_sweeps(py::module_& m) {
   bind_contact(m);
-  bind_fields<RunLimits>(m, "RunLimits", "Beyond these a run of a sweep has diverged and ends.");
-  py::class_<SweepProgress>(m, "SweepProgress", "How far a sweep in another thread has come.")
+  bind_fields<RunLimits>(m, "RunLimits",
+                         "Bounds beyond which a run of a sweep counts as diverged and ends.");
+  py::class_<SweepProgress>(m, "SweepProgress", "Progress of a sweep in another thread.")
       .def(py::init<>())
       .def_property_readonly(
           "done", [](const SweepProgress& progress) { return progress.done.load(); }, "Runs done.")
       .def(
           "cancel", [](SweepProgress& progress) { progress.cancelled = true; },
-          "Ends the sweep within some hundred ticks; what is done is kept.")
+          "Cancel the sweep within some hundred ticks; finished runs are kept.")
       .def_property_readonly(
           "cancelled", [](const SweepProgress& progress) { return progress.cancelled.load(); },
           "Whether it was cancelled.");

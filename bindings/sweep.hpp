@@ -9,7 +9,7 @@
 #include "ebac/sim/sweep.hpp"
 #include "fields.hpp"
 
-/// Many runs in one call: the static method `_sweep` of every law.
+/// Many runs in one call: their results as columns.
 namespace ebac::python {
 
 /// A NumPy array of `get(row)` for every row.
@@ -24,10 +24,9 @@ py::array_t<Value> column(const std::vector<Row>& rows, Get get) {
 /// Adds a column for each field of a part of the rows.
 template <Described Part, class Row, class Get>
 void add_columns(Values& columns, const std::vector<Row>& rows, Get part) {
-  for (const auto& field : Part::fields()) {
-    const auto member = std::get<double Part::*>(field.member);
+  for (const FieldRow& field : field_table<Part>().rows) {
     columns[py::str(std::string(field.name))] =
-        column<double>(rows, [&](const Row& row) { return part(row).*member; });
+        column<double>(rows, [&](const Row& row) { return field.number(&part(row)); });
   }
 }
 
@@ -47,29 +46,6 @@ void require_all(const std::vector<const T*>& parts, const char* name) {
   for (const T* part : parts) {
     if (part == nullptr) throw py::type_error(std::string(name) + " holds None");
   }
-}
-
-template <Controller Law>
-void bind_sweep(py::class_<Law>& cls) {
-  cls.def_static(
-      "_sweep",
-      [](const std::vector<const Setup*>& setups, const std::vector<const Law*>& laws, int threads,
-         const RunLimits& limits, SweepProgress& progress) {
-        require_all(setups, "setups");
-        require_all(laws, "laws");
-        if (setups.size() != laws.size()) {
-          throw std::invalid_argument(std::to_string(laws.size()) + " laws for " +
-                                      std::to_string(setups.size()) + " setups: give one for each");
-        }
-        std::vector<Outcome> outcomes;
-        {
-          const py::gil_scoped_release release;
-          outcomes = sweep(setups, laws, threads, limits, progress);
-        }
-        return columns_of(outcomes);
-      },
-      py::arg("setups"), py::arg("laws"), py::arg("threads"), py::arg("limits"),
-      py::arg("progress"));
 }
 
 }  // namespace ebac::python
