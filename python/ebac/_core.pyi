@@ -20,7 +20,6 @@ __all__: list[str] = [
     "TCA",
     "WARNED_LOAD",
     "AdaptiveWindow",
-    "AimCell",
     "ArmGains",
     "ArmRecord",
     "AxisTruth",
@@ -49,7 +48,6 @@ __all__: list[str] = [
     "Fault",
     "Field",
     "ForceBounding",
-    "ForceCell",
     "ForceSensor",
     "Free",
     "FtScale",
@@ -88,6 +86,8 @@ __all__: list[str] = [
     "SensorModel",
     "SensorStatus",
     "Setup",
+    "SharedForce",
+    "SharedHandTarget",
     "SimulatedDrive",
     "Sine",
     "SocketCan",
@@ -134,7 +134,7 @@ class Field:
     @property
     def meaning(self) -> str:
         """
-        What it is.
+        Meaning.
         """
     @property
     def name(self) -> str:
@@ -187,7 +187,7 @@ class Limited(enum.IntFlag):
 
 class Port:
     """
-    What a law sees of one axis in one tick.
+    Input of a law: one axis in one tick.
 
     Parameters
     ----------
@@ -215,7 +215,7 @@ class Port:
     @staticmethod
     def fields() -> list[Field]:
         """
-        Name, unit, meaning, default and range of every parameter.
+        Return name, unit, meaning, default and range of every parameter.
         """
     def __eq__(self, other: typing.Any) -> bool: ...
     def __hash__(self) -> int: ...
@@ -237,11 +237,11 @@ class Port:
     def __repr__(self) -> str: ...
     def as_dict(self) -> dict[str, typing.Any]:
         """
-        Parameters by name.
+        Return the parameters by name.
         """
     def replace(self, **changes: typing.Any) -> typing.Self:
         """
-        A copy with some parameters changed; checked as at construction.
+        Return a copy with some parameters changed, checked as at construction.
         """
     @property
     def damped(self) -> float:
@@ -316,7 +316,7 @@ class Port:
 
 class Timing:
     """
-    What every law must know about time.
+    Timing for which a law is designed.
 
     Parameters
     ----------
@@ -330,7 +330,7 @@ class Timing:
     @staticmethod
     def fields() -> list[Field]:
         """
-        Name, unit, meaning, default and range of every parameter.
+        Return name, unit, meaning, default and range of every parameter.
         """
     def __eq__(self, other: typing.Any) -> bool: ...
     def __hash__(self) -> int: ...
@@ -339,11 +339,11 @@ class Timing:
     def __repr__(self) -> str: ...
     def as_dict(self) -> dict[str, typing.Any]:
         """
-        Parameters by name.
+        Return the parameters by name.
         """
     def replace(self, **changes: typing.Any) -> typing.Self:
         """
-        A copy with some parameters changed; checked as at construction.
+        Return a copy with some parameters changed, checked as at construction.
         """
     @property
     def delay(self) -> int:
@@ -363,7 +363,7 @@ class Timing:
 
 class DeviceFacts:
     """
-    What a user can know about a device; laws are designed from it.
+    Facts about a device from which laws are designed.
 
     Parameters
     ----------
@@ -381,7 +381,7 @@ class DeviceFacts:
     @staticmethod
     def fields() -> list[Field]:
         """
-        Name, unit, meaning, default and range of every parameter.
+        Return name, unit, meaning, default and range of every parameter.
         """
     def __eq__(self, other: typing.Any) -> bool: ...
     def __hash__(self) -> int: ...
@@ -398,11 +398,11 @@ class DeviceFacts:
     def __repr__(self) -> str: ...
     def as_dict(self) -> dict[str, typing.Any]:
         """
-        Parameters by name.
+        Return the parameters by name.
         """
     def replace(self, **changes: typing.Any) -> typing.Self:
         """
-        A copy with some parameters changed; checked as at construction.
+        Return a copy with some parameters changed, checked as at construction.
         """
     @property
     def count(self) -> float:
@@ -437,7 +437,7 @@ class RealTimeMode(enum.IntEnum):
 
 class RealTime:
     """
-    What a loop's thread asks of the system.
+    Real-time resources for the thread of a loop.
 
     Parameters
     ----------
@@ -455,7 +455,7 @@ class RealTime:
     @staticmethod
     def fields() -> list[Field]:
         """
-        Name, unit, meaning, default and range of every parameter.
+        Return name, unit, meaning, default and range of every parameter.
         """
     def __eq__(self, other: typing.Any) -> bool: ...
     def __hash__(self) -> int: ...
@@ -472,11 +472,11 @@ class RealTime:
     def __repr__(self) -> str: ...
     def as_dict(self) -> dict[str, typing.Any]:
         """
-        Parameters by name.
+        Return the parameters by name.
         """
     def replace(self, **changes: typing.Any) -> typing.Self:
         """
-        A copy with some parameters changed; checked as at construction.
+        Return a copy with some parameters changed, checked as at construction.
         """
     @property
     def cpu(self) -> int:
@@ -506,13 +506,13 @@ class RealTime:
 
 class Grant:
     """
-    One thing a thread asked of the system.
+    One resource that a thread requested from the system.
     """
     def __init__(self, *, name: str, asked: str, granted: bool, why: str, remedy: str) -> None: ...
     @property
     def asked(self) -> str:
         """
-        What was asked.
+        Requested resource.
         """
     @property
     def granted(self) -> bool:
@@ -532,13 +532,13 @@ class Grant:
     @property
     def why(self) -> str:
         """
-        Why not; empty when it was.
+        Reason of a refusal; empty if granted.
         """
 
-class AimCell:
+class SharedHandTarget:
     """
-    Where a simulated hand should go: from a loop to who simulates the hand, in another thread
-    or in another process, which has it by the descriptor handed down. One writer, one reader.
+    Target of a simulated hand, from a loop to the simulation of the hand in another thread
+    or another process, which opens it by its descriptor. One writer, one reader.
     """
     @typing.overload
     def __init__(self) -> None: ...
@@ -551,12 +551,12 @@ class AimCell:
         ],
     ) -> None:
         """
-        The target from now on [m]; no number leaves an axis alone.
+        Set the target [m] per axis; NaN leaves an axis unchanged.
         """
     @property
     def descriptor(self) -> int:
         """
-        To be handed down.
+        File descriptor to pass to another process.
         """
 
 class Linear:
@@ -575,7 +575,7 @@ class Linear:
     @staticmethod
     def fields() -> list[Field]:
         """
-        Name, unit, meaning, default and range of every parameter.
+        Return name, unit, meaning, default and range of every parameter.
         """
     def __eq__(self, other: typing.Any) -> bool: ...
     def __hash__(self) -> int: ...
@@ -586,29 +586,29 @@ class Linear:
     def __repr__(self) -> str: ...
     def as_dict(self) -> dict[str, typing.Any]:
         """
-        Parameters by name.
+        Return the parameters by name.
         """
     def forward(
         self, q: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex]
     ) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
         """
-        Handle position [m] at joint angles q [rad], shape (axes,).
+        Return the handle position [m] at joint angles q [rad], shape (axes,).
         """
     def inverse(
         self, x: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex]
     ) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
         """
-        Joint angles [rad] at handle position x [m], shape (axes,).
+        Return the joint angles [rad] at handle position x [m], shape (axes,).
         """
     def jacobian(
         self, q: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex]
     ) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]:
         """
-        dx/dq [m/rad] at q [rad], shape (axes, axes).
+        Return the Jacobian dx/dq [m/rad] at q [rad], shape (axes, axes).
         """
     def replace(self, **changes: typing.Any) -> typing.Self:
         """
-        A copy with some parameters changed; checked as at construction.
+        Return a copy with some parameters changed, checked as at construction.
         """
     def transpose(
         self,
@@ -616,13 +616,13 @@ class Linear:
         f: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex],
     ) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
         """
-        Joint torques J^T f [N m] that show f [N] at the handle.
+        Return the joint torques J^T f [N m] of a handle force f [N].
         """
     def within_limits(
         self, q: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex]
     ) -> bool:
         """
-        Whether every joint is within its limit.
+        Return whether every joint is within its limit.
         """
     @property
     def axes(self) -> int:
@@ -656,7 +656,7 @@ class Gimbal:
     @staticmethod
     def fields() -> list[Field]:
         """
-        Name, unit, meaning, default and range of every parameter.
+        Return name, unit, meaning, default and range of every parameter.
         """
     def __eq__(self, other: typing.Any) -> bool: ...
     def __hash__(self) -> int: ...
@@ -665,35 +665,35 @@ class Gimbal:
     def __repr__(self) -> str: ...
     def as_dict(self) -> dict[str, typing.Any]:
         """
-        Parameters by name.
+        Return the parameters by name.
         """
     def forward(
         self, q: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex]
     ) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
         """
-        Handle position [m] at joint angles q [rad], shape (axes,).
+        Return the handle position [m] at joint angles q [rad], shape (axes,).
         """
     def height(
         self, q: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex]
     ) -> float:
         """
-        z of the handle [m] above the joints.
+        Return the height z of the handle above the joints [m].
         """
     def inverse(
         self, x: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex]
     ) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
         """
-        Joint angles [rad] at handle position x [m], shape (axes,).
+        Return the joint angles [rad] at handle position x [m], shape (axes,).
         """
     def jacobian(
         self, q: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex]
     ) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]:
         """
-        dx/dq [m/rad] at q [rad], shape (axes, axes).
+        Return the Jacobian dx/dq [m/rad] at q [rad], shape (axes, axes).
         """
     def replace(self, **changes: typing.Any) -> typing.Self:
         """
-        A copy with some parameters changed; checked as at construction.
+        Return a copy with some parameters changed, checked as at construction.
         """
     def transpose(
         self,
@@ -701,13 +701,13 @@ class Gimbal:
         f: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex],
     ) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
         """
-        Joint torques J^T f [N m] that show f [N] at the handle.
+        Return the joint torques J^T f [N m] of a handle force f [N].
         """
     def within_limits(
         self, q: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex]
     ) -> bool:
         """
-        Whether every joint is within its limit.
+        Return whether every joint is within its limit.
         """
     @property
     def axes(self) -> int:
@@ -745,7 +745,7 @@ class Motor:
     @staticmethod
     def fields() -> list[Field]:
         """
-        Name, unit, meaning, default and range of every parameter.
+        Return name, unit, meaning, default and range of every parameter.
         """
     def __eq__(self, other: typing.Any) -> bool: ...
     def __hash__(self) -> int: ...
@@ -762,19 +762,19 @@ class Motor:
     def __repr__(self) -> str: ...
     def as_dict(self) -> dict[str, typing.Any]:
         """
-        Parameters by name.
+        Return the parameters by name.
         """
     def current(self, torque: typing.SupportsFloat | typing.SupportsIndex) -> float:
         """
-        Current [A] for a torque [N m], eq. (1) in SI.
+        Return the current [A] for a torque [N m], eq. (1) in SI.
         """
     def replace(self, **changes: typing.Any) -> typing.Self:
         """
-        A copy with some parameters changed; checked as at construction.
+        Return a copy with some parameters changed, checked as at construction.
         """
     def torque(self, current: typing.SupportsFloat | typing.SupportsIndex) -> float:
         """
-        Torque [N m] of a current [A].
+        Return the torque [N m] of a current [A].
         """
     @property
     def rated_current(self) -> float:
@@ -818,7 +818,7 @@ class Drive:
     @staticmethod
     def fields() -> list[Field]:
         """
-        Name, unit, meaning, default and range of every parameter.
+        Return name, unit, meaning, default and range of every parameter.
         """
     def __eq__(self, other: typing.Any) -> bool: ...
     def __hash__(self) -> int: ...
@@ -829,15 +829,15 @@ class Drive:
     def __repr__(self) -> str: ...
     def as_dict(self) -> dict[str, typing.Any]:
         """
-        Parameters by name.
+        Return the parameters by name.
         """
     def peak_current(self, motor: Motor) -> float:
         """
-        Largest current it sets [A].
+        Return the largest current of the drive [A].
         """
     def replace(self, **changes: typing.Any) -> typing.Self:
         """
-        A copy with some parameters changed; checked as at construction.
+        Return a copy with some parameters changed, checked as at construction.
         """
     @property
     def current_lag(self) -> float:
@@ -869,7 +869,7 @@ class Encoder:
     @staticmethod
     def fields() -> list[Field]:
         """
-        Name, unit, meaning, default and range of every parameter.
+        Return name, unit, meaning, default and range of every parameter.
         """
     def __eq__(self, other: typing.Any) -> bool: ...
     def __hash__(self) -> int: ...
@@ -878,15 +878,15 @@ class Encoder:
     def __repr__(self) -> str: ...
     def as_dict(self) -> dict[str, typing.Any]:
         """
-        Parameters by name.
+        Return the parameters by name.
         """
     def read(self, angle: typing.SupportsFloat | typing.SupportsIndex) -> int:
         """
-        What the counter shows at a motor angle [rad].
+        Return the counter at a motor angle [rad].
         """
     def replace(self, **changes: typing.Any) -> typing.Self:
         """
-        A copy with some parameters changed; checked as at construction.
+        Return a copy with some parameters changed, checked as at construction.
         """
     def unwrap(
         self,
@@ -894,7 +894,7 @@ class Encoder:
         last: typing.SupportsInt | typing.SupportsIndex,
     ) -> int:
         """
-        The unwrapped count nearest to `last` that the counter shows as `raw`.
+        Return the count nearest to `last` whose wrapped value is `raw`.
         """
     @property
     def count(self) -> float:
@@ -926,7 +926,7 @@ class Capstan:
     @staticmethod
     def fields() -> list[Field]:
         """
-        Name, unit, meaning, default and range of every parameter.
+        Return name, unit, meaning, default and range of every parameter.
         """
     def __eq__(self, other: typing.Any) -> bool: ...
     def __hash__(self) -> int: ...
@@ -935,11 +935,11 @@ class Capstan:
     def __repr__(self) -> str: ...
     def as_dict(self) -> dict[str, typing.Any]:
         """
-        Parameters by name.
+        Return the parameters by name.
         """
     def replace(self, **changes: typing.Any) -> typing.Self:
         """
-        A copy with some parameters changed; checked as at construction.
+        Return a copy with some parameters changed, checked as at construction.
         """
     @property
     def drum_radius(self) -> float:
@@ -964,7 +964,7 @@ class BackwardDifference:
     @staticmethod
     def fields() -> list[Field]:
         """
-        Name, unit, meaning, default and range of every parameter.
+        Return name, unit, meaning, default and range of every parameter.
         """
     def __eq__(self, other: typing.Any) -> bool: ...
     def __hash__(self) -> int: ...
@@ -973,11 +973,11 @@ class BackwardDifference:
     def __repr__(self) -> str: ...
     def as_dict(self) -> dict[str, typing.Any]:
         """
-        Parameters by name.
+        Return the parameters by name.
         """
     def replace(self, **changes: typing.Any) -> typing.Self:
         """
-        A copy with some parameters changed; checked as at construction.
+        Return a copy with some parameters changed, checked as at construction.
         """
 
 class LowPass:
@@ -992,7 +992,7 @@ class LowPass:
     @staticmethod
     def fields() -> list[Field]:
         """
-        Name, unit, meaning, default and range of every parameter.
+        Return name, unit, meaning, default and range of every parameter.
         """
     def __eq__(self, other: typing.Any) -> bool: ...
     def __hash__(self) -> int: ...
@@ -1001,11 +1001,11 @@ class LowPass:
     def __repr__(self) -> str: ...
     def as_dict(self) -> dict[str, typing.Any]:
         """
-        Parameters by name.
+        Return the parameters by name.
         """
     def replace(self, **changes: typing.Any) -> typing.Self:
         """
-        A copy with some parameters changed; checked as at construction.
+        Return a copy with some parameters changed, checked as at construction.
         """
     @property
     def time_constant(self) -> float:
@@ -1027,7 +1027,7 @@ class AdaptiveWindow:
     @staticmethod
     def fields() -> list[Field]:
         """
-        Name, unit, meaning, default and range of every parameter.
+        Return name, unit, meaning, default and range of every parameter.
         """
     def __eq__(self, other: typing.Any) -> bool: ...
     def __hash__(self) -> int: ...
@@ -1036,11 +1036,11 @@ class AdaptiveWindow:
     def __repr__(self) -> str: ...
     def as_dict(self) -> dict[str, typing.Any]:
         """
-        Parameters by name.
+        Return the parameters by name.
         """
     def replace(self, **changes: typing.Any) -> typing.Self:
         """
-        A copy with some parameters changed; checked as at construction.
+        Return a copy with some parameters changed, checked as at construction.
         """
     @property
     def band(self) -> float:
@@ -1055,7 +1055,7 @@ class AdaptiveWindow:
 
 class Mechanics:
     """
-    What moves, told at the handle; every axis is built alike.
+    Moving parts, referred to the handle; every axis is built alike.
 
     Parameters
     ----------
@@ -1081,7 +1081,7 @@ class Mechanics:
     @staticmethod
     def fields() -> list[Field]:
         """
-        Name, unit, meaning, default and range of every parameter.
+        Return name, unit, meaning, default and range of every parameter.
         """
     def __eq__(self, other: typing.Any) -> bool: ...
     def __hash__(self) -> int: ...
@@ -1102,11 +1102,11 @@ class Mechanics:
     def __repr__(self) -> str: ...
     def as_dict(self) -> dict[str, typing.Any]:
         """
-        Parameters by name.
+        Return the parameters by name.
         """
     def replace(self, **changes: typing.Any) -> typing.Self:
         """
-        A copy with some parameters changed; checked as at construction.
+        Return a copy with some parameters changed, checked as at construction.
         """
     @property
     def backlash(self) -> float:
@@ -1172,7 +1172,7 @@ class ForceSensor:
     @staticmethod
     def fields() -> list[Field]:
         """
-        Name, unit, meaning, default and range of every parameter.
+        Return name, unit, meaning, default and range of every parameter.
         """
     def __eq__(self, other: typing.Any) -> bool: ...
     def __hash__(self) -> int: ...
@@ -1183,11 +1183,11 @@ class ForceSensor:
     def __repr__(self) -> str: ...
     def as_dict(self) -> dict[str, typing.Any]:
         """
-        Parameters by name.
+        Return the parameters by name.
         """
     def replace(self, **changes: typing.Any) -> typing.Self:
         """
-        A copy with some parameters changed; checked as at construction.
+        Return a copy with some parameters changed, checked as at construction.
         """
     @property
     def lag(self) -> float:
@@ -1212,7 +1212,7 @@ class ForceSensor:
 
 class Compensation:
     """
-    tau_static of eq. (2): gravity, friction and inertia given back to the hand.
+    Static compensation (tau_static of eq. (2)): gravity, friction and inertia.
 
     Parameters
     ----------
@@ -1230,7 +1230,7 @@ class Compensation:
     @staticmethod
     def fields() -> list[Field]:
         """
-        Name, unit, meaning, default and range of every parameter.
+        Return name, unit, meaning, default and range of every parameter.
         """
     def __eq__(self, other: typing.Any) -> bool: ...
     def __hash__(self) -> int: ...
@@ -1247,7 +1247,7 @@ class Compensation:
     def __repr__(self) -> str: ...
     def as_dict(self) -> dict[str, typing.Any]:
         """
-        Parameters by name.
+        Return the parameters by name.
         """
     def damping_left(
         self,
@@ -1263,11 +1263,11 @@ class Compensation:
         a: typing.SupportsFloat | typing.SupportsIndex,
     ) -> float:
         """
-        Force [N] that helps a motion of v [m/s] and a [m/s^2]; positive resists +x.
+        Return the force [N] that helps a motion of v [m/s] and a [m/s^2]; positive resists +x.
         """
     def replace(self, **changes: typing.Any) -> typing.Self:
         """
-        A copy with some parameters changed; checked as at construction.
+        Return a copy with some parameters changed, checked as at construction.
         """
     @property
     def friction(self) -> float:
@@ -1326,15 +1326,15 @@ class Device:
     def __repr__(self) -> str: ...
     def as_dict(self) -> dict[str, typing.Any]:
         """
-        Parts by name.
+        Return the parts by name.
         """
     def force(self, current: typing.SupportsFloat | typing.SupportsIndex) -> float:
         """
-        Handle force [N] of a current [A].
+        Return the handle force [N] of a current [A].
         """
     def replace(self, **changes: typing.Any) -> typing.Self:
         """
-        A copy with some parameters changed; checked as at construction.
+        Return a copy with some parameters changed, checked as at construction.
         """
     @property
     def axes(self) -> int:
@@ -1374,7 +1374,7 @@ class Device:
     @property
     def facts(self) -> DeviceFacts:
         """
-        What laws are designed from.
+        Facts from which laws are designed.
         """
     @property
     def kinematics(self) -> Linear | Gimbal:
@@ -1424,7 +1424,7 @@ class Device:
 
 class Step:
     """
-    Wants to be at `target` from time `at` on.
+    A step: moves to `target` at time `at`.
 
     Parameters
     ----------
@@ -1436,7 +1436,7 @@ class Step:
     @staticmethod
     def fields() -> list[Field]:
         """
-        Name, unit, meaning, default and range of every parameter.
+        Return name, unit, meaning, default and range of every parameter.
         """
     def __eq__(self, other: typing.Any) -> bool: ...
     def __hash__(self) -> int: ...
@@ -1445,11 +1445,11 @@ class Step:
     def __repr__(self) -> str: ...
     def as_dict(self) -> dict[str, typing.Any]:
         """
-        Parameters by name.
+        Return the parameters by name.
         """
     def replace(self, **changes: typing.Any) -> typing.Self:
         """
-        A copy with some parameters changed; checked as at construction.
+        Return a copy with some parameters changed, checked as at construction.
         """
     @property
     def at(self) -> float:
@@ -1464,7 +1464,7 @@ class Step:
 
 class MinimumJerk:
     """
-    Reaches `target` along the smoothest path (Flash and Hogan 1985).
+    A minimum-jerk motion to `target` (Flash and Hogan 1985).
 
     Parameters
     ----------
@@ -1478,7 +1478,7 @@ class MinimumJerk:
     @staticmethod
     def fields() -> list[Field]:
         """
-        Name, unit, meaning, default and range of every parameter.
+        Return name, unit, meaning, default and range of every parameter.
         """
     def __eq__(self, other: typing.Any) -> bool: ...
     def __hash__(self) -> int: ...
@@ -1487,11 +1487,11 @@ class MinimumJerk:
     def __repr__(self) -> str: ...
     def as_dict(self) -> dict[str, typing.Any]:
         """
-        Parameters by name.
+        Return the parameters by name.
         """
     def replace(self, **changes: typing.Any) -> typing.Self:
         """
-        A copy with some parameters changed; checked as at construction.
+        Return a copy with some parameters changed, checked as at construction.
         """
     @property
     def at(self) -> float:
@@ -1511,7 +1511,7 @@ class MinimumJerk:
 
 class Sine:
     """
-    Swings around a centre.
+    A sine around a centre.
 
     Parameters
     ----------
@@ -1527,7 +1527,7 @@ class Sine:
     @staticmethod
     def fields() -> list[Field]:
         """
-        Name, unit, meaning, default and range of every parameter.
+        Return name, unit, meaning, default and range of every parameter.
         """
     def __eq__(self, other: typing.Any) -> bool: ...
     def __hash__(self) -> int: ...
@@ -1543,11 +1543,11 @@ class Sine:
     def __repr__(self) -> str: ...
     def as_dict(self) -> dict[str, typing.Any]:
         """
-        Parameters by name.
+        Return the parameters by name.
         """
     def replace(self, **changes: typing.Any) -> typing.Self:
         """
-        A copy with some parameters changed; checked as at construction.
+        Return a copy with some parameters changed, checked as at construction.
         """
     @property
     def amplitude(self) -> float:
@@ -1586,7 +1586,7 @@ class Tapping:
     @staticmethod
     def fields() -> list[Field]:
         """
-        Name, unit, meaning, default and range of every parameter.
+        Return name, unit, meaning, default and range of every parameter.
         """
     def __eq__(self, other: typing.Any) -> bool: ...
     def __hash__(self) -> int: ...
@@ -1597,11 +1597,11 @@ class Tapping:
     def __repr__(self) -> str: ...
     def as_dict(self) -> dict[str, typing.Any]:
         """
-        Parameters by name.
+        Return the parameters by name.
         """
     def replace(self, **changes: typing.Any) -> typing.Self:
         """
-        A copy with some parameters changed; checked as at construction.
+        Return a copy with some parameters changed, checked as at construction.
         """
     @property
     def frequency(self) -> float:
@@ -1638,11 +1638,11 @@ class Recorded:
     def __repr__(self) -> str: ...
     def as_dict(self) -> dict[str, typing.Any]:
         """
-        Parameters by name.
+        Return the parameters by name.
         """
     def replace(self, **changes: typing.Any) -> typing.Self:
         """
-        A copy with some parameters changed; checked as at construction.
+        Return a copy with some parameters changed, checked as at construction.
         """
     @property
     def t(self) -> list[float]:
@@ -1659,7 +1659,8 @@ class Hand:
     """
     The operator of eq. (4), (5): mass, damper and spring pulled along an intended path.
 
-    `path` is one path, for the first axis, or one for each axis; the others stay at 0.
+    `path` is one path, for the first axis, or one for each axis; the others stay at 0. `target` [m] is
+    short for a `Step` to that place, or one for each axis; give one of the two.
 
     Parameters
     ----------
@@ -1679,7 +1680,7 @@ class Hand:
     @staticmethod
     def fields() -> list[Field]:
         """
-        Name, unit, meaning, default and range of every parameter.
+        Return name, unit, meaning, default and range of every parameter.
         """
     def __eq__(self, other: typing.Any) -> bool: ...
     def __hash__(self) -> int: ...
@@ -1698,12 +1699,13 @@ class Hand:
         | Tapping
         | Recorded
         | typing.Sequence[Step | MinimumJerk | Sine | Tapping | Recorded] = ...,
+        target: float | typing.Sequence[float] | None = None,
     ) -> None: ...
     def __reduce__(self) -> tuple[typing.Any, ...]: ...
     def __repr__(self) -> str: ...
     def as_dict(self) -> dict[str, typing.Any]:
         """
-        Parameters by name.
+        Return the parameters by name.
         """
     def pull(
         self,
@@ -1712,11 +1714,11 @@ class Hand:
         axis: typing.SupportsInt | typing.SupportsIndex = 0,
     ) -> typing.Any:
         """
-        How hard it pulls [N], |K0 (X0(t) - x)|, at times t [s] and positions x [m].
+        Return the pulling force |K0 (X0(t) - x)| [N] at times t [s] and positions x [m].
         """
     def replace(self, **changes: typing.Any) -> typing.Self:
         """
-        A copy with some parameters changed; checked as at construction.
+        Return a copy with some parameters changed, checked as at construction.
         """
     def target(
         self,
@@ -1724,7 +1726,7 @@ class Hand:
         axis: typing.SupportsInt | typing.SupportsIndex = 0,
     ) -> float:
         """
-        X0(t) [m], tremor included, at time t [s].
+        Return X0(t) [m], tremor included, at time t [s].
         """
     @property
     def damping(self) -> float:
@@ -1770,12 +1772,12 @@ class Hand:
 
 class Free:
     """
-    Nothing to touch.
+    Free space: no force.
     """
     @staticmethod
     def fields() -> list[Field]:
         """
-        Name, unit, meaning, default and range of every parameter.
+        Return name, unit, meaning, default and range of every parameter.
         """
     def __eq__(self, other: typing.Any) -> bool: ...
     def __hash__(self) -> int: ...
@@ -1784,7 +1786,7 @@ class Free:
     def __repr__(self) -> str: ...
     def as_dict(self) -> dict[str, typing.Any]:
         """
-        Parameters by name.
+        Return the parameters by name.
         """
     def force(
         self,
@@ -1792,16 +1794,16 @@ class Free:
         v: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex],
     ) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
         """
-        Force asked for [N] at x [m] and v [m/s], shape (axes,).
+        Return the force [N] at position x [m] and velocity v [m/s], shape (axes,).
         """
     def replace(self, **changes: typing.Any) -> typing.Self:
         """
-        A copy with some parameters changed; checked as at construction.
+        Return a copy with some parameters changed, checked as at construction.
         """
 
 class Wall:
     """
-    A flat wall, eq. (12), that never pulls.
+    A flat wall, eq. (12), which never pulls.
 
     Parameters
     ----------
@@ -1817,7 +1819,7 @@ class Wall:
     @staticmethod
     def fields() -> list[Field]:
         """
-        Name, unit, meaning, default and range of every parameter.
+        Return name, unit, meaning, default and range of every parameter.
         """
     def __eq__(self, other: typing.Any) -> bool: ...
     def __hash__(self) -> int: ...
@@ -1833,7 +1835,7 @@ class Wall:
     def __repr__(self) -> str: ...
     def as_dict(self) -> dict[str, typing.Any]:
         """
-        Parameters by name.
+        Return the parameters by name.
         """
     def force(
         self,
@@ -1841,11 +1843,11 @@ class Wall:
         v: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex],
     ) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
         """
-        Force asked for [N] at x [m] and v [m/s], shape (axes,).
+        Return the force [N] at position x [m] and velocity v [m/s], shape (axes,).
         """
     def replace(self, **changes: typing.Any) -> typing.Self:
         """
-        A copy with some parameters changed; checked as at construction.
+        Return a copy with some parameters changed, checked as at construction.
         """
     @property
     def angle(self) -> float:
@@ -1870,7 +1872,7 @@ class Wall:
 
 class Disc:
     """
-    A round pillar in the plane, met from outside.
+    A round pillar in the plane, touched from outside.
 
     Parameters
     ----------
@@ -1888,7 +1890,7 @@ class Disc:
     @staticmethod
     def fields() -> list[Field]:
         """
-        Name, unit, meaning, default and range of every parameter.
+        Return name, unit, meaning, default and range of every parameter.
         """
     def __eq__(self, other: typing.Any) -> bool: ...
     def __hash__(self) -> int: ...
@@ -1905,7 +1907,7 @@ class Disc:
     def __repr__(self) -> str: ...
     def as_dict(self) -> dict[str, typing.Any]:
         """
-        Parameters by name.
+        Return the parameters by name.
         """
     def force(
         self,
@@ -1913,11 +1915,11 @@ class Disc:
         v: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex],
     ) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
         """
-        Force asked for [N] at x [m] and v [m/s], shape (axes,).
+        Return the force [N] at position x [m] and velocity v [m/s], shape (axes,).
         """
     def replace(self, **changes: typing.Any) -> typing.Self:
         """
-        A copy with some parameters changed; checked as at construction.
+        Return a copy with some parameters changed, checked as at construction.
         """
     @property
     def damping(self) -> float:
@@ -1947,7 +1949,7 @@ class Disc:
 
 class Corner:
     """
-    Two walls that meet: each pushes along its own normal.
+    Two intersecting walls: each pushes along its own normal.
     """
     def __eq__(self, other: typing.Any) -> bool: ...
     def __hash__(self) -> int: ...
@@ -1956,7 +1958,7 @@ class Corner:
     def __repr__(self) -> str: ...
     def as_dict(self) -> dict[str, typing.Any]:
         """
-        Parameters by name.
+        Return the parameters by name.
         """
     def force(
         self,
@@ -1964,11 +1966,11 @@ class Corner:
         v: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex],
     ) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
         """
-        Force asked for [N] at x [m] and v [m/s], shape (axes,).
+        Return the force [N] at position x [m] and velocity v [m/s], shape (axes,).
         """
     def replace(self, **changes: typing.Any) -> typing.Self:
         """
-        A copy with some parameters changed; checked as at construction.
+        Return a copy with some parameters changed, checked as at construction.
         """
     @property
     def first(self) -> Wall:
@@ -1983,7 +1985,7 @@ class Corner:
 
 class Column:
     """
-    Where a named quantity lies in a row.
+    Position of a named quantity in a row.
     """
     @property
     def kind(self) -> str:
@@ -1993,7 +1995,7 @@ class Column:
     @property
     def meaning(self) -> str:
         """
-        What it is.
+        Meaning.
         """
     @property
     def name(self) -> str:
@@ -2018,16 +2020,16 @@ class Column:
 
 class Rows:
     """
-    The rows of a run, as the loop wrote them.
+    The rows of a run, as written by the loop.
     """
     def __len__(self) -> int: ...
     def append(self, row: typing.Annotated[numpy.typing.ArrayLike, numpy.uint8]) -> None:
         """
-        Adds one row of `row_bytes` bytes.
+        Append one row of `row_bytes` bytes.
         """
     def bytes(self) -> numpy.typing.NDArray[numpy.uint8]:
         """
-        Every row in memory, read-only; a ring gives a copy, others none.
+        Return all rows in memory, read-only; a ring returns a copy, others a view.
         """
     def copy(
         self,
@@ -2035,13 +2037,13 @@ class Rows:
         stop: typing.SupportsInt | typing.SupportsIndex,
     ) -> tuple[int, numpy.typing.NDArray[numpy.uint8]]:
         """
-        A copy of the rows start to stop, less those a ring has written over: (number of the first row in it, rows).
+        Copy the rows start to stop, without rows overwritten by a ring; return (number of the first row, rows).
         """
     def empty_like(
         self, capacity: typing.SupportsInt | typing.SupportsIndex, ring: bool = False
     ) -> Rows:
         """
-        No rows yet, in the same layout.
+        Return an empty trace of the same layout.
         """
     def port(
         self,
@@ -2049,7 +2051,7 @@ class Rows:
         axis: typing.SupportsInt | typing.SupportsIndex = 0,
     ) -> Port:
         """
-        What the law saw in a tick.
+        Return the port as the law saw it in a tick.
         """
     @property
     def axes(self) -> int:
@@ -2059,7 +2061,7 @@ class Rows:
     @property
     def capacity(self) -> int:
         """
-        Rows there is room for.
+        Largest number of rows.
         """
     @property
     def columns(self) -> list[Column]:
@@ -2079,7 +2081,7 @@ class Rows:
     @property
     def ring(self) -> bool:
         """
-        Whether it keeps the last rows and never is full.
+        Whether this is a ring, which keeps the last rows and never fills up.
         """
     @property
     def row_bytes(self) -> int:
@@ -2089,7 +2091,7 @@ class Rows:
 
 class Setup:
     """
-    Everything of a simulated run but the law.
+    Setup of a simulated run, without the law.
     """
     def __init__(
         self,
@@ -2105,7 +2107,7 @@ class Setup:
 
 class AxisTruth:
     """
-    What only a simulation can know about an axis.
+    True state of an axis, known only in a simulation.
 
     Parameters
     ----------
@@ -2125,7 +2127,7 @@ class AxisTruth:
     @staticmethod
     def fields() -> list[Field]:
         """
-        Name, unit, meaning, default and range of every parameter.
+        Return name, unit, meaning, default and range of every parameter.
         """
     def __eq__(self, other: typing.Any) -> bool: ...
     def __hash__(self) -> int: ...
@@ -2143,11 +2145,11 @@ class AxisTruth:
     def __repr__(self) -> str: ...
     def as_dict(self) -> dict[str, typing.Any]:
         """
-        Parameters by name.
+        Return the parameters by name.
         """
     def replace(self, **changes: typing.Any) -> typing.Self:
         """
-        A copy with some parameters changed; checked as at construction.
+        Return a copy with some parameters changed, checked as at construction.
         """
     @property
     def energy(self) -> float:
@@ -2194,11 +2196,11 @@ class ExactPlant:
         share: typing.SupportsFloat | typing.SupportsIndex = 1.0,
     ) -> None:
         """
-        Moves by `share` of a tick from time t [s] on, under constant motor currents [A].
+        Advance by `share` of a tick from time t [s] on, under constant motor currents [A].
         """
     def truth(self, axis: typing.SupportsInt | typing.SupportsIndex = 0) -> AxisTruth:
         """
-        The state of one axis.
+        Return the state of one axis.
         """
 
 class SteppedPlant:
@@ -2215,16 +2217,16 @@ class SteppedPlant:
         share: typing.SupportsFloat | typing.SupportsIndex = 1.0,
     ) -> None:
         """
-        Moves by `share` of a tick from time t [s] on, under constant motor currents [A].
+        Advance by `share` of a tick from time t [s] on, under constant motor currents [A].
         """
     def truth(self, axis: typing.SupportsInt | typing.SupportsIndex = 0) -> AxisTruth:
         """
-        The state of one axis.
+        Return the state of one axis.
         """
 
 class ReplayLog:
     """
-    A recorded log as hardware.
+    A recorded log as a device.
     """
     def __init__(
         self,
@@ -2270,7 +2272,7 @@ class LinkState(enum.IntEnum):
 
 class FtScale:
     """
-    What the counts of a force/torque sensor are worth.
+    Units and range of the counts of a force/torque sensor.
 
     Parameters
     ----------
@@ -2286,7 +2288,7 @@ class FtScale:
     @staticmethod
     def fields() -> list[Field]:
         """
-        Name, unit, meaning, default and range of every parameter.
+        Return name, unit, meaning, default and range of every parameter.
         """
     def __eq__(self, other: typing.Any) -> bool: ...
     def __hash__(self) -> int: ...
@@ -2302,11 +2304,11 @@ class FtScale:
     def __repr__(self) -> str: ...
     def as_dict(self) -> dict[str, typing.Any]:
         """
-        Parameters by name.
+        Return the parameters by name.
         """
     def replace(self, **changes: typing.Any) -> typing.Self:
         """
-        A copy with some parameters changed; checked as at construction.
+        Return a copy with some parameters changed, checked as at construction.
         """
     @property
     def counts_per_force(self) -> float:
@@ -2331,7 +2333,7 @@ class FtScale:
 
 class RdtSetup:
     """
-    Where a force sensor is, and how it sits.
+    Address and mounting of a force sensor.
     """
     def __init__(
         self,
@@ -2358,42 +2360,42 @@ class RdtClient:
     def __init__(self, setup: RdtSetup) -> None: ...
     def begin_bias(self, records: typing.SupportsInt | typing.SupportsIndex) -> None:
         """
-        Takes the mean of the next good records as zero.
+        Take the mean of the next `records` valid records as zero.
         """
     def bias_sensor(self) -> None:
         """
-        Has the sensor take what acts now as zero.
+        Make the sensor take the present load as zero.
         """
     def close(self) -> None:
         """
-        Ends it for good.
+        Close the connection.
         """
     def poll(self, timeout: typing.SupportsFloat | typing.SupportsIndex = 0.0) -> bool:
         """
-        Reads all that came; waits up to `timeout` [s] for a newer record: whether one came.
+        Read all records, waiting up to `timeout` [s] for a new one; return whether one arrived.
         """
     def start(self) -> None:
         """
-        Asks for a stream.
+        Request a stream.
         """
     def stop(self) -> None:
         """
-        Ends the stream.
+        End the stream.
         """
     @property
     def age(self) -> float:
         """
-        Time since the newest record came [s], as of the last poll.
+        Age of the newest record at the last poll [s].
         """
     @property
     def asked(self) -> int:
         """
-        Streams asked for.
+        Streams requested.
         """
     @property
     def bias(self) -> typing.Annotated[list[float], "FixedSize(6)"]:
         """
-        What is taken as zero: force, torque [counts].
+        Zero of the readings: force, torque [counts].
         """
     @property
     def biasing(self) -> bool:
@@ -2403,7 +2405,7 @@ class RdtClient:
     @property
     def duplicate(self) -> int:
         """
-        Records that came again.
+        Duplicate records.
         """
     @property
     def force(self) -> typing.Annotated[list[float], "FixedSize(3)"]:
@@ -2413,32 +2415,32 @@ class RdtClient:
     @property
     def foreign(self) -> int:
         """
-        Packets of somebody else.
+        Packets from other senders.
         """
     @property
     def ft_sequence(self) -> int:
         """
-        Number of the sensor's sample in it.
+        Sample number of the sensor in the newest record.
         """
     @property
     def health(self) -> SensorStatus:
         """
-        What the sensor says of itself.
+        Status reported by the sensor.
         """
     @property
     def late(self) -> int:
         """
-        Records that came after a newer one.
+        Records that arrived after a newer one.
         """
     @property
     def lost(self) -> int:
         """
-        Records that did not come.
+        Lost records.
         """
     @property
     def malformed(self) -> int:
         """
-        Packets of the sensor that are no record.
+        Packets of the sensor that are not valid records.
         """
     @property
     def rdt_sequence(self) -> int:
@@ -2453,12 +2455,12 @@ class RdtClient:
     @property
     def refused(self) -> int:
         """
-        Requests that did not leave this machine.
+        Requests that this machine could not send.
         """
     @property
     def state(self) -> LinkState:
         """
-        How the way to it stands.
+        State of the connection.
         """
     @property
     def status(self) -> int:
@@ -2468,12 +2470,12 @@ class RdtClient:
     @property
     def torque(self) -> typing.Annotated[list[float], "FixedSize(3)"]:
         """
-        Torque about the handle's axes [N m].
+        Torque about the axes of the handle [N m].
         """
 
 class EmulatorOptions:
     """
-    How an emulated force sensor is built.
+    Properties of an emulated force sensor.
 
     Parameters
     ----------
@@ -2497,7 +2499,7 @@ class EmulatorOptions:
     @staticmethod
     def fields() -> list[Field]:
         """
-        Name, unit, meaning, default and range of every parameter.
+        Return name, unit, meaning, default and range of every parameter.
         """
     def __eq__(self, other: typing.Any) -> bool: ...
     def __hash__(self) -> int: ...
@@ -2517,11 +2519,11 @@ class EmulatorOptions:
     def __repr__(self) -> str: ...
     def as_dict(self) -> dict[str, typing.Any]:
         """
-        Parameters by name.
+        Return the parameters by name.
         """
     def replace(self, **changes: typing.Any) -> typing.Self:
         """
-        A copy with some parameters changed; checked as at construction.
+        Return a copy with some parameters changed, checked as at construction.
         """
     @property
     def buffer(self) -> int:
@@ -2566,7 +2568,7 @@ class EmulatorOptions:
 
 class EmulatorTrouble:
     """
-    What goes wrong with an emulated force sensor.
+    Errors of an emulated force sensor.
 
     Parameters
     ----------
@@ -2584,7 +2586,7 @@ class EmulatorTrouble:
     @staticmethod
     def fields() -> list[Field]:
         """
-        Name, unit, meaning, default and range of every parameter.
+        Return name, unit, meaning, default and range of every parameter.
         """
     def __eq__(self, other: typing.Any) -> bool: ...
     def __hash__(self) -> int: ...
@@ -2601,11 +2603,11 @@ class EmulatorTrouble:
     def __repr__(self) -> str: ...
     def as_dict(self) -> dict[str, typing.Any]:
         """
-        Parameters by name.
+        Return the parameters by name.
         """
     def replace(self, **changes: typing.Any) -> typing.Self:
         """
-        A copy with some parameters changed; checked as at construction.
+        Return a copy with some parameters changed, checked as at construction.
         """
     @property
     def duplicate(self) -> float:
@@ -2635,12 +2637,12 @@ class EmulatorTrouble:
 
 class EmulatorCounts:
     """
-    What an emulated sensor did.
+    Counts of an emulated sensor.
     """
     @staticmethod
     def fields() -> list[Field]:
         """
-        Name, unit, meaning, default and range of every parameter.
+        Return name, unit, meaning, default and range of every parameter.
         """
     @property
     def doubled(self) -> int:
@@ -2673,9 +2675,9 @@ class EmulatorCounts:
         packets sent after the next one
         """
 
-class ForceCell:
+class SharedForce:
     """
-    The force at a handle: from whoever moves it to an emulated sensor. One writer, one reader.
+    The force at a handle, from a simulated hand to an emulated sensor. One writer, one reader.
     """
     def __init__(
         self,
@@ -2690,20 +2692,20 @@ class ForceCell:
         ],
     ) -> None:
         """
-        The force from now on [N].
+        Set the force [N].
         """
 
 class RdtEmulator:
     """
-    A force/torque sensor on the network that is none, in real time, in a thread of its own that
-    never waits for Python. `source` is a cell with the force, or device and hand of a setup.
+    An emulated force/torque sensor on the network, in real time, in a thread of its own that
+    never waits for Python. `source` is a shared force, or a setup with device and hand.
     """
     @typing.overload
     def __init__(
         self,
         host: str,
         port: typing.SupportsInt | typing.SupportsIndex,
-        source: ForceCell,
+        source: SharedForce,
         *,
         options: EmulatorOptions,
         rotation: typing.Annotated[
@@ -2730,30 +2732,30 @@ class RdtEmulator:
     ) -> None: ...
     def set(self, trouble: EmulatorTrouble) -> None:
         """
-        What goes wrong from now on.
+        Set the errors to emulate.
         """
     def start(self, mode: RealTimeMode = ..., realtime: RealTime = ...) -> None:
         """
-        Puts it on the network, once in a life.
+        Start the sensor on the network; possible once.
         """
     def stop(self) -> None:
         """
-        Takes it off for good.
+        Stop the sensor for good.
         """
     @property
     def address(self) -> tuple[str, int]:
         """
-        Host and port where it is.
+        Host and port.
         """
     @property
     def counts(self) -> EmulatorCounts:
         """
-        What it did so far.
+        Counts so far.
         """
     @property
     def grants(self) -> list[Grant]:
         """
-        What its thread asked of the system, and got; nothing before it is started.
+        Resources that its thread requested and was granted; empty before the start.
         """
 
 class DriveCondition(enum.IntFlag):
@@ -2774,7 +2776,7 @@ class DriveState(enum.IntEnum):
 
 class SimulatedDrive:
     """
-    A CANopen servo drive without a motor: takes frames, lets time pass, leaves frames.
+    A simulated CANopen servo drive without a motor: receives frames, advances time, answers.
     """
     def __init__(
         self,
@@ -2786,11 +2788,11 @@ class SimulatedDrive:
     ) -> None: ...
     def eds(self) -> str:
         """
-        Its electronic data sheet (CiA 306).
+        Electronic data sheet (CiA 306).
         """
     def elapse(self, seconds: typing.SupportsFloat | typing.SupportsIndex) -> None:
         """
-        Lets time pass [s].
+        Advance time by `seconds` [s].
         """
     def receive(
         self,
@@ -2800,19 +2802,19 @@ class SimulatedDrive:
         remote: bool = False,
     ) -> None:
         """
-        Takes one frame of the bus.
+        Receive one frame from the bus.
         """
     def set_condition(self, condition: DriveCondition, present: bool) -> None:
         """
-        Makes something wrong with it, or right again.
+        Inject a condition, or remove it.
         """
     def set_position(self, counts: typing.SupportsInt | typing.SupportsIndex) -> None:
         """
-        Turns the motor to where its encoder shows `counts`.
+        Set the encoder to `counts`.
         """
     def take(self) -> list[tuple[int, bytes]]:
         """
-        Every frame on its way out: (id, data).
+        Return all waiting answers as (id, data).
         """
     @property
     def current(self) -> float:
@@ -2840,9 +2842,9 @@ class Joystick:
         *,
         first: typing.SupportsInt | typing.SupportsIndex = 1,
         peak_time: typing.SupportsFloat | typing.SupportsIndex = 2.0,
-        felt: ForceCell | None = None,
+        force: SharedForce | None = None,
         wait_for_power: bool = False,
-        aim: AimCell | None = None,
+        aim: SharedHandTarget | None = None,
     ) -> None: ...
     def drive(self, axis: typing.SupportsInt | typing.SupportsIndex = 0) -> SimulatedDrive:
         """
@@ -2850,7 +2852,7 @@ class Joystick:
         """
     def elapse(self, seconds: typing.SupportsFloat | typing.SupportsIndex) -> None:
         """
-        Lets time pass [s].
+        Advance time by `seconds` [s].
         """
     def receive(
         self,
@@ -2860,15 +2862,15 @@ class Joystick:
         remote: bool = False,
     ) -> None:
         """
-        Takes one frame of the bus.
+        Receive one frame from the bus.
         """
     def take(self) -> list[tuple[int, bytes]]:
         """
-        Every frame on its way out: (id, data).
+        Return all waiting answers as (id, data).
         """
     def truth(self, axis: typing.SupportsInt | typing.SupportsIndex = 0) -> AxisTruth:
         """
-        What only the simulation knows of one axis.
+        Return the true state of one axis.
         """
     @property
     def axes(self) -> int:
@@ -2878,7 +2880,7 @@ class Joystick:
 
 class RunLimits:
     """
-    Beyond these a run of a sweep has diverged and ends.
+    Bounds beyond which a run of a sweep counts as diverged and ends.
 
     Parameters
     ----------
@@ -2890,7 +2892,7 @@ class RunLimits:
     @staticmethod
     def fields() -> list[Field]:
         """
-        Name, unit, meaning, default and range of every parameter.
+        Return name, unit, meaning, default and range of every parameter.
         """
     def __eq__(self, other: typing.Any) -> bool: ...
     def __hash__(self) -> int: ...
@@ -2899,11 +2901,11 @@ class RunLimits:
     def __repr__(self) -> str: ...
     def as_dict(self) -> dict[str, typing.Any]:
         """
-        Parameters by name.
+        Return the parameters by name.
         """
     def replace(self, **changes: typing.Any) -> typing.Self:
         """
-        A copy with some parameters changed; checked as at construction.
+        Return a copy with some parameters changed, checked as at construction.
         """
     @property
     def energy(self) -> float:
@@ -2918,12 +2920,12 @@ class RunLimits:
 
 class SweepProgress:
     """
-    How far a sweep in another thread has come.
+    Progress of a sweep in another thread.
     """
     def __init__(self) -> None: ...
     def cancel(self) -> None:
         """
-        Ends the sweep within some hundred ticks; what is done is kept.
+        Cancel the sweep within some hundred ticks; finished runs are kept.
         """
     @property
     def cancelled(self) -> bool:
@@ -2943,7 +2945,7 @@ class LinearLoop:
     @staticmethod
     def covers(device: Device) -> bool:
         """
-        Whether a device is linear deep in a wall, friction and counts apart.
+        Return whether a device is linear deep in a wall, apart from friction and encoder counts.
         """
     def __init__(self, setup: Setup) -> None: ...
     def eigenvalues(
@@ -2952,7 +2954,7 @@ class LinearLoop:
         damping: typing.SupportsFloat | typing.SupportsIndex,
     ) -> list[complex]:
         """
-        Eigenvalues from tick to tick; stiffness [N/m], damping [N s/m] of the wall.
+        Return the eigenvalues of one tick, for a wall of stiffness [N/m] and damping [N s/m].
         """
     def spectral_radius(
         self,
@@ -2960,16 +2962,16 @@ class LinearLoop:
         damping: typing.SupportsFloat | typing.SupportsIndex,
     ) -> float:
         """
-        Largest modulus of an eigenvalue; below one, everything decays.
+        Return the largest modulus of an eigenvalue; the loop is stable below 1.
         """
     def stiffness_limit(self, damping: typing.SupportsFloat | typing.SupportsIndex) -> float:
         """
-        Largest stiffness [N/m] up to which everything decays; 0 for none.
+        Return the largest stable stiffness [N/m]; 0 for none.
         """
 
 class ArmGains:
     """
-    How far each row corrects what eq. (4) foretold.
+    Kalman gains: correction of the prediction of eq. (4) by each row.
     """
     @property
     def log_sum(self) -> float:
@@ -2979,7 +2981,7 @@ class ArmGains:
 
 class ArmRecord:
     """
-    A log of one hand, and how well eq. (4) foretells it.
+    A log of one hand, and its prediction by eq. (4).
 
     theta: mass [kg], damping [N s/m], stiffness [N/m], delay [s], onset [s], bend [1], a share for each input, then the levels of the target [m].
     """
@@ -3006,13 +3008,13 @@ class ArmRecord:
         force_noise: typing.SupportsFloat | typing.SupportsIndex,
     ) -> ArmGains:
         """
-        Gains for a guess, when a force reading has the standard deviation `force_noise` [N].
+        Return the gains for theta and force readings of standard deviation `force_noise` [N].
         """
     def innovations(
         self, theta: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], gains: ArmGains
     ) -> numpy.typing.NDArray[numpy.float64]:
         """
-        Errors of one tick ahead, each over its standard deviation.
+        Return the one-step prediction errors, each divided by its standard deviation.
         """
     def jacobian(
         self,
@@ -3022,7 +3024,7 @@ class ArmRecord:
         steps: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex],
     ) -> numpy.typing.NDArray[numpy.float64]:
         """
-        d innovations / d theta[which], shape (which, rows).
+        Return d innovations / d theta[which], shape (which, rows).
         """
     def simulate(
         self,
@@ -3031,12 +3033,12 @@ class ArmRecord:
         v: typing.SupportsFloat | typing.SupportsIndex,
     ) -> numpy.typing.NDArray[numpy.float64]:
         """
-        Position [m] that the recorded force alone gives from a state [m, m/s] on.
+        Return the position [m] simulated from a state [m, m/s] with the recorded force alone.
         """
     @property
     def parameters(self) -> int:
         """
-        How long theta is.
+        Length of theta.
         """
 
 class Direct:
@@ -3050,17 +3052,17 @@ class Direct:
     """
     class State:
         """
-        What the law remembers and a trace records.
+        State of the law, recorded in a trace.
         """
         @staticmethod
         def fields() -> list[Field]:
             """
-            Name, unit, meaning, default and range of every parameter.
+            Return name, unit, meaning, default and range of every parameter.
             """
         def __repr__(self) -> str: ...
         def as_dict(self) -> dict[str, typing.Any]:
             """
-            Values by name.
+            Return the values by name.
             """
 
     name: typing.ClassVar[str] = "direct"
@@ -3077,12 +3079,12 @@ class Direct:
     @staticmethod
     def design(facts: DeviceFacts | Device, timing: Timing, **changes: typing.Any) -> Direct:
         """
-        The law for a device: every parameter from what a user can know of it, changes on top.
+        Design the law for a device from facts about it; `changes` override parameters.
         """
     @staticmethod
     def fields() -> list[Field]:
         """
-        Name, unit, meaning, default and range of every parameter.
+        Return name, unit, meaning, default and range of every parameter.
         """
     def __eq__(self, other: typing.Any) -> bool: ...
     def __hash__(self) -> int: ...
@@ -3103,23 +3105,23 @@ class Direct:
     ) -> float: ...
     def as_dict(self) -> dict[str, typing.Any]:
         """
-        Parameters by name; not the state.
+        Return the parameters by name, without the state.
         """
     def copy(self) -> Direct:
         """
-        An independent copy, state included.
+        Return an independent copy, state included.
         """
     def replace(self, **changes: typing.Any) -> typing.Self:
         """
-        A copy with some parameters changed; checked as at construction.
+        Return a copy with some parameters changed, checked as at construction.
         """
     def reset(self) -> None:
         """
-        Forgets everything but its parameters.
+        Reset the state; the parameters stay.
         """
     def step(self, port: Port) -> float:
         """
-        One tick of one axis: the force it commands [N].
+        Compute one tick of one axis; return the commanded force [N].
         """
     @property
     def peak_force(self) -> float:
@@ -3129,12 +3131,12 @@ class Direct:
     @property
     def state(self) -> Direct.State:
         """
-        What the law remembers, as of the last step.
+        State of the law after the last step.
         """
     @property
     def timing(self) -> Timing:
         """
-        Sample time and delay the law counts with.
+        Sample time and delay for which the law is designed.
         """
 
 class TCA:
@@ -3154,17 +3156,17 @@ class TCA:
     """
     class State:
         """
-        What the law remembers and a trace records.
+        State of the law, recorded in a trace.
         """
         @staticmethod
         def fields() -> list[Field]:
             """
-            Name, unit, meaning, default and range of every parameter.
+            Return name, unit, meaning, default and range of every parameter.
             """
         def __repr__(self) -> str: ...
         def as_dict(self) -> dict[str, typing.Any]:
             """
-            Values by name.
+            Return the values by name.
             """
         @property
         def feedback(self) -> float:
@@ -3195,12 +3197,12 @@ class TCA:
     @staticmethod
     def design(facts: DeviceFacts | Device, timing: Timing, **changes: typing.Any) -> TCA:
         """
-        The law for a device: every parameter from what a user can know of it, changes on top.
+        Design the law for a device from facts about it; `changes` override parameters.
         """
     @staticmethod
     def fields() -> list[Field]:
         """
-        Name, unit, meaning, default and range of every parameter.
+        Return name, unit, meaning, default and range of every parameter.
         """
     def __eq__(self, other: typing.Any) -> bool: ...
     def __hash__(self) -> int: ...
@@ -3229,23 +3231,23 @@ class TCA:
     ) -> float: ...
     def as_dict(self) -> dict[str, typing.Any]:
         """
-        Parameters by name; not the state.
+        Return the parameters by name, without the state.
         """
     def copy(self) -> TCA:
         """
-        An independent copy, state included.
+        Return an independent copy, state included.
         """
     def replace(self, **changes: typing.Any) -> typing.Self:
         """
-        A copy with some parameters changed; checked as at construction.
+        Return a copy with some parameters changed, checked as at construction.
         """
     def reset(self) -> None:
         """
-        Forgets everything but its parameters.
+        Reset the state; the parameters stay.
         """
     def step(self, port: Port) -> float:
         """
-        One tick of one axis: the force it commands [N].
+        Compute one tick of one axis; return the commanded force [N].
         """
     @property
     def filter(self) -> float:
@@ -3270,12 +3272,12 @@ class TCA:
     @property
     def state(self) -> TCA.State:
         """
-        What the law remembers, as of the last step.
+        State of the law after the last step.
         """
     @property
     def timing(self) -> Timing:
         """
-        Sample time and delay the law counts with.
+        Sample time and delay for which the law is designed.
         """
 
 class TCADamped:
@@ -3301,17 +3303,17 @@ class TCADamped:
     """
     class State:
         """
-        What the law remembers and a trace records.
+        State of the law, recorded in a trace.
         """
         @staticmethod
         def fields() -> list[Field]:
             """
-            Name, unit, meaning, default and range of every parameter.
+            Return name, unit, meaning, default and range of every parameter.
             """
         def __repr__(self) -> str: ...
         def as_dict(self) -> dict[str, typing.Any]:
             """
-            Values by name.
+            Return the values by name.
             """
         @property
         def feedback(self) -> float:
@@ -3347,12 +3349,12 @@ class TCADamped:
     @staticmethod
     def design(facts: DeviceFacts | Device, timing: Timing, **changes: typing.Any) -> TCADamped:
         """
-        The law for a device: every parameter from what a user can know of it, changes on top.
+        Design the law for a device from facts about it; `changes` override parameters.
         """
     @staticmethod
     def fields() -> list[Field]:
         """
-        Name, unit, meaning, default and range of every parameter.
+        Return name, unit, meaning, default and range of every parameter.
         """
     def __eq__(self, other: typing.Any) -> bool: ...
     def __hash__(self) -> int: ...
@@ -3384,23 +3386,23 @@ class TCADamped:
     ) -> float: ...
     def as_dict(self) -> dict[str, typing.Any]:
         """
-        Parameters by name; not the state.
+        Return the parameters by name, without the state.
         """
     def copy(self) -> TCADamped:
         """
-        An independent copy, state included.
+        Return an independent copy, state included.
         """
     def replace(self, **changes: typing.Any) -> typing.Self:
         """
-        A copy with some parameters changed; checked as at construction.
+        Return a copy with some parameters changed, checked as at construction.
         """
     def reset(self) -> None:
         """
-        Forgets everything but its parameters.
+        Reset the state; the parameters stay.
         """
     def step(self, port: Port) -> float:
         """
-        One tick of one axis: the force it commands [N].
+        Compute one tick of one axis; return the commanded force [N].
         """
     @property
     def count(self) -> float:
@@ -3440,12 +3442,12 @@ class TCADamped:
     @property
     def state(self) -> TCADamped.State:
         """
-        What the law remembers, as of the last step.
+        State of the law after the last step.
         """
     @property
     def timing(self) -> Timing:
         """
-        Sample time and delay the law counts with.
+        Sample time and delay for which the law is designed.
         """
 
 class PassivityControl:
@@ -3465,17 +3467,17 @@ class PassivityControl:
     """
     class State:
         """
-        What the law remembers and a trace records.
+        State of the law, recorded in a trace.
         """
         @staticmethod
         def fields() -> list[Field]:
             """
-            Name, unit, meaning, default and range of every parameter.
+            Return name, unit, meaning, default and range of every parameter.
             """
         def __repr__(self) -> str: ...
         def as_dict(self) -> dict[str, typing.Any]:
             """
-            Values by name.
+            Return the values by name.
             """
         @property
         def alpha(self) -> float:
@@ -3514,12 +3516,12 @@ class PassivityControl:
         facts: DeviceFacts | Device, timing: Timing, **changes: typing.Any
     ) -> PassivityControl:
         """
-        The law for a device: every parameter from what a user can know of it, changes on top.
+        Design the law for a device from facts about it; `changes` override parameters.
         """
     @staticmethod
     def fields() -> list[Field]:
         """
-        Name, unit, meaning, default and range of every parameter.
+        Return name, unit, meaning, default and range of every parameter.
         """
     def __eq__(self, other: typing.Any) -> bool: ...
     def __hash__(self) -> int: ...
@@ -3548,23 +3550,23 @@ class PassivityControl:
     ) -> float: ...
     def as_dict(self) -> dict[str, typing.Any]:
         """
-        Parameters by name; not the state.
+        Return the parameters by name, without the state.
         """
     def copy(self) -> PassivityControl:
         """
-        An independent copy, state included.
+        Return an independent copy, state included.
         """
     def replace(self, **changes: typing.Any) -> typing.Self:
         """
-        A copy with some parameters changed; checked as at construction.
+        Return a copy with some parameters changed, checked as at construction.
         """
     def reset(self) -> None:
         """
-        Forgets everything but its parameters.
+        Reset the state; the parameters stay.
         """
     def step(self, port: Port) -> float:
         """
-        One tick of one axis: the force it commands [N].
+        Compute one tick of one axis; return the commanded force [N].
         """
     @property
     def cap(self) -> float:
@@ -3589,12 +3591,12 @@ class PassivityControl:
     @property
     def state(self) -> PassivityControl.State:
         """
-        What the law remembers, as of the last step.
+        State of the law after the last step.
         """
     @property
     def timing(self) -> Timing:
         """
-        Sample time and delay the law counts with.
+        Sample time and delay for which the law is designed.
         """
 
 class VirtualCoupling:
@@ -3612,17 +3614,17 @@ class VirtualCoupling:
     """
     class State:
         """
-        What the law remembers and a trace records.
+        State of the law, recorded in a trace.
         """
         @staticmethod
         def fields() -> list[Field]:
             """
-            Name, unit, meaning, default and range of every parameter.
+            Return name, unit, meaning, default and range of every parameter.
             """
         def __repr__(self) -> str: ...
         def as_dict(self) -> dict[str, typing.Any]:
             """
-            Values by name.
+            Return the values by name.
             """
         @property
         def clamped(self) -> bool:
@@ -3651,12 +3653,12 @@ class VirtualCoupling:
         facts: DeviceFacts | Device, timing: Timing, **changes: typing.Any
     ) -> VirtualCoupling:
         """
-        The law for a device: every parameter from what a user can know of it, changes on top.
+        Design the law for a device from facts about it; `changes` override parameters.
         """
     @staticmethod
     def fields() -> list[Field]:
         """
-        Name, unit, meaning, default and range of every parameter.
+        Return name, unit, meaning, default and range of every parameter.
         """
     def __eq__(self, other: typing.Any) -> bool: ...
     def __hash__(self) -> int: ...
@@ -3684,23 +3686,23 @@ class VirtualCoupling:
     ) -> float: ...
     def as_dict(self) -> dict[str, typing.Any]:
         """
-        Parameters by name; not the state.
+        Return the parameters by name, without the state.
         """
     def copy(self) -> VirtualCoupling:
         """
-        An independent copy, state included.
+        Return an independent copy, state included.
         """
     def replace(self, **changes: typing.Any) -> typing.Self:
         """
-        A copy with some parameters changed; checked as at construction.
+        Return a copy with some parameters changed, checked as at construction.
         """
     def reset(self) -> None:
         """
-        Forgets everything but its parameters.
+        Reset the state; the parameters stay.
         """
     def step(self, port: Port) -> float:
         """
-        One tick of one axis: the force it commands [N].
+        Compute one tick of one axis; return the commanded force [N].
         """
     @property
     def coupling_damping(self) -> float:
@@ -3720,12 +3722,12 @@ class VirtualCoupling:
     @property
     def state(self) -> VirtualCoupling.State:
         """
-        What the law remembers, as of the last step.
+        State of the law after the last step.
         """
     @property
     def timing(self) -> Timing:
         """
-        Sample time and delay the law counts with.
+        Sample time and delay for which the law is designed.
         """
 
 class ForceBounding:
@@ -3745,17 +3747,17 @@ class ForceBounding:
     """
     class State:
         """
-        What the law remembers and a trace records.
+        State of the law, recorded in a trace.
         """
         @staticmethod
         def fields() -> list[Field]:
             """
-            Name, unit, meaning, default and range of every parameter.
+            Return name, unit, meaning, default and range of every parameter.
             """
         def __repr__(self) -> str: ...
         def as_dict(self) -> dict[str, typing.Any]:
             """
-            Values by name.
+            Return the values by name.
             """
         @property
         def account(self) -> float:
@@ -3782,12 +3784,12 @@ class ForceBounding:
     @staticmethod
     def design(facts: DeviceFacts | Device, timing: Timing, **changes: typing.Any) -> ForceBounding:
         """
-        The law for a device: every parameter from what a user can know of it, changes on top.
+        Design the law for a device from facts about it; `changes` override parameters.
         """
     @staticmethod
     def fields() -> list[Field]:
         """
-        Name, unit, meaning, default and range of every parameter.
+        Return name, unit, meaning, default and range of every parameter.
         """
     def __eq__(self, other: typing.Any) -> bool: ...
     def __hash__(self) -> int: ...
@@ -3816,23 +3818,23 @@ class ForceBounding:
     ) -> float: ...
     def as_dict(self) -> dict[str, typing.Any]:
         """
-        Parameters by name; not the state.
+        Return the parameters by name, without the state.
         """
     def copy(self) -> ForceBounding:
         """
-        An independent copy, state included.
+        Return an independent copy, state included.
         """
     def replace(self, **changes: typing.Any) -> typing.Self:
         """
-        A copy with some parameters changed; checked as at construction.
+        Return a copy with some parameters changed, checked as at construction.
         """
     def reset(self) -> None:
         """
-        Forgets everything but its parameters.
+        Reset the state; the parameters stay.
         """
     def step(self, port: Port) -> float:
         """
-        One tick of one axis: the force it commands [N].
+        Compute one tick of one axis; return the commanded force [N].
         """
     @property
     def count(self) -> float:
@@ -3857,12 +3859,12 @@ class ForceBounding:
     @property
     def state(self) -> ForceBounding.State:
         """
-        What the law remembers, as of the last step.
+        State of the law after the last step.
         """
     @property
     def timing(self) -> Timing:
         """
-        Sample time and delay the law counts with.
+        Sample time and delay for which the law is designed.
         """
 
 class EBA:
@@ -3884,17 +3886,17 @@ class EBA:
     """
     class State:
         """
-        What the law remembers and a trace records.
+        State of the law, recorded in a trace.
         """
         @staticmethod
         def fields() -> list[Field]:
             """
-            Name, unit, meaning, default and range of every parameter.
+            Return name, unit, meaning, default and range of every parameter.
             """
         def __repr__(self) -> str: ...
         def as_dict(self) -> dict[str, typing.Any]:
             """
-            Values by name.
+            Return the values by name.
             """
         @property
         def account(self) -> float:
@@ -3936,12 +3938,12 @@ class EBA:
     @staticmethod
     def design(facts: DeviceFacts | Device, timing: Timing, **changes: typing.Any) -> EBA:
         """
-        The law for a device: every parameter from what a user can know of it, changes on top.
+        Design the law for a device from facts about it; `changes` override parameters.
         """
     @staticmethod
     def fields() -> list[Field]:
         """
-        Name, unit, meaning, default and range of every parameter.
+        Return name, unit, meaning, default and range of every parameter.
         """
     def __eq__(self, other: typing.Any) -> bool: ...
     def __hash__(self) -> int: ...
@@ -3971,23 +3973,23 @@ class EBA:
     ) -> float: ...
     def as_dict(self) -> dict[str, typing.Any]:
         """
-        Parameters by name; not the state.
+        Return the parameters by name, without the state.
         """
     def copy(self) -> EBA:
         """
-        An independent copy, state included.
+        Return an independent copy, state included.
         """
     def replace(self, **changes: typing.Any) -> typing.Self:
         """
-        A copy with some parameters changed; checked as at construction.
+        Return a copy with some parameters changed, checked as at construction.
         """
     def reset(self) -> None:
         """
-        Forgets everything but its parameters.
+        Reset the state; the parameters stay.
         """
     def step(self, port: Port) -> float:
         """
-        One tick of one axis: the force it commands [N].
+        Compute one tick of one axis; return the commanded force [N].
         """
     @property
     def count(self) -> float:
@@ -4017,12 +4019,12 @@ class EBA:
     @property
     def state(self) -> EBA.State:
         """
-        What the law remembers, as of the last step.
+        State of the law after the last step.
         """
     @property
     def timing(self) -> Timing:
         """
-        Sample time and delay the law counts with.
+        Sample time and delay for which the law is designed.
         """
 
 class EBACPrinted:
@@ -4050,17 +4052,17 @@ class EBACPrinted:
     """
     class State:
         """
-        What the law remembers and a trace records.
+        State of the law, recorded in a trace.
         """
         @staticmethod
         def fields() -> list[Field]:
             """
-            Name, unit, meaning, default and range of every parameter.
+            Return name, unit, meaning, default and range of every parameter.
             """
         def __repr__(self) -> str: ...
         def as_dict(self) -> dict[str, typing.Any]:
             """
-            Values by name.
+            Return the values by name.
             """
         @property
         def beta(self) -> float:
@@ -4111,12 +4113,12 @@ class EBACPrinted:
     @staticmethod
     def design(facts: DeviceFacts | Device, timing: Timing, **changes: typing.Any) -> EBACPrinted:
         """
-        The law for a device: every parameter from what a user can know of it, changes on top.
+        Design the law for a device from facts about it; `changes` override parameters.
         """
     @staticmethod
     def fields() -> list[Field]:
         """
-        Name, unit, meaning, default and range of every parameter.
+        Return name, unit, meaning, default and range of every parameter.
         """
     def __eq__(self, other: typing.Any) -> bool: ...
     def __hash__(self) -> int: ...
@@ -4149,23 +4151,23 @@ class EBACPrinted:
     ) -> float: ...
     def as_dict(self) -> dict[str, typing.Any]:
         """
-        Parameters by name; not the state.
+        Return the parameters by name, without the state.
         """
     def copy(self) -> EBACPrinted:
         """
-        An independent copy, state included.
+        Return an independent copy, state included.
         """
     def replace(self, **changes: typing.Any) -> typing.Self:
         """
-        A copy with some parameters changed; checked as at construction.
+        Return a copy with some parameters changed, checked as at construction.
         """
     def reset(self) -> None:
         """
-        Forgets everything but its parameters.
+        Reset the state; the parameters stay.
         """
     def step(self, port: Port) -> float:
         """
-        One tick of one axis: the force it commands [N].
+        Compute one tick of one axis; return the commanded force [N].
         """
     @property
     def constant_limit(self) -> float:
@@ -4210,12 +4212,12 @@ class EBACPrinted:
     @property
     def state(self) -> EBACPrinted.State:
         """
-        What the law remembers, as of the last step.
+        State of the law after the last step.
         """
     @property
     def timing(self) -> Timing:
         """
-        Sample time and delay the law counts with.
+        Sample time and delay for which the law is designed.
         """
 
 class EBAC:
@@ -4261,17 +4263,17 @@ class EBAC:
     """
     class State:
         """
-        What the law remembers and a trace records.
+        State of the law, recorded in a trace.
         """
         @staticmethod
         def fields() -> list[Field]:
             """
-            Name, unit, meaning, default and range of every parameter.
+            Return name, unit, meaning, default and range of every parameter.
             """
         def __repr__(self) -> str: ...
         def as_dict(self) -> dict[str, typing.Any]:
             """
-            Values by name.
+            Return the values by name.
             """
         @property
         def admitted(self) -> float:
@@ -4342,12 +4344,12 @@ class EBAC:
     @staticmethod
     def design(facts: DeviceFacts | Device, timing: Timing, **changes: typing.Any) -> EBAC:
         """
-        The law for a device: every parameter from what a user can know of it, changes on top.
+        Design the law for a device from facts about it; `changes` override parameters.
         """
     @staticmethod
     def fields() -> list[Field]:
         """
-        Name, unit, meaning, default and range of every parameter.
+        Return name, unit, meaning, default and range of every parameter.
         """
     def __eq__(self, other: typing.Any) -> bool: ...
     def __hash__(self) -> int: ...
@@ -4389,23 +4391,23 @@ class EBAC:
     ) -> float: ...
     def as_dict(self) -> dict[str, typing.Any]:
         """
-        Parameters by name; not the state.
+        Return the parameters by name, without the state.
         """
     def copy(self) -> EBAC:
         """
-        An independent copy, state included.
+        Return an independent copy, state included.
         """
     def replace(self, **changes: typing.Any) -> typing.Self:
         """
-        A copy with some parameters changed; checked as at construction.
+        Return a copy with some parameters changed, checked as at construction.
         """
     def reset(self) -> None:
         """
-        Forgets everything but its parameters.
+        Reset the state; the parameters stay.
         """
     def step(self, port: Port) -> float:
         """
-        One tick of one axis: the force it commands [N].
+        Compute one tick of one axis; return the commanded force [N].
         """
     @property
     def continuity(self) -> bool:
@@ -4495,12 +4497,12 @@ class EBAC:
     @property
     def state(self) -> EBAC.State:
         """
-        What the law remembers, as of the last step.
+        State of the law after the last step.
         """
     @property
     def timing(self) -> Timing:
         """
-        Sample time and delay the law counts with.
+        Sample time and delay for which the law is designed.
         """
 
 class PlannedFrame:
@@ -4533,12 +4535,12 @@ class PlannedFrame:
     @property
     def what(self) -> str:
         """
-        Who sends what.
+        Sender and content.
         """
 
 class BusLoad:
     """
-    What frames sent in every period take of a bus, at the worst.
+    Worst-case load of a bus by frames sent in every period.
     """
     def __init__(
         self,
@@ -4549,7 +4551,7 @@ class BusLoad:
     ) -> None: ...
     def bits(self, frame: PlannedFrame) -> int:
         """
-        Bits a kind of frame takes in every period, stuff bits included.
+        Return the bits of one kind of frame per period, stuff bits included.
         """
     def check(self) -> str:
         """
@@ -4562,12 +4564,12 @@ class BusLoad:
         """
     def frame_share(self, frame: PlannedFrame) -> float:
         """
-        Share of the bus one kind takes.
+        Return the share of the bus used by one kind of frame, 0 to 1.
         """
     @property
     def bit_rate(self) -> float:
         """
-        Of the bus [bit/s].
+        Bit rate of the bus [bit/s].
         """
     @property
     def frames(self) -> list[PlannedFrame]:
@@ -4577,22 +4579,22 @@ class BusLoad:
     @property
     def highest_rate(self) -> float:
         """
-        Rate [Hz] at which the same frames would still fit.
+        Highest rate at which the same frames fit on the bus [Hz].
         """
     @property
     def period(self) -> float:
         """
-        Between two SYNC [s].
+        Time between two SYNC frames [s].
         """
     @property
     def seconds(self) -> float:
         """
-        Time all take of every period [s].
+        Time used by all frames in every period [s].
         """
     @property
     def share(self) -> float:
         """
-        Share of the bus all take.
+        Share of the bus used by all frames, 0 to 1.
         """
 
 class CanFrame:
@@ -4610,7 +4612,7 @@ class CanFrame:
         size: typing.SupportsInt | typing.SupportsIndex | None = None,
     ) -> None:
         """
-        A frame; `size` is needed where it asks for data.
+        A frame; a remote frame needs `size`.
         """
     def __repr__(self) -> str: ...
     @property
@@ -4621,7 +4623,7 @@ class CanFrame:
     @property
     def error(self) -> bool:
         """
-        Whether the controller tells an error.
+        Whether this is an error frame of the CAN controller.
         """
     @property
     def extended(self) -> bool:
@@ -4636,22 +4638,22 @@ class CanFrame:
     @property
     def own(self) -> bool:
         """
-        Whether the end that received it had sent it.
+        Whether the receiving end sent this frame itself.
         """
     @property
     def remote(self) -> bool:
         """
-        Whether it asks for data.
+        Whether this is a remote frame, which requests data.
         """
     @property
     def size(self) -> int:
         """
-        Bytes of data, or asked for, 0 to 8.
+        Length of the data [bytes], or of the requested data, 0 to 8.
         """
     @property
     def stamp(self) -> int:
         """
-        When it was received [ns since 1970]; 0 when unknown.
+        Time of reception [ns since 1970]; 0 if unknown.
         """
 
 class BusState(enum.IntEnum):
@@ -4664,12 +4666,12 @@ class BusState(enum.IntEnum):
 
 class BusCounts:
     """
-    What went over one end of a bus since it was opened.
+    Frame counts of one end of a bus since it was opened.
     """
     @property
     def lost(self) -> int:
         """
-        Frames that found the receive queue full.
+        Frames lost because the receive queue was full.
         """
     @property
     def received(self) -> int:
@@ -4679,7 +4681,7 @@ class BusCounts:
     @property
     def refused(self) -> int:
         """
-        Frames that `send` did not take.
+        Frames refused by `send`.
         """
     @property
     def sent(self) -> int:
@@ -4693,27 +4695,27 @@ class LoopbackBus:
     """
     def close(self) -> None:
         """
-        Leaves the bus; who waits in `receive` returns.
+        Leave the bus; a thread waiting in `receive` returns.
         """
     def receive(
         self, timeout: typing.SupportsFloat | typing.SupportsIndex | None = 0.0
     ) -> CanFrame | None:
         """
-        Waits up to `timeout` [s], None for no end. None when nothing came or it was closed.
+        Return a frame, waiting up to `timeout` [s], None for ever; None without one or if closed.
         """
     def send(self, frame: CanFrame) -> bool:
         """
-        Sends; false when the bus did not take the frame.
+        Send a frame; return False if the bus refuses it.
         """
     @property
     def counts(self) -> BusCounts:
         """
-        What went over this end so far.
+        Frame counts of this end.
         """
     @property
     def state(self) -> BusState:
         """
-        How the bus stands.
+        State of the bus.
         """
 
 class LoopbackHub:
@@ -4725,12 +4727,12 @@ class LoopbackHub:
         self, *, frames: typing.SupportsInt | typing.SupportsIndex = 1024, own: bool = False
     ) -> LoopbackBus:
         """
-        A new end; `frames` wait to be received, what exceeds them is lost and counted.
+        Open a new end with a receive queue of `frames`; frames beyond it are lost and counted.
         """
     @property
     def ends(self) -> int:
         """
-        How many ends are open.
+        Number of open ends.
         """
 
 class SocketCan:
@@ -4752,36 +4754,36 @@ class SocketCan:
         errors: bool = False,
     ) -> None:
         """
-        Opens it; `filters` are (id, mask, extended). OSError tells what to do.
+        Open an interface; `filters` are (id, mask, extended). An OSError contains the remedy.
         """
     def close(self) -> None:
         """
-        Leaves the bus; who waits in `receive` returns.
+        Leave the bus; a thread waiting in `receive` returns.
         """
     def receive(
         self, timeout: typing.SupportsFloat | typing.SupportsIndex | None = 0.0
     ) -> CanFrame | None:
         """
-        Waits up to `timeout` [s], None for no end. None when nothing came or it was closed.
+        Return a frame, waiting up to `timeout` [s], None for ever; None without one or if closed.
         """
     def send(self, frame: CanFrame) -> bool:
         """
-        Sends; false when the bus did not take the frame.
+        Send a frame; return False if the bus refuses it.
         """
     @property
     def counts(self) -> BusCounts:
         """
-        What went over this end so far.
+        Frame counts of this end.
         """
     @property
     def state(self) -> BusState:
         """
-        How the bus stands.
+        State of the bus.
         """
 
 class LoopbackJoystick:
     """
-    A joystick of simulated drives on a bus inside this process, in real time, in a thread of
+    Simulated drives of a joystick on a bus inside this process, in real time, in a thread of
     its own that never waits for Python. A context manager.
     """
     def __enter__(self) -> typing.Any: ...
@@ -4795,37 +4797,37 @@ class LoopbackJoystick:
         *,
         first: typing.SupportsInt | typing.SupportsIndex = 1,
         peak_time: typing.SupportsFloat | typing.SupportsIndex = 2.0,
-        felt: ForceCell | None = None,
+        force: SharedForce | None = None,
         wait_for_power: bool = False,
-        aim: AimCell | None = None,
+        aim: SharedHandTarget | None = None,
     ) -> None: ...
     def start(self, mode: RealTimeMode = ..., realtime: RealTime = ...) -> typing.Any:
         """
-        Puts them on the bus, once in a life.
+        Start the drives on the bus; possible once.
         """
     def stop(self) -> None:
         """
-        Takes them off for good.
+        Take the drives off the bus for good.
         """
     @property
     def counts(self) -> BusCounts:
         """
-        What went over their end of the bus.
+        Frame counts of their end of the bus.
         """
     @property
     def grants(self) -> list[Grant]:
         """
-        What its thread asked of the system, and got; nothing before it is started.
+        Resources that its thread requested and was granted; empty before the start.
         """
     @property
     def state(self) -> BusState:
         """
-        How the bus stands.
+        State of the bus.
         """
 
 class SocketCanJoystick:
     """
-    A joystick of simulated drives on a CAN interface of the Linux kernel, in real time, in a
+    Simulated drives of a joystick on a CAN interface of the Linux kernel, in real time, in a
     thread of its own that never waits for Python. A context manager.
     """
     def __enter__(self) -> typing.Any: ...
@@ -4839,37 +4841,37 @@ class SocketCanJoystick:
         *,
         first: typing.SupportsInt | typing.SupportsIndex = 1,
         peak_time: typing.SupportsFloat | typing.SupportsIndex = 2.0,
-        felt: ForceCell | None = None,
+        force: SharedForce | None = None,
         wait_for_power: bool = False,
-        aim: AimCell | None = None,
+        aim: SharedHandTarget | None = None,
     ) -> None: ...
     def start(self, mode: RealTimeMode = ..., realtime: RealTime = ...) -> typing.Any:
         """
-        Puts them on the bus, once in a life.
+        Start the drives on the bus; possible once.
         """
     def stop(self) -> None:
         """
-        Takes them off for good.
+        Take the drives off the bus for good.
         """
     @property
     def counts(self) -> BusCounts:
         """
-        What went over their end of the bus.
+        Frame counts of their end of the bus.
         """
     @property
     def grants(self) -> list[Grant]:
         """
-        What its thread asked of the system, and got; nothing before it is started.
+        Resources that its thread requested and was granted; empty before the start.
         """
     @property
     def state(self) -> BusState:
         """
-        How the bus stands.
+        State of the bus.
         """
 
 class Limits:
     """
-    What a loop allows on every axis.
+    Safety limits of a loop on every axis.
 
     Parameters
     ----------
@@ -4903,12 +4905,12 @@ class Limits:
     @staticmethod
     def fields() -> list[Field]:
         """
-        Name, unit, meaning, default and range of every parameter.
+        Return name, unit, meaning, default and range of every parameter.
         """
     @staticmethod
     def of(device: Device) -> Limits:
         """
-        What the motor, the drive and the lever of a device can take.
+        Return the limits of the motor, the drive and the lever of a device.
         """
     def __eq__(self, other: typing.Any) -> bool: ...
     def __hash__(self) -> int: ...
@@ -4933,11 +4935,11 @@ class Limits:
     def __repr__(self) -> str: ...
     def as_dict(self) -> dict[str, typing.Any]:
         """
-        Parameters by name.
+        Return the parameters by name.
         """
     def replace(self, **changes: typing.Any) -> typing.Self:
         """
-        A copy with some parameters changed; checked as at construction.
+        Return a copy with some parameters changed, checked as at construction.
         """
     @property
     def continuous_current(self) -> float:
@@ -5007,7 +5009,7 @@ class Limits:
 
 class RunPlan:
     """
-    How a run begins and ends.
+    Start and end of a run.
 
     Parameters
     ----------
@@ -5025,7 +5027,7 @@ class RunPlan:
     @staticmethod
     def fields() -> list[Field]:
         """
-        Name, unit, meaning, default and range of every parameter.
+        Return name, unit, meaning, default and range of every parameter.
         """
     def __eq__(self, other: typing.Any) -> bool: ...
     def __hash__(self) -> int: ...
@@ -5042,11 +5044,11 @@ class RunPlan:
     def __repr__(self) -> str: ...
     def as_dict(self) -> dict[str, typing.Any]:
         """
-        Parameters by name.
+        Return the parameters by name.
         """
     def replace(self, **changes: typing.Any) -> typing.Self:
         """
-        A copy with some parameters changed; checked as at construction.
+        Return a copy with some parameters changed, checked as at construction.
         """
     @property
     def arm(self) -> bool:
@@ -5076,7 +5078,7 @@ class RunPlan:
 
 class RunSetup:
     """
-    All that a run is but its bus and its law.
+    Setup of a run on hardware, without its bus and its law.
     """
     def __init__(
         self,
@@ -5094,7 +5096,7 @@ class RunSetup:
         mode: RealTimeMode,
         realtime: RealTime,
         drives: dict[str, typing.Any],
-        aim: AimCell | None = None,
+        aim: SharedHandTarget | None = None,
     ) -> None:
         """
         `drives` are the fields of CanopenSetup by name.
@@ -5102,7 +5104,7 @@ class RunSetup:
 
 class Running:
     """
-    A loop at work in a thread that never touches Python.
+    A loop running in a thread that never touches Python.
     """
     def aim(
         self,
@@ -5111,78 +5113,78 @@ class Running:
         ],
     ) -> int:
         """
-        Where a simulated hand should go [m]; no number leaves an axis alone.
+        Set the target of a simulated hand [m]; NaN leaves an axis unchanged.
         """
     def change_world(self, environment: Free | Wall | Corner | Disc) -> int:
         """
-        Another virtual world from the next tick on.
+        Apply another environment from the next tick on; return the serial number of the update.
         """
     def changes(
         self, start: typing.SupportsInt | typing.SupportsIndex = 0
     ) -> list[tuple[int, int, str]]:
         """
-        What the loop took: (tick, serial number, what).
+        Return the applied updates: (tick, serial number, parameter).
         """
     def join(self) -> None:
         """
-        Waits for its end.
+        Wait until the loop has ended.
         """
     def retune(self, law: typing.Any) -> int:
         """
-        The gains of this law from the next tick on; returns a serial number.
+        Apply the gains of `law` from the next tick on; return the serial number of the update.
         """
     def stop(self) -> None:
         """
-        Asks for a stop.
+        Request a stop.
         """
     def wait(self, seconds: typing.SupportsFloat | typing.SupportsIndex) -> bool:
         """
-        Whether it ended within so long [s].
+        Wait up to `seconds` [s]; return whether the loop has ended.
         """
     @property
     def at_rest(self) -> bool:
         """
-        Whether every drive said in the last tick that its power is off. Once it ended.
+        Whether every drive reported power off in the last tick. Only after the loop has ended.
         """
     @property
     def bus(self) -> BusCounts:
         """
-        What went over its end of the bus.
+        Frame counts of its end of the bus.
         """
     @property
     def changes_lost(self) -> int:
         """
-        Changes that acted, but of which no note was kept.
+        Updates that were applied but not recorded.
         """
     @property
     def done(self) -> bool:
         """
-        Whether it ended.
+        Whether the loop has ended.
         """
     @property
     def grants(self) -> list[Grant]:
         """
-        What its thread asked of the system, and got.
+        Resources that its thread requested and was granted.
         """
     @property
     def rows(self) -> Rows:
         """
-        Its rows; they grow while it runs.
+        Rows of the trace; they grow while the loop runs.
         """
     @property
     def state(self) -> LoopState:
         """
-        Where it ended: idle, or fault.
+        Final state: idle or fault.
         """
     @property
     def unrecorded(self) -> int:
         """
-        Ticks that found the trace full.
+        Ticks not recorded because the trace was full.
         """
 
 def _ask_realtime(options: RealTime) -> list[Grant]:
     """
-    What a thread of this process would be granted.
+    Return the grants for a thread of this process.
     """
 
 def _check_limits(limits: Limits) -> None: ...
@@ -5196,7 +5198,7 @@ def _check_sensor(
     sign: typing.SupportsInt | typing.SupportsIndex,
 ) -> None:
     """
-    Throws where one of them cannot be.
+    Raise ValueError if a value is out of range.
     """
 
 def _decode_record(
@@ -5209,7 +5211,7 @@ def _decode_record(
     typing.Annotated[list[int], "FixedSize(3)"],
 ]:
     """
-    rdt_sequence, ft_sequence, status, force, torque of 36 bytes.
+    Return rdt_sequence, ft_sequence, status, force and torque of 36 bytes.
     """
 
 def _drive_transitions() -> list[list[DriveState]]:
@@ -5229,7 +5231,7 @@ def _encode_record(
     ],
 ) -> bytes:
     """
-    The 36 bytes of a record.
+    Return the 36 bytes of a record.
     """
 
 def _encode_request(
@@ -5237,7 +5239,7 @@ def _encode_request(
     samples: typing.SupportsInt | typing.SupportsIndex = 0,
 ) -> bytes:
     """
-    The 8 bytes of a request.
+    Return the 8 bytes of a request.
     """
 
 def _fault_campaign(
@@ -5247,7 +5249,7 @@ def _fault_campaign(
     progress: SweepProgress,
 ) -> tuple[dict[str, typing.Any], list[str]]:
     """
-    A column per property of the cases, and the names of the verdicts.
+    Run a fault campaign; return a column per property of the cases, and the names of verdicts.
     """
 
 def _fault_case(
@@ -5255,7 +5257,7 @@ def _fault_case(
     index: typing.SupportsInt | typing.SupportsIndex,
 ) -> tuple[Rows, int, int, int]:
     """
-    Rows, first tick, ticks and axis of one case.
+    Run one case; return its rows, and first tick, ticks and axis of the fault.
     """
 
 def _fault_kinds() -> list[tuple[str, str]]:
@@ -5285,7 +5287,7 @@ def _measure_jitter(
     options: RealTime,
 ) -> tuple[numpy.typing.NDArray[numpy.float64], int, list[Grant]]:
     """
-    Lateness of every wake-up [s], ticks skipped, what was granted.
+    Measure the lateness of every wake-up [s]; return it with skipped ticks and grants.
     """
 
 def _rebuild(arg0: typing.Any, arg1: dict[str, typing.Any]) -> typing.Any: ...
@@ -5317,7 +5319,7 @@ def _with_loop(
     setup: Setup, *, soft_start: typing.SupportsFloat | typing.SupportsIndex, limits: Limits | None
 ) -> Setup:
     """
-    The same run, with a soft start [s] and limits.
+    Return the same setup with a soft start [s] and safety limits.
     """
 
 def copley_current(

@@ -22,6 +22,21 @@ from ebac._core import (
     Wall,
 )
 
+__all__ = [
+    "LAWS",
+    "AnyLaw",
+    "CoreLaw",
+    "PythonLaw",
+    "Variant",
+    "changed",
+    "design",
+    "law_name",
+]
+
+
+def __dir__() -> list[str]:
+    return __all__
+
 
 @runtime_checkable
 class CoreLaw(Protocol):
@@ -102,7 +117,7 @@ class Variant:
     def name(self) -> str:
         """The law's name and its changes: "ebac, guard = off"."""
         return ", ".join(
-            [law_name(self.law), *(f"{n} = {told(v)}" for n, v in self.changes.items())]
+            [law_name(self.law), *(f"{n} = {shown_value(v)}" for n, v in self.changes.items())]
         )
 
 
@@ -191,6 +206,6 @@ def law_name(law: Any) -> str:
     return law if isinstance(law, str) else str(getattr(law, "name", type(law).__name__))
 
 
-def told(value: Any) -> str:
+def shown_value(value: Any) -> str:
     """Return a parameter's value as people read it: on, off or a number."""
     return ("on" if value else "off") if isinstance(value, bool) else f"{value:g}"

@@ -1,4 +1,4 @@
-"""What a contact with a wall comes to, from a trace alone."""
+"""Measure a contact with a wall, from a trace alone."""
 
 from __future__ import annotations
 
@@ -10,8 +10,26 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ebac._core import Linear, MinimumJerk, Step, Wall, _measure_contact, _stored_energy
+from ebac._util import formatting
+from ebac._util.arguments import require
 from ebac.scenario import Scenario
 from ebac.trace import Trace
+
+__all__ = [
+    "EXACT_COUNTS",
+    "FEWEST_ROWS",
+    "QUIET_SWING",
+    "TAIL_SHARE",
+    "Contact",
+    "allowed_deviation",
+    "contact",
+    "ideal_rest",
+]
+
+
+def __dir__() -> list[str]:
+    return __all__
+
 
 #: The end of a run over which rest and swing are taken.
 TAIL_SHARE = 0.3
@@ -36,10 +54,25 @@ COLUMNS = {
     "most_pull_N": "most_pull",
 }
 #: Numbers of a contact that are no keys of `ebac wall --json`.
-MORE = ("count_m", "allowed_m", "most_drawn_J", "force_step_N", "most_pull_N")
+MORE = ("count_m", "allowed_m", "most_drawn_J", "force_step_N", "most_pull_N", "seconds", "touched")
+#: What a printed contact shows: label, attribute, unit, what to print where there is none.
+LINES = (
+    ("rest", "rest_m", "m", "-"),
+    ("ideal rest", "ideal_m", "m", "-"),
+    ("deviation", "deviation_m", "m", "-"),
+    ("allowed deviation", "allowed_m", "m", "-"),
+    ("swing, peak to peak", "swing_m", "m", "-"),
+    ("force swing", "force_swing_N", "N", "-"),
+    ("settled", "settled_s", "s", "never"),
+    ("deepest", "peak_m", "m", "-"),
+    ("limit cycle", "limit_cycle_Hz", "Hz", "none"),
+    ("least port energy", "least_energy_J", "J", "-"),
+    ("most energy drawn", "most_drawn_J", "J", "-"),
+    ("force limited", "clamped_share", "share", "-"),
+)
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True, repr=False)
 class Contact:
     """A wall contact in numbers, SI units, the unit in the name; None where a thing does not exist.
 
@@ -74,6 +107,10 @@ class Contact:
         One encoder count.
     allowed_m : float or None
         How far from the ideal a rest still is `exact`, see `allowed_deviation`.
+    seconds : float or None
+        Length of the run [s].
+    touched : bool or None
+        Whether the virtual world ever acted; None where that is not known.
     """
 
     law: str
@@ -91,12 +128,37 @@ class Contact:
     force_step_N: float | None = None
     most_pull_N: float | None = None
     allowed_m: float | None = None
+    seconds: float | None = None
+    touched: bool | None = None
+
+    @property
+    def verdict(self) -> str:
+        """What the contact came to in words: "exact and quiet", "swings", "no contact", "too short to judge"."""
+        return formatting.verdict(self)
+
+    def __repr__(self) -> str:
+        """Return the verdict and the main numbers in one line."""
+        settled = formatting.quantity(self.settled_s, "s", none="never")
+        return (
+            f"<Contact of {self.law or 'a run'}: {self.verdict}; rest {formatting.quantity(self.rest_m, 'm')}, "
+            f"swing {formatting.quantity(self.swing_m, 'm')}, settled {settled}>"
+        )
+
+    def __str__(self) -> str:
+        """Return the verdict and every number with its unit, one a line."""
+        signed = {"deviation_m"}
+        lines = [f"Contact of {self.law or 'a run'}: {self.verdict}"]
+        for label, name, unit, none in LINES:
+            value = getattr(self, name)
+            shown = formatting.quantity(value, unit, signed=name in signed, none=none)
+            lines.append(f"  {label:<20}{shown}")
+        return "\n".join(lines)
 
     def _repr_html_(self) -> str:
         """Return a table for a notebook."""
         from dataclasses import asdict
 
-        from ebac.notebook import table
+        from ebac._util.notebook import table
 
         return table([asdict(self)])
 
@@ -143,11 +205,14 @@ def contact(trace: Trace, *, axis: int = 0, truth: bool = True) -> Contact:
     ------
     ValueError
         When the trace is too short or has no such axis.
+    TypeError
+        When it is no trace.
     """
+    require(trace, Trace, "ebac.contact", "a trace, as ebac.simulate or ebac.load returns it")
     if len(trace) < FEWEST_ROWS:
         raise ValueError(f"the trace has {len(trace)} rows: a contact needs at least {FEWEST_ROWS}")
-    true, told = (truth and name in trace for name in ("true.x", "true.energy"))
-    energy = _columns(trace, "true.energy").sum(axis=1) if told else None
+    true, with_energy = (truth and name in trace for name in ("true.x", "true.energy"))
+    energy = _columns(trace, "true.energy").sum(axis=1) if with_energy else None
     stored = None
     if trace.scenario is not None and true:
         stored = _stored_energy(trace.scenario.environment, _columns(trace, "true.x"))
@@ -175,6 +240,8 @@ def contact(trace: Trace, *, axis: int = 0, truth: bool = True) -> Contact:
         ideal_m=ideal_rest(scenario) if scenario and axis == 0 else None,
         count_m=scenario.device.count if scenario else None,
         allowed_m=allowed_deviation(scenario) if scenario else None,
+        seconds=float(trace["t"][-1] - trace["t"][0]),
+        touched=bool(trace.axis("f_env", axis).any()) if "f_env" in trace else None,
         **{column: known[name] for column, name in COLUMNS.items()},
     )
 
@@ -208,6 +275,7 @@ def ideal_rest(scenario: Scenario) -> float | None:
 
     None where there is no such point: no straight wall across the first axis, or a hand that never rests.
     """
+    require(scenario, Scenario, "ebac.ideal_rest", "a Scenario")
     wall, hand = scenario.environment, scenario.hand
     path = hand.path[0]
     if not isinstance(wall, Wall) or wall.angle != 0 or np.isfinite(hand.release_at):

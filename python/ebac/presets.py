@@ -7,6 +7,19 @@ from math import pi
 
 from ebac._core import Device, Gimbal, Hand, Mechanics, Step
 
+__all__ = [
+    "DEVICES",
+    "HANDS",
+    "DevicePreset",
+    "HandPreset",
+    "device",
+    "hand",
+]
+
+
+def __dir__() -> list[str]:
+    return __all__
+
 
 @dataclass(frozen=True, kw_only=True)
 class HandPreset:

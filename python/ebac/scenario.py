@@ -8,13 +8,40 @@ from math import cos
 from pathlib import Path
 from typing import Any, Self, TypeAlias
 
-from ebac import document
 from ebac._core import Corner, Device, Disc, Free, Hand, Setup, Step, Timing, Wall
-from ebac.toml_text import parsed
+from ebac._util import serialisation
+from ebac._util.arguments import keywords_only, refuse_unknown
+from ebac._util.toml import parsed
+
+__all__ = [
+    "Environment",
+    "Scenario",
+]
+
+
+def __dir__() -> list[str]:
+    return __all__
+
 
 Environment: TypeAlias = Free | Wall | Corner | Disc
 
+_PARTS = ("device", "hand", "environment", "timing", "seconds", "jitter", "seed")
 
+
+def _part_of(name: str) -> str:
+    """Return where a parameter belongs that people look for in a scenario."""
+    if name == "law":
+        return "a law is an argument of ebac.simulate"
+    owners = [("environment", kind) for kind in (Wall, Free, Corner, Disc)]
+    for part, kind in (("timing", Timing), ("hand", Hand), ("device", Device), *owners):
+        if name.lower() == kind.__name__.lower():
+            return f"give {part}=ebac.{kind.__name__}(...)"
+        if name in kind().as_dict():
+            return f"it belongs to {kind.__name__}, {part}=ebac.{kind.__name__}({name}=...)"
+    return ""
+
+
+@keywords_only(_PARTS, _part_of)
 @dataclass(frozen=True, kw_only=True)
 class Scenario:
     """Device, hand, virtual world and time of a simulated run. The same scenario gives the same bits.
@@ -80,7 +107,7 @@ class Scenario:
             )
 
     def _check_axes(self) -> None:
-        """Refuse what a device of fewer axes would never feel."""
+        """Refuse an environment or path on axes the device does not have."""
         axes = self.device.axes
         world = self.environment
         across = isinstance(world, Wall) and abs(cos(world.angle)) < 1e-3
@@ -98,13 +125,14 @@ class Scenario:
 
     @property
     def known_timing(self) -> Timing:
-        """What a law designed for this scenario is told of time: its jitter is no secret."""
+        """Timing that a law for this scenario is designed from; its jitter is included."""
         if self.jitter <= self.timing.jitter:
             return self.timing
         return self.timing.replace(jitter=self.jitter)
 
     def replace(self, **changes: Any) -> Self:
         """Return a copy with some parts changed."""
+        refuse_unknown("Scenario", changes, _PARTS, _part_of)
         return dataclasses.replace(self, **changes)
 
     def to_toml(self) -> str:
@@ -113,7 +141,7 @@ class Scenario:
 
         values = {f.name: getattr(self, f.name) for f in dataclasses.fields(self)}
         numbers = {k: v for k, v in values.items() if isinstance(v, (int, float))}
-        parts = {k: document.to_document(v) for k, v in values.items() if k not in numbers}
+        parts = {k: serialisation.to_document(v) for k, v in values.items() if k not in numbers}
         return "# ebac scenario; SI units throughout\n" + tomli_w.dumps(numbers | parts)
 
     @classmethod
@@ -123,14 +151,14 @@ class Scenario:
         Raises
         ------
         ValueError
-            For a number out of range, an unknown name or a syntax error; the message says where.
+            For a number out of range, an unknown name or a syntax error; the message names the place.
         """
         try:
             table = parsed(text)
         except ValueError as error:
             raise ValueError(f"not a TOML document: {error}") from None
         try:
-            return cls(**document.read_table(table, dataclasses.fields(cls), "scenario"))
+            return cls(**serialisation.read_table(table, dataclasses.fields(cls), "scenario"))
         except TypeError as error:
             raise ValueError(str(error)) from None
 
@@ -160,7 +188,7 @@ class Scenario:
         Raises
         ------
         ValueError
-            When the device has too few axes for its world or its hand to be felt.
+            When the device has too few axes for its environment or its hand.
         """
         self._check_axes()
         return Setup(

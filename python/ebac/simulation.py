@@ -6,9 +6,19 @@ import warnings
 from typing import Any
 
 from ebac import _core
+from ebac._util.arguments import require
 from ebac.laws import AnyLaw, CoreLaw, design, law_name
 from ebac.scenario import Scenario
 from ebac.trace import Trace
+
+__all__ = [
+    "LoopFault",
+    "simulate",
+]
+
+
+def __dir__() -> list[str]:
+    return __all__
 
 
 class LoopFault(RuntimeError):
@@ -81,6 +91,7 @@ def simulate(
         For a law that does not exist or cannot be made; see `design`. Through CAN also for a delay of 0 samples,
         and when the process data would take over 90 % of a bus of 1 Mbit/s.
     """
+    require(scenario, Scenario, "ebac.simulate", "a Scenario")
     if through is not None:
         scenario = on_bus(scenario, through)
     finished = design(law, scenario.device, scenario.known_timing, **changes)

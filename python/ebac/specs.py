@@ -6,6 +6,16 @@ from dataclasses import asdict, dataclass
 from math import pi, sin
 
 from ebac._core import Device
+from ebac._util.arguments import require
+
+__all__ = [
+    "Spec",
+    "spec_sheet",
+]
+
+
+def __dir__() -> list[str]:
+    return __all__
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -36,6 +46,7 @@ def spec_sheet(device: Device) -> list[Spec]:
     -------
     list of Spec
     """
+    require(device, Device, "ebac.spec_sheet", "a Device")
     radius, limit = device.radius, device.kinematics.limit
     motor, drive = device.motor, device.drive
     return [

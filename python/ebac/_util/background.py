@@ -1,4 +1,4 @@
-"""Work in a thread of its own, while the caller shows how far it is and hears Ctrl-C."""
+"""Work in a thread of its own, while the caller shows the progress and receives Ctrl-C."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ def aside(work: Callable[[], T], *, name: str) -> Future[T]:
     def run() -> None:
         try:
             future.set_result(work())
-        except BaseException as error:  # told to the thread that waits
+        except BaseException as error:  # raised in the thread that waits
             future.set_exception(error)
 
     threading.Thread(target=run, name=name, daemon=True).start()

@@ -5,7 +5,6 @@ from __future__ import annotations
 from math import degrees, floor, isfinite, log10
 from typing import TYPE_CHECKING
 
-from ebac import presets
 from ebac._core import Corner, Device, Disc, Gimbal, Hand, Step, Wall
 
 if TYPE_CHECKING:
@@ -23,6 +22,9 @@ SHOWN: dict[str, tuple[float, str, int]] = {
     "share": (100, "%", 0),
 }
 
+#: A shorter run has no end at which to judge rest and swing [s].
+JUDGED_FROM = 0.5
+
 
 def quantity(value: float | None, unit: str, *, signed: bool = False, none: str = "-") -> str:
     """Return a number with its unit as people read it: 0.00123 m is "1.230 mm".
@@ -36,12 +38,13 @@ def quantity(value: float | None, unit: str, *, signed: bool = False, none: str 
     signed : bool
         Whether to show a plus sign.
     none : str
-        What to say where there is no number.
+        What to write where there is no number.
     """
     if value is None or not isfinite(value):
         return none
     factor, shown, decimals = SHOWN.get(unit, (1, "" if unit == "1" else unit, 3))
-    text = _number(value * factor, decimals, signed, exact=unit not in SHOWN)
+    more = 1 if unit in ("m", "J") else 3
+    text = _number(value * factor, decimals, more, signed, exact=unit not in SHOWN)
     return f"{text} {shown}".rstrip()
 
 
@@ -55,14 +58,15 @@ def cell(value: float | None, unit: str, *, none: str = "-") -> str:
     return quantity(value, unit, none=none).removesuffix(f" {shown(unit)}")
 
 
-def _number(value: float, decimals: int, signed: bool, exact: bool) -> str:
+def _number(value: float, decimals: int, more: int, signed: bool, exact: bool) -> str:
     sign = "+" if signed and value != 0 else ""
     if exact or value == 0:
-        return f"{value:{sign}.4g}" if value != 0 else "0"
+        long = 1e4 <= abs(value) < 1e7
+        return "0" if value == 0 else f"{value:{sign}.{'0f' if long else '4g'}}"
     if abs(value) >= 1000:
         return f"{value:{sign}.0f}"
     wanted = 2 - floor(log10(abs(value))) if decimals > 0 else 0
-    text = f"{value:{sign}.{min(max(decimals, wanted), decimals + 3)}f}"
+    text = f"{value:{sign}.{min(max(decimals, wanted), decimals + more)}f}"
     if float(text) == 0:
         return "0"
     whole, _, part = text.partition(".")
@@ -91,6 +95,8 @@ def _kilo(value: float, unit: str) -> str:
 
 
 def _device(device: Device) -> str:
+    from ebac import presets
+
     kind = "joystick" if isinstance(device.kinematics, Gimbal) else "device"
     known = [f"the {n} {kind}" for n, p in presets.DEVICES.items() if p.device == device]
     name = known[0].replace("joystick joystick", "joystick") if known else f"a {kind}"
@@ -100,6 +106,8 @@ def _device(device: Device) -> str:
 
 
 def _hand(hand: Hand) -> str:
+    from ebac import presets
+
     known = [f"the {name} hand" for name, p in presets.HANDS.items() if p.hand == hand]
     path = hand.path[0]
     if isinstance(path, Step):
@@ -130,7 +138,14 @@ def _environment(environment: Environment) -> str:
 
 
 def verdict(contact: Contact) -> str:
-    """Return what a contact came to: "exact and quiet", "swings", "quiet, too deep by 5.63 mm"."""
+    """Return what a contact came to: "exact and quiet", "swings", "quiet, too deep by 5.63 mm".
+
+    "no contact" where the virtual world never acted, "too short to judge" for less than half a second.
+    """
+    if contact.touched is False:
+        return "no contact"
+    if contact.seconds is not None and contact.seconds < JUDGED_FROM:
+        return "too short to judge"
     if not contact.quiet:
         return "swings"
     deviation = contact.deviation_m

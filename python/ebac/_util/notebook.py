@@ -10,28 +10,15 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ebac import wording
+from ebac._util.report import cell, heading
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
     from numpy.typing import NDArray
 
-    from ebac.columns import ColumnInfo
+    from ebac.trace.columns import ColumnInfo
 
-#: Endings of a key and the SI unit they stand for, the longer ones first.
-UNITS = {
-    "_Ns_per_m": "N s/m",
-    "_N_per_m": "N/m",
-    "_samples": "samples",
-    "_share": "share",
-    "_kg": "kg",
-    "_Hz": "Hz",
-    "_m": "m",
-    "_J": "J",
-    "_N": "N",
-    "_s": "s",
-}
-#: Longer tables are cut in the middle, and say so.
+#: Longer tables are cut in the middle, with a row that counts the rest.
 MOST_ROWS = 40
 #: Dots an inch of a small picture.
 DPI = 72
@@ -43,19 +30,19 @@ def table(rows: Sequence[Mapping[str, Any]], *, most: int = MOST_ROWS) -> str:
     Parameters
     ----------
     rows : sequence of mappings
-        With the same keys, whose endings tell the SI unit: `rest_m`, `least_energy_J`.
+        With the same keys, whose endings give the SI unit: `rest_m`, `least_energy_J`.
     most : int
         Show at most so many, first and last ones.
     """
     if not rows:
         return "<p>no rows</p>"
-    head = "".join(f"<th>{escape(_heading(key))}</th>" for key in rows[0])
+    head = "".join(f"<th>{escape(heading(key))}</th>" for key in rows[0])
     shown = list(rows)
     left_out = len(rows) - most
     if left_out > 0:
         shown = shown[: most // 2] + shown[len(rows) - most // 2 :]
     lines = [
-        f"<tr>{''.join(f'<td>{escape(_cell(key, value))}</td>' for key, value in row.items())}</tr>"
+        f"<tr>{''.join(f'<td>{escape(cell(key, value))}</td>' for key, value in row.items())}</tr>"
         for row in shown
     ]
     if left_out > 0:
@@ -87,7 +74,7 @@ def picture(draw: Callable[[], Figure]) -> str:
     Parameters
     ----------
     draw : function
-        Makes the figure; what it cannot draw (`ValueError`) is left out, as a table says it too.
+        Makes the figure; what it cannot draw (`ValueError`) is left out, as the table has the numbers too.
     """
     try:
         figure = draw()
@@ -105,33 +92,3 @@ def result(
     """Return what a result shows in a notebook: a line, a picture, a table."""
     image = picture(draw) if draw else ""
     return f"<p>{escape(title)}</p>{image}{table(rows)}"
-
-
-def _unit(key: str) -> tuple[str, str]:
-    """Return the name in a key, and its SI unit."""
-    for ending, unit in UNITS.items():
-        if key.endswith(ending) and len(key) > len(ending):
-            return key.removesuffix(ending), unit
-    return key, "1"
-
-
-def _heading(key: str) -> str:
-    name, unit = _unit(key)
-    words = name.replace("_", " ")
-    shown = wording.shown(unit)
-    return f"{words} [{shown}]" if shown and unit != "1" else words
-
-
-def _cell(key: str, value: Any) -> str:
-    if value is None:
-        return "-"
-    if isinstance(value, bool | str):
-        return str(value)
-    if isinstance(value, Mapping):
-        return ", ".join(f"{name} = {one}" for name, one in value.items())
-    if isinstance(value, Sequence):
-        return ", ".join(map(str, value))
-    _, unit = _unit(key)
-    if unit in ("1", "samples") and float(value).is_integer():
-        return f"{value:g}"
-    return wording.cell(float(value), unit)

@@ -44,12 +44,12 @@ def to_document(value: Any) -> Any:
 
 
 def from_document(name: str, item: Any, where: str) -> Any:
-    """Return the value of the core that `item` describes, where `name` tells what it may be.
+    """Return the value of the core that `item` describes, where `name` gives what it may be.
 
     Raises
     ------
     ValueError
-        For an unknown name or type or a number out of range; the message says where.
+        For an unknown name or type or a number out of range; the message names the place.
     """
     if name not in CHOICES:
         return item

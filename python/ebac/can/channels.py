@@ -44,8 +44,8 @@ def nodes_on(channel: str) -> Nodes | None:
 def populate(channel: str, hub: LoopbackHub) -> AbstractContextManager[object]:
     """Return the context in which a channel's nodes stand on its bus.
 
-    It is entered when the first bus on the channel is open, which so hears them boot, and left after the last one shut
-    down.
+    It is entered when the first bus on the channel is open, which so receives their boot messages, and left after
+    the last one shut down.
     """
     nodes = nodes_on(channel)
     return nullcontext() if nodes is None else nodes(hub)

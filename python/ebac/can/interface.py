@@ -8,7 +8,7 @@ python-can finds it by its name, so that canopen, `can.Notifier`, `can.logger` a
         print(bus.recv(timeout=1.0))
 
 A channel is a bus of this process, made by whoever opens it first and gone with the last who shuts down. Buses on one
-channel hear each other, and the C++ loop on the same `ebac._core.LoopbackHub` hears them all.
+channel receive each other's frames, and the C++ loop on the same `ebac._core.LoopbackHub` receives all.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ import can
 from can.typechecking import AutoDetectedConfig
 
 from ebac._core import BusCounts, BusState, CanFrame
-from ebac.can_channels import CHANNELS, LOCK, NODES, join, leave
+from ebac.can.channels import CHANNELS, LOCK, NODES, join, leave
 
 __all__ = ["DEFAULT_CHANNEL", "DEFAULT_QUEUE", "MOST_FRAMES", "NODES", "EbacBus"]
 
@@ -52,7 +52,7 @@ class EbacBus(can.BusABC):
         Receive also what this end sent, with `is_rx` false.
     rx_queue_size : int
         Frames that wait to be received, 1 to 1,048,576. What comes when it is full is lost to this end alone,
-        counted in `counts.lost` and told by the logger `can.ebac`.
+        counted in `counts.lost` and reported by the logger `can.ebac`.
     can_filters : list of dict, optional
         As of `can.BusABC.set_filters`.
     **kwargs

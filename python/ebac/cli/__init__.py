@@ -6,33 +6,27 @@ from typing import Annotated
 
 import typer
 
-from ebac.cli import (
-    ablation,
-    bench,
-    bus,
-    conditions,
-    doctor,
-    drive,
-    faults,
-    identify,
-    jitter,
-    laws,
-    log,
-    maps,
-    paper,
-    presets,
-    run,
-    sensor,
-    specs,
-    study,
-    track,
-    wall,
-    worst,
-    zwidth,
+from ebac.cli import bus, demo, drive, identify, paper, sensor, track
+from ebac.cli.bench import bench
+from ebac.cli.catalogue import laws, presets, specs
+from ebac.cli.command import Group, add
+from ebac.cli.log import log
+from ebac.cli.machine import doctor, jitter
+from ebac.cli.run import run
+from ebac.cli.studies import ablation, conditions, faults, maps, study, worst, zwidth
+from ebac.cli.wall import wall
+
+TRY, STUDY, DATA, HARDWARE, MACHINE = (
+    "Try",
+    "Study a controller",
+    "Your data",
+    "Hardware",
+    "Machine",
 )
 
 app = typer.Typer(
     name="ebac",
+    cls=Group,
     no_args_is_help=True,
     rich_markup_mode="markdown",
     pretty_exceptions_show_locals=False,
@@ -57,33 +51,34 @@ def main(
         ),
     ] = False,
 ) -> None:
-    """Stable haptic rendering with energy-bounding control, simulated at 1 kHz.
+    """Simulate and run haptic controllers: virtual walls, energy-bounding laws, a 1 kHz loop.
 
-    Start with **ebac wall**: the paper's virtual wall of 10 kN/m under three laws.
+    Start with `ebac wall`: a hand against a virtual wall of 10 kN/m under three laws.
 
-    Tables show mm, N, mJ, s and Hz; options and `--json` are in SI units throughout.
+    Tables show mm, N, mJ, s and Hz. Options and `--json` are in SI units throughout.
     """
 
 
-app.command("wall")(wall.wall)
-app.command("study")(study.study)
-app.command("ablation")(ablation.ablation)
-app.command("worst")(worst.worst)
-app.command("conditions")(conditions.conditions)
-app.command("zwidth")(zwidth.zwidth)
-app.command("map")(maps.map_)
-app.command("track")(track.track)
-app.command("run")(run.run)
-app.command("paper")(paper.paper)
-app.command("laws")(laws.laws)
-app.command("specs")(specs.specs)
-app.command("presets")(presets.presets)
-app.command("bench")(bench.bench)
-app.command("doctor")(doctor.doctor)
-app.command("jitter")(jitter.jitter)
-app.command("faults")(faults.faults)
-app.add_typer(drive.app, name="drive")
-app.add_typer(bus.bus, name="bus")
-app.add_typer(sensor.app, name="sensor")
-app.add_typer(identify.app, name="identify")
-app.add_typer(log.log, name="log")
+add(app, wall.wall, panel=TRY)
+add(app, demo.demo, panel=TRY)
+add(app, laws.laws, panel=TRY)
+add(app, presets.presets, panel=TRY)
+add(app, paper.paper, panel=TRY)
+add(app, study.study, panel=STUDY)
+add(app, conditions.conditions, panel=STUDY)
+add(app, ablation.ablation, panel=STUDY)
+add(app, worst.worst, panel=STUDY)
+add(app, zwidth.zwidth, panel=STUDY)
+add(app, maps.map_, "map", panel=STUDY)
+add(app, faults.faults, panel=STUDY)
+app.add_typer(identify.app, name="identify", rich_help_panel=DATA)
+add(app, track.track, panel=DATA)
+app.add_typer(log.log, name="log", rich_help_panel=DATA)
+add(app, run.run, panel=HARDWARE, defaults="as configured")
+app.add_typer(drive.app, name="drive", rich_help_panel=HARDWARE)
+app.add_typer(sensor.app, name="sensor", rich_help_panel=HARDWARE)
+app.add_typer(bus.bus, name="bus", rich_help_panel=HARDWARE)
+add(app, specs.specs, panel=HARDWARE)
+add(app, doctor.doctor, panel=MACHINE)
+add(app, jitter.jitter, panel=MACHINE)
+add(app, bench.bench, panel=MACHINE)

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from ebac.cli import output
+from ebac.cli.command import Group, add
 
 if TYPE_CHECKING:
     from ebac._core import BusLoad
@@ -14,10 +15,9 @@ if TYPE_CHECKING:
 #: Two frames of 8 bytes a tick: three forces and three torques of 16 bits and a status.
 SENSOR_FRAMES, SENSOR_BYTES, SENSOR_ID = 2, 8, 0x1F0
 
-bus = typer.Typer(no_args_is_help=True, help="The CAN bus: what its process data take.")
+bus = typer.Typer(cls=Group, no_args_is_help=True, help="Compute the load of a CAN bus.")
 
 
-@bus.command("load")
 def load(
     nodes: Annotated[int, typer.Option(help="Drives on the bus.", min=1, max=127)] = 2,
     rate: Annotated[float, typer.Option(help="Ticks per second, one SYNC each [Hz].")] = 1000,
@@ -27,19 +27,17 @@ def load(
     ] = False,
     as_json: output.AsJson = False,
 ) -> None:
-    """Compute the worst-case load of a CAN bus by the frames of each tick.
+    """Compute the worst-case load of a CAN bus from the frames of each tick.
 
     Each tick sends one SYNC, and for every drive controlword and target torque out, statusword,
-    position and actual torque in. The worst case has every stuff bit there can be. Over 70 % is
-    warned of, over 90 % does not run.
+    position and actual torque in. The worst case has every stuff bit there can be. Over 70 %
+    gives a warning, over 90 % exit code 2.
 
     **Examples**
 
-    * `ebac bus load`: two drives at 1 kHz and 1 Mbit/s take 52 %.
+    * `ebac bus load`: two drives at 1 kHz and 1 Mbit/s take 52 %
 
-    * `ebac bus load --rate 2000`: 2 kHz do not fit.
-
-    * `ebac bus load --nodes 3 --bitrate 500000 --json`: as JSON.
+    * `ebac bus load --nodes 3 --rate 500 --json`: as JSON
     """
     with output.refusing():
         plan, warning, refused = _judge(_plan(nodes, rate, bitrate, force_sensor))
@@ -51,6 +49,9 @@ def load(
             output.say(f"Warning: {warning}.", style="yellow")
     if refused:
         output.fail(refused)
+
+
+add(bus, load)
 
 
 def _plan(nodes: int, rate: float, bitrate: float, force_sensor: bool) -> BusLoad:
@@ -118,7 +119,7 @@ def _show(plan: BusLoad) -> None:
     grid.add_row(
         "all", "", "", f"{sum(map(plan.bits, plan.frames))}", busy, f"{100 * plan.share:.1f} %"
     )
-    output.console().print(grid)
+    output.show(grid)
     output.say(
         f"At the worst, of each {1e6 * plan.period:.6g} us on a bus at {plan.bit_rate / 1e3:g} "
         f"kbit/s; these frames fit up to {int(plan.highest_rate)} Hz."

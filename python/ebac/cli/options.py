@@ -1,118 +1,253 @@
-"""The options that set up a run, for every command that simulates.
+"""The options that set up a run, in groups, for every command that simulates.
 
-None of them has a default of its own: what is not given leaves the scenario as it is.
+A group is a dataclass: a command takes it as one parameter, and `command.add` makes options of its fields. What is not
+given is None and leaves the scenario as it is.
 """
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, Any, TypeAlias
+from typing import TYPE_CHECKING, Annotated, Any, TypeAlias
 
 import typer
 
+from ebac.cli import setting
 
-def option(name: str, text: str, default: str, panel: str) -> Any:
-    """Return an option that tells what the reference scenario has."""
-    text = f"{text}; default {default}." if default else f"{text}."
-    return typer.Option(name, help=text, show_default=False, rich_help_panel=panel)
+if TYPE_CHECKING:
+    from ebac._core import Hand
+    from ebac.scenario import Environment, Scenario
+
+WALL, HAND, DEVICE, RUN = "Wall", "Hand", "Device", "Run"
 
 
-_WALL, _HAND, _DEVICE, _RUN = "Wall", "Hand", "Device", "Run"
+def option(*names: str, text: str, default: str | bool = False, panel: str, **more: Any) -> Any:
+    """Return an option whose help names what the reference scenario has."""
+    return typer.Option(
+        *names, help=f"{text}.", show_default=default, rich_help_panel=panel, **more
+    )
 
-Law: TypeAlias = Annotated[
-    list[str] | None,
-    typer.Option(
+
+def complete_laws(incomplete: str) -> list[str]:
+    """Return the laws that begin so."""
+    from ebac.laws import LAWS
+
+    return [name for name in (*LAWS, "all") if name.startswith(incomplete.lower())]
+
+
+def _hands(incomplete: str) -> list[str]:
+    from ebac.presets import HANDS
+
+    return [name for name in HANDS if name.startswith(incomplete)]
+
+
+def complete_devices(incomplete: str) -> list[str]:
+    """Return the devices that begin so."""
+    from ebac.presets import DEVICES
+
+    return [name for name in DEVICES if name.startswith(incomplete)]
+
+
+def _conditions(incomplete: str) -> list[str]:
+    from ebac.studies import CONDITIONS, GROUPS
+
+    return [name for name in (*GROUPS, *CONDITIONS) if name.startswith(incomplete)]
+
+
+def laws(default: str, *, panel: str = RUN) -> Any:
+    """Return the option for several laws."""
+    return typer.Option(
         "--law",
         "-l",
-        help="A law by name, see `ebac laws`; repeat it for several, `all` for every law.",
-        show_default="tca, eba, ebac",
-        rich_help_panel=_RUN,
-    ),
-]
+        help="A law by name, see `ebac laws`; several with commas between, `all` for every law.",
+        show_default=default,
+        rich_help_panel=panel,
+        autocompletion=complete_laws,
+    )
 
-Stiffness: TypeAlias = Annotated[
-    float | None, option("--stiffness", "Stiffness K of the wall [N/m]", "10000", _WALL)
-]
-Damping: TypeAlias = Annotated[
-    float | None, option("--damping", "Damping B of the wall [N s/m]", "0", _WALL)
-]
-Position: TypeAlias = Annotated[
-    float | None,
-    option("--position", "Where its surface is [m], from the start", "0", _WALL),
-]
+
+def one_law(*, panel: str = RUN, default: str | bool = True) -> Any:
+    """Return the option for one law."""
+    return typer.Option(
+        "--law",
+        "-l",
+        help="A law by name, see `ebac laws`.",
+        show_default=default,
+        rich_help_panel=panel,
+        autocompletion=complete_laws,
+    )
+
+
+def conditions(text: str, *, panel: str, default: str | bool = True) -> Any:
+    """Return the option for conditions."""
+    return typer.Option(
+        "--condition",
+        "-c",
+        help=text,
+        show_default=default,
+        rich_help_panel=panel,
+        autocompletion=_conditions,
+    )
+
 
 HandName: TypeAlias = Annotated[
-    str | None, option("--hand", "A hand by name, see `ebac presets`", "reference", _HAND)
-]
-Mass: TypeAlias = Annotated[float | None, option("--mass", "Mass of the hand [kg]", "0.15", _HAND)]
-HandDamping: TypeAlias = Annotated[
-    float | None, option("--hand-damping", "Damping of the hand [N s/m]", "6", _HAND)
-]
-HandStiffness: TypeAlias = Annotated[
-    float | None, option("--hand-stiffness", "Stiffness of the hand [N/m]", "300", _HAND)
-]
-Target: TypeAlias = Annotated[
-    float | None, option("--target", "Where the hand wants to be [m]", "0.04", _HAND)
-]
-
-DeviceName: TypeAlias = Annotated[
-    str | None, option("--device", "A device by name, see `ebac presets`", "reference", _DEVICE)
-]
-Noise: TypeAlias = Annotated[
-    float | None,
-    option("--noise", "Noise of the force sensor, standard deviation [N]", "0", _DEVICE),
-]
-Permille: TypeAlias = Annotated[
-    bool | None,
-    typer.Option(
-        "--permille/--no-permille",
-        help="Torque in whole thousandths of the rated torque, as a CANopen drive takes it.",
-        show_default=False,
-        rich_help_panel=_DEVICE,
-    ),
-]
-
-Rate: TypeAlias = Annotated[float | None, option("--rate", "Ticks per second [Hz]", "1000", _RUN)]
-Delay: TypeAlias = Annotated[
-    int | None, option("--delay", "Ticks until a command acts [samples]", "1", _RUN)
-]
-Jitter: TypeAlias = Annotated[
-    float | None, option("--jitter", "Largest deviation of a tick, as a share of it", "0", _RUN)
-]
-Through: TypeAlias = Annotated[
     str | None,
     option(
-        "--through",
-        "What lies between loop and plant: `can` for a CAN bus with simulated drives",
-        "nothing",
-        _RUN,
+        text="A hand by name, see `ebac presets`",
+        default="reference",
+        panel=HAND,
+        autocompletion=_hands,
     ),
 ]
-Seconds: TypeAlias = Annotated[
-    float | None, option("--seconds", "Length of the run [s]", "6", _RUN)
+DeviceName: TypeAlias = Annotated[
+    str | None,
+    option(
+        text="A device by name, see `ebac presets`",
+        default="reference",
+        panel=DEVICE,
+        autocompletion=complete_devices,
+    ),
+]
+Rate: TypeAlias = Annotated[
+    float | None, option(text="Ticks per second [Hz]", default="1000", panel=RUN)
+]
+Delay: TypeAlias = Annotated[
+    int | None, option(text="Ticks until a command acts [samples]", default="1", panel=RUN)
+]
+Jitter: TypeAlias = Annotated[
+    float | None,
+    option(text="Largest deviation of a tick, as a share of it", default="0", panel=RUN),
 ]
 Seed: TypeAlias = Annotated[
-    int | None, option("--seed", "Seed of noise, jitter and the encoder's phase", "1", _RUN)
+    int | None,
+    option(text="Seed of noise, jitter and the encoder's phase", default="1", panel=RUN),
 ]
 ScenarioFile: TypeAlias = Annotated[
     Path | None,
-    option("--scenario", "Start from a scenario in TOML; other options come on top", "", _RUN),
+    option(text="Start from a scenario in TOML; other options come on top", panel=RUN),
 ]
 Threads: TypeAlias = Annotated[
     int | None,
     typer.Option(
-        help="Threads.", show_default="one per core", min=1, max=1024, rich_help_panel=_RUN
+        help="Threads.", show_default="one per core", min=1, max=1024, rich_help_panel=RUN
     ),
 ]
 
 
-def out_folder(what: str, default: Path) -> Any:
-    """Return the option for the folder a command writes `what` to."""
-    text = f"Folder for {what}; with --json only when given."
-    return typer.Option("--out", help=text, show_default=str(default), rich_help_panel=_RUN)
-
-
 def resume(what: str) -> Any:
-    """Return the option that continues `what` where it was stopped."""
-    text = f"Continue a {what} that was stopped in --out."
-    return typer.Option("--resume", help=text, rich_help_panel=_RUN)
+    """Return the option that continues a study, map or ablation where it was stopped."""
+    text = f"Continue a stopped {what} in its folder: that of --out, or the last one."
+    return typer.Option("--resume", help=text, rich_help_panel=RUN)
+
+
+@dataclass(frozen=True, kw_only=True)
+class WallOptions:
+    """The virtual wall."""
+
+    wall_stiffness: Annotated[
+        float | None, option(text="Stiffness K of the wall [N/m]", default="10000", panel=WALL)
+    ] = None
+    wall_damping: Annotated[
+        float | None, option(text="Damping B of the wall [N s/m]", default="0", panel=WALL)
+    ] = None
+    wall_position: Annotated[
+        float | None, option(text="Position of its surface [m]", default="0", panel=WALL)
+    ] = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class HandOptions:
+    """The simulated hand."""
+
+    hand: HandName = None
+    hand_mass: Annotated[
+        float | None, option(text="Mass of the hand [kg]", default="0.15", panel=HAND)
+    ] = None
+    hand_damping: Annotated[
+        float | None, option(text="Damping of the hand [N s/m]", default="6", panel=HAND)
+    ] = None
+    hand_stiffness: Annotated[
+        float | None, option(text="Stiffness of the hand [N/m]", default="300", panel=HAND)
+    ] = None
+    hand_target: Annotated[
+        float | None, option(text="Position the hand moves to [m]", default="0.04", panel=HAND)
+    ] = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class DeviceOptions:
+    """The simulated device."""
+
+    device: DeviceName = None
+    device_noise: Annotated[
+        float | None,
+        option(text="Noise of the force sensor, standard deviation [N]", default="0", panel=DEVICE),
+    ] = None
+    device_permille: Annotated[
+        bool | None,
+        option(
+            "--device-permille/--no-device-permille",
+            text="Torque in whole thousandths of the rated torque, as a CANopen drive takes it",
+            panel=DEVICE,
+        ),
+    ] = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class RunOptions:
+    """Length and file of a simulated run."""
+
+    rate: Rate = None
+    jitter: Jitter = None
+    seconds: Annotated[
+        float | None, option(text="Length of the run [s]", default="6", panel=RUN)
+    ] = None
+    scenario: ScenarioFile = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class ScenarioOptions(RunOptions, DeviceOptions, HandOptions, WallOptions):
+    """All that sets up one run."""
+
+    delay: Delay = None
+    seed: Seed = None
+
+
+def scenario_of(*groups: Any, seconds: float | None = None) -> Scenario:
+    """Return the scenario that groups of options describe; `seconds` is its length where nothing gives one [s]."""
+    given: dict[str, Any] = {}
+    for group in groups:
+        given |= vars(group)
+    file = given.get("scenario")
+    base = setting.base_scenario(file)
+    length = given.get("seconds")
+    if length is None and file is None:
+        length = seconds
+    return base.replace(
+        device=setting.choose_device(
+            base.device, given.get("device"),
+            noise=given.get("device_noise"), permille=given.get("device_permille"),
+        ),
+        hand=hand_of(base.hand, given),
+        environment=wall_of(base.environment, given),
+        timing=setting.choose_timing(base.timing, given.get("rate"), given.get("delay")),
+        **setting.given(jitter=given.get("jitter"), seconds=length, seed=given.get("seed")),
+    )  # fmt: skip
+
+
+def wall_of(environment: Environment, group: Any) -> Environment:
+    """Return the wall with what its options change."""
+    given = group if isinstance(group, dict) else vars(group)
+    return setting.choose_wall(
+        environment, stiffness=given.get("wall_stiffness"),
+        damping=given.get("wall_damping"), position=given.get("wall_position"),
+    )  # fmt: skip
+
+
+def hand_of(hand: Hand, group: Any) -> Hand:
+    """Return the hand with what its options change."""
+    given = group if isinstance(group, dict) else vars(group)
+    return setting.choose_hand(
+        hand, given.get("hand"), given.get("hand_target"), mass=given.get("hand_mass"),
+        damping=given.get("hand_damping"), stiffness=given.get("hand_stiffness"),
+    )  # fmt: skip

@@ -11,9 +11,11 @@ from typing import TYPE_CHECKING, Annotated, Any, NoReturn, TypeAlias
 
 import typer
 
+from ebac.cli.tables import show as show
+from ebac.cli.tables import table as table
+
 if TYPE_CHECKING:
     from rich.console import Console
-    from rich.table import Table
 
 #: Exit codes: the input was bad; the work itself failed.
 BAD_INPUT = 2
@@ -56,7 +58,7 @@ def refusing() -> Iterator[None]:
     try:
         yield
     except FileNotFoundError as error:
-        fail(f"{error.filename}: there is no such file")
+        fail(_missing(Path(error.filename)))
     except OSError as error:
         fail(f"{error.filename}: cannot be read ({error.strerror})")
     except (KeyError, TypeError, ValueError) as error:
@@ -65,10 +67,55 @@ def refusing() -> Iterator[None]:
         fail(in_options(str(error.args[0]) if error.args else str(error)))
 
 
+def _missing(path: Path) -> str:
+    """Return what is not there: the file, or the folder it should be in."""
+    if not path.parent.is_dir():
+        return f"{path.parent}: there is no such folder"
+    return f"{path}: there is no such {'file' if path.suffix else 'file or folder'}"
+
+
+#: What Ctrl-C says of the command that runs now: what is kept, and how to go on.
+_kept: list[str] = []
+
+
+def keeping(text: str) -> None:
+    """Set what Ctrl-C says from now on: what is kept, and how to go on."""
+    _kept[:] = [text]
+
+
+@contextmanager
+def interruptible() -> Iterator[None]:
+    """Turn Ctrl-C into the end of the command: a sentence and exit code 130, no traceback."""
+    _kept.clear()
+    try:
+        yield
+    except KeyboardInterrupt as stopped:
+        happened = f"Stopped by Ctrl-C: {stopped}" if str(stopped) else "Stopped by Ctrl-C"
+        kept = _kept or ["nothing was written; the same command starts from the beginning"]
+        console(stderr=True).print(f"{happened}; {kept[0]}.", markup=False, soft_wrap=True)
+        raise typer.Exit(INTERRUPTED) from None
+
+
+@contextmanager
+def resumable(what: str, folder: Path | None) -> Iterator[None]:
+    """Say on Ctrl-C how `what`, which keeps its finished runs in a folder, goes on."""
+    again = "give --out next time to keep finished runs"
+    if folder is not None:
+        again = (
+            f"finished runs are kept; continue with the same command and --resume --out {folder}"
+        )
+    keeping(again)
+    yield
+    if folder is not None:
+        keeping(
+            f"the runs are kept; draw and print them with the same command and --resume --out {folder}"
+        )
+
+
 @contextmanager
 def results(out: Path | None) -> Iterator[Path | None]:
     """Give a draft of the folder `out`, None for none; one that cannot be written ends all."""
-    from ebac.folder import filled
+    from ebac._util.atomic_folder import filled
 
     if out is None:
         yield None
@@ -80,17 +127,6 @@ def results(out: Path | None) -> Iterator[Path | None]:
         fail(f"--out {out}: is a file or lies inside one; give the name of a folder")
     except OSError as error:
         fail(f"--out {out}: cannot be written ({error.strerror}); give another folder")
-
-
-def table(headings: Sequence[str], *, numbers: Sequence[int] = ()) -> Table:
-    """Return an empty table; the columns `numbers` stand flush right."""
-    from rich import box
-    from rich.table import Table
-
-    grid = Table(box=box.SIMPLE_HEAD, pad_edge=False, padding=(0, 1, 0, 0), header_style="bold")
-    for i, heading in enumerate(headings):
-        grid.add_column(heading, justify="right" if i in numbers else "left")
-    return grid
 
 
 def document(command: str, rows: Sequence[Mapping[str, Any]], **more: Any) -> str:
@@ -123,9 +159,28 @@ def csv_table(path: Path, rows: Sequence[Mapping[str, Any]]) -> None:
 
 
 def list_files(out: Path, names: Sequence[str]) -> None:
-    """Tell which files were written."""
-    say(f"\nWritten to {out}/:", style="bold")
+    """Print the folder that was written, on a line of its own, its files, and what `--resume` continues from."""
+    say("\nWritten to:", style="bold")
+    path(f"{out}/")
     indented(", ".join(names))
+    kept = sorted(f"{one.parent.name}/" for one in out.glob("sweep*/sweep.json"))
+    if kept:
+        indented(f"{', '.join(kept)}: every run, from which --resume continues")
+
+
+def path(name: str | Path) -> None:
+    """Print a path on a line of its own, which no width breaks, so that it can be copied."""
+    console().print(str(name), soft_wrap=True, markup=False)
+
+
+def words(text: str) -> list[str]:
+    """Return the words of a list with commas between."""
+    return [word for word in (part.strip() for part in text.split(",")) if word]
+
+
+def plural(count: int, one: str, many: str = "") -> str:
+    """Return a number with its noun: 1 axis, 2 axes."""
+    return f"{count:,} {one if count == 1 else many or one + 's'}"
 
 
 def indented(text: str) -> None:

@@ -8,50 +8,50 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from ebac.cli import output
+from ebac.cli.files import ResultOptions
 
 if TYPE_CHECKING:
     from ebac.paper import Finding
 
-DEFAULT_OUT = Path("ebac-paper")
-STYLES = {"reproduced": "green", "reproduced in part": "yellow", "not reproduced": "red"}
+STYLES = {
+    "reproduced": "green",
+    "reproduced in part": "yellow",
+    "not reproduced": "red",
+    "nothing to compute": "dim",
+}
 
 
 def paper(
+    to: ResultOptions,
     item: Annotated[
         list[str] | None,
         typer.Argument(
-            help="eq1, specs, fig5, fig6, fig7, fig11, or all.",
+            help="specs, eq1 to eq12, fig1 to fig11, table1, or all.",
             show_default="all",
             metavar="[ITEM]...",
         ),
     ] = None,
-    out: Annotated[
-        Path | None,
-        typer.Option(
-            help="Folder for report.md, report.json and the figures; with --json only when given.",
-            show_default=str(DEFAULT_OUT),
-        ),
-    ] = None,
     as_json: output.AsJson = False,
 ) -> None:
-    """Compute the paper's numbers and figures again and say which are reproduced, and why not.
+    """Reproduce the numbers and figures of the paper.
 
     Everything is computed or simulated; nothing is measured on a device.
 
     **Examples**
 
-    * `ebac paper`: everything, into ebac-paper/.
+    * `ebac paper eq1 specs`: two items
 
-    * `ebac paper fig11 --out report/`: the three laws against the virtual wall.
+    * `ebac paper fig11 --out report`: three laws against the virtual wall
 
-    * `ebac paper eq1 specs --json`: two items as JSON.
+    * `ebac paper`: everything
     """
     from ebac.paper import find
     from ebac.paper.report import write
 
     with output.refusing():
         names = _names(item or ["all"])
-    folder = out or (None if as_json else DEFAULT_OUT)
+    folder = to.folder("paper", as_json=as_json)
+    output.keeping("nothing was written; name the items you need, as in `ebac paper eq1 fig5`")
     files: list[str] = []
     with (
         output.results(folder) as draft,
@@ -64,6 +64,9 @@ def paper(
         if draft is not None:
             step("writing the report")
             write(draft, findings)
+            for finding in findings:
+                if finding.figure is not None and finding.picture is not None:
+                    to.save(finding.figure, draft, Path(finding.picture).stem)
             files = sorted((file.name for file in draft.iterdir()), key=_report_first)
     if as_json:
         typer.echo(output.document("paper", [f.document() for f in findings]))
@@ -77,13 +80,14 @@ def paper(
 
 
 def _names(given: list[str]) -> list[str]:
-    from ebac.document import unknown
+    from ebac._util.serialisation import unknown
     from ebac.paper import ITEMS
 
     names: list[str] = []
-    for name in given:
+    for word in given:
+        name = word.lower()
         if name not in ITEMS and name != "all":
-            raise ValueError(unknown(f"ITEM {name}", name, [*ITEMS, "all"]))
+            raise ValueError(unknown(f"ITEM {word}", name, [*ITEMS, "all"]))
         names += ITEMS if name == "all" else [name]
     return list(dict.fromkeys(names))
 
@@ -97,7 +101,7 @@ def _show_verdicts(findings: list[Finding]) -> None:
     for finding in findings:
         style = STYLES[finding.verdict]
         grid.add_row(finding.name, f"[{style}]{finding.verdict}[/]", finding.title)
-    output.console().print(grid)
+    output.show(grid)
 
 
 def _show(finding: Finding) -> None:
@@ -108,8 +112,12 @@ def _show(finding: Finding) -> None:
     for row in finding.rows:
         grid.add_row(*cells(row)[: len(columns)])
     output.say(finding.title, style="bold")
-    output.console().print(grid)
+    if finding.rows:
+        output.show(grid)
     output.say(f"The paper: {finding.claim}")
     output.say(f"Verdict: {finding.verdict}.", style=STYLES[finding.verdict])
     output.say(finding.why)
+    for claim in finding.claims:
+        verdict = str(claim.row()["verdict"])
+        output.say(f"  {verdict}: {claim.text} ({claim.evidence})", style=STYLES[verdict])
     output.say()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -15,22 +16,26 @@ if TYPE_CHECKING:
 
 #: What the library calls the numbers that options give.
 OPTIONS = {
-    "Wall.stiffness": "--stiffness",
-    "Wall.damping": "--damping",
-    "Wall.position": "--position",
-    "Hand.mass": "--mass",
+    "Wall.stiffness": "--wall-stiffness",
+    "Wall.damping": "--wall-damping",
+    "Wall.position": "--wall-position",
+    "Hand.mass": "--hand-mass",
     "Hand.damping": "--hand-damping",
     "Hand.stiffness": "--hand-stiffness",
-    "Step.target": "--target",
-    "MinimumJerk.target": "--target",
-    "Tapping.target": "--target",
-    "ForceSensor.noise": "--noise",
+    "Step.target": "--hand-target",
+    "MinimumJerk.target": "--hand-target",
+    "Tapping.target": "--hand-target",
+    "ForceSensor.noise": "--device-noise",
     "Timing.delay": "--delay",
-    "through": "--through",
     "Scenario.jitter": "--jitter",
     "Scenario.seconds": "--seconds",
     "Scenario.seed": "--seed",
+    "approach_m": "--approach",
+    "SensorConfig.counts_per_force": "--sensor-counts",
+    "SensorConfig.counts_per_torque": "--sensor-counts",
 }
+#: The options of the command that runs, by the names of its parameters.
+current: dict[str, str] = {}
 #: Range of the rate [Hz]; the sample time lies in [1e-5, 0.1] s.
 RATES = (10.0, 1e5)
 
@@ -42,27 +47,42 @@ def base_scenario(file: Path | None) -> Scenario:
     return Scenario() if file is None else Scenario.load(file)
 
 
-def one_law(name: str) -> str:
-    """Return the name of `--law` where there can be one only."""
-    from ebac.document import unknown
-    from ebac.laws import LAWS
-
-    if name not in LAWS:
-        raise ValueError(unknown(f"--law {name}", name, list(LAWS)))
-    return name
+def one_law(name: str, option: str = "--law") -> str:
+    """Return a law by its name, in any case, where there can be one only."""
+    names = law_names([name], option)
+    if len(names) != 1:
+        raise ValueError(f"{option} {name}: one law only; give one of {', '.join(names)}")
+    return names[0]
 
 
 def law_names(given: Sequence[str], option: str = "--law") -> list[str]:
-    """Return the laws asked for, each once, in the order asked; `all` is every law."""
-    from ebac.document import unknown
+    """Return the laws of names in any case, with commas between, each once, in the order given; `all` is every law."""
+    from ebac._util.serialisation import unknown
     from ebac.laws import LAWS
 
     names: list[str] = []
-    for name in given:
+    for word in (word.strip() for text in given for word in text.split(",")):
+        name = word.lower().replace("_", "-")
         if name not in LAWS and name != "all":
-            raise ValueError(unknown(f"{option} {name}", name, [*LAWS, "all"]))
+            raise ValueError(unknown(f"{option} {word}", name, [*LAWS, "all"]))
         names += LAWS if name == "all" else [name]
     return list(dict.fromkeys(names))
+
+
+def condition_names(given: Sequence[str]) -> list[str]:
+    """Return the conditions and groups of lists with commas."""
+    from ebac._util.serialisation import unknown
+    from ebac.studies import CONDITIONS, GROUPS
+
+    names = [word.strip() for text in given for word in text.split(",")]
+    for name in names:
+        if name not in CONDITIONS and name not in GROUPS:
+            groups = ", ".join(GROUPS)
+            near = unknown("", name, [*GROUPS, *CONDITIONS]).partition(";")[0].removeprefix(": ")
+            raise ValueError(
+                f"--condition {name}: {near}; groups are {groups}, and `ebac conditions` lists all"
+            )
+    return names
 
 
 def parse_change(text: str) -> dict[str, Any]:
@@ -101,14 +121,41 @@ def population(name: str, hands: int | None, seed: int, approach: float | None =
 
 
 def in_options(message: str) -> str:
-    """Return what the library says of a number, by the name of the option that gave it."""
-    name, space, rest = message.partition(" ")
-    return OPTIONS.get(name, name) + space + rest
+    """Return what the library says of a value, by the name of the option that gave it."""
+    for pattern in (r"(?:[\w ]+: )?([A-Za-z_.]+)(?= ?= )", r"(?:[a-z_]+: )?([a-z_]+)(?= \S+: )"):
+        found = re.match(pattern, message)
+        if found is None:
+            continue
+        name = found[1]
+        option = OPTIONS.get(name)
+        if option not in current.values():
+            option = current.get(name.rpartition(".")[2])
+        if option is not None:
+            return option + message[found.end() :]
+    return message
 
 
 def given(**options: Any) -> dict[str, Any]:
     """Return the options that were given."""
     return {name: value for name, value in options.items() if value is not None}
+
+
+def known_hand(name: str, option: str = "--hand") -> Hand:
+    """Return the hand of a name, in any case."""
+    return presets.hand(_known(option, name, list(presets.HANDS)))
+
+
+def known_device(name: str, option: str = "--device") -> Device:
+    """Return the device of a name, in any case."""
+    return presets.device(_known(option, name, list(presets.DEVICES)))
+
+
+def _known(option: str, name: str, names: list[str]) -> str:
+    from ebac._util.serialisation import unknown
+
+    if name.lower() not in names:
+        raise ValueError(unknown(f"{option} {name}", name.lower(), names))
+    return name.lower()
 
 
 def choose_wall(environment: Environment, **options: float | None) -> Environment:
@@ -121,7 +168,7 @@ def choose_wall(environment: Environment, **options: float | None) -> Environmen
     if not isinstance(environment, Wall):
         kind = type(environment).__name__
         raise ValueError(
-            f"--{next(iter(changes))} changes a wall, but the scenario's environment is a {kind}: "
+            f"--wall-{next(iter(changes))} changes a wall, but the scenario's environment is a {kind}: "
             "change it in the file"
         )
     return environment.replace(**changes)
@@ -131,13 +178,13 @@ def choose_hand(
     hand: Hand, name: str | None, target: float | None, **options: float | None
 ) -> Hand:
     """Return the hand of that name, or `hand`, with mass, damping, stiffness, target as given."""
-    chosen = presets.hand(name) if name is not None else hand
+    chosen = known_hand(name) if name is not None else hand
     changes = given(**options)
     if target is not None:
         first, *others = chosen.path
         if not hasattr(first, "target"):
             raise ValueError(
-                f"--target = {target:g} m: the hand follows a {type(first).__name__} path, "
+                f"--hand-target = {target:g} m: the hand follows a {type(first).__name__} path, "
                 "which has no target; change it in the scenario file"
             )
         changes["path"] = [first.replace(target=target), *others]
@@ -148,7 +195,7 @@ def choose_device(
     device: Device, name: str | None, *, noise: float | None = None, permille: bool | None = None
 ) -> Device:
     """Return the device of that name, or `device`, with sensor noise [N] and drive as given."""
-    chosen = presets.device(name) if name is not None else device
+    chosen = known_device(name) if name is not None else device
     changes: dict[str, Any] = {}
     if noise is not None:
         changes["sensor"] = chosen.sensor.replace(noise=noise)

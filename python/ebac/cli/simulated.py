@@ -34,14 +34,14 @@ PlantHand: TypeAlias = Annotated[
 ]
 Seconds: TypeAlias = Annotated[
     float | None,
-    typer.Option(help="Stop after so long [s].", show_default="until Ctrl-C", min=0),
+    typer.Option(help="Stop after so long [s].", show_default="until Ctrl-C", min=0, max=1e7),
 ]
 
 
 def plant_of(file: Path | None, device: str | None, hand: str | None, seed: int | None) -> Scenario:
     """Return device and hand: of the file, or a joystick that is held where it is."""
     from ebac import presets
-    from ebac.can_channels import resting_joystick
+    from ebac.can.channels import resting_joystick
 
     if file is None:
         base = resting_joystick()

@@ -8,15 +8,16 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from ebac.cli import output
+from ebac.cli.files import ResultOptions
 
 if TYPE_CHECKING:
     from ebac.tracking import Budget, Tracking
 
-DEFAULT_OUT = Path("ebac-track")
-_READ, _FIT, _SIMULATED, _RUN = "Files", "Fit", "Error budget (--simulated)", "Run"
+_READ, _FIT, _SIMULATED = "Files", "Fit", "Error budget (--simulated)"
 
 
 def track(
+    to: ResultOptions,
     files: Annotated[
         list[Path] | None,
         typer.Argument(
@@ -54,13 +55,20 @@ def track(
         ),
     ] = False,
     runs: Annotated[
-        int, typer.Option(help="Joysticks drawn for each row.", rich_help_panel=_SIMULATED)
+        int,
+        typer.Option(
+            help="Joysticks drawn for each row.", min=2, max=100_000, rich_help_panel=_SIMULATED
+        ),
     ] = 100,
-    seed: Annotated[int, typer.Option(help="Seed of the draws.", rich_help_panel=_SIMULATED)] = 1,
+    seed: Annotated[
+        int, typer.Option(help="Seed of the draws.", min=0, rich_help_panel=_SIMULATED)
+    ] = 1,
     slack: Annotated[
         float | None,
         typer.Option(
             help="Play of each cable at the handle, end to end [m].",
+            min=0,
+            max=0.02,
             show_default="0.0005, assumed",
             rich_help_panel=_SIMULATED,
         ),
@@ -69,33 +77,26 @@ def track(
         float,
         typer.Option(
             help="Errors of installation, in multiples of those assumed.",
+            min=0,
+            max=100,
             rich_help_panel=_SIMULATED,
         ),
     ] = 1.0,
-    out: Annotated[
-        Path | None,
-        typer.Option(
-            "--out",
-            "-o",
-            help="Folder for figures and numbers.",
-            show_default=str(DEFAULT_OUT),
-            rich_help_panel=_RUN,
-        ),
-    ] = None,
     as_json: output.AsJson = False,
 ) -> None:
-    """Fit a line or a circle to recorded paths: standard deviation, path error, uncertainty (paper, Table I).
+    """Fit a line or a circle to recorded paths.
 
+    Standard deviation, path error and uncertainty, as in Table I of the paper.
     SD is sqrt(sum d^2 / (n - p)) of the distances d from the fit with p = 2 for a line, 3 for a circle; the path
     error is the mean of |d|.
 
     **Examples**
 
-    * `ebac track line.csv circle.csv`: columns `x [mm]`, `y [mm]`.
+    * `ebac demo line circle`, then `ebac track line.csv circle.csv`: two recorded paths
 
-    * `ebac track run.csv --columns px,py --unit mm --shape circle --robust`
+    * `ebac track circle.csv --shape circle --robust`: without its outliers
 
-    * `ebac track --simulated`: what encoder, installation and cable slack make of a true path, beside Table I.
+    * `ebac track --simulated --runs 20`: error budget of the paper's joystick, beside Table I
     """
     with output.refusing():
         if simulated == bool(files):
@@ -103,7 +104,7 @@ def track(
                 "give files to fit, or --simulated for the error budget: one of the two"
             )
         if simulated:
-            _simulated(runs, seed, slack, alignment, out, as_json)
+            _simulated(runs, seed, slack, alignment, to, as_json)
             return
         from ebac.tracking import evaluate, read_path
 
@@ -112,8 +113,8 @@ def track(
             evaluate(read_path(file, columns=chosen, unit=unit), shape=shape, robust=robust)
             for file in files or []
         ]
-    folder = out or (None if as_json else DEFAULT_OUT)
-    names = _write(folder, found, robust) if folder else []
+    folder = to.folder("track", as_json=as_json)
+    names = _write(folder, found, robust, to) if folder else []
     if as_json:
         typer.echo(output.document("track", [t.row() for t in found], robust=robust))
         return
@@ -122,7 +123,7 @@ def track(
         output.list_files(folder, names)
 
 
-def _write(folder: Path, found: list[Tracking], robust: bool) -> list[str]:
+def _write(folder: Path, found: list[Tracking], robust: bool, to: ResultOptions) -> list[str]:
     from ebac.plot import plot_tracking
 
     with output.results(folder) as draft:
@@ -134,12 +135,12 @@ def _write(folder: Path, found: list[Tracking], robust: bool) -> list[str]:
             stem = Path(tracking.path.name).stem
             same = [t for t in found if Path(t.path.name).stem == stem]
             name = f"{stem}-{i + 1}" if len(same) > 1 else stem
-            plot_tracking(tracking).savefig(draft / f"{name}.png")
+            to.save(plot_tracking(tracking), draft, name)
         return sorted(file.name for file in draft.iterdir())
 
 
 def _show(found: list[Tracking]) -> None:
-    from ebac import wording
+    from ebac._util import formatting
     from ebac.tracking import LineFit
 
     headings = ["file", "shape", "SD", "path error", "largest", "points", "outliers", "fitted"]
@@ -147,35 +148,34 @@ def _show(found: list[Tracking]) -> None:
     for t in found:
         row, fit = t.row(), t.fit
         if isinstance(fit, LineFit):
-            told = (f"{wording.quantity(row['length_m'], 'm')} long, at {row['angle_deg']:.3f} "
+            told = (f"{formatting.quantity(row['length_m'], 'm')} long, at {row['angle_deg']:.3f} "
                     f"+- {1.96 * row['angle_sd_deg']:.2g} deg")  # fmt: skip
         else:
-            told = (f"radius {wording.quantity(fit.radius, 'm')} +- {1.96e3 * fit.radius_sd_m:.2g} mm, "
+            told = (f"radius {formatting.quantity(fit.radius, 'm')} +- {1.96e3 * fit.radius_sd_m:.2g} mm, "
                     f"{row['arc_deg']:.0f} deg of it")  # fmt: skip
-        lengths = [wording.quantity(row[k], "m") for k in ("sd_m", "error_m", "largest_m")]
+        lengths = [formatting.quantity(row[k], "m") for k in ("sd_m", "error_m", "largest_m")]
         grid.add_row(t.path.name, t.shape, *lengths, str(row["points"]), str(row["outliers"]), told)
-    output.console().print(grid)
+    output.show(grid)
     for t in found:
-        output.say(f"{t.path.name}: {t.path.said}.")
+        output.say(f"{t.path.name}: {t.path.remark}.")
     output.say("+- is a 95 % interval that counts correlated points for what they are worth.")
 
 
 def _simulated(
-    runs: int, seed: int, slack: float | None, alignment: float, out: Path | None, as_json: bool
+    runs: int, seed: int, slack: float | None, alignment: float, to: ResultOptions, as_json: bool
 ) -> None:
     from ebac.tracking import ErrorSources, error_budget
 
     plain = ErrorSources()
-    if not alignment >= 0:
-        raise ValueError(f"--alignment {alignment}: must not be negative")
     names = ("zero", "skew", "axis_offset", "lever", "ratio")
     sizes: dict[str, Any] = {name: alignment * getattr(plain, name) for name in names}
     sources = plain.replace(slack=plain.slack if slack is None else slack, **sizes)
+    folder = to.folder("track", as_json=as_json)
+    output.keeping("nothing was written; fewer --runs take less time")
     with output.counting("drawing joysticks", quiet=as_json) as progress:
         budget = error_budget(sources=sources, runs=runs, seed=seed, progress=progress)
     document = output.document("track", _rows(budget), **_assumed(budget))
-    folder = out or (None if as_json else DEFAULT_OUT)
-    files = _write_budget(folder, budget, document) if folder else []
+    files = _write_budget(folder, budget, document, to) if folder else []
     if as_json:
         typer.echo(document)
         return
@@ -210,7 +210,7 @@ def _assumed(budget: Budget) -> dict[str, Any]:
     }  # fmt: skip
 
 
-def _write_budget(folder: Path, budget: Budget, document: str) -> list[str]:
+def _write_budget(folder: Path, budget: Budget, document: str, to: ResultOptions) -> list[str]:
     from ebac.plot import plot_budget, plot_tracking
     from ebac.tracking import RecordedPath, evaluate
 
@@ -218,32 +218,32 @@ def _write_budget(folder: Path, budget: Budget, document: str) -> list[str]:
         if draft is None:
             return []
         (draft / "budget.json").write_text(document + "\n", encoding="utf-8")
-        plot_budget(budget).savefig(draft / "budget.png")
+        to.save(plot_budget(budget), draft, "budget")
         for shape, points in budget.examples.items():
-            path = RecordedPath(points=points, name=f"simulated {shape}", said="simulated")
-            plot_tracking(evaluate(path, shape=shape)).savefig(draft / f"{shape}.png")
+            path = RecordedPath(points=points, name=f"simulated {shape}", remark="simulated")
+            to.save(plot_tracking(evaluate(path, shape=shape)), draft, shape)
         return sorted(file.name for file in draft.iterdir())
 
 
 def _show_budget(budget: Budget) -> None:
-    from ebac import wording
+    from ebac._util import formatting
 
     headings = ["path", "source", "SD", "5 % to 95 %", "path error", "error/SD"]
     grid = output.table(headings, numbers=(2, 3, 4, 5))
     for row in _rows(budget):
         sd, low, high, error = (
-            wording.quantity(row[k], "m") for k in ("sd_m", "sd_low_m", "sd_high_m", "error_m")
+            formatting.quantity(row[k], "m") for k in ("sd_m", "sd_low_m", "sd_high_m", "error_m")
         )
         span = "" if row["sd_low_m"] is None else f"{low.removesuffix(' mm')} to {high}"
         style = "bold" if row["source"] == "all" else None
         grid.add_row(
             row["shape"], row["source"], sd, span, error, f"{row['ratio']:.2f}", style=style
         )
-    output.console().print(grid)
+    output.show(grid)
     for shape, slack in budget.slack_m.items():
-        left = wording.quantity(budget.unexplained_m(shape), "m")
+        left = formatting.quantity(budget.unexplained_m(shape), "m")
         cause = (
-            f"a slack of {wording.quantity(slack, 'm')} at the handle would explain the paper's mean SD"
+            f"a slack of {formatting.quantity(slack, 'm')} at the handle would explain the paper's mean SD"
             if slack is not None
             else "no slack up to 20 mm brings it to the paper's mean SD"
         )

@@ -47,5 +47,5 @@ def remedy(code: int) -> str:
 
 #: The object cannot be written.
 READ_ONLY = 0x06010002
-#: Codes that say "there is no such thing here".
+#: Codes that mean "there is no such thing here".
 ABSENT = frozenset({0x06020000, 0x06090011})

@@ -18,7 +18,7 @@ from ebac.drives.settings import Group, Setting, Write, writes
 #: "save" as 0x1010 takes it (CiA 301).
 _SAVE = b"save"
 
-#: Told after every write: how many are done, of how many.
+#: Called after every write: how many are done, of how many.
 Progress = Callable[[int, int], None]
 
 
@@ -68,12 +68,12 @@ def apply(
     store : bool
         Whether the drive shall keep it in flash (0x1010).
     progress : callable
-        Told after every write.
+        Called after every write.
 
     Raises
     ------
     NotApplied
-        When it stopped half way; the message says what was written and what was not.
+        When it stopped half way; the message lists what was written and what was not.
     NotVerified
         When the drive holds something else than was written.
     DriveError
@@ -106,7 +106,7 @@ def verify(drive: Drive, node: Node) -> Plan:
     """
     made = plan(drive, node)
     if made.changes:
-        raise NotVerified(_told(drive.node, made.changes), node=drive.node)
+        raise NotVerified(_not_held(drive.node, made.changes), node=drive.node)
     return made
 
 
@@ -143,7 +143,7 @@ def restore(
     must = [replace(g, settings=tuple(s for s in g.settings if not s.optional)) for g in wanted]
     left = differences(drive.node, must, read_held(drive, must))
     if left:
-        raise NotVerified(_told(drive.node, left), node=drive.node)
+        raise NotVerified(_not_held(drive.node, left), node=drive.node)
     if store:
         _store(drive)
     path = shelf.path(drive)
@@ -219,7 +219,7 @@ def _write(drive: Drive, step: Write) -> None:
 
 
 def _after(drive: Drive) -> str:
-    """Leave the drive disabled, and say how sure that is."""
+    """Leave the drive disabled, and return how sure that is."""
     again = "Run the command again to finish, or `ebac drive restore` to take it back."
     try:
         state = drive.disable()
@@ -241,7 +241,7 @@ def _store(drive: Drive) -> None:
         ) from error
 
 
-def _told(node: int, changes: Sequence[Change]) -> str:
+def _not_held(node: int, changes: Sequence[Change]) -> str:
     parts = ", ".join(
         f"{one.object} is {one.object.show(one.now)}, not {one.object.show(one.wanted)}"
         for one in changes

@@ -17,7 +17,7 @@ from ebac.drives.drive import Drive
 from ebac.drives.errors import DriveError
 from ebac.drives.objects import find
 
-#: What tells one drive from another (CiA 301, 0x1018).
+#: Identity of a drive (CiA 301, 0x1018).
 _IDENTITY = ("vendor_id", "product_code", "serial_number")
 
 
@@ -162,7 +162,7 @@ class Backups:
 
 
 def state_folder() -> Path:
-    """Return where backups lie when nothing else is said."""
+    """Return the default folder of backups."""
     base = os.environ.get("XDG_STATE_HOME")
     return (Path(base) if base else Path.home() / ".local" / "state") / "ebac" / "drives"
 

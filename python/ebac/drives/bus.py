@@ -10,8 +10,8 @@ from pathlib import Path
 from types import TracebackType
 from typing import TYPE_CHECKING, Any, Self
 
+from ebac.drives.bus_monitor import BusMonitor
 from ebac.drives.errors import BusError
-from ebac.drives.heard import Heard
 
 if TYPE_CHECKING:
     import can
@@ -39,13 +39,13 @@ class DriveBus:
     def __init__(self, bus: can.BusABC) -> None:
         import canopen
 
-        self.heard = Heard()
+        self.monitor = BusMonitor()
         self.network = canopen.Network(bus)
         self.network.NOTIFIER_CYCLE = 0.01  # s; closing waits for it
         self._drives: dict[int, Drive] = {}
         self.network.connect()
         assert self.network.notifier is not None
-        self.network.notifier.add_listener(self.heard)
+        self.network.notifier.add_listener(self.monitor)
 
     @classmethod
     def open(
@@ -69,7 +69,7 @@ class DriveBus:
         Raises
         ------
         BusError
-            When it cannot be opened; the message says what to do.
+            When it cannot be opened; the message contains the remedy.
         """
         return cls(open_bus(interface=interface, channel=channel, bitrate=bitrate))
 
@@ -114,7 +114,7 @@ class DriveBus:
         return self._drives[node]
 
     def scan(self, *, seconds: float = 0.3, nodes: range = range(1, 128)) -> list[int]:
-        """Return the ids of the nodes that answer an SDO or are heard otherwise.
+        """Return the ids of the nodes that answer an SDO or send other frames.
 
         Parameters
         ----------
@@ -141,7 +141,7 @@ class DriveBus:
                 ) from error
             time.sleep(0.001)  # a request is 0.13 ms at 1 Mbit/s; a send queue holds only ten
         time.sleep(seconds)
-        return [node for node in self.heard.nodes() if node in nodes]
+        return [node for node in self.monitor.nodes() if node in nodes]
 
 
 def open_bus(
@@ -158,7 +158,7 @@ def open_bus(
 
 @contextmanager
 def _telling(interface: str | None, channel: str | None) -> Iterator[None]:
-    """Turn what python-can raises while it opens a bus into one error that says what to do."""
+    """Turn what python-can raises while it opens a bus into one error with a remedy."""
     import can
 
     asked = f"interface {interface or 'from python-can'}, channel {channel or 'from python-can'}"

@@ -1,4 +1,4 @@
-"""What was heard on the bus: heartbeats, emergencies, and who else talks."""
+"""Bus monitor: heartbeats, emergencies, and other nodes on the bus."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ class Emergency:
         return f"0x{self.code:04X} {faults.emergency(self.code)}{vendor}"
 
 
-class Heard:
+class BusMonitor:
     """A listener on the bus that remembers the last frames and all emergencies of late."""
 
     def __init__(self) -> None:
@@ -68,13 +68,13 @@ class Heard:
         return found[resets[-1] + 1 :] if resets else found
 
     def nmt(self, node: int) -> str | None:
-        """Return the NMT state in the last heartbeat of a node, None when none was heard."""
+        """Return the NMT state in the last heartbeat of a node, None when none was received."""
         with self._lock:
             found = self._nmt.get(node)
         return None if found is None else NMT_STATES.get(found[1], f"unknown 0x{found[1]:02X}")
 
     def nodes(self) -> list[int]:
-        """Return the nodes that were heard: by heartbeat, SDO answer, PDO or emergency."""
+        """Return the nodes seen on the bus: by heartbeat, SDO answer, PDO or emergency."""
         with self._lock:
             cobs = {cob for _, cob in self._frames} | {0x700 + node for node in self._nmt}
         services = (0x080, 0x180, 0x280, 0x380, 0x480, 0x580, 0x700)
@@ -95,8 +95,8 @@ class Heard:
             f"emergency of node {node} ({'; '.join(str(e) for e in self.emergencies(node)[-3:])})"
             for node in alarms
         ]
-        told = {0x700 + node for node in beats} | {0x080 + node for node in alarms}
-        others = sorted(set(count) - told)
+        expected = {0x700 + node for node in beats} | {0x080 + node for node in alarms}
+        others = sorted(set(count) - expected)
         parts += [f"0x{cob:03X} ({count[cob]} times)" for cob in others[:8]]
         if len(others) > 8:
             parts.append(f"{len(others) - 8} more identifiers")
@@ -115,7 +115,7 @@ class Heard:
                 return [f"node {node} is stopped and answers no SDO: NMT pre-operational wakes it"]
             return [
                 f"node {node} is alive but answers no SDO: is another program talking to it by SDO?",
-                "is the bus overloaded (`ebac drive plan` tells the load)?",
+                "is the bus overloaded (`ebac drive plan` prints the load)?",
             ]
         there = self.nodes()
         if node in there:
@@ -124,7 +124,7 @@ class Heard:
                 "is another program talking to it by SDO?",
             ]
         if count or there:
-            others = f" (heard: {', '.join(str(n) for n in there)})" if there else ""
+            others = f" (on the bus: {', '.join(str(n) for n in there)})" if there else ""
             return [
                 f"the node id: `ebac drive scan` lists who answers{others}",
                 f"power of drive {node}, and its own bit rate",

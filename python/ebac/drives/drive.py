@@ -7,11 +7,11 @@ from collections.abc import Callable
 from types import TracebackType
 from typing import Self
 
+from ebac._util.exception_notes import noted_on
 from ebac.drives import faults
 from ebac.drives.errors import DriveError, DriveFault, WrongAnswer, WrongState
 from ebac.drives.node import Node
 from ebac.drives.state import AUTOMATIC, Command, State, Statusword, path
-from ebac.leaving import noted_on
 
 #: Modes of operation this package uses (CiA 402-2, object 0x6060).
 MODES = {4: "profile torque", 10: "cyclic synchronous torque"}
@@ -166,7 +166,7 @@ class Drive(Node):
         return self.wait(lambda now: now in resting, "disabled", timeout=timeout)
 
     def quick_stop(self, *, timeout: float = _DEADLINE) -> State:
-        """Brake as 0x605A says; return the state it ends in, at last "switch on disabled".
+        """Brake as 0x605A configures it; return the state it ends in, at last "switch on disabled".
 
         Raises
         ------
@@ -236,12 +236,12 @@ class Drive(Node):
         return faults.latched(word) if isinstance(word, int) else []
 
     def fault(self, doing: str) -> DriveFault:
-        """Return the fault the drive is in, with all it tells, as an exception to raise."""
+        """Return the fault the drive is in, with all its details, as an exception to raise."""
         code = self.look("error_code")
         return DriveFault(
             self.node,
             code=code if isinstance(code, int) else None,
-            emergencies=[str(one) for one in self.bus.heard.emergencies(self.node)],
+            emergencies=[str(one) for one in self.bus.monitor.emergencies(self.node)],
             latched=self.latched(),
             doing=doing,
         )
@@ -250,7 +250,7 @@ class Drive(Node):
         """Say why a drive may not obey."""
         if not self.statusword & Statusword.REMOTE:
             return (
-                "its statusword says it is not under remote control (bit 9): Copley drives obey CANopen "
+                "its statusword shows no remote control (bit 9): Copley drives obey CANopen "
                 "only when desired_state (0x2300) is 30"
             )
         return "is its enable input active, is its supply on, does another program command it?"

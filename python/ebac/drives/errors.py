@@ -1,4 +1,4 @@
-"""What can go wrong with a drive, as exceptions that say what to do."""
+"""Errors of drives; each message contains the remedy."""
 
 from __future__ import annotations
 
@@ -32,19 +32,19 @@ class BusError(DriveError):
 class NoAnswer(DriveError):
     """A drive did not answer in time.
 
-    The message names the node and the object, what was heard on the bus meanwhile, and what to check.
+    The message names the node and the object, the traffic on the bus meanwhile, and what to check.
     """
 
     def __init__(
-        self, node: int, what: str, seconds: float, *, heard: str, check: Sequence[str]
+        self, node: int, what: str, seconds: float, *, traffic: str, check: Sequence[str]
     ) -> None:
         checks = "; ".join(f"{i}. {text}" for i, text in enumerate(check, start=1))
         super().__init__(
             f"node {node} did not answer within {1e3 * seconds:.0f} ms ({what}). "
-            f"Heard meanwhile: {heard}. Check: {checks}",
+            f"On the bus meanwhile: {traffic}. Check: {checks}",
             node=node,
         )
-        self.heard = heard
+        self.traffic = traffic
 
 
 class Refused(DriveError):
@@ -66,7 +66,7 @@ class Refused(DriveError):
 
 
 class WrongAnswer(DriveError):
-    """A drive answered something else than was asked, or does not do what it was told."""
+    """A drive answered something else than was asked, or does not carry out a command."""
 
 
 class WrongState(DriveError):
@@ -87,7 +87,7 @@ class DriveFault(DriveError):
     code : int or None
         Object 0x603F, None where it cannot be read.
     emergencies : sequence of str
-        The emergencies heard, oldest first.
+        The emergencies received, oldest first.
     latched : sequence of str
         Latched faults of a Copley drive by name.
     doing : str
@@ -112,9 +112,9 @@ class DriveFault(DriveError):
             parts.append(f"latched: {', '.join(latched)}")
         if emergencies:
             parts.append(f"emergencies: {'; '.join(emergencies)}")
-        told = ". ".join(parts) or "it tells no reason"
+        reason = ". ".join(parts) or "it gives no reason"
         super().__init__(
-            f"node {node} is in fault while {doing}: {told}. Remove the cause, then "
+            f"node {node} is in fault while {doing}: {reason}. Remove the cause, then "
             f"`ebac drive reset-fault --node {node}`",
             node=node,
         )
@@ -124,7 +124,7 @@ class DriveFault(DriveError):
 
 
 class NotApplied(DriveError):
-    """A configuration stopped half way. The drive is disabled unless the message says otherwise.
+    """A configuration stopped half way. The drive is disabled unless the message states otherwise.
 
     `written` and `left` name what was written and what was not, in order.
     """
@@ -147,4 +147,4 @@ class NotVerified(DriveError):
 
 
 class ProfileError(ValueError):
-    """A profile says what cannot be; the message names file, line, key, value, range, remedy."""
+    """A profile is not valid; the message names file, line, key, value, range, remedy."""

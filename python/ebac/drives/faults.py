@@ -1,4 +1,4 @@
-"""What a drive says of its faults: emergency codes and the latched faults of Copley drives."""
+"""Faults of drives: emergency codes and the latched faults of Copley drives."""
 
 from __future__ import annotations
 

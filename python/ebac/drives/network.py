@@ -11,7 +11,7 @@ from ebac.drives.errors import ProfileError
 from ebac.drives.load import BITRATES, BusLoad, Traffic, bus_load
 from ebac.drives.pdo import sync_period
 from ebac.drives.profile import Profile, read_profile, read_source
-from ebac.drives.source import Source
+from ebac.drives.toml_positions import Source
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -85,7 +85,7 @@ def load(name: str | Path, *, nodes: Sequence[int] = (), bitrate: int | None = N
     nodes : sequence of int
         Of a network file: only these. Of a profile: the nodes it is for.
     bitrate : int, optional
-        Of the bus [bit/s], where the file does not say.
+        Of the bus [bit/s], where the file has none.
 
     Raises
     ------
@@ -102,7 +102,7 @@ def load(name: str | Path, *, nodes: Sequence[int] = (), bitrate: int | None = N
     profile = read_profile(source)
     if not nodes:
         raise ProfileError(
-            f"{source.name}: is a profile for any node: say which with --node, or write a network "
+            f"{source.name}: is a profile for any node: choose one with --node, or write a network "
             "file with [[node]] tables, see the profile joystick"
         )
     chosen = tuple(Node(id=node, profile=profile) for node in dict.fromkeys(nodes))
@@ -128,7 +128,7 @@ def _only(network: Network, nodes: Sequence[int]) -> Network:
 
 
 def _network(source: Source) -> Network:
-    from ebac.document import unknown
+    from ebac._util.serialisation import unknown
 
     known = ["about", "bus", "node"]
     for title in source.table:

@@ -43,7 +43,7 @@ class Node:
         bus.network.add_node(self._remote)
         self.bus = bus
         self.node = node
-        self.sdo = Sdo(self._remote.sdo, node, bus.heard, timeout)
+        self.sdo = Sdo(self._remote.sdo, node, bus.monitor, timeout)
 
     def __repr__(self) -> str:
         return f"{type(self).__name__}(node={self.node})"

@@ -68,7 +68,7 @@ class Object:
         return f"{self.name} ({self.where})"
 
     def decode(self, data: bytes) -> int | str:
-        """Return what the bytes of the drive say; the drive's own length counts."""
+        """Decode the bytes of the drive; the drive's own length counts."""
         if self.kind == "str":
             return data.decode("ascii", errors="replace").rstrip("\0")
         return int.from_bytes(data, "little", signed=self.kind.startswith("i"))
@@ -79,7 +79,7 @@ class Object:
         Raises
         ------
         ValueError
-            When it does not fit; the message tells the range.
+            When it does not fit; the message contains the range.
         """
         if self.kind not in NUMBERS:
             raise ValueError(f"{self}: is text and cannot be written as a number")
@@ -132,7 +132,7 @@ _TABLE: tuple[tuple[str, int, int, str, str, str], ...] = (
     ("motor_counts_per_turn_old", 0x6410, 23, "u32", "counts", "as 0x2383:23, older firmware"),
     ("error_code", 0x603F, 0, "u16", "bits", "emergency code of the last fault"),
     ("controlword", 0x6040, 0, "u16", "bits", "what is asked of the state machine"),
-    ("statusword", 0x6041, 0, "u16", "bits", "what the state machine says"),
+    ("statusword", 0x6041, 0, "u16", "bits", "state of the state machine"),
     ("quick_stop_option", 0x605A, 0, "i16", "", "how a quick stop brakes"),
     ("mode", 0x6060, 0, "i8", "", "mode asked: 4 profile torque, 10 cyclic torque"),
     ("mode_display", 0x6061, 0, "i8", "", "mode that acts"),
@@ -197,7 +197,7 @@ def _by_key() -> dict[tuple[int, int], Object]:
 def find(what: str | int | tuple[int, int] | Object) -> Object:
     """Return an object by name, index, or (index, sub-index).
 
-    An index the table does not know becomes an unsigned number as long as the drive says.
+    An index the table does not know becomes an unsigned number of the drive's length.
 
     Raises
     ------

@@ -6,10 +6,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from ebac.drives.keys import BY_NAME
 from ebac.drives.load import Traffic
 from ebac.drives.objects import ENTRIES, PDOS, find
-from ebac.drives.source import Source
+from ebac.drives.profile_fields import BY_NAME
+from ebac.drives.toml_positions import Source
 
 #: Names a PDO may have in a profile.
 NAMES = tuple(f"{kind}{i}" for kind in ("rpdo", "tpdo") for i in range(1, PDOS + 1))
@@ -92,7 +92,7 @@ def read_pdo(source: Source, name: str, table: Any) -> Pdo:
     ProfileError
         For what cannot be; the message names line, value, range and remedy.
     """
-    from ebac.document import unknown
+    from ebac._util.serialisation import unknown
 
     path = ("pdo", name)
     if name not in NAMES:

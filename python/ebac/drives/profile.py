@@ -11,11 +11,11 @@ from types import MappingProxyType
 from typing import Any, Self
 
 from ebac.drives.errors import ProfileError
-from ebac.drives.keys import BY_NAME, KEYS, RULES, Value
 from ebac.drives.load import Traffic
 from ebac.drives.pdo import Pdo, read_pdo, sync_period
-from ebac.drives.source import Path as Where
-from ebac.drives.source import Source, dotted
+from ebac.drives.profile_fields import BY_NAME, KEYS, RULES, Value
+from ebac.drives.toml_positions import Path as Where
+from ebac.drives.toml_positions import Source, dotted
 
 #: Tables of a profile that hold keys; `pdo` and `about` are read apart.
 TABLES = tuple(dict.fromkeys(key.name.partition(".")[0] for key in KEYS))
@@ -56,7 +56,7 @@ class Profile:
         for name, value in self.values.items():
             key = BY_NAME.get(name)
             if key is None:
-                from ebac.document import unknown
+                from ebac._util.serialisation import unknown
 
                 raise ProfileError(f"{self.name}: {unknown(name, name, list(BY_NAME))}")
             if (wrong := key.check(value)) is not None:
@@ -163,7 +163,7 @@ def read_profile(source: Source, *, base: Profile | None = None, at: Where = ())
 
 
 def _values(source: Source, table: Mapping[str, Any], at: Where) -> Iterator[tuple[str, Value]]:
-    from ebac.document import unknown
+    from ebac._util.serialisation import unknown
 
     apart = ("about", "pdo") if not at else ("id", "name", "profile")
     for title, item in table.items():

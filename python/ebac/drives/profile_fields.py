@@ -157,7 +157,7 @@ KEYS: tuple[Key, ...] = (
         sets="desired_state", why="who commands the drive"),
     Key(name="sync.period", unit="s", low=1e-4, high=1.0, default=1e-3, remedy="1e-3 s for a 1 kHz loop",
         sets="sync_period", scale=1e-6, why="the loop's SYNC comes this often"),
-    Key(name="emcy.on", choices=_SWITCH, default=True, remedy="a fault must be told"),
+    Key(name="emcy.on", choices=_SWITCH, default=True, remedy="a fault must be reported"),
     Key(name="heartbeat.producer", unit="s", low=0.005, high=60.0, default=0.1,
         remedy="0.1 s costs under 0.1 % of the bus",
         sets="heartbeat_producer", scale=1e-3, why="the loop sees a silent drive"),
@@ -202,13 +202,13 @@ RULES: tuple[Rule, ...] = (
      "differs from limits.rated_torque by more than 1 %: a torque in per mille would mean two things; "
      "give both the same value"),
     (_above_rated("torque"), "limits.max_torque",
-     "is told to the drive in per mille of limits.rated_torque, at most 65535: give limits.rated_torque, "
+     "is written to the drive in per mille of limits.rated_torque, at most 65535: give limits.rated_torque, "
      "or less"),
     (_above_rated("current"), "limits.max_current",
-     "is told to the drive in per mille of limits.rated_current, at most 65535: give "
+     "is written to the drive in per mille of limits.rated_current, at most 65535: give "
      "limits.rated_current, or less"),
     (lambda v: "torque.slope" not in v or "limits.rated_torque" in v, "torque.slope",
-     "is told to the drive in per mille of limits.rated_torque per second: give limits.rated_torque"),
+     "is written to the drive in per mille of limits.rated_torque per second: give limits.rated_torque"),
     (lambda v: v["torque.mode"] != "profile torque" or "torque.slope" in v, "torque.mode",
      "profile torque ramps by torque.slope: give torque.slope, steep"),
 )  # fmt: skip

@@ -12,7 +12,7 @@ from ebac.drives.objects import Object
 if TYPE_CHECKING:
     from canopen.sdo.client import SdoClient
 
-    from ebac.drives.heard import Heard
+    from ebac.drives.bus_monitor import BusMonitor
 
 
 class Sdo:
@@ -24,16 +24,16 @@ class Sdo:
         Of the remote node.
     node : int
         Node id, 1 to 127.
-    heard : Heard
-        What the bus says meanwhile.
+    monitor : BusMonitor
+        Monitor of the bus traffic.
     timeout : float
         How long an answer may take [s].
     """
 
-    def __init__(self, client: SdoClient, node: int, heard: Heard, timeout: float) -> None:
+    def __init__(self, client: SdoClient, node: int, monitor: BusMonitor, timeout: float) -> None:
         self._client = client
         self._node = node
-        self._heard = heard
+        self._monitor = monitor
         self._lock = threading.RLock()
         self._quiet_until = 0.0  # s, time.monotonic(): until then a late answer may come
         self.timeout = timeout
@@ -103,8 +103,8 @@ class Sdo:
                 self._node,
                 doing,
                 time.monotonic() - start,
-                heard=self._heard.describe(start),
-                check=self._heard.advice(self._node, start),
+                traffic=self._monitor.describe(start),
+                check=self._monitor.advice(self._node, start),
             ) from None
         except RuntimeError as error:  # as canopen has it
             raise BusError(

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
-from ebac.drives.keys import KEYS
 from ebac.drives.objects import PDO_OFF, PDOS, Object, find
 from ebac.drives.pdo import Pdo
 from ebac.drives.profile import Profile
+from ebac.drives.profile_fields import KEYS
 
 #: What a drive holds: raw bytes by (index, sub-index).
 Held = Mapping[tuple[int, int], bytes]
@@ -147,7 +147,7 @@ def _identifiers(emergencies: bool, node: int) -> Iterator[Setting]:
         object=find("emcy_cob_id"),
         value=0x080 + node if emergencies else PDO_OFF | 0x080 + node,
         mask=_COB,
-        why="a fault is told at once" if emergencies else "the profile wants no emergencies",
+        why="a fault is reported at once" if emergencies else "the profile wants no emergencies",
     )
 
 

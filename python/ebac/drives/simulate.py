@@ -129,7 +129,7 @@ class Simulation:
                         message.arbitration_id, data, remote=message.is_remote_frame
                     )
                 self._send()
-        except Exception as error:  # told by `check`, in the thread that asks
+        except Exception as error:  # raised by `check`, in the thread that asks
             self._failure = error
             self._over.set()
 

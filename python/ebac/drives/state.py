@@ -26,7 +26,7 @@ class Statusword(IntFlag):
     REMOTE = 1 << 9  # 0: the controlword is not obeyed
     TARGET_REACHED = 1 << 10
     INTERNAL_LIMIT = 1 << 11
-    MODE_12 = 1 << 12  # the mode of operation says what it means
+    MODE_12 = 1 << 12  # meaning by mode of operation
     MODE_13 = 1 << 13
     MANUFACTURER_14 = 1 << 14
     MANUFACTURER_15 = 1 << 15
@@ -60,7 +60,7 @@ class State(Enum):
 
     @classmethod
     def of(cls, statusword: int) -> Self:
-        """Return the state a statusword tells.
+        """Return the state in a statusword.
 
         Parameters
         ----------
@@ -76,7 +76,7 @@ class State(Enum):
             if statusword & mask == bits:
                 return cls(state)
         raise ValueError(
-            f"statusword = 0x{statusword:04X}: bits 0 to 3, 5, 6 tell no state of CiA 402; "
+            f"statusword = 0x{statusword:04X}: bits 0 to 3, 5, 6 are no state of CiA 402; "
             "is 0x6041 of this drive a CiA 402 statusword?"
         )
 

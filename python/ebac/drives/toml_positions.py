@@ -6,8 +6,8 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Any, TypeAlias
 
+from ebac._util.toml import parsed
 from ebac.drives.errors import ProfileError
-from ebac.toml_text import parsed
 
 #: Where a value stands: names of tables and keys, and places in lists.
 Path: TypeAlias = tuple[str | int, ...]

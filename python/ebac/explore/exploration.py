@@ -12,7 +12,7 @@ from ebac.explore.panels import Panel, chosen, usual
 from ebac.trace import Trace
 
 #: Height of a panel, and of what stands around them [pixels].
-PANEL, AROUND = 190, 90
+PANEL, AROUND = 190, 150
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

@@ -17,6 +17,6 @@ def packed(values: NDArray[Any]) -> bytes:
 
 
 def even(t: NDArray[np.float64]) -> bool:
-    """Whether times are those of a steady clock, so that first and last tell them all."""
+    """Whether times are those of a steady clock, so that first and last define them all."""
     steady = np.linspace(t[0], t[-1], len(t))
     return bool(np.abs(t - steady).max() <= 1e-6 * (t[-1] - t[0]) / max(1, len(t) - 1))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from html import escape
 from importlib.resources import files
 from itertools import cycle
 
@@ -16,6 +17,7 @@ from bokeh.models import (
     CrosshairTool,
     CustomJS,
     CustomJSTickFormatter,
+    Div,
     FixedTicker,
     HoverTool,
     Range1d,
@@ -28,10 +30,14 @@ from ebac.explore.exploration import PANEL
 from ebac.explore.pack import even, packed
 from ebac.explore.panels import Panel
 from ebac.explore.thin import bands
+from ebac.plot.marks import title
+from ebac.plot.style import QUANTITIES, colour
 from ebac.trace import Trace
 
-#: Okabe and Ito's palette: told apart by every eye; grey and black first, for what is asked and measured.
-PALETTE = ("#999999", "#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56b4e9")
+#: For columns without a colour of their own: Okabe and Ito's palette.
+PALETTE = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56b4e9", "#e6ab02")
+#: Columns that have the law's colour, as in every figure.
+LAWS_OWN = ("true.x", "f_applied", "law.beta", "true.energy")
 #: Furthest out and closest in, in spans of the trace and in rows.
 FARTHEST, CLOSEST = 1.05, 10
 
@@ -52,7 +58,7 @@ def page(trace: Trace, panels: Sequence[Panel]) -> str:
     )
     plots, sources, decades = [], [], []
     for panel in panels:
-        plot, shown = _draw(panel, t, window)
+        plot, shown = _draw(panel, trace.law, t, window)
         plot.add_tools(cursor)
         plots.append(plot)
         sources += shown
@@ -83,13 +89,14 @@ def page(trace: Trace, panels: Sequence[Panel]) -> str:
         toolbar_options={"logo": None},
     )
     document = Document()
+    document.add_root(Div(text=f"<b>{escape(title(trace))}</b>".replace("\n", "<br>")))
     document.add_root(column)
     document.js_on_event(DocumentReady, thin)
     return str(file_html(document, INLINE, title=repr(trace)))
 
 
 def _draw(
-    panel: Panel, t: np.ndarray[tuple[int], np.dtype[np.float64]], window: Range1d
+    panel: Panel, law: str, t: np.ndarray[tuple[int], np.dtype[np.float64]], window: Range1d
 ) -> tuple[figure, list[ColumnDataSource]]:
     """Return the plot of a panel and what it draws, one source for each series."""
     plot = figure(
@@ -103,17 +110,16 @@ def _draw(
         min_border_left=75,
     )
     sources = []
-    colours = cycle(PALETTE if len(panel.names) > 1 else PALETTE[1:])
-    for name, values, colour in zip(panel.names, panel.values, colours, strict=False):
+    for name, values, shade in zip(panel.names, panel.values, colours(panel, law), strict=True):
         thin = bands(values, t)
         scale = np.arcsinh if panel.decades else np.asarray
         source = ColumnDataSource(
             {**vars(thin), "low": scale(thin.least), "high": scale(thin.most)}
         )
         shown = {"source": source, "legend_label": name}
-        plot.varea("t", "low", "high", fill_color=colour, **shown)
-        plot.line("t", "low", line_color=colour, line_join="bevel", **shown)
-        line = plot.line("t", "high", name=name, line_color=colour, line_join="bevel", **shown)
+        plot.varea("t", "low", "high", fill_color=shade, **shown)
+        plot.line("t", "low", line_color=shade, line_join="bevel", **shown)
+        line = plot.line("t", "high", name=name, line_color=shade, line_join="bevel", **shown)
         unit = "" if panel.unit == "1" else f" {panel.unit}"
         plot.add_tools(
             HoverTool(
@@ -125,6 +131,15 @@ def _draw(
         sources.append(source)
     _dress(plot, panel)
     return plot, sources
+
+
+def colours(panel: Panel, law: str) -> list[str]:
+    """Return the colours of a panel's columns: the law's own, that of the quantity, or one of the palette."""
+    others = cycle(PALETTE)
+    known = {**QUANTITIES, **dict.fromkeys(LAWS_OWN, colour(law))}
+    if "true.x" not in panel.names:
+        known["x"] = colour(law)
+    return [known.get(name) or next(others) for name in panel.names]
 
 
 def _dress(plot: figure, panel: Panel) -> None:

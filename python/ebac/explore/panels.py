@@ -8,8 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from ebac._util.formatting import SHOWN
 from ebac.trace import Trace
-from ebac.wording import SHOWN
 
 #: Panels of an exploration that names no columns: a title and what it shows where the trace has it.
 USUAL: tuple[tuple[str, tuple[str, ...]], ...] = (
@@ -83,8 +83,8 @@ def panel(trace: Trace, names: Sequence[str], axis: int, title: str = "") -> Pan
     columns = [np.asarray(trace.axis(name, axis), dtype=float) for name in names]
     units = {name: trace.columns[name].unit for name in names}
     if len(set(units.values())) > 1:
-        told = ", ".join(f"{name} [{unit}]" for name, unit in units.items())
-        raise ValueError(f"one panel has one unit, not {told}: put them into panels of their own")
+        listed = ", ".join(f"{name} [{unit}]" for name, unit in units.items())
+        raise ValueError(f"one panel has one unit, not {listed}: put them into panels of their own")
     factor, unit = _read_in(units[names[0]], columns)
     return Panel(
         title=title or ", ".join(names),

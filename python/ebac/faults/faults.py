@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ebac import _core
-from ebac.aside import aside
+from ebac._util.background import aside
 from ebac.trace import Trace
 
 
@@ -28,7 +28,7 @@ class FaultRow:
     worst_ticks_to_zero : int
         From the row with the fault to zero torque on the bus [ticks of 1 ms].
     worst_ticks_to_off : int
-        From that row to no current in any simulated motor; a drive that hears nothing keeps its last
+        From that row to no current in any simulated motor; a drive that receives nothing keeps its last
         torque until it misses its torques (5 ms) or the heartbeat of the loop (50 ms).
     reasons : dict
         Failures by their verdict.
@@ -61,7 +61,7 @@ class FaultRow:
         }
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True, repr=False)
 class FaultCampaign:
     """What a campaign came to: one row per kind."""
 
@@ -69,6 +69,14 @@ class FaultCampaign:
     cases: int
     passed: int
     rows: list[FaultRow]
+
+    def __repr__(self) -> str:
+        """Return a row per kind of fault."""
+        from ebac._util.report import report
+
+        title = f"Fault campaign, simulated: {self.passed} of {self.cases} cases passed, seed {self.seed}"
+        shown = ("kind", "count", "found", "failures", "worst_ticks_to_zero", "worst_ticks_to_off")
+        return report(title, [{key: row.row()[key] for key in shown} for row in self.rows])
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -82,7 +90,7 @@ class FaultCase:
     trace : Trace
         Every row, the stop included.
     at, ticks : int
-        First tick of the trouble, and how many it lasts.
+        First tick of the injected fault, and how many ticks it lasts.
     axis : int
         Where.
     """
@@ -95,7 +103,7 @@ class FaultCase:
 
 
 def kinds() -> dict[str, str]:
-    """Return the kinds of trouble and what they mean; case i is of kind i modulo their number."""
+    """Return the kinds of injected faults and what they mean; case i is of kind i modulo their number."""
     return dict(_core._fault_kinds())
 
 
@@ -110,7 +118,7 @@ def run_campaign(
 
     In every case the command must be zero within 2 ticks of the fault in the row, every drive disabled at
     the end, no limit exceeded at any tick, the fault named rightly, and nothing may start again by itself. A
-    trouble too short to matter must not stop the loop.
+    a fault too short to matter must not stop the loop.
 
     Parameters
     ----------
@@ -121,7 +129,7 @@ def run_campaign(
     threads : int
         0 for one per core.
     step : callable, optional
-        Told (done, total) now and then.
+        Called with (done, total) now and then.
 
     Raises
     ------

@@ -11,18 +11,18 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Self
 
 from ebac.drives.bus import TIMEOUT
-from ebac.hardware.another_process import in_a_process
+from ebac.hardware.drives_subprocess import in_a_process
 from ebac.hardware.report import grant_row
 
 if TYPE_CHECKING:
     from ebac._core import (
-        AimCell,
-        ForceCell,
         Grant,
         LoopbackHub,
         LoopbackJoystick,
         RealTime,
         RealTimeMode,
+        SharedForce,
+        SharedHandTarget,
         SocketCanJoystick,
     )
     from ebac.hardware.configuration import Configuration
@@ -35,7 +35,7 @@ _numbers = itertools.count(1)
 
 
 @dataclass(frozen=True, kw_only=True)
-class Place:
+class Backend:
     """A bus with drives on it.
 
     Attributes
@@ -50,8 +50,8 @@ class Place:
         The force sensor, where there is one.
     patience : float
         How long an SDO answer may take [s].
-    aim : AimCell or None
-        By which the loop tells a simulated hand where to go; None where the hand is no simulated one.
+    aim : SharedHandTarget or None
+        Shared target of a simulated hand; None on hardware.
     grants : sequence of Grant
         What the threads of what is simulated asked of the system, and got.
     """
@@ -62,16 +62,16 @@ class Place:
     about: str
     sensor: SensorConfig | None = None
     patience: float = TIMEOUT
-    aim: AimCell | None = None
+    aim: SharedHandTarget | None = None
     grants: Sequence[Grant] = ()
 
 
 @contextmanager
-def hardware(configuration: Configuration) -> Iterator[Place]:
+def hardware(configuration: Configuration) -> Iterator[Backend]:
     """Give the bus a configuration names."""
     interface, channel = configuration.interface, configuration.channel
     if interface == "socketcan":
-        yield Place(
+        yield Backend(
             interface=interface,
             channel=channel,
             bus=channel,
@@ -79,11 +79,11 @@ def hardware(configuration: Configuration) -> Iterator[Place]:
             sensor=configuration.sensor,
         )
         return
-    from ebac.can_channels import hub_of
+    from ebac.can.channels import hub_of
 
     with hub_of(channel) as hub:
         about = f"the bus {channel!r} inside this process"
-        yield Place(
+        yield Backend(
             interface=interface,
             channel=channel,
             bus=hub,
@@ -93,7 +93,7 @@ def hardware(configuration: Configuration) -> Iterator[Place]:
 
 
 @contextmanager
-def simulated(configuration: Configuration) -> Iterator[Place]:
+def simulated(configuration: Configuration) -> Iterator[Backend]:
     """Put simulated drives with a device and a hand on a bus until the end of the block.
 
     On a virtual CAN interface, where there is one that is up, they are in another process; else in a thread of C++ on a
@@ -106,12 +106,12 @@ def simulated(configuration: Configuration) -> Iterator[Place]:
     """
     scenario = configuration.scenario(seconds=10)
     first = min(node.id for node in configuration.drives.nodes)
-    from ebac._core import AimCell, ForceCell, LoopbackJoystick
+    from ebac._core import LoopbackJoystick, SharedForce, SharedHandTarget
 
-    channel, aim = virtual_can(), AimCell()
+    channel, aim = virtual_can(), SharedHandTarget()
     if channel is not None:
         with in_a_process(channel, configuration, scenario, first, aim) as (sensor, grants):
-            yield Place(
+            yield Backend(
                 interface="socketcan",
                 channel=channel,
                 bus=channel,
@@ -122,24 +122,24 @@ def simulated(configuration: Configuration) -> Iterator[Place]:
                 grants=grants,
             )
         return
-    from ebac.can_channels import standing
+    from ebac.can.channels import standing
 
     # The loop's thread asks for the memory of this process.
     request = Request.beside(configuration.mode, configuration.realtime, lock_memory=False)
-    felt, grants = ForceCell([0.0, 0.0, 0.0]), []
+    shared_force, grants = SharedForce([0.0, 0.0, 0.0]), []
 
     def nodes(hub: LoopbackHub) -> AbstractContextManager[object]:
         served = LoopbackJoystick(
-            hub, scenario.setup(), first=first, felt=felt, wait_for_power=True, aim=aim
+            hub, scenario.setup(), first=first, force=shared_force, wait_for_power=True, aim=aim
         )
         return at_work(served, request, "the simulated drives", grants)
 
     channel = f"run-{os.getpid()}-{next(_numbers)}"
     with (
         standing(channel, nodes) as hub,
-        sensor_of(configuration.sensor, felt, request, grants) as sensor,
+        sensor_of(configuration.sensor, shared_force, request, grants) as sensor,
     ):
-        yield Place(
+        yield Backend(
             interface="ebac",
             channel=channel,
             bus=hub,
@@ -174,11 +174,11 @@ class Request:
 
 @contextmanager
 def sensor_of(
-    known: SensorConfig | None, felt: ForceCell, request: Request, grants: list[Grant]
+    known: SensorConfig | None, shared_force: SharedForce, request: Request, grants: list[Grant]
 ) -> Iterator[SensorConfig | None]:
-    """Put a simulated sensor that feels a force on this machine's own network; give where it is, None for none.
+    """Put a simulated sensor that measures a shared force on this machine's own network; None for none.
 
-    It tells counts as the known one does, and sits in the handle as that one. `grants` gets what its thread got.
+    It scales counts as the configured one does, and is mounted in the same way. `grants` gets what its thread got.
     """
     if known is None:
         yield None
@@ -190,7 +190,7 @@ def sensor_of(
         counts_per_force=known.counts_per_force, counts_per_torque=known.counts_per_torque
     )
     emulated = SimulatedSensor(
-        felt, options=options, rotation=known.rotation, sign=known.sign, model=known.model
+        shared_force, options=options, rotation=known.rotation, sign=known.sign, model=known.model
     )
     with at_work(emulated, request, "the simulated sensor", grants):
         host, port = emulated.address

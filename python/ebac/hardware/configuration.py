@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, Literal, Self
 from ebac._core import Device, Hand, Limits, RealTime, Timing, Wall
 from ebac.drives.errors import ProfileError
 from ebac.drives.network import Network
-from ebac.drives.source import Source
+from ebac.drives.toml_positions import Source
 from ebac.hardware.law import designed
 from ebac.hardware.reading import read
 from ebac.hardware.tables import ConfigurationError

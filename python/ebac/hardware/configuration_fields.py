@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from ebac.drives.keys import Key
-from ebac.drives.source import Path, Source, dotted
+from ebac.drives.profile_fields import Key
+from ebac.drives.toml_positions import Path, Source, dotted
 from ebac.hardware.tables import table
 
 BUS = (
@@ -63,7 +63,7 @@ def word(source: Source, path: Path, value: Any, choices: Sequence[str] = ()) ->
     ProfileError
         When it is none.
     """
-    from ebac.document import unknown
+    from ebac._util.serialisation import unknown
 
     if not isinstance(value, str) or not value:
         raise source.refuse(path, f"{dotted(path)} = {value!r}: must be text")

@@ -1,4 +1,4 @@
-"""What a loop was told last: its law, its virtual world, where a simulated hand should go."""
+"""Current parameters of a running loop: its law, its virtual world, the target of a simulated hand."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from math import nan
 from typing import TYPE_CHECKING, Any
 
 from ebac._core import Recorded, Step
-from ebac.hardware.told import Note, Told
+from ebac.hardware.parameter_updates import Note, ParameterUpdates
 
 if TYPE_CHECKING:
     from ebac import _core
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 _MOST_AXES = 3
 
 
-class Newest:
+class CurrentParameters:
     """Law, world and target of a loop, each checked before it is sent, and noted for the log. One thread at a time."""
 
     def __init__(
@@ -32,7 +32,7 @@ class Newest:
         self.law = law
         self.world: Environment = scenario.environment
         self.target: tuple[float | None, ...] = (None,) * scenario.device.axes
-        self.told = Told(running, scenario.timing.dt)
+        self.updates = ParameterUpdates(running, scenario.timing.dt)
         self._running = running
         self._hand = scenario.hand if hand else None
 
@@ -46,7 +46,7 @@ class Newest:
             message=f"law {after.name}: {', '.join(parts)}",
             values={f"law.{name}": value for name, value in changes.items()},
         )
-        self.told.send(lambda: self._running.retune(after), note)
+        self.updates.send(lambda: self._running.retune(after), note)
         self.law = after
         return after
 
@@ -58,28 +58,28 @@ class Newest:
             message=f"environment {world!r}",
             values={f"environment.{name}": value for name, value in changes.items()},
         )
-        self.told.send(lambda: self._running.change_world(world), note)
+        self.updates.send(lambda: self._running.change_world(world), note)
         self.world = world
         return world
 
-    def aim(self, *target: float | None) -> tuple[float | None, ...]:
+    def set_target(self, *target: float | None) -> tuple[float | None, ...]:
         """Send another target of the hand; None leaves an axis as it is."""
-        wanted = aimed(self._hand, self.target, *target)
+        wanted = targets_after(self._hand, self.target, *target)
         places = [nan if one is None else one for one in wanted]
         places += [nan] * (_MOST_AXES - len(places))
         names = [f"hand.target_{axis}" for axis in range(len(target))]
         values = {name: one for name, one in zip(names, target, strict=True) if one is not None}
         shown = ", ".join("as before" if one is None else f"{one:g} m" for one in wanted)
         note = Note(message=f"hand target: {shown}", values=values)
-        self.told.send(lambda: self._running.aim(places), note)
+        self.updates.send(lambda: self._running.aim(places), note)
         self.target = wanted
         return wanted
 
 
-def aimed(
+def targets_after(
     hand: Hand | None, before: tuple[float | None, ...], *target: float | None
 ) -> tuple[float | None, ...]:
-    """Return the targets of a hand [m], by axis, with these on top of those told before.
+    """Return the targets of a hand [m], by axis, with these on top of those set before.
 
     Raises
     ------
@@ -89,7 +89,7 @@ def aimed(
     axes = len(before)
     if hand is None:
         raise ValueError(
-            "the target of the hand: no simulated hand holds this device, so nobody can be told where to go; "
+            "the target of the hand: no simulated hand holds this device, so there is no target to set; "
             "open it with simulate=True (ebac run --simulated)"
         )
     if not 1 <= len(target) <= axes:

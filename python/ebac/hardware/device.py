@@ -13,19 +13,19 @@ from pathlib import Path
 from types import TracebackType
 from typing import TYPE_CHECKING, Any, Self
 
+from ebac._util.exception_notes import noted_on
 from ebac.drives import Backups
-from ebac.hardware import setting_up
+from ebac.hardware import drive_setup
+from ebac.hardware.backends import hardware, simulated
 from ebac.hardware.configuration import Configuration
 from ebac.hardware.interrupts import Interrupts
 from ebac.hardware.law import designed
-from ebac.hardware.place import hardware, simulated
 from ebac.hardware.report import Report
 from ebac.hardware.run import Run
 from ebac.hardware.run_setup import run_setup, started
-from ebac.leaving import noted_on
 
 if TYPE_CHECKING:
-    from ebac.hardware.place import Place
+    from ebac.hardware.backends import Backend
     from ebac.laws import AnyLaw, CoreLaw
     from ebac.scenario import Environment
     from ebac.trace import Trace
@@ -52,7 +52,7 @@ class OpenDevice:
     ----------
     configuration : Configuration
         As given.
-    place : Place
+    backend : Backend
         The bus with the drives.
 
     Warns
@@ -74,21 +74,21 @@ class OpenDevice:
         self.configuration = configuration
         self.simulated = simulate
         self._detached = detached
-        self._nodes = setting_up.nodes_of(configuration, simulate=simulate)
+        self._nodes = drive_setup.nodes_of(configuration, simulate=simulate)
         if not simulate and configuration.interface == "socketcan":
             network = replace(configuration.drives, nodes=self._nodes)
             if (warning := network.check_load()) is not None:
                 warnings.warn(warning, stacklevel=2)
         with ExitStack() as stack:
             self.interrupts = stack.enter_context(Interrupts())
-            self.place: Place = stack.enter_context(
+            self.backend: Backend = stack.enter_context(
                 simulated(configuration) if simulate else hardware(configuration)
             )
             backups = None
             if simulate:
                 backups = Backups(Path(stack.enter_context(tempfile.TemporaryDirectory())))
             write = simulate or configuration.setup == "apply"
-            setting_up.set_up(self.place, self._nodes, write=write, backups=backups)
+            drive_setup.set_up(self.backend, self._nodes, write=write, backups=backups)
             self._held = _Held(stack.pop_all())
         # What is forgotten, in a notebook or at the end of its program, is closed all the same.
         self._forgotten = weakref.finalize(self, self._held.close)
@@ -132,7 +132,7 @@ class OpenDevice:
         environment : Free, Wall, Corner or Disc, optional
             The virtual world; that of the configuration, if not given.
         seconds : float, optional
-            How long the law acts [s]; as the configuration says, if not given.
+            How long the law acts [s]; that of the configuration, if not given.
         log : str or Path, optional
             File to record to, .mcap; must not exist.
         look : callable
@@ -176,25 +176,25 @@ class OpenDevice:
         chosen = known if environment is None else known.replace(environment=environment)
         length = known.seconds if seconds is None else seconds
         scenario = chosen.scenario(seconds=length)
-        setup = run_setup(chosen, self._nodes, place=self.place, seconds=length)
+        setup = run_setup(chosen, self._nodes, backend=self.backend, seconds=length)
         path = None if log is None else _free(Path(log))
-        place, nodes = self.place, self._nodes
+        backend, nodes = self.backend, self._nodes
 
         def power_off() -> list[str]:
-            return setting_up.power_off(place, nodes)
+            return drive_setup.power_off(backend, nodes)
 
-        setting_up.start(place, nodes)
+        drive_setup.start(backend, nodes)
         self.interrupts.moving()
         try:
-            running = started(finished, place, setup)
+            running = started(finished, backend, setup)
             run = self._held.run = Run(
                 running,
                 law=finished,
                 scenario=scenario,
                 interrupts=self.interrupts,
                 power_off=power_off,
-                grants=place.grants,
-                hand=place.aim is not None,
+                grants=backend.grants,
+                hand=backend.aim is not None,
                 detached=self._detached,
             )
         except BaseException:
@@ -215,7 +215,7 @@ class OpenDevice:
         known = self.configuration
         if law is None:
             law, changes = known.law, {**known.changes, **changes}
-        with_sensor = self.place.sensor is not None
+        with_sensor = self.backend.sensor is not None
         return designed(law, changes, known.device, known.timing, sensor=with_sensor)
 
     def close(self) -> None:

@@ -13,10 +13,10 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from ebac.drives import Drive
+    from ebac.hardware.backends import Backend
     from ebac.hardware.configuration import Configuration
-    from ebac.hardware.place import Place
 
-#: The shortest period of SYNC a simulated drive is told [s]. It takes the silence of twenty for a broken bus, and an
+#: The shortest period of SYNC written to a simulated drive [s]. It takes the silence of twenty for a broken bus, and an
 #: ordinary kernel under load, or in a virtual machine, pauses a loop for 20 ms now and then.
 _SHORTEST = 10e-3
 
@@ -33,20 +33,20 @@ def nodes_of(configuration: Configuration, *, simulate: bool) -> tuple[Node, ...
 
 
 @contextmanager
-def drives_at(place: Place, nodes: Sequence[Node]) -> Iterator[list[Drive]]:
-    """Give the drives of a place; the bus is closed after the block, so that Python hears no process data."""
-    with DriveBus.open(interface=place.interface, channel=place.channel) as bus:
-        yield [bus.drive(node.id, timeout=place.patience) for node in nodes]
+def drives_at(backend: Backend, nodes: Sequence[Node]) -> Iterator[list[Drive]]:
+    """Give the drives of a backend; the bus is closed after the block, so that Python receives no process data."""
+    with DriveBus.open(interface=backend.interface, channel=backend.channel) as bus:
+        yield [bus.drive(node.id, timeout=backend.patience) for node in nodes]
 
 
 def set_up(
-    place: Place, nodes: Sequence[Node], *, write: bool, backups: Backups | None = None
+    backend: Backend, nodes: Sequence[Node], *, write: bool, backups: Backups | None = None
 ) -> None:
     """Bring every drive to its profile, without power.
 
     Parameters
     ----------
-    place : Place
+    backend : Backend
         Where they are.
     nodes : sequence of Node
         What they are to be set to.
@@ -64,7 +64,7 @@ def set_up(
     DriveError
         When a drive does not answer or obey.
     """
-    with drives_at(place, nodes) as drives:
+    with drives_at(backend, nodes) as drives:
         for drive, node in zip(drives, nodes, strict=True):
             _rest(drive)
             if write:
@@ -73,9 +73,9 @@ def set_up(
                 verify(drive, node)
 
 
-def start(place: Place, nodes: Sequence[Node]) -> None:
+def start(backend: Backend, nodes: Sequence[Node]) -> None:
     """Let the drives take process data; they stay without power until the loop enables them. Raises as `set_up`."""
-    with drives_at(place, nodes) as drives:
+    with drives_at(backend, nodes) as drives:
         for drive in drives:
             _rest(drive)
         for drive in drives:
@@ -83,22 +83,22 @@ def start(place: Place, nodes: Sequence[Node]) -> None:
 
 
 def _rest(drive: Drive) -> None:
-    """Leave a drive without power; one in fault is told, not reset."""
+    """Leave a drive without power; one in fault is reported, not reset."""
     if drive.disable() is State.FAULT:
         raise drive.fault("being set up")
 
 
-def power_off(place: Place, nodes: Sequence[Node]) -> list[str]:
+def power_off(backend: Backend, nodes: Sequence[Node]) -> list[str]:
     """See that no drive has power, asked one by one; return the state of each.
 
     Raises
     ------
     DriveError
-        When a drive does not obey or answer, after all have been told. Then cut the power.
+        When a drive does not obey or answer, after all were commanded. Then cut the power.
     """
     failed: list[DriveError] = []
     states: list[str] = []
-    with drives_at(place, nodes) as drives:
+    with drives_at(backend, nodes) as drives:
         for drive in drives:
             try:
                 states.append(drive.disable().value)

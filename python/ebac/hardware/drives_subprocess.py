@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING
 from ebac.drives.errors import BusError
 
 if TYPE_CHECKING:
-    from ebac._core import AimCell, Grant
+    from ebac._core import Grant, SharedHandTarget
     from ebac.hardware.configuration import Configuration
     from ebac.scenario import Scenario
     from ebac.sensor import SensorConfig
@@ -26,7 +26,11 @@ _START = 60.0
 
 @contextmanager
 def in_a_process(
-    channel: str, configuration: Configuration, scenario: Scenario, first: int, aim: AimCell
+    channel: str,
+    configuration: Configuration,
+    scenario: Scenario,
+    first: int,
+    aim: SharedHandTarget,
 ) -> Iterator[tuple[SensorConfig | None, list[Grant]]]:
     """Let `ebac drive simulate` put drives on `channel`; give where their sensor is, and what its threads were granted.
 
@@ -65,8 +69,8 @@ def in_a_process(
                 assert process.stdout is not None
                 said, granted = process.stdout.readline(), process.stdout.readline()
                 if not granted:
-                    _, told = process.communicate(timeout=_START)
-                    raise BusError(f"simulated drives on {channel}: {' '.join(told.split())}")
+                    _, output = process.communicate(timeout=_START)
+                    raise BusError(f"simulated drives on {channel}: {' '.join(output.split())}")
                 port = re.search(r"force sensor at 127\.0\.0\.1:(\d+)", said)
                 where = _emulated(sensor, int(port[1])) if sensor and port else None
                 yield where, [Grant(**one) for one in json.loads(granted)]

@@ -10,13 +10,13 @@ from types import FrameType, TracebackType
 from typing import Any, Self
 
 #: Signals that end a run; what the system sends when somebody types Ctrl-C, ends a process, or closes a terminal.
-SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
+SIGNALS = (signal.SIGINT, signal.SIGTERM, *([signal.SIGHUP] if hasattr(signal, "SIGHUP") else []))
 #: How often somebody looks whether the parent is still there [s].
 PARENT = 0.1
 
 
 class Terminated(SystemExit):
-    """The process was told to end (SIGTERM, SIGHUP); all that moved has been stopped before this was raised.
+    """The process received a signal to end (SIGTERM, SIGHUP); all that moved has been stopped before this was raised.
 
     Attributes
     ----------

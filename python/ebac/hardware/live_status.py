@@ -5,37 +5,39 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from ebac import _core
-from ebac.columns import column_infos, row_views
 from ebac.trace import Trace
+from ebac.trace.columns import column_infos, row_views
 
 if TYPE_CHECKING:
-    from ebac.hardware.newest import Newest
+    from ebac.hardware.current_parameters import CurrentParameters
     from ebac.laws import CoreLaw
     from ebac.scenario import Environment, Scenario
 
 
-class Watched:
-    """The rows of a loop at work and what it was told last, for any thread, at any time."""
+class LiveStatus:
+    """Rows and current parameters of a running loop, for any thread, at any time."""
 
-    def __init__(self, running: _core.Running, scenario: Scenario, newest: Newest) -> None:
+    def __init__(
+        self, running: _core.Running, scenario: Scenario, parameters: CurrentParameters
+    ) -> None:
         self._running = running
         self._scenario = scenario
-        self._newest = newest
+        self._parameters = parameters
 
     @property
     def law(self) -> CoreLaw:
-        """The law with its newest gains."""
-        return self._newest.law
+        """The law with its parameters gains."""
+        return self._parameters.law
 
     @property
     def environment(self) -> Environment:
-        """The newest virtual world."""
-        return self._newest.world
+        """The parameters virtual world."""
+        return self._parameters.world
 
     @property
     def target(self) -> tuple[float | None, ...]:
-        """Where a simulated hand was told to go last, by axis [m]; None where it follows the path it has."""
-        return self._newest.target
+        """Target of a simulated hand, by axis [m]; None where it follows the path it has."""
+        return self._parameters.target
 
     @property
     def done(self) -> bool:

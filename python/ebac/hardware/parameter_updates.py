@@ -1,4 +1,4 @@
-"""What a loop was told while it runs, as events for its log."""
+"""Record parameter updates of a running loop as log events."""
 
 from __future__ import annotations
 
@@ -8,19 +8,19 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from ebac import _core
-from ebac.columns import row_views
 from ebac.logs.events import Event
+from ebac.trace.columns import row_views
 
 
 @dataclass(frozen=True, kw_only=True)
 class Note:
-    """What the log will say of a value once the loop has taken it: in words, and in numbers with units in the key."""
+    """Log entry of an update once the loop has taken it: text, and numbers with units in the key."""
 
     message: str
     values: dict[str, Any] = field(default_factory=dict)
 
 
-class Told:
+class ParameterUpdates:
     """The values sent to a loop, by their serial numbers, until the loop has taken them. Any thread."""
 
     def __init__(self, running: _core.Running, dt: float) -> None:

@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING, Any
 
 from ebac import presets
 from ebac._core import Device, Hand, Limits, RealTime, Timing
-from ebac.document import from_document
+from ebac._util.serialisation import from_document
 from ebac.drives.errors import ProfileError
-from ebac.drives.source import Source
-from ebac.hardware.keys import BUS, RECORDING, RUN, number, word
+from ebac.drives.toml_positions import Source
+from ebac.hardware.configuration_fields import BUS, RECORDING, RUN, number, word
 from ebac.hardware.tables import known, on_top, refusing, table
 from ebac.laws import LAWS, design
 from ebac.scenario import Environment, Scenario
@@ -149,7 +149,7 @@ def _realtime(source: Source) -> dict[str, Any]:
     }
 
 
-#: What profile and device must tell alike: key of the profile, value of the device, its name.
+#: Values that profile and device must agree on: key of the profile, value of the device, its name.
 _SAME: tuple[tuple[str, Callable[[Device], float], str], ...] = (
     ("motor.torque_constant", lambda d: d.motor.torque_constant, "motor.torque_constant"),
     ("limits.rated_torque", lambda d: d.motor.rated_torque, "motor.rated_torque"),

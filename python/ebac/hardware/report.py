@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
 
-from ebac._core import Grant, LoopState, Running
+from ebac._core import Fault, Grant, LoopState, Running
 from ebac.trace import Trace
 
 if TYPE_CHECKING:
@@ -84,6 +84,25 @@ class Report:
             lost_frames=bus.lost,
         )
 
+    @classmethod
+    def of_virtual(cls, trace: Trace, log: Path | None, *, fault: bool) -> Self:
+        """Return how a run on a virtual clock went: nothing was late or lost, and no drive is left to ask."""
+        rows = len(trace)
+        return cls(
+            ended_by="fault" if fault else "time",
+            log=log,
+            ticks=rows,
+            recorded=0 if log is None else rows,
+            lost_rows=0,
+            changes_lost=0,
+            drives=(),
+            grants=(),
+            sent=0,
+            received=0,
+            refused=0,
+            lost_frames=0,
+        )
+
     def row(self) -> dict[str, Any]:
         """Return it as plain values."""
         values: dict[str, Any] = {one.name: getattr(self, one.name) for one in fields(self)}
@@ -151,6 +170,30 @@ def times(trace: Trace) -> Times:
         late_p99_9_s=part(late, 99.9),
         late_most_s=float(late.max()),
         skipped=int(trace["skipped"].sum()),
+    )
+
+
+#: Faults that a machine brings about which is too late or too busy.
+BY_TIME = frozenset(
+    {
+        Fault.DRIVE_SILENT,
+        Fault.HEARTBEAT_LOST,
+        Fault.ENCODER_JUMP,
+        Fault.OVERSPEED,
+        Fault.FORCE_STALE,
+        Fault.OVERRUNS,
+    }
+)
+
+
+def lateness(trace: Trace) -> str:
+    """Return how late the loop was: "woke up to 12.3 ms late and skipped 14 ticks"; empty on a virtual clock."""
+    most = 1e3 * float(trace["lateness"].max(initial=0.0))
+    skipped = int(trace["skipped"].sum())
+    if most == 0 and skipped == 0:
+        return ""
+    return (
+        f"woke up to {most:.3g} ms late and skipped {skipped:,} tick{'' if skipped == 1 else 's'}"
     )
 
 

@@ -1,21 +1,22 @@
-"""A run on hardware: a loop in a thread of C++, watched, told, recorded and ended from Python."""
+"""A run on hardware: a loop in a thread of C++, watched, updated, recorded and ended from Python."""
 
 from __future__ import annotations
 
 import threading
 import time
+import warnings
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from types import TracebackType
 from typing import TYPE_CHECKING, Any
 
 from ebac import _core
+from ebac._util.exception_notes import noted_on
 from ebac.drives.errors import DriveError
+from ebac.hardware.current_parameters import CurrentParameters
 from ebac.hardware.interrupts import Interrupts, OfParent
-from ebac.hardware.newest import Newest
-from ebac.hardware.report import Report
-from ebac.hardware.watched import Watched
-from ebac.leaving import noted_on
+from ebac.hardware.live_status import LiveStatus
+from ebac.hardware.report import BY_TIME, Report, lateness
 from ebac.trace import Trace
 
 if TYPE_CHECKING:
@@ -27,7 +28,7 @@ if TYPE_CHECKING:
 LOOK = 0.02
 
 
-class Run(Watched):
+class Run(LiveStatus):
     """A loop at work. Get it from `OpenDevice.start`; a context manager that ends it.
 
     Whatever comes first ends it: its time, a fault, `stop`, an exception, a signal, the end of the program or of its
@@ -49,7 +50,9 @@ class Run(Watched):
         self.recorder: Recorder | None = None
         self.report: Report | None = None
         self._ended_by = ""
-        super().__init__(running, scenario, Newest(running, law=law, scenario=scenario, hand=hand))
+        super().__init__(
+            running, scenario, CurrentParameters(running, law=law, scenario=scenario, hand=hand)
+        )
         self._interrupts = interrupts
         self._power_off = power_off
         self._grants = [*running.grants, *grants]
@@ -80,7 +83,7 @@ class Run(Watched):
         """
         with self._lock:
             self._check()
-            return self._newest.retune(**changes)
+            return self._parameters.retune(**changes)
 
     def change(self, environment: Environment | None = None, **changes: Any) -> Environment:
         """Change the virtual world from the next tick on: another one, or numbers of the present one. Return it.
@@ -101,10 +104,10 @@ class Run(Watched):
         """
         with self._lock:
             self._check()
-            return self._newest.change(environment, **changes)
+            return self._parameters.change(environment, **changes)
 
-    def aim(self, *target: float | None) -> tuple[float | None, ...]:
-        """Tell a simulated hand where to go from the next tick on, in place of its path. Return all its targets.
+    def set_target(self, *target: float | None) -> tuple[float | None, ...]:
+        """Move the target of a simulated hand from the next tick on, and return all its targets.
 
         Parameters
         ----------
@@ -114,19 +117,24 @@ class Run(Watched):
         Returns
         -------
         tuple
-            What each axis was told last [m]; None where it still follows its path.
+            Target of each axis [m]; None where it still follows its path.
 
         Raises
         ------
         ValueError
-            For a number out of range, for more numbers than axes, where the path is a recorded one, and on hardware: a
-            hand of flesh goes where it wants.
+            For a number out of range, for more numbers than axes, where the path is a recorded one, and on hardware:
+            only a simulated hand has a target that can be set.
         RuntimeError
             When the loop has ended.
         """
         with self._lock:
             self._check()
-            return self._newest.aim(*target)
+            return self._parameters.set_target(*target)
+
+    def aim(self, *target: float | None) -> tuple[float | None, ...]:
+        """Do what `set_target` does; the old name, until the next release."""
+        warnings.warn("Run.aim is now Run.set_target", DeprecationWarning, stacklevel=2)
+        return self.set_target(*target)
 
     def _check(self) -> None:
         if self.done:
@@ -150,7 +158,7 @@ class Run(Watched):
             law=self.law.name,
             law_repr=repr(self.law),
             files=files,
-            watch=self._newest.told.events,
+            watch=self._parameters.updates.events,
             sync=sync,
             start=time.time() - self._age(),
         )
@@ -192,7 +200,12 @@ class Run(Watched):
         if fault is not _core.Fault.NONE:
             from ebac.simulation import LoopFault
 
-            raise LoopFault(fault, trace)
+            error = LoopFault(fault, trace)
+            if fault in BY_TIME and (late := lateness(trace)):
+                error.add_note(
+                    f"the loop {late}; `ebac doctor` says what this machine lacks for real time"
+                )
+            raise error
         return trace
 
     def end(self) -> None:

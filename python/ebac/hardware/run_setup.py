@@ -1,4 +1,4 @@
-"""All that a loop on hardware is made of, from a configuration and the place of its drives."""
+"""Build a loop on hardware from a configuration and the backend of its drives."""
 
 from __future__ import annotations
 
@@ -10,19 +10,19 @@ from ebac import _core
 
 if TYPE_CHECKING:
     from ebac.drives import Node
+    from ebac.hardware.backends import Backend
     from ebac.hardware.configuration import Configuration
-    from ebac.hardware.place import Place
 
 #: Rows beside those of the run itself: before the drives are enabled, and while they stop.
 _MORE_ROWS = 4096
 #: The longest the drives may take to be enabled [s].
 _ENABLE = 2.0
-#: Watched for three of a drive's heartbeats.
+#: Monitored for three of a drive's heartbeats.
 _BEATS = 3.0
 
 
 def run_setup(
-    known: Configuration, nodes: Sequence[Node], *, place: Place, seconds: float
+    known: Configuration, nodes: Sequence[Node], *, backend: Backend, seconds: float
 ) -> _core.RunSetup:
     """Return what a loop is made of: device and world, drives, plan, limits, rows.
 
@@ -40,7 +40,7 @@ def run_setup(
     consumers = [float(values.get("heartbeat.consumer", 0.0)) for values in profiles]
     masters = {int(values["heartbeat.master"]) for values in profiles}
     beat = min((one for one in consumers if one > 0), default=0.0)
-    watch = known.limits.watch_force and place.sensor is not None
+    watch = known.limits.watch_force and backend.sensor is not None
     limits = known.limits.replace(watch_force=watch)
     return _core.RunSetup(
         device=known.device,
@@ -56,12 +56,12 @@ def run_setup(
             ticks=ticks,
         ),
         limits=limits,
-        sensor=None if place.sensor is None else place.sensor.core(),
+        sensor=None if backend.sensor is None else backend.sensor.core(),
         rows=min(ticks, ceil(known.memory / dt)) + _MORE_ROWS,
         ring=True,
         mode=_core.RealTimeMode[known.mode.upper()],
         realtime=known.realtime,
-        aim=place.aim,
+        aim=backend.aim,
         drives={
             "silent_ticks": known.silent,
             "enable_ticks": ceil(_ENABLE / dt),
@@ -72,7 +72,7 @@ def run_setup(
     )
 
 
-def started(law: Any, place: Place, setup: _core.RunSetup) -> _core.Running:
+def started(law: Any, backend: Backend, setup: _core.RunSetup) -> _core.Running:
     """Start a loop, and return it.
 
     Raises
@@ -84,5 +84,5 @@ def started(law: Any, place: Place, setup: _core.RunSetup) -> _core.Running:
         raise TypeError(
             f"{law!r}: was bound out of tree without `bind_start_of`, so the real-time loop does not know it"
         )
-    running: _core.Running = law._start(place.bus, setup)
+    running: _core.Running = law._start(backend.bus, setup)
     return running

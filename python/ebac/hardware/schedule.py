@@ -1,4 +1,4 @@
-"""Changes at times that are known before: what is told to a loop while it runs, from a list."""
+"""Parameter updates at times that are known before a run."""
 
 from __future__ import annotations
 
@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Any, Self
 import numpy as np
 
 from ebac._core import LoopState
-from ebac.document import unknown
-from ebac.hardware.newest import aimed
+from ebac._util.serialisation import unknown
+from ebac.hardware.current_parameters import targets_after
 
 if TYPE_CHECKING:
     from ebac.hardware.configuration import Configuration
@@ -79,7 +79,7 @@ class Order:
         if self.environment:
             run.change(**self.environment)
         if self.target:
-            run.aim(*self.target)
+            run.set_target(*self.target)
 
 
 def _number(text: str, whole: str) -> float | int:
@@ -127,7 +127,7 @@ class Schedule:
         return cls([Order.parse(text) for text in texts])
 
     def check(self, known: Configuration, *, simulated: bool) -> None:
-        """Try every order on what a configuration says, before anything moves.
+        """Try every order on a configuration, before anything moves.
 
         Raises
         ------
@@ -149,7 +149,7 @@ class Schedule:
             if order.environment:
                 world = world.replace(**order.environment)
             if order.target:
-                target = aimed(known.hand if simulated else None, target, *order.target)
+                target = targets_after(known.hand if simulated else None, target, *order.target)
 
     def look(self, run: Run) -> None:
         """Give the run what is due."""
@@ -164,7 +164,7 @@ class Schedule:
             order = self._left.pop(0)
             try:
                 order.apply(run)
-            except RuntimeError:  # it ended meanwhile, and tells by itself why
+            except RuntimeError:  # it ended meanwhile, and reports the reason itself
                 if not run.done:
                     raise
 

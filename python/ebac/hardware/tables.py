@@ -6,9 +6,9 @@ import re
 from collections.abc import Mapping
 from typing import Any, TypeVar
 
-from ebac import document
+from ebac._util import serialisation
 from ebac.drives.errors import ProfileError
-from ebac.drives.source import Path, Source, dotted
+from ebac.drives.toml_positions import Path, Source, dotted
 
 Value = TypeVar("Value")
 
@@ -47,7 +47,7 @@ def known(source: Source, path: Path, names: list[str]) -> Mapping[str, Any]:
     ProfileError
         For a key nobody knows; the message suggests the nearest.
     """
-    from ebac.document import unknown
+    from ebac._util.serialisation import unknown
 
     found = table(source, path)
     for name in found:
@@ -57,7 +57,7 @@ def known(source: Source, path: Path, names: list[str]) -> Mapping[str, Any]:
 
 
 def on_top(source: Source, path: Path, base: Value, *, apart: tuple[str, ...] = ()) -> Value:
-    """Return a value of the core with what the table at `path` says on top of it.
+    """Return a value of the core with the table at `path` on top of it.
 
     Parameters
     ----------
@@ -92,11 +92,11 @@ def on_top(source: Source, path: Path, base: Value, *, apart: tuple[str, ...] = 
 
 
 def _made(source: Source, path: Path, name: str, item: Any) -> Any:
-    return refusing(source, path, lambda: document.from_document(name, item, dotted(path)))
+    return refusing(source, path, lambda: serialisation.from_document(name, item, dotted(path)))
 
 
 def refusing(source: Source, path: Path, make: Any) -> Any:
-    """Return what `make()` returns; what it refuses is told with its line.
+    """Return what `make()` returns; an error is raised with the line of its cause.
 
     Raises
     ------

@@ -6,16 +6,16 @@ A first look::
 
     recording = identify.load("press.csv")
     result = identify.fit_arm(recording)
-    print(result)  # estimates, intervals, what cannot be told apart
+    print(result)  # estimates, intervals, what cannot be separated
     scenario = ebac.Scenario(hand=result.hand)
 """
 
 from ebac.identify import excitation
 from ebac.identify.arm import fit_arm
 from ebac.identify.device import DeviceResult, fit_device
-from ebac.identify.excites import LogCheck, check_log
-from ebac.identify.gains import GainsResult, fit_gains
-from ebac.identify.gains_trial import Limits
+from ebac.identify.gains.gains import GainsResult, fit_gains
+from ebac.identify.gains.trial import Limits
+from ebac.identify.informativeness import LogCheck, check_log
 from ebac.identify.load import load
 from ebac.identify.loop import LoopModel, fit_loop
 from ebac.identify.recording import Recording
@@ -43,3 +43,7 @@ __all__ = [
     "frequency_response",
     "load",
 ]
+
+
+def __dir__() -> list[str]:
+    return __all__

@@ -3,22 +3,26 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from math import erf, exp, pi, sqrt
 from time import perf_counter
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ebac.identify.counts import with_counts
+from ebac.identify.bias import minus_two_log
 from ebac.identify.fit import fitted
 from ebac.identify.guess import regression, solve
-from ebac.identify.likelihood import minus_two_log
+from ebac.identify.informativeness import FASTEST
+from ebac.identify.intervals import Z95
 from ebac.identify.parameters import BEFORE_LEVELS, kind, lay_out
 from ebac.identify.problem import Problem
 from ebac.identify.recording import Recording
 from ebac.identify.response import guess_by_response
 from ebac.identify.result import ArmResult
 from ebac.identify.target import Target
-from ebac.identify.verdict import FASTEST
+from ebac.identify.unbiased import disagreement
+from ebac.identify.validation import POOR
 
 Values = NDArray[np.float64]
 
@@ -62,7 +66,7 @@ def fit_arm(
     own : sequence of str, optional
         Which of M0, B0, K0, delay every recording has for itself.
     starts : int
-        From how many points the search starts, at least 1; from 4 at least where the first one tells a part of the
+        From how many points the search starts, at least 1; from 4 at least where the first one determines a part of the
         hand only, or a hand that answers within two rows.
     robust : float, optional
         Errors beyond so many standard deviations count linearly (Huber); 1.345 keeps 95 % of the efficiency.
@@ -93,8 +97,12 @@ def fit_arm(
     )
     problem = Problem(recordings=tuple(recordings), targets=tuple(targets), parameters=parameters)
     result = _searched(problem, starts, robust, seed, began)
-    if starts < AGAIN and (_partly_told(result) or _too_fast(result)):
+    if starts < AGAIN and (_partly_determined(result) or _too_fast(result)):
         result = _searched(problem, AGAIN, robust, seed, began)
+    if result.explained < POOR:
+        turned = replace(problem, recordings=tuple(r.flipped() for r in recordings))
+        other = _searched(turned, starts, robust, seed, began)
+        result = replace(result, other_sign=other.explained)
     return result
 
 
@@ -102,7 +110,7 @@ def _searched(
     problem: Problem, starts: int, robust: float | None, seed: int, began: float
 ) -> ArmResult:
     fit = fitted(problem, [better_guess(problem)], starts=starts, robust=robust, seed=seed)
-    return ArmResult(
+    result = ArmResult(
         problem=problem,
         values=fit.values,
         optimum=fit.optimum,
@@ -114,9 +122,24 @@ def _searched(
         evaluations=fit.evaluations,
         seconds=perf_counter() - began,
     )
+    return _widened(result)
 
 
-def _partly_told(result: ArmResult) -> bool:
+def _widened(result: ArmResult) -> ArmResult:
+    """Return the result with intervals that hold a contradicting regression too, where the errors have structure."""
+    if all(t.white and t.independent for t in result.tests.values()):
+        return result
+    other = disagreement(result)
+    apart = [
+        other[name] - float(result.values[i])
+        if (name := result.parameters.names[i]) in other
+        else 0.0
+        for i in result.parameters.free
+    ]
+    return replace(result, covariance=result.covariance + np.outer(apart, apart), regression=other)
+
+
+def _partly_determined(result: ArmResult) -> bool:
     """Return whether some of M0, B0, K0 are determined and others not: often an optimum beside the true one."""
     p = result.parameters
     hand = {p.names[i] for i in p.free if kind(p.names[i]) in ("M0", "B0", "K0")}
@@ -184,3 +207,52 @@ def first_guess(problem: Problem) -> Values:
         values[place] = [*hand, *np.zeros(BEFORE_LEVELS - 3), *levels]
         before += count
     return problem.parameters.clip(values)
+
+
+def with_counts(problem: Problem, found: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Add what the encoder leaves open of every place: its zero lies anywhere within a count.
+
+    A place is off by the sum of a normal error and of one that is uniform over a count, the same one for all places.
+    What is added makes it the normal error whose 95 % are as wide as those of that sum.
+    """
+    p = problem.parameters
+    count = max(r.count for r in problem.recordings)
+    out = found.copy()
+    more = np.zeros(len(p.free))
+    for row, i in enumerate(p.free):
+        if kind(p.names[i]) == "X0":
+            variance = max(float(found[row, row]), 0.0)
+            half = half_width(sqrt(variance), count)
+            more[row] = sqrt(max((half / Z95) ** 2 - variance, 0.0))
+    return np.asarray(out + np.outer(more, more))
+
+
+def half_width(deviation: float, count: float) -> float:
+    """Return h such that 95 % of the sum of a normal and of an error uniform over a count lie within +-h.
+
+    The widths do not add as squares: where both are alike, that would be 6 % too short and hold 93 %.
+    """
+    if deviation <= 1e-6 * count:
+        return 0.475 * count
+    if deviation > 100 * count:  # a count more or less is nothing
+        return Z95 * deviation
+    low, high = 0.0, Z95 * deviation + 0.5 * count
+    for _ in range(60):
+        middle = 0.5 * (low + high)
+        inside = 2 * _mean_below(middle / deviation, count / deviation) - 1
+        low, high = (middle, high) if inside < 0.95 else (low, middle)
+    return high
+
+
+def _below(z: float) -> float:
+    """Return the probability of a standard normal below z."""
+    return 0.5 * (1 + erf(z / sqrt(2)))
+
+
+def _mean_below(z: float, width: float) -> float:
+    """Return the probability below z of a normal whose centre lies anywhere within +-width/2."""
+
+    def area(to: float) -> float:  # under the distribution function
+        return to * _below(to) + exp(-0.5 * to * to) / sqrt(2 * pi)
+
+    return (area(z + 0.5 * width) - area(z - 0.5 * width)) / width

@@ -10,17 +10,21 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass, replace
-from typing import Any
+from time import perf_counter, process_time
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ebac.identify.arm import fit_arm
+from ebac.identify.arm import first_guess, fit_arm
 from ebac.identify.cases import Case, draw, draw_device
 from ebac.identify.device import fit_device
 from ebac.identify.fit import spread_at
 from ebac.identify.recording import Recording
 from ebac.identify.result import ArmResult, Estimate
 from ebac.identify.target import Target
+
+if TYPE_CHECKING:
+    from ebac.identify.result import ArmResult
 
 HAND = ("M0", "B0", "K0")
 
@@ -39,7 +43,7 @@ class Outcome:
     high: float
     determined: bool
     seconds: float
-    told: bool = True  # by the log, at the true values; only of the arm
+    informative: bool = True  # whether the log determines it, at the true values; only of the arm
 
     @property
     def covered(self) -> bool:
@@ -61,13 +65,13 @@ def run_case(case: Case) -> list[Outcome]:
     result = fit_arm(recording, Target.of(case.scenario.hand, recording.t))
     free = {name: e for name, e in result.estimates.items() if not e.fixed}
     truth = case.truth()
-    told = told_by(result, truth)
+    known = determined_by(result, truth)
     found = _outcomes(case, free, truth, result.seconds)
-    return [replace(o, told=o.parameter in told) for o in found]
+    return [replace(o, informative=o.parameter in known) for o in found]
 
 
-def told_by(result: ArmResult, truth: Mapping[str, float]) -> set[str]:
-    """Return what a log tells, by the measure of the verdict at the true values; only a simulation knows them."""
+def determined_by(result: ArmResult, truth: Mapping[str, float]) -> set[str]:
+    """Return the parameters a log determines, judged at the true values; only a simulation knows them."""
     p = result.parameters
     values = np.array([truth.get(n, v) for n, v in zip(p.names, result.values, strict=True)])
     known = replace(result, values=values, covariance=spread_at(result.problem, values))
@@ -143,13 +147,13 @@ class Check:
         }
 
     def unidentifiable(self) -> dict[str, int]:
-        """Count the logs that cannot tell the arm, those that can, and what was said of each."""
+        """Count the logs that determine the arm and those that do not, with the verdict on each."""
         by_case: dict[int, list[Outcome]] = {}
         for o in self.outcomes:
             if o.parameter in HAND:
                 by_case.setdefault(o.case, []).append(o)
-        called = {n: any(not o.determined for o in case) for n, case in by_case.items()}
-        silent = {n for n, case in by_case.items() if any(not o.told for o in case)}
+        called = {n: any(not o.informative for o in case) for n, case in by_case.items()}
+        silent = {n for n, case in by_case.items() if any(not o.informative for o in case)}
         wrong = [
             o for o in self.outcomes if o.parameter in HAND and o.determined and abs(o.error) > 0.5
         ]
@@ -190,7 +194,7 @@ def check(
     workers : int, optional
         Processes; default: one for each core.
     progress : callable, optional
-        Told how many are done.
+        Called with how many are done.
 
     Raises
     ------
@@ -213,3 +217,61 @@ def check(
             if progress is not None:
                 progress(done)
     return Check(outcomes=tuple(outcomes))
+
+
+@dataclass(frozen=True, kw_only=True)
+class Comparison:
+    """Times [s] by the clock and of the processor, and the largest difference of an estimate in deviations."""
+
+    ours_s: float
+    ours_cpu_s: float
+    scipy_s: float
+    scipy_cpu_s: float
+    apart: float
+
+
+def compare_with_scipy(result: ArmResult) -> Comparison:
+    """Minimise the last objective of a fit by `scipy.optimize.least_squares`, from the same first guess.
+
+    Raises
+    ------
+    ModuleNotFoundError
+        Without SciPy.
+    """
+    from scipy.optimize import least_squares
+
+    problem, p = result.problem, result.parameters
+    gains = problem.gains(result.optimum, result.force_noise)
+    start = first_guess(problem)
+    moved = problem.moved
+    doubt = problem.doubt.deviation
+    scale = np.maximum(np.concatenate([result.deviation[p.free], doubt]), 1e-12)
+
+    def errors(part: np.ndarray) -> np.ndarray:
+        full = start.copy()
+        full[moved] = part
+        return problem.objective(full, gains)
+
+    began, busy = perf_counter(), process_time()
+    found = least_squares(
+        errors,
+        start[moved],
+        bounds=(p.low[moved], p.high[moved]),
+        x_scale=scale,
+        xtol=1e-10,
+        ftol=1e-12,
+    )
+    scipy_s, scipy_cpu_s = perf_counter() - began, process_time() - busy
+    began, busy = perf_counter(), process_time()
+    fit_arm(list(problem.recordings), list(problem.targets), fixed={
+        n: float(v) for n, v in zip(p.names, p.fixed, strict=True) if not np.isnan(v)
+    }, free=[n for n in ("delay", "onset") if any(p.names[i].startswith(n) for i in p.free)])  # fmt: skip
+    ours, ours_cpu = perf_counter() - began, process_time() - busy
+    apart = (np.abs(found.x - result.optimum[moved]) / scale)[: len(p.free)]
+    return Comparison(
+        ours_s=ours,
+        ours_cpu_s=ours_cpu,
+        scipy_s=scipy_s,
+        scipy_cpu_s=scipy_cpu_s,
+        apart=float(apart.max()),
+    )

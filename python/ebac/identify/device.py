@@ -20,8 +20,9 @@ from ebac.identify.device_problem import (
     first_guess,
 )
 from ebac.identify.fit import Fitted, fitted
+from ebac.identify.intervals import Z95
 from ebac.identify.recording import Recording
-from ebac.identify.result import Z95, Estimate
+from ebac.identify.result import Estimate
 
 #: Standard gravity [m/s^2].
 GRAVITY = 9.80665
@@ -103,7 +104,7 @@ class DeviceResult:
 
     def _repr_html_(self) -> str:
         """Return the figure and the estimates, for a notebook."""
-        from ebac import notebook
+        from ebac._util import notebook
         from ebac.identify.figures import plot_device
 
         title = f"Device: explains {100 * self.explained:.2f} % of the force"
@@ -119,9 +120,9 @@ class DeviceResult:
 def fit_device(recording: Recording, *, current_lag: float | None = None) -> DeviceResult:
     """Identify the device of one axis from motion and forces.
 
-    The forces on the handle drive it, the hand's where the log has it and the motor's; its position is foretold one
+    The forces on the handle drive it, the hand's where the log has it and the motor's; its position is predicted one
     tick ahead and compared, as for the arm. While it slides, friction is known but for its size; near a turn, or at
-    rest, it is whatever it has to be, and these rows tell nothing.
+    rest, it is whatever it has to be, and these rows contain no information.
 
     Parameters
     ----------

@@ -8,13 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ebac._core import ArmRecord
-from ebac.identify.folds import by_place
-from ebac.identify.noise import readings, rough
 from ebac.identify.parameters import BOUNDS, Parameters
 from ebac.identify.problem import Problem
 from ebac.identify.recording import Recording
-from ebac.identify.ripple import stair
-from ebac.identify.smooth import kernels, smoothed
+from ebac.identify.signals import by_place, kernels, readings, rough, smoothed, stair
 from ebac.identify.target import Target
 
 Values = NDArray[np.float64]
@@ -27,7 +24,7 @@ AROUND = 0.012
 SLOWEST, COUNTS = 1e-3, 0.5
 #: Where it does not slide, friction is whatever it has to be: so many times the largest force.
 WHATEVER = 100.0
-#: A force jumps where it bends by so many deviations of its noise; a tick may miss this share of it, felt for so many
+#: A force jumps where it bends by so many deviations of its noise; a tick may miss this share of it, for so many
 #: rows before and after.
 NOISY, JUMP, FELT = 5.0, 0.5, 4
 FITTED = ("M_h", "B_h", "coulomb", "weight", "stribeck")

@@ -1,4 +1,4 @@
-"""Signals that make a log tell something: steps, chirps, multisines, tapping."""
+"""Excitation signals: steps, chirps, multisines, tapping."""
 
 from __future__ import annotations
 

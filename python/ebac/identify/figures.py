@@ -1,7 +1,11 @@
-"""Pictures of a fit of an arm or a device."""
+"""Figures of a fit of an arm, a device or the gains, and the report page that holds them."""
 
 from __future__ import annotations
 
+from base64 import b64encode
+from collections.abc import Sequence
+from html import escape
+from io import BytesIO
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -10,8 +14,11 @@ from ebac.plot.style import dress, legend, line, new_figure
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
     from ebac.identify.device import DeviceResult
+    from ebac.identify.gains.gains import GainsResult
+    from ebac.identify.gains.trial import Candidate
     from ebac.identify.result import ArmResult
     from ebac.plot.style import Picture
 
@@ -45,7 +52,8 @@ def plot_arm(result: ArmResult, recording: int = 0) -> Picture:
     _correlations(auto, result, r.name)
     _response(size, follows, result, recording)
     figure.suptitle(
-        f"{r.name}: " + ", ".join(str(e) for e in list(result.estimates.values())[:3]),
+        f"arm identified from {r.name}\n"
+        + ", ".join(str(e) for e in list(result.estimates.values())[:3]),
         fontsize="medium",
     )
     return figure
@@ -127,7 +135,7 @@ def plot_device(result: DeviceResult) -> Picture:
     friction.set_xlabel("velocity [mm/s]")
     legend(friction)
     words = ", ".join(str(e) for e in list(result.estimates.values())[:3])
-    figure.suptitle(f"{r.name}: {words}", fontsize="medium")
+    figure.suptitle(f"device identified from {r.name}\n{words}", fontsize="medium")
     return figure
 
 
@@ -139,3 +147,118 @@ def _correlations(ax: Axes, result: ArmResult, name: str) -> None:
     ax.set_xlabel("lag [readings]")
     dress(ax, "correlation of\nthe errors")
     legend(ax)
+
+
+COLOURS = {"default": "#d55e00", "step-response": "#0072b2", "chosen": "#009e73"}
+
+
+def plot_gains(result: GainsResult) -> Picture:
+    """Draw the press of the identified hand under default, rule and choice, and what was tried."""
+    from ebac.laws import Variant
+    from ebac.simulation import simulate
+
+    figure = new_figure(10, 9)
+    motion, force, tried = figure.subplots(3, 1, height_ratios=[1.2, 1.2, 1.4])
+    scenario = result.scenario.replace(seconds=1.5)
+    for c in (result.default, *result.rules, result.chosen):
+        trace = simulate(scenario, Variant(result.name, {"kp": c.kp, "kd": c.kd}))
+        style = {"color": COLOURS[c.name], "lw": 1.0, "label": _label(c)}
+        surface = scenario.environment.position  # type: ignore[union-attr]
+        line(motion, trace["t"], 1e3 * (trace["true.x"] - surface), **style)
+        line(force, trace["t"], trace["f_applied"], **style)
+    motion.axhline(0, color="0.6", lw=0.8)
+    dress(motion, "depth in the wall [mm]")
+    motion.set_ylim(bottom=-4)
+    legend(motion, columns=3)
+    dress(force, "force [N]")
+    force.set_xlabel("time [s]")
+    _map(tried, result)
+    figure.suptitle(
+        f"{result.name}: gains of eq. (2), simulated on the loop of the log", fontsize="medium"
+    )
+    return figure
+
+
+def _label(c: Candidate) -> str:
+    return f"{c.name}: Kp {c.kp:.3g}, Kd {1e3 * c.kd:.3f} ms"
+
+
+def _map(ax: Axes, result: GainsResult) -> None:
+    kept = [c for c in result.tried if not c.broken]
+    lost = [c for c in result.tried if c.broken]
+    ax.plot(
+        [c.kp for c in lost],
+        [1e3 * c.kd for c in lost],
+        "x",
+        color="0.6",
+        label="breaks a constraint",
+    )
+    cost = np.log10([c.cost for c in kept])
+    dots = ax.scatter(
+        [c.kp for c in kept],
+        [1e3 * c.kd for c in kept],
+        c=cost,
+        cmap="viridis_r",
+        s=28,
+        label="keeps all",
+    )
+    bar = ax.figure.colorbar(dots, ax=ax)
+    bar.set_label("log10 of the cost, 0: default")
+    chosen = result.chosen
+    ax.plot(
+        chosen.kp,
+        1e3 * chosen.kd,
+        "o",
+        mfc="none",
+        ms=14,
+        mew=2,
+        color=COLOURS["chosen"],
+        label="chosen",
+    )
+    ax.set_xlabel("Kp [1]")
+    dress(ax, "Kd [ms]")
+    ax.margins(0.05)
+    legend(ax, columns=3)
+
+
+_STYLE = """
+body { font: 16px/1.5 system-ui, sans-serif; max-width: 60rem; margin: 2rem auto; padding: 0 1rem; color: #222 }
+.wide { overflow-x: auto } table { border-collapse: collapse; margin: 1rem 0 } td { white-space: nowrap }
+th, td { padding: .25rem .8rem; text-align: right; border-bottom: 1px solid #ddd }
+th:first-child, td:first-child { text-align: left } img { max-width: 100% } .careful { background: #fff3e0; padding:
+.5rem 1rem }
+"""
+
+
+def page(
+    title: str,
+    rows: list[dict[str, str]],
+    careful: list[str],
+    notes: list[str],
+    figures: Sequence[Figure],
+) -> str:
+    """Return HTML with everything inside it."""
+    parts = [f"<h1>{escape(title)}</h1>"]
+    parts += [f'<p class="careful">{escape(text)}</p>' for text in careful]
+    if rows:
+        head = "".join(f"<th>{escape(name)}</th>" for name in rows[0])
+        body = "".join(
+            "<tr>" + "".join(f"<td>{escape(cell)}</td>" for cell in row.values()) + "</tr>"
+            for row in rows
+        )
+        parts.append(f'<div class="wide"><table><tr>{head}</tr>{body}</table></div>')
+    parts += [f"<p>{escape(text)}</p>" for text in notes]
+    parts += [
+        f'<img alt="figure" src="data:image/png;base64,{_png(figure)}">' for figure in figures
+    ]
+    return (
+        f'<!doctype html><html lang="en"><meta charset="utf-8"><title>{escape(title)}</title>'
+        '<meta name="viewport" content="width=device-width, initial-scale=1">'
+        f"<style>{_STYLE}</style><body>{''.join(parts)}</body></html>\n"
+    )
+
+
+def _png(figure: Figure) -> str:
+    file = BytesIO()
+    figure.savefig(file, format="png")
+    return b64encode(file.getvalue()).decode("ascii")

@@ -1,8 +1,8 @@
-"""Columns of numbers in files of others: CSV, .mat, NPZ."""
+"""Columns of files from other programs (CSV, .mat, NPZ): their quantities and units, given or guessed."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, TypeAlias
@@ -11,11 +11,13 @@ from zipfile import BadZipFile
 import numpy as np
 from numpy.typing import NDArray
 
+from ebac._util.headings import FACTORS, split_heading
+
 Columns: TypeAlias = dict[str, NDArray[np.float64]]
 
 
 def read_columns(path: Path) -> Columns:
-    """Return every column of numbers by its heading; the ending tells what the file is.
+    """Return every column of numbers by its heading; the extension gives the format.
 
     Raises
     ------
@@ -137,3 +139,89 @@ def _series(arrays: Mapping[str, Any]) -> Columns:
         elif array.ndim == 2:
             out |= {f"{name}_{i}": column for i, column in enumerate(array.T)}
     return out
+
+
+#: The signals of a recording and their SI unit.
+UNITS_OF = {"t": "s", "x": "m", "force": "N", "motor": "N", "desired": "N", "target": "m"}
+
+#: Names that a column may have, the surest first; compared in small letters without unit.
+NAMES: dict[str, tuple[str, ...]] = {
+    "t": ("t", "time", "timestamp", "zeit", "seconds", "sec"),
+    "x": ("x", "x_0", "pos", "position", "px", "x_pos", "handle", "displacement"),
+    "force": (
+        "f_meas",
+        "f_meas_0",
+        "force",
+        "f",
+        "fx",
+        "f_hand",
+        "fh",
+        "f_sensor",
+        "ft",
+        "force_x",
+        "grip_force",
+    ),
+    "motor": ("f_applied", "f_applied_0", "motor", "motor_force", "f_motor", "actuator_force"),
+    "desired": ("f_env", "f_env_0", "f_desired", "desired", "fd", "f_d"),
+    "target": ("target", "x0", "goal", "reference", "ref", "setpoint"),
+}
+
+#: The quantity of each signal.
+QUANTITY = {
+    "t": "time",
+    "x": "length",
+    "target": "length",
+    "force": "force",
+    "motor": "force",
+    "desired": "force",
+}
+
+
+def name_and_unit(signal: str, heading: str) -> tuple[str, str | None]:
+    """Return name and unit of a heading, were it that of a signal."""
+    return split_heading(heading, FACTORS[QUANTITY[signal]])
+
+
+def unit_factor(file: str, signal: str, unit: str) -> float:
+    """Return what one of `unit` is in SI.
+
+    Raises
+    ------
+    ValueError
+        For a unit that does not fit the signal.
+    """
+    known = FACTORS[QUANTITY[signal]]
+    if unit not in known:
+        raise ValueError(
+            f"{file}: {signal} in {unit!r}: must be one of {', '.join(known)}; convert the column, or name the unit"
+        )
+    return known[unit]
+
+
+def assign(
+    file: str, headings: Sequence[str], given: Mapping[str, str]
+) -> tuple[dict[str, str], list[str]]:
+    """Return the column of each signal, and what was guessed.
+
+    Raises
+    ------
+    ValueError
+        For a given column that does not exist.
+    """
+    chosen, remarks = {}, []
+    for signal, name in given.items():
+        bare = {name_and_unit(signal, h)[0].lower(): h for h in headings}
+        if name not in headings and name.lower() not in bare:
+            raise ValueError(
+                f"{file}: there is no column {name!r} for {signal}; there are: {', '.join(headings)}"
+            )
+        chosen[signal] = name if name in headings else bare[name.lower()]
+    for signal, names in NAMES.items():
+        if signal in chosen:
+            continue
+        bare = {name_and_unit(signal, h)[0].lower(): h for h in headings}
+        match = next((bare[n] for n in names if n in bare and bare[n] not in chosen.values()), None)
+        if match is not None:
+            chosen[signal] = match
+            remarks.append(f"{signal}: guessed to be column {match!r}")
+    return chosen, remarks

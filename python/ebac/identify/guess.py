@@ -15,12 +15,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ebac.identify.folds import Fold, folded
 from ebac.identify.intervals import newey_west
-from ebac.identify.levels import indicators, lagged
 from ebac.identify.recording import Recording
-from ebac.identify.smooth import kernels, smoothed
-from ebac.identify.target import Target
+from ebac.identify.signals import Fold, folded, kernels, smoothed
+from ebac.identify.target import Target, indicators, lagged
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -62,7 +60,7 @@ def solve(
 ) -> Any:
     """Return M0, B0, K0 and for each recording its levels, by least squares or by instruments.
 
-    `folds` tells where the recordings repeat themselves, see `folds`.
+    `folds` gives where the recordings repeat themselves, see `folds`.
 
     Returns
     -------
@@ -134,7 +132,7 @@ def _projected(
     return out
 
 
-#: How far back the target is felt in what the instruments explain [s], and their spacing.
+#: Longest delay of the target among the instruments [s], and their spacing.
 MEMORY, SPACING = 0.6, 0.012
 
 

@@ -1,17 +1,23 @@
-"""How sure an estimate is: local intervals with autocorrelated errors, and profiles."""
+"""Uncertainty of an estimate: local intervals with autocorrelated errors, and profile likelihood."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from math import erf, sqrt
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ebac.identify.folds import Fold, folded
-from ebac.identify.search import weights
+from ebac.identify.search import least_squares, squares, weights
+from ebac.identify.signals import Fold, folded
 
-#: How many times what noise alone seems to tell is taken off what a log tells.
+if TYPE_CHECKING:
+    from ebac.identify.result import ArmResult
+
+#: Of a standard normal, two-sided 95 %.
+Z95 = 1.959963984540054
+#: Multiple of the apparent information of pure noise that is subtracted from that of a log.
 PRETENCE = 2.0
 
 
@@ -32,7 +38,7 @@ def covariance(
     Jacobian that noise alone gives; `unseen` that of what is held in doubt, by one deviation each.
 
     The largest one of three, parameter by parameter: the inverse of the information, scaled by the errors where they
-    are larger than foretold; the sandwich around it, with the scores summed over lags of growing length (Newey and
+    are larger than predicted; the sandwich around it, with the scores summed over lags of growing length (Newey and
     West 1987), which also holds when the errors are autocorrelated; and the same along a log that is folded, one fold
     for each recording, which also holds when its errors repeat.
     """
@@ -76,7 +82,7 @@ def covariance(
 
 
 def loose_inverse(H: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Invert an information matrix; what it says nothing about comes out very loose, not sure."""
+    """Invert an information matrix; directions without information come out very loose, not certain."""
     values, vectors = np.linalg.eigh(H)
     return np.asarray((vectors / np.maximum(values, 1e-14 * values[-1])) @ vectors.T)
 
@@ -95,3 +101,84 @@ def newey_west(scores: NDArray[np.float64], reach: int | None = None) -> NDArray
 def normal_tail(z: float) -> float:
     """Return the two-sided probability of a standard normal beyond z."""
     return 1 - erf(abs(z) / sqrt(2))
+
+
+def profile(result: ArmResult, name: str, level: float) -> tuple[float, float]:
+    """Return where the cost has risen by `level` deviations squared on either side.
+
+    The rise is scaled as the local interval is, so that autocorrelated errors count. A side that never rises ends at
+    the bound of the parameter.
+    """
+    p = result.parameters
+    if name not in p.names or p.names.index(name) not in p.free:
+        raise ValueError(f"profile of {name}: must be a fitted parameter")
+    index = p.names.index(name)
+    gains = result.problem.gains(result.values, result.force_noise)
+    moved = result.problem.moved
+    others = moved[moved != index]
+
+    def refit(value: float, start: NDArray[np.float64]) -> tuple[float, NDArray[np.float64]]:
+        full = start.copy()
+        full[index] = value
+        if not others.size:
+            e = result.problem.objective(full, gains)
+            return squares(e), full
+
+        def spread(part: NDArray[np.float64]) -> NDArray[np.float64]:
+            out = full.copy()
+            out[others] = part
+            return out
+
+        rows = np.flatnonzero(moved != index)
+        found = least_squares(
+            lambda part: result.problem.objective(spread(part), gains),
+            lambda part: result.problem.slope(spread(part), gains)[rows],
+            full[others],
+            p.low[others],
+            p.high[others],
+            robust=result.robust,
+            tolerance=1e-3,
+        )
+        return found.cost, spread(found.values)
+
+    best, _ = refit(float(result.values[index]), result.values)
+    rise = level * _inflation(result, index, gains)
+    ends = [_end(refit, result, index, sign, best, rise) for sign in (-1, 1)]
+    return ends[0], ends[1]
+
+
+def _inflation(result: ArmResult, index: int, gains: list) -> float:  # type: ignore[type-arg]
+    """Return how much wider the local variance is than that of white errors of unit size."""
+    J = result.problem.slope(result.values, gains)
+    scale = np.sqrt((J**2).sum(axis=1)) + 1e-300
+    plain = loose_inverse(np.einsum("ik,jk->ij", J, J) / np.outer(scale, scale))
+    place = int(np.flatnonzero(result.problem.moved == index)[0])
+    white = float(plain[place, place] / scale[place] ** 2)
+    return float(result.deviation[index]) ** 2 / white if white > 0 else 1.0
+
+
+def _end(refit, result, index: int, sign: int, best: float, rise: float) -> float:  # type: ignore[no-untyped-def]
+    p, centre = result.parameters, float(result.values[index])
+    bound = float(p.low[index] if sign < 0 else p.high[index])
+    width = max(1.96 * float(result.deviation[index]), 1e-9 * max(abs(centre), 1.0))
+    inner, outer, at = 0.0, None, result.values
+    step = min(width, abs(bound - centre))
+    for _ in range(14):
+        cost, found = refit(centre + sign * step, at)
+        if cost - best > rise:
+            outer = step
+            share = np.sqrt(rise / (cost - best))  # a parabola through the optimum
+            guess = max(step * float(share), 0.5 * (inner + step)) if inner else step * float(share)
+            if outer - inner < 0.02 * outer:
+                break
+            step = guess if inner < guess < outer else 0.5 * (inner + outer)
+            if abs(share - 1) < 0.01:
+                break
+        else:
+            inner, at = step, found
+            if step >= abs(bound - centre):
+                return bound
+            if cost > best and abs((cost - best) / rise - 1) < 0.02:
+                break
+            step = min(step * 2, abs(bound - centre)) if outer is None else 0.5 * (inner + outer)
+    return centre + sign * step

@@ -9,10 +9,17 @@ from typing import Any
 
 import numpy as np
 
-from ebac.document import unknown
-from ebac.identify.columns import UNITS_OF, assign, split_heading, unit_factor
-from ebac.identify.files import Columns, archive_of, read_columns
-from ebac.identify.recording import LEAST_ROWS, OF_TRACE, Recording, count_of, trace_facts
+from ebac._util.serialisation import unknown
+from ebac.identify.files import (
+    UNITS_OF,
+    Columns,
+    archive_of,
+    assign,
+    name_and_unit,
+    read_columns,
+    unit_factor,
+)
+from ebac.identify.recording import LEAST_ROWS, OF_TRACE, Recording, count_of, path_of, trace_facts
 from ebac.trace import Trace
 
 
@@ -26,16 +33,17 @@ def load(
     current_lag: float | None = None,
     count: float | None = None,
     axis: int = 0,
+    flip_force: bool = False,
 ) -> Recording:
     """Read MCAP, CSV, .mat, or NPZ (of `Trace.to_npz`, or plain arrays).
 
     Parameters
     ----------
     path : str or Path
-        The file; its ending tells what it is.
+        The file; its extension gives the format.
     columns : mapping, optional
         Which column is `t`, `x`, `force`, `motor`, `desired`, `target`: `{"force": "Fz"}`. What is not given is
-        guessed by name, and said in `remarks`.
+        guessed by name, and named in `remarks`.
     units : mapping, optional
         Unit of each, as `{"x": "mm"}`; otherwise that of the heading, `pos [mm]`, or SI.
     rate : float, optional
@@ -48,6 +56,8 @@ def load(
         Step of the encoder at the handle [m]; default: found in the position.
     axis : int
         Which axis of a trace.
+    flip_force : bool
+        Whether the force of the hand is logged with the other sign: positive where the handle pushes the hand to +x.
 
     Returns
     -------
@@ -71,11 +81,15 @@ def load(
     else:
         raw = _flat(trace) if trace is not None else read_columns(path)
         found = _recording(path.name, raw, columns or {}, units or {}, rate)
+        if trace is not None:
+            found = replace(found, path=path_of(trace, axis))
     changes: dict[str, Any] = {}
     for name, value in (("lag", lag), ("current_lag", current_lag), ("count", count)):
         if value is not None:
             changes[name] = value
-    return replace(found, **changes) if changes else found
+    if changes:
+        found = replace(found, **changes)
+    return found.flipped() if flip_force else found
 
 
 def _trace(path: Path) -> tuple[Trace | None, list[str]]:
@@ -99,7 +113,7 @@ def _trace(path: Path) -> tuple[Trace | None, list[str]]:
 
 
 def _of_trace(trace: Trace, name: str, axis: int, wrong: list[str]) -> Recording:
-    """Return one axis of a trace; rows that are missing, or late, are put on equal steps, and said."""
+    """Return one axis of a trace; rows that are missing, or late, are put on equal steps, with a remark."""
     if not 0 <= axis < trace.axes:
         raise ValueError(f"{name}: axis = {axis}: must lie in [0, {trace.axes - 1}]")
     t = np.array(trace["t"], dtype=float)
@@ -113,7 +127,7 @@ def _of_trace(trace: Trace, name: str, axis: int, wrong: list[str]) -> Recording
         if column in trace
     }
     even = _evenly(name, {"t": t, **signals}, wrong)
-    facts = trace_facts(trace)
+    facts = trace_facts(trace, axis)
     values: dict[str, Any] = dict(even)
     return Recording(name=name, remarks=(*facts.pop("remarks"), *wrong), **facts, **values)
 
@@ -135,7 +149,7 @@ def _recording(
     chosen, remarks = assign(name, list(raw), columns)
     signals: dict[str, Any] = {}
     for key, column in chosen.items():
-        _, written = split_heading(column)
+        _, written = name_and_unit(key, column)
         unit = units.get(key, written)
         if unit is None:
             unit = UNITS_OF[key]
@@ -161,16 +175,16 @@ def _recording(
 #: What no hand does, by signal: more than this is a wrong unit [m, N], and so is less [m].
 FARTHEST = {"x": 2.5, "target": 2.5, "force": 5e3, "motor": 5e3, "desired": 5e3}
 NEAREST = 1e-5
-#: Rows farther apart say nothing of a hand [s].
+#: Rows farther apart contain nothing about a hand [s].
 SLOWEST = 0.1
 
 
 def _plausible(name: str, signals: Columns) -> None:
-    """Refuse numbers in a wrong unit, as far as that shows, and a force that says nothing."""
+    """Refuse numbers in a wrong unit, as far as that shows, and a force that never changes."""
     dt, reach = float(np.diff(signals["t"]).mean()), float(np.ptp(signals["x"]))
     if len(signals["t"]) >= LEAST_ROWS and reach > 0 and dt > SLOWEST:
         raise ValueError(
-            f"{name}: rows are {dt:.4g} s apart, {SLOWEST:g} s at most tell a hand: is the unit of t right? "
+            f"{name}: rows are {dt:.4g} s apart, {SLOWEST:g} s at most resolve a hand: is the unit of t right? "
             "Say it: units={'t': 'ms'} or --unit t=ms"
         )
     if 0 < reach < NEAREST:
@@ -195,7 +209,7 @@ def _plausible(name: str, signals: Columns) -> None:
 
 
 def _evenly(name: str, signals: Columns, remarks: list[str]) -> Columns:
-    """Return the signals on equal time steps; what jitters is interpolated, and said."""
+    """Return the signals on equal time steps; jittered rows are interpolated, with a remark."""
     t = signals["t"]
     for key, values in signals.items():
         wrong = np.flatnonzero(~np.isfinite(values))

@@ -12,23 +12,23 @@ from numpy.typing import NDArray
 from ebac._core import Device, Hand, Step, Timing, Wall
 from ebac.identify.arm import fit_arm
 from ebac.identify.device import DeviceResult, fit_device
-from ebac.identify.noise import rough
 from ebac.identify.recording import Recording
 from ebac.identify.result import ArmResult
+from ebac.identify.signals import rough
 from ebac.identify.target import Target
 from ebac.scenario import Scenario
 
-#: A hand comes this far through free air before it meets the wall [m].
+#: Length of the free motion of a hand before contact with the wall [m].
 APPROACH = 0.01
-#: How deep it wants to press where the log does not say [m], and its largest pull as a share of the motor's force.
+#: How deep it wants to press unless known [m], and its largest pull as a share of the motor's force.
 DEPTH, PULL = 0.03, 0.8
-#: Rows with a force asked for that a wall is told from.
+#: Fewest rows with a commanded force from which a wall is estimated.
 LEAST_TOUCHED = 50
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class LoopModel:
-    """Arm, device, wall and timing of a log, as far as it tells them; `scenario` presses on the wall again."""
+    """Arm, device, wall and timing of a log, as far as it determines them; `scenario` presses on the wall again."""
 
     arm: ArmResult
     device: Device
@@ -75,7 +75,7 @@ def fit_loop(
         What is known of it: motor, drive, encoder. Mass, damping, friction and noise come from the log where it
         determines them. Default: the reference device.
     wall : Wall, optional
-        Default: told from the column `desired`, and where that is missing, the paper's.
+        Default: estimated from the column `desired`, and where that is missing, the paper's.
     timing : Timing, optional
         Sample time [s] and transport delay [samples]; default: one sample.
     **arm
@@ -115,27 +115,30 @@ def _device_of(r: Recording, remarks: list[str]) -> DeviceResult | None:
     try:
         return fit_device(r, current_lag=r.current_lag)
     except ValueError as error:
-        remarks.append(f"device: as given, not told by this log ({error})")
+        remarks.append(f"device: as given, not determined by this log ({error})")
         return None
 
 
 def _merged(device: Device, found: DeviceResult | None, r: Recording, remarks: list[str]) -> Device:
-    """Return the device with what the log tells of it."""
+    """Return the device with the parameters the log determines."""
     assert r.force is not None
     sensor = device.sensor.replace(noise=rough(r.force), lag=r.lag)
     mechanics = device.mechanics
     if found is not None:
         estimates = found.estimates
-        told = {name: e.value for name, e in estimates.items() if e.determined and e.value > 0}
-        if "M_h" in told:
-            handle = max(told["M_h"] - device.reflected_mass, 1e-3)
+        determined_values = {
+            name: e.value for name, e in estimates.items() if e.determined and e.value > 0
+        }
+        if "M_h" in determined_values:
+            handle = max(determined_values["M_h"] - device.reflected_mass, 1e-3)
             mechanics = mechanics.replace(handle_mass=handle)
-        if "B_h" in told:
-            mechanics = mechanics.replace(damping=told["B_h"])
-        if "coulomb" in told:
-            mechanics = mechanics.replace(coulomb=told["coulomb"])
+        if "B_h" in determined_values:
+            mechanics = mechanics.replace(damping=determined_values["B_h"])
+        if "coulomb" in determined_values:
+            mechanics = mechanics.replace(coulomb=determined_values["coulomb"])
         remarks.append(
-            "device: " + ", ".join(f"{n} = {v:.4g} {estimates[n].unit}" for n, v in told.items())
+            "device: "
+            + ", ".join(f"{n} = {v:.4g} {estimates[n].unit}" for n, v in determined_values.items())
         )
     return device.replace(sensor=sensor, mechanics=mechanics)
 

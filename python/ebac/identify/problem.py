@@ -10,11 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ebac._core import ArmGains, ArmRecord
-from ebac.identify.folds import Fold, by_target
-from ebac.identify.noise import readings, rough
 from ebac.identify.parameters import INPUTS, STEPS, Parameters, kind
 from ebac.identify.recording import Recording
-from ebac.identify.ripple import ripple
+from ebac.identify.signals import Fold, by_target, readings, ripple, rough
 from ebac.identify.target import Target
 
 #: Steps of the differences, as a share of a value.
@@ -127,7 +125,7 @@ class Problem:
     ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Return Jacobian and errors of a log in which nothing but noise of the force moves a resting hand.
 
-        What it tells of the parameters, noise pretends to tell.
+        Its apparent information on the parameters is that of noise.
         """
         draw = np.random.Generator(np.random.PCG64(seed))
         still = values.copy()
@@ -137,8 +135,8 @@ class Problem:
             self.make(r, replace(t, path=None), float(n) * draw.standard_normal(len(r.t)))
             for r, t, n in zip(self.recordings, self.targets, force_noise, strict=True)
         )
-        told = ("X0", "onset", *INPUTS)  # what a target tells, it tells without noise
-        places = [kind(self.parameters.names[i]) not in told for i in wanted]
+        noiseless = ("X0", "onset", *INPUTS)  # a target is known without noise
+        places = [kind(self.parameters.names[i]) not in noiseless for i in wanted]
         out = np.zeros((len(wanted), sum(len(r.t) for r in self.recordings)))
         out[places] = self._jacobian(records, still, gains, wanted[places])
         parts = zip(records, self.parameters.places, gains, strict=True)
@@ -178,7 +176,7 @@ class Doubt:
     deviation: NDArray[np.float64]
 
 
-#: What a log at one rate hardly tells, fitted along on a spring: when within a tick the target changed [ticks], and
+#: Hardly determined by a log at one rate, fitted with a weak prior: when in a tick the target changed [ticks], and
 #: which share of the motor's ripple the sensor sees.
 WITHIN_TICK = {"onset": 0.15, "stair": 0.4}
 #: Left as they are, and carried into the intervals; a fit would misuse them to smooth the noise of the force. How the

@@ -1,4 +1,4 @@
-"""A recording: what a log says of one axis, in SI units, on one time step."""
+"""A recording: the signals of one axis of a log, in SI units, at a constant time step."""
 
 from __future__ import annotations
 
@@ -9,9 +9,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 if TYPE_CHECKING:
+    from ebac.identify.target import Path
     from ebac.trace import Trace
 
-#: Fewer rows say nothing about a hand.
+#: Fewer rows contain nothing about a hand.
 LEAST_ROWS = 50
 
 
@@ -34,13 +35,15 @@ class Recording:
     desired : array, shape (rows,), or None
         Force the law was asked for [N], F_D of eq. (2).
     target : array, shape (rows,), or None
-        Where the hand was told to be [m], when that was recorded.
+        Instructed position of the hand [m], when that was recorded.
     count : float
         Step of the position [m]; 0 when it has none.
     lag : float
         First-order lag of the force sensor [s].
     current_lag : float
         First-order lag of the motor's current loop [s].
+    path : Step, Tapping, Sine, MinimumJerk, Recorded or None
+        Where the hand wanted to be, by the scenario in the log.
     remarks : tuple of str
         What was guessed or changed on reading.
 
@@ -60,6 +63,7 @@ class Recording:
     count: float = 0.0
     lag: float = 0.0
     current_lag: float = 3e-4
+    path: Path | None = None
     remarks: tuple[str, ...] = field(default=())
 
     def __post_init__(self) -> None:
@@ -125,6 +129,13 @@ class Recording:
         cut: dict[str, Any] = {name: values[part] for name, values in self.channels().items()}
         return replace(self, **cut)
 
+    def flipped(self) -> Self:
+        """Return the same with the force of the hand of the other sign."""
+        if self.force is None:
+            raise ValueError(f"{self.name}: has no force of the hand to flip")
+        remark = "the force of the hand was taken with the other sign"
+        return replace(self, force=-self.force, remarks=(*self.remarks, remark))
+
     @classmethod
     def from_trace(cls, trace: Trace, *, axis: int = 0, name: str = "trace") -> Self:
         """Look at one axis of a `Trace`; count and lag are taken from its scenario where it has one."""
@@ -133,7 +144,7 @@ class Recording:
             for key, column in OF_TRACE.items()
             if column in trace
         }
-        facts = trace_facts(trace)
+        facts = trace_facts(trace, axis)
         if not facts["count"]:
             facts["count"] = count_of(columns["x"])
         return cls(name=name, t=np.array(trace["t"], dtype=float), **facts, **columns)
@@ -150,8 +161,8 @@ class Recording:
 OF_TRACE = {"x": "x", "force": "f_meas", "motor": "f_applied", "desired": "f_env"}
 
 
-def trace_facts(trace: Trace) -> dict[str, Any]:
-    """Return count, lags and a remark, from the scenario of a trace where it has one."""
+def trace_facts(trace: Trace, axis: int) -> dict[str, Any]:
+    """Return count, lags, path of the hand and a remark, from the scenario of a trace where it has one."""
     if trace.scenario is None:
         return {"count": 0.0, "lag": 0.0, "current_lag": 3e-4, "remarks": ()}
     device = trace.scenario.device
@@ -161,8 +172,17 @@ def trace_facts(trace: Trace) -> dict[str, Any]:
         "count": count,
         "lag": lag,
         "current_lag": device.drive.current_lag,
+        "path": path_of(trace, axis),
         "remarks": (said,),
     }
+
+
+def path_of(trace: Trace, axis: int) -> Path | None:
+    """Return where the hand wanted to be along an axis, by the scenario of a trace; None without one."""
+    if trace.scenario is None:
+        return None
+    paths = trace.scenario.hand.path
+    return paths[min(axis, len(paths) - 1)]
 
 
 def count_of(x: NDArray[np.float64]) -> float:

@@ -7,9 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ebac.identify.levels import indicators, lagged
 from ebac.identify.recording import Recording
-from ebac.identify.target import Target
+from ebac.identify.target import Target, indicators, lagged
 
 Values = NDArray[np.float64]
 Lines = NDArray[np.complex128]
@@ -18,7 +17,7 @@ Lines = NDArray[np.complex128]
 SEGMENT = 2.0
 #: A hand does nothing of its own beyond this [Hz].
 HIGHEST = 60.0
-#: Fewest segments: of fewer the coherence says nothing, of one it is always 1.
+#: Fewest segments: with fewer the coherence means nothing, with one it is always 1.
 FEWEST = 4
 #: Share of the segments that counts as independent: half overlapping, Hann's window (Welch 1967).
 INDEPENDENT = 0.6
@@ -100,6 +99,11 @@ class Densities:
     segments: int
     moving: bool
 
+    @property
+    def seen_through(self) -> int:
+        """The signal through which the hand is seen: the target where it moves, the motion otherwise."""
+        return 3 if self.moving else 0
+
 
 def densities(recording: Recording, target: Target, levels: Values) -> Densities:
     """Return the spectra that eq. (4) relates.
@@ -177,22 +181,22 @@ def frequency_response(
 
 
 def guess_by_response(recording: Recording, target: Target, levels: Values) -> Values | None:
-    """Return M0, B0, K0 from the spectra, or None when they tell nothing.
+    """Return M0, B0, K0 from the spectra, or None when they do not determine them.
 
     Eq. (4) line by line, seen through the target where it moves and through the motion otherwise: that is linear in
     the three. Lines weigh by how much of the force follows.
     """
     found = densities(recording, target, levels)
     d, s = found.density, 2j * np.pi * found.frequency
-    r = 3 if found.moving else 0
+    r = found.seen_through
     columns = np.array([s**2 * d[r, 0], s * d[r, 0], d[r, 1]])
     coherence = np.abs(d[r, 2]) ** 2 / (d[r, r].real * d[2, 2].real + 1e-300)
-    told = coherence > 0.5
-    if told.sum() < 3:
+    coherent = coherence > 0.5
+    if coherent.sum() < 3:
         return None
     size = np.sqrt(d[r, r].real * d[2, 2].real * np.maximum(1 - coherence, 1e-4))
-    A = (columns / size)[:, told]
-    y = (d[r, 2] / size)[told]
+    A = (columns / size)[:, coherent]
+    y = (d[r, 2] / size)[coherent]
     rows = np.hstack([A.real, A.imag]).T
     scale = np.sqrt((rows**2).sum(axis=0)) + 1e-300
     values, *_ = np.linalg.lstsq(rows / scale, np.concatenate([y.real, y.imag]), rcond=1e-10)

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
@@ -11,19 +11,24 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ebac._core import Hand, Recorded, Step
-from ebac.identify import verdict
-from ebac.identify.foretell import best_levels, best_start
+from ebac.identify import informativeness, validation
+from ebac.identify.intervals import Z95
 from ebac.identify.parameters import BEFORE_LEVELS, OWN, Parameters, kind
 from ebac.identify.problem import Problem, arm_record
 from ebac.identify.recording import Recording
-from ebac.identify.residuals import ResidualTests, nrmse, residual_tests, vaf
 from ebac.identify.target import Target
+from ebac.identify.validation import (
+    Prediction,
+    ResidualTests,
+    best_levels,
+    best_start,
+    judge,
+    residual_tests,
+)
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-#: Of a standard normal, two-sided 95 %.
-Z95 = 1.959963984540054
 HAND = ("M0", "B0", "K0")
 
 
@@ -60,16 +65,6 @@ class Estimate:
         )
 
 
-@dataclass(frozen=True, kw_only=True)
-class Prediction:
-    """How well the hand foretells a recording from its force alone: 1 and 0 are perfect."""
-
-    recording: str
-    held_out: bool
-    vaf: float
-    nrmse: float
-
-
 @dataclass(frozen=True, kw_only=True, eq=False)
 class ArmResult:
     """The arm of eq. (4) as identified; `result.hand` feeds a `Scenario`."""
@@ -84,6 +79,10 @@ class ArmResult:
     converged: bool
     evaluations: int
     seconds: float
+    #: M0, B0, K0 of a regression that contradicts the fit; the intervals hold both.
+    regression: Mapping[str, float] = field(default_factory=dict)
+    #: VAF of a fit to the force of the other sign, where this one explains little of the motion.
+    other_sign: float | None = None
 
     @property
     def parameters(self) -> Parameters:
@@ -117,15 +116,17 @@ class ArmResult:
         """Names of what this log does not determine."""
         half = Z95 * self.deviation
         dt = max(r.dt for r in self.recordings)
-        return verdict.undetermined(
+        return informativeness.undetermined(
             self.parameters, self.values, half, self.correlation, self._span, dt
         )
 
     @cached_property
     def inseparable(self) -> tuple[tuple[str, str, float], ...]:
-        """Pairs that this log cannot tell apart, with their correlation."""
+        """Pairs that this log cannot separate, with their correlation."""
         half = Z95 * self.deviation
-        return verdict.inseparable(self.parameters, self.values, half, self.correlation, self._span)
+        return informativeness.inseparable(
+            self.parameters, self.values, half, self.correlation, self._span
+        )
 
     @cached_property
     def estimates(self) -> dict[str, Estimate]:
@@ -165,6 +166,11 @@ class ArmResult:
             out[r.name] = residual_tests(self.errors[start : start + len(r.t)], r.force)
             start += len(r.t)
         return out
+
+    @cached_property
+    def misses(self) -> tuple[str, ...]:
+        """What the model misses, a sentence each; empty where it changes no result."""
+        return validation.misses(self)
 
     @cached_property
     def hand(self) -> Hand:
@@ -207,28 +213,22 @@ class ArmResult:
         """
         rows = []
         for i, r in enumerate(self.recordings):
-            rows.append(self._judge(r, r.x, self.simulated(i), held=False))
+            rows.append(judge(r, self.simulated(i), held=False))
         for r, target in held_out:
             record = arm_record(r, target)
             hand = self.values[self.parameters.places[0]][:4]
             base = np.concatenate([hand, np.zeros(len(OWN) + target.levels)])
-            rows.append(self._judge(r, r.x, best_levels(record, base, r.x), held=True))
+            rows.append(judge(r, best_levels(record, base, r.x), held=True))
         return tuple(rows)
 
-    @staticmethod
-    def _judge(
-        r: Recording, measured: NDArray[np.float64], model: NDArray[np.float64], *, held: bool
-    ) -> Prediction:
-        return Prediction(
-            recording=r.name,
-            held_out=held,
-            vaf=vaf(measured, model),
-            nrmse=nrmse(measured, model),
-        )
+    @cached_property
+    def explained(self) -> float:
+        """Least share of the motion (VAF) of a recording that the force alone explains with this hand."""
+        return min(p.vaf for p in self.predictions())
 
     def profile(self, name: str, level: float = Z95**2) -> tuple[float, float]:
         """Return the 95 % interval of a parameter by profile likelihood: all others are fitted anew along it."""
-        from ebac.identify.profile import profile
+        from ebac.identify.intervals import profile
 
         return profile(self, name, level)
 
@@ -246,6 +246,7 @@ class ArmResult:
             "free": [self.parameters.names[i] for i in self.parameters.free],
             "inseparable": [list(pair) for pair in self.inseparable],
             "undetermined": list(self.undetermined),
+            "misses": list(self.misses),
             "force_noise_N": self.force_noise.tolist(),
             "predictions": [vars(p) for p in self.predictions()],
             "residuals": {
@@ -264,11 +265,11 @@ class ArmResult:
 
     def _repr_html_(self) -> str:
         """Return the figure, the estimates and what to be careful about, for a notebook."""
-        from ebac import notebook
+        from ebac._util import notebook
 
         names = ", ".join(r.name for r in self.recordings)
         careful = "; ".join(
-            f"{a} and {b} cannot be told apart ({r:+.3f})" for a, b, r in self.inseparable
+            f"{a} and {b} cannot be separated ({r:+.3f})" for a, b, r in self.inseparable
         )
         title = f"Arm of eq. (4) from {names}" + (f". {careful}" if careful else "")
         return notebook.result(title, [e.row() for e in self.shown], self.plot)
@@ -279,12 +280,10 @@ class ArmResult:
         lines = [f"Arm of eq. (4) from {names}:"]
         lines += [f"  {e}" for e in self.shown]
         lines += [
-            f"  {a} and {b} cannot be told apart in this log (correlation {r:+.3f})"
+            f"  {a} and {b} cannot be separated in this log (correlation {r:+.3f})"
             for a, b, r in self.inseparable
         ]
-        for name, t in self.tests.items():
-            if not t.white:
-                lines.append(f"  errors of {name} are not white: the model misses something")
+        lines += [f"  {text}" for text in self.misses]
         if not self.converged:
             lines.append("  the search did not converge")
         return "\n".join(lines)

@@ -40,7 +40,7 @@ def least_squares(
 
     Converged when a full step would lower the cost by less than `tolerance`, a ten-thousandth of what moves a 95 %
     bound; or when the last one lowered it by what was
-    foretold, to that, and nearly to the bottom.
+    predicted, to that, and nearly to the bottom.
     """
     x = np.clip(start, low, high)
     e = errors(x)
@@ -62,17 +62,17 @@ def least_squares(
             full = near.step(damping)
             step = np.clip(x + full, low, high) - x
             inside = bool(np.allclose(step, full, rtol=1e-9, atol=0.0))
-            foretold = near.lowers(step)
+            predicted = near.lowers(step)
             e_trial = errors(x + step)
             evaluations += 1
             gain = cost - loss(e_trial, robust)
             if gain >= 0:
-                left = abs(gain - foretold) + near.depth - foretold
+                left = abs(gain - predicted) + near.depth - predicted
                 done = left < tolerance or (gain < tolerance and inside)
                 x, e, cost, damping = x + step, e_trial, cost - gain, max(damping / 10, 1e-9)
                 break
             # A step that a bound has bent may lead up; along the slope, by much damping, none does.
-            done = abs(foretold) < tolerance and (inside or damping > 1)
+            done = abs(predicted) < tolerance and (inside or damping > 1)
             damping *= 8
         if done:
             return Found(

@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ebac._core import Hand, MinimumJerk, Recorded, Sine, Step, Tapping
+from ebac.identify.recording import Recording
+
+Path: TypeAlias = MinimumJerk | Recorded | Sine | Step | Tapping
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -83,18 +87,33 @@ class Target:
     @classmethod
     def of(cls, hand: Hand, t: NDArray[np.float64]) -> Target:
         """Return what an experimenter knows of a simulated hand's target: its times, not its levels."""
-        path = hand.path[0]
+        return cls.along(hand.path[0], t)
+
+    @classmethod
+    def along(cls, path: Path, t: NDArray[np.float64]) -> Target:
+        """Return the same of the path of a hand along one axis."""
         start, end = float(t[0]), float(t[-1])
         dt = (end - start) / (len(t) - 1)
         if isinstance(path, Step):
             return cls.steps(path.at) if start < path.at < end else cls.held()
         if isinstance(path, Tapping):
-            told = cls.tapping(path.frequency, end - start, start)
+            taps = cls.tapping(path.frequency, end - start, start)
             # A simulated hand changes its mind at a tick; one at the last row changes nothing that is recorded.
-            ticks = np.ceil(np.array(told.switches) / dt - 1e-9)
+            ticks = np.ceil(np.array(taps.switches) / dt - 1e-9)
             at = tuple(s for s in (ticks * dt).tolist() if s < end - 0.5 * dt)
-            return cls(switches=at, segments=told.segments[: len(at) + 1])
+            return cls(switches=at, segments=taps.segments[: len(at) + 1])
         return cls.following(_positions(path, t))
+
+
+def in_words(path: Path) -> str:
+    """Return what a path is: "taps at 1.5 Hz"."""
+    if isinstance(path, Tapping):
+        return f"taps at {path.frequency:g} Hz"
+    if isinstance(path, Step):
+        return f"steps at {path.at:g} s" if path.at > 0 else "held in one place"
+    if isinstance(path, Sine):
+        return f"swings at {path.frequency:g} Hz"
+    return "a recorded path" if isinstance(path, Recorded) else "a smooth reach"
 
 
 def _positions(path: MinimumJerk | Sine | Recorded, t: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -105,3 +124,37 @@ def _positions(path: MinimumJerk | Sine | Recorded, t: NDArray[np.float64]) -> N
     s = np.clip((t - path.at) / path.duration, 0, 1)
     smooth: NDArray[np.float64] = path.target * s**3 * (10 + s * (6 * s - 15))
     return smooth
+
+
+def indicators(recording: Recording, target: Target) -> NDArray[np.float64]:
+    """Return one row per level, shape (levels, rows): the share of the tick before that it held, behind the lag."""
+    edges = np.array([-np.inf, *target.switches, np.inf])
+    t, dt = recording.t, recording.dt
+    from_, to = np.maximum(edges[:-1, None], t - dt), np.minimum(edges[1:, None], t)
+    shares = np.clip(to - from_, 0.0, dt) / dt
+    out = np.zeros((target.levels, len(t)))
+    np.add.at(out, np.asarray(target.segments), shares)
+    return np.array([lagged(row, dt, recording.lag, stepping=True) for row in out])
+
+
+#: A lag has settled after so many of its time constants: to 1e-11.
+SETTLES = 25
+
+
+def lagged(
+    values: NDArray[np.float64], dt: float, lag: float, *, stepping: bool = False
+) -> NDArray[np.float64]:
+    """Return a signal behind a first-order lag [s], by its impulse response.
+
+    Between two rows it is straight; `stepping`, it has the value of a row since the row before.
+    """
+    if lag <= 0:
+        return values
+    keep = np.exp(-dt / lag)
+    response = keep ** np.arange(int(np.ceil(SETTLES * lag / dt)) + 1)
+    if not stepping:
+        ramp = lag / dt * (1 - keep)
+        response = np.concatenate([[1 - ramp], ramp * (1 - keep) * response])
+    response /= response.sum()
+    padded = np.concatenate([np.full(len(response) - 1, values[0]), values])
+    return np.convolve(padded, response, mode="valid")

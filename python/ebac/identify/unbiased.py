@@ -9,14 +9,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ebac.identify.folds import by_target
 from ebac.identify.guess import instruments, regression, solve
-from ebac.identify.levels import indicators
+from ebac.identify.intervals import Z95
 from ebac.identify.parameters import BEFORE_LEVELS, OWN
 from ebac.identify.recording import Recording
-from ebac.identify.ripple import ripple
-from ebac.identify.smooth import kernels, smoothed
-from ebac.identify.target import Target
+from ebac.identify.result import HAND
+from ebac.identify.signals import by_target, kernels, ripple, smoothed
+from ebac.identify.target import Target, indicators
 
 if TYPE_CHECKING:
     from ebac.identify.result import ArmResult
@@ -56,7 +55,7 @@ def second_opinion(result: ArmResult) -> tuple[Opinion, ...]:
     Raises
     ------
     ValueError
-        When a target never moves: then nothing tells hand from loop, and the direct fit stands alone.
+        When a target never moves: then nothing separates hand from loop, and the direct fit stands alone.
     """
     problem = result.problem
     onset, stair = (BEFORE_LEVELS - len(OWN) + OWN.index(name) for name in ("onset", "stair"))
@@ -82,9 +81,42 @@ def second_opinion(result: ArmResult) -> tuple[Opinion, ...]:
             unbiased=float(values[i]),
             unbiased_deviation=float(np.sqrt(max(covariance[i, i], 0))),
         )
-        for i, name in enumerate(("M0", "B0", "K0"))
+        for i, name in enumerate(HAND)
         if name in result.estimates
     )
+
+
+#: A smaller difference between the two methods changes nothing, as a share of the value.
+MATTERS = 0.01
+
+
+def disagreement(result: ArmResult) -> dict[str, float]:
+    """Return M0, B0, K0 of a regression on smoothed signals, where they contradict the fit; empty where none does.
+
+    Regression sees a hand below 20 Hz, the fit at all frequencies: they agree where eq. (4) holds at all of them. A
+    filter in the log, or a derivative taken by differences, shows the fit another mass. As a specification test
+    (Hausman 1978). Where the target moves, the regression is that of the second opinion.
+    """
+    places = result.parameters.places
+    if any((place[:3] != places[0][:3]).any() for place in places):
+        return {}  # recordings with hands of their own
+    fit = {name: result.estimates[name] for name in HAND}
+    if any(e.fixed for e in fit.values()):
+        return {}  # a regression knows of no given values
+    try:
+        found = [(o.name, o.unbiased, o.unbiased_deviation) for o in second_opinion(result)]
+    except ValueError:
+        pairs = zip(result.problem.recordings, result.problem.targets, strict=True)
+        values, covariance = solve([regression(r, target) for r, target in pairs])
+        sure = np.sqrt(np.maximum(np.diag(covariance), 0.0))
+        found = list(zip(HAND, values[:3].tolist(), sure[:3].tolist(), strict=True))
+    out = {}
+    for name, value, deviation in found:
+        own = (fit[name].high - fit[name].low) / 2
+        apart = abs(value - fit[name].value)
+        if value > 0 and apart > max(MATTERS * fit[name].value, np.hypot(own, Z95 * deviation)):
+            out[name] = value
+    return out
 
 
 def _evened(r: Recording, share: float) -> Recording:
@@ -115,7 +147,7 @@ def _jumps(r: Recording, target: Target) -> NDArray[np.float64]:
     """Return a smoothed pulse where each level but the first begins or ends, shape (rows, levels - 1).
 
     Samples of a lagged step lie a tenth of a tick later than the step itself: a jump of acceleration, which is taken
-    from the places, and that of the force do not meet.
+    from the places, and that of the force are independent.
     """
     h = kernels(r.dt)[0]
     shares = indicators(r, target)[1:]

@@ -1,4 +1,4 @@
-"""What a log tells of itself: law, scenario, versions, machine."""
+"""Metadata of a log: law, scenario, versions, machine."""
 
 from __future__ import annotations
 

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import os
 from collections import deque
 from collections.abc import Iterator
 from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import dataclass, field
 
+from ebac._util.cores import usable_cores
 from ebac.logs.events import Event
 from ebac.logs.layout import MESSAGE, Layout
 from ebac.logs.records import unpacked
@@ -53,9 +53,7 @@ class Content:
 
 def unpackers() -> ThreadPoolExecutor:
     """Return threads that unpack; none is made before there is work for it. A context manager."""
-    return ThreadPoolExecutor(
-        min(_THREADS, len(os.sched_getaffinity(0))), thread_name_prefix="ebac-log"
-    )
+    return ThreadPoolExecutor(min(_THREADS, usable_cores()), thread_name_prefix="ebac-log")
 
 
 class Chunks:

@@ -11,7 +11,7 @@ from ebac.logs.layout import Layout
 
 #: Rows that are spread over the columns at a time: so many stay in a processor's cache.
 _BLOCK = 1024
-#: Columns have room for this many times the rows so far, at most: what a log foretells of itself may be wrong.
+#: Columns have room for this many times the rows so far, at most: the size a log announces may be wrong.
 _GROWTH = 8
 
 

@@ -93,13 +93,13 @@ class Event:
             When it is not that.
         """
         try:
-            told = json.loads(data)
+            document = json.loads(data)
             event = cls(
-                kind=str(told["name"]),
-                message=str(told["message"]),
-                tick=int(told["tick"]),
-                t=float(told["t"]),
-                values=dict(told["values"]),
+                kind=str(document["name"]),
+                message=str(document["message"]),
+                tick=int(document["tick"]),
+                t=float(document["t"]),
+                values=dict(document["values"]),
             )
         except (KeyError, TypeError, ValueError, OverflowError, RecursionError) as error:
             raise ValueError(f"not an event of ebac ({error})") from None

@@ -32,7 +32,7 @@ def facts(trace: Trace) -> dict[str, str]:
 
 def to_parquet(trace: Trace, path: Path, progress: Progress) -> None:
     """Write Parquet: a column per axis, `x_0`, `x_1`; unit and meaning in the metadata of each."""
-    _need("pyarrow", "sweep")
+    needs("pyarrow", "sweep")
     import pyarrow as pa
     import pyarrow.parquet
 
@@ -54,14 +54,14 @@ def to_parquet(trace: Trace, path: Path, progress: Progress) -> None:
 def to_mat(trace: Trace, path: Path, progress: Progress) -> None:
     """Write a MATLAB file: a matrix (rows, axes) per column, `law_beta` for `law.beta`.
 
-    Beside them stand the structs `units`, `meanings` and `about`.
+    Beside them stand the structs `units`, `meanings`, `names` (as ebac writes them) and `about`.
 
     Raises
     ------
     ValueError
         When it has 2 GiB or more, which the format cannot hold.
     """
-    _need("scipy", "log")
+    needs("scipy", "log")
     from scipy.io import savemat
 
     names = {name: name.replace(".", "_")[:MATLAB_NAME] for name in trace}
@@ -73,6 +73,7 @@ def to_mat(trace: Trace, path: Path, progress: Progress) -> None:
         )
     values["units"] = {names[name]: trace.columns[name].unit for name in trace}
     values["meanings"] = {names[name]: trace.columns[name].meaning for name in trace}
+    values["names"] = {short: name for name, short in names.items()}
     values["about"] = facts(trace)
     with path.open("wb") as file:  # a file, because SciPy appends .mat to a name
         savemat(file, values, long_field_names=True, do_compression=True, oned_as="column")
@@ -81,7 +82,7 @@ def to_mat(trace: Trace, path: Path, progress: Progress) -> None:
 
 def to_hdf5(trace: Trace, path: Path, progress: Progress) -> None:
     """Write HDF5: a data set per column, attributes `unit` and `meaning`; law, scenario and versions on the file."""
-    _need("h5py", "log")
+    needs("h5py", "log")
     import h5py
 
     with h5py.File(path, "w") as file:
@@ -95,7 +96,8 @@ def to_hdf5(trace: Trace, path: Path, progress: Progress) -> None:
             progress((i + 1) * len(trace) // len(list(trace)), len(trace))
 
 
-def _need(module: str, extra: str) -> None:
+def needs(module: str, extra: str) -> None:
+    """Raise ModuleNotFoundError, with the command that installs it, where a library is missing."""
     from importlib.util import find_spec
 
     if find_spec(module) is None:

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
+from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -28,7 +29,7 @@ FORMATS = {
     ".h5": "HDF5, units as attributes",
 }
 #: Those that can be read back as a trace.
-READABLE = (".mcap", ".npz", ".csv")
+READABLE = tuple(FORMATS)
 
 
 def save(trace: Trace, path: str | Path, *, progress: Progress | None = None) -> None:
@@ -48,7 +49,7 @@ def save(trace: Trace, path: str | Path, *, progress: Progress | None = None) ->
     ValueError
         For another extension.
     ModuleNotFoundError
-        When the library of a format is not installed; the message says which.
+        When the library of a format is not installed; the message names it.
     OSError
         When the file cannot be written.
     """
@@ -58,7 +59,7 @@ def save(trace: Trace, path: str | Path, *, progress: Progress | None = None) ->
     writers: dict[str, Callable[[Trace, Path, Progress], Any]] = {
         ".mcap": write_mcap,
         ".npz": lambda t, p, _: t.to_npz(p),
-        ".csv": lambda t, p, told: t.to_csv(p, progress=told),
+        ".csv": lambda t, p, progress: t.to_csv(p, progress=progress),
         ".parquet": export.to_parquet,
         ".mat": export.to_mat,
         ".h5": export.to_hdf5,
@@ -68,8 +69,11 @@ def save(trace: Trace, path: str | Path, *, progress: Progress | None = None) ->
     try:
         write(trace, draft, progress or (lambda done, total: None))
         draft.replace(path)
+    except OSError as error:  # names the file asked for, not the draft beside it
+        raise type(error)(error.errno, error.strerror, str(path)) from None
     finally:
-        draft.unlink(missing_ok=True)
+        with suppress(OSError):  # a folder that is none has no draft either
+            draft.unlink(missing_ok=True)
 
 
 def extension(path: Path, known: tuple[str, ...]) -> str:
@@ -87,7 +91,7 @@ def extension(path: Path, known: tuple[str, ...]) -> str:
 
 
 def load(path: str | Path, *, progress: Progress | None = None) -> Trace:
-    """Read a trace: MCAP (whole or cut), NPZ or CSV, by the extension.
+    """Read a trace, the format by the extension: MCAP (whole or cut), NPZ, CSV, Parquet, MATLAB or HDF5.
 
     Parameters
     ----------
@@ -101,8 +105,11 @@ def load(path: str | Path, *, progress: Progress | None = None) -> Trace:
     FileNotFoundError
         When there is no such file.
     ValueError
-        For another extension, or a file that is not what its extension says.
+        For another extension, or a file that is not in the format of its extension.
+    ModuleNotFoundError
+        When the library of a format is not installed; the message names it.
     """
+    from ebac.logs import imports
     from ebac.logs.csv_file import read_csv
     from ebac.logs.reader import read
     from ebac.trace import Trace
@@ -111,15 +118,34 @@ def load(path: str | Path, *, progress: Progress | None = None) -> Trace:
     kind = extension(path, READABLE)
     if kind == ".mcap":
         return read(path, progress=progress).trace
-    return Trace.from_npz(path) if kind == ".npz" else read_csv(path)
+    readers: dict[str, Callable[[Path], Trace]] = {
+        ".npz": Trace.from_npz,
+        ".csv": read_csv,
+        ".parquet": imports.from_parquet,
+        ".mat": imports.from_mat,
+        ".h5": imports.from_hdf5,
+    }
+    return readers[kind](path)
 
 
-def write_mcap(trace: Trace, path: Path, progress: Progress) -> None:
-    """Write a trace as a log; its time is t itself, so the same run gives the same file."""
+def write_mcap(
+    trace: Trace,
+    path: Path,
+    progress: Progress = lambda done, total: None,
+    *,
+    files: Mapping[str, str] | None = None,
+) -> None:
+    """Write a trace as a log, with text files attached; its time is t itself, so the same run gives the same file."""
     from ebac.logs.writer import LogWriter
 
     data = {name: trace[name] for name in trace}
-    about = About(axes=trace.axes, law=trace.law, law_repr=trace.law_repr, scenario=trace.scenario)
+    about = About(
+        axes=trace.axes,
+        law=trace.law,
+        law_repr=trace.law_repr,
+        scenario=trace.scenario,
+        files=files or {},
+    )
     with LogWriter(path, layout=Layout.of(data, trace.columns), about=about) as log:
         for first in range(0, len(trace), CHUNK_ROWS):
             log.write({name: v[first : first + CHUNK_ROWS] for name, v in data.items()})

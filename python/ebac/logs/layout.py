@@ -12,7 +12,7 @@ from typing import Any, Self
 import numpy as np
 from numpy.typing import NDArray
 
-from ebac.columns import ColumnInfo
+from ebac.trace.columns import ColumnInfo
 
 #: Kind of a NumPy type: its name in a ROS 2 message, its little-endian form.
 TYPES = {
@@ -66,8 +66,8 @@ class LoggedColumn:
     size: int
 
     @classmethod
-    def told(cls, column: Any) -> Self:
-        """Return what JSON told of a column.
+    def from_json(cls, column: Any) -> Self:
+        """Return a column from its JSON.
 
         Raises
         ------
@@ -83,7 +83,7 @@ class LoggedColumn:
 
     @property
     def info(self) -> ColumnInfo:
-        """What a trace tells of it."""
+        """Its unit and meaning for a trace."""
         return ColumnInfo(name=self.name, unit=self.unit, meaning=self.meaning)
 
     @property
@@ -148,7 +148,7 @@ class Layout:
             When it is not that.
         """
         try:
-            columns = tuple(LoggedColumn.told(column) for column in json.loads(text))
+            columns = tuple(LoggedColumn.from_json(column) for column in json.loads(text))
         except (TypeError, KeyError, ValueError, RecursionError):
             columns = ()
         if not columns:
@@ -159,7 +159,9 @@ class Layout:
         fields = [column.field for column in self.columns]
         twice = {field for field in fields if fields.count(field) > 1}
         if twice:
-            raise ValueError(f"columns {', '.join(sorted(twice))}: cannot be told apart in a log")
+            raise ValueError(
+                f"columns {', '.join(sorted(twice))}: cannot be distinguished in a log"
+            )
         sizes = {column.size for column in self.columns} - {1}
         if len(sizes) > 1:
             raise ValueError(f"columns of {sizes} values: must be one, or one per axis")

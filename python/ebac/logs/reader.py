@@ -90,6 +90,8 @@ class Log:
     @property
     def gaps(self) -> list[Gap]:
         """Where rows are missing between two rows of the log."""
+        if "tick" not in self.trace:
+            return []
         tick, t = self.trace["tick"], self.trace["t"]
         steps = np.diff(tick.astype(np.int64))
         return [
@@ -102,13 +104,14 @@ class Log:
         """Number of the fault, time [s] and tick of each row in which one appears or changes."""
         fault = self.trace["fault"] if "fault" in self.trace else np.zeros(len(self.trace))
         new = np.flatnonzero((fault != 0) & (np.diff(fault, prepend=0) != 0))
-        tick, t = self.trace["tick"], self.trace["t"]
+        t = self.trace["t"]
+        tick = self.trace["tick"] if "tick" in self.trace else np.arange(len(t))
         return [(int(fault[i]), float(t[i]), int(tick[i])) for i in new]
 
 
 @dataclass
 class _Found:
-    """What the records of a file have told so far."""
+    """Contents of the records of a file so far."""
 
     where: Where | None = None
     columns: Columns | None = None
@@ -127,7 +130,7 @@ def read(path: str | Path, *, progress: Callable[[int, int], None] | None = None
     Parameters
     ----------
     path : str or Path
-        An MCAP file that ebac wrote.
+        A file that ebac wrote: MCAP, or one of the other formats of `Trace.save`, by the extension.
     progress : callable, optional
         Called with bytes read and bytes in all.
 
@@ -144,12 +147,33 @@ def read(path: str | Path, *, progress: Callable[[int, int], None] | None = None
         When it is no log of ebac, or was cut before its columns were written.
     """
     path = Path(path)
+    if path.suffix.lower() in (".npz", ".csv", ".parquet", ".mat", ".h5"):
+        return _of_trace(path)
     with path.open("rb") as file:
         size = file.seek(0, 2)
         if size == 0:
             return read_bytes(b"", path)
         with mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ) as data:
             return read_bytes(data, path, progress=progress)
+
+
+def _of_trace(path: Path) -> Log:
+    """Read a file that holds the rows alone, with law and scenario where its format has room for them."""
+    from ebac.logs.files import load
+
+    trace = load(path)
+    about = About(
+        axes=trace.axes, law=trace.law, law_repr=trace.law_repr, scenario=trace.scenario, made_by={}
+    )
+    return Log(
+        path=path,
+        trace=trace,
+        events=[],
+        about=about,
+        condition=Condition(complete=True),
+        ended={},
+        bytes=path.stat().st_size,
+    )
 
 
 def read_bytes(
@@ -256,15 +280,17 @@ def _log(path: Path, found: _Found, condition: Condition, size: int) -> Log:
 
 
 def whole(text: str) -> int | None:
-    """Return the whole number a text tells, from 0 to what a file can hold; None for anything else."""
+    """Return the whole number in a text, from 0 to what a file can hold; None for anything else."""
     if not text.isdecimal() or len(text) > _DIGITS:
         return None
     return int(text) if int(text) < 1 << 63 else None
 
 
 def _about(found: _Found, condition: Condition, axes: int) -> About:
-    told = dict(found.metadata.get("ebac", {}))
-    own = {name: told.pop(name, "") for name in ("format", "axes", "law", "law_repr", "start_ns")}
+    metadata = dict(found.metadata.get("ebac", {}))
+    own = {
+        name: metadata.pop(name, "") for name in ("format", "axes", "law", "law_repr", "start_ns")
+    }
     files = dict(found.files)
     scenario = None
     if SCENARIO_FILE in files:
@@ -280,5 +306,5 @@ def _about(found: _Found, condition: Condition, axes: int) -> About:
         scenario=scenario,
         start_ns=whole(own["start_ns"]) or 0,
         files=files,
-        made_by=told,
+        made_by=metadata,
     )

@@ -15,12 +15,12 @@ from typing import TYPE_CHECKING, Any, Self
 import numpy as np
 from numpy.typing import NDArray
 
-from ebac.columns import column_infos, row_views
 from ebac.logs.about import About
 from ebac.logs.events import Event, faults_of
 from ebac.logs.layout import Layout
 from ebac.logs.writer import LogWriter
 from ebac.scenario import Scenario
+from ebac.trace.columns import column_infos, row_views
 
 if TYPE_CHECKING:
     from ebac._core import Rows
@@ -36,7 +36,7 @@ class Recorder:
 
     The loop knows nothing of it: the recorder is one more reader of its rows. It wakes every `interval`, copies what
     is new and writes it as one chunk. Killed, the process loses the rows since the last chunk. Where the loop keeps its
-    rows in a ring and the recorder comes too late, rows are lost: they are counted, written as an event and told by
+    rows in a ring and the recorder comes too late, rows are lost: they are counted, written as an event and reported by
     `close`.
 
     Parameters
@@ -195,7 +195,7 @@ class Recorder:
         if self.lost:
             warnings.warn(
                 f"{self.path}: {self.lost} rows were lost, the recorder came too late; "
-                "the log says where. Give the loop a longer ring",
+                "the log contains where. Give the loop a longer ring",
                 stacklevel=2,
             )
 
@@ -251,7 +251,7 @@ class Recorder:
         return Event(kind="lost", message=message, tick=tick, t=t, values={"rows": rows})
 
     def _at_exit(self) -> None:
-        with contextlib.suppress(OSError):  # the interpreter ends: nobody is left to be told
+        with contextlib.suppress(OSError):  # the interpreter ends: nobody is left to read it
             self.close()
 
     def __enter__(self) -> Self:

@@ -1,4 +1,4 @@
-"""The records of an MCAP file that may be cut or damaged anywhere: what is whole is given, what is not is told."""
+"""The records of an MCAP file that may be cut or damaged anywhere: whole ones are read, damaged ones reported."""
 
 from __future__ import annotations
 
@@ -52,7 +52,7 @@ class Condition:
 
 
 def records(
-    data: bytes | mmap.mmap, condition: Condition, told: Callable[[int, int], None]
+    data: bytes | mmap.mmap, condition: Condition, report: Callable[[int, int], None]
 ) -> Iterator[tuple[int, int, int]]:
     """Yield (opcode, first byte, byte after the last) of the content of each whole record.
 
@@ -62,7 +62,7 @@ def records(
         The file.
     condition : Condition
         Takes what is wrong.
-    told : callable
+    report : callable
         Progress: bytes done, bytes in all.
     """
     at, size = len(MAGIC), len(data)
@@ -73,7 +73,7 @@ def records(
             break
         yield opcode, start, start + length
         at = start + length
-        told(at, size)
+        report(at, size)
         if opcode == FOOTER:
             condition.complete = data[at : at + len(MAGIC)] == MAGIC
             if condition.complete:
@@ -137,16 +137,16 @@ def _zstd() -> Any:
 
 def _decompress(how: str, data: bytes, size: int) -> bytes:
     if size > MOST_CHUNK:
-        raise ValueError(f"it says it has {size} bytes")
+        raise ValueError(f"its header gives {size} bytes")
     if how == "":
         return data
     if how == "zstd":
         import zstandard
 
         try:
-            told = zstandard.frame_content_size(data)
-            if told not in (size, -1):  # -1: it does not say
-                raise ValueError(f"{told} bytes instead of {size}")
+            known_size = zstandard.frame_content_size(data)
+            if known_size not in (size, -1):  # -1: unknown
+                raise ValueError(f"{known_size} bytes instead of {size}")
             return bytes(_zstd().decompress(data, max_output_size=size))
         except zstandard.ZstdError as error:
             raise ValueError(str(error)) from None

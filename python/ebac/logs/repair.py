@@ -55,8 +55,8 @@ def repair(
                 new.write({name: v[first : first + CHUNK_ROWS] for name, v in data.items()})
             if log.events:
                 new.write({name: v[:0] for name, v in data.items()}, log.events)
-            told = {name: whole(text) for name, text in log.ended.items()}
-            ended = {name: n for name, n in told.items() if n is not None}
+            numbers = {name: whole(text) for name, text in log.ended.items()}
+            ended = {name: n for name, n in numbers.items() if n is not None}
             new.close(**{"rows": len(log.trace), **ended, "repaired": 1})
     except FileExistsError:
         raise

@@ -44,7 +44,7 @@ def replay(
     gives the recorded commands to the bit, for a log from its first tick on without gaps. At a gap the time of the
     tick is that since the row before.
 
-    **What a replay cannot tell**: nothing the law commands reaches hand or device. Whether a contact is stable, where
+    **Limits of a replay**: nothing the law commands reaches hand or device. Whether a contact is stable, where
     it would rest, and how the hand would have answered stay unknown; energies are those of the recorded force along
     the recorded path. A law that seems calm here may swing on the device. Use it to see what a law does with real
     noise, real timing and real encoder steps, and to check a law for errors.
@@ -145,7 +145,7 @@ def _source(recorded: Trace) -> _core.ReplayLog:
 
 
 def _counts_age(recorded: Trace, dt: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return how old the counts of each row were [s], from the ticks without an answer that a log of drives tells."""
+    """Return how old the counts of each row were [s], from the ticks without an answer in a log of drives."""
     ages = np.zeros((len(recorded), recorded.axes))
     if "bus.age" not in recorded:
         return ages

@@ -111,7 +111,7 @@ class Summary:
         self._counts.attachment_count += 1
 
     def write(self, write: Callable[[bytes], None], start: int) -> int:
-        """Write the groups of the summary, from byte `start` on, and where each begins; return where that is told."""
+        """Write the groups of the summary, from byte `start` on, and where each begins; return where that list is."""
         known = described(self._layout)
         groups = (known[:2], known[2:], [self._counts], self._attached, self._described)
         at, offsets = start, b""

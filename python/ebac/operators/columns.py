@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+from collections.abc import Mapping
 from dataclasses import dataclass
 from math import isnan, nan
 from pathlib import Path
@@ -10,7 +11,9 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-#: How far a hand moves through free air before it meets the wall, where nothing else is said [m].
+from ebac._util.headings import FACTORS, split_heading
+
+#: Free motion of a hand before contact with the wall, unless given [m].
 APPROACH = 0.010
 
 
@@ -48,11 +51,45 @@ OPERATOR_COLUMNS = {
 }
 
 
+#: Other names of the columns with a unit of their own.
+_STEMS = {
+    "m": "m_kg", "m0": "m_kg", "mass": "m_kg", "b": "b_Ns_per_m", "b0": "b_Ns_per_m", "damping": "b_Ns_per_m",
+    "k": "k_N_per_m", "k0": "k_N_per_m", "stiffness": "k_N_per_m", "target": "target_m", "approach": "approach_m",
+    "tremor": "tremor_m",
+}  # fmt: skip
+_QUANTITY = {"kg": "mass", "N s/m": "damping", "N/m": "stiffness", "m": "length", "Hz": "frequency"}
+
+
+def in_si(table: Mapping[str, ArrayLike]) -> dict[str, ArrayLike]:
+    """Return columns by their own names and in SI units: `k [N/mm]` becomes `k_N_per_m`; what is not known stays."""
+    found: dict[str, ArrayLike] = {}
+    for heading, values in table.items():
+        name, factor = _known(str(heading))
+        if name in found:
+            raise ValueError(f"column {name} stands there twice, as {heading} too")
+        found[name] = values if factor == 1 else factor * numbers(name, values)
+    return found
+
+
+def _known(heading: str) -> tuple[str, float]:
+    """Return the column that a heading means, and its unit in SI."""
+    if heading in OPERATOR_COLUMNS:
+        return heading, 1.0
+    for column in OPERATOR_COLUMNS.values():
+        units = FACTORS[_QUANTITY[column.unit]]
+        stem, unit = split_heading(heading, units)
+        own = "tremor_m" if column.name == "tremor_Hz" else column.name
+        if unit in units and _STEMS.get(stem.lower()) == own:
+            return column.name, units[unit]
+    return heading, 1.0
+
+
 def read_csv(path: str | Path) -> dict[str, list[str]]:
-    """Return the columns of a CSV file by the names in its heading, as text."""
+    """Return the columns of a CSV file by the names in its heading, as text; lines that start with # are left out."""
     try:
         with Path(path).open(encoding="utf-8-sig", newline="") as file:
-            lines = [row for row in csv.reader(file) if any(cell.strip() for cell in row)]
+            text = (line for line in file if not line.startswith("#"))
+            lines = [row for row in csv.reader(text) if any(cell.strip() for cell in row)]
     except csv.Error as error:
         raise ValueError(str(error)) from None
     if not lines:

@@ -12,9 +12,9 @@ from typing import TYPE_CHECKING, Any, Self
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ebac import document
 from ebac._core import Hand, Step, Wall
-from ebac.operator_columns import APPROACH, OPERATOR_COLUMNS, check, numbers, read_csv
+from ebac._util import serialisation
+from ebac.operators.columns import APPROACH, OPERATOR_COLUMNS, check, in_si, numbers, read_csv
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -36,7 +36,7 @@ class Operators:
     target_m : array-like, shape (n,)
         Where the hand wants to be [-1, 1] m, from the wall's surface.
     approach_m : array-like, shape (n,) or number
-        How far it moves through free air before it meets the wall, [0, 1] m; default: 10 mm. A hand that starts on the
+        Length of its free motion before contact with the wall, [0, 1] m; default: 10 mm. A hand that starts on the
         surface (0) brings hardly any energy into the contact, see the condition `surface`.
     tremor_m, tremor_Hz : array-like, shape (n,) or number
         Amplitude [0, 0.1] m and frequency [0, 500] Hz of its tremor.
@@ -149,17 +149,17 @@ class Operators:
 
     @classmethod
     def from_columns(cls, table: Mapping[str, ArrayLike]) -> Self:
-        """Make a population from named columns; see the class for their names.
+        """Make a population from named columns; see the class for their names; `k [N/mm]` is understood too.
 
         Raises
         ------
         ValueError
             For a column that is missing or unknown, or a value that is no number or out of its range.
         """
-        known = list(OPERATOR_COLUMNS)
+        known, table = list(OPERATOR_COLUMNS), in_si(table)
         for name in table:
             if name not in OPERATOR_COLUMNS:
-                raise ValueError(document.unknown(f"column {name}", str(name), known))
+                raise ValueError(serialisation.unknown(f"column {name}", str(name), known))
         missing = [c.name for c in OPERATOR_COLUMNS.values() if c.required and c.name not in table]
         if missing:
             raise ValueError(

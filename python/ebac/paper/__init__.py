@@ -9,3 +9,7 @@ from ebac.paper.items import ITEMS, find
 from ebac.paper.report import report
 
 __all__ = ["ITEMS", "Finding", "Verdict", "find", "report"]
+
+
+def __dir__() -> list[str]:
+    return __all__

@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
-from ebac import wording
 from ebac._core import Wall
+from ebac._util import formatting
 from ebac.metrics import Contact, contact
 from ebac.paper.finding import Finding, Row, judge, row
 from ebac.scenario import Scenario
@@ -88,25 +88,25 @@ def _why(found: dict[tuple[str, str], Contact], traces: Runs) -> str:
     walls = list(WALLS)
     slowest = max((found["ebac", name].settled_s or np.inf) for name in walls)
     off = max(abs(found["ebac", name].deviation_m or 0) for name in walls)
-    deep = [wording.quantity(found["ebac-printed", n].deviation_m, "m") for n in walls[:2]]
+    deep = [formatting.quantity(found["ebac-printed", n].deviation_m, "m") for n in walls[:2]]
     time, depth = _silent(traces["ebac-printed", walls[2]])
     least = min((found["ebac-printed", name].least_energy_J or 0) for name in walls)
     return (
-        f"The completed law settles within {wording.quantity(slowest, 's')} and rests within "
-        f"{wording.quantity(off, 'm')} of the ideal point at each wall here. "
+        f"The completed law settles within {formatting.quantity(slowest, 's')} and rests within "
+        f"{formatting.quantity(off, 'm')} of the ideal point at each wall here. "
         "Eq. (8) to (10) as printed are stable and as fast, but rest too deep by "
-        f"{deep[0]} and {deep[1]} at 10 kN/m and give out energy ({wording.quantity(least, 'J')}). "
+        f"{deep[0]} and {deep[1]} at 10 kN/m and give out energy ({formatting.quantity(least, 'J')}). "
         "Started in free air, beta is 0 and the ratio rows of eq. (10) hold it there until the "
-        f"first row frees it: at the soft wall F_d stays zero for {wording.quantity(time, 's')}, "
-        f"{wording.quantity(depth, 'm')} deep. The paper does not tell hand, wall or device of its "
+        f"first row frees it: at the soft wall F_d stays zero for {formatting.quantity(time, 's')}, "
+        f"{formatting.quantity(depth, 'm')} deep. The paper does not tell hand, wall or device of its "
         "figure; these are simulations with the reference hand and device."
     )
 
 
 def _draw(traces: Runs) -> Picture:
-    from ebac.plot import new_figure
+    from ebac.plot import figure_legend, new_figure
 
-    figure = new_figure(13, 8)
+    figure = new_figure(13, 8.4)
     grid = figure.subplots(3, len(WALLS), sharex=True, sharey="row")
     for column, name in enumerate(WALLS):
         for law, label in LAWS.items():
@@ -116,7 +116,11 @@ def _draw(traces: Runs) -> Picture:
         grid[-1, column].set_xlabel("time [s]")
         _frames(grid[:, column], first=column == 0)
     handles, labels = grid[0, 0].get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside upper center", ncols=len(labels), frameon=False)
+    figure_legend(figure, handles, labels)
+    given = traces["ebac", next(iter(WALLS))].scenario
+    assert given is not None
+    parts = formatting.describe(given).split("; ")
+    figure.suptitle(f"simulated: {parts[0]}; {parts[1]}; {parts[3]}", fontsize="medium")
     figure.align_ylabels()
     return figure
 
@@ -131,12 +135,8 @@ def _lines(panels: Sequence[Axes], trace: Trace, label: str) -> None:
 
 
 def _frames(panels: Sequence[Axes], *, first: bool) -> None:
-    from matplotlib.ticker import FuncFormatter
-
     from ebac.plot import dress
 
     labels = ("x [mm]", "$F_d$ [N]", r"$\beta$ [kN/m]")
     for ax, label in zip(panels, labels, strict=True):
         dress(ax, label if first else "")
-    panels[2].set_yscale("symlog", linthresh=1)
-    panels[2].yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))

@@ -8,11 +8,37 @@ from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-Verdict: TypeAlias = Literal["reproduced", "reproduced in part", "not reproduced"]
+Verdict: TypeAlias = Literal[
+    "reproduced", "reproduced in part", "not reproduced", "nothing to compute"
+]
 Row: TypeAlias = dict[str, str | float | None]
 
 
 @dataclass(frozen=True, kw_only=True)
+class Claim:
+    """One claim of an item, and whether it holds.
+
+    Attributes
+    ----------
+    text : str
+        The claim, in the paper's words or in ours.
+    holds : bool
+        What the computation says.
+    evidence : str
+        The number that decides, with its unit.
+    """
+
+    text: str
+    holds: bool
+    evidence: str
+
+    def row(self) -> dict[str, Any]:
+        """Return the claim as plain values."""
+        verdict = "reproduced" if self.holds else "not reproduced"
+        return {"claim": self.text, "verdict": verdict, "evidence": self.evidence}
+
+
+@dataclass(frozen=True, kw_only=True, repr=False)
 class Finding:
     """One item of the paper, checked.
 
@@ -26,9 +52,11 @@ class Finding:
         `quantity`, `value`, `unit` (SI), `paper` and `difference` (value - paper); the last two are
         None where the paper gives no number.
     verdict : str
-        "reproduced", "reproduced in part" or "not reproduced".
+        "reproduced", "reproduced in part", "not reproduced", or "nothing to compute" for a photograph or a diagram.
     why : str
         The reason for the verdict.
+    claims : tuple of Claim
+        Each claim of the item by itself; the verdict follows from them where there are any.
     figure : Figure or None
         The figure drawn again.
     """
@@ -39,7 +67,16 @@ class Finding:
     rows: list[Row]
     verdict: Verdict
     why: str
+    claims: tuple[Claim, ...] = ()
     figure: Figure | None = field(default=None, compare=False, repr=False)
+
+    def __repr__(self) -> str:
+        """Return title, verdict and claims."""
+        lines = [f"{self.title}: {self.verdict}"]
+        for claim in self.claims:
+            word = "reproduced" if claim.holds else "not reproduced"
+            lines.append(f"  {word}: {claim.text} ({claim.evidence})")
+        return "\n".join(lines)
 
     @property
     def picture(self) -> str | None:
@@ -55,6 +92,7 @@ class Finding:
             "rows": self.rows,
             "verdict": self.verdict,
             "why": self.why,
+            "claims": [claim.row() for claim in self.claims],
             "figure": self.picture,
         }
 
@@ -71,8 +109,9 @@ def row(quantity: str, value: float | None, unit: str, paper: float | None = Non
     }
 
 
-def judge(*claims: bool) -> Verdict:
-    """Return the verdict on the claims of an item: which of them hold."""
-    if all(claims):
+def judge(*claims: bool | Claim) -> Verdict:
+    """Return the verdict on the claims of an item: all, some or none of them hold."""
+    holds = [claim.holds if isinstance(claim, Claim) else claim for claim in claims]
+    if all(holds):
         return "reproduced"
-    return "reproduced in part" if any(claims) else "not reproduced"
+    return "reproduced in part" if any(holds) else "not reproduced"

@@ -6,8 +6,8 @@ import json
 from collections.abc import Iterable
 from pathlib import Path
 
-from ebac import wording
-from ebac.folder import filled
+from ebac._util import formatting
+from ebac._util.atomic_folder import filled
 from ebac.paper.finding import Finding, Row
 from ebac.paper.items import find
 
@@ -92,13 +92,24 @@ def _section(finding: Finding) -> list[str]:
         "",
         f"**Verdict: {finding.verdict}.** {finding.why}",
         "",
+        *_claims(finding),
         *_table(finding),
         "",
         *picture,
     ]
 
 
+def _claims(finding: Finding) -> list[str]:
+    if not finding.claims:
+        return []
+    lines = ["| claim | verdict | evidence |", "|---|---|---|"]
+    lines += ["| " + " | ".join(claim.row().values()) + " |" for claim in finding.claims]
+    return [*lines, ""]
+
+
 def _table(finding: Finding) -> list[str]:
+    if not finding.rows:
+        return []
     lines = [headings(finding), ["---", *["---:"] * (len(headings(finding)) - 1)]]
     lines += [cells(row)[: len(lines[0])] for row in finding.rows]
     return ["| " + " | ".join(line) + " |" for line in lines]
@@ -119,7 +130,7 @@ def cells(row: Row) -> list[str]:
     )
     return [
         str(row["quantity"]),
-        wording.quantity(value, unit),
-        wording.quantity(paper, unit),
-        wording.quantity(difference, unit, signed=True),
+        formatting.quantity(value, unit),
+        formatting.quantity(paper, unit),
+        formatting.quantity(difference, unit, signed=True),
     ]

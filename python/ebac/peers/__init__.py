@@ -4,3 +4,7 @@ from ebac.peers.compare import NOTES, compare
 from ebac.peers.row import PeerRow, program
 
 __all__ = ["NOTES", "PeerRow", "compare", "program"]
+
+
+def __dir__() -> list[str]:
+    return __all__

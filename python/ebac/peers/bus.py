@@ -44,7 +44,7 @@ def compare_buses(
     repeats : int
         Runs of each measurement; the quickest counts, for answers one run.
     step : callable
-        Told what comes next, `STEPS` times.
+        Called with what comes next, `STEPS` times.
 
     Returns
     -------

@@ -7,14 +7,14 @@ from collections.abc import Callable, Iterator
 import numpy as np
 
 from ebac._core import Free
+from ebac._util.cores import usable_cores
 from ebac.metrics import contact, ideal_rest
 from ebac.peers import mujoco_peer, own, scipy_peer
 from ebac.peers.row import Numbers, PeerRow, Plant, program
 from ebac.scenario import Scenario
 from ebac.simulation import simulate
-from ebac.sweeps.measure import cores
 
-#: Subjects, and what was aimed at.
+#: Subjects, and the goal of each.
 FREE, WALL, LAW = (
     "a 1 ms step, free motion",
     "a 1 ms step, in contact",
@@ -48,7 +48,7 @@ def compare(
     side : int
         Of the stability map, side x side runs of 2 s.
     step : callable
-        Told what comes next, `STEPS` times.
+        Called with what comes next, `STEPS` times.
 
     Returns
     -------
@@ -84,7 +84,7 @@ def _steps(scenario: Scenario, repeats: int, step: Callable[[str], None]) -> Ite
         yield _time(subject, "ebac", mine, mine)
         yield _time(subject, "ebac, in a sweep", own.sweep_tick(setting, repeats), mine)
         step(f"MuJoCo, {subject}")
-        threads = sorted({1, cores()})
+        threads = sorted({1, usable_cores()})
         theirs = min(
             mujoco_peer.rollout(plant, wall=wall, threads=n, repeats=few)[0] for n in threads
         )
@@ -143,7 +143,7 @@ def _sweeps(
     aim = "at most 10 s on two cores" if side == 200 else ""
     yield PeerRow(
         subject=f"map, {side} x {side} runs of 2 s", program="ebac", value=own.map_seconds(side), unit="s",
-        target=aim, note=f"K-B map under EBAC, metrics and not traces, {cores()} cores",
+        target=aim, note=f"K-B map under EBAC, metrics and not traces, {usable_cores()} cores",
     )  # fmt: skip
     step("two threads")
     if own.has_two_cores():

@@ -24,7 +24,7 @@ def compare(*, repeats: int = 20, step: Callable[[str], None] = lambda name: Non
     repeats : int
         Runs of 20,000 ticks each; the quickest counts.
     step : callable
-        Told what comes next, `STEPS` times.
+        Called with what comes next, `STEPS` times.
 
     Returns
     -------

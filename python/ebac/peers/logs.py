@@ -36,7 +36,7 @@ def compare_logs(
     rows : int
         Of each log.
     step : callable
-        Told what comes next, `STEPS` times.
+        Called with what comes next, `STEPS` times.
 
     Returns
     -------

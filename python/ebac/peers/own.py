@@ -10,12 +10,12 @@ import numpy as np
 
 from ebac._core import Free, SweepProgress
 from ebac._core import RunLimits as Limits
+from ebac._util.cores import usable_cores
 from ebac.laws import design
-from ebac.maps import AXES, PRESETS, stability_map
 from ebac.peers.row import Numbers, quickest
 from ebac.scenario import Scenario
 from ebac.simulation import simulate
-from ebac.sweeps.measure import cores
+from ebac.studies.maps import AXES, PRESETS, stability_map
 
 #: Ticks of the run whose memory is measured.
 LONG = 1_000_000
@@ -67,7 +67,7 @@ def thread_efficiency(scenario: Scenario, runs: int, repeats: int) -> float:
 
 def has_two_cores() -> bool:
     """Whether two threads can run at once."""
-    return cores() >= 2
+    return usable_cores() >= 2
 
 
 def memory(ticks: int = LONG) -> tuple[int, int]:

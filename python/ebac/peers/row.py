@@ -29,7 +29,7 @@ class PeerRow:
     times_ebac : float or None
         How many times that of ebac in the same subject and run.
     target : str
-        What was aimed at; empty for nothing.
+        The goal; empty for none.
     note : str
         What the program did and did not do for it.
     """
@@ -99,7 +99,7 @@ def program(name: str) -> Any:
     Raises
     ------
     ImportError
-        When it is not installed; the message tells how to install it.
+        When it is not installed; the message contains how to install it.
     """
     try:
         return importlib.import_module(name)

@@ -37,7 +37,7 @@ def compare_reads(*, step: Callable[[str], None] = lambda name: None) -> list[Pe
     Parameters
     ----------
     step : callable
-        Told what comes next, `STEPS` times.
+        Called with what comes next, `STEPS` times.
 
     Returns
     -------
@@ -72,7 +72,7 @@ def _by_python() -> Iterator[can.BusABC]:
     import can
 
     from ebac._core import Joystick
-    from ebac.can_channels import resting_joystick
+    from ebac.can.channels import resting_joystick
     from ebac.drives.simulate import Simulation
 
     with ExitStack() as stack:

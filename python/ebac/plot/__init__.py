@@ -7,8 +7,19 @@ from ebac.plot.jitter import plot_jitter
 from ebac.plot.maps import plot_map
 from ebac.plot.overlay import plot_overlay
 from ebac.plot.run import plot_trace
+from ebac.plot.save import FORMATS, WIDTHS, save
 from ebac.plot.study import plot_study
-from ebac.plot.style import COLOURS, DPI, Picture, colour, dress, legend, line, new_figure
+from ebac.plot.style import (
+    COLOURS,
+    DPI,
+    Picture,
+    colour,
+    dress,
+    figure_legend,
+    legend,
+    line,
+    new_figure,
+)
 from ebac.plot.sweep import plot_sweep
 from ebac.plot.tracking import plot_budget, plot_tracking
 from ebac.plot.walls import plot_walls
@@ -18,9 +29,12 @@ from ebac.plot.zwidth import plot_zwidth
 __all__ = [
     "COLOURS",
     "DPI",
+    "FORMATS",
+    "WIDTHS",
     "Picture",
     "colour",
     "dress",
+    "figure_legend",
     "legend",
     "line",
     "new_figure",
@@ -38,4 +52,9 @@ __all__ = [
     "plot_walls",
     "plot_worst",
     "plot_zwidth",
+    "save",
 ]
+
+
+def __dir__() -> list[str]:
+    return __all__

@@ -7,15 +7,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.patches import Rectangle
+from matplotlib.patches import Patch, Rectangle
 
-from ebac import wording
-from ebac.plot.style import Picture, new_figure
+from ebac._util import formatting
+from ebac.plot.style import BETTER, SAME, WORSE, Picture, figure_legend, new_figure
 
 if TYPE_CHECKING:
     from ebac.studies import Ablation, AblationRow
-
-WORSE, BETTER, SAME = "#f4a582", "#a6d8a8", "0.95"
 
 
 def plot_ablation(found: Ablation) -> Picture:
@@ -29,19 +27,19 @@ def plot_ablation(found: Ablation) -> Picture:
     Returns
     -------
     Figure
-        Orange is worse than the law as it is, green better, grey no difference that matters.
+        Orange is worse than the law as it is, blue better, grey no difference that matters.
     """
     rows = found.rows
-    figure = new_figure(2.2 + 0.98 * len(found.measures), 2.1 + 0.34 * len(rows))
+    figure = new_figure(2.2 + 0.98 * len(found.measures), 2.5 + 0.34 * len(rows))
     ax = figure.subplots()
     for y, row in enumerate(rows):
         for x, measure in enumerate(found.measures):
             _cell(ax, x, y, row, measure.key)
-            text = wording.cell(row.values[measure.key], measure.unit)
+            text = formatting.cell(row.values[measure.key], measure.unit)
             ax.text(x, y, text, ha="center", va="center", fontsize="small")
     ax.set_xlim(-0.5, len(found.measures) - 0.5)
     ax.set_ylim(len(rows) - 0.5, -0.5)
-    names = [f"{fill(m.heading, 13)}\n[{wording.shown(m.unit)}]" for m in found.measures]
+    names = [f"{fill(m.heading, 13)}\n[{formatting.shown(m.unit)}]" for m in found.measures]
     ax.set_xticks(range(len(found.measures)), names, fontsize="x-small")
     ax.xaxis.tick_top()
     ax.set_yticks(range(len(rows)), [row.label for row in rows])
@@ -50,11 +48,17 @@ def plot_ablation(found: Ablation) -> Picture:
     for border in (0.5, 0.5 + len(found.pieces)):
         ax.axhline(border, color="black", lw=1)
     hands = len(found.study.operators)
-    ax.set_xlabel(
-        f"{hands} hands, simulated. Beside {found.law} as it is: orange worse, green better, grey no difference that "
-        "matters.",
-        fontsize="small",
+    figure.suptitle(
+        f"Ablation of {found.law}, simulated with {hands} hands: each row is one change of the law",
+        fontsize="medium",
     )
+    marks = (
+        (WORSE, f"worse than {found.law} as it is"),
+        (BETTER, "better"),
+        (SAME, "no difference that matters"),
+    )
+    patches = [Patch(color=shade) for shade, _ in marks]
+    figure_legend(figure, patches, [label for _, label in marks])
     return figure
 
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from ebac import wording
-from ebac.plot.run import title
+from ebac._util import formatting
+from ebac.plot.marks import mark_end, title
 from ebac.plot.style import Numbers, Picture, dress, legend, line, new_figure
 from ebac.trace import Trace
 
@@ -46,12 +46,13 @@ def plot_columns(trace: Trace, names: Sequence[str]) -> Picture:
     figure = new_figure(9.5, 0.8 + 2.4 * len(panels))
     grid = figure.subplots(len(panels), 1, sharex=True, squeeze=False)
     for ax, (unit, columns) in zip(grid[:, 0], panels.items(), strict=True):
-        factor, shown, _ = wording.SHOWN.get(unit, (1, unit, 0))
+        factor, shown, _ = formatting.SHOWN.get(unit, (1, unit, 0))
         for i, (label, values) in enumerate(_lines(trace, columns)):
             style = "-" if i < len(_SHADES) else "--"
             shade = _SHADES[i % len(_SHADES)]
             line(ax, trace["t"], factor * values, color=shade, ls=style, lw=1.0, label=label)
         dress(ax, f"[{shown}]" if unit != "1" else "")
+        mark_end(ax, trace)
         legend(ax)
     grid[-1, 0].set_xlabel("time [s]")
     figure.align_ylabels()

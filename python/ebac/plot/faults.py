@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from matplotlib.axes import Axes
 
-from ebac._core import Fault
+from ebac.plot.marks import FAULT_COLOUR, fault_name
 from ebac.plot.style import Numbers, Picture, dress, legend, new_figure
 
 if TYPE_CHECKING:
@@ -17,7 +17,7 @@ _AXES = ("#0072b2", "#d55e00")
 
 
 def plot_fault(case: FaultCase) -> Picture:
-    """Draw position, current asked and applied, and state of a case, with the trouble marked.
+    """Draw position, current asked and applied, and state of a case, with the injected fault marked.
 
     Parameters
     ----------
@@ -30,9 +30,11 @@ def plot_fault(case: FaultCase) -> Picture:
     position, current, state = figure.subplots(3, 1, sharex=True, height_ratios=[2, 2, 1])
     for i in range(trace.axes):
         position.plot(t, 1e3 * trace.axis("true.x", i), color=_AXES[i], lw=1.4, label=f"axis {i}")
-        current.plot(t, trace.axis("current", i), color=_AXES[i], lw=1.4, label=f"asked, axis {i}")
+        current.plot(
+            t, trace.axis("current", i), color=_AXES[i], lw=1.4, label=f"commanded, axis {i}"
+        )
         applied = trace.axis("current_applied", i)
-        current.plot(t, applied, color=_AXES[i], lw=1, ls=":", label=f"drive says, axis {i}")
+        current.plot(t, applied, color=_AXES[i], lw=1, ls=":", label=f"reported, axis {i}")
     state.step(t, trace["state"], where="post", color="black", lw=1.4)
     state.set_yticks(list(_STATES), list(_STATES.values()))
     state.set_ylim(-0.3, 4.3)
@@ -51,14 +53,15 @@ def plot_fault(case: FaultCase) -> Picture:
 def _mark(ax: Axes, case: FaultCase, t: Numbers) -> None:
     last = len(t) - 1
     begin, end = min(case.at, last), min(case.at + case.ticks, last)
-    ax.axvspan(t[begin], t[end], color="#e6ab02", alpha=0.25, lw=0, label="trouble")
+    ax.axvspan(t[begin], t[end], color="#e6ab02", alpha=0.25, lw=0, label="fault injected")
     faults = case.trace["fault"].nonzero()[0]
     if len(faults):
-        ax.axvline(t[faults[0]], color="#cc0000", lw=1.2, ls=(0, (5, 3)), label="fault in the row")
+        ax.axvline(t[faults[0]], color=FAULT_COLOUR, lw=1.2, ls=(0, (5, 3)), label="fault found")
 
 
 def _title(case: FaultCase) -> str:
-    fault = Fault(int(case.trace["fault"][-1]))
-    name = "no fault" if fault is Fault.NONE else f"fault {int(fault)}, {fault.name}"
-    lasts = f"{case.ticks} ticks" if case.ticks < len(case.trace) else "to the end"
-    return f"simulation: {case.kind} on axis {case.axis}, {lasts}: {name}"
+    name = fault_name(case.trace) or "no fault found"
+    ticks = "1 tick" if case.ticks == 1 else f"{case.ticks} ticks"
+    lasts = ticks if case.ticks < len(case.trace) else "to the end"
+    kind = case.kind.replace("_", " ")
+    return f"Simulated fault: {kind} on axis {case.axis}, {lasts}: {name}\nlaw ebac, two simulated drives, 1 kHz"

@@ -45,6 +45,10 @@ def plot_jitter(found: Jitter, other: Cyclictest | None = None) -> Picture:
     dress(ax, "wake-ups")
     ax.set_xlabel("lateness [µs]")
     legend(ax, 1)
+    figure.suptitle(
+        f"Lateness of wake-ups, measured on this machine: ticks of {1e3 * found.dt:g} ms",
+        fontsize="medium",
+    )
     return figure
 
 

@@ -9,14 +9,15 @@ from matplotlib.axes import Axes
 from matplotlib.colors import BoundaryNorm, ListedColormap, LogNorm
 from matplotlib.figure import Figure
 
+from ebac._util import formatting
 from ebac.metrics import QUIET_SWING
 from ebac.plot.style import Numbers, Picture, new_figure
 
 if TYPE_CHECKING:
-    from ebac.maps import MapAxis, StabilityMap
+    from ebac.studies.maps import MapAxis, StabilityMap
 
 #: Colours of the verdicts, best first.
-VERDICT_COLOURS = ("#009e73", "#a6dbc9", "#f0c05a", "#b2182b")
+VERDICT_COLOURS = ("#0072b2", "#a6cee3", "#f0c05a", "#8c2d04")
 LINE: dict[str, Any] = {"colors": "black", "linewidths": 1.2, "linestyles": "solid"}
 
 
@@ -26,7 +27,7 @@ def plot_map(found: StabilityMap) -> Picture:
     Parameters
     ----------
     found : StabilityMap
-        What `ebac.maps.stability_map` returned.
+        What `ebac.studies.maps.stability_map` returned.
 
     Returns
     -------
@@ -43,7 +44,7 @@ def plot_map(found: StabilityMap) -> Picture:
     _panel(
         figure, grid[0, 1], found, swing, 1e3 * QUIET_SWING, (1e-2, 1e2), "swing, peak to peak [mm]"
     )
-    _panel(figure, grid[1, 0], found, energy, 1.0, (1e-2, 1e5), "energy taken out of the port [mJ]")
+    _panel(figure, grid[1, 0], found, energy, 1.0, (1e-2, 1e5), "energy drawn from the port [mJ]")
     _panel(
         figure, grid[1, 1], found, deviation, allowed, (1e-3, 1e1), "rest, away from the ideal [mm]"
     )
@@ -58,15 +59,17 @@ def plot_map(found: StabilityMap) -> Picture:
 
 def _title(found: StabilityMap) -> str:
     shares = found.scores()
+    parts = formatting.describe(found.base).split("; ")
     quiet, energy = shares["quiet_share"], shares["energy_share"]
     return (
-        f"law {found.law}: quiet on {100 * quiet:.0f} % of the area, takes at most 1 mJ on "
+        f"law {found.law}, simulated: {parts[0]}; {parts[1]}; {parts[3]}, but for the axes\n"
+        f"quiet on {100 * quiet:.0f} % of the area, draws at most 1 mJ on "
         f"{100 * energy:.0f} %, exact and quiet on {100 * shares['exact_share']:.0f} %"
     )
 
 
 def _verdicts(figure: Figure, ax: Axes, found: StabilityMap) -> None:
-    from ebac.maps import VERDICTS
+    from ebac.studies.maps import VERDICTS
 
     colours = ListedColormap(VERDICT_COLOURS)
     norm = BoundaryNorm(np.arange(len(VERDICTS) + 1) - 0.5, colours.N)

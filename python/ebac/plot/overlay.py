@@ -9,7 +9,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
-from ebac import wording
+from ebac._util import formatting
 from ebac.plot.style import OTHER_LAW, Picture, colour, dress, legend, line, new_figure
 from ebac.trace import Trace
 
@@ -44,7 +44,7 @@ def plot_overlay(found: Trace, golden: Trace, divergences: Sequence[Divergence] 
                            height_ratios=[2, 1] * len(channels))[:, 0]  # fmt: skip
     for i, channel in enumerate(channels):
         unit, values = series[channel]
-        factor, unit, _ = wording.SHOWN.get(unit, (1, unit, 0))
+        factor, unit, _ = formatting.SHOWN.get(unit, (1, unit, 0))
         values, expected = factor * values.astype(float), factor * wanted[channel].astype(float)
         upper, lower = grid[2 * i], grid[2 * i + 1]
         _both(upper, found, golden, channel, unit, values, expected)

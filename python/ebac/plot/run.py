@@ -9,9 +9,10 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.ticker import FuncFormatter
 
-from ebac import wording
+from ebac.plot.marks import mark_end, title, used_axes
 from ebac.plot.style import (
     OTHER_LAW,
+    QUANTITIES,
     Numbers,
     Picture,
     colour,
@@ -24,18 +25,20 @@ from ebac.plot.style import (
 from ebac.trace import Trace
 
 
-def plot_trace(trace: Trace) -> Picture:
-    """Draw a run: position, force, beta and energy over time, one column of panels per axis.
+def plot_trace(trace: Trace, *, source: str = "") -> Picture:
+    """Draw a run: position, force, beta and energy over time, one column of panels per axis in use.
 
     Parameters
     ----------
     trace : Trace
         At least two rows.
+    source : str
+        What the title calls the run; default "simulated" or "recorded", as the trace is.
 
     Returns
     -------
     Figure
-        Save it with `savefig`.
+        Save it with `savefig`, or with `ebac.plot.save` for a journal.
 
     Raises
     ------
@@ -44,53 +47,66 @@ def plot_trace(trace: Trace) -> Picture:
     """
     if len(trace) < 2:
         raise ValueError(f"the trace has {len(trace)} rows: a figure needs at least 2")
+    used = used_axes(trace)
     panels: list[Callable[[Axes, Trace, int], None]] = [_position, _force, _energy]
-    if "law.beta" in trace:
+    if any(_has_beta(trace, axis) for axis in used):
         panels.insert(2, _beta)
-    figure = new_figure(1.5 + 8 * trace.axes, 0.8 + 2.4 * len(panels))
-    grid = figure.subplots(len(panels), trace.axes, sharex=True, squeeze=False)
-    for axis in range(trace.axes):
+    figure = new_figure(1.5 + 8 * len(used), 1.0 + 2.4 * len(panels))
+    grid = figure.subplots(len(panels), len(used), sharex=True, squeeze=False)
+    for column, axis in enumerate(used):
         for row, draw in enumerate(panels):
-            draw(grid[row, axis], trace, axis)
-        grid[-1, axis].set_xlabel("time [s]")
+            ax = grid[row, column]
+            if draw is _beta and not _has_beta(trace, axis):
+                ax.remove()
+                continue
+            draw(ax, trace, axis)
+        grid[-1, column].set_xlabel("time [s]")
         if trace.axes > 1:
-            grid[0, axis].set_title(f"axis {axis}", pad=22, fontweight="bold")
+            grid[0, column].set_title(f"axis {axis}", pad=22, fontweight="bold")
     figure.align_ylabels()
-    figure.suptitle(title(trace), fontsize="medium")
+    idle = [str(axis) for axis in range(trace.axes) if axis not in used]
+    note = f"\naxis {', '.join(idle)} not in use, not shown" if idle else ""
+    figure.suptitle(title(trace, source) + note, fontsize="medium")
     return figure
 
 
-def title(trace: Trace) -> str:
-    """Return law and scenario of a trace, broken into lines."""
-    name = f"law {trace.law}" if trace.law else "a run"
-    if trace.scenario is None:
-        return name
-    if "log.f_cmd" in trace:
-        return f"{name}, over a recorded log: the handle moved as it did, whatever is commanded"
-    parts = wording.describe(trace.scenario).split("; ")
-    if "true.x" not in trace:  # whose hand it was, nobody knows
-        return f"{name}, recorded: {parts[0]}\n{'; '.join(parts[2:-1])}"
-    return f"{name}, simulated: {parts[0]}; {parts[1]}\n{'; '.join(parts[2:])}"
+def _has_beta(trace: Trace, axis: int) -> bool:
+    return "law.beta" in trace and bool(np.isfinite(trace.axis("law.beta", axis)).any())
 
 
 def _position(ax: Axes, trace: Trace, axis: int) -> None:
     t, scenario = trace["t"], trace.scenario
     if "true.x" in trace:
-        line(ax, t, 1e3 * trace.axis("x", axis), color="0.65", lw=2.2, label="x, encoder")
+        line(ax, t, 1e3 * trace.axis("x", axis), color=QUANTITIES["x"], lw=2.2, label="x, encoder")
         line(ax, t, 1e3 * trace.axis("true.x", axis), color=colour(trace.law), label="x, true")
     else:
         line(ax, t, 1e3 * trace.axis("x", axis), color=colour(trace.law), label="x, encoder")
     if scenario and axis == 0:
         landmarks(ax, trace)
+    mark_end(ax, trace)
     dress(ax, "position [mm]")
-    legend(ax)
+    legend(ax, columns=6)
 
 
 def _force(ax: Axes, trace: Trace, axis: int) -> None:
     t = trace["t"]
-    line(ax, t, trace.axis("f_env", axis), color="black", lw=0.6, label="asked, $F_e$")
-    line(ax, t, trace.axis("f_meas", axis), color="0.6", lw=1.4, label="measured, $F_M$")
-    line(ax, t, trace.axis("f_cmd", axis), color="#56b4e9", lw=2.2, label="commanded, $F_d$")
+    line(ax, t, trace.axis("f_env", axis), color="black", lw=0.6, label="environment, $F_e$")
+    line(
+        ax,
+        t,
+        trace.axis("f_meas", axis),
+        color=QUANTITIES["f_meas"],
+        lw=1.4,
+        label="measured, $F_M$",
+    )
+    line(
+        ax,
+        t,
+        trace.axis("f_cmd", axis),
+        color=QUANTITIES["f_cmd"],
+        lw=2.2,
+        label="commanded, $F_d$",
+    )
     line(ax, t, trace.axis("f_applied", axis), color=colour(trace.law), lw=1.0, label="applied")
     if "log.f_cmd" in trace:
         line(
@@ -100,6 +116,7 @@ def _force(ax: Axes, trace: Trace, axis: int) -> None:
     low, high = float(limited.min()), float(limited.max())
     room = 0.15 * max(high - low, 1.0)
     ax.set_ylim(low - room, high + room)  # what is asked may go far beyond
+    mark_end(ax, trace, label=False)
     dress(ax, "force [N]")
     legend(ax, columns=5)
 
@@ -108,13 +125,17 @@ def _beta(ax: Axes, trace: Trace, axis: int) -> None:
     t, beta = trace["t"], trace.axis("law.beta", axis) / 1e3
     known = np.abs(beta[np.isfinite(beta)])
     limit = min(1e4, 10.0 ** np.ceil(np.log10(max(1.0, 5 * known.max(initial=0.0)))))
-    for name, label, shade in (
-        ("law.beta_max", "upper bound", "#56b4e9"),
-        ("law.beta_min", "lower bound", "#b3a7d6"),
-    ):
+    for name, label in (("law.beta_max", "upper bound"), ("law.beta_min", "lower bound")):
         if name in trace:
             bound = np.clip(trace.axis(name, axis) / 1e3, -limit, limit)
-            ax.plot(t, bound, ".", ms=2.5, color=shade, label=f"{label}, shown to {limit:g} kN/m")
+            ax.plot(
+                t,
+                bound,
+                ".",
+                ms=2.5,
+                color=QUANTITIES[name],
+                label=f"{label}, shown to {limit:g} kN/m",
+            )
     taken = np.clip(beta, -limit, limit)
     ax.plot(t, taken, ".", ms=3.5, color=colour(trace.law), label=r"$\beta$ taken")
     if "law.clamped" in trace:
@@ -124,6 +145,7 @@ def _beta(ax: Axes, trace: Trace, axis: int) -> None:
     ax.set_ylim(-6 * limit, 3 * limit)
     ax.set_yticks([-step for step in decades] + [0.0] + decades)
     ax.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+    mark_end(ax, trace, label=False)
     dress(ax, r"$\beta$ [kN/m]")
     legend(ax)
 
@@ -138,7 +160,7 @@ def _ticks(ax: Axes, t: Numbers) -> None:
         mew=0.5,
         color="0.3",
         transform=ax.get_xaxis_transform(),
-        label="force held back",
+        label="force limited",
     )
 
 
@@ -158,5 +180,6 @@ def _energy(ax: Axes, trace: Trace, axis: int) -> None:
     for values, label, style in curves:
         line(ax, trace["t"], factor * values, label=label, **style)
     ax.axhline(0, color="0.35", lw=1)
+    mark_end(ax, trace, label=False)
     dress(ax, f"energy [{unit}]")
     legend(ax)

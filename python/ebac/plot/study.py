@@ -12,6 +12,7 @@ from matplotlib.patheffects import withStroke
 from matplotlib.ticker import FuncFormatter
 from numpy.typing import NDArray
 
+from ebac._util import formatting
 from ebac.metrics import QUIET_SWING
 from ebac.plot.style import Picture, colour, new_figure
 
@@ -76,9 +77,10 @@ def _scatter(study: Study, conditions: list[str]) -> Picture:
         if place + columns >= len(panels):
             ax.set_xlabel("swing, peak to peak [mm]")
             ax.tick_params(labelbottom=True)
+    device, _, *rest = formatting.describe(study.scenarios[0]).split("; ")
     figure.suptitle(
-        "Where each hand ends, simulated; #: row in the population.\nGrey: good, within 2 counts of the ideal "
-        "and what friction holds, swing below 0.25 mm",
+        f"Where each of {len(study.operators)} hands ends, simulated: {device}; {rest[1]}\nGrey: good, within 2 counts "
+        "of the ideal and what friction holds, swing below 0.25 mm; #: row in the population",
         fontsize="medium",
     )
     return figure
@@ -146,11 +148,12 @@ def _overview(study: Study) -> Picture:
     ]
     figure = new_figure(2.6 + 1.7 * len(laws), 1.5 + 0.24 * len(names))
     left, right = figure.subplots(1, 2, sharey=True)
-    _table(left, good, {"cmap": "RdYlGn", "vmin": 0, "vmax": 100})
+    _table(left, good, {"cmap": "RdYlBu", "vmin": 0, "vmax": 100})
     left.set_title("good hands [%]", fontsize="medium")
     log: dict[str, Any] = {"cmap": "YlOrRd", "norm": LogNorm(1e-2, 1e5, clip=True)}
     _table(right, drawn, log)
     right.set_title("most energy drawn [mJ]", fontsize="medium")
+    figure.suptitle(f"Study, simulated with {len(study.operators)} hands", fontsize="medium")
     for ax in (left, right):
         ax.set_xticks(range(len(laws)), laws, rotation=30, ha="right")
         ax.set_yticks(range(len(names)), names)

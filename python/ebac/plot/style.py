@@ -12,14 +12,15 @@ from numpy.typing import NDArray
 
 from ebac._core import Wall
 from ebac.metrics import ideal_rest
+from ebac.plot.legends import figure_legend, legend
 from ebac.trace import Trace
 
-#: One colour per law (mostly of Okabe and Ito's palette, told apart by every eye).
+#: One colour per law, mostly of Okabe and Ito's palette; a test keeps them apart for colour-blind eyes.
 COLOURS = {
-    "direct": "#7f7f7f",
+    "direct": "#444444",
     "tca": "#d55e00",
-    "tca-damped": "#8c564b",
-    "passivity-control": "#56b4e9",
+    "tca-damped": "#661100",
+    "passivity-control": "#88ccee",
     "virtual-coupling": "#e6ab02",
     "force-bounding": "#332288",
     "eba": "#0072b2",
@@ -27,6 +28,19 @@ COLOURS = {
     "ebac": "#009e73",
 }
 OTHER_LAW = "#000000"
+#: One colour per quantity that is not the law's own, in figures and on pages alike.
+QUANTITIES = {
+    "x": "#a6a6a6",
+    "f_env": "#000000",
+    "f_meas": "#999999",
+    "f_cmd": "#56b4e9",
+    "law.beta_max": "#56b4e9",
+    "law.beta_min": "#b3a7d6",
+    "law.energy": "#000000",
+    "law.account": "#000000",
+}
+#: Better, worse and no difference: blue and orange, which every eye tells apart.
+BETTER, WORSE, SAME = "#92c5de", "#f4a582", "#f2f2f2"
 IDEAL: dict[str, Any] = {"color": "black", "ls": (0, (5, 3)), "lw": 1.2}
 DPI = 150
 #: More points than this on one line are thinned to their extremes.
@@ -34,9 +48,37 @@ MOST_POINTS = 20_000
 
 Numbers = NDArray[np.float64]
 
+__all__ = [
+    "BETTER",
+    "COLOURS",
+    "DPI",
+    "IDEAL",
+    "MOST_POINTS",
+    "OTHER_LAW",
+    "QUANTITIES",
+    "SAME",
+    "WORSE",
+    "Numbers",
+    "Picture",
+    "colour",
+    "dress",
+    "figure_legend",
+    "landmarks",
+    "legend",
+    "line",
+    "new_figure",
+]  # fmt: skip
+
 
 class Picture(Figure):
-    """A matplotlib figure that notebooks show by themselves."""
+    """A matplotlib figure that notebooks show by themselves and that breaks long titles and legends."""
+
+    def savefig(self, fname: Any, **kwargs: Any) -> None:
+        """Save as matplotlib does, with legends and titles broken into lines that fit."""
+        from ebac.plot.save import fitted
+
+        with fitted(self):
+            super().savefig(fname, **kwargs)
 
     def _repr_png_(self) -> bytes:
         file = BytesIO()
@@ -61,19 +103,6 @@ def dress(ax: Axes, ylabel: str) -> None:
     ax.set_axisbelow(True)
     ax.margins(x=0.01)
     ax.spines[["top", "right"]].set_visible(False)
-
-
-def legend(ax: Axes, columns: int = 4) -> None:
-    """Put the legend above the axes, where it covers nothing."""
-    ax.legend(
-        loc="lower left",
-        bbox_to_anchor=(0, 1),
-        ncols=columns,
-        frameon=False,
-        fontsize="small",
-        borderaxespad=0.1,
-        columnspacing=1.4,
-    )
 
 
 def line(ax: Axes, t: Numbers, y: Numbers, **style: Any) -> None:

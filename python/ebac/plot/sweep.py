@@ -6,7 +6,7 @@ import numpy as np
 
 from ebac.metrics import QUIET_SWING
 from ebac.plot.style import Picture, colour, dress, legend, new_figure
-from ebac.sweeps import SweepResult
+from ebac.studies.sweeps import SweepResult
 
 #: Swings below this [m] are drawn at it: the axis is logarithmic.
 LEAST_SWING = 1e-7
@@ -51,5 +51,9 @@ def plot_sweep(result: SweepResult) -> Picture:
     ax.set_yscale("log")
     ax.set_xlabel("rest minus ideal [mm]")
     dress(ax, "swing, peak to peak [mm]")
-    legend(ax)
+    legend(ax, columns=6)
+    figure.suptitle(
+        f"Sweep, simulated: {int(known.sum())} of {len(result)} runs have an ideal rest",
+        fontsize="medium",
+    )
     return figure

@@ -29,7 +29,10 @@ def plot_tracking(tracking: Tracking) -> Picture:
     flat, draw, across = _flat(tracking)
     fit, d = tracking.fit, tracking.fit.deviation
     counted = fit.inliers
-    left.plot(*(1e3 * flat[counted].T), ".", ms=3, color="black", label="recorded")
+    source = (
+        "simulated" if "simulated" in (tracking.path.remark, tracking.path.name) else "recorded"
+    )
+    left.plot(*(1e3 * flat[counted].T), ".", ms=3, color="black", label=source)
     if d.outliers:
         left.plot(*(1e3 * flat[~counted].T), "x", ms=5, color="#cc79a7", label="outliers")
     left.plot(*(1e3 * draw.T), color=FIT, lw=1.4, label="fit")
@@ -47,7 +50,7 @@ def plot_tracking(tracking: Tracking) -> Picture:
     what = f"circle of radius {1e3 * fit.radius:.3f} mm" if isinstance(fit, CircleFit) else "line"
     left_out = f" and {d.outliers} outliers" if d.outliers else ""
     figure.suptitle(
-        f"{tracking.path.name}: {what}, SD {1e3 * d.sd_m:.3f} mm, path error {1e3 * d.error_m:.3f} mm, "
+        f"{tracking.path.name}, {source}: {what}, SD {1e3 * d.sd_m:.3f} mm, path error {1e3 * d.error_m:.3f} mm, "
         f"largest {1e3 * d.largest_m:.3f} mm, {d.n} points{left_out}",
         fontsize="medium",
     )
@@ -95,7 +98,7 @@ def _histogram(ax: Axes, fit: LineFit | CircleFit) -> None:
         x = np.linspace(-4 * sd, 4 * sd, 200)
         normal = np.exp(-0.5 * (x / sd) ** 2) / (sd * np.sqrt(2 * np.pi))
         ax.plot(x, normal, color="0.35", lw=1, label="normal, same SD")
-    for value, colour, name in ((sd, FIT, "+-SD"), (1e3 * d.error_m, PATH, "+-path error")):
+    for value, colour, name in ((sd, FIT, "±SD"), (1e3 * d.error_m, PATH, "±path error")):
         ax.axvline(value, color=colour, lw=1.2, label=name)
         ax.axvline(-value, color=colour, lw=1.2)
     dress(ax, "density [1/mm]")

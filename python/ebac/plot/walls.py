@@ -3,17 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from textwrap import fill
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
 
 from ebac.metrics import EXACT_COUNTS, TAIL_SHARE, allowed_deviation, ideal_rest
+from ebac.plot.marks import fault_name, heading, mark_end
 from ebac.plot.style import (
     IDEAL,
     Numbers,
     Picture,
     colour,
     dress,
+    figure_legend,
     landmarks,
     legend,
     line,
@@ -21,8 +25,10 @@ from ebac.plot.style import (
 )
 from ebac.trace import Trace
 
-#: The panels: position and force when meeting the wall and at the end, and the end near the ideal.
-PANELS = {"x": "a", "x end": "b", "f": "c", "f end": "d", "near": "e"}
+#: More laws than this get panels of their own.
+TOGETHER = 3
+#: The rows of panels: key, label of the axis.
+ROWS = {"x": "position [mm]", "f": "applied force [N]", "beta": r"$\beta$ [kN/m]"}
 
 
 def plot_walls(traces: Sequence[Trace]) -> Picture:
@@ -36,8 +42,8 @@ def plot_walls(traces: Sequence[Trace]) -> Picture:
     Returns
     -------
     Figure
-        Position and force over time; below, the end at the scale of encoder counts, where the
-        scenario has an ideal point of rest.
+        Position, force and beta over time, up to three laws together and more in panels of their
+        own; below, the end at the scale of encoder counts, where the scenario has an ideal rest.
 
     Raises
     ------
@@ -47,60 +53,129 @@ def plot_walls(traces: Sequence[Trace]) -> Picture:
     if not traces or min(len(trace) for trace in traces) < 10:
         raise ValueError("a figure of walls needs at least one trace, each of at least 10 rows")
     ideal = ideal_rest(traces[0].scenario) if traces[0].scenario else None
-    names = "ab;cd" if ideal is None else "ab;cd;ee"
-    rows = names.count(";") + 1
-    figure = new_figure(11, 3.1 * rows + 0.8)
-    panels = figure.subplot_mosaic(names, width_ratios=[2, 1], height_ratios=[1, 1, 0.7][:rows])
-    axes = {name: panels[letter] for name, letter in PANELS.items() if letter in panels}
-    swinging_first = sorted(
-        traces, key=lambda trace: -float(np.ptp(_place(trace)[len(trace) // 2 :]))
-    )
-    for trace in swinging_first:
-        _wall_lines(axes, trace, _first_contact(traces))
-    _wall_frames(axes, traces[0])
-    if ideal is not None:
-        _near(axes["near"], traces, ideal)
-    marks = dict(zip(*reversed(axes["x"].get_legend_handles_labels()), strict=True))
-    order = [trace.law for trace in traces]
-    order += [label for label in marks if label not in order]
-    handles = [marks[label] for label in order]
-    figure.legend(handles, order, loc="outside upper center", ncols=len(order), frameon=False)
+    rows = [row for row in ROWS if row != "beta" or any(map(_has_beta, traces))]
+    draw = _together if len(traces) <= TOGETHER else _apart
+    figure, near = draw(traces, rows, near=ideal is not None)
+    if ideal is not None and near is not None:
+        _near(near, traces, ideal)
+    if traces[0].scenario is not None:
+        source = "simulated" if "true.x" in traces[0] else "recorded"
+        figure.suptitle(heading(traces[0].scenario, source), fontsize="medium")
+    figure.align_ylabels()
     return figure
+
+
+def _together(traces: Sequence[Trace], rows: list[str], near: bool) -> tuple[Picture, Axes | None]:
+    """Draw all laws in the same panels: the beginning on the left, the end on the right."""
+    names: list[Any] = [[row, f"{row} end"] for row in ("x", "f")]
+    if "beta" in rows:
+        names.append(["beta", "near" if near else "."])  # at rest there is no beta
+    elif near:
+        names.append(["near", "near"])
+    figure = new_figure(11, 2.7 * len(names) + 1.0)
+    axes = figure.subplot_mosaic(names, width_ratios=[2, 1])
+    for trace in sorted(traces, key=_restlessness):
+        begin, end = _parts(trace, _first_contact(traces))
+        for row in rows:
+            _lines(axes[row], row, begin, label=_label(trace))
+            if row != "beta":
+                _lines(axes[f"{row} end"], row, end, label="_")
+    for row in rows:
+        dress(axes[row], ROWS[row])
+    for row in ("x", "f"):
+        dress(axes[f"{row} end"], "")
+        axes[f"{row} end"].sharey(axes[row])
+        axes[f"{row} end"].tick_params(labelleft=False)
+    landmarks(axes["x"], traces[0])
+    landmarks(axes["x end"], traces[0])
+    axes["x"].set_title("first contact with the wall", fontsize="medium")
+    axes["x end"].set_title("the end of the run", fontsize="medium")
+    for name in (rows[-1], "f end"):
+        axes[name].set_xlabel("time [s]")
+    marks = dict(zip(*reversed(axes["x"].get_legend_handles_labels()), strict=True))
+    order = [_label(trace) for trace in traces]
+    order += [label for label in marks if label not in order]
+    figure_legend(figure, [marks[label] for label in order], order)
+    return figure, axes.get("near")
+
+
+def _apart(traces: Sequence[Trace], rows: list[str], near: bool) -> tuple[Picture, Axes | None]:
+    """Draw each law in panels of its own, three or four laws abreast."""
+    abreast = min((3, 4), key=lambda n: -len(traces) % n)  # leaving the fewest places empty
+    bands = [traces[i : i + abreast] for i in range(0, len(traces), abreast)]
+    lines = [
+        (band, row) for band in bands for row in rows if row != "beta" or any(map(_has_beta, band))
+    ]
+    figure = new_figure(11, 1.6 * len(lines) + 0.4 * len(bands) + (2.2 if near else 0) + 1.0)
+    heights = [1.0] * len(lines) + ([1.4] if near else [])
+    grid = figure.add_gridspec(len(heights), abreast, height_ratios=heights)
+    contact = _first_contact(traces)
+    first: dict[str, Axes] = {}
+    for place, (band, row) in enumerate(lines):
+        for column, trace in enumerate(band):
+            if row == "beta" and not _has_beta(trace):
+                continue
+            ax = figure.add_subplot(
+                grid[place, column], sharey=first.get(row), sharex=first.get("x")
+            )
+            left = column == 0 or (not _has_beta(band[column - 1]) and row == "beta")
+            first.setdefault(row, ax)
+            _lines(ax, row, _parts(trace, contact)[0], label="_")
+            dress(ax, ROWS[row] if left else "")
+            if row == "x":
+                landmarks(ax, trace)
+                ax.set_title(_label(trace), color=colour(trace.law), fontweight="bold")
+            last = row == ("beta" if "beta" in rows and _has_beta(trace) else "f")
+            ax.tick_params(labelbottom=last, labelleft=left)
+            if last:
+                ax.set_xlabel("time [s]")
+    handles, labels = first["x"].get_legend_handles_labels()
+    if labels:
+        figure_legend(figure, handles, labels)
+    return figure, figure.add_subplot(grid[-1, :]) if near else None
+
+
+def _label(trace: Trace) -> str:
+    fault = fault_name(trace)
+    return f"{trace.law}, ended by {fault}" if fault else trace.law
 
 
 def _place(trace: Trace) -> Numbers:
     return trace.axis("true.x" if "true.x" in trace else "x")
 
 
+def _restlessness(trace: Trace) -> float:
+    """Return by what to sort so that a swinging law is drawn below a quiet one."""
+    return -float(np.ptp(_place(trace)[len(trace) // 2 :]))
+
+
+def _has_beta(trace: Trace) -> bool:
+    return "law.beta" in trace and bool(np.isfinite(trace.axis("law.beta")).any())
+
+
 def _first_contact(traces: Sequence[Trace]) -> float:
-    """When the first law touches anything [s]; the start of the runs when none ever does."""
+    """Return when the first law touches anything [s]; the start of the runs when none ever does."""
     touched = [t[0] for trace in traces if len(t := trace["t"][trace.axis("f_env") != 0])]
     return float(min(touched, default=traces[0]["t"][0]))
 
 
-def _wall_lines(axes: dict[str, Axes], trace: Trace, contact: float) -> None:
+def _parts(trace: Trace, contact: float) -> tuple[Trace, Trace]:
+    """Return a quarter of the run from the first contact on, and its last twentieth."""
     t = trace["t"]
     length = float(t[-1] - t[0])
-    parts = {"": trace[contact - 0.01 * length : contact + 0.25 * length]}
-    parts[" end"] = trace[float(t[-1]) - 0.05 * length :]
-    for name, part in parts.items():
-        style = {"color": colour(trace.law), "lw": 1.3, "label": trace.law}
-        line(axes["x" + name], part["t"], 1e3 * _place(part), **style)
-        line(axes["f" + name], part["t"], part.axis("f_applied"), **style)
+    begin = max(float(t[0]), min(contact - 0.01 * length, float(t[-1]) - 0.1 * length))
+    return trace[begin : contact + 0.25 * length], trace[float(t[-1]) - 0.05 * length :]
 
 
-def _wall_frames(axes: dict[str, Axes], trace: Trace) -> None:
-    for name, label in (("x", "position [mm]"), ("f", "applied force [N]")):
-        dress(axes[name], label)
-        dress(axes[name + " end"], "")
-        axes[name + " end"].sharey(axes[name])
-        axes[name + " end"].tick_params(labelleft=False)
-    for name in ("x", "x end"):
-        landmarks(axes[name], trace)
-    axes["x"].set_title("meeting the wall", fontsize="medium")
-    axes["x end"].set_title("the end of the run", fontsize="medium")
-    for name in ("f", "f end"):
-        axes[name].set_xlabel("time [s]")
+def _lines(ax: Axes, row: str, part: Trace, label: str) -> None:
+    style: dict[str, Any] = {"color": colour(part.law), "label": label}
+    if row == "x":
+        line(ax, part["t"], 1e3 * _place(part), lw=1.3, **style)
+    elif row == "f":
+        line(ax, part["t"], part.axis("f_applied"), lw=1.3, **style)
+    elif _has_beta(part):
+        ax.plot(part["t"], 1e-3 * part.axis("law.beta"), ".", ms=2.5, **style)
+    mark_end(ax, part, label=False)
 
 
 def _near(ax: Axes, traces: Sequence[Trace], ideal: float) -> None:
@@ -118,12 +193,12 @@ def _near(ax: Axes, traces: Sequence[Trace], ideal: float) -> None:
         part = trace[float(t[-1] - TAIL_SHARE * (t[-1] - t[0])) :]
         offset = 1e3 * (_place(part) - ideal)
         if np.ptp(offset) < 10 * band and abs(offset.mean()) < 5 * band:
-            line(ax, part["t"], offset, color=colour(trace.law), lw=1.2)
+            line(ax, part["t"], offset, color=colour(trace.law), lw=1.2, label=trace.law)
         else:
             away.append(trace.law)
-    dress(ax, "beyond the\nideal [mm]")
+    dress(ax, "beyond the\nideal rest [mm]")
     ax.set_xlabel("time [s]")
-    ax.set_title(
-        f"off this scale: {', '.join(away)}" if away else "", fontsize="small", loc="right"
-    )
+    if away:
+        names = fill(f"off this scale: {', '.join(away)}", 60)
+        ax.text(0.01, 0.03, names, fontsize="small", transform=ax.transAxes)
     legend(ax)

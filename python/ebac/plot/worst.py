@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from matplotlib.axes import Axes
 
-from ebac import wording
-from ebac.plot.style import OTHER_LAW, Picture, colour, dress, legend, line, new_figure
+from ebac._util import formatting
+from ebac.plot.style import OTHER_LAW, QUANTITIES, Picture, colour, dress, legend, line, new_figure
 
 if TYPE_CHECKING:
     from ebac.studies import Worst, WorstHand
@@ -63,13 +63,18 @@ def plot_worst(found: Worst, hand: WorstHand | None = None) -> Picture:
 
 
 def _title(found: Worst, hand: WorstHand) -> str:
-    lent = f" (lent: {wording.quantity(found.reserve, 'J')})" if found.reserve is not None else ""
-    told = ", ".join(
-        f"{p.name} {wording.quantity(hand.values[p.name], p.unit)}" for p in hand.family.parameters
+    lent = (
+        f" (lent: {formatting.quantity(found.reserve, 'J')})" if found.reserve is not None else ""
     )
+    told = ", ".join(
+        f"{p.name} {formatting.quantity(hand.values[p.name], p.unit)}"
+        for p in hand.family.parameters
+    )
+    device, _, wall, timing, *_ = formatting.describe(hand.scenario).split("; ")
+    world = f"{device}; {wall}; {timing}"
     return (
-        f"law {found.law}, {found.condition.name}, simulated: the worst hand of the family "
-        f"{hand.family.name} draws {wording.quantity(hand.energy_J, 'J')}{lent}\n{fill(told, 120)}"
+        f"law {found.law}, {found.condition.name}, simulated: {world}\nthe worst hand of the family "
+        f"{hand.family.name} draws {formatting.quantity(hand.energy_J, 'J')}{lent}\n{fill(told, 120)}"
     )
 
 
@@ -88,8 +93,8 @@ def _depth(ax: Axes, trace: Trace) -> None:
 def _force(ax: Axes, trace: Trace, law: str) -> None:
     t = trace["t"]
     commanded, applied = trace.axis("f_cmd", 0), trace.axis("f_applied", 0)
-    line(ax, t, trace.axis("f_env", 0), color="black", lw=0.6, label="asked, $F_e$")
-    line(ax, t, commanded, color="#56b4e9", lw=2.2, label="commanded")
+    line(ax, t, trace.axis("f_env", 0), color="black", lw=0.6, label="environment, $F_e$")
+    line(ax, t, commanded, color=QUANTITIES["f_cmd"], lw=2.2, label="commanded")
     line(ax, t, applied, color=colour(law), lw=1.0, label="applied")
     low, high = float(commanded.min()), float(commanded.max())
     room = 0.15 * max(high - low, 1.0)

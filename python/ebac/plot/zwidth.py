@@ -7,13 +7,14 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from matplotlib.axes import Axes
 
-from ebac.plot.style import Numbers, Picture, colour, dress, new_figure
+from ebac._util import formatting
+from ebac.plot.style import Numbers, Picture, colour, dress, figure_legend, new_figure
 
 if TYPE_CHECKING:
-    from ebac.zwidth import ZWidth
+    from ebac.studies.zwidth import ZWidth
 
 #: The criteria drawn, a row of panels each.
-ROWS = {"quiet": "quiet", "energy": "takes at most {} mJ", "usable": "usable"}
+ROWS = {"quiet": "quiet", "energy": "draws at most {} mJ", "usable": "usable"}
 #: The ceilings: how each is drawn.
 CEILINGS: dict[str, dict[str, Any]] = {
     "linear loop, no law": {"color": "black", "ls": (0, (5, 3)), "lw": 1.4},
@@ -28,7 +29,7 @@ def plot_zwidth(found: ZWidth) -> Picture:
     Parameters
     ----------
     found : ZWidth
-        What `ebac.zwidth.zwidth` returned.
+        What `ebac.studies.zwidth.zwidth` returned.
 
     Returns
     -------
@@ -37,7 +38,7 @@ def plot_zwidth(found: ZWidth) -> Picture:
     """
     columns = len(found.delays)
     bars = 0.9 + 0.26 * len(found.laws)
-    figure = new_figure(2.2 + 3.6 * columns, 1.2 + 2.6 * len(ROWS) + bars)
+    figure = new_figure(2.6 + 3.6 * columns, 1.2 + 2.6 * len(ROWS) + bars)
     grid = figure.subplots(
         len(ROWS) + 1, columns, squeeze=False, sharey="row", height_ratios=[2.6] * len(ROWS) + [bars]
     )  # fmt: skip
@@ -53,8 +54,11 @@ def plot_zwidth(found: ZWidth) -> Picture:
     grid[-1, 0].set_yticks(range(len(found.laws)), found.laws)
     grid[-1, 0].invert_yaxis()
     handles, labels = grid[0, 0].get_legend_handles_labels()
-    figure.legend(
-        handles, labels, loc="outside upper center", ncols=5, frameon=False, fontsize="small"
+    figure_legend(figure, handles, labels, columns=5)
+    parts = formatting.describe(found.base).split("; ")
+    figure.suptitle(
+        f"Z-width, simulated: {parts[0]}; {parts[1]}; {1e-3 / found.base.timing.dt:g} kHz",
+        fontsize="medium",
     )
     return figure
 
@@ -63,7 +67,7 @@ def _borders(ax: Axes, found: ZWidth, criterion: str, d: int) -> None:
     for i, law in enumerate(found.laws):
         limit = found.limits[criterion][i, d]
         wide = 1.4 + 0.35 * (len(found.laws) - 1 - i)  # laws that share a border all remain visible
-        ax.plot(found.dampings, _kilo(limit), color=colour(law), lw=wide, label=law)
+        ax.plot(found.dampings, _kilo(limit), ".-", ms=4, color=colour(law), lw=wide, label=law)
     ceilings = [(found.dampings, found.spectral[d]), *_ceilings(found, d)]
     for (name, style), (dampings, ceiling) in zip(CEILINGS.items(), ceilings, strict=True):
         ax.plot(dampings, _kilo(ceiling), **style, label=name)
@@ -75,7 +79,7 @@ def _borders(ax: Axes, found: ZWidth, criterion: str, d: int) -> None:
 
 
 def _ceilings(found: ZWidth, d: int) -> list[tuple[Numbers, Numbers]]:
-    from ebac.zwidth import delay_ceiling, passive_ceiling
+    from ebac.studies.zwidth import delay_ceiling, passive_ceiling
 
     device, hand = found.base.device, found.base.hand
     timing = found.base.timing.replace(delay=found.delays[d])

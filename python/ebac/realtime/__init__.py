@@ -1,4 +1,4 @@
-"""What the machine can do for a loop, and how to get the rest."""
+"""Check a machine for real-time problems, and measure how late a thread wakes."""
 
 from ebac._core import Grant, RealTime, RealTimeMode
 from ebac.realtime.doctor import Finding, examine
@@ -16,3 +16,7 @@ __all__ = [
     "examine",
     "measure",
 ]
+
+
+def __dir__() -> list[str]:
+    return __all__

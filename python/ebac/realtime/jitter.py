@@ -20,7 +20,7 @@ Mode = Literal["auto", "enforce", "off"]
 LONGEST = 86400.0
 #: Turns of two programs that are measured side by side last no longer [s].
 _TURN = 2.0
-#: Shares of the wake-ups told in numbers.
+#: Shares of the wake-ups reported in numbers.
 PERCENTILES = (50.0, 99.0, 99.9)
 
 
@@ -169,7 +169,7 @@ def beside_cyclictest(
     options: _core.RealTime | None = None,
     progress: Callable[[int, int], None] | None = None,
 ) -> tuple[Jitter, Cyclictest | None]:
-    """Measure both programs in turns of at most 2 s: what the machine does now and then meets both.
+    """Measure both programs in turns of at most 2 s: occasional load of the machine affects both.
 
     Parameters
     ----------
@@ -236,7 +236,7 @@ def cyclictest(
 
 
 def parse_cyclictest(text: str) -> Cyclictest | None:
-    """Return what a histogram of `cyclictest -h` says; None when there is none."""
+    """Parse a histogram of `cyclictest -h`; None when there is none."""
     bins = re.findall(r"^(\d{6}) (\d+)", text, re.MULTILINE)
     if not bins:
         return None

@@ -1,6 +1,6 @@
 """The force/torque sensor at the handle: ATI Net F/T and what speaks like it, over UDP (RDT)."""
 
-from ebac._core import EmulatorOptions, EmulatorTrouble, ForceCell, LinkState, SensorStatus
+from ebac._core import EmulatorOptions, EmulatorTrouble, LinkState, SensorStatus, SharedForce
 from ebac.sensor.configuration import SensorConfig
 from ebac.sensor.errors import SensorError
 from ebac.sensor.page import SensorPage, read_page
@@ -12,7 +12,6 @@ from ebac.sensor.status import explain
 __all__ = [
     "EmulatorOptions",
     "EmulatorTrouble",
-    "ForceCell",
     "LinkState",
     "Sensor",
     "SensorConfig",
@@ -21,7 +20,12 @@ __all__ = [
     "SensorPage",
     "SensorReading",
     "SensorStatus",
+    "SharedForce",
     "SimulatedSensor",
     "explain",
     "read_page",
 ]
+
+
+def __dir__() -> list[str]:
+    return __all__

@@ -35,12 +35,12 @@ class SensorConfig:
     model : "net-ft", "axia" or "other"
         Whose status bits it has; with "other" every bit is an error.
     counts_per_force, counts_per_torque : float
-        Counts of 1 N and of 1 N m, 1e-3 to 1e12. A sensor's own page tells them: `read_page`.
+        Counts of 1 N and of 1 N m, 1e-3 to 1e12. A sensor's own page contains them: `read_page`.
     force_range, torque_range : float
         A force [N] or torque [N m] along one of its axes that large is saturated whatever its status
         says, 0 to 1e6; 0 trusts the status.
     rotation : 3 rows of 3
-        Turns what is told in the sensor's axes into the handle's, which are those of the ports:
+        Rotates from the sensor's axes to the handle's, which are those of the ports:
         handle = rotation @ sensor. Orthonormal within 1e-6 and no mirror.
     sign : 1 or -1
         1 where the sensor shows the force of the hand on the handle, -1 for the opposite.
@@ -104,7 +104,7 @@ class SensorConfig:
         ValueError, TypeError
             For an unknown name, a wrong type or a value out of range.
         """
-        from ebac.document import read_table
+        from ebac._util.serialisation import read_table
 
         return cls(**read_table(table, dataclasses.fields(cls), where))
 
@@ -147,7 +147,7 @@ class SensorConfig:
 
 
 def numbers(name: str, given: Any, count: int, *, inner: int = 0) -> tuple[Any, ...]:
-    """Return rows of finite numbers as tuples, or say what is wrong with them."""
+    """Return rows of finite numbers as tuples, or raise an error that names what is wrong."""
     shape = f"{count} rows of {inner} numbers" if inner else f"{count} numbers"
     if not isinstance(given, Sequence) or isinstance(given, str) or len(given) != count:
         given = given.tolist() if hasattr(given, "tolist") else given

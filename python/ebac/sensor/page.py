@@ -1,4 +1,4 @@
-"""What a sensor tells of itself on its page `/netftapi2.xml`: above all, what its counts are worth."""
+"""The page `/netftapi2.xml` of a sensor: its model and the scaling of its counts."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ _TORQUE = {
 
 @dataclass(frozen=True, kw_only=True)
 class SensorPage:
-    """What the page of a sensor says.
+    """Contents of the page of a sensor.
 
     Attributes
     ----------
@@ -43,7 +43,7 @@ class SensorPage:
     force_unit, torque_unit : str
         Its own units.
     product, serial : str
-        Its name and number; empty where it does not say.
+        Its name and number; empty where the page has none.
     rate : float or None
         Records a second it is set to [Hz].
     streams : bool or None
@@ -75,7 +75,7 @@ def read_page(host: str, *, http_port: int = 80, timeout: float = 2.0) -> Sensor
     Raises
     ------
     SensorError
-        When it cannot be had, or does not say what counts are worth.
+        When it cannot be had, or does not contain the scaling of the counts.
     ValueError
         For a port or time that cannot be.
     """
@@ -88,7 +88,7 @@ def read_page(host: str, *, http_port: int = 80, timeout: float = 2.0) -> Sensor
 
 
 def parse_page(text: bytes, where: str = "page") -> SensorPage:
-    """Return what the text of a page says.
+    """Parse the text of a page.
 
     Raises
     ------

@@ -67,7 +67,7 @@ class SensorCounts:
     foreign : int
         Packets of somebody else.
     asked : int
-        Streams asked for; more than one tells of silence in between.
+        Streams asked for; more than one means silence in between.
     refused : int
         Requests that did not leave this machine.
     """

@@ -44,7 +44,7 @@ class Sensor:
         Raises
         ------
         SensorError
-            When no record came; the message says why and what to check.
+            When no record came; the message names the reason and what to check.
         ValueError, TypeError
             For a configuration that cannot be.
 

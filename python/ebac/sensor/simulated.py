@@ -12,12 +12,12 @@ from ebac._core import (
     EmulatorCounts,
     EmulatorOptions,
     EmulatorTrouble,
-    ForceCell,
     Grant,
     RdtEmulator,
     RealTime,
     RealTimeMode,
     Setup,
+    SharedForce,
 )
 from ebac.sensor.configuration import MODELS, Rotation, SensorConfig, numbers
 from ebac.sensor.page import PAGE
@@ -33,7 +33,7 @@ class SimulatedSensor:
 
     Parameters
     ----------
-    source : ForceCell, Scenario or 3 floats
+    source : SharedForce, Scenario or 3 floats
         The force of the hand on the handle: from a cell that another part of the simulation writes; of
         the scenario's hand that moves its device without power; or steady [N]. In the handle's axes.
     host : str
@@ -59,7 +59,7 @@ class SimulatedSensor:
 
     def __init__(
         self,
-        source: ForceCell | Scenario | Sequence[float] = (0.0, 0.0, 0.0),
+        source: SharedForce | Scenario | Sequence[float] = (0.0, 0.0, 0.0),
         *,
         host: str = "127.0.0.1",
         port: int = 0,
@@ -119,9 +119,9 @@ class SimulatedSensor:
             counts_per_torque=self.options.counts_per_torque,
         )
 
-    def trouble(self, trouble: EmulatorTrouble) -> None:
-        """Make it lose, double or swap packets, fall silent, or tell of an error, from now on."""
-        self._work.set(trouble)
+    def inject(self, fault: EmulatorTrouble) -> None:
+        """Inject a fault from now on: lost, doubled or swapped packets, silence, or an error status."""
+        self._work.set(fault)
 
     @property
     def grants(self) -> list[Grant]:
@@ -171,7 +171,7 @@ class SimulatedSensor:
 
 
 def page(options: EmulatorOptions, model: str) -> bytes:
-    """Return the text of the page: of all that a real one says, what a client needs."""
+    """Return the text of the page: the part of a real one that a client needs."""
     values = {
         "prodname": f"ebac simulated force sensor ({model})",
         "setserial": "simulated",
@@ -187,14 +187,14 @@ def page(options: EmulatorOptions, model: str) -> bytes:
     return f'<?xml version="1.0"?><netft>{body}</netft>'.encode()
 
 
-def _source(source: ForceCell | Scenario | Sequence[float]) -> ForceCell | Setup:
+def _source(source: SharedForce | Scenario | Sequence[float]) -> SharedForce | Setup:
     from ebac.scenario import Scenario
 
-    if isinstance(source, ForceCell):
+    if isinstance(source, SharedForce):
         return source
     if isinstance(source, Scenario):
         return source.setup()
-    return ForceCell(list(numbers("source", source, 3)))
+    return SharedForce(list(numbers("source", source, 3)))
 
 
 def _page_server(host: str, port: int, text: bytes) -> ThreadingHTTPServer:

@@ -57,7 +57,7 @@ BITS: dict[str, dict[int, str]] = {"net-ft": _NET_FT, "axia": _AXIA, "other": {}
 
 
 def explain(status: int, model: str = "net-ft") -> list[str]:
-    """Return what the bits of a status say, the most telling first.
+    """Return the meanings of the bits of a status, the most specific first.
 
     Parameters
     ----------
@@ -67,7 +67,7 @@ def explain(status: int, model: str = "net-ft") -> list[str]:
         Whose bits they are; "other" has no names.
     """
     names = BITS[model]
-    told = [i for i in range(31, -1, -1) if status >> i & 1]
-    if len(told) > 1 and 31 in told and 31 in names:
-        told.remove(31)  # only says that another is set
-    return [names.get(bit, f"bit {bit}") for bit in told]
+    bits = [i for i in range(31, -1, -1) if status >> i & 1]
+    if len(bits) > 1 and 31 in bits and 31 in names:
+        bits.remove(31)  # only means that another is set
+    return [names.get(bit, f"bit {bit}") for bit in bits]

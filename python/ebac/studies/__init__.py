@@ -28,3 +28,7 @@ __all__ = [
     "study",
     "worst",
 ]
+
+
+def __dir__() -> list[str]:
+    return __all__

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from textwrap import shorten
 from typing import Any
 
 from ebac._core import Device, Timing
-from ebac.laws import AnyLaw, CoreLaw, changed, design, law_name, told
+from ebac.laws import AnyLaw, CoreLaw, changed, design, law_name, shown_value
 from ebac.operators import Operators
 from ebac.studies.measures import MEASURES, Measure
 from ebac.studies.result import Study
@@ -39,7 +40,9 @@ class Piece:
     def label(self) -> str:
         """Return the change in words: "guard off", "kp = 0"."""
         words = (
-            f"{name} {told(value)}" if isinstance(value, bool) else f"{name} = {told(value)}"
+            f"{name} {shown_value(value)}"
+            if isinstance(value, bool)
+            else f"{name} = {shown_value(value)}"
             for name, value in self.changes.items()
         )
         return ", ".join(words)
@@ -92,7 +95,7 @@ class AblationRow:
         }
 
 
-@dataclass(frozen=True, kw_only=True, eq=False)
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
 class Ablation:
     """A law, the same law without each of its pieces, and other laws beside it.
 
@@ -126,9 +129,25 @@ class Ablation:
             *(self._row(name, None, first.values) for name in self.beside),
         ]
 
+    def __repr__(self) -> str:
+        """Return what gets worse and better with each change."""
+        from ebac._util.report import report
+
+        named = {measure.key: measure.heading for measure in self.measures}
+        rows = [
+            {
+                "change": row.label,
+                "worse": _listed(named[key] for key in row.worse),
+                "better": _listed(named[key] for key in row.better),
+            }
+            for row in self.rows
+        ]
+        title = f"Ablation of {self.law}, simulated: {len(self.study.operators)} hands; beside the law as it is"
+        return report(title, rows)
+
     def _repr_html_(self) -> str:
         """Return the figure and the rows, for a notebook."""
-        from ebac import notebook
+        from ebac._util import notebook
         from ebac.plot import plot_ablation
 
         rows = [{"change": row.label, **row.row()} for row in self.rows]
@@ -152,10 +171,15 @@ class Ablation:
         )
 
 
+def _listed(names: Iterable[str]) -> str:
+    found = list(names)
+    return shorten(f"{len(found)}: {', '.join(found)}", 42, placeholder=" ...") if found else "-"
+
+
 def pieces(law: AnyLaw, changes: Sequence[Mapping[str, Any]] = ()) -> list[Piece]:
     """Return the pieces of a law: every boolean parameter turned over, every gain of `GAINS` zero, changes of yours.
 
-    A law of the core tells its parameters; of a law in Python the boolean fields of its dataclass count.
+    A law of the core lists its parameters; of a law in Python the boolean fields of its dataclass count.
 
     Parameters
     ----------

@@ -6,9 +6,9 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from ebac import document
-from ebac.studies import changes as to
-from ebac.studies.changes import Belief, Change
+from ebac._util import serialisation
+from ebac.studies import scenario_changes as to
+from ebac.studies.scenario_changes import Belief, Change
 
 if TYPE_CHECKING:
     from ebac.operators import Operators
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, kw_only=True)
 class Condition:
-    """What is changed for every hand, and what the laws are told.
+    """Changes for every hand, and the facts the laws are designed from.
 
     Attributes
     ----------
@@ -108,12 +108,12 @@ _ROBUSTNESS = [
     _robust("wall-damping", "a wall with 5 N s/m", to.wall(damping=5.0)),
     _robust("wall-damping-K2", "a wall of 2 kN/m with 10 N s/m", to.wall(damping=10.0), at=(1, 2, 2e3)),
     _robust("torque-permille", "torque in whole thousandths of the rated one", to.device("drive", permille=True)),
-    _robust("told-damping+50", "laws told 1.5 times the true device damping", believed=to.mistaken(damping=1.5)),
-    _robust("told-mass+50", "laws told 1.5 times the true device mass", believed=to.mistaken(mass=1.5)),
-    _robust("told-mass-50", "laws told half of the true device mass", believed=to.mistaken(mass=0.5)),
-    _robust("told-delay-1-of-2", "2 samples of delay, laws told 1", to.timing(delay=2), believed=to.mistaken(delay=1)),
-    _robust("told-delay-1-of-3", "3 samples of delay, laws told 1", to.timing(delay=3), believed=to.mistaken(delay=1)),
-    _robust("told-lag-0.3-of-1", "drive lag 1 ms, laws told 0.3 ms", to.device("drive", current_lag=1e-3),
+    _robust("told-damping+50", "laws designed for 1.5 times the true damping", believed=to.mistaken(damping=1.5)),
+    _robust("told-mass+50", "laws designed for 1.5 times the true mass", believed=to.mistaken(mass=1.5)),
+    _robust("told-mass-50", "laws designed for half of the true mass", believed=to.mistaken(mass=0.5)),
+    _robust("told-delay-1-of-2", "2 samples of delay, laws for 1", to.timing(delay=2), believed=to.mistaken(delay=1)),
+    _robust("told-delay-1-of-3", "3 samples of delay, laws for 1", to.timing(delay=3), believed=to.mistaken(delay=1)),
+    _robust("told-lag-0.3-of-1", "drive lag 1 ms, laws designed for 0.3 ms", to.device("drive", current_lag=1e-3),
             believed=to.mistaken(current_lag=3e-4)),
     _robust("tremor-9Hz", "tremor of 0.5 mm at 9 Hz", to.hand(tremor_amplitude=0.5e-3, tremor_frequency=9.0)),
     _robust("shaking-25Hz", "shaking of 2 mm at 25 Hz", to.hand(tremor_amplitude=2e-3, tremor_frequency=25.0)),
@@ -163,7 +163,9 @@ def conditions(names: Iterable[str | Condition]) -> list[Condition]:
             found[name.name] = name
             continue
         if name not in CONDITIONS and name not in GROUPS:
-            raise ValueError(document.unknown(f"condition {name}", name, [*GROUPS, *CONDITIONS]))
+            raise ValueError(
+                serialisation.unknown(f"condition {name}", name, [*GROUPS, *CONDITIONS])
+            )
         for one in GROUPS.get(name, (name,)):
             found[one] = CONDITIONS[one]
     return list(found.values())

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ebac._core import Hand, MinimumJerk, Recorded, Sine, Step, Tapping, Wall
-from ebac.document import unknown
+from ebac._util.serialisation import unknown
 
 if TYPE_CHECKING:
     from ebac.scenario import Scenario
@@ -80,7 +80,7 @@ def families(pull: float) -> dict[str, Family]:
     every = (
         Family(
             name="impact",
-            summary="the hand meets the wall out of free air and presses",
+            summary="the hand touches the wall out of free air and presses",
             parameters=(*hand, force, _p("approach", "m", 0, 0.05)),
             make=_impact,
         ),

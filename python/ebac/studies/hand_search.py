@@ -10,11 +10,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ebac._core import RunLimits
-from ebac.carried import Carried
+from ebac._util.nlopt_callbacks import Carried
 from ebac.scenario import Scenario
 from ebac.simulation import LoopFault, simulate
 from ebac.studies.families import Family
-from ebac.sweeps.measure import Columns, Watch, measure
+from ebac.studies.sweeps.measure import Columns, Watch, measure
 from ebac.trace import Trace
 
 #: Shares of the runs: at random, and bred from the best; the rest is for NLopt.
@@ -71,10 +71,10 @@ class HandSearch:
         law: Any,
         pull: float,
         threads: int,
-        tell: Callable[[int], None],
+        report: Callable[[int], None],
     ) -> None:
         self.family, self.base, self.law, self.pull = family, base, law, pull
-        self.threads, self.tell = threads, tell
+        self.threads, self.report = threads, report
         self.runs = 0
         self.value = -np.inf
         self.best: tuple[NDArray[np.float64], Columns] | None = None
@@ -131,7 +131,7 @@ class HandSearch:
             self.value = float(values[top])
             self.best = points[top].copy(), {name: c[top : top + 1] for name, c in columns.items()}
         self.runs += len(points)
-        self.tell(self.runs)
+        self.report(self.runs)
         return values
 
     def _polish(self, runs: int) -> None:

@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
+from ebac._util import formatting
+
 if TYPE_CHECKING:
     from ebac.studies.result import Study
     from ebac.trace import Trace
@@ -31,7 +33,7 @@ class Measure:
     of : callable
         The columns of these runs in, the number out; NaN where there is none.
     traced : callable, optional
-        A number that only every row of a run can tell: a Trace in, the number out. Each run is then simulated again and
+        A number that needs every row of a run: a Trace in, the number out. Each run is then simulated again and
         `of` finds the numbers under `traced`.
     more : bool
         Whether more of it is better.
@@ -66,10 +68,12 @@ class Measure:
     def gain(self, value: float | None, other: float | None, hands: int) -> int:
         """Return 1 where `value` is better than `other`, -1 where worse, 0 where they differ by nothing that matters.
 
-        A number that does not exist is worse than any.
+        A number that does not exist is worse than any. Numbers that read the same are the same.
         """
         if value is None or other is None:
             return (value is not None) - (other is not None)
+        if formatting.cell(value, self.unit) == formatting.cell(other, self.unit):
+            return 0
         size = max(abs(value), abs(other)) if self.relative else 1.0
         least = max(1.0, self.matters * hands) if self.unit == "hands" else self.matters * size
         if abs(value - other) < least or value == other:

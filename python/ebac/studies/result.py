@@ -16,8 +16,8 @@ from ebac.operators import Operators
 from ebac.scenario import Scenario
 from ebac.simulation import LoopFault, simulate
 from ebac.studies.conditions import Condition
-from ebac.sweeps.measure import Columns
-from ebac.sweeps.result import SweepResult
+from ebac.studies.sweeps.measure import Columns
+from ebac.studies.sweeps.result import SweepResult
 from ebac.trace import Trace
 
 
@@ -74,7 +74,7 @@ class Failure:
     why: str
 
 
-@dataclass(frozen=True, kw_only=True, eq=False)
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
 class Study:
     """Laws x conditions x hands.
 
@@ -153,9 +153,22 @@ class Study:
         except LoopFault as fault:
             return fault.trace
 
+    def __repr__(self) -> str:
+        """Return a row per law and condition."""
+        from ebac._util.report import plural, report
+
+        counts = (
+            plural(len(self.operators), "hand"),
+            plural(len(self.conditions), "condition"),
+            plural(len(self.laws), "law"),
+            plural(len(self.columns["law"]), "run"),
+        )
+        title = f"Study, simulated: {', '.join(counts)}, {len(self.failures)} not good"
+        return report(title, [row.row() for row in self.rows])
+
     def _repr_html_(self) -> str:
         """Return the first figure and the rows, for a notebook."""
-        from ebac import notebook
+        from ebac._util import notebook
         from ebac.plot import plot_study
 
         title = f"{len(self.operators)} hands, simulated"

@@ -68,7 +68,7 @@ def device_mass(mass: float) -> Change:
 
 
 def approach(way: float) -> Change:
-    """Let the hand come through so much free air before it meets the wall [m]; 0 starts on the surface."""
+    """Set the free motion of the hand before contact with the wall [m]; 0 starts on the surface."""
 
     def change(s: Scenario) -> Scenario:
         path = s.hand.path[0]
@@ -125,8 +125,8 @@ def mistaken(*, delay: int | None = None, **factors_or_values: float) -> Belief:
             name: value * getattr(facts, name) if name in ("damping", "mass") else value
             for name, value in factors_or_values.items()
         }
-        told = s.known_timing if delay is None else s.known_timing.replace(delay=delay)
-        return facts.replace(**wrong), told
+        timing_known = s.known_timing if delay is None else s.known_timing.replace(delay=delay)
+        return facts.replace(**wrong), timing_known
 
     return believe
 

@@ -10,15 +10,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ebac import _core
+from ebac._util.arguments import require
+from ebac._util.cores import usable_cores
 from ebac.metrics import QUIET_SWING
 from ebac.operators import Operators
 from ebac.scenario import Scenario
 from ebac.studies.conditions import Condition
 from ebac.studies.conditions import conditions as find
 from ebac.studies.result import Study
-from ebac.sweeps.job import Progress
-from ebac.sweeps.measure import cores
-from ebac.sweeps.run import Laws, name_laws, seed_of, sweep
+from ebac.studies.sweeps.job import Progress
+from ebac.studies.sweeps.run import Laws, name_laws, seed_of, sweep
 
 #: Settled in time: within this factor of what the ideal wall needs, plus this much [s].
 SLOWER, LATER = 1.5, 0.2
@@ -58,6 +59,7 @@ def study(
     -------
     Study
     """
+    require(population, Operators, "ebac.study", "a population, an Operators")
     chosen = tuple(find(conditions))
     if not chosen:
         raise ValueError("no condition given: a study needs at least one")
@@ -102,7 +104,7 @@ def ideal_contacts(
     It settles at inf where it never does; NaN where there is no closed form, see `ideal_contact` in the core.
     """
     setups = [scenario.setup() for scenario in scenarios]
-    found = _core._ideal_contacts(setups, threads or cores(), _core.SweepProgress())
+    found = _core._ideal_contacts(setups, threads or usable_cores(), _core.SweepProgress())
     settled, rest = found["settled"], found["rest"]
     return {
         "rest_m": rest,

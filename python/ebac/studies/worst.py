@@ -7,21 +7,22 @@ from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
+from ebac._util import formatting
+from ebac._util.cores import usable_cores
 from ebac.laws import AnyLaw, design, law_name
 from ebac.scenario import Scenario
-from ebac.studies.changes import truth
 from ebac.studies.conditions import Condition, conditions
 from ebac.studies.families import families, find_family
 from ebac.studies.hand_search import HandSearch, WorstHand, every_row
-from ebac.sweeps.job import Progress
-from ebac.sweeps.measure import cores
+from ebac.studies.scenario_changes import truth
+from ebac.studies.sweeps.job import Progress
 from ebac.trace import Trace
 
 #: Largest pull of a hand [N] for a law that declares none.
 PULL = 20.0
 
 
-@dataclass(frozen=True, kw_only=True, eq=False)
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
 class Worst:
     """What a search found: the worst hand of every family, the worst first.
 
@@ -77,9 +78,18 @@ class Worst:
             for hand in self.hands
         ]  # fmt: skip
 
+    def __repr__(self) -> str:
+        """Return a row per family, the worst hand first."""
+        from ebac._util.report import report
+
+        shown = ("family", "energy_drawn_J", "most_drawn_J", "most_pull_N", "runs")
+        rows = [{key: row[key] for key in shown} for row in self.rows()]
+        lent = "" if self.reserve is None else f", e(0) {formatting.quantity(self.reserve, 'J')}"
+        return report(f"Worst hands of {self.law}, {self.condition.name}, simulated{lent}", rows)
+
     def _repr_html_(self) -> str:
         """Return the worst hand's figure and a row per family, for a notebook."""
-        from ebac import notebook
+        from ebac._util import notebook
         from ebac.plot import plot_worst
 
         rows = [{k: v for k, v in row.items() if k != "parameters"} for row in self.rows()]
@@ -145,11 +155,11 @@ def worst(
     _check(evaluations=(evaluations, 40, 10**7), seed=(seed, 0, 2**31 - 1), pull=(most, 1e-3, 1e3))
     wanted = [find_family(n, most) for n in dict.fromkeys(family or families(most))]
     total = evaluations * len(wanted)
-    tell = progress or (lambda done, total: None)
+    report = progress or (lambda done, total: None)
     found = []
     for i, one in enumerate(wanted):
-        count = partial(_tell, tell, i * evaluations, total)
-        search = HandSearch(one, scenario, made, most, threads or cores(), count)
+        count = partial(_report, report, i * evaluations, total)
+        search = HandSearch(one, scenario, made, most, threads or usable_cores(), count)
         found.append(search.run(evaluations, seed))
     found.sort(key=lambda hand: (-hand.energy_J, -hand.most_drawn_J))
     return Worst(
@@ -158,12 +168,12 @@ def worst(
     )  # fmt: skip
 
 
-def _tell(progress: Progress, before: int, total: int, runs: int) -> None:
+def _report(progress: Progress, before: int, total: int, runs: int) -> None:
     progress(before + runs, total)
 
 
 def replays(condition: Condition, scenario: Scenario) -> bool:
-    """Whether a law designed for the scenario is the one that was searched: the condition tells it no lie."""
+    """Whether a law designed for the scenario is the one that was searched: the condition changes none of its facts."""
     return condition.believed(scenario) == truth(scenario)
 
 

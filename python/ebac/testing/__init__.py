@@ -36,6 +36,10 @@ __all__ = [
 ]
 
 
+def __dir__() -> list[str]:
+    return __all__
+
+
 def __getattr__(name: str) -> Any:
     if name not in ("LawContract", "strategies"):
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

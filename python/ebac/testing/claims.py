@@ -36,7 +36,7 @@ def assert_passive(
     AssertionError
         When more was drawn.
     ValueError
-        When the trace cannot tell, or a number is out of range.
+        When the trace lacks a column, or a number is out of range.
     """
     __tracebackhide__ = True
     _not_negative(reserve=reserve, tolerance=tolerance)
@@ -105,8 +105,8 @@ def assert_force_continuous(
     trace : Trace
         A run.
     step : float
-        Largest change in one tick [N]. What is felt as a knock depends on the handle; a wall of stiffness K met at a
-        speed v needs K v T.
+        Largest change in one tick [N]. How large a knock has to be depends on the handle; a wall of stiffness K
+        hit at a speed v needs K v T.
     column : str
         Which force, default the one that acted.
     axis : int, optional
@@ -161,7 +161,7 @@ def assert_within_limits(
     AssertionError
         When one is exceeded.
     ValueError
-        When neither a limit nor a scenario is there to tell one.
+        When neither a limit nor a scenario is given.
     """
     __tracebackhide__ = True
     if trace.scenario is not None:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ebac import wording
+from ebac._util import formatting
 from ebac.testing.tolerance import Tolerance, default_tolerance
 from ebac.trace import Trace
 
@@ -51,8 +51,8 @@ class Divergence:
         """Return it in one line, with units."""
         allowed = f"{self.tolerance.absolute:g} + {self.tolerance.relative:g} |golden|"
         return (
-            f"{self.channel}: first at tick {self.tick}, t = {self.t:.6g} s: {_told(self.found, self.unit)}, "
-            f"golden {_told(self.golden, self.unit)}; largest error {_told(self.largest, self.unit)} at tick "
+            f"{self.channel}: first at tick {self.tick}, t = {self.t:.6g} s: {_shown(self.found, self.unit)}, "
+            f"golden {_shown(self.golden, self.unit)}; largest error {_shown(self.largest, self.unit)} at tick "
             f"{self.largest_tick}, t = {self.largest_t:.6g} s; {self.rows} of {self.of} rows "
             f"beyond {allowed} {'' if self.unit == '1' else self.unit}"
         ).rstrip()
@@ -163,12 +163,12 @@ def _channel(
     )
 
 
-def _told(value: float, unit: str) -> str:
+def _shown(value: float, unit: str) -> str:
     """Return a number in SI with as many digits as a small difference needs."""
     shown = "" if unit == "1" else f" {unit}"
     if not np.isfinite(value):
         return f"{value}{shown}"
-    readable = wording.quantity(value, unit) if unit in wording.SHOWN else ""
+    readable = formatting.quantity(value, unit) if unit in formatting.SHOWN else ""
     exact = f"{value:.9g}{shown}"
     return f"{exact} ({readable})" if readable and value != 0 and unit == "m" else exact
 

@@ -20,7 +20,7 @@ from ebac.trace import Trace
 if TYPE_CHECKING:
     import pytest
 
-#: What is stored unless columns are named: what a hand feels and what the law made of it.
+#: What is stored unless columns are named: the force at the handle and the command of the law.
 COLUMNS = ("x", "v", "f_env", "f_cmd", "f_applied", "fault")
 
 

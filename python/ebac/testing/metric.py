@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from ebac import wording
+from ebac._util import formatting
 from ebac.metrics import Contact
 
 Metrics = dict[str, str | float | None]
@@ -57,11 +57,11 @@ def differences(found: Metrics, golden: Metrics, tolerances: Mapping[str, float]
             continue
         value, wanted = found.get(name), golden[name]
         allowed = tolerances.get(name, metric.allowed)
-        shown, unit = [_told(v, metric.unit) for v in (value, wanted, allowed)], metric.unit
+        shown, unit = [_shown(v, metric.unit) for v in (value, wanted, allowed)], metric.unit
         if isinstance(value, (int, float)) and isinstance(wanted, (int, float)):
             if abs(value - wanted) <= allowed:
                 continue
-            moved = wording.quantity(value - wanted, unit, signed=True)
+            moved = formatting.quantity(value - wanted, unit, signed=True)
             farther = abs(value) - abs(wanted) if name == "deviation_m" else value - wanted
             lines.append(
                 f"{name}: {shown[0]}, golden {shown[1]}: {_way(farther, metric)} by {moved}, "
@@ -78,5 +78,5 @@ def _way(moved: float, metric: _Metric) -> str:
     return "worse" if moved * metric.worse > 0 else "better"
 
 
-def _told(value: str | float | None, unit: str) -> str:
-    return value if isinstance(value, str) else wording.quantity(value, unit, none="none")
+def _shown(value: str | float | None, unit: str) -> str:
+    return value if isinstance(value, str) else formatting.quantity(value, unit, none="none")

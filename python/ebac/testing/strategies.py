@@ -148,7 +148,7 @@ def walls(
 def timings(
     *, dt: Range = (2.5e-4, 4e-3), delay: tuple[int, int] = (0, 2), jitter: Range = (0.0, 0.0)
 ) -> st.SearchStrategy[Timing]:
-    """Draw sample times [s], whole delays [samples] and the jitter a law is told of, a share of the sample time."""
+    """Draw sample times [s], whole delays [samples] and the jitter of a design, a share of the sample time."""
     return st.builds(
         Timing, dt=st.floats(*dt), delay=st.integers(*delay), jitter=st.floats(*jitter)
     )

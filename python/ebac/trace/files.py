@@ -11,8 +11,8 @@ from zipfile import BadZipFile
 import numpy as np
 from numpy.typing import NDArray
 
-from ebac.columns import ColumnInfo
 from ebac.scenario import Scenario
+from ebac.trace.columns import ColumnInfo
 
 if TYPE_CHECKING:
     from ebac.trace import Trace

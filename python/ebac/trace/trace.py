@@ -11,14 +11,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ebac import _core
-from ebac.columns import ColumnInfo, column_infos, row_views
 from ebac.scenario import Scenario
+from ebac.trace.columns import ColumnInfo, column_infos, row_views
 
 if TYPE_CHECKING:
     import pandas as pd
     from matplotlib.figure import Figure
 
     from ebac.explore import Exploration
+    from ebac.trace.text import Text
 
 
 class Trace:
@@ -101,12 +102,24 @@ class Trace:
     def between(
         self, start: float | None = None, stop: float | None = None, step: object = None
     ) -> Self:
-        """Return the rows with start <= t < stop [s], as views."""
+        """Return the rows with start <= t < stop [s], as views.
+
+        Raises
+        ------
+        ValueError
+            For a part outside the run, or for a step.
+        """
         if step is not None:
             raise ValueError("a trace is sliced by time [s]: trace[start:stop], without a step")
         t = self._data["t"]
         first = 0 if start is None else int(np.searchsorted(t, start))
         last = len(t) if stop is None else int(np.searchsorted(t, stop))
+        if len(t) and ((start or 0.0) > t[-1] or (stop is not None and stop < t[0])):
+            begin = "" if start is None else f"{start:g}"
+            end = "" if stop is None else f"{stop:g}"
+            raise ValueError(
+                f"trace[{begin}:{end}]: outside the run, which spans {t[0]:.6g} to {t[-1]:.6g} s"
+            )
         return self.rows(first, last)
 
     def rows(self, first: int, last: int) -> Self:
@@ -141,6 +154,26 @@ class Trace:
             law=self.law,
             law_repr=self.law_repr,
         )
+
+    def head(self, rows: int = 5, *columns: str) -> Text:
+        """Return the first rows as text, units in the headings.
+
+        Parameters
+        ----------
+        rows : int
+            How many.
+        *columns : str
+            Which columns; default: time, position, velocity, forces, beta and energy.
+        """
+        from ebac.trace.text import head
+
+        return head(self, rows, columns)
+
+    def summary(self) -> Text:
+        """Return as text what was run, what the contact came to, and the range of the main columns."""
+        from ebac.trace.text import summary
+
+        return summary(self)
 
     def flat(self) -> Iterator[tuple[str, ColumnInfo, NDArray[Any]]]:
         """Yield every column as one-dimensional: `x`, or `x_0`, `x_1` with several axes."""
@@ -179,7 +212,7 @@ class Trace:
         ValueError
             For another extension.
         ModuleNotFoundError
-            When the library a format needs is not installed; the message says what to install.
+            When the library a format needs is not installed; the message names what to install.
         """
         from ebac.logs.files import save
 
@@ -187,14 +220,14 @@ class Trace:
 
     @classmethod
     def load(cls, path: str | Path) -> Trace:
-        """Read a file, the format by its extension: .mcap (whole, or cut by a kill), .npz or .csv.
+        """Read a file, the format by its extension: .mcap (also cut short), .npz, .csv, .parquet, .mat or .h5.
 
         Raises
         ------
         FileNotFoundError
             When there is no such file.
         ValueError
-            For another extension, or a file that is not what its extension says.
+            For another extension, or a file that is not in the format of its extension.
         """
         from ebac.logs.files import load
 
@@ -204,13 +237,13 @@ class Trace:
         self, path: str | Path, *, progress: Callable[[int, int], None] | None = None
     ) -> None:
         """Write CSV with the unit in each heading, `x [m]`; numbers keep every digit."""
-        from ebac.trace_files import write_csv
+        from ebac.trace.files import write_csv
 
         write_csv(self, path, progress)
 
     def to_npz(self, path: str | Path) -> None:
         """Write a compressed NumPy archive: the columns, and units, scenario and law under `about`."""
-        from ebac.trace_files import write_npz
+        from ebac.trace.files import write_npz
 
         write_npz(self, path)
 
@@ -225,7 +258,7 @@ class Trace:
         ValueError
             When it is not such an archive.
         """
-        from ebac.trace_files import npz_parts
+        from ebac.trace.files import npz_parts
 
         return cls(**npz_parts(path))
 
@@ -249,11 +282,12 @@ class Trace:
         """Return one line: law, rows, time, axes."""
         t = self._data["t"]
         span = f"{t[0]:.6g} to {t[-1]:.6g} s" if len(t) else "empty"
-        return f"<Trace of {self.law or 'a run'}: {len(self)} rows, {span}, {self.axes} axis(es)>"
+        axes = "1 axis" if self.axes == 1 else f"{self.axes} axes"
+        return f"<Trace of {self.law or 'a run'}: {len(self)} rows, {span}, {axes}>"
 
     def _repr_html_(self) -> str:
         """Return a small picture and a table of the columns for a notebook."""
-        from ebac.notebook import picture, table_of_columns
+        from ebac._util.notebook import picture, table_of_columns
 
         shown = picture(self.plot) if len(self) > 1 else ""
         return f"<p>{escape(repr(self))}</p>{shown}{table_of_columns(self.flat())}"

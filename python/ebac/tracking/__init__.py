@@ -3,10 +3,10 @@
 from ebac.tracking.budget import Budget, BudgetRow, error_budget
 from ebac.tracking.circle import CircleFit, fit_circle
 from ebac.tracking.deviation import Deviation
+from ebac.tracking.error_sources import ErrorSources
 from ebac.tracking.evaluate import Tracking, evaluate
 from ebac.tracking.line import LineFit, fit_line
 from ebac.tracking.read import RecordedPath, read_path
-from ebac.tracking.sources import ErrorSources
 from ebac.tracking.table import TABLE_I, TableEntry
 
 __all__ = [
@@ -26,3 +26,7 @@ __all__ = [
     "fit_line",
     "read_path",
 ]
+
+
+def __dir__() -> list[str]:
+    return __all__

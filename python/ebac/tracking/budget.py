@@ -12,8 +12,8 @@ import numpy as np
 from ebac._core import Device
 from ebac.tracking.circle import fit_circle
 from ebac.tracking.deviation import Numbers
+from ebac.tracking.error_sources import GROUPS, ErrorSources, Joystick
 from ebac.tracking.line import fit_line
-from ebac.tracking.sources import GROUPS, ErrorSources, Joystick
 from ebac.tracking.table import mean
 
 #: The circle of section IV.B: "a rope with a length of 80 mm" taken as a diameter. As a radius it would not fit into
@@ -57,7 +57,7 @@ class BudgetRow:
     radius_m: float | None
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True, repr=False)
 class Budget:
     """An error budget beside the paper's table.
 
@@ -82,6 +82,14 @@ class Budget:
     seed: int
     slack_m: dict[str, float | None]
     examples: dict[str, Numbers]
+
+    def __repr__(self) -> str:
+        """Return a row per shape and source."""
+        from ebac._util.report import report
+
+        shown = ("shape", "source", "sd_m", "sd_low_m", "sd_high_m", "error_m")
+        rows = [{key: getattr(row, key) for key in shown} for row in self.rows]
+        return report(f"Error budget of {self.runs} simulated joysticks, seed {self.seed}", rows)
 
     def row(self, shape: str, source: str) -> BudgetRow:
         """Return one row."""

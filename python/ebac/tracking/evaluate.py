@@ -19,7 +19,7 @@ LEAST_ARC = np.pi / 2
 NEARER = 0.5
 
 
-@dataclass(frozen=True, kw_only=True, eq=False)
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
 class Tracking:
     """A path and the line or circle through it."""
 
@@ -31,12 +31,24 @@ class Tracking:
         """What was fitted: "line" or "circle"."""
         return "line" if isinstance(self.fit, LineFit) else "circle"
 
+    def __repr__(self) -> str:
+        """Return the fit and how far the path lies from it."""
+        mm, d = 1e3, self.fit.deviation
+        if isinstance(self.fit, LineFit):
+            size = f"length {mm * self.fit.length_m:.2f} mm"
+        else:
+            size = f"radius {mm * self.fit.radius:.3f} mm"
+        return (
+            f"<Tracking of {self.path.name}: {self.shape}, {size}; {d.n} points, {d.outliers} outliers, "
+            f"SD {mm * d.sd_m:.3f} mm, error {mm * d.error_m:.3f} mm, largest {mm * d.largest_m:.3f} mm>"
+        )
+
     def row(self) -> dict[str, Any]:
         """Return the documented row of `ebac track --json`."""
         fit, d = self.fit, self.fit.deviation
         row: dict[str, Any] = {
             "file": self.path.name,
-            "read": self.path.said,
+            "read": self.path.remark,
             "shape": self.shape,
             "points": d.n,
             "outliers": d.outliers,

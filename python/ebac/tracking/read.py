@@ -1,20 +1,20 @@
-"""A recorded path from a file: names and units given or guessed, and said."""
+"""A recorded path from a file: names and units given or guessed, and remark."""
 
 from __future__ import annotations
 
-import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
-from ebac.operator_columns import read_csv
+from ebac._util.headings import FACTORS, split_heading
+from ebac.operators.columns import read_csv
 from ebac.trace import Trace
 from ebac.tracking.deviation import Numbers
 
 #: Metres per unit.
-UNITS = {"m": 1.0, "mm": 1e-3, "cm": 1e-2, "um": 1e-6}
+UNITS = FACTORS["length"]
 #: What coordinates are called, tried in this order.
 NAMES = (("x", "y", "z"), ("x_0", "x_1", "x_2"), ("px", "py", "pz"), ("X", "Y", "Z"))
 #: No haptic handle is this far from its middle; such numbers are millimetres [m].
@@ -31,13 +31,13 @@ class RecordedPath:
         Positions [m] in the order of recording.
     name : str
         Of the file.
-    said : str
+    remark : str
         Which columns in which unit, and whether that was guessed.
     """
 
     points: Numbers
     name: str
-    said: str
+    remark: str
 
 
 def read_path(
@@ -96,7 +96,7 @@ def _from_trace(path: Path, columns: Sequence[str] | None, unit: str | None) -> 
             f"columns {', '.join(chosen)} are in {', '.join(sorted(units))}: a path is in m"
         )
     points = np.stack([every[c].astype(float) for c in chosen], axis=1)
-    return RecordedPath(points=points, name=path.name, said=f"columns {', '.join(chosen)} in m")
+    return RecordedPath(points=points, name=path.name, remark=f"columns {', '.join(chosen)} in m")
 
 
 def _from_text(path: Path, columns: Sequence[str] | None, unit: str | None) -> RecordedPath:
@@ -107,10 +107,10 @@ def _from_text(path: Path, columns: Sequence[str] | None, unit: str | None) -> R
     points = np.stack([_numbers(c, table[c]) for c in chosen], axis=1)
     if not len(points):
         raise ValueError("has a heading and no rows")
-    told = {_bare(c)[1] for c in chosen}
-    if len(told) > 1:
+    given_units = {_bare(c)[1] for c in chosen}
+    if len(given_units) > 1:
         raise ValueError(f"columns {', '.join(chosen)} have several units: give files with one")
-    found = unit or next(iter(told))
+    found = unit or next(iter(given_units))
     if found is not None and found not in UNITS:
         raise ValueError(
             f"columns {', '.join(chosen)} are in {found!r}: must be one of {', '.join(UNITS)}; --unit names it"
@@ -119,19 +119,12 @@ def _from_text(path: Path, columns: Sequence[str] | None, unit: str | None) -> R
     if found is None:
         found = "m" if float(np.nanmax(np.abs(points))) < FARTHEST else "mm"
         how = f" (no unit given; {found} guessed from the size, --unit to change it)"
-    said = f"columns {', '.join(_bare(c)[0] for c in chosen)} in {found}{how}"
-    return RecordedPath(points=points * UNITS[found], name=path.name, said=said)
+    remark = f"columns {', '.join(_bare(c)[0] for c in chosen)} in {found}{how}"
+    return RecordedPath(points=points * UNITS[found], name=path.name, remark=remark)
 
 
 def _bare(heading: str) -> tuple[str, str | None]:
-    """Return name and unit of a heading: `x [mm]`, `x (mm)` or `x_mm`."""
-    match = re.fullmatch(r"(.+?)\s*[\[(]\s*(.+?)\s*[\])]", heading) or re.fullmatch(
-        r"(.+)_(mm|cm|um|m)", heading
-    )
-    if match is None:
-        return heading, None
-    # The micro sign and the Greek letter look alike.
-    return match[1], re.sub("[\u00b5\u03bc]", "u", match[2])
+    return split_heading(heading, UNITS)
 
 
 def _guess(names: list[str], bare: dict[str, str]) -> list[str]:

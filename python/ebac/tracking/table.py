@@ -29,7 +29,7 @@ class TableEntry:
 
     @property
     def ratio(self) -> float:
-        """Error / SD; see above for what it tells."""
+        """Error / SD; see above for its meaning."""
         return self.error_m / self.sd_m
 
 

@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING
 
 import typer
 
-from ebac.cli import bench_table, output
+from ebac.cli import output
+from ebac.cli.bench import table
 
 if TYPE_CHECKING:
     from ebac.peers import PeerRow
@@ -27,7 +28,7 @@ def run(repeats: int, *, as_json: bool) -> None:
 
 
 def _show(rows: list[PeerRow]) -> None:
-    bench_table.show(rows, _quantity, digits=2)
+    table.show(rows, _quantity, digits=2)
     output.say("What each program does:", style="bold")
     output.indented("\n".join({f"{row.program}: {row.note}": None for row in rows}))
     output.say(

@@ -19,5 +19,5 @@ def run(*, as_json: bool) -> None:
     grid = output.table(["what", "program", "", "aim"], numbers=(2,))
     for row in rows:
         grid.add_row(row.subject, row.program, f"{row.value:,.0f} rows/s", row.target)
-    output.console().print(grid)
+    output.show(grid)
     output.indented("\n".join({f"{row.program}: {row.note}": None for row in rows}))

@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING
 
 import typer
 
-from ebac.cli import bench_table, output
+from ebac.cli import output
+from ebac.cli.bench import table
 
 if TYPE_CHECKING:
     from ebac.peers import PeerRow
@@ -30,7 +31,7 @@ def run(repeats: int, side: int, *, as_json: bool) -> None:
 def _show(rows: list[PeerRow]) -> None:
     from ebac.peers import NOTES
 
-    bench_table.show(rows, _quantity, digits=1)
+    table.show(rows, _quantity, digits=1)
     output.say("What each program does in a step:", style="bold")
     output.indented("\n".join(f"{name}: {note}" for name, note in NOTES.items()))
     others = {row.subject: row.note for row in rows if row.note not in NOTES.values()}

@@ -22,4 +22,4 @@ def show(rows: Sequence[PeerRow], quantity: Callable[[PeerRow], str], *, digits:
         times = "" if row.times_ebac is None else f"{row.times_ebac:,.{digits}f}"
         grid.add_row(subject, row.program, quantity(row), times, row.target)
         last = row.subject
-    output.console().print(grid)
+    output.show(grid)

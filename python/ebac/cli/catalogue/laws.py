@@ -11,22 +11,25 @@ from ebac.cli import options, output, setting
 
 def laws(
     name: Annotated[
-        str | None, typer.Argument(help="One law, in detail.", show_default=False)
+        str | None,
+        typer.Argument(
+            help="One law, in detail.", show_default=False, autocompletion=options.complete_laws
+        ),
     ] = None,
     device: options.DeviceName = None,
     rate: options.Rate = None,
     delay: options.Delay = None,
     as_json: output.AsJson = False,
 ) -> None:
-    """List the laws; with a name, the parameters of one as they are designed for a device.
+    """List the laws, or the parameters of one law.
 
     A law is designed from the device and the timing alone, never from the wall or the hand.
 
     **Examples**
 
-    * `ebac laws`: every law in a line.
+    * `ebac laws`: every law
 
-    * `ebac laws ebac --delay 2`: the parameters of EBAC, designed for 2 samples of delay.
+    * `ebac laws ebac --delay 2`: the parameters of EBAC, designed for 2 samples of delay
     """
     with output.refusing():
         rows = _rows(name, device, rate, delay)
@@ -41,16 +44,13 @@ def laws(
 def _rows(
     name: str | None, device: str | None, rate: float | None, delay: int | None
 ) -> list[dict[str, Any]]:
-    from ebac import presets
     from ebac._core import Timing
-    from ebac.document import unknown
     from ebac.laws import LAWS, design
 
-    if name is not None and name not in LAWS:
-        raise ValueError(unknown(f"law {name}", name, list(LAWS)))
-    chosen = presets.device(device or "reference")
+    names = [setting.one_law(name, "NAME")] if name is not None else list(LAWS)
+    chosen = setting.known_device(device or "reference")
     timing = setting.choose_timing(Timing(), rate, delay)
-    return [_row(design(law, chosen, timing)) for law in ([name] if name else LAWS)]
+    return [_row(design(law, chosen, timing)) for law in names]
 
 
 def _row(law: Any) -> dict[str, Any]:
@@ -79,7 +79,7 @@ def _show_all(rows: list[dict[str, Any]]) -> None:
     for row in rows:
         names = ", ".join(parameter["name"] for parameter in row["parameters"])
         grid.add_row(row["law"], row["what"], "yes" if row["passive"] else "no", names)
-    output.console().print(grid)
+    output.show(grid)
     output.say("passive: proven for every hand and wall, given true damping, delay, lag and count.")
     output.say("`ebac laws NAME` shows one in detail.")
 
@@ -94,7 +94,7 @@ def _show_one(row: dict[str, Any]) -> None:
         allowed = "" if parameter["type"] == "bool" else _range(parameter["low"], parameter["high"])
         unit = "" if parameter["unit"] == "1" else parameter["unit"]
         grid.add_row(parameter["name"], designed, default, allowed, unit, parameter["meaning"])
-    output.console().print(grid)
+    output.show(grid)
 
 
 def _text(value: bool | float) -> str:

@@ -10,7 +10,14 @@ from ebac.cli import output
 
 
 def presets(as_json: output.AsJson = False) -> None:
-    """List the hands and devices known by name, with their sources."""
+    """List the hands and devices known by name.
+
+    **Examples**
+
+    * `ebac presets`
+
+    * `ebac wall --hand finger --device joystick`: use two of them
+    """
     from ebac.presets import DEVICES, HANDS
 
     hands = [
@@ -54,7 +61,7 @@ def _show_hands(rows: list[dict[str, Any]]) -> None:
             f"{row['stiffness_N_per_m']:g} N/m",
             source,
         )
-    output.console().print(grid)
+    output.show(grid)
     output.say("indicative: from memory of the literature, not confirmed.")
 
 
@@ -68,4 +75,4 @@ def _show_devices(rows: list[dict[str, Any]]) -> None:
             f"{row['damping_Ns_per_m']:g} N s/m",
             row["source"],
         )
-    output.console().print(grid)
+    output.show(grid)

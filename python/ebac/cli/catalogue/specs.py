@@ -6,31 +6,39 @@ from typing import Annotated
 
 import typer
 
-from ebac.cli import output
+from ebac.cli import options, output, setting
 
 
 def specs(
-    device: Annotated[str, typer.Option(help="A device by name, see `ebac presets`.")] = "joystick",
+    device: Annotated[
+        str,
+        typer.Option(
+            help="A device by name, see `ebac presets`.", autocompletion=options.complete_devices
+        ),
+    ] = "joystick",
     as_json: output.AsJson = False,
 ) -> None:
-    """Compute the spec sheet of a device from its parts, beside the paper's figures.
+    """Print the data sheet of a device, beside the paper's numbers.
 
-    **Example**
+    **Examples**
 
-    * `ebac specs`: resolution, forces and workspace of the paper's joystick.
+    * `ebac specs`: resolution, forces and workspace of the paper's joystick
+
+    * `ebac specs --device reference`: one straight axis
     """
-    from ebac import presets, wording
+    from ebac import presets
+    from ebac._util import formatting
     from ebac.specs import spec_sheet
 
     with output.refusing():
-        sheet = spec_sheet(presets.device(device))
+        sheet = spec_sheet(setting.known_device(device))
     if as_json:
         typer.echo(output.document("specs", [spec.row() for spec in sheet], device=device))
         return
     grid = output.table(["", "here", "paper", "how"], numbers=(1, 2))
     for spec in sheet:
         how = f"{spec.how}; {spec.remark}" if spec.remark else spec.how
-        value, paper = (wording.quantity(v, spec.unit) for v in (spec.value, spec.paper))
+        value, paper = (formatting.quantity(v, spec.unit) for v in (spec.value, spec.paper))
         grid.add_row(spec.name, value, paper, how)
-    output.console().print(grid)
-    output.say(f"Device: {device}, {presets.DEVICES[device].source}.")
+    output.show(grid)
+    output.say(f"Device: {device}, {presets.DEVICES[device.lower()].source}.")

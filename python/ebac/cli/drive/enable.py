@@ -7,25 +7,24 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from ebac.cli import drive_results, output
-from ebac.cli.drive_options import (
-    Bitrate,
-    Channel,
-    Interface,
+from ebac._util.exception_notes import noted_on
+from ebac.cli import output
+from ebac.cli.drive import results
+from ebac.cli.drive.options import (
+    BusOptions,
     Nodes,
-    Timeout,
     Yes,
     drives,
     opened,
     sure,
 )
-from ebac.leaving import noted_on
 
 if TYPE_CHECKING:
     from ebac.drives import Drive
 
 
 def enable(
+    where: BusOptions,
     node: Annotated[
         list[int],
         typer.Option("--node", "-n", help="Node id; repeat it for several.", min=1, max=127),
@@ -40,30 +39,26 @@ def enable(
         ),
     ] = None,
     yes: Yes = False,
-    interface: Interface = None,
-    channel: Channel = None,
-    bitrate: Bitrate = None,
-    timeout: Timeout = 0.3,
     as_json: output.AsJson = False,
 ) -> None:
-    """Power the motor, commanded to zero torque. Keep hands off the device.
+    """Power the motors, commanded to zero torque. Keep hands off the device.
 
-    It stays powered after the command, until `ebac drive disable`. A motor that moves now has a wrong
+    They stay powered after the command, until `ebac drive disable`. A motor that moves now has a wrong
     sign, a wrong encoder or another master: disable it.
 
-    **Example**
+    **Examples**
 
-    * `ebac drive enable --node 1`
+    * `ebac drive enable --node 1 --mode 10 --yes --interface ebac --channel joystick`
     """
     chosen = list(dict.fromkeys(node))
     ids = ", ".join(str(n) for n in chosen)
     sure(f"The motor of node {ids} will be powered, at zero torque. Is the device free?", yes)
 
-    with opened(interface, channel, bitrate) as bus:
+    with opened(where) as bus:
         on: list[Drive] = []
         try:
             for n in chosen:
-                on.append(bus.drive(n, timeout=timeout))
+                on.append(bus.drive(n, timeout=where.timeout))
                 on[-1].enable(mode=mode)
         except BaseException as error:
             _off(on, error)
@@ -80,40 +75,37 @@ def _off(powered: list[Drive], error: BaseException) -> None:
 
 
 def disable(
+    where: BusOptions,
     node: Nodes = None,
-    interface: Interface = None,
-    channel: Channel = None,
-    bitrate: Bitrate = None,
-    timeout: Timeout = 0.3,
     as_json: output.AsJson = False,
 ) -> None:
-    """Take the power off the motors, whatever state they are in.
+    """Remove the power from the motors, in any state.
 
-    **Example**
+    **Examples**
 
-    * `ebac drive disable`: every drive on the bus.
+    * `ebac drive disable --interface ebac --channel joystick`: every drive on the bus
     """
-    with opened(interface, channel, bitrate) as bus:
-        _each("drive disable", lambda one: one.disable(), drives(bus, node, timeout), as_json)
+    with opened(where) as bus:
+        _each("drive disable", lambda one: one.disable(), drives(bus, node, where.timeout), as_json)
 
 
 def reset_fault(
+    where: BusOptions,
     node: Nodes = None,
-    interface: Interface = None,
-    channel: Channel = None,
-    bitrate: Bitrate = None,
-    timeout: Timeout = 0.3,
     as_json: output.AsJson = False,
 ) -> None:
-    """Reset the fault of a drive, and see that it is gone. It stays disabled.
+    """Reset the fault of a drive, and check that it is gone. It stays disabled.
 
-    **Example**
+    **Examples**
 
-    * `ebac drive reset-fault --node 1`
+    * `ebac drive reset-fault --node 1 --interface ebac --channel joystick`
     """
-    with opened(interface, channel, bitrate) as bus:
+    with opened(where) as bus:
         _each(
-            "drive reset-fault", lambda one: one.reset_fault(), drives(bus, node, timeout), as_json
+            "drive reset-fault",
+            lambda one: one.reset_fault(),
+            drives(bus, node, where.timeout),
+            as_json,
         )
 
 
@@ -139,7 +131,7 @@ def _tell_states(command: str, rows: list[dict[str, Any]], as_json: bool) -> Non
     if as_json:
         typer.echo(output.document(command, rows))
     else:
-        drive_results.states(rows)
+        results.states(rows)
 
 
 def _state(one: Drive) -> dict[str, Any]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, TypeAlias
 
@@ -24,39 +25,50 @@ def _profiles(incomplete: str) -> list[str]:
     return [name for name in builtin() if name.startswith(incomplete)]
 
 
-Interface: TypeAlias = Annotated[
-    str | None,
-    typer.Option(
-        help="Interface of python-can: socketcan, ebac (simulated joystick), kvaser, ...",
-        show_default="python-can's configuration",
-        rich_help_panel=_BUS,
-    ),
-]
-Channel: TypeAlias = Annotated[
-    str | None,
-    typer.Option(
-        help="Channel of the interface: can0, joystick, ...",
-        show_default="python-can's configuration",
-        rich_help_panel=_BUS,
-    ),
-]
 Bitrate: TypeAlias = Annotated[
     int | None,
     typer.Option(
         help="Bit rate [bit/s]. SocketCAN has its own, set with `ip link`.",
         show_default="python-can's configuration",
+        min=1000,
+        max=8_000_000,
         rich_help_panel=_BUS,
     ),
 ]
-Timeout: TypeAlias = Annotated[
-    float,
-    typer.Option(
-        help="How long an answer of a drive may take [s].",
-        min=0.001,
-        max=60,
-        rich_help_panel=_BUS,
-    ),
-]
+
+
+@dataclass(frozen=True, kw_only=True)
+class BusOptions:
+    """Which bus, and how long an answer may take."""
+
+    interface: Annotated[
+        str | None,
+        typer.Option(
+            help="Interface of python-can: socketcan, ebac (simulated joystick), kvaser, ...",
+            show_default="python-can's configuration",
+            rich_help_panel=_BUS,
+        ),
+    ] = None
+    channel: Annotated[
+        str | None,
+        typer.Option(
+            help="Channel of the interface: can0, joystick, ...",
+            show_default="python-can's configuration",
+            rich_help_panel=_BUS,
+        ),
+    ] = None
+    bitrate: Bitrate = None
+    timeout: Annotated[
+        float,
+        typer.Option(
+            help="How long an answer of a drive may take [s].",
+            min=0.001,
+            max=60,
+            rich_help_panel=_BUS,
+        ),
+    ] = 0.3
+
+
 Nodes: TypeAlias = Annotated[
     list[int] | None,
     typer.Option(
@@ -133,11 +145,16 @@ def _silent(name: str) -> Iterator[None]:
 
 
 @contextmanager
-def opened(interface: str | None, channel: str | None, bitrate: int | None) -> Iterator[DriveBus]:
+def opened(where: BusOptions) -> Iterator[DriveBus]:
     """Give an open bus; what goes wrong on it ends the command."""
     from ebac.drives import DriveBus
 
-    with telling(), DriveBus.open(interface=interface, channel=channel, bitrate=bitrate) as bus:
+    with (
+        telling(),
+        DriveBus.open(
+            interface=where.interface, channel=where.channel, bitrate=where.bitrate
+        ) as bus,
+    ):
         yield bus
 
 

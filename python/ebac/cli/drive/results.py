@@ -26,7 +26,7 @@ def changes(found: Sequence[Change], none: str) -> None:
         now, wanted = one.show(one.now), one.show(one.wanted)
         grid.add_row(str(one.node), one.object.where, one.object.name, now, wanted, unit, one.why)
     grid.columns[2].min_width = max(len(one.object.name) for one in found)
-    output.console().print(grid)
+    output.show(grid)
 
 
 def load(network: Network) -> None:
@@ -40,7 +40,7 @@ def states(rows: Sequence[dict[str, Any]]) -> None:
     grid = output.table(["node", "state"], numbers=(0,))
     for row in rows:
         grid.add_row(str(row["node"]), row["state"])
-    output.console().print(grid)
+    output.show(grid)
 
 
 def found(rows: Sequence[dict[str, Any]]) -> None:
@@ -56,7 +56,7 @@ def found(rows: Sequence[dict[str, Any]]) -> None:
             state += f" ({'; '.join(row['latched'])})"
         name = row["name"] or "-"
         grid.add_row(str(row["node"]), row["nmt"] or "-", name, *ids, serial, state)
-    output.console().print(grid)
+    output.show(grid)
 
 
 def objects(rows: Sequence[dict[str, Any]]) -> None:
@@ -76,10 +76,10 @@ def objects(rows: Sequence[dict[str, Any]]) -> None:
 
 def who(drive: Drive) -> dict[str, Any]:
     """Return who a node is and how it stands, as a plain row."""
-    from ebac.cli.drive_options import is_drive
+    from ebac.cli.drive.options import is_drive
     from ebac.drives import DriveError
 
-    row: dict[str, Any] = {"node": drive.node, "nmt": drive.bus.heard.nmt(drive.node)}
+    row: dict[str, Any] = {"node": drive.node, "nmt": drive.bus.monitor.nmt(drive.node)}
     names = ("device_name", "vendor_id", "product_code", "revision", "serial_number")
     for name in names:
         try:

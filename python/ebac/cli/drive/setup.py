@@ -8,17 +8,15 @@ from typing import TYPE_CHECKING, Any
 
 import typer
 
-from ebac.cli import drive_results, output
-from ebac.cli.drive_options import (
+from ebac.cli import output
+from ebac.cli.drive import results
+from ebac.cli.drive.options import (
     BackupFolder,
-    Bitrate,
-    Channel,
-    Interface,
+    BusOptions,
     Nodes,
     ProfileName,
     ProfileNodes,
     Store,
-    Timeout,
     Yes,
     about,
     drives,
@@ -36,36 +34,34 @@ if TYPE_CHECKING:
 
 
 def apply(
+    where: BusOptions,
     profile: ProfileName = "joystick",
     node: ProfileNodes = None,
     yes: Yes = False,
     store: Store = False,
     backup: BackupFolder = None,
-    interface: Interface = None,
-    channel: Channel = None,
-    bitrate: Bitrate = None,
-    timeout: Timeout = 0.3,
     as_json: output.AsJson = False,
 ) -> None:
     """Set the drives to a profile: disable, back up, write, read back. They stay disabled.
 
-    Killed half way, the same command again finishes it, and `ebac drive restore` takes it back.
+    Without `--yes` the plan is shown and a question asked. After an interruption the same command finishes the work,
+    and `ebac drive restore` takes it back.
 
     **Examples**
 
-    * `ebac drive apply joystick`: shows the plan and asks.
+    * `ebac drive apply joystick --yes --interface ebac --channel joystick`
 
-    * `ebac drive apply joystick --store --yes`: without asking; the drives keep it without power.
+    * `ebac drive apply joystick --yes --store --interface ebac --channel joystick`: kept without power
     """
     from ebac import drives as library
 
-    network = network_of(profile, node, bitrate)
-    with opened(interface, channel, bitrate) as bus:
-        pairs = [(bus.drive(n.id, timeout=timeout), n) for n in network.nodes]
+    network = network_of(profile, node, where.bitrate)
+    with opened(where) as bus:
+        pairs = [(bus.drive(n.id, timeout=where.timeout), n) for n in network.nodes]
         if not as_json:
             found = [change for one, n in pairs for change in library.plan(one, n).changes]
-            drive_results.changes(found, "The drives hold all of it: nothing will change.")
-            drive_results.load(network)
+            results.changes(found, "The drives hold all of it: nothing will change.")
+            results.load(network)
         ids = ", ".join(str(n.id) for n in network.nodes)
         sure(f"Disable node {ids} and write this?", yes)
         shelf = library.Backups(backup)
@@ -76,26 +72,23 @@ def apply(
 
 
 def restore(
+    where: BusOptions,
     node: Nodes = None,
     yes: Yes = False,
     store: Store = False,
     backup: BackupFolder = None,
-    interface: Interface = None,
-    channel: Channel = None,
-    bitrate: Bitrate = None,
-    timeout: Timeout = 0.3,
     as_json: output.AsJson = False,
 ) -> None:
-    """Put back what the drives held before the first `apply`. They stay disabled.
+    """Restore what the drives held before the first `apply`. They stay disabled.
 
-    **Example**
+    **Examples**, on a device: needs a backup that `ebac drive apply` made
 
-    * `ebac drive restore --node 1`
+    * `ebac drive restore --node 1 --yes`
     """
     from ebac import drives as library
 
-    with opened(interface, channel, bitrate) as bus:
-        chosen = drives(bus, node, timeout)
+    with opened(where) as bus:
+        chosen = drives(bus, node, where.timeout)
         shelf = library.Backups(backup)
         if not node:
             chosen = [one for one in chosen if shelf.load(one) is not None]

@@ -14,14 +14,16 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from ebac.cli import options, output, simulated
-from ebac.cli.drive_options import Bitrate, telling
-from ebac.cli.grants import show_refused
+from ebac.cli.drive.options import Bitrate, telling
+from ebac.cli.machine.grants import show_refused
 
 if TYPE_CHECKING:
     from ebac._core import Grant, Setup, SocketCanJoystick
     from ebac.drives.simulate import Simulation
-    from ebac.hardware.place import Request
+    from ebac.hardware.backends import Request
 
+#: Largest counts of a unit.
+MOST_COUNTS = 1e9
 MODES = ("auto", "enforce", "off")
 #: How often the main thread looks after the others [s].
 _LOOK = 0.1
@@ -108,13 +110,17 @@ def simulate(
 
     * `ebac drive simulate --interface udp_multicast --channel 239.74.163.2`: without SocketCAN.
 
-    * `ebac drive simulate --scenario tapping.toml`: with a hand of your own.
+    * `ebac wall --out first`, then `ebac drive simulate --scenario first/scenario.toml --channel vcan0`: the hand of
+      a scenario.
     """
-    from ebac._core import AimCell, ForceCell, RealTime
+    from ebac._core import RealTime, SharedForce, SharedHandTarget
     from ebac.drives.simulate import Simulation
-    from ebac.hardware.place import Request, sensor_of
+    from ebac.hardware.backends import Request, sensor_of
     from ebac.sensor import SensorConfig
 
+    if not all(1 <= counts <= MOST_COUNTS for counts in sensor_counts):
+        given = " ".join(f"{counts:g}" for counts in sensor_counts)
+        output.fail(f"--sensor-counts = {given}: each must lie in [1, {MOST_COUNTS:g}]")
     if realtime not in MODES:
         output.fail(f"--realtime {realtime}: must be one of {', '.join(MODES)}")
     grants: list[Grant] = []
@@ -123,13 +129,18 @@ def simulate(
         setup = plant.setup()
         loop = RealTime(priority=beside, lock_memory=lock_memory)
         request = Request.beside(realtime, loop)
-        cell = None if aim is None else AimCell(aim)
+        cell = None if aim is None else SharedHandTarget(aim)
     with telling(), simulated.signalled() as over:
         known = SensorConfig(counts_per_force=sensor_counts[0], counts_per_torque=sensor_counts[1])
-        felt = ForceCell([0.0, 0.0, 0.0])
-        more = {"first": first, "felt": felt, "wait_for_power": wait_for_power, "aim": cell}
+        shared_force = SharedForce([0.0, 0.0, 0.0])
+        more = {
+            "first": first,
+            "force": shared_force,
+            "wait_for_power": wait_for_power,
+            "aim": cell,
+        }
         with (
-            sensor_of(known if sensor else None, felt, request, grants) as found,
+            sensor_of(known if sensor else None, shared_force, request, grants) as found,
             _at_work(setup, interface, channel, bitrate, more, request, grants) as work,
         ):
             also = "" if found is None else f" and a force sensor at {found.host}:{found.port}"
@@ -168,7 +179,7 @@ def _at_work(
     from ebac.drives import BusError
     from ebac.drives.bus import open_bus
     from ebac.drives.simulate import Simulation
-    from ebac.hardware.place import at_work
+    from ebac.hardware.backends import at_work
 
     if interface == "ebac":
         raise ValueError(

@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from ebac.cli import identify_options as given
 from ebac.cli import output
-from ebac.cli.identify_arm_results import show, write
+from ebac.cli.identify import options as given
+from ebac.cli.identify.arm_results import show, write
 
 if TYPE_CHECKING:
     from ebac.identify import ArmResult
@@ -17,14 +17,9 @@ if TYPE_CHECKING:
 
 def arm(
     logs: given.Logs,
-    column: given.ColumnOf = None,
-    unit: given.UnitOf = None,
-    rate: given.Rate = None,
-    lag: given.Lag = None,
-    current_lag: given.CurrentLag = None,
-    axis: given.Axis = 0,
-    switch: given.Switch = None,
-    tapping: given.Tapping = None,
+    reading: given.Reading,
+    target: given.TargetOptions,
+    to: given.ReportOptions,
     fix: given.Fix = None,
     free: Annotated[
         list[str] | None,
@@ -40,7 +35,8 @@ def arm(
     ] = None,
     robust: given.Robust = None,
     starts: Annotated[
-        int, typer.Option(help="Starts of the search.", rich_help_panel=given.FIT)
+        int,
+        typer.Option(help="Starts of the search.", min=1, max=1000, rich_help_panel=given.FIT),
     ] = 1,
     profile: Annotated[
         bool,
@@ -50,28 +46,25 @@ def arm(
             rich_help_panel=given.FIT,
         ),
     ] = False,
-    out: given.Out = None,
     as_json: output.AsJson = False,
 ) -> None:
-    """Identify the human arm of eq. (4): M0, B0, K0 and where it wanted to be.
+    """Identify a human arm, eq. (4): mass M0, damping B0, stiffness K0 and the position it moves to.
 
     Needs position and force of the hand. A column `target` in the log is taken as the path the hand followed.
 
     **Examples**
 
-    * `ebac identify arm press.csv --switch 1.0`
+    * `ebac demo arm`, then `ebac identify arm arm.csv`: a perturbed arm
 
-    * `ebac identify arm log.mat --column force=Fz --unit x=mm --lag 0.0008 --out report`
+    * `ebac demo tapping`, then `ebac identify arm tapping.mcap --out report`
     """
     from ebac.identify import fit_arm
 
-    reading = given.Reading(
-        column=column, unit=unit, rate=rate, lag=lag, current_lag=current_lag, axis=axis
-    )
+    to.folder()
     with output.refusing():
-        recordings = [reading.load(path) for path in logs]
-        targets = [given.target_of(r, switch, tapping) for r in recordings]
-        held = [(r, given.target_of(r, switch, tapping)) for r in map(reading.load, hold_out or [])]
+        pairs = [target.of(reading.load(path)) for path in logs]
+        recordings, targets = [r for r, _ in pairs], [one for _, one in pairs]
+        others = [target.of(reading.load(path)) for path in hold_out or []]
         result = fit_arm(
             recordings,
             targets,
@@ -81,7 +74,7 @@ def arm(
             starts=starts,
         )
         profiles = _profiles(result) if profile else {}
-        predictions = result.predictions(held)
+        predictions = result.predictions(others)
         opinions = _opinions(result)
     rows = [
         {**vars(e), "profile_low": None, "profile_high": None} for e in result.estimates.values()
@@ -90,7 +83,7 @@ def arm(
         if row["name"] in profiles:
             row["profile_low"], row["profile_high"] = profiles[row["name"]]
     remarks = {r.name: list(r.remarks) for r in recordings}
-    files = write(out, result, predictions, opinions, remarks)
+    files = write(to, result, predictions, opinions, remarks)
     if as_json:
         more = result.to_dict()
         more.pop("rows")
@@ -101,8 +94,8 @@ def arm(
         )
         return
     show(result, profiles, predictions, opinions, remarks)
-    if out is not None:
-        output.list_files(out, files)
+    if to.out is not None:
+        output.list_files(to.out, files)
 
 
 def _profiles(result: ArmResult) -> dict[str, tuple[float, float]]:

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ebac.cli import identify_options as given
 from ebac.cli import output
+from ebac.cli.identify import options as given
 
 if TYPE_CHECKING:
     from ebac.identify import ArmResult
@@ -16,20 +15,10 @@ def careful(result: ArmResult) -> list[str]:
     """Return what to be careful about, a sentence each."""
     out = [f"{name} is not determined by this log." for name in result.undetermined]
     out += [
-        f"{a} and {b} cannot be told apart in this log (correlation {r:+.3f})."
+        f"{a} and {b} cannot be separated in this log (correlation {r:+.3f})."
         for a, b, r in result.inseparable
     ]
-    for name, t in result.tests.items():
-        if not t.white:
-            out.append(
-                f"{name}: the errors are not white "
-                f"(largest correlation {abs(t.auto).max():.2f}); the model misses something."
-            )
-        if not t.independent:
-            out.append(
-                f"{name}: the errors follow the force "
-                f"(correlation {abs(t.cross).max():.2f}); closed loop, or the model misses something."
-            )
+    out += result.misses
     return out
 
 
@@ -46,7 +35,7 @@ def show(
         prof = "-" if e.name not in profiles else "{:.4g} to {:.4g}".format(*profiles[e.name])
         word = "given" if e.fixed else "" if e.determined else "[red]not determined[/]"
         grid.add_row(e.name, f"{e.value:.4g}", wide, prof, e.unit, word)
-    output.console().print(grid)
+    output.show(grid)
     for p in predictions:
         kind = "held out" if p.held_out else "fitted"
         output.say(
@@ -66,7 +55,7 @@ def show(
 
 
 def write(
-    folder: Path | None,
+    to: given.ReportOptions,
     result: ArmResult,
     predictions: Any,
     opinions: Any,
@@ -87,7 +76,7 @@ def write(
         for o in opinions
     ]
     return given.report(
-        folder,
+        to,
         "arm",
         title="The arm of eq. (4)",
         rows=[given.line(e) for e in result.shown],

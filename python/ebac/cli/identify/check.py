@@ -26,36 +26,38 @@ LOGS = {What.ARM: 200, What.DEVICE: 200, What.GAINS: 10}
 
 
 def check(
-    what: Annotated[What, typer.Argument(help="What is tried.")] = What.ARM,
+    what: Annotated[What, typer.Argument(help="What is identified.")] = What.ARM,
     logs: Annotated[
         int | None,
         typer.Option(
             "--logs",
-            "--arms",
             help="Random logs: arms, devices, noise seeds.",
             show_default="200; 10 of gains",
+            min=1,
+            max=1_000_000,
         ),
     ] = None,
-    seed: Annotated[int, typer.Option(help="Seed of all of them.")] = 1,
-    seconds: Annotated[float, typer.Option(help="Length of each log [s].")] = 10.0,
+    seed: Annotated[int, typer.Option(help="Seed of all of them.", min=0)] = 1,
+    seconds: Annotated[float, typer.Option(help="Length of each log [s].", min=1, max=1000)] = 10.0,
     workers: Annotated[
-        int | None, typer.Option(help="Processes.", show_default="one per core")
+        int | None, typer.Option(help="Processes.", show_default="one per core", min=1, max=1024)
     ] = None,
     as_json: output.AsJson = False,
 ) -> None:
-    """Try the methods on random arms and devices: how often do the intervals hold the truth? A simulation.
+    """Check the identification on random arms and devices: how often do the intervals hold the truth? A simulation.
 
     Each arm taps, follows a path or presses, at a wall under a law, with encoder counts and noise of the force sensor;
-    one in ten never meets the wall, and its log tells nothing of the arm. Prints coverage and bias of every parameter.
+    one in ten never meets the wall, and its log is not informative. Prints coverage and bias of every parameter.
     With `gains`, K_p and K_d are chosen from each log and tried on hands that were not in it.
 
     **Examples**
 
-    * `ebac identify check arm --logs 200 --seed 4`
+    * `ebac identify check arm --logs 4`
 
-    * `ebac identify check gains --logs 10`
+    * `ebac identify check device --logs 4`
     """
     many = LOGS[what] if logs is None else logs
+    output.keeping("nothing is written by this command; fewer --logs take less time")
     if what is What.GAINS:
         _gains(many, seed, as_json)
     else:
@@ -103,7 +105,7 @@ def _table(rows: list[dict[str, Any]]) -> None:
             for v in (row["covered_share"], row["median_bias"], row["median_error"])
         ]
         grid.add_row(row["parameter"], str(row["cases"]), str(row["determined"]), *share)
-    output.console().print(grid)
+    output.show(grid)
 
 
 def _say_arm(found: Check, more: dict[str, Any]) -> None:
@@ -126,8 +128,8 @@ def _say_arm(found: Check, more: dict[str, Any]) -> None:
 def _gains(logs: int, seed: int, as_json: bool) -> None:
     from rich.markup import escape
 
-    from ebac.identify.gains_check import LAWS, check_gains
-    from ebac.identify.gains_table import gains_rows, side_by_side
+    from ebac.identify.gains.check import LAWS, check_gains
+    from ebac.identify.gains.table import gains_rows, side_by_side
 
     total = logs * len(LAWS)
     with output.refusing(), output.counting("choosing", quiet=as_json) as progress:
@@ -140,7 +142,7 @@ def _gains(logs: int, seed: int, as_json: bool) -> None:
     grid = output.table(heading, numbers=(3, 4, 5))
     for line in lines:
         grid.add_row(*line)
-    output.console().print(grid)
+    output.show(grid)
     for law, many in {
         row["law"]: row["logs_refused"] for row in rows if row["logs_refused"]
     }.items():
@@ -155,7 +157,7 @@ def _times(seed: int, seconds: float) -> dict[str, float]:
     """Time a fit and SciPy's `least_squares` on the same objective, in one run."""
     from ebac.identify import Recording, Target, fit_arm
     from ebac.identify.cases import draw
-    from ebac.identify.peer import compare_with_scipy
+    from ebac.identify.check import compare_with_scipy
     from ebac.simulation import simulate
 
     case = next(c for c in (draw(i, seed, seconds) for i in range(1000)) if c.task == "tapping")

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ebac.cli import identify_options as given
 from ebac.cli import output
+from ebac.cli.identify import options as given
 
 if TYPE_CHECKING:
     from ebac.identify import DeviceResult
@@ -16,34 +16,27 @@ if TYPE_CHECKING:
 
 def device(
     log: Annotated[Path, typer.Argument(help="MCAP, CSV, .mat or .npz.", show_default=False)],
-    column: given.ColumnOf = None,
-    unit: given.UnitOf = None,
-    rate: given.Rate = None,
-    lag: given.Lag = None,
-    current_lag: given.CurrentLag = None,
-    axis: given.Axis = 0,
-    out: given.Out = None,
+    reading: given.Reading,
+    to: given.ReportOptions,
     as_json: output.AsJson = False,
 ) -> None:
-    """Identify the device: mass and damping, Coulomb and Stribeck friction, weight; and tau_static of eq. (2).
+    """Identify a device: mass, damping, Coulomb and Stribeck friction, weight, and tau_static of eq. (2).
 
     Needs position, and the motor's force or the hand's, which moves it both ways.
 
     **Examples**
 
-    * `ebac identify device excited.csv`
+    * `ebac demo device`, then `ebac identify device device.csv`
 
-    * `ebac identify device run.mcap --axis 1 --out report`
+    * `ebac identify device device.csv --out report`: with a page and figures
     """
     from ebac.identify import fit_device
 
-    reading = given.Reading(
-        column=column, unit=unit, rate=rate, lag=lag, current_lag=current_lag, axis=axis
-    )
+    to.folder()
     with output.refusing():
         recording = reading.load(log)
         result = fit_device(recording)
-    files = _write(out, result)
+    files = _write(to, result)
     if as_json:
         more = result.to_dict()
         rows = more.pop("rows")
@@ -57,11 +50,11 @@ def device(
     for e in result.estimates.values():
         word = "" if e.determined else "[red]not determined[/]"
         grid.add_row(e.name, f"{e.value:.4g}", f"{e.low:.4g} to {e.high:.4g}", e.unit, word)
-    output.console().print(grid)
+    output.show(grid)
     for text in _notes(result):
         output.say(text)
-    if out is not None:
-        output.list_files(out, files)
+    if to.out is not None:
+        output.list_files(to.out, files)
 
 
 def _notes(result: DeviceResult) -> list[str]:
@@ -81,11 +74,11 @@ def _notes(result: DeviceResult) -> list[str]:
     ]
 
 
-def _write(folder: Path | None, result: DeviceResult) -> list[str]:
+def _write(to: given.ReportOptions, result: DeviceResult) -> list[str]:
     from ebac.identify.figures import plot_device
 
     return given.report(
-        folder,
+        to,
         "device",
         title="The device of eq. (6)",
         rows=[given.line(e) for e in result.estimates.values()],

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ebac.cli import identify_options as given
 from ebac.cli import output
+from ebac.cli.identify import options as given
+from ebac.cli.options import complete_laws
+from ebac.cli.setting import one_law
 
 if TYPE_CHECKING:
     from ebac.identify import GainsResult
@@ -18,17 +19,19 @@ LIMITS = "Constraints"
 
 def gains(
     logs: given.Logs,
+    reading: given.Reading,
+    target: given.TargetOptions,
+    to: given.ReportOptions,
     law: Annotated[
-        str, typer.Option(help="A law with the force loop of eq. (2).", rich_help_panel=given.FIT)
+        str,
+        typer.Option(
+            "--law",
+            "-l",
+            help="A law with the force loop of eq. (2), see `ebac laws`.",
+            rich_help_panel=given.FIT,
+            autocompletion=complete_laws,
+        ),
     ] = "ebac",
-    column: given.ColumnOf = None,
-    unit: given.UnitOf = None,
-    rate: given.Rate = None,
-    lag: given.Lag = None,
-    current_lag: given.CurrentLag = None,
-    axis: given.Axis = 0,
-    switch: given.Switch = None,
-    tapping: given.Tapping = None,
     fix: given.Fix = None,
     robust: given.Robust = None,
     delay: Annotated[
@@ -45,83 +48,100 @@ def gains(
         float | None,
         typer.Option(
             help="Deepest beyond the rest of an ideal wall [m].",
+            min=0,
+            max=1,
             show_default="a quarter more than the default gains show",
             rich_help_panel=LIMITS,
         ),
     ] = None,
-    force: Annotated[
+    max_force: Annotated[
         float | None,
         typer.Option(
-            help="Largest force [N].", show_default="the motor's peak", rich_help_panel=LIMITS
+            help="Largest force [N].",
+            min=0.001,
+            max=10000,
+            show_default="the motor's peak",
+            rich_help_panel=LIMITS,
         ),
     ] = None,
-    current: Annotated[
+    max_current: Annotated[
         float | None,
         typer.Option(
-            help="Largest current [A].", show_default="the drive's peak", rich_help_panel=LIMITS
+            help="Largest current [A].",
+            min=0.001,
+            max=1000,
+            show_default="the drive's peak",
+            rich_help_panel=LIMITS,
         ),
     ] = None,
     noise_gain: Annotated[
         float,
         typer.Option(
-            help="Noise of the command per noise of the force reading.", rich_help_panel=LIMITS
+            help="Noise of the command per noise of the force reading.",
+            min=0,
+            max=100,
+            rich_help_panel=LIMITS,
         ),
     ] = 0.5,
     energy: Annotated[
         float,
-        typer.Option(help="Most energy the port may give away [J].", rich_help_panel=LIMITS),
+        typer.Option(
+            help="Most energy the port may give away [J].", min=0, max=100, rich_help_panel=LIMITS
+        ),
     ] = 0.010,
-    out: given.Out = None,
     as_json: output.AsJson = False,
 ) -> None:
-    """Choose K_p and K_d of eq. (2) from logged steps: identify arm, device and wall, then search.
+    """Choose the gains K_p and K_d of eq. (2) from logged presses.
 
-    Every pair is simulated on the identified hand, on the ends of its interval and on hands around it. No hand may
-    break a constraint; settling, swing and noise are taken over what the default gains give, and none of the three is
-    given back for another. Beside it stands the paper's way, a rule on the step response. The table is a simulation.
+    Arm, device and wall are identified first. Every pair of gains is then simulated on the identified hand, on the ends
+    of its interval and on hands around it. No hand may break a constraint; settling, swing and noise are compared with
+    those of the default gains, and none of the three may get worse. The rule of the paper, on the step response, stands
+    beside it. The table is a simulation.
 
     **Examples**
 
-    * `ebac identify gains tap.mcap --tapping 1.5 --law tca`
+    * `ebac demo press`, then `ebac identify gains press.csv --switch 1.0`
 
-    * `ebac identify gains press.csv --switch 1.0 --law ebac --noise-gain 0.2 --out report`
+    * `ebac identify gains press.csv --switch 1.0 --law tca-damped --out report`
     """
     from ebac import Timing
     from ebac.identify import Limits, fit_gains, fit_loop
 
-    reading = given.Reading(
-        column=column, unit=unit, rate=rate, lag=lag, current_lag=current_lag, axis=axis
-    )
+    to.folder()
     with output.refusing(), output.counting("choosing", quiet=as_json) as progress:
         limits = Limits(
-            overshoot=overshoot, force=force, current=current, noise_gain=noise_gain, energy=energy
+            overshoot=overshoot,
+            force=max_force,
+            current=max_current,
+            noise_gain=noise_gain,
+            energy=energy,
         )
-        recordings = [reading.load(path) for path in logs]
-        targets = [given.target_of(r, switch, tapping) for r in recordings]
+        pairs = [target.of(reading.load(path)) for path in logs]
+        recordings, targets = [r for r, _ in pairs], [one for _, one in pairs]
         timing = Timing(dt=round(recordings[0].dt, 9), delay=delay)
         loop = fit_loop(
             recordings, targets, timing=timing, fixed=given.numbers(fix, "--fix"), robust=robust
         )
-        result = fit_gains(loop, law, limits=limits, vary=vary, progress=progress)
-    files = _write(out, result)
+        result = fit_gains(loop, one_law(law), limits=limits, vary=vary, progress=progress)
+    files = _write(to, result)
     if as_json:
         more = result.to_dict()
         rows = more.pop("rows")
         typer.echo(output.document("identify gains", rows, **more))
         return
-    for text in loop.remarks:
+    for text in (*(f"{r.name}: {r.remarks[-1]}" for r in recordings), *loop.remarks):
         output.say(text, style="dim")
     table = _cells(result)  # a pair of gains is a column: eleven of them would not fit side by side
     heading, *names = table[0]
     grid = output.table([heading, *(row[heading] for row in table)], numbers=(1, 2, 3))
     for name in names:
         grid.add_row(name, *(row[name] for row in table))
-    output.console().print(grid)
+    output.show(grid)
     for text in _notes(result):
         output.say(text)
     output.say("Simulated, not measured.", style="bold")
-    if out is not None:
-        output.list_files(out, files)
+    if to.out is not None:
+        output.list_files(to.out, files)
 
 
 def _cells(result: GainsResult) -> list[dict[str, str]]:
@@ -160,12 +180,12 @@ def _notes(result: GainsResult) -> list[str]:
     ]
 
 
-def _write(folder: Path | None, result: GainsResult) -> list[str]:
-    from ebac.identify.gains_figures import plot_gains
+def _write(to: given.ReportOptions, result: GainsResult) -> list[str]:
+    from ebac.identify.figures import plot_gains
 
     hand = [str(e) for e in result.loop.arm.estimates.values() if e.name in ("M0", "B0", "K0")]
     return given.report(
-        folder,
+        to,
         "gains",
         title=f"K_p and K_d of eq. (2) for {result.name}",
         rows=_cells(result),

@@ -67,7 +67,7 @@ def show(read: Log) -> None:
     grid = output.table(["", read.path.name])
     for name, text in _lines(read):
         grid.add_row(name, _escaped(text))
-    output.console().print(grid)
+    output.show(grid)
     output.console().print(_columns(read.trace))
     _list("Gaps", [f"{g.rows} rows after tick {g.after_tick}, {g.t:.3f} s" for g in read.gaps])
     _list(
@@ -90,14 +90,17 @@ def _lines(read: Log) -> list[tuple[str, str]]:
     start = read.about.start_ns
     lines = [
         ("file", f"{state}; {read.bytes / 1e6:.3g} MB"),
-        ("rows", f"{len(trace)}, {trace.axes} axis(es), {read.lost} missing between them"),
+        (
+            "rows",
+            f"{len(trace)}, {output.plural(trace.axes, 'axis', 'axes')}, {read.lost:,} missing between them",
+        ),
         ("time", span + (f" at {rate:.6g} Hz" if rate else "")),
-        ("law", trace.law_repr or trace.law or "not told"),
+        ("law", trace.law_repr or trace.law or "not in the log"),
         ("events", str(len(read.events))),
         ("attached", ", ".join(read.about.attachments) or "nothing"),
         (
             "made by",
-            ", ".join(f"{k} {v}" for k, v in read.about.made_by.items() if v) or "not told",
+            ", ".join(f"{k} {v}" for k, v in read.about.made_by.items() if v) or "not in the log",
         ),
     ]
     if start:

@@ -7,18 +7,24 @@ from typing import TYPE_CHECKING, Annotated, TypeAlias
 
 import typer
 
-from ebac.cli import log_info, output
+from ebac.cli import output
+from ebac.cli.command import Group, add
+from ebac.cli.files import FigureOptions, free_file, new_file
+from ebac.cli.log import info as log_info
 
 if TYPE_CHECKING:
     from ebac.logs import Log
     from ebac.trace import Trace
 
 log = typer.Typer(
+    cls=Group,
     no_args_is_help=True,
-    help="Logs of runs (MCAP): look into one, export, repair, draw it.",
+    help="Look into, export, repair and draw the logs of runs.",
 )
 
-LogFile: TypeAlias = Annotated[Path, typer.Argument(metavar="FILE", help="A log, run.mcap.")]
+LogFile: TypeAlias = Annotated[
+    Path, typer.Argument(metavar="FILE", help="A log: .mcap, .npz, .csv, .parquet, .mat, .h5.")
+]
 From: TypeAlias = Annotated[
     float | None, typer.Option("--from", help="Only rows from this time on [s].")
 ]
@@ -27,17 +33,16 @@ To: TypeAlias = Annotated[
 ]
 
 
-@log.command("info")
 def info(file: LogFile, as_json: output.AsJson = False) -> None:
-    """Tell what is in a log: rows, time, columns with units, gaps, faults, versions, and whether it is whole.
+    """Print what a log holds: rows, time, columns with units, gaps, faults, versions.
 
-    A log whose recorder was killed is read up to its last whole chunk.
+    Also reads logs that a crash cut short.
 
     **Examples**
 
-    * `ebac log info run.mcap`
+    * `ebac wall --law ebac --log run.mcap`, then `ebac log info run.mcap`
 
-    * `ebac log info run.mcap --json`: as JSON.
+    * `ebac log info run.mcap --json`: as JSON
     """
     read = _read(file, quiet=as_json)
     if as_json:
@@ -46,7 +51,6 @@ def info(file: LogFile, as_json: output.AsJson = False) -> None:
         log_info.show(read)
 
 
-@log.command("export")
 def export(
     file: LogFile,
     out: Annotated[
@@ -67,16 +71,16 @@ def export(
 
     **Examples**
 
-    * `ebac log export run.mcap run.csv`
+    * `ebac wall --law ebac --log run.mcap`, then `ebac log export run.mcap run.csv`
 
-    * `ebac log export run.mcap run.mat --from 2 --to 5`: three seconds of it, for MATLAB.
+    * `ebac log export run.mcap part.npz --from 2 --to 5`: three seconds of it, for NumPy
     """
     from ebac.logs.files import FORMATS, extension
 
     with output.refusing():
         extension(out, tuple(FORMATS))
-    if out.exists() and not force:
-        output.fail(f"{out}: there is such a file; give another name, or --force to replace it")
+    new_file("OUT", out, force=force)
+    output.keeping("nothing was written")
     trace = _part(_read(file, quiet=as_json).trace, start, stop)
     with output.refusing(), output.counting(f"writing {out.name}", quiet=as_json) as told:
         try:
@@ -89,10 +93,10 @@ def export(
         row = {"file": str(out), "rows": len(trace), "bytes": out.stat().st_size}
         typer.echo(output.document("log export", [row]))
     else:
-        output.say(f"{out}: {len(trace)} rows, {len(list(trace))} columns.")
+        output.path(out)
+        output.say(f"{output.plural(len(trace), 'row')}, {len(list(trace))} columns.")
 
 
-@log.command("repair")
 def repair(
     file: LogFile,
     out: Annotated[
@@ -101,17 +105,18 @@ def repair(
     ] = None,
     as_json: output.AsJson = False,
 ) -> None:
-    """Make a whole log of one that was cut or damaged; the old one stays as it is.
+    """Write a whole log from one that was cut or damaged; the old one stays as it is.
 
-    Rows and events that can be read go to a new file with a summary, which every reader of MCAP accepts.
-    Nothing is ever written over.
+    Rows and events that can be read go to a new MCAP file with a summary, which every reader accepts.
 
     **Examples**
 
-    * `ebac log repair run.mcap`: writes run.repaired.mcap.
+    * `ebac wall --law ebac --log run.mcap`, then `ebac log repair run.mcap`: writes run.repaired.mcap
     """
     from ebac.logs import repair as repaired
 
+    if file.exists() and file.suffix.lower() != ".mcap":
+        output.fail(f"{file}: only .mcap logs can be repaired")
     with output.refusing(), output.counting(f"reading {file.name}", quiet=as_json) as told:
         try:
             new = repaired(file, out, progress=told)
@@ -130,63 +135,93 @@ def repair(
         }
         typer.echo(output.document("log repair", [row]))
     else:
-        output.say(f"{new.path}: {len(new.trace)} rows, {len(new.events)} events.")
+        output.path(new.path)
+        output.say(
+            f"{output.plural(len(new.trace), 'row')}, {output.plural(len(new.events), 'event')}."
+        )
 
 
-@log.command("plot")
 def plot(
     file: LogFile,
+    style: FigureOptions,
     out: Annotated[
         Path | None,
-        typer.Option("--out", help="The picture: .png, .pdf or .svg.", show_default="run.png"),
+        typer.Option(
+            "--out",
+            "-o",
+            help="The figure: .png, .pdf or .svg.",
+            show_default="run.png, run-2.png, ...",
+        ),
     ] = None,
     column: Annotated[
         list[str] | None,
         typer.Option(
             "--column",
             "-c",
-            help="A column to draw, repeated for several; position, force, beta and energy if not given.",
+            help="Columns to draw, with commas between.",
+            show_default="position, force, beta and energy",
         ),
     ] = None,
     start: From = None,
     stop: To = None,
+    force: Annotated[bool, typer.Option("--force", help="Replace a file of that name.")] = False,
 ) -> None:
-    """Draw a log over time: position, force, beta and energy, or columns by name, those of one unit together.
+    """Draw a log over time: position, force, beta and energy, or columns by name.
 
     **Examples**
 
-    * `ebac log plot run.mcap`: writes run.png.
+    * `ebac wall --law ebac --log run.mcap`, then `ebac log plot run.mcap`: writes run.png
 
-    * `ebac log plot run.mcap -c lateness -c x -c v --from 1 --to 2`
+    * `ebac log plot run.mcap -c x,v,f_env --from 1 --to 2 --format pdf`: columns of one unit together
     """
-    picture = file.with_suffix(".png") if out is None else out
-    if picture.suffix not in (".png", ".pdf", ".svg"):
-        output.fail(f"--out {picture}: must end in .png, .pdf or .svg")
+    style.check()
+    if out is not None and out.suffix not in (".png", ".pdf", ".svg"):
+        output.fail(f"--out {out}: must end in .png, .pdf or .svg")
+    if out is not None and style.figure_format is not None:
+        output.fail(
+            "--out and --format: the extension of --out is the format; leave one of them out"
+        )
+    if out is not None:
+        new_file("--out", out, force=force)
     trace = _part(_read(file, quiet=False).trace, start, stop)
     with output.refusing():
         from ebac.plot import plot_columns, plot_trace
 
-        figure = plot_columns(trace, column) if column else plot_trace(trace)
-        figure.savefig(picture)
-    output.say(f"{picture}: {len(trace)} rows.")
+        chosen = [word for text in column or [] for word in output.words(text)]
+        figure = plot_columns(trace, chosen) if chosen else plot_trace(trace)
+        files = [out] if out else [free_file(file.with_suffix(f".{e}")) for e in style.formats()]
+        for picture in files:
+            style.write(figure, picture)
+    for picture in files:
+        output.path(picture)
+    output.say(f"{output.plural(len(trace), 'row')} drawn.")
+
+
+add(log, info)
+add(log, export)
+add(log, repair)
+add(log, plot)
 
 
 def _read(file: Path, *, quiet: bool) -> Log:
     from ebac.logs import read
 
     with output.refusing(), output.counting(f"reading {file.name}", quiet=quiet) as told:
-        return read(file, progress=told)
+        try:
+            return read(file, progress=told)
+        except ModuleNotFoundError as error:
+            output.fail(f"{file}: {error}")
 
 
 def _part(trace: Trace, start: float | None, stop: float | None) -> Trace:
     if start is None and stop is None:
         return trace
-    part = trace.between(start, stop)
-    if len(part) == 0:
+    try:
+        return trace.between(start, stop)
+    except ValueError:
         t = trace["t"]
-        has = f"the log has {t[0]:g} to {t[-1]:g} s" if len(t) else "the log has none"
+        has = f"the log has {t[0]:g} to {t[-1]:g} s"
         wanted = " ".join(
-            f"{word} {t:g} s" for word, t in (("from", start), ("to", stop)) if t is not None
+            f"{word} {t:g} s" for word, t in (("--from", start), ("--to", stop)) if t is not None
         )
         output.fail(f"no rows {wanted}: {has}")
-    return part

@@ -13,19 +13,23 @@ _MARKS = {"good": "[green]good[/]", "fair": "[yellow]fair[/]", "bad": "[bold red
 
 def doctor(
     priority: Annotated[
-        int, typer.Option(help="Priority a loop's thread would ask for.", min=1, max=99)
+        int, typer.Option(help="Priority the control thread would ask for.", min=1, max=99)
     ] = 80,
-    cpu: Annotated[int, typer.Option(help="CPU it would stay on; -1 for any.", min=-1)] = -1,
+    cpu: Annotated[
+        int, typer.Option(help="CPU the thread would stay on; -1 for any.", min=-1)
+    ] = -1,
     as_json: output.AsJson = False,
 ) -> None:
-    """Look at kernel, clock, limits and CAN interfaces, and say how to make them fit for a loop.
+    """Check this machine for real-time problems.
 
-    "fair" costs lateness now and then; "bad" keeps a loop from being what it is asked to be, and gives
-    exit code 1. Nothing is changed.
+    Prints how to fix each one. Kernel, clock, limits and CAN interfaces are looked at; nothing is changed. "fair":
+    ticks come late now and then. "bad": a control loop cannot run as asked; exit code 1.
 
-    **Example**
+    **Examples**
 
-    * `ebac doctor --cpu 3`: would a thread get CPU 3?
+    * `ebac doctor`
+
+    * `ebac doctor --cpu 0`: would a thread get CPU 0?
     """
     from ebac.realtime import RealTime, examine
 
@@ -39,7 +43,7 @@ def doctor(
         grid = output.table(["what", "found", ""])
         for finding in findings:
             grid.add_row(finding.what, finding.found, _MARKS[finding.verdict])
-        output.console().print(grid)
+        output.show(grid)
         if worst != "good":
             output.say("What to do:", style="bold")
         for finding in findings:

@@ -2,26 +2,29 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from ebac.cli import options, output
-from ebac.cli.grants import show_refused
+from ebac.cli import output
+from ebac.cli.files import ResultOptions
+from ebac.cli.machine.grants import show_refused
 
 if TYPE_CHECKING:
     from ebac.realtime import Cyclictest, Jitter
 
-DEFAULT_OUT = Path("ebac-jitter")
+MODES = ("auto", "enforce", "off")
 
 
 def jitter(
-    seconds: Annotated[float, typer.Option(help="How long to measure [s].")] = 10.0,
-    rate: Annotated[float, typer.Option(help="Ticks a second [Hz].")] = 1000.0,
-    rt: Annotated[
+    to: ResultOptions,
+    seconds: Annotated[float, typer.Option(help="Length of the measurement [s].")] = 10.0,
+    rate: Annotated[float, typer.Option(help="Ticks per second [Hz].")] = 1000.0,
+    realtime: Annotated[
         str,
-        typer.Option(help="auto: take what is granted; enforce: all or nothing; off: ask nothing."),
+        typer.Option(
+            help="Real-time priority; auto: take what is granted, enforce: all or nothing, off: ask for nothing."
+        ),
     ] = "auto",
     priority: Annotated[int, typer.Option(help="Priority under SCHED_FIFO.", min=1, max=99)] = 80,
     cpu: Annotated[int, typer.Option(help="CPU to stay on; -1 for any.", min=-1)] = -1,
@@ -32,27 +35,30 @@ def jitter(
     alone: Annotated[
         bool, typer.Option("--alone", help="Do not run cyclictest, even where it is installed.")
     ] = False,
-    out: Annotated[Path | None, options.out_folder("histogram and numbers", DEFAULT_OUT)] = None,
     as_json: output.AsJson = False,
 ) -> None:
-    """Measure how late a thread wakes that does nothing but wait for its ticks.
+    """Measure how late this machine wakes a real-time thread.
 
     Where `cyclictest` (Debian: rt-tests) is installed the two take turns of 2 s, with what the thread was granted.
     On a virtual machine the tail is the host's.
 
     **Examples**
 
-    * `ebac jitter --seconds 60`
+    * `ebac jitter --seconds 4`
 
-    * `ebac jitter --rt enforce --cpu 1`: all that a loop asks for, or the command that grants it.
+    * `ebac jitter --seconds 4 --cpu 0`: on one CPU
 
-    * `ebac jitter --no-stay-awake`: what it costs to let idle CPUs sleep; cyclictest never does.
+    * `ebac jitter --seconds 4 --no-stay-awake`: what it costs to let idle CPUs sleep; cyclictest never does.
     """
     from ebac.realtime import RealTime, beside_cyclictest, measure
 
+    folder = to.folder("jitter", as_json=as_json)
+    if realtime not in MODES:
+        output.fail(f"--realtime {realtime}: must be {', '.join(MODES[:-1])} or {MODES[-1]}")
+    output.keeping("nothing was written; a shorter measurement: --seconds")
     with output.refusing():
         asked = RealTime(priority=priority, cpu=cpu, stay_awake=stay_awake)
-        what: Any = {"seconds": seconds, "rate": rate, "mode": rt, "options": asked}
+        what: Any = {"seconds": seconds, "rate": rate, "mode": realtime, "options": asked}
         other: Cyclictest | None = None
         try:
             if alone:
@@ -63,13 +69,13 @@ def jitter(
         except RuntimeError as refused:
             output.fail(str(refused), code=output.FAILED)
     rows = [found.row()] + ([other.row()] if other else [])
-    more = _more(found, rows, rate, rt)
-    folder = out or (None if as_json else DEFAULT_OUT)
+    more = _more(found, rows, rate, realtime)
+    figures: list[str] = []
     with output.results(folder) as draft:
         if draft is not None:
             from ebac.plot import plot_jitter
 
-            plot_jitter(found, other).savefig(draft / "jitter.png")
+            figures = to.save(plot_jitter(found, other), draft, "jitter")
             text = output.document("jitter", rows, **more)
             (draft / "jitter.json").write_text(text + "\n", encoding="utf-8")
     if as_json:
@@ -77,7 +83,7 @@ def jitter(
         return
     _show(rows, found, more)
     if folder is not None:
-        output.list_files(folder, ["jitter.png", "jitter.json"])
+        output.list_files(folder, [*figures, "jitter.json"])
 
 
 def _more(found: Jitter, rows: list[dict[str, Any]], rate: float, mode: str) -> dict[str, Any]:
@@ -97,7 +103,7 @@ def _show(rows: list[dict[str, Any]], found: Jitter, more: dict[str, Any]) -> No
         skipped = "-" if row["skipped"] is None else f"{row['skipped']:,}"
         shown = [f"{1e6 * value:,.0f} µs" for value in times]
         grid.add_row(row["program"], f"{row['wakeups']:,}", *shown, skipped)
-    output.console().print(grid)
+    output.show(grid)
     if more["times_cyclictest_p99_9"] is not None:
         output.say(f"p99.9 is {more['times_cyclictest_p99_9']:.2f} times that of cyclictest.")
     for grant in found.grants:

@@ -9,7 +9,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Self
 
 from ebac.cli import output
-from ebac.cli.grants import show_refused
+from ebac.cli.files import FigureOptions
+from ebac.cli.machine.grants import show_refused
 
 if TYPE_CHECKING:
     from ebac.hardware import Configuration, Report, Times
@@ -52,6 +53,8 @@ class Result:
         How quick and punctual the loop was.
     fault : str or None
         Why it stopped.
+    virtual : bool
+        Whether the clock was virtual too.
     """
 
     configuration: Configuration
@@ -63,6 +66,29 @@ class Result:
     expected: Contact | None
     times: Times | None
     fault: str | None
+    virtual: bool = False
+
+    @classmethod
+    def of_virtual(
+        cls, configuration: Configuration, trace: Trace, log: Path | None, fault: LoopFault | None
+    ) -> Self:
+        """Measure a run on a virtual clock."""
+        from ebac.hardware import Report
+        from ebac.metrics import FEWEST_ROWS, contact
+
+        measured = len(trace) >= FEWEST_ROWS and fault is None
+        return cls(
+            configuration=configuration,
+            trace=trace,
+            report=Report.of_virtual(trace, log, fault=fault is not None),
+            place="simulated drives on a bus inside this process",
+            simulated=True,
+            contact=contact(trace, truth=False) if measured else None,
+            expected=None,
+            times=None,
+            fault=None if fault is None else fault.fault.name.lower(),
+            virtual=True,
+        )
 
     @classmethod
     def of(
@@ -103,6 +129,7 @@ class Result:
             "run",
             rows,
             simulated=self.simulated,
+            virtual=self.virtual,
             place=self.place,
             expected=None if self.expected is None else self.expected.row(),
             scenario=scenario,
@@ -128,7 +155,7 @@ def _expected(configuration: Configuration) -> Contact | None:
             return None
 
 
-def write(result: Result, stem: Path | None) -> list[str]:
+def write(result: Result, stem: Path | None, style: FigureOptions) -> list[str]:
     """Write figure and numbers beside the log; return the names of all files."""
     if stem is None:
         return []
@@ -136,21 +163,22 @@ def write(result: Result, stem: Path | None) -> list[str]:
 
     names = [f"{stem.name}.mcap"]
     if len(result.trace) >= 2:
-        plot_trace(result.trace).savefig(stem.with_suffix(".png"))
-        names.append(f"{stem.name}.png")
+        source = "real time on simulated drives" if result.simulated else ""
+        source = "virtual clock" if result.virtual else source
+        names += style.save(plot_trace(result.trace, source=source), stem.parent, stem.name)
     stem.with_suffix(".json").write_text(result.document() + "\n", encoding="utf-8")
     return [*names, f"{stem.name}.json"]
 
 
 def show(result: Result) -> None:
     """Print what the run came to."""
-    from ebac.cli import wall_results
+    from ebac.cli.wall import results
 
     if result.contact is not None:
         columns = {result.contact.law: result.contact}
         if result.expected is not None:
             columns = {"real time": result.contact, "virtual clock": result.expected}
-        wall_results.show_table(columns)
+        results.show_table(columns)
     if result.times is not None:
         _show_times(result.times)
     report = result.report
@@ -160,6 +188,11 @@ def show(result: Result) -> None:
         else f"{report.recorded:,} recorded, {report.lost_rows:,} lost"
     )
     output.say(f"{report.ticks:,} ticks, {kept}; ended by {report.ended_by}; on {result.place}.")
+    if result.virtual:
+        output.say(
+            "Everything was simulated, on a virtual clock: every tick in time.", style="bold"
+        )
+        return
     states = ", ".join(report.drives) or "not asked"
     output.say(f"Drives after it: {states}.")
     show_refused(report.grants)
@@ -174,6 +207,6 @@ def _show_times(times: Times) -> None:
     for label, *names in _TIMES:
         values = [None if name is None else getattr(times, name) for name in names]
         grid.add_row(label, *("-" if v is None else f"{1e6 * v:,.1f} µs" for v in values))
-    output.console().print(grid)
+    output.show(grid)
     if times.skipped:
         output.say(f"{times.skipped:,} ticks could not be kept and were skipped.", style="yellow")

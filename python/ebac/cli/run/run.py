@@ -9,21 +9,26 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from ebac.cli import options, output, run_results, setting
-from ebac.cli.drive_options import telling
+from ebac.cli import options, output, setting
+from ebac.cli.drive.options import telling
+from ebac.cli.files import PANEL, FigureOptions
+from ebac.cli.run import results
 
 if TYPE_CHECKING:
     from ebac.hardware import Configuration, OpenDevice, Run
     from ebac.hardware.schedule import Schedule
+    from ebac.simulation import LoopFault
     from ebac.trace import Trace
 
 DEFAULT_OUT = Path("ebac-run")
-_OWN = "as the configuration says"
 
 
 def run(
+    wall: options.WallOptions,
+    person: options.HandOptions,
+    style: FigureOptions,
     configuration: Annotated[
-        Path, typer.Argument(help="The device and the run, in TOML: examples/joystick.toml.")
+        Path, typer.Argument(help="The device and the run, in TOML: see `ebac demo joystick`.")
     ],
     simulated: Annotated[
         bool,
@@ -32,31 +37,17 @@ def run(
             help="On simulated drives, device and hand; clock, thread and bus are real.",
         ),
     ] = False,
-    law: Annotated[
-        str | None,
-        typer.Option("--law", "-l", help="A law by name, see `ebac laws`.", show_default=False),
-    ] = None,
-    stiffness: Annotated[
-        float | None, options.option("--stiffness", "Stiffness K of the wall [N/m]", _OWN, "Wall")
-    ] = None,
-    damping: Annotated[
-        float | None, options.option("--damping", "Damping B of the wall [N s/m]", _OWN, "Wall")
-    ] = None,
-    position: Annotated[
-        float | None, options.option("--position", "Where its surface is [m]", _OWN, "Wall")
-    ] = None,
-    hand: Annotated[
-        str | None,
-        options.option("--hand", "The simulated hand by name, see `ebac presets`", _OWN, "Hand"),
-    ] = None,
-    target: Annotated[
-        float | None, options.option("--target", "Where it wants to be [m]", _OWN, "Hand")
-    ] = None,
-    rate: Annotated[
-        float | None, options.option("--rate", "Ticks per second [Hz]", _OWN, "Run")
-    ] = None,
+    virtual: Annotated[
+        bool,
+        typer.Option(
+            "--virtual",
+            help="The same on a virtual clock, all simulated: no tick is late, however busy the machine is.",
+        ),
+    ] = False,
+    law: Annotated[str | None, options.one_law(default="as configured")] = None,
+    rate: options.Rate = None,
     seconds: Annotated[
-        float | None, options.option("--seconds", "How long the law acts [s]", _OWN, "Run")
+        float | None, options.option(text="Time the law acts [s]", panel=options.RUN)
     ] = None,
     at: Annotated[
         list[str] | None,
@@ -67,7 +58,16 @@ def run(
             rich_help_panel="Run",
         ),
     ] = None,
-    out: Annotated[Path | None, options.out_folder("log, figure and numbers", DEFAULT_OUT)] = None,
+    out: Annotated[
+        Path | None,
+        typer.Option(
+            "--out",
+            "-o",
+            help="Folder for log, figure and numbers, each named by its time; with --json only when given.",
+            show_default="ebac-run",
+            rich_help_panel=PANEL,
+        ),
+    ] = None,
     no_files: Annotated[bool, typer.Option("--no-files", help="Write no files, no log.")] = False,
     live: Annotated[
         bool | None,
@@ -97,38 +97,38 @@ def run(
 
     **Examples**
 
-    * `ebac run examples/joystick.toml --simulated`: ten seconds at the wall, without hardware.
+    * `ebac demo joystick`, then `ebac run joystick.toml --simulated`: ten seconds at the wall, without hardware.
 
-    * `ebac run examples/joystick.toml --simulated --law tca --stiffness 20000`: what plain torque control does there.
+    * `ebac run joystick.toml --simulated --law tca --wall-stiffness 20000`: what plain torque control does there.
 
-    * `ebac run my-joystick.toml --seconds 60 --out session-3`: a minute on the device of that file.
+    * `ebac run joystick.toml --virtual`: the same on a virtual clock, as fast as the machine computes.
 
-    * `ebac run examples/joystick.toml --simulated --at "3 environment.stiffness=2e4" --at "6 hand.target=0"`: a
+    * `ebac run joystick.toml --simulated --at "3 environment.stiffness=2e4" --at "6 hand.target=0"`: a
       harder wall after 3 s; the hand goes back after 6 s. The log has the tick from which each acts.
 
-    * `ebac log info ebac-run/run-20260101-120000.mcap`: what the log holds.
     """
     from ebac.hardware.schedule import Schedule
 
     if no_files and out is not None:
         output.fail("--no-files and --out exclude each other: leave one of them out")
-    with output.refusing(), telling():
-        known = _configuration(
-            configuration,
-            law,
-            seconds,
-            rate,
-            {"stiffness": stiffness, "damping": damping, "position": position},
-            hand,
-            target,
+    if virtual and (simulated or at or detached or live):
+        output.fail(
+            "--virtual excludes --simulated, --at, --live and --detached: they belong to a run in real time"
         )
+    style.check()
+    with output.refusing(), telling():
+        known = _configuration(configuration, law, seconds, rate, wall, person)
         schedule = Schedule.parse(at or [])
-        schedule.check(known, simulated=simulated)
+        if not virtual:
+            schedule.check(known, simulated=simulated)
     folder = None if no_files else out or (None if as_json else DEFAULT_OUT)
     stem = _stem(folder)
     shown = output.console(stderr=True).is_terminal if live is None else live
     try:
-        _run(known, simulated, detached, stem, shown and not as_json, as_json, schedule)
+        if virtual:
+            _run_virtual(known, stem, as_json, style)
+        else:
+            _run(known, simulated, detached, stem, shown and not as_json, as_json, schedule, style)
     finally:
         if stem is not None:
             with suppress(OSError):  # not empty: it has what the run gave
@@ -140,21 +140,21 @@ def _configuration(
     law: str | None,
     seconds: float | None,
     rate: float | None,
-    wall: dict[str, float | None],
-    hand: str | None,
-    target: float | None,
+    wall: options.WallOptions,
+    person: options.HandOptions,
 ) -> Configuration:
     from ebac.hardware import Configuration
 
     known = Configuration.load(file)
     changes: dict[str, Any] = {
-        "environment": setting.choose_wall(known.environment, **wall),
-        "hand": setting.choose_hand(known.hand, hand, target),
+        "environment": options.wall_of(known.environment, wall),
+        "hand": options.hand_of(known.hand, person),
         "timing": setting.choose_timing(known.timing, rate, None),
         **setting.given(seconds=seconds),
     }
-    if law is not None and law != known.law:
-        changes |= {"law": setting.one_law(law), "changes": {}}
+    name = None if law is None else setting.one_law(law)
+    if name is not None and name != known.law:
+        changes |= {"law": name, "changes": {}}
     chosen = known.replace(**changes)
     chosen.scenario()
     chosen.design()
@@ -184,6 +184,7 @@ def _run(
     live: bool,
     as_json: bool,
     schedule: Schedule,
+    style: FigureOptions,
 ) -> None:
     from ebac.hardware import OpenDevice
     from ebac.simulation import LoopFault
@@ -199,22 +200,58 @@ def _run(
             except BaseException:
                 _tell_end(device, as_json)
                 raise
-        report, place = device.report, device.place
+        report, place = device.report, device.backend
     assert report is not None
     with output.refusing():
-        result = run_results.Result.of(
+        result = results.Result.of(
             known, trace, report, place.about, simulated, fault, changed=bool(schedule.orders)
         )
-    files = run_results.write(result, stem)
+    _give(result, stem, as_json, style, fault)
+
+
+def _run_virtual(
+    known: Configuration, stem: Path | None, as_json: bool, style: FigureOptions
+) -> None:
+    """Run the same on a virtual clock and give what a run gives."""
+    from ebac import logs
+    from ebac.simulation import LoopFault
+
+    log = None if stem is None else stem.with_suffix(".mcap")
+    fault: LoopFault | None = None
+    with output.refusing():
+        try:
+            trace = known.simulate()
+        except LoopFault as error:
+            fault, trace = error, error.trace
+        if log is not None:
+            logs.save(trace, log)
+        result = results.Result.of_virtual(known, trace, log, fault)
+    _give(result, stem, as_json, style, fault)
+
+
+def _give(
+    result: results.Result,
+    stem: Path | None,
+    as_json: bool,
+    style: FigureOptions,
+    fault: LoopFault | None,
+) -> None:
+    """Write and print the result; a fault ends the command."""
+    files = results.write(result, stem, style)
     if as_json:
         typer.echo(result.document())
     else:
-        run_results.show(result)
+        results.show(result)
         if stem is not None:
             output.list_files(stem.parent, files)
     if fault is not None:
-        kept = "" if log is None else f"; its rows are in {log}"
-        output.fail(f"{str(fault).partition('; see')[0]}{kept}", code=output.FAILED)
+        log = result.report.log
+        notes: list[str] = getattr(fault, "__notes__", [])
+        kept = [] if log is None else [f"its rows are in {log}"]
+        other = ["--virtual instead of --simulated runs it on a virtual clock"]
+        hints = [*notes, *(other if notes and result.simulated else []), *kept]
+        text = str(fault).partition("; see")[0]
+        output.fail("; ".join([text, *hints]), code=output.FAILED)
 
 
 def _tell_end(device: OpenDevice, as_json: bool) -> None:
@@ -233,7 +270,7 @@ def _tell_end(device: OpenDevice, as_json: bool) -> None:
 
 
 def _watched(device: OpenDevice, log: Path | None, live: bool, schedule: Schedule) -> Trace:
-    from ebac.cli.live import view
+    from ebac.cli.run.live import view
 
     with view(device.configuration, shown=live) as picture:
 

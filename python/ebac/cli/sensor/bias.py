@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from ebac.cli import output, sensor_options
+from ebac.cli import output
+from ebac.cli.sensor import options
 
 if TYPE_CHECKING:
     from ebac.sensor import Sensor
@@ -15,13 +16,7 @@ _AXES = ("force_x", "force_y", "force_z", "torque_x", "torque_y", "torque_z")
 
 
 def bias(
-    config: sensor_options.Config = None,
-    host: sensor_options.Host = None,
-    port: sensor_options.Port = None,
-    model: sensor_options.Model = None,
-    page: sensor_options.Page = False,
-    http_port: sensor_options.HttpPort = 80,
-    timeout: sensor_options.Timeout = 2.0,
+    which: options.SensorOptions,
     records: Annotated[
         int, typer.Option(help="Records to take the mean of.", min=1, max=1_000_000)
     ] = 500,
@@ -46,11 +41,11 @@ def bias(
 
     * `ebac sensor bias --host 127.0.0.1 --inside`
     """
-    found = sensor_options.configured(config, host, port, model, page, http_port, timeout)
-    with sensor_options.opened(found.replace(bias=(0.0,) * 6), timeout) as sensor:
+    found = options.configured(which)
+    with options.opened(found.replace(bias=(0.0,) * 6), which.timeout) as sensor:
         if inside:
-            _bias_inside(sensor, timeout)
-        mean = sensor.bias(records, timeout=timeout)
+            _bias_inside(sensor, which.timeout)
+        mean = sensor.bias(records, timeout=which.timeout)
     rows: list[dict[str, Any]] = [
         {"what": name, "value": value, "unit": "N" if name.startswith("force") else "N m"}
         for name, value in zip(_AXES, mean, strict=True)
@@ -62,7 +57,7 @@ def bias(
     grid = output.table(["in the sensor's axes", "mean", "unit"], numbers=[1])
     for row in rows:
         grid.add_row(row["what"].replace("_", " "), f"{row['value']:+.5f}", row["unit"])
-    output.console().print(grid)
+    output.show(grid)
     if inside:
         output.say(f"The sensor takes this as zero now; {records} records, after its own bias.")
     else:

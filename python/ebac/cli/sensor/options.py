@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
+from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, TypeAlias
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
@@ -17,39 +18,37 @@ if TYPE_CHECKING:
 _SENSOR = "Sensor"
 
 
-def _option(text: str, default: str, **more: Any) -> Any:
+def _option(text: str, default: str | bool = False, **more: Any) -> Any:
     return typer.Option(help=text, show_default=default, rich_help_panel=_SENSOR, **more)
 
 
-Config: TypeAlias = Annotated[
-    Path | None,
-    _option("A file in TOML with a table [sensor]; other options come on top.", "none"),
-]
-Host: TypeAlias = Annotated[str | None, _option("Address or name of the sensor.", "192.168.1.1")]
-Port: TypeAlias = Annotated[int | None, _option("Its UDP port.", "49152", min=1, max=65535)]
-Model: TypeAlias = Annotated[
-    str | None, _option("Whose status bits it has: net-ft, axia, other.", "net-ft")
-]
-Page: TypeAlias = Annotated[
-    bool,
-    typer.Option(
-        "--page",
-        help="Take the counts of a unit from the sensor's own page.",
-        rich_help_panel=_SENSOR,
-    ),
-]
-HttpPort: TypeAlias = Annotated[
-    int, typer.Option(help="Port of that page.", min=1, max=65535, rich_help_panel=_SENSOR)
-]
-Timeout: TypeAlias = Annotated[
-    float,
-    typer.Option(
-        help="How long the first record may take [s].",
-        min=0.01,
-        max=600,
-        rich_help_panel=_SENSOR,
-    ),
-]
+@dataclass(frozen=True, kw_only=True)
+class SensorOptions:
+    """Which sensor, what its counts are worth, and how long a record may take."""
+
+    config: Annotated[
+        Path | None,
+        _option("A file in TOML with a table [sensor]; other options come on top."),
+    ] = None
+    host: Annotated[str | None, _option("Address or name of the sensor.", "192.168.1.1")] = None
+    port: Annotated[int | None, _option("UDP port of the sensor.", "49152", min=1, max=65535)] = (
+        None
+    )
+    model: Annotated[
+        str | None, _option("Model, for its status bits: net-ft, axia, other.", "net-ft")
+    ] = None
+    page: Annotated[
+        bool,
+        typer.Option(
+            "--page",
+            help="Read the counts per unit from the sensor's own web page.",
+            rich_help_panel=_SENSOR,
+        ),
+    ] = False
+    http_port: Annotated[int, _option("Port of that page.", True, min=1, max=65535)] = 80
+    timeout: Annotated[
+        float, _option("How long the first record may take [s].", True, min=0.01, max=600)
+    ] = 2.0
 
 
 @contextmanager
@@ -65,25 +64,17 @@ def telling() -> Iterator[None]:
         output.fail(error.strerror or str(error), code=output.FAILED)
 
 
-def configured(
-    file: Path | None,
-    host: str | None,
-    port: int | None,
-    model: str | None,
-    page: bool,
-    http_port: int,
-    timeout: float,
-) -> SensorConfig:
+def configured(which: SensorOptions) -> SensorConfig:
     """Return the sensor that the options name, its counts from its page where that was asked."""
     from ebac.sensor import SensorConfig, read_page
 
     with output.refusing():
-        base = SensorConfig() if file is None else _table(file)
-        config = base.replace(**setting.given(host=host, port=port, model=model))
+        base = SensorConfig() if which.config is None else _table(which.config)
+        config = base.replace(**setting.given(host=which.host, port=which.port, model=which.model))
         config.core()  # looks the name up
-    if page:
+    if which.page:
         with telling():
-            found = read_page(config.host, http_port=http_port, timeout=timeout)
+            found = read_page(config.host, http_port=which.http_port, timeout=which.timeout)
         config = config.replace(
             counts_per_force=found.counts_per_force, counts_per_torque=found.counts_per_torque
         )
@@ -100,8 +91,8 @@ def opened(config: SensorConfig, timeout: float) -> Iterator[Sensor]:
 
 
 def _table(file: Path) -> SensorConfig:
+    from ebac._util.toml import parsed
     from ebac.sensor import SensorConfig
-    from ebac.toml_text import parsed
 
     try:
         text = parsed(file.read_text(encoding="utf-8"))

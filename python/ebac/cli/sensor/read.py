@@ -11,7 +11,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from ebac.cli import output, sensor_options
+from ebac.cli import output
+from ebac.cli.sensor import options
 
 if TYPE_CHECKING:
     from rich.console import RenderableType
@@ -25,17 +26,14 @@ _SLICE = 0.01
 
 
 def read(
-    config: sensor_options.Config = None,
-    host: sensor_options.Host = None,
-    port: sensor_options.Port = None,
-    model: sensor_options.Model = None,
-    page: sensor_options.Page = False,
-    http_port: sensor_options.HttpPort = 80,
-    timeout: sensor_options.Timeout = 2.0,
+    which: options.SensorOptions,
     seconds: Annotated[
         float | None,
         typer.Option(
-            help="Stop after so long [s].", show_default="until Ctrl-C; 1 with --json", min=0
+            help="Stop after so long [s].",
+            show_default="until Ctrl-C; 1 with --json",
+            min=0,
+            max=1e7,
         ),
     ] = None,
     rate: Annotated[float, typer.Option(help="Rows a second [Hz].", min=0.1, max=1000)] = 10.0,
@@ -52,13 +50,13 @@ def read(
 
     * `ebac sensor simulate --force 3 0 0`, and in another terminal `ebac sensor read --host 127.0.0.1`
 
-    * `ebac sensor read --config joystick.toml --seconds 5 --rate 100 --json > force.json`
+    * `ebac sensor read --host 127.0.0.1 --seconds 2 --rate 100 --json > force.json`
     """
-    found = sensor_options.configured(config, host, port, model, page, http_port, timeout)
+    found = options.configured(which)
     if seconds is None:
         seconds = _BRIEF if as_json else inf
     rows: list[dict[str, Any]] = []
-    with sensor_options.opened(found, timeout) as sensor:
+    with options.opened(found, which.timeout) as sensor:
         begun, before = time.monotonic(), sensor.counts.received
         with _view(shown=not as_json) as show:
             try:

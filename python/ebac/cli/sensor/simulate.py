@@ -10,12 +10,15 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from ebac.cli import options, output, sensor_options, simulated
+from ebac.cli import options, output, simulated
+from ebac.cli.sensor import options as sensor_options
 
 if TYPE_CHECKING:
     from ebac.scenario import Scenario
 
 _TROUBLE = "Trouble"
+#: Largest force along an axis [N].
+MOST_FORCE = 1e4
 
 
 def _share(what: str) -> Any:
@@ -63,7 +66,7 @@ def simulate(
 
     * `ebac sensor simulate --force 3 0 0`, and in another terminal `ebac sensor read --host 127.0.0.1`
 
-    * `ebac sensor simulate --scenario tapping.toml --rate 7000 --loss 0.01`
+    * `ebac wall --out first`, then `ebac sensor simulate --scenario first/scenario.toml --rate 7000 --loss 0.01`
 
     * `ebac sensor simulate --http-port 8080`, then `ebac sensor read --host 127.0.0.1 --page --http-port 8080`
     """
@@ -83,7 +86,7 @@ def simulate(
             model=model,
             seed=seed or 1,
         )
-    work.trouble(trouble)
+    work.inject(trouble)
     with work, simulated.signalled() as over:
         at = "{}:{}".format(*work.address)
         page = (
@@ -111,6 +114,10 @@ def _source(
     seed: int | None,
 ) -> Scenario | tuple[float, float, float]:
     """Return what it feels: a steady force, or a hand on a device."""
+    if force is not None and max(map(abs, force)) > MOST_FORCE:
+        raise ValueError(
+            f"--force = {' '.join(f'{one:g}' for one in force)} N: each must lie in [-{MOST_FORCE:g}, {MOST_FORCE:g}] N"
+        )
     if force is None:
         return simulated.plant_of(scenario, device, hand, seed)
     if scenario is not None or device is not None or hand is not None:

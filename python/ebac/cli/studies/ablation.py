@@ -8,13 +8,14 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from ebac.cli import options, output, setting, study_results
+from ebac.cli import options, output, setting
+from ebac.cli.files import ResultOptions
+from ebac.cli.studies import study_results
 
 if TYPE_CHECKING:
     from ebac.studies import Ablation, AblationRow, Piece
 
-DEFAULT_OUT = Path("ebac-ablation")
-_WHO, _WHAT, _RUN = "Population", "Law and pieces", "Run"
+_WHO, _WHAT = "Population", "Law and parts"
 #: Measures of one table on the screen.
 ABREAST = 7
 #: Differences told in a line; the tables show all.
@@ -22,10 +23,10 @@ TOLD = 4
 
 
 def ablation(
-    law: Annotated[
-        str,
-        typer.Option("--law", "-l", help="A law by name, see `ebac laws`.", rich_help_panel=_WHAT),
-    ] = "ebac",
+    to: ResultOptions,
+    device: options.DeviceOptions,
+    length: options.RunOptions,
+    law: Annotated[str, options.one_law(panel=_WHAT)] = "ebac",
     change: Annotated[
         list[str] | None,
         typer.Option(
@@ -37,52 +38,52 @@ def ablation(
     beside: Annotated[
         list[str] | None,
         typer.Option(
-            help="Other laws, for the reader; repeat it.",
+            help="Other laws to compare with; several with commas between.",
             show_default="tca, eba",
             rich_help_panel=_WHAT,
         ),
     ] = None,
     population: Annotated[
         str,
-        typer.Option(help="grid60, random, or a CSV file, as `ebac study`.", rich_help_panel=_WHO),
+        typer.Option(
+            help="grid60, random, or a CSV file as for `ebac study`.", rich_help_panel=_WHO
+        ),
     ] = "grid60",
     hands: Annotated[
         int | None,
         typer.Option(
-            help="How many random hands.", show_default="500", min=1, rich_help_panel=_WHO
+            help="Number of random hands.", show_default="500", min=1, rich_help_panel=_WHO
         ),
     ] = None,
     seed: Annotated[
         int, typer.Option(help="Seed of random hands, noise and jitter.", rich_help_panel=_WHO)
     ] = 1,
-    scenario: options.ScenarioFile = None,
     threads: options.Threads = None,
-    out: Annotated[Path | None, options.out_folder("tables and figure", DEFAULT_OUT)] = None,
     resume: Annotated[bool, options.resume("ablation")] = False,
     as_json: output.AsJson = False,
 ) -> None:
-    """Take each piece of a law away, one at a time, and see what gets worse. A simulation.
+    """Switch off each part of a controller and see what gets worse.
 
-    Pieces are the law's on/off parameters, each turned over, and its gain kp set to zero.
-    Measured are hands that are good under hard conditions, energy given out, and ripple.
+    An ablation study, simulated.
+
+    The parts are the on/off parameters of the law, each turned over, and its gain kp set to zero. The measures are the
+    share of good hands under hard conditions, energy given out, and ripple.
 
     **Examples**
 
-    * `ebac ablation`: EBAC without each of its pieces, 60 hands.
+    * `ebac ablation`: EBAC without each of its parts, 60 hands
 
-    * `ebac ablation --change pull=40 --change kp=0,guard=off`: two rows more.
+    * `ebac ablation --change pull=40 --change kp=0,guard=off`: two more rows
 
-    * `ebac ablation --population random --hands 500 --seed 7 --json`
+    * `ebac ablation --population random --hands 20 --seed 7 --json`
     """
-    folder = out or (None if as_json else DEFAULT_OUT)
-    if resume and folder is None:
-        output.fail("--resume continues in a folder: give it with --out")
+    folder = to.folder("ablation", as_json=as_json, resume=resume)
     with output.refusing():
         given: dict[str, Any] = {
             "law": setting.one_law(law),
             "changes": [setting.parse_change(one) for one in change or []],
             "beside": setting.law_names(beside or ("tca", "eba"), "--beside"),
-            "base": setting.base_scenario(scenario),
+            "base": options.scenario_of(device, length),
             "seed": seed,
             "threads": threads,
             "resume": resume,
@@ -90,7 +91,7 @@ def ablation(
         }
         people = setting.population(population, hands, seed)
     found = _run(people, given, folder, quiet=as_json)
-    files = _write(folder, found) if folder else []
+    files = _write(folder, found, to) if folder else []
     if as_json:
         typer.echo(_document(found))
         return
@@ -101,27 +102,26 @@ def ablation(
 
 def _run(people: Any, given: dict[str, Any], folder: Path | None, *, quiet: bool) -> Ablation:
     from ebac.studies import ablation as run_ablation
-    from ebac.sweeps import SweepInterrupted
 
-    try:
-        with output.refusing(), output.counting("simulating", quiet=quiet) as progress:
-            return run_ablation(people, progress=progress, **given)
-    except SweepInterrupted as stopped:
-        more = f"; continue with --resume --out {folder}" if folder is not None else ""
-        output.fail(f"{stopped}{more}", code=output.INTERRUPTED)
+    with (
+        output.resumable("ablation", folder),
+        output.refusing(),
+        output.counting("simulating", quiet=quiet) as progress,
+    ):
+        return run_ablation(people, progress=progress, **given)
 
 
 def _document(found: Ablation) -> str:
     return output.document("ablation", [row.row() for row in found.rows])
 
 
-def _write(folder: Path, found: Ablation) -> list[str]:
+def _write(folder: Path, found: Ablation, to: ResultOptions) -> list[str]:
     from ebac.plot import plot_ablation
 
     with output.results(folder) as draft:
         if draft is None:
             return []
-        plot_ablation(found).savefig(draft / "ablation.png")
+        to.save(plot_ablation(found), draft, "ablation")
         (draft / "ablation.json").write_text(_document(found) + "\n", encoding="utf-8")
         rows = [
             {**row.row(), "changes": row.label if row.piece else ""} | {
@@ -136,19 +136,19 @@ def _write(folder: Path, found: Ablation) -> list[str]:
 
 
 def _show(found: Ablation) -> None:
-    from ebac import wording
+    from ebac._util import formatting
 
     for start in range(0, len(found.measures), ABREAST):
         part = found.measures[start : start + ABREAST]
-        headings = [f"{m.heading} \\[{wording.shown(m.unit)}]" for m in part]
+        headings = [f"{m.heading} \\[{formatting.shown(m.unit)}]" for m in part]
         grid = output.table(["law", *headings], numbers=range(1, len(part) + 1))
         grid.columns[0].no_wrap = True
         for i, row in enumerate(found.rows):
             if i in (1, 1 + len(found.pieces)):
                 grid.add_section()
-            cells = (_cell(row, m.key, wording.cell(row.values[m.key], m.unit)) for m in part)
+            cells = (_cell(row, m.key, formatting.cell(row.values[m.key], m.unit)) for m in part)
             grid.add_row(row.label, *cells)
-        output.console().print(grid)
+        output.show(grid)
     for piece, row in zip(found.pieces, found.rows[1:], strict=False):
         _tell(piece, row, found)
     hands = len(found.study.operators)
@@ -173,12 +173,12 @@ def _tell(piece: Piece, row: AblationRow, found: Ablation) -> None:
 
 
 def _list(row: AblationRow, found: Ablation, keys: Sequence[str]) -> str:
-    from ebac import wording
+    from ebac._util import formatting
 
     known = {measure.key: measure for measure in found.measures}
     told = [
-        f"{known[key].heading} {wording.cell(found.rows[0].values[key], known[key].unit)} -> "
-        f"{wording.quantity(row.values[key], known[key].unit)}"
+        f"{known[key].heading} {formatting.cell(found.rows[0].values[key], known[key].unit)} -> "
+        f"{formatting.quantity(row.values[key], known[key].unit)}"
         for key in keys[:TOLD]
     ]
     return ", ".join(told) + (f" and {len(keys) - TOLD} more" if len(keys) > TOLD else "")

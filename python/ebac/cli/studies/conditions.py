@@ -10,7 +10,16 @@ from ebac.cli import output
 
 
 def conditions(as_json: output.AsJson = False) -> None:
-    """List the conditions of `ebac study` and the groups they belong to."""
+    """List the conditions of a study and their groups.
+
+    A name such as d1b2K10 stands for 1 sample of delay, device damping 2 N s/m, and a wall of 10 kN/m.
+
+    **Examples**
+
+    * `ebac conditions`
+
+    * `ebac study --condition five --law ebac`: the five of one group
+    """
     from ebac.studies import CONDITIONS, GROUPS
 
     rows: list[dict[str, Any]] = [
@@ -26,5 +35,7 @@ def conditions(as_json: output.AsJson = False) -> None:
         return
     grid = output.table(["condition", "what", "groups"])
     for row in rows:
-        grid.add_row(row["condition"], row["what"], ", ".join(row["groups"]))
-    output.console().print(grid)
+        groups = [name for name in row["groups"] if name != "all"]
+        grid.add_row(row["condition"], row["what"], ", ".join(groups))
+    output.show(grid)
+    output.say("The group `all` is every condition.")

@@ -8,45 +8,52 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from ebac.cli import options, output
+from ebac.cli.files import ResultOptions
 
 if TYPE_CHECKING:
     from ebac.faults import FaultCampaign, FaultRow
 
-DEFAULT_OUT = Path("ebac-faults")
 #: What people want to see: the first case of these, and every first failure.
 PICTURES = ("lost_answer", "silent_node", "encoder_jump", "nan_law", "overruns", "stop")
 
 
 def faults(
+    to: ResultOptions,
     cases: Annotated[
-        int, typer.Option(help="Runs in which something goes wrong; every kind in turn.")
+        int,
+        typer.Option(
+            help="Runs in which something goes wrong; every kind in turn.", min=1, max=10_000_000
+        ),
     ] = 10_000,
-    seed: Annotated[int, typer.Option(help="The same seed gives the same cases.")] = 1,
+    seed: Annotated[int, typer.Option(help="Seed; the same one gives the same cases.", min=0)] = 1,
     threads: options.Threads = None,
-    out: Annotated[Path | None, options.out_folder("table and pictures", DEFAULT_OUT)] = None,
     as_json: output.AsJson = False,
 ) -> None:
-    """Make things go wrong in the loop, thousands of times, and judge what it does. A simulation.
+    """Inject faults into the control loop and check how it stops.
 
-    Two simulated CANopen drives, a hand at a wall, EBAC, limits and states, in virtual time. In every case: zero
-    torque on the bus within 2 ticks of the fault, every drive disabled at the end, no limit exceeded at any
-    tick, the fault named rightly, no restart without a reset; and no false alarm. Exit code 1 when a case fails.
+    A simulation. Two simulated CANopen drives, a hand at a wall, EBAC, limits and states, in virtual time. In every
+    case: zero torque on the bus within 2 ticks of the fault, every drive disabled at the end, no limit exceeded at
+    any tick, the right fault reported, no restart without a reset; and no false alarm. Exit code 1 when a case
+    fails.
 
     **Examples**
 
-    * `ebac faults --cases 100000 --seed 7`
+    * `ebac faults --cases 1000 --seed 7`
 
     * `ebac faults --cases 460 --json`
     """
     from ebac.faults import run_campaign
 
+    folder = to.folder("faults", as_json=as_json)
+    output.keeping(
+        f"nothing was written; fewer --cases take less time, and --seed {seed} gives the same ones"
+    )
     with output.refusing(), output.counting("injecting faults", quiet=as_json) as step:
         found = run_campaign(cases, seed=seed, threads=threads or 0, step=step)
-    folder = out or (None if as_json else DEFAULT_OUT)
     files: list[str] = []
     with output.results(folder) as draft:
         if draft is not None:
-            files = _write(draft, found)
+            files = _write(draft, found, to)
     if as_json:
         typer.echo(_document(found))
     else:
@@ -63,7 +70,7 @@ def _document(found: FaultCampaign) -> str:
     return output.document("faults", rows, **more)
 
 
-def _write(draft: Path, found: FaultCampaign) -> list[str]:
+def _write(draft: Path, found: FaultCampaign, to: ResultOptions) -> list[str]:
     from ebac.faults import run_case
     from ebac.plot import plot_fault
 
@@ -74,9 +81,8 @@ def _write(draft: Path, found: FaultCampaign) -> list[str]:
         if row.first_failure is not None:
             chosen.add(row.first_failure)
         for index in sorted(chosen):
-            name = f"{row.kind}-{index}.png"
-            plot_fault(run_case(index, seed=found.seed)).savefig(draft / name)
-            files.append(name)
+            figure = plot_fault(run_case(index, seed=found.seed))
+            files += to.save(figure, draft, f"{row.kind}-{index}")
     return files
 
 
@@ -93,7 +99,7 @@ def _show(found: FaultCampaign) -> None:
     for row in found.rows:
         ticks = [f"{n} ticks" if row.found else "-" for n in _worst(row)]
         grid.add_row(row.what, f"{row.cases:,}", f"{row.found:,}", *ticks, _failures(row))
-    output.console().print(grid)
+    output.show(grid)
     output.say(
         f"{found.passed:,} of {found.cases:,} cases passed, seed {found.seed}. Times are the worst ones, in ticks of "
         "1 ms from the row with the fault: torque on the bus, current in the simulated motors."

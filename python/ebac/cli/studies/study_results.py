@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ebac.cli import output
+from ebac.cli.files import ResultOptions
 
 if TYPE_CHECKING:
     from ebac.studies import Failure, Study, StudyRow
@@ -24,7 +25,7 @@ def document(study: Study) -> str:
     return output.document("study", [row.row() for row in study.rows])
 
 
-def write(folder: Path, study: Study, traces: int, *, quiet: bool) -> list[str]:
+def write(folder: Path, study: Study, traces: int, to: ResultOptions, *, quiet: bool) -> list[str]:
     """Write tables, figures and traces of failures into a folder; return their names."""
     from ebac.plot import plot_study
 
@@ -43,7 +44,7 @@ def write(folder: Path, study: Study, traces: int, *, quiet: bool) -> list[str]:
         ])  # fmt: skip
         step("drawing")
         for name, figure in plot_study(study):
-            figure.savefig(draft / f"study-{name}.png")
+            to.save(figure, draft, f"study-{name}")
         for failure in kept:
             step("keeping traces of failures")
             name = f"failure-{failure.law}-{failure.condition}-{failure.operator}.npz"
@@ -69,7 +70,7 @@ def _table(path: Path, rows: list[dict[str, object]]) -> None:
 
 def show(study: Study) -> None:
     """Print the table, and which hands failed."""
-    from ebac import wording
+    from ebac._util import formatting
 
     headings = [
         "condition",
@@ -94,12 +95,12 @@ def show(study: Study) -> None:
             "-" if row.ideal_good is None else str(row.ideal_good),
             _count(row.good, row),
             _count(row.settled_in_time, row),
-            wording.quantity(row.least_energy_J, "J"),
-            wording.quantity(row.most_drawn_J, "J"),
-            wording.quantity(row.median_settled_s, "s", none="never"),
+            formatting.quantity(row.least_energy_J, "J"),
+            formatting.quantity(row.most_drawn_J, "J"),
+            formatting.quantity(row.median_settled_s, "s", none="never"),
         )
         last = row.condition
-    output.console().print(grid)
+    output.show(grid)
     _show_failures(study.failures)
     output.say("Simulated, not measured. settled: median of those that settle.", style="bold")
 

@@ -8,19 +8,19 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from ebac.cli import options, output, setting
+from ebac.cli.files import ResultOptions
 
 if TYPE_CHECKING:
     from ebac.studies import Worst, WorstHand
 
-DEFAULT_OUT = Path("ebac-worst")
-_WHAT, _SEARCH, _RUN = "Law and condition", "Search", "Run"
+_WHAT, _SEARCH = "Law and condition", "Search"
 
 
 def worst(
-    law: Annotated[
-        str,
-        typer.Option("--law", "-l", help="A law by name, see `ebac laws`.", rich_help_panel=_WHAT),
-    ] = "ebac",
+    to: ResultOptions,
+    device: options.DeviceOptions,
+    length: options.RunOptions,
+    law: Annotated[str, options.one_law(panel=_WHAT)] = "ebac",
     change: Annotated[
         str | None,
         typer.Option(
@@ -31,23 +31,22 @@ def worst(
     ] = None,
     condition: Annotated[
         str,
-        typer.Option(
-            "--condition",
-            "-c",
-            help="A condition of device, timing or wall, see `ebac conditions`.",
-            rich_help_panel=_WHAT,
+        options.conditions(
+            "A condition of device, timing or wall, see `ebac conditions`.", panel=_WHAT
         ),
     ] = "d1K10",
     family: Annotated[
         list[str] | None,
         typer.Option(
-            help="A family of hands: impact, press-and-go, tapping, swinging, drive, noise, periodic; repeat it.",
+            help="A family of hands: impact, press-and-go, tapping, swinging, drive, noise, periodic; "
+            "several with commas between.",
             show_default="all",
             rich_help_panel=_SEARCH,
         ),
     ] = None,
     evaluations: Annotated[
-        int, typer.Option(help="Runs per family, at least 40.", rich_help_panel=_SEARCH)
+        int,
+        typer.Option(help="Runs per family.", min=40, max=10_000_000, rich_help_panel=_SEARCH),
     ] = 2000,
     seed: Annotated[int, typer.Option(help="Seed of the search.", rich_help_panel=_SEARCH)] = 1,
     pull: Annotated[
@@ -58,23 +57,21 @@ def worst(
             rich_help_panel=_SEARCH,
         ),
     ] = None,
-    scenario: options.ScenarioFile = None,
     threads: options.Threads = None,
-    out: Annotated[Path | None, options.out_folder("scenarios and figures", DEFAULT_OUT)] = None,
     as_json: output.AsJson = False,
 ) -> None:
-    """Search the hand that draws most energy out of a law's port. A simulation.
+    """Find the hand that extracts the most energy from a controller.
 
-    Drawn is minus the least port energy. Seven families of hands are searched: random hands, generations bred
-    from the best, then NLopt. A hand that pulls harder than allowed does not count.
+    A simulation. The energy extracted is minus the least energy of the port. Seven families of hands are searched:
+    random hands, generations bred from the best, then NLopt. A hand that pulls harder than allowed does not count.
 
     **Examples**
 
-    * `ebac worst`: EBAC at the paper's wall.
+    * `ebac worst --evaluations 200`: EBAC at the paper's wall
 
-    * `ebac worst --condition d2K10 --family swinging --evaluations 10000`
+    * `ebac worst --condition d2K10 --family swinging --evaluations 1000`
 
-    * `ebac worst --change guard=off`: what the guard is for.
+    * `ebac worst --change guard=off --family impact`: what the guard is for
     """
     from ebac.laws import Variant
     from ebac.studies.worst import worst as search
@@ -82,14 +79,20 @@ def worst(
     with output.refusing():
         name = setting.one_law(law)
         chosen = Variant(name, setting.parse_change(change)) if change else name
-        base = setting.base_scenario(scenario)
+        base = options.scenario_of(device, length)
+        [wanted] = setting.condition_names([condition])
+        families = [word for text in family or [] for word in output.words(text)]
+        folder = to.folder("worst", as_json=as_json)
+        output.keeping(
+            "nothing was written; the same command starts from the beginning, and fewer --family or --evaluations "
+            "take less time"
+        )
         with output.counting("searching", quiet=as_json) as progress:
             found = search(
-                chosen, condition, family=family, evaluations=evaluations, seed=seed, pull=pull,
+                chosen, wanted, family=families or None, evaluations=evaluations, seed=seed, pull=pull,
                 base=base, threads=threads, progress=progress,
             )  # fmt: skip
-    folder = out or (None if as_json else DEFAULT_OUT)
-    files = _write(folder, found, evaluations, seed) if folder else []
+    files = _write(folder, found, evaluations, seed, to) if folder else []
     if as_json:
         typer.echo(_document(found, evaluations, seed))
         return
@@ -106,7 +109,7 @@ def _document(found: Worst, evaluations: int, seed: int) -> str:
     )  # fmt: skip
 
 
-def _write(folder: Path, found: Worst, evaluations: int, seed: int) -> list[str]:
+def _write(folder: Path, found: Worst, evaluations: int, seed: int, to: ResultOptions) -> list[str]:
     from ebac.plot import plot_worst
 
     with output.results(folder) as draft:
@@ -116,7 +119,7 @@ def _write(folder: Path, found: Worst, evaluations: int, seed: int) -> list[str]
         (draft / "worst.json").write_text(document + "\n", encoding="utf-8")
         for hand in found.hands:
             hand.scenario.save(draft / f"{_file(hand)}.toml")
-            plot_worst(found, hand).savefig(draft / f"{_file(hand)}.png")
+            to.save(plot_worst(found, hand), draft, _file(hand))
         rows = [
             {
                 **row,
@@ -133,7 +136,7 @@ def _file(hand: WorstHand) -> str:
 
 
 def _show(found: Worst) -> None:
-    from ebac import wording
+    from ebac._util import formatting
 
     headings = [
         "family",
@@ -147,21 +150,21 @@ def _show(found: Worst) -> None:
     for hand in found.hands:
         within = {None: "-", True: "yes", False: "[red]no[/]"}[found.within(hand)]
         beyond = found.reserve is not None and hand.energy_J > found.reserve
-        drawn = wording.quantity(hand.energy_J, "J")
+        drawn = formatting.quantity(hand.energy_J, "J")
         grid.add_row(
             hand.family.name,
             f"[red]{drawn}[/]" if beyond else drawn,
-            wording.quantity(hand.most_drawn_J, "J"),
-            wording.quantity(hand.most_pull_N, "N"),
+            formatting.quantity(hand.most_drawn_J, "J"),
+            formatting.quantity(hand.most_pull_N, "N"),
             within,
             str(hand.runs),
         )  # fmt: skip
-    output.console().print(grid)
+    output.show(grid)
     top = found.hands[0]
     output.say(f"The worst: {top.family.name}, {top.family.summary}", style="bold")
     for p in top.family.parameters:
-        span = f"[{wording.quantity(p.low, p.unit)}, {wording.quantity(p.high, p.unit)}]"
-        output.say(f"  {p.name} = {wording.quantity(top.values[p.name], p.unit)} of {span}")
+        span = f"[{formatting.quantity(p.low, p.unit)}, {formatting.quantity(p.high, p.unit)}]"
+        output.say(f"  {p.name} = {formatting.quantity(top.values[p.name], p.unit)} of {span}")
     output.say(_verdict(found, top))
     output.say(
         "Simulated, not measured; a search shows what exists, never that nothing worse does.",
@@ -170,13 +173,13 @@ def _show(found: Worst) -> None:
 
 
 def _verdict(found: Worst, top: WorstHand) -> str:
-    from ebac import wording
+    from ebac._util import formatting
 
-    drawn = f"It draws {wording.quantity(top.energy_J, 'J')}"
+    drawn = f"It draws {formatting.quantity(top.energy_J, 'J')}"
     if found.reserve is None:
         return f"{drawn}; {found.law} lends nothing."
-    unseen = wording.quantity(top.unseen_J, "J")
-    lent = f"e(0) lends {wording.quantity(found.reserve, 'J')}"
+    unseen = formatting.quantity(top.unseen_J, "J")
+    lent = f"e(0) lends {formatting.quantity(found.reserve, 'J')}"
     if top.energy_J <= found.reserve:
         return f"{drawn}; {lent}: within it."
     return f"{drawn}; {lent}: beyond it. One count times all changes of the force, which no encoder sees, is {unseen}."
@@ -187,7 +190,8 @@ def _tell_replay(found: Worst, folder: Path, law: str, *, changed: bool) -> None
 
     top = found.hands[0]
     if not changed and replays(found.condition, top.scenario):
-        output.say(f"\nReplay: ebac wall --law {law} --scenario {folder / _file(top)}.toml")
+        output.say("\nReplay:", style="bold")
+        output.path(f"ebac wall --law {law} --scenario {folder / _file(top)}.toml")
     else:
         output.say(
             "\nReplay from Python, `ebac.worst(...).trace()`: this law is not the one designed for the scenario."

@@ -2,100 +2,107 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from ebac.cli import options, output, setting
+from ebac.cli.files import ResultOptions
 
 if TYPE_CHECKING:
-    from ebac.zwidth import ZWidth
+    from ebac.studies.zwidth import ZWidth
 
-DEFAULT_OUT = Path("ebac-zwidth")
-_WALLS, _RUN = "Walls", "Run"
+#: Largest wall damping [N s/m], stiffness [N/m] and energy [J] that can be asked for.
+DAMPING, STIFFNESS, ENERGY = 1e4, 1e7, 1e3
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Run(options.RunOptions):
+    seconds: Annotated[
+        float | None, options.option(text="Length of a run [s]", default="3", panel=options.RUN)
+    ] = None
 
 
 def zwidth(
-    law: Annotated[
-        list[str] | None,
-        typer.Option(
-            "--law",
-            "-l",
-            help="A law by name, see `ebac laws`; repeat it for several.",
-            show_default="all",
-            rich_help_panel=_RUN,
-        ),
-    ] = None,
+    to: ResultOptions,
+    hand: options.HandOptions,
+    device: options.DeviceOptions,
+    length: _Run,
+    law: Annotated[list[str] | None, options.laws("all")] = None,
     delay: Annotated[
         list[int] | None,
         typer.Option(
             help="Ticks until a command acts [samples]; repeat it for several.",
             show_default="0, 1, 2",
-            rich_help_panel=_RUN,
+            rich_help_panel=options.RUN,
         ),
     ] = None,
     most_damping: Annotated[
         float,
-        typer.Option(help="Wall damping goes from 0 to this [N s/m].", rich_help_panel=_WALLS),
+        typer.Option(
+            help="Largest wall damping; the least is 0 [N s/m].", rich_help_panel=options.WALL
+        ),
     ] = 20.0,
     points: Annotated[
-        int, typer.Option(help="Wall dampings.", min=2, max=1000, rich_help_panel=_WALLS)
+        int,
+        typer.Option(
+            help="Number of wall dampings.", min=2, max=1000, rich_help_panel=options.WALL
+        ),
     ] = 9,
     least: Annotated[
         float,
-        typer.Option(help="The search begins at this stiffness [N/m].", rich_help_panel=_WALLS),
+        typer.Option(help="Least stiffness of the search [N/m].", rich_help_panel=options.WALL),
     ] = 100.0,
     top: Annotated[
-        float, typer.Option(help="And ends at this one [N/m].", rich_help_panel=_WALLS)
+        float,
+        typer.Option(help="Largest stiffness of the search [N/m].", rich_help_panel=options.WALL),
     ] = 1e5,
     epsilon: Annotated[
-        float, typer.Option(help="Energy a law may take out of the port [J].", rich_help_panel=_RUN)
+        float,
+        typer.Option(
+            help="Energy a law may take out of the port [J].", rich_help_panel=options.RUN
+        ),
     ] = 1e-3,
-    hand: options.HandName = None,
-    device: options.DeviceName = None,
-    rate: options.Rate = None,
-    seconds: Annotated[
-        float | None,
-        typer.Option(help="Length of a run [s].", show_default="3", rich_help_panel=_RUN),
-    ] = None,
-    scenario: options.ScenarioFile = None,
+    seed: options.Seed = None,
     threads: options.Threads = None,
-    out: Annotated[Path | None, options.out_folder("figure and tables", DEFAULT_OUT)] = None,
     as_json: output.AsJson = False,
 ) -> None:
-    """Find the stiffest wall each law can render, over wall damping and delay (Z-width). A simulation.
+    """Find the stiffest wall each law can render (Z-width).
 
-    *quiet*: no limit cycle, for a press and a tap. *energy*: takes no more than epsilon out of the port.
+    A simulation, over wall damping and delay. *quiet*: no limit cycle, for a press and a tap. *energy*: takes no
+    more than epsilon out of the port.
     *usable*: both, and shows at least half of the stiffness asked for. The score is the area under the border.
 
     **Examples**
 
-    * `ebac zwidth`: every law at 0, 1 and 2 samples of delay.
+    * `ebac zwidth --law ebac --delay 1 --points 3`: one law, in seconds
 
-    * `ebac zwidth --law direct --law ebac --delay 1 --most-damping 50 --points 21`
+    * `ebac zwidth`: every law at 0, 1 and 2 samples of delay
+
+    * `ebac zwidth --law direct,ebac --delay 1 --most-damping 50 --points 5`
     """
     import numpy as np
 
-    from ebac.zwidth import zwidth as search
+    from ebac.studies.zwidth import zwidth as search
 
     with output.refusing():
         names = setting.law_names(law or ["all"])
-        base = setting.base_scenario(scenario)
-        long = seconds or (3.0 if scenario is None else base.seconds)
-        base = base.replace(
-            device=setting.choose_device(base.device, device),
-            hand=setting.choose_hand(base.hand, hand, None),
-            timing=setting.choose_timing(base.timing, rate, None),
-            seconds=long,
+        base = options.scenario_of(hand, device, length, seconds=3.0)
+        base = base.replace(**setting.given(seed=seed))
+        _check(most_damping, least, top, epsilon)
+        folder = to.folder("zwidth", as_json=as_json)
+        output.keeping(
+            "nothing was written; the same command starts from the beginning, and fewer --law, --delay or --points "
+            "take less time"
         )
         with output.counting("searching", quiet=as_json) as progress:
             found = search(
                 base, names, delays=delay or (0, 1, 2), dampings=np.linspace(0, most_damping, points),
                 least=least, top=top, epsilon=epsilon, threads=threads, progress=progress,
             )  # fmt: skip
-    folder = out or (None if as_json else DEFAULT_OUT)
-    files = _write(folder, found) if folder else []
+    files = _write(folder, found, to) if folder else []
     if as_json:
         typer.echo(_document(found))
         return
@@ -104,29 +111,43 @@ def zwidth(
         output.list_files(folder, files)
 
 
+def _check(most_damping: float, least: float, top: float, epsilon: float) -> None:
+    """Refuse numbers by the names of their options."""
+    if not 0 < most_damping <= DAMPING:
+        raise ValueError(
+            f"--most-damping = {most_damping:g} N s/m: must be above 0 and at most {DAMPING:g} N s/m"
+        )
+    if not 0 < top <= STIFFNESS:
+        raise ValueError(f"--top = {top:g} N/m: must be above 0 and at most {STIFFNESS:g} N/m")
+    if not 0 < least < top:
+        raise ValueError(f"--least = {least:g} N/m: must be above 0 and below --top, {top:g} N/m")
+    if not 0 < epsilon <= ENERGY:
+        raise ValueError(f"--epsilon = {epsilon:g} J: must be above 0 and at most {ENERGY:g} J")
+
+
 def _document(found: ZWidth) -> str:
     return output.document(
         "zwidth", found.rows(), epsilon_J=found.epsilon, top_N_per_m=found.top, scores=found.scores()
     )  # fmt: skip
 
 
-def _write(folder: Path, found: ZWidth) -> list[str]:
+def _write(folder: Path, found: ZWidth, to: ResultOptions) -> list[str]:
     from ebac.plot import plot_zwidth
 
     with output.results(folder) as draft:
         if draft is None:
             return []
-        plot_zwidth(found).savefig(draft / "zwidth.png")
+        figures = to.save(plot_zwidth(found), draft, "zwidth")
         (draft / "zwidth.json").write_text(_document(found) + "\n", encoding="utf-8")
         output.csv_table(draft / "zwidth.csv", found.rows())
         output.csv_table(draft / "scores.csv", found.scores())
         found.base.save(draft / "scenario.toml")
-    return ["zwidth.png", "zwidth.json", "zwidth.csv", "scores.csv", "scenario.toml"]
+    return [*figures, "zwidth.json", "zwidth.csv", "scores.csv", "scenario.toml"]
 
 
 def _show(found: ZWidth) -> None:
-    from ebac import wording
-    from ebac.zwidth import CRITERIA
+    from ebac._util import formatting
+    from ebac.studies.zwidth import CRITERIA
 
     grid = output.table(["delay", "law", *CRITERIA], numbers=range(2, 5))
     for number, delay in enumerate(found.delays):
@@ -137,14 +158,17 @@ def _show(found: ZWidth) -> None:
         for row in found.scores():
             if row["delay_samples"] == delay:
                 grid.add_row(str(delay), row["law"], *(_cell(row, name) for name in CRITERIA))
-    output.console().print(grid)
+    output.show(grid)
     full, most = found.top / 1e3, found.dampings[-1]
     output.say(
         f"Area under the border in kN/m N s/m, both axes linear, up to {full:g} kN/m and {most:g} N s/m: "
         f"{full * most:.0f} is all of it. In brackets, times that of direct."
     )
-    output.say("Simulated, not measured, but for wall and delay:", style="bold")
-    output.indented(wording.describe(found.base).replace("; ", "\n"))
+    output.say(
+        "Simulation. Wall stiffness, wall damping and delay vary; everything else as in:",
+        style="bold",
+    )
+    output.indented(formatting.describe(found.base).replace("; ", "\n"))
 
 
 def _cell(row: dict[str, Any], name: str) -> str:

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, NoReturn
 
 from ebac.cli import output
+from ebac.cli.files import ResultOptions, new_file
 
 if TYPE_CHECKING:
     from ebac.metrics import Contact
@@ -38,16 +39,17 @@ def write(
     scenario: Scenario,
     traces: list[Trace],
     text: str,
+    to: ResultOptions,
     step: Callable[[str], None],
 ) -> list[str]:
     """Write table, scenario, figure and logs into a folder; return their names."""
-    step("drawing wall.png")
+    step("drawing")
     from ebac.plot import plot_walls
 
-    plot_walls(traces).savefig(folder / "wall.png")
+    files = to.save(plot_walls(traces), folder, "wall")
     (folder / "wall.json").write_text(text + "\n", encoding="utf-8")
     scenario.save(folder / "scenario.toml")
-    files = ["wall.png", "wall.json", "scenario.toml"]
+    files += ["wall.json", "scenario.toml"]
     for trace in traces:
         step(f"writing the log of {trace.law}")
         trace.to_npz(folder / f"{trace.law}.npz")
@@ -56,26 +58,22 @@ def write(
     return files
 
 
-def log_names(log: Path | None, names: list[str]) -> list[Path]:
+def log_names(log: Path | None, names: list[str], *, force: bool = False) -> list[Path]:
     """Return the file of each law's log: `--log` itself for one, `run-tca.mcap` and so on for several.
 
     Raises
     ------
     ValueError
         When the extension is none of a log.
-    FileNotFoundError
-        When its folder does not exist.
     """
     if log is None:
         return []
     from ebac.logs.files import FORMATS, extension
 
     kind = extension(log, tuple(FORMATS))
-    if not log.parent.is_dir():
-        raise FileNotFoundError(2, "No such folder", str(log.parent))
-    if len(names) == 1:
-        return [log]
-    return [log.with_name(f"{log.stem}-{name}{kind}") for name in names]
+    one = len(names) == 1
+    files = [log] if one else [log.with_name(f"{log.stem}-{name}{kind}") for name in names]
+    return [new_file("--log", file, force=force) for file in files]
 
 
 def write_logs(logs: list[Path], traces: list[Trace], step: Callable[[str], None]) -> None:
@@ -113,13 +111,16 @@ def report_fault(error: LoopFault, out: Path | None) -> NoReturn:
 
 def show(scenario: Scenario, contacts: list[Contact], through: str | None = None) -> None:
     """Print the table, a few laws at a time, and what was simulated."""
-    from ebac import wording
+    from ebac._util import formatting
 
     show_contacts(contacts)
     output.say("Simulated, not measured:", style="bold")
-    output.indented(wording.describe(scenario).replace("; ", "\n"))
+    output.indented(formatting.describe(scenario).replace("; ", "\n"))
     if through is not None:
-        output.indented("through a CAN bus in this process, with simulated CANopen drives")
+        output.indented(
+            "through a CAN bus in this process, with simulated CANopen drives, torque in whole thousandths of the "
+            "rated one: the same to the bit without the bus by --device-permille"
+        )
 
 
 def show_contacts(contacts: list[Contact]) -> None:
@@ -131,22 +132,24 @@ def show_contacts(contacts: list[Contact]) -> None:
 
 def show_table(columns: Mapping[str, Contact]) -> None:
     """Print contacts side by side, each under its heading."""
-    from ebac import wording
+    from ebac._util import formatting
 
     contacts = list(columns.values())
     grid = output.table(["", *columns], numbers=range(1, 99))
     for label, name, unit, none in LINES:
         cells = (getattr(contact, name) for contact in contacts)
         signed = name == "deviation_m"
-        grid.add_row(label, *(wording.quantity(c, unit, signed=signed, none=none) for c in cells))
+        grid.add_row(
+            label, *(formatting.quantity(c, unit, signed=signed, none=none) for c in cells)
+        )
     grid.add_section()
     grid.add_row("verdict", *(_verdict(contact) for contact in contacts))
-    output.console().print(grid)
+    output.show(grid)
 
 
 def _verdict(contact: Contact) -> str:
-    from ebac import wording
+    from ebac._util import formatting
 
-    words = wording.verdict(contact)
+    words = formatting.verdict(contact)
     good = contact.quiet and contact.exact is not False
     return f"[{'green' if good else 'yellow' if contact.quiet else 'red'}]{words}[/]"

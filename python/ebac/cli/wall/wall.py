@@ -9,40 +9,31 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ebac.cli import options, output, setting, wall_results
+from ebac.cli import options, output, setting
+from ebac.cli.files import PANEL, ResultOptions
+from ebac.cli.wall import results as wall_results
 
 if TYPE_CHECKING:
     from ebac.scenario import Scenario
     from ebac.trace import Trace
 
 DEFAULT_LAWS = ("tca", "eba", "ebac")
-DEFAULT_OUT = Path("ebac-wall")
 #: Fewer rows have no tail to measure; more belong into a script, their logs would fill gigabytes.
 TICKS = (10, 2_000_000)
 
 
 def wall(
-    law: options.Law = None,
-    stiffness: options.Stiffness = None,
-    damping: options.Damping = None,
-    position: options.Position = None,
-    hand: options.HandName = None,
-    mass: options.Mass = None,
-    hand_damping: options.HandDamping = None,
-    hand_stiffness: options.HandStiffness = None,
-    target: options.Target = None,
-    device: options.DeviceName = None,
-    noise: options.Noise = None,
-    permille: options.Permille = None,
-    rate: options.Rate = None,
-    delay: options.Delay = None,
-    jitter: options.Jitter = None,
-    through: options.Through = None,
-    seconds: options.Seconds = None,
-    seed: options.Seed = None,
-    scenario: options.ScenarioFile = None,
-    out: Annotated[
-        Path | None, options.out_folder("table, figure, logs and scenario", DEFAULT_OUT)
+    setup: options.ScenarioOptions,
+    to: ResultOptions,
+    law: Annotated[list[str] | None, options.laws("tca, eba, ebac")] = None,
+    through: Annotated[
+        str | None,
+        options.option(
+            text="What lies between loop and plant: `can` for a CAN bus with simulated drives, which take torque in "
+            "whole thousandths: to the bit the run without a bus with --device-permille",
+            default="nothing",
+            panel=options.RUN,
+        ),
     ] = None,
     log: Annotated[
         Path | None,
@@ -51,61 +42,57 @@ def wall(
             help="Also write the rows to this file: .mcap (PlotJuggler, Foxglove), .npz, .csv, .parquet, .mat or .h5; "
             "with several laws, run.mcap becomes run-tca.mcap, run-eba.mcap, ...",
             show_default=False,
+            rich_help_panel=PANEL,
         ),
     ] = None,
-    no_files: Annotated[bool, typer.Option("--no-files", help="Write no files.")] = False,
+    no_files: Annotated[
+        bool, typer.Option("--no-files", help="Write no files.", rich_help_panel=PANEL)
+    ] = False,
     as_json: output.AsJson = False,
 ) -> None:
-    """Press a hand against a virtual wall under several laws (paper, Fig. 10 and 11). A simulation.
+    """Simulate a hand at a virtual wall under several laws.
 
-    The table tells where each law comes to rest, how far it swings, when it has settled and how
-    little energy its port ever held. A law that keeps its promise is *exact and quiet*.
+    The experiment of the paper, Fig. 10 and 11, in simulation. The table shows for each law where the hand comes to
+    rest, how far it swings, when it has settled, and the least energy of the port. A good law is *exact and quiet*.
 
     **Examples**
 
     * `ebac wall`: the paper's experiment. TCA swings, EBA rests too deep, EBAC does neither.
 
-    * `ebac wall --law all --stiffness 20000 --delay 2`: every law, 20 kN/m, 2 ms of delay.
+    * `ebac wall --law all --wall-stiffness 20000 --delay 2`: every law
 
-    * `ebac wall --hand finger --target 0.02 --json`: a finger pressing to 20 mm, as JSON.
+    * `ebac wall --hand finger --hand-target 0.02 --json`: a finger, as JSON
 
-    * `ebac wall --law ebac --log ebac.mcap`: a log for PlotJuggler or Foxglove.
+    * `ebac wall --law ebac --log ebac.mcap`: a log for PlotJuggler or Foxglove
 
-    * `ebac wall --through can`: the same over a CAN bus, through simulated drives.
+    * `ebac wall --through can`: over a CAN bus, with simulated drives
 
-    * `ebac wall --scenario ebac-wall/scenario.toml --seed 7`: the same again, another seed.
+    * `ebac wall --format pdf --width single`: a figure for a journal's column
+
+    * `ebac wall --out first`, then `ebac wall --scenario first/scenario.toml --seed 7`: another seed
     """
-    if no_files and out is not None:
+    if no_files and to.out is not None:
         output.fail("--no-files and --out exclude each other: leave one of them out")
     with output.refusing():
         names = setting.law_names(law or DEFAULT_LAWS)
-        logs = wall_results.log_names(log, names)
-        base = setting.base_scenario(scenario)
-        chosen = base.replace(
-            device=setting.choose_device(base.device, device, noise=noise, permille=permille),
-            hand=setting.choose_hand(
-                base.hand, hand, target, mass=mass, damping=hand_damping, stiffness=hand_stiffness
-            ),
-            environment=setting.choose_wall(
-                base.environment, stiffness=stiffness, damping=damping, position=position
-            ),
-            timing=setting.choose_timing(base.timing, rate, delay),
-            **setting.given(jitter=jitter, seconds=seconds, seed=seed),
-        )
+        logs = wall_results.log_names(log, names, force=to.force)
+        chosen = options.scenario_of(setup)
         _check_length(chosen)
         warning = ""
         if through is not None:
             chosen, warning = _on_bus(chosen, through)
+    folder = None if no_files else to.folder("wall", as_json=as_json)
     if warning and not as_json:
         output.say(f"Warning: {warning}.", style="yellow")
-    folder = None if no_files else out or (None if as_json else DEFAULT_OUT)
-    _run(chosen, names, through, folder, logs, as_json)
+    _run(chosen, names, through, folder, logs, to, as_json)
 
 
 def _on_bus(scenario: Scenario, through: str) -> tuple[Scenario, str]:
     """Return the scenario as drives on a bus run it, and what to be warned of."""
     from ebac.simulation import on_bus
 
+    if through != "can":
+        raise ValueError(f"--through {through}: must be can, or left out")
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
         chosen = on_bus(scenario, through)
@@ -127,6 +114,7 @@ def _run(
     through: str | None,
     out: Path | None,
     logs: list[Path],
+    to: ResultOptions,
     as_json: bool,
 ) -> None:
     from ebac.metrics import contact
@@ -144,7 +132,7 @@ def _run(
                 contacts = [contact(trace) for trace in traces]
             text = wall_results.document(scenario, contacts, through)
             if draft is not None:
-                files = wall_results.write(draft, scenario, traces, text, step)
+                files = wall_results.write(draft, scenario, traces, text, to, step)
             wall_results.write_logs(logs, traces, step)
     except LoopFault as fault:
         wall_results.report_fault(fault, out)
@@ -155,7 +143,8 @@ def _run(
     if out is not None:
         output.list_files(out, files)
     for path in logs:
-        output.say(f"Log: {path}")
+        output.say("Log:", style="bold")
+        output.path(path)
 
 
 def _simulate(

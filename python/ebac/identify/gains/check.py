@@ -11,10 +11,10 @@ from numpy.typing import NDArray
 
 from ebac._core import Hand
 from ebac.identify.cases import Case, draw
-from ebac.identify.gains import GainsResult, fit_gains
-from ebac.identify.gains_trial import Candidate, broken
+from ebac.identify.gains.gains import GainsResult, fit_gains
+from ebac.identify.gains.press_trials import Presses, run_presses
+from ebac.identify.gains.trial import Candidate, broken
 from ebac.identify.loop import LoopModel, fit_loop
-from ebac.identify.presses import Presses, run_presses
 from ebac.identify.recording import Recording
 from ebac.identify.target import Target
 from ebac.scenario import Scenario
@@ -108,7 +108,7 @@ def check_gains(
     evaluations : int
         As for `fit_gains`.
     progress : callable, optional
-        Told how many choices are made.
+        Called with how many choices are made.
 
     Raises
     ------

@@ -7,10 +7,10 @@ from dataclasses import dataclass
 from typing import Any
 
 from ebac._core import Hand
-from ebac.identify.gains_search import GainsSearch
-from ebac.identify.gains_trial import Candidate, Limits
+from ebac.identify.gains.press_trials import arms_around, force_loop_laws
+from ebac.identify.gains.search import GainsSearch
+from ebac.identify.gains.trial import Candidate, Limits
 from ebac.identify.loop import DEPTH, LoopModel
-from ebac.identify.presses import arms_around, force_loop_laws
 from ebac.laws import Variant
 from ebac.scenario import Scenario
 
@@ -79,8 +79,8 @@ class GainsResult:
 
     def _repr_html_(self) -> str:
         """Return the figure and default, rules and choice, for a notebook."""
-        from ebac import notebook
-        from ebac.identify.gains_figures import plot_gains
+        from ebac._util import notebook
+        from ebac.identify.figures import plot_gains
 
         return notebook.result(repr(self), self.rows(), lambda: plot_gains(self))
 
@@ -128,7 +128,7 @@ def fit_gains(
     threads : int
         Threads of the simulation; 0 for one per core.
     progress : callable, optional
-        Told how many pairs are done, and of how many at most.
+        Called with how many pairs are done, and of how many at most.
 
     Returns
     -------
@@ -138,7 +138,7 @@ def fit_gains(
     ------
     ValueError
         When the log does not determine the hand, the law has no force loop, a number is out of range, or no pair keeps
-        the constraints; the message says which.
+        the constraints; the message names them.
     """
     known = force_loop_laws()
     if law not in known:

@@ -10,7 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ebac._core import Hand, RunLimits, SweepProgress
-from ebac.identify.result import Z95, ArmResult
+from ebac.identify.intervals import Z95
+from ebac.identify.result import ArmResult
 from ebac.laws import LAWS, design
 from ebac.metrics import ideal_rest
 from ebac.scenario import Scenario

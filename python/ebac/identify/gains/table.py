@@ -8,12 +8,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ebac.identify.gains_check import MEASURES, GainsCase, Refused
-from ebac.identify.presses import Presses
+from ebac.identify.gains.check import MEASURES, GainsCase, Refused
+from ebac.identify.gains.press_trials import Presses
 
 Values = NDArray[np.float64]
 
-#: Nothing finer is told apart: one tick [s], a micrometre, a millinewton.
+#: Finer differences are not counted: one tick [s], a micrometre, a millinewton.
 FINEST = {"settled": 1e-3, "swing": 1e-6, "noise": 1e-3}
 #: Over which logs: all, those whose held-out presses keep all constraints under the default gains, and the others; at
 #: last those whose default had to be turned down for the presses it was chosen on, and that in place of the default.

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from ebac.identify.presses import Presses, noise_gain, run_presses
+from ebac.identify.gains.press_trials import Presses, noise_gain, run_presses
 from ebac.laws import design
 from ebac.scenario import Scenario
 

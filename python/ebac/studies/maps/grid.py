@@ -8,14 +8,15 @@ from pathlib import Path
 
 import numpy as np
 
-from ebac.document import unknown
+from ebac._util.arguments import require
+from ebac._util.serialisation import unknown
 from ebac.laws import AnyLaw
-from ebac.maps.axes import AXES, MapAxis
-from ebac.maps.result import Numbers, StabilityMap
 from ebac.scenario import Scenario
-from ebac.sweeps import sweep
-from ebac.sweeps.job import Progress
-from ebac.sweeps.run import name_laws
+from ebac.studies.maps.axes import AXES, MapAxis
+from ebac.studies.maps.result import Numbers, StabilityMap
+from ebac.studies.sweeps import sweep
+from ebac.studies.sweeps.job import Progress
+from ebac.studies.sweeps.run import name_laws
 
 #: Values along an axis where none are given.
 SIDE = 200
@@ -59,7 +60,8 @@ def stability_map(
     ValueError
         For a quantity that does not exist or values out of range.
     """
-    scenario = base or Scenario(seconds=2.0)
+    scenario = Scenario(seconds=2.0) if base is None else base
+    require(scenario, Scenario, "ebac.stability_map", "a Scenario as its base")
     along = [_axis(x), _axis(y)]
     if x == y:
         raise ValueError(f"x = y = {x!r}: a map needs two quantities")

@@ -9,10 +9,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ebac.maps.axes import AXES, MapAxis
 from ebac.metrics import QUIET_SWING
 from ebac.scenario import Scenario
-from ebac.sweeps import SweepResult
+from ebac.studies.maps.axes import AXES, MapAxis
+from ebac.studies.sweeps import SweepResult
 
 Numbers = NDArray[np.float64]
 
@@ -94,12 +94,20 @@ class StabilityMap:
 
     def _repr_html_(self) -> str:
         """Return the figure and the scores, for a notebook."""
-        from ebac import notebook
+        from ebac._util import notebook
         from ebac.plot import plot_map
 
         return notebook.result(repr(self), [self.scores()], lambda: plot_map(self))
 
     def __repr__(self) -> str:
-        """Return one line."""
-        shape = f"{len(self.xs)} x {len(self.ys)}"
-        return f"<StabilityMap of {self.law}: {self.x} x {self.y}, {shape} runs>"
+        """Return the quantities, their ranges and the shares of the area."""
+        along, up = self.axes
+        shares = ", ".join(
+            f"{name.removesuffix('_share').replace('_', ' ')} {100 * value:.0f} %"
+            for name, value in self.scores().items()
+        )
+        return (
+            f"<StabilityMap of {self.law}, simulated, {len(self.xs)} x {len(self.ys)} runs: "
+            f"{along.label} {self.xs[0]:g} to {self.xs[-1]:g}, {up.label} {self.ys[0]:g} to {self.ys[-1]:g}; "
+            f"of the area {shares}>"
+        )

@@ -7,9 +7,10 @@ from concurrent.futures import Executor, Future, as_completed, wait
 from typing import TypeAlias
 
 from ebac._core import RunLimits
-from ebac.aside import aside
-from ebac.sweeps.measure import Columns, Run, Watch, cores, empty, measure
-from ebac.sweeps.store import Store
+from ebac._util.background import aside
+from ebac._util.cores import usable_cores
+from ebac.studies.sweeps.measure import Columns, Run, Watch, empty, measure
+from ebac.studies.sweeps.store import Store
 
 Progress: TypeAlias = Callable[[int, int], None]
 
@@ -59,8 +60,8 @@ class Job:
         return self.runs[part.start : part.stop]
 
     def _here(self, left: dict[int, range]) -> Iterator[tuple[int, Columns]]:
-        """Work in a thread of its own, so that this one can look at the progress and hear the keyboard."""
-        threads = self.threads or cores()
+        """Work in a thread of its own, so that this one can show the progress and receive Ctrl-C."""
+        threads = self.threads or usable_cores()
         for i, part in left.items():
             watch = Watch()
             future = _start(self._bundle(part), threads, self.limits, watch)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from math import nan
@@ -41,11 +40,6 @@ class Watch:
     def done(self) -> int:
         """Runs done."""
         return self.core.done + self.others
-
-
-def cores() -> int:
-    """Return how many cores this process may use."""
-    return len(os.sched_getaffinity(0))
 
 
 def empty(n: int) -> Columns:

@@ -16,8 +16,10 @@ from ebac.metrics import QUIET_SWING
 if TYPE_CHECKING:
     import pandas as pd
 
-    from ebac.sweeps.measure import Columns
+    from ebac.studies.sweeps.measure import Columns
 
+#: How the columns of swept parameters begin.
+_SWEPT = ("device", "hand", "environment", "timing", "jitter", "seconds_s")
 #: What a row shows of a run.
 _CONTACT = ("rest_m", "ideal_m", "swing_m", "settled_s", "least_energy_J")
 
@@ -31,7 +33,8 @@ class SweepResult:
     Attributes
     ----------
     columns : dict of str to array, shape (runs,)
-        `law` (its name), `scenario` (its place in what was swept), `seed`; `ideal_m`, `count_m`,
+        `law` (its name), `scenario` (its place in what was swept), `seed`; each parameter in which the
+        scenarios differ, `environment.stiffness_N_per_m` and so on; `ideal_m`, `count_m`,
         `allowed_m` and the numbers of
         `Contact`, under the same names; `ticks` (rows simulated), `fault`, `diverged` (beyond the limits, ended
         early), `done` (False when the sweep was interrupted before).
@@ -52,6 +55,11 @@ class SweepResult:
     def __len__(self) -> int:
         """Return the number of runs."""
         return len(self.columns["law"])
+
+    @property
+    def swept(self) -> tuple[str, ...]:
+        """The columns of the parameters in which the scenarios differ."""
+        return tuple(name for name in self.columns if name.startswith(_SWEPT))
 
     @property
     def deviation_m(self) -> NDArray[np.float64]:
@@ -89,8 +97,8 @@ class SweepResult:
         pyarrow.parquet.write_table(pyarrow.table(dict(self.columns)), path)
 
     def rows(self) -> list[dict[str, Any]]:
-        """Return one row per run: its law and scenario, and what its contact came to."""
-        keys = ("law", "scenario", *_CONTACT)
+        """Return one row per run: its law, scenario and swept parameters, and what its contact came to."""
+        keys = ("law", "scenario", *self.swept, *_CONTACT)
         columns = [self[key].tolist() for key in keys]
         return [
             {key: None if cell != cell else cell for key, cell in zip(keys, cells, strict=True)}
@@ -99,12 +107,15 @@ class SweepResult:
 
     def _repr_html_(self) -> str:
         """Return a figure and the runs, for a notebook."""
-        from ebac import notebook
+        from ebac._util import notebook
         from ebac.plot import plot_sweep
 
         return notebook.result(repr(self), self.rows(), lambda: plot_sweep(self))
 
     def __repr__(self) -> str:
-        """Return one line: runs, laws, done."""
+        """Return runs, laws, and the first and last rows."""
+        from ebac._util.report import report
+
         laws = ", ".join(dict.fromkeys(self["law"].tolist()))
-        return f"<SweepResult: {len(self)} runs under {laws}, {int(self['done'].sum())} done>"
+        title = f"SweepResult: {len(self)} runs under {laws}, {int(self['done'].sum())} done"
+        return report(title, self.rows())

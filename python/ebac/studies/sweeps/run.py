@@ -10,12 +10,14 @@ from typing import Any, TypeAlias
 import numpy as np
 
 from ebac._core import Device, DeviceFacts, RunLimits, Timing
+from ebac._util.arguments import require
 from ebac.laws import AnyLaw, CoreLaw, PythonLaw, design, law_name
 from ebac.scenario import Scenario
-from ebac.sweeps.job import Job, Progress
-from ebac.sweeps.measure import Columns
-from ebac.sweeps.result import SweepResult
-from ebac.sweeps.store import Store, fingerprint
+from ebac.studies.sweeps.job import Job, Progress
+from ebac.studies.sweeps.measure import Columns
+from ebac.studies.sweeps.parameters import swept
+from ebac.studies.sweeps.result import SweepResult
+from ebac.studies.sweeps.store import Store, fingerprint
 
 Laws: TypeAlias = AnyLaw | Sequence[AnyLaw] | Mapping[str, AnyLaw]
 Known: TypeAlias = tuple[Device | DeviceFacts, Timing]
@@ -87,6 +89,7 @@ def sweep(
     ValueError
         For no scenarios or laws, two laws of one name, or a folder that holds another sweep.
     """
+    require(scenarios, Sequence, "ebac.sweep", "a list of scenarios")
     _check(scenarios, seed=seed, threads=threads, bundle=bundle, designed_for=designed_for)
     named = name_laws(laws)
     if seed is not None:
@@ -112,6 +115,7 @@ def sweep(
         "scenario": np.tile(np.arange(n), len(named)),
         "seed": np.tile(np.array([s.seed for s in scenarios]), len(named)),
     }
+    head |= {name: np.tile(values, len(named)) for name, values in swept(scenarios).items()}
     try:
         for part, columns in job.work(size, store, executor):
             job.keep(part, columns)
@@ -149,10 +153,11 @@ def name_laws(laws: Laws) -> dict[str, AnyLaw]:
 
 
 def _designs(law: AnyLaw, known: Sequence[Known]) -> Iterator[CoreLaw | PythonLaw]:
-    """Design a law for each scenario, once for the same device and timing."""
-    made: dict[tuple[int, int], CoreLaw | PythonLaw] = {}
+    """Design a law for each scenario, once for equal facts and timing."""
+    made: dict[tuple[DeviceFacts, Timing], CoreLaw | PythonLaw] = {}
     for device, timing in known:
-        key = (id(device), id(timing))
+        facts = device.facts if isinstance(device, Device) else device
+        key = (facts, timing)
         if key not in made:
             made[key] = design(law, device, timing)
         yield made[key]

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from ebac._core import RunLimits
-from ebac.sweeps.measure import Columns, Run
+from ebac.studies.sweeps.measure import Columns, Run
 
 MANIFEST = "sweep.json"
 

@@ -4,10 +4,10 @@
 `zwidth` searches the border in the simulation of laws.
 """
 
-from ebac.zwidth.ceilings import delay_ceiling, passive_ceiling, quantised_ceiling
-from ebac.zwidth.linear import eigenvalues, spectral_radius, stiffness_limit
-from ebac.zwidth.result import CRITERIA, ZWidth
-from ebac.zwidth.search import zwidth
+from ebac.studies.zwidth.ceilings import delay_ceiling, passive_ceiling, quantised_ceiling
+from ebac.studies.zwidth.linear import eigenvalues, spectral_radius, stiffness_limit
+from ebac.studies.zwidth.result import CRITERIA, ZWidth
+from ebac.studies.zwidth.search import zwidth
 
 __all__ = [
     "CRITERIA",
@@ -20,3 +20,7 @@ __all__ = [
     "stiffness_limit",
     "zwidth",
 ]
+
+
+def __dir__() -> list[str]:
+    return __all__

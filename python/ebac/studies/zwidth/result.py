@@ -20,7 +20,7 @@ CRITERIA: dict[str, str] = {
 }
 
 
-@dataclass(frozen=True, kw_only=True, eq=False)
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
 class ZWidth:
     """For every law, delay and wall damping the largest stiffness up to which a criterion holds.
 
@@ -86,9 +86,29 @@ class ZWidth:
                 rows.append(row)
         return rows
 
+    def __repr__(self) -> str:
+        """Return the stiffest wall of each law by criterion, its mean over the wall damping."""
+        from ebac._util.report import plural, report
+
+        width = float(self.dampings[-1] - self.dampings[0])
+        rows = [
+            {
+                "law": law,
+                "delay_samples": delay,
+                **{f"{name}_N_per_m": self.area(name, law, delay) / width for name in CRITERIA},
+            }
+            for law in self.laws
+            for delay in self.delays
+        ]
+        title = (
+            f"Z-width, simulated: {plural(len(self.laws), 'law')}, {plural(len(self.delays), 'delay')}; "
+            f"stiffest wall, mean over wall damping {self.dampings[0]:g} to {self.dampings[-1]:g} N s/m"
+        )
+        return report(title, rows)
+
     def _repr_html_(self) -> str:
         """Return the figure and the scores, for a notebook."""
-        from ebac import notebook
+        from ebac._util import notebook
         from ebac.plot import plot_zwidth
 
         def score(row: dict[str, Any]) -> dict[str, Any]:
@@ -100,7 +120,7 @@ class ZWidth:
 
     def rows(self) -> list[dict[str, Any]]:
         """Return one row per law, delay and wall damping, SI units, the unit in the name."""
-        from ebac.zwidth.ceilings import delay_ceiling, passive_ceiling
+        from ebac.studies.zwidth.ceilings import delay_ceiling, passive_ceiling
 
         device, hand = self.base.device, self.base.hand
         timings = [self.base.timing.replace(delay=delay) for delay in self.delays]

@@ -10,13 +10,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ebac._core import LinearLoop, Timing, Wall
+from ebac._util.arguments import require
 from ebac.laws import LAWS, AnyLaw
 from ebac.metrics import EXACT_COUNTS, QUIET_SWING, ideal_rest
 from ebac.scenario import Scenario
-from ebac.sweeps import SweepResult, sweep
-from ebac.sweeps.run import Laws, name_laws
-from ebac.zwidth.linear import stiffness_limit
-from ebac.zwidth.result import CRITERIA, Numbers, ZWidth
+from ebac.studies.sweeps import SweepResult, sweep
+from ebac.studies.sweeps.run import Laws, name_laws
+from ebac.studies.zwidth.linear import stiffness_limit
+from ebac.studies.zwidth.result import CRITERIA, Numbers, ZWidth
 
 #: Wall dampings [N s/m]: up to ten times the reference device's own.
 DAMPINGS = (0.0, 2.5, 5.0, 7.5, 10.0, 12.5, 15.0, 17.5, 20.0)
@@ -54,7 +55,7 @@ def zwidth(
     Parameters
     ----------
     base : Scenario, optional
-        Device, hand and the rest; its wall tells where the surface is. Default: the reference scenario, 3 s.
+        Device, hand and the rest; the position of its wall is the surface. Default: the reference scenario, 3 s.
     laws : law, sequence of laws, or mapping of names to laws
         As `sweep` takes them; default: every law of `LAWS`.
     delays : sequence of int
@@ -79,7 +80,8 @@ def zwidth(
     ValueError
         For a scenario without a wall straight across the first axis, or numbers out of range.
     """
-    scenario = base or Scenario(seconds=3.0)
+    scenario = Scenario(seconds=3.0) if base is None else base
+    require(scenario, Scenario, "ebac.zwidth", "a Scenario as its base")
     _check(scenario, dampings, least, top, rungs, epsilon)
     search = _Search(scenario, epsilon, {"threads": threads, "executor": executor})
     named = name_laws(list(LAWS.values()) if laws is None else laws)
@@ -160,7 +162,7 @@ def _surface(base: Scenario) -> float:
 
 def _spectral(base: Scenario, timing: Timing, damping: float) -> float:
     if not LinearLoop.covers(base.device):
-        return float("nan")  # told as null: the criterion does not exist for this device
+        return float("nan")  # null in JSON: the criterion does not exist for this device
     return stiffness_limit(base.replace(timing=timing), damping)
 
 

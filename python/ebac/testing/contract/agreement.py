@@ -1,4 +1,4 @@
-"""A law in the loop is the law at the desk, to the bit."""
+"""A law stepped from Python gives the bits of the law in the C++ loop."""
 
 from __future__ import annotations
 
@@ -39,9 +39,9 @@ class Agreement:
     def test_the_state_of_a_law_is_recorded_in_every_trace(self, subject: Subject) -> None:
         trace = ebac.simulate(ebac.Scenario(seconds=0.1), subject.made())
         core: Any = subject.core
-        told = {f"law.{f.name}": f for f in core.State.fields()}
-        assert {column for column in trace if column.startswith("law.")} == set(told)
-        for column, field in told.items():
+        logged = {f"law.{f.name}": f for f in core.State.fields()}
+        assert {column for column in trace if column.startswith("law.")} == set(logged)
+        for column, field in logged.items():
             assert trace.columns[column].unit == field.unit
             assert trace.columns[column].meaning == field.meaning
 
@@ -61,9 +61,9 @@ class Agreement:
                 force = law.step(rows.port(k, axis))
                 assert bits(force) == trace.axis("f_cmd", axis)[k].tobytes(), f"tick {k}"
                 for field in law.state.fields():
-                    told = trace.axis(f"law.{field.name}", axis)[k]
-                    known = np.asarray(getattr(law.state, field.name), told.dtype)
-                    assert known.tobytes() == told.tobytes(), f"{field.name} in tick {k}"
+                    logged = trace.axis(f"law.{field.name}", axis)[k]
+                    known = np.asarray(getattr(law.state, field.name), logged.dtype)
+                    assert known.tobytes() == logged.tobytes(), f"{field.name} in tick {k}"
 
     @pytest.mark.parametrize("world", WORLDS)
     def test_the_columns_of_a_trace_hold_all_that_a_law_reads(

@@ -1,4 +1,4 @@
-"""A law gives numbers, within what it says, and none where nothing touches."""
+"""A law gives finite numbers within its declared limits, and none without contact."""
 
 from __future__ import annotations
 

@@ -62,19 +62,19 @@ class FieldContract:
 
     @of_core
     def test_one_step_beyond_a_bound_is_refused_by_name(self, owner: Any, field: Any) -> None:
-        told = f"{owner.__name__}.{field.name} = "
+        beginning = f"{owner.__name__}.{field.name} = "
         if field.kind == "bool":  # it has no bounds, but neither are 2 and None switches
             for value in (2, None):
                 with pytest.raises(TypeError) as wrong:
                     owner(**{field.name: value})
-                assert f"{told}{value}: must be bool" in str(wrong.value)
+                assert f"{beginning}{value}: must be bool" in str(wrong.value)
             return
         unit = "" if field.unit == "1" else f" {field.unit}"
         for bound, way in ((field.low, -1), (field.high, 1)):
             with pytest.raises(ValueError) as caught:  # noqa: PT011
                 owner(**{field.name: beyond(field, bound, way)})
             text = str(caught.value)
-            assert text.startswith(told)
+            assert text.startswith(beginning)
             assert text.endswith(f"{unit}: must lie in [{field.low:g}, {field.high:g}]{unit}")
 
     @of_core

@@ -1,4 +1,4 @@
-"""A law that says it is passive gives out no energy, in any world."""
+"""A law declared passive gives out no energy, in any environment."""
 
 from __future__ import annotations
 
@@ -130,5 +130,5 @@ class Passivity:
         least, size = least_energy(law, world, b, timing)
         reserve = float(getattr(law, "reserve", 0.0))
         assert least >= -reserve - 1e-12 * (size + 1e-6), (
-            f"{subject.name} says it is passive and gave out {-least:.6g} J with b = {b:g} N s/m, {timing}"
+            f"{subject.name} is declared passive and gave out {-least:.6g} J with b = {b:g} N s/m, {timing}"
         )

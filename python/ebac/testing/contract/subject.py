@@ -98,7 +98,7 @@ def of_core(test: Test) -> Test:
 
 
 def of_passive(test: Test) -> Test:
-    """Ask only laws that say they are passive."""
+    """Test only laws declared passive."""
     test.needs = lambda subject: subject.passive  # type: ignore[attr-defined]
     return test
 

@@ -1,0 +1,2 @@
+from ebac.can import channels as channels
+from ebac.can import interface as interface

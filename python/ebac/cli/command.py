@@ -1,0 +1,173 @@
+"""What every command is: options in groups, old names of options, wrong input, Ctrl-C."""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Callable
+from copy import copy
+from dataclasses import fields, is_dataclass
+from typing import Any, get_type_hints
+
+import typer
+from typer.core import TyperCommand, TyperGroup
+
+from ebac.cli import output, setting, wrong_input
+
+_UsageError: Any = typer.BadParameter.__mro__[1]
+
+#: Options that have a new name, one release long.
+RENAMED = {
+    "--stiffness": "--wall-stiffness",
+    "--damping": "--wall-damping",
+    "--position": "--wall-position",
+    "--mass": "--hand-mass",
+    "--target": "--hand-target",
+    "--noise": "--device-noise",
+    "--permille": "--device-permille",
+    "--no-permille": "--no-device-permille",
+    "--rt": "--realtime",
+    "--arms": "--logs",
+    "--current": "--max-current",
+}
+
+
+class Command(TyperCommand):
+    """A command that understands old names, refuses in one sentence, and ends well on Ctrl-C."""
+
+    def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
+        """Read the words after the command."""
+        words = [_renamed(word, self) for word in args]
+        try:
+            rest: list[str] = super().parse_args(ctx, list(words))
+        except _UsageError as error:
+            if ctx.resilient_parsing or type(error).__name__ == "NoArgsIsHelpError":
+                raise
+            output.fail(wrong_input.sentence(error, self, words))
+        wrong = wrong_input.not_finite(self, ctx.params)
+        if wrong and not ctx.resilient_parsing:
+            output.fail(wrong)
+        return rest
+
+    def invoke(self, ctx: Any) -> Any:
+        """Run the command."""
+        setting.current.clear()
+        setting.current.update({p.name: wrong_input.option_name(p) for p in self.params})
+        with output.interruptible():
+            return super().invoke(ctx)
+
+
+class Group(TyperGroup):
+    """A command of commands that refuses in one sentence."""
+
+    def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
+        """Read the words up to the command."""
+        try:
+            rest: list[str] = super().parse_args(ctx, list(args))
+        except _UsageError as error:
+            if ctx.resilient_parsing or type(error).__name__ == "NoArgsIsHelpError":
+                raise
+            output.fail(wrong_input.sentence(error, self, args))
+        return rest
+
+    def resolve_command(self, ctx: Any, args: list[str]) -> Any:
+        """Find the command by its name."""
+        try:
+            return super().resolve_command(ctx, args)
+        except _UsageError:
+            if ctx.resilient_parsing:
+                raise
+            known = [name for name, one in self.commands.items() if not one.hidden]
+            hint = wrong_input.nearest(args[0], known)
+            path = ctx.command_path
+            output.fail(
+                f"{path} {args[0]}: there is no such command{hint or ','} see {path} --help"
+            )
+
+
+def _renamed(word: str, command: Any) -> str:
+    name, equals, value = word.partition("=")
+    new = RENAMED.get(name)
+    known = {n for param in command.params for n in (*param.opts, *param.secondary_opts)}
+    if new is None or name in known or new not in known:
+        return word
+    typer.echo(f"{name} is called {new} now; the next release drops the old name.", err=True)
+    return f"{new}{equals}{value}"
+
+
+def add(
+    app: typer.Typer,
+    function: Callable[..., None],
+    name: str | None = None,
+    *,
+    panel: str | None = None,
+    defaults: str | None = None,
+) -> None:
+    """Make a function a command of `app`; a parameter that is a group of options becomes its options.
+
+    Parameters
+    ----------
+    app : typer.Typer
+        What the command belongs to.
+    function : callable
+        The command; its docstring is the help.
+    name : str, optional
+        Name of the command; default: that of the function.
+    panel : str, optional
+        Panel of the help of `app` it stands in.
+    defaults : str, optional
+        What the help says is the default of the options of groups, where it is not that of the reference scenario.
+    """
+    called = name or function.__name__.replace("_", "-")
+    whole = expanded(function, called, defaults)
+    app.command(called, cls=Command, rich_help_panel=panel)(whole)
+
+
+def expanded(
+    function: Callable[..., None], name: str = "", defaults: str | None = None
+) -> Callable[..., None]:
+    """Return the function with the fields of its groups of options, dataclasses, as its parameters."""
+    hints = get_type_hints(function, include_extras=True)
+    groups: dict[str, Any] = {
+        key: kind for key, kind in hints.items() if isinstance(kind, type) and is_dataclass(kind)
+    }
+    parameters = []
+    for parameter in inspect.signature(function).parameters.values():
+        kind = hints[parameter.name]
+        if parameter.name not in groups:
+            parameters.append(parameter.replace(kind=parameter.KEYWORD_ONLY, annotation=kind))
+            continue
+        known = get_type_hints(kind, include_extras=True)
+        parameters += [
+            inspect.Parameter(
+                field.name,
+                inspect.Parameter.KEYWORD_ONLY,
+                default=field.default,
+                annotation=_option(known[field.name], name, defaults),
+            )
+            for field in fields(kind)
+        ]
+
+    def run(**given: Any) -> None:
+        built = {
+            key: kind(**{field.name: given.pop(field.name) for field in fields(kind)})
+            for key, kind in groups.items()
+        }
+        function(**given, **built)
+
+    run.__name__, run.__doc__ = function.__name__, function.__doc__
+    run.__module__ = function.__module__
+    run.__annotations__ = {p.name: p.annotation for p in parameters} | {"return": None}
+    run.__signature__ = inspect.Signature(parameters)  # type: ignore[attr-defined]
+    return run
+
+
+def _option(annotation: Any, name: str, defaults: str | None) -> Any:
+    """Return the annotation of an option with the command's own default in its help."""
+    info = copy(annotation.__metadata__[0])
+    if isinstance(info.show_default, str):
+        info.show_default = info.show_default.replace("COMMAND", name)
+        if defaults is not None and "ebac-" not in info.show_default:
+            info.show_default = defaults
+    from typing import Annotated
+
+    return Annotated[annotation.__origin__, info]

@@ -1,0 +1,123 @@
+"""`ebac drive scan`, `show`, `plan`, `verify`: look, and change nothing."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from ebac.cli import output
+from ebac.cli.drive import results
+from ebac.cli.drive.options import (
+    BusOptions,
+    Nodes,
+    ProfileName,
+    ProfileNodes,
+    about,
+    drives,
+    network_of,
+    opened,
+)
+
+if TYPE_CHECKING:
+    from ebac.drives import Change, DriveBus, Network
+
+
+def scan(
+    where: BusOptions,
+    as_json: output.AsJson = False,
+) -> None:
+    """List the nodes that answer on a bus. Nothing is changed.
+
+    **Examples**
+
+    * `ebac drive scan --interface ebac --channel joystick`: a simulated joystick
+    """
+    with opened(where) as bus:
+        nodes = bus.scan(seconds=where.timeout)
+        rows = [results.who(bus.drive(node, timeout=where.timeout)) for node in nodes]
+    if as_json:
+        typer.echo(output.document("drive scan", rows))
+    elif rows:
+        results.found(rows)
+    else:
+        output.say("Nobody answers: check power, bit rate, termination, and that the cable is in.")
+
+
+def show(
+    where: BusOptions,
+    node: Nodes = None,
+    everything: Annotated[bool, typer.Option("--all", help="PDO parameters too.")] = False,
+    as_json: output.AsJson = False,
+) -> None:
+    """Read the objects of a drive that ebac knows by name. Nothing is changed.
+
+    **Examples**
+
+    * `ebac drive show --node 1 --interface ebac --channel joystick`
+
+    * `ebac drive show --all --json --interface ebac --channel joystick`: PDO parameters too, as JSON
+    """
+    with opened(where) as bus:
+        chosen = drives(bus, node, where.timeout)
+        rows = [row for one in chosen for row in results.holdings(one, everything)]
+    if as_json:
+        typer.echo(output.document("drive show", rows))
+    else:
+        results.objects(rows)
+
+
+def plan(
+    where: BusOptions,
+    profile: ProfileName = "joystick",
+    node: ProfileNodes = None,
+    as_json: output.AsJson = False,
+) -> None:
+    """Print what a profile would change on the drives, and the load of the bus. Nothing is changed.
+
+    **Examples**
+
+    * `ebac drive plan joystick --interface ebac --channel joystick`: both drives of the paper's joystick
+    """
+    network = network_of(profile, node, where.bitrate)
+    with opened(where) as bus:
+        found = _differences(bus, network, where.timeout)
+    if as_json:
+        typer.echo(output.document("drive plan", [c.row() for c in found], **about(network)))
+        return
+    results.changes(found, "The drives hold all of it: nothing would change.")
+    results.load(network)
+
+
+def verify(
+    where: BusOptions,
+    profile: ProfileName = "joystick",
+    node: ProfileNodes = None,
+    as_json: output.AsJson = False,
+) -> None:
+    """Check whether the drives hold a profile; exit code 1 when they do not. Nothing is changed.
+
+    **Examples**
+
+    * `ebac drive verify --interface ebac --channel joystick`: new simulated drives hold none of it, exit code 1
+    """
+    network = network_of(profile, node, where.bitrate)
+    with opened(where) as bus:
+        found = _differences(bus, network, where.timeout)
+    if as_json:
+        typer.echo(output.document("drive verify", [c.row() for c in found], **about(network)))
+    else:
+        results.changes(found, f"Verified: the drives hold {network.name}.")
+    if found:
+        if not as_json:
+            output.say(
+                f"Not verified: {output.plural(len(found), 'object')} differ. `ebac drive apply` sets them."
+            )
+        raise typer.Exit(output.FAILED)
+
+
+def _differences(bus: DriveBus, network: Network, timeout: float) -> list[Change]:
+    from ebac.drives import plan as plan_of
+
+    plans = [plan_of(bus.drive(node.id, timeout=timeout), node) for node in network.nodes]
+    return [change for one in plans for change in one.changes]

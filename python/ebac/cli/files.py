@@ -1,0 +1,160 @@
+"""Where a command writes its files, and in which formats it draws."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from ebac.cli import output
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+PANEL = "Results"
+FORMATS = ("png", "pdf", "svg")
+
+
+@dataclass(frozen=True, kw_only=True)
+class FigureOptions:
+    """Formats and width of figures."""
+
+    figure_format: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--format",
+            help="Format of figures: png, pdf or svg; several with commas between.",
+            show_default="png",
+            rich_help_panel=PANEL,
+        ),
+    ] = None
+    width: Annotated[
+        str | None,
+        typer.Option(
+            "--width",
+            help="Width of figures: single (89 mm), double (183 mm), or a number of millimetres.",
+            show_default="as drawn",
+            rich_help_panel=PANEL,
+        ),
+    ] = None
+
+    def check(self) -> None:
+        """End the command on a wrong format or width, before any work."""
+        self.formats()
+        if self.width is not None:
+            from ebac.plot.save import millimetres
+
+            with output.refusing():
+                millimetres(self.width)
+
+    def formats(self) -> list[str]:
+        """Return the extensions of the figures."""
+        names = [word for text in self.figure_format or ["png"] for word in output.words(text)]
+        for name in names:
+            if name not in FORMATS:
+                output.fail(f"--format {name}: must be {', '.join(FORMATS[:-1])} or {FORMATS[-1]}")
+        return list(dict.fromkeys(names))
+
+    def save(self, figure: Figure, folder: Path, name: str) -> list[str]:
+        """Write a figure in every format; return the names of the files."""
+        files = [f"{name}.{extension}" for extension in self.formats()]
+        for file in files:
+            self.write(figure, folder / file)
+        return files
+
+    def write(self, figure: Figure, file: Path) -> None:
+        """Write a figure to one file, in the format of its extension."""
+        from ebac.plot import save
+
+        save(figure, file, width=self.width)
+
+
+@dataclass(frozen=True, kw_only=True)
+class ResultOptions(FigureOptions):
+    """The folder of the results, and the figures in it."""
+
+    out: Annotated[
+        Path | None,
+        typer.Option(
+            "--out",
+            "-o",
+            help="Folder for the results, new or empty; with --json written only when given.",
+            show_default="ebac-COMMAND, then ebac-COMMAND-2, ...",
+            rich_help_panel=PANEL,
+        ),
+    ] = None
+    force: Annotated[
+        bool,
+        typer.Option("--force", help="Write into a folder that has files.", rich_help_panel=PANEL),
+    ] = False
+
+    def folder(self, command: str, *, as_json: bool, resume: bool = False) -> Path | None:
+        """Return the folder to write to, None for none; one that has files ends the command.
+
+        Parameters
+        ----------
+        command : str
+            Name of the command, for the folder's own name.
+        as_json : bool
+            Whether to write only where --out is given.
+        resume : bool
+            Whether to go on in a folder: that of --out, or the last of this command.
+        """
+        self.check()
+        if self.out is None:
+            if resume and as_json:
+                output.fail("--resume continues in a folder: give it with --out")
+            return None if as_json else own_folder(f"ebac-{command}", last=resume)
+        return free_folder(self.out, force=self.force or resume)
+
+
+def free_folder(out: Path, *, force: bool) -> Path:
+    """Return the folder of --out; one that has files ends the command, unless forced."""
+    if not force and _has_files(out):
+        output.fail(f"--out {out}: has files; give a new folder, or --force to write into this one")
+    return out
+
+
+def own_folder(name: str, *, last: bool = False) -> Path:
+    """Return `name`, or `name-2` and so on, the first that has no files, or the last that has."""
+    if last:
+        there = [path for path in Path().glob(f"{name}*") if _number(path, name) and path.is_dir()]
+        return max(there, key=lambda path: _number(path, name), default=Path(name))
+    number = 1
+    while (path := Path(name if number == 1 else f"{name}-{number}")).exists():
+        if path.is_dir() and not _has_files(path):
+            break
+        number += 1
+    return path
+
+
+def free_file(file: Path) -> Path:
+    """Return a name like this one that no file has: run.png, run-2.png and so on."""
+    number, free = 1, file
+    while free.exists():
+        number += 1
+        free = file.with_stem(f"{file.stem}-{number}")
+    return free
+
+
+def _number(path: Path, name: str) -> int:
+    found = re.fullmatch(rf"{re.escape(name)}(?:-(\d+))?", path.name)
+    return int(found[1] or 1) if found else 0
+
+
+def _has_files(folder: Path) -> bool:
+    return folder.is_dir() and next(folder.iterdir(), None) is not None
+
+
+def new_file(option: str, file: Path, *, force: bool) -> Path:
+    """Return a file to write; one that exists ends the command, unless forced."""
+    if file.is_dir():
+        output.fail(f"{option} {file}: is a folder; give the name of a file")
+    if file.exists() and not force:
+        output.fail(f"{option} {file}: exists; give another name, or --force to replace it")
+    if not file.parent.is_dir():
+        output.fail(f"{option} {file}: there is no folder {file.parent}; make it first")
+    return file

@@ -1,0 +1,218 @@
+"""What the commands of `ebac identify` share: how a log is read, what the hand was told to do, the report."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from ebac.cli import output
+from ebac.cli.files import PANEL, FigureOptions, free_folder
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from ebac.identify import Estimate, Recording, Target
+
+#: Panels of the help.
+LOG, FIT = "Log", "Fit"
+Logs = Annotated[
+    list[Path],
+    typer.Argument(
+        help="Logs: MCAP, CSV, .mat or .npz; several are fitted together.", show_default=False
+    ),
+]
+
+
+def _log(text: str, default: str | bool = False, *names: str, **more: Any) -> Any:
+    return typer.Option(*names, help=text, show_default=default, rich_help_panel=LOG, **more)
+
+
+def _fit(text: str, default: str | bool = False, **more: Any) -> Any:
+    return typer.Option(help=text, show_default=default, rich_help_panel=FIT, **more)
+
+
+Fix = Annotated[list[str] | None, _fit("NAME=VALUE in SI units: M0, B0, K0, X0, delay; repeat it.")]
+Robust = Annotated[
+    float | None, _fit("Errors beyond so many deviations count linearly.", min=0.1, max=100)
+]
+
+
+@dataclass(frozen=True, kw_only=True)
+class TargetOptions:
+    """The path the hand was asked to follow."""
+
+    switch: Annotated[
+        list[float] | None,
+        _fit(
+            "Time at which the hand went to another place [s]; repeat it.",
+            "as the log says, else held in one place",
+        ),
+    ] = None
+    tapping: Annotated[
+        float | None, _fit("Frequency at which the hand taps [Hz].", min=0.01, max=1000)
+    ] = None
+    held: Annotated[
+        bool,
+        typer.Option(
+            "--held",
+            help="The hand was held in one place, whatever the log says.",
+            rich_help_panel=FIT,
+        ),
+    ] = False
+
+    def of(self, r: Recording) -> tuple[Recording, Target]:
+        """Return a recording and the target of its hand; its last remark names the target."""
+        from ebac.identify import Target
+        from ebac.identify.target import in_words
+
+        if bool(self.switch) + (self.tapping is not None) + self.held > 1:
+            raise ValueError("--switch, --tapping and --held: give one of them")
+        if self.tapping is not None:
+            found = Target.tapping(self.tapping, r.seconds, float(r.t[0]))
+            why = f"taps at {self.tapping:g} Hz"
+        elif self.switch:
+            found = Target.steps(*sorted(self.switch))
+            why = f"steps at {', '.join(f'{t:g}' for t in sorted(self.switch))} s"
+        elif self.held:
+            found, why = Target.held(), "held in one place"
+        elif r.target is not None:
+            found, why = Target.following(r.target), "the column of the log"
+        elif r.path is not None:
+            found = Target.along(r.path, r.t)
+            why = f"{in_words(r.path)}, by the scenario in the log"
+        else:
+            found = Target.held()
+            why = "held in one place, an assumption: --tapping, --switch or a column target give another"
+        return replace(r, remarks=(*r.remarks, f"target of the hand: {why}")), found
+
+
+@dataclass(frozen=True, kw_only=True)
+class ReportOptions(FigureOptions):
+    """The folder of the report."""
+
+    out: Annotated[
+        Path | None,
+        typer.Option(
+            "--out",
+            "-o",
+            help="Folder for the report page and figures, new or empty.",
+            show_default=False,
+            rich_help_panel=PANEL,
+        ),
+    ] = None
+    force: Annotated[
+        bool,
+        typer.Option("--force", help="Write into a folder that has files.", rich_help_panel=PANEL),
+    ] = False
+
+    def folder(self) -> Path | None:
+        """Return the folder to write to, None for none; one that has files ends the command."""
+        self.check()
+        return None if self.out is None else free_folder(self.out, force=self.force)
+
+
+def pairs(given: list[str] | None, option: str) -> dict[str, str]:
+    """Split NAME=VALUE."""
+    out = {}
+    for text in given or []:
+        name, mark, value = text.partition("=")
+        if not mark or not name or not value:
+            raise ValueError(f"{option} {text}: write NAME=VALUE")
+        out[name] = value
+    return out
+
+
+def numbers(given: list[str] | None, option: str) -> dict[str, float]:
+    """Split NAME=NUMBER."""
+    out = {}
+    for name, text in pairs(given, option).items():
+        try:
+            out[name] = float(text)
+        except ValueError:
+            raise ValueError(f"{option} {name}={text}: {text!r} is no number") from None
+    return out
+
+
+@dataclass(frozen=True, kw_only=True)
+class Reading:
+    """How a log is read."""
+
+    column: Annotated[
+        list[str] | None,
+        _log("SIGNAL=COLUMN: t, x, force, motor, desired or target; repeat it.", "guessed"),
+    ] = None
+    unit: Annotated[
+        list[str] | None, _log("SIGNAL=UNIT, as x=mm; repeat it.", "from the heading, else SI")
+    ] = None
+    rate: Annotated[
+        float | None, _log("Rows per second [Hz], for a log without time.", min=0.1, max=1e6)
+    ] = None
+    lag: Annotated[
+        float | None, _log("Lag of the force sensor [s].", "of the trace, else 0", min=0, max=1)
+    ] = None
+    current_lag: Annotated[
+        float | None,
+        _log("Lag of the motor's current loop [s].", "of the trace, else 0.0003", min=0, max=1),
+    ] = None
+    axis: Annotated[int, _log("Axis of a recorded run.", True, min=0)] = 0
+    flip_force: Annotated[
+        bool,
+        typer.Option(
+            "--flip-force",
+            help="The log holds the force on the hand, of the other sign.",
+            rich_help_panel=LOG,
+        ),
+    ] = False
+
+    def load(self, path: Path) -> Recording:
+        """Read one log."""
+        from ebac.identify.load import load
+
+        return load(
+            path,
+            columns=pairs(self.column, "--column"),
+            units=pairs(self.unit, "--unit"),
+            rate=self.rate,
+            lag=self.lag,
+            current_lag=self.current_lag,
+            axis=self.axis,
+            flip_force=self.flip_force,
+        )
+
+
+def line(e: Estimate) -> dict[str, str]:
+    """Return an estimate as a row of a report."""
+    return {
+        "parameter": e.name,
+        "estimate": f"{e.value:.5g}",
+        "95 % interval": "given" if e.fixed else f"{e.low:.5g} to {e.high:.5g}",
+        "unit": e.unit,
+    }
+
+
+def report(
+    to: ReportOptions,
+    name: str,
+    *,
+    title: str,
+    rows: list[dict[str, str]],
+    careful: list[str],
+    notes: list[str],
+    draw: Sequence[Callable[[], Figure]],
+) -> list[str]:
+    """Write `name`.html, which holds everything, and its figures beside it; return the names of the files."""
+    from ebac.identify.figures import page
+
+    with output.results(to.folder()) as draft:
+        if draft is None:
+            return []
+        figures = [one() for one in draw]
+        for i, figure in enumerate(figures, 1):
+            to.save(figure, draft, f"{name}-{i}" if len(figures) > 1 else name)
+        text = page(title, rows, careful, notes, figures)
+        (draft / f"{name}.html").write_text(text, encoding="utf-8")
+        return sorted(file.name for file in draft.iterdir())

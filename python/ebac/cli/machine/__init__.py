@@ -1,0 +1,1 @@
+"""Commands about this machine: `ebac doctor`, `ebac jitter`."""

@@ -1,0 +1,159 @@
+"""Wrong input in one sentence: the option, its value, what it must be, and the nearest right word."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Sequence
+from difflib import get_close_matches
+from math import isfinite
+from typing import Any
+
+
+def sentence(error: Any, command: Any, words: Sequence[str]) -> str:
+    """Return what is wrong, from an error of the parser and the words it was given."""
+    wrong = getattr(error, "option_name", None)
+    message = str(error.message or error.format_message()).strip().rstrip(".")
+    if message.startswith("No such option"):
+        return _unknown_option(str(wrong), command)
+    param = getattr(error, "param", None)
+    if param is None:
+        return _plain(message, wrong)
+    name = option_name(param)
+    if type(error).__name__ == "MissingParameter":
+        return f"{name}: is missing; {_help(param)}"
+    return f"{_wrong_value(param, name, message, words)}"
+
+
+def not_finite(command: Any, values: dict[str, Any]) -> str:
+    """Return a sentence for the first number of the options that is NaN or infinite; "" for none."""
+    for param in command.params:
+        value = values.get(param.name)
+        for one in value if isinstance(value, (list, tuple)) else [value]:
+            if isinstance(one, float) and not isfinite(one):
+                return f"{option_name(param)} = {one}{_unit(param)}: must be a finite number"
+    return ""
+
+
+def option_name(param: Any) -> str:
+    """Return how a person writes a parameter: its long option, or its placeholder."""
+    long = [name for name in param.opts if name.startswith("--")]
+    if long:
+        return str(long[0])
+    return str(getattr(param, "metavar", None) or param.name.upper()).strip("[].")
+
+
+def _wrong_value(param: Any, name: str, message: str, words: Sequence[str]) -> str:
+    given = list(values_of(param, words))
+    low, high = _range(param)
+    unit = _unit(param)
+    if (low, high) != (None, None) or re.search(r"number|integer|float", message):
+        whole = bool(re.search(r"integer", message)) or _whole(param)
+        kind = "a whole number" if whole else "a number"
+        text = next((v for v in given if _is_text(v, whole=whole)), None)
+        if text is not None:
+            within = f", {_span(low, high)}{unit}" if (low, high) != (None, None) else ""
+            return f"{name} = {text}: must be {kind}{_in(unit)}{within}"
+        value = next((v for v in given if not _inside(v, low, high)), given[0] if given else "")
+        return f"{name} = {value}{unit}: must be {_span(low, high)}{unit}"
+    choices = _choices(param)
+    if choices:
+        value = given[0] if given else ""
+        return f"{name} {value}: must be {_or(choices)}{nearest(value, choices)}"
+    value = f" {given[0]}" if given else ""
+    return f"{name}{value}: {message[0].lower()}{message[1:]}"
+
+
+def values_of(param: Any, words: Sequence[str]) -> Iterator[str]:
+    """Give the words that were given to an option; for an argument, every word that is no option."""
+    names = {*param.opts, *param.secondary_opts}
+    if not any(name.startswith("-") for name in names):
+        yield from (word for word in words if not word.startswith("--"))
+        return
+    several = max(1, param.nargs)
+    for i, word in enumerate(words):
+        name, equals, value = word.partition("=")
+        if word in names:
+            yield from words[i + 1 : i + 1 + several]
+        elif equals and name in names:
+            yield value
+
+
+def _unknown_option(wrong: str, command: Any) -> str:
+    known = [name for p in command.params if not getattr(p, "hidden", False) for name in p.opts]
+    known = [name for name in known if name.startswith("--")]
+    tails = {f"--{name.split('-', 3)[-1]}": name for name in known if name.count("-") > 2}
+    close = get_close_matches(wrong, known, 2) or get_close_matches(wrong, list(tails), 2)
+    near: list[str] = [str(tails.get(name, name)) for name in close]
+    hint = f", did you mean {_or(near)}" if near else ""
+    return f"{wrong}: there is no such option{hint}; see --help"
+
+
+def _plain(message: str, wrong: str | None) -> str:
+    if wrong and "requires" in message:
+        return f"{wrong}: needs a value after it"
+    found = re.search(r"unexpected extra arguments? \((.*)\)", message)
+    if found:
+        return f"{found[1]}: too many words; quote a name that has spaces, or see --help"
+    return f"{message[0].lower()}{message[1:]}"
+
+
+def nearest(name: str, known: Sequence[str]) -> str:
+    """Return a hint at the name that was meant, where one is near."""
+    near = get_close_matches(name.lower(), known, 1)
+    return f", did you mean {near[0]!r}?" if near else ""
+
+
+def _or(words: Sequence[str]) -> str:
+    return " or ".join([", ".join(words[:-1]), words[-1]] if len(words) > 1 else words)
+
+
+def _help(param: Any) -> str:
+    text = " ".join(str(getattr(param, "help", None) or "see --help").split())
+    text = text.replace("`", "").rstrip(".")
+    return f"{text[0].lower()}{text[1:]}" if text[1:2].islower() else text
+
+
+def _unit(param: Any) -> str:
+    """Return the unit that the help of an option names in square brackets, after a space."""
+    found = re.search(r"\[([^\]]+)\]", str(getattr(param, "help", None) or ""))
+    return f" {found[1]}" if found else ""
+
+
+def _in(unit: str) -> str:
+    return f" (in{unit})" if unit else ""
+
+
+def _range(param: Any) -> tuple[float | None, float | None]:
+    kind = getattr(param, "type", None)
+    low, high = (getattr(param, name, getattr(kind, name, None)) for name in ("min", "max"))
+    return low, high
+
+
+def _choices(param: Any) -> list[str]:
+    kind = getattr(param, "type_descriptor", None) or getattr(param, "type", None)
+    return [str(getattr(one, "value", one)) for one in getattr(kind, "choices", None) or ()]
+
+
+def _whole(param: Any) -> bool:
+    kind = getattr(param, "type", None)
+    annotation = getattr(getattr(param, "type_descriptor", None), "annotation", "")
+    return "int" in str(getattr(kind, "name", "")) or "int" in str(annotation)
+
+
+def _span(low: float | None, high: float | None) -> str:
+    if high is None:
+        return f"{low:g} or more"
+    return f"{high:g} or less" if low is None else f"{low:g} to {high:g}"
+
+
+def _is_text(text: str, *, whole: bool) -> bool:
+    try:
+        int(text) if whole else float(text)
+    except ValueError:
+        return True
+    return False
+
+
+def _inside(text: str, low: float | None, high: float | None) -> bool:
+    value = float(text)
+    return (low is None or value >= low) and (high is None or value <= high)

@@ -1,0 +1,157 @@
+"""Validate a model: predict the motion from the force alone; test whether the residuals are white."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ebac.identify.intervals import normal_tail
+from ebac.identify.parameters import BEFORE_LEVELS
+
+if TYPE_CHECKING:
+    from ebac.identify.recording import Recording
+    from ebac.identify.result import ArmResult
+
+#: How far errors are compared with each other and with the input [samples].
+LAGS = 40
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class ResidualTests:
+    """Correlation of the errors with themselves and with the force.
+
+    `auto` and `cross` have the shape (LAGS,); without structure 95 % of them lie within +-`band`.
+    """
+
+    auto: NDArray[np.float64]
+    cross: NDArray[np.float64]
+    band: float
+    whiteness_p: float
+    independence_p: float
+
+    @property
+    def white(self) -> bool:
+        """Whether autocorrelation is small, |r| < 0.1 at every lag, or not significant."""
+        return self.whiteness_p > 0.01 or float(np.abs(self.auto).max()) < 0.1
+
+    @property
+    def independent(self) -> bool:
+        """Whether the force explains nothing more of the errors, |r| < 0.1, or not significantly."""
+        return self.independence_p > 0.01 or float(np.abs(self.cross).max()) < 0.1
+
+
+def residual_tests(errors: NDArray[np.float64], force: NDArray[np.float64]) -> ResidualTests:
+    """Test the errors of one recording, shape (rows,), against themselves and the force [N]."""
+    informative = np.flatnonzero(errors)[
+        5:
+    ]  # rows with a reading, but for those in which the filter settles
+    if informative.size < 8:
+        raise ValueError(f"{informative.size} readings with information: too few to test errors on")
+    e = errors[informative] - errors[informative].mean()
+    u = np.diff(force[informative], prepend=force[informative[0]])
+    u = u - u.mean()
+    n = len(e)
+    lags = min(LAGS, n // 4)
+    own = float(e @ e) + 1e-300
+    auto = np.array([e[k:] @ e[: n - k] / own for k in range(1, lags + 1)])
+    both = np.sqrt(own * (float(u @ u) + 1e-300))
+    cross = np.array([e[k:] @ u[: n - k] / both for k in range(lags)])
+    return ResidualTests(
+        auto=auto,
+        cross=cross,
+        band=1.96 / np.sqrt(n),
+        whiteness_p=_chi_square_tail(n * float(auto @ auto), lags),
+        independence_p=_chi_square_tail(n * float(cross @ cross), lags),
+    )
+
+
+def _chi_square_tail(q: float, degrees: int) -> float:
+    """Return the probability of a chi-square beyond q, by Wilson and Hilferty's cube root."""
+    k = float(degrees)
+    z = ((q / k) ** (1 / 3) - (1 - 2 / (9 * k))) / np.sqrt(2 / (9 * k))
+    tail = 0.5 * normal_tail(float(z))
+    return tail if z > 0 else 1 - tail
+
+
+def vaf(measured: NDArray[np.float64], model: NDArray[np.float64]) -> float:
+    """Return the variance accounted for, 1 - var(error)/var(measured); 1 is perfect."""
+    return 1 - float(np.var(measured - model) / np.var(measured))
+
+
+def nrmse(measured: NDArray[np.float64], model: NDArray[np.float64]) -> float:
+    """Return the root of the mean squared error over the range of what was measured."""
+    return float(np.sqrt(np.mean((measured - model) ** 2)) / np.ptp(measured))
+
+
+def best_start(
+    record: Any, theta: NDArray[np.float64], x: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Simulate a hand under a recorded force from the initial state that fits best."""
+    none = record.simulate(theta, 0.0, 0.0)
+    parts = np.array([record.simulate(theta, *z) - none for z in ((1.0, 0.0), (0.0, 1.0))])
+    state, *_ = np.linalg.lstsq(parts.T, x - none, rcond=1e-12)
+    return np.asarray(none + state @ parts)
+
+
+def best_levels(
+    record: Any, base: NDArray[np.float64], x: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Simulate as `best_start`, with the target's levels fitted too."""
+    none = record.simulate(base, 0.0, 0.0)
+    moves = [record.simulate(base, *z) - none for z in ((1.0, 0.0), (0.0, 1.0))]
+    for j in range(BEFORE_LEVELS, len(base)):
+        other = base.copy()
+        other[j] += 1.0
+        moves.append(record.simulate(other, 0.0, 0.0) - none)
+    found, *_ = np.linalg.lstsq(np.array(moves).T, x - none, rcond=1e-12)
+    return np.asarray(none + found @ np.array(moves))
+
+
+@dataclass(frozen=True, kw_only=True)
+class Prediction:
+    """How well the hand predicts a recording from its force alone: 1 and 0 are perfect."""
+
+    recording: str
+    held_out: bool
+    vaf: float
+    nrmse: float
+
+
+def judge(r: Recording, model: NDArray[np.float64], *, held: bool) -> Prediction:
+    """Return how well a model's position [m] is that of a recording."""
+    return Prediction(recording=r.name, held_out=held, vaf=vaf(r.x, model), nrmse=nrmse(r.x, model))
+
+
+#: A hand that explains less of the motion than this is questioned.
+POOR = 0.8
+
+
+def misses(result: ArmResult) -> tuple[str, ...]:
+    """Return what the model misses, a sentence each; nothing where structure in the errors changes no result."""
+    out = []
+    if result.other_sign is not None:
+        both = f"{100 * result.explained:.3g} %", f"{100 * result.other_sign:.3g} %"
+        if result.other_sign > max(POOR, result.explained):
+            out.append(
+                f"The hand explains {both[0]} of the motion (VAF), with the force of the other sign {both[1]}: the log "
+                "seems to hold the force on the hand instead of the force of the hand. --flip-force turns the sign, in "
+                "Python load(..., flip_force=True)."
+            )
+        else:
+            out.append(
+                f"The hand explains only {both[0]} of the motion (VAF), with the force of the other sign {both[1]}: is "
+                "the target of the hand the right one (--switch, --tapping)?"
+            )
+    if result.regression:
+        other = ", ".join(
+            f"{name} = {value:.4g} {result[name].unit} instead of {result[name].value:.4g}"
+            for name, value in result.regression.items()
+        )
+        out.append(
+            f"The errors are not white, and below 20 Hz the log gives {other}: something in the log, such as a filter "
+            "or the lag of the force sensor, is not in eq. (4). The intervals hold both values."
+        )
+    return tuple(out)

@@ -1,0 +1,125 @@
+"""Reads the formats of other programs that `ebac.logs.export` writes: Parquet, MATLAB, HDF5."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ebac.logs.csv_file import gathered
+from ebac.logs.export import needs
+from ebac.scenario import Scenario
+from ebac.trace import Trace
+from ebac.trace.columns import ColumnInfo
+
+
+def from_parquet(path: Path) -> Trace:
+    """Read a Parquet file of `to_parquet`."""
+    needs("pyarrow", "sweep")
+    import pyarrow
+    import pyarrow.parquet
+
+    try:
+        table = pyarrow.parquet.read_table(path)
+    except pyarrow.ArrowInvalid as error:
+        raise ValueError(f"{path}: not a Parquet file ({_first(error)})") from None
+    about = _texts(table.schema.metadata or {})
+    flat = {field.name: table[field.name].to_numpy() for field in table.schema}
+    infos = {field.name: _texts(field.metadata or {}) for field in table.schema}
+    axes = _axes(path, about)
+    data, first = gathered(flat, list(flat), axes)
+    columns = {
+        name: _info(name, infos[part].get("unit"), infos[part].get("meaning"))
+        for name, part in first.items()
+    }
+    return _trace(path, data, columns, about)
+
+
+def from_mat(path: Path) -> Trace:
+    """Read a MATLAB file of `to_mat`."""
+    needs("scipy", "log")
+    from scipy.io import loadmat
+
+    with path.open("rb") as file:
+        try:
+            found = loadmat(file, simplify_cells=True)
+        except (ValueError, TypeError, NotImplementedError, OSError) as error:
+            raise ValueError(f"{path}: not a MATLAB file ({_first(error)})") from None
+    about = {name: str(text) for name, text in _part(found, "about").items()}
+    units, meanings, names = (_part(found, part) for part in ("units", "meanings", "names"))
+    data, columns = {}, {}
+    for short in units:
+        name = str(names.get(short, short))
+        data[name] = np.atleast_1d(np.asarray(found[short]))
+        columns[name] = _info(name, units[short], meanings.get(short))
+    return _trace(path, data, columns, about)
+
+
+def from_hdf5(path: Path) -> Trace:
+    """Read an HDF5 file of `to_hdf5`."""
+    needs("h5py", "log")
+    import h5py
+
+    with path.open("rb"):  # h5py names neither a missing file nor a folder
+        pass
+    try:
+        file = h5py.File(path, "r")
+    except OSError as error:
+        raise ValueError(f"{path}: not an HDF5 file ({_first(error)})") from None
+    with file:
+        about = {name: str(text) for name, text in file.attrs.items()}
+        data = {name: file[name][()] for name in file}
+        columns = {
+            name: _info(name, file[name].attrs.get("unit"), file[name].attrs.get("meaning"))
+            for name in file
+        }
+    return _trace(path, data, columns, about)
+
+
+def _trace(
+    path: Path,
+    data: dict[str, NDArray[Any]],
+    columns: dict[str, ColumnInfo],
+    about: Mapping[str, str],
+) -> Trace:
+    axes = _axes(path, about)
+    if "t" not in data:
+        raise ValueError(f"{path}: not a log of ebac: the column t is missing")
+    for values in data.values():
+        values.setflags(write=False)
+    text = about.get("scenario", "")
+    return Trace(
+        data=data,
+        columns=columns,
+        axes=axes,
+        scenario=Scenario.from_toml(text) if text else None,
+        law=about.get("law", ""),
+        law_repr=about.get("law_repr", ""),
+    )
+
+
+def _axes(path: Path, about: Mapping[str, str]) -> int:
+    try:
+        return int(about["axes"])
+    except (KeyError, ValueError):
+        raise ValueError(f"{path}: not a log of ebac: the number of axes is not in it") from None
+
+
+def _info(name: str, unit: object, meaning: object) -> ColumnInfo:
+    return ColumnInfo(name=name, unit=str(unit or "1"), meaning=str(meaning or ""))
+
+
+def _part(found: Mapping[str, Any], name: str) -> dict[str, Any]:
+    part = found.get(name)
+    return part if isinstance(part, dict) else {}
+
+
+def _texts(metadata: Mapping[bytes, bytes]) -> dict[str, str]:
+    return {name.decode(): text.decode() for name, text in metadata.items()}
+
+
+def _first(error: Exception) -> str:
+    return str(error).partition("\n")[0].rstrip(".")

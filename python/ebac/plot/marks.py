@@ -1,0 +1,88 @@
+"""Titles that say what a figure shows, and marks for the end of a run: the ramp to zero, a fault."""
+
+from __future__ import annotations
+
+from matplotlib.axes import Axes
+
+from ebac._core import Fault
+from ebac._util import formatting
+from ebac.scenario import Scenario
+from ebac.trace import Trace
+
+#: The state of the loop in which it ramps the force to zero.
+_STOP = 3
+FAULT_COLOUR, RAMP_COLOUR = "#aa0044", "0.88"
+
+
+def title(trace: Trace, source: str = "") -> str:
+    """Return law, source and scenario of a trace, and the fault that ended it.
+
+    Parameters
+    ----------
+    trace : Trace
+        Of a simulation, a device, or a log played again.
+    source : str
+        Where a trace without simulated truth comes from; default "recorded".
+    """
+    name = f"law {trace.law}" if trace.law else "a run"
+    fault = fault_name(trace)
+    end = f"\nended by {fault} at {_fault_time(trace):.3f} s" if fault else ""
+    if "log.f_cmd" in trace:
+        return (
+            f"{name}, over a recorded log: the handle moved as recorded, whatever is commanded{end}"
+        )
+    if trace.scenario is None:
+        return f"{name}, {source or 'recorded'}{end}"
+    parts = formatting.describe(trace.scenario).split("; ")
+    if "true.x" in trace:
+        return (
+            f"{name}, {source or 'simulated'}: {parts[0]}; {parts[1]}\n{'; '.join(parts[2:])}{end}"
+        )
+    # a person's hand is not that of the scenario
+    return f"{name}, {source or 'recorded'}: {parts[0]}\n{'; '.join(parts[2:-1])}{end}"
+
+
+def heading(scenario: Scenario, source: str = "simulated") -> str:
+    """Return two lines for a figure of several runs of one scenario: device and hand, wall and time."""
+    parts = formatting.describe(scenario).split("; ")
+    return f"{source}: {parts[0]}; {parts[1]}\n{'; '.join(parts[2:])}"
+
+
+def fault_name(trace: Trace) -> str:
+    """Return the fault that ended a run, "fault 4 (law not finite)"; empty without one."""
+    if "fault" not in trace or not trace["fault"].any():
+        return ""
+    number = int(trace["fault"][trace["fault"].nonzero()[0][0]])
+    try:
+        return f"fault {number} ({Fault(number).name.lower().replace('_', ' ')})"
+    except ValueError:
+        return f"fault {number}"
+
+
+def _fault_time(trace: Trace) -> float:
+    return float(trace["t"][trace["fault"].nonzero()[0][0]])
+
+
+def mark_end(ax: Axes, trace: Trace, *, label: bool = True) -> None:
+    """Mark the time over which the force is ramped to zero, and the instant of a fault."""
+    t = trace["t"]
+    if "state" in trace:
+        ramp = t[trace["state"] == _STOP]
+        if len(ramp) > 1:
+            text = "force ramped to zero" if label else "_"
+            ax.axvspan(ramp[0], ramp[-1], color=RAMP_COLOUR, lw=0, zorder=0, label=text)
+    if fault := fault_name(trace):
+        ax.axvline(
+            _fault_time(trace),
+            color=FAULT_COLOUR,
+            lw=1.2,
+            ls=(0, (4, 2)),
+            label=fault if label else "_",
+        )
+
+
+def used_axes(trace: Trace) -> list[int]:
+    """Return the axes on which something moved or acted; the first one where nothing did."""
+    names = [n for n in ("x", "f_env", "f_cmd", "f_applied") if n in trace]
+    used = [i for i in range(trace.axes) if any(trace.axis(n, i).any() for n in names)]
+    return used or [0]
