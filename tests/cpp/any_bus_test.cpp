@@ -1,11 +1,11 @@
 // One end of a bus, and the wait on it.
-#include "ebac/can/either_bus.hpp"
+#include "ebac/can/any_bus.hpp"
 
 #include <gtest/gtest.h>
 
 #include <chrono>
 
-#include "ebac/can/wait_on.hpp"
+#include "ebac/can/wait.hpp"
 
 namespace ebac::can {
 namespace {
@@ -14,11 +14,11 @@ using std::chrono::milliseconds;
 
 struct TwoEnds {
   LoopbackHub hub{};
-  EitherBus mine{hub.open()};
+  AnyBus mine{hub.open()};
   LoopbackBus other{hub.open()};
 };
 
-TEST(EitherBus, GivesEveryFrameOnceAndInOrderWhetherWaitedForOrNot) {
+TEST(AnyBus, GivesEveryFrameOnceAndInOrderWhetherWaitedForOrNot) {
   TwoEnds ends;
   for (std::uint8_t i = 0; i < 4; ++i) ASSERT_TRUE(ends.other.send(frame(0x180, {i})));
   Frame in;
@@ -35,7 +35,7 @@ TEST(EitherBus, GivesEveryFrameOnceAndInOrderWhetherWaitedForOrNot) {
   EXPECT_EQ(ends.mine.counts().received, 4U);
 }
 
-TEST(EitherBus, SendsAndTellsHowTheBusStands) {
+TEST(AnyBus, SendsAndTellsHowTheBusStands) {
   TwoEnds ends;
   EXPECT_TRUE(ends.mine.send(frame(0x200, {1})));
   Frame in;
@@ -44,13 +44,13 @@ TEST(EitherBus, SendsAndTellsHowTheBusStands) {
   ends.mine.close();
   EXPECT_EQ(ends.mine.state(), BusState::kClosed);
   EXPECT_FALSE(ends.mine.send(frame(0x200, {1})));
-  EXPECT_EQ(EitherBus(SocketCan()).state(), BusState::kClosed);
+  EXPECT_EQ(AnyBus(SocketCan()).state(), BusState::kClosed);
 }
 
 TEST(WaitOn, LooksAgainWhileThereIsAFrameAndEndsWithItsBudget) {
   TwoEnds ends;
-  WaitOn<EitherBus> wait(ends.mine, milliseconds(20));
-  static_assert(Wait<WaitOn<EitherBus>>);
+  WaitOn<AnyBus> wait(ends.mine, milliseconds(20));
+  static_assert(Wait<WaitOn<AnyBus>>);
   wait.begin(0);
   ASSERT_TRUE(ends.other.send(frame(0x180, {})));
   EXPECT_TRUE(wait.more());

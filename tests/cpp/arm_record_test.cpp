@@ -18,7 +18,7 @@ constexpr std::size_t kDelay = 3;                                // place in the
 constexpr std::size_t kShare = 6;                                // of the first input
 const std::vector<double> kHand{0.2, 5, 300, 0, 0, 0, 0, 0.03};  // one input, one level
 
-/// A force that no hand makes but that tells: two sines.
+/// An informative force, though no hand makes it: two sines.
 std::vector<double> wave(double delay = 0) {
   std::vector<double> out(kRows);
   for (std::size_t i = 0; i < kRows; ++i) {
@@ -145,7 +145,7 @@ TEST(ArmRecord, WhatIsLeftOutTellsNothing) {
 
 TEST(ArmRecord, DoubtLetsTheHandGo) {
   ArmRecord::Log log = log_of(wave());
-  for (std::size_t i = 300; i < 308; ++i) log.inputs[0][i] = 50;  // a push nobody recorded
+  for (std::size_t i = 300; i < 308; ++i) log.inputs[0][i] = 50;  // an unrecorded push
   std::vector<double> pushed = kHand;
   pushed[kShare] = 1;
   log.x = simulated(ArmRecord(log), pushed);

@@ -24,7 +24,7 @@ DeviceModel compliant(double stiffness, double damping = 0) {
   return device;
 }
 
-/// Position of the rotor, told at the handle.
+/// Position of the rotor, referred to the handle.
 double rotor(const DeviceModel& device, const SteppedPlant& plant, std::size_t axis = 0) {
   return plant.motor_angle(axis) / device.capstan.ratio() * device.radius();
 }

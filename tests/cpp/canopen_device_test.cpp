@@ -1,5 +1,5 @@
-// The loop's side of the bus, against drives that do what a test tells them.
-#include "ebac/can/canopen_device.hpp"
+// The loop's side of the bus, against scripted drives.
+#include "ebac/canopen/canopen_device.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,10 +7,10 @@
 #include <limits>
 #include <vector>
 
-#include "ebac/can/exchange_benchmark.hpp"
 #include "ebac/control/direct.hpp"
 #include "ebac/loop/clock.hpp"
 #include "ebac/loop/loop.hpp"
+#include "ebac/simulated_drives/exchange_benchmark.hpp"
 #include "scripted_drives.hpp"
 
 namespace ebac::can {
@@ -23,18 +23,18 @@ static_assert(Device<Tested>);
 constexpr double kTick = 1e-3;  // s
 
 /// A device, its bus and its drives.
-struct Desk {
+struct TestBench {
   ScriptedBus bus;
   Drives drives;
   CanopenSetup setup;
   Tested device;
 
-  explicit Desk(const CanopenSetup& given = {.axes = 2})
+  explicit TestBench(const CanopenSetup& given = {.axes = 2})
       : drives{.bus = &bus, .nodes = given.axes},
         setup(given),
         device(bus, RunOther(drives), given) {}
-  Desk(const Desk&) = delete;
-  Desk& operator=(const Desk&) = delete;
+  TestBench(const TestBench&) = delete;
+  TestBench& operator=(const TestBench&) = delete;
 
   Reading tick(double first = 0, double second = 0) {
     return device.exchange({.current = {first, second}, .elapsed = kTick});
@@ -134,305 +134,314 @@ TEST(Setup, IsRefusedWithItsReason) {
 }
 
 TEST(Exchange, SendsTorquesThenSync) {
-  Desk desk;
-  desk.enable();
-  desk.bus.full = false;
+  TestBench bench;
+  bench.enable();
+  bench.bus.full = false;
   ScriptedBus tap;
-  desk.drives.bus = &tap;  // nobody answers
-  desk.tick(500 * one(), -20 * one());
-  ASSERT_EQ(desk.bus.sent.size(), 3);
-  EXPECT_EQ(desk.bus.sent[0], frame(0x201, {0x0F, 0x00, 0xF4, 0x01}));
-  EXPECT_EQ(desk.bus.sent[1], frame(0x202, {0x0F, 0x00, 0xEC, 0xFF}));
-  EXPECT_EQ(desk.bus.sent[2], frame(0x080, {}));
+  bench.drives.bus = &tap;  // no node answers
+  bench.tick(500 * one(), -20 * one());
+  ASSERT_EQ(bench.bus.sent.size(), 3);
+  EXPECT_EQ(bench.bus.sent[0], frame(0x201, {0x0F, 0x00, 0xF4, 0x01}));
+  EXPECT_EQ(bench.bus.sent[1], frame(0x202, {0x0F, 0x00, 0xEC, 0xFF}));
+  EXPECT_EQ(bench.bus.sent[2], frame(0x080, {}));
 }
 
 TEST(Exchange, IsToldWhatTheDrivesSay) {
-  Desk desk;
-  desk.enable();
-  desk.drives.drive[0].position = 12345;
-  desk.drives.drive[1].position = -7;
-  desk.tick(500 * one(), -20 * one());
-  const Reading reading = desk.tick();
+  TestBench bench;
+  bench.enable();
+  bench.drives.drive[0].position = 12345;
+  bench.drives.drive[1].position = -7;
+  bench.tick(500 * one(), -20 * one());
+  const Reading reading = bench.tick();
   EXPECT_EQ(reading.counts[0], 12345);
   EXPECT_EQ(reading.counts[1], -7);
   EXPECT_EQ(reading.current_applied[0], 500 * one());
   EXPECT_EQ(reading.current_applied[1], -20 * one());
   EXPECT_EQ(reading.fault, Fault::kNone);
-  EXPECT_EQ(desk.row(0).age, 0);
-  EXPECT_EQ(desk.row(0).statusword, 0x27);
+  EXPECT_EQ(bench.row(0).age, 0);
+  EXPECT_EQ(bench.row(0).statusword, 0x27);
 }
 
 TEST(Exchange, TellsTheOtherSideHowMuchTimePassed) {
-  Desk desk;
-  desk.ticks(3);
-  EXPECT_DOUBLE_EQ(desk.drives.elapsed, 3 * kTick);
-  EXPECT_EQ(desk.drives.syncs, 3);
+  TestBench bench;
+  bench.ticks(3);
+  EXPECT_DOUBLE_EQ(bench.drives.elapsed, 3 * kTick);
+  EXPECT_EQ(bench.drives.syncs, 3);
 }
 
 TEST(Counts, AreUnwrappedOverThirtyTwoBits) {
-  Desk desk;
-  desk.enable();
+  TestBench bench;
+  bench.enable();
   std::int64_t place = 2'000'000'000;
-  desk.drives.drive[0].position = static_cast<std::int32_t>(place);
+  bench.drives.drive[0].position = static_cast<std::int32_t>(place);
   // The first position of all is taken as it stands; from there on, the nearest.
-  EXPECT_EQ(desk.tick().counts[0], place);
+  EXPECT_EQ(bench.tick().counts[0], place);
   for (int i = 0; i < 40; ++i) {
     place += i < 20 ? 1'000'000'000 : -2'000'000'000;
-    desk.drives.drive[0].position = static_cast<std::int32_t>(static_cast<std::uint32_t>(place));
-    EXPECT_EQ(desk.tick().counts[0], place) << i;
+    bench.drives.drive[0].position = static_cast<std::int32_t>(static_cast<std::uint32_t>(place));
+    EXPECT_EQ(bench.tick().counts[0], place) << i;
   }
 }
 
-TEST(Power, TakesTheDrivesUpOneStateAnExchange) {
-  Desk desk;
+TEST(EnableSequence, TakesTheDrivesUpOneStateAnExchange) {
+  TestBench bench;
   std::vector<int> words;
-  desk.tick(1);
-  desk.device.enable();
+  bench.tick(1);
+  bench.device.enable();
   for (int i = 0; i < 5; ++i) {
-    desk.tick(1, 1);
-    words.push_back(desk.row().controlword);
+    bench.tick(1, 1);
+    words.push_back(bench.row().controlword);
     // No torque before all are enabled.
-    EXPECT_EQ(desk.row().target_permille, i < 3 ? 0 : std::lround(1 / one())) << i;
+    EXPECT_EQ(bench.row().target_permille, i < 3 ? 0 : std::lround(1 / one())) << i;
   }
   EXPECT_EQ(words, (std::vector{0x06, 0x07, 0x0F, 0x0F, 0x0F}));
 }
 
-TEST(Power, NoTorqueUntilTheLastDriveIsEnabled) {
-  Desk desk;
-  desk.drives.drive[1].stuck = true;
-  desk.device.enable();
+TEST(EnableSequence, NoTorqueUntilTheLastDriveIsEnabled) {
+  TestBench bench;
+  bench.drives.drive[1].stuck = true;
+  bench.device.enable();
   for (int i = 0; i < 10; ++i) {
-    desk.tick(1, 1);
-    EXPECT_EQ(desk.row().target_permille, 0);
+    bench.tick(1, 1);
+    EXPECT_EQ(bench.row().target_permille, 0);
   }
-  EXPECT_EQ(desk.row().statusword, 0x27);
-  EXPECT_FALSE(desk.device.running());
+  EXPECT_EQ(bench.row().statusword, 0x27);
+  EXPECT_FALSE(bench.device.running());
 }
 
-TEST(Power, AtRestEveryExchangeSaysOff) {
-  Desk desk;
+TEST(EnableSequence, AtRestEveryExchangeSaysOff) {
+  TestBench bench;
   for (int i = 0; i < 3; ++i) {
-    desk.tick(1, 1);
-    EXPECT_EQ(desk.row().controlword, 0);
-    EXPECT_EQ(desk.row().target_permille, 0);
+    bench.tick(1, 1);
+    EXPECT_EQ(bench.row().controlword, 0);
+    EXPECT_EQ(bench.row().target_permille, 0);
   }
-  EXPECT_TRUE(desk.device.at_rest());
+  EXPECT_TRUE(bench.device.at_rest());
 }
 
-TEST(Power, DisableGoesDownStepByStep) {
-  Desk desk;
-  desk.enable();
-  desk.tick(1, 1);
-  desk.device.disable();
+TEST(EnableSequence, DisableGoesDownStepByStep) {
+  TestBench bench;
+  bench.enable();
+  bench.tick(1, 1);
+  bench.device.disable();
   std::vector<int> words;
   for (int i = 0; i < 5; ++i) {
-    desk.tick(1, 1);
-    words.push_back(desk.row().controlword);
-    EXPECT_EQ(desk.row().target_permille, 0);
+    bench.tick(1, 1);
+    words.push_back(bench.row().controlword);
+    EXPECT_EQ(bench.row().target_permille, 0);
   }
   EXPECT_EQ(words, (std::vector{0x0F, 0x07, 0x06, 0x00, 0x00}));
-  EXPECT_TRUE(desk.device.at_rest());
-  EXPECT_EQ(desk.device.fault(), Fault::kNone);
+  EXPECT_TRUE(bench.device.at_rest());
+  EXPECT_EQ(bench.device.fault(), Fault::kNone);
 }
 
-TEST(Power, StopGoesTheShortestWay) {
+TEST(EnableSequence, StopGoesTheShortestWay) {
   for (const bool quick : {false, true}) {
-    Desk desk({.axes = 1, .quick_stop = quick});
-    desk.enable();
-    desk.tick(1);
+    TestBench bench({.axes = 1, .quick_stop = quick});
+    bench.enable();
+    bench.tick(1);
     std::vector<int> words;
     for (int i = 0; i < 8; ++i) {
-      desk.device.stop();
-      desk.tick(1);
-      words.push_back(desk.row().controlword);
-      EXPECT_EQ(desk.row().target_permille, 0);
+      bench.device.stop();
+      bench.tick(1);
+      words.push_back(bench.row().controlword);
+      EXPECT_EQ(bench.row().target_permille, 0);
     }
     const int way = quick ? 2 : 0;
     EXPECT_EQ(words, (std::vector{0x0F, way, way, way, way, way, 0, 0}));
-    EXPECT_TRUE(desk.device.at_rest());
+    EXPECT_TRUE(bench.device.at_rest());
   }
 }
 
-TEST(Power, AFaultOfItsOwnStopsUnasked) {
-  Desk desk;
-  desk.enable();
-  desk.tick(1, 1);
-  desk.drives.drive[1].stuck = true;
-  desk.drives.drive[1].statusword = 0x08;
-  EXPECT_EQ(desk.tick(1, 1).fault, Fault::kDriveFault);
-  desk.drives.drive[1].statusword = 0x40;
+TEST(EnableSequence, AFaultOfItsOwnStopsUnasked) {
+  TestBench bench;
+  bench.enable();
+  bench.tick(1, 1);
+  bench.drives.drive[1].stuck = true;
+  bench.drives.drive[1].statusword = 0x08;
+  EXPECT_EQ(bench.tick(1, 1).fault, Fault::kDriveFault);
+  bench.drives.drive[1].statusword = 0x40;
   for (int i = 0; i < 5; ++i) {
-    EXPECT_EQ(desk.tick(1, 1).fault, Fault::kDriveFault) << "stands";
-    EXPECT_EQ(desk.row(0).target_permille, 0);
-    EXPECT_EQ(desk.row(0).controlword, i == 0 ? 0x0F : 0x00);
-    EXPECT_EQ(desk.row(1).controlword, 0x00);
+    EXPECT_EQ(bench.tick(1, 1).fault, Fault::kDriveFault) << "stands";
+    EXPECT_EQ(bench.row(0).target_permille, 0);
+    EXPECT_EQ(bench.row(0).controlword, i == 0 ? 0x0F : 0x00);
+    EXPECT_EQ(bench.row(1).controlword, 0x00);
   }
-  desk.drives.drive[1].stuck = false;
-  desk.enable();
-  EXPECT_EQ(desk.tick().fault, Fault::kNone);
+  bench.drives.drive[1].stuck = false;
+  bench.enable();
+  EXPECT_EQ(bench.tick().fault, Fault::kNone);
 }
 
 /// A fault of a running pair of drives, and after how many ticks it is seen.
-struct Trouble {
+struct InjectedFault {
   const char* name;
-  void (*cause)(Desk& desk);
+  void (*cause)(TestBench& bench);
   Fault fault;
   int ticks;
 };
-void PrintTo(const Trouble& trouble, std::ostream* out) {  // NOLINT: GoogleTest asks for the name
+void PrintTo(const InjectedFault& trouble,
+             std::ostream* out) {  // NOLINT: GoogleTest asks for the name
   *out << trouble.name;
 }
 
-class FaultOfADrive : public testing::TestWithParam<Trouble> {};
+class FaultOfADrive : public testing::TestWithParam<InjectedFault> {};
 
 TEST_P(FaultOfADrive, IsTold) {
-  Desk desk({.axes = 2, .silent_ticks = 3, .heartbeat_timeout = 0.0105});
-  desk.enable();
-  const auto pulse = [&](NodeId node) { desk.bus.waiting.push_back(frame(heartbeat(node), {5})); };
+  TestBench bench({.axes = 2, .silent_ticks = 3, .heartbeat_timeout = 0.0105});
+  bench.enable();
+  const auto pulse = [&](NodeId node) { bench.bus.waiting.push_back(frame(heartbeat(node), {5})); };
   for (int i = 0; i < 30; ++i) {
     pulse(1);
     pulse(2);
-    ASSERT_EQ(desk.tick(1, 1).fault, Fault::kNone);
+    ASSERT_EQ(bench.tick(1, 1).fault, Fault::kNone);
   }
-  GetParam().cause(desk);
-  for (int i = 1; i < GetParam().ticks; ++i) ASSERT_EQ(desk.tick(1, 1).fault, Fault::kNone) << i;
-  EXPECT_EQ(desk.tick(1, 1).fault, GetParam().fault);
-  desk.tick(1, 1);
-  EXPECT_EQ(desk.row(0).target_permille, 0);
-  EXPECT_EQ(desk.row(1).target_permille, 0);
+  GetParam().cause(bench);
+  for (int i = 1; i < GetParam().ticks; ++i) ASSERT_EQ(bench.tick(1, 1).fault, Fault::kNone) << i;
+  EXPECT_EQ(bench.tick(1, 1).fault, GetParam().fault);
+  bench.tick(1, 1);
+  EXPECT_EQ(bench.row(0).target_permille, 0);
+  EXPECT_EQ(bench.row(1).target_permille, 0);
 }
 
 INSTANTIATE_TEST_SUITE_P(
     , FaultOfADrive,
     testing::Values(
-        Trouble{"fault", [](Desk& d) { d.drives.drive[1] = {.statusword = 0x1208, .stuck = true}; },
-                Fault::kDriveFault, 1},
-        Trouble{"reaction",
-                [](Desk& d) { d.drives.drive[0] = {.statusword = 0x0F, .stuck = true}; },
-                Fault::kDriveFault, 1},
-        Trouble{"disabled",
-                [](Desk& d) { d.drives.drive[0] = {.statusword = 0x23, .stuck = true}; },
-                Fault::kDriveDisabled, 1},
-        Trouble{"quick stop", [](Desk& d) { d.drives.drive[0] = {.statusword = 7, .stuck = true}; },
-                Fault::kDriveDisabled, 1},
-        Trouble{"silent", [](Desk& d) { d.drives.drive[1].copies = 0; }, Fault::kDriveSilent, 3},
-        Trouble{
-            "emergency",
-            [](Desk& d) { d.bus.waiting.push_back(frame(0x82, {0x10, 0x32, 4, 0, 0, 0, 0, 0})); },
-            Fault::kDriveEmergency, 1},
-        Trouble{"no heartbeat", [](Desk&) {}, Fault::kHeartbeatLost, 11},
-        Trouble{"rebooted", [](Desk& d) { d.bus.waiting.push_back(frame(0x702, {0})); },
-                Fault::kHeartbeatLost, 1},
-        Trouble{"pre-operational", [](Desk& d) { d.bus.waiting.push_back(frame(0x701, {0x7F})); },
-                Fault::kHeartbeatLost, 1},
-        Trouble{"bus off", [](Desk& d) { d.bus.now = BusState::kBusOff; }, Fault::kBusDown, 1},
-        Trouble{"told nothing, yet answering", [](Desk& d) { d.bus.refused_id = 0x202; },
-                Fault::kBusDown, 3},
-        Trouble{"interface gone", [](Desk& d) { d.bus.now = BusState::kDown; }, Fault::kBusDown,
-                1}));
+        InjectedFault{
+            "fault",
+            [](TestBench& d) { d.drives.drive[1] = {.statusword = 0x1208, .stuck = true}; },
+            Fault::kDriveFault, 1},
+        InjectedFault{"reaction",
+                      [](TestBench& d) { d.drives.drive[0] = {.statusword = 0x0F, .stuck = true}; },
+                      Fault::kDriveFault, 1},
+        InjectedFault{"disabled",
+                      [](TestBench& d) { d.drives.drive[0] = {.statusword = 0x23, .stuck = true}; },
+                      Fault::kDriveDisabled, 1},
+        InjectedFault{"quick stop",
+                      [](TestBench& d) { d.drives.drive[0] = {.statusword = 7, .stuck = true}; },
+                      Fault::kDriveDisabled, 1},
+        InjectedFault{"silent", [](TestBench& d) { d.drives.drive[1].copies = 0; },
+                      Fault::kDriveSilent, 3},
+        InjectedFault{"emergency",
+                      [](TestBench& d) {
+                        d.bus.waiting.push_back(frame(0x82, {0x10, 0x32, 4, 0, 0, 0, 0, 0}));
+                      },
+                      Fault::kDriveEmergency, 1},
+        InjectedFault{"no heartbeat", [](TestBench&) {}, Fault::kHeartbeatLost, 11},
+        InjectedFault{"rebooted", [](TestBench& d) { d.bus.waiting.push_back(frame(0x702, {0})); },
+                      Fault::kHeartbeatLost, 1},
+        InjectedFault{"pre-operational",
+                      [](TestBench& d) { d.bus.waiting.push_back(frame(0x701, {0x7F})); },
+                      Fault::kHeartbeatLost, 1},
+        InjectedFault{"bus off", [](TestBench& d) { d.bus.now = BusState::kBusOff; },
+                      Fault::kBusDown, 1},
+        InjectedFault{"without commands, yet answering",
+                      [](TestBench& d) { d.bus.refused_id = 0x202; }, Fault::kBusDown, 3},
+        InjectedFault{"interface gone", [](TestBench& d) { d.bus.now = BusState::kDown; },
+                      Fault::kBusDown, 1}));
 
 TEST(Enabling, TellsWhyItDoesNotSucceed) {
   const CanopenSetup hasty{.axes = 2, .enable_ticks = 20};
   const auto outcome = [&](auto change) {
-    Desk desk(hasty);
-    change(desk);
-    desk.device.enable();
+    TestBench bench(hasty);
+    change(bench);
+    bench.device.enable();
     int n = 1;
-    while (desk.tick().fault == Fault::kNone && n < 100) ++n;
-    return std::pair{desk.device.fault(), n};
+    while (bench.tick().fault == Fault::kNone && n < 100) ++n;
+    return std::pair{bench.device.fault(), n};
   };
   using Result = std::pair<Fault, int>;
-  EXPECT_EQ(outcome([](Desk& d) { d.drives.drive[1].stuck = true; }),
+  EXPECT_EQ(outcome([](TestBench& d) { d.drives.drive[1].stuck = true; }),
             Result(Fault::kDriveDisabled, 20));
-  EXPECT_EQ(outcome([](Desk& d) { d.drives.drive[0].copies = 0; }),
+  EXPECT_EQ(outcome([](TestBench& d) { d.drives.drive[0].copies = 0; }),
             Result(Fault::kDriveSilent, 20));
-  EXPECT_EQ(outcome([](Desk& d) { d.drives.drive[1] = {.statusword = 8, .stuck = true}; }),
+  EXPECT_EQ(outcome([](TestBench& d) { d.drives.drive[1] = {.statusword = 8, .stuck = true}; }),
             Result(Fault::kDriveFault, 1));
-  EXPECT_EQ(outcome([](Desk& d) { d.bus.now = BusState::kClosed; }), Result(Fault::kBusDown, 1));
+  EXPECT_EQ(outcome([](TestBench& d) { d.bus.now = BusState::kClosed; }),
+            Result(Fault::kBusDown, 1));
 }
 
 TEST(Enabling, ForgetsTheEmergenciesOfTheStart) {
-  Desk desk;
-  desk.bus.waiting.push_back(frame(0x81, {0x30, 0x81, 0, 0, 0, 0, 0, 0}));
-  desk.enable();
-  EXPECT_EQ(desk.tick().fault, Fault::kNone);
-  EXPECT_EQ(desk.row().emergency, 0x8130);
-  desk.bus.waiting.push_back(frame(0x81, {0, 0, 0, 0, 0, 0, 0, 0}));  // error reset
-  EXPECT_EQ(desk.tick().fault, Fault::kNone);
+  TestBench bench;
+  bench.bus.waiting.push_back(frame(0x81, {0x30, 0x81, 0, 0, 0, 0, 0, 0}));
+  bench.enable();
+  EXPECT_EQ(bench.tick().fault, Fault::kNone);
+  EXPECT_EQ(bench.row().emergency, 0x8130);
+  bench.bus.waiting.push_back(frame(0x81, {0, 0, 0, 0, 0, 0, 0, 0}));  // error reset
+  EXPECT_EQ(bench.tick().fault, Fault::kNone);
 }
 
 TEST(Answers, MissingOnesAreCountedAndTheLastOneHolds) {
-  Desk desk;
-  desk.enable();
-  desk.drives.drive[0].position = 50;
-  desk.tick();
-  desk.drives.drive[0].copies = 0;
-  desk.drives.drive[0].position = 60;
-  const Reading held = desk.ticks(2);
+  TestBench bench;
+  bench.enable();
+  bench.drives.drive[0].position = 50;
+  bench.tick();
+  bench.drives.drive[0].copies = 0;
+  bench.drives.drive[0].position = 60;
+  const Reading held = bench.ticks(2);
   EXPECT_EQ(held.counts[0], 50);
-  EXPECT_EQ(desk.row().missing, 2);
-  EXPECT_EQ(desk.row().age, 2);
-  EXPECT_EQ(desk.row(1).missing, 0);
-  desk.drives.drive[0].copies = 1;
-  EXPECT_EQ(desk.tick().counts[0], 60);
-  EXPECT_EQ(desk.row().missing, 2);
-  EXPECT_EQ(desk.row().age, 0);
+  EXPECT_EQ(bench.row().missing, 2);
+  EXPECT_EQ(bench.row().age, 2);
+  EXPECT_EQ(bench.row(1).missing, 0);
+  bench.drives.drive[0].copies = 1;
+  EXPECT_EQ(bench.tick().counts[0], 60);
+  EXPECT_EQ(bench.row().missing, 2);
+  EXPECT_EQ(bench.row().age, 0);
 }
 
 TEST(Answers, LateOnesAreCountedAndUsed) {
-  Desk desk;
-  desk.enable();
-  desk.drives.drive[0].copies = 0;
-  desk.tick();
-  EXPECT_EQ(desk.row().missing, 1);
-  desk.bus.waiting.push_back(answer(1, 0x27, 77, 0));  // after its tick was closed
-  const Reading reading = desk.tick();
+  TestBench bench;
+  bench.enable();
+  bench.drives.drive[0].copies = 0;
+  bench.tick();
+  EXPECT_EQ(bench.row().missing, 1);
+  bench.bus.waiting.push_back(answer(1, 0x27, 77, 0));  // after its tick was closed
+  const Reading reading = bench.tick();
   EXPECT_EQ(reading.counts[0], 77);
-  EXPECT_EQ(desk.row().late, 1);
-  EXPECT_EQ(desk.row().duplicate, 0);
-  EXPECT_EQ(desk.row().missing, 2) << "it answered the tick before, not this one";
-  EXPECT_EQ(desk.row().age, 1);
+  EXPECT_EQ(bench.row().late, 1);
+  EXPECT_EQ(bench.row().duplicate, 0);
+  EXPECT_EQ(bench.row().missing, 2) << "it answered the tick before, not this one";
+  EXPECT_EQ(bench.row().age, 1);
 }
 
 TEST(Answers, CountsTellHowOldTheyAre) {
-  Desk desk;
-  desk.enable();
-  EXPECT_EQ(desk.tick().counts_age[0], 0);
-  desk.drives.drive[0].copies = 0;
-  EXPECT_EQ(desk.tick().counts_age[0], kTick);
-  EXPECT_EQ(desk.tick().counts_age[0], 2 * kTick);
-  desk.bus.waiting.push_back(
+  TestBench bench;
+  bench.enable();
+  EXPECT_EQ(bench.tick().counts_age[0], 0);
+  bench.drives.drive[0].copies = 0;
+  EXPECT_EQ(bench.tick().counts_age[0], kTick);
+  EXPECT_EQ(bench.tick().counts_age[0], 2 * kTick);
+  bench.bus.waiting.push_back(
       answer(1, 0x27, 77, 0));  // to the last SYNC, after its tick was closed
-  EXPECT_EQ(desk.tick().counts_age[0], kTick);
-  desk.drives.drive[0].copies = 1;
-  const Reading reading = desk.tick();
+  EXPECT_EQ(bench.tick().counts_age[0], kTick);
+  bench.drives.drive[0].copies = 1;
+  const Reading reading = bench.tick();
   EXPECT_EQ(reading.counts_age[0], 0);
   EXPECT_EQ(reading.counts_age[1], 0);
 }
 
 TEST(Answers, DuplicatesAreCounted) {
-  Desk desk;
-  desk.enable();
-  desk.drives.drive[0].copies = 3;
-  desk.ticks(2);  // what comes after the last answer is read in the next tick
-  desk.drives.drive[0].copies = 1;
-  desk.tick();
-  EXPECT_EQ(desk.row().duplicate, 4);
-  EXPECT_EQ(desk.row(1).duplicate, 0);
-  EXPECT_EQ(desk.row().missing, 0);
+  TestBench bench;
+  bench.enable();
+  bench.drives.drive[0].copies = 3;
+  bench.ticks(2);  // what comes after the last answer is read in the next tick
+  bench.drives.drive[0].copies = 1;
+  bench.tick();
+  EXPECT_EQ(bench.row().duplicate, 4);
+  EXPECT_EQ(bench.row(1).duplicate, 0);
+  EXPECT_EQ(bench.row().missing, 0);
 }
 
 TEST(Answers, ForeignFramesAreCountedOnEveryAxis) {
-  Desk desk;
+  TestBench bench;
   const auto foreign = [&](Frame stray) {
-    const auto before = desk.row().foreign;
-    desk.bus.waiting.push_back(stray);
-    desk.tick();
-    EXPECT_EQ(desk.row(0).foreign, desk.row(1).foreign);
-    return desk.row().foreign - before;
+    const auto before = bench.row().foreign;
+    bench.bus.waiting.push_back(stray);
+    bench.tick();
+    EXPECT_EQ(bench.row(0).foreign, bench.row(1).foreign);
+    return bench.row().foreign - before;
   };
-  EXPECT_EQ(foreign(answer(3, 0x27, 5, 5)), 1) << "a node nobody told of";
-  EXPECT_EQ(foreign(frame(0x281, {1, 2})), 1) << "a TPDO nobody planned";
+  EXPECT_EQ(foreign(answer(3, 0x27, 5, 5)), 1) << "an unknown node";
+  EXPECT_EQ(foreign(frame(0x281, {1, 2})), 1) << "a TPDO that is not planned";
   EXPECT_EQ(foreign(frame(0x201, {0x0F, 0, 1, 0})), 1) << "another master";
   EXPECT_EQ(foreign(frame(0x080, {})), 1) << "another SYNC";
   Frame odd = answer(1, 0x27, 5, 5);
@@ -450,27 +459,27 @@ TEST(Answers, ForeignFramesAreCountedOnEveryAxis) {
 }
 
 TEST(Answers, MalformedOnesAreNotRead) {
-  Desk desk;
-  desk.enable();
-  desk.drives.drive[0].copies = 0;
+  TestBench bench;
+  bench.enable();
+  bench.drives.drive[0].copies = 0;
   Frame brief = answer(1, 0x27, 99, 99);
   brief.size = 7;
-  desk.bus.waiting = {brief, frame(0x81, {1}), frame(0x701, {5, 5})};
-  const Reading reading = desk.tick();
+  bench.bus.waiting = {brief, frame(0x81, {1}), frame(0x701, {5, 5})};
+  const Reading reading = bench.tick();
   EXPECT_EQ(reading.counts[0], 0);
-  EXPECT_EQ(desk.row().malformed, 3);
-  EXPECT_EQ(desk.row().missing, 1);
+  EXPECT_EQ(bench.row().malformed, 3);
+  EXPECT_EQ(bench.row().missing, 1);
   EXPECT_EQ(reading.fault, Fault::kNone);
 }
 
 TEST(Answers, RefusedFramesAreCounted) {
-  Desk desk;
-  desk.enable();
-  desk.bus.full = true;
-  desk.tick();
-  EXPECT_EQ(desk.row(0).refused, 2) << "its torque, and SYNC";
-  EXPECT_EQ(desk.row(1).refused, 2);
-  EXPECT_EQ(desk.row(0).missing, 1);
+  TestBench bench;
+  bench.enable();
+  bench.bus.full = true;
+  bench.tick();
+  EXPECT_EQ(bench.row(0).refused, 2) << "its torque, and SYNC";
+  EXPECT_EQ(bench.row(1).refused, 2);
+  EXPECT_EQ(bench.row(0).missing, 1);
 }
 
 /// Time that passes by 10 us whenever it is asked.
@@ -504,27 +513,27 @@ TEST(Budget, IsNotExceeded) {
 }
 
 TEST(InTheLoop, AFaultOfAnotherStageStopsTheDrives) {
-  Desk desk({.axes = 1});
-  desk.enable();
+  TestBench bench({.axes = 1});
+  bench.enable();
   /// Answers no number from tick 5 on.
   struct Broken {
     struct State {
       static constexpr auto fields() { return std::array<Field<State>, 0>{}; }
     };
     int tick = 0;
-    void step(std::span<Axis> axes, const Touch&) EBAC_RT {
+    void step(std::span<Axis> axes, const ContactForce&) EBAC_RT {
       axes[0].port.f_cmd = tick++ < 5 ? 1.0 : std::nan("");
     }
     void reset() EBAC_RT {}
   };
-  Loop loop(desk.device, VirtualClock(kTick, 0, 1), Broken{},
-            Rig(DeviceModel{}, Environment{Free{}}), 1);
+  Loop loop(bench.device, VirtualClock(kTick, 0, 1), Broken{},
+            SignalChain(DeviceModel{}, Environment{Free{}}), 1);
   const auto trace = loop.make_trace(100);
   loop.run(*trace);
   ASSERT_EQ(trace->size(), 15);
   EXPECT_EQ(trace->sample(14).fault, Fault::kLawNotFinite);
-  EXPECT_EQ(desk.drives.drive[0].controlword, 0);
-  EXPECT_EQ(desk.drives.drive[0].target, 0);
+  EXPECT_EQ(bench.drives.drive[0].controlword, 0);
+  EXPECT_EQ(bench.drives.drive[0].target, 0);
   EXPECT_TRUE(loop.device().at_rest());
   EXPECT_FALSE(loop.device().running());
   const auto& columns = trace->columns();

@@ -1,11 +1,11 @@
-// A million frames that nobody should send, into the loop's side of the bus. Whatever comes, the
+// A million invalid frames, into the loop's side of the bus. Whatever comes, the
 // device keeps its promises: no torque after a fault, none beyond the limit, counters that only grow.
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <cstdlib>
 
-#include "ebac/can/canopen_device.hpp"
+#include "ebac/canopen/canopen_device.hpp"
 #include "ebac/model/noise.hpp"
 #include "scripted_drives.hpp"
 

@@ -11,20 +11,20 @@ class EveryKind : public testing::TestWithParam<std::size_t> {};
 
 TEST_P(EveryKind, EndsAsItShould) {
   for (std::uint64_t i = 0; i < 30; ++i) {
-    const Trouble trouble = trouble_of(/*seed=*/7, i * kKinds + GetParam());
-    const Result result = run_case(trouble);
+    const InjectedFault injected = injected_fault_of(/*seed=*/7, i * kKinds + GetParam());
+    const Result result = run_case(injected);
     EXPECT_EQ(static_cast<int>(result.verdict), 0)
-        << facts_of(trouble.kind).name << " for " << trouble.ticks << " ticks from " << trouble.at
-        << " on axis " << trouble.axis << ", chance " << trouble.chance << ": fault "
-        << static_cast<unsigned>(result.fault) << ", detected after " << result.detected
-        << ", zero after " << result.to_zero << ", off after " << result.to_off;
+        << facts_of(injected.kind).name << " for " << injected.ticks << " ticks from "
+        << injected.at << " on axis " << injected.axis << ", chance " << injected.chance
+        << ": fault " << static_cast<unsigned>(result.fault) << ", detected after "
+        << result.detected << ", zero after " << result.to_zero << ", off after " << result.to_off;
   }
 }
 
 TEST_P(EveryKind, GivesTheSameAgain) {
-  const Trouble trouble = trouble_of(/*seed=*/3, kKinds + GetParam());
-  const Result one = run_case(trouble);
-  const Result two = run_case(trouble);
+  const InjectedFault injected = injected_fault_of(/*seed=*/3, kKinds + GetParam());
+  const Result one = run_case(injected);
+  const Result two = run_case(injected);
   EXPECT_EQ(one.verdict, two.verdict);
   EXPECT_EQ(one.fault, two.fault);
   EXPECT_EQ(one.detected, two.detected);

@@ -1,5 +1,5 @@
 // Drives on a plant: what a loop sees through PDOs is what the simulated device shows, to the bit.
-#include "ebac/can/joystick.hpp"
+#include "ebac/simulated_drives/joystick.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <memory>
 #include <string_view>
 
-#include "ebac/can/serve.hpp"
+#include "ebac/can/node_server.hpp"
 #include "ebac/control/laws.hpp"
 #include "ebac/sim/simulate.hpp"
 
@@ -117,7 +117,7 @@ void expect_same_rows(Setup setup) {
   commission(*joystick);
   Loop loop(OnTheBus(joystick, setup.device),
             VirtualClock(setup.timing.dt, setup.jitter, setup.seed), law,
-            Rig(setup.device, setup.environment), setup.device.axes());
+            SignalChain(setup.device, setup.environment), setup.device.axes());
   const auto bussed = loop.make_trace(row_count(setup));
   loop.run(*bussed);
 
@@ -164,7 +164,7 @@ TEST(Serve, CarriesFramesBothWays) {
   Joystick<SimulatedDevice> joystick(plant_of(setup), setup.device);
   Wire wire;
   wire.to_node.push(frame(sdo_request(2), {0x40, 0x00, 0x10, 0, 0, 0, 0, 0}));
-  wire.to_node.push(frame(sdo_request(3), {0x40, 0x00, 0x10, 0, 0, 0, 0, 0}));  // nobody
+  wire.to_node.push(frame(sdo_request(3), {0x40, 0x00, 0x10, 0, 0, 0, 0, 0}));  // no such node
   serve(wire, joystick);
   Frame said;
   for (const Frame& expected : {frame(heartbeat(1), {0}), frame(heartbeat(2), {0}),

@@ -33,7 +33,7 @@ namespace {
 using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
 
-/// A frame that tells its sender and its number.
+/// A frame that carries its sender and its number.
 Frame numbered(std::uint32_t sender, std::uint32_t number) {
   Frame out{.id = sender, .size = 8};
   put(out.data, 0, number);
@@ -304,7 +304,7 @@ TEST(Threads, SeveralMayWaitAtOneEnd) {
   EXPECT_EQ(got, kFrames);
 }
 
-/// Senders hammer the bus, and all who listen tell the same story.
+/// Many senders at full speed, and all receivers see the same order.
 TEST(Threads, ThereIsOneOrderForAll) {
   constexpr std::uint32_t kSenders = 4;
   constexpr std::uint32_t kEach = 10'000;
@@ -346,7 +346,7 @@ TEST(Threads, ThereIsOneOrderForAll) {
   }
 }
 
-/// A frame left to somebody who was just about to stop delivering must not stay behind.
+/// A frame left to a thread that was just about to stop delivering must not stay behind.
 TEST(Threads, WhatWasSentIsThereOnceAllSendersAreDone) {
   constexpr int kRounds = 20'000;
   LoopbackHub hub;

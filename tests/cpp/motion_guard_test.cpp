@@ -32,27 +32,28 @@ double worst(double force, double step, double reach) {
 
 /// What the guard has to cover: every force as it is behind the current loop, and after the last
 /// command what the loop still gives out until nothing is left.
-double need(double force, double asked, const Pending& pending, BehindLag behind, double v) {
-  const double largest = std::max(pending.largest_with(force), std::abs(behind.force()));
-  const double most = std::max({pending.largest_with(asked), std::abs(behind.force())});
+double need(double force, double asked, const CommandsInFlight& in_flight, LaggedForce lagged,
+            double v) {
+  const double largest = std::max(in_flight.largest_with(force), std::abs(lagged.force()));
+  const double most = std::max({in_flight.largest_with(asked), std::abs(lagged.force())});
   const double jump = (kPull + most) / kMass * kTick * kTick;
   double sum = kCount * largest;
   int interval = 0;
   const auto hold = [&](double command) {
-    sum += worst(behind.hold(command), v * kTick, ++interval * jump);
+    sum += worst(lagged.hold(command), v * kTick, ++interval * jump);
   };
-  for (int j = 0; j < pending.size(); ++j) hold(pending[j]);
+  for (int j = 0; j < in_flight.size(); ++j) hold(in_flight[j]);
   hold(force);
-  while (behind.ticks() > 0 && std::abs(behind.force()) > 1e-3) hold(0);
+  while (lagged.ticks() > 0 && std::abs(lagged.force()) > 1e-3) hold(0);
   return sum;
 }
 
-BehindLag behind_lag(double lag, double force) {
-  BehindLag behind(lag);
-  behind.set_tick(100 * kTick);
-  behind.hold(force);
-  behind.set_tick(kTick);
-  return behind;
+LaggedForce behind_lag(double lag, double force) {
+  LaggedForce lagged(lag);
+  lagged.set_tick(100 * kTick);
+  lagged.hold(force);
+  lagged.set_tick(kTick);
+  return lagged;
 }
 
 /// Delay [samples] and lag of the current loop [s].
@@ -66,20 +67,20 @@ TEST_P(Guard, AdmitsTheLargestForceTheEnergyCovers) {
   const MotionGuard guard(kDamping, kMass, kCount, kPull, kTick);
   Noise random(1);
   for (int i = 0; i < 2000; ++i) {
-    Pending pending(delay());
-    for (int j = 0; j < delay(); ++j) pending.push(15 * random.normal());
-    const BehindLag behind = behind_lag(lag(), 15 * random.normal());
+    CommandsInFlight in_flight(delay());
+    for (int j = 0; j < delay(); ++j) in_flight.push(15 * random.normal());
+    const LaggedForce lagged = behind_lag(lag(), 15 * random.normal());
     const double asked = 20 * random.normal();
     const double v = 0.3 * random.normal();
     const double energy = 0.02 * (1 + random.symmetric());
-    const double given = guard.admit(asked, pending, behind, energy, v);
+    const double given = guard.admit(asked, in_flight, lagged, energy, v);
 
     ASSERT_LE(std::abs(given), std::abs(asked));
     ASSERT_GE(given * asked, 0);
     if (given == 0) continue;
-    ASSERT_LE(need(given, asked, pending, behind, v), energy * (1 + 1e-6));  // covered
+    ASSERT_LE(need(given, asked, in_flight, lagged, v), energy * (1 + 1e-6));  // covered
     if (given != asked && lag() == 0) {  // and not by a hair less
-      ASSERT_GT(need(given * (1 + 1e-3), asked, pending, behind, v), energy * (1 - 1e-3));
+      ASSERT_GT(need(given * (1 + 1e-3), asked, in_flight, lagged, v), energy * (1 - 1e-3));
     }
   }
 }
@@ -89,15 +90,15 @@ TEST_P(Guard, TheCheapTestNeverAdmitsMoreThanTheExactOne) {
   Noise random(2);
   int admitted = 0;
   for (int i = 0; i < 20000; ++i) {
-    Pending pending(delay());
-    for (int j = 0; j < delay(); ++j) pending.push(10 * random.normal());
-    const BehindLag behind = behind_lag(lag(), 10 * random.normal());
+    CommandsInFlight in_flight(delay());
+    for (int j = 0; j < delay(); ++j) in_flight.push(10 * random.normal());
+    const LaggedForce lagged = behind_lag(lag(), 10 * random.normal());
     const double asked = 10 * random.normal();
     const double v = 0.1 * random.normal();
     const double energy = 0.03 * (1 + random.symmetric());
-    if (!guard.surely_admits(asked, pending, behind, energy, std::abs(v) * kTick)) continue;
+    if (!guard.surely_admits(asked, in_flight, lagged, energy, std::abs(v) * kTick)) continue;
     ++admitted;
-    ASSERT_EQ(guard.admit(asked, pending, behind, energy, v), asked);
+    ASSERT_EQ(guard.admit(asked, in_flight, lagged, energy, v), asked);
   }
   EXPECT_GT(admitted, 1000);
 }

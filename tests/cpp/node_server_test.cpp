@@ -1,4 +1,4 @@
-#include "ebac/can/served.hpp"
+#include "ebac/can/node_server.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,17 +7,17 @@
 #include <map>
 #include <span>
 
-#include "ebac/can/joystick.hpp"
 #include "ebac/can/loopback_bus.hpp"
-#include "ebac/can/torque_settings.hpp"
+#include "ebac/canopen/torque.hpp"
 #include "ebac/sim/simulated_device.hpp"
+#include "ebac/simulated_drives/joystick.hpp"
 #include "timed_run.hpp"
 
 namespace ebac::can {
 namespace {
 
 using std::chrono::milliseconds;
-using OnLoopback = Served<LoopbackBus, Joystick<SimulatedDevice>>;
+using OnLoopback = NodeServer<LoopbackBus, Joystick<SimulatedDevice>>;
 
 /// Two axes in a hand that holds them where they are.
 Joystick<SimulatedDevice> held_joystick() {
@@ -51,13 +51,13 @@ bool download(LoopbackBus& end, NodeId node, const ObjectWrite& write) {
   return hears(end, sdo_answer(node), answer) && answer.data[0] == 0x60;
 }
 
-TEST(Served, BootsAndSendsHeartbeatsByItself) {
+TEST(NodeServer, BootsAndSendsHeartbeatsByItself) {
   LoopbackHub hub(LoopbackHub::Stamps::kWallClock);
   LoopbackBus end = hub.open();
-  OnLoopback served(hub.open(), held_joystick());
+  OnLoopback server(hub.open(), held_joystick());
   Frame none;
   EXPECT_FALSE(end.receive(none, milliseconds{5}));
-  served.start();
+  server.start();
   EXPECT_TRUE(hears(end, heartbeat(1), none) && none.data[0] == 0);
   EXPECT_TRUE(hears(end, heartbeat(2), none) && none.data[0] == 0);
   ASSERT_TRUE(download(end, 2, {0x1017, 0, 5}));
@@ -65,23 +65,23 @@ TEST(Served, BootsAndSendsHeartbeatsByItself) {
     EXPECT_TRUE(hears(end, heartbeat(2), none));
     EXPECT_EQ(none.data[0], 0x7F);
   }
-  EXPECT_EQ(served.state(), BusState::kUp);
-  served.stop();
-  EXPECT_GE(served.counts().sent, 7U);
+  EXPECT_EQ(server.state(), BusState::kUp);
+  server.stop();
+  EXPECT_GE(server.counts().sent, 7U);
 }
 
-TEST(Served, LeavesTheBusOnceAndForAll) {
+TEST(NodeServer, LeavesTheBusOnceAndForAll) {
   LoopbackHub hub;
   {
-    OnLoopback served(hub.open(), held_joystick());
+    OnLoopback server(hub.open(), held_joystick());
     EXPECT_EQ(hub.ends(), 1U);
-    served.start();
-    EXPECT_THROW(served.start(), std::logic_error);
-    served.stop();
-    served.stop();
+    server.start();
+    EXPECT_THROW(server.start(), std::logic_error);
+    server.stop();
+    server.stop();
     EXPECT_EQ(hub.ends(), 0U);
-    EXPECT_EQ(served.state(), BusState::kClosed);
-    EXPECT_THROW(served.start(), std::logic_error);
+    EXPECT_EQ(server.state(), BusState::kClosed);
+    EXPECT_THROW(server.start(), std::logic_error);
   }
   {
     const OnLoopback never_started(hub.open(), held_joystick());
@@ -93,13 +93,13 @@ TEST(Served, LeavesTheBusOnceAndForAll) {
   EXPECT_EQ(hub.ends(), 0U);
 }
 
-TEST(Served, TheLoopRunsAHandGivesWayAndAThirdHearsItAll) {
+TEST(NodeServer, TheLoopRunsAHandGivesWayAndAThirdHearsItAll) {
   constexpr int kTicks = 200;
   LoopbackHub hub(LoopbackHub::Stamps::kWallClock);
   LoopbackBus end = hub.open();
   LoopbackBus third = hub.open({.frames = 1U << 16});
-  OnLoopback served(hub.open(), held_joystick());
-  served.start();
+  OnLoopback server(hub.open(), held_joystick());
+  server.start();
   for (const NodeId node : {NodeId{1}, NodeId{2}}) {
     for (const ObjectWrite& write : torque_settings(node, 4000)) {
       ASSERT_TRUE(download(end, node, write)) << std::hex << write.index;
@@ -142,18 +142,18 @@ class Diary {
   std::array<Entry, 16> entries_{};
 };
 
-TEST(Served, AFrameThatWaitedCountsFromWhenItCame) {
+TEST(NodeServer, AFrameThatWaitedCountsFromWhenItCame) {
   LoopbackHub hub(LoopbackHub::Stamps::kWallClock);
   LoopbackBus end = hub.open();
-  Served<LoopbackBus, Diary> served(hub.open(), Diary{});
-  served.start();
+  NodeServer<LoopbackBus, Diary> server(hub.open(), Diary{});
+  server.start();
   for (int i = 0; i < 10; ++i) {
     end.send(frame(kSync, {}));
     std::this_thread::sleep_for(milliseconds{1});
   }
-  while (served.counts().received < 10) std::this_thread::sleep_for(milliseconds{1});
-  served.stop();
-  const auto entries = served.node().entries();
+  while (server.counts().received < 10) std::this_thread::sleep_for(milliseconds{1});
+  server.stop();
+  const auto entries = server.node().entries();
   ASSERT_EQ(entries.size(), 10U);
   for (const Diary::Entry& entry : entries.subspan(1)) {
     const double by_stamp = 1e-9 * static_cast<double>(entry.stamp - entries[0].stamp);

@@ -1,4 +1,6 @@
-// One writer, one reader, nobody waits: values arrive whole, in order, the newest first of all.
+// Parameter updates: one writer, one reader, no waiting; values arrive whole, in order, the newest one.
+#include "ebac/loop/parameter_updates.hpp"
+
 #include <gtest/gtest.h>
 
 #include <array>
@@ -6,7 +8,6 @@
 #include <tuple>
 
 #include "ebac/control/laws.hpp"
-#include "ebac/loop/mail.hpp"
 #include "ebac/loop/retune.hpp"
 #include "ebac/sim/simulate.hpp"
 
@@ -51,22 +52,22 @@ TEST(Mailbox, NeverTearsAValueBetweenThreads) {
   EXPECT_EQ(seen, kLast);
 }
 
-TEST(Mail, ActsFromTheTickThatIsNoted) {
+TEST(ParameterUpdates, ActsFromTheTickThatIsNoted) {
   ebac::Setup setup;
   setup.hand.path[0] = Step{.target = 0.03};
   const Tca law(Tca::Params{.kp = 0});
   auto loop = simulated_loop(setup, PerAxis<Tca>(law));
   const auto trace = loop.make_trace(600);
-  Mail<PerAxis<Tca>> mail(law);
-  const std::uint64_t first = mail.post(Environment(Wall{.stiffness = 100}));
-  const std::uint64_t second = mail.post(Tca({.kp = 0, .peak_force = 0.5}));
-  const std::uint64_t third = mail.post(Aim{.target = {0.02, 0, 0}});
-  EXPECT_TRUE(loop.run(*trace, &mail));
-  ASSERT_EQ(mail.changes().size(), 3U);
-  for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(mail.changes()[i].tick, 0);
-  EXPECT_EQ(mail.changes()[0].serial, second);
-  EXPECT_EQ(mail.changes()[1].serial, first);
-  EXPECT_EQ(mail.changes()[2].serial, third);
+  ParameterUpdates<PerAxis<Tca>> updates(law);
+  const std::uint64_t first = updates.post(Environment(Wall{.stiffness = 100}));
+  const std::uint64_t second = updates.post(Tca({.kp = 0, .peak_force = 0.5}));
+  const std::uint64_t third = updates.post(HandTarget{.target = {0.02, 0, 0}});
+  EXPECT_TRUE(loop.run(*trace, &updates));
+  ASSERT_EQ(updates.applied().size(), 3U);
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(updates.applied()[i].tick, 0);
+  EXPECT_EQ(updates.applied()[0].serial, second);
+  EXPECT_EQ(updates.applied()[1].serial, first);
+  EXPECT_EQ(updates.applied()[2].serial, third);
   double most = 0;
   double furthest = 0;
   for (std::size_t row = 0; row < trace->size(); ++row) {
@@ -79,7 +80,7 @@ TEST(Mail, ActsFromTheTickThatIsNoted) {
   EXPECT_LT(furthest, 0.028);
 }
 
-TEST(Mail, ALawKeepsItsMemoryWhenItsGainsChange) {
+TEST(ParameterUpdates, ALawKeepsItsMemoryWhenItsGainsChange) {
   Port port{.dx = 1e-5, .v = 0.01, .dt = 1e-3, .f_env = 1};
   Tca law(Tca::Params{.kp = 0, .kd = 0.01});
   for (int i = 0; i < 50; ++i) law.step(port);
@@ -118,10 +119,10 @@ void expect_same_after_retune() {
   const auto plain = simulate(setup, law);
   auto loop = simulated_loop(setup, PerAxis<Law>(law));
   const auto trace = loop.make_trace(row_count(setup));
-  Mail<PerAxis<Law>> mail(law);
-  mail.post(law);
-  loop.run(*trace, &mail);
-  ASSERT_EQ(mail.changes().size(), 1U);
+  ParameterUpdates<PerAxis<Law>> updates(law);
+  updates.post(law);
+  loop.run(*trace, &updates);
+  ASSERT_EQ(updates.applied().size(), 1U);
   ASSERT_EQ(trace->size(), plain->size());
   for (std::size_t row = 0; row < trace->size(); ++row) {
     ASSERT_EQ(trace->sample(row).axis[0].port.f_cmd, plain->sample(row).axis[0].port.f_cmd)

@@ -1,5 +1,5 @@
 // The process data of a device, and what of a bus they take.
-#include "ebac/can/pdo_plan.hpp"
+#include "ebac/canopen/pdo_plan.hpp"
 
 #include <gtest/gtest.h>
 

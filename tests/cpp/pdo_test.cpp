@@ -173,7 +173,7 @@ TEST(Pdo, ShortOneIsAnErrorUntilAGoodOneComes) {
   SimulatedDrive drive = operational();
   EXPECT_EQ(say(drive, "201#06"), Said{"081#10 82 11 00 00 00 00 00"});
   EXPECT_EQ(drive.state(), DriveState::kSwitchOnDisabled);
-  EXPECT_EQ(say(drive, "201#06"), Said{});  // told once
+  EXPECT_EQ(say(drive, "201#06"), Said{});  // reported once
   EXPECT_EQ(value(drive, 0x1003), 1);
   EXPECT_EQ(value(drive, 0x1003, 1), 0x8210);
   EXPECT_EQ(say(drive, "201#06 00"), (Said{"081#00 00 00 00 00 00 00 00", "181#31 02"}));

@@ -104,16 +104,16 @@ TEST(StreamOrder, CountsLikeTheSlowWayWhateverComes) {
 TEST(StreamOrder, OneStrayNumberIsNotBelievedTwoAreANewStream) {
   StreamOrder order;
   for (std::uint32_t n = 1000; n < 1010; ++n) order.take(n);
-  EXPECT_EQ(order.take(3'000'000'000), Place::kStray);
-  EXPECT_EQ(order.take(1010), Place::kNewest);
+  EXPECT_EQ(order.take(3'000'000'000), Arrival::kStray);
+  EXPECT_EQ(order.take(1010), Arrival::kNewest);
   EXPECT_EQ(order.lost(), 0);
-  EXPECT_EQ(order.take(1), Place::kStray);  // the sensor began anew
-  EXPECT_EQ(order.take(2), Place::kNewest);
-  EXPECT_EQ(order.take(3), Place::kNewest);
+  EXPECT_EQ(order.take(1), Arrival::kStray);  // the sensor began anew
+  EXPECT_EQ(order.take(2), Arrival::kNewest);
+  EXPECT_EQ(order.take(3), Arrival::kNewest);
   EXPECT_EQ(order.restarts(), 1);
   EXPECT_EQ(order.lost(), 0);
   order.restart();
-  EXPECT_EQ(order.take(77), Place::kNewest);
+  EXPECT_EQ(order.take(77), Arrival::kNewest);
   EXPECT_EQ(order.lost(), 0);
 }
 
@@ -121,11 +121,11 @@ TEST(StreamOrder, AStreamThatWasAskedForMayFollowTheEndOfTheOldOne) {
   StreamOrder order;
   for (std::uint32_t n = 1000; n < 1010; ++n) order.take(n);
   order.restart();
-  EXPECT_EQ(order.take(1010), Place::kNewest);  // was under way
-  EXPECT_EQ(order.take(1), Place::kNewest);
-  for (std::uint32_t n = 2; n < 100; ++n) EXPECT_EQ(order.take(n), Place::kNewest);
+  EXPECT_EQ(order.take(1010), Arrival::kNewest);  // was under way
+  EXPECT_EQ(order.take(1), Arrival::kNewest);
+  for (std::uint32_t n = 2; n < 100; ++n) EXPECT_EQ(order.take(n), Arrival::kNewest);
   EXPECT_EQ(order.lost() + order.stray() + order.late(), 0);
-  EXPECT_EQ(order.take(1'000'000'000), Place::kStray);  // once only
+  EXPECT_EQ(order.take(1'000'000'000), Arrival::kStray);  // once only
 }
 
 /// A stream that is asked for twice, as by opening a sensor and then by enabling a device: where one
@@ -137,9 +137,9 @@ TEST(StreamOrder, AnOldStreamHoweverShortDoesNotHideTheNewOne) {
     std::uint32_t sample = 0xFFFFFF00;  // it wraps on the way
     for (std::uint32_t n = 1; n < last; ++n) order.take(n, ++sample);
     order.restart();
-    ASSERT_EQ(order.take(last, ++sample), Place::kNewest);
+    ASSERT_EQ(order.take(last, ++sample), Arrival::kNewest);
     for (std::uint32_t n = 1; n < 300; ++n) {
-      ASSERT_EQ(order.take(n, ++sample), Place::kNewest) << last << " " << n;
+      ASSERT_EQ(order.take(n, ++sample), Arrival::kNewest) << last << " " << n;
     }
     ASSERT_EQ(order.late() + order.lost() + order.duplicate() + order.stray(), 0);
   }
@@ -148,10 +148,10 @@ TEST(StreamOrder, AnOldStreamHoweverShortDoesNotHideTheNewOne) {
 TEST(StreamOrder, APacketThatWasOvertakenIsLateInANewStreamToo) {
   StreamOrder order;
   order.restart();
-  EXPECT_EQ(order.take(2, 102), Place::kNewest);
-  EXPECT_EQ(order.take(1, 101), Place::kLate);
-  EXPECT_EQ(order.take(3, 103), Place::kNewest);
-  EXPECT_EQ(order.take(3, 103), Place::kDuplicate);
+  EXPECT_EQ(order.take(2, 102), Arrival::kNewest);
+  EXPECT_EQ(order.take(1, 101), Arrival::kLate);
+  EXPECT_EQ(order.take(3, 103), Arrival::kNewest);
+  EXPECT_EQ(order.take(3, 103), Arrival::kDuplicate);
   EXPECT_EQ(order.late(), 1);
   EXPECT_EQ(order.lost(), 0);
 }

@@ -9,11 +9,11 @@
 #include <tuple>
 #include <vector>
 
-#include "ebac/can/joystick.hpp"
-#include "ebac/can/through_can.hpp"
 #include "ebac/control/laws.hpp"
 #include "ebac/sensor/with_force_sensor.hpp"
 #include "ebac/sim/simulate.hpp"
+#include "ebac/simulated_drives/joystick.hpp"
+#include "ebac/simulated_drives/through_can.hpp"
 #include "through_udp.hpp"
 
 namespace {
@@ -112,7 +112,7 @@ TEST(Bus, LoopThroughItDoesNotAllocate) {
   auto device = can::device_through_can<SimulatedDevice>(setup);
   device.enable();
   Loop loop(std::move(device), VirtualClock(setup.timing.dt, 0, 1),
-            PerAxis<Ebac>(designed<Ebac>(setup)), Rig(setup.device, setup.environment), 2);
+            PerAxis<Ebac>(designed<Ebac>(setup)), SignalChain(setup.device, setup.environment), 2);
   const auto trace = loop.make_trace(kTicks);
   const std::size_t before = allocations;
   loop.run(*trace);
@@ -123,11 +123,11 @@ TEST(Bus, LoopThroughItDoesNotAllocate) {
 
 TEST(Sensor, LoopWithOneOnTheNetworkDoesNotAllocate) {
   const auto setup = busy();
-  auto cell = std::make_shared<sensor::ForceCell>();
-  sensor::WithForceSensor device(sensor::Felt(SimulatedDevice(setup), cell),
+  auto cell = std::make_shared<sensor::SharedForce>();
+  sensor::WithForceSensor device(sensor::ForcePublisher(SimulatedDevice(setup), cell),
                                  sensor::StepSensor(cell));
   Loop loop(std::move(device), VirtualClock(setup.timing.dt, 0, 1),
-            PerAxis<Ebac>(designed<Ebac>(setup)), Rig(setup.device, setup.environment), 1);
+            PerAxis<Ebac>(designed<Ebac>(setup)), SignalChain(setup.device, setup.environment), 1);
   const auto trace = loop.make_trace(kTicks);
   const std::size_t before = allocations;
   loop.run(*trace);

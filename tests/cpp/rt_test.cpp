@@ -105,10 +105,11 @@ using LiveLoop = Loop<SimulatedDevice, MonotonicClock, PerAxis<Direct>>;
 struct Live {
   Setup setup{};
   Direct law{Direct::Params{}};
-  std::shared_ptr<Mail<PerAxis<Direct>>> mail = std::make_shared<Mail<PerAxis<Direct>>>(law);
+  std::shared_ptr<ParameterUpdates<PerAxis<Direct>>> updates =
+      std::make_shared<ParameterUpdates<PerAxis<Direct>>>(law);
   std::unique_ptr<LiveLoop> loop = std::make_unique<LiveLoop>(
       SimulatedDevice(setup), MonotonicClock(1e-3), PerAxis<Direct>(law),
-      Rig(setup.device, setup.environment), 1,
+      SignalChain(setup.device, setup.environment), 1,
       LoopOptions{.plan = {.soft_start = 0.01, .ramp_down = 0.01, .arm = true}});
   std::shared_ptr<Trace> trace = loop->make_trace(3000);
 };
@@ -116,14 +117,14 @@ struct Live {
 TEST(LoopThread, IsReadAndToldWhileItRunsAndStops) {
   Live live;
   LoopThread<SimulatedDevice, MonotonicClock, PerAxis<Direct>> thread(
-      std::move(live.loop), live.trace, live.mail, Mode::kAuto, {.priority = 1});
+      std::move(live.loop), live.trace, live.updates, Mode::kAuto, {.priority = 1});
   double sum = 0;
   for (int i = 0; i < 30; ++i) {
     while (thread.trace().size() < static_cast<std::size_t>(5 * (i + 1)) && !thread.done()) {
       std::this_thread::yield();
     }
-    live.mail->post(Environment(Wall{.stiffness = 1000.0 + i}));
-    live.mail->post(Direct({.peak_force = 10.0 + i}));
+    live.updates->post(Environment(Wall{.stiffness = 1000.0 + i}));
+    live.updates->post(Direct({.peak_force = 10.0 + i}));
     sum += thread.trace().sample(thread.trace().size() - 1).t;
   }
   EXPECT_GT(sum, 0);
@@ -131,7 +132,7 @@ TEST(LoopThread, IsReadAndToldWhileItRunsAndStops) {
   thread.join();
   EXPECT_TRUE(thread.done());
   EXPECT_EQ(thread.loop().state(), LoopState::kIdle);
-  EXPECT_GT(live.mail->changes().size(), 0U);
+  EXPECT_GT(live.updates->applied().size(), 0U);
   EXPECT_EQ(thread.unrecorded(), 0);
   const Sample last = live.trace->sample(live.trace->size() - 1);
   EXPECT_EQ(last.state, static_cast<int>(LoopState::kStop));
@@ -142,7 +143,7 @@ TEST(LoopThread, AFullTraceIsAStopAndNothingIsSilent) {
   Live live;
   live.trace = live.loop->make_trace(20);
   LoopThread<SimulatedDevice, MonotonicClock, PerAxis<Direct>> thread(
-      std::move(live.loop), live.trace, live.mail, Mode::kOff, {});
+      std::move(live.loop), live.trace, live.updates, Mode::kOff, {});
   thread.join();
   EXPECT_EQ(live.trace->size(), 20U);
   EXPECT_GE(thread.unrecorded(), 10);

@@ -1,5 +1,5 @@
-// Limits, as the last gate: what they leave of a current, and what ends a run.
-#include "ebac/loop/gate.hpp"
+// The safety limiter: limits of a current, and conditions that end a run.
+#include "ebac/loop/safety_limiter.hpp"
 
 #include <gtest/gtest.h>
 
@@ -14,34 +14,34 @@ namespace {
 constexpr double kDt = 1e-3;
 const DeviceModel kDevice{};
 
-/// A gate with one axis, pushed by hand.
+/// A limiter with one axis, pushed by hand.
 struct Pushed {
   Limits limits = Limits::of(kDevice);
-  Gate gate{limits, kDevice, kDt};
+  SafetyLimiter limiter{limits, kDevice, kDt};
   std::array<Axis, 1> axes{};
   int limited = 0;
 
   double pass(double current, double gain = 1) {
     axes[0].joint.current = current;
-    limited = gate.pass(axes, gain, kDt);
+    limited = limiter.limit(axes, gain, kDt);
     return axes[0].joint.current;
   }
   bool because(Limited why) const { return (limited & static_cast<int>(why)) != 0; }
 };
 
-TEST(Gate, LimitsOfADeviceAreItsMotors) {
+TEST(SafetyLimiter, LimitsOfADeviceAreItsMotors) {
   const Limits limits = Limits::of(kDevice);
   EXPECT_NEAR(kDevice.force(limits.continuous_current), 10.6, 0.01);  // N, the paper's
   EXPECT_NEAR(kDevice.force(limits.peak_current), 42.4, 0.01);
 }
 
-TEST(Gate, LeavesAloneWhatIsAllowed) {
+TEST(SafetyLimiter, LeavesAloneWhatIsAllowed) {
   Pushed p;
   EXPECT_EQ(p.pass(0.5), 0.5);
   EXPECT_EQ(p.limited, 0);
 }
 
-TEST(Gate, HoldsThePeak) {
+TEST(SafetyLimiter, HoldsThePeak) {
   Pushed p;
   p.pass(3);
   EXPECT_EQ(p.pass(100), p.limits.peak_current);
@@ -50,22 +50,22 @@ TEST(Gate, HoldsThePeak) {
   EXPECT_TRUE(p.because(Limited::kNotFinite));
 }
 
-TEST(Gate, HoldsTheSlew) {
+TEST(SafetyLimiter, HoldsTheSlew) {
   Pushed p;
   p.limits.slew = 1000;
-  p.gate = Gate(p.limits, kDevice, kDt);
+  p.limiter = SafetyLimiter(p.limits, kDevice, kDt);
   EXPECT_DOUBLE_EQ(p.pass(3), 1);
   EXPECT_TRUE(p.because(Limited::kSlew));
   EXPECT_DOUBLE_EQ(p.pass(3), 2);
   EXPECT_DOUBLE_EQ(p.pass(-3), 1);
 }
 
-TEST(Gate, AWarmMotorComesDownToItsContinuousCurrentAndNeverGetsHotter) {
+TEST(SafetyLimiter, AWarmMotorComesDownToItsContinuousCurrentAndNeverGetsHotter) {
   Pushed p;
   double warm = 0;  // s, until the peak is over
   for (int k = 0; k < 100'000; ++k) {
     const double current = p.pass(100);
-    EXPECT_LE(p.gate.state(0).heat, 1 + 1e-12);
+    EXPECT_LE(p.limiter.state(0).heat, 1 + 1e-12);
     if (current == p.limits.peak_current) warm = k * kDt;
   }
   // i2t in closed form: heat = 16 (1 - exp(-t/tau)) reaches 1.
@@ -77,16 +77,16 @@ TEST(Gate, AWarmMotorComesDownToItsContinuousCurrentAndNeverGetsHotter) {
   EXPECT_EQ(p.pass(100), p.limits.peak_current) << "it has cooled";
 }
 
-TEST(Gate, AStopDoesNotCoolTheModel) {
+TEST(SafetyLimiter, AStopDoesNotCoolTheModel) {
   Pushed p;
   for (int k = 0; k < 1000; ++k) p.pass(100);
-  const double heat = p.gate.state(0).heat;
-  p.gate.restart();
+  const double heat = p.limiter.state(0).heat;
+  p.limiter.restart();
   p.pass(0);
-  EXPECT_NEAR(p.gate.state(0).heat, heat, 0.01);
+  EXPECT_NEAR(p.limiter.state(0).heat, heat, 0.01);
 }
 
-TEST(Gate, TheEdgePushesInwardsOnly) {
+TEST(SafetyLimiter, TheEdgePushesInwardsOnly) {
   Pushed p;
   for (const double side : {1.0, -1.0}) {
     const double depth = 2e-3;
@@ -100,28 +100,28 @@ TEST(Gate, TheEdgePushesInwardsOnly) {
   }
 }
 
-TEST(Gate, AGainOfARampScalesTheForce) {
+TEST(SafetyLimiter, AGainOfARampScalesTheForce) {
   Pushed p;
   EXPECT_EQ(p.pass(1, 0.25), 0.25);
   EXPECT_TRUE(p.because(Limited::kRamp));
 }
 
 Fault seen(Pushed& p, const Reading& reading = {}, std::int64_t skipped = 0) {
-  return p.gate.watch(reading, {.dt = kDt, .skipped = skipped}, p.axes);
+  return p.limiter.watch(reading, {.dt = kDt, .skipped = skipped}, p.axes);
 }
 
-TEST(Gate, WhatNobodySawForSomeTicksMayHaveGoneSoMuchFurther) {
+TEST(SafetyLimiter, WhatNobodySawForSomeTicksMayHaveGoneSoMuchFurther) {
   const double radius = kDevice.radius();
   const auto jumped = [&](double share, double age) {
     Pushed p;
     p.limits.speed = 100;
-    p.gate = Gate(p.limits, kDevice, kDt);
-    p.gate.watch({}, {}, p.axes);
+    p.limiter = SafetyLimiter(p.limits, kDevice, kDt);
+    p.limiter.watch({}, {}, p.axes);
     Reading held;
     held.counts_age[0] = age;
-    if (age > 0) p.gate.watch(held, {.dt = age}, p.axes);
+    if (age > 0) p.limiter.watch(held, {.dt = age}, p.axes);
     p.axes[0].joint.q = share * p.limits.jump / radius;
-    return p.gate.watch({}, {.dt = kDt}, p.axes);
+    return p.limiter.watch({}, {.dt = kDt}, p.axes);
   };
   EXPECT_EQ(jumped(0.99, 0), Fault::kNone);
   EXPECT_EQ(jumped(1.01, 0), Fault::kEncoderJump);
@@ -129,25 +129,25 @@ TEST(Gate, WhatNobodySawForSomeTicksMayHaveGoneSoMuchFurther) {
   EXPECT_EQ(jumped(4.01, 3 * kDt), Fault::kEncoderJump);
 }
 
-/// Ticks of an axis that goes `pace` m/s, as whole counts: what the gate sees in any of them.
+/// Ticks of an axis at `pace` m/s, as whole counts: the fault found in any of them.
 Fault seen_at(double pace, std::initializer_list<double> ticks, const Limits& limits) {
   Pushed p;
-  p.gate = Gate(limits, kDevice, kDt);
+  p.limiter = SafetyLimiter(limits, kDevice, kDt);
   const double count = kDevice.facts().count;
   double x = 0;
-  Fault found = p.gate.watch({}, {}, p.axes);
+  Fault found = p.limiter.watch({}, {}, p.axes);
   for (int k = 0; k < 1000; ++k) {
     for (const double dt : ticks) {
       x += pace * dt;
       p.axes[0].joint.q = std::round(x / count) * count / kDevice.radius();
       if (std::abs(x) > 0.9 * limits.edge) return found;
-      if (found == Fault::kNone) found = p.gate.watch({}, {.dt = dt}, p.axes);
+      if (found == Fault::kNone) found = p.limiter.watch({}, {.dt = dt}, p.axes);
     }
   }
   return found;
 }
 
-TEST(Gate, JudgesSpeedAtAnyRateAndThroughShortTicks) {
+TEST(SafetyLimiter, JudgesSpeedAtAnyRateAndThroughShortTicks) {
   Limits limits = Limits::of(kDevice);
   limits.speed = 1;
   const std::initializer_list<double> at_1_kHz = {1e-3}, late = {1.7e-3, 0.3e-3},
@@ -159,14 +159,14 @@ TEST(Gate, JudgesSpeedAtAnyRateAndThroughShortTicks) {
   }
 }
 
-TEST(Gate, OneCountIsNoSpeedHoweverSmallTheLimit) {
+TEST(SafetyLimiter, OneCountIsNoSpeedHoweverSmallTheLimit) {
   Limits limits = Limits::of(kDevice);
   limits.speed = 0.01;  // m/s: less than a count in a tick
   EXPECT_EQ(seen_at(0.0099, {1e-3}, limits), Fault::kNone);
   EXPECT_EQ(seen_at(0.1, {1e-3}, limits), Fault::kOverspeed);
 }
 
-TEST(Gate, NamesWhatItSees) {
+TEST(SafetyLimiter, NamesWhatItSees) {
   const double radius = kDevice.radius();
   Pushed p;
   EXPECT_EQ(seen(p), Fault::kNone);
@@ -176,10 +176,10 @@ TEST(Gate, NamesWhatItSees) {
   p.axes[0].joint.q -= 2 * p.limits.speed * kDt / radius;
   EXPECT_EQ(seen(p), Fault::kOverspeed);
   p.axes[0].joint.q = -1.01 * p.limits.end / radius;
-  p.gate.restart();
+  p.limiter.restart();
   EXPECT_EQ(seen(p), Fault::kWorkspace);
   p.axes[0].joint.q = 0;
-  p.gate.restart();
+  p.limiter.restart();
   EXPECT_EQ(seen(p, {.force_age = 1}), Fault::kForceStale);
   EXPECT_EQ(seen(p, {.force_status = SensorStatus::kSaturated}), Fault::kForceSaturated);
   EXPECT_EQ(seen(p, {.force_status = SensorStatus::kDisconnected}), Fault::kForceDisconnected);
@@ -189,19 +189,19 @@ TEST(Gate, NamesWhatItSees) {
   EXPECT_EQ(seen(p, {}, 0), Fault::kNone);
 }
 
-TEST(Gate, RefusesLimitsThatContradictEachOther) {
+TEST(SafetyLimiter, RefusesLimitsThatContradictEachOther) {
   Limits limits;
   limits.continuous_current = 2 * limits.peak_current;
-  EXPECT_THROW(Gate(limits, kDevice, kDt), std::invalid_argument);
+  EXPECT_THROW(SafetyLimiter(limits, kDevice, kDt), std::invalid_argument);
   limits = {};
   limits.end = 0.5 * limits.edge;
-  EXPECT_THROW(Gate(limits, kDevice, kDt), std::invalid_argument);
+  EXPECT_THROW(SafetyLimiter(limits, kDevice, kDt), std::invalid_argument);
 }
 
-TEST(Course, RampsInRunsRampsOutAndStops) {
+TEST(RunStateMachine, RampsInRunsRampsOutAndStops) {
   ebac::Setup setup;
   Loop loop(SimulatedDevice(setup), VirtualClock(kDt, 0, 1), PerAxis<Direct>(Direct({})),
-            Rig(setup.device, setup.environment), 1,
+            SignalChain(setup.device, setup.environment), 1,
             {.plan = {.soft_start = 0.1, .ramp_down = 0.05, .arm = true, .ticks = 500}});
   const auto trace = loop.make_trace(1000);
   EXPECT_EQ(loop.state(), LoopState::kIdle);
@@ -224,34 +224,34 @@ TEST(Course, RampsInRunsRampsOutAndStops) {
   }
 }
 
-TEST(Course, AFaultLatchesUntilItIsReset) {
-  Course course({.stop_ticks = 3});
-  EXPECT_TRUE(course.start());
-  course.advance(true, false, kDt);
-  course.fail(Fault::kDevice);
-  course.fail(Fault::kLawNotFinite);
-  EXPECT_EQ(course.fault(), Fault::kDevice);
-  EXPECT_EQ(course.gain(), 0);
-  EXPECT_FALSE(course.reset()) << "it is still stopping";
+TEST(RunStateMachine, AFaultLatchesUntilItIsReset) {
+  RunStateMachine run_state({.stop_ticks = 3});
+  EXPECT_TRUE(run_state.start());
+  run_state.advance(true, false, kDt);
+  run_state.fail(Fault::kDevice);
+  run_state.fail(Fault::kLawNotFinite);
+  EXPECT_EQ(run_state.fault(), Fault::kDevice);
+  EXPECT_EQ(run_state.gain(), 0);
+  EXPECT_FALSE(run_state.reset()) << "it is still stopping";
   for (int k = 0; k < 2; ++k) {
-    EXPECT_FALSE(course.finish());
-    course.advance(true, false, kDt);
+    EXPECT_FALSE(run_state.finish());
+    run_state.advance(true, false, kDt);
   }
-  EXPECT_TRUE(course.finish());
-  EXPECT_EQ(course.state(), LoopState::kFault);
-  EXPECT_FALSE(course.start());
-  EXPECT_TRUE(course.reset());
-  EXPECT_TRUE(course.start());
+  EXPECT_TRUE(run_state.finish());
+  EXPECT_EQ(run_state.state(), LoopState::kFault);
+  EXPECT_FALSE(run_state.start());
+  EXPECT_TRUE(run_state.reset());
+  EXPECT_TRUE(run_state.start());
 }
 
-TEST(Course, AStopWhileArmingNeverRuns) {
-  Course course({.arm = true});
-  course.start();
-  course.advance(false, true, kDt);
-  EXPECT_EQ(course.state(), LoopState::kStop);
-  course.advance(true, false, kDt);
-  EXPECT_EQ(course.state(), LoopState::kStop);
-  EXPECT_EQ(course.gain(), 0);
+TEST(RunStateMachine, AStopWhileArmingNeverRuns) {
+  RunStateMachine run_state({.arm = true});
+  run_state.start();
+  run_state.advance(false, true, kDt);
+  EXPECT_EQ(run_state.state(), LoopState::kStop);
+  run_state.advance(true, false, kDt);
+  EXPECT_EQ(run_state.state(), LoopState::kStop);
+  EXPECT_EQ(run_state.gain(), 0);
 }
 
 }  // namespace

@@ -5,10 +5,10 @@
 #include <deque>
 
 #include "ebac/can/bus.hpp"
-#include "ebac/can/cob_id.hpp"
 #include "ebac/can/frame.hpp"
+#include "ebac/canopen/cob_id.hpp"
 
-/// The other side of a bus, told frame by frame what to answer: for what real drives never do.
+/// The other side of a bus, with scripted answers: for behaviour that real drives never show.
 namespace ebac::can {
 
 /// One end: what the loop sent, and what waits for it.

@@ -12,7 +12,7 @@
 namespace ebac::sensor {
 namespace {
 
-using Device = WithForceSensor<Felt<SimulatedDevice>, StepSensor>;
+using Device = WithForceSensor<ForcePublisher<SimulatedDevice>, StepSensor>;
 
 /// 2^20 counts a newton, and a sensor whose steps they are: nothing is rounded twice.
 constexpr double kCounts = 1048576;
@@ -31,9 +31,9 @@ PerAxis<Law> designed(const Setup& setup) {
 }
 
 Device device_of(const Setup& setup, const Mounting& mounting = {}) {
-  auto cell = std::make_shared<ForceCell>();
+  auto cell = std::make_shared<SharedForce>();
   const EmulatorOptions options{.counts_per_force = kCounts};
-  return Device(Felt(SimulatedDevice(setup), cell),
+  return Device(ForcePublisher(SimulatedDevice(setup), cell),
                 StepSensor(cell, options, mounting, {.counts_per_force = kCounts}));
 }
 
@@ -41,7 +41,8 @@ template <class Law>
 auto loop_of(const Setup& setup, Law law, const Mounting& mounting = {}) {
   return Loop<Device, VirtualClock, Law>(
       device_of(setup, mounting), VirtualClock(setup.timing.dt, setup.jitter, setup.seed),
-      std::move(law), Rig(setup.device, setup.environment), setup.device.axes(), setup.loop);
+      std::move(law), SignalChain(setup.device, setup.environment), setup.device.axes(),
+      setup.loop);
 }
 
 template <Controller Law>
@@ -59,9 +60,11 @@ void expect_the_same_run(const Setup& setup) {
     pushed = std::max(pushed, std::abs(b.axis[0].port.f_meas));
   }
   EXPECT_GT(pushed, 5);
-  const RdtRow& told = loop.device().sensor().state(0);
-  EXPECT_EQ(told.received, static_cast<std::int64_t>(trace->size()));
-  EXPECT_EQ(told.lost + told.late + told.duplicate + told.malformed + told.foreign, 0);
+  const RdtRow& status_row = loop.device().sensor().state(0);
+  EXPECT_EQ(status_row.received, static_cast<std::int64_t>(trace->size()));
+  EXPECT_EQ(status_row.lost + status_row.late + status_row.duplicate + status_row.malformed +
+                status_row.foreign,
+            0);
 }
 
 TEST(SensorLoop, TcaOverTheNetworkGivesTheSameBits) { expect_the_same_run<Tca>(quantised()); }
@@ -94,7 +97,7 @@ struct Found {
 template <class Break>
 Found fault_when(Break&& damage) {
   auto setup = quantised();
-  setup.loop.gate = Gate(Limits::of(setup.device), setup.device, setup.timing.dt);
+  setup.loop.limiter = SafetyLimiter(Limits::of(setup.device), setup.device, setup.timing.dt);
   auto loop = loop_of(setup, designed<Ebac>(setup));
   const auto calm = loop.make_trace(500);
   loop.run(*calm);
@@ -149,7 +152,7 @@ struct Enabled {
 };
 
 TEST(WithForceSensor, ADeviceRunsOnceItsSensorDoes) {
-  auto cell = std::make_shared<ForceCell>();
+  auto cell = std::make_shared<SharedForce>();
   WithForceSensor<Enabled, StepSensor> device({}, StepSensor(cell), 0.1);
   device.sensor().emulator().set({.silent = true});
   device.enable();
@@ -164,7 +167,7 @@ TEST(WithForceSensor, ADeviceRunsOnceItsSensorDoes) {
 }
 
 TEST(WithForceSensor, ASensorThatNeverComesIsToldAfterAWhile) {
-  auto cell = std::make_shared<ForceCell>();
+  auto cell = std::make_shared<SharedForce>();
   WithForceSensor<Enabled, StepSensor> device({}, StepSensor(cell), 0.1);
   device.sensor().emulator().set({.silent = true});
   device.enable();

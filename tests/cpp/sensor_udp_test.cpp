@@ -1,5 +1,5 @@
 // The client over real sockets on loopback: scripted packets, an emulator in real time, and ports
-// where nobody listens.
+// where no program listens.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -8,8 +8,8 @@
 #include <cmath>
 #include <thread>
 
+#include "ebac/sensor/emulator_server.hpp"
 #include "ebac/sensor/rdt_client.hpp"
-#include "ebac/sensor/served_emulator.hpp"
 
 namespace ebac::sensor {
 namespace {
@@ -92,7 +92,25 @@ TEST(RdtClient, AgeIsTheTimeWithoutANewerRecord) {
   EXPECT_EQ(s.client.age(), 0);
 }
 
+/// Linux begins to stamp packets on arrival some time after the first socket asks for it; until then
+/// a stamp is the time of reading. Returns a socket that keeps the stamps on.
+UdpSocket stamps_on_arrival() {
+  UdpSocket socket(kAnyPort);
+  const auto now = [] {
+    const auto since = std::chrono::system_clock::now().time_since_epoch();
+    return std::chrono::nanoseconds(since).count();
+  };
+  for (int i = 0; i < 200; ++i) {
+    socket.send(std::array<std::uint8_t, 1>{}, socket.local());
+    std::this_thread::sleep_for(milliseconds{5});
+    Datagram in;
+    if (socket.receive(in) == 0 && now() - in.stamp > 4'000'000) break;
+  }
+  return socket;
+}
+
 TEST(RdtClient, AgeCountsFromWhenTheKernelHadTheRecord) {
+  const UdpSocket stamping = stamps_on_arrival();
   UdpSocket sensor(kAnyPort);
   RdtClient client({.sensor = sensor.local()});
   client.start();
@@ -106,6 +124,7 @@ TEST(RdtClient, AgeCountsFromWhenTheKernelHadTheRecord) {
 }
 
 TEST(RdtClient, WhoReadsSeldomDoesNotAskAgain) {
+  const UdpSocket stamping = stamps_on_arrival();
   UdpSocket sensor(kAnyPort);
   RdtClient client({.sensor = sensor.local(), .retry = 0.02});
   client.start();
@@ -204,9 +223,9 @@ TEST(RdtClient, RefusesASetupThatCannotBe) {
   EXPECT_THROW(UdpSocket{taken.local()}, std::system_error);
 }
 
-TEST(ServedEmulator, StreamsToWhoAsks) {
-  auto cell = std::make_shared<Mailbox<ServedEmulator::Force>>();
-  ServedEmulator sensor(kAnyPort, RdtEmulator<Endpoint>({.rate = 2000}), from_cell(cell));
+TEST(EmulatorServer, StreamsToWhoAsks) {
+  auto cell = std::make_shared<Mailbox<EmulatorServer::Force>>();
+  EmulatorServer sensor(kAnyPort, RdtEmulator<Endpoint>({.rate = 2000}), from_cell(cell));
   sensor.start();
   EXPECT_THROW(sensor.start(), std::logic_error);
   cell->post({3, -2, 1});
@@ -231,9 +250,9 @@ TEST(ServedEmulator, StreamsToWhoAsks) {
 }
 
 /// Everything that threads may do to it at once, for the thread sanitizer.
-TEST(ServedEmulator, IsUsedFromManyThreads) {
-  auto cell = std::make_shared<Mailbox<ServedEmulator::Force>>();
-  ServedEmulator sensor(kAnyPort, RdtEmulator<Endpoint>({.rate = 7000}), from_cell(cell));
+TEST(EmulatorServer, IsUsedFromManyThreads) {
+  auto cell = std::make_shared<Mailbox<EmulatorServer::Force>>();
+  EmulatorServer sensor(kAnyPort, RdtEmulator<Endpoint>({.rate = 7000}), from_cell(cell));
   sensor.start();
   std::atomic<bool> over = false;
   std::thread hand([&] {

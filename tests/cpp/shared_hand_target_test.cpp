@@ -1,4 +1,6 @@
-// A simulated hand is told where to go: from the mail of a loop, over a cell, in another process.
+// Target of a simulated hand: from the updates of a loop, through a shared target, to another process.
+#include "ebac/rt/shared_hand_target.hpp"
+
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -7,7 +9,6 @@
 #include <memory>
 #include <system_error>
 
-#include "ebac/rt/aimed.hpp"
 #include "ebac/sim/simulated_device.hpp"
 
 namespace ebac::rt {
@@ -16,30 +17,30 @@ namespace {
 constexpr double kStay = std::numeric_limits<double>::quiet_NaN();
 constexpr double kDt = 1e-3;  // s
 
-TEST(AimCell, GivesTheNewestOnce) {
-  AimCell cell;
+TEST(SharedHandTarget, GivesTheNewestOnce) {
+  SharedHandTarget cell;
   EXPECT_EQ(cell.take(), nullptr);
   cell.post({.target = {1, 2, 3}});
   cell.post({.target = {4, 5, 6}});
-  const Aim* aim = cell.take();
+  const HandTarget* aim = cell.take();
   ASSERT_NE(aim, nullptr);
   EXPECT_EQ(aim->target[0], 4);
   EXPECT_EQ(cell.take(), nullptr);
 }
 
-TEST(AimCell, IsOneInTwoProcesses) {
-  AimCell cell;
+TEST(SharedHandTarget, IsOneInTwoProcesses) {
+  SharedHandTarget cell;
   const pid_t child = fork();
   ASSERT_GE(child, 0);
   if (child == 0) {
-    AimCell same(cell.descriptor());
+    SharedHandTarget same(cell.descriptor());
     same.post({.target = {0.5, kStay, 0}});
     _exit(0);
   }
   int status = -1;
   ASSERT_EQ(waitpid(child, &status, 0), child);
   ASSERT_EQ(status, 0);
-  const Aim* aim = cell.take();
+  const HandTarget* aim = cell.take();
   ASSERT_NE(aim, nullptr);
   EXPECT_EQ(aim->target[0], 0.5);
 }
@@ -62,31 +63,31 @@ struct Still {
   }
 };
 
-TEST(Aiming, PassesATargetOnWithTheNextExchangeAndOnlyOnce) {
-  const auto cell = std::make_shared<AimCell>();
-  Aiming device(Still{}, cell);
+TEST(TargetPublisher, PassesATargetOnWithTheNextExchangeAndOnlyOnce) {
+  const auto cell = std::make_shared<SharedHandTarget>();
+  TargetPublisher device(Still{}, cell);
   device.aim(1, 0.02);
   EXPECT_EQ(cell->take(), nullptr);
   static_cast<void>(device.exchange({}));
-  const Aim* aim = cell->take();
+  const HandTarget* aim = cell->take();
   ASSERT_NE(aim, nullptr);
   EXPECT_EQ(aim->target[1], 0.02);
   static_cast<void>(device.exchange({}));
   EXPECT_EQ(cell->take(), nullptr);
-  Aiming alone(Still{});
+  TargetPublisher alone(Still{});
   alone.aim(0, 0.01);
   EXPECT_EQ(alone.exchange({}).fault, Fault::kNone);
 }
 
-TEST(Aimed, TheHandGoesThereAndAnAxisThatIsNotToldStays) {
+TEST(TargetSubscriber, TheHandGoesThereAndAnAxisThatIsNotToldStays) {
   ebac::Setup setup;
   setup.device.kinematics = Linear{.axes = 2};
   setup.hand.path = {MinimumJerk{.target = 0.01, .duration = 0.1}, Step{.target = 0}, Step{}};
-  const auto cell = std::make_shared<AimCell>();
-  Aimed device(SimulatedDevice(setup), cell);
+  const auto cell = std::make_shared<SharedHandTarget>();
+  TargetSubscriber device(SimulatedDevice(setup), cell);
   for (int i = 0; i < 500; ++i) static_cast<void>(device.exchange({.elapsed = kDt}));
   cell->post({.target = {-0.02, kStay, kStay}});
-  Aimed peek = device;  // who looks while no time passes takes nothing away
+  TargetSubscriber peek = device;  // who looks while no time passes takes nothing away
   static_cast<void>(peek.exchange({}));
   for (int i = 0; i < 3000; ++i) static_cast<void>(device.exchange({.elapsed = kDt}));
   EXPECT_NEAR(device.device().state(0).x, -0.02, 1e-3);

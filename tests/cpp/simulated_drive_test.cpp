@@ -225,10 +225,10 @@ TEST(Faults, HistoryKeepsTheLastEightNewestFirst) {
     must(drive, 0x6040, 0, 0);
     must(drive, 0x6040, 0, 0x80);
   }
-  const Said told = heard(drive);
-  ASSERT_EQ(told.size(), 20);
-  EXPECT_EQ(told[18], "081#10 42 09 08 00 00 00 00");
-  EXPECT_EQ(told[19], "081#00 00 00 00 00 00 00 00");
+  const Said answers = heard(drive);
+  ASSERT_EQ(answers.size(), 20);
+  EXPECT_EQ(answers[18], "081#10 42 09 08 00 00 00 00");
+  EXPECT_EQ(answers[19], "081#00 00 00 00 00 00 00 00");
   EXPECT_EQ(value(drive, 0x1003), 8);
   EXPECT_EQ(value(drive, 0x1003, 1) & 0xFFFF, 0x4210);
   EXPECT_EQ(value(drive, 0x1003, 2) & 0xFFFF, 0x3210);

@@ -15,8 +15,8 @@
 #include <thread>
 #include <vector>
 
-#include "ebac/can/cob_id.hpp"
-#include "ebac/can/socketcan_wire.hpp"
+#include "ebac/can/raw_socket.hpp"
+#include "ebac/canopen/cob_id.hpp"
 
 namespace ebac::can {
 namespace {
@@ -58,10 +58,10 @@ TEST(Wire, ALengthBeyondEightIsCut) {
   can_frame wire{};
   wire.len = 255;
   EXPECT_EQ(from_wire(wire).size, 8);
-  EXPECT_EQ(to_wire({.size = 255}).len, 8);
+  EXPECT_EQ(to_wire(Frame{.size = 255}).len, 8);
 }
 
-Frame told(std::uint32_t what, std::uint8_t controller = 0) {
+Frame controller_error(std::uint32_t what, std::uint8_t controller = 0) {
   Frame error{.id = what, .size = 8, .error = true};
   error.data[1] = controller;
   return error;
@@ -70,17 +70,18 @@ Frame told(std::uint32_t what, std::uint8_t controller = 0) {
 TEST(Wire, ErrorFramesTellTheState) {
   for (const BusState before : {BusState::kUp, BusState::kPassive, BusState::kBusOff}) {
     const auto after = [&](const Frame& error) { return after_error(error, before); };
-    EXPECT_EQ(after(told(CAN_ERR_BUSOFF)), BusState::kBusOff);
-    EXPECT_EQ(after(told(CAN_ERR_BUSOFF | CAN_ERR_CRTL, CAN_ERR_CRTL_TX_PASSIVE)),
+    EXPECT_EQ(after(controller_error(CAN_ERR_BUSOFF)), BusState::kBusOff);
+    EXPECT_EQ(after(controller_error(CAN_ERR_BUSOFF | CAN_ERR_CRTL, CAN_ERR_CRTL_TX_PASSIVE)),
               BusState::kBusOff);
-    EXPECT_EQ(after(told(CAN_ERR_CRTL, CAN_ERR_CRTL_RX_WARNING)), BusState::kWarning);
-    EXPECT_EQ(after(told(CAN_ERR_CRTL, CAN_ERR_CRTL_TX_WARNING)), BusState::kWarning);
-    EXPECT_EQ(after(told(CAN_ERR_CRTL, CAN_ERR_CRTL_TX_PASSIVE | CAN_ERR_CRTL_TX_WARNING)),
-              BusState::kPassive);
-    EXPECT_EQ(after(told(CAN_ERR_CRTL, CAN_ERR_CRTL_ACTIVE)), BusState::kUp);
-    EXPECT_EQ(after(told(CAN_ERR_RESTARTED)), BusState::kUp);
-    EXPECT_EQ(after(told(CAN_ERR_CRTL, CAN_ERR_CRTL_RX_OVERFLOW)), before);
-    EXPECT_EQ(after(told(CAN_ERR_ACK)), before);
+    EXPECT_EQ(after(controller_error(CAN_ERR_CRTL, CAN_ERR_CRTL_RX_WARNING)), BusState::kWarning);
+    EXPECT_EQ(after(controller_error(CAN_ERR_CRTL, CAN_ERR_CRTL_TX_WARNING)), BusState::kWarning);
+    EXPECT_EQ(
+        after(controller_error(CAN_ERR_CRTL, CAN_ERR_CRTL_TX_PASSIVE | CAN_ERR_CRTL_TX_WARNING)),
+        BusState::kPassive);
+    EXPECT_EQ(after(controller_error(CAN_ERR_CRTL, CAN_ERR_CRTL_ACTIVE)), BusState::kUp);
+    EXPECT_EQ(after(controller_error(CAN_ERR_RESTARTED)), BusState::kUp);
+    EXPECT_EQ(after(controller_error(CAN_ERR_CRTL, CAN_ERR_CRTL_RX_OVERFLOW)), before);
+    EXPECT_EQ(after(controller_error(CAN_ERR_ACK)), before);
   }
 }
 
@@ -223,10 +224,10 @@ TEST_F(OnInterface, ErrorFramesBecomeTheState) {
     EXPECT_TRUE(all_of(quiet).empty());
     return quiet.state();
   };
-  EXPECT_EQ(after(told(CAN_ERR_CRTL, CAN_ERR_CRTL_TX_WARNING)), BusState::kWarning);
-  EXPECT_EQ(after(told(CAN_ERR_CRTL, CAN_ERR_CRTL_RX_PASSIVE)), BusState::kPassive);
-  EXPECT_EQ(after(told(CAN_ERR_BUSOFF)), BusState::kBusOff);
-  EXPECT_EQ(after(told(CAN_ERR_RESTARTED)), BusState::kUp);
+  EXPECT_EQ(after(controller_error(CAN_ERR_CRTL, CAN_ERR_CRTL_TX_WARNING)), BusState::kWarning);
+  EXPECT_EQ(after(controller_error(CAN_ERR_CRTL, CAN_ERR_CRTL_RX_PASSIVE)), BusState::kPassive);
+  EXPECT_EQ(after(controller_error(CAN_ERR_BUSOFF)), BusState::kBusOff);
+  EXPECT_EQ(after(controller_error(CAN_ERR_RESTARTED)), BusState::kUp);
   EXPECT_EQ(all_of(told_all).size(), 4);
   EXPECT_EQ(told_all.state(), BusState::kUp);
 }
@@ -238,7 +239,7 @@ TEST_F(OnInterface, AFullReceiveQueueIsCounted) {
   for (std::uint64_t i = 0; i < kMany; ++i) ASSERT_TRUE(a.send(frame(1, {})));
   const std::uint64_t kept = all_of(b).size();
   EXPECT_LT(kept, kMany);
-  a.send(frame(2, {}));  // the kernel tells the loss with the next frame it takes
+  a.send(frame(2, {}));  // the kernel reports the loss with the next frame it takes
   EXPECT_EQ(all_of(b).size(), 1);
   EXPECT_EQ(b.counts().lost, kMany - kept);
 }

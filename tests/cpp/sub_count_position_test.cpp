@@ -1,4 +1,4 @@
-#include "ebac/control/edge_position.hpp"
+#include "ebac/control/sub_count_position.hpp"
 
 #include <gtest/gtest.h>
 
@@ -23,7 +23,7 @@ double read(double x) { return kCount * std::round(x / kCount); }
 double lost(double amplitude, double frequency, bool whole) {
   EnergyLedger ledger(2.0, kCount, 0.0, 0.0);
   ledger.set_tick(kTick);
-  EdgePosition edge(kCount);
+  SubCountPosition edge(kCount);
   const double start = 40.5 * kCount;  // an edge between two counts
   double x = start;
   double before = read(x);
@@ -44,7 +44,7 @@ double lost(double amplitude, double frequency, bool whole) {
   return truth - ledger.energy();
 }
 
-TEST(EdgePosition, AWallThatRipplesWithinACountForTwoMinutesKeepsItsLedger) {
+TEST(SubCountPosition, AWallThatRipplesWithinACountForTwoMinutesKeepsItsLedger) {
   for (const double amplitude : {0.05, 0.1, 0.3, 0.45}) {
     for (const double frequency : {1.1, 5.3, 17.3, 41.7}) {
       const double whole = lost(amplitude * kCount, frequency, true);
@@ -57,22 +57,22 @@ TEST(EdgePosition, AWallThatRipplesWithinACountForTwoMinutesKeepsItsLedger) {
 }
 
 /// Two counts from the device at most: one it may have turned within, one it was thought to go on.
-TEST(EdgePosition, StaysWithinTwoCountsOfTheDevice) {
+TEST(SubCountPosition, StaysWithinTwoCountsOfTheDevice) {
   for (const double speed : {0.01, 0.3, 2.0, 7.7}) {  // counts a tick
-    EdgePosition edge(kCount);
+    SubCountPosition edge(kCount);
     double x = 0;
     edge.start(read(x));
-    double told = read(x);
+    double estimate = read(x);
     for (int k = 1; k <= 2000; ++k) {
       x += (k / 500 % 2 ? -1 : 1) * speed * kCount;
-      told += edge.step(read(x), kTick);
-      ASSERT_LE(std::abs(told - x), 2 * kCount) << speed << " counts a tick, tick " << k;
+      estimate += edge.step(read(x), kTick);
+      ASSERT_LE(std::abs(estimate - x), 2 * kCount) << speed << " counts a tick, tick " << k;
     }
   }
 }
 
-TEST(EdgePosition, IsStillWhileTheReadingIs) {
-  EdgePosition edge(kCount);
+TEST(SubCountPosition, IsStillWhileTheReadingIs) {
+  SubCountPosition edge(kCount);
   edge.start(0.0);
   for (int k = 0; k < 100; ++k) {
     EXPECT_EQ(edge.step(0.0, kTick), 0.0);
@@ -80,8 +80,8 @@ TEST(EdgePosition, IsStillWhileTheReadingIs) {
   }
 }
 
-TEST(EdgePosition, ADirectionIsToldAtAnEdgeAndNotWithinIt) {
-  EdgePosition edge(kCount);
+TEST(SubCountPosition, ADirectionIsToldAtAnEdgeAndNotWithinIt) {
+  SubCountPosition edge(kCount);
   edge.start(0.0);
   edge.step(kCount, kTick);
   EXPECT_EQ(edge.direction(), 1);

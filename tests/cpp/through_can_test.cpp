@@ -1,6 +1,6 @@
 // A run through the bus gives the bits of one without: what the drives, the frames and the loop's
 // side of the bus add is time, and nothing else.
-#include "ebac/can/through_can.hpp"
+#include "ebac/simulated_drives/through_can.hpp"
 
 #include <gtest/gtest.h>
 
@@ -128,7 +128,7 @@ TEST(ThroughCan, AtTheLimitsOfTheDrive) {
   auto setup = brief();
   setup.environment = Wall{.stiffness = 50e3};
   expect_same_run<Tca>(setup);                     // swings from limit to limit
-  setup.device.motor.torque_constant = 0.0538123;  // that no drive can be told exactly
+  setup.device.motor.torque_constant = 0.0538123;  // which no drive can represent exactly
   setup.device.motor.rated_torque = 0.0527771;
   setup.device.drive.peak_ratio = 3.4567;
   EXPECT_GT(saturated<Tca>(setup), 0.1);
@@ -169,15 +169,15 @@ TEST(ThroughCan, TheBusIsInTheRowAndWell) {
 
 TEST(ThroughCan, DrivesAreOffBeforeAndAfter) {
   auto device = can::device_through_can<SimulatedDevice>(brief());
-  const auto state = [&] { return device.desk().joystick().drive(0).state(); };
+  const auto state = [&] { return device.bench().joystick().drive(0).state(); };
   EXPECT_NE(state(), can::DriveState::kOperationEnabled);
   device.enable();
   EXPECT_EQ(state(), can::DriveState::kOperationEnabled);
   static_cast<void>(device.exchange({.current = {1.0}, .elapsed = 1e-3}));
-  EXPECT_GT(device.desk().joystick().drive(0).current(), 0.9);
+  EXPECT_GT(device.bench().joystick().drive(0).current(), 0.9);
   device.disable();
   EXPECT_EQ(state(), can::DriveState::kSwitchOnDisabled);
-  EXPECT_EQ(device.desk().joystick().drive(0).current(), 0);
+  EXPECT_EQ(device.bench().joystick().drive(0).current(), 0);
 }
 
 TEST(ThroughCan, AFaultOfARealDriveEndsTheRunAtRest) {
@@ -187,19 +187,19 @@ TEST(ThroughCan, AFaultOfARealDriveEndsTheRunAtRest) {
     auto device = can::device_through_can<SimulatedDevice>(brief());
     device.enable();
     Loop loop(std::move(device), VirtualClock(1e-3, 0, 1), PerAxis<Direct>(Direct({}, {})),
-              Rig(DeviceModel{}, Environment{Wall{.position = -0.01}}), 1);
+              SignalChain(DeviceModel{}, Environment{Wall{.position = -0.01}}), 1);
     auto first = loop.make_trace(5);
     loop.run(*first);
     EXPECT_EQ(loop.sample().fault, Fault::kNone);
     EXPECT_NE(loop.sample().axis[0].joint.current, 0);
-    loop.device().desk().joystick().drive(0).set_condition(condition, true);
+    loop.device().bench().joystick().drive(0).set_condition(condition, true);
     auto second = loop.make_trace(100);
     loop.run(*second);
     EXPECT_EQ(loop.sample().fault, fault);
     EXPECT_LT(second->size(), 20);
     EXPECT_EQ(loop.sample().axis[0].joint.current, 0);
     if (condition == can::Condition::kOverVoltage) {
-      EXPECT_EQ(loop.device().desk().joystick().drive(0).current(), 0);
+      EXPECT_EQ(loop.device().bench().joystick().drive(0).current(), 0);
     }
   }
 }

@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "ebac/sensor/emulator.hpp"
-#include "ebac/sensor/felt.hpp"
 #include "ebac/sensor/rdt_client.hpp"
+#include "ebac/sensor/shared_force.hpp"
 #include "ebac/sensor/udp.hpp"
 
 namespace ebac::sensor {
@@ -19,14 +19,14 @@ class StepSensor {
   using State = RdtClient::State;
   static constexpr std::string_view kPrefix = RdtClient::kPrefix;
 
-  explicit StepSensor(std::shared_ptr<ForceCell> cell, const EmulatorOptions& options = {},
+  explicit StepSensor(std::shared_ptr<SharedForce> cell, const EmulatorOptions& options = {},
                       const Mounting& mounting = {}, const FtScale& scale = {})
-      : cell_(std::move(cell)), desk_(std::make_unique<Desk>(options, mounting, scale)) {
-    desk_->client.start();
+      : cell_(std::move(cell)), bench_(std::make_unique<TestBench>(options, mounting, scale)) {
+    bench_->client.start();
   }
 
   bool poll(double elapsed) noexcept {
-    Desk& d = *desk_;
+    TestBench& d = *bench_;
     if (const auto* force = cell_->take()) d.emulator.feel(*force);
     for (Datagram in; d.socket.receive(in) == 0;) d.emulator.hear(in.bytes(), in.from);
     bool sent = false;
@@ -36,16 +36,16 @@ class StepSensor {
     if (sent) d.client.wait(std::chrono::seconds{5});
     return d.client.poll(elapsed);
   }
-  void fill(Reading& reading) const noexcept { desk_->client.fill(reading); }
-  SensorStatus health() const noexcept { return desk_->client.health(); }
-  const State& state(std::size_t axis) const noexcept { return desk_->client.state(axis); }
+  void fill(Reading& reading) const noexcept { bench_->client.fill(reading); }
+  SensorStatus health() const noexcept { return bench_->client.health(); }
+  const State& state(std::size_t axis) const noexcept { return bench_->client.state(axis); }
 
-  RdtClient& client() { return desk_->client; }
-  RdtEmulator<Endpoint>& emulator() { return desk_->emulator; }
+  RdtClient& client() { return bench_->client; }
+  RdtEmulator<Endpoint>& emulator() { return bench_->emulator; }
 
  private:
-  struct Desk {
-    Desk(const EmulatorOptions& options, const Mounting& mounting, const FtScale& scale)
+  struct TestBench {
+    TestBench(const EmulatorOptions& options, const Mounting& mounting, const FtScale& scale)
         : emulator(options, mounting),
           client({.sensor = socket.local(),
                   .link = {.scale = scale, .mounting = mounting},
@@ -54,8 +54,8 @@ class StepSensor {
     RdtEmulator<Endpoint> emulator;
     RdtClient client;
   };
-  std::shared_ptr<ForceCell> cell_;
-  std::unique_ptr<Desk> desk_;
+  std::shared_ptr<SharedForce> cell_;
+  std::unique_ptr<TestBench> bench_;
 };
 
 }  // namespace ebac::sensor

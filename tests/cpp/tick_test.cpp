@@ -26,14 +26,14 @@ struct Scripted {
   std::vector<double> force;  // N
   std::size_t tick = 0;
 
-  void step(std::span<Axis> axes, const Touch&) EBAC_RT {
+  void step(std::span<Axis> axes, const ContactForce&) EBAC_RT {
     for (Axis& axis : axes) axis.port.f_cmd = tick < force.size() ? force[tick] : 0.0;
     ++tick;
   }
   void reset() EBAC_RT { tick = 0; }
 };
 
-/// Gives the readings of a script, the last one for ever, and keeps what it was told.
+/// Returns the readings of a script, the last one for ever, and records its commands.
 struct FakeDevice {
   std::vector<Reading> script;
   std::vector<double>* currents;  // A
@@ -64,7 +64,7 @@ TEST_P(Delay, CommandOfTickActsThatManyTicksLater) {
 
   ASSERT_EQ(trace->size(), 101);
   for (std::size_t row = 0; row < trace->size(); ++row) {
-    // A row tells the interval that ended with it; the one that starts at tick k ends at k + 1.
+    // A row describes the interval that ended with it; the one that starts at tick k ends at k + 1.
     const std::size_t late = static_cast<std::size_t>(delay) + 1;
     const double acting = row < late ? 0.0 : trace->sample(row - late).axis[0].port.f_cmd;
     EXPECT_NEAR(trace->sample(row).axis[0].port.f_applied, acting, 1e-12) << "row " << row;
@@ -94,7 +94,7 @@ struct LoopRun {
   LoopRun(const std::vector<Reading>& readings, const Scripted& law, const DeviceModel& model = {},
           const Environment& environment = Wall{}) {
     Loop loop(FakeDevice{readings, &currents}, VirtualClock(1e-3, 0, 1), law,
-              Rig(model, environment), 1);
+              SignalChain(model, environment), 1);
     trace = loop.make_trace(1000);
     loop.run(*trace);
   }
@@ -210,7 +210,7 @@ TEST_P(Speed, DoesNotLeapWhereAnswersAreMissing) {
   constexpr int kPace = 10;  // counts a tick: 0.3 m/s
   DeviceModel model;
   model.velocity = GetParam();
-  Rig rig(model, Free{});
+  SignalChain chain(model, Free{});
   std::array<Axis, 1> axes{};
   const double pace = kPace * model.encoder.count() / model.capstan.ratio() / kDt;
   Reading reading;
@@ -222,8 +222,10 @@ TEST_P(Speed, DoesNotLeapWhereAnswersAreMissing) {
       reading.counts[0] = kPace * (late && !answered ? k - 1 : k);
       reading.counts_age[0] = late && !answered ? kDt : 0;
     }
-    rig.measure(reading, k > 0 ? kDt : 0, axes);
-    if (k > 90) ASSERT_NEAR(axes[0].joint.dq, pace, 1e-6 * pace) << k;
+    chain.measure(reading, k > 0 ? kDt : 0, axes);
+    if (k > 90) {
+      ASSERT_NEAR(axes[0].joint.dq, pace, 1e-6 * pace) << k;
+    }
   }
 }
 
@@ -235,7 +237,7 @@ INSTANTIATE_TEST_SUITE_P(Estimators, Speed,
 /// Everything a tick needs, in a world that is met, left and met again.
 struct Parts {
   Setup setup{.environment = Wall{.damping = 5}};
-  Rig rig{setup.device, setup.environment};
+  SignalChain chain{setup.device, setup.environment};
   PerAxis<Ebac> law{Ebac(Ebac::Params::design(setup.device.facts(), setup.timing), setup.timing)};
   SimulatedDevice device{[this] {
     setup.hand.path[0] = Tapping{};
@@ -250,8 +252,8 @@ TEST(Tick, OfOneAxisHasTheBitsOfTheOneForSeveral) {
   double force = 0;
   for (int k = 0; k < 3000; ++k) {
     const Instant now = clock.wait();
-    tick(one.rig, one.law, one.device, now, one.sample);
-    tick(several.rig, several.law, several.device, now, several.sample,
+    tick(one.chain, one.law, one.device, now, one.sample);
+    tick(several.chain, several.law, several.device, now, several.sample,
          axes_in_use(several.sample));
     ASSERT_EQ(std::memcmp(&one.sample.axis[0], &several.sample.axis[0], sizeof(Axis)), 0) << k;
     force = std::max(force, one.sample.axis[0].port.f_cmd);

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <thread>
 
-#include "ebac/can/canopen_device.hpp"
+#include "ebac/canopen/canopen_device.hpp"
 
 /// The loop's device in real time, without a loop around it.
 namespace ebac::can {
@@ -33,7 +33,7 @@ struct TimedRun {
   std::int64_t missing = 0;   // answers of drive 1 that did not come in their tick
   std::int64_t first = 0;     // counts of axis 0 when enabled
   std::int64_t last = 0;      // counts of axis 0 after the last tick
-  double current_echoed = 0;  // A, told by drive 1 in the last tick
+  double current_echoed = 0;  // A, reported by drive 1 in the last tick
 };
 
 /// Enables two drives, gives axis 0 a current for `ticks` of 1 ms, and disables them. A tick waits

@@ -41,7 +41,7 @@ std::int64_t said(const Trace& trace, const std::vector<std::byte>& rows, std::s
 
 Trace odd_trace(std::size_t rows, bool ring) {
   Trace layout(1);
-  layout.add_block<Odd>("odd.");
+  layout.add_block("odd.", field_table<Odd>());
   return {layout, rows, ring};
 }
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "ebac/can/simulated_drive.hpp"
+#include "ebac/simulated_drives/simulated_drive.hpp"
 
 /// What is said on a bus, written as candump writes it: "601#40 00 10 00 00 00 00 00".
 namespace ebac::can {

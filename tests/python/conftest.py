@@ -64,7 +64,7 @@ _CHANNELS = count()
 @pytest.fixture
 def open_bus() -> Iterator[Callable[[], "can.BusABC"]]:
     """A function that opens a bus with the simulated drives of the joystick on it, nodes 1 and 2."""
-    from ebac.can_interface import EbacBus
+    from ebac.can.interface import EbacBus
 
     channel = f"joystick-{next(_CHANNELS)}"
     with EbacBus(channel):

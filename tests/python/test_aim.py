@@ -12,7 +12,7 @@ import pytest
 from typer.testing import CliRunner
 
 import ebac
-from ebac._core import AimCell, Joystick
+from ebac._core import Joystick, SharedHandTarget
 from ebac.cli import app
 from ebac.hardware import Configuration, Run
 from ebac.hardware.schedule import Order, Schedule
@@ -47,7 +47,7 @@ def passed(joystick: Joystick, seconds: float) -> list[float]:
 
 
 def test_the_hand_follows_its_cell_and_an_axis_that_is_not_told_stays() -> None:
-    cell = AimCell()
+    cell = SharedHandTarget()
     joystick = Joystick(patient().scenario().setup(), aim=cell)
     assert passed(joystick, 1) == [0, 0]
     cell.post([0.03, STAY, STAY])
@@ -62,7 +62,7 @@ def test_the_hand_follows_its_cell_and_an_axis_that_is_not_told_stays() -> None:
 
 @pytest.mark.parametrize("path", [ebac.MinimumJerk(target=0.02), ebac.Sine(), ebac.Tapping()])
 def test_every_path_but_a_recorded_one_is_left(path: object) -> None:
-    cell = AimCell()
+    cell = SharedHandTarget()
     joystick = Joystick(patient(hand=ebac.Hand(path=[path])).scenario().setup(), aim=cell)
     passed(joystick, 1)
     cell.post([-0.03, STAY, STAY])
@@ -70,11 +70,9 @@ def test_every_path_but_a_recorded_one_is_left(path: object) -> None:
 
 
 def test_another_process_tells_by_the_same_cell() -> None:
-    cell = AimCell()
+    cell = SharedHandTarget()
     joystick = Joystick(patient().scenario().setup(), aim=cell)
-    script = (
-        f"from ebac._core import AimCell; AimCell({cell.descriptor}).post([0.03, {STAY!r}, 0.0])"
-    )
+    script = f"from ebac._core import SharedHandTarget; SharedHandTarget({cell.descriptor}).post([0.03, {STAY!r}, 0.0])"
     script = f"nan = float('nan'); {script}"
     subprocess.run([sys.executable, "-c", script], pass_fds=[cell.descriptor], check=True)
     assert abs(passed(joystick, 3)[0] - 0.03) < 1e-3
@@ -83,11 +81,11 @@ def test_another_process_tells_by_the_same_cell() -> None:
 def test_what_is_no_cell_is_refused(tmp_path: Path) -> None:
     with (tmp_path / "file").open("w+b") as file:
         with pytest.raises(ValueError, match="bytes expected"):
-            AimCell(file.fileno())
+            SharedHandTarget(file.fileno())
         number = os.dup(file.fileno())
         os.close(number)
         with pytest.raises(OSError, match=f"descriptor {number}"):
-            AimCell(number)
+            SharedHandTarget(number)
 
 
 def test_a_target_acts_within_a_run_and_is_in_its_log(tmp_path: Path, until: Until) -> None:
@@ -96,9 +94,9 @@ def test_a_target_acts_within_a_run_and_is_in_its_log(tmp_path: Path, until: Unt
         with device.start(seconds=60, log=log) as run:
             until(run, lambda: run.state is ebac.LoopState.RUN and run.ticks >= 300)
             assert run.target == (None, None)
-            assert run.aim(0.03) == (0.03, None)
+            assert run.set_target(0.03) == (0.03, None)
             until(run, lambda: bool(run.tail(1)["x"][-1, 0] > 0.02))
-            assert run.aim(None, -0.02) == run.target == (0.03, -0.02)
+            assert run.set_target(None, -0.02) == run.target == (0.03, -0.02)
             until(run, lambda: bool(run.tail(1)["x"][-1, 1] < -0.01))
             for wrong, words in (
                 ((11.0,), r"Step.target = 11 m: must lie in \[-10, 10\] m"),
@@ -106,10 +104,12 @@ def test_a_target_acts_within_a_run_and_is_in_its_log(tmp_path: Path, until: Unt
                 ((), "0 numbers for 2 axes"),
             ):
                 with pytest.raises(ValueError, match=words):
-                    run.aim(*wrong)
+                    run.set_target(*wrong)
             run.stop()
         trace = run.finish()
         with pytest.raises(RuntimeError, match="has ended"):
+            run.set_target(0.0)
+        with pytest.deprecated_call(match="set_target"), pytest.raises(RuntimeError, match="ended"):
             run.aim(0.0)
     events = [e for e in ebac.logs.read(log).events if e.kind == "parameter"]
     assert [e.values for e in events] == [{"hand.target_0": 0.03}, {"hand.target_1": -0.02}]
@@ -127,7 +127,7 @@ def test_a_hand_of_flesh_goes_where_it_wants(
     known = patient(interface="ebac", channel="joystick-aim", setup="apply", sensor=None)
     with ebac.Device.open(known) as device, device.start(seconds=60) as run:
         with pytest.raises(ValueError, match="no simulated hand holds this device"):
-            run.aim(0.03)
+            run.set_target(0.03)
         run.stop()
 
 

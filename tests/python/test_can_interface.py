@@ -19,16 +19,17 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from ebac import _core, can_channels
+from ebac import _core
 from ebac._core import CanFrame, LoopbackHub
-from ebac.can_interface import NODES, EbacBus
+from ebac.can import channels
+from ebac.can.interface import NODES, EbacBus
 
 
 @pytest.fixture
 def channel(request: pytest.FixtureRequest) -> Iterator[str]:
     """The name of a channel of its own, which must be gone afterwards."""
     yield request.node.name
-    assert can_channels.CHANNELS == {}
+    assert channels.CHANNELS == {}
 
 
 def bus(channel: str, **options: Any) -> EbacBus:
@@ -113,7 +114,7 @@ def test_two_channels_are_two_buses(channel: str) -> None:
 
 def test_a_channel_goes_with_the_last_who_leaves(channel: str) -> None:
     first, second = bus(channel), bus(channel)
-    hub = can_channels.CHANNELS[channel].hub
+    hub = channels.CHANNELS[channel].hub
     assert hub.ends == 2
     first.shutdown()
     first.shutdown()
@@ -121,7 +122,7 @@ def test_a_channel_goes_with_the_last_who_leaves(channel: str) -> None:
     second.shutdown()
     assert hub.ends == 0
     with bus(channel):
-        assert can_channels.CHANNELS[channel].hub is not hub
+        assert channels.CHANNELS[channel].hub is not hub
 
 
 @pytest.mark.parametrize(
@@ -540,11 +541,11 @@ def test_nodes_stand_on_the_channel_they_are_for(
 
 def test_the_longest_name_says_what_stands_on_a_channel(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(NODES, "rig", Echo)
-    longer: can_channels.Nodes = lambda hub: Echo(hub)  # noqa: E731
+    longer: channels.Nodes = lambda hub: Echo(hub)  # noqa: E731
     monkeypatch.setitem(NODES, "rig-two", longer)
-    assert can_channels.nodes_on("rig1") is Echo
-    assert can_channels.nodes_on("rig-two-b") is longer
-    assert can_channels.nodes_on("other") is None
+    assert channels.nodes_on("rig1") is Echo
+    assert channels.nodes_on("rig-two-b") is longer
+    assert channels.nodes_on("other") is None
 
 
 def test_nodes_that_cannot_stand_leave_no_channel(
@@ -564,7 +565,7 @@ def test_nodes_that_cannot_stand_leave_no_channel(
 def test_a_forgotten_channel_ends_with_the_program() -> None:
     code = """
 import can, threading
-from ebac import can_interface
+from ebac.can import interface
 
 class Node:
     def __init__(self, hub):
@@ -577,7 +578,7 @@ class Node:
         self.thread.join()
         print("taken off")
 
-can_interface.NODES["x"] = Node
+interface.NODES["x"] = Node
 bus = can.Bus(interface="ebac", channel="x")
 """
     run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=30)

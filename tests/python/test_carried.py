@@ -4,7 +4,7 @@ import nlopt
 import numpy as np
 import pytest
 
-from ebac.carried import Carried
+from ebac._util.nlopt_callbacks import Carried
 
 
 def search(fail_at: int) -> int:

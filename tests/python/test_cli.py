@@ -9,7 +9,7 @@ import pytest
 from typer.testing import CliRunner
 
 import ebac
-from ebac import wording
+from ebac._util import formatting
 from ebac.cli import app
 
 COMMANDS = ("wall", "paper", "laws", "specs", "presets", "bench")
@@ -78,12 +78,12 @@ def wall_rows(*words: str) -> dict[str, dict[str, Any]]:
     ],
 )
 def test_numbers_are_shown_with_their_unit(value: float | None, unit: str, text: str) -> None:
-    assert wording.quantity(value, unit) == text
+    assert formatting.quantity(value, unit) == text
 
 
 def test_a_scenario_is_told_in_one_line() -> None:
     hand = ebac.Hand(path=ebac.Tapping(), tremor_amplitude=1e-3)
-    text = wording.describe(ebac.Scenario(hand=hand, environment=ebac.Corner(), jitter=0.1))
+    text = formatting.describe(ebac.Scenario(hand=hand, environment=ebac.Corner(), jitter=0.1))
     assert "a Tapping path, tremor 1 mm at 9 Hz" in text
     assert (
         "a corner of a wall of 10 kN/m at 0 mm and a wall of 10 kN/m at 0 mm, turned by 90" in text
@@ -142,7 +142,9 @@ def test_wall_shows_what_the_paper_shows(seed: int) -> None:
 def test_wall_numbers_are_those_of_the_library() -> None:
     scenario = ebac.Scenario(environment=ebac.Wall(stiffness=5e3), seconds=2.0)
     expected = ebac.contact(ebac.simulate(scenario, "eba")).row()
-    assert wall_rows("--law", "eba", "--stiffness", "5000", "--seconds", "2")["eba"] == expected
+    assert (
+        wall_rows("--law", "eba", "--wall-stiffness", "5000", "--seconds", "2")["eba"] == expected
+    )
 
 
 def test_wall_writes_table_figure_logs_and_scenario(tmp_path: Path) -> None:
@@ -170,26 +172,36 @@ def test_wall_tells_in_words_and_units() -> None:
 
 def test_wall_scenario_round_trip() -> None:
     given = [
-        "--stiffness",
+        "--wall-stiffness",
         "3000",
-        "--mass",
+        "--hand-mass",
         "0.3",
         "--delay",
         "2",
         "--rate",
         "2000",
-        "--noise",
+        "--device-noise",
         "0.1",
     ]
-    given += ["--permille", "--jitter", "0.1", "--seconds", "1", "--seed", "5", "--target", "0.03"]
     given += [
-        "--damping",
+        "--device-permille",
+        "--jitter",
+        "0.1",
+        "--seconds",
+        "1",
+        "--seed",
+        "5",
+        "--hand-target",
+        "0.03",
+    ]
+    given += [
+        "--wall-damping",
         "4",
         "--hand-damping",
         "7",
         "--hand-stiffness",
         "250",
-        "--position",
+        "--wall-position",
         "0.001",
     ]
     first = document("wall", *given, "--out", "first")
@@ -200,7 +212,7 @@ def test_wall_scenario_round_trip() -> None:
 
 
 def test_wall_takes_every_option_into_the_scenario() -> None:
-    words = "--hand arm-hogan --target 0.02 --device joystick --noise 0.2 --permille --seconds 1"
+    words = "--hand arm-hogan --hand-target 0.02 --device joystick --device-noise 0.2 --device-permille --seconds 1"
     scenario = document("wall", *words.split())["scenario"]
     assert scenario["hand"]["stiffness"] == 568
     assert scenario["hand"]["path"][0]["target"] == 0.02
@@ -247,14 +259,14 @@ def test_a_fault_is_told_and_its_log_kept(monkeypatch: pytest.MonkeyPatch, tmp_p
 @pytest.mark.parametrize(
     ("words", "expected"),
     [
-        ("wall --stiffness -3", "--stiffness = -3 N/m: must lie in [0, 1e+07] N/m"),
-        ("wall --stiffness nan", "--stiffness = nan N/m"),
-        ("wall --stiffness x", "--stiffness"),
+        ("wall --wall-stiffness -3", "--wall-stiffness = -3 N/m: must lie in [0, 1e+07] N/m"),
+        ("wall --wall-stiffness nan", "--wall-stiffness = nan N/m"),
+        ("wall --wall-stiffness x", "--wall-stiffness"),
         ("wall --delay 9", "--delay = 9 samples: must lie in [0, 8] samples"),
-        ("wall --mass -1", "--mass = -1 kg"),
+        ("wall --hand-mass -1", "--hand-mass = -1 kg"),
         ("wall --hand-damping -1", "--hand-damping = -1 N s/m"),
-        ("wall --target 11", "--target = 11 m"),
-        ("wall --noise -1", "--noise = -1 N"),
+        ("wall --hand-target 11", "--hand-target = 11 m"),
+        ("wall --device-noise -1", "--device-noise = -1 N"),
         ("wall --jitter 0.6", "--jitter = 0.6"),
         ("wall --seed -1", "--seed = -1"),
         ("wall --seconds 0", "--seconds"),
@@ -269,13 +281,13 @@ def test_a_fault_is_told_and_its_log_kept(monkeypatch: pytest.MonkeyPatch, tmp_p
         ("wall --scenario broken.toml", "not a TOML document"),
         ("wall --scenario unknown.toml", "did you mean 'seed'"),
         ("wall --scenario negative.toml", "Wall.stiffness = -1 N/m"),
-        ("wall --scenario corner.toml --stiffness 3", "environment is a Corner"),
-        ("wall --scenario sine.toml --target 0.1", "Sine path, which has no target"),
+        ("wall --scenario corner.toml --wall-stiffness 3", "environment is a Corner"),
+        ("wall --scenario sine.toml --hand-target 0.1", "Sine path, which has no target"),
         ("wall --out file", "is a file"),
         ("wall --out file/below", "is a file or lies inside one"),
         ("wall --no-files --out x", "exclude each other"),
-        ("wall --stifness 3", "--stiffness"),
-        ("paper fig8", "did you mean 'fig7'"),
+        ("wall --stifness 3", "--wall-stiffness"),
+        ("paper fig12", "did you mean 'fig"),
         ("paper eq1 --out file", "is a file"),
         ("laws ebca", "did you mean 'eba'"),
         ("laws --rate 1", "--rate = 1 Hz"),
@@ -332,7 +344,9 @@ def test_paper_json() -> None:
     answer = document("paper", "eq1", "specs")
     assert list(answer) == ["command", "version", "rows"]
     assert [row["name"] for row in answer["rows"]] == ["eq1", "specs"]
-    assert list(answer["rows"][0]) == ["name", "title", "claim", "rows", "verdict", "why", "figure"]
+    assert list(answer["rows"][0]) == [
+        "name", "title", "claim", "rows", "verdict", "why", "claims", "figure",
+    ]  # fmt: skip
     assert list(answer["rows"][0]["rows"][0]) == [
         "quantity",
         "value",

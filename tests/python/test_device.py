@@ -435,7 +435,7 @@ def test_a_device_refuses_parts_that_do_not_fit() -> None:
         ValueError, match=r"Compensation.inertia = 0.2 kg: must lie in \[0, 0.125\] kg"
     ):
         ebac.Device(compensation=ebac.Compensation(inertia=0.2))
-    with pytest.raises(TypeError, match=r"Device.motor = Drive\(.*: not such a part"):
+    with pytest.raises(TypeError, match=r"Device.motor = Drive\(.*: must be a Motor"):
         ebac.Device(motor=ebac.Drive())
     with pytest.raises(TypeError, match="no parameter 'encodr', did you mean 'encoder'"):
         ebac.Device(encodr=ebac.Encoder())

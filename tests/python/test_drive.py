@@ -270,7 +270,7 @@ def test_silence_on_a_silent_bus_names_what_to_check() -> None:
         said = said_by_nobody(bus, 7)
     assert said.startswith("node 7 did not answer within ")
     assert (
-        "(reading statusword (0x6041)). Heard meanwhile: nothing at all. Check: 1. the bit rate"
+        "(reading statusword (0x6041)). On the bus meanwhile: nothing at all. Check: 1. the bit rate"
         in said
     )
     for word in ("termination", "power", "node id", "interface is up"):
@@ -280,7 +280,7 @@ def test_silence_on_a_silent_bus_names_what_to_check() -> None:
 def test_silence_of_one_node_among_others_points_at_its_id(bus: drives.DriveBus) -> None:
     assert bus.scan(seconds=0.05, nodes=range(1, 3)) == [1, 2]
     said = said_by_nobody(bus, 7)
-    assert "Heard meanwhile: nothing; before that nodes 1, 2. Check: 1. the node id" in said
+    assert "On the bus meanwhile: nothing; before that nodes 1, 2. Check: 1. the node id" in said
 
 
 def test_a_node_that_falls_silent_is_told_from_one_that_never_was(bus: drives.DriveBus) -> None:

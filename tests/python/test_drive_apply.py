@@ -85,7 +85,7 @@ def prepare(bus: drives.DriveBus) -> None:
     drive = bus.drive(1)
     text = '[pdo.tpdo1]\nobjects = ["statusword", "actual_current"]\ntype = 3\n'
     text += '[pdo.tpdo2]\nobjects = ["velocity"]\ntype = 240\nevent = 0.5\n'
-    profile = drives.profile.read_profile(drives.source.Source(name="start", text=text))
+    profile = drives.profile.read_profile(drives.toml_positions.Source(name="start", text=text))
     scratch = Path(os.environ["XDG_STATE_HOME"]) / "scratch"
     drives.apply(drive, drives.Node(id=1, profile=profile), backups=drives.Backups(scratch))
     drive.write("max_torque", 700)
@@ -170,7 +170,7 @@ def test_an_object_the_drive_lacks_is_refused_before_anything_is_written(
 ) -> None:
     start = held(bus)
     text = '[pdo.rpdo1]\nobjects = ["target_torque"]\n'
-    profile = drives.profile.read_profile(drives.source.Source(name="mine", text=text))
+    profile = drives.profile.read_profile(drives.toml_positions.Source(name="mine", text=text))
     (pdo,) = profile.pdos
     late = dataclasses.replace(profile, pdos=(dataclasses.replace(pdo, inhibit=0.1),))
     node = drives.Node(id=1, profile=late)

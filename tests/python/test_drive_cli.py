@@ -57,9 +57,7 @@ def test_every_command_teaches_by_an_example(command: str) -> None:
 
 def test_help_tells_the_order_of_things() -> None:
     text = CliRunner().invoke(app, ["drive", "--help"]).output
-    places = [
-        text.index(f"ebac drive {command}") for command in ("scan", "plan", "apply", "enable")
-    ]
+    places = [text.index(f"ebac drive {command}") for command in ("scan", "plan", "apply")]
     assert places == sorted(places)
 
 
@@ -119,7 +117,7 @@ def test_one_node_of_a_network_and_a_profile_of_ones_own(drive: Run, tmp_path: P
     mine.write_text("[limits]\nrated_torque = 0.053\nmax_torque = 0.1\n", encoding="utf-8")
     names = {row["name"] for row in drive("plan", str(mine), "-n", "1", "--json")["rows"]}
     assert "max_torque" in names
-    assert "is a profile for any node: say which with --node" in said(
+    assert "is a profile for any node: choose one with --node" in said(
         drive("plan", str(mine), code=2)
     )
     mine.write_text("[limits]\nrated_torque = -1\n", encoding="utf-8")

@@ -9,13 +9,13 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from ebac import drives
-from ebac.drives.keys import KEYS
 from ebac.drives.load import BITRATES
 from ebac.drives.objects import ENTRIES, known, mapped
 from ebac.drives.pdo import read_pdo
 from ebac.drives.profile import read_profile, read_source
+from ebac.drives.profile_fields import KEYS
 from ebac.drives.settings import groups, writes
-from ebac.drives.source import Source
+from ebac.drives.toml_positions import Source
 
 COPLEY = read_source("copley-accelnet").text
 
@@ -89,13 +89,13 @@ def test_a_value_of_several_lines_stands_where_it_begins() -> None:
          'motor.object = "0x2384": must be "0x2383" or "0x6410"; older Copley firmware'),
         ("continuous_torque = 0.053", "continuous_torque = 0.06", 7,
          "motor.continuous_torque = 0.06 N m: differs from limits.rated_torque by more than 1 %"),
-        ("rated_current = 0.985", "", 15, "limits.max_current = 3.94 A: is told to the drive in per mille"),
+        ("rated_current = 0.985", "", 15, "limits.max_current = 3.94 A: is written to the drive in per mille"),
         ('mode = "cyclic synchronous torque"', 'mode = "profile torque"', 18,
          "torque.mode = 'profile torque': profile torque ramps by torque.slope: give torque.slope, steep"),
         ('mode = "cyclic synchronous torque"', "mode = 10", 18,
          'torque.mode = 10: must be "cyclic synchronous torque" or "profile torque"; profile torque for firmware'),
         ("period = 1e-3", "period = 2.0", 25, "sync.period = 2 s: must lie in [0.0001, 1] s; 1e-3 s for a 1 kHz"),
-        ("on = true", "on = 1", 28, "emcy.on = 1: must be true or false; a fault must be told"),
+        ("on = true", "on = 1", 28, "emcy.on = 1: must be true or false; a fault must be reported"),
         ("master = 127", "master = 128", 33, "heartbeat.master = 128: must lie in [1, 127]; node id of the loop"),
         ("quick_stop = 2 ", "quick_stop = 9 ", 22, "drive.quick_stop = 9: must lie in [0, 8]; CiA 402-2, 0x605A"),
         ("[pdo.rpdo1]", "[pdo.rpdo5]", 38, "pdo.rpdo5: no such name, did you mean 'rpdo"),

@@ -95,7 +95,7 @@ def test_a_wrong_axis_and_an_empty_trace_are_told(minute: ebac.Trace) -> None:
     with pytest.raises(ValueError, match="axis = 1: must lie in"):
         minute.explore(axis=1)
     with pytest.raises(ValueError, match="the trace has 0 rows"):
-        minute[100:].explore()
+        minute[:0.0].explore()
 
 
 def test_the_page_stands_alone(minute: ebac.Trace, tmp_path: Path) -> None:
@@ -103,7 +103,9 @@ def test_the_page_stands_alone(minute: ebac.Trace, tmp_path: Path) -> None:
     minute[:5].explore("x").save(page)
     html = page.read_text(encoding="utf-8")
     assert "<script" in html
-    assert not re.search(r"<(script|link|img)[^>]* (src|href)=", html)
+    tags = re.sub(r"<script.*?</script>", "<script></script>", html, flags=re.DOTALL)
+    assert not re.search(r"<(script|link|img)[^>]* (src|href)=", tags)
+    assert not re.search(r"<script[^>]* src=", html)
     shown = minute[:5].explore("x")._repr_html_()
     assert shown.startswith("<iframe")
     assert shown.count("<iframe") == 1

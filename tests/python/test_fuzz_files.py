@@ -24,7 +24,7 @@ import zstandard
 from mcap.exceptions import McapError
 
 import ebac
-from ebac.cli.log_info import document
+from ebac.cli.log.info import document
 from ebac.drives import network
 from ebac.hardware import Configuration, ConfigurationError
 from ebac.logs.about import About

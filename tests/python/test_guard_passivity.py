@@ -1,4 +1,4 @@
-"""The guard of EBAC: whatever is asked, the port gives out no more than e(0) and what docs/theory.md excepts.
+"""The guard of EBAC: whatever is asked, the port gives out no more than e(0) and what its page of theory excepts.
 
 The rest of the law may be anything, so its other pieces are drawn at random too, and an adversary that reads the
 port takes the place of the environment.

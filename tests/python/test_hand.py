@@ -125,6 +125,19 @@ def test_an_axis_that_no_hand_has_is_refused(axis: int) -> None:
         ebac.Hand().target(0.0, axis)
 
 
+def test_a_target_is_short_for_a_step() -> None:
+    assert ebac.Hand(target=0.02) == ebac.Hand(path=ebac.Step(target=0.02))
+    both = [ebac.Step(target=0.02), ebac.Step(target=-0.01)]
+    assert ebac.Hand(target=[0.02, -0.01]) == ebac.Hand(path=both)
+    assert ebac.Hand(target=None) == ebac.Hand()
+    with pytest.raises(TypeError, match="path and target are both given"):
+        ebac.Hand(target=0.02, path=ebac.Step())
+    with pytest.raises(TypeError, match=r"Hand.target = 'far': must be a number in m"):
+        ebac.Hand(target="far")  # type: ignore[arg-type]
+    with pytest.raises(ValueError, match=r"target = 11 m: must lie in \[-10, 10\] m"):
+        ebac.Hand(target=11)
+
+
 def test_a_hand_has_one_to_three_paths() -> None:
     for count in (0, 4):
         with pytest.raises(

@@ -68,7 +68,7 @@ def test_a_run_is_rows_a_log_and_drives_without_power(device: OpenDevice, tmp_pa
     found = times(part)
     assert 0 < found.compute_p50_s <= found.compute_p99_9_s <= found.compute_most_s
     assert device.run("tca", ebac.Free(), seconds=0.1).law == "tca"  # and again, on the same device
-    assert states(device.place) == [drives.State.SWITCH_ON_DISABLED] * 2
+    assert states(device.backend) == [drives.State.SWITCH_ON_DISABLED] * 2
 
 
 def test_what_changes_while_it_runs_acts_and_is_in_the_log(
@@ -136,7 +136,7 @@ def test_an_exception_ends_the_run_and_comes_after_it(device: OpenDevice, tmp_pa
         device.run(seconds=60, log=tmp_path / "run.mcap", look=look)
     assert device.report is not None
     assert device.report.ended_by == "exception"
-    assert states(device.place) == [drives.State.SWITCH_ON_DISABLED] * 2
+    assert states(device.backend) == [drives.State.SWITCH_ON_DISABLED] * 2
     assert ebac.logs.read(tmp_path / "run.mcap").condition.complete
 
 

@@ -13,8 +13,7 @@ import ebac
 from ebac.cli import app
 from ebac.identify import Recording, Target, excitation, fit_arm, fit_device, load
 from ebac.identify.cases import Case, draw
-from ebac.identify.check import run_case
-from ebac.identify.peer import compare_with_scipy
+from ebac.identify.check import compare_with_scipy, run_case
 from ebac.identify.recording import count_of
 from ebac.identify.unbiased import second_opinion
 
@@ -248,7 +247,7 @@ def test_mat_is_read(tmp_path: Path, trace: ebac.Trace) -> None:
             "t,x\n" + "".join(f"{i},{'nan' if i == 7 else i}\n" for i in range(60)),
             "x is no number in 1 of 60 rows, first in row 8",
         ),
-        ("t,x [furlong]\n" + "".join(f"{i},{i}\n" for i in range(60)), "must be one of m, cm, mm"),
+        ("t,x [furlong]\n" + "".join(f"{i},{i}\n" for i in range(60)), "must be one of m, mm, cm"),
         ("t,x\n" + "".join(f"{i % 9},{i}\n" for i in range(60)), "t does not rise"),
         ("t,x\n0,1\n1\n", "row 2 has 1 cells"),
         ("t,x\n0,one\n1,2\n", "'one' in row 1, column 'x', is no number"),

@@ -15,7 +15,7 @@ from ebac.identify import Recording, excitation, fit_device
 from ebac.identify.cases import draw_device
 from ebac.identify.check import check, run_device_case
 from ebac.identify.device_problem import driven, jumps
-from ebac.identify.ripple import ripple, stair
+from ebac.identify.signals import ripple, stair
 
 
 def moved(seconds: float = 5.0, **mechanics: float) -> ebac.Trace:

@@ -1,12 +1,16 @@
 """Fits: several recordings, several starts, outliers, other rates, coarse encoders; logs of every kind."""
 
+import json
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
+from typer.testing import CliRunner
 
 import ebac
-from ebac.identify import Recording, Target, excitation, fit_arm, load
+from ebac.cli import app
+from ebac.identify import Recording, Target, check_log, excitation, fit_arm, load
 from ebac.identify.cases import draw
 from ebac.identify.check import run_case
 
@@ -225,3 +229,98 @@ def test_a_hand_filmed_by_others_is_refused_with_the_reason(tmp_path: Path) -> N
     r = load(tmp_path / "gun.csv")
     with pytest.raises(ValueError, match="has no force of the hand"):
         fit_arm(r)
+
+
+# --- errors that are not white ---
+
+
+def resting(x: np.ndarray, force: np.ndarray) -> Recording:
+    return Recording(name="log", t=1e-3 * np.arange(len(x)), x=x, force=force)
+
+
+def test_a_mass_lost_in_differences_is_told_and_the_interval_holds_it() -> None:
+    """Low-passed noise and differences for derivatives: at high frequencies the force lacks a part of M0."""
+    draw = np.random.Generator(np.random.PCG64(1))
+    x, state = draw.standard_normal(10_000), np.zeros(2)
+    for i, u in enumerate(x):  # order 2, 4 Hz
+        state[0] += 0.025 * (u - state[0])
+        state[1] += 0.025 * (state[0] - state[1])
+        x[i] = state[1]
+    x *= 0.004 / x.std()
+    v = np.gradient(x, 1e-3)
+    result = fit_arm(resting(x, -(0.4 * np.gradient(v, 1e-3) + 8.0 * v + 350.0 * x)))
+    assert result["M0"].value < 0.37
+    assert result["M0"].low < 0.4 < result["M0"].high
+    assert result.regression["M0"] == pytest.approx(0.4, rel=0.02)
+    assert "below 20 Hz the log gives M0 = 0.398" in result.misses[0]
+    assert result.misses[0] in repr(result)
+
+
+def test_perfect_data_is_not_called_into_question() -> None:
+    """Without noise what is left is rounding, and not white; no number depends on it."""
+    x = excitation.multisine(0.01, low=0.5, high=8, seconds=8)[1][:-1]
+    s = 2j * np.pi * np.fft.rfftfreq(len(x), 1e-3)
+    force = -np.fft.irfft((0.4 * s**2 + 8.0 * s + 350.0) * np.fft.rfft(x), len(x))
+    result = fit_arm(resting(x, force))
+    assert not all(test.white for test in result.tests.values())
+    near(result, {"M0": 0.4, "B0": 8.0, "K0": 350.0})
+    assert result.misses == ()
+    assert "white" not in repr(result)
+
+
+# --- the sign of the force, and the target ---
+
+
+def shaken(sign: float = 1.0) -> tuple[np.ndarray, np.ndarray]:
+    """Return path and force of a hand of 0.3 kg, 7 N s/m and 400 N/m that rests while a device shakes it."""
+    x = excitation.multisine(0.01, low=0.5, high=8, seconds=8)[1][:-1]
+    s = 2j * np.pi * np.fft.rfftfreq(len(x), 1e-3)
+    force = -np.fft.irfft((0.3 * s**2 + 7.0 * s + 400.0) * np.fft.rfft(x), len(x))
+    return x, sign * force
+
+
+def test_a_force_of_the_other_sign_is_named_and_never_turned_silently() -> None:
+    log = resting(*shaken(-1.0))
+    wrong = fit_arm(log)
+    assert wrong.explained < 0
+    assert wrong.other_sign == pytest.approx(1.0, abs=1e-3)
+    assert "with the force of the other sign 100 %" in wrong.misses[0]
+    assert "--flip-force" in wrong.misses[0]
+    right = fit_arm(log.flipped())
+    near(right, TRUTH)
+    assert right.other_sign is None
+    assert "other sign" in log.flipped().remarks[-1]
+    found = check_log(replace(log, x=log.x + 0.2))
+    assert found.other_sign
+    assert all("--flip-force" in row["remedy"] for row in found.rows())
+    assert not check_log(log.flipped()).other_sign
+
+
+def test_the_command_turns_the_force_when_asked(tmp_path: Path) -> None:
+    x, force = shaken(-1.0)
+    rows = np.array([1e-3 * np.arange(len(x)), x, force]).T
+    np.savetxt(tmp_path / "log.csv", rows, delimiter=",", header="t,x,force", comments="")
+    words = ["identify", "arm", str(tmp_path / "log.csv")]
+    run = CliRunner().invoke(app, words)
+    assert "--flip-force" in " ".join(run.stdout.split())
+    run = CliRunner().invoke(app, [*words, "--flip-force"])
+    assert "VAF 100.00 %" in run.stdout
+    assert "held in one place, an assumption" in " ".join(run.stdout.split())
+
+
+def test_the_target_is_read_from_the_scenario_in_the_log(tmp_path: Path) -> None:
+    path = ebac.Tapping(target=0.025, rest=-0.01, frequency=1.5)
+    hand = ebac.Hand(mass=0.3, damping=7, stiffness=400, path=path)
+    ebac.simulate(tracked(hand=hand), "tca").to_npz(tmp_path / "tap.npz")
+    words = ["identify", "arm", str(tmp_path / "tap.npz")]
+    run = CliRunner().invoke(app, words)
+    assert "taps at 1.5 Hz, by the scenario in the log" in " ".join(run.stdout.split())
+    document = json.loads(CliRunner().invoke(app, [*words, "--json"]).stdout)
+    assert document["predictions"][0]["vaf"] > 0.99
+    found = {row["name"]: row["value"] for row in document["rows"]}
+    assert found["K0"] == pytest.approx(400, rel=0.02)
+    document = json.loads(CliRunner().invoke(app, [*words, "--held", "--json"]).stdout)
+    assert document["predictions"][0]["vaf"] < 0.8
+    assert "is the target of the hand the right one" in document["misses"][0]
+    run = CliRunner().invoke(app, [*words, "--held", "--tapping", "1.5"])
+    assert run.exit_code == 2

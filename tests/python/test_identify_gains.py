@@ -12,11 +12,11 @@ from typer.testing import CliRunner
 import ebac
 from ebac.cli import app
 from ebac.identify import Limits, Recording, Target, fit_gains, fit_loop
-from ebac.identify.gains_check import MEASURES, check_gains
-from ebac.identify.gains_table import HOW, compare, gains_rows, side_by_side
-from ebac.identify.gains_trial import ALIKE, allowances, cost, spare
-from ebac.identify.presses import arms_around, force_loop_laws, noise_gain, run_presses
-from ebac.identify.rules import blocked_step, by_rule, by_tangent
+from ebac.identify.gains.check import MEASURES, check_gains
+from ebac.identify.gains.press_trials import arms_around, force_loop_laws, noise_gain, run_presses
+from ebac.identify.gains.search import blocked_step, by_rule, by_tangent
+from ebac.identify.gains.table import HOW, compare, gains_rows, side_by_side
+from ebac.identify.gains.trial import ALIKE, allowances, cost, spare
 
 
 @pytest.fixture(scope="module")
@@ -294,7 +294,7 @@ def test_the_command_refuses_a_law_without_force_loop(tmp_path: Path, trace: eba
 
 def test_the_check_shows_units_and_gives_plain_numbers(monkeypatch: pytest.MonkeyPatch) -> None:
     cases = check_gains(1, seed=4, evaluations=3)
-    monkeypatch.setattr("ebac.identify.gains_check.check_gains", lambda *_, **__: cases)
+    monkeypatch.setattr("ebac.identify.gains.check.check_gains", lambda *_, **__: cases)
     monkeypatch.setenv("COLUMNS", "110")
     run = CliRunner().invoke(app, ["identify", "check", "gains", "--logs", "1", "--seed", "4"])
     assert run.exit_code == 0, run.output

@@ -6,13 +6,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from ebac.identify import Recording, Target
-from ebac.identify.counts import half_width
-from ebac.identify.folds import by_place, by_target, folded
+from ebac.identify.arm import half_width
+from ebac.identify.informativeness import undetermined
 from ebac.identify.intervals import covariance, newey_west
-from ebac.identify.noise import readings
 from ebac.identify.parameters import lay_out
-from ebac.identify.smooth import kernels
-from ebac.identify.verdict import undetermined
+from ebac.identify.signals import by_place, by_target, folded, kernels, readings
 
 COUNT = 3e-5  # m
 

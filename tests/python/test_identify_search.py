@@ -8,14 +8,14 @@ from hypothesis import strategies as st
 import ebac
 from ebac.identify import Recording, Target, fit_arm
 from ebac.identify.arm import better_guess
+from ebac.identify.bias import NEAR, lowest
 from ebac.identify.cases import draw
 from ebac.identify.check import run_case
-from ebac.identify.levels import lagged
-from ebac.identify.likelihood import NEAR, lowest
+from ebac.identify.fit import Pull
 from ebac.identify.parameters import lay_out
 from ebac.identify.problem import Problem
-from ebac.identify.pull import Pull
 from ebac.identify.search import least_squares
+from ebac.identify.target import lagged
 from ebac.identify.unbiased import second_opinion
 
 

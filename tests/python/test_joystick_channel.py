@@ -16,9 +16,10 @@ import pytest
 from typer.testing import CliRunner
 
 import ebac
-from ebac import can_channels, drives
+from ebac import drives
 from ebac._core import BusState, LoopbackHub, LoopbackJoystick
-from ebac.can_interface import EbacBus
+from ebac.can import channels
+from ebac.can.interface import EbacBus
 from ebac.cli import app
 
 _NUMBERS = count()
@@ -29,7 +30,7 @@ def channel() -> Iterator[str]:
     """The name of a channel with a joystick of its own, which must be gone afterwards."""
     name = f"joystick-channel-{next(_NUMBERS)}"
     yield name
-    assert name not in can_channels.CHANNELS
+    assert name not in channels.CHANNELS
 
 
 def first_of(bus: can.BusABC, identifier: int) -> can.Message:
@@ -50,14 +51,14 @@ def test_who_opens_the_channel_hears_the_drives_boot(channel: str) -> None:
 def test_drives_go_with_the_last_who_leaves(channel: str) -> None:
     first = EbacBus(channel)
     second = EbacBus(channel)
-    hub = can_channels.CHANNELS[channel].hub
+    hub = channels.CHANNELS[channel].hub
     assert hub.ends == 3
     first.shutdown()
     assert hub.ends == 2
     second.shutdown()
     assert hub.ends == 0
     with EbacBus(channel) as again:
-        assert can_channels.CHANNELS[channel].hub is not hub
+        assert channels.CHANNELS[channel].hub is not hub
         first_of(again, 0x701)
 
 

@@ -2,7 +2,7 @@
 
 import pytest
 
-from ebac.leaving import noted_on
+from ebac._util.exception_notes import noted_on
 
 
 def fail_twice() -> None:

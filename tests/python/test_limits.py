@@ -147,7 +147,9 @@ def test_a_bad_soft_start_is_refused() -> None:
 def test_every_fault_and_every_limit_is_documented() -> None:
     from pathlib import Path
 
-    text = (Path(__file__).parents[2] / "docs" / "faults.md").read_text(encoding="utf-8")
+    text = (Path(__file__).parents[2] / "docs" / "explanation" / "safety.md").read_text(
+        encoding="utf-8"
+    )
     for fault in _core.Fault:
         if fault is not _core.Fault.NONE:
             assert f"| {int(fault)} | `{fault.name}` |" in text

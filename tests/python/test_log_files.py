@@ -5,7 +5,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-import pandas as pd
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
@@ -16,6 +15,15 @@ from ebac.cli import app
 from ebac.logs import FORMATS, Event, Recorder, read
 
 runner = CliRunner()
+OF_AN_EXTRA = {".parquet": "pyarrow", ".mat": "scipy", ".h5": "h5py"}
+
+
+@pytest.fixture(params=FORMATS)
+def kind(request: pytest.FixtureRequest) -> str:
+    """Each format's extension, where the library that writes it is installed."""
+    if library := OF_AN_EXTRA.get(request.param):
+        pytest.importorskip(library)
+    return str(request.param)
 
 
 @pytest.fixture(params=[1, 2], ids=["one axis", "two axes"])
@@ -64,15 +72,14 @@ def test_parquet_holds_numbers_and_units(trace: ebac.Trace, tmp_path: Path) -> N
         told = table.schema.field(name).metadata
         assert (told[b"unit"].decode(), told[b"meaning"].decode()) == (info.unit, info.meaning)
     assert ebac.Scenario.from_toml(table.schema.metadata[b"scenario"].decode()) == trace.scenario
-    frame = pd.read_parquet(tmp_path / "run.parquet")
+    frame = pytest.importorskip("pandas").read_parquet(tmp_path / "run.parquet")
     assert len(frame) == len(trace)
 
 
 def test_mat_holds_numbers_and_units(trace: ebac.Trace, tmp_path: Path) -> None:
-    from scipy.io import loadmat
-
+    io = pytest.importorskip("scipy.io")
     trace.save(tmp_path / "run.mat")
-    read_back = loadmat(tmp_path / "run.mat")
+    read_back = io.loadmat(tmp_path / "run.mat")
     for name in trace:
         values = read_back[name.replace(".", "_")]
         assert values.shape == (len(trace), 1 if trace[name].ndim == 1 else trace.axes)
@@ -85,7 +92,7 @@ def test_mat_holds_numbers_and_units(trace: ebac.Trace, tmp_path: Path) -> None:
 
 def test_hdf5_holds_numbers_and_units(trace: ebac.Trace, tmp_path: Path) -> None:
     h5py = pytest.importorskip("h5py")
-    for part in (trace, trace[5:6]):
+    for part in (trace, trace[:0.0]):
         part.save(tmp_path / "run.h5")
         with h5py.File(tmp_path / "run.h5") as file:
             assert set(file) == set(trace)
@@ -95,7 +102,6 @@ def test_hdf5_holds_numbers_and_units(trace: ebac.Trace, tmp_path: Path) -> None
             assert file.attrs["law_repr"] == trace.law_repr
 
 
-@pytest.mark.parametrize("kind", FORMATS)
 def test_a_file_appears_whole_or_not_at_all(
     kind: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -114,8 +120,8 @@ def test_an_unknown_extension_is_refused(tmp_path: Path) -> None:
     trace = ebac.simulate(ebac.Scenario(seconds=0.1), "tca")
     with pytest.raises(ValueError, match=r"run\.xlsx: must end in \.mcap, \.npz, \.csv, \.parquet"):
         trace.save(tmp_path / "run.xlsx")
-    with pytest.raises(ValueError, match=r"run\.mat: must end in \.mcap, \.npz, \.csv$"):
-        ebac.load(tmp_path / "run.mat")
+    with pytest.raises(ValueError, match=r"run\.xlsx: must end in \.mcap, \.npz, \.csv"):
+        ebac.load(tmp_path / "run.xlsx")
     for name in ("run.mcap", "run.npz", "run.csv"):
         with pytest.raises(FileNotFoundError):
             ebac.load(tmp_path / name)
@@ -211,7 +217,6 @@ def test_repair_on_the_command_line(recorded: Path) -> None:
     assert "200 rows" in invoke("repair", recorded, "--out", recorded.with_name("b.mcap"))
 
 
-@pytest.mark.parametrize("kind", FORMATS)
 def test_export_to_every_format(kind: str, recorded: Path) -> None:
     out = recorded.with_name(f"out{kind}")
     (row,) = json.loads(invoke("export", recorded, out, "--json"))["rows"]
@@ -227,8 +232,8 @@ def test_export_refuses(recorded: Path) -> None:
     assert "the log has 0 to 0.2 s" in refused
     assert not recorded.with_name("a.csv").exists()
     missing = recorded.parent / "no folder" / "a.csv"
-    assert "a.csv: cannot be written" in invoke("export", recorded, missing, code=2)
-    assert "no rows to -1 s" in invoke(
+    assert "there is no folder" in invoke("export", recorded, missing, code=2)
+    assert "no rows --to -1 s" in invoke(
         "export", recorded, recorded.with_name("a.csv"), "--to", -1, code=2
     )
     assert "x.csv: must end in .mcap" in invoke("repair", recorded, "--out", "x.csv", code=2)
@@ -240,7 +245,7 @@ def test_export_refuses(recorded: Path) -> None:
 def test_a_log_without_rows_is_told_and_exported(tmp_path: Path) -> None:
     trace = ebac.simulate(ebac.Scenario(seconds=0.1), "ebac")
     path = tmp_path / "none.mcap"
-    trace[5:6].save(path)
+    trace[:0.0].save(path)
     assert json.loads(invoke("info", path, "--json"))["log_rows"] == 0
     assert "none" in invoke("info", path)
     assert "0 rows" in invoke("export", path, tmp_path / "none.csv")
@@ -298,3 +303,38 @@ def test_events_of_people_are_shown_as_they_are(recorded: Path) -> None:
     assert Event.from_json(event.to_json(0)) == event
     with pytest.raises(ValueError, match="not an event"):
         Event.from_json(b"[]")
+
+
+@pytest.mark.parametrize(
+    ("extension", "library"),
+    [("npz", "numpy"), ("csv", "numpy"), ("parquet", "pyarrow"), ("mat", "scipy"), ("h5", "h5py")],
+)
+@pytest.mark.parametrize("device", ["reference", "joystick"])
+def test_every_format_that_is_written_is_read(
+    tmp_path: Path, extension: str, library: str, device: str
+) -> None:
+    pytest.importorskip(library)
+    scenario = ebac.Scenario(device=ebac.presets.device(device), seconds=0.05)
+    trace = ebac.simulate(scenario, "ebac")
+    file = tmp_path / f"run.{extension}"
+    trace.save(file)
+    log = ebac.logs.read(file)
+    assert set(log.trace) == set(trace)
+    for name in trace:
+        np.testing.assert_array_equal(log.trace[name], trace[name], err_msg=name)
+        assert log.trace.columns[name].unit == trace.columns[name].unit
+    assert log.gaps == []
+    assert log.faults == []
+    assert extension == "csv" or log.trace.scenario == scenario
+    assert extension == "csv" or log.trace.law == "ebac"
+    assert f"run.{extension}" in invoke("info", file)
+
+
+@pytest.mark.parametrize(
+    ("extension", "library"), [("parquet", "pyarrow"), ("mat", "scipy"), ("h5", "h5py")]
+)
+def test_a_file_of_another_kind_is_refused(tmp_path: Path, extension: str, library: str) -> None:
+    pytest.importorskip(library)
+    file = tmp_path / f"run.{extension}"
+    file.write_bytes(b"no such file at all" * 50)
+    assert f"run.{extension}: not a" in invoke("info", file, code=2)

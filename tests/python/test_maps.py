@@ -16,9 +16,9 @@ from typer.testing import CliRunner
 
 import ebac
 from ebac.cli import app
-from ebac.maps import AXES, PRESETS, StabilityMap, stability_map
 from ebac.plot import plot_map
-from ebac.zwidth import stiffness_limit
+from ebac.studies.maps import AXES, PRESETS, StabilityMap, stability_map
+from ebac.studies.zwidth import stiffness_limit
 
 BASE = ebac.Scenario(seconds=1.0)
 
@@ -102,7 +102,7 @@ def test_a_map_through_dask_has_the_same_bits() -> None:
 
 KILLED = """
 import sys, ebac
-from ebac.maps import stability_map
+from ebac.studies.maps import stability_map
 stability_map(
     "ebac", xs=range(40), ys=[1e3 * k for k in range(1, 41)],
     base=ebac.Scenario(seconds=2.0), threads=1, out=sys.argv[1],

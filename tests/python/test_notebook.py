@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 import ebac
-from ebac import notebook
+from ebac._util import formatting, notebook, report
 from ebac.studies.measures import MEASURES
 
 SHORT = ebac.Scenario(seconds=0.3)
@@ -23,8 +23,8 @@ def results() -> list[Any]:
         ebac.contact(ebac.simulate(SHORT, "ebac")),
         ebac.study(few, law),
         ebac.sweep([SHORT], law),
-        ebac.zwidth.zwidth(SHORT, law, delays=[1], dampings=[0.0, 10.0], rungs=5),
-        ebac.maps.stability_map(base=SHORT, xs=[2.0, 4.0], ys=[1e3, 10e3]),
+        ebac.studies.zwidth.zwidth(SHORT, law, delays=[1], dampings=[0.0, 10.0], rungs=5),
+        ebac.studies.maps.stability_map(base=SHORT, xs=[2.0, 4.0], ys=[1e3, 10e3]),
         ebac.ablation(few, changes=[{"guard": False}], beside=(), measures=MEASURES[:2]),
     ]
 
@@ -54,8 +54,8 @@ def test_headings_have_the_unit_people_read_and_cells_the_number_in_it() -> None
 
 
 def test_every_unit_of_a_key_is_one_that_keys_have() -> None:
-    for ending, unit in notebook.UNITS.items():
-        assert f"[{notebook.wording.shown(unit)}]" in notebook.table([{f"a{ending}": 1.0}])
+    for ending, unit in report.UNITS.items():
+        assert f"[{formatting.shown(unit)}]" in notebook.table([{f"a{ending}": 1.0}])
 
 
 def test_a_long_table_is_cut_in_the_middle_and_says_so() -> None:
@@ -85,7 +85,7 @@ def test_a_sweep_without_a_point_of_rest_shows_its_table_alone() -> None:
 def test_nothing_is_drawn_before_a_result_is_shown() -> None:
     code = (
         "import sys, ebac; r = ebac.sweep([ebac.Scenario(seconds=0.1)], ['tca']); repr(r); "
-        "print([m for m in ('matplotlib', 'bokeh', 'ebac.notebook', 'ebac.explore') if m in sys.modules])"
+        "print([m for m in ('matplotlib', 'bokeh', 'ebac._util.notebook', 'ebac.explore') if m in sys.modules])"
     )
     run = subprocess.run([sys.executable, "-c", code], check=True, capture_output=True, text=True)
     assert run.stdout.strip() == "[]"

@@ -4,7 +4,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-import pandas as pd
 import pytest
 
 import ebac
@@ -122,6 +121,7 @@ def test_columns_are_read_only_and_of_one_length() -> None:
 
 
 def test_csv_and_dataframe_and_back(tmp_path: Path) -> None:
+    pd = pytest.importorskip("pandas")
     people = Operators.sample(20, 5, approach_m=0.004)
     people.to_csv(tmp_path / "hands.csv")
     assert Operators.from_csv(tmp_path / "hands.csv") == people
@@ -159,6 +159,7 @@ def test_what_a_file_cannot_mean_is_named(text: str, message: str, tmp_path: Pat
 
 
 def test_a_missing_value_in_a_dataframe_is_named() -> None:
+    pd = pytest.importorskip("pandas")
     with pytest.raises(ValueError, match="row 2: target_m"):
         Operators.from_dataframe(pd.DataFrame(GOOD | {"target_m": [0.02, None]}))
 

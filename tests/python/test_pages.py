@@ -1,123 +1,217 @@
-"""The Python of README and docs is run: the blocks of a page in order, as one program in an empty folder.
+"""README, documentation and help are done as they stand: every command and every block of Python, in an empty folder.
 
-A block may say in a comment on a line of its own, where readers see it too:
-
-    # needs a force sensor  not run
-    # takes 20 s            run only where EBAC_ALL_COMMANDS is set, as .ci/run does
-
-Blocks with tests are run by pytest, twice: the first run writes their golden traces.
+Files come from `ebac demo` and from the steps before. `tests/pages/page_rules.py` says what is not run, and why; what
+takes seconds is run where EBAC_ALL_COMMANDS is set, as .ci/run does.
 """
 
-import ast
+import contextlib
+import io
+import json
 import os
 import re
+import shlex
 import subprocess
 import sys
-from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
+import page_process
 import pytest
+import typer.main
+from page_rules import NEVER, SLOW, rule
+from page_steps import ROOT, Step, commands, examples, inline, notebooks, pages, steps
 
 import ebac
+from ebac.cli import app
 
-ROOT = Path(__file__).parents[2]
 ALL = "EBAC_ALL_COMMANDS" in os.environ
+#: Longest time for a page [s].
+TIMEOUT = 600 if ALL else 240
+COMMANDS = commands()
+GROUPS = sorted({" ".join(name.split()[:2]) for name in COMMANDS})
 
 
-@dataclass(frozen=True, kw_only=True)
-class Block:
-    """One fenced `python` block."""
-
-    line: int
-    text: str
-
-    @property
-    def needs(self) -> bool:
-        """Whether it needs what a test has not."""
-        return bool(re.search(r"^# needs ", self.text, re.M))
-
-    @property
-    def slow(self) -> bool:
-        """Whether it says that it takes time."""
-        return bool(re.search(r"^# takes \d+ s$", self.text, re.M))
-
-    @property
-    def tests(self) -> bool:
-        """Whether pytest would find something in it."""
-        names = [n.name for n in ast.parse(self.text).body if hasattr(n, "name")]
-        return any(name.startswith(("test_", "Test")) for name in names)
+def name_of(page: Path) -> str:
+    return page.relative_to(ROOT).as_posix()
 
 
-def blocks(page: Path) -> list[Block]:
-    """Every fenced `python` block of a page; cells of notebooks are run when the site is built."""
-    text = page.read_text(encoding="utf-8")
-    found = re.finditer(r"^```python\n(.*?)^```$", text, re.M | re.S)
-    return [Block(line=text[: m.start()].count("\n") + 2, text=m[1]) for m in found]
+def wanted(found: list[Step]) -> list[Step]:
+    """Return the steps that are run now."""
+    left_out = {NEVER} if ALL else {NEVER, SLOW}
+    return [s for s in found if action(s.text) not in left_out]
 
 
-PAGES = [
-    page
-    for page in (ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md")))
-    if any(not block.needs for block in blocks(page)) and "code-cell" not in page.read_text()
-]
-by_page = pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
+def action(command: str) -> str:
+    known = rule(command)
+    return "" if known is None else known.action
 
 
-def program(chosen: list[Block]) -> str:
-    """Return blocks as one file in which each stands in its line of the page, for the traceback."""
-    lines: list[str] = []
-    for block in chosen:
-        lines += [""] * (block.line - 1 - len(lines)) + block.text.splitlines()
-    return "\n".join([*lines, ""])
-
-
-@by_page
-def test_the_python_of_a_page_runs(page: Path, tmp_path: Path) -> None:
-    wanted = [b for b in blocks(page) if not b.needs and (ALL or not b.slow)]
-    if not wanted:
-        pytest.skip("all its blocks take longer: EBAC_ALL_COMMANDS=1 runs them")
-    (tmp_path / "examples").symlink_to(ROOT / "examples")
-    if "press.csv" in page.read_text(encoding="utf-8"):
-        hand = ebac.Hand(path=[ebac.Step(at=1.0)])
-        ebac.simulate(ebac.Scenario(hand=hand, seconds=4), "ebac").to_csv(tmp_path / "press.csv")
-    file = tmp_path / f"test_{page.stem}.py"
-    file.write_text(program(wanted), encoding="utf-8")
-    as_script, as_tests = [sys.executable, file.name], [sys.executable, "-m", "pytest", "-q"]
-    runs = [as_script]
-    if any(block.tests for block in wanted):
-        runs = [[*as_tests, "--ebac-update", file.name], [*as_tests, file.name]]
-    for run in runs:
-        done = subprocess.run(
-            run,
-            cwd=tmp_path,
-            env=environment(),
-            capture_output=True,
-            text=True,
-            timeout=120,
-            check=False,
-        )
-        assert done.returncode == 0, f"{done.stdout[-3000:]}\n{done.stderr[-3000:]}"
-
-
-def environment() -> dict[str, str]:
-    """Return where this package is found, and no window."""
+def environment(home: Path) -> dict[str, str]:
+    """Return an environment whose `ebac` and `python` are these, and that leaves nothing in a home."""
+    binaries = home / "bin"
+    binaries.mkdir(parents=True)
+    for name, text in (
+        ("python", f'exec "{sys.executable}" "$@"'),
+        ("ebac", f'exec "{sys.executable}" -m ebac.cli "$@"'),
+    ):
+        (binaries / name).write_text(f"#!/bin/sh\n{text}\n")
+        (binaries / name).chmod(0o755)
     package = str(Path(ebac.__file__).parents[1])
-    known = filter(None, [package, os.environ.get("PYTHONPATH")])
-    return {**os.environ, "PYTHONPATH": os.pathsep.join(known), "MPLBACKEND": "Agg"}
+    return {
+        **os.environ,
+        "PATH": f"{binaries}{os.pathsep}{os.environ['PATH']}",
+        "PYTHONPATH": os.pathsep.join(filter(None, [package, os.environ.get("PYTHONPATH")])),
+        "HOME": str(home),
+        "XDG_STATE_HOME": str(home / "state"),
+        "MPLBACKEND": "Agg",
+    }
 
 
-def test_most_of_the_python_in_the_pages_is_run() -> None:
-    found = [block for page in PAGES for block in blocks(page)]
-    assert len(found) > 15
-    assert sum(not (block.needs or block.slow) for block in found) > 0.7 * len(found)
+def follow(found: list[Step], where: str, tmp_path: Path) -> None:
+    """Run steps one after the other in an empty folder, in a process of their own."""
+    chosen = wanted(found)
+    if not chosen:
+        pytest.skip("nothing of it is run here, see page_rules.py")
+    room = tmp_path / "room"
+    room.mkdir()
+    env = environment(tmp_path / "home")
+    tests = any(step.tests for step in chosen)
+    if tests:  # pytest runs them, twice: the first run writes their golden traces
+        file = room / "test_page.py"
+        file.write_text("\n".join(s.text for s in chosen if s.kind == "python"), encoding="utf-8")
+        for words in (["--ebac-update"], []):
+            done([sys.executable, "-m", "pytest", "-q", *words, file.name], room, env)
+        chosen = [s for s in chosen if s.kind == "sh"]
+    file = tmp_path / "steps.json"
+    data = [{**vars(s), "page": where, "action": action(s.text)} for s in chosen]
+    file.write_text(json.dumps(data), encoding="utf-8")
+    done([sys.executable, page_process.__file__, str(file)], room, env)
 
 
-def test_a_block_stands_in_its_line_and_says_what_it_needs(tmp_path: Path) -> None:
+def done(words: list[str], room: Path, env: dict[str, str]) -> None:
+    run = subprocess.run(
+        words,
+        cwd=room,
+        env=env,
+        input="y\n" * 10,  # what asks before it writes to a drive
+        capture_output=True,
+        text=True,
+        timeout=TIMEOUT,
+        check=False,
+    )
+    if run.returncode == 0:
+        return
+    told = f"{run.stdout[-2000:]}\n{run.stderr[-3000:]}"
+    missing = re.search(r"pip install '?ebac\[|No module named '(pandas|h5py|pyarrow|bokeh)'", told)
+    if missing and not ALL:
+        pytest.skip(f"needs the library of an extra: {missing[0]}")
+    pytest.fail(told, pytrace=False)
+
+
+@pytest.mark.real_time  # where a run of a page ends by a stall, the whole page is run again
+@pytest.mark.parametrize("page", [p for p in pages() if steps(p)], ids=name_of)
+def test_a_page_can_be_followed(page: Path, tmp_path: Path) -> None:
+    follow(steps(page), name_of(page), tmp_path)
+
+
+@pytest.mark.real_time
+@pytest.mark.parametrize("group", GROUPS)
+def test_the_examples_of_a_help_text_run(group: str, tmp_path: Path) -> None:
+    found = [
+        s
+        for name, c in COMMANDS.items()
+        if f"{name} ".startswith(f"{group} ")
+        for s in examples(name, c)
+    ]
+    if not found:
+        pytest.skip("its help has no example")
+    if not wanted(found):
+        pytest.skip("its examples are not run here, see page_rules.py")
+    follow(found, f"{group} --help", tmp_path)
+
+
+@pytest.mark.parametrize("page", notebooks(), ids=name_of)
+def test_a_notebook_opens_in_jupyter_and_runs(page: Path, tmp_path: Path) -> None:
+    jupytext = pytest.importorskip("jupytext", reason="opens a page as a notebook")
+    notebook = jupytext.read(page)
+    assert any(cell.cell_type == "code" for cell in notebook.cells)
+    assert notebook.metadata.kernelspec.name == "python3"
+    if not ALL:
+        pytest.skip("opened; the building of the site and EBAC_ALL_COMMANDS=1 execute it")
+    nbclient = pytest.importorskip("nbclient", reason="executes a notebook")
+    place = {"metadata": {"path": str(tmp_path)}}
+    nbclient.NotebookClient(notebook, timeout=TIMEOUT, resources=place).execute()
+
+
+def refused(text: str) -> Any:
+    """Parse a command line of ebac without running it; what the parser has against it, or None."""
+    words = shlex.split(text.partition(">")[0], comments=True)[1:]
+    command: Any = typer.main.get_command(app)
+    name = "ebac"
+    while hasattr(command, "commands") and words and words[0] in command.commands:
+        name = words.pop(0)
+        command = command.commands[name]
+    if hasattr(command, "commands") and words and not words[0].startswith("-"):
+        return f"no command {words[0]!r}"
+    told = io.StringIO()
+    try:
+        with contextlib.redirect_stderr(told):
+            command.make_context(name, words)
+    except Exception as error:
+        if "there is no such option" in told.getvalue():
+            return told.getvalue()
+        kind = type(error).__name__
+        missing = "does not exist" in str(
+            getattr(error, "message", "")
+        )  # a file of the reader's own
+        fine = missing or kind in ("Exit", "MissingParameter", "NoArgsIsHelpError")
+        return None if fine else f"{kind}: {error}"
+    return None
+
+
+@pytest.mark.parametrize("page", pages(), ids=name_of)
+def test_every_command_is_one_that_exists(page: Path) -> None:
+    lines = [s.text for s in steps(page) if s.text.startswith("ebac ")] + inline(page)
+    assert not {line: why for line in lines if (why := refused(line))}
+
+
+def test_every_command_of_a_help_text_is_one_that_exists() -> None:
+    lines = [
+        s.text
+        for name, c in COMMANDS.items()
+        for s in examples(name, c)
+        if s.text.startswith("ebac")
+    ]
+    assert not {line: why for line in lines if (why := refused(line))}
+
+
+def test_a_command_that_does_not_exist_is_noticed() -> None:
+    assert refused("ebac wall --wal tca")
+    assert refused("ebac wal")
+    assert refused("ebac wall --law tca") is None
+
+
+def test_most_commands_are_run() -> None:
+    found = [s.text for page in pages() for s in steps(page)]
+    found += [s.text for name, c in COMMANDS.items() for s in examples(name, c)]
+    left_out = [text for text in found if action(text) == NEVER]
+    assert len(found) > 60
+    assert len(left_out) < 0.5 * len(found)
+
+
+@pytest.mark.parametrize("page", pages(), ids=name_of)
+def test_no_block_has_marks_for_machines(page: Path) -> None:
+    marks = re.findall(r"# (?:needs |.*(?:by CI|\.ci/|EBAC_)).*", page.read_text(encoding="utf-8"))
+    assert marks == []
+
+
+def test_blocks_are_read_in_order_and_commands_one_by_one(tmp_path: Path) -> None:
     page = tmp_path / "page.md"
     page.write_text(
-        "# Page\n\n```python\n# takes 3 s\na = 1\n```\n\n```python\n# needs luck\na / 0\n```\n"
+        "1. so\n\n   ```sh\n   ebac wall  # seconds\n   # a remark\n   ebac map \\\n     --side 4\n   ```\n\n"
+        "```python\ndef test_it():\n    pass\n```\n"
     )
-    first, second = blocks(page)
-    assert (first.slow, first.needs, first.tests, first.line) == (True, False, False, 4)
-    assert second.needs
-    assert program([first, second]).splitlines()[8:] == ["# needs luck", "a / 0"]
+    first, second, third = steps(page)
+    assert (first.kind, first.text, first.line) == ("sh", "ebac wall", 4)
+    assert second.text.split() == ["ebac", "map", "--side", "4"]
+    assert (third.kind, third.tests, third.line) == ("python", True, 11)

@@ -13,9 +13,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
-from scipy.integrate import solve_ivp
 
 import ebac
+
+integrate = pytest.importorskip("scipy.integrate")
 
 TOLERANCES = {"rtol": 1e-10, "atol": 1e-10}
 MICROMETRE, MILLINEWTON, MICROJOULE = 1e-6, 1e-3, 1e-6
@@ -103,7 +104,9 @@ class Reference:
             if friction > 0:
                 event = breaks_away if self.sliding == 0 else stops
                 stops.direction = -self.sliding  # type: ignore[attr-defined]
-            run = solve_ivp(right, (s, time), self.state, "DOP853", events=event, **TOLERANCES)
+            run = integrate.solve_ivp(
+                right, (s, time), self.state, "DOP853", events=event, **TOLERANCES
+            )
             assert run.success
             self.state, s = run.y[:, -1].tolist(), float(run.t[-1])
             if run.status == 1 and self.sliding == 0:

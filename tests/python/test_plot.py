@@ -30,9 +30,14 @@ def test_every_law_has_a_colour_and_a_figure(law: str, run: Run, tmp_path: Path)
     assert (tmp_path / "figure.png").read_bytes().startswith(b"\x89PNG")
 
 
-def test_one_column_of_panels_per_axis(run: Run) -> None:
-    trace = run("ebac", device=ebac.presets.device("joystick"), seconds=1.0)
-    assert len(plot_trace(trace).axes) == 8
+def test_one_column_of_panels_per_axis_in_use(run: Run) -> None:
+    joystick = ebac.presets.device("joystick")
+    figure = plot_trace(run("ebac", device=joystick, seconds=1.0))
+    assert len(figure.axes) == 4
+    assert "axis 1 not in use" in figure.get_suptitle()
+    hand = ebac.Hand(path=(ebac.Step(target=0.02), ebac.Step(target=0.01), ebac.Step(target=0.0)))
+    both = plot_trace(run("direct", device=joystick, hand=hand, seconds=1.0))
+    assert [ax.get_title() for ax in both.axes if ax.get_title()] == ["axis 0", "axis 1"]
 
 
 def test_a_part_of_a_trace_is_drawn_over_its_own_time(run: Run) -> None:
@@ -71,13 +76,15 @@ def test_walls_shows_every_law_and_the_ideal(run: Run) -> None:
 
 def test_walls_without_an_ideal_has_no_panel_for_it(run: Run) -> None:
     hand = ebac.Hand(path=ebac.Sine())
-    assert len(plot_walls([run("eba", hand=hand, seconds=1.0)]).axes) == 4
-    assert len(plot_walls([run("eba", environment=ebac.Free(), seconds=1.0)]).axes) == 4
+    for given in ({"hand": hand}, {"environment": ebac.Free()}):
+        shown = labels(plot_walls([run("eba", **given, seconds=1.0)]))
+        assert not any("ideal rest" in label for label in shown)
+        assert shown.count("position [mm]") == 1
 
 
 def test_too_short_is_refused(run: Run) -> None:
     with pytest.raises(ValueError, match="0 rows"):
-        plot_trace(run("tca")[100.0:])
+        plot_trace(run("tca").rows(0, 0))
     with pytest.raises(ValueError, match="at least one trace"):
         plot_walls([])
 

@@ -224,7 +224,7 @@ def test_a_subtly_active_law_is_caught(project: pytest.Pytester) -> None:
     """One that gives 5 % more force than the energy-bounding algorithm allows."""
     result = conformance(project, "Active")
     result.stdout.fnmatch_lines(["FAILED *test_a_passive_law_keeps_its_bound_in_any_world*"])
-    assert "Active says it is passive and gave out" in told(result)
+    assert "Active is declared passive and gave out" in told(result)
 
 
 def test_what_is_no_law_is_refused_when_the_class_is_made(project: pytest.Pytester) -> None:

@@ -129,14 +129,15 @@ def test_the_doctor_on_the_command_line() -> None:
 def test_jitter_on_the_command_line(tmp_path: Path) -> None:
     out = tmp_path / "jitter"
     ran = CliRunner().invoke(
-        app, ["jitter", "--seconds", "0.1", "--rt", "off", "--alone", "--json", "--out", str(out)]
+        app,
+        ["jitter", "--seconds", "0.1", "--realtime", "off", "--alone", "--json", "--out", str(out)],
     )
     assert ran.exit_code == 0, ran.output
     found = json.loads(ran.stdout)
     assert found["rows"][0]["program"] == "ebac"
     assert found["times_cyclictest_p99_9"] is None
     assert (out / "jitter.png").stat().st_size > 1000
-    refused = CliRunner().invoke(app, ["jitter", "--rt", "enforce", "--cpu", "1023"])
+    refused = CliRunner().invoke(app, ["jitter", "--realtime", "enforce", "--cpu", "1023"])
     assert refused.exit_code == 1
     assert "CPU 1023" in refused.output
 

@@ -199,7 +199,7 @@ def test_a_fault_is_exit_code_1_and_keeps_the_log(config: Path, tmp_path: Path) 
     [
         (["--law", "ebca"], "no such name"),
         (["--seconds", "0"], "seconds"),
-        (["--stiffness", "-1"], "--stiffness = -1 N/m"),
+        (["--wall-stiffness", "-1"], "--wall-stiffness = -1 N/m"),
         (["--out", "x", "--no-files"], "exclude each other"),
     ],
 )

@@ -17,12 +17,12 @@ from ebac import _core, presets
 from ebac.sensor import (
     EmulatorOptions,
     EmulatorTrouble,
-    ForceCell,
     LinkState,
     Sensor,
     SensorConfig,
     SensorError,
     SensorStatus,
+    SharedForce,
     SimulatedSensor,
     explain,
 )
@@ -170,10 +170,10 @@ def test_losses_are_counted_exactly() -> None:
     # The system's queue holds the records of half a second: who reads is kept waiting so long by no machine of ours.
     with SimulatedSensor(options=EmulatorOptions(rate=500)) as simulated:
         with Sensor.open(simulated.config) as sensor:
-            simulated.trouble(EmulatorTrouble(loss=0.2, duplicate=0.2, reorder=0.2))
+            simulated.inject(EmulatorTrouble(loss=0.2, duplicate=0.2, reorder=0.2))
             for _ in range(200):
                 sensor.read()
-            simulated.trouble(EmulatorTrouble())
+            simulated.inject(EmulatorTrouble())
             time.sleep(0.05)
             for _ in range(5):  # what was held back has left before these
                 sensor.read()
@@ -186,14 +186,14 @@ def test_losses_are_counted_exactly() -> None:
 
 def test_a_sensor_that_is_unwell_is_told_and_no_zero(pushed: SimulatedSensor) -> None:
     with Sensor.open(pushed.config) as sensor:
-        pushed.trouble(EmulatorTrouble(status=0x80020000))
+        pushed.inject(EmulatorTrouble(status=0x80020000))
         deadline = time.monotonic() + 5
         while (reading := sensor.read()).health is SensorStatus.GOOD:
             assert time.monotonic() < deadline
         assert reading.health is SensorStatus.SATURATED
         with pytest.raises(SensorError, match=r"0x80020000 \(saturated, or a converter's error\)"):
             sensor.bias(10, timeout=0.1)
-        pushed.trouble(EmulatorTrouble(status=0x80000004))
+        pushed.inject(EmulatorTrouble(status=0x80000004))
         while (reading := sensor.read()).health is SensorStatus.SATURATED:
             assert time.monotonic() < deadline
         assert reading.health is SensorStatus.ERROR
@@ -221,13 +221,13 @@ def test_too_much_force_saturates() -> None:
 
 def test_silence_says_what_to_check(pushed: SimulatedSensor) -> None:
     with Sensor.open(pushed.config) as sensor:
-        pushed.trouble(EmulatorTrouble(silent=True))
+        pushed.inject(EmulatorTrouble(silent=True))
         time.sleep(0.2)
         assert sensor.latest.age > 0.05  # what was under way is read
         with pytest.raises(SensorError, match=r"nothing for 0.8 s: its records stopped"):
             sensor.read(timeout=0.8)
         assert sensor.latest.health is SensorStatus.DISCONNECTED
-        pushed.trouble(EmulatorTrouble())
+        pushed.inject(EmulatorTrouble())
         assert sensor.read().health is SensorStatus.GOOD
         assert sensor.counts.asked > 1
 
@@ -277,8 +277,8 @@ def test_it_feels_the_hand_of_a_scenario() -> None:
 
 
 def test_it_feels_the_hand_on_simulated_drives() -> None:
-    cell = ForceCell()
-    joystick = _core.Joystick(ebac.Scenario().setup(), felt=cell)
+    cell = SharedForce()
+    joystick = _core.Joystick(ebac.Scenario().setup(), force=cell)
     with SimulatedSensor(cell) as simulated, Sensor.open(simulated.config) as sensor:
         for _ in range(5):
             joystick.elapse(0.01)

@@ -155,7 +155,7 @@ def test_read_gives_rows(simulated: SimulatedSensor) -> None:
 
 
 def test_read_shows_a_table(simulated: SimulatedSensor) -> None:
-    simulated.trouble(EmulatorTrouble(status=0x80020000))
+    simulated.inject(EmulatorTrouble(status=0x80020000))
     code, out, err = run("read", *at(simulated), "--seconds", "0.1")
     assert code == 0, err
     assert "+3.000" in out
@@ -200,7 +200,7 @@ def test_bias_inside_leaves_nothing(simulated: SimulatedSensor) -> None:
         (["simulate", "--force", "1", "0", "0", "--hand", "open"], 2, "--force: stands for"),
         (["simulate", "--host", "192.0.2.1", "--force", "1", "0", "0"], 1, "no such address"),
         (["simulate", "--hand", "nobody"], 2, "no hand is called 'nobody'"),
-        (["simulate", "--load", "1e9"], 2, "EmulatorOptions.load = 1e+09 N"),
+        (["simulate", "--load", "1e9"], 2, "--load = 1e+09 N"),
     ],
 )
 def test_bad_input_is_told(words: list[str], code: int, message: str) -> None:

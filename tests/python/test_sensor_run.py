@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 import ebac
-from ebac.hardware import Configuration, OpenDevice, Run, place, under_the_law
-from ebac.sensor import EmulatorTrouble, ForceCell, SensorConfig, SimulatedSensor
+from ebac.hardware import Configuration, OpenDevice, Run, backends, under_the_law
+from ebac.sensor import EmulatorTrouble, SensorConfig, SharedForce, SimulatedSensor
 
 pytestmark = pytest.mark.real_time
 
@@ -50,13 +50,15 @@ def a_desk() -> Iterator[Desk]:
     made = Desk()
 
     @contextmanager
-    def beside(known: SensorConfig, felt: ForceCell, *_: object) -> Iterator[SensorConfig]:
-        with SimulatedSensor(felt) as made.sensor:
+    def beside(
+        known: SensorConfig, shared_force: SharedForce, *_: object
+    ) -> Iterator[SensorConfig]:
+        with SimulatedSensor(shared_force) as made.sensor:
             yield made.sensor.config
 
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(place, "sensor_of", beside)
-        patch.setattr(place, "virtual_can", lambda: None)
+        patch.setattr(backends, "sensor_of", beside)
+        patch.setattr(backends, "virtual_can", lambda: None)
         with ebac.Device.open(configuration(), simulate=True) as made.device:
             yield made
 
@@ -94,7 +96,7 @@ def test_a_sensor_that_fails_ends_the_run_by_name(
     desk: Desk, trouble: EmulatorTrouble, fault: ebac.Fault
 ) -> None:
     with pytest.raises(ebac.LoopFault) as caught:
-        desk.run(lambda: desk.sensor.trouble(trouble))
+        desk.run(lambda: desk.sensor.inject(trouble))
     error = caught.value
     assert error.fault is fault
     row = int(np.argmax(error.trace["fault"] != 0))
@@ -106,7 +108,7 @@ def test_a_sensor_that_fails_ends_the_run_by_name(
 
 
 def test_a_run_without_its_sensor_does_not_begin(desk: Desk) -> None:
-    desk.sensor.trouble(EmulatorTrouble(silent=True))
+    desk.sensor.inject(EmulatorTrouble(silent=True))
     with pytest.raises(ebac.LoopFault) as caught:
         desk.device.run(seconds=60)
     assert caught.value.fault is ebac.Fault.FORCE_DISCONNECTED
@@ -115,7 +117,7 @@ def test_a_run_without_its_sensor_does_not_begin(desk: Desk) -> None:
 
 
 def test_losses_on_the_way_are_counted_and_do_not_stop_it(desk: Desk) -> None:
-    desk.sensor.trouble(EmulatorTrouble(loss=0.1, duplicate=0.1, reorder=0.1))
+    desk.sensor.inject(EmulatorTrouble(loss=0.1, duplicate=0.1, reorder=0.1))
     trace = desk.device.run("ebac", ebac.Free(), seconds=1)
     assert trace["fault"][-1] == 0
     assert 50 < trace["ft.lost"][-1, 0] < 300

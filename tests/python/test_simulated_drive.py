@@ -507,7 +507,9 @@ def test_rows_of_the_table_are_states() -> None:
 
 
 def test_the_documentation_lists_every_object() -> None:
-    page = (Path(__file__).parents[2] / "docs" / "simulated_drive.md").read_text(encoding="utf-8")
+    page = (Path(__file__).parents[2] / "docs" / "reference" / "simulated_drive.md").read_text(
+        encoding="utf-8"
+    )
     told = re.findall(r"0x([0-9A-F]{4})\b", page.split("## Objects")[1])
     has = {thing.index for thing in DICTIONARY.values() if thing.index > 7}
     assert sorted(int(index, 16) for index in told) == sorted(has)

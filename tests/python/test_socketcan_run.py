@@ -99,7 +99,7 @@ def test_hardware_is_what_stands_on_the_interface(config: Path, tmp_path: Path) 
 
 def test_simulated_means_another_process_on_the_virtual_interface(config: Path) -> None:
     with ebac.Device.open(config, simulate=True) as device:
-        assert device.place.interface == "socketcan"
+        assert device.backend.interface == "socketcan"
         assert len(under_the_law(device.run("eba", seconds=1))) == round(1 / DT)
 
 
@@ -115,13 +115,13 @@ def test_a_hand_in_another_process_is_told_where_to_go(config: Path, tmp_path: P
         text = text.replace(before, after)
     config.write_text(text, encoding="utf-8")
     with ebac.Device.open(config, simulate=True) as device:
-        assert "another process" in device.place.about
+        assert "another process" in device.backend.about
         with device.start(seconds=60, log=tmp_path / "run.mcap") as run:
             end = time.monotonic() + PATIENCE
             while run.state is not ebac.LoopState.RUN:
                 assert time.monotonic() < end
                 time.sleep(0.05)
-            assert run.aim(-0.02) == (-0.02, None)
+            assert run.set_target(-0.02) == (-0.02, None)
             while run.tail(1)["x"][-1, 0] > -0.015:
                 assert not run.done
                 assert time.monotonic() < end

@@ -13,7 +13,7 @@ import ebac
 from ebac import CONDITIONS, Condition, Operators, Study, study
 from ebac.cli import app
 from ebac.studies import GROUPS
-from ebac.studies import changes as to
+from ebac.studies import scenario_changes as to
 from ebac.studies.study import ideal_contacts
 
 FEW = Operators.grid(mass=[0.15], damping=[2, 4, 6], stiffness=[300], target=[0.04])  # 3 hands
@@ -284,7 +284,7 @@ def test_random_hands_by_number_and_seed(hands_csv: Path) -> None:
         (("--law", "ebc"), "did you mean 'ebac'"),
         (("--condition", "fives"), "did you mean 'five'"),
         (("--resume", "--json"), "give it with --out"),
-        (("--approach", "-1"), "approach_m = -1 m: must lie in [0, 1] m"),
+        (("--approach", "-1"), "--approach = -1 m: must lie in [0, 1] m"),
     ],
 )
 def test_what_cannot_be_is_refused(words: tuple[str, ...], message: str, hands_csv: Path) -> None:

@@ -23,9 +23,9 @@ def test_every_table_has_one_place_and_every_place_a_table() -> None:
 def test_what_stands_in_the_pages_of_60_hands_is_what_the_study_gives(tmp_path: Path) -> None:
     source = printed.Printed(folder=tmp_path / "kept")
     source.folder.mkdir()
-    for page, name in ((DOCS / "evidence.md", "grid"), (DOCS / "story.md", "hands")):
-        copy = tmp_path / page.name
-        copy.write_text(page.read_text(encoding="utf-8"), encoding="utf-8")
+    for page, name in (("evidence.md", "grid"), ("story.md", "hands")):
+        copy = tmp_path / page
+        copy.write_text((DOCS / "explanation" / page).read_text(encoding="utf-8"), encoding="utf-8")
         assert not printed.put(copy, name, tables.TABLES[name](source)), f"{name} has changed"
 
 

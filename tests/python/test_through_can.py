@@ -187,15 +187,21 @@ def wall(*words: str) -> dict[str, Any]:
 
 def test_the_wall_has_the_same_verdicts_through_can() -> None:
     through = wall("--law", "all", "--through", "can")
-    direct = wall("--law", "all", "--permille")
+    direct = wall("--law", "all", "--device-permille")
     assert (direct["through"], through["through"]) == (None, "can")
     assert through["rows"] == direct["rows"]
     assert through["scenario"] == direct["scenario"]
 
 
+def test_the_command_names_the_run_with_the_same_bits() -> None:
+    words = ["wall", "--no-files", "--law", "tca", "--seconds", "0.5", "--through", "can"]
+    shown = " ".join(CliRunner().invoke(app, words).stdout.split())
+    assert "the same to the bit without the bus by --device-permille" in shown
+
+
 @pytest.mark.parametrize("delay", ["1", "2"])
 def test_the_wall_with_the_papers_drive_has_the_verdict_of_an_ideal_one(delay: str) -> None:
-    from ebac.wording import verdict
+    from ebac._util.formatting import verdict
 
     scenario = ebac.Scenario(timing=ebac.Timing(delay=int(delay)))
     for law in ("tca", "eba", "ebac"):
@@ -212,7 +218,7 @@ def test_the_wall_with_the_papers_drive_has_the_verdict_of_an_ideal_one(delay: s
 def test_the_command_names_its_option() -> None:
     result = CliRunner().invoke(app, ["wall", "--no-files", "--through", "usb"])
     assert result.exit_code == 2
-    assert "--through = 'usb': must be 'can' or None" in " ".join(result.output.split())
+    assert "--through usb: must be can, or left out" in " ".join(result.output.split())
 
 
 def test_the_command_tells_of_a_full_bus() -> None:

@@ -8,10 +8,12 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-import pandas as pd
 import pytest
 
 import ebac
+
+#: What a repr is made of.
+PUBLIC = {name: getattr(ebac, name) for name in ebac.__all__}
 
 TWO = ebac.Device(kinematics=ebac.Linear(axes=2))
 
@@ -164,8 +166,8 @@ def test_a_slice_is_the_rows_between_two_times(trace: ebac.Trace) -> None:
 def test_open_and_empty_slices(trace: ebac.Trace) -> None:
     assert len(trace[:]) == len(trace)
     assert len(trace[:0.1]) + len(trace[0.1:]) == len(trace)
-    assert len(trace[5:6]) == 0
-    assert "empty" in repr(trace[5:6])
+    assert len(trace.rows(0, 0)) == 0
+    assert "empty" in repr(trace.rows(0, 0))
     assert_same(trace.between(0.1, 0.2), trace[0.1:0.2])
 
 
@@ -178,6 +180,7 @@ def test_a_slice_has_no_step(trace: ebac.Trace) -> None:
 
 
 def test_pandas_holds_every_number_to_the_bit(trace: ebac.Trace) -> None:
+    pytest.importorskip("pandas")
     frame = trace.to_pandas()
     assert frame.index.name == "t"
     assert frame.index.to_numpy().tobytes() == trace["t"].tobytes()
@@ -203,7 +206,7 @@ def test_csv_and_back_holds_every_number_to_the_bit(trace: ebac.Trace, tmp_path:
 
 def test_pandas_reads_the_csv(trace: ebac.Trace, tmp_path: Path) -> None:
     trace.to_csv(tmp_path / "run.csv")
-    frame = pd.read_csv(tmp_path / "run.csv")
+    frame = pytest.importorskip("pandas").read_csv(tmp_path / "run.csv")
     assert len(frame) == len(trace)
     assert frame["t [s]"].to_numpy() == pytest.approx(trace["t"])
 
@@ -220,7 +223,7 @@ def test_npz_is_readable_by_numpy_alone(trace: ebac.Trace, tmp_path: Path) -> No
         assert set(trace) <= set(archive)
         about = json.loads(str(archive["about"]))
         assert about["columns"]["x"] == ["m", trace.columns["x"].meaning]
-        assert eval(about["law_repr"], dict(vars(ebac))).name == "ebac"
+        assert eval(about["law_repr"], PUBLIC).name == "ebac"
 
 
 def test_npz_finds_the_file_it_wrote(trace: ebac.Trace, tmp_path: Path) -> None:
@@ -249,21 +252,19 @@ def test_html_is_a_table_of_the_columns(trace: ebac.Trace) -> None:
 
 
 def test_html_of_an_empty_part_says_so(trace: ebac.Trace) -> None:
-    assert "0 rows, empty" in trace[5:6]._repr_html_()
+    assert "0 rows, empty" in trace.rows(0, 0)._repr_html_()
 
 
 def test_repr_says_law_rows_and_time(run: Any) -> None:
     trace = run("eba", seconds=1.0)
-    assert repr(trace) == "<Trace of eba: 1001 rows, 0 to 1 s, 1 axis(es)>"
+    assert repr(trace) == "<Trace of eba: 1001 rows, 0 to 1 s, 1 axis>"
 
 
 def test_a_trace_tells_what_made_it(run: Any) -> None:
     trace = run("eba", seconds=1.0)
     assert trace.scenario == ebac.Scenario(seconds=1.0)
     assert trace.law == "eba"
-    assert eval(trace.law_repr, dict(vars(ebac))) == ebac.design(
-        "eba", ebac.Device(), ebac.Timing()
-    )
+    assert eval(trace.law_repr, PUBLIC) == ebac.design("eba", ebac.Device(), ebac.Timing())
 
 
 def test_a_run_has_a_row_for_each_tick_and_one_for_the_start() -> None:

@@ -22,7 +22,7 @@ from ebac.tracking import (
     fit_line,
     read_path,
 )
-from ebac.tracking.sources import Joystick, nominal_joints
+from ebac.tracking.error_sources import Joystick, nominal_joints
 
 Numbers = NDArray[np.float64]
 
@@ -254,7 +254,7 @@ def test_units_are_read_or_guessed_and_said(
     tmp_path: Path, heading: str, scale: float, said: str
 ) -> None:
     path = read_path(write(tmp_path / "a.csv", heading, scale * noisy("circle", 1)))
-    assert path.said.startswith(said)
+    assert path.remark.startswith(said)
     assert path.points == pytest.approx(noisy("circle", 1), rel=1e-12)
 
 

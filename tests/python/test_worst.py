@@ -15,7 +15,7 @@ from typer.testing import CliRunner
 import ebac
 from ebac import Condition, Variant, Worst, worst
 from ebac.cli import app
-from ebac.studies import changes as to
+from ebac.studies import scenario_changes as to
 from ebac.studies.families import families
 from ebac.studies.hand_search import HandSearch
 from ebac.studies.worst import replays
@@ -254,7 +254,7 @@ def test_a_law_that_is_told_otherwise_is_not_replayed_by_a_scenario() -> None:
     ("words", "message"),
     [
         (("--family", "impct"), "did you mean 'impact'"),
-        (("--evaluations", "3"), "evaluations = 3: must lie in"),
+        (("--evaluations", "3"), "--evaluations = 3: must be 40 to"),
         (("--law", "ebc"), "--law ebc: no such name"),
         (("--change", "kp"), "--change kp: must be NAME=VALUE"),
         (("--condition", "five"), "give one"),

@@ -14,7 +14,7 @@ from typer.testing import CliRunner
 import ebac
 from ebac.cli import app
 from ebac.plot import plot_zwidth
-from ebac.zwidth import (
+from ebac.studies.zwidth import (
     CRITERIA,
     ZWidth,
     delay_ceiling,
@@ -236,4 +236,5 @@ def test_the_command_writes_a_folder(tmp_path: Path) -> None:
 
 def test_the_command_refuses() -> None:
     assert "did you mean 'direct'" in " ".join(command("--law", "dirct", code=2).split())
-    assert "must be 0 < least < top" in " ".join(command("--top", "1", code=2).split())
+    assert "--least = 100 N/m: must be above 0 and below --top" in command("--top", "1", code=2)
+    assert "--top = -1 N/m" in command("--top", "-1", code=2)

@@ -1,0 +1,85 @@
+"""Runs the steps of one page in the folder it is started in: `page_process.py STEPS.json`.
+
+Commands of ebac run inside this process, which saves their imports; whatever else in bash. The blocks of Python share
+one namespace, as a reader who types them would have it.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+import shlex
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+from typing import Any
+
+#: Time that what runs until Ctrl-C gets to start [s].
+START = 3.0
+#: What only a shell can do.
+SHELL = re.compile(r"[|&;<>$*`]")
+
+
+def main(steps: list[dict[str, Any]]) -> None:
+    beside: list[tuple[str, subprocess.Popen[bytes]]] = []
+    base = Path.cwd()
+    names: dict[str, Any] = sys.modules["__main__"].__dict__
+    try:
+        for step in steps:
+            text, room = step["text"], base / step["room"]
+            room.mkdir(exist_ok=True)
+            os.chdir(room)
+            print(f"\n>>> {text}", flush=True)
+            if step["kind"] == "python":
+                exec(compile("\n" * (step["line"] - 1) + text, step["page"], "exec"), names)
+            elif step["action"] == "beside":
+                if " simulate" in text:  # in place of the one before, whose port it needs
+                    end(beside)
+                beside.append((text, subprocess.Popen(["bash", "-c", f"exec {text}"])))
+                time.sleep(START)
+            else:
+                code = shell(text)
+                expected = step["action"] == "fails"
+                if bool(code) != expected:
+                    sys.exit(f"line {step['line']}: {text}\nended with exit code {code}")
+        ended = [text for text, process in beside if process.poll() is not None]
+        if ended:
+            sys.exit(f"did not run until Ctrl-C: {ended}")
+    finally:
+        end(beside)
+
+
+def end(beside: list[tuple[str, subprocess.Popen[bytes]]]) -> None:
+    """End what runs until Ctrl-C."""
+    for _, process in beside:
+        process.send_signal(signal.SIGINT)
+    for _, process in beside:
+        process.wait(20)
+    beside.clear()
+
+
+def shell(text: str) -> int:
+    """Run one command and return its exit code."""
+    export = re.fullmatch(r"export ((?:\w+=\S+ ?)+)", text)
+    if export:
+        os.environ.update(pair.split("=", 1) for pair in export[1].split())
+        return 0
+    if not text.startswith("ebac ") or SHELL.search(text):
+        return subprocess.run(["bash", "-c", text], check=False).returncode
+    from ebac.cli import app
+
+    try:
+        app(shlex.split(text)[1:], prog_name="ebac")
+    except SystemExit as end:
+        return int(end.code or 0)
+    finally:
+        if "matplotlib.pyplot" in sys.modules:
+            sys.modules["matplotlib.pyplot"].close("all")
+    return 0
+
+
+if __name__ == "__main__":
+    main(json.loads(Path(sys.argv[1]).read_text(encoding="utf-8")))

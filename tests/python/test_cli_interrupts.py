@@ -1,0 +1,97 @@
+"""Ctrl-C of every command that takes long: exit code 130, what is kept and how to go on, no traceback."""
+
+import contextlib
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+from ebac import datasets
+
+pytestmark = pytest.mark.skipif(not Path("/proc/self/stat").exists(), reason="needs /proc")
+
+#: What runs for minutes, and what Ctrl-C says beside that it stopped.
+LONG = {
+    "zwidth --seconds 30": "--points",
+    "worst --evaluations 1000000": "--evaluations",
+    "faults --cases 5000000": "--cases",
+    "identify check arm --logs 5000 --workers 2": "--logs",
+    "map --side 1500": "--resume --out ebac-map",
+    "bench --repeats 100000": "--repeats",
+    "track --simulated --runs 100000": "--runs",
+}
+#: Processor time after which a command is at its work [s].
+BUSY = 2.0
+
+
+def start(words: str, folder: Path) -> subprocess.Popen[str]:
+    return subprocess.Popen(
+        [sys.executable, "-m", "ebac.cli", *words.split()],
+        cwd=folder,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        start_new_session=True,
+    )
+
+
+def busy(process: subprocess.Popen[str]) -> float:
+    """Return the processor time a process and its workers have taken [s]."""
+    ticks = 0
+    for file in Path("/proc").glob("[0-9]*/stat"):
+        with contextlib.suppress(OSError):  # it ended meanwhile
+            fields = file.read_text().rpartition(")")[2].split()
+            if int(fields[2]) == process.pid:  # its group
+                ticks += sum(map(int, fields[11:13]))
+    return ticks / os.sysconf("SC_CLK_TCK")
+
+
+def interrupted(words: str, folder: Path, kept: str = "") -> tuple[int, str, float]:
+    """Return exit code, what it said and how long it took [s], of a command stopped at its work.
+
+    With `kept`, it is stopped as soon as a file matches that pattern.
+    """
+    process = start(words, folder)
+    try:
+        began = time.monotonic()
+        while process.poll() is None and time.monotonic() - began < 120:
+            if next(folder.rglob(kept), None) if kept else busy(process) > BUSY:
+                break
+            time.sleep(0.05)
+        assert process.poll() is None, process.communicate()
+        asked = time.monotonic()
+        os.killpg(process.pid, signal.SIGINT)  # as a terminal does: the command and its workers
+        out, err = process.communicate(timeout=60)
+        return process.returncode, " ".join((out + err).split()), time.monotonic() - asked
+    finally:
+        if process.poll() is None:
+            os.killpg(process.pid, signal.SIGKILL)
+
+
+@pytest.mark.parametrize("words", list(LONG))
+def test_ctrl_c_says_what_is_kept_and_how_to_go_on(words: str, tmp_path: Path) -> None:
+    for name in ("press", "joystick"):
+        datasets.write(name, tmp_path)
+    code, said, seconds = interrupted(words, tmp_path)
+    assert code == 130, said
+    assert "Traceback" not in said
+    assert "Ctrl-C" in said
+    assert LONG[words] in said
+    assert seconds < 60
+
+
+def test_what_was_interrupted_is_resumed(tmp_path: Path) -> None:
+    words = "map --side 60 --seconds 20"
+    code, said, _ = interrupted(words, tmp_path, kept="ebac-map/sweep-ebac/*.npz")
+    assert code == 130, said
+    kept = {file: file.stat().st_mtime_ns for file in (tmp_path / "ebac-map").rglob("*.npz")}
+    assert kept
+    resume = start(f"{words} --resume --out ebac-map --json", tmp_path)
+    out, err = resume.communicate(timeout=300)
+    assert resume.returncode == 0, err
+    assert '"runs": 3600' in out
+    assert all(file.stat().st_mtime_ns == when for file, when in kept.items() if file.exists())

@@ -1,0 +1,170 @@
+"""Wrong input of every option of every command: exit code 2, and one sentence that names the option."""
+
+import inspect
+import re
+import signal
+import types
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated, Any, Union, get_args, get_origin
+
+import pytest
+import typer
+from typer.testing import CliRunner
+
+from ebac import datasets
+from ebac.cli import app
+
+#: What a command needs beside the option that is wrong.
+NEEDS = {
+    "identify arm": ["arm.csv"],
+    "identify device": ["device.csv"],
+    "identify gains": ["press.csv"],
+    "identify log": ["arm.csv"],
+    "track": ["line.csv"],
+    "run": ["joystick.toml", "--simulated", "--no-files"],
+    "log info": ["run.npz"],
+    "log export": ["run.npz", "new.csv"],
+    "log repair": ["run.mcap"],
+    "log plot": ["run.npz"],
+    "drive enable": ["--node", "1", "--yes"],
+    "jitter": ["--seconds", "0.01", "--alone"],
+    "sensor bias": ["--host", "127.0.0.1"],
+    "sensor read": ["--host", "127.0.0.1"],
+}
+#: The bus in the process, where a command opens one.
+BUS = ["--interface", "ebac", "--channel", "joystick"]
+#: Options whose text may be anything, or is looked up outside this program.
+FREE = {"--host", "--interface", "--channel", "--columns"}
+#: Files that are written, not read.
+WRITTEN = {"--out", "--log", "--backup", "OUT"}
+#: Numbers that may be as large, or as far below zero, as one likes.
+BOUNDLESS = {"--seed", "--axis", "--switch", "--from", "--to"}
+
+
+@dataclass(frozen=True)
+class Case:
+    command: str
+    option: str
+    kind: str
+    words: tuple[str, ...]
+    hint: str = ""
+
+    def __str__(self) -> str:
+        return f"{self.command} {self.option} {self.kind}".replace(" ", "_")
+
+
+def leaves(group: typer.Typer, path: str = "") -> Iterator[tuple[str, Any]]:
+    for one in group.registered_commands:
+        yield f"{path} {one.name}".strip(), one.callback
+    for sub in group.registered_groups:
+        yield from leaves(sub.typer_instance, f"{path} {sub.name}".strip())
+
+
+def plain(annotation: Any) -> Any:
+    """Return what one value of an option is: float, int, str, bool, Path or an enumeration."""
+    if get_origin(annotation) is Annotated:
+        annotation = annotation.__origin__
+    if get_origin(annotation) in (Union, types.UnionType):
+        [annotation] = [one for one in get_args(annotation) if one is not type(None)]
+    return get_args(annotation)[0] if get_origin(annotation) in (list, tuple) else annotation
+
+
+def many(annotation: Any) -> int:
+    text = str(annotation)
+    return len(get_args(get_args(annotation)[0])) if "tuple[" in text else 1
+
+
+def name_of(parameter: inspect.Parameter) -> tuple[str, bool]:
+    """Return how an option or argument is called, and whether it is an argument."""
+    [info] = parameter.annotation.__metadata__
+    argument = type(info).__name__ == "ArgumentInfo"
+    if argument:
+        return str(info.metavar or parameter.name.upper()).strip("[]."), True
+    long = [n for n in (info.default, *(info.param_decls or ())) if str(n).startswith("--")]
+    return (long[0].split("/")[0] if long else f"--{parameter.name.replace('_', '-')}"), False
+
+
+def cases() -> Iterator[Case]:
+    """Give every option's wrong values; what no option differs in, once for each command and type."""
+    for command, callback in leaves(app):
+        seen: set[tuple[str, Any]] = set()
+        for parameter in inspect.signature(callback).parameters.values():
+            name, argument = name_of(parameter)
+            kind = plain(parameter.annotation)
+            times = 3 if name == "--force" and kind is float else many(parameter.annotation)
+            for what, value, hint in wrong(name, kind):
+                words = [value] if argument else [name, *[value] * times]
+                if what in ("text", "nan") and (what, kind) in seen:
+                    continue
+                seen.add((what, kind))
+                yield Case(command, name, what, tuple(words), hint)
+
+
+def wrong(name: str, kind: Any) -> Iterator[tuple[str, str, str]]:
+    if kind in (int, float):
+        yield "text", "much", "must be a whole number" if kind is int else "must be a number"
+        if name not in BOUNDLESS:
+            yield "low", "-1000000000000", ""
+            yield "high", "1000000000000" if kind is int else "1e300", ""
+    if kind is float:
+        yield "nan", "nan", "must be"
+    if kind is Path and name not in WRITTEN:
+        yield (
+            "missing",
+            "missing.toml" if name in ("--scenario", "--config") else "missing.csv",
+            "no such file",
+        )
+        yield "folder", "folder", "folder"
+        yield "other", "picture.png", ""
+    if kind is str and name not in FREE:
+        yield "name", "nonsense", ""
+    if inspect.isclass(kind) and kind.__name__ == "What":
+        yield "choice", "nonsense", "must be"
+
+
+@pytest.fixture(scope="module")
+def room(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("room")
+    for name in ("arm", "device", "press", "line", "joystick"):
+        datasets.write(name, folder)
+    (folder / "folder").mkdir()
+    (folder / "picture.png").write_bytes(b"\x89PNG\r\n\x1a\n" + bytes(range(256)))
+    import ebac
+
+    trace = ebac.simulate(ebac.Scenario(seconds=0.1), "ebac")
+    trace.save(folder / "run.npz")
+    trace.save(folder / "run.mcap")
+    return folder
+
+
+def _too_long(number: int, frame: object) -> None:
+    raise AssertionError("the command began its work")
+
+
+@pytest.mark.parametrize("case", list(cases()), ids=str)
+def test_wrong_input_is_refused_in_a_sentence(
+    case: Case, room: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(room)
+    needs = [] if case.option.isupper() else list(NEEDS.get(case.command, []))
+    if case.command == "log export" and case.option == "OUT":
+        needs = ["run.npz"]
+    if case.command == "log export" and case.option == "FILE":
+        case = Case(case.command, case.option, case.kind, (*case.words, "new.csv"), case.hint)
+    if case.command.startswith("drive") and case.option not in BUS:
+        needs += BUS
+    before = sorted(path.name for path in room.iterdir())
+    signal.signal(signal.SIGALRM, _too_long)
+    signal.alarm(10)
+    done = CliRunner().invoke(app, [*case.command.split(), *needs, *case.words])
+    signal.alarm(0)
+    text = " ".join(done.stderr.split())
+    assert done.exit_code == 2, (done.exit_code, text, done.output[-600:])
+    assert text.startswith("Error: "), text
+    assert text.count("Error") == 1, text
+    assert case.option in text or any(word in text for word in case.words), text
+    assert not case.hint or case.hint in text, text
+    assert not re.search(r"Traceback|pydantic|Errno|Input should", text)
+    assert sorted(path.name for path in room.iterdir()) == before

@@ -1,0 +1,251 @@
+"""Every figure: a title with source and scenario, units, legends inside, journal widths, marks of the end."""
+
+import itertools
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+from matplotlib.colors import to_rgb
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.text import Text
+from numpy.typing import NDArray
+from PIL import Image
+
+import ebac
+from ebac.faults import run_case
+from ebac.operators import Operators
+from ebac.plot import (
+    COLOURS,
+    WIDTHS,
+    plot_ablation,
+    plot_budget,
+    plot_columns,
+    plot_fault,
+    plot_map,
+    plot_study,
+    plot_sweep,
+    plot_trace,
+    plot_walls,
+    plot_worst,
+    plot_zwidth,
+    save,
+)
+from ebac.plot.save import fitted, millimetres
+from ebac.plot.style import BETTER, QUANTITIES, SAME, WORSE
+from ebac.studies import ablation, study, worst
+from ebac.studies.maps import stability_map
+from ebac.studies.zwidth import zwidth
+from ebac.tracking import error_budget
+
+Run = Callable[..., ebac.Trace]
+
+
+def check_inside(figure: Figure, width: float | None = None) -> None:
+    """Check that legends and titles lie inside the figure."""
+    with fitted(figure, width):
+        figure.draw_without_rendering()
+        whole = figure.bbox.padded(2)
+        legends = [*figure.legends, *(ax.get_legend() for ax in figure.axes)]
+        for legend in filter(None, legends):
+            box = legend.get_window_extent()
+            assert box.x0 >= whole.x0
+            assert box.x1 <= whole.x1
+            assert box.y1 <= whole.y1
+        for text in [*figure.texts, *(ax.title for ax in figure.axes)]:
+            if text.get_text():
+                box = text.get_window_extent()
+                assert box.x0 >= whole.x0
+                assert box.x1 <= whole.x1
+
+
+def check_units(figure: Figure) -> None:
+    """Check that every labelled axis has a unit, and each bottom axis a label."""
+    for ax in figure.axes:
+        for label in (ax.get_xlabel(), ax.get_ylabel()):
+            assert not label or "[" in label or label in ("state", "hands"), label
+    assert any(ax.get_xlabel() for ax in figure.axes)
+
+
+def ended_by_fault(trace: ebac.Trace) -> ebac.Trace:
+    """Return the trace as it would be had fault 4 ended it 100 ms before its end."""
+    fault, state = trace["fault"].copy(), trace["state"].copy()
+    fault[-100:], state[-100:] = 4, 3
+    return trace.with_column("fault", fault).with_column("state", state)
+
+
+@pytest.mark.parametrize("width", [None, "single", "double"])
+@pytest.mark.parametrize(
+    "laws", [("ebac",), ("tca", "eba", "ebac"), ("direct", "tca", "eba", "ebac")]
+)
+def test_walls_fit_any_column(laws: tuple[str, ...], width: str | None, run: Run) -> None:
+    figure = plot_walls([run(law, seconds=1.0) for law in laws])
+    assert figure.get_suptitle().startswith("simulated: the reference device")
+    assert "1 sample of delay" in figure.get_suptitle()
+    check_units(figure)
+    check_inside(figure, None if width is None else millimetres(width) / 25.4)
+
+
+def test_a_run_fits_any_column(run: Run) -> None:
+    figure = plot_trace(run("ebac", seconds=1.0))
+    assert "law ebac, simulated" in figure.get_suptitle()
+    check_units(figure)
+    for name in WIDTHS:
+        check_inside(figure, millimetres(name) / 25.4)
+
+
+def test_more_than_three_laws_get_panels_of_their_own(run: Run) -> None:
+    laws = ("direct", "tca", "eba", "ebac")
+    figure = plot_walls([run(law, seconds=1.0) for law in laws])
+    titles = [ax.get_title() for ax in figure.axes if ax.get_title()]
+    assert titles == list(laws)
+    assert len(figure.axes) == 2 * len(laws) + 2 + 1  # beta for two of them, the end
+
+
+def test_beta_has_its_panel_in_walls(run: Run) -> None:
+    figure = plot_walls([run("tca"), run("ebac")])
+    (panel,) = [ax for ax in figure.axes if "beta" in ax.get_ylabel()]
+    assert len(panel.get_lines()) == 1
+    none = plot_walls([run("tca"), run("direct")])
+    assert not any("beta" in ax.get_ylabel() for ax in none.axes)
+
+
+def test_a_fault_is_named_and_shown(run: Run) -> None:
+    trace = ended_by_fault(run("eba", seconds=1.0))
+    alone = plot_trace(trace)
+    assert "ended by fault 4 (law not finite) at 0.9" in alone.get_suptitle()
+    shown = [text.get_text() for text in alone.axes[0].get_legend().get_texts()]
+    assert "force ramped to zero" in shown
+    assert "fault 4 (law not finite)" in shown
+    (legend,) = plot_walls([trace, run("ebac", seconds=1.0)]).legends
+    names = [text.get_text() for text in legend.get_texts()]
+    assert names[:2] == ["eba, ended by fault 4 (law not finite)", "ebac"]
+    columns = plot_columns(trace, ["x"])
+    assert "fault 4 (law not finite)" in columns.axes[0].get_legend_handles_labels()[1]
+
+
+def test_a_run_without_fault_has_no_mark(run: Run) -> None:
+    shown = [t.get_text() for t in plot_trace(run("eba")).axes[0].get_legend().get_texts()]
+    assert not any("fault" in text or "ramped" in text for text in shown)
+
+
+@pytest.mark.parametrize("kind", ["png", "pdf", "svg"])
+def test_formats(kind: str, run: Run, tmp_path: Path) -> None:
+    figure = plot_trace(run("eba", seconds=1.0))
+    file = save(figure, tmp_path / "run.png", file_format=kind, width="single")
+    assert file == tmp_path / f"run.{kind}"
+    begin = {"png": b"\x89PNG", "pdf": b"%PDF", "svg": b"<?xml"}[kind]
+    assert file.read_bytes().startswith(begin)
+
+
+@pytest.mark.parametrize(
+    ("width", "inches"), [("single", 89 / 25.4), ("double", 183 / 25.4), (120, 120 / 25.4)]
+)
+def test_widths_on_paper(width: str | float, inches: float, run: Run, tmp_path: Path) -> None:
+    figure = plot_columns(run("eba", seconds=1.0), ["x"])
+    with Image.open(save(figure, tmp_path / "x.png", width=width)) as image:
+        assert image.width / 300 == pytest.approx(inches, abs=0.01)
+
+
+def test_saving_leaves_the_figure_as_it_was(run: Run, tmp_path: Path) -> None:
+    def state() -> list[object]:
+        figure.draw_without_rendering()
+        texts = [(text.get_text(), text.get_fontsize()) for text in figure.findobj(Text)]
+        widths = [line.get_linewidth() for line in figure.findobj(Line2D)]
+        columns = [ax.get_legend()._ncols for ax in figure.axes]  # type: ignore[union-attr]
+        return [tuple(figure.get_size_inches()), set(texts), sorted(set(widths)), columns]
+
+    figure = plot_trace(run("ebac", seconds=1.0))
+    before = state()
+    save(figure, tmp_path / "run.png", width="single")
+    assert state() == before
+
+
+@pytest.mark.parametrize("width", ["triple", "5", 3000, "nan"])
+def test_wrong_widths_are_refused(width: str | float) -> None:
+    with pytest.raises(ValueError, match="width = "):
+        millimetres(width)
+
+
+def test_wrong_formats_are_refused(run: Run, tmp_path: Path) -> None:
+    with pytest.raises(ValueError, match="png, pdf, svg"):
+        save(plot_columns(run("eba", seconds=1.0), ["x"]), tmp_path / "x.gif")
+
+
+# --- colours ---
+
+#: Severe colour blindness in linear RGB (Machado, Oliveira and Fernandes 2009, severity 1).
+EYES = {
+    "usual": np.eye(3),
+    "protan": np.array(
+        [[0.152286, 1.052583, -0.204868], [0.114503, 0.786281, 0.099216], [-0.003882, -0.048116, 1.051998]]
+    ),
+    "deutan": np.array(
+        [[0.367322, 0.860646, -0.227968], [0.280085, 0.672501, 0.047413], [-0.011820, 0.042940, 0.968881]]
+    ),
+    "tritan": np.array(
+        [[1.255528, -0.076749, -0.178779], [-0.078411, 0.930809, 0.147602], [0.004733, 0.691367, 0.303900]]
+    ),
+}  # fmt: skip
+
+
+def lab(shade: str, eye: str) -> NDArray[np.float64]:
+    """Return a colour as an eye sees it, in CIE L*a*b* (D65)."""
+    rgb = np.array(to_rgb(shade))
+    linear = np.where(rgb <= 0.04045, rgb / 12.92, ((rgb + 0.055) / 1.055) ** 2.4)
+    to_xyz = np.array(
+        [[0.4124, 0.3576, 0.1805], [0.2126, 0.7152, 0.0722], [0.0193, 0.1192, 0.9505]]
+    )
+    xyz = to_xyz @ np.clip(EYES[eye] @ linear, 0, 1) / np.array([0.9505, 1, 1.089])
+    f = np.where(xyz > 0.008856, np.cbrt(xyz), 7.787 * xyz + 16 / 116)
+    return np.array([116 * f[1] - 16, 500 * (f[0] - f[1]), 200 * (f[1] - f[2])])
+
+
+@pytest.mark.parametrize("eye", list(EYES))
+def test_every_eye_tells_the_laws_apart(eye: str) -> None:
+    for one, other in itertools.combinations(COLOURS.values(), 2):
+        assert np.linalg.norm(lab(one, eye) - lab(other, eye)) > 15
+    for one, other in itertools.combinations((BETTER, WORSE, SAME), 2):
+        assert np.linalg.norm(lab(one, eye) - lab(other, eye)) > 15
+
+
+def test_pages_have_the_colours_of_the_figures(run: Run) -> None:
+    pytest.importorskip("bokeh")
+    from ebac.explore.page import colours
+
+    for law in ("tca", "ebac"):
+        for panel in run(law, seconds=1.0).explore().panels:
+            shown = dict(zip(panel.names, colours(panel, law), strict=True))
+            for name, shade in shown.items():
+                if name in ("true.x", "f_applied", "law.beta", "true.energy"):
+                    assert shade == COLOURS[law]
+                elif name in QUANTITIES:
+                    assert shade == QUANTITIES[name]
+
+
+# --- every other figure ---
+
+
+def test_every_study_has_a_title_that_says_simulated() -> None:
+    few = Operators.sample(3, seed=1)
+    base = ebac.Scenario(seconds=1.0)
+    found = [
+        *(figure for _, figure in plot_study(study(few, ["tca", "ebac"], ["d1K10"], base=base))),
+        plot_ablation(ablation(few, base=base)),
+        plot_sweep(ebac.sweep([base], ["tca", "ebac"])),
+        plot_map(stability_map("ebac", base=base, xs=[0, 5, 9], ys=[1e3, 2e3, 1e4])),
+        plot_zwidth(zwidth(base, ["tca", "ebac"], delays=[1], dampings=[0.0, 5.0])),
+        plot_worst(worst("ebac", family=["impact"], evaluations=40, base=base)),
+        plot_budget(error_budget(runs=2)),
+    ]
+    for figure in found:
+        assert "simulated" in figure.get_suptitle()
+        check_inside(figure)
+
+
+def test_a_case_of_faults_names_fault_and_law() -> None:
+    figure = plot_fault(run_case(15))
+    assert "Simulated fault" in figure.get_suptitle()
+    assert "law ebac" in figure.get_suptitle()
+    check_inside(figure)

@@ -1,0 +1,83 @@
+"""Headings with units: every usual form, and every reader alike."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import ebac
+from ebac import logs
+from ebac._util.headings import FACTORS, split_heading
+from ebac.identify import load
+from ebac.tracking import read_path
+
+FORMS = ("{} [{}]", "{}[{}]", "{} ({})", "{}({})", "{}_{}", "{} {}", "{}/{}", "  {} [ {} ] ")
+
+
+@pytest.mark.parametrize("form", FORMS)
+@pytest.mark.parametrize("quantity", FACTORS)
+def test_every_form_of_every_unit(form: str, quantity: str) -> None:
+    for unit in FACTORS[quantity]:
+        assert split_heading(form.format("f_meas", unit), FACTORS[quantity]) == (
+            "f_meas",
+            unit.replace("\u00b5", "u"),
+        )
+
+
+@pytest.mark.parametrize("heading", ["x", "x_0", "f_m", "mm", "_mm", "force_x", "[mm]"])
+def test_a_name_without_unit_stays_whole(heading: str) -> None:
+    assert split_heading(heading, FACTORS["force"]) == (heading, None)
+
+
+def test_the_greek_letter_is_the_micro_sign() -> None:
+    for sign in ("\u03bc", "\u00b5", "u"):
+        assert split_heading(f"x [{sign}m]", ()) == ("x", "um")
+        assert split_heading(f"x_{sign}m", FACTORS["length"]) == ("x", "um")
+
+
+def table(path: Path, headings: list[str], columns: np.ndarray) -> Path:
+    np.savetxt(path, columns.T, delimiter=",", header=",".join(headings), comments="")
+    return path
+
+
+@pytest.mark.parametrize("form", FORMS[:7])
+def test_readers_agree(form: str, tmp_path: Path) -> None:
+    t = np.arange(100.0)
+    x, y = 40 * np.sin(t / 9), 40 * np.cos(t / 9)
+    heads = [
+        form.format(*pair) for pair in (("t", "ms"), ("x", "mm"), ("y", "mm"), ("force", "mN"))
+    ]
+    file = table(tmp_path / "log.csv", heads, np.array([t, x, y, 1e3 * x]))
+    r = load(file)
+    assert r.dt == pytest.approx(1e-3)
+    np.testing.assert_allclose(r.x, 1e-3 * x)
+    np.testing.assert_allclose(r.force, x)
+    np.testing.assert_allclose(read_path(file).points, 1e-3 * np.array([x, y]).T)
+    heads = [
+        form.format(*p) for p in (("m", "kg"), ("B0", "N s/m"), ("k", "N/mm"), ("target", "mm"))
+    ]
+    file = table(tmp_path / "hands.csv", heads, np.array([[0.3], [7.0], [0.4], [25.0]]))
+    hand = ebac.Operators.from_csv(file)
+    assert hand.k_N_per_m.tolist() == [400.0]
+    assert hand.target_m.tolist() == [0.025]
+    assert hand.b_Ns_per_m.tolist() == [7.0]
+
+
+def test_tremor_has_two_columns_by_their_units(tmp_path: Path) -> None:
+    heads = ["m_kg", "b_Ns_per_m", "k_N_per_m", "target_m", "tremor [mm]", "tremor (Hz)"]
+    file = table(tmp_path / "hands.csv", heads, np.array([[0.3], [7], [400], [0.02], [0.5], [8]]))
+    hand = ebac.Operators.from_csv(file)
+    assert (hand.tremor_m[0], hand.tremor_Hz[0]) == (0.0005, 8.0)
+
+
+def test_a_trace_with_round_brackets_is_a_trace(tmp_path: Path) -> None:
+    trace = ebac.simulate(ebac.Scenario(seconds=0.05), "tca")
+    trace.to_csv(tmp_path / "run.csv")
+    text = (tmp_path / "run.csv").read_text(encoding="utf-8")
+    head, _, rows = text.partition("\n")
+    (tmp_path / "round.csv").write_text(
+        head.replace("[", "(").replace("]", ")") + "\n" + rows, encoding="utf-8"
+    )
+    other = logs.load(tmp_path / "round.csv")
+    assert other.columns["x"].unit == "m"
+    np.testing.assert_array_equal(other["x"], trace["x"])

@@ -1,0 +1,59 @@
+"""Names of the Python package are terms of the field: house words do not come back."""
+
+import re
+from pathlib import Path
+
+import ebac
+
+PACKAGE = Path(ebac.__file__).parent
+#: Files that were renamed; a name of this list is no name of a file again.
+FILES = {
+    *(
+        "aside",
+        "carried",
+        "leaving",
+        "folder",
+        "document",
+        "wording",
+        "toml_text",
+        "place",
+        "watched",
+    ),
+    *(
+        "setting_up",
+        "another_process",
+        "told",
+        "newest",
+        "heard",
+        "foretell",
+        "folds",
+        "excites",
+        "pull",
+    ),
+    *("counts", "presses", "changes", "sources", "source", "drive_power", "keys"),
+}
+#: Words of the house dialect, as words of their own; words of the field that contain them are meant otherwise.
+WORDS = re.compile(
+    r"\b(heard|felt|aimed|foretell\w*|foretold|doorbell|at the desk|Newest|Watched|Told)\b"
+)
+#: Names that programs outside read: conditions of a study, a key of the JSON of `ebac identify log` (see DECISIONS).
+KEPT = re.compile(r'"told(-[\w.+-]+)?"|[\'"`]told-')
+TOLD = re.compile(r"\b(told|tells?)\b(?!\()")
+#: Its sentences belong to the command line and the figures.
+ELSEWHERE = {"cli", "plot", "paper", "datasets"}
+
+
+def test_no_file_has_a_house_name() -> None:
+    assert not [path for path in PACKAGE.rglob("*.py") if path.stem in FILES]
+
+
+def test_no_house_word_is_left_in_the_package() -> None:
+    found = []
+    for path in sorted(PACKAGE.rglob("*.py")):
+        room = path.relative_to(PACKAGE).parts[0]
+        for line in path.read_text(encoding="utf-8").splitlines():
+            if room in ELSEWHERE:
+                continue
+            if WORDS.search(line) or (TOLD.search(line) and not KEPT.search(line)):
+                found.append(f"{path.relative_to(PACKAGE)}: {line.strip()}")
+    assert not found

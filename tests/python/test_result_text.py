@@ -1,0 +1,180 @@
+"""Results as a console shows them: under 20 lines, with units; verdicts of runs that cannot be judged."""
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+import ebac
+from ebac import faults, paper
+from ebac._util import formatting
+from ebac._util.report import report
+from ebac.operators import Operators
+from ebac.studies import ablation, study, worst
+from ebac.studies.maps import stability_map
+from ebac.studies.measures import MEASURES
+from ebac.studies.zwidth import zwidth
+from ebac.tracking import RecordedPath, error_budget, evaluate
+
+Run = Callable[..., ebac.Trace]
+SHORT = ebac.Scenario(seconds=1.0)
+FEW = Operators.sample(3, seed=1)
+
+
+def results() -> dict[str, Callable[[], Any]]:
+    """Return what makes each result, and the unit its text must show."""
+    budget = lambda: error_budget(runs=2)  # noqa: E731
+    return {
+        "trace [s]": lambda: ebac.simulate(SHORT, "ebac").head(),
+        "summary mm": lambda: ebac.simulate(SHORT, "ebac").summary(),
+        "contact mm": lambda: ebac.contact(ebac.simulate(SHORT, "ebac")),
+        "study [mJ]": lambda: study(FEW, ["tca", "ebac"], ["d1K10"]),
+        "ablation hands": lambda: ablation(FEW),
+        "worst [mJ]": lambda: worst("ebac", family=["impact"], evaluations=40),
+        "sweep [mm]": lambda: ebac.sweep([SHORT] * 40, ["tca", "ebac"]),
+        "map [N/m]": lambda: stability_map("ebac", base=SHORT, xs=[0, 5], ys=[1e3, 1e4]),
+        "zwidth [N/m]": lambda: zwidth(SHORT, ["tca", "ebac"], delays=[1], dampings=[0.0, 5.0]),
+        "campaign ticks": lambda: faults.run_campaign(40),
+        "budget [mm]": budget,
+        "tracking mm": lambda: evaluate(
+            RecordedPath(points=budget().examples["line"], name="x", remark="simulated")
+        ),
+        "finding 1/s": lambda: paper.find("eq4"),
+    }
+
+
+@pytest.mark.parametrize("name", list(results()))
+def test_every_result_is_read_in_under_20_lines(name: str) -> None:
+    what, unit = name.split()
+    shown = repr(results()[name]())
+    lines = shown.splitlines()
+    assert len(lines) < 20
+    assert max(map(len, lines)) < 240
+    if what not in ("finding",):
+        assert unit in shown
+
+
+def test_a_printed_contact_has_every_number_with_its_unit(run: Run) -> None:
+    text = str(ebac.contact(run("ebac")))
+    assert text.splitlines()[0] == "Contact of ebac: exact and quiet"
+    for label, unit in (
+        ("rest", "mm"),
+        ("force swing", "N"),
+        ("settled", "s"),
+        ("least port energy", "mJ"),
+    ):
+        (line,) = [one for one in text.splitlines() if one.startswith(f"  {label} ")]
+        assert line.endswith(f" {unit}")
+
+
+def test_head_names_what_is_asked_for(run: Run) -> None:
+    lines = run("eba").head(3, "t", "x").splitlines()
+    assert len(lines) == 1 + 1 + 3
+    assert lines[1].split() == ["t", "[s]", "x", "[mm]"]
+    with pytest.raises(KeyError, match="no column 'y'"):
+        run("eba").head(3, "y")
+
+
+def test_head_and_summary_of_nothing(run: Run) -> None:
+    nothing = run("eba").rows(0, 0)
+    assert "0 rows" in nothing.head()
+    assert "0 rows" in nothing.summary()
+
+
+def test_a_part_outside_the_run_names_its_span(run: Run) -> None:
+    with pytest.raises(ValueError, match=r"trace\[10:20\]: outside the run, which spans 0 to 6 s"):
+        run("eba")[10:20]
+    with pytest.raises(ValueError, match=r"trace\[:-1\]: outside"):
+        run("eba")[:-1]
+
+
+@pytest.mark.parametrize("kind", ["npz", "csv", "mcap"])
+def test_a_folder_that_does_not_exist_is_named_as_asked(
+    kind: str, run: Run, tmp_path: Path
+) -> None:
+    path = tmp_path / "no" / f"x.{kind}"
+    with pytest.raises(FileNotFoundError) as caught:
+        run("eba", seconds=1.0).save(path)
+    assert caught.value.filename == str(path)
+    assert "draft" not in str(caught.value)
+
+
+def test_a_short_run_is_not_judged(run: Run) -> None:
+    assert ebac.contact(run("tca", seconds=0.01)).verdict == "too short to judge"
+    assert ebac.contact(run("tca")).verdict == "swings"
+
+
+def test_a_run_in_free_air_has_no_contact(run: Run) -> None:
+    free = ebac.contact(run("ebac", environment=ebac.Free(), seconds=1.0))
+    assert free.verdict == "no contact"
+    assert (
+        ebac.contact(run("ebac", environment=ebac.Wall(position=1.0), seconds=1.0)).touched is False
+    )
+
+
+@given(st.floats(1e-12, 4e-8))
+def test_lengths_far_below_a_count_read_as_zero(metres: float) -> None:
+    assert formatting.quantity(metres, "m") == "0 mm"
+
+
+@given(st.floats(1e-6, 1e3), st.sampled_from(["m", "J"]))
+def test_rounding_keeps_three_digits_or_a_tenth_of_a_micro(value: float, unit: str) -> None:
+    number = float(formatting.quantity(value, unit).split()[0]) / 1e3
+    assert number == pytest.approx(value, rel=6e-3, abs=6e-8 if unit == "m" else 6e-7)
+
+
+@given(st.sampled_from(MEASURES), st.floats(0, 10), st.floats(-1e-9, 1e-9))
+def test_numbers_that_read_the_same_are_the_same(measure: Any, value: float, little: float) -> None:
+    one, other = value, value + little
+    if formatting.cell(one, measure.unit) == formatting.cell(other, measure.unit):
+        assert measure.gain(one, other, 60) == 0
+
+
+def test_zero_newton_is_no_better_than_zero_newton() -> None:
+    ripple = next(m for m in MEASURES if m.key == "ripple_N")
+    assert ripple.gain(0.0, 3e-16, 60) == 0
+    assert ripple.gain(1e-13, 0.0, 60) == 0
+    assert ripple.gain(0.0, 1.0, 60) == 1
+
+
+def test_a_sweep_carries_what_was_swept() -> None:
+    stiff = [1e3, 5e3, 1e4]
+    scenarios = [SHORT.replace(environment=ebac.Wall(stiffness=k)) for k in stiff]
+    result = ebac.sweep(scenarios, ["tca", "ebac"])
+    assert result.swept == ("environment.stiffness_N_per_m",)
+    assert result["environment.stiffness_N_per_m"].tolist() == stiff * 2
+    assert "environment.stiffness_N_per_m" in result.rows()[0]
+    frame = result.to_pandas()
+    assert frame["environment.stiffness_N_per_m"].tolist() == stiff * 2
+
+
+def test_a_sweep_over_hands_worlds_and_timing() -> None:
+    hand = SHORT.hand
+    scenarios = [
+        SHORT,
+        SHORT.replace(hand=hand.replace(path=ebac.Step(target=0.02)), environment=ebac.Free()),
+        SHORT.replace(timing=SHORT.timing.replace(delay=2)),
+    ]
+    result = ebac.sweep(scenarios, ["direct"])
+    assert result["environment"].tolist() == ["Wall", "Free", "Wall"]
+    assert np.isnan(result["environment.stiffness_N_per_m"][1])
+    assert result["hand.path.target_m"].tolist() == [0.04, 0.02, 0.04]
+    assert result["timing.delay_samples"].tolist() == [1, 1, 2]
+
+
+def test_a_sweep_of_equal_scenarios_has_no_swept_columns() -> None:
+    assert ebac.sweep([SHORT, SHORT], ["direct"]).swept == ()
+
+
+@given(
+    st.lists(
+        st.fixed_dictionaries({"rest_m": st.floats(-1, 1), "law": st.text(max_size=9)}), max_size=60
+    )
+)
+def test_a_report_is_never_longer_than_20_lines(rows: list[dict[str, Any]]) -> None:
+    plain = [{**row, "law": "".join(c for c in row["law"] if c.isprintable())} for row in rows]
+    assert len(report("title", plain, "note").splitlines()) < 20

@@ -1,0 +1,100 @@
+"""`ebac run --virtual`, and what a run says that a late machine ended."""
+
+import json
+from dataclasses import replace
+from importlib import import_module
+from pathlib import Path
+
+import numpy as np
+import pytest
+import typer
+from typer.testing import CliRunner
+
+import ebac
+from ebac.cli import app
+from ebac.cli.files import FigureOptions
+from ebac.hardware import Configuration, Run
+from ebac.hardware.report import lateness
+from ebac.simulation import LoopFault
+
+EXAMPLE = Path(__file__).parents[2] / "examples" / "joystick.toml"
+RUN = ["run", str(EXAMPLE), "--virtual", "--seconds", "1"]
+
+
+def test_a_virtual_run_is_the_simulation_and_leaves_the_same_files(tmp_path: Path) -> None:
+    done = CliRunner().invoke(app, [*RUN, "--out", str(tmp_path / "out"), "--json"])
+    assert done.exit_code == 0, done.output
+    told = json.loads(done.stdout)
+    trace = Configuration.load(EXAMPLE).simulate(seconds=1)
+    assert told["virtual"] is told["simulated"] is True
+    assert told["rows"] == [ebac.contact(trace, truth=False).row()]
+    assert told["ticks"] == told["recorded"] == len(trace)
+    assert told["ended_by"] == "time"
+    assert {file.suffix for file in (tmp_path / "out").iterdir()} == {".json", ".mcap", ".png"}
+    (log,) = (tmp_path / "out").glob("*.mcap")
+    np.testing.assert_array_equal(ebac.logs.load(log)["x"], trace["x"])
+
+
+def test_a_virtual_run_tells_that_its_clock_is_virtual() -> None:
+    done = CliRunner().invoke(app, [*RUN, "--no-files"])
+    assert "on a virtual clock: every tick in time" in " ".join(done.stdout.split())
+
+
+@pytest.mark.parametrize("other", [["--simulated"], ["--at", "0.5 law.kp=0"], ["--detached"]])
+def test_what_belongs_to_real_time_is_refused(other: list[str]) -> None:
+    done = CliRunner().invoke(app, [*RUN, *other])
+    assert done.exit_code == 2
+    assert "--virtual excludes" in " ".join(done.stderr.split())
+
+
+def late_trace(fault: ebac.Fault) -> ebac.Trace:
+    trace = Configuration.load(EXAMPLE).simulate(seconds=0.05)
+    rows = len(trace)
+    codes, late, skipped = np.zeros(rows, int), np.zeros(rows), np.zeros(rows, int)
+    codes[-1], late[20], skipped[20] = int(fault), 0.0123, 12
+    for name, values in (("fault", codes), ("lateness", late), ("skipped", skipped)):
+        trace = trace.with_column(name, values)
+    return trace
+
+
+class Ended(Run):
+    def __init__(self, trace: ebac.Trace) -> None:
+        self.rows = trace
+
+    def end(self) -> None:
+        pass
+
+    def trace(self) -> ebac.Trace:
+        return self.rows
+
+
+@pytest.mark.parametrize("fault", [ebac.Fault.DRIVE_SILENT, ebac.Fault.WORKSPACE])
+def test_a_fault_by_time_names_the_lateness_and_the_doctor(fault: ebac.Fault) -> None:
+    with pytest.raises(LoopFault) as caught:
+        Ended(late_trace(fault)).finish()
+    notes = getattr(caught.value, "__notes__", [])
+    if fault is ebac.Fault.WORKSPACE:
+        assert notes == []
+    else:
+        assert "woke up to 12.3 ms late and skipped 12 ticks; `ebac doctor`" in notes[0]
+
+
+def test_a_simulation_is_never_late() -> None:
+    assert lateness(ebac.simulate(ebac.Scenario(seconds=0.01))) == ""
+
+
+def test_the_command_offers_the_virtual_clock(capsys: pytest.CaptureFixture[str]) -> None:
+    command = import_module("ebac.cli.run.run")
+    trace = late_trace(ebac.Fault.DRIVE_SILENT)
+    with pytest.raises(LoopFault) as caught:
+        Ended(trace).finish()
+    known = Configuration.load(EXAMPLE)
+    result = command.results.Result.of_virtual(known, trace, None, caught.value)
+    with pytest.raises(typer.Exit) as end:
+        command._give(replace(result, virtual=False), None, False, FigureOptions(), caught.value)
+    assert end.value.exit_code == 1
+    text = " ".join(capsys.readouterr().err.split())
+    assert "fault 9 (drive silent)" in text
+    assert "the loop woke up to 12.3 ms late" in text
+    assert "ebac doctor" in text
+    assert "--virtual instead of --simulated" in text
