@@ -21,6 +21,10 @@ extensions = [
     "error_tables",  # tables of faults and errors, from the code
     "repository_links",  # links to files of the repository that are no pages
     "whole_properties",  # no types in docstrings of properties
+    "commands",  # `{commands}`: the command line, from the program
+    "drawn",  # `{drawn}`: pictures of the gallery
+    "mathml",  # equations without a script
+    "sphinx_copybutton",
 ]
 exclude_patterns = ["_build", "figures/*.py", "jupyter_execute"]
 html_theme = "furo"
@@ -43,10 +47,14 @@ if shutil.which("doxygen"):
     breathe_show_include = False
     cpp_id_attributes = ["EBAC_RT"]
 else:
-    exclude_patterns.append("api/cpp/*")
+    exclude_patterns.append("reference/cpp/*")
     suppress_warnings.append("toc.excluded")
 
-myst_enable_extensions = ["colon_fence", "deflist"]
+myst_enable_extensions = ["colon_fence", "deflist", "dollarmath"]
+myst_dmath_allow_digits = False  # "$5 and $6" is no equation
+html_math_renderer = "mathml"
+math_eqref_format = "(T{number})"  # the numbers of the paper have no letter
+copybutton_exclude = ".linenos, .gp, .go"
 myst_heading_anchors = 3
 nb_execution_mode = "cache"  # executed again when a notebook changes; CI builds from nothing
 nb_execution_timeout = 120

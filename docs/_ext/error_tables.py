@@ -14,13 +14,13 @@ Row = tuple[str, ...]
 
 
 def faults() -> Iterator[Row]:
-    """Every fault of the loop: number and name from the module, the rest from its enum and docs/faults.md."""
+    """Every fault of the loop: number and name from the module, the rest from its enum and the page on safety."""
     from ebac import Fault
 
     yield "number", "`ebac.Fault`", "what happened", "what to do"
     header = (ROOT / "cpp/ebac/core/sample.hpp").read_text(encoding="utf-8")
     told = dict(re.findall(r"^\s*k\w+ = (\d+),\s*// (.+)$", header, re.M))
-    page = (ROOT / "docs/faults.md").read_text(encoding="utf-8")
+    page = (ROOT / "docs/explanation/safety.md").read_text(encoding="utf-8")
     remedies = dict(re.findall(r"^\| (\d+) \|(?:[^|]*\|){2} (.+?) \|$", page, re.M))
     for fault in Fault:
         number = str(int(fault))

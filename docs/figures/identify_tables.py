@@ -6,8 +6,8 @@ from math import sqrt
 
 from printed import Printed, Row, code, table
 
-from ebac.identify.gains_check import LAWS
-from ebac.identify.gains_table import HOW, NUMBERS, OVER, side_by_side, written
+from ebac.identify.gains.check import LAWS
+from ebac.identify.gains.table import HOW, NUMBERS, OVER, side_by_side, written
 
 #: Seeds 1 to 10 were looked at while the intervals were made; what is shown is the first of those that were not.
 ARM, DEVICE = (

@@ -11,7 +11,7 @@ from printed import Printed, Row, code, fixed, joules, table
 import ebac
 from ebac.studies.conditions import conditions
 from ebac.studies.families import find_family
-from ebac.zwidth.result import CRITERIA
+from ebac.studies.zwidth.result import CRITERIA
 
 TO_50 = "zwidth --law direct --law ebac --most-damping 50 --points 21 --delay 1"
 #: Measures of `ebac ablation`: the key, the heading, how its number is written.

@@ -14,7 +14,6 @@ import numpy as np
 from PIL import Image
 
 import ebac
-from ebac.maps import AXES, stability_map
 from ebac.plot import (
     Picture,
     colour,
@@ -28,7 +27,8 @@ from ebac.plot import (
     plot_walls,
     plot_zwidth,
 )
-from ebac.zwidth import zwidth
+from ebac.studies.maps import AXES, stability_map
+from ebac.studies.zwidth import zwidth
 
 HERE = Path(__file__).parent
 LAWS = ("tca", "tca-damped", "eba", "ebac-printed", "ebac")
@@ -40,6 +40,11 @@ def walls() -> Picture:
     """`ebac wall --law tca --law eba --law ebac-printed --law ebac`."""
     names = ("tca", "eba", "ebac-printed", "ebac")
     return plot_walls([ebac.simulate(ebac.Scenario(), name) for name in names])
+
+
+def three_laws() -> Picture:
+    """`ebac wall`, the picture of the README."""
+    return plot_walls([ebac.simulate(ebac.Scenario(), name) for name in ("tca", "eba", "ebac")])
 
 
 def hands() -> Picture:
@@ -100,6 +105,7 @@ def energy() -> Picture:
 
 
 FIGURES: dict[str, Callable[[], Picture]] = {
+    "three_laws": three_laws,
     "walls": walls,
     "hands": hands,
     "ablation": ablation,

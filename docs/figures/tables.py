@@ -25,7 +25,13 @@ from printed import Printed, names, put
 DOCS = Path(__file__).parents[1]
 PAGES = tuple(
     DOCS / name
-    for name in ("evidence.md", "story.md", "robustness.md", "identification.md", "tracking.md")
+    for name in (
+        "explanation/evidence.md",
+        "explanation/story.md",
+        "explanation/robustness.md",
+        "explanation/identification.md",
+        "how-to/evaluate_tracking.md",
+    )
 )
 TABLES: dict[str, Callable[[Printed], str]] = {
     "grid": populations.grid,

@@ -1,0 +1,34 @@
+"""Equations as MathML, which browsers typeset by themselves: no script and nothing from the network."""
+
+from typing import Any
+
+from docutils import nodes
+from latex2mathml.converter import convert
+from sphinx.application import Sphinx
+from sphinx.locale import _
+from sphinx.writers.html5 import HTML5Translator
+
+
+def inline(self: HTML5Translator, node: nodes.math) -> None:
+    """Write an expression within a sentence."""
+    self.body.append(convert(node.astext()))
+    raise nodes.SkipNode
+
+
+def block(self: HTML5Translator, node: nodes.math_block) -> None:
+    """Write an equation on a line of its own, with its number where it has one."""
+    self.body.append(self.starttag(node, "div", CLASS="math equation"))
+    if number := node["number"]:
+        self.body.append(f'<span class="eqno">(T{number})')
+        self.add_permalink_ref(node, _("Link to this equation"))
+        self.body.append("</span>")
+    for line in node.astext().split("\n\n"):
+        self.body.append(convert(line, display="block"))
+    self.body.append("</div>")
+    raise nodes.SkipNode
+
+
+def setup(app: Sphinx) -> dict[str, Any]:
+    """Register the renderer; `html_math_renderer = "mathml"` chooses it."""
+    app.add_html_math_renderer("mathml", (inline, None), (block, None))
+    return {"parallel_read_safe": True, "parallel_write_safe": True}
