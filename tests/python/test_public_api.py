@@ -87,7 +87,7 @@ def members(cls: type) -> Iterator[str]:
 
 
 def entries(path: str, module: ModuleType) -> Iterator[str]:
-    for name in sorted(dir(module)):
+    for name in sorted(getattr(module, "__all__", dir(module))):
         thing = getattr(module, name)
         full = f"{path}.{name}"
         if inspect.ismodule(thing):
@@ -108,7 +108,7 @@ def api() -> list[str]:
     lines = list(entries("ebac", ebac))
     for name, module in MODULES.items():
         lines += entries(f"ebac.{name}", module)
-        for part in sorted(filter(str.isidentifier, dir(module))):
+        for part in sorted(getattr(module, "__all__", dir(module))):
             inner = getattr(module, part)
             if inspect.ismodule(inner) and hasattr(inner, "__all__"):
                 lines += entries(f"ebac.{name}.{part}", inner)
