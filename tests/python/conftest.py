@@ -7,6 +7,7 @@ answers it waiting, the test is repeated, four times at most, and the summary sa
 """
 
 import re
+import signal
 import time
 from collections.abc import Callable, Iterator
 from functools import cache
@@ -27,6 +28,10 @@ if TYPE_CHECKING:
 settings.register_profile("ebac", deadline=None, derandomize=True, database=None)
 settings.register_profile("explore", deadline=None, max_examples=5000, database=None)
 settings.load_profile("ebac")
+
+# A shell that starts pytest in the background has SIGINT ignored, and every program that a test interrupts would too.
+if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
+    signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
 @cache
