@@ -1,7 +1,7 @@
 """The whole of a run over SocketCAN: loop on the virtual interface that EBAC_CAN names, drives in another process.
 
 `.ci/socketcan/run` gives an interface, under an emulated kernel some ten times as slow as a real one: the loop runs at
-100 Hz there.
+25 Hz there, so that its threads, which run before all others, leave time for the test.
 """
 
 import os
@@ -23,7 +23,7 @@ from ebac.hardware import Configuration, under_the_law
 
 INTERFACE = os.environ.get("EBAC_CAN", "")
 EXAMPLE = Path(__file__).parents[2] / "examples" / "joystick.toml"
-DT = 0.01  # s
+DT = 0.04  # s
 PATIENCE = 180.0  # s
 
 pytestmark = pytest.mark.skipif(
@@ -33,14 +33,14 @@ pytestmark = pytest.mark.skipif(
 
 @pytest.fixture
 def config(tmp_path: Path) -> Path:
-    """The example on the interface of the test, slow and patient; a wall that 100 Hz can render."""
+    """The example on the interface of the test, slow and patient; a wall that 25 Hz can render."""
     text = EXAMPLE.read_text(encoding="utf-8")
     for before, after in (
         ('"can0"', f'"{INTERFACE}"'),
         ("silent = 10", "silent = 500"),
         ('setup = "verify"', 'setup = "apply"'),
         ("dt = 1e-3", f"dt = {DT}"),
-        ("stiffness = 10e3", "stiffness = 200.0"),
+        ("stiffness = 10e3", "stiffness = 50.0"),
         ("[limits]", "[limits]\noverruns = 100000\nforce_age = 10.0\njump = 0.05"),
         ("seconds = 10.0", "seconds = 3.0"),
     ):
@@ -88,7 +88,7 @@ def test_hardware_is_what_stands_on_the_interface(config: Path, tmp_path: Path) 
         assert states() == [drives.State.SWITCH_ON_DISABLED] * 2
     part = under_the_law(trace)
     assert len(part) == round(3 / DT)
-    assert np.abs(part["f_applied"][:, 0]).max() > 0.5  # N: the wall was felt
+    assert np.abs(part["f_applied"][:, 0]).max() > 0.1  # N: the wall was felt
     assert np.abs(part["f_meas"][:, 0]).max() > 0.5  # N: and the hand, over UDP
     assert device.report is not None
     assert device.report.drives == ("switch on disabled",) * 2
@@ -107,7 +107,7 @@ def test_a_hand_in_another_process_is_told_where_to_go(config: Path, tmp_path: P
     text = config.read_text(encoding="utf-8")
     for before, after in (
         ('type = "Wall"', 'type = "Free"'),
-        ("stiffness = 200.0", ""),
+        ("stiffness = 50.0", ""),
         ("position = 0.01", ""),
         ("at = 0.5", "at = 500"),
     ):
@@ -142,7 +142,7 @@ def test_a_killed_loop_leaves_the_drives_to_their_own_watch(config: Path, tmp_pa
         process = subprocess.Popen([*command, "--seconds", "600"])
         end = time.monotonic() + PATIENCE
         while time.monotonic() < end and not any(
-            path.stat().st_size > 20_000 for path in out.glob("*.mcap")
+            path.stat().st_size > 5_000 for path in out.glob("*.mcap")
         ):
             assert process.poll() is None
             time.sleep(0.05)
