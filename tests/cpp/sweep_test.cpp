@@ -8,7 +8,9 @@
 #include <cstring>
 #include <thread>
 
-#include "ebac/control/laws.hpp"
+#include "designed_law.hpp"
+#include "ebac/control/law_type.hpp"
+#include "ebac/sim/any_law.hpp"
 
 namespace ebac {
 namespace {
@@ -37,14 +39,13 @@ Tasks noisy_hands(int count) {
   return tasks;
 }
 
-template <class Law>
-std::vector<Outcome> run(const Tasks& tasks, const Law& law, int threads, SweepProgress& progress) {
-  const std::vector<const Law*> laws(tasks.setups.size(), &law);
-  return sweep(tasks.pointers(), laws, threads, RunLimits{}, progress);
+std::vector<Outcome> run(const Tasks& tasks, const AnyLaw& law, int threads,
+                         SweepProgress& progress) {
+  const std::vector<const AnyLaw*> laws(tasks.setups.size(), &law);
+  return sweep_any(tasks.pointers(), laws, threads, RunLimits{}, progress);
 }
 
-template <class Law>
-std::vector<Outcome> run(const Tasks& tasks, const Law& law, int threads) {
+std::vector<Outcome> run(const Tasks& tasks, const AnyLaw& law, int threads) {
   SweepProgress progress;
   return run(tasks, law, threads, progress);
 }
@@ -73,6 +74,7 @@ class Pusher {
  public:
   static constexpr std::string_view kName = "pusher";
   static constexpr std::string_view kSummary = "pushes";
+  static constexpr bool kPassive = false;
   struct Params {
     double force = -40;  // N
     static Params design(const DeviceFacts&, Timing) { return {}; }
@@ -96,10 +98,10 @@ class Pusher {
 
 TEST(Sweep, MeasuresWhatSimulateWrites) {
   const Tasks tasks = noisy_hands(5);
-  const Ebac law(Ebac::Params{});
+  const AnyLaw law = designed_law("ebac");
   const std::vector<Outcome> outcomes = run(tasks, law, 2);
   for (std::size_t i = 0; i < tasks.setups.size(); ++i) {
-    const auto trace = simulate(tasks.setups[i], law);
+    const auto trace = simulate_any(tasks.setups[i], law);
     EXPECT_EQ(outcomes[i].ticks, trace->size());
     EXPECT_TRUE(outcomes[i].done);
     const auto t = column(*trace, "t");
@@ -126,7 +128,7 @@ TEST(Sweep, MeasuresWhatSimulateWrites) {
 
 TEST(Sweep, GivesTheSameBitsWithAnyNumberOfThreads) {
   const Tasks tasks = noisy_hands(23);
-  const Tca law(Tca::Params{});
+  const AnyLaw law = designed_law("tca");
   const std::vector<Outcome> one = run(tasks, law, 1);
   for (const int threads : {2, 7, 0}) {
     const std::vector<Outcome> more = run(tasks, law, threads);
@@ -139,7 +141,7 @@ TEST(Sweep, GivesTheSameBitsWithAnyNumberOfThreads) {
 TEST(Sweep, EndsARunThatDiverges) {
   Tasks tasks;
   tasks.setups.push_back({.hand = {.mass = 0, .damping = 0, .stiffness = 0}});
-  const Outcome outcome = run(tasks, Pusher({}), 1).front();
+  const Outcome outcome = run(tasks, any_law(Pusher({})), 1).front();
   EXPECT_TRUE(outcome.diverged);
   EXPECT_TRUE(outcome.done);
   EXPECT_LT(outcome.ticks, 1000u);
@@ -149,7 +151,7 @@ TEST(Sweep, EndsARunThatDiverges) {
 
 TEST(Sweep, EndsARunThatFaults) {
   const Tasks tasks = noisy_hands(1);
-  const Outcome outcome = run(tasks, Pusher({.force = std::nan("")}), 1).front();
+  const Outcome outcome = run(tasks, any_law(Pusher({.force = std::nan("")})), 1).front();
   EXPECT_EQ(outcome.fault, Fault::kLawNotFinite);
   EXPECT_EQ(outcome.ticks, 1u);
   EXPECT_TRUE(std::isnan(outcome.contact.rest));
@@ -161,7 +163,7 @@ TEST(Sweep, StopsSoonWhenCancelledAndKeepsWhatIsDone) {
   for (std::size_t i = 1; i < 4; ++i) tasks.setups[i].seconds = 1e4;
   SweepProgress progress;
   std::vector<Outcome> outcomes;
-  std::jthread worker([&] { outcomes = run(tasks, Direct({}), 2, progress); });
+  std::jthread worker([&] { outcomes = run(tasks, designed_law("direct"), 2, progress); });
   while (progress.done == 0) std::this_thread::yield();
   progress.cancelled = true;
   worker.join();
@@ -179,9 +181,9 @@ TEST(Sweep, TellsWhatARunThrows) {
 
 TEST(Sweep, CountsWhatIsDone) {
   SweepProgress progress;
-  run(noisy_hands(9), Direct({}), 3, progress);
+  run(noisy_hands(9), designed_law("direct"), 3, progress);
   EXPECT_EQ(progress.done, 9u);
-  run(Tasks{}, Direct({}), 3, progress);
+  run(Tasks{}, designed_law("direct"), 3, progress);
   EXPECT_EQ(progress.done, 9u);
 }
 

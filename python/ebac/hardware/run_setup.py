@@ -82,7 +82,8 @@ def started(law: Any, backend: Backend, setup: _core.RunSetup) -> _core.Running:
     """
     if not hasattr(law, "_start"):
         raise TypeError(
-            f"{law!r}: was bound out of tree without `bind_start_of`, so the real-time loop does not know it"
+            f"{law!r}: cannot run in real time, as it is not one of the library's laws compiled in C++; "
+            "simulate it instead (`ebac.simulate`, `ebac run --virtual`)"
         )
     running: _core.Running = law._start(backend.bus, setup)
     return running

@@ -30,7 +30,7 @@ def plot_ablation(found: Ablation) -> Picture:
         Orange is worse than the law as it is, blue better, grey no difference that matters.
     """
     rows = found.rows
-    figure = new_figure(2.2 + 0.98 * len(found.measures), 2.5 + 0.34 * len(rows))
+    figure = new_figure(2.2 + 0.98 * len(found.measures), 2.7 + 0.34 * len(rows))
     ax = figure.subplots()
     for y, row in enumerate(rows):
         for x, measure in enumerate(found.measures):
@@ -49,7 +49,8 @@ def plot_ablation(found: Ablation) -> Picture:
         ax.axhline(border, color="black", lw=1)
     hands = len(found.study.operators)
     figure.suptitle(
-        f"Ablation of {found.law}, simulated with {hands} hands: each row is one change of the law",
+        f"Ablation of {found.law}, simulated with {hands} hands: each row is one change of the law\n"
+        f"{found.study.conditions[0].summary}, where a heading has no other",
         fontsize="medium",
     )
     marks = (

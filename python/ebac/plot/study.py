@@ -146,14 +146,18 @@ def _overview(study: Study) -> Picture:
     drawn = [
         [None if r.most_drawn_J is None else 1e3 * r.most_drawn_J for r in line] for line in every
     ]
-    figure = new_figure(2.6 + 1.7 * len(laws), 1.5 + 0.24 * len(names))
+    figure = new_figure(2.6 + 1.7 * len(laws), 1.7 + 0.24 * len(names))
     left, right = figure.subplots(1, 2, sharey=True)
     _table(left, good, {"cmap": "RdYlBu", "vmin": 0, "vmax": 100})
     left.set_title("good hands [%]", fontsize="medium")
     log: dict[str, Any] = {"cmap": "YlOrRd", "norm": LogNorm(1e-2, 1e5, clip=True)}
     _table(right, drawn, log)
     right.set_title("most energy drawn [mJ]", fontsize="medium")
-    figure.suptitle(f"Study, simulated with {len(study.operators)} hands", fontsize="medium")
+    figure.suptitle(
+        f"Study, simulated with {len(study.operators)} hands\n"
+        f"{formatting.describe(study.scenarios[0]).split('; ')[0]}, changed as each condition says",
+        fontsize="medium",
+    )
     for ax in (left, right):
         ax.set_xticks(range(len(laws)), laws, rotation=30, ha="right")
         ax.set_yticks(range(len(names)), names)
