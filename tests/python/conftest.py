@@ -34,6 +34,14 @@ if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
     signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
+@pytest.hookimpl(optionalhook=True)
+def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> Any:
+    """Let an idle worker of `pytest -n` take tests from a busy one: those of the pages are long and stand together."""
+    from xdist.scheduler import WorkStealingScheduling
+
+    return WorkStealingScheduling(config, log) if config.getoption("dist") == "load" else None
+
+
 @cache
 def _run(law: str, changes: tuple[tuple[str, Any], ...]) -> ebac.Trace:
     return ebac.simulate(ebac.Scenario(**dict(changes)), law)
