@@ -48,7 +48,7 @@ double need(double force, double asked, const CommandsInFlight& in_flight, Lagge
   return sum;
 }
 
-LaggedForce behind_lag(double lag, double force) {
+LaggedForce lagged_force(double lag, double force) {
   LaggedForce lagged(lag);
   lagged.set_tick(100 * kTick);
   lagged.hold(force);
@@ -69,7 +69,7 @@ TEST_P(Guard, AdmitsTheLargestForceTheEnergyCovers) {
   for (int i = 0; i < 2000; ++i) {
     CommandsInFlight in_flight(delay());
     for (int j = 0; j < delay(); ++j) in_flight.push(15 * random.normal());
-    const LaggedForce lagged = behind_lag(lag(), 15 * random.normal());
+    const LaggedForce lagged = lagged_force(lag(), 15 * random.normal());
     const double asked = 20 * random.normal();
     const double v = 0.3 * random.normal();
     const double energy = 0.02 * (1 + random.symmetric());
@@ -92,7 +92,7 @@ TEST_P(Guard, TheCheapTestNeverAdmitsMoreThanTheExactOne) {
   for (int i = 0; i < 20000; ++i) {
     CommandsInFlight in_flight(delay());
     for (int j = 0; j < delay(); ++j) in_flight.push(10 * random.normal());
-    const LaggedForce lagged = behind_lag(lag(), 10 * random.normal());
+    const LaggedForce lagged = lagged_force(lag(), 10 * random.normal());
     const double asked = 10 * random.normal();
     const double v = 0.1 * random.normal();
     const double energy = 0.03 * (1 + random.symmetric());

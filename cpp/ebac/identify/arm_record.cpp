@@ -28,7 +28,7 @@ constexpr double kSharpen = 1.0 / 12;
 /// How much of a jump a tick may miss.
 constexpr double kJumpDoubt = 0.3;
 
-/// Covariance of position and velocity, foretold.
+/// Covariance of position and velocity, predicted.
 struct Spread {
   static constexpr double kFreePosition = 1;  // m^2: no information on the position of a handle
   static constexpr double kFreeVelocity = 1e2;

@@ -41,7 +41,7 @@ struct ArmGains {
 
 /// A log of one hand, and how well eq. (4) foretells it.
 ///
-/// The recorded force drives the hand; its position is foretold one tick ahead by a Kalman filter
+/// The recorded force drives the hand; its position is predicted one tick ahead by a Kalman filter
 /// and compared with the encoder. Force noise enters as an input, a count as noise of the output,
 /// so that the errors are white when model and noise are right. The initial state is free.
 ///
