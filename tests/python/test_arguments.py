@@ -1,12 +1,14 @@
 """Wrong arguments of the functions and classes of one run: a sentence of ours, never another library's."""
 
 import inspect
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from enum import Enum
 from typing import Any
 
 import pytest
 
 import ebac
+from ebac import _core
 
 S: Any = ebac.Scenario
 has = "; it has: device, hand, environment, timing, seconds, jitter, seed"
@@ -68,6 +70,114 @@ def test_wrong_arguments_are_refused_with_a_sentence(
     with pytest.raises(TypeError) as refused:
         call()
     assert str(refused.value) == message
+
+
+@pytest.mark.parametrize(
+    ("call", "message"),
+    [
+        (lambda: ebac.Encoder().read("x"), "Encoder.read: angle = 'x': must be a number"),
+        (
+            lambda: ebac.Encoder().read(1, 2),
+            "Encoder.read takes 1 value in order, not 2; it has: angle",
+        ),
+        (lambda: ebac.Encoder().read(), "Encoder.read needs angle; it has: angle"),
+        (
+            lambda: ebac.Encoder().read(angl=1),
+            "Encoder.read has no parameter 'angl', did you mean 'angle'; it has: angle",
+        ),
+        (lambda: ebac.Encoder().unwrap(1.5, 2), "Encoder.unwrap: raw = 1.5: must be an integer"),
+        (
+            lambda: ebac.Encoder().unwrap(2**80, 2),
+            f"Encoder.unwrap: raw = {2**80}: does not fit into the integer it is kept in",
+        ),
+        (lambda: ebac.Encoder.read(3, 4), "Encoder.read is a method of Encoder, not of 3 (int)"),
+        (lambda: ebac.Wall().force(1, [0]), "Wall.force: x = 1: must be a list of numbers"),
+        (lambda: ebac.Wall().as_dict(2), "Wall.as_dict takes no parameters, not 2 (int)"),
+        (lambda: ebac.Wall().replace(3), "Wall.replace takes its parameters by name, not 3 (int)"),
+        (lambda: setattr(ebac.Port(), "x", "a"), "Port.x = 'a': must be a number"),
+        (lambda: ebac.EBAC().step(), "EBAC.step needs port; it has: port"),
+        (lambda: ebac.Limits.of(3), "Limits.of: device = 3: must be a Device"),
+        (
+            lambda: ebac.sensor.SharedForce([1]),
+            "SharedForce: force = [1]: must be a list of 3 numbers",
+        ),
+        (
+            lambda: ebac.estimate_velocity(3, [1], 1, 1),
+            "estimate_velocity: estimator = 3: must be a BackwardDifference, LowPass or AdaptiveWindow",
+        ),
+        (
+            lambda: _core.Running(),
+            "Running has no constructor: functions of ebac return objects of it",
+        ),
+        (
+            lambda: ebac.simulate(S(), limits=3),
+            "ebac.simulate takes limits=True, False or a Limits, not 3 (int)",
+        ),
+        (
+            lambda: ebac.identify.fit_arm("arm.csv"),
+            "ebac.identify.fit_arm takes a Recording, as ebac.identify.load returns it, not 'arm.csv' (str)",
+        ),
+        (
+            lambda: ebac.simulate(S(seconds=0.01))["a":"b"],
+            "trace['a':'b']: must be times [s], as in trace[1.0:2.5]",
+        ),
+        (
+            lambda: ebac.testing.Tolerance(1),
+            "Tolerance takes its parameters by name, not 1 (int); it has: absolute, relative",
+        ),
+        (
+            lambda: ebac.identify.Limits(fors=1),
+            "Limits has no parameter 'fors', did you mean 'force'; "
+            "it has: overshoot, force, current, noise_gain, energy",
+        ),
+        (lambda: ebac.Variant("ebac"), "Variant needs changes; it has: law, changes"),
+    ],
+)
+def test_wrong_calls_of_methods_and_constructors_are_refused_in_our_words(
+    call: Callable[[], object], message: str
+) -> None:
+    with pytest.raises(TypeError) as refused:
+        call()
+    assert str(refused.value) == message
+
+
+def functions_of_the_core() -> Iterator[tuple[str, Any, tuple[Any, ...]]]:
+    for name, value in vars(_core).items():
+        if name.startswith("_"):
+            continue
+        if not isinstance(value, type):
+            yield name, value, ()
+        elif not issubclass(value, Enum):
+            for member, bound in vars(value).items():
+                if (
+                    member != "open"
+                    and not member.startswith("_")
+                    and callable(getattr(value, member))
+                ):
+                    own = () if isinstance(bound, staticmethod) else (object(),)
+                    yield f"{name}.{member}", getattr(value, member), own
+
+
+@pytest.mark.parametrize(
+    ("name", "function", "own"),
+    [pytest.param(*case, id=case[0]) for case in functions_of_the_core()],
+)
+def test_no_function_of_the_core_answers_in_the_words_of_pybind11(
+    name: str, function: Any, own: tuple[Any, ...]
+) -> None:
+    for values, given in [((object(),) * 20, {}), ((), {"nobody": 1}), (("x",), {})]:
+        with pytest.raises((TypeError, ValueError, AttributeError)) as refused:
+            function(*own, *values, **given)
+        assert "incompatible" not in str(refused.value)
+        assert "nvoked with" not in str(refused.value)
+
+
+@pytest.mark.parametrize("name", ["EBAC", "Ebac"])
+def test_a_law_that_does_not_exist_is_refused_with_the_nearest(name: str) -> None:
+    with pytest.raises(
+        KeyError, match=f"no law is called '{name}', did you mean 'ebac'; there are"
+    ):
+        ebac.simulate(S(), name)
 
 
 def test_a_scenario_still_shows_its_signature() -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import difflib
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from functools import wraps
 from typing import Any, TypeVar
 
@@ -13,7 +13,7 @@ Class = TypeVar("Class", bound=type)
 def require(value: Any, types: type | tuple[type, ...], function: str, wanted: str) -> None:
     """Raise TypeError unless a value is of one of the types; `wanted` names it for people."""
     if not isinstance(value, types):
-        raise TypeError(f"{function} takes {wanted}, not {_shown(value)}")
+        raise TypeError(f"{function} takes {wanted}, not {shown(value)}")
 
 
 def keywords_only(
@@ -36,7 +36,7 @@ def keywords_only(
         def by_name(self: Any, *values: Any, **given: Any) -> None:
             if values:
                 raise TypeError(
-                    f"{cls.__name__} takes its parameters by name, not {_shown(values[0])}; "
+                    f"{cls.__name__} takes its parameters by name, not {shown(values[0])}; "
                     f"it has: {', '.join(names)}"
                 )
             refuse_unknown(cls.__name__, given, names, hint)
@@ -46,6 +46,15 @@ def keywords_only(
         return cls
 
     return decorate
+
+
+def unknown_name(what: str, name: str, known: Iterable[str]) -> KeyError:
+    """Return the error for a name that does not exist, with the nearest that does."""
+    names = list(known)
+    lower = {other.lower(): other for other in names}
+    near = difflib.get_close_matches(str(name).lower(), lower, 1)
+    better = f", did you mean {lower[near[0]]!r}" if near else ""
+    return KeyError(f"no {what} is called {name!r}{better}; there are: {', '.join(names)}")
 
 
 def refuse_unknown(
@@ -64,6 +73,7 @@ def refuse_unknown(
         raise TypeError(f"{what} has no parameter {name!r}{more}; it has: {', '.join(names)}")
 
 
-def _shown(value: Any) -> str:
+def shown(value: Any) -> str:
+    """Return a value and its type for a message; a long one as its type alone."""
     text = repr(value)
     return f"{text} ({type(value).__name__})" if len(text) <= 60 else type(value).__name__

@@ -24,28 +24,64 @@ FACTORS: dict[str, dict[str, float]] = {
 }
 
 
+#: Names of signals without unit, by quantity.
+_SIGNALS = {
+    "time": re.compile(r"t|time"),
+    "length": re.compile(r"(true\.)?[xyz](_\d)?|pos|position|target"),
+    "force": re.compile(r"(true\.)?f(_[a-z]+)*(_\d)?|force(_[a-z\d]+)?|motor|desired"),
+}
+
+
 def split_heading(heading: str, units: Collection[str]) -> tuple[str, str | None]:
     """Return name and unit of a heading; the unit is None where there is none.
 
     Parameters
     ----------
     heading : str
-        `x [mm]`, `x (mm)`, `x_mm`, `x mm` or `x/mm`.
+        `x [mm]`, `x (mm)`, `x_mm`, `x mm`, `x.mm` or `x/mm`.
     units : collection of str
-        What may be a unit without brackets; anything in brackets is one.
+        What may be a unit without brackets, in capital or small letters; anything in brackets is one.
     """
     text = heading.strip().replace(
         "\u03bc", "\u00b5"
     )  # the Greek letter and the micro sign look alike
     match = re.fullmatch(r"(.*?)\s*(?:\[\s*([^\]]*?)\s*\]|\(\s*([^)]*?)\s*\))", text)
     if match and match[1]:
-        return match[1], _plain(match[2] or match[3]) or None
+        return match[1], _plain(_standard(match[2] or match[3], units)) or None
     for unit in sorted(units, key=len, reverse=True):
-        stem = text.removesuffix(unit)
-        name = stem.rstrip("_/ ")
-        if stem != text and name and name != stem:
+        stem, end = text[: -len(unit)], text[-len(unit) :]
+        name = stem.rstrip("_/. ")
+        if name and name != stem and _standard(end, [unit]) == unit:
             return name, _plain(unit)
     return text, None
+
+
+def signal_heading(heading: str) -> tuple[str, str, float]:
+    """Return name, SI unit and factor to it of the heading of a log.
+
+    A unit without brackets is one where it fits the name: `x_mm` is x in mm, `law.f_d` stays whole. Time, position
+    and force without unit are in SI units.
+    """
+    every = [unit for units in FACTORS.values() for unit in units]
+    name, unit = split_heading(heading, ())
+    unit = unit and _plain(_standard(unit, every))
+    for quantity, known in _SIGNALS.items():
+        stem, own = (name, unit) if unit else split_heading(heading, FACTORS[quantity])
+        if known.fullmatch(stem.lower()):
+            name = "t" if stem.lower() == "time" else stem.lower()
+            unit = own or next(iter(FACTORS[quantity]))
+    for units in FACTORS.values():
+        if unit in units:
+            return name, next(iter(units)), units[unit]
+    return name, unit or "1", 1.0
+
+
+def _standard(unit: str | None, units: Collection[str]) -> str:
+    """Return a unit in its standard letters: mm for MM. MN stays: it is no mN."""
+    if not unit or unit in units:
+        return unit or ""
+    same = (known for known in units if known.lower() == unit.lower())
+    return next((known for known in same if unit[0] != "M" or known != "mN"), unit)
 
 
 def _plain(unit: str | None) -> str:

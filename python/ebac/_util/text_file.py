@@ -1,0 +1,29 @@
+"""Text files, or a sentence that names the line that is none."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+
+def read_text(path: str | Path) -> str:
+    """Return the text of a file in UTF-8, a byte order mark aside.
+
+    Raises
+    ------
+    OSError
+        When it cannot be opened.
+    ValueError
+        When it is no text; the message names the line, not the file.
+    """
+    data = Path(path).read_bytes()
+    try:
+        text, wrong = data.decode("utf-8-sig"), data.find(b"\0")
+    except UnicodeDecodeError as error:
+        text, wrong = "", error.start
+    if wrong < 0:
+        return text.replace("\r\n", "\n")
+    line = data.count(b"\n", 0, wrong) + 1
+    raise ValueError(
+        f"is no text in UTF-8 (line {line}, byte 0x{data[wrong]:02x}); save it in UTF-8, or check that it is the "
+        "right file"
+    )
