@@ -221,6 +221,11 @@ def test_wall_takes_every_option_into_the_scenario() -> None:
     assert scenario["device"]["drive"]["permille"] is True
 
 
+def test_several_laws_have_commas_between_them() -> None:
+    text = refusal("wall", "--law", "tca ebac")
+    assert "--law tca ebac: several names have commas between them, as in --law tca,ebac" in text
+
+
 def test_wall_runs_every_law_once() -> None:
     assert list(wall_rows("--law", "all", "--law", "tca", "--seconds", "0.1")) == list(ebac.LAWS)
 
@@ -295,6 +300,23 @@ def test_a_fault_is_told_and_its_log_kept(monkeypatch: pytest.MonkeyPatch, tmp_p
         ("specs --device bob", "joystick"),
         ("bench --repeats 0", "--repeats"),
         ("wal", "wal"),
+        ("wall extra", "extra: too many words; quote a value that has spaces, or see --help"),
+        ("wall one two", "one two: too many words"),
+        ("wall --scenario latin.toml", "latin.toml: is no text in UTF-8 (line 1, byte 0xe9)"),
+        ("study --population latin.csv", "latin.csv: is no text in UTF-8 (line 1, byte 0xe9)"),
+        ("log plot latin.csv", "latin.csv: is no text in UTF-8 (line 1, byte 0xe9)"),
+        ("wall --law tca;ebac", "--law tca;ebac"),
+        ("wall --format=", "--format: is empty; must be png, pdf or svg"),
+        ("study --seed -1", "--seed = -1: must be 0 or more"),
+        ("study --delay 2", "--delay: there is no such option here, --condition sets it"),
+        ("study --hand-mass 2", "--hand-mass: there is no such option here, --population sets it"),
+        ("worst --hand finger", "--hand: there is no such option here, --family sets it"),
+        (
+            "drive scan --interface soketcan",
+            "--interface soketcan: no such name, did you mean 'soc",
+        ),
+        ("drive simulate --aim 99999999999999999999", "--aim = 99999999999999999999: must be 0 to"),
+        ("identify arm file.csv --lag 1e-300", "--lag = 1e-300 s: must be 0, or lie in [1e-06, 1]"),
     ],
 )
 def test_bad_input_is_refused_in_one_sentence(words: str, expected: str, tmp_path: Path) -> None:
@@ -303,6 +325,8 @@ def test_bad_input_is_refused_in_one_sentence(words: str, expected: str, tmp_pat
     (tmp_path / "unknown.toml").write_text("sed = 1")
     (tmp_path / "negative.toml").write_text("[environment]\nstiffness = -1")
     (tmp_path / "corner.toml").write_text('[environment]\ntype = "Corner"')
+    for name in ("latin.csv", "latin.toml"):
+        (tmp_path / name).write_bytes("# née\n".encode("latin-1"))
     (tmp_path / "sine.toml").write_text('[hand]\npath = [{type = "Sine"}]')
     before = {file.name for file in tmp_path.iterdir()}
     text = refusal(*words.split())

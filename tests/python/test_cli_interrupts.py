@@ -20,8 +20,10 @@ LONG = {
     "worst --evaluations 1000000": "--evaluations",
     "faults --cases 5000000": "--cases",
     "identify check arm --logs 5000 --workers 2": "--logs",
-    "map --side 1500": "--resume --out ebac-map",
+    "map --side 60 --seconds 200": "--resume --out ebac-map",
     "bench --repeats 100000": "--repeats",
+    "bench --can --repeats 2000": "--repeats",
+    "study --seconds 600": "--resume --out ebac-study",
     "track --simulated --runs 100000": "--runs",
 }
 #: Processor time after which a command is at its work [s].
@@ -81,7 +83,21 @@ def test_ctrl_c_says_what_is_kept_and_how_to_go_on(words: str, tmp_path: Path) -
     assert "Traceback" not in said
     assert "Ctrl-C" in said
     assert LONG[words] in said
-    assert seconds < 60
+    assert seconds < 20
+
+
+def test_a_run_that_was_interrupted_names_its_log_and_what_to_do_with_it(tmp_path: Path) -> None:
+    datasets.write("joystick", tmp_path)
+    process = start("run joystick.toml --simulated --seconds 60", tmp_path)
+    while process.poll() is None and not list(tmp_path.glob("ebac-run/*.mcap")):
+        time.sleep(0.05)
+    time.sleep(2)  # its rows are under way
+    os.killpg(process.pid, signal.SIGINT)
+    out, err = process.communicate(timeout=60)
+    said = " ".join((out + err).split())
+    assert process.returncode == 130, said
+    (log,) = (tmp_path / "ebac-run").iterdir()
+    assert f"`ebac log plot ebac-run/{log.name}`" in said
 
 
 def test_what_was_interrupted_is_resumed(tmp_path: Path) -> None:

@@ -30,6 +30,30 @@ def test_a_missing_folder_is_no_file(
     assert text in capsys.readouterr().err
 
 
+@pytest.mark.parametrize("width", [60, 80, 200])
+def test_a_wide_table_is_printed_in_parts_with_the_names_of_its_rows(
+    width: int, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("COLUMNS", str(width))
+    names = ["condition", "law", "good hands", "least energy", "settled in time", "most drawn"]
+    grid = output.table([*names, "meaning"], numbers=range(2, 6))
+    laws = ["passivity-control", "virtual-coupling"]
+    for i, law in enumerate(laws):
+        numbers = (f"{i}{n}0.25 mJ" for n in range(4))
+        grid.add_row(
+            "" if i else "slow-press", law, *numbers, "what gets worse without this part of it"
+        )
+    output.show(grid)
+    shown = capsys.readouterr().out
+    lines = [line for line in shown.splitlines() if any(law in line for law in laws)]
+    assert max(map(len, shown.splitlines())) <= width
+    assert all(
+        sum(f"{i}{n}0.25 mJ" in line for line in lines) == 1 for i in (0, 1) for n in range(4)
+    )
+    assert width == 200 or all("slow-press" in line for line in lines)
+    assert len(lines) == len(laws) * (1 if width == 200 else shown.count("condition"))
+
+
 def test_the_runs_that_resume_needs_are_listed(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -91,7 +91,7 @@ def test_a_run_gives_rows_verdict_figure_and_a_log_that_others_read(
         reader = make_reader(file, validate_crcs=True)
         assert sum(1 for _ in reader.iter_messages(topics="/ebac")) == len(trace)
         names = {one.name for one in reader.iter_attachments()}
-    assert "configuration.toml" in names
+    assert {"configuration.toml", "simulated.txt"} <= names
     assert {path.suffix for path in out.iterdir()} == {".mcap", ".png", ".json"}
     info = subprocess.run(
         [sys.executable, "-m", "ebac.cli", "log", "info", str(log), "--json"],

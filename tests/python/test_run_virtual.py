@@ -35,9 +35,34 @@ def test_a_virtual_run_is_the_simulation_and_leaves_the_same_files(tmp_path: Pat
     np.testing.assert_array_equal(ebac.logs.load(log)["x"], trace["x"])
 
 
+def test_two_runs_of_one_second_have_names_of_their_own(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    module = import_module("ebac.cli.run.run")
+    monkeypatch.setattr(module.time, "strftime", lambda *_: "run-now")
+    assert [module._stem(tmp_path).name for _ in range(3)] == ["run-now", "run-now-2", "run-now-3"]
+    (tmp_path / "run-now-4.mcap").touch()
+    assert module._stem(tmp_path).name == "run-now-5"
+    for stem in ("run-now", "run-now-2", "run-now-3", "run-now-5"):
+        module._leave(tmp_path / stem)
+    assert [file.name for file in tmp_path.iterdir()] == ["run-now-4.mcap"]
+
+
 def test_a_virtual_run_tells_that_its_clock_is_virtual() -> None:
     done = CliRunner().invoke(app, [*RUN, "--no-files"])
     assert "on a virtual clock: every tick in time" in " ".join(done.stdout.split())
+
+
+def test_a_run_whose_parameters_changed_has_no_verdict(capsys: pytest.CaptureFixture[str]) -> None:
+    results = import_module("ebac.cli.run.results")
+    known = Configuration.load(EXAMPLE).replace(seconds=1.0)
+    found = results.Result.of_virtual(known, known.simulate(), None, None)
+    results.show(found)
+    assert "there is no verdict" not in capsys.readouterr().out
+    results.show(replace(found, changed=True))
+    shown = " ".join(capsys.readouterr().out.split())
+    assert "there is no verdict" in shown
+    assert shown.count("verdict") == 1
 
 
 @pytest.mark.parametrize("other", [["--simulated"], ["--at", "0.5 law.kp=0"], ["--detached"]])

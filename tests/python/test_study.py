@@ -14,6 +14,7 @@ from ebac import CONDITIONS, Condition, Operators, Study, study
 from ebac.cli import app
 from ebac.studies import GROUPS
 from ebac.studies import scenario_changes as to
+from ebac.studies.conditions import conditions as find
 from ebac.studies.study import ideal_contacts
 
 FEW = Operators.grid(mass=[0.15], damping=[2, 4, 6], stiffness=[300], target=[0.04])  # 3 hands
@@ -267,6 +268,20 @@ def test_a_folder_of_results(hands_csv: Path, few: Study) -> None:
     assert command(*words, "--resume").stdout == shown
 
 
+def test_resume_continues_in_a_folder_of_runs_only(tmp_path: Path, hands_csv: Path) -> None:
+    mine = tmp_path / "mine"
+    mine.mkdir()
+    (mine / "study.json").write_text("mine")
+    words = ("--population", hands_csv, "-l", "ebac", "--resume", "--out")
+    text = " ".join(command(*words, mine, code=2).output.split())
+    assert "mine has files but no runs of `ebac study` (sweep/sweep.json)" in text
+    assert "leave --resume out" in text
+    assert [file.read_text() for file in mine.iterdir()] == ["mine"]
+    command(*words, tmp_path / "new")
+    other = command(*words[:3], "eba", *words[4:], tmp_path / "new", code=2).output
+    assert "--force instead of --resume to start anew" in " ".join(other.split())
+
+
 def test_random_hands_by_number_and_seed(hands_csv: Path) -> None:
     words = ("--population", "random", "--hands", 4, "-l", "ebac", "--json")
     first, again, other = (
@@ -291,6 +306,10 @@ def test_what_cannot_be_is_refused(words: tuple[str, ...], message: str, hands_c
     text = " ".join(command(*words, code=2).output.split())
     assert message in text
     assert list(hands_csv.parent.iterdir()) == [hands_csv]
+
+
+def test_a_condition_without_its_damping_has_the_reference_damping() -> None:
+    assert find(["d2K20"]) == [CONDITIONS["d2b2K20"]]
 
 
 def test_the_conditions_are_listed() -> None:

@@ -11,8 +11,10 @@ from typing import Any, get_type_hints
 import typer
 from typer.core import TyperCommand, TyperGroup
 
-from ebac.cli import output, setting, wrong_input
+from ebac.cli import options, output, setting, wrong_input
 
+#: Panels of the options of a scenario.
+SCENARIO = (options.WALL, options.HAND, options.DEVICE, options.RUN)
 _UsageError: Any = typer.BadParameter.__mro__[1]
 
 #: Options that have a new name, one release long.
@@ -115,7 +117,7 @@ def add(
     panel : str, optional
         Panel of the help of `app` it stands in.
     defaults : str, optional
-        What the help says is the default of the options of groups, where it is not that of the reference scenario.
+        What the help says is the default of the options of a scenario, where it is not that of the reference scenario.
     """
     called = name or function.__name__.replace("_", "-")
     whole = expanded(function, called, defaults)
@@ -166,7 +168,7 @@ def _option(annotation: Any, name: str, defaults: str | None) -> Any:
     info = copy(annotation.__metadata__[0])
     if isinstance(info.show_default, str):
         info.show_default = info.show_default.replace("COMMAND", name)
-        if defaults is not None and "ebac-" not in info.show_default:
+        if defaults is not None and info.rich_help_panel in SCENARIO:
             info.show_default = defaults
     from typing import Annotated
 

@@ -52,7 +52,10 @@ class FigureOptions:
 
     def formats(self) -> list[str]:
         """Return the extensions of the figures."""
-        names = [word for text in self.figure_format or ["png"] for word in output.words(text)]
+        given = ["png"] if self.figure_format is None else self.figure_format
+        names = [word for text in given for word in output.words(text)]
+        if not names:
+            output.fail(f"--format: is empty; must be {', '.join(FORMATS[:-1])} or {FORMATS[-1]}")
         for name in names:
             if name not in FORMATS:
                 output.fail(f"--format {name}: must be {', '.join(FORMATS[:-1])} or {FORMATS[-1]}")
@@ -91,7 +94,7 @@ class ResultOptions(FigureOptions):
         typer.Option("--force", help="Write into a folder that has files.", rich_help_panel=PANEL),
     ] = False
 
-    def folder(self, command: str, *, as_json: bool, resume: bool = False) -> Path | None:
+    def folder(self, command: str, *, as_json: bool, resume: str = "") -> Path | None:
         """Return the folder to write to, None for none; one that has files ends the command.
 
         Parameters
@@ -100,21 +103,36 @@ class ResultOptions(FigureOptions):
             Name of the command, for the folder's own name.
         as_json : bool
             Whether to write only where --out is given.
-        resume : bool
-            Whether to go on in a folder: that of --out, or the last of this command.
+        resume : str
+            The folder of runs to continue from, in that of --out or in the last of this command; "" starts anew.
         """
         self.check()
         if self.out is None:
             if resume and as_json:
                 output.fail("--resume continues in a folder: give it with --out")
-            return None if as_json else own_folder(f"ebac-{command}", last=resume)
-        return free_folder(self.out, force=self.force or resume)
+            if as_json:
+                return None
+            own = own_folder(f"ebac-{command}", last=bool(resume))
+            return _resumed(own, command, resume) if resume else own
+        if resume and not self.force:
+            return _resumed(self.out, command, resume)
+        return free_folder(self.out, force=self.force)
 
 
 def free_folder(out: Path, *, force: bool) -> Path:
     """Return the folder of --out; one that has files ends the command, unless forced."""
     if not force and _has_files(out):
         output.fail(f"--out {out}: has files; give a new folder, or --force to write into this one")
+    return out
+
+
+def _resumed(out: Path, command: str, runs: str) -> Path:
+    """Return a folder that is new, empty or holds such runs; one that holds something else ends the command."""
+    if _has_files(out) and not (out / runs / "sweep.json").is_file():
+        output.fail(
+            f"--resume: {out} has files but no runs of `ebac {command}` ({runs}/sweep.json); give the folder of the "
+            f"stopped {command} with --out, or leave --resume out to start in a new folder"
+        )
     return out
 
 

@@ -60,7 +60,8 @@ def refusing() -> Iterator[None]:
     except FileNotFoundError as error:
         fail(_missing(Path(error.filename)))
     except OSError as error:
-        fail(f"{error.filename}: cannot be read ({error.strerror})")
+        where = "" if error.filename is None else f"{error.filename}: "
+        fail(f"{where}cannot be read ({error.strerror or error})")
     except (KeyError, TypeError, ValueError) as error:
         from ebac.cli.setting import in_options
 
@@ -75,12 +76,13 @@ def _missing(path: Path) -> str:
 
 
 #: What Ctrl-C says of the command that runs now: what is kept, and how to go on.
-_kept: list[str] = []
+_kept: list[Callable[[], str]] = []
+_NOTHING = "nothing was written; the same command starts from the beginning"
 
 
-def keeping(text: str) -> None:
-    """Set what Ctrl-C says from now on: what is kept, and how to go on."""
-    _kept[:] = [text]
+def keeping(text: str | Callable[[], str]) -> None:
+    """Set what Ctrl-C says from now on, or a function that returns it then: what is kept, and how to go on."""
+    _kept[:] = [text if callable(text) else lambda: text]
 
 
 @contextmanager
@@ -91,19 +93,26 @@ def interruptible() -> Iterator[None]:
         yield
     except KeyboardInterrupt as stopped:
         happened = f"Stopped by Ctrl-C: {stopped}" if str(stopped) else "Stopped by Ctrl-C"
-        kept = _kept or ["nothing was written; the same command starts from the beginning"]
-        console(stderr=True).print(f"{happened}; {kept[0]}.", markup=False, soft_wrap=True)
+        kept = _kept[0]() if _kept else _NOTHING
+        console(stderr=True).print(f"{happened}; {kept}.", markup=False, soft_wrap=True)
         raise typer.Exit(INTERRUPTED) from None
 
 
 @contextmanager
 def resumable(what: str, folder: Path | None) -> Iterator[None]:
     """Say on Ctrl-C how `what`, which keeps its finished runs in a folder, goes on."""
-    again = "give --out next time to keep finished runs"
-    if folder is not None:
-        again = (
-            f"finished runs are kept; continue with the same command and --resume --out {folder}"
+
+    def again() -> str:
+        if folder is None:
+            return "give --out next time to keep finished runs"
+        if not any(folder.glob("sweep*/sweep.json")):
+            return _NOTHING
+        kept = sum(1 for _ in folder.glob("sweep*/bundle-*.npz"))
+        runs = (
+            "finished runs are kept" if kept else "no run is kept yet, they are written in bundles"
         )
+        return f"{runs}; continue with the same command and --resume --out {folder}"
+
     keeping(again)
     yield
     if folder is not None:
@@ -226,7 +235,16 @@ def counting(what: str, *, quiet: bool) -> Iterator[Callable[[int, int], None]]:
         TimeRemainingColumn,
     )
 
-    columns = (TextColumn(what), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
+    columns = (
+        TextColumn("{task.description}"),
+        BarColumn(),
+        MofNCompleteColumn(),
+        TimeRemainingColumn(),
+    )
     with Progress(*columns, console=console(stderr=True), transient=True) as bar:
-        task = bar.add_task(what, total=None)
-        yield lambda done, total: bar.update(task, completed=done, total=total)
+        task = bar.add_task("preparing", total=None)
+
+        def count(done: int, total: int) -> None:
+            bar.update(task, description=what if done else None, completed=done, total=total)
+
+        yield count

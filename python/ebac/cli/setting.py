@@ -61,7 +61,7 @@ def law_names(given: Sequence[str], option: str = "--law") -> list[str]:
     from ebac.laws import LAWS
 
     names: list[str] = []
-    for word in (word.strip() for text in given for word in text.split(",")):
+    for word in _words(given, option):
         name = word.lower().replace("_", "-")
         if name not in LAWS and name != "all":
             raise ValueError(unknown(f"{option} {word}", name, [*LAWS, "all"]))
@@ -69,14 +69,26 @@ def law_names(given: Sequence[str], option: str = "--law") -> list[str]:
     return list(dict.fromkeys(names))
 
 
+def _words(given: Sequence[str], option: str) -> list[str]:
+    """Return the names of lists with commas between."""
+    names = [word.strip() for text in given for word in text.split(",")]
+    for name in names:
+        if " " in name:
+            raise ValueError(
+                f"{option} {name}: several names have commas between them, as in {option} {','.join(name.split())}"
+            )
+    return names
+
+
 def condition_names(given: Sequence[str]) -> list[str]:
     """Return the conditions and groups of lists with commas."""
     from ebac._util.serialisation import unknown
     from ebac.studies import CONDITIONS, GROUPS
+    from ebac.studies.conditions import ALIASES
 
-    names = [word.strip() for text in given for word in text.split(",")]
+    names = _words(given, "--condition")
     for name in names:
-        if name not in CONDITIONS and name not in GROUPS:
+        if name not in CONDITIONS and name not in GROUPS and name not in ALIASES:
             groups = ", ".join(GROUPS)
             near = unknown("", name, [*GROUPS, *CONDITIONS]).partition(";")[0].removeprefix(": ")
             raise ValueError(
@@ -122,6 +134,7 @@ def population(name: str, hands: int | None, seed: int, approach: float | None =
 
 def in_options(message: str) -> str:
     """Return what the library says of a value, by the name of the option that gave it."""
+    message = message.replace("resume=False", "--force instead of --resume")
     for pattern in (r"(?:[\w ]+: )?([A-Za-z_.]+)(?= ?= )", r"(?:[a-z_]+: )?([a-z_]+)(?= \S+: )"):
         found = re.match(pattern, message)
         if found is None:

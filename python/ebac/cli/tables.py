@@ -1,4 +1,4 @@
-"""Tables that lose nothing: where a row is too wide for the screen, its cells stand below one another."""
+"""Tables that lose nothing: one wider than the screen is printed in parts, each with the names of its rows."""
 
 from __future__ import annotations
 
@@ -6,7 +6,6 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from rich.console import Console
     from rich.table import Column, Table
     from rich.text import Text
 
@@ -27,65 +26,85 @@ def table(headings: Sequence[str], *, numbers: Sequence[int] = ()) -> Table:
 
 
 def show(grid: Table) -> None:
-    """Print a table as wide as the screen, or every row as a block of lines."""
+    """Print a table, in parts where it is wider than the screen."""
     from rich.console import Console
 
     screen = Console(highlight=False)
-    columns = [[_text(cell) for cell in column.cells] for column in grid.columns]
-    room = screen.width - 2 - 2 * len(columns)
-    if (
-        sum(max(_widest(cells), _word(c)) for c, cells in zip(grid.columns, columns, strict=True))
-        > room
-    ):
-        least, prose = 0, 0
-        for column, cells in zip(grid.columns, columns, strict=True):
-            wide = _widest(cells)
-            if wide > PROSE:
-                prose += 1
-                least += PROSE
-            else:
-                column.min_width = max(wide, _word(column))
-                least += column.min_width
-        if least > room:
-            _stack(screen, grid, columns)
-            return
-    screen.print(grid)
+    every = list(range(len(grid.columns)))
+    least = [_least(column) for column in grid.columns]
+    parts = _parts(grid, least, screen.width) if _width(least) > screen.width else [every]
+    for part in parts:
+        shown = grid if part == every else _part(grid, part)
+        _spread(shown, [least[i] for i in part], screen.width)
+        screen.print(shown)
 
 
-def _stack(screen: Console, grid: Table, columns: list[list[Text]]) -> None:
-    from rich.padding import Padding
-    from rich.text import Text
+def _spread(grid: Table, least: list[int], room: int) -> None:
+    """Set the widths of the columns: as wide as their cells where there is room, prose last."""
+    spare = max(0, room - _width(least))
+    order = sorted(range(len(least)), key=lambda i: _widest(grid.columns[i]) > PROSE)
+    for left, i in zip(range(len(order), 0, -1), order, strict=True):
+        column = grid.columns[i]
+        wanted = max(_widest(column), _text(column.header).cell_len, least[i])
+        share = spare // left if _widest(column) > PROSE else spare
+        more = min(wanted - least[i], share)
+        column.width = least[i] + more
+        spare -= more
 
-    screen.print()
-    headings = [_text(column.header) for column in grid.columns]
-    for first, *cells in zip(*columns, strict=True):
-        title = Text.assemble(headings[0], " ", first, style="bold") if headings[0] else first
-        title.stylize("bold")
-        screen.print(title)
-        short, long = Text(), []
-        for heading, cell in zip(headings[1:], cells, strict=True):
-            if not cell.plain.strip():
-                continue
-            told = Text.assemble(heading, " " if heading else "", cell)
-            if cell.cell_len > PROSE:
-                long.append(told)
-            else:
-                short.append_text(Text(", ") if short else Text()).append_text(told)
-        for text in [short, *long] if short else long:
-            screen.print(Padding(text, (0, 0, 0, 2)))
-    screen.print()
+
+def _parts(grid: Table, least: list[int], room: int) -> list[list[int]]:
+    """Return the columns of each part: those that name a row, and as many others as fit."""
+    names = _names(grid)
+    if _width(least[:names]) + max(least[names:], default=0) + 2 > room:
+        names = 1
+    parts = [list(range(names))]
+    for i in range(names, len(least)):
+        if len(parts[-1]) > names and _width([least[j] for j in (*parts[-1], i)]) > room:
+            parts.append(list(range(names)))
+        parts[-1].append(i)
+    return parts
+
+
+def _names(grid: Table) -> int:
+    """Return how many columns name a row: those before the first number; without numbers, the first."""
+    numbers = [i for i, column in enumerate(grid.columns) if column.justify == "right"]
+    return max(1, numbers[0]) if numbers else 1
+
+
+def _part(grid: Table, part: list[int]) -> Table:
+    """Return a table of some columns; a name that stands for several rows is repeated in each."""
+    numbers = [i for i, place in enumerate(part) if grid.columns[place].justify == "right"]
+    new = table([str(grid.columns[i].header) for i in part], numbers=numbers)
+    cells = [list(grid.columns[i].cells) for i in part]
+    for y, row in enumerate(grid.rows):
+        if y and not _text(cells[0][y]).plain:
+            cells[0][y] = cells[0][y - 1]
+        new.add_row(*(column[y] for column in cells), style=row.style, end_section=row.end_section)
+    return new
+
+
+def _width(columns: Sequence[int]) -> int:
+    """Return the width of a table whose columns have these widths."""
+    return sum(columns) + 2 * len(columns)
+
+
+def _least(column: Column) -> int:
+    """Return the least width of a column: prose may wrap, but no word of it breaks."""
+    wide = _widest(column)
+    if wide > PROSE:
+        wide = max(PROSE, *(_word(cell) for cell in column.cells))
+    return max(wide, _word(column.header))
+
+
+def _widest(column: Column) -> int:
+    return max((_text(cell).cell_len for cell in column.cells), default=0)
+
+
+def _word(cell: object) -> int:
+    return max(map(len, _text(cell).plain.split()), default=0)
 
 
 def _text(cell: object) -> Text:
     from rich.text import Text
 
     return Text.from_markup(cell) if isinstance(cell, str) else Text(str(cell))
-
-
-def _widest(cells: Sequence[Text]) -> int:
-    return max((cell.cell_len for cell in cells), default=0)
-
-
-def _word(column: Column) -> int:
-    words = _text(column.header).plain.split()
-    return max(map(len, words), default=0)

@@ -148,13 +148,15 @@ def _show(found: list[Tracking]) -> None:
     for t in found:
         row, fit = t.row(), t.fit
         if isinstance(fit, LineFit):
-            told = (f"{formatting.quantity(row['length_m'], 'm')} long, at {row['angle_deg']:.3f} "
+            fitted = (f"{formatting.quantity(row['length_m'], 'm')} long, at {row['angle_deg']:.3f} "
                     f"+- {1.96 * row['angle_sd_deg']:.2g} deg")  # fmt: skip
         else:
-            told = (f"radius {formatting.quantity(fit.radius, 'm')} +- {1.96e3 * fit.radius_sd_m:.2g} mm, "
+            fitted = (f"radius {formatting.quantity(fit.radius, 'm')} +- {1.96e3 * fit.radius_sd_m:.2g} mm, "
                     f"{row['arc_deg']:.0f} deg of it")  # fmt: skip
         lengths = [formatting.quantity(row[k], "m") for k in ("sd_m", "error_m", "largest_m")]
-        grid.add_row(t.path.name, t.shape, *lengths, str(row["points"]), str(row["outliers"]), told)
+        grid.add_row(
+            t.path.name, t.shape, *lengths, str(row["points"]), str(row["outliers"]), fitted
+        )
     output.show(grid)
     for t in found:
         output.say(f"{t.path.name}: {t.path.remark}.")

@@ -8,6 +8,13 @@ from difflib import get_close_matches
 from math import isfinite
 from typing import Any
 
+#: Options of a scenario, and the options that set the same where a command varies it.
+VARIED = {
+    r"--hand(-\w+)?": ("--population", "--family"),
+    r"--wall-\w+": ("--condition", "--top"),
+    r"--delay": ("--condition",),
+}
+
 
 def sentence(error: Any, command: Any, words: Sequence[str]) -> str:
     """Return what is wrong, from an error of the parser and the words it was given."""
@@ -81,6 +88,10 @@ def values_of(param: Any, words: Sequence[str]) -> Iterator[str]:
 def _unknown_option(wrong: str, command: Any) -> str:
     known = [name for p in command.params if not getattr(p, "hidden", False) for name in p.opts]
     known = [name for name in known if name.startswith("--")]
+    for pattern, others in VARIED.items():
+        other = next((name for name in others if name in known), None)
+        if other is not None and re.fullmatch(pattern, wrong):
+            return f"{wrong}: there is no such option here, {other} sets it; see --help"
     tails = {f"--{name.split('-', 3)[-1]}": name for name in known if name.count("-") > 2}
     close = get_close_matches(wrong, known, 2) or get_close_matches(wrong, list(tails), 2)
     near: list[str] = [str(tails.get(name, name)) for name in close]
@@ -91,9 +102,9 @@ def _unknown_option(wrong: str, command: Any) -> str:
 def _plain(message: str, wrong: str | None) -> str:
     if wrong and "requires" in message:
         return f"{wrong}: needs a value after it"
-    found = re.search(r"unexpected extra arguments? \((.*)\)", message)
+    found = re.search(r"unexpected extra argument(?:s|\(s\))? \((.*)\)", message)
     if found:
-        return f"{found[1]}: too many words; quote a name that has spaces, or see --help"
+        return f"{found[1]}: too many words; quote a value that has spaces, or see --help"
     return f"{message[0].lower()}{message[1:]}"
 
 

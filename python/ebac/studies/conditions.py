@@ -137,6 +137,12 @@ _ROBUSTNESS = [
 #: Every condition by its name.
 CONDITIONS: dict[str, Condition] = {c.name: c for c in (*_FIVE, *_CELLS, *_ROBUSTNESS)}
 
+#: Shorter names of conditions: d2K20 is d2b2K20, as d1K10 has a damping of 2 N s/m.
+ALIASES = {
+    short: name for name in CONDITIONS
+    if (short := name.replace("b2K", "K")) != name and short not in CONDITIONS
+}  # fmt: skip
+
 #: Groups of conditions: the names they stand for.
 GROUPS: dict[str, tuple[str, ...]] = {
     "five": tuple(c.name for c in _FIVE),
@@ -162,10 +168,10 @@ def conditions(names: Iterable[str | Condition]) -> list[Condition]:
         if isinstance(name, Condition):
             found[name.name] = name
             continue
-        if name not in CONDITIONS and name not in GROUPS:
+        if name not in CONDITIONS and name not in GROUPS and name not in ALIASES:
             raise ValueError(
                 serialisation.unknown(f"condition {name}", name, [*GROUPS, *CONDITIONS])
             )
-        for one in GROUPS.get(name, (name,)):
+        for one in GROUPS.get(name, (ALIASES.get(name, name),)):
             found[one] = CONDITIONS[one]
     return list(found.values())

@@ -63,6 +63,10 @@ def study(
     chosen = tuple(find(conditions))
     if not chosen:
         raise ValueError("no condition given: a study needs at least one")
+    named = name_laws(laws)
+    if progress is not None:
+        hands = sum(len(c.drives) or len(population) for c in chosen)
+        progress(0, hands * len(named))  # the scenarios of many take seconds
     parts = [condition.scenarios(population, base or Scenario()) for condition in chosen]
     rows = [
         np.zeros(len(p), int) if c.drives else np.arange(1, len(p) + 1)
@@ -72,7 +76,6 @@ def study(
     scenarios = [s.replace(seed=seed_of(seed, i)) for part in parts for i, s in enumerate(part)]
     lengths = [len(part) for part in parts]
     believed = [c.believed(s) for c, part in zip(chosen, parts, strict=True) for s in part]
-    named = name_laws(laws)
     result = sweep(
         scenarios, named, designed_for=believed, threads=threads, executor=executor,
         out=out, resume=resume, progress=progress,

@@ -105,7 +105,7 @@ def bench(
 
 
 def _best(timed: Callable[[int], float], repeats: int) -> float:
-    """Return the best time of so many repeats [ns], taken a few at a time so that Ctrl-C is heard."""
+    """Return the best time of so many repeats [ns], taken a few at a time so that Ctrl-C acts soon."""
     sizes = [AT_ONCE] * (repeats // AT_ONCE) + [repeats % AT_ONCE] * (repeats % AT_ONCE > 0)
     return min(timed(size) for size in sizes)
 

@@ -14,13 +14,19 @@ if TYPE_CHECKING:
 
 
 def run(repeats: int, *, as_json: bool) -> None:
-    """Time and tell."""
+    """Measure and print the results."""
+    from ebac._util.background import aside
     from ebac.peers import bus, exchange, sdo
 
     with output.progress(exchange.STEPS + bus.STEPS + sdo.STEPS, quiet=as_json) as step:
-        rows = exchange.compare(repeats=repeats, step=step)
-        rows += bus.compare_buses(repeats=max(3, repeats // 10), step=step)
-        rows += sdo.compare_reads(step=step)
+
+        def compare() -> list[PeerRow]:
+            rows = exchange.compare(repeats=repeats, step=step)
+            rows += bus.compare_buses(repeats=max(3, repeats // 10), step=step)
+            return rows + sdo.compare_reads(step=step)
+
+        # A call into the core takes seconds; this thread receives Ctrl-C meanwhile.
+        rows = aside(compare, name="ebac bench").result()
     if as_json:
         typer.echo(output.document("bench", [row.row() for row in rows]))
     else:

@@ -8,7 +8,7 @@ from ebac.cli import output
 
 
 def run(*, as_json: bool) -> None:
-    """Time and tell."""
+    """Measure and print the results."""
     from ebac.peers import logs
 
     with output.progress(logs.STEPS, quiet=as_json) as step:

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 def run(repeats: int, side: int, *, as_json: bool) -> None:
-    """Compare and tell."""
+    """Compare and print the results."""
     from ebac.peers.compare import STEPS, compare
 
     try:

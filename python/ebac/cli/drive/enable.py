@@ -110,7 +110,7 @@ def reset_fault(
 
 
 def _each(command: str, act: Callable[[Drive], object], chosen: list[Drive], as_json: bool) -> None:
-    """Do something with every drive, also when one of them fails; then tell the first failure."""
+    """Do something with every drive, also when one of them fails; then report the first failure."""
     from ebac.drives import DriveError
 
     failures: list[DriveError] = []

@@ -126,13 +126,15 @@ def telling() -> Iterator[None]:
             notes = getattr(error, "__notes__", [])
             output.fail(". ".join([str(error), *notes]), code=output.FAILED)
         except KeyboardInterrupt as error:
-            notes = getattr(error, "__notes__", ["interrupted"])
+            notes = getattr(error, "__notes__", [])
+            if not notes:
+                raise
             output.fail(". ".join(notes), code=output.INTERRUPTED)
 
 
 @contextmanager
 def _silent(name: str) -> Iterator[None]:
-    """Let a logger tell nothing but what is critical."""
+    """Let a logger report only what is critical."""
     import logging
 
     logger = logging.getLogger(name)
@@ -144,11 +146,23 @@ def _silent(name: str) -> Iterator[None]:
         logger.setLevel(before)
 
 
+def known_interface(name: str | None) -> None:
+    """Raise ValueError for an interface that python-can does not have."""
+    from can import VALID_INTERFACES
+
+    from ebac._util.serialisation import unknown
+
+    if name is not None and name not in VALID_INTERFACES:
+        raise ValueError(unknown(f"--interface {name}", name, sorted(VALID_INTERFACES)))
+
+
 @contextmanager
 def opened(where: BusOptions) -> Iterator[DriveBus]:
     """Give an open bus; what goes wrong on it ends the command."""
     from ebac.drives import DriveBus
 
+    with output.refusing():
+        known_interface(where.interface)
     with (
         telling(),
         DriveBus.open(
@@ -184,7 +198,7 @@ def is_drive(drive: Drive) -> bool:
 
 
 def sure(question: str, yes: bool) -> None:
-    """Ask, unless told not to; where nobody can be asked, refuse."""
+    """Ask, unless --yes is given; where nobody can be asked, refuse."""
     if yes:
         return
     if not sys.stdin.isatty():
@@ -204,7 +218,7 @@ def network_of(profile: str, node: list[int] | None, bitrate: int | None) -> Net
 
 
 def about(network: Network) -> dict[str, Any]:
-    """Return what JSON tells of a network."""
+    """Return the JSON document of a network."""
     load = network.load()
     return {
         "profile": network.name,

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from ebac.cli import options, output, simulated
-from ebac.cli.drive.options import Bitrate, telling
+from ebac.cli.drive.options import Bitrate, known_interface, telling
 from ebac.cli.machine.grants import show_refused
 
 if TYPE_CHECKING:
@@ -87,11 +87,11 @@ def simulate(
         bool,
         typer.Option(
             "--until-eof",
-            help="Stop when standard input ends, as it does with a parent; tell it as JSON, in a second line, "
-            "what the threads were granted.",
+            help="Stop when standard input ends, as it does with a parent process; print what the threads were "
+            "granted as JSON, in a second line.",
         ),
     ] = False,
-    aim: Annotated[int | None, typer.Option(hidden=True)] = None,
+    aim: Annotated[int | None, typer.Option(hidden=True, min=0, max=2**31 - 1)] = None,
 ) -> None:
     """Put the simulated drives of a joystick on a bus, in real time, until Ctrl-C. A simulation.
 
@@ -181,6 +181,7 @@ def _at_work(
     from ebac.drives.simulate import Simulation
     from ebac.hardware.backends import at_work
 
+    known_interface(interface)
     if interface == "ebac":
         raise ValueError(
             "--interface ebac: a bus within one process, where no other program would meet these "
@@ -203,7 +204,7 @@ def _at_work(
 
 
 def _tell(grants: list[Grant], *, as_json: bool) -> None:
-    """Tell what the threads were not granted; a program, all of it."""
+    """Print what the threads were not granted; for a program, all they asked for, as JSON."""
     from ebac.hardware.report import grant_row
 
     if as_json:

@@ -110,8 +110,8 @@ def _table(rows: list[dict[str, Any]]) -> None:
 
 def _say_arm(found: Check, more: dict[str, Any]) -> None:
     output.say(
-        f"Logs that cannot tell M0, B0 and K0, by the truth: {more['silent_called']} of {more['silent_cases']} called "
-        f"so; of those that can {more['telling_called']} of {more['telling_cases']}."
+        f"Logs that do not determine M0, B0 and K0, by the truth: {more['silent_called']} of {more['silent_cases']} "
+        f"called so; of those that do {more['telling_called']} of {more['telling_cases']}."
     )
     output.say(
         f"Said to be determined and wrong by half or more: {more['determined_and_wrong_by_half']} estimates."

@@ -67,7 +67,7 @@ def _notes(result: DeviceResult) -> list[str]:
     )
     alone = "The log has no force of the motor: true only of a device whose motor gave none."
     return [
-        explained,
+        *(result.misses or [explained]),
         *([alone] if result.recording.motor is None else []),
         f"For the device: Compensation(friction={static.friction:.4g} N, gravity_mass={static.gravity_mass:.4g} kg), "
         "the lower bounds of what was found.",

@@ -160,7 +160,7 @@ def _cells(result: GainsResult) -> list[dict[str, str]]:
             "noise gain": f"{row['noise_gain']:.2f}",
             "overshoot (worst)": f"{1e3 * row['overshoot_worst_m']:.2f} mm",
             "least energy": f"{1e3 * row['least_energy_J']:.1f} mJ",
-            "breaks": ", ".join(row["broken"]) or "nothing",
+            "violates": ", ".join(row["broken"]) or "nothing",
         }
         for row in result.rows()
     ]
@@ -170,7 +170,7 @@ def _notes(result: GainsResult) -> list[str]:
     limits = result.limits
     return [
         f"{len(result.hands)} hands, {len(result.chosen.presses.goals)} presses, {len(result.tried)} pairs of gains. "
-        "Over the default, geometric mean: "
+        "Relative to the default gains, geometric mean over the presses: "
         + ", ".join(f"{name} {value:.3f}" for name, value in result.chosen.ratios.items())
         + ".",
         "Constraints: overshoot "

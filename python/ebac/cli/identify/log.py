@@ -48,7 +48,7 @@ def log(
         for one, (r, _) in zip(found, pairs, strict=True):
             output.say(f"{one.name}: {r.remarks[-1]}", style="dim")
             output.say(f"{one.name}: excites {one.bands_in_words()}")
-            grid = output.table(["", "tells it", "expected deviation", ""], numbers=(2,))
+            grid = output.table(["", "determined", "expected deviation", ""], numbers=(2,))
             for row in one.rows():
                 share = row["deviation_share"]
                 grid.add_row(

@@ -1,4 +1,4 @@
-"""What the commands of `ebac identify` share: how a log is read, what the hand was told to do, the report."""
+"""What the commands of `ebac identify` share: how a log is read, the path the hand was asked to follow, the report."""
 
 from __future__ import annotations
 
@@ -19,6 +19,8 @@ if TYPE_CHECKING:
 
 #: Panels of the help.
 LOG, FIT = "Log", "Fit"
+#: The smallest lag that is not zero [s].
+LEAST_LAG = 1e-6
 Logs = Annotated[
     list[Path],
     typer.Argument(
@@ -172,6 +174,9 @@ class Reading:
         """Read one log."""
         from ebac.identify.load import load
 
+        for option, lag in (("--lag", self.lag), ("--current-lag", self.current_lag)):
+            if lag is not None and 0 < lag < LEAST_LAG:
+                raise ValueError(f"{option} = {lag:g} s: must be 0, or lie in [{LEAST_LAG:g}, 1] s")
         return load(
             path,
             columns=pairs(self.column, "--column"),

@@ -1,4 +1,4 @@
-"""What `ebac log info` tells of a log: a JSON document, or tables for people."""
+"""The output of `ebac log info`: a JSON document, or tables for people."""
 
 from __future__ import annotations
 

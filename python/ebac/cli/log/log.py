@@ -11,6 +11,7 @@ from ebac.cli import output
 from ebac.cli.command import Group, add
 from ebac.cli.files import FigureOptions, free_file, new_file
 from ebac.cli.log import info as log_info
+from ebac.cli.run.results import SIMULATED_DRIVES
 
 if TYPE_CHECKING:
     from ebac.logs import Log
@@ -82,9 +83,9 @@ def export(
     new_file("OUT", out, force=force)
     output.keeping("nothing was written")
     trace = _part(_read(file, quiet=as_json).trace, start, stop)
-    with output.refusing(), output.counting(f"writing {out.name}", quiet=as_json) as told:
+    with output.refusing(), output.counting(f"writing {out.name}", quiet=as_json) as progress:
         try:
-            trace.save(out, progress=told)
+            trace.save(out, progress=progress)
         except ModuleNotFoundError as error:
             output.fail(str(error))
         except OSError as error:
@@ -117,9 +118,9 @@ def repair(
 
     if file.exists() and file.suffix.lower() != ".mcap":
         output.fail(f"{file}: only .mcap logs can be repaired")
-    with output.refusing(), output.counting(f"reading {file.name}", quiet=as_json) as told:
+    with output.refusing(), output.counting(f"reading {file.name}", quiet=as_json) as progress:
         try:
-            new = repaired(file, out, progress=told)
+            new = repaired(file, out, progress=progress)
         except FileExistsError as error:
             output.fail(f"{error.filename}: there is such a file; give another name by --out")
         except OSError as error:
@@ -183,12 +184,13 @@ def plot(
         )
     if out is not None:
         new_file("--out", out, force=force)
-    trace = _part(_read(file, quiet=False).trace, start, stop)
+    read = _read(file, quiet=False)
+    trace = _part(read.trace, start, stop)
     with output.refusing():
         from ebac.plot import plot_columns, plot_trace
 
         chosen = [word for text in column or [] for word in output.words(text)]
-        figure = plot_columns(trace, chosen) if chosen else plot_trace(trace)
+        figure = plot_columns(trace, chosen) if chosen else plot_trace(trace, source=_source(read))
         files = [out] if out else [free_file(file.with_suffix(f".{e}")) for e in style.formats()]
         for picture in files:
             style.write(figure, picture)
@@ -206,11 +208,21 @@ add(log, plot)
 def _read(file: Path, *, quiet: bool) -> Log:
     from ebac.logs import read
 
-    with output.refusing(), output.counting(f"reading {file.name}", quiet=quiet) as told:
+    with output.refusing(), output.counting(f"reading {file.name}", quiet=quiet) as progress:
         try:
-            return read(file, progress=told)
+            return read(file, progress=progress)
         except ModuleNotFoundError as error:
             output.fail(f"{file}: {error}")
+
+
+def _source(read: Log) -> str:
+    """Return what the title calls a log whose rows do not show that they are simulated."""
+    if "simulated.txt" in read.about.attachments:
+        return SIMULATED_DRIVES
+    if read.path.suffix == ".csv":
+        with read.path.open(encoding="utf-8", errors="replace") as file:
+            return "simulated" if file.readline().startswith("# Simulated by ebac") else ""
+    return ""
 
 
 def _part(trace: Trace, start: float | None, stop: float | None) -> Trace:

@@ -13,12 +13,12 @@ if TYPE_CHECKING:
 
 def show_refused(grants: Sequence[Grant]) -> None:
     """Print each that was not granted, and the command that would grant it: the first of its kind grants the others."""
-    told: set[str] = set()
+    shown: set[str] = set()
     for grant in grants:
         if grant.granted:
             continue
         output.say(f"{grant.name}: {grant.asked}, not granted ({grant.why})", style="yellow")
         kind = grant.name.partition(" ")[0]
-        if kind not in told:
+        if kind not in shown:
             output.indented(grant.remedy)
-        told.add(kind)
+        shown.add(kind)

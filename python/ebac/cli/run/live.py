@@ -93,7 +93,7 @@ def lines(configuration: Configuration, run: Run, tail: Trace) -> list[str]:
     fault = Fault(int(tail["fault"][-1]))
     state = LoopState(int(tail["state"][-1])).name.lower()
     t = float(tail["t"][-1])
-    told = [
+    shown = [
         f"{state}, {t:.1f} s of {configuration.seconds:g} s, law {run.law.name}"
         + (f", [bold red]fault: {fault.name.lower().replace('_', ' ')}[/]" if fault else ""),
         f"lateness p50 {late[0]:.0f} µs, p99.9 {late[1]:.0f} µs, {int(tail['skipped'].sum())} ticks skipped "
@@ -102,8 +102,8 @@ def lines(configuration: Configuration, run: Run, tail: Trace) -> list[str]:
     ]
     if run.recorder is not None:
         lost = run.recorder.lost
-        told.append(
+        shown.append(
             f"log: {run.recorder.written:,} rows"
             + (f", [bold red]{lost:,} lost[/]" if lost else ", none lost")
         )
-    return told
+    return shown

@@ -18,6 +18,8 @@ if TYPE_CHECKING:
     from ebac.simulation import LoopFault
     from ebac.trace import Trace
 
+#: What the title of a figure calls a run on simulated drives.
+SIMULATED_DRIVES = "real time on simulated drives"
 #: The longest run that is also shown on a virtual clock [ticks]: about a second of computing, 100 MB of rows.
 LONGEST_EXPECTED = 100_000
 
@@ -55,6 +57,8 @@ class Result:
         Why it stopped.
     virtual : bool
         Whether the clock was virtual too.
+    changed : bool
+        Whether parameters changed during the run.
     """
 
     configuration: Configuration
@@ -67,6 +71,7 @@ class Result:
     times: Times | None
     fault: str | None
     virtual: bool = False
+    changed: bool = False
 
     @classmethod
     def of_virtual(
@@ -102,7 +107,7 @@ class Result:
         *,
         changed: bool = False,
     ) -> Self:
-        """Measure a run; `changed` on its way, it has no simulation to stand beside."""
+        """Measure a run; `changed` on its way, it has no verdict and no simulation beside it."""
         from ebac.hardware import times, under_the_law
         from ebac.metrics import FEWEST_ROWS, contact
 
@@ -119,6 +124,7 @@ class Result:
             expected=_expected(configuration) if measured and whole and simulated else None,
             times=times(part) if len(part) else None,
             fault=None if fault is None else fault.fault.name.lower(),
+            changed=changed,
         )
 
     def document(self) -> str:
@@ -140,13 +146,13 @@ class Result:
 
 
 def _expected(configuration: Configuration) -> Contact | None:
-    """Return the contact of the same run on a virtual clock; None where it is long, or ends by a fault (told)."""
+    """Return the contact of the same run on a virtual clock; None where it is long, or ends by a (printed) fault."""
     from ebac.metrics import contact
     from ebac.simulation import LoopFault
 
     if configuration.seconds > LONGEST_EXPECTED * configuration.timing.dt:
         return None
-    with warnings.catch_warnings(action="ignore"):  # the run has told how full the bus is
+    with warnings.catch_warnings(action="ignore"):  # the run has reported how full the bus is
         try:
             return contact(configuration.simulate(), truth=False)
         except LoopFault as error:
@@ -163,7 +169,7 @@ def write(result: Result, stem: Path | None, style: FigureOptions) -> list[str]:
 
     names = [f"{stem.name}.mcap"]
     if len(result.trace) >= 2:
-        source = "real time on simulated drives" if result.simulated else ""
+        source = SIMULATED_DRIVES if result.simulated else ""
         source = "virtual clock" if result.virtual else source
         names += style.save(plot_trace(result.trace, source=source), stem.parent, stem.name)
     stem.with_suffix(".json").write_text(result.document() + "\n", encoding="utf-8")
@@ -178,7 +184,12 @@ def show(result: Result) -> None:
         columns = {result.contact.law: result.contact}
         if result.expected is not None:
             columns = {"real time": result.contact, "virtual clock": result.expected}
-        results.show_table(columns)
+        results.show_table(columns, verdict=not result.changed)
+        if result.changed:
+            output.say(
+                "Parameters changed during the run (--at): ideal rest and deviation are those of the configured world "
+                "and hand, and there is no verdict."
+            )
     if result.times is not None:
         _show_times(result.times)
     report = result.report

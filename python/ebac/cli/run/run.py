@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from contextlib import suppress
+from itertools import count
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -45,9 +46,13 @@ def run(
         ),
     ] = False,
     law: Annotated[str | None, options.one_law(default="as configured")] = None,
-    rate: options.Rate = None,
+    rate: Annotated[
+        float | None,
+        options.option(text="Ticks per second [Hz]", default="as configured", panel=options.RUN),
+    ] = None,
     seconds: Annotated[
-        float | None, options.option(text="Time the law acts [s]", panel=options.RUN)
+        float | None,
+        options.option(text="Time the law acts [s]", default="as configured", panel=options.RUN),
     ] = None,
     at: Annotated[
         list[str] | None,
@@ -131,8 +136,7 @@ def run(
             _run(known, simulated, detached, stem, shown and not as_json, as_json, schedule, style)
     finally:
         if stem is not None:
-            with suppress(OSError):  # not empty: it has what the run gave
-                stem.parent.rmdir()
+            _leave(stem)
 
 
 def _configuration(
@@ -162,7 +166,7 @@ def _configuration(
 
 
 def _stem(folder: Path | None) -> Path | None:
-    """Return the name of all files of this run, without extension; nothing is ever written over."""
+    """Return the name of all files of this run, without extension; a hidden file keeps other runs from it."""
     if folder is None:
         return None
     try:
@@ -172,8 +176,24 @@ def _stem(folder: Path | None) -> Path | None:
     except OSError as error:
         output.fail(f"--out {folder}: cannot be written ({error.strerror}); give another folder")
     now = time.strftime("run-%Y%m%d-%H%M%S", time.gmtime())
-    names = [now, *(f"{now}-{i}" for i in range(2, 1000))]
-    return next(folder / name for name in names if not (folder / f"{name}.mcap").exists())
+    for number in count(1):
+        stem = folder / (now if number == 1 else f"{now}-{number}")
+        if not stem.with_suffix(".mcap").exists():
+            with suppress(FileExistsError):
+                _claim(stem).touch(exist_ok=False)  # now no other run takes this name
+                break
+    return stem
+
+
+def _claim(stem: Path) -> Path:
+    return stem.with_name(f".{stem.name}.claim")
+
+
+def _leave(stem: Path) -> None:
+    """Give up the claim on a name, and remove the folder where nothing was written."""
+    with suppress(OSError):  # the folder is not empty: it has what the run gave
+        _claim(stem).unlink()
+        stem.parent.rmdir()
 
 
 def _run(
@@ -199,6 +219,10 @@ def _run(
                 fault, trace = error, error.trace
             except BaseException:
                 _tell_end(device, as_json)
+                if log is not None and log.exists():
+                    output.keeping(
+                        f"look at the rows with `ebac log info {log}`, plot them with `ebac log plot {log}`"
+                    )
                 raise
         report, place = device.report, device.backend
     assert report is not None

@@ -128,8 +128,8 @@ def _picture(config: SensorConfig, sensor: Sensor, row: dict[str, Any]) -> Rende
     for what, unit, digits in (("force", "N", 3), ("torque", "Nm", 4)):
         numbers = [f"{row[f'{what}_{axis}_{unit}']:+.{digits}f}" for axis in "xyz"]
         grid.add_row(what, *numbers, "N m" if unit == "Nm" else unit)
-    told = "; ".join(explain(row["status"], config.model))
-    health = row["health"] + (f" ({told})" if told else "")
+    causes = "; ".join(explain(row["status"], config.model))
+    health = row["health"] + (f" ({causes})" if causes else "")
     good = row["health"] == "good"
     lines = [
         Text(

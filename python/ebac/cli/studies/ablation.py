@@ -18,8 +18,8 @@ if TYPE_CHECKING:
 _WHO, _WHAT = "Population", "Law and parts"
 #: Measures of one table on the screen.
 ABREAST = 7
-#: Differences told in a line; the tables show all.
-TOLD = 4
+#: Differences named in a line; the tables show all.
+NAMED = 4
 
 
 def ablation(
@@ -56,7 +56,8 @@ def ablation(
         ),
     ] = None,
     seed: Annotated[
-        int, typer.Option(help="Seed of random hands, noise and jitter.", rich_help_panel=_WHO)
+        int,
+        typer.Option(help="Seed of random hands, noise and jitter.", min=0, rich_help_panel=_WHO),
     ] = 1,
     threads: options.Threads = None,
     resume: Annotated[bool, options.resume("ablation")] = False,
@@ -77,7 +78,7 @@ def ablation(
 
     * `ebac ablation --population random --hands 20 --seed 7 --json`
     """
-    folder = to.folder("ablation", as_json=as_json, resume=resume)
+    folder = to.folder("ablation", as_json=as_json, resume=study_results.BUNDLES * resume)
     with output.refusing():
         given: dict[str, Any] = {
             "law": setting.one_law(law),
@@ -176,9 +177,9 @@ def _list(row: AblationRow, found: Ablation, keys: Sequence[str]) -> str:
     from ebac._util import formatting
 
     known = {measure.key: measure for measure in found.measures}
-    told = [
+    named = [
         f"{known[key].heading} {formatting.cell(found.rows[0].values[key], known[key].unit)} -> "
         f"{formatting.quantity(row.values[key], known[key].unit)}"
-        for key in keys[:TOLD]
+        for key in keys[:NAMED]
     ]
-    return ", ".join(told) + (f" and {len(keys) - TOLD} more" if len(keys) > TOLD else "")
+    return ", ".join(named) + (f" and {len(keys) - NAMED} more" if len(keys) > NAMED else "")

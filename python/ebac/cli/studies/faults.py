@@ -97,7 +97,7 @@ def _show(found: FaultCampaign) -> None:
     ]
     grid = output.table(heads, numbers=range(1, 6))
     for row in found.rows:
-        ticks = [f"{n} ticks" if row.found else "-" for n in _worst(row)]
+        ticks = [output.plural(n, "tick") if row.found else "-" for n in _worst(row)]
         grid.add_row(row.what, f"{row.cases:,}", f"{row.found:,}", *ticks, _failures(row))
     output.show(grid)
     output.say(

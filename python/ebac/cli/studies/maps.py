@@ -72,7 +72,7 @@ def map_(
         base = options.scenario_of(setup, seconds=2.0)
         xs = _values("x", AXES[x], base, side, x_low, x_high)
         ys = _values("y", AXES[y], base, side, y_low, y_high)
-    folder = to.folder("map", as_json=as_json, resume=resume)
+    folder = to.folder("map", as_json=as_json, resume=BUNDLES.format(names[0]) * resume)
     given = {"base": base, "x": x, "y": y, "xs": xs, "ys": ys, "threads": threads}
     maps = [_run(name, given, folder, resume, quiet=as_json) for name in names]
     files = _write(folder, maps, to, quiet=as_json) if folder else []

@@ -38,7 +38,8 @@ def study(
         ),
     ] = None,
     seed: Annotated[
-        int, typer.Option(help="Seed of random hands, noise and jitter.", rich_help_panel=_WHO)
+        int,
+        typer.Option(help="Seed of random hands, noise and jitter.", min=0, rich_help_panel=_WHO),
     ] = 1,
     approach: Annotated[
         float | None,
@@ -95,7 +96,7 @@ def study(
             "seed": seed,
             "threads": threads,
         }
-    folder = to.folder("study", as_json=as_json, resume=resume)
+    folder = to.folder("study", as_json=as_json, resume=study_results.BUNDLES * resume)
     found = _run(people, names, given, folder, resume, quiet=as_json)
     files = study_results.write(folder, found, traces, to, quiet=as_json) if folder else []
     if as_json:

@@ -26,7 +26,7 @@ LINES = (
     ("deepest", "peak_m", "m", "-"),
     ("limit cycle", "limit_cycle_Hz", "Hz", "none"),
     ("least energy", "least_energy_J", "J", "-"),
-    ("held back", "clamped_share", "share", "-"),
+    ("force limited", "clamped_share", "share", "-"),
 )
 
 
@@ -130,8 +130,8 @@ def show_contacts(contacts: list[Contact]) -> None:
         show_table({contact.law: contact for contact in part})
 
 
-def show_table(columns: Mapping[str, Contact]) -> None:
-    """Print contacts side by side, each under its heading."""
+def show_table(columns: Mapping[str, Contact], *, verdict: bool = True) -> None:
+    """Print contacts side by side, each under its heading, and their verdict."""
     from ebac._util import formatting
 
     contacts = list(columns.values())
@@ -142,8 +142,9 @@ def show_table(columns: Mapping[str, Contact]) -> None:
         grid.add_row(
             label, *(formatting.quantity(c, unit, signed=signed, none=none) for c in cells)
         )
-    grid.add_section()
-    grid.add_row("verdict", *(_verdict(contact) for contact in contacts))
+    if verdict:
+        grid.add_section()
+        grid.add_row("verdict", *(_verdict(contact) for contact in contacts))
     output.show(grid)
 
 

@@ -154,7 +154,7 @@ def _simulate(
 
     traces = []
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore", UserWarning)  # the load of the bus has been told
+        warnings.simplefilter("ignore", UserWarning)  # the load of the bus has been reported
         for name in names:
             step(f"simulating {name}")
             traces.append(simulate(scenario, name, through=through))

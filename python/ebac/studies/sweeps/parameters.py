@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Hashable, Sequence
+from functools import cache
 from math import nan
 from typing import Any
 
@@ -60,13 +61,19 @@ def _flatten(name: str, value: Any, row: dict[str, Any]) -> None:
             _flatten(name if i == 0 else f"{name}{i}", one, row)
     elif hasattr(value, "as_dict"):
         row[name] = type(value).__name__
-        units = (
-            {field.name: field.unit for field in value.fields()} if hasattr(value, "fields") else {}
-        )
+        kind: Any = type(value)
+        endings = _endings(kind)
         for key, one in value.as_dict().items():
-            _flatten(f"{name}.{key}{ENDINGS.get(units.get(key, ''), '')}", one, row)
+            _flatten(f"{name}.{key}{endings.get(key, '')}", one, row)
     elif isinstance(value, (bool, int, float, str)):
         row[name] = value
+
+
+@cache
+def _endings(kind: Hashable) -> dict[str, str]:
+    """Return how the columns of a type's parameters end: their units."""
+    fields: Any = kind.fields() if hasattr(kind, "fields") else ()
+    return {field.name: ENDINGS.get(field.unit, "") for field in fields}
 
 
 def _array(values: list[Any]) -> Any:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from concurrent.futures import Executor
 from pathlib import Path
 from typing import Any, TypeAlias
@@ -11,10 +11,10 @@ import numpy as np
 
 from ebac._core import Device, DeviceFacts, RunLimits, Timing
 from ebac._util.arguments import require
-from ebac.laws import AnyLaw, CoreLaw, PythonLaw, design, law_name
+from ebac.laws import AnyLaw, design, law_name
 from ebac.scenario import Scenario
 from ebac.studies.sweeps.job import Job, Progress
-from ebac.studies.sweeps.measure import Columns
+from ebac.studies.sweeps.measure import Columns, Run
 from ebac.studies.sweeps.parameters import swept
 from ebac.studies.sweeps.result import SweepResult
 from ebac.studies.sweeps.store import Store, fingerprint
@@ -92,12 +92,16 @@ def sweep(
     require(scenarios, Sequence, "ebac.sweep", "a list of scenarios")
     _check(scenarios, seed=seed, threads=threads, bundle=bundle, designed_for=designed_for)
     named = name_laws(laws)
+    if progress is not None:
+        progress(0, len(named) * len(scenarios))  # before the designs, which take seconds of many
     if seed is not None:
         scenarios = [s.replace(seed=seed_of(seed, i)) for i, s in enumerate(scenarios)]
     known = designed_for or [(s.device, s.known_timing) for s in scenarios]
-    runs = [
-        run for law in named.values() for run in zip(scenarios, _designs(law, known), strict=True)
-    ]
+    places, distinct = _distinct(known)
+    runs: list[Run] = []
+    for law in named.values():
+        made = [design(law, device, timing) for device, timing in distinct]
+        runs += [(one, made[place]) for one, place in zip(scenarios, places, strict=True)]
     job = Job(runs, limits or RunLimits(), threads, progress or (lambda done, total: None))
     size = bundle or _bundle(len(runs), shared=executor is not None, stored=out is not None)
     store = None
@@ -152,15 +156,18 @@ def name_laws(laws: Laws) -> dict[str, AnyLaw]:
     return named
 
 
-def _designs(law: AnyLaw, known: Sequence[Known]) -> Iterator[CoreLaw | PythonLaw]:
-    """Design a law for each scenario, once for equal facts and timing."""
-    made: dict[tuple[DeviceFacts, Timing], CoreLaw | PythonLaw] = {}
+def _distinct(known: Sequence[Known]) -> tuple[list[int], list[Known]]:
+    """Return, for each scenario, the place of its facts and timing among the distinct ones, and those."""
+    found: dict[tuple[DeviceFacts, Timing], int] = {}
+    places: list[int] = []
+    distinct: list[Known] = []
     for device, timing in known:
         facts = device.facts if isinstance(device, Device) else device
-        key = (facts, timing)
-        if key not in made:
-            made[key] = design(law, device, timing)
-        yield made[key]
+        place = found.setdefault((facts, timing), len(found))
+        if place == len(distinct):
+            distinct.append((device, timing))
+        places.append(place)
+    return places, distinct
 
 
 def _bundle(runs: int, *, shared: bool, stored: bool) -> int:

@@ -22,10 +22,13 @@ def fingerprint(runs: Sequence[Run], limits: RunLimits) -> str:
 
     digest = hashlib.sha256(f"{__version__} {limits!r}".encode())
     laws: dict[int, str] = {}
+    scenarios: dict[int, str] = {}  # each runs under every law
     for scenario, law in runs:
         if id(law) not in laws:
             laws[id(law)] = _describe(law)
-        digest.update(f"{scenario!r} {laws[id(law)]}\n".encode())
+        if id(scenario) not in scenarios:
+            scenarios[id(scenario)] = repr(scenario)
+        digest.update(f"{scenarios[id(scenario)]} {laws[id(law)]}\n".encode())
     return digest.hexdigest()
 
 
