@@ -66,7 +66,7 @@ def test_the_usual_panels_have_units(minute: ebac.Trace) -> None:
         "force [N]",
         "beta [kN/m]",
         "energy [mJ]",
-        "force held back",
+        "force limited",
     ]
 
 

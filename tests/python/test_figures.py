@@ -27,17 +27,18 @@ from ebac.plot import (
     plot_study,
     plot_sweep,
     plot_trace,
+    plot_tracking,
     plot_walls,
     plot_worst,
     plot_zwidth,
     save,
 )
-from ebac.plot.save import fitted, millimetres
+from ebac.plot.save import balanced, fitted, millimetres
 from ebac.plot.style import BETTER, QUANTITIES, SAME, WORSE
 from ebac.studies import ablation, study, worst
 from ebac.studies.maps import stability_map
 from ebac.studies.zwidth import zwidth
-from ebac.tracking import error_budget
+from ebac.tracking import RecordedPath, error_budget, evaluate
 
 Run = Callable[..., ebac.Trace]
 
@@ -242,6 +243,28 @@ def test_every_study_has_a_title_that_says_simulated() -> None:
     for figure in found:
         assert "simulated" in figure.get_suptitle()
         check_inside(figure)
+        column = figure.narrow() if figure.narrow else figure
+        check_inside(column, millimetres("single") / 25.4)
+
+
+def test_panels_stand_below_one_another_in_one_column(tmp_path: Path) -> None:
+    path = RecordedPath(points=np.array([[0, 0], [1, 0.1], [2, 0], [3, 0.1]]), name="a", remark="")
+    figure = plot_tracking(evaluate(path, shape="line"))
+    assert figure.narrow is not None
+    assert "recorded" not in figure.get_suptitle()
+    left = {round(ax.get_position().x0, 1) for ax in figure.narrow().axes}
+    assert len(left) == 1
+    with Image.open(save(figure, tmp_path / "x.png", width="single")) as image:
+        assert image.height > image.width
+
+
+def test_lines_of_a_title_are_of_one_length_and_keep_units() -> None:
+    lines = balanced("a wall of 10 kN/m at 0 mm; 1 kHz, 1 sample of delay; 6 s, seed 1", 40).split(
+        "\n"
+    )
+    assert len(lines) == 2
+    assert abs(len(lines[0]) - len(lines[1])) < 12
+    assert "10\N{NO-BREAK SPACE}kN/m" in lines[0]
 
 
 def test_a_case_of_faults_names_fault_and_law() -> None:

@@ -17,7 +17,7 @@ USUAL: tuple[tuple[str, tuple[str, ...]], ...] = (
     ("force", ("f_env", "f_meas", "f_cmd", "f_applied")),
     ("beta", ("law.beta_min", "law.beta_max", "law.beta")),
     ("energy", ("law.energy", "law.account", "true.energy")),
-    ("force held back", ("law.clamped",)),
+    ("force limited", ("law.clamped",)),
 )
 #: A unit that runs over decades is drawn on an asinh scale: straight to 1, logarithmic beyond.
 DECADES = frozenset({"kN/m"})

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from functools import partial
 from textwrap import fill
 from typing import TYPE_CHECKING
 
@@ -14,6 +16,10 @@ from ebac.plot.style import BETTER, SAME, WORSE, Picture, figure_legend, new_fig
 
 if TYPE_CHECKING:
     from ebac.studies import Ablation, AblationRow
+    from ebac.studies.measures import Measure
+
+#: Measures abreast in one column of a journal.
+ABREAST = 5
 
 
 def plot_ablation(found: Ablation) -> Picture:
@@ -29,24 +35,18 @@ def plot_ablation(found: Ablation) -> Picture:
     Figure
         Orange is worse than the law as it is, blue better, grey no difference that matters.
     """
-    rows = found.rows
-    figure = new_figure(2.2 + 0.98 * len(found.measures), 2.7 + 0.34 * len(rows))
-    ax = figure.subplots()
-    for y, row in enumerate(rows):
-        for x, measure in enumerate(found.measures):
-            _cell(ax, x, y, row, measure.key)
-            text = formatting.cell(row.values[measure.key], measure.unit)
-            ax.text(x, y, text, ha="center", va="center", fontsize="small")
-    ax.set_xlim(-0.5, len(found.measures) - 0.5)
-    ax.set_ylim(len(rows) - 0.5, -0.5)
-    names = [f"{fill(m.heading, 13)}\n[{formatting.shown(m.unit)}]" for m in found.measures]
-    ax.set_xticks(range(len(found.measures)), names, fontsize="x-small")
-    ax.xaxis.tick_top()
-    ax.set_yticks(range(len(rows)), [row.label for row in rows])
-    ax.tick_params(length=0)
-    ax.spines[:].set_visible(False)
-    for border in (0.5, 0.5 + len(found.pieces)):
-        ax.axhline(border, color="black", lw=1)
+    return _draw(found, len(found.measures))
+
+
+def _draw(found: Ablation, abreast: int) -> Picture:
+    """Draw so many measures abreast, and the others below them."""
+    measures, rows = found.measures, found.rows
+    bands = [measures[i : i + abreast] for i in range(0, len(measures), abreast)]
+    high = 1.4 * len(bands) + 1.3 + 0.34 * len(rows) * len(bands)
+    figure = new_figure(2.2 + 0.98 * abreast, high)
+    figure.narrow = partial(_draw, found, ABREAST)
+    for ax, band in zip(figure.subplots(len(bands), 1, squeeze=False)[:, 0], bands, strict=True):
+        _band(ax, found, band, abreast)
     hands = len(found.study.operators)
     figure.suptitle(
         f"Ablation of {found.law}, simulated with {hands} hands: each row is one change of the law\n"
@@ -61,6 +61,26 @@ def plot_ablation(found: Ablation) -> Picture:
     patches = [Patch(color=shade) for shade, _ in marks]
     figure_legend(figure, patches, [label for _, label in marks])
     return figure
+
+
+def _band(ax: Axes, found: Ablation, measures: Sequence[Measure], abreast: int) -> None:
+    rows = found.rows
+    for y, row in enumerate(rows):
+        for x, measure in enumerate(measures):
+            _cell(ax, x, y, row, measure.key)
+            text = formatting.cell(row.values[measure.key], measure.unit)
+            ax.text(x, y, text, ha="center", va="center", fontsize="small")
+    ax.set_xlim(-0.5, abreast - 0.5)
+    ax.set_ylim(len(rows) - 0.5, -0.5)
+    wide = 13 if abreast == len(found.measures) else 10
+    names = [f"{fill(m.heading, wide)}\n[{formatting.shown(m.unit)}]" for m in measures]
+    ax.set_xticks(range(len(measures)), names, fontsize="x-small")
+    ax.xaxis.tick_top()
+    ax.set_yticks(range(len(rows)), [row.label for row in rows])
+    ax.tick_params(length=0)
+    ax.spines[:].set_visible(False)
+    for border in (0.5, 0.5 + len(found.pieces)):
+        ax.hlines(border, -0.5, len(measures) - 0.5, color="black", lw=1)
 
 
 def _cell(ax: Axes, x: int, y: int, row: AblationRow, key: str) -> None:

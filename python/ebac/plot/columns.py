@@ -9,7 +9,7 @@ from ebac.plot.marks import mark_end, title
 from ebac.plot.style import Numbers, Picture, dress, legend, line, new_figure
 from ebac.trace import Trace
 
-#: Okabe and Ito's palette, told apart by every eye; then again, dashed.
+#: Okabe and Ito's palette, which every eye distinguishes; then again, dashed.
 _SHADES = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e6ab02", "#56b4e9", "#000000")
 
 

@@ -62,8 +62,8 @@ def _title(found: StabilityMap) -> str:
     parts = formatting.describe(found.base).split("; ")
     quiet, energy = shares["quiet_share"], shares["energy_share"]
     return (
-        f"law {found.law}, simulated: {parts[0]}; {parts[1]}; {parts[3]}, but for the axes\n"
-        f"quiet on {100 * quiet:.0f} % of the area, draws at most 1 mJ on "
+        f"law {found.law}, simulated: {parts[0]}; {parts[1]}; {parts[3]}; the quantities of the axes vary\n"
+        f"Quiet on {100 * quiet:.0f} % of the area, at most 1 mJ drawn from the port on "
         f"{100 * energy:.0f} %, exact and quiet on {100 * shares['exact_share']:.0f} %"
     )
 
@@ -93,7 +93,7 @@ def _panel(
     if inside.min() < limit < inside.max():
         ax.contour(*_surface(found, np.log(inside)), [np.log(limit)], **LINE)
         bar.ax.axhline(limit, color="black", lw=1.4)
-    ax.set_title(f"{title}; line: {limit:.3g}", fontsize="medium")
+    ax.set_title(f"{title}; limit (line): {limit:.3g}", fontsize="medium")
 
 
 def _surface(found: StabilityMap, values: Numbers) -> tuple[Numbers, Numbers, Numbers]:

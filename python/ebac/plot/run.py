@@ -90,7 +90,7 @@ def _position(ax: Axes, trace: Trace, axis: int) -> None:
 
 def _force(ax: Axes, trace: Trace, axis: int) -> None:
     t = trace["t"]
-    line(ax, t, trace.axis("f_env", axis), color="black", lw=0.6, label="environment, $F_e$")
+    asked = trace.axis("f_env", axis)
     line(
         ax,
         t,
@@ -105,7 +105,7 @@ def _force(ax: Axes, trace: Trace, axis: int) -> None:
         trace.axis("f_cmd", axis),
         color=QUANTITIES["f_cmd"],
         lw=2.2,
-        label="commanded, $F_d$",
+        label="commanded, $F_c$",
     )
     line(ax, t, trace.axis("f_applied", axis), color=colour(trace.law), lw=1.0, label="applied")
     if "log.f_cmd" in trace:
@@ -116,6 +116,13 @@ def _force(ax: Axes, trace: Trace, axis: int) -> None:
     low, high = float(limited.min()), float(limited.max())
     room = 0.15 * max(high - low, 1.0)
     ax.set_ylim(low - room, high + room)  # what is asked may go far beyond
+    beyond = max(float(asked.max()) - high - room, low - room - float(asked.min()))
+    far = (
+        f", beyond the panel to {max(asked.min(), asked.max(), key=abs):.3g} N"
+        if beyond > 0
+        else ""
+    )
+    line(ax, t, asked, color="black", lw=0.6, zorder=1.9, label=f"environment, $F_e${far}")
     mark_end(ax, trace, label=False)
     dress(ax, "force [N]")
     legend(ax, columns=5)

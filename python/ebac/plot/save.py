@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from textwrap import fill
+from textwrap import wrap
 from threading import RLock
 from typing import Any
 
@@ -31,6 +32,8 @@ SMALLEST, LARGEST = 6.0, 9.0
 #: Narrower and wider figures are refused [mm].
 NARROWEST, WIDEST = 40.0, 1000.0
 _MM = 1 / 25.4
+#: Panels of a figure narrower than this stand below one another [in].
+NARROW = 5.0
 #: One figure is drawn at a time: matplotlib's parser of formulas is shared by all threads.
 _DRAWING = RLock()
 
@@ -74,6 +77,9 @@ def save(
     if file.suffix.removeprefix(".") not in FORMATS:
         raise ValueError(f"{file}: a figure is saved as {', '.join(FORMATS)}")
     inches = None if width is None else _MM * millimetres(width)
+    narrow = getattr(figure, "narrow", None)
+    if narrow is not None and inches is not None and inches < NARROW:
+        figure = narrow()
     with fitted(figure, inches):
         dpi = SCREEN_DPI if inches is None else PRINT_DPI
         Figure.savefig(figure, file, format=file.suffix[1:], dpi=dpi)
@@ -189,4 +195,16 @@ def _fit_text(text: Text, room: float, renderer: RendererAgg, undo: Undo) -> Non
     undo.append(lambda: text.set_text(words))
     longest = max(len(one) for one in words.split("\n"))
     most = max(12, int(longest * room / width) - 1)
-    text.set_text("\n".join(fill(one, most) for one in words.split("\n")))
+    text.set_text("\n".join(balanced(one, most) for one in words.split("\n")))
+
+
+def balanced(text: str, most: int) -> str:
+    """Return text in as few lines as fit, of about one length; a number keeps its unit beside it."""
+    glued = re.sub(r"(?<=\d) (?=[A-Za-zµ%])", "\N{NO-BREAK SPACE}", text)
+    lines = wrap(glued, most)
+    for narrower in range(most - 1, 0, -1):
+        tried = wrap(glued, narrower, break_long_words=False)
+        if len(tried) != len(lines) or max(map(len, tried), default=0) > most:
+            break
+        lines = tried
+    return "\n".join(lines)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -38,11 +39,11 @@ def plot_study(study: Study) -> Iterator[tuple[str, Picture]]:
     (str, Figure)
         A name for the file, without its suffix, and the figure.
     """
-    yield "overview", _overview(study)
+    yield "overview", _overview(study, narrow=False)
     resting = [c.name for c in study.conditions if _rests(study, c.name)]
     pages = [resting[i : i + PAGE] for i in range(0, len(resting), PAGE)]
     for number, names in enumerate(pages, 1):
-        yield f"hands-{number}" if len(pages) > 1 else "hands", _scatter(study, names)
+        yield f"hands-{number}" if len(pages) > 1 else "hands", _scatter(study, names, narrow=False)
 
 
 def _rests(study: Study, condition: str) -> bool:
@@ -52,13 +53,21 @@ def _rests(study: Study, condition: str) -> bool:
 # --- every hand ---
 
 
-def _scatter(study: Study, conditions: list[str]) -> Picture:
+def _scatter(study: Study, conditions: list[str], *, narrow: bool) -> Picture:
     panels = [(law, condition) for condition in conditions for law in study.laws]
     columns = len(study.laws)
-    if len(conditions) == 1:  # as many below each other as abreast, or nearly
+    named = narrow or len(conditions) == 1  # every panel names its law
+    if narrow:
+        columns = min(2, columns)
+    elif named:  # as many below each other as abreast, or nearly
         columns = -(-columns // -(-columns // ABREAST))
     rows = -(-len(panels) // columns)
-    figure = new_figure(1.4 + 3.3 * columns, 0.9 + 2.7 * rows)
+    figure = (
+        new_figure(5, 1.6 + 2.1 * rows)
+        if narrow
+        else new_figure(1.4 + 3.3 * columns, 1.3 + 2.7 * rows)
+    )
+    figure.narrow = partial(_scatter, study, conditions, narrow=True)
     grid = figure.subplots(rows, columns, squeeze=False, sharex=True, sharey=True)
     for (row, column), ax in np.ndenumerate(grid):
         place = row * columns + column
@@ -67,20 +76,22 @@ def _scatter(study: Study, conditions: list[str]) -> Picture:
             continue
         law, condition = panels[place]
         _panel(ax, study, law, condition)
-        if row == 0 or len(conditions) == 1:
+        if row == 0 or named:
+            name = f"{law}, {condition}" if narrow and len(conditions) > 1 else law
             ax.annotate(
-                law, (0.5, 1), (0, 22), "axes fraction", textcoords="offset points",
+                name, (0.5, 1), (0, 22), "axes fraction", textcoords="offset points",
                 ha="center", fontweight="bold", color=colour(law),
             )  # fmt: skip
         if column == 0:
-            ax.set_ylabel(f"{condition}\ndeviation [mm]")
+            ax.set_ylabel("deviation [mm]" if narrow else f"{condition}\ndeviation [mm]")
         if place + columns >= len(panels):
             ax.set_xlabel("swing, peak to peak [mm]")
             ax.tick_params(labelbottom=True)
     device, _, *rest = formatting.describe(study.scenarios[0]).split("; ")
     figure.suptitle(
-        f"Where each of {len(study.operators)} hands ends, simulated: {device}; {rest[1]}\nGrey: good, within 2 counts "
-        "of the ideal and what friction holds, swing below 0.25 mm; #: row in the population",
+        f"How {len(study.operators)} hands come to rest, one mark each, simulated: {device}; {rest[1]}\n"
+        "Grey area: a good hand, which rests within 2 encoder counts of the ideal, or as far as friction holds it, "
+        "and swings by less than 0.25 mm\nCross: not good, the worst with their row in the population (#)",
         fontsize="medium",
     )
     return figure
@@ -138,7 +149,7 @@ def _name_worst(
 # --- overview ---
 
 
-def _overview(study: Study) -> Picture:
+def _overview(study: Study, *, narrow: bool) -> Picture:
     laws, names = list(study.laws), [c.name for c in study.conditions]
     rows = {(row.condition, row.law): row for row in study.rows}
     every = [[rows[name, law] for law in laws] for name in names]
@@ -146,13 +157,18 @@ def _overview(study: Study) -> Picture:
     drawn = [
         [None if r.most_drawn_J is None else 1e3 * r.most_drawn_J for r in line] for line in every
     ]
-    figure = new_figure(2.6 + 1.7 * len(laws), 1.7 + 0.24 * len(names))
-    left, right = figure.subplots(1, 2, sharey=True)
+    if narrow:
+        figure = new_figure(5, 3.2 + 0.6 * len(names))
+        left, right = figure.subplots(2, 1)
+    else:
+        figure = new_figure(2.6 + 1.7 * len(laws), 1.7 + 0.24 * len(names))
+        left, right = figure.subplots(1, 2, sharey=True)
+    figure.narrow = partial(_overview, study, narrow=True)
     _table(left, good, {"cmap": "RdYlBu", "vmin": 0, "vmax": 100})
     left.set_title("good hands [%]", fontsize="medium")
     log: dict[str, Any] = {"cmap": "YlOrRd", "norm": LogNorm(1e-2, 1e5, clip=True)}
     _table(right, drawn, log)
-    right.set_title("most energy drawn [mJ]", fontsize="medium")
+    right.set_title("most energy drawn [mJ], k: thousands", fontsize="medium")
     figure.suptitle(
         f"Study, simulated with {len(study.operators)} hands\n"
         f"{formatting.describe(study.scenarios[0]).split('; ')[0]}, changed as each condition says",
@@ -171,5 +187,12 @@ def _table(ax: Axes, cells: list[list[float | None]], style: dict[str, Any]) -> 
     shown = np.where(values == 0, 1e-9, values) if "norm" in style else values
     ax.imshow(shown, aspect="auto", alpha=0.75, **style)
     for (row, column), value in np.ndenumerate(values):
-        known = "-" if np.isnan(value) else f"{value:,.0f}" if value >= 100 else f"{value:.3g}"
+        known = "-" if np.isnan(value) else _short(value)
         ax.text(column, row, known, ha="center", va="center", fontsize="small")
+
+
+def _short(value: float) -> str:
+    """Return a number in few characters."""
+    if value >= 1e4:
+        return f"{value / 1e3:,.0f}k"
+    return f"{value:.0f}" if value >= 100 else f"{value:.3g}" if value >= 0.1 else f"{value:.1g}"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from io import BytesIO
 from typing import Any
 
@@ -39,7 +40,7 @@ QUANTITIES = {
     "law.energy": "#000000",
     "law.account": "#000000",
 }
-#: Better, worse and no difference: blue and orange, which every eye tells apart.
+#: Better, worse and no difference: blue and orange, which every eye distinguishes.
 BETTER, WORSE, SAME = "#92c5de", "#f4a582", "#f2f2f2"
 IDEAL: dict[str, Any] = {"color": "black", "ls": (0, (5, 3)), "lw": 1.2}
 DPI = 150
@@ -71,7 +72,15 @@ __all__ = [
 
 
 class Picture(Figure):
-    """A matplotlib figure that notebooks show by themselves and that breaks long titles and legends."""
+    """A matplotlib figure that notebooks show by themselves and that breaks long titles and legends.
+
+    Attributes
+    ----------
+    narrow : callable or None
+        Draws the same with its panels below one another, for one column of a journal; None where it fits as it is.
+    """
+
+    narrow: Callable[[], Picture] | None = None
 
     def savefig(self, fname: Any, **kwargs: Any) -> None:
         """Save as matplotlib does, with legends and titles broken into lines that fit."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -24,15 +25,24 @@ SHOWN = 0.15
 
 def plot_tracking(tracking: Tracking) -> Picture:
     """Draw a path with its fit as in Fig. 8 and 9, its deviation exaggerated, and its deviations as a histogram."""
-    figure = new_figure(14, 5)
-    left, middle, right = figure.subplots(1, 3)
+    return _draw_tracking(tracking, narrow=False)
+
+
+def _draw_tracking(tracking: Tracking, *, narrow: bool) -> Picture:
+    figure = new_figure(5, 10) if narrow else new_figure(14, 5)
+    figure.narrow = partial(_draw_tracking, tracking, narrow=True)
+    left, middle, right = figure.subplots(3, 1) if narrow else figure.subplots(1, 3)
     flat, draw, across = _flat(tracking)
     fit, d = tracking.fit, tracking.fit.deviation
     counted = fit.inliers
-    source = (
-        "simulated" if "simulated" in (tracking.path.remark, tracking.path.name) else "recorded"
+    simulated = tracking.path.remark == "simulated"
+    left.plot(
+        *(1e3 * flat[counted].T),
+        ".",
+        ms=3,
+        color="black",
+        label="simulated path" if simulated else "path",
     )
-    left.plot(*(1e3 * flat[counted].T), ".", ms=3, color="black", label=source)
     if d.outliers:
         left.plot(*(1e3 * flat[~counted].T), "x", ms=5, color="#cc79a7", label="outliers")
     left.plot(*(1e3 * draw.T), color=FIT, lw=1.4, label="fit")
@@ -50,7 +60,7 @@ def plot_tracking(tracking: Tracking) -> Picture:
     what = f"circle of radius {1e3 * fit.radius:.3f} mm" if isinstance(fit, CircleFit) else "line"
     left_out = f" and {d.outliers} outliers" if d.outliers else ""
     figure.suptitle(
-        f"{tracking.path.name}, {source}: {what}, SD {1e3 * d.sd_m:.3f} mm, path error {1e3 * d.error_m:.3f} mm, "
+        f"{tracking.path.name}: {what}, SD {1e3 * d.sd_m:.3f} mm, path error {1e3 * d.error_m:.3f} mm, "
         f"largest {1e3 * d.largest_m:.3f} mm, {d.n} points{left_out}",
         fontsize="medium",
     )
@@ -110,9 +120,15 @@ def _histogram(ax: Axes, fit: LineFit | CircleFit) -> None:
 
 def plot_budget(budget: Budget) -> Picture:
     """Draw the standard deviation of each source beside the paper's, for the line and the circle."""
-    figure = new_figure(11, 4.6)
+    return _draw_budget(budget, narrow=False)
+
+
+def _draw_budget(budget: Budget, *, narrow: bool) -> Picture:
+    figure = new_figure(5, 6.5) if narrow else new_figure(11, 4.6)
+    figure.narrow = partial(_draw_budget, budget, narrow=True)
+    panels = figure.subplots(2, 1) if narrow else figure.subplots(1, 2, sharey=True)
     names = list(dict.fromkeys(r.source for r in budget.rows))
-    for ax, shape in zip(figure.subplots(1, 2, sharey=True), ("line", "circle"), strict=True):
+    for ax, shape in zip(panels, ("line", "circle"), strict=True):
         rows = [budget.row(shape, name) for name in names]
         at = np.arange(len(rows))
         low = [1e3 * (r.sd_m - r.sd_low_m) for r in rows]

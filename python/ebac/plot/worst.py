@@ -66,7 +66,7 @@ def _title(found: Worst, hand: WorstHand) -> str:
     lent = (
         f" (lent: {formatting.quantity(found.reserve, 'J')})" if found.reserve is not None else ""
     )
-    told = ", ".join(
+    values = ", ".join(
         f"{p.name} {formatting.quantity(hand.values[p.name], p.unit)}"
         for p in hand.family.parameters
     )
@@ -74,7 +74,7 @@ def _title(found: Worst, hand: WorstHand) -> str:
     world = f"{device}; {wall}; {timing}"
     return (
         f"law {found.law}, {found.condition.name}, simulated: {world}\nthe worst hand of the family "
-        f"{hand.family.name} draws {formatting.quantity(hand.energy_J, 'J')}{lent}\n{fill(told, 120)}"
+        f"{hand.family.name} draws {formatting.quantity(hand.energy_J, 'J')}{lent}\n{fill(values, 120)}"
     )
 
 

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from ebac.studies.zwidth import ZWidth
 
 #: The criteria drawn, a row of panels each.
-ROWS = {"quiet": "quiet", "energy": "draws at most {} mJ", "usable": "usable"}
+ROWS = {"quiet": "quiet", "energy": "at most {} mJ", "usable": "usable"}
 #: The ceilings: how each is drawn.
 CEILINGS: dict[str, dict[str, Any]] = {
     "linear loop, no law": {"color": "black", "ls": (0, (5, 3)), "lw": 1.4},
@@ -51,13 +51,18 @@ def plot_zwidth(found: ZWidth) -> Picture:
     for row, text in enumerate(ROWS.values()):
         words = text.format(f"{1e3 * found.epsilon:g}")
         dress(grid[row, 0], f"{words}\nup to K [kN/m]")
+    for ax in grid[len(ROWS) - 1]:
+        ax.set_xlabel("wall damping B [N s/m]")
     grid[-1, 0].set_yticks(range(len(found.laws)), found.laws)
     grid[-1, 0].invert_yaxis()
     handles, labels = grid[0, 0].get_legend_handles_labels()
     figure_legend(figure, handles, labels, columns=5)
     parts = formatting.describe(found.base).split("; ")
     figure.suptitle(
-        f"Z-width, simulated: {parts[0]}; {parts[1]}; {1e-3 / found.base.timing.dt:g} kHz",
+        f"Z-width, simulated: {parts[0]}; {parts[1]}; {1e-3 / found.base.timing.dt:g} kHz\nHardest wall K that each "
+        "law renders at a wall damping B. Quiet: no limit cycle; at most "
+        f"{1e3 * found.epsilon:g} mJ: drawn from the port;\n"
+        "usable: both, and at least half of K shown; bars: mean over B",
         fontsize="medium",
     )
     return figure
@@ -74,7 +79,6 @@ def _borders(ax: Axes, found: ZWidth, criterion: str, d: int) -> None:
     ax.set_yscale("log")
     ax.set_ylim(1e-3 * found.least, 1.3e-3 * found.top)
     ax.yaxis.set_major_formatter("{x:g}")
-    ax.set_xlabel("wall damping B [N s/m]")
     dress(ax, "")
 
 
@@ -104,5 +108,5 @@ def _areas(ax: Axes, found: ZWidth, delay: int) -> None:
         areas = [found.area(criterion, law, delay) / width for law in found.laws]
         ax.barh(places, areas, thick, color=shades, alpha=alpha, label=criterion)
     ax.set_xlim(0, 1.02e-3 * found.top)
-    ax.set_xlabel("mean K over B [kN/m]; pale: quiet, full: usable")
+    ax.set_xlabel("mean K [kN/m]; pale: quiet, full: usable")
     dress(ax, "")
