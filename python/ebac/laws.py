@@ -21,6 +21,8 @@ from ebac._core import (
     Timing,
     Wall,
 )
+from ebac._util.arguments import unknown_name
+from ebac._util.wrong_calls import plain_constructor
 
 __all__ = [
     "LAWS",
@@ -98,6 +100,7 @@ class PythonLaw(Protocol):
         ...
 
 
+@plain_constructor
 @dataclasses.dataclass(frozen=True)
 class Variant:
     """A law with parameters changed on top of its design, designed anew wherever the law would be.
@@ -159,7 +162,7 @@ def design(
         return design(law.law, device, timing, **{**law.changes, **changes})
     if isinstance(law, str):
         if law not in LAWS:
-            raise KeyError(f"no law is called {law!r}; there are: {', '.join(LAWS)}")
+            raise unknown_name("law", law, LAWS)
         law = LAWS[law]
     if isinstance(law, type):
         if not hasattr(law, "_simulate"):

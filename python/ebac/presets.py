@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from math import pi
 
 from ebac._core import Device, Gimbal, Hand, Mechanics, Step
+from ebac._util.arguments import unknown_name
 
 __all__ = [
     "DEVICES",
@@ -102,7 +103,7 @@ def hand(name: str) -> Hand:
         When there is none; the message lists the names.
     """
     if name not in HANDS:
-        raise KeyError(f"no hand is called {name!r}; there are: {', '.join(HANDS)}")
+        raise unknown_name("hand", name, HANDS)
     return HANDS[name].hand
 
 
@@ -115,5 +116,5 @@ def device(name: str) -> Device:
         When there is none; the message lists the names.
     """
     if name not in DEVICES:
-        raise KeyError(f"no device is called {name!r}; there are: {', '.join(DEVICES)}")
+        raise unknown_name("device", name, DEVICES)
     return DEVICES[name].device

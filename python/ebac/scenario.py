@@ -11,6 +11,7 @@ from typing import Any, Self, TypeAlias
 from ebac._core import Corner, Device, Disc, Free, Hand, Setup, Step, Timing, Wall
 from ebac._util import serialisation
 from ebac._util.arguments import keywords_only, refuse_unknown
+from ebac._util.text_file import read_text
 from ebac._util.toml import parsed
 
 __all__ = [
@@ -178,7 +179,7 @@ class Scenario:
             As `from_toml`, with the file's name.
         """
         try:
-            return cls.from_toml(Path(path).read_text(encoding="utf-8"))
+            return cls.from_toml(read_text(path))
         except ValueError as error:
             raise ValueError(f"{path}: {error}") from None
 

@@ -92,6 +92,8 @@ def simulate(
         and when the process data would take over 90 % of a bus of 1 Mbit/s.
     """
     require(scenario, Scenario, "ebac.simulate", "a Scenario")
+    require(limits, (_core.Limits, bool), "ebac.simulate", "limits=True, False or a Limits")
+    require(soft_start, (int, float), "ebac.simulate", "soft_start in seconds, a number")
     if through is not None:
         scenario = on_bus(scenario, through)
     finished = design(law, scenario.device, scenario.known_timing, **changes)

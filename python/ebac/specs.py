@@ -33,6 +33,11 @@ class Spec:
         """Return it as a plain row."""
         return asdict(self)
 
+    def __repr__(self) -> str:
+        """Return "<Spec resolution: 3.068e-05 m, paper 3e-05 m>"."""
+        paper = "" if self.paper is None else f", paper {self.paper:.4g} {self.unit}"
+        return f"<Spec {self.name}: {self.value:.4g} {self.unit}{paper}>"
+
 
 def spec_sheet(device: Device) -> list[Spec]:
     """Compute the spec sheet of a device.

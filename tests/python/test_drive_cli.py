@@ -173,7 +173,7 @@ def test_a_node_that_is_not_there_says_what_to_check(drive: Run) -> None:
     ("words", "message"),
     [
         (["scan", "--interface", "socketcan", "--channel", "nocan7"], "interface socketcan, channel nocan7"),
-        (["scan", "--interface", "nonsense"], "interface 'nonsense' is not usable"),
+        (["scan", "--interface", "nonsense"], "--interface nonsense: no such name"),
         (["scan", "--interface", "virtual", "--channel", "empty", "--timeout", "0.01"], "Nobody answers"),
         (["disable", "--interface", "virtual", "--channel", "empty", "--timeout", "0.01"], "no drive answers"),
         (["simulate", "--channel", "nocan7"], "CAN interface 'nocan7'"),

@@ -30,7 +30,8 @@ from ebac.hardware import Configuration, ConfigurationError
 from ebac.logs.about import About
 from ebac.logs.events import Event
 from ebac.logs.layout import Layout
-from ebac.logs.reader import Log, read_bytes
+from ebac.logs.log import Log
+from ebac.logs.reader import read_bytes
 from ebac.logs.writer import MAGIC, LogWriter
 
 CASES = int(os.environ.get("EBAC_FUZZED_FILES", "400"))
@@ -499,3 +500,33 @@ def test_damaged_configurations_are_read_or_refused(monkeypatch: pytest.MonkeyPa
     known = load("joystick")  # the drives that come with ebac, once and not in every case
     monkeypatch.setattr(network, "load", lambda path: known if path == "joystick" else load(path))
     fuzz(read_a_configuration, "configurations")
+
+
+@pytest.mark.parametrize(
+    ("name", "read"),
+    [
+        ("run.csv", ebac.logs.load),
+        ("log.csv", ebac.identify.load),
+        ("path.csv", ebac.tracking.read_path),
+        ("hands.csv", ebac.Operators.from_csv),
+        ("scenario.toml", ebac.Scenario.load),
+        ("device.toml", ebac.hardware.Configuration.load),
+        ("drive.toml", ebac.drives.load),
+    ],
+)
+@pytest.mark.parametrize(
+    ("data", "byte"), [(b"t [s],x [m]\n0,1\n\xff,2\n", "0xff"), (b"a\n\nb\0", "0x00")]
+)
+def test_what_is_no_text_is_refused_by_file_line_and_byte(
+    name: str, read: Callable[[Path], object], data: bytes, byte: str, tmp_path: Path
+) -> None:
+    if (name, byte) == ("run.csv", "0x00"):
+        pytest.skip("its headings are refused first")
+    file = tmp_path / name
+    file.write_bytes(data)
+    with pytest.raises(Exception, match=rf"is no text in UTF-8 \(line 3, byte {byte}\)") as refused:
+        read(file)
+    assert name in str(refused.value)
+    (tmp_path / "folder.npz").mkdir()
+    with pytest.raises(IsADirectoryError, match="is a folder"):
+        ebac.load(tmp_path / "folder.npz")

@@ -7,11 +7,21 @@ import pytest
 
 import ebac
 from ebac import logs
-from ebac._util.headings import FACTORS, split_heading
+from ebac._util.headings import FACTORS, signal_heading, split_heading
 from ebac.identify import load
 from ebac.tracking import read_path
 
-FORMS = ("{} [{}]", "{}[{}]", "{} ({})", "{}({})", "{}_{}", "{} {}", "{}/{}", "  {} [ {} ] ")
+FORMS = (
+    "{} [{}]",
+    "{}[{}]",
+    "{} ({})",
+    "{}({})",
+    "{}_{}",
+    "{} {}",
+    "{}.{}",
+    "{}/{}",
+    "  {} [ {} ] ",
+)
 
 
 @pytest.mark.parametrize("form", FORMS)
@@ -35,12 +45,74 @@ def test_the_greek_letter_is_the_micro_sign() -> None:
         assert split_heading(f"x_{sign}m", FACTORS["length"]) == ("x", "um")
 
 
+@pytest.mark.parametrize("form", ["{} [{}]", "{} ({})", "{}_{}", "{}.{}"])
+def test_the_letters_of_a_unit_may_be_capital(form: str) -> None:
+    assert split_heading(form.format("X", "MM"), FACTORS["length"]) == ("X", "mm")
+    assert split_heading(form.format("T", "MS"), FACTORS["time"]) == ("T", "ms")
+    assert split_heading("F [MN]", FACTORS["force"]) == (
+        "F",
+        "MN",
+    )  # a meganewton is no millinewton
+
+
+@pytest.mark.parametrize(
+    ("heading", "meant"),
+    [
+        ("x_mm", ("x", "m", 1e-3)),
+        ("X [MM]", ("x", "m", 1e-3)),
+        ("x", ("x", "m", 1.0)),
+        ("time (ms)", ("t", "s", 1e-3)),
+        ("f_meas.N", ("f_meas", "N", 1.0)),
+        ("true.x_0 [m]", ("true.x_0", "m", 1.0)),
+        ("law.f_d", ("law.f_d", "1", 1.0)),
+        ("x_min", ("x_min", "1", 1.0)),
+        ("current [A]", ("current", "A", 1.0)),
+    ],
+)
+def test_headings_of_a_log(heading: str, meant: tuple[str, str, float]) -> None:
+    assert signal_heading(heading) == meant
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        (
+            "# by us\nx [mm],y [mm]\n1,2\n",
+            "line 2 has the headings of a path.*`ebac track log.csv`",
+        ),
+        ("m_kg,b_Ns_per_m\n1,2\n", "headings of hands.*`ebac study --population log.csv`"),
+        ("x [m]\n1\n", r"line 1 has no column of time, `t \[s\]`.*--rate"),
+        ("t,x,X\n1,2,3\n", "line 1 has column 'x' more than once"),
+        ("t,x\n1,2\n2,abc\n", "line 3, column 'x': 'abc' is no number"),
+        ("t,x\n1,2\n2\n", "line 3 has 1 cells for 2 headings"),
+        ("", "the file is empty"),
+    ],
+)
+def test_what_is_no_log_is_refused_with_the_command_that_reads_it(
+    text: str, message: str, tmp_path: Path
+) -> None:
+    file = tmp_path / "log.csv"
+    file.write_text(text, encoding="utf-8")
+    with pytest.raises(ValueError, match=message) as refused:
+        logs.load(file)
+    assert str(refused.value).startswith(f"{file}: ")
+
+
+def test_a_log_may_have_other_units_and_separators(tmp_path: Path) -> None:
+    file = tmp_path / "log.csv"
+    file.write_text("Time [ms];X_mm;force\n0;1;2\n0.5;2;3\n", encoding="utf-8-sig")
+    trace = logs.load(file)
+    assert {name: c.unit for name, c in trace.columns.items()} == {"t": "s", "x": "m", "force": "N"}
+    np.testing.assert_allclose(trace["t"], [0, 5e-4])
+    np.testing.assert_allclose(trace["x"], [1e-3, 2e-3])
+
+
 def table(path: Path, headings: list[str], columns: np.ndarray) -> Path:
     np.savetxt(path, columns.T, delimiter=",", header=",".join(headings), comments="")
     return path
 
 
-@pytest.mark.parametrize("form", FORMS[:7])
+@pytest.mark.parametrize("form", FORMS[:8])
 def test_readers_agree(form: str, tmp_path: Path) -> None:
     t = np.arange(100.0)
     x, y = 40 * np.sin(t / 9), 40 * np.cos(t / 9)

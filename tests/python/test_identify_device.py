@@ -69,6 +69,44 @@ def test_the_hand_alone_tells_where_no_motor_acts(trace: ebac.Trace) -> None:
     assert found.estimates["M_h"].value == pytest.approx(scenario.device.mass, rel=0.02)
 
 
+def test_a_force_of_the_other_sign_is_named_and_never_turned_silently(
+    tmp_path: Path, trace: ebac.Trace
+) -> None:
+    log = Recording.from_trace(trace)
+    wrong = fit_device(log.flipped())
+    assert wrong.explained < 0.8 < wrong.other_sign
+    assert "--flip-force" in wrong.misses[0]
+    assert wrong.misses[0] in repr(wrong)
+    assert fit_device(log).misses == ()
+    rows = np.column_stack([log.t, log.x, -log.force, log.motor])
+    file = tmp_path / "device.csv"
+    np.savetxt(file, rows, fmt="%.9g", delimiter=",", header="t,x,force,motor", comments="")
+    run = CliRunner().invoke(app, ["identify", "device", str(file)])
+    assert run.exit_code == 0
+    assert "--flip-force" in run.output
+    run = CliRunner().invoke(app, ["identify", "device", str(file), "--flip-force"])
+    assert "seems to hold" not in run.output
+
+
+def test_a_figure_says_whether_the_log_is_simulated(tmp_path: Path, trace: ebac.Trace) -> None:
+    pytest.importorskip("matplotlib")
+    from ebac.identify import load
+    from ebac.identify.figures import plot_device
+
+    trace.save(tmp_path / "run.npz")
+    trace.save(tmp_path / "run.csv")
+    ebac.datasets.write("device", tmp_path)
+    text = (tmp_path / "device.csv").read_text(encoding="utf-8")
+    (tmp_path / "plain.csv").write_text(text.partition("\n")[2], encoding="utf-8")
+    for name in ("run.npz", "run.csv", "device.csv"):
+        assert load(tmp_path / name).origin == "simulated"
+    recorded = load(tmp_path / "plain.csv")
+    assert recorded.origin == "recorded"
+    figure = plot_device(fit_device(recorded))
+    assert "plain.csv (recorded)" in figure.get_suptitle()
+    assert "recorded, smoothed" in [text.get_text() for text in figure.axes[1].get_legend().texts]
+
+
 def test_a_friction_that_falls_with_speed_is_told() -> None:
     found = fit_device(Recording.from_trace(moved(breakaway=0.9, stribeck_speed=0.02)))
     assert found.stribeck_speed is not None

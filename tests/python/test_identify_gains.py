@@ -145,6 +145,13 @@ def test_a_hand_that_is_not_told_has_no_gains() -> None:
         fit_gains(loop)
 
 
+def test_a_force_of_the_other_sign_is_named() -> None:
+    log = Recording.from_trace(ebac.datasets.press()).flipped()
+    loop = fit_loop(log, Target.steps(1.0))
+    with pytest.raises(ValueError, match=r"no hand to simulate.*--flip-force turns the sign"):
+        fit_gains(loop)
+
+
 # --- pieces ---
 
 RATIOS = st.dictionaries(

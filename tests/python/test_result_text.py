@@ -178,3 +178,29 @@ def test_a_sweep_of_equal_scenarios_has_no_swept_columns() -> None:
 def test_a_report_is_never_longer_than_20_lines(rows: list[dict[str, Any]]) -> None:
     plain = [{**row, "law": "".join(c for c in row["law"] if c.isprintable())} for row in rows]
     assert len(report("title", plain, "note").splitlines()) < 20
+
+
+def test_arrays_and_texts_are_no_part_of_a_repr(tmp_path: Path) -> None:
+    path = ebac.tracking.read_path(ebac.datasets.write("circle", tmp_path))
+    log = ebac.logs.read(ebac.datasets.write("tapping", tmp_path))
+    recording = ebac.identify.Recording.from_trace(ebac.datasets.press())
+    loop = ebac.identify.fit_loop(recording, ebac.identify.Target.steps(1.0))
+    late = ebac.realtime.Jitter(lateness=np.full(1000, 2e-5), dt=1e-3, skipped=0, grants=[])
+    runs = [ebac.simulate(SHORT.replace(seed=seed), "ebac") for seed in (1, 2)]
+    for thing, shown in [
+        (path, "400 points"),
+        (ebac.tracking.fit_circle(path.points), "radius 40 mm"),
+        (ebac.tracking.fit_line(ebac.datasets.line()), "length 80.18 mm"),
+        (ebac.identify.frequency_response(recording), " Hz"),
+        (loop, "Wall(stiffness="),
+        (log, "10001 rows"),
+        (log.about, "ebac, 1 axis"),
+        (ebac.datasets.joystick(), "socketcan"),
+        (late, "late by 20 us (median)"),
+        (ebac.testing.compare(*runs), "channels differ"),
+        (ebac.spec_sheet(ebac.Device()), "<Spec resolution: "),
+    ]:
+        text = repr(thing)
+        assert shown in text
+        assert text.count("\n") < 20
+        assert len(text) < 1500

@@ -24,7 +24,7 @@ class Dataset:
     Attributes
     ----------
     name : str
-        By which `ebac demo` and `write` know it.
+        Name for `ebac demo` and `write`.
     file : str
         Name of the file.
     about : str
@@ -32,7 +32,7 @@ class Dataset:
     truth : str
         The true values behind the simulation; empty where there are none.
     commands : tuple of str
-        What to try with the file.
+        Commands to try with the file.
     data : bool
         Whether it contains data, which are simulated.
     """
@@ -47,7 +47,7 @@ class Dataset:
 
     @property
     def note(self) -> str:
-        """What the file says of itself."""
+        """Note in the file: origin, content, true values."""
         from ebac import __version__
 
         if not self.data:

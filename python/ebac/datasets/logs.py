@@ -1,6 +1,6 @@
 """Simulated logs of one axis at 1 kHz, with encoder counts and a noisy force sensor.
 
-The sensor has no lag in what is written as CSV, which cannot say it: a log of your own may need `--lag`.
+The sensor of the logs written as CSV has no lag, because CSV has no field for it: a log of your own may need `--lag`.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ NOISE = 0.02
 
 
 def arm() -> Trace:
-    """Return a log of a hand that holds the handle still while the motor pushes it about, 10 s.
+    """Return a log of a hand that holds the handle still while the motor pushes it, 10 s.
 
     The motor's force is a multisine of 0.3 to 20 Hz and at most 6 N. `trace.scenario.hand` is the true hand: 0.35 kg,
     6 N s/m, 300 N/m.

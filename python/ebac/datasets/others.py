@@ -34,7 +34,7 @@ def circle() -> NDArray[np.float64]:
 
 
 def _shown(path: NDArray[np.float64], *, seed: int) -> NDArray[np.float64]:
-    """Return what encoders show of a hand that follows a path not quite."""
+    """Return the encoder readings of a hand that follows a path with small deviations."""
     from ebac._core import Device
 
     count = Device().count
@@ -59,5 +59,5 @@ def joystick() -> Configuration:
 
 
 def joystick_text() -> str:
-    """Return the same as the text of a TOML file, with comments."""
+    """Return the configuration of the joystick as TOML text, with comments."""
     return (files("ebac.datasets") / "joystick.toml").read_text(encoding="utf-8")

@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Self
 
+from ebac._util.wrong_calls import plain_constructor
 from ebac.drives.drive import Drive
 from ebac.drives.errors import DriveError
 from ebac.drives.objects import find
@@ -86,6 +87,7 @@ class Backup:
             raise ValueError(f"not a backup of a drive ({error!r})") from None
 
 
+@plain_constructor
 class Backups:
     """A folder of backups, one file a drive.
 

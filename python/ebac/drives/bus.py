@@ -10,6 +10,7 @@ from pathlib import Path
 from types import TracebackType
 from typing import TYPE_CHECKING, Any, Self
 
+from ebac._util.wrong_calls import plain_constructor
 from ebac.drives.bus_monitor import BusMonitor
 from ebac.drives.errors import BusError
 
@@ -22,6 +23,7 @@ if TYPE_CHECKING:
 TIMEOUT = 0.3
 
 
+@plain_constructor
 class DriveBus:
     """A CAN bus, by python-can, and the drives on it. A context manager that closes what it opened.
 

@@ -8,6 +8,7 @@ from types import TracebackType
 from typing import Self
 
 from ebac._util.exception_notes import noted_on
+from ebac._util.wrong_calls import plain_constructor
 from ebac.drives import faults
 from ebac.drives.errors import DriveError, DriveFault, WrongAnswer, WrongState
 from ebac.drives.node import Node
@@ -19,6 +20,7 @@ MODES = {4: "profile torque", 10: "cyclic synchronous torque"}
 _POLL, _DEADLINE = 0.002, 2.0
 
 
+@plain_constructor
 class Drive(Node):
     """A CiA 402 drive on a bus. As a context manager it is disabled on exit, whatever happened.
 

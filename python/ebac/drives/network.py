@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from ebac._util.wrong_calls import plain_constructor
 from ebac.drives.errors import ProfileError
 from ebac.drives.load import BITRATES, BusLoad, Traffic, bus_load
 from ebac.drives.pdo import sync_period
@@ -14,6 +15,7 @@ from ebac.drives.profile import Profile, read_profile, read_source
 from ebac.drives.toml_positions import Source
 
 
+@plain_constructor
 @dataclass(frozen=True, kw_only=True)
 class Node:
     """One drive of a network.
@@ -33,6 +35,7 @@ class Node:
     profile: Profile
 
 
+@plain_constructor
 @dataclass(frozen=True, kw_only=True)
 class Network:
     """The drives of one bus.

@@ -11,6 +11,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cache
 
+from ebac._util.wrong_calls import plain_constructor
+
 #: Type of CiA 301: its struct code. The length is that of the type.
 NUMBERS = {"u8": "B", "i8": "b", "u16": "H", "i16": "h", "u32": "I", "i32": "i"}
 #: Most PDOs of either direction this package looks at, and entries of one.
@@ -19,6 +21,7 @@ PDOS, ENTRIES = 4, 8
 PDO_OFF = 1 << 31
 
 
+@plain_constructor
 @dataclass(frozen=True, kw_only=True)
 class Object:
     """One entry of an object dictionary.

@@ -10,6 +10,8 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import Any, Self
 
+from ebac._util.text_file import read_text
+from ebac._util.wrong_calls import plain_constructor
 from ebac.drives.errors import ProfileError
 from ebac.drives.load import Traffic
 from ebac.drives.pdo import Pdo, read_pdo, sync_period
@@ -21,6 +23,7 @@ from ebac.drives.toml_positions import Source, dotted
 TABLES = tuple(dict.fromkeys(key.name.partition(".")[0] for key in KEYS))
 
 
+@plain_constructor
 @dataclass(frozen=True, kw_only=True)
 class Profile:
     """What a drive is to be set to.
@@ -105,7 +108,7 @@ def read_source(name: str | Path) -> Source:
         return Source(name=f"{name}.toml", text=item.read_text(encoding="utf-8"))
     path = Path(name)
     try:
-        return Source(name=str(path), text=path.read_text(encoding="utf-8"))
+        return Source(name=str(path), text=read_text(path))
     except FileNotFoundError:
         known = ", ".join(builtin())
         raise ProfileError(

@@ -9,6 +9,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, Self
 
 from ebac._core import Device, Hand, Limits, RealTime, Timing, Wall
+from ebac._util.text_file import read_text
+from ebac._util.wrong_calls import plain_constructor
 from ebac.drives.errors import ProfileError
 from ebac.drives.network import Network
 from ebac.drives.toml_positions import Source
@@ -23,6 +25,7 @@ if TYPE_CHECKING:
     from ebac.trace import Trace
 
 
+@plain_constructor
 @dataclass(frozen=True, kw_only=True)
 class Configuration:
     """What `Device.open` and `ebac run` need to know.
@@ -107,9 +110,9 @@ class Configuration:
             For what cannot be; the message names file, line, key, value, unit, range and remedy.
         """
         try:
-            text = Path(path).read_text(encoding="utf-8")
-        except UnicodeDecodeError as error:
-            raise ConfigurationError(f"{path}: is no text in UTF-8 ({error})") from None
+            text = read_text(path)
+        except ValueError as error:
+            raise ConfigurationError(f"{path}: {error}") from None
         return cls.from_toml(text, name=str(path))
 
     @classmethod
@@ -165,4 +168,12 @@ class Configuration:
             through="can",
             limits=self.limits,
             soft_start=self.soft_start,
+        )
+
+    def __repr__(self) -> str:
+        """Return one line: name, bus, drives, law, timing."""
+        nodes = ", ".join(str(node.id) for node in self.drives.nodes)
+        return (
+            f"<Configuration {self.name}: {self.interface} {self.channel}, nodes {nodes}; {self.law}, "
+            f"{1e3 * self.timing.dt:g} ms, {self.seconds:g} s; its TOML in .text>"
         )

@@ -14,6 +14,7 @@ from types import TracebackType
 from typing import TYPE_CHECKING, Any, Self
 
 from ebac._util.exception_notes import noted_on
+from ebac._util.wrong_calls import plain_constructor
 from ebac.drives import Backups
 from ebac.hardware import drive_setup
 from ebac.hardware.backends import hardware, simulated
@@ -31,6 +32,7 @@ if TYPE_CHECKING:
     from ebac.trace import Trace
 
 
+@plain_constructor
 class OpenDevice:
     """The drives of a device, set up and without power. Get it from `ebac.Device.open`; a context manager.
 
@@ -204,7 +206,10 @@ class OpenDevice:
             raise
         try:
             if path is not None:
-                run.record(path, files={"configuration.toml": known.text}, sync=known.sync)
+                files = {"configuration.toml": known.text}
+                if backend.aim is not None:  # a simulated hand: drives and device are simulated too
+                    files["simulated.txt"] = f"{backend.about}\n"
+                run.record(path, files=files, sync=known.sync)
             self._held.last_to_register()
         except BaseException:
             run.end()
@@ -236,6 +241,10 @@ class OpenDevice:
         """Close it, whatever was raised."""
         with noted_on(error, "and at the end"):
             self.close()
+
+    def __repr__(self) -> str:
+        """Return one line: the configuration and the backend."""
+        return f"<OpenDevice of {self.configuration!r}>"
 
 
 class _Held:

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 from ebac import _core
 from ebac._util.exception_notes import noted_on
+from ebac._util.wrong_calls import plain_constructor
 from ebac.drives.errors import DriveError
 from ebac.hardware.current_parameters import CurrentParameters
 from ebac.hardware.interrupts import Interrupts, OfParent
@@ -28,6 +29,7 @@ if TYPE_CHECKING:
 LOOK = 0.02
 
 
+@plain_constructor
 class Run(LiveStatus):
     """A loop at work. Get it from `OpenDevice.start`; a context manager that ends it.
 

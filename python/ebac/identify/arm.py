@@ -17,7 +17,7 @@ from ebac.identify.informativeness import FASTEST
 from ebac.identify.intervals import Z95
 from ebac.identify.parameters import BEFORE_LEVELS, kind, lay_out
 from ebac.identify.problem import Problem
-from ebac.identify.recording import Recording
+from ebac.identify.recording import Recording, require_recordings
 from ebac.identify.response import guess_by_response
 from ebac.identify.result import ArmResult
 from ebac.identify.target import Target
@@ -83,6 +83,7 @@ def fit_arm(
         For a recording without force, a name that does not exist, a value out of range.
     """
     began = perf_counter()
+    require_recordings(recordings, "fit_arm")
     if isinstance(recordings, Recording):
         recordings = [recordings]
     if targets is None or isinstance(targets, Target):

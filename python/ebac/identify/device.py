@@ -21,8 +21,9 @@ from ebac.identify.device_problem import (
 )
 from ebac.identify.fit import Fitted, fitted
 from ebac.identify.intervals import Z95
-from ebac.identify.recording import Recording
+from ebac.identify.recording import Recording, require_recordings
 from ebac.identify.result import Estimate
+from ebac.identify.validation import POOR, flip_advice, seems_flipped
 
 #: Standard gravity [m/s^2].
 GRAVITY = 9.80665
@@ -49,6 +50,8 @@ class DeviceResult:
     explained: float
     converged: bool
     seconds: float
+    #: Share explained with the hand's force of the other sign, where this fit explains little.
+    other_sign: float | None = None
 
     @cached_property
     def estimates(self) -> dict[str, Estimate]:
@@ -80,6 +83,14 @@ class DeviceResult:
         return tuple(name for name, e in self.estimates.items() if not e.determined)
 
     @property
+    def misses(self) -> tuple[str, ...]:
+        """What the model misses, a sentence each."""
+        if self.other_sign is None or not seems_flipped(self.explained, self.other_sign):
+            return ()
+        sentence = "The device explains {} of the force where it slides"
+        return (flip_advice(sentence, max(0.0, self.explained), self.other_sign),)
+
+    @property
     def compensation(self) -> Compensation:
         """Return tau_static of eq. (2), never more than is surely there.
 
@@ -97,6 +108,7 @@ class DeviceResult:
             "stribeck_speed_m_per_s": self.stribeck_speed,
             "explained_share": self.explained,
             "undetermined": list(self.undetermined),
+            "misses": list(self.misses),
             "compensation": self.compensation.as_dict(),
             "converged": self.converged,
             "seconds_s": self.seconds,
@@ -114,7 +126,8 @@ class DeviceResult:
     def __repr__(self) -> str:
         """Return the estimates, one a line."""
         lines = ["Device:"] + [f"  {e}" for e in self.estimates.values()]
-        return "\n".join([*lines, f"  explains {100 * self.explained:.2f} % of the force"])
+        lines.append(f"  explains {100 * self.explained:.2f} % of the force")
+        return "\n".join([*lines, *(f"  {text}" for text in self.misses)])
 
 
 def fit_device(recording: Recording, *, current_lag: float | None = None) -> DeviceResult:
@@ -136,8 +149,19 @@ def fit_device(recording: Recording, *, current_lag: float | None = None) -> Dev
     ValueError
         When the recording has neither force, or does not slide both ways for long enough.
     """
+    require_recordings(recording, "fit_device")
+    lag = recording.current_lag if current_lag is None else current_lag
+    result = _searched(recording, lag)
+    if result.explained < POOR and recording.force is not None:
+        other = _searched(recording.flipped(), lag)
+        result = replace(result, other_sign=other.explained, seconds=result.seconds + other.seconds)
+    return result
+
+
+def _searched(recording: Recording, current_lag: float) -> DeviceResult:
+    """Return the device with the forces as they are."""
     began = perf_counter()
-    drive = driven(recording, recording.current_lag if current_lag is None else current_lag)
+    drive = driven(recording, current_lag)
     start = first_guess(drive)
     best, speed = _fit(drive, None, start), None
     trials = [(float(s), first_guess(drive, float(s))) for s in SPEEDS]

@@ -32,7 +32,7 @@ def plot_arm(result: ArmResult, recording: int = 0) -> Picture:
     r = result.recordings[recording]
     assert r.force is not None
     model = result.simulated(recording)
-    line(motion, r.t, 1e3 * r.x, color="0.35", lw=1.6, label="measured")
+    line(motion, r.t, 1e3 * r.x, color="0.35", lw=1.6, label=r.origin)
     line(
         motion,
         r.t,
@@ -52,7 +52,7 @@ def plot_arm(result: ArmResult, recording: int = 0) -> Picture:
     _correlations(auto, result, r.name)
     _response(size, follows, result, recording)
     figure.suptitle(
-        f"arm identified from {r.name}\n"
+        f"arm identified from {r.name} ({r.origin})\n"
         + ", ".join(str(e) for e in list(result.estimates.values())[:3]),
         fontsize="medium",
     )
@@ -60,7 +60,7 @@ def plot_arm(result: ArmResult, recording: int = 0) -> Picture:
 
 
 def _response(size: Axes, follows: Axes, result: ArmResult, recording: int) -> None:
-    """Draw |Z(f)| as measured and as fitted, and the coherence; a log too short for it stays without."""
+    """Draw |Z(f)| of the log and as fitted, and the coherence; a log too short for it stays without."""
     from ebac.identify.response import frequency_response
 
     r, target = result.recordings[recording], result.problem.targets[recording]
@@ -116,7 +116,7 @@ def plot_device(result: DeviceResult) -> Picture:
     columns = columns_of(drive, result.stribeck_speed)
     model = np.full(len(r.t), np.nan)
     model[on] = columns @ result.values
-    line(force, r.t, -drive.smooth_force, color="0.35", lw=1.4, label="measured, smoothed")
+    line(force, r.t, -drive.smooth_force, color="0.35", lw=1.4, label=f"{r.origin}, smoothed")
     force.plot(
         r.t, model, color="#009e73", lw=1.0, ls="--", label="eq. (6) with friction, where it slides"
     )
@@ -135,7 +135,7 @@ def plot_device(result: DeviceResult) -> Picture:
     friction.set_xlabel("velocity [mm/s]")
     legend(friction)
     words = ", ".join(str(e) for e in list(result.estimates.values())[:3])
-    figure.suptitle(f"device identified from {r.name}\n{words}", fontsize="medium")
+    figure.suptitle(f"device identified from {r.name} ({r.origin})\n{words}", fontsize="medium")
     return figure
 
 

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ebac._util.headings import FACTORS, split_heading
+from ebac._util.text_file import read_text
 
 Columns: TypeAlias = dict[str, NDArray[np.float64]]
 
@@ -37,11 +38,9 @@ def read_columns(path: Path) -> Columns:
 
 def _csv(path: Path) -> Columns:
     try:
-        lines = path.read_text(encoding="utf-8-sig").splitlines()
-    except UnicodeDecodeError:
-        raise ValueError(
-            f"{path.name}: is no text in UTF-8; export it as CSV once more, or name what it is by its ending"
-        ) from None
+        lines = read_text(path).splitlines()
+    except ValueError as error:
+        raise ValueError(f"{path.name}: {error}") from None
     lines = [line for line in lines if line.strip() and not line.startswith(("#", "%"))]
     if len(lines) < 2:
         raise ValueError(f"{path.name}: lines = {len(lines)}: needs a heading and rows below it")

@@ -13,7 +13,7 @@ from ebac._util.serialisation import unknown
 from ebac.identify.guess import regression, solve
 from ebac.identify.intervals import Z95
 from ebac.identify.parameters import Parameters, kind
-from ebac.identify.recording import Recording
+from ebac.identify.recording import Recording, require_recordings
 from ebac.identify.response import Densities, densities
 from ebac.identify.target import Target
 
@@ -98,7 +98,7 @@ def check_log(
     """Check whether a log is informative enough to identify the parameters of eq. (4).
 
     The expected deviations come from the spectra alone: each line determines M0 s^2 + B0 s + K0 as well as the force
-    follows the motion there. A rough answer in milliseconds; the fit has the last word.
+    follows the motion there. This takes milliseconds and is approximate; the intervals of the fit are decisive.
 
     Parameters
     ----------
@@ -114,6 +114,7 @@ def check_log(
     ValueError
         For a name that is none of these, without force, or when the recording is too short.
     """
+    require_recordings(recording, "check_log")
     for name in ask:
         if name not in ASKED:
             raise ValueError(unknown(f"parameter {name}", name, list(ASKED)))

@@ -19,7 +19,15 @@ from ebac.identify.files import (
     read_columns,
     unit_factor,
 )
-from ebac.identify.recording import LEAST_ROWS, OF_TRACE, Recording, count_of, path_of, trace_facts
+from ebac.identify.recording import (
+    LEAST_ROWS,
+    OF_TRACE,
+    Recording,
+    count_of,
+    is_simulated,
+    path_of,
+    trace_facts,
+)
 from ebac.trace import Trace
 
 
@@ -75,7 +83,7 @@ def load(
         raise FileNotFoundError(2, "there is no such file", str(path))
     if path.is_dir():
         raise ValueError(f"{path.name}: is a folder; give a file in it")
-    trace, wrong = _trace(path)
+    trace, simulated, wrong = _trace(path)
     if trace is not None and not columns:
         found = _of_trace(trace, path.name, axis, wrong)
     else:
@@ -83,17 +91,16 @@ def load(
         found = _recording(path.name, raw, columns or {}, units or {}, rate)
         if trace is not None:
             found = replace(found, path=path_of(trace, axis))
-    changes: dict[str, Any] = {}
+    changes: dict[str, Any] = {"simulated": simulated}
     for name, value in (("lag", lag), ("current_lag", current_lag), ("count", count)):
         if value is not None:
             changes[name] = value
-    if changes:
-        found = replace(found, **changes)
+    found = replace(found, **changes)
     return found.flipped() if flip_force else found
 
 
-def _trace(path: Path) -> tuple[Trace | None, list[str]]:
-    """Return the trace in a file of ours, and what is wrong with it; None for a file of someone else."""
+def _trace(path: Path) -> tuple[Trace | None, bool, list[str]]:
+    """Return the trace in a file of ours, whether it is simulated, what is wrong with it; None for another file."""
     if path.suffix == ".mcap":
         from ebac.logs import read
 
@@ -104,12 +111,19 @@ def _trace(path: Path) -> tuple[Trace | None, list[str]]:
             )
         remarks = [] if log.condition.complete else [f"the log is not whole: {log.condition}"]
         remarks += [f"{gap.rows} rows are missing after t = {gap.t:.4g} s" for gap in log.gaps]
-        return log.trace, remarks
+        return (
+            log.trace,
+            is_simulated(log.trace) or "simulated.txt" in log.about.attachments,
+            remarks,
+        )
     if path.suffix != ".npz":
-        return None, []
+        with path.open("rb") as file:
+            head = file.readline() + file.readline()
+        return None, head.startswith(b"# Simulated by ebac") or b"true.x" in head, []
     with archive_of(path) as archive:
         ours = "about" in archive
-    return (Trace.from_npz(path) if ours else None), []
+    trace = Trace.from_npz(path) if ours else None
+    return trace, trace is not None and is_simulated(trace), []
 
 
 def _of_trace(trace: Trace, name: str, axis: int, wrong: list[str]) -> Recording:

@@ -10,9 +10,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ebac._core import Device, Hand, Step, Timing, Wall
+from ebac._util.wrong_calls import plain_constructor
 from ebac.identify.arm import fit_arm
 from ebac.identify.device import DeviceResult, fit_device
-from ebac.identify.recording import Recording
+from ebac.identify.recording import Recording, require_recordings
 from ebac.identify.result import ArmResult
 from ebac.identify.signals import rough
 from ebac.identify.target import Target
@@ -26,6 +27,7 @@ DEPTH, PULL = 0.03, 0.8
 LEAST_TOUCHED = 50
 
 
+@plain_constructor
 @dataclass(frozen=True, kw_only=True, eq=False)
 class LoopModel:
     """Arm, device, wall and timing of a log, as far as it determines them; `scenario` presses on the wall again."""
@@ -54,6 +56,11 @@ class LoopModel:
             seconds=3.0,
             seed=seed,
         )
+
+    def __repr__(self) -> str:
+        """Return the arm, and what else stands in the loop, one a line."""
+        lines = [repr(self.arm), f"  {self.wall!r}", f"  {self.timing!r}", "  device in .device"]
+        return "\n".join([*lines, *(f"  {text}" for text in self.remarks)])
 
 
 def fit_loop(
@@ -86,6 +93,7 @@ def fit_loop(
     ValueError
         As `fit_arm`.
     """
+    require_recordings(recordings, "fit_loop")
     result = fit_arm(recordings, targets, **arm)
     first = result.recordings[0]
     remarks: list[str] = []

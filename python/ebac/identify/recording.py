@@ -8,6 +8,9 @@ from typing import TYPE_CHECKING, Any, Self
 import numpy as np
 from numpy.typing import NDArray
 
+from ebac._util.arguments import require
+from ebac._util.wrong_calls import plain_constructor
+
 if TYPE_CHECKING:
     from ebac.identify.target import Path
     from ebac.trace import Trace
@@ -16,6 +19,7 @@ if TYPE_CHECKING:
 LEAST_ROWS = 50
 
 
+@plain_constructor
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Recording:
     """Position and forces of one axis over time, equally spaced.
@@ -46,6 +50,8 @@ class Recording:
         Where the hand wanted to be, by the scenario in the log.
     remarks : tuple of str
         What was guessed or changed on reading.
+    simulated : bool
+        Whether the log holds a simulation, as far as that is known.
 
     Raises
     ------
@@ -65,6 +71,7 @@ class Recording:
     current_lag: float = 3e-4
     path: Path | None = None
     remarks: tuple[str, ...] = field(default=())
+    simulated: bool = False
 
     def __post_init__(self) -> None:
         """Check lengths, numbers and times."""
@@ -147,7 +154,13 @@ class Recording:
         facts = trace_facts(trace, axis)
         if not facts["count"]:
             facts["count"] = count_of(columns["x"])
-        return cls(name=name, t=np.array(trace["t"], dtype=float), **facts, **columns)
+        t, simulated = np.array(trace["t"], dtype=float), is_simulated(trace)
+        return cls(name=name, t=t, simulated=simulated, **facts, **columns)
+
+    @property
+    def origin(self) -> str:
+        """What a figure calls the data: simulated or recorded."""
+        return "simulated" if self.simulated else "recorded"
 
     def __repr__(self) -> str:
         """Return one line: name, rows, rate, channels."""
@@ -157,8 +170,24 @@ class Recording:
         )
 
 
+def require_recordings(value: object, function: str) -> None:
+    """Raise TypeError unless a value is a Recording, or a list of them."""
+    for one in value if isinstance(value, (list, tuple)) else [value]:
+        require(
+            one,
+            Recording,
+            f"ebac.identify.{function}",
+            "a Recording, as ebac.identify.load returns it",
+        )
+
+
 #: Signals of a recording, and the columns of a trace they are.
 OF_TRACE = {"x": "x", "force": "f_meas", "motor": "f_applied", "desired": "f_env"}
+
+
+def is_simulated(trace: Trace) -> bool:
+    """Return whether a trace holds what only a simulation can know."""
+    return "true.x" in trace or "true.x_0" in trace
 
 
 def trace_facts(trace: Trace, axis: int) -> dict[str, Any]:

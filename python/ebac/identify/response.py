@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ebac.identify.recording import Recording
+from ebac.identify.recording import Recording, require_recordings
 from ebac.identify.target import Target, indicators, lagged
 
 Values = NDArray[np.float64]
@@ -69,6 +69,14 @@ class Response:
         """Return the standard deviation of Z at each line [N/m], from the coherence (Bendat and Piersol)."""
         c = np.clip(self.coherence, 1e-6, 1 - 1e-9)
         return np.asarray(np.abs(self.stiffness) * np.sqrt((1 - c) / c / (2 * self.independent)))
+
+    def __repr__(self) -> str:
+        """Return one line: lines, band, coherence."""
+        f, share = self.frequency, float((self.coherence > self.significant).mean())
+        return (
+            f"<Response: {len(f)} lines, {f[0]:.3g} to {f[-1]:.3g} Hz, {self.segments} segments; "
+            f"{100 * share:.0f} % of the lines coherent; Z in .stiffness>"
+        )
 
 
 def spectra(signals: Values, dt: float, segment: int) -> tuple[Values, NDArray[np.complex128], int]:
@@ -161,6 +169,7 @@ def frequency_response(
     ValueError
         Without force, or when the recording is too short for four segments.
     """
+    require_recordings(recording, "frequency_response")
     target = target or Target.held()
     found = densities(
         recording, target, np.zeros(target.levels) if levels is None else np.asarray(levels)

@@ -183,9 +183,11 @@ class ArmResult:
         """
         lost = [n for n in self.undetermined if n[:2] in ("M0", "B0", "K0")]
         if lost:
+            remedy = "; record one with more excitation, or fix some of the values"
+            if validation.seems_flipped(self.explained, self.other_sign):
+                remedy = f". {self.misses[0]}"
             raise ValueError(
-                f"{', '.join(lost)}: not determined by this log, so there is no hand to simulate; record one with "
-                "more excitation, or fix some of the values"
+                f"{', '.join(lost)}: not determined by this log, so there is no hand to simulate{remedy}"
             )
         theta = self.values[self.parameters.places[0]]
         target, r = self.problem.targets[0], self.recordings[0]

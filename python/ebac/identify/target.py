@@ -9,11 +9,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ebac._core import Hand, MinimumJerk, Recorded, Sine, Step, Tapping
+from ebac._util.wrong_calls import plain_constructor
 from ebac.identify.recording import Recording
 
 Path: TypeAlias = MinimumJerk | Recorded | Sine | Step | Tapping
 
 
+@plain_constructor
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Target:
     """X0(t): `levels` that are fitted, between known switches, plus a known path.

@@ -129,20 +129,34 @@ def judge(r: Recording, model: NDArray[np.float64], *, held: bool) -> Prediction
 POOR = 0.8
 
 
+def seems_flipped(explained: float, other_sign: float | None) -> bool:
+    """Return whether a model explains a log well with the force of the other sign only."""
+    return other_sign is not None and other_sign > max(POOR, explained)
+
+
+def flip_advice(sentence: str, explained: float, other_sign: float) -> str:
+    """Return what to do about a force of the other sign; {} of the sentence is the share explained."""
+    return (
+        f"{sentence.format(f'{100 * explained:.3g} %')}, with the force of the other sign {100 * other_sign:.3g} %: "
+        "the log seems to hold the force on the hand instead of the force of the hand. --flip-force turns the sign, "
+        "in Python load(..., flip_force=True)."
+    )
+
+
 def misses(result: ArmResult) -> tuple[str, ...]:
     """Return what the model misses, a sentence each; nothing where structure in the errors changes no result."""
     out = []
     if result.other_sign is not None:
-        both = f"{100 * result.explained:.3g} %", f"{100 * result.other_sign:.3g} %"
-        if result.other_sign > max(POOR, result.explained):
+        if seems_flipped(result.explained, result.other_sign):
             out.append(
-                f"The hand explains {both[0]} of the motion (VAF), with the force of the other sign {both[1]}: the log "
-                "seems to hold the force on the hand instead of the force of the hand. --flip-force turns the sign, in "
-                "Python load(..., flip_force=True)."
+                flip_advice(
+                    "The hand explains {} of the motion (VAF)", result.explained, result.other_sign
+                )
             )
         else:
             out.append(
-                f"The hand explains only {both[0]} of the motion (VAF), with the force of the other sign {both[1]}: is "
+                f"The hand explains only {100 * result.explained:.3g} % of the motion (VAF), with the force of the "
+                f"other sign {100 * result.other_sign:.3g} %: is "
                 "the target of the hand the right one (--switch, --tapping)?"
             )
     if result.regression:

@@ -11,7 +11,8 @@
 from ebac.logs.about import About
 from ebac.logs.events import Event
 from ebac.logs.files import FORMATS, load, save
-from ebac.logs.reader import Gap, Log, read
+from ebac.logs.log import Gap, Log
+from ebac.logs.reader import read
 from ebac.logs.recorder import Recorder
 from ebac.logs.records import Condition
 from ebac.logs.repair import repair

@@ -10,6 +10,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from ebac._util.wrong_calls import plain_constructor
 from ebac.scenario import Scenario
 
 SCENARIO_FILE = "scenario.toml"
@@ -45,6 +46,7 @@ def _checkout() -> str:
     return done.stdout.strip()
 
 
+@plain_constructor
 @dataclass(frozen=True, kw_only=True)
 class About:
     """What stands beside the rows of a log.
@@ -90,3 +92,10 @@ class About:
         """Text files inside the log by their names."""
         own = {} if self.scenario is None else {SCENARIO_FILE: self.scenario.to_toml()}
         return {**own, **self.files}
+
+    def __repr__(self) -> str:
+        """Return one line: law, version, attachments."""
+        files = ", ".join(self.attachments) or "no files"
+        axes = "1 axis" if self.axes == 1 else f"{self.axes} axes"
+        version = self.made_by.get("ebac", "an unknown version")
+        return f"<About: {self.law or 'no law'}, {axes}; by ebac {version}; {files}>"

@@ -10,7 +10,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ebac._util.headings import split_heading
+from ebac._util.headings import FACTORS, signal_heading, split_heading
+from ebac._util.text_file import read_text
 from ebac.trace import Trace
 from ebac.trace.columns import ColumnInfo
 
@@ -20,8 +21,8 @@ _WHOLE = re.compile(r"^[+-]?\d+$")
 def read_csv(path: Path) -> Trace:
     """Read a trace from CSV: names and units in the headings, `x_0`, `x_1` for two axes, below lines that start with #.
 
-    Numbers are float64, or int64 where the first row has whole ones without a point. Meanings, scenario and law are
-    not in it.
+    A column in another unit is returned in SI units. Numbers are float64, or int64 where a column has whole ones
+    without a point. Meanings, scenario and law are not in it.
 
     Raises
     ------
@@ -30,20 +31,26 @@ def read_csv(path: Path) -> Trace:
     ValueError
         When it is no such table; the message names the line.
     """
-    with path.open(encoding="utf-8") as file:
-        line = 1  # of the headings
-        while (heading := file.readline()).startswith("#"):
-            line += 1
-        headings = heading.rstrip("\n").split(",")
-        first = file.readline().rstrip("\n").split(",")
-    split = [split_heading(heading, ()) for heading in headings]
-    names = [name for name, _ in split]
-    if "t" not in names or not all(names) or len(set(names)) < len(names):
-        raise ValueError(
-            f"{path}: line {line} has no headings of a trace, `t [s],x [m],...`, each once"
-        )
-    units = {name: unit or "1" for name, unit in split}
-    flat = _numbers(path, names, first, line)
+    try:
+        with path.open(encoding="utf-8-sig") as file:
+            line = 1  # of the headings
+            while (heading := file.readline()).startswith("#"):
+                line += 1
+            first = file.readline().rstrip("\n")
+    except UnicodeDecodeError:
+        raise ValueError(f"{path}: {_first_wrong(path, [], 0, ',')}") from None
+    if not heading.strip():
+        raise ValueError(f"{path}: the file is empty: needs headings, `t [s],x [m],...`, and rows")
+    mark = max(",;\t", key=heading.count)
+    split = [signal_heading(cell.strip().strip('"')) for cell in heading.split(mark)]
+    names = [name for name, _, _ in split]
+    if twice := sorted({name for name in names if names.count(name) > 1}):
+        raise ValueError(f"{path}: line {line} has column {twice[0]!r} more than once; rename one")
+    if not all(names) or "t" not in names:
+        raise ValueError(f"{path}: line {line} {_not_a_log(names, path)}")
+    units = {name: unit for name, unit, _ in split}
+    flat = _numbers(path, names, first, line, mark)
+    flat |= {name: factor * flat[name] for name, _, factor in split if factor != 1}
     axes = _axes(names)
     data, parts = gathered(flat, names, axes)
     columns = {
@@ -52,6 +59,19 @@ def read_csv(path: Path) -> Trace:
     for values in data.values():
         values.setflags(write=False)
     return Trace(data=data, columns=columns, axes=axes)
+
+
+def _not_a_log(names: list[str], path: Path) -> str:
+    """Return why headings are not those of a log, and what reads the file."""
+    stems = {split_heading(name, FACTORS["mass"])[0] for name in names}
+    if {"m", "mass"} & stems:
+        return f"has the headings of hands, not of a log: `ebac study --population {path.name}` reads them"
+    if {"x", "y"} <= set(names):
+        return f"has the headings of a path, without time: `ebac track {path.name}` reads it"
+    return (
+        "has no column of time, `t [s]`: name one in the headings, `t [s],x [m],...`; "
+        "`ebac identify arm --rate` reads a log without time"
+    )
 
 
 def gathered(
@@ -66,24 +86,55 @@ def gathered(
     return data, first
 
 
-def _numbers(path: Path, names: list[str], first: list[str], skip: int) -> dict[str, NDArray[Any]]:
-    if first == [""]:
+def _numbers(
+    path: Path, names: list[str], first: str, skip: int, mark: str
+) -> dict[str, NDArray[Any]]:
+    if first == "":
         return {name: np.empty(0) for name in names}
-    if len(first) != len(names):
+    cells = first.split(mark)
+    if len(cells) != len(names):
         raise ValueError(
-            f"{path}: line {skip + 1} has {len(first)} numbers for {len(names)} headings"
+            f"{path}: line {skip + 1} has {len(cells)} numbers for {len(names)} headings"
         )
-    kinds = ["i8" if _WHOLE.match(text) else "f8" for text in first]
-    record = np.dtype([(f"f{i}", kind) for i, kind in enumerate(kinds)])
+    kinds = ["i8" if _WHOLE.match(text.strip()) else "f8" for text in cells]
     try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("error")
-            table = np.atleast_1d(
-                np.loadtxt(path, record, delimiter=",", skiprows=skip, encoding="utf-8")
-            )
-    except (ValueError, Warning) as error:
-        raise ValueError(f"{path}: not a table of numbers: {error}") from None
+        table = _table(path, kinds, skip, mark)
+    except (ValueError, OverflowError, Warning):
+        try:
+            table = _table(path, ["f8"] * len(names), skip, mark)
+        except (ValueError, Warning) as error:
+            wrong = _first_wrong(path, names, skip, mark) or f"not a table of numbers: {error}"
+            raise ValueError(f"{path}: {wrong}") from None
     return {name: np.ascontiguousarray(table[f"f{i}"]) for i, name in enumerate(names)}
+
+
+def _first_wrong(path: Path, names: list[str], skip: int, mark: str) -> str | None:
+    """Return the first line that is no row of numbers, in words."""
+    try:
+        lines = read_text(path).splitlines()
+    except ValueError as error:
+        return str(error)
+    for number, line in enumerate(lines, 1):
+        cells = line.split(mark)
+        if number <= skip or not line.strip():
+            continue
+        if len(cells) != len(names):
+            return f"line {number} has {len(cells)} cells for {len(names)} headings"
+        for name, cell in zip(names, cells, strict=True):
+            try:
+                float(cell)
+            except ValueError:
+                return f"line {number}, column {name!r}: {cell.strip()!r} is no number"
+    return None
+
+
+def _table(path: Path, kinds: list[str], skip: int, mark: str) -> NDArray[Any]:
+    record = np.dtype([(f"f{i}", kind) for i, kind in enumerate(kinds)])
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        return np.atleast_1d(
+            np.loadtxt(path, record, delimiter=mark, skiprows=skip, encoding="utf-8-sig")
+        )
 
 
 def _axes(names: list[str]) -> int:

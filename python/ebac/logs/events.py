@@ -10,6 +10,8 @@ from typing import Any, Self
 import numpy as np
 from numpy.typing import NDArray
 
+from ebac._util.wrong_calls import plain_constructor
+
 SCHEMA_NAME = "foxglove.Log"  # a type Foxglove shows in its Log panel by itself
 #: Severity of each kind, in the numbers of that type; any other kind is information.
 INFO, WARNING, FATAL = 2, 3, 5
@@ -39,6 +41,7 @@ SCHEMA = {
 MOST_TIME, MOST_TICK = 1e9, 1 << 62
 
 
+@plain_constructor
 @dataclass(frozen=True, kw_only=True)
 class Event:
     """Something that happened in a tick.

@@ -116,6 +116,8 @@ def load(path: str | Path, *, progress: Progress | None = None) -> Trace:
 
     path = Path(path)
     kind = extension(path, READABLE)
+    if path.is_dir():
+        raise IsADirectoryError(21, "is a folder; give a file in it", str(path))
     if kind == ".mcap":
         return read(path, progress=progress).trace
     readers: dict[str, Callable[[Path], Trace]] = {

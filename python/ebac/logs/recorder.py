@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any, Self
 import numpy as np
 from numpy.typing import NDArray
 
+from ebac._util.wrong_calls import plain_constructor
 from ebac.logs.about import About
 from ebac.logs.events import Event, faults_of
 from ebac.logs.layout import Layout
@@ -31,6 +32,7 @@ INTERVAL = 0.02
 MOST_ROWS = 16_384
 
 
+@plain_constructor
 class Recorder:
     """Writes the rows of a running loop to a log.
 

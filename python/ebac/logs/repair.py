@@ -7,7 +7,8 @@ from pathlib import Path
 
 from ebac.logs.files import CHUNK_ROWS, extension
 from ebac.logs.layout import Layout
-from ebac.logs.reader import Log, read, whole
+from ebac.logs.log import Log
+from ebac.logs.reader import read, whole
 from ebac.logs.writer import LogWriter
 
 

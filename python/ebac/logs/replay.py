@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from ebac import _core
 from ebac.laws import AnyLaw, CoreLaw, design, law_name
-from ebac.logs.reader import Log
+from ebac.logs.log import Log
 
 if TYPE_CHECKING:
     from ebac.scenario import Scenario

@@ -14,6 +14,7 @@ from typing import Any, Self
 import numpy as np
 from numpy.typing import NDArray
 
+from ebac._util.wrong_calls import plain_constructor
 from ebac.logs import events
 from ebac.logs.about import About
 from ebac.logs.layout import MESSAGE, Layout
@@ -24,6 +25,7 @@ _MESSAGE_HEAD = struct.Struct("<BQHIQQ")
 _INDEX_HEAD = struct.Struct("<BQHI")
 
 
+@plain_constructor
 class LogWriter:
     """A log under way: rows and events in, chunks out.
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 from collections.abc import Mapping
 from dataclasses import dataclass
+from io import StringIO
 from math import isnan, nan
 from pathlib import Path
 
@@ -12,6 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ebac._util.headings import FACTORS, split_heading
+from ebac._util.text_file import read_text
 
 #: Free motion of a hand before contact with the wall, unless given [m].
 APPROACH = 0.010
@@ -87,9 +89,8 @@ def _known(heading: str) -> tuple[str, float]:
 def read_csv(path: str | Path) -> dict[str, list[str]]:
     """Return the columns of a CSV file by the names in its heading, as text; lines that start with # are left out."""
     try:
-        with Path(path).open(encoding="utf-8-sig", newline="") as file:
-            text = (line for line in file if not line.startswith("#"))
-            lines = [row for row in csv.reader(text) if any(cell.strip() for cell in row)]
+        text = (line for line in StringIO(read_text(path), newline="") if not line.startswith("#"))
+        lines = [row for row in csv.reader(text) if any(cell.strip() for cell in row)]
     except csv.Error as error:
         raise ValueError(str(error)) from None
     if not lines:

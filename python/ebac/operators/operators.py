@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ebac._core import Hand, Step, Wall
 from ebac._util import serialisation
+from ebac._util.wrong_calls import plain_constructor
 from ebac.operators.columns import APPROACH, OPERATOR_COLUMNS, check, in_si, numbers, read_csv
 
 if TYPE_CHECKING:
@@ -25,6 +26,7 @@ if TYPE_CHECKING:
 MOST_PULL = 35.0
 
 
+@plain_constructor
 @dataclass(frozen=True, eq=False, init=False)
 class Operators:
     """A population of hands, one row each; read-only columns of one length, SI units in the names.

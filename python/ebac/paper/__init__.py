@@ -1,6 +1,6 @@
-"""The paper's numbers and figures, computed again and set beside what it says.
+"""The numbers and figures of the paper, recomputed and compared with the published ones.
 
-`find("eq1")` gives one finding, `report("report/", ITEMS)` writes them all. Everything here is
+`find("eq1")` returns one finding, `report("report/", ITEMS)` writes them all. Everything here is
 computed or simulated; nothing was measured on a device.
 """
 

@@ -1,4 +1,4 @@
-"""Fig. 1 to 4 and 10: photographs and diagrams. They hold no data; what stands for them here is named."""
+"""Fig. 1 to 4 and 10: photographs and diagrams without data, and what corresponds to them in this package."""
 
 from __future__ import annotations
 

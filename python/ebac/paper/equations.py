@@ -12,7 +12,7 @@ from ebac.paper.finding import Claim, Finding, Row, judge, row
 from ebac.scenario import Scenario
 from ebac.simulation import simulate
 
-#: Two computations of one number agree to this share.
+#: Relative tolerance of two computations of one number.
 AGREES = 1e-9
 #: Conditions under which eq. (3) is tried with 60 hands each: an impact, letting go, pumping.
 CONDITIONS = ("d1K10", "slow-let-go-K20", "pumping")

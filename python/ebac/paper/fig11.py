@@ -1,4 +1,4 @@
-"""Fig. 11: TCA, EBA and EBAC against a virtual wall of 10 kN/m, its four claims judged one by one."""
+"""Fig. 11: TCA, EBA and EBAC against a virtual wall of 10 kN/m, each of its four claims checked."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from ebac.simulation import simulate
 from ebac.trace import Trace
 
 LAWS = ("tca", "eba", "ebac-printed", "ebac")
-#: Oscillations from here on are huge [m], and a deviation from here on is one [m].
+#: Least amplitude of a huge oscillation [m], and least deviation that counts as one [m].
 HUGE = 5e-3
 DEVIATES = 1e-3
 #: A force has settled when it stays within this share of its final mean; quick is settled by then [s].
@@ -113,7 +113,7 @@ def _why(force_settled_s: float | None) -> str:
     ripple = ""
     if (force_settled_s or 0.0) > QUICK:
         ripple = (
-            "The position of the completed law is as the paper says; its force ripples by about 10 % while "
+            "The position of the completed law is as published; its force ripples by about 10 % while "
             "encoder counts toggle, until the handle rests. "
         )
     return (

@@ -84,7 +84,7 @@ def _rows(what: str, measured: Contact, trace: Trace) -> list[Row]:
 
 
 def _why(found: dict[tuple[str, str], Contact], traces: Runs) -> str:
-    """Tell what the completed law does at every wall, and what the printed one does."""
+    """Describe the response of the completed law at every wall, and of the printed one."""
     walls = list(WALLS)
     slowest = max((found["ebac", name].settled_s or np.inf) for name in walls)
     off = max(abs(found["ebac", name].deviation_m or 0) for name in walls)
@@ -95,10 +95,10 @@ def _why(found: dict[tuple[str, str], Contact], traces: Runs) -> str:
         f"The completed law settles within {formatting.quantity(slowest, 's')} and rests within "
         f"{formatting.quantity(off, 'm')} of the ideal point at each wall here. "
         "Eq. (8) to (10) as printed are stable and as fast, but rest too deep by "
-        f"{deep[0]} and {deep[1]} at 10 kN/m and give out energy ({formatting.quantity(least, 'J')}). "
+        f"{deep[0]} and {deep[1]} at 10 kN/m and generate energy ({formatting.quantity(least, 'J')}). "
         "Started in free air, beta is 0 and the ratio rows of eq. (10) hold it there until the "
         f"first row frees it: at the soft wall F_d stays zero for {formatting.quantity(time, 's')}, "
-        f"{formatting.quantity(depth, 'm')} deep. The paper does not tell hand, wall or device of its "
+        f"{formatting.quantity(depth, 'm')} deep. The paper does not specify hand, wall or device of its "
         "figure; these are simulations with the reference hand and device."
     )
 

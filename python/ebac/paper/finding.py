@@ -1,4 +1,4 @@
-"""What came of checking one item of the paper."""
+"""The result of checking one item of the paper."""
 
 from __future__ import annotations
 
@@ -21,9 +21,9 @@ class Claim:
     Attributes
     ----------
     text : str
-        The claim, in the paper's words or in ours.
+        The claim, quoted or in our words.
     holds : bool
-        What the computation says.
+        Whether the computation confirms it.
     evidence : str
         The number that decides, with its unit.
     """
@@ -47,7 +47,7 @@ class Finding:
     name, title : str
         Short name, "fig5", and what it shows.
     claim : str
-        What the paper says.
+        The paper's claim.
     rows : list of dict
         `quantity`, `value`, `unit` (SI), `paper` and `difference` (value - paper); the last two are
         None where the paper gives no number.
@@ -58,7 +58,7 @@ class Finding:
     claims : tuple of Claim
         Each claim of the item by itself; the verdict follows from them where there are any.
     figure : Figure or None
-        The figure drawn again.
+        The figure, redrawn.
     """
 
     name: str

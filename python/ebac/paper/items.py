@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+from ebac._util.arguments import unknown_name
 from ebac.paper.drawings import fig1, fig2, fig3, fig4, fig10
 from ebac.paper.equations import eq2, eq3, eq8, eq9, eq10, eq11, eq12
 from ebac.paper.fig5 import fig5
@@ -31,5 +32,5 @@ def find(name: str) -> Finding:
         When there is no such item; the message lists them.
     """
     if name not in ITEMS:
-        raise KeyError(f"no item of the paper is called {name!r}; there are: {', '.join(ITEMS)}")
+        raise unknown_name("item of the paper", name, ITEMS)
     return ITEMS[name]()

@@ -1,4 +1,4 @@
-"""The findings as a folder: figures, a page to read and a document for programs."""
+"""The findings as a folder: figures, a Markdown page and a JSON document."""
 
 from __future__ import annotations
 
@@ -122,7 +122,7 @@ def headings(finding: Finding) -> list[str]:
 
 
 def cells(row: Row) -> list[str]:
-    """Return a row as people read it: quantity, value, paper's value, difference."""
+    """Return a row in words: quantity, value, paper's value, difference."""
     unit = str(row["unit"])
     value, paper, difference = (
         item if isinstance(item, (int, float)) else None

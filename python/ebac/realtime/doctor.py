@@ -44,7 +44,7 @@ class Finding:
 
 
 def examine(options: _core.RealTime | None = None, *, root: Path = Path("/")) -> list[Finding]:
-    """Look at kernel, clock, processor, limits and CAN interfaces.
+    """Check kernel, clock, processor, limits and CAN interfaces for real-time problems.
 
     Parameters
     ----------

@@ -68,6 +68,15 @@ class Jitter:
             "skipped": self.skipped,
         }
 
+    def __repr__(self) -> str:
+        """Return one line: wake-ups, lateness, ticks skipped."""
+        row = self.row()
+        return (
+            f"<Jitter: {row['wakeups']} wake-ups every {1e3 * self.dt:.4g} ms; late by {1e6 * row['p50_s']:.3g} us "
+            f"(median), {1e6 * row['p99_s']:.3g} us (99 %), {1e6 * row['most_s']:.3g} us at most; "
+            f"{self.skipped} skipped; each in .lateness>"
+        )
+
 
 @dataclass(frozen=True, kw_only=True)
 class Cyclictest:
@@ -118,6 +127,14 @@ class Cyclictest:
             "skipped": None,
         }
 
+    def __repr__(self) -> str:
+        """Return one line: wake-ups and lateness."""
+        row = self.row()
+        return (
+            f"<Cyclictest: {row['wakeups']} wake-ups; late by {1e6 * row['p50_s']:.3g} us (median), "
+            f"{1e6 * row['p99_s']:.3g} us (99 %), {1e6 * row['most_s']:.3g} us at most; histogram in .counts>"
+        )
+
 
 def measure(
     *,
@@ -126,7 +143,7 @@ def measure(
     mode: Mode = "auto",
     options: _core.RealTime | None = None,
 ) -> Jitter:
-    """Let a thread wait for its ticks.
+    """Measure how late a thread wakes for its ticks.
 
     Parameters
     ----------

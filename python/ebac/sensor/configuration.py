@@ -9,6 +9,7 @@ from math import isfinite
 from typing import Any, Self, TypeAlias
 
 from ebac import _core
+from ebac._util.wrong_calls import plain_constructor
 from ebac.sensor.status import BITS
 
 Row: TypeAlias = tuple[float, float, float]
@@ -22,6 +23,7 @@ MODELS = dict(zip(BITS, _core.SensorModel, strict=True))
 _SCALE = ("counts_per_force", "counts_per_torque", "force_range", "torque_range")
 
 
+@plain_constructor
 @dataclass(frozen=True, kw_only=True)
 class SensorConfig:
     """A force/torque sensor on the network and its place in the handle.

@@ -7,6 +7,7 @@ from types import TracebackType
 from typing import Any, Self
 
 from ebac._core import LinkState, RdtClient, SensorStatus
+from ebac._util.wrong_calls import plain_constructor
 from ebac.sensor.configuration import SensorConfig, Wrench
 from ebac.sensor.errors import SensorError, silence
 from ebac.sensor.reading import SensorCounts, SensorReading
@@ -15,6 +16,7 @@ from ebac.sensor.reading import SensorCounts, SensorReading
 _OLD = 0.02
 
 
+@plain_constructor
 class Sensor:
     """A force/torque sensor that streams to this program. A context manager; see `open`.
 

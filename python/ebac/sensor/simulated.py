@@ -19,6 +19,7 @@ from ebac._core import (
     Setup,
     SharedForce,
 )
+from ebac._util.wrong_calls import plain_constructor
 from ebac.sensor.configuration import MODELS, Rotation, SensorConfig, numbers
 from ebac.sensor.page import PAGE
 
@@ -28,6 +29,7 @@ if TYPE_CHECKING:
     from ebac.scenario import Scenario
 
 
+@plain_constructor
 class SimulatedSensor:
     """A simulated force/torque sensor in real time, in a thread of C++. A context manager.
 

@@ -78,6 +78,11 @@ class Comparison:
         """The earliest divergence; None where all agree."""
         return self.divergences[0] if self.divergences else None
 
+    def __repr__(self) -> str:
+        """Return how many channels agree, and the first that does not."""
+        some = f"{len(self.divergences)} of {len(self.channels)} channels differ"
+        return f"<Comparison: {some}; {self.first or 'all agree'}>"
+
 
 def compare(
     trace: Trace,

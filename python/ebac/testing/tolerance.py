@@ -9,7 +9,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ebac._util.wrong_calls import plain_constructor
 
+
+@plain_constructor
 @dataclass(frozen=True, kw_only=True)
 class Tolerance:
     """A value passes when |value - golden| <= absolute + relative |golden|. NaN passes for NaN.

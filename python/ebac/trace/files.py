@@ -71,7 +71,7 @@ def npz_parts(path: str | Path) -> dict[str, Any]:
             about = json.loads(str(archive["about"]))
             data = {name: archive[name] for name in about["columns"]}
     except (BadZipFile, EOFError, KeyError, OSError, TypeError, ValueError) as error:
-        if isinstance(error, FileNotFoundError):
+        if isinstance(error, (FileNotFoundError, IsADirectoryError)):
             raise
         raise ValueError(f"{path}: not a trace written by to_npz ({_reason(error)})") from None
     return {

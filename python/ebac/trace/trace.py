@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from html import escape
+from numbers import Real
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Self, overload
 
@@ -83,6 +84,10 @@ class Trace:
         if isinstance(key, slice):
             return self.between(key.start, key.stop, key.step)
         if key not in self._data:
+            if not isinstance(key, str):
+                raise TypeError(
+                    f"trace[{key!r}]: must be the name of a column, or two times [s] as in trace[1.0:2.5]"
+                )
             raise KeyError(f"no column {key!r}; there are: {', '.join(self._data)}")
         return self._data[key]
 
@@ -108,9 +113,14 @@ class Trace:
         ------
         ValueError
             For a part outside the run, or for a step.
+        TypeError
+            For what is no time.
         """
         if step is not None:
             raise ValueError("a trace is sliced by time [s]: trace[start:stop], without a step")
+        times: list[Any] = [one for one in (start, stop) if one is not None]
+        if not all(isinstance(time, (Real, np.number)) for time in times):
+            raise TypeError(f"trace[{start!r}:{stop!r}]: must be times [s], as in trace[1.0:2.5]")
         t = self._data["t"]
         first = 0 if start is None else int(np.searchsorted(t, start))
         last = len(t) if stop is None else int(np.searchsorted(t, stop))
@@ -125,14 +135,7 @@ class Trace:
     def rows(self, first: int, last: int) -> Self:
         """Return the rows first, ..., last - 1, as views."""
         part = {name: values[first:last] for name, values in self._data.items()}
-        return type(self)(
-            data=part,
-            columns=self.columns,
-            axes=self.axes,
-            scenario=self.scenario,
-            law=self.law,
-            law_repr=self.law_repr,
-        )
+        return self._with(part)
 
     def with_column(self, name: str, values: NDArray[Any]) -> Self:
         """Return the trace with other values in a column it has.
@@ -146,8 +149,11 @@ class Trace:
         """
         if values.shape != self[name].shape:
             raise ValueError(f"{name}: shape {values.shape}, must be {self[name].shape}")
+        return self._with({**self._data, name: values})
+
+    def _with(self, data: dict[str, NDArray[Any]]) -> Self:
         return type(self)(
-            data={**self._data, name: values},
+            data=data,
             columns=self.columns,
             axes=self.axes,
             scenario=self.scenario,

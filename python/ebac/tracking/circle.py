@@ -55,6 +55,15 @@ class CircleFit:
     arc_rad: float
     inliers: np.ndarray[tuple[int, ...], np.dtype[np.bool_]]
 
+    def __repr__(self) -> str:
+        """Return one line: radius, centre, arc, deviation, points counted."""
+        centre = ", ".join(f"{1e3 * value:.4f}" for value in self.centre.tolist())
+        return (
+            f"<CircleFit: radius {1e3 * self.radius:.4g} mm, centre ({centre}) mm, "
+            f"arc {np.degrees(self.arc_rad):.4g} deg; SD {1e3 * self.deviation.sd_m:.3g} mm of "
+            f"{int(self.inliers.sum())} of {len(self.inliers)} points; distances in .residuals>"
+        )
+
 
 def fit_circle(points: ArrayLike, *, robust: bool = False) -> CircleFit:
     """Fit a circle by least squares of the radial distances.

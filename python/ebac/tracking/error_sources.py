@@ -10,6 +10,8 @@ from typing import Any
 import numpy as np
 
 from ebac._core import Device, Gimbal
+from ebac._util.arguments import unknown_name
+from ebac._util.wrong_calls import plain_constructor
 from ebac.tracking.deviation import Numbers
 
 #: Names of the sources, and the fields of `ErrorSources` that belong to each.
@@ -28,6 +30,7 @@ _RANGES = {
 }
 
 
+@plain_constructor
 @dataclass(frozen=True, kw_only=True)
 class ErrorSources:
     """How inaccurate a joystick is. The paper names the sources and no size: the defaults are assumptions.
@@ -79,7 +82,7 @@ class ErrorSources:
     def only(self, group: str) -> ErrorSources:
         """Return one of the groups "encoder", "installation", "cable slack" without the others."""
         if group not in GROUPS:
-            raise KeyError(f"no error source is called {group!r}; there are: {', '.join(GROUPS)}")
+            raise unknown_name("error source", group, GROUPS)
         kept = {name: getattr(self, name) if name in GROUPS[group] else 0.0 for name in _RANGES}
         return ErrorSources(encoder=self.encoder and group == "encoder", **kept)
 

@@ -52,6 +52,14 @@ class LineFit:
         """Direction in the plane of the first two axes, (-pi, pi] [rad]."""
         return float(np.arctan2(self.direction[1], self.direction[0]))
 
+    def __repr__(self) -> str:
+        """Return one line: length, direction, deviation, points counted."""
+        return (
+            f"<LineFit: length {1e3 * self.length_m:.4g} mm, angle {np.degrees(self.angle_rad):.4g} deg; "
+            f"SD {1e3 * self.deviation.sd_m:.3g} mm of {int(self.inliers.sum())} of {len(self.inliers)} points; "
+            "distances in .residuals>"
+        )
+
 
 def fit_line(points: ArrayLike, *, robust: bool = False) -> LineFit:
     """Fit a line by least squares of the distances across it.

@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from ebac._util.headings import FACTORS, split_heading
+from ebac._util.wrong_calls import plain_constructor
 from ebac.operators.columns import read_csv
 from ebac.trace import Trace
 from ebac.tracking.deviation import Numbers
@@ -19,8 +20,11 @@ UNITS = FACTORS["length"]
 NAMES = (("x", "y", "z"), ("x_0", "x_1", "x_2"), ("px", "py", "pz"), ("X", "Y", "Z"))
 #: No haptic handle is this far from its middle; such numbers are millimetres [m].
 FARTHEST = 5.0
+#: Farther than this is an error in the file [m].
+MOST = 1000.0
 
 
+@plain_constructor
 @dataclass(frozen=True, kw_only=True, eq=False)
 class RecordedPath:
     """A path and what was taken for it.
@@ -38,6 +42,11 @@ class RecordedPath:
     points: Numbers
     name: str
     remark: str
+
+    def __repr__(self) -> str:
+        """Return one line: name, points, extent."""
+        extent = " x ".join(f"{1e3 * float(np.ptp(axis)):.4g}" for axis in self.points.T)
+        return f"<RecordedPath {self.name}: {len(self.points)} points in .points, {extent} mm; {self.remark}>"
 
 
 def read_path(
@@ -74,8 +83,6 @@ def read_path(
         if path.suffix == ".npz":
             return _from_trace(path, columns, unit)
         return _from_text(path, columns, unit)
-    except UnicodeDecodeError:
-        raise ValueError(f"{path}: is no text; give a CSV file or a trace (.npz)") from None
     except ValueError as error:
         text = str(error)
         raise ValueError(text if text.startswith(str(path)) else f"{path}: {text}") from None
@@ -120,7 +127,13 @@ def _from_text(path: Path, columns: Sequence[str] | None, unit: str | None) -> R
         found = "m" if float(np.nanmax(np.abs(points))) < FARTHEST else "mm"
         how = f" (no unit given; {found} guessed from the size, --unit to change it)"
     remark = f"columns {', '.join(_bare(c)[0] for c in chosen)} in {found}{how}"
-    return RecordedPath(points=points * UNITS[found], name=path.name, remark=remark)
+    points = points * UNITS[found]
+    for i, j in np.argwhere(np.abs(points) > MOST)[:1]:
+        raise ValueError(
+            f"column {chosen[j]}, row {i + 1}: {points[i, j]:g} m: must lie in [-{MOST:g}, {MOST:g}] m; "
+            "is the unit right?"
+        )
+    return RecordedPath(points=points, name=path.name, remark=remark)
 
 
 def _bare(heading: str) -> tuple[str, str | None]:

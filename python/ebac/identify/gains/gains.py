@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from ebac._core import Hand
+from ebac._util.arguments import require
 from ebac.identify.gains.press_trials import arms_around, force_loop_laws
 from ebac.identify.gains.search import GainsSearch
 from ebac.identify.gains.trial import Candidate, Limits
@@ -107,11 +108,12 @@ def fit_gains(
     """Choose K_p and K_d of eq. (2) for the loop of a log.
 
     Every pair is simulated on presses, to two depths, of the identified hand, of the ends of its interval, and of hands
-    `vary` away from it. Settling time, swing and noise are taken over what the default gains give; the cost falls with
-    what is won of all three, and nothing is won by giving back any of them. The constraints hold for the worst press,
-    with a tenth of overshoot and energy to spare, since other hands will come. First looks over the whole range, then
-    NLopt's COBYLA from the default and from the best of them; the best point seen that keeps all constraints is the
-    answer. The default is one of the points: where it keeps them, the answer is never worse on these presses.
+    `vary` away from it. Settling time, swing and noise are divided by those of the default gains; the cost falls with
+    all three, and an improvement of one at the expense of another is not rewarded. The constraints apply to the worst
+    press, with a margin of a tenth of overshoot and energy for other hands. The search begins with points over the
+    whole range, then runs NLopt's COBYLA from the default and from the best of them; the result is the best point that
+    satisfies all constraints. The default is one of the points: where it satisfies them, the result is never worse on
+    these presses.
 
     Parameters
     ----------
@@ -120,7 +122,7 @@ def fit_gains(
     law : str
         A law with the force loop of eq. (2): `tca`, `tca-damped`, `ebac`.
     limits : Limits, optional
-        What must be kept.
+        Constraints.
     vary : float
         How far hands are tried beyond the interval, as a share, [0, 3].
     evaluations : int
@@ -140,6 +142,12 @@ def fit_gains(
         When the log does not determine the hand, the law has no force loop, a number is out of range, or no pair keeps
         the constraints; the message names them.
     """
+    require(
+        loop,
+        LoopModel,
+        "ebac.identify.fit_gains",
+        "a LoopModel, as ebac.identify.fit_loop returns it",
+    )
     known = force_loop_laws()
     if law not in known:
         raise ValueError(

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from ebac._util.wrong_calls import plain_constructor
 from ebac.identify.gains.press_trials import Presses, noise_gain, run_presses
 from ebac.laws import design
 from ebac.scenario import Scenario
@@ -19,6 +20,7 @@ ALIKE = 0.01
 RUINED = 1e3
 
 
+@plain_constructor
 @dataclass(frozen=True, kw_only=True)
 class Limits:
     """What gains must keep for every hand they are tried on.
@@ -89,6 +91,13 @@ class Candidate:
             **{f"{name}_ratio": value for name, value in self.ratios.items()},
             **self.presses.numbers(),
         }
+
+    def __repr__(self) -> str:
+        """Return one line: gains, cost, broken constraints."""
+        return (
+            f"<Candidate {self.name}: kp = {self.kp:.4g}, kd = {1e3 * self.kd:.4g} ms, cost {self.cost:.4g}; "
+            f"breaks {', '.join(self.broken) or 'nothing'}>"
+        )
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

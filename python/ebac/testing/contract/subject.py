@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import numpy as np
 
 from ebac._core import Device, DeviceFacts, Port, Timing
+from ebac._util.arguments import unknown_name
 from ebac.laws import LAWS, CoreLaw, PythonLaw, Variant, design, law_name
 
 if TYPE_CHECKING:
@@ -47,7 +48,7 @@ class Subject:
         """Look at what was given as a law."""
         if isinstance(law, str):
             if law not in LAWS:
-                raise TypeError(f"no law is called {law!r}; there are: {', '.join(LAWS)}")
+                raise TypeError(unknown_name("law", law, LAWS).args[0])
             law = LAWS[law]
         made = _made(law, contract.device, Timing())
         core = type(made) if hasattr(made, "_simulate") else None
