@@ -1,9 +1,11 @@
 """The site: `sphinx-build -W docs build/docs`. Notebooks are executed, the reference is read from the code."""
 
+import re
 import shutil
 import sys
 from importlib.metadata import version as installed
 from pathlib import Path
+from typing import Any
 
 HERE = Path(__file__).parent
 sys.path.insert(0, str(HERE / "_ext"))
@@ -62,10 +64,35 @@ nb_execution_raise_on_error = True
 nb_execution_show_tb = True
 nb_merge_streams = True
 
-autodoc_typehints = "none"  # the docstrings tell types, with shapes and units
+autodoc_typehints = "signature"  # the docstrings have shapes and units, too
+autodoc_type_aliases = {
+    name: name for name in ("AnyLaw", "ArrayLike", "Environment", "Laws", "Progress")
+}
+python_use_unqualified_type_names = True
+python_maximum_signature_line_length = 100  # a longer signature has one parameter a line
 autodoc_member_order = "bysource"
 autodoc_preserve_defaults = True
 napoleon_google_docstring = False
 napoleon_use_rtype = False
 napoleon_use_ivar = True
 toc_object_entries_show_parents = "hide"
+
+#: `NDArray`, and an alias inside of another type, as annotations are evaluated.
+ARRAY = re.compile(r"~?(?:numpy\.)?ndarray\[.*?dtype\[[^]]*\]\]")
+ALIAS = re.compile(r"TypeAliasForwardRef\('(\w+)'\)")
+
+
+def shorten(
+    app: Any, what: str, name: str, thing: Any, options: Any, signature: Any, returns: Any
+) -> tuple[str | None, str | None]:
+    """Write arrays as `ndarray`, whose shapes are in the docstrings, and aliases by their names."""
+
+    def short(text: str | None) -> str | None:
+        return text and ALIAS.sub(r"\1", ARRAY.sub("~numpy.ndarray", text))
+
+    return short(signature), short(returns)
+
+
+def setup(app: Any) -> None:
+    """Shorten the signatures of the reference."""
+    app.connect("autodoc-process-signature", shorten)
