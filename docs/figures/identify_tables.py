@@ -59,9 +59,9 @@ def arm(printed: Printed) -> str:
     """200 random arms."""
     d = printed.document(ARM)
     text = (
-        f"{d['silent_cases']} of the logs cannot tell M0, B0 and K0, by the information at the true values; "
-        f"{d['silent_called']} of them are called so, and {d['telling_called']} of the {d['telling_cases']} others. "
-        f"Estimates that are wrong by half and said to be determined: {d['determined_and_wrong_by_half']}."
+        f"{d['silent_cases']} of the logs do not determine M0, B0 and K0, by the information at the true values; "
+        f"{d['silent_called']} of them are reported so, and {d['telling_called']} of the {d['telling_cases']} others. "
+        f"Estimates that are wrong by half and reported as determined: {d['determined_and_wrong_by_half']}."
     )
     return coverage(d["rows"]) + "\n\n" + text
 

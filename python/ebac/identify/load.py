@@ -199,12 +199,12 @@ def _plausible(name: str, signals: Columns) -> None:
     if len(signals["t"]) >= LEAST_ROWS and reach > 0 and dt > SLOWEST:
         raise ValueError(
             f"{name}: rows are {dt:.4g} s apart, {SLOWEST:g} s at most resolve a hand: is the unit of t right? "
-            "Say it: units={'t': 'ms'} or --unit t=ms"
+            "Give the unit: units={'t': 'ms'} or --unit t=ms"
         )
     if 0 < reach < NEAREST:
         raise ValueError(
             f"{name}: x spans {1e6 * reach:.4g} um, less than a hand that holds still: is its unit right? "
-            "Say it: units={'x': 'm'} or --unit x=m"
+            "Give the unit: units={'x': 'm'} or --unit x=m"
         )
     if "force" in signals and np.ptp(signals["force"]) == 0:
         raise ValueError(
@@ -218,7 +218,7 @@ def _plausible(name: str, signals: Columns) -> None:
             unit = UNITS_OF[key]
             raise ValueError(
                 f"{name}: {key} spans {span:.4g} {unit}, a hand {most:g} {unit} at most: is its unit right? "
-                f"Say it: units={{'{key}': 'm{unit}'}} or --unit {key}=m{unit}"
+                f"Give the unit: units={{'{key}': 'm{unit}'}} or --unit {key}=m{unit}"
             )
 
 
