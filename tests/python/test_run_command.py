@@ -84,6 +84,10 @@ def test_a_run_gives_rows_verdict_figure_and_a_log_that_others_read(
     (log,) = out.glob("*.mcap")
     trace = ebac.load(log)
     assert len(trace) == told["recorded"]
+    for ending in ("mcap", "npz"):
+        ebac.logs.save(trace, copy := tmp_path / f"copy.{ending}")
+        title = ebac.load(copy).plot().get_suptitle()
+        assert "real time on simulated drives" in title.replace("\n", " ")
     assert (np.diff(trace["tick"]) == 1).all()
     from mcap.reader import make_reader
 

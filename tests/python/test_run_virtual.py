@@ -13,6 +13,7 @@ from typer.testing import CliRunner
 import ebac
 from ebac.cli import app
 from ebac.cli.files import FigureOptions
+from ebac.cli.run import names
 from ebac.hardware import Configuration, Run
 from ebac.hardware.report import lateness
 from ebac.simulation import LoopFault
@@ -38,13 +39,16 @@ def test_a_virtual_run_is_the_simulation_and_leaves_the_same_files(tmp_path: Pat
 def test_two_runs_of_one_second_have_names_of_their_own(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    module = import_module("ebac.cli.run.run")
-    monkeypatch.setattr(module.time, "strftime", lambda *_: "run-now")
-    assert [module._stem(tmp_path).name for _ in range(3)] == ["run-now", "run-now-2", "run-now-3"]
+    monkeypatch.setattr(names.time, "strftime", lambda *_: "run-now")
+    assert [names.free_stem(tmp_path).name for _ in range(3)] == [
+        "run-now",
+        "run-now-2",
+        "run-now-3",
+    ]
     (tmp_path / "run-now-4.mcap").touch()
-    assert module._stem(tmp_path).name == "run-now-5"
+    assert names.free_stem(tmp_path).name == "run-now-5"
     for stem in ("run-now", "run-now-2", "run-now-3", "run-now-5"):
-        module._leave(tmp_path / stem)
+        names.leave(tmp_path / stem)
     assert [file.name for file in tmp_path.iterdir()] == ["run-now-4.mcap"]
 
 

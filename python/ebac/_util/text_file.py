@@ -4,6 +4,16 @@ from __future__ import annotations
 
 from pathlib import Path
 
+#: How the first line of a sample CSV begins, see `ebac demo`.
+SIMULATED = "Simulated by ebac"
+
+
+def says_simulated(path: str | Path) -> bool:
+    """Return whether the first lines of a file say that it is simulated: the note of a sample, or a column `true.x`."""
+    with Path(path).open("rb") as file:
+        head = file.readline() + file.readline()
+    return head.startswith(f"# {SIMULATED}".encode()) or b"true.x" in head
+
 
 def read_text(path: str | Path) -> str:
     """Return the text of a file in UTF-8, a byte order mark aside.

@@ -49,11 +49,12 @@ class Dataset:
     def note(self) -> str:
         """Note in the file: origin, content, true values."""
         from ebac import __version__
+        from ebac._util.text_file import SIMULATED
 
         if not self.data:
             return self.about
         truth = f" True values: {self.truth}." if self.truth else ""
-        return f"Simulated by ebac {__version__}, not measured. {self.about}{truth}"
+        return f"{SIMULATED} {__version__}, not measured. {self.about}{truth}"
 
 
 def write(name: str, folder: str | Path = ".", *, force: bool = False) -> Path:

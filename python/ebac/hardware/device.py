@@ -24,6 +24,7 @@ from ebac.hardware.law import designed
 from ebac.hardware.report import Report
 from ebac.hardware.run import Run
 from ebac.hardware.run_setup import run_setup, started
+from ebac.logs.about import SIMULATED_FILE
 
 if TYPE_CHECKING:
     from ebac.hardware.backends import Backend
@@ -208,7 +209,7 @@ class OpenDevice:
             if path is not None:
                 files = {"configuration.toml": known.text}
                 if backend.aim is not None:  # a simulated hand: drives and device are simulated too
-                    files["simulated.txt"] = f"{backend.about}\n"
+                    files[SIMULATED_FILE] = f"{backend.about}\n"
                 run.record(path, files=files, sync=known.sync)
             self._held.last_to_register()
         except BaseException:

@@ -18,20 +18,26 @@ class LiveStatus:
     """Rows and current parameters of a running loop, for any thread, at any time."""
 
     def __init__(
-        self, running: _core.Running, scenario: Scenario, parameters: CurrentParameters
+        self,
+        running: _core.Running,
+        scenario: Scenario,
+        parameters: CurrentParameters,
+        *,
+        origin: str,
     ) -> None:
         self._running = running
         self._scenario = scenario
         self._parameters = parameters
+        self._origin = origin
 
     @property
     def law(self) -> CoreLaw:
-        """The law with its parameters gains."""
+        """The law with its current gains."""
         return self._parameters.law
 
     @property
     def environment(self) -> Environment:
-        """The parameters virtual world."""
+        """The current virtual world."""
         return self._parameters.world
 
     @property
@@ -78,6 +84,7 @@ class LiveStatus:
             scenario=self._scenario,
             law=self.law.name,
             law_repr=repr(self.law),
+            origin=self._origin,
         )
 
     @property
@@ -95,4 +102,5 @@ class LiveStatus:
             scenario=self._scenario,
             law=self.law.name,
             law_repr=repr(self.law),
+            origin=self._origin,
         )

@@ -18,6 +18,7 @@ from ebac.hardware.current_parameters import CurrentParameters
 from ebac.hardware.interrupts import Interrupts, OfParent
 from ebac.hardware.live_status import LiveStatus
 from ebac.hardware.report import BY_TIME, Report, lateness
+from ebac.logs.about import SIMULATED_DRIVES
 from ebac.trace import Trace
 
 if TYPE_CHECKING:
@@ -53,7 +54,10 @@ class Run(LiveStatus):
         self.report: Report | None = None
         self._ended_by = ""
         super().__init__(
-            running, scenario, CurrentParameters(running, law=law, scenario=scenario, hand=hand)
+            running,
+            scenario,
+            CurrentParameters(running, law=law, scenario=scenario, hand=hand),
+            origin=SIMULATED_DRIVES if hand else "",  # a simulated hand holds a simulated device
         )
         self._interrupts = interrupts
         self._power_off = power_off

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from ebac._util.serialisation import unknown
+from ebac._util.text_file import says_simulated
 from ebac.identify.files import (
     UNITS_OF,
     Columns,
@@ -24,7 +25,6 @@ from ebac.identify.recording import (
     OF_TRACE,
     Recording,
     count_of,
-    is_simulated,
     path_of,
     trace_facts,
 )
@@ -83,7 +83,7 @@ def load(
         raise FileNotFoundError(2, "there is no such file", str(path))
     if path.is_dir():
         raise ValueError(f"{path.name}: is a folder; give a file in it")
-    trace, simulated, wrong = _trace(path)
+    trace, origin, wrong = _trace(path)
     if trace is not None and not columns:
         found = _of_trace(trace, path.name, axis, wrong)
     else:
@@ -91,7 +91,7 @@ def load(
         found = _recording(path.name, raw, columns or {}, units or {}, rate)
         if trace is not None:
             found = replace(found, path=path_of(trace, axis))
-    changes: dict[str, Any] = {"simulated": simulated}
+    changes: dict[str, Any] = {"origin": origin}
     for name, value in (("lag", lag), ("current_lag", current_lag), ("count", count)):
         if value is not None:
             changes[name] = value
@@ -99,8 +99,8 @@ def load(
     return found.flipped() if flip_force else found
 
 
-def _trace(path: Path) -> tuple[Trace | None, bool, list[str]]:
-    """Return the trace in a file of ours, whether it is simulated, what is wrong with it; None for another file."""
+def _trace(path: Path) -> tuple[Trace | None, str, list[str]]:
+    """Return the trace in a file of ours, its origin, what is wrong with it; None for another file."""
     if path.suffix == ".mcap":
         from ebac.logs import read
 
@@ -111,19 +111,13 @@ def _trace(path: Path) -> tuple[Trace | None, bool, list[str]]:
             )
         remarks = [] if log.condition.complete else [f"the log is not whole: {log.condition}"]
         remarks += [f"{gap.rows} rows are missing after t = {gap.t:.4g} s" for gap in log.gaps]
-        return (
-            log.trace,
-            is_simulated(log.trace) or "simulated.txt" in log.about.attachments,
-            remarks,
-        )
+        return log.trace, log.trace.origin, remarks
     if path.suffix != ".npz":
-        with path.open("rb") as file:
-            head = file.readline() + file.readline()
-        return None, head.startswith(b"# Simulated by ebac") or b"true.x" in head, []
+        return None, "simulated" if says_simulated(path) else "recorded", []
     with archive_of(path) as archive:
         ours = "about" in archive
     trace = Trace.from_npz(path) if ours else None
-    return trace, trace is not None and is_simulated(trace), []
+    return trace, "recorded" if trace is None else trace.origin, []
 
 
 def _of_trace(trace: Trace, name: str, axis: int, wrong: list[str]) -> Recording:

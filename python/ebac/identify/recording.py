@@ -50,8 +50,8 @@ class Recording:
         Where the hand wanted to be, by the scenario in the log.
     remarks : tuple of str
         What was guessed or changed on reading.
-    simulated : bool
-        Whether the log holds a simulation, as far as that is known.
+    origin : str
+        What a figure calls the data: "recorded", "simulated", or what its log says.
 
     Raises
     ------
@@ -71,7 +71,7 @@ class Recording:
     current_lag: float = 3e-4
     path: Path | None = None
     remarks: tuple[str, ...] = field(default=())
-    simulated: bool = False
+    origin: str = "recorded"
 
     def __post_init__(self) -> None:
         """Check lengths, numbers and times."""
@@ -154,13 +154,8 @@ class Recording:
         facts = trace_facts(trace, axis)
         if not facts["count"]:
             facts["count"] = count_of(columns["x"])
-        t, simulated = np.array(trace["t"], dtype=float), is_simulated(trace)
-        return cls(name=name, t=t, simulated=simulated, **facts, **columns)
-
-    @property
-    def origin(self) -> str:
-        """What a figure calls the data: simulated or recorded."""
-        return "simulated" if self.simulated else "recorded"
+        t = np.array(trace["t"], dtype=float)
+        return cls(name=name, t=t, origin=trace.origin, **facts, **columns)
 
     def __repr__(self) -> str:
         """Return one line: name, rows, rate, channels."""
@@ -183,11 +178,6 @@ def require_recordings(value: object, function: str) -> None:
 
 #: Signals of a recording, and the columns of a trace they are.
 OF_TRACE = {"x": "x", "force": "f_meas", "motor": "f_applied", "desired": "f_env"}
-
-
-def is_simulated(trace: Trace) -> bool:
-    """Return whether a trace holds what only a simulation can know."""
-    return "true.x" in trace or "true.x_0" in trace
 
 
 def trace_facts(trace: Trace, axis: int) -> dict[str, Any]:

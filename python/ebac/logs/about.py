@@ -14,6 +14,10 @@ from ebac._util.wrong_calls import plain_constructor
 from ebac.scenario import Scenario
 
 SCENARIO_FILE = "scenario.toml"
+#: Attached to the log of a run on simulated drives: what was simulated.
+SIMULATED_FILE = "simulated.txt"
+#: What titles call such a run.
+SIMULATED_DRIVES = "real time on simulated drives"
 
 
 @functools.cache
@@ -74,6 +78,11 @@ class About:
     start_ns: int = 0
     files: Mapping[str, str] = field(default_factory=dict)
     made_by: Mapping[str, str] = field(default_factory=versions)
+
+    @property
+    def origin(self) -> str:
+        """The origin of the trace, see `Trace.origin`; empty where its columns show it."""
+        return SIMULATED_DRIVES if SIMULATED_FILE in self.files else ""
 
     @property
     def metadata(self) -> dict[str, str]:

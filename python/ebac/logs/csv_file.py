@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ebac._util.headings import FACTORS, signal_heading, split_heading
-from ebac._util.text_file import read_text
+from ebac._util.text_file import read_text, says_simulated
 from ebac.trace import Trace
 from ebac.trace.columns import ColumnInfo
 
@@ -58,7 +58,8 @@ def read_csv(path: Path) -> Trace:
     }
     for values in data.values():
         values.setflags(write=False)
-    return Trace(data=data, columns=columns, axes=axes)
+    origin = "simulated" if says_simulated(path) else ""
+    return Trace(data=data, columns=columns, axes=axes, origin=origin)
 
 
 def _not_a_log(names: list[str], path: Path) -> str:

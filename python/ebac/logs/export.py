@@ -24,6 +24,7 @@ def facts(trace: Trace) -> dict[str, str]:
     return {
         "law": trace.law,
         "law_repr": trace.law_repr,
+        "origin": trace.origin,
         "axes": str(trace.axes),
         "scenario": trace.scenario.to_toml() if trace.scenario else "",
         **versions(),

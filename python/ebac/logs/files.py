@@ -8,7 +8,7 @@ from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ebac.logs.about import About
+from ebac.logs.about import SIMULATED_DRIVES, SIMULATED_FILE, About
 from ebac.logs.layout import Layout
 
 if TYPE_CHECKING:
@@ -141,12 +141,13 @@ def write_mcap(
     from ebac.logs.writer import LogWriter
 
     data = {name: trace[name] for name in trace}
+    simulated = {SIMULATED_FILE: ""} if trace.origin == SIMULATED_DRIVES else {}
     about = About(
         axes=trace.axes,
         law=trace.law,
         law_repr=trace.law_repr,
         scenario=trace.scenario,
-        files=files or {},
+        files={**simulated, **(files or {})},
     )
     with LogWriter(path, layout=Layout.of(data, trace.columns), about=about) as log:
         for first in range(0, len(trace), CHUNK_ROWS):

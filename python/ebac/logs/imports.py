@@ -98,6 +98,7 @@ def _trace(
         scenario=Scenario.from_toml(text) if text else None,
         law=about.get("law", ""),
         law_repr=about.get("law_repr", ""),
+        origin=about.get("origin", ""),
     )
 
 

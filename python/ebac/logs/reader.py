@@ -190,6 +190,7 @@ def _log(path: Path, found: _Found, condition: Condition, size: int) -> Log:
         scenario=about.scenario,
         law=about.law,
         law_repr=about.law_repr,
+        origin=about.origin,
     )
     return Log(
         path=path,

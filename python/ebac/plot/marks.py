@@ -14,15 +14,13 @@ _STOP = 3
 FAULT_COLOUR, RAMP_COLOUR = "#aa0044", "0.88"
 
 
-def title(trace: Trace, source: str = "") -> str:
-    """Return law, source and scenario of a trace, and the fault that ended it.
+def title(trace: Trace) -> str:
+    """Return law, origin and scenario of a trace, and the fault that ended it.
 
     Parameters
     ----------
     trace : Trace
         Of a simulation, a device, or a log played again.
-    source : str
-        Where a trace without simulated truth comes from; default "recorded".
     """
     name = f"law {trace.law}" if trace.law else "a run"
     fault = fault_name(trace)
@@ -32,14 +30,12 @@ def title(trace: Trace, source: str = "") -> str:
             f"{name}, over a recorded log: the handle moved as recorded, whatever is commanded{end}"
         )
     if trace.scenario is None:
-        return f"{name}, {source or 'recorded'}{end}"
+        return f"{name}, {trace.origin}{end}"
     parts = formatting.describe(trace.scenario).split("; ")
     if "true.x" in trace:
-        return (
-            f"{name}, {source or 'simulated'}: {parts[0]}; {parts[1]}\n{'; '.join(parts[2:])}{end}"
-        )
+        return f"{name}, {trace.origin}: {parts[0]}; {parts[1]}\n{'; '.join(parts[2:])}{end}"
     # a person's hand is not that of the scenario
-    return f"{name}, {source or 'recorded'}: {parts[0]}\n{'; '.join(parts[2:-1])}{end}"
+    return f"{name}, {trace.origin}: {parts[0]}\n{'; '.join(parts[2:-1])}{end}"
 
 
 def heading(scenario: Scenario, source: str = "simulated") -> str:

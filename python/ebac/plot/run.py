@@ -25,15 +25,13 @@ from ebac.plot.style import (
 from ebac.trace import Trace
 
 
-def plot_trace(trace: Trace, *, source: str = "") -> Picture:
+def plot_trace(trace: Trace) -> Picture:
     """Draw a run: position, force, beta and energy over time, one column of panels per axis in use.
 
     Parameters
     ----------
     trace : Trace
         At least two rows.
-    source : str
-        What the title calls the run; default "simulated" or "recorded", as the trace is.
 
     Returns
     -------
@@ -66,7 +64,7 @@ def plot_trace(trace: Trace, *, source: str = "") -> Picture:
     figure.align_ylabels()
     idle = [str(axis) for axis in range(trace.axes) if axis not in used]
     note = f"\naxis {', '.join(idle)} not in use, not shown" if idle else ""
-    figure.suptitle(title(trace, source) + note, fontsize="medium")
+    figure.suptitle(title(trace) + note, fontsize="medium")
     return figure
 
 

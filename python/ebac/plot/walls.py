@@ -59,8 +59,7 @@ def plot_walls(traces: Sequence[Trace]) -> Picture:
     if ideal is not None and near is not None:
         _near(near, traces, ideal)
     if traces[0].scenario is not None:
-        source = "simulated" if "true.x" in traces[0] else "recorded"
-        figure.suptitle(heading(traces[0].scenario, source), fontsize="medium")
+        figure.suptitle(heading(traces[0].scenario, traces[0].origin), fontsize="medium")
     figure.align_ylabels()
     return figure
 

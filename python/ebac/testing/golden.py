@@ -184,6 +184,7 @@ def _part(trace: Trace, columns: Sequence[str], every: int) -> Trace:
         scenario=trace.scenario,
         law=trace.law,
         law_repr=trace.law_repr,
+        origin=trace.origin,
     )
 
 

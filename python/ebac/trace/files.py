@@ -45,6 +45,7 @@ def write_npz(trace: Trace, path: str | Path) -> None:
         "axes": trace.axes,
         "law": trace.law,
         "law_repr": trace.law_repr,
+        "origin": trace.origin,
         "scenario": trace.scenario.to_toml() if trace.scenario else None,
         "columns": {c.name: [c.unit, c.meaning] for c in trace.columns.values()},
     }
@@ -84,6 +85,7 @@ def npz_parts(path: str | Path) -> dict[str, Any]:
         "scenario": Scenario.from_toml(about["scenario"]) if about["scenario"] else None,
         "law": about["law"],
         "law_repr": about["law_repr"],
+        "origin": about.get("origin", ""),
     }
 
 

@@ -58,9 +58,8 @@ def summary(trace: Trace) -> Text:
 
     lines = [repr(trace)]
     if trace.scenario is not None:
-        source = "simulated" if "true.x" in trace else "recorded"
         device, *parts = formatting.describe(trace.scenario).split("; ")
-        lines += [f"  {source}: {device}", *(f"    {part}" for part in parts)]
+        lines += [f"  {trace.origin}: {device}", *(f"    {part}" for part in parts)]
     if len(trace) >= FEWEST_ROWS:
         lines.append(f"  {contact(trace)!r}".replace("<Contact of", "contact of").removesuffix(">"))
     if "fault" in trace and trace["fault"].any():

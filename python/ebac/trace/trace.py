@@ -40,6 +40,7 @@ class Trace:
         scenario: Scenario | None = None,
         law: str = "",
         law_repr: str = "",
+        origin: str = "",
     ) -> None:
         self._data = data
         self.columns = columns
@@ -47,10 +48,17 @@ class Trace:
         self.scenario = scenario
         self.law = law
         self.law_repr = law_repr
+        self._origin = origin
 
     @classmethod
     def from_rows(
-        cls, rows: _core.Rows, *, scenario: Scenario | None, law: str, law_repr: str
+        cls,
+        rows: _core.Rows,
+        *,
+        scenario: Scenario | None,
+        law: str,
+        law_repr: str,
+        origin: str = "",
     ) -> Self:
         """Look at rows of the core."""
         data, columns = row_views(rows, rows.bytes()), column_infos(rows)
@@ -61,7 +69,13 @@ class Trace:
             scenario=scenario,
             law=law,
             law_repr=law_repr,
+            origin=origin,
         )
+
+    @property
+    def origin(self) -> str:
+        """What a title calls the rows: "simulated", "recorded", or what their log says."""
+        return self._origin or ("simulated" if "true.x" in self else "recorded")
 
     def __len__(self) -> int:
         """Return the number of rows."""
@@ -159,6 +173,7 @@ class Trace:
             scenario=self.scenario,
             law=self.law,
             law_repr=self.law_repr,
+            origin=self._origin,
         )
 
     def head(self, rows: int = 5, *columns: str) -> Text:

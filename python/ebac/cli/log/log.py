@@ -11,7 +11,6 @@ from ebac.cli import output
 from ebac.cli.command import Group, add
 from ebac.cli.files import FigureOptions, free_file, new_file
 from ebac.cli.log import info as log_info
-from ebac.cli.run.results import SIMULATED_DRIVES
 
 if TYPE_CHECKING:
     from ebac.logs import Log
@@ -190,7 +189,7 @@ def plot(
         from ebac.plot import plot_columns, plot_trace
 
         chosen = [word for text in column or [] for word in output.words(text)]
-        figure = plot_columns(trace, chosen) if chosen else plot_trace(trace, source=_source(read))
+        figure = plot_columns(trace, chosen) if chosen else plot_trace(trace)
         files = [out] if out else [free_file(file.with_suffix(f".{e}")) for e in style.formats()]
         for picture in files:
             style.write(figure, picture)
@@ -213,16 +212,6 @@ def _read(file: Path, *, quiet: bool) -> Log:
             return read(file, progress=progress)
         except ModuleNotFoundError as error:
             output.fail(f"{file}: {error}")
-
-
-def _source(read: Log) -> str:
-    """Return what the title calls a log whose rows do not show that they are simulated."""
-    if "simulated.txt" in read.about.attachments:
-        return SIMULATED_DRIVES
-    if read.path.suffix == ".csv":
-        with read.path.open(encoding="utf-8", errors="replace") as file:
-            return "simulated" if file.readline().startswith("# Simulated by ebac") else ""
-    return ""
 
 
 def _part(trace: Trace, start: float | None, stop: float | None) -> Trace:

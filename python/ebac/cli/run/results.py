@@ -18,8 +18,6 @@ if TYPE_CHECKING:
     from ebac.simulation import LoopFault
     from ebac.trace import Trace
 
-#: What the title of a figure calls a run on simulated drives.
-SIMULATED_DRIVES = "real time on simulated drives"
 #: The longest run that is also shown on a virtual clock [ticks]: about a second of computing, 100 MB of rows.
 LONGEST_EXPECTED = 100_000
 
@@ -169,9 +167,7 @@ def write(result: Result, stem: Path | None, style: FigureOptions) -> list[str]:
 
     names = [f"{stem.name}.mcap"]
     if len(result.trace) >= 2:
-        source = SIMULATED_DRIVES if result.simulated else ""
-        source = "virtual clock" if result.virtual else source
-        names += style.save(plot_trace(result.trace, source=source), stem.parent, stem.name)
+        names += style.save(plot_trace(result.trace), stem.parent, stem.name)
     stem.with_suffix(".json").write_text(result.document() + "\n", encoding="utf-8")
     return [*names, f"{stem.name}.json"]
 

@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-import time
-from contextlib import suppress
-from itertools import count
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -14,6 +11,7 @@ from ebac.cli import options, output, setting
 from ebac.cli.drive.options import telling
 from ebac.cli.files import PANEL, FigureOptions
 from ebac.cli.run import results
+from ebac.cli.run.names import free_stem, leave
 
 if TYPE_CHECKING:
     from ebac.hardware import Configuration, OpenDevice, Run
@@ -127,7 +125,7 @@ def run(
         if not virtual:
             schedule.check(known, simulated=simulated)
     folder = None if no_files else out or (None if as_json else DEFAULT_OUT)
-    stem = _stem(folder)
+    stem = free_stem(folder)
     shown = output.console(stderr=True).is_terminal if live is None else live
     try:
         if virtual:
@@ -136,7 +134,7 @@ def run(
             _run(known, simulated, detached, stem, shown and not as_json, as_json, schedule, style)
     finally:
         if stem is not None:
-            _leave(stem)
+            leave(stem)
 
 
 def _configuration(
@@ -163,37 +161,6 @@ def _configuration(
     chosen.scenario()
     chosen.design()
     return chosen
-
-
-def _stem(folder: Path | None) -> Path | None:
-    """Return the name of all files of this run, without extension; a hidden file keeps other runs from it."""
-    if folder is None:
-        return None
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except (FileExistsError, NotADirectoryError):
-        output.fail(f"--out {folder}: is a file or lies inside one; give the name of a folder")
-    except OSError as error:
-        output.fail(f"--out {folder}: cannot be written ({error.strerror}); give another folder")
-    now = time.strftime("run-%Y%m%d-%H%M%S", time.gmtime())
-    for number in count(1):
-        stem = folder / (now if number == 1 else f"{now}-{number}")
-        if not stem.with_suffix(".mcap").exists():
-            with suppress(FileExistsError):
-                _claim(stem).touch(exist_ok=False)  # now no other run takes this name
-                break
-    return stem
-
-
-def _claim(stem: Path) -> Path:
-    return stem.with_name(f".{stem.name}.claim")
-
-
-def _leave(stem: Path) -> None:
-    """Give up the claim on a name, and remove the folder where nothing was written."""
-    with suppress(OSError):  # the folder is not empty: it has what the run gave
-        _claim(stem).unlink()
-        stem.parent.rmdir()
 
 
 def _run(
