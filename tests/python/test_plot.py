@@ -30,6 +30,16 @@ def test_every_law_has_a_colour_and_a_figure(law: str, run: Run, tmp_path: Path)
     assert (tmp_path / "figure.png").read_bytes().startswith(b"\x89PNG")
 
 
+@pytest.mark.parametrize("name", ["arm", "press"])
+def test_a_log_without_the_columns_of_a_loop_is_drawn_with_what_it_has(
+    name: str, tmp_path: Path
+) -> None:
+    trace = ebac.load(ebac.datasets.write(name, tmp_path))
+    figure = trace.plot()
+    assert figure.get_suptitle() == "a run, simulated"
+    assert labels(figure) == ["[mm]", "[N]"]
+
+
 def test_one_column_of_panels_per_axis_in_use(run: Run) -> None:
     joystick = ebac.presets.device("joystick")
     figure = plot_trace(run("ebac", device=joystick, seconds=1.0))

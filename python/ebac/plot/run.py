@@ -9,6 +9,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.ticker import FuncFormatter
 
+from ebac.plot.columns import plot_columns
 from ebac.plot.marks import mark_end, title, used_axes
 from ebac.plot.style import (
     OTHER_LAW,
@@ -24,9 +25,14 @@ from ebac.plot.style import (
 )
 from ebac.trace import Trace
 
+#: Columns that every loop of ebac has.
+LOOP = ("x", "f_env", "f_meas", "f_cmd", "f_applied", "work", "damped")
+
 
 def plot_trace(trace: Trace) -> Picture:
     """Draw a run: position, force, beta and energy over time, one column of panels per axis in use.
+
+    A log that lacks columns of a loop, such as one of another program, is drawn with all columns it has.
 
     Parameters
     ----------
@@ -45,6 +51,8 @@ def plot_trace(trace: Trace) -> Picture:
     """
     if len(trace) < 2:
         raise ValueError(f"the trace has {len(trace)} rows: a figure needs at least 2")
+    if not all(name in trace for name in LOOP):
+        return plot_columns(trace, [name for name in trace if name != "t"])
     used = used_axes(trace)
     panels: list[Callable[[Axes, Trace, int], None]] = [_position, _force, _energy]
     if any(_has_beta(trace, axis) for axis in used):
