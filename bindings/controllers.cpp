@@ -238,14 +238,18 @@ void bind_controllers(py::module_& m) {
   m.def("_bind_law", [](const py::module_& module, const char* name, const py::capsule& type) {
     bind_law(module, name, *type.get_pointer<const LawType>());
   });
-  constexpr std::array<std::array<const char*, 2>, 9> kLaws{
+  constexpr std::array<std::array<const char*, 2>, 13> kLaws{
       {{"Direct", "direct"},
        {"TCA", "tca"},
        {"TCADamped", "tca-damped"},
+       {"LagCompensator", "lag-compensator"},
        {"PassivityControl", "passivity-control"},
+       {"ISS", "iss"},
        {"VirtualCoupling", "virtual-coupling"},
+       {"SFA", "sfa"},
        {"ForceBounding", "force-bounding"},
        {"EBA", "eba"},
+       {"EBAAccount", "eba-account"},
        {"EBACPrinted", "ebac-printed"},
        {"EBAC", "ebac"}}};
   for (const auto& [cls, name] : kLaws) bind_law(m, cls, law_named(name));

@@ -77,6 +77,12 @@ from ebac._core import (
     EBAC as EBAC,
 )
 from ebac._core import (
+    ISS as ISS,
+)
+from ebac._core import (
+    SFA as SFA,
+)
+from ebac._core import (
     TCA as TCA,
 )
 from ebac._core import (
@@ -110,6 +116,9 @@ from ebac._core import (
     Drive as Drive,
 )
 from ebac._core import (
+    EBAAccount as EBAAccount,
+)
+from ebac._core import (
     EBACPrinted as EBACPrinted,
 )
 from ebac._core import (
@@ -135,6 +144,9 @@ from ebac._core import (
 )
 from ebac._core import (
     Hand as Hand,
+)
+from ebac._core import (
+    LagCompensator as LagCompensator,
 )
 from ebac._core import (
     Limited as Limited,

@@ -16,7 +16,9 @@ import ebac.hardware
 __all__: list[str] = [
     "EBA",
     "EBAC",
+    "ISS",
     "REFUSED_LOAD",
+    "SFA",
     "TCA",
     "WARNED_LOAD",
     "AdaptiveWindow",
@@ -39,6 +41,7 @@ __all__: list[str] = [
     "Drive",
     "DriveCondition",
     "DriveState",
+    "EBAAccount",
     "EBACPrinted",
     "EmulatorCounts",
     "EmulatorOptions",
@@ -55,6 +58,7 @@ __all__: list[str] = [
     "Grant",
     "Hand",
     "Joystick",
+    "LagCompensator",
     "Limited",
     "Limits",
     "Linear",
@@ -3322,12 +3326,8 @@ class TCADamped:
 
     Parameters
     ----------
-    mass : float
-        device mass at the handle, M_h [kg], 0.001 to 100.
-    current_lag : float
-        time constant of the drive's current loop [s], 0 to 0.1.
-    count : float
-        one encoder count at the handle [m], 0 to 0.01.
+    virtual_damping : float
+        virtual damping in contact, B_v; 0 for none [N s/m], 0 to 10000.
     kp : float
         K_p of eq. (2), 0 to 10.
     kd : float
@@ -3397,9 +3397,7 @@ class TCADamped:
     def __init__(
         self,
         *,
-        mass: float = 0.25,
-        current_lag: float = 0.0003,
-        count: float = 3.07e-05,
+        virtual_damping: float = 32.6,
         kp: float = 0.5,
         kd: float = 0.0,
         filter: float = 0.005,
@@ -3441,16 +3439,6 @@ class TCADamped:
         Compute one tick of one axis; return the commanded force [N].
         """
     @property
-    def count(self) -> float:
-        """
-        one encoder count at the handle [m], 0 to 0.01
-        """
-    @property
-    def current_lag(self) -> float:
-        """
-        time constant of the drive's current loop [s], 0 to 0.1
-        """
-    @property
     def filter(self) -> float:
         """
         low-pass on the derivative of the force error [s], 0 to 1
@@ -3464,11 +3452,6 @@ class TCADamped:
     def kp(self) -> float:
         """
         K_p of eq. (2), 0 to 10
-        """
-    @property
-    def mass(self) -> float:
-        """
-        device mass at the handle, M_h [kg], 0.001 to 100
         """
     @property
     def peak_force(self) -> float:
@@ -3485,6 +3468,165 @@ class TCADamped:
         """
         Sample time and delay for which the law is designed.
         """
+    @property
+    def virtual_damping(self) -> float:
+        """
+        virtual damping in contact, B_v; 0 for none [N s/m], 0 to 10000
+        """
+
+class LagCompensator:
+    """
+    stiffness c_h at once, the wall through a lag, a virtual damper.
+
+    Parameters
+    ----------
+    stiffness : float
+        stiffness shown at once, c_h [N/m], 1 to 1e+06.
+    virtual_damping : float
+        virtual damping in contact, B_v; 0 for none [N s/m], 0 to 10000.
+    recovery_time : float
+        T_r: the lag is T_r (K/c_h - 1) for a wall of K [s], 0.001 to 10.
+    count : float
+        one encoder count at the handle [m], 0 to 0.01.
+    peak_force : float
+        largest command [N], 0.001 to 10000.
+    """
+    class State:
+        """
+        State of the law, recorded in a trace.
+        """
+        @staticmethod
+        def fields() -> list[Field]:
+            """
+            Return name, unit, meaning, default and range of every parameter.
+            """
+        def __repr__(self) -> str: ...
+        def as_dict(self) -> dict[str, typing.Any]:
+            """
+            Return the values by name.
+            """
+        @property
+        def f_d(self) -> float:
+            """
+            lagged force of the wall, F_d [N]
+            """
+        @property
+        def injected(self) -> float:
+            """
+            force of the virtual damper [N]
+            """
+        @property
+        def slope(self) -> float:
+            """
+            stiffness of the wall as seen, K [N/m]
+            """
+
+    name: typing.ClassVar[str] = "lag-compensator"
+    passive: typing.ClassVar[bool] = False
+    summary: typing.ClassVar[str] = (
+        "stiffness c_h at once, the wall through a lag, a virtual damper"
+    )
+    @staticmethod
+    def _sweep(
+        setups: collections.abc.Sequence[Setup],
+        laws: collections.abc.Sequence[LagCompensator],
+        threads: typing.SupportsInt | typing.SupportsIndex,
+        limits: RunLimits,
+        progress: SweepProgress,
+    ) -> dict[str, typing.Any]: ...
+    @staticmethod
+    def design(
+        facts: DeviceFacts | Device, timing: Timing, **changes: typing.Any
+    ) -> LagCompensator:
+        """
+        Design the law for a device from facts about it; `changes` override parameters.
+        """
+    @staticmethod
+    def fields() -> list[Field]:
+        """
+        Return name, unit, meaning, default and range of every parameter.
+        """
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __init__(
+        self,
+        *,
+        stiffness: float = 3800.0,
+        virtual_damping: float = 32.6,
+        recovery_time: float = 0.118,
+        count: float = 3.07e-05,
+        peak_force: float = 42.4,
+        timing: Timing = ...,
+    ) -> None: ...
+    def __reduce__(self) -> tuple[typing.Any, ...]: ...
+    def __repr__(self) -> str: ...
+    def _check_retune(self, next: LagCompensator) -> None: ...
+    def _replay(
+        self, log: ReplayLog, device: Device, environment: Free | Wall | Corner | Disc
+    ) -> Rows: ...
+    def _simulate(self, setup: Setup, through_can: bool = False) -> Rows: ...
+    def _start(self, bus: typing.Any, setup: RunSetup) -> Running: ...
+    def _time_step(
+        self, setup: Setup, repeats: typing.SupportsInt | typing.SupportsIndex
+    ) -> float: ...
+    def _time_tick(
+        self, setup: Setup, repeats: typing.SupportsInt | typing.SupportsIndex
+    ) -> float: ...
+    def as_dict(self) -> dict[str, typing.Any]:
+        """
+        Return the parameters by name, without the state.
+        """
+    def copy(self) -> LagCompensator:
+        """
+        Return an independent copy, state included.
+        """
+    def replace(self, **changes: typing.Any) -> typing.Self:
+        """
+        Return a copy with some parameters changed, checked as at construction.
+        """
+    def reset(self) -> None:
+        """
+        Reset the state; the parameters stay.
+        """
+    def step(self, port: Port) -> float:
+        """
+        Compute one tick of one axis; return the commanded force [N].
+        """
+    @property
+    def count(self) -> float:
+        """
+        one encoder count at the handle [m], 0 to 0.01
+        """
+    @property
+    def peak_force(self) -> float:
+        """
+        largest command [N], 0.001 to 10000
+        """
+    @property
+    def recovery_time(self) -> float:
+        """
+        T_r: the lag is T_r (K/c_h - 1) for a wall of K [s], 0.001 to 10
+        """
+    @property
+    def state(self) -> LagCompensator.State:
+        """
+        State of the law after the last step.
+        """
+    @property
+    def stiffness(self) -> float:
+        """
+        stiffness shown at once, c_h [N/m], 1 to 1e+06
+        """
+    @property
+    def timing(self) -> Timing:
+        """
+        Sample time and delay for which the law is designed.
+        """
+    @property
+    def virtual_damping(self) -> float:
+        """
+        virtual damping in contact, B_v; 0 for none [N s/m], 0 to 10000
+        """
 
 class PassivityControl:
     """
@@ -3498,6 +3640,8 @@ class PassivityControl:
         largest alpha over the device's damping, 0 to 100.
     reference : bool
         hold to the energy the environment stores instead of to zero, 0 to 1.
+    per_contact : bool
+        begin the account anew with each contact, 0 to 1.
     peak_force : float
         largest command [N], 0.001 to 10000.
     """
@@ -3567,6 +3711,7 @@ class PassivityControl:
         damping: float = 2.0,
         cap: float = 0.9,
         reference: bool = False,
+        per_contact: bool = False,
         peak_force: float = 42.4,
         timing: Timing = ...,
     ) -> None: ...
@@ -3620,6 +3765,11 @@ class PassivityControl:
         largest command [N], 0.001 to 10000
         """
     @property
+    def per_contact(self) -> bool:
+        """
+        begin the account anew with each contact, 0 to 1
+        """
+    @property
     def reference(self) -> bool:
         """
         hold to the energy the environment stores instead of to zero, 0 to 1
@@ -3635,9 +3785,158 @@ class PassivityControl:
         Sample time and delay for which the law is designed.
         """
 
+class ISS:
+    """
+    energy given out bounded by the size of the hand's force, by a capped damper.
+
+    Parameters
+    ----------
+    damping : float
+        lower bound of the device's physical damping, b [N s/m], 0 to 500.
+    gain : float
+        energy that may be given out per force squared, gamma [J/N^2], 0 to 100.
+    most_damping : float
+        largest damping injected, alpha_max [N s/m], 0 to 10000.
+    peak_force : float
+        largest command [N], 0.001 to 10000.
+    """
+    class State:
+        """
+        State of the law, recorded in a trace.
+        """
+        @staticmethod
+        def fields() -> list[Field]:
+            """
+            Return name, unit, meaning, default and range of every parameter.
+            """
+        def __repr__(self) -> str: ...
+        def as_dict(self) -> dict[str, typing.Any]:
+            """
+            Return the values by name.
+            """
+        @property
+        def alpha(self) -> float:
+            """
+            damping the controller injects [N s/m]
+            """
+        @property
+        def clamped(self) -> bool:
+            """
+            1 where the controller acts
+            """
+        @property
+        def energy(self) -> float:
+            """
+            port work plus damping in this contact [J]
+            """
+        @property
+        def input(self) -> float:
+            """
+            largest force of the hand in this contact [N]
+            """
+
+    name: typing.ClassVar[str] = "iss"
+    passive: typing.ClassVar[bool] = False
+    summary: typing.ClassVar[str] = (
+        "energy given out bounded by the size of the hand's force, by a capped damper"
+    )
+    @staticmethod
+    def _sweep(
+        setups: collections.abc.Sequence[Setup],
+        laws: collections.abc.Sequence[ISS],
+        threads: typing.SupportsInt | typing.SupportsIndex,
+        limits: RunLimits,
+        progress: SweepProgress,
+    ) -> dict[str, typing.Any]: ...
+    @staticmethod
+    def design(facts: DeviceFacts | Device, timing: Timing, **changes: typing.Any) -> ISS:
+        """
+        Design the law for a device from facts about it; `changes` override parameters.
+        """
+    @staticmethod
+    def fields() -> list[Field]:
+        """
+        Return name, unit, meaning, default and range of every parameter.
+        """
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __init__(
+        self,
+        *,
+        damping: float = 2.0,
+        gain: float = 0.000375,
+        most_damping: float = 32.6,
+        peak_force: float = 42.4,
+        timing: Timing = ...,
+    ) -> None: ...
+    def __reduce__(self) -> tuple[typing.Any, ...]: ...
+    def __repr__(self) -> str: ...
+    def _check_retune(self, next: ISS) -> None: ...
+    def _replay(
+        self, log: ReplayLog, device: Device, environment: Free | Wall | Corner | Disc
+    ) -> Rows: ...
+    def _simulate(self, setup: Setup, through_can: bool = False) -> Rows: ...
+    def _start(self, bus: typing.Any, setup: RunSetup) -> Running: ...
+    def _time_step(
+        self, setup: Setup, repeats: typing.SupportsInt | typing.SupportsIndex
+    ) -> float: ...
+    def _time_tick(
+        self, setup: Setup, repeats: typing.SupportsInt | typing.SupportsIndex
+    ) -> float: ...
+    def as_dict(self) -> dict[str, typing.Any]:
+        """
+        Return the parameters by name, without the state.
+        """
+    def copy(self) -> ISS:
+        """
+        Return an independent copy, state included.
+        """
+    def replace(self, **changes: typing.Any) -> typing.Self:
+        """
+        Return a copy with some parameters changed, checked as at construction.
+        """
+    def reset(self) -> None:
+        """
+        Reset the state; the parameters stay.
+        """
+    def step(self, port: Port) -> float:
+        """
+        Compute one tick of one axis; return the commanded force [N].
+        """
+    @property
+    def damping(self) -> float:
+        """
+        lower bound of the device's physical damping, b [N s/m], 0 to 500
+        """
+    @property
+    def gain(self) -> float:
+        """
+        energy that may be given out per force squared, gamma [J/N^2], 0 to 100
+        """
+    @property
+    def most_damping(self) -> float:
+        """
+        largest damping injected, alpha_max [N s/m], 0 to 10000
+        """
+    @property
+    def peak_force(self) -> float:
+        """
+        largest command [N], 0.001 to 10000
+        """
+    @property
+    def state(self) -> ISS.State:
+        """
+        State of the law after the last step.
+        """
+    @property
+    def timing(self) -> Timing:
+        """
+        Sample time and delay for which the law is designed.
+        """
+
 class VirtualCoupling:
     """
-    spring and damper to a proxy on the surface.
+    spring and damper in series, to a proxy that obeys the wall.
 
     Parameters
     ----------
@@ -3645,6 +3944,8 @@ class VirtualCoupling:
         K_c [N/m], 0 to 1e+07.
     coupling_damping : float
         B_c [N s/m], 0 to 10000.
+    count : float
+        one encoder count at the handle [m], 0 to 0.01.
     peak_force : float
         largest command [N], 0.001 to 10000.
     """
@@ -3672,10 +3973,15 @@ class VirtualCoupling:
             """
             where the proxy stands [m]
             """
+        @property
+        def slope(self) -> float:
+            """
+            stiffness of the wall as seen, K [N/m]
+            """
 
     name: typing.ClassVar[str] = "virtual-coupling"
     passive: typing.ClassVar[bool] = False
-    summary: typing.ClassVar[str] = "spring and damper to a proxy on the surface"
+    summary: typing.ClassVar[str] = "spring and damper in series, to a proxy that obeys the wall"
     @staticmethod
     def _sweep(
         setups: collections.abc.Sequence[Setup],
@@ -3703,6 +4009,7 @@ class VirtualCoupling:
         *,
         coupling_stiffness: float = 2000.0,
         coupling_damping: float = 1.0,
+        count: float = 3.07e-05,
         peak_force: float = 42.4,
         timing: Timing = ...,
     ) -> None: ...
@@ -3741,6 +4048,11 @@ class VirtualCoupling:
         Compute one tick of one axis; return the commanded force [N].
         """
     @property
+    def count(self) -> float:
+        """
+        one encoder count at the handle [m], 0 to 0.01
+        """
+    @property
     def coupling_damping(self) -> float:
         """
         B_c [N s/m], 0 to 10000
@@ -3764,6 +4076,153 @@ class VirtualCoupling:
     def timing(self) -> Timing:
         """
         Sample time and delay for which the law is designed.
+        """
+
+class SFA:
+    """
+    low stiffness plus a force offset raised at each reversal of motion.
+
+    Parameters
+    ----------
+    stiffness : float
+        stiffness of the feedback force, K_l [N/m], 1 to 1e+06.
+    gain : float
+        share of the missing force added at a reversal, g, 0 to 1.
+    transient : bool
+        render the wall itself until the first reversal, 0 to 1.
+    count : float
+        one encoder count at the handle [m], 0 to 0.01.
+    peak_force : float
+        largest command [N], 0.001 to 10000.
+    """
+    class State:
+        """
+        State of the law, recorded in a trace.
+        """
+        @staticmethod
+        def fields() -> list[Field]:
+            """
+            Return name, unit, meaning, default and range of every parameter.
+            """
+        def __repr__(self) -> str: ...
+        def as_dict(self) -> dict[str, typing.Any]:
+            """
+            Return the values by name.
+            """
+        @property
+        def feedback(self) -> float:
+            """
+            force of the low stiffness, F_l [N]
+            """
+        @property
+        def offset(self) -> float:
+            """
+            force offset, F_o [N]
+            """
+
+    name: typing.ClassVar[str] = "sfa"
+    passive: typing.ClassVar[bool] = False
+    summary: typing.ClassVar[str] = (
+        "low stiffness plus a force offset raised at each reversal of motion"
+    )
+    @staticmethod
+    def _sweep(
+        setups: collections.abc.Sequence[Setup],
+        laws: collections.abc.Sequence[SFA],
+        threads: typing.SupportsInt | typing.SupportsIndex,
+        limits: RunLimits,
+        progress: SweepProgress,
+    ) -> dict[str, typing.Any]: ...
+    @staticmethod
+    def design(facts: DeviceFacts | Device, timing: Timing, **changes: typing.Any) -> SFA:
+        """
+        Design the law for a device from facts about it; `changes` override parameters.
+        """
+    @staticmethod
+    def fields() -> list[Field]:
+        """
+        Return name, unit, meaning, default and range of every parameter.
+        """
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __init__(
+        self,
+        *,
+        stiffness: float = 1300.0,
+        gain: float = 0.2,
+        transient: bool = False,
+        count: float = 3.07e-05,
+        peak_force: float = 42.4,
+        timing: Timing = ...,
+    ) -> None: ...
+    def __reduce__(self) -> tuple[typing.Any, ...]: ...
+    def __repr__(self) -> str: ...
+    def _check_retune(self, next: SFA) -> None: ...
+    def _replay(
+        self, log: ReplayLog, device: Device, environment: Free | Wall | Corner | Disc
+    ) -> Rows: ...
+    def _simulate(self, setup: Setup, through_can: bool = False) -> Rows: ...
+    def _start(self, bus: typing.Any, setup: RunSetup) -> Running: ...
+    def _time_step(
+        self, setup: Setup, repeats: typing.SupportsInt | typing.SupportsIndex
+    ) -> float: ...
+    def _time_tick(
+        self, setup: Setup, repeats: typing.SupportsInt | typing.SupportsIndex
+    ) -> float: ...
+    def as_dict(self) -> dict[str, typing.Any]:
+        """
+        Return the parameters by name, without the state.
+        """
+    def copy(self) -> SFA:
+        """
+        Return an independent copy, state included.
+        """
+    def replace(self, **changes: typing.Any) -> typing.Self:
+        """
+        Return a copy with some parameters changed, checked as at construction.
+        """
+    def reset(self) -> None:
+        """
+        Reset the state; the parameters stay.
+        """
+    def step(self, port: Port) -> float:
+        """
+        Compute one tick of one axis; return the commanded force [N].
+        """
+    @property
+    def count(self) -> float:
+        """
+        one encoder count at the handle [m], 0 to 0.01
+        """
+    @property
+    def gain(self) -> float:
+        """
+        share of the missing force added at a reversal, g, 0 to 1
+        """
+    @property
+    def peak_force(self) -> float:
+        """
+        largest command [N], 0.001 to 10000
+        """
+    @property
+    def state(self) -> SFA.State:
+        """
+        State of the law after the last step.
+        """
+    @property
+    def stiffness(self) -> float:
+        """
+        stiffness of the feedback force, K_l [N/m], 1 to 1e+06
+        """
+    @property
+    def timing(self) -> Timing:
+        """
+        Sample time and delay for which the law is designed.
+        """
+    @property
+    def transient(self) -> bool:
+        """
+        render the wall itself until the first reversal, 0 to 1
         """
 
 class ForceBounding:
@@ -3913,6 +4372,145 @@ class EBA:
         lower bound of the device's physical damping, b [N s/m], 0.01 to 500.
     share : float
         c over its largest value 2 b / ((1 + 2 d) T), 0.001 to 1.
+    peak_force : float
+        largest command [N], 0.001 to 10000.
+    """
+    class State:
+        """
+        State of the law, recorded in a trace.
+        """
+        @staticmethod
+        def fields() -> list[Field]:
+            """
+            Return name, unit, meaning, default and range of every parameter.
+            """
+        def __repr__(self) -> str: ...
+        def as_dict(self) -> dict[str, typing.Any]:
+            """
+            Return the values by name.
+            """
+        @property
+        def beta(self) -> float:
+            """
+            slope dF/dx taken, eq. (9); NaN where dx = 0 [N/m]
+            """
+        @property
+        def beta_max(self) -> float:
+            """
+            highest slope the energy bound allows [N/m]
+            """
+        @property
+        def beta_min(self) -> float:
+            """
+            lowest slope the energy bound allows [N/m]
+            """
+        @property
+        def clamped(self) -> bool:
+            """
+            1 where the law gave less than the world asked
+            """
+
+    name: typing.ClassVar[str] = "eba"
+    passive: typing.ClassVar[bool] = False
+    summary: typing.ClassVar[str] = "eq. (8), (9) with the state-dependent energy bound"
+    @staticmethod
+    def _sweep(
+        setups: collections.abc.Sequence[Setup],
+        laws: collections.abc.Sequence[EBA],
+        threads: typing.SupportsInt | typing.SupportsIndex,
+        limits: RunLimits,
+        progress: SweepProgress,
+    ) -> dict[str, typing.Any]: ...
+    @staticmethod
+    def design(facts: DeviceFacts | Device, timing: Timing, **changes: typing.Any) -> EBA:
+        """
+        Design the law for a device from facts about it; `changes` override parameters.
+        """
+    @staticmethod
+    def fields() -> list[Field]:
+        """
+        Return name, unit, meaning, default and range of every parameter.
+        """
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __init__(
+        self,
+        *,
+        damping: float = 2.0,
+        share: float = 1.0,
+        peak_force: float = 42.4,
+        timing: Timing = ...,
+    ) -> None: ...
+    def __reduce__(self) -> tuple[typing.Any, ...]: ...
+    def __repr__(self) -> str: ...
+    def _check_retune(self, next: EBA) -> None: ...
+    def _replay(
+        self, log: ReplayLog, device: Device, environment: Free | Wall | Corner | Disc
+    ) -> Rows: ...
+    def _simulate(self, setup: Setup, through_can: bool = False) -> Rows: ...
+    def _start(self, bus: typing.Any, setup: RunSetup) -> Running: ...
+    def _time_step(
+        self, setup: Setup, repeats: typing.SupportsInt | typing.SupportsIndex
+    ) -> float: ...
+    def _time_tick(
+        self, setup: Setup, repeats: typing.SupportsInt | typing.SupportsIndex
+    ) -> float: ...
+    def as_dict(self) -> dict[str, typing.Any]:
+        """
+        Return the parameters by name, without the state.
+        """
+    def copy(self) -> EBA:
+        """
+        Return an independent copy, state included.
+        """
+    def replace(self, **changes: typing.Any) -> typing.Self:
+        """
+        Return a copy with some parameters changed, checked as at construction.
+        """
+    def reset(self) -> None:
+        """
+        Reset the state; the parameters stay.
+        """
+    def step(self, port: Port) -> float:
+        """
+        Compute one tick of one axis; return the commanded force [N].
+        """
+    @property
+    def damping(self) -> float:
+        """
+        lower bound of the device's physical damping, b [N s/m], 0.01 to 500
+        """
+    @property
+    def peak_force(self) -> float:
+        """
+        largest command [N], 0.001 to 10000
+        """
+    @property
+    def share(self) -> float:
+        """
+        c over its largest value 2 b / ((1 + 2 d) T), 0.001 to 1
+        """
+    @property
+    def state(self) -> EBA.State:
+        """
+        State of the law after the last step.
+        """
+    @property
+    def timing(self) -> Timing:
+        """
+        Sample time and delay for which the law is designed.
+        """
+
+class EBAAccount:
+    """
+    eba, held to an account of the energy at the port.
+
+    Parameters
+    ----------
+    damping : float
+        lower bound of the device's physical damping, b [N s/m], 0.01 to 500.
+    share : float
+        c over its largest value 2 b / ((1 + 2 d) T), 0.001 to 1.
     current_lag : float
         time constant of the drive's current loop [s], 0 to 0.1.
     count : float
@@ -3960,19 +4558,19 @@ class EBA:
             1 where the law gave less than the world asked
             """
 
-    name: typing.ClassVar[str] = "eba"
+    name: typing.ClassVar[str] = "eba-account"
     passive: typing.ClassVar[bool] = True
-    summary: typing.ClassVar[str] = "eq. (8), (9) with the state-dependent energy bound"
+    summary: typing.ClassVar[str] = "eba, held to an account of the energy at the port"
     @staticmethod
     def _sweep(
         setups: collections.abc.Sequence[Setup],
-        laws: collections.abc.Sequence[EBA],
+        laws: collections.abc.Sequence[EBAAccount],
         threads: typing.SupportsInt | typing.SupportsIndex,
         limits: RunLimits,
         progress: SweepProgress,
     ) -> dict[str, typing.Any]: ...
     @staticmethod
-    def design(facts: DeviceFacts | Device, timing: Timing, **changes: typing.Any) -> EBA:
+    def design(facts: DeviceFacts | Device, timing: Timing, **changes: typing.Any) -> EBAAccount:
         """
         Design the law for a device from facts about it; `changes` override parameters.
         """
@@ -3995,7 +4593,7 @@ class EBA:
     ) -> None: ...
     def __reduce__(self) -> tuple[typing.Any, ...]: ...
     def __repr__(self) -> str: ...
-    def _check_retune(self, next: EBA) -> None: ...
+    def _check_retune(self, next: EBAAccount) -> None: ...
     def _replay(
         self, log: ReplayLog, device: Device, environment: Free | Wall | Corner | Disc
     ) -> Rows: ...
@@ -4011,7 +4609,7 @@ class EBA:
         """
         Return the parameters by name, without the state.
         """
-    def copy(self) -> EBA:
+    def copy(self) -> EBAAccount:
         """
         Return an independent copy, state included.
         """
@@ -4053,7 +4651,7 @@ class EBA:
         c over its largest value 2 b / ((1 + 2 d) T), 0.001 to 1
         """
     @property
-    def state(self) -> EBA.State:
+    def state(self) -> EBAAccount.State:
         """
         State of the law after the last step.
         """

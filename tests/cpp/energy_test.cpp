@@ -4,7 +4,7 @@
 #include <cmath>
 #include <deque>
 
-#include "ebac/control/eba.hpp"
+#include "ebac/control/eba_account.hpp"
 #include "ebac/model/noise.hpp"
 
 namespace ebac {
@@ -47,7 +47,7 @@ class HostileWorld {
 /// Lowest of W + D over `steps` ticks of one law in a hostile world.
 double least_energy(int delay, double damping, std::uint64_t seed, int steps) {
   const Timing timing{.dt = 1e-3, .delay = delay};
-  Eba law({.damping = damping, .current_lag = 0, .count = 0, .peak_force = 1e4}, timing);
+  EbaAccount law({.damping = damping, .current_lag = 0, .count = 0, .peak_force = 1e4}, timing);
   HostileWorld world(damping / timing.dt, seed);
   std::deque<double> queue(static_cast<std::size_t>(delay) + 1, 0.0);
   Port port;

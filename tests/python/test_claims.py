@@ -44,7 +44,7 @@ def test_passive_tells_when_and_how_much() -> None:
         in str(caught.value)
     )
     assert_passive(trace, reserve=-float(energy.min()))
-    assert_passive(ebac.simulate(ebac.Scenario(seconds=1.0), "eba"))
+    assert_passive(ebac.simulate(ebac.Scenario(seconds=1.0), "eba-account"))
 
 
 def test_passive_counts_what_can_be_observed_where_nothing_is_known() -> None:

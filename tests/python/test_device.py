@@ -539,7 +539,7 @@ def test_energy_laws_refuse_a_device_whose_damping_is_spent() -> None:
         ebac.simulate(ebac.Scenario(device=device), "eba")
 
 
-@pytest.mark.parametrize("law", ["eba", "force-bounding"])
+@pytest.mark.parametrize("law", ["eba-account", "force-bounding"])
 def test_a_passive_law_stays_passive_with_what_inertia_is_given_back(law: str) -> None:
     device = ebac.Device(compensation=ebac.Compensation(inertia=0.008))
     hand = ebac.Hand(mass=0.02, damping=0, stiffness=900, path=ebac.Tapping(frequency=7))

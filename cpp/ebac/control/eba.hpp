@@ -3,37 +3,33 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <string_view>
 
-#include "ebac/control/affordable_force.hpp"
 #include "ebac/control/beta.hpp"
 #include "ebac/core/concepts.hpp"
 
 namespace ebac {
 
-/// The energy-bounding algorithm of Kim and Ryu, eq. (8), (9): quiet on any wall and too soft by
-/// design, because its stiffness tends to c = 2 b / ((1 + 2 d) T).
+/// The energy-bounding algorithm of Kim and Ryu, eq. (8), (9), alone: the storage F^2/(2c) never
+/// grows by more than port work and damping (E). Quiet on any wall and too soft by design, because
+/// its stiffness tends to c = 2 b / ((1 + 2 d) T).
 ///
-/// It has two bounds. The storage bound (E) is the law itself; the account (D) behind it holds for
-/// every history and every delay, and the stated passivity rests on it.
+/// The bound is proven without delay, lag and encoder; with them c is reduced and nothing is proven.
+/// `EbaAccount` adds an account that holds with all three.
 class Eba {
  public:
   static constexpr std::string_view kName = "eba";
   static constexpr std::string_view kSummary = "eq. (8), (9) with the state-dependent energy bound";
-  static constexpr bool kPassive = true;
+  static constexpr bool kPassive = false;
 
   struct Params {
     double damping = 2.0;  // N s/m
     double share = 1.0;
-    double current_lag = 3e-4;  // s
-    double count = 3.07e-5;     // m
-    double peak_force = 42.4;   // N
+    double peak_force = 42.4;  // N
 
     static constexpr Params design(const DeviceFacts& facts, Timing) {
-      return {.damping = facts.damping,
-              .current_lag = facts.current_lag,
-              .count = facts.count,
-              .peak_force = facts.peak_force};
+      return {.damping = facts.damping, .peak_force = facts.peak_force};
     }
     static constexpr auto fields() {
       using F = Field<Params>;
@@ -41,16 +37,12 @@ class Eba {
           F{"damping", &Params::damping, "N s/m", "lower bound of the device's physical damping, b",
             0.01, 500},
           F{"share", &Params::share, "1", "c over its largest value 2 b / ((1 + 2 d) T)", 1e-3, 1},
-          F{"current_lag", &Params::current_lag, "s", "time constant of the drive's current loop",
-            0, 0.1},
-          F{"count", &Params::count, "m", "one encoder count at the handle", 0, 0.01},
           F{"peak_force", &Params::peak_force, "N", "largest command", 1e-3, 1e4},
       };
     }
   };
 
   struct State : BetaTrace {
-    double account = 0;  // J
     bool clamped = false;
 
     static constexpr auto fields() {
@@ -59,7 +51,6 @@ class Eba {
           beta_field<State>(),
           beta_min_field<State>(),
           beta_max_field<State>(),
-          F{"account", &State::account, "J", "port work plus damping, on the force really applied"},
           F{"clamped", &State::clamped, "1", "1 where the law gave less than the world asked"},
       };
     }
@@ -68,23 +59,23 @@ class Eba {
   explicit Eba(const Params& params, const Timing& timing = {})
       : params_(checked(params, "EBA")),
         timing_(checked(timing, "Timing")),
-        c_(params.share * 2 * params.damping / timing.longest() / (1 + 2 * timing.delay)),
-        account_(params.damping, params.count, params.current_lag, timing) {}
+        c_(params.share * 2 * params.damping / timing.longest() / (1 + 2 * timing.delay)) {}
 
   double step(const Port& port) EBAC_RT {
-    if (!(port.dt > 0)) return 0;
-    account_.take(port.f_applied, port.dx, port.dt);
-    state_.account = account_.energy();
+    return step(port, std::numeric_limits<double>::infinity());
+  }
 
+  /// The same, with a force of at most `affordable` [N].
+  double step(const Port& port, double affordable) EBAC_RT {
+    if (!(port.dt > 0)) return 0;
     const double before = command_;
     const double stored =
         energy_bound_squared(before, port.dx, c_, params_.damping / port.dt);  // (E)
-    const double bound = std::min(std::sqrt(stored), account_.largest());      // (D)
+    const double bound = std::min(std::sqrt(stored), affordable);
     const double most = std::min(bound, params_.peak_force);
     command_ = std::clamp(port.f_env, -most, most);  // eq. (8), (9), bounded
     state_.clamped = command_ != port.f_env;
     state_.record(before, command_, port.dx, bound);
-    account_.give(command_);
     return command_;
   }
 
@@ -93,7 +84,6 @@ class Eba {
     c_ = next.c_;
   }
   void reset() EBAC_RT {
-    account_ = AffordableForce(params_.damping, params_.count, params_.current_lag, timing_);
     command_ = 0;
     state_ = {};
   }
@@ -104,8 +94,7 @@ class Eba {
  private:
   Params params_;
   Timing timing_;
-  double c_;  // N/m
-  AffordableForce account_;
+  double c_;            // N/m
   double command_ = 0;  // F_d(t-1)
   State state_{};
 };

@@ -18,16 +18,23 @@ struct Injection {
   double velocity_lag;  // s
 
   Injection(double mass, double count, double current_lag, const Timing& timing) EBAC_RT {
-    constexpr double kPhaseLag = 0.35;      // rad of delay at w, against 0.8 rad of lead
-    constexpr double kCountForce = 1.0;     // N, largest force step one count may cause
-    constexpr double kVelocityTime = 1e-3;  // s
+    constexpr double kPhaseLag = 0.35;   // rad of delay at w, against 0.8 rad of lead
+    constexpr double kCountForce = 1.0;  // N, largest force step one count may cause
     const double late = (timing.delay + 0.5) * timing.dt + current_lag;
     const double smooth = kCountForce * std::max(timing.dt, kVelocityTime) / (count * mass);
     bandwidth = std::min(kPhaseLag / late, smooth);
     stiffness = 0.9 * mass * bandwidth * bandwidth;
     damping = mass * bandwidth;
-    velocity_lag = std::max(0.0, kVelocityTime - timing.dt);
+    velocity_lag = smoothing(timing);
   }
+
+  /// Lag of the velocity of whole counts [s]: about 1 ms with the sample time.
+  static double smoothing(const Timing& timing) EBAC_RT {
+    return std::max(0.0, kVelocityTime - timing.dt);
+  }
+
+ private:
+  static constexpr double kVelocityTime = 1e-3;  // s
 };
 
 /// The virtual damper of an injection: B_v on the velocity of whole counts, smoothed to about 1 ms.
@@ -36,8 +43,8 @@ struct Injection {
 /// noise; a contact then swings by two to three counts for ever.
 class Damper {
  public:
-  explicit Damper(const Injection& show) EBAC_RT : damping_(show.damping),
-                                                   lag_(show.velocity_lag) {}
+  explicit Damper(const Injection& show) EBAC_RT : Damper(show.damping, show.velocity_lag) {}
+  Damper(double damping, double velocity_lag) EBAC_RT : damping_(damping), lag_(velocity_lag) {}
 
   void set_tick(double dt) EBAC_RT {
     share_ = dt / (lag_ + dt);
@@ -49,6 +56,7 @@ class Damper {
     return damping_ * v_;
   }
 
+  void retune(double damping) EBAC_RT { damping_ = damping; }
   void reset() EBAC_RT { v_ = 0; }
 
  private:

@@ -12,9 +12,12 @@ namespace ebac {
 /// where it falls below its reference, dissipate the shortfall with a variable damper alpha.
 ///
 /// The observer is the exact account W = sum F_applied dx. The reference is zero, or, as a variant,
-/// the energy that the environment itself would store, int F_e dx over the contact. alpha is
-/// capped: uncapped it diverges on a sampled, delayed device. Known weakness: it acts only once
-/// energy is missing, and with the cap it may not suffice.
+/// the energy that the environment itself would store, int F_e dx over the contact. With `per_contact` the
+/// account starts anew with each contact, so that energy taken in by one cannot be given out by the
+/// next. alpha is capped: uncapped it diverges on a sampled, delayed device. A cap of 0.9 is a
+/// published choice; B_v / b, the virtual damping that mass and delay allow (`Injection`), is the
+/// largest sensible one, 16 on the reference device. Known weakness: it acts only once energy is
+/// missing, and with the cap it may not suffice.
 class PassivityControl {
  public:
   static constexpr std::string_view kName = "passivity-control";
@@ -25,6 +28,7 @@ class PassivityControl {
     double damping = 2.0;  // N s/m
     double cap = 0.9;
     bool reference = false;
+    bool per_contact = false;
     double peak_force = 42.4;  // N
 
     static constexpr Params design(const DeviceFacts& facts, Timing) {
@@ -38,6 +42,8 @@ class PassivityControl {
           F{"cap", &Params::cap, "1", "largest alpha over the device's damping", 0, 100},
           F{"reference", &Params::reference, "1",
             "hold to the energy the environment stores instead of to zero", 0, 1},
+          F{"per_contact", &Params::per_contact, "1", "begin the account anew with each contact", 0,
+            1},
           F{"peak_force", &Params::peak_force, "N", "largest command", 1e-3, 1e4},
       };
     }
@@ -89,6 +95,8 @@ class PassivityControl {
  private:
   void observe(const Port& port) EBAC_RT {
     state_.observed += port.f_applied * port.dx;
+    if (params_.per_contact && last_env_ == 0 && port.f_env != 0)
+      state_.observed = state_.reference = 0;
     if (params_.reference) {
       state_.reference += 0.5 * (port.f_env + last_env_) * port.dx;
       if (port.f_env == 0) {  // contact over: whatever is left over is not saved for the next one

@@ -10,8 +10,9 @@
 
 namespace ebac {
 
-/// Torque control with the virtual damper of `Ebac` in contact, and nothing else of it: the honest
-/// rival. Equal to it on moderate walls and faster to settle.
+/// Torque control with a virtual damper B_v in contact, and nothing else: the honest rival. It is
+/// designed with the damper of `Ebac`, B_v = M_h w; equal to it on moderate walls and faster to
+/// settle.
 ///
 /// Known weakness: nothing watches the energy, and the wall is shown at its full stiffness while
 /// moving, which a stiffer wall or a longer delay does not forgive.
@@ -22,27 +23,21 @@ class TcaDamped {
   static constexpr bool kPassive = false;
 
   struct Params {
-    double mass = 0.25;         // kg
-    double current_lag = 3e-4;  // s
-    double count = 3.07e-5;     // m
+    double virtual_damping = 32.6;  // N s/m
     double kp = 0.5;
     double kd = 0;             // s
     double filter = 5e-3;      // s
     double peak_force = 42.4;  // N
 
-    static constexpr Params design(const DeviceFacts& facts, Timing) {
-      return {.mass = facts.mass,
-              .current_lag = facts.current_lag,
-              .count = facts.count,
-              .peak_force = facts.peak_force};
+    static Params design(const DeviceFacts& facts, const Timing& timing) {
+      const Injection show(facts.mass, facts.count, facts.current_lag, timing);
+      return {.virtual_damping = show.damping, .peak_force = facts.peak_force};
     }
     static constexpr auto fields() {
       using F = Field<Params>;
       return std::array{
-          F{"mass", &Params::mass, "kg", "device mass at the handle, M_h", 1e-3, 100},
-          F{"current_lag", &Params::current_lag, "s", "time constant of the drive's current loop",
-            0, 0.1},
-          F{"count", &Params::count, "m", "one encoder count at the handle", 0, 0.01},
+          F{"virtual_damping", &Params::virtual_damping, "N s/m",
+            "virtual damping in contact, B_v; 0 for none", 0, 1e4},
           F{"kp", &Params::kp, "1", "K_p of eq. (2)", 0, 10},
           F{"kd", &Params::kd, "s", "K_d of eq. (2)", 0, 1},
           F{"filter", &Params::filter, "s", "low-pass on the derivative of the force error", 0, 1},
@@ -67,8 +62,7 @@ class TcaDamped {
   explicit TcaDamped(const Params& params, const Timing& timing = {})
       : params_(checked(params, "TCADamped")),
         timing_(checked(timing, "Timing")),
-        show_(params.mass, params.count, params.current_lag, timing),
-        damper_(show_),
+        damper_(params.virtual_damping, Injection::smoothing(timing)),
         loop_(params.kp, params.kd, params.filter) {}
 
   double step(const Port& port) EBAC_RT {
@@ -88,6 +82,7 @@ class TcaDamped {
 
   void retune(const TcaDamped& next) EBAC_RT {
     params_ = next.params_;
+    damper_.retune(params_.virtual_damping);
     loop_.retune(params_.kp, params_.kd, params_.filter);
   }
   void reset() EBAC_RT {
@@ -103,7 +98,6 @@ class TcaDamped {
  private:
   Params params_;
   Timing timing_;
-  Injection show_;
   Damper damper_;
   ForceFeedback loop_;
   double dt_ = 0;  // s

@@ -10,8 +10,13 @@ namespace ebac {
 namespace {
 
 /// Llewellyn's condition for an impedance display (Adams and Hannaford 1999), at every frequency of
-/// a grid: Re Z_d >= 0, Re 1/Z_c >= 0, cos(arg H) + 2 Re Z_d Re(1/Z_c)/|H| >= 1, with H the hold,
-/// the delay and the current loop, Z_d = M s + b, Z_c = B_c + K_c T/(1 - 1/z).
+/// a grid: Re Z_d >= 0, Re 1/Z_c >= 0, cos(arg H) + 2 Re Z_d Re(1/Z_c)/|H| >= 1.
+///
+/// The virtual side samples positions, so its velocity is the mean over the interval that ended:
+/// Z_c = B_c + K_c T/(1 - 1/z), and its force does work over the next one. From one to the other lie
+/// a sample, the delay and the current loop: H = z^-(1 + d)/(1 + s lag). The device takes at least b
+/// times the square of that mean, Re Z_d = b. Without delay and lag the condition is Colgate's,
+/// b >= K_c T/2 + B_c.
 bool unconditionally_stable(double stiffness, double damping, const DeviceFacts& facts,
                             const Timing& timing) {
   constexpr int kPoints = 400;
@@ -19,9 +24,8 @@ bool unconditionally_stable(double stiffness, double damping, const DeviceFacts&
   for (int n = 1; n <= kPoints; ++n) {
     const double w = std::numbers::pi / timing.dt * n / kPoints;  // rad/s, to Nyquist
     const std::complex<double> step = 1.0 - std::exp(-i * w * timing.dt);
-    const std::complex<double> hold = step / (i * w * timing.dt) *
-                                      std::exp(-i * w * (timing.delay * timing.dt)) /
-                                      (1.0 + i * w * facts.current_lag);
+    const std::complex<double> hold =
+        std::exp(-i * w * ((1 + timing.delay) * timing.dt)) / (1.0 + i * w * facts.current_lag);
     const double admittance = (1.0 / (damping + stiffness * timing.dt / step)).real();
     if (admittance < 0) return false;
     if (std::cos(std::arg(hold)) + 2 * facts.damping * admittance / std::abs(hold) < 1)
@@ -46,7 +50,10 @@ double stiffest(double damping, const DeviceFacts& facts, const Timing& timing) 
 }  // namespace
 
 VirtualCoupling::Params VirtualCoupling::Params::design(const DeviceFacts& facts, Timing timing) {
-  Params best{.coupling_stiffness = 0, .coupling_damping = 0, .peak_force = facts.peak_force};
+  Params best{.coupling_stiffness = 0,
+              .coupling_damping = 0,
+              .count = facts.count,
+              .peak_force = facts.peak_force};
   constexpr int kSteps = 60;
   for (int n = 0; n <= kSteps; ++n) {
     const double damping =

@@ -2,29 +2,38 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
+#include <limits>
 #include <string_view>
 
+#include "ebac/control/contact_estimator.hpp"
 #include "ebac/core/concepts.hpp"
 
 namespace ebac {
 
 /// A virtual coupling (Colgate, Stanley, Brown 1995; Adams and Hannaford 1999): a spring K_c and a
-/// damper B_c between the device and a proxy that stays on the surface of the virtual object. The
-/// force of the virtual world is never exceeded, so a soft wall is rendered as it is and a stiff
-/// one as K_c.
+/// damper B_c in series with the virtual world, between the device and a proxy without mass that
+/// obeys the wall. With delta = x - x_proxy,
 ///
-/// K_c and B_c are the stiffest that Llewellyn's condition allows on a frequency grid up to
-/// Nyquist. Known weakness: on a wall stiffer than K_c the device rests too deep, by design.
+///   K_c delta + B_c d(delta)/dt = F_e(x_proxy) = F_e(x) - K delta,     F = F_e(x) - K delta,
+///
+/// the derivative backward over the tick. A law is given the force of the world at the device and
+/// not the world: K is the slope seen in this contact, so the proxy meets the tangent of the wall.
+/// At rest a wall of K is rendered as K_c K/(K_c + K).
+///
+/// K_c and B_c are the stiffest that Llewellyn's condition allows on a frequency grid up to Nyquist,
+/// for any passive world; without delay K_c is nearly Colgate's 2 (b - B_c)/T. Known weakness: the
+/// device rests too deep, by design.
 class VirtualCoupling {
  public:
   static constexpr std::string_view kName = "virtual-coupling";
-  static constexpr std::string_view kSummary = "spring and damper to a proxy on the surface";
+  static constexpr std::string_view kSummary =
+      "spring and damper in series, to a proxy that obeys the wall";
   static constexpr bool kPassive = false;
 
   struct Params {
     double coupling_stiffness = 2e3;  // N/m
     double coupling_damping = 1;      // N s/m
+    double count = 3.07e-5;           // m
     double peak_force = 42.4;         // N
 
     static Params design(const DeviceFacts& facts, Timing timing);
@@ -34,6 +43,7 @@ class VirtualCoupling {
       return std::array{
           F{"coupling_stiffness", &Params::coupling_stiffness, "N/m", "K_c", 0, 1e7},
           F{"coupling_damping", &Params::coupling_damping, "N s/m", "B_c", 0, 1e4},
+          F{"count", &Params::count, "m", "one encoder count at the handle", 0, 0.01},
           F{"peak_force", &Params::peak_force, "N", "largest command", 1e-3, 1e4},
       };
     }
@@ -41,35 +51,49 @@ class VirtualCoupling {
 
   struct State {
     double proxy = 0;  // m
+    double slope = 0;  // N/m
     bool clamped = false;
 
     static constexpr auto fields() {
       using F = Field<State>;
       return std::array{
           F{"proxy", &State::proxy, "m", "where the proxy stands"},
+          F{"slope", &State::slope, "N/m", "stiffness of the wall as seen, K"},
           F{"clamped", &State::clamped, "1", "1 where the coupling gave less than the world asked"},
       };
     }
   };
 
   explicit VirtualCoupling(const Params& params, const Timing& timing = {})
-      : params_(checked(params, "VirtualCoupling")), timing_(checked(timing, "Timing")) {}
+      : params_(checked(params, "VirtualCoupling")), timing_(checked(timing, "Timing")) {
+    reset();
+  }
 
   double step(const Port& port) EBAC_RT {
+    if (!(port.dt > 0)) return 0;
+    contact_.watch(port, /*direction=*/0);
     if (port.f_env == 0) {  // out of contact the proxy goes with the device
-      state_ = {.proxy = port.x, .clamped = false};
+      deflection_ = 0;
+      state_ = {.proxy = port.x};
       return 0;
     }
-    const double pull =
-        params_.coupling_stiffness * (port.x - state_.proxy) + params_.coupling_damping * port.v;
-    const double most = std::min(std::abs(port.f_env), params_.peak_force);
+    const double damper = params_.coupling_damping / port.dt;  // N/m
+    state_.slope = contact_.slope_at_rest();
+    const double all = damper + params_.coupling_stiffness + state_.slope;
+    deflection_ = all > 0 ? (damper * deflection_ + port.f_env) / all : 0.0;
+    state_.proxy = port.x - deflection_;
     const double sign = port.f_env > 0 ? 1 : -1;
-    const double command = sign * std::clamp(sign * pull, 0.0, most);
+    const double passed = sign * (port.f_env - state_.slope * deflection_);
+    const double command = sign * std::clamp(passed, 0.0, params_.peak_force);
     state_.clamped = command != port.f_env;
     return command;
   }
   void retune(const VirtualCoupling& next) EBAC_RT { params_ = next.params_; }
-  void reset() EBAC_RT { state_ = {}; }
+  void reset() EBAC_RT {
+    contact_ = ContactEstimator(params_.count, std::numeric_limits<double>::infinity());
+    deflection_ = 0;
+    state_ = {};
+  }
   const State& state() const EBAC_RT { return state_; }
   const Params& params() const EBAC_RT { return params_; }
   const Timing& timing() const EBAC_RT { return timing_; }
@@ -77,6 +101,8 @@ class VirtualCoupling {
  private:
   Params params_;
   Timing timing_;
+  ContactEstimator contact_{0, 0};
+  double deflection_ = 0;  // m
   State state_{};
 };
 
