@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import dataclasses
+import json
 from collections.abc import Mapping, Sequence
+from functools import cache
+from pathlib import Path
 from typing import Any, ClassVar, Protocol, TypeAlias, cast, runtime_checkable
 
 from ebac import _core
@@ -136,7 +139,8 @@ def design(
     ----------
     law : str, law class, Variant, law or PythonLaw
         A name of `LAWS`, a class of the core or a `Variant` is designed from `device` and `timing`, never from the
-        wall or the hand. A finished law comes back as it is.
+        wall or the hand. A finished law comes back as it is. "tca-damped-tuned" is `tca-damped` with what
+        `ebac tune` found for the reference device and the nearest delay.
     device : Device or DeviceFacts
         What a user can know of the device.
     timing : Timing
@@ -161,8 +165,11 @@ def design(
     if isinstance(law, Variant):
         return design(law.law, device, timing, **{**law.changes, **changes})
     if isinstance(law, str):
+        if law in tuned_laws():
+            law, found = tuned(law, timing.delay)
+            changes = {**found, **changes}
         if law not in LAWS:
-            raise unknown_name("law", law, LAWS)
+            raise unknown_name("law", law, [*LAWS, *tuned_laws()])
         law = LAWS[law]
     if isinstance(law, type):
         if not hasattr(law, "_simulate"):
@@ -202,6 +209,31 @@ def changed(law: AnyLaw, **changes: Any) -> AnyLaw:
         raise TypeError(f"{law!r} cannot be changed: a law in Python must be a dataclass for that")
     own: Any = law
     return cast(PythonLaw, dataclasses.replace(own, **changes))
+
+
+@cache
+def tuned_laws() -> tuple[str, ...]:
+    """Return the names of the laws with tuned parameters: "tca-damped-tuned" and so on."""
+    return tuple(dict.fromkeys(f"{row['law']}-tuned" for row in _tuned_rows()))
+
+
+def tuned(name: str, delay: int) -> tuple[str, dict[str, Any]]:
+    """Return the law behind a name of `tuned_laws`, and its parameters for the nearest delay [samples].
+
+    They were searched for the reference device at 1 kHz with `ebac tune all --json`; other devices need a search of
+    their own.
+    """
+    law = name.removesuffix("-tuned")
+    rows = [row for row in _tuned_rows() if row["law"] == law]
+    nearest = min(rows, key=lambda row: abs(row["delay"] - delay))
+    return law, dict(nearest["changes"])
+
+
+@cache
+def _tuned_rows() -> list[dict[str, Any]]:
+    text = Path(__file__).with_name("tuned_rivals.json").read_text(encoding="utf-8")
+    rows: list[dict[str, Any]] = json.loads(text)["rows"]
+    return rows
 
 
 def law_name(law: Any) -> str:

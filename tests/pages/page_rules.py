@@ -54,6 +54,7 @@ RULES = (
     # What takes minutes.
     Rule(r"^ebac paper( all)?( --out \S+)?$", NEVER, "takes minutes; tests run its items"),
     Rule(r"^ebac bench", NEVER, "takes a minute; tests run it with small numbers"),
+    Rule(r"^ebac tune [\w,-]+( --json.*)?$", NEVER, "takes minutes; tests search with few hands"),
     Rule(r"^ebac identify check", NEVER, "takes a minute; tests run it with few logs"),
     Rule(
         r"^ebac study.* (cells|five|robustness|all)\b",
@@ -72,7 +73,7 @@ RULES = (
     ),
     # What takes more than some seconds of one core.
     Rule(
-        r"^ebac (study|ablation|worst|zwidth|map|faults|paper|jitter|doctor|run)\b",
+        r"^ebac (study|ablation|tune|worst|zwidth|map|faults|paper|jitter|doctor|run)\b",
         SLOW,
         "takes seconds",
     ),

@@ -25,6 +25,7 @@ LONG = {
     "bench --can --repeats 2000": "--repeats",
     "study --seconds 600": "--resume --out ebac-study",
     "track --simulated --runs 100000": "--runs",
+    "tune tca --evaluations 100000": "the best so far was printed",
 }
 #: Processor time after which a command is at its work [s].
 BUSY = 2.0

@@ -30,9 +30,9 @@ def option(*names: str, text: str, default: str | bool = False, panel: str, **mo
 
 def complete_laws(incomplete: str) -> list[str]:
     """Return the laws that begin so."""
-    from ebac.laws import LAWS
+    from ebac.laws import LAWS, tuned_laws
 
-    return [name for name in (*LAWS, "all") if name.startswith(incomplete.lower())]
+    return [name for name in (*LAWS, *tuned_laws(), "all") if name.startswith(incomplete.lower())]
 
 
 def _hands(incomplete: str) -> list[str]:

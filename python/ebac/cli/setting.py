@@ -58,13 +58,14 @@ def one_law(name: str, option: str = "--law") -> str:
 def law_names(given: Sequence[str], option: str = "--law") -> list[str]:
     """Return the laws of names in any case, with commas between, each once, in the order given; `all` is every law."""
     from ebac._util.serialisation import unknown
-    from ebac.laws import LAWS
+    from ebac.laws import LAWS, tuned_laws
 
+    known = (*LAWS, *tuned_laws())
     names: list[str] = []
     for word in _words(given, option):
         name = word.lower().replace("_", "-")
-        if name not in LAWS and name != "all":
-            raise ValueError(unknown(f"{option} {word}", name, [*LAWS, "all"]))
+        if name not in known and name != "all":
+            raise ValueError(unknown(f"{option} {word}", name, [*known, "all"]))
         names += LAWS if name == "all" else [name]
     return list(dict.fromkeys(names))
 

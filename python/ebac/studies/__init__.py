@@ -6,6 +6,7 @@ from ebac.studies.hand_search import WorstHand
 from ebac.studies.measures import MEASURES, Measure
 from ebac.studies.result import Failure, Study, StudyRow
 from ebac.studies.study import study
+from ebac.studies.tuning import Tuned, TunedRow, TuningInterrupted, tune
 from ebac.studies.worst import Worst, worst
 
 __all__ = [
@@ -20,12 +21,16 @@ __all__ = [
     "Piece",
     "Study",
     "StudyRow",
+    "Tuned",
+    "TunedRow",
+    "TuningInterrupted",
     "Worst",
     "WorstHand",
     "ablation",
     "conditions",
     "pieces",
     "study",
+    "tune",
     "worst",
 ]
 

@@ -1,0 +1,126 @@
+"""`ebac tune`: a law's parameters searched on training hands, judged on others."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from ebac.cli import options, output, setting
+
+if TYPE_CHECKING:
+    from ebac.studies import Tuned
+
+_SEARCH = "Search"
+
+
+def tune(
+    device: options.DeviceOptions,
+    length: options.RunOptions,
+    law: Annotated[
+        str,
+        typer.Argument(
+            help="A law, see `ebac laws`; several with commas between, `all` for every law that has something to tune.",
+            autocompletion=options.complete_laws,
+        ),
+    ],
+    condition: Annotated[
+        list[str] | None,
+        options.conditions(
+            "Conditions of the search, see `ebac conditions`; each delay is tuned for itself.",
+            panel=_SEARCH,
+            default="d0K10,d0K20,d1K10,d1K20,d2K10,d2K20",
+        ),
+    ] = None,
+    hands: Annotated[
+        int,
+        typer.Option(help="Random training hands.", min=1, rich_help_panel=_SEARCH),
+    ] = 24,
+    evaluations: Annotated[
+        int,
+        typer.Option(help="Points to try for each delay.", min=2, rich_help_panel=_SEARCH),
+    ] = 120,
+    seed: Annotated[
+        int, typer.Option(help="Seed of noise and jitter.", min=0, rich_help_panel=_SEARCH)
+    ] = 1,
+    threads: options.Threads = None,
+    as_json: output.AsJson = False,
+) -> None:
+    """Search the best parameters of a law.
+
+    A simulation. The parameters are searched on random training hands; the table shows the 60 hands of the grid, with
+    the parameters of the design and with those found. Good hands count most, then settling, energy drawn and the ripple
+    of the force at rest.
+    Ctrl-C keeps the best so far.
+
+    What this package found for the reference device is a law of its own: `--law tca-damped-tuned`.
+
+    **Examples**
+
+    * `ebac tune tca-damped --condition d1K10 --hands 4 --evaluations 8`: a short search
+
+    * `ebac tune all --json > tuned_rivals.json`: how the tuned laws of this package were made
+    """
+    from ebac.operators import Operators
+    from ebac.studies import TuningInterrupted
+    from ebac.studies import tune as search
+    from ebac.studies.tuning import HANDS_SEED, RANGES, TUNING_CONDITIONS
+
+    found: list[Tuned] = []
+    stopped = False
+    with output.refusing():
+        names = setting.law_names([law], "LAW")
+        if law.lower() == "all":
+            names = [name for name in names if name in RANGES]
+        wanted = setting.condition_names(condition or TUNING_CONDITIONS)
+        base = options.scenario_of(device, length)
+        training = Operators.sample(hands, HANDS_SEED)
+        for name in names:
+            with output.counting(f"tuning {name}", quiet=as_json) as progress:
+                try:
+                    found += search(
+                        name, wanted, training=training, base=base, evaluations=evaluations, seed=seed,
+                        threads=threads, progress=progress,
+                    )  # fmt: skip
+                except TuningInterrupted as interrupted:
+                    found += interrupted.result
+                    stopped = True
+                    break
+    if as_json:
+        rows = [one.row() for one in found]
+        typer.echo(output.document("tune", rows, complete=not stopped))
+    elif found:
+        _show(found)
+    if stopped:
+        output.keeping("the best so far was printed" if found else "nothing was tried yet")
+        raise KeyboardInterrupt
+
+
+def _show(found: list[Tuned]) -> None:
+    from ebac._util import formatting
+    from ebac.laws import shown_value
+
+    def seconds(value: float | None) -> str:
+        return "never" if value is None else f"{value:.3f} s"
+
+    def quantity(value: float | None, unit: str) -> str:
+        return "-" if value is None else formatting.quantity(value, unit)
+
+    headings = ["law", "condition", "parameters", "good", "settled", "drawn", "ripple"]
+    grid = output.table(headings, numbers=(3, 4, 5, 6))
+    for one in found:
+        for rows in zip(one.default, one.test, strict=True):
+            for what, row in zip(("designed", "tuned"), rows, strict=True):
+                grid.add_row(
+                    one.law, row.condition, what, f"{row.good} of {row.hands}", seconds(row.median_settled_s),
+                    quantity(row.most_drawn_J, "J"), quantity(row.ripple_N, "N"),
+                )  # fmt: skip
+    output.show(grid)
+    for one in found:
+        changes = ", ".join(f"{n} = {shown_value(v)}" for n, v in one.changes.items())
+        samples = output.plural(one.delay, "sample")
+        output.say(
+            f"{one.law}, {samples} of delay: {changes}; cost {one.default_cost:.3f} -> {one.cost:.3f}, "
+            f"{one.tried} points"
+        )
+    output.say("Simulated, not measured.", style="bold")

@@ -1,0 +1,149 @@
+"""`tune` and the tuned laws of the package."""
+
+import json
+import math
+from pathlib import Path
+from typing import Any
+
+import pytest
+from typer.testing import CliRunner
+
+import ebac
+from ebac.cli import app
+from ebac.laws import design, tuned, tuned_laws
+from ebac.studies import TuningInterrupted, tune, tuning
+
+FEW = ebac.Operators.sample(3, 5)
+TABLE = json.loads(Path(ebac.__file__).with_name("tuned_rivals.json").read_text(encoding="utf-8"))
+
+
+def quick(law: str = "tca-damped", conditions: Any = ("d1K20",), **more: Any) -> Any:
+    base = ebac.Scenario(seconds=1.5)
+    given = {"training": FEW, "test": FEW, "base": base, "evaluations": 12, "threads": 1, **more}
+    return tune(law, conditions, **given)
+
+
+def test_the_best_is_no_worse_than_the_design_and_both_are_judged_on_the_test_hands() -> None:
+    seen: list[tuple[int, int]] = []
+    other = ebac.Operators.sample(2, 9)
+    (found,) = quick(test=other, progress=lambda done, total: seen.append((done, total)))
+    assert found.cost < found.default_cost
+    assert found.tried == 12
+    assert found.delay == 1
+    assert [row.hands for row in (*found.default, *found.test)] == [2, 2]
+    assert seen[-1] == (12, 12)
+    low, high = tuning.RANGES["tca-damped"]["virtual_damping"]
+    assert low <= found.changes["virtual_damping"] <= high
+    rows = ebac.study(other, found.variant, ["d1K20"], base=ebac.Scenario(seconds=1.5)).rows
+    assert rows[0].good == found.test[0].good
+
+
+def test_each_delay_is_tuned_for_itself_with_the_same_result_every_time() -> None:
+    first, second = (
+        quick("sfa", ("d0K10", "d1K10", "d1K20"), evaluations=4, threads=n) for n in (1, 2)
+    )
+    assert [one.delay for one in first] == [0, 1]
+    assert [len(one.test) for one in first] == [1, 2]
+    assert [one.row() for one in first] == [one.row() for one in second]
+    assert isinstance(
+        first[0].changes.get("transient", True), bool
+    )  # nothing where the design is best
+
+
+def test_an_interrupt_keeps_the_best_so_far(monkeypatch: pytest.MonkeyPatch) -> None:
+    count = 0
+
+    def sweep(*args: Any, **more: Any) -> Any:
+        nonlocal count
+        count += 1
+        if count == 5:
+            raise KeyboardInterrupt
+        return ebac.sweep(*args, **more)
+
+    monkeypatch.setattr(tuning, "sweep", sweep)
+    with pytest.raises(TuningInterrupted) as stopped:
+        quick(conditions=("d0K20", "d1K20"))
+    (found,) = stopped.value.result
+    assert found.tried == 4
+    assert found.delay == 0
+
+
+@pytest.mark.parametrize(
+    ("given", "message"),
+    [
+        ({"law": "direct"}, "nothing to tune"),
+        ({"law": "tca-dampd"}, "did you mean 'tca-damped'"),
+        ({"ranges": {"kq": (0, 1)}}, "kq"),
+        ({"ranges": {"kp": (0, 11)}}, r"kp from 0 to 11 1: must lie in \[0, 10\]"),
+        ({"evaluations": 1}, "must be at least 2"),
+    ],
+)
+def test_what_cannot_be_searched_is_refused(given: dict[str, Any], message: str) -> None:
+    with pytest.raises((ValueError, KeyError), match=message):
+        quick(**given)
+
+
+def test_a_good_hand_more_outweighs_settling_energy_and_ripple() -> None:
+    class Runs(dict[str, Any]):
+        good: Any
+        deviation_m: Any
+
+    def cost(good: bool, settled: float, drawn: float, ripple: float) -> float:
+        import numpy as np
+
+        runs = Runs(
+            settled_s=np.array([settled]), most_drawn_J=np.array([drawn]),
+            force_swing_N=np.array([ripple]), swing_m=np.array([0.0]),
+        )  # fmt: skip
+        runs.good, runs.deviation_m = np.array([good]), np.array([0.0])
+        return tuning.cost_of(runs)  # type: ignore[arg-type]
+
+    nothing, all_wrong = cost(True, 0, 0, 0), cost(True, math.nan, math.inf, math.inf)
+    assert nothing == 0
+    assert all_wrong == pytest.approx(0.3)
+    assert cost(False, 0, 0, 0) >= 1
+    assert cost(True, 0.1, 0, 0) < cost(True, 0.2, 0, 0)
+    assert cost(True, 0.1, 0, 0) < cost(True, 0.1, 1e-3, 0)
+
+
+# --- the tuned laws of the package ---
+
+
+def test_every_law_with_something_to_tune_is_in_the_table_for_three_delays() -> None:
+    assert {row["law"] for row in TABLE["rows"]} == set(tuning.RANGES)
+    for name in tuning.RANGES:
+        assert [row["delay"] for row in TABLE["rows"] if row["law"] == name] == [0, 1, 2]
+    assert set(tuned_laws()) == {f"{name}-tuned" for name in tuning.RANGES}
+    assert not set(tuned_laws()) & set(ebac.LAWS)
+
+
+@pytest.mark.parametrize("row", TABLE["rows"], ids=lambda row: f"{row['law']}-{row['delay']}")
+def test_a_tuned_law_is_the_law_with_the_parameters_of_the_table(row: dict[str, Any]) -> None:
+    timing = ebac.Timing(delay=row["delay"])
+    law = design(f"{row['law']}-tuned", ebac.Device(), timing)
+    assert law == design(row["law"], ebac.Device(), timing, **row["changes"])
+    assert row["cost"] <= row["default_cost"]
+
+
+def test_a_delay_that_was_not_searched_takes_the_nearest() -> None:
+    assert tuned("tca-damped-tuned", 5) == tuned("tca-damped-tuned", 2)
+    changed = design("tca-damped-tuned", ebac.Device(), ebac.Timing(), kp=0.25)
+    assert changed.kp == 0.25  # type: ignore[union-attr]
+
+
+def test_the_table_holds_what_its_laws_do_today() -> None:
+    """Where a law or a measure has changed: `ebac tune all --json > python/ebac/tuned_rivals.json`."""
+    (row,) = (r for r in TABLE["rows"] if r["law"] == "tca-damped" and r["delay"] == 1)
+    found = ebac.study(ebac.Operators.grid(), "tca-damped-tuned", ["d1K20"]).rows[0]
+    (then,) = (one for one in row["test"] if one["condition"] == "d1K20")
+    assert found.good == then["good"]
+    assert found.median_settled_s == pytest.approx(then["median_settled_s"], abs=0.02)
+
+
+def test_the_command_searches_and_prints_what_was_found() -> None:
+    words = "tune eba -c d1K10 --hands 2 --evaluations 3 --seconds 0.5 --threads 1"
+    result = CliRunner().invoke(app, [*words.split(), "--json"])
+    answer = json.loads(result.stdout)
+    assert [row["law"] for row in answer["rows"]] == ["eba"]
+    assert answer["complete"]
+    assert "eba, 1 sample of delay: share = " in CliRunner().invoke(app, words.split()).stdout
