@@ -35,6 +35,7 @@ PAGES = tuple(
 )
 TABLES: dict[str, Callable[[Printed], str]] = {
     "grid": populations.grid,
+    "tuned": populations.tuned,
     "hands": story.hands,
     "cells": populations.cells,
     "five": populations.five,

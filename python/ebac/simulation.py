@@ -107,9 +107,8 @@ def simulate(
         rows = finished._simulate(setup, through is not None)
     else:
         rows = _core._simulate_python(setup, finished, through is not None)
-    trace = Trace.from_rows(
-        rows, scenario=scenario, law=law_name(finished), law_repr=repr(finished)
-    )
+    name = law if isinstance(law, str) else law_name(finished)
+    trace = Trace.from_rows(rows, scenario=scenario, law=name, law_repr=repr(finished))
     fault = _core.Fault(int(trace["fault"][-1]))
     if fault is not _core.Fault.NONE:
         raise LoopFault(fault, trace)
