@@ -23,6 +23,7 @@ NEEDS = {
     "identify gains": ["press.csv"],
     "identify log": ["arm.csv"],
     "track": ["line.csv"],
+    "tune": ["tca"],
     "run": ["joystick.toml", "--simulated", "--no-files"],
     "log info": ["run.npz"],
     "log export": ["run.npz", "new.csv"],

@@ -34,11 +34,13 @@ def tune(
     ] = None,
     hands: Annotated[
         int,
-        typer.Option(help="Random training hands.", min=1, rich_help_panel=_SEARCH),
+        typer.Option(help="Random training hands.", min=1, max=1_000_000, rich_help_panel=_SEARCH),
     ] = 24,
     evaluations: Annotated[
         int,
-        typer.Option(help="Points to try for each delay.", min=2, rich_help_panel=_SEARCH),
+        typer.Option(
+            help="Points to try for each delay.", min=2, max=10_000_000, rich_help_panel=_SEARCH
+        ),
     ] = 120,
     seed: Annotated[
         int, typer.Option(help="Seed of noise and jitter.", min=0, rich_help_panel=_SEARCH)
