@@ -6,6 +6,7 @@
 
 #include "bind.hpp"
 #include "fields.hpp"
+#include "python_hand.hpp"
 
 namespace ebac::python {
 
@@ -93,12 +94,46 @@ void require_axis(int axis) {
                               std::to_string(kMaxAxes - 1) + "]");
 }
 
+void bind_models(py::module_& m) {
+  bind_fields<Reflex>(
+      m, "Reflex",
+      "A hand with a stretch reflex: muscle force that answers the motion of `delay` ago.\n\n"
+      "F = K0 (X0 - x) - B0 v - M0 a + r; the reflex r is `stretch_gain` K0 (X0 - x) - "
+      "`velocity_gain` B0 v,\nof `delay` ago, through the activation of the muscle, a low-pass of "
+      "second order. Model of "
+      "van der Helm\net al. 2002 (J. Neurosci. Methods 119); activation of Mugge et al. 2010 "
+      "(PMC5664365, table 1); delay and gains are from memory of the first.");
+  bind_fields<FingerPad>(
+      m, "FingerPad",
+      "A hand behind the pulp of its fingers: an exponential spring that relaxes, in series.\n\n"
+      "F_e = `stiffness`/`rise` (exp(`rise` d) - 1) at a compression d, straight from `stiffest` "
+      "on; shares of it relax\nwithin 4 ms, 70 ms and 1.4 s. Form and times of Pawluk and Howe "
+      "1999 "
+      "(J. Biomech. Eng. 121, 178), up to 2 N;\nnumbers from memory of it, beyond 2 N assumed.");
+  bind_fields<NonlinearGrip>(
+      m, "NonlinearGrip",
+      "A hand that stiffens with its force: K = K0 (1 + |F| / `force`), B = B0 sqrt(K / K0).\n\n"
+      "Stiffness linear in force: Van Doren 1998 (Motor Control 2, 352), Hoeppner et al. 2013 "
+      "(PLOS "
+      "ONE 8, e80889); damping\nthat rises too: Hasser and Cutkosky 2002, Hajian and Howe 1997. "
+      "The "
+      "numbers are indicative.");
+  bind_fields<LetGo>(
+      m, "LetGo",
+      "A hand that lets go of the handle and grips it again.\n\n"
+      "Its mass, damper and spring stand behind a grip of `stiffness` and `damping` that opens at "
+      "`open_at` and closes at\n`closed_at`; an open hand follows the handle. Stiffness and "
+      "damping "
+      "are indicative (several fingers of Hajian and\nHowe 1997).");
+}
+
 void bind_hand(py::module_& m) {
   py::class_<Hand> cls(m, "Hand",
                        ("The operator of eq. (4), (5): mass, damper and spring pulled along an "
                         "intended path.\n\n`path` is one path, for the first axis, or one for each "
                         "axis; the others stay at 0. `target` [m] is short for a `Step` to that "
-                        "place, or one for each axis; give one of the two." +
+                        "place, or one for each axis; give one of the two.\n`model` makes "
+                        "another force of these than eq. (4), see `ebac.hands`." +
                         parameter_table(field_table<Hand>()))
                            .c_str());
   def_init(
@@ -108,6 +143,7 @@ void bind_hand(py::module_& m) {
         auto known = field_names(table);
         known.emplace_back("path");
         known.emplace_back("target");
+        known.emplace_back("model");
         refuse_positional("Hand", args, known);
         Hand hand;
         const auto is_given = [&](const char* name) {
@@ -127,6 +163,8 @@ void bind_hand(py::module_& m) {
               throw py::type_error("Hand.target = " + py::cast<std::string>(py::repr(item)) +
                                    ": must be a number in m, or one for each axis");
             }
+          } else if (word == "model") {
+            hand.model = hand_model(py::reinterpret_borrow<py::object>(item));
           } else if (word == "path") {
             try {
               set_paths(hand, item.cast<Paths>());
@@ -140,19 +178,37 @@ void bind_hand(py::module_& m) {
           }
         }
         check(hand, "Hand");
+        if (!std::holds_alternative<OwnHand>(hand.model)) hand_force(hand, 0);  // refuses a misfit
         return hand;
       },
       "__init__(self, *" + signature(field_table<Hand>()) +
           ", path: Step | MinimumJerk | Sine | Tapping | Recorded | typing.Sequence[Step | "
           "MinimumJerk | Sine | Tapping | Recorded] = ..., target: float | "
-          "typing.Sequence[float] | None = None) -> None");
+          "typing.Sequence[float] | None = None, model: typing.Any = None) -> None");
   add_members(cls, field_table<Hand>(), &place_of<Hand>);
-  add_signature(cls, field_table<Hand>(),
-                {{"path", py::tuple(py::cast(Hand{}.path))}, {"target", py::none()}});
+  add_signature(
+      cls, field_table<Hand>(),
+      {{"path", py::tuple(py::cast(Hand{}.path))}, {"target", py::none()}, {"model", py::none()}});
   cls.def_property_readonly(
          "path",
          [](const Hand& hand) { return std::make_tuple(hand.path[0], hand.path[1], hand.path[2]); },
          "Intended path of each axis.")
+      .def_property_readonly(
+          "model", [](const Hand& hand) { return model_object(hand.model); },
+          "What makes its force: Reflex, FingerPad, NonlinearGrip, LetGo, a hand of your own, or "
+          "None for eq. (4).")
+      .def(
+          "steady",
+          [](const Hand& hand, double x) {
+            const double target = std::visit(
+                [](const auto& p) { return p.position(std::numeric_limits<double>::max()); },
+                hand.path[0]);
+            const auto force = hand_force(hand, 0);
+            return force == nullptr ? hand.stiffness * (target - x) : force->steady(target, x);
+          },
+          py::arg("x"),
+          "Return the force [N] on the first axis at rest at x [m], at the end of its path; NaN "
+          "where none is known.")
       .def(
           "target",
           [](const Hand& hand, double t, int axis) {
@@ -175,6 +231,7 @@ void bind_hand(py::module_& m) {
           [](const Hand& hand) {
             Values values = values_of(hand);
             values["path"] = py::tuple(py::cast(hand.path));
+            if (!hand.linear()) values["model"] = model_object(hand.model);
             return values;
           },
           "Return the parameters by name.");
@@ -185,6 +242,7 @@ void bind_hand(py::module_& m) {
 
 void bind_hands(py::module_& m) {
   bind_paths(m);
+  bind_models(m);
   bind_hand(m);
 }
 

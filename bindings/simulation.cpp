@@ -6,6 +6,7 @@
 #include "ebac/sim/setup.hpp"
 #include "ebac/sim/simulated_device.hpp"
 #include "fields.hpp"
+#include "python_hand.hpp"
 
 namespace ebac::python {
 
@@ -110,10 +111,18 @@ void bind_setup(py::module_& m) {
   py::class_<Setup>(m, "Setup", "Setup of a simulated run, without the law.")
       .def(py::init([](const DeviceModel& device, const Hand& hand, const Environment& environment,
                        const Timing& timing, double seconds, double jitter, std::uint64_t seed) {
-             return Setup{device, hand, environment, timing, seconds, jitter, seed};
+             return Setup{device, for_one_run(hand), environment, timing, seconds, jitter, seed};
            }),
            py::kw_only(), py::arg("device"), py::arg("hand"), py::arg("environment"),
-           py::arg("timing"), py::arg("seconds"), py::arg("jitter"), py::arg("seed"));
+           py::arg("timing"), py::arg("seconds"), py::arg("jitter"), py::arg("seed"))
+      .def(
+          "_raise_hand_error",
+          [](const Setup& setup) {
+            if (const std::exception_ptr error = hand_error(setup.hand)) {
+              std::rethrow_exception(error);
+            }
+          },
+          "Raise what a hand in Python raised in the run of this setup.");
 }
 
 /// A plant alone, stepped from Python: for tests against other integrators.

@@ -23,13 +23,16 @@ void bind_contact(py::module_& m) {
       [](const Numbers& t, const Numbers& x, const Numbers& force,
          const std::optional<Numbers>& energy, const std::optional<Numbers>& stored,
          const std::optional<Numbers>& clamped, const std::optional<Numbers>& pull) {
-        return values_of(measure_contact({.t = view(t),
-                                          .x = view(x),
-                                          .force = view(force),
-                                          .energy = view(energy),
-                                          .stored = view(stored),
-                                          .clamped = view(clamped),
-                                          .pull = view(pull)}));
+        const ContactRecord record{.t = view(t),
+                                   .x = view(x),
+                                   .force = view(force),
+                                   .energy = view(energy),
+                                   .stored = view(stored),
+                                   .clamped = view(clamped),
+                                   .pull = view(pull)};
+        Values numbers = values_of(measure_contact(record));
+        numbers["rest_power"] = rest_power(record);
+        return numbers;
       },
       py::kw_only(), py::arg("t"), py::arg("x"), py::arg("force"), py::arg("energy") = py::none(),
       py::arg("stored") = py::none(), py::arg("clamped") = py::none(),

@@ -34,6 +34,7 @@ inline Values columns_of(const std::vector<Outcome>& rows) {
   Values columns;
   add_columns<WallContact>(columns, rows,
                            [](const Outcome& o) -> const WallContact& { return o.contact; });
+  columns["rest_power"] = column<double>(rows, [](const Outcome& o) { return o.rest_power; });
   columns["ticks"] = column<std::int64_t>(rows, [](const Outcome& o) { return o.ticks; });
   columns["fault"] = column<std::uint32_t>(rows, [](const Outcome& o) { return o.fault; });
   columns["diverged"] = column<bool>(rows, [](const Outcome& o) { return o.diverged; });

@@ -14,6 +14,9 @@ from ebac import (
     faults as faults,
 )
 from ebac import (
+    hands as hands,
+)
+from ebac import (
     hardware as hardware,
 )
 from ebac import (

@@ -50,6 +50,7 @@ __all__: list[str] = [
     "ExactPlant",
     "Fault",
     "Field",
+    "FingerPad",
     "ForceBounding",
     "ForceSensor",
     "Free",
@@ -59,6 +60,7 @@ __all__: list[str] = [
     "Hand",
     "Joystick",
     "LagCompensator",
+    "LetGo",
     "Limited",
     "Limits",
     "Linear",
@@ -72,6 +74,7 @@ __all__: list[str] = [
     "Mechanics",
     "MinimumJerk",
     "Motor",
+    "NonlinearGrip",
     "PassivityControl",
     "PlannedFrame",
     "Port",
@@ -81,6 +84,7 @@ __all__: list[str] = [
     "RealTime",
     "RealTimeMode",
     "Recorded",
+    "Reflex",
     "ReplayLog",
     "Rows",
     "RunLimits",
@@ -1675,12 +1679,291 @@ class Recorded:
         Positions [m].
         """
 
+class Reflex:
+    """
+    A hand with a stretch reflex: muscle force that answers the motion of `delay` ago.
+
+    F = K0 (X0 - x) - B0 v - M0 a + r; the reflex r is `stretch_gain` K0 (X0 - x) - `velocity_gain` B0 v,
+    of `delay` ago, through the activation of the muscle, a low-pass of second order. Model of van der Helm
+    et al. 2002 (J. Neurosci. Methods 119); activation of Mugge et al. 2010 (PMC5664365, table 1); delay and gains are from memory of the first.
+
+    Parameters
+    ----------
+    delay : float
+        time from stretch to muscle [s], 0.005 to 0.5.
+    stretch_gain : float
+        stiffness of the reflex, as a share of K0, 0 to 10.
+    velocity_gain : float
+        damping of the reflex, as a share of B0, 0 to 10.
+    activation : float
+        natural frequency of the muscle's activation [Hz], 0.1 to 50.
+    activation_damping : float
+        damping ratio of the muscle's activation, 0.1 to 10.
+    """
+    @staticmethod
+    def fields() -> list[Field]:
+        """
+        Return name, unit, meaning, default and range of every parameter.
+        """
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __init__(
+        self,
+        *,
+        delay: float = 0.04,
+        stretch_gain: float = 0.25,
+        velocity_gain: float = 1.0,
+        activation: float = 2.7,
+        activation_damping: float = 0.99,
+    ) -> None: ...
+    def __reduce__(self) -> tuple[typing.Any, ...]: ...
+    def __repr__(self) -> str: ...
+    def as_dict(self) -> dict[str, typing.Any]:
+        """
+        Return the parameters by name.
+        """
+    def replace(self, **changes: typing.Any) -> typing.Self:
+        """
+        Return a copy with some parameters changed, checked as at construction.
+        """
+    @property
+    def activation(self) -> float:
+        """
+        natural frequency of the muscle's activation [Hz], 0.1 to 50
+        """
+    @property
+    def activation_damping(self) -> float:
+        """
+        damping ratio of the muscle's activation, 0.1 to 10
+        """
+    @property
+    def delay(self) -> float:
+        """
+        time from stretch to muscle [s], 0.005 to 0.5
+        """
+    @property
+    def stretch_gain(self) -> float:
+        """
+        stiffness of the reflex, as a share of K0, 0 to 10
+        """
+    @property
+    def velocity_gain(self) -> float:
+        """
+        damping of the reflex, as a share of B0, 0 to 10
+        """
+
+class FingerPad:
+    """
+    A hand behind the pulp of its fingers: an exponential spring that relaxes, in series.
+
+    F_e = `stiffness`/`rise` (exp(`rise` d) - 1) at a compression d, straight from `stiffest` on; shares of it relax
+    within 4 ms, 70 ms and 1.4 s. Form and times of Pawluk and Howe 1999 (J. Biomech. Eng. 121, 178), up to 2 N;
+    numbers from memory of it, beyond 2 N assumed.
+
+    Parameters
+    ----------
+    stiffness : float
+        stiffness at no force [N/m], 1 to 1e+05.
+    rise : float
+        growth of the stiffness with the force [1/m], 1 to 10000.
+    stiffest : float
+        largest stiffness [N/m], 1 to 1e+06.
+    fast : float
+        share of the force that relaxes within 4 ms, 0 to 0.3.
+    medium : float
+        share that relaxes within 70 ms, 0 to 0.3.
+    slow : float
+        share that relaxes within 1.4 s, 0 to 0.3.
+    """
+    @staticmethod
+    def fields() -> list[Field]:
+        """
+        Return name, unit, meaning, default and range of every parameter.
+        """
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __init__(
+        self,
+        *,
+        stiffness: float = 200.0,
+        rise: float = 2000.0,
+        stiffest: float = 20000.0,
+        fast: float = 0.3,
+        medium: float = 0.2,
+        slow: float = 0.1,
+    ) -> None: ...
+    def __reduce__(self) -> tuple[typing.Any, ...]: ...
+    def __repr__(self) -> str: ...
+    def as_dict(self) -> dict[str, typing.Any]:
+        """
+        Return the parameters by name.
+        """
+    def replace(self, **changes: typing.Any) -> typing.Self:
+        """
+        Return a copy with some parameters changed, checked as at construction.
+        """
+    @property
+    def fast(self) -> float:
+        """
+        share of the force that relaxes within 4 ms, 0 to 0.3
+        """
+    @property
+    def medium(self) -> float:
+        """
+        share that relaxes within 70 ms, 0 to 0.3
+        """
+    @property
+    def rise(self) -> float:
+        """
+        growth of the stiffness with the force [1/m], 1 to 10000
+        """
+    @property
+    def slow(self) -> float:
+        """
+        share that relaxes within 1.4 s, 0 to 0.3
+        """
+    @property
+    def stiffest(self) -> float:
+        """
+        largest stiffness [N/m], 1 to 1e+06
+        """
+    @property
+    def stiffness(self) -> float:
+        """
+        stiffness at no force [N/m], 1 to 1e+05
+        """
+
+class NonlinearGrip:
+    """
+    A hand that stiffens with its force: K = K0 (1 + |F| / `force`), B = B0 sqrt(K / K0).
+
+    Stiffness linear in force: Van Doren 1998 (Motor Control 2, 352), Hoeppner et al. 2013 (PLOS ONE 8, e80889); damping
+    that rises too: Hasser and Cutkosky 2002, Hajian and Howe 1997. The numbers are indicative.
+
+    Parameters
+    ----------
+    force : float
+        force at which the hand is twice as stiff [N], 0.1 to 1000.
+    stiffest : float
+        largest stiffness, in multiples of K0, 1 to 100.
+    """
+    @staticmethod
+    def fields() -> list[Field]:
+        """
+        Return name, unit, meaning, default and range of every parameter.
+        """
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __init__(self, *, force: float = 20.0, stiffest: float = 3.0) -> None: ...
+    def __reduce__(self) -> tuple[typing.Any, ...]: ...
+    def __repr__(self) -> str: ...
+    def as_dict(self) -> dict[str, typing.Any]:
+        """
+        Return the parameters by name.
+        """
+    def replace(self, **changes: typing.Any) -> typing.Self:
+        """
+        Return a copy with some parameters changed, checked as at construction.
+        """
+    @property
+    def force(self) -> float:
+        """
+        force at which the hand is twice as stiff [N], 0.1 to 1000
+        """
+    @property
+    def stiffest(self) -> float:
+        """
+        largest stiffness, in multiples of K0, 1 to 100
+        """
+
+class LetGo:
+    """
+    A hand that lets go of the handle and grips it again.
+
+    Its mass, damper and spring stand behind a grip of `stiffness` and `damping` that opens at `open_at` and closes at
+    `closed_at`; an open hand follows the handle. Stiffness and damping are indicative (several fingers of Hajian and
+    Howe 1997).
+
+    Parameters
+    ----------
+    open_at : float
+        when the hand starts to open [s], 0 to 1e+06.
+    closed_at : float
+        when it starts to grip again [s], 0 to 1e+06.
+    period : float
+        how often; inf for once [s], at least 0.01.
+    ramp : float
+        time to open, and to close [s], 0.001 to 1.
+    stiffness : float
+        stiffness of the closed grip [N/m], 1 to 1e+06.
+    damping : float
+        damping of the closed grip [N s/m], 0 to 10000.
+    """
+    @staticmethod
+    def fields() -> list[Field]:
+        """
+        Return name, unit, meaning, default and range of every parameter.
+        """
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __init__(
+        self,
+        *,
+        open_at: float = 2.0,
+        closed_at: float = 2.5,
+        period: float = ...,
+        ramp: float = 0.03,
+        stiffness: float = 3000.0,
+        damping: float = 10.0,
+    ) -> None: ...
+    def __reduce__(self) -> tuple[typing.Any, ...]: ...
+    def __repr__(self) -> str: ...
+    def as_dict(self) -> dict[str, typing.Any]:
+        """
+        Return the parameters by name.
+        """
+    def replace(self, **changes: typing.Any) -> typing.Self:
+        """
+        Return a copy with some parameters changed, checked as at construction.
+        """
+    @property
+    def closed_at(self) -> float:
+        """
+        when it starts to grip again [s], 0 to 1e+06
+        """
+    @property
+    def damping(self) -> float:
+        """
+        damping of the closed grip [N s/m], 0 to 10000
+        """
+    @property
+    def open_at(self) -> float:
+        """
+        when the hand starts to open [s], 0 to 1e+06
+        """
+    @property
+    def period(self) -> float:
+        """
+        how often; inf for once [s], at least 0.01
+        """
+    @property
+    def ramp(self) -> float:
+        """
+        time to open, and to close [s], 0.001 to 1
+        """
+    @property
+    def stiffness(self) -> float:
+        """
+        stiffness of the closed grip [N/m], 1 to 1e+06
+        """
+
 class Hand:
     """
     The operator of eq. (4), (5): mass, damper and spring pulled along an intended path.
 
     `path` is one path, for the first axis, or one for each axis; the others stay at 0. `target` [m] is
     short for a `Step` to that place, or one for each axis; give one of the two.
+    `model` makes another force of these than eq. (4), see `ebac.hands`.
 
     Parameters
     ----------
@@ -1720,6 +2003,7 @@ class Hand:
         | Recorded
         | typing.Sequence[Step | MinimumJerk | Sine | Tapping | Recorded] = ...,
         target: float | typing.Sequence[float] | None = None,
+        model: typing.Any = None,
     ) -> None: ...
     def __reduce__(self) -> tuple[typing.Any, ...]: ...
     def __repr__(self) -> str: ...
@@ -1740,6 +2024,10 @@ class Hand:
         """
         Return a copy with some parameters changed, checked as at construction.
         """
+    def steady(self, x: typing.SupportsFloat | typing.SupportsIndex) -> float:
+        """
+        Return the force [N] on the first axis at rest at x [m], at the end of its path; NaN where none is known.
+        """
     def target(
         self,
         t: typing.SupportsFloat | typing.SupportsIndex,
@@ -1757,6 +2045,11 @@ class Hand:
     def mass(self) -> float:
         """
         M0 of eq. (4) [kg], 0 to 10
+        """
+    @property
+    def model(self) -> typing.Any:
+        """
+        What makes its force: Reflex, FingerPad, NonlinearGrip, LetGo, a hand of your own, or None for eq. (4).
         """
     @property
     def path(
@@ -2124,6 +2417,10 @@ class Setup:
         jitter: typing.SupportsFloat | typing.SupportsIndex,
         seed: typing.SupportsInt | typing.SupportsIndex,
     ) -> None: ...
+    def _raise_hand_error(self) -> None:
+        """
+        Raise what a hand in Python raised in the run of this setup.
+        """
 
 class AxisTruth:
     """

@@ -9,9 +9,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ebac._core import Linear, MinimumJerk, Step, Wall, _measure_contact, _stored_energy
+from ebac._core import Hand, Linear, MinimumJerk, Step, Wall, _measure_contact, _stored_energy
 from ebac._util import formatting
 from ebac._util.arguments import require
+from ebac.hands import is_own
 from ebac.scenario import Scenario
 from ebac.trace import Trace
 
@@ -39,6 +40,10 @@ QUIET_SWING = 0.25e-3
 EXACT_COUNTS = 2
 #: Fewer rows have no tail to measure.
 FEWEST_ROWS = 10
+#: A hand with a model balances within so far from zero, or has no rest [m].
+LARGEST_REST = 10.0
+#: Half of the way over which the slope of a steady force is taken [m].
+SMALL = 1e-6
 #: The numbers of a contact, and what the core calls them.
 COLUMNS = {
     "rest_m": "rest",
@@ -52,9 +57,12 @@ COLUMNS = {
     "clamped_share": "clamped_share",
     "force_step_N": "force_step",
     "most_pull_N": "most_pull",
+    "rest_power_W": "rest_power",
 }
 #: Numbers of a contact that are no keys of `ebac wall --json`.
-MORE = ("count_m", "allowed_m", "most_drawn_J", "force_step_N", "most_pull_N", "seconds", "touched")
+MORE = (
+    "count_m", "allowed_m", "most_drawn_J", "force_step_N", "most_pull_N", "rest_power_W", "seconds", "touched",
+)  # fmt: skip
 #: What a printed contact shows: label, attribute, unit, what to print where there is none.
 LINES = (
     ("rest", "rest_m", "m", "-"),
@@ -102,7 +110,11 @@ class Contact:
     force_step_N : float
         Largest change of the applied force from one tick to the next.
     most_pull_N : float or None
-        Hardest pull of the hand, |K0 (X0 - x)|, while the virtual world acts; None without a simulation.
+        Hardest pull of the hand, |K0 (X0 - x)|, while the virtual world acts; None without a simulation and for a hand
+        of your own.
+    rest_power_W : float or None
+        Mean rate of the port energy over the last 30 %, dW/dt at rest; negative where the port gives out energy for
+        as long as it is held. None without a simulation.
     count_m : float or None
         One encoder count.
     allowed_m : float or None
@@ -127,6 +139,7 @@ class Contact:
     most_drawn_J: float | None = None
     force_step_N: float | None = None
     most_pull_N: float | None = None
+    rest_power_W: float | None = None
     allowed_m: float | None = None
     seconds: float | None = None
     touched: bool | None = None
@@ -221,7 +234,8 @@ def contact(trace: Trace, *, axis: int = 0, truth: bool = True) -> Contact:
     if trace.scenario is not None and true:
         acts = [trace.axis(name, axis) != 0 for name in ("f_env", "f_cmd", "f_applied")]
         hand, x = trace.scenario.hand, trace.axis("true.x", axis)
-        pull = np.where(np.any(acts, axis=0), hand.pull(trace["t"], x, axis), 0.0)
+        if not is_own(hand.model):
+            pull = np.where(np.any(acts, axis=0), hand.pull(trace["t"], x, axis), 0.0)
     numbers: Any = _measure_contact(
         t=trace["t"],
         x=trace.axis("true.x" if true else "x", axis),
@@ -264,7 +278,10 @@ def allowed_deviation(scenario: Scenario) -> float:
     ideal = ideal_rest(scenario)
     if friction == 0 or ideal is None:
         return counts
-    stiffness = scenario.hand.stiffness
+    hand = scenario.hand
+    stiffness = hand.stiffness
+    if hand.model is not None:
+        stiffness = (hand.steady(ideal - SMALL) - hand.steady(ideal + SMALL)) / (2 * SMALL)
     if isinstance(wall, Wall) and ideal > wall.position:
         stiffness += wall.stiffness
     return counts + friction / stiffness
@@ -273,7 +290,8 @@ def allowed_deviation(scenario: Scenario) -> float:
 def ideal_rest(scenario: Scenario) -> float | None:
     """Return where hand and ideal wall balance, x* = (K0 X0 + K p + weight) / (K0 + K) [m].
 
-    None where there is no such point: no straight wall across the first axis, or a hand that never rests.
+    None where there is no such point: no straight wall across the first axis, or a hand that never rests. With a
+    model of `ebac.hands` it is where the steady force of the model and the wall balance; None for a hand of your own.
     """
     require(scenario, Scenario, "ebac.ideal_rest", "a Scenario")
     wall, hand = scenario.environment, scenario.hand
@@ -286,7 +304,26 @@ def ideal_rest(scenario: Scenario) -> float | None:
         return None
     mechanics, given = scenario.device.mechanics, scenario.device.compensation
     weight = (mechanics.handle_mass - given.gravity_mass) * mechanics.gravity
+    if hand.model is not None:
+        return _balance(hand, wall, weight)
     pull = hand.stiffness * path.target + weight
     if hand.stiffness == 0 or pull <= hand.stiffness * wall.position:
         return pull / hand.stiffness if hand.stiffness > 0 else None
     return (pull + wall.stiffness * wall.position) / (hand.stiffness + wall.stiffness)
+
+
+def _balance(hand: Hand, wall: Wall, weight: float) -> float | None:
+    """Return where a hand with a model, a wall and a weight balance, by bisection of a falling force."""
+
+    def left(x: float) -> float:
+        depth = max(x - wall.position, 0.0)
+        return hand.steady(x) + weight - wall.stiffness * depth
+
+    low, high = -LARGEST_REST, LARGEST_REST
+    if not left(low) > 0 > left(high):  # NaN too: a hand that never rests, or is not known
+        return None
+    while True:
+        middle = (low + high) / 2
+        if middle in (low, high):
+            return middle
+        low, high = (middle, high) if left(middle) > 0 else (low, middle)

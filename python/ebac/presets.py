@@ -5,7 +5,17 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import pi
 
-from ebac._core import Device, Gimbal, Hand, Mechanics, Step
+from ebac._core import (
+    Device,
+    FingerPad,
+    Gimbal,
+    Hand,
+    LetGo,
+    Mechanics,
+    NonlinearGrip,
+    Reflex,
+    Step,
+)
 from ebac._util.arguments import unknown_name
 
 __all__ = [
@@ -70,6 +80,26 @@ HANDS: dict[str, HandPreset] = {
         hand=Hand(path=Step(target=0)),
         source="the reference hand, holding the device where it is",
         indicative=False,
+    ),
+    "reflex": HandPreset(
+        hand=Hand(model=Reflex()),
+        source="the reference hand with a stretch reflex of 40 ms, after van der Helm et al. 2002",
+        indicative=True,
+    ),
+    "finger-pad": HandPreset(
+        hand=Hand(model=FingerPad()),
+        source="the reference hand behind the pulp of its fingers, after Pawluk and Howe 1999",
+        indicative=True,
+    ),
+    "nonlinear-grip": HandPreset(
+        hand=Hand(model=NonlinearGrip()),
+        source="the reference hand, twice as stiff at 20 N, after Van Doren 1998, Hajian and Howe 1997",
+        indicative=True,
+    ),
+    "let-go": HandPreset(
+        hand=Hand(model=LetGo()),
+        source="the reference hand, which lets go at 2 s and grips again at 2.5 s",
+        indicative=True,
     ),
     "open": HandPreset(
         hand=Hand(mass=0, damping=0, stiffness=0),

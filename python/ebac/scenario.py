@@ -13,6 +13,7 @@ from ebac._util import serialisation
 from ebac._util.arguments import keywords_only, refuse_unknown
 from ebac._util.text_file import read_text
 from ebac._util.toml import parsed
+from ebac.hands import as_hand, is_own
 
 __all__ = [
     "Environment",
@@ -52,7 +53,8 @@ class Scenario:
     device : Device
         The haptic device; default: one axis of 0.25 kg and 2 N s/m with the paper's drive train.
     hand : Hand
-        Who holds it; default: 0.15 kg, 6 N s/m, 300 N/m, pulling to 40 mm.
+        Who holds it; default: 0.15 kg, 6 N s/m, 300 N/m, pulling to 40 mm. A model of `ebac.hands` alone stands for
+        the default hand with this model; an object with `force(t, x, v)` for a hand of your own.
     environment : Free, Wall, Corner or Disc
         What it touches; default: a wall of 10 kN/m at 0 m (paper, section IV.C).
     timing : Timing
@@ -82,6 +84,7 @@ class Scenario:
 
     def __post_init__(self) -> None:
         """Check types and ranges."""
+        object.__setattr__(self, "hand", as_hand(self.hand))
         parts: dict[str, tuple[type, ...]] = {
             "device": (Device,),
             "hand": (Hand,),
@@ -137,8 +140,20 @@ class Scenario:
         return dataclasses.replace(self, **changes)
 
     def to_toml(self) -> str:
-        """Return the scenario as TOML text, SI units throughout."""
+        """Return the scenario as TOML text, SI units throughout.
+
+        Raises
+        ------
+        ValueError
+            When its hand is one of your own: code is not written to a file.
+        """
         import tomli_w
+
+        if is_own(self.hand.model):
+            raise ValueError(
+                f"Scenario.hand.model = {self.hand.model!r}: a hand of your own cannot be written to TOML; "
+                "write the scenario with a model of ebac.hands, or none"
+            )
 
         values = {f.name: getattr(self, f.name) for f in dataclasses.fields(self)}
         numbers = {k: v for k, v in values.items() if isinstance(v, (int, float))}

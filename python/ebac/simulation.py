@@ -30,13 +30,18 @@ class LoopFault(RuntimeError):
         The first fault; it latched.
     trace : Trace
         Every row up to the stop; the last ones are the evidence.
+
+    Where a hand of your own raised an error, that is its `__cause__`.
     """
 
-    def __init__(self, fault: _core.Fault, trace: Trace) -> None:
+    def __init__(self, fault: _core.Fault, trace: Trace, hand: BaseException | None = None) -> None:
         self.fault = fault
         self.trace = trace
         row = int((trace["fault"] != 0).argmax())
         cause = fault.name.lower().replace("_", " ")
+        if hand is not None:
+            model = type(trace.scenario.hand.model).__name__ if trace.scenario else "the hand"
+            cause = f"the hand {model} raised {type(hand).__name__}: {hand}"
         super().__init__(
             f"fault {int(fault)} ({cause}) in tick {trace['tick'][row]}, t = {trace['t'][row]:.6g} s: "
             "the command was set to zero and the loop stopped; see .trace for the rows before it"
@@ -111,8 +116,18 @@ def simulate(
     trace = Trace.from_rows(rows, scenario=scenario, law=name, law_repr=repr(finished))
     fault = _core.Fault(int(trace["fault"][-1]))
     if fault is not _core.Fault.NONE:
-        raise LoopFault(fault, trace)
+        error = _hand_error(setup)
+        raise LoopFault(fault, trace, error) from error
     return trace
+
+
+def _hand_error(setup: _core.Setup) -> Exception | None:
+    """Return what a hand of the user's own raised; an interrupt is raised again."""
+    try:
+        setup._raise_hand_error()
+    except Exception as error:
+        return error
+    return None
 
 
 def on_bus(scenario: Scenario, through: str) -> Scenario:

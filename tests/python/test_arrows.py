@@ -168,6 +168,7 @@ ROOMS = [
         "presets",
         "laws",
         "specs",
+        "hands",
         "operators",
         "scenario",
         "trace",

@@ -32,6 +32,9 @@ ExactPlant::ExactPlant(const DeviceModel& device, const Hand& hand, double tick)
         "ExactPlant: needs Linear kinematics without breakaway friction, cable compliance and "
         "backlash; use the stepped plant");
   }
+  if (!hand.linear()) {
+    throw std::invalid_argument("ExactPlant: needs a hand without a model; use the stepped plant");
+  }
   const auto n = static_cast<std::size_t>(device.axes());
   axes_.assign(n, ExactAxis(axis_parameters(device, hand), tick));
   if (std::isfinite(hand.release_at)) {

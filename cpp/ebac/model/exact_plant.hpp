@@ -12,13 +12,17 @@ namespace ebac {
 AxisParameters axis_parameters(const DeviceModel& device, const Hand& hand);
 
 /// Independent rigid axes with a hand on each, integrated exactly. For `Linear` devices without
-/// Stribeck friction, cable compliance and backlash; SteppedPlant does the rest.
+/// Stribeck friction, cable compliance and backlash and hands of eq. (4); SteppedPlant does the
+/// rest.
 class ExactPlant {
  public:
-  /// Throws std::invalid_argument when `device` is not such a device.
+  /// Throws std::invalid_argument for another device or hand.
   ExactPlant(const DeviceModel& device, const Hand& hand, double tick);
 
   static bool covers(const DeviceModel& device);
+  static bool covers(const DeviceModel& device, const Hand& hand) {
+    return covers(device) && hand.linear();
+  }
 
   /// Moves by `quanta` of 2^-20 tick from time `t` on, under the motor currents `current` [A].
   void advance(const Axes& current, double t, std::int64_t quanta) EBAC_RT {

@@ -8,9 +8,11 @@
 
 #include "ebac/core/fields.hpp"
 #include "ebac/core/realtime.hpp"
+#include "ebac/model/hand_model.hpp"
 
 /// The operator of eq. (4), (5): a mass, a damper and a spring pulled towards an intended path
-/// X0(t). On the device acts F_h = K0 (X0 - x) - B0 v - M0 a.
+/// X0(t). On the device acts F_h = K0 (X0 - x) - B0 v - M0 a, unless a model makes another force of
+/// them.
 namespace ebac {
 
 /// Wants to be at `target` from time `at` on.
@@ -121,6 +123,7 @@ struct Hand {
   double tremor_amplitude = 0;                                  // m
   double tremor_frequency = 9;                                  // Hz
   double release_at = std::numeric_limits<double>::infinity();  // s
+  HandModel model{};                                            // none: eq. (4)
 
   /// The intended path of one axis over [t, t + dt], tremor on top.
   Target target(int axis, double t, double dt) const EBAC_RT {
@@ -136,6 +139,9 @@ struct Hand {
   }
 
   Target moving_target(int axis, double t, double dt) const EBAC_RT;
+
+  /// Whether its force is that of eq. (4).
+  bool linear() const EBAC_RT { return std::holds_alternative<std::monostate>(model); }
 
   /// Force with which the hand pulls at time t, |K0 (X0 - x)| [N]: the part of eq. (4) that can
   /// give energy without end. 0 once it let go.

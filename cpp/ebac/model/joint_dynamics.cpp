@@ -60,8 +60,8 @@ Motion JointDynamics::motion(const JointState& z, const Load& load,
   Motion m;
   m.x = at.x;
   m.v = at.j * dq;
-  const Axes pull =
-      hand_stiffness_ * (load.target - m.x) - hand_damping_ * m.v - hand_mass_ * at.drift;
+  Axes pull = hand_stiffness_ * (load.target - m.x) - hand_damping_ * m.v - hand_mass_ * at.drift;
+  if (load.hand != nullptr) pull = model_force(load, m) - hand_mass_ * at.drift;
   const Axes lever = at.j.transpose() * pull + handle_mass_ * (gravity_ * at.weight - at.coriolis);
   const Axes motor =
       load.torque + square_ * damping_ * speed + sliding_torque(speed, contact.slide);
@@ -86,6 +86,19 @@ Motion JointDynamics::motion(const JointState& z, const Load& load,
   }
   m.f_hand = pull - hand_mass_ * (at.j * m.rate.col(kDq));
   return m;
+}
+
+/// The force of the hand's model, and the rates of its states.
+Axes JointDynamics::model_force(const Load& load, Motion& m) const EBAC_RT {
+  Axes pull = Axes::Zero();
+  for (int i = 0; i < axes_; ++i) {
+    const HandMotion at{.t = load.t, .x = m.x[i], .v = m.v[i], .target = load.target[i]};
+    const HandState state = load.inner->col(i);
+    const HandForce& hand = (*load.hand)[i];
+    pull[i] = hand.force(at, state);
+    m.inner.col(i) = hand.rate(at, state);
+  }
+  return pull;
 }
 
 Axes JointDynamics::sliding_torque(const Axes& dq, const Axes& slide) const EBAC_RT {

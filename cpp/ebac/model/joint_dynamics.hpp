@@ -14,10 +14,14 @@ namespace ebac {
 using JointState = Eigen::Matrix<double, kMaxAxes, 5>;
 enum JointColumn { kQ, kDq, kRotor, kDrotor, kEnergy };  // rad, rad/s, rad, rad/s, J
 
-/// External inputs: motor torque behind the current loop [N m] and target position of the hand [m].
+/// External inputs: motor torque behind the current loop [N m] and target position of the hand [m];
+/// for a hand with a model also the model, the time and its own states.
 struct Load {
   Axes torque;
   Axes target;
+  const HandForces* hand = nullptr;
+  double t = 0;  // s
+  const HandStates* inner = nullptr;
 };
 
 /// The discrete half of the state. It is fixed inside a segment, where the motion is smooth.
@@ -29,10 +33,11 @@ struct Contact {
 /// Accelerations and forces from state, load and contact.
 struct Motion {
   JointState rate = JointState::Zero();
-  Axes held = Axes::Zero();    // N m, static friction of a stuck joint
-  Axes x = Axes::Zero();       // m
-  Axes v = Axes::Zero();       // m/s
-  Axes f_hand = Axes::Zero();  // N, eq. (4)
+  Axes held = Axes::Zero();               // N m, static friction of a stuck joint
+  Axes x = Axes::Zero();                  // m
+  Axes v = Axes::Zero();                  // m/s
+  Axes f_hand = Axes::Zero();             // N, eq. (4) or the hand's model
+  HandStates inner = HandStates::Zero();  // per s, of the model's own states
 };
 
 /// Equations of motion of one device with one hand on it:
@@ -71,6 +76,7 @@ class JointDynamics {
   double stribeck_rate() const { return friction_.slope() / (compliant_ ? rotor_mass_ : mass()); }
 
  private:
+  Axes model_force(const Load& load, Motion& m) const EBAC_RT;
   Axes sliding_torque(const Axes& dq, const Axes& slide) const EBAC_RT;
   Axes cable_torque(const JointState& z, const Axes& flank) const EBAC_RT;
   Axes cable_loss(const JointState& z, const Axes& flank) const EBAC_RT;

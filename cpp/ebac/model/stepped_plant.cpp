@@ -39,10 +39,22 @@ double longest_step(double rate, double soft_rate, double tick) {
 
 double lag_rate(double lag) { return lag > 0 ? 1 / (kLag * lag) : 0.0; }
 
+HandBounds bounds_of(const HandForces& forces, const Hand& hand) {
+  if (forces) return forces[0].bounds(hand);
+  return {.mass = hand.mass, .damping = hand.damping, .stiffness = hand.stiffness};
+}
+
+/// The hand of eq. (4) that moves as a hand with these bounds can.
+Hand moving_part(const HandBounds& bounds) {
+  return {.mass = bounds.mass, .damping = bounds.damping, .stiffness = bounds.stiffness};
+}
+
 }  // namespace
 
 SteppedPlant::SteppedPlant(const DeviceModel& device, const Hand& hand, double tick)
-    : dynamics_(device, hand),
+    : forces_(hand, device.axes()),
+      bounds_(bounds_of(forces_, hand)),
+      dynamics_(device, moving_part(bounds_)),
       without_hand_(device, {.mass = 0, .damping = 0, .stiffness = 0}),
       hand_(hand),
       kinematics_(device.kinematics),
@@ -52,8 +64,9 @@ SteppedPlant::SteppedPlant(const DeviceModel& device, const Hand& hand, double t
       ratio_(device.capstan.ratio()),
       current_lag_(device.drive.current_lag),
       sensor_lag_(device.sensor.lag),
-      axes_(device.axes()) {
-  double rate = dynamics_.fastest_rate();
+      axes_(device.axes()),
+      held_(static_cast<bool>(forces_)) {
+  double rate = std::max(dynamics_.fastest_rate(), bounds_.rate);
   double stribeck = dynamics_.stribeck_rate();
   if (std::isfinite(hand.release_at)) {
     rate = std::max(rate, without_hand_.fastest_rate());
@@ -67,7 +80,7 @@ SteppedPlant::SteppedPlant(const DeviceModel& device, const Hand& hand, double t
 
 SteppedPlant::Interval SteppedPlant::interval(const Axes& current, double t,
                                               double time) const EBAC_RT {
-  Interval all{torque_per_amp_ * current, Axes::Zero(), Axes::Zero()};
+  Interval all{torque_per_amp_ * current, Axes::Zero(), Axes::Zero(), t};
   for (int i = 0; i < axes_; ++i) {
     const Target target = hand_.target(i, t, time);
     all.target[i] = target.x;
@@ -78,7 +91,10 @@ SteppedPlant::Interval SteppedPlant::interval(const Axes& current, double t,
 
 void SteppedPlant::advance(const Axes& current, double t, std::int64_t quanta) EBAC_RT {
   if (quanta <= 0) return;
-  if (t >= hand_.release_at) dynamics_ = without_hand_;
+  if (t >= hand_.release_at) {
+    dynamics_ = without_hand_;
+    held_ = false;
+  }
   const double time = tick_ * static_cast<double>(quanta) / static_cast<double>(kQuanta);
   interval_ = interval(current, t, time);
   if (current_lag_ == 0) now_.torque = interval_.setpoint;
@@ -90,12 +106,24 @@ void SteppedPlant::advance(const Axes& current, double t, std::int64_t quanta) E
   report();
 }
 
-Load SteppedPlant::load(double time, const Axes& torque) const EBAC_RT {
-  return {torque, interval_.target + time * interval_.rate};
+Load SteppedPlant::load(double time, const Axes& torque, const HandStates& inner) const EBAC_RT {
+  return {torque, interval_.target + time * interval_.rate, held_ ? &forces_ : nullptr,
+          interval_.t + time, &inner};
+}
+
+/// The hand's model after a step that stands.
+void SteppedPlant::hand_advanced() EBAC_RT {
+  for (int i = 0; i < axes_; ++i) {
+    forces_[i].advance({.t = interval_.t + now_.time,
+                        .x = now_.motion.x[i],
+                        .v = now_.motion.v[i],
+                        .target = interval_.target[i] + now_.time * interval_.rate[i]});
+  }
 }
 
 void SteppedPlant::settle() EBAC_RT {
-  contact_ = dynamics_.settle(now_.state, load(now_.time, now_.torque), contact_, now_.motion);
+  contact_ =
+      dynamics_.settle(now_.state, load(now_.time, now_.torque, now_.inner), contact_, now_.motion);
 }
 
 double SteppedPlant::margin(const Instant& at) const EBAC_RT {
@@ -117,6 +145,7 @@ void SteppedPlant::move(double h, int& events) EBAC_RT {
       now_.time = end;
     }
     if (broken) settle();
+    if (held_) hand_advanced();
   }
 }
 
@@ -159,26 +188,34 @@ SteppedPlant::Instant SteppedPlant::step(const Instant& from, double h) const EB
     to.torque += lag.decay * rest;
     mid_torque += middle<Axes>(rest, lag.decay * rest, lag.phi[0] * rest);
   }
-  const Load mid = load(from.time + h / 2, mid_torque);
-  const Load end = load(to.time, to.torque);
-  const auto rate = [&](const JointState& at, const Load& under) EBAC_RT -> JointState {
-    return dynamics_.motion(at, under, contact_).rate;
+  HandStates inner = HandStates::Zero();
+  const Load mid = load(from.time + h / 2, mid_torque, inner);
+  const Load end = load(to.time, to.torque, inner);
+  const Motion& m1 = from.motion;
+  const auto stage = [&](const Motion& m, double part, const Load& under) EBAC_RT -> Motion {
+    if (held_) inner = from.inner + part * m.inner;
+    return dynamics_.motion(from.state + part * m.rate, under, contact_);
   };
-  const JointState& z = from.state;
-  const JointState& k1 = from.motion.rate;
-  const JointState k2 = rate(z + h / 2 * k1, mid);
-  const JointState k3 = rate(z + h / 2 * k2, mid);
-  const JointState k4 = rate(z + h * k3, end);
-  to.state = z + h / 6 * (k1 + 2 * (k2 + k3) + k4);
+  const Motion m2 = stage(m1, h / 2, mid);
+  const Motion m3 = stage(m2, h / 2, mid);
+  const Motion m4 = stage(m3, h, end);
+  to.state = from.state + h / 6 * (m1.rate + 2 * (m2.rate + m3.rate) + m4.rate);
+  if (held_)
+    inner = to.inner = from.inner + h / 6 * (m1.inner + 2 * (m2.inner + m3.inner) + m4.inner);
   to.motion = dynamics_.motion(to.state, end, contact_);
-  to.sensor = sensor_lag_ > 0 ? sense(from, to, h) : to.motion.f_hand;
+  to.sensor = sensor_lag_ > 0 ? sense(from, m3.f_hand, to, h) : to.motion.f_hand;
   return to;
 }
 
-/// The sensor behind its lag. The mean of the hand's force follows from eq. (4) itself.
-Axes SteppedPlant::sense(const Instant& from, const Instant& to, double h) const EBAC_RT {
+/// The sensor behind its lag. The mean of the hand's force follows from eq. (4) itself; a model's
+/// force is taken in the middle of the step.
+Axes SteppedPlant::sense(const Instant& from, const Axes& middle_force, const Instant& to,
+                         double h) const EBAC_RT {
   const Motion& a = from.motion;
   const Motion& b = to.motion;
+  if (held_) {
+    return follow<Axes>(LagStep(h / sensor_lag_), from.sensor, a.f_hand, middle_force, b.f_hand);
+  }
   const Axes target = interval_.target + (from.time + h / 2) * interval_.rate;
   const Axes mid = middle<Axes>(a.f_hand, b.f_hand, dynamics_.mean_hand_force(a, b, target, h));
   return follow<Axes>(LagStep(h / sensor_lag_), from.sensor, a.f_hand, mid, b.f_hand);

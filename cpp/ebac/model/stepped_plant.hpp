@@ -11,7 +11,8 @@
 
 namespace ebac {
 
-/// Any device, integrated step by step: a gimbal, Stribeck friction, a cable that gives, backlash.
+/// Any device and hand, integrated step by step: a gimbal, Stribeck friction, a cable that gives,
+/// backlash, a hand with a model.
 /// Where the exact plant applies too, each is the test of the other.
 ///
 /// Runge and Kutta's classical method between events. An event (a joint stops, breaks away, a flank
@@ -20,7 +21,8 @@ namespace ebac {
 /// the step.
 class SteppedPlant {
  public:
-  /// Throws std::invalid_argument when a time constant is too short for the tick.
+  /// Throws std::invalid_argument when a time constant is too short for the tick or a hand's model
+  /// does not fit it.
   SteppedPlant(const DeviceModel& device, const Hand& hand, double tick);
 
   /// Moves by `quanta` of 2^-20 tick from time `t` on, under the motor currents `current` [A].
@@ -38,6 +40,7 @@ class SteppedPlant {
     Axes setpoint;  // N m, joint torque the current loop tends to
     Axes target;    // m, at its start
     Axes rate;      // m/s
+    double t = 0;   // s, its start
   };
   struct Instant {
     double time = 0;  // s, since the interval began
@@ -45,18 +48,23 @@ class SteppedPlant {
     Axes torque = Axes::Zero();  // N m
     Axes sensor = Axes::Zero();  // N
     Motion motion{};
+    HandStates inner = HandStates::Zero();  // of the hand's model
   };
 
   Interval interval(const Axes& current, double t, double time) const EBAC_RT;
-  Load load(double time, const Axes& torque) const EBAC_RT;
+  Load load(double time, const Axes& torque, const HandStates& inner) const EBAC_RT;
+  void hand_advanced() EBAC_RT;
   void settle() EBAC_RT;
   Instant step(const Instant& from, double h) const EBAC_RT;
-  Axes sense(const Instant& from, const Instant& to, double h) const EBAC_RT;
+  Axes sense(const Instant& from, const Axes& middle_force, const Instant& to,
+             double h) const EBAC_RT;
   double margin(const Instant& at) const EBAC_RT;
   void move(double h, int& events) EBAC_RT;
   Instant event(Instant beyond, double h) const EBAC_RT;
   void report() EBAC_RT;
 
+  HandForces forces_;  // none for eq. (4)
+  HandBounds bounds_;
   JointDynamics dynamics_;
   JointDynamics without_hand_;
   Hand hand_;
@@ -68,6 +76,7 @@ class SteppedPlant {
   double current_lag_;
   double sensor_lag_;
   int axes_;
+  bool held_;  // by a hand with a model
   Interval interval_{Axes::Zero(), Axes::Zero(), Axes::Zero()};
   Contact contact_{};
   Instant now_{};

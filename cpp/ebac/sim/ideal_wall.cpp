@@ -116,7 +116,7 @@ const Wall* straight_wall(const Setup& setup) {
 
 IdealContact ideal_contact(const Setup& setup, ContactRecorder& recorder) {
   const Wall* wall = straight_wall(setup);
-  if (wall == nullptr || !ExactPlant::covers(setup.device) ||
+  if (wall == nullptr || !ExactPlant::covers(setup.device, setup.hand) ||
       std::isfinite(setup.hand.release_at)) {
     return {};
   }

@@ -78,6 +78,9 @@ LinearLoop::LinearLoop(const Setup& setup)
       tick_(setup.timing.dt),
       smoothing_(smoothing(setup.device.velocity, setup.timing.dt)) {
   require_linear(setup.device);
+  if (!setup.hand.linear()) {
+    throw std::invalid_argument("LinearLoop: needs a hand without a model, eq. (4)");
+  }
   AxisParameters parameters = axis_parameters(setup.device, setup.hand);
   parameters.coulomb = 0;
   const ExactAxis axis(parameters, tick_);

@@ -51,7 +51,7 @@ class SimulatedDevice {
   using Plant = std::variant<ExactPlant, SteppedPlant>;
 
   static Plant make_plant(const Setup& s) {
-    if (ExactPlant::covers(s.device)) return ExactPlant(s.device, s.hand, s.timing.dt);
+    if (ExactPlant::covers(s.device, s.hand)) return ExactPlant(s.device, s.hand, s.timing.dt);
     return SteppedPlant(s.device, s.hand, s.timing.dt);
   }
 

@@ -7,6 +7,7 @@
 
 #include "ebac/loop/tick.hpp"
 #include "ebac/sim/recorder.hpp"
+#include "ebac/sim/rest_power.hpp"
 #include "ebac/sim/simulate.hpp"
 
 /// Many runs over a pool of threads that lives only during the call, metrics instead of traces. A
@@ -31,6 +32,7 @@ struct RunLimits {
 
 struct Outcome {
   WallContact contact{};
+  double rest_power = WallContact::kNone;  // W
   std::size_t ticks = 0;  // rows; fewer than requested after a fault or a divergence
   Fault fault = Fault::kNone;
   bool diverged = false;
@@ -112,6 +114,7 @@ Outcome measure_run(const Setup& setup, const Scalar& scalar, const RunLimits& l
     ++outcome.ticks;
   }
   if (recorder.rows() >= kFewestRows) outcome.contact = measure_contact(recorder.record());
+  outcome.rest_power = rest_power(recorder.record());
   if (outcome.ticks < rows) outcome.contact.settled = WallContact::kNone;
   outcome.done = true;
   return outcome;

@@ -15,6 +15,7 @@ if TYPE_CHECKING:
 SHOWN: dict[str, tuple[float, str, int]] = {
     "m": (1e3, "mm", 3),
     "J": (1e3, "mJ", 2),
+    "W": (1e3, "mW", 2),
     "N": (1, "N", 2),
     "s": (1, "s", 3),
     "Hz": (1, "Hz", 1),
@@ -117,6 +118,8 @@ def _hand(hand: Hand) -> str:
     if hand.tremor_amplitude:
         goal += f", tremor {1e3 * hand.tremor_amplitude:g} mm at {hand.tremor_frequency:g} Hz"
     name = known[0] if known else "a hand"
+    if hand.model is not None and not known:
+        name = f"a hand with {type(hand.model).__name__}"
     return f"{name} ({hand.mass:g} kg, {hand.damping:g} N s/m, {hand.stiffness:g} N/m, {goal})"
 
 

@@ -19,6 +19,7 @@ CHOICES: dict[str, tuple[type, ...]] = {
     "environment": (_core.Wall, _core.Free, _core.Corner, _core.Disc),
     "device": (_core.Device,),
     "hand": (_core.Hand,),
+    "model": (_core.Reflex, _core.FingerPad, _core.NonlinearGrip, _core.LetGo),
     "timing": (_core.Timing,),
     "motor": (_core.Motor,),
     "drive": (_core.Drive,),

@@ -27,6 +27,7 @@ def presets(as_json: output.AsJson = False) -> None:
             "mass_kg": known.hand.mass,
             "damping_Ns_per_m": known.hand.damping,
             "stiffness_N_per_m": known.hand.stiffness,
+            "model": None if known.hand.model is None else type(known.hand.model).__name__,
             "source": known.source,
             "indicative": known.indicative,
         }
@@ -51,7 +52,9 @@ def presets(as_json: output.AsJson = False) -> None:
 
 
 def _show_hands(rows: list[dict[str, Any]]) -> None:
-    grid = output.table(["hand", "mass", "damping", "stiffness", "source"], numbers=(1, 2, 3))
+    grid = output.table(
+        ["hand", "mass", "damping", "stiffness", "model", "source"], numbers=(1, 2, 3)
+    )
     for row in rows:
         source = f"{row['source']} (indicative)" if row["indicative"] else row["source"]
         grid.add_row(
@@ -59,6 +62,7 @@ def _show_hands(rows: list[dict[str, Any]]) -> None:
             f"{row['mass_kg']:g} kg",
             f"{row['damping_Ns_per_m']:g} N s/m",
             f"{row['stiffness_N_per_m']:g} N/m",
+            row["model"] or "-",
             source,
         )
     output.show(grid)

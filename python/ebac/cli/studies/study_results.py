@@ -81,9 +81,10 @@ def show(study: Study) -> None:
         "in time",
         "least energy",
         "most drawn",
+        "power at rest",
         "settled",
     ]
-    grid = output.table(headings, numbers=range(2, 9))
+    grid = output.table(headings, numbers=range(2, 10))
     last = ""
     for row in study.rows:
         if last and row.condition != last:
@@ -97,6 +98,7 @@ def show(study: Study) -> None:
             _count(row.settled_in_time, row),
             formatting.quantity(row.least_energy_J, "J"),
             formatting.quantity(row.most_drawn_J, "J"),
+            formatting.quantity(row.least_rest_power_W, "W"),
             formatting.quantity(row.median_settled_s, "s", none="never"),
         )
         last = row.condition

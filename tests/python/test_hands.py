@@ -1,0 +1,213 @@
+"""Hands beyond eq. (4): the presets against a second plant, hands in Python, scenario, files, command line."""
+
+import copy
+import json
+import pickle
+
+import numpy as np
+import pytest
+from midpoint_plant import follow
+from typer.testing import CliRunner
+
+import ebac
+from ebac.cli import app
+from ebac.hands import FingerPad, LetGo, NonlinearGrip, OwnHand, Reflex
+
+PRESETS = [Reflex(), FingerPad(), NonlinearGrip(), LetGo(open_at=0.4, closed_at=0.6)]
+MODELS = pytest.mark.parametrize("model", PRESETS, ids=lambda m: type(m).__name__)
+
+
+def pressing(model: object = None, **changes: object) -> ebac.Scenario:
+    """A hand that meets the reference wall after 10 mm."""
+    hand = ebac.Hand(target=0.05, model=model)
+    return ebac.Scenario(
+        hand=hand, environment=ebac.Wall(position=0.01), **{"seconds": 1.0, **changes}
+    )
+
+
+class Spring(OwnHand):
+    """Eq. (4) in Python."""
+
+    mass, damping, stiffness = 0.15, 6.0, 300.0
+
+    def force(self, t, x, v):
+        return self.stiffness * (0.05 - x) - self.damping * v
+
+
+class Counting(Spring):
+    """Remembers what it was asked."""
+
+    def __init__(self) -> None:
+        self.times: list[float] = []
+
+    def advance(self, t, x, v):
+        self.times.append(t)
+
+    def force(self, t, x, v):
+        return super().force(t, x, v) - 1e-3 * len(self.times)
+
+
+class Failing(Spring):
+    def force(self, t, x, v):
+        if t > 0.05:
+            raise ZeroDivisionError("no more")
+        return 0.0
+
+
+@MODELS
+def test_the_second_plant_agrees_under_ebac(model: object) -> None:
+    trace = ebac.simulate(pressing(model), "ebac")
+    x, force = follow(trace)
+    # Half the step quarters the difference: it is the error of the midpoint rule.
+    np.testing.assert_allclose(trace["true.x"], x, atol=2e-6, rtol=0)
+    np.testing.assert_allclose(trace["true.f_hand"], force, atol=0.05, rtol=0)
+
+
+@MODELS
+def test_a_model_is_another_hand(model: object) -> None:
+    plain, other = (ebac.simulate(pressing(m), "ebac") for m in (None, model))
+    assert np.abs(plain["true.x"] - other["true.x"]).max() > 1e-4
+
+
+@pytest.mark.parametrize(
+    "none", [Reflex(stretch_gain=0, velocity_gain=0), NonlinearGrip(stiffest=1)]
+)
+def test_a_model_without_effect_is_eq_4(none: object) -> None:
+    exact, stepped = (ebac.simulate(pressing(m, seconds=0.3), "ebac") for m in (None, none))
+    np.testing.assert_allclose(exact["true.x"], stepped["true.x"], atol=1e-8)
+    np.testing.assert_allclose(exact["f_meas"], stepped["f_meas"], atol=1e-3)
+
+
+def test_an_open_hand_gives_no_force_and_grips_again() -> None:
+    trace = ebac.simulate(pressing(LetGo(open_at=0.4, closed_at=0.6, ramp=0.02)), "ebac")
+    t, force = trace["t"], trace["true.f_hand"]
+    assert not force[(t > 0.421) & (t < 0.6)].any()
+    assert force[-1] == pytest.approx(force[380], rel=0.05)
+
+
+@MODELS
+def test_ideal_rest_is_where_a_held_wall_ends(model: object) -> None:
+    scenario = pressing(model, seconds=12.0)
+    soft = scenario.replace(environment=ebac.Wall(stiffness=500.0, position=0.01))
+    measured = ebac.contact(ebac.simulate(soft, "direct"))
+    assert measured.rest_m == pytest.approx(ebac.ideal_rest(soft), abs=3e-5)
+
+
+def test_a_hand_in_python_moves_as_that_of_the_core() -> None:
+    own = ebac.simulate(pressing().replace(hand=Spring(), seconds=0.3), "ebac")
+    core = ebac.simulate(pressing(seconds=0.3), "ebac")
+    np.testing.assert_allclose(own["true.x"], core["true.x"], atol=1e-9)
+
+
+def test_runs_of_a_hand_in_python_are_alike_and_leave_it_alone() -> None:
+    hand = Counting()
+    scenario = pressing(seconds=0.1).replace(hand=hand)
+    first, second = (ebac.simulate(scenario, "ebac") for _ in range(2))
+    for name in first:
+        np.testing.assert_array_equal(first[name], second[name])
+    assert hand.times == []
+
+
+def test_time_of_advance_only_rises() -> None:
+    seen: list[float] = []
+
+    class Watching(Counting):
+        def __deepcopy__(self, memo):
+            other = copy.copy(self)
+            other.times = seen
+            return other
+
+    friction = ebac.Device(mechanics=ebac.Mechanics(coulomb=0.5, breakaway=0.6))
+    ebac.simulate(pressing(seconds=0.1).replace(hand=Watching(), device=friction), "ebac")
+    assert len(seen) >= 100
+    assert (np.diff(seen) > 0).all()
+
+
+@pytest.mark.parametrize("through", [None, "can"])
+def test_what_a_hand_raises_ends_the_run(through: str | None) -> None:
+    scenario = pressing(seconds=0.2).replace(hand=Failing())
+    with pytest.raises(
+        ebac.LoopFault, match="the hand Failing raised ZeroDivisionError: no more"
+    ) as stopped:
+        ebac.simulate(scenario, "ebac", through=through)
+    assert isinstance(stopped.value.__cause__, ZeroDivisionError)
+    trace = stopped.value.trace
+    assert trace["t"][(trace["fault"] != 0).argmax()] == pytest.approx(0.051, abs=2e-3)
+
+
+def test_a_force_that_is_no_number_is_named() -> None:
+    class Silent(Spring):
+        def force(self, t, x, v):
+            return None
+
+    with pytest.raises(ebac.LoopFault, match=r"Silent.force returned None: must return the force"):
+        ebac.simulate(pressing(seconds=0.2).replace(hand=Silent()), "ebac")
+
+
+def test_sweeps_take_hands_in_python() -> None:
+    own, core = pressing().replace(hand=Spring()), pressing()
+    result = ebac.sweep([own, core], "ebac")
+    assert result["rest_m"][0] == pytest.approx(result["rest_m"][1], abs=1e-9)
+    assert np.isnan(result["most_pull_N"][0])
+    with pytest.raises(ebac.LoopFault, match="Failing raised"):
+        ebac.sweep([own.replace(hand=Failing())], "ebac")
+
+
+@MODELS
+def test_models_are_values(model: object) -> None:
+    hand = ebac.Hand(mass=0.3, model=model)
+    assert pickle.loads(pickle.dumps(hand)) == hand == hand.replace(mass=0.3)
+    assert hand != ebac.Hand(mass=0.3)
+    assert ebac.Scenario(hand=model).hand == ebac.Hand(model=model)
+    scenario = ebac.Scenario(hand=hand)
+    assert ebac.Scenario.from_toml(scenario.to_toml()) == scenario
+
+
+def test_wrong_models_are_refused() -> None:
+    with pytest.raises(ValueError, match=r"FingerPad: Hand.mass = 0 kg: must be positive"):
+        ebac.Hand(mass=0, model=FingerPad())
+    with pytest.raises(ValueError, match=r"LetGo.closed_at"):
+        ebac.Hand(model=LetGo(open_at=2, closed_at=1))
+    with pytest.raises(TypeError, match=r"Hand.model = 3: must be Reflex"):
+        ebac.Hand(model=3)
+    with pytest.raises(TypeError, match=r"Hand.model = .*Spring"):
+        ebac.Hand(model=Spring)
+    with pytest.raises(ValueError, match=r"a hand of your own cannot be written to TOML"):
+        ebac.Scenario(hand=Spring()).to_toml()
+
+
+def test_through_can_a_model_is_the_same_hand() -> None:
+    scenario = pressing(Reflex(), seconds=0.3)
+    permille = scenario.device.replace(drive=scenario.device.drive.replace(permille=True))
+    beside = ebac.simulate(scenario.replace(device=permille), "ebac")
+    on_bus = ebac.simulate(scenario, "ebac", through="can")
+    np.testing.assert_array_equal(beside["true.x"], on_bus["true.x"])
+
+
+def test_both_axes_of_a_gimbal_have_the_model() -> None:
+    device = ebac.presets.device("joystick")
+    hand = ebac.Hand(path=[ebac.Step(target=0.02)] * 2, model=FingerPad())
+    trace = ebac.simulate(
+        ebac.Scenario(device=device, hand=hand, seconds=1.0, environment=ebac.Free()), "ebac"
+    )
+    assert trace["true.x"][-1] == pytest.approx([0.02, 0.02], abs=2e-3)
+
+
+def test_the_command_line_knows_the_presets() -> None:
+    call = ["wall", "--hand", "reflex", "--law", "ebac", "--seconds", "1", "--json"]
+    made = CliRunner().invoke(app, call)
+    assert made.exit_code == 0, made.output
+    hands = ebac.presets.HANDS
+    assert {type(hands[n].hand.model) for n in ("reflex", "finger-pad", "nonlinear-grip", "let-go")} == {
+        Reflex, FingerPad, NonlinearGrip, LetGo,
+    }  # fmt: skip
+    assert json.loads(made.stdout)
+
+
+def test_power_at_rest_is_the_slope_of_the_energy() -> None:
+    trace = ebac.simulate(pressing(seconds=3.0), "direct")
+    tail = trace["t"] >= trace["t"][-1] - 0.3 * 3.0
+    slope = np.polyfit(trace["t"][tail], trace["true.energy"][tail], 1)[0]
+    assert ebac.contact(trace).rest_power_W == pytest.approx(slope, rel=1e-2)
+    swept = ebac.sweep([trace.scenario], "direct")
+    assert swept["rest_power_W"][0] == ebac.contact(trace).rest_power_W
