@@ -148,3 +148,41 @@ def robustness_energy(printed: Printed) -> str:
     first = [code(r["condition"]) for r in every["ebac"]]
     columns = [[joules(r["least_energy_J"]) for r in rows] for rows in every.values()]
     return table(["condition", *map(code, every)], list(zip(first, *columns, strict=True)))
+
+
+LAWS = "direct,tca,tca-damped,eba,ebac"
+
+
+def models(printed: Printed) -> str:
+    """Hands beyond eq. (4): good, and least port energy; the damper alone beside them."""
+    every = by_law(printed.rows(f"study -c hands --law {LAWS}"))
+    rows = [
+        [code(first["condition"]), *(str(r[i]["good"]) for r in every.values()),
+         *(joules(r[i]["least_energy_J"]) for r in every.values())]
+        for i, first in enumerate(every["ebac"])
+    ]  # fmt: skip
+    good = [f"{code(law)}, good of {every[law][0]['hands']}" for law in every]
+    return table(["condition", *good, *(f"{code(law)} [mJ]" for law in every)], rows)
+
+
+def held(printed: Printed) -> str:
+    """One light hand that holds for long."""
+    found = printed.rows("study -c hold-10min,hold-1h --law direct,tca-damped,eba,ebac")
+    rows = [
+        [code(r["condition"]), code(r["law"]), joules(r["least_energy_J"]), f"{1e6 * r['least_rest_power_W']:.1f}"]
+        for r in found
+    ]  # fmt: skip
+    return table(["condition", "law", "least energy [mJ]", "power at rest [uW]"], rows)
+
+
+def damped(printed: Printed) -> str:
+    """Walls with damping: good hands over stiffness and damping."""
+    every = by_law(printed.rows(f"study -c damped-walls --law {LAWS}"))
+    stiff = list(dict.fromkeys(r["condition"].partition("K")[2] for r in every["ebac"]))
+    n = len(stiff)
+    rows = [
+        [code(law), r[i]["condition"].partition("K")[0][1:], *(str(one["good"]) for one in r[i : i + n])]
+        for law, r in every.items()
+        for i in range(0, len(r), n)
+    ]  # fmt: skip
+    return table(["law", "B [N s/m]", *(f"{k} kN/m" for k in stiff)], rows)

@@ -20,7 +20,7 @@ from ebac.studies.study import ideal_contacts
 FEW = Operators.grid(mass=[0.15], damping=[2, 4, 6], stiffness=[300], target=[0.04])  # 3 hands
 ROW = [
     "law", "condition", "hands", "good", "settled_in_time", "least_energy_J", "most_drawn_J",
-    "median_settled_s", "ideal_good",
+    "median_settled_s", "ideal_good", "least_rest_power_W",
 ]  # fmt: skip
 
 

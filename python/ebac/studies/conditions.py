@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from ebac._util import serialisation
+from ebac.hands import FingerPad, LetGo, NonlinearGrip, Reflex
 from ebac.studies import scenario_changes as to
 from ebac.studies.scenario_changes import Belief, Change
 
@@ -88,6 +89,15 @@ _CELLS = [
     if (d, b, k) != (1, 1, 5)  # already one of the five
 ]  # fmt: skip
 
+_DAMPED = [
+    Condition(
+        name=f"B{b}K{k:g}",
+        summary=f"1 sample of delay, a wall of {k:g} kN/m with {b} N s/m",
+        change=to.together(cell(1, 2, 1e3 * k), to.wall(damping=float(b))),
+    )
+    for b in (0, 10, 20, 30, 40) for k in (0.1, 0.3, 1, 3, 10)
+]  # fmt: skip
+
 _SLOW = to.slow_press(3.0)
 _PUMPS = [to.pump(1e-3 * mm, hz) for mm in (0.1, 0.3, 1, 2, 4) for hz in (0.5, 1, 2, 4, 8, 15, 30)]
 _LET_GO_LATE = to.hand(release_at=5.0)
@@ -134,8 +144,35 @@ _ROBUSTNESS = [
             to.scenario(seconds=20.0), drives=_PUMPS),
 ]  # fmt: skip
 
+_MODELS = (
+    ("reflex", "hands with a stretch reflex of 40 ms, see ebac.hands.Reflex", Reflex()),
+    ("finger-pad", "hands behind the pulp of the fingers, see ebac.hands.FingerPad", FingerPad()),
+    ("nonlinear-grip", "hands that are twice as stiff at 20 N, see ebac.hands.NonlinearGrip", NonlinearGrip()),
+    ("let-go-grip", "hands that let go at 2 s and grip again at 2.5 s, see ebac.hands.LetGo", LetGo()),
+)  # fmt: skip
+_HANDS = [
+    *(_robust(name, summary, to.hand(model=model)) for name, summary, model in _MODELS),
+    *(
+        _robust(
+            f"{name}-d2K20",
+            f"`{name}` at 2 samples of delay and 20 kN/m",
+            to.hand(model=model),
+            at=(2, 2, 20e3),
+        )
+        for name, _, model in _MODELS
+    ),
+]
+
+_HELD = [
+    _robust("hold-10min", "no hands: one of 0.05 kg, 20 N s/m, 1000 N/m moves 30 mm in 3 s and holds for 10 min",
+            drives=[to.held(600.0)]),
+    _robust("hold-1h", "the same for an hour", drives=[to.held(3600.0)]),
+]  # fmt: skip
+
 #: Every condition by its name.
-CONDITIONS: dict[str, Condition] = {c.name: c for c in (*_FIVE, *_CELLS, *_ROBUSTNESS)}
+CONDITIONS: dict[str, Condition] = {
+    c.name: c for c in (*_FIVE, *_CELLS, *_ROBUSTNESS, *_HANDS, *_DAMPED, *_HELD)
+}
 
 #: Shorter names of conditions: d2K20 is d2b2K20, as d1K10 has a damping of 2 N s/m.
 ALIASES = {
@@ -151,6 +188,8 @@ GROUPS: dict[str, tuple[str, ...]] = {
         for d in (0, 1, 2) for b in (1, 2, 4) for k in (2, 5, 10, 20)
     ),
     "robustness": tuple(c.name for c in _ROBUSTNESS),
+    "hands": tuple(c.name for c in _HANDS),
+    "damped-walls": tuple(c.name for c in _DAMPED),
     "all": tuple(CONDITIONS),
 }  # fmt: skip
 

@@ -45,6 +45,9 @@ class StudyRow:
     ideal_good : int or None
         Hands for which an ideal, continuous wall is good by the same measure: what no law can be blamed for. None where
         it has no closed form.
+    least_rest_power_W : float or None
+        Lowest mean rate of the port energy over the last 30 % of a run, dW/dt at rest; a port that is held for long
+        gives out energy without end where it is below zero.
     """
 
     law: str
@@ -56,6 +59,7 @@ class StudyRow:
     most_drawn_J: float | None
     median_settled_s: float | None
     ideal_good: int | None = None
+    least_rest_power_W: float | None = None
 
     def row(self) -> dict[str, Any]:
         """Return the documented row of `ebac study --json`."""
@@ -123,6 +127,7 @@ class Study:
             most_drawn_J=_of(np.max, part["most_drawn_J"]),
             median_settled_s=_of(np.median, part["settled_s"]),
             ideal_good=int(part["ideal_good"].sum()) if timed else None,
+            least_rest_power_W=_of(np.min, part["rest_power_W"]),
         )
 
     @cached_property

@@ -87,6 +87,20 @@ def slow_press(duration: float) -> Change:
     return _path(lambda target, surface: MinimumJerk(target=target, duration=duration))
 
 
+def held(seconds: float) -> Change:
+    """Replace the hand by one that moves 30 mm over 3 s, from 10 mm before the wall, and holds [s].
+
+    0.05 kg, 20 N s/m, 1000 N/m: with it one encoder count of a wall of 10 kN/m toggles without end.
+    """
+
+    def change(s: Scenario) -> Scenario:
+        path = MinimumJerk(target=0.03, duration=3.0)
+        holding = Hand(mass=0.05, damping=20.0, stiffness=1000.0, path=path)
+        return s.replace(hand=holding, environment=_wall(s).replace(position=0.01), seconds=seconds)
+
+    return change
+
+
 def tapping(frequency: float, lift: float = 0.01) -> Change:
     """Let the hand tap [Hz]: half a period at its target, half `lift` [m] before the surface."""
     return _path(

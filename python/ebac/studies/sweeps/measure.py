@@ -1,4 +1,4 @@
-"""One bundle of runs, measured: laws of the core by its threads, laws in Python one after the other."""
+"""One bundle of runs, measured: by the threads of the core, laws and hands in Python one after the other."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ebac._core import Fault, RunLimits, SweepProgress
+from ebac.hands import is_own
 from ebac.laws import CoreLaw, PythonLaw
 from ebac.metrics import COLUMNS, FEWEST_ROWS, allowed_deviation, contact, ideal_rest
 from ebac.scenario import Scenario
@@ -70,11 +71,12 @@ def measure(runs: Sequence[Run], *, threads: int, limits: RunLimits, watch: Watc
         columns["ideal_m"][i] = nan if ideal is None else ideal
         columns["count_m"][i] = scenario.device.count
         columns["allowed_m"][i] = allowed_deviation(scenario)
-    kinds: dict[type, list[int]] = {}
-    for i, (_, law) in enumerate(runs):
-        kinds.setdefault(type(law), []).append(i)
-    for kind, places in kinds.items():
-        if hasattr(kind, "_sweep"):
+    kinds: dict[tuple[Any, bool], list[int]] = {}
+    for i, (scenario, law) in enumerate(runs):
+        fast = hasattr(law, "_sweep") and not is_own(scenario.hand.model)
+        kinds.setdefault((type(law), fast), []).append(i)
+    for (kind, fast), places in kinds.items():
+        if fast:
             setups = [runs[i][0].setup() for i in places]
             laws = [runs[i][1] for i in places]
             found = kind._sweep(setups, laws, threads, limits, watch.core)
@@ -95,6 +97,8 @@ def _measure_python(
         try:
             trace = simulate(scenario, law)
         except LoopFault as stopped:
+            if stopped.__cause__ is not None:  # the fault of a hand in Python, not of the law
+                raise
             trace = stopped.trace
         for name, value in _row(trace, limits).items():
             columns[name][i] = value
