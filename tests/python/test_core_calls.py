@@ -17,8 +17,8 @@ CLASSES = [
 ]
 
 
-#: Parameters that are short for another, and that a value does not have.
-SHORT = {ebac.Hand: ("target",)}
+#: Parameters that are short for another, and that a value does not have; a model it has where one was given.
+SHORT = {ebac.Hand: ("target", "model")}
 
 
 def of(cls: type) -> list[str]:
