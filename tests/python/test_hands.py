@@ -12,6 +12,7 @@ from typer.testing import CliRunner
 import ebac
 from ebac.cli import app
 from ebac.hands import FingerPad, LetGo, NonlinearGrip, OwnHand, Reflex
+from ebac.studies import CONDITIONS, GROUPS
 
 PRESETS = [Reflex(), FingerPad(), NonlinearGrip(), LetGo(open_at=0.4, closed_at=0.6)]
 MODELS = pytest.mark.parametrize("model", PRESETS, ids=lambda m: type(m).__name__)
@@ -211,3 +212,33 @@ def test_power_at_rest_is_the_slope_of_the_energy() -> None:
     assert ebac.contact(trace).rest_power_W == pytest.approx(slope, rel=1e-2)
     swept = ebac.sweep([trace.scenario], "direct")
     assert swept["rest_power_W"][0] == ebac.contact(trace).rest_power_W
+
+
+def test_ebac_holds_under_every_model() -> None:
+    few = ebac.Operators.grid(mass=[0.05, 1.0], damping=[6], stiffness=[100, 1000], target=[0.02])
+    rows = ebac.study(few, "ebac", ["hands"]).rows
+    assert len(rows) == 8
+    for row in rows:
+        assert row.good == row.hands == 4, row
+        assert (row.least_energy_J or 0) > -1e-6, row
+
+
+def test_a_held_hand_shows_what_a_law_gives_out_at_rest() -> None:
+    [held] = CONDITIONS["hold-10min"].scenarios(ebac.Operators.grid(), ebac.Scenario())
+    [hour] = CONDITIONS["hold-1h"].scenarios(ebac.Operators.grid(), ebac.Scenario())
+    assert (held.seconds, hour.seconds) == (600, 3600)
+    assert hour.replace(seconds=600) == held
+    minute, two = (ebac.sweep([held.replace(seconds=s)], "direct") for s in (60.0, 120.0))
+    given = minute["least_energy_J"][0] - two["least_energy_J"][0]
+    assert given == pytest.approx(-60 * two["rest_power_W"][0], rel=0.05)
+    assert given > 5e-3
+
+
+def test_damped_walls_are_a_grid() -> None:
+    walls = [
+        CONDITIONS[name].scenarios(ebac.Operators.grid(), ebac.Scenario())[0].environment
+        for name in GROUPS["damped-walls"]
+    ]
+    assert {w.damping for w in walls} == {0, 10, 20, 30, 40}
+    assert {w.stiffness for w in walls} == {100, 300, 1000, 3000, 10000}
+    assert len(walls) == 25
