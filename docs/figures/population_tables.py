@@ -169,7 +169,8 @@ def held(printed: Printed) -> str:
     """One light hand that holds for long."""
     found = printed.rows("study -c hold-10min,hold-1h --law direct,tca-damped,eba,ebac")
     rows = [
-        [code(r["condition"]), code(r["law"]), joules(r["least_energy_J"]), f"{round(1e6 * r['least_rest_power_W'], 1) + 0.0:.1f}"]
+        [code(r["condition"]), code(r["law"]), joules(r["least_energy_J"]),
+         f"{round(1e6 * r['least_rest_power_W'], 1) + 0.0:.1f}"]
         for r in found
     ]  # fmt: skip
     return table(["condition", "law", "least energy [mJ]", "power at rest [uW]"], rows)
