@@ -158,6 +158,15 @@ TYPED_TEST(Realtime, LoopOfACoupledDeviceDoesNotAllocate) {
   EXPECT_EQ(allocations_of_loop<TypeParam>(setup), 0);
 }
 
+TEST(Hands, ModelsDoNotAllocate) {
+  for (const HandModel& model : {HandModel(Reflex{}), HandModel(FingerPad{}),
+                                 HandModel(NonlinearGrip{}), HandModel(LetGo{.period = 1})}) {
+    ebac::Setup setup = busy();
+    setup.hand.model = model;
+    EXPECT_EQ(allocations_of_loop<Ebac>(setup), 0) << "model " << model.index();
+  }
+}
+
 TEST(Realtime, SimulatedDrivesDoNotAllocate) {
   ebac::Setup setup = busy();
   setup.device.kinematics = Gimbal{};
