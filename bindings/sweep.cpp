@@ -30,8 +30,12 @@ void bind_contact(py::module_& m) {
                                    .stored = view(stored),
                                    .clamped = view(clamped),
                                    .pull = view(pull)};
-        Values numbers = values_of(measure_contact(record));
+        const WallContact c = measure_contact(record);
+        Values numbers = values_of(c);
         numbers["rest_power"] = rest_power(record);
+        numbers["still"] = c.still();
+        numbers["force_quiet"] = c.force_quiet();
+        numbers["quiet"] = c.quiet();
         return numbers;
       },
       py::kw_only(), py::arg("t"), py::arg("x"), py::arg("force"), py::arg("energy") = py::none(),

@@ -35,6 +35,12 @@ inline Values columns_of(const std::vector<Outcome>& rows) {
   add_columns<WallContact>(columns, rows,
                            [](const Outcome& o) -> const WallContact& { return o.contact; });
   columns["rest_power"] = column<double>(rows, [](const Outcome& o) { return o.rest_power; });
+  columns["still"] =
+      column<bool>(rows, [](const Outcome& o) { return o.whole() && o.contact.still(); });
+  columns["force_quiet"] =
+      column<bool>(rows, [](const Outcome& o) { return o.whole() && o.contact.force_quiet(); });
+  columns["quiet"] =
+      column<bool>(rows, [](const Outcome& o) { return o.whole() && o.contact.quiet(); });
   columns["ticks"] = column<std::int64_t>(rows, [](const Outcome& o) { return o.ticks; });
   columns["fault"] = column<std::uint32_t>(rows, [](const Outcome& o) { return o.fault; });
   columns["diverged"] = column<bool>(rows, [](const Outcome& o) { return o.diverged; });

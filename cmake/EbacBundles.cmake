@@ -18,7 +18,7 @@ ebac_bundle(ebac model cpp/ebac model/device model/exact_axis model/exact_plant 
             model/limits model/linear_flow model/stepped_plant)
 ebac_bundle(ebac run cpp/ebac control/virtual_coupling core/check core/fields faults/campaign faults/case
             faults/test_bench identify/arm_record identify/arm_step loop/retune loop/trace sim/contact sim/ideal_wall
-            sim/linear_loop sim/rest_power sim/sweep)
+            sim/linear_loop sim/perceived_ripple sim/rest_power sim/sweep)
 
 if(EBAC_PYTHON)
   ebac_bundle(_core_values device bindings core device environment fields hand identify kinematics limits linear_loop

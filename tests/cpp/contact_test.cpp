@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <complex>
 #include <numbers>
 #include <stdexcept>
 #include <vector>
@@ -40,6 +41,7 @@ TEST(Contact, ASwingHasItsRestSizeAndFrequency) {
     EXPECT_NEAR(c.swing, 0.002, 1e-4);
     EXPECT_NEAR(c.limit_cycle, hertz, 0.01 * hertz);
     EXPECT_TRUE(std::isnan(c.settled));
+    EXPECT_FALSE(c.still());
     EXPECT_FALSE(c.quiet());
   }
 }
@@ -81,6 +83,148 @@ TEST(Contact, TheLargestStepOfTheForceIsTakenFromTheWholeRun) {
   force[100] = -1.5;  // long before the tail
   const Column t = times(1000);
   EXPECT_DOUBLE_EQ(measure_contact({.t = t, .x = t, .force = force}).force_step, 3.5);
+}
+
+/// A force at a position that never moves.
+WallContact push(const Column& force, double rate = 1000) {
+  Column t(force.size());
+  for (std::size_t i = 0; i < t.size(); ++i) t[i] = static_cast<double>(i) / rate;
+  const Column x(force.size(), 0.001);
+  return measure_contact({.t = t, .x = x, .force = force});
+}
+
+/// Magnitudes of the two filters at a frequency, from their transfer functions.
+double high_pass(double hertz, double rate) {
+  const double k =
+      std::tan(std::numbers::pi * hertz / rate) / std::tan(std::numbers::pi * 20 / rate);
+  return k * k / std::sqrt(1 + k * k * k * k);
+}
+
+double low_pass(double hertz, double rate) {
+  using Complex = std::complex<double>;
+  const double w = 2 * std::numbers::pi * 200 / rate;
+  const Complex pole = std::exp(Complex(-0.5 * w, std::sqrt(0.75) * w));
+  const Complex delay = std::exp(Complex(0, -2 * std::numbers::pi * hertz / rate));
+  return std::abs(std::norm(1.0 - pole) / ((1.0 - pole * delay) * (1.0 - std::conj(pole) * delay)));
+}
+
+TEST(Contact, AConstantForceIsQuietFromTheStart) {
+  const WallContact c = push(Column(3000, 11.5));
+  EXPECT_NEAR(c.force_rest, 11.5, 1e-12);
+  EXPECT_EQ(c.force_settled, 0);
+  EXPECT_EQ(c.ripple, 0);
+  EXPECT_NEAR(c.ripple_rms, 0, 1e-12);
+  EXPECT_NEAR(c.ripple_high, 0, 1e-12);
+  EXPECT_EQ(c.jumps, 0);
+  EXPECT_NEAR(c.perceived, 0, 1e-9);
+  EXPECT_TRUE(c.force_quiet());
+}
+
+TEST(Contact, ARipplingForceIsWeighedAsTheFiltersSay) {
+  for (const double rate : {500.0, 1000.0, 8000.0}) {
+    for (const double hertz : {25.0, 40.0, 110.0, 170.0, 240.0}) {
+      Column force;
+      for (int i = 0; i < 6 * static_cast<int>(rate); ++i) {
+        force.push_back(5 + 0.1 * std::sin(2 * std::numbers::pi * hertz * i / rate));
+      }
+      const WallContact c = push(force, rate);
+      EXPECT_NEAR(c.ripple, 0.2, 0.2 * 0.05);
+      EXPECT_NEAR(c.ripple_rms, 0.1 / std::numbers::sqrt2, 1e-3);
+      const double high = 0.1 * high_pass(hertz, rate);
+      EXPECT_NEAR(c.ripple_high, high / std::numbers::sqrt2, 0.01 * high);
+      const double perceived = high * low_pass(hertz, rate) / 25e-3;
+      EXPECT_NEAR(c.perceived, perceived, 0.03 * perceived)
+          << hertz << " Hz at " << rate << " rows a second";
+      EXPECT_EQ(c.force_quiet(), c.perceived < 3);
+    }
+  }
+}
+
+TEST(Contact, TheDetectedAmplitudeIsThatOfTheSource) {
+  // Of a handle of 0.25 kg in the hand of Israr, Choi, Tan 2006: N by Hz.
+  const double threshold_at[][2] = {
+      {20, 37e-3}, {40, 27e-3}, {80, 21e-3}, {160, 16.5e-3}, {320, 61e-3}};
+  for (const auto& [hertz, newton] : threshold_at) {
+    const double here = 25e-3 / (high_pass(hertz, 1e4) * low_pass(hertz, 1e4));
+    EXPECT_LT(std::abs(20 * std::log10(here / newton)), 4) << hertz;
+  }
+}
+
+TEST(Contact, AForceSettlesWhenItEntersItsBandForTheLastTime) {
+  Column force(1000, 10);
+  force[300] = 10.51;  // 5 % of 10 N is 0.5 N
+  force[400] = 9.51;
+  EXPECT_DOUBLE_EQ(push(force).force_settled, 0.301);
+  Column weak(1000, 1);
+  weak[300] = 1.21;  // 0.2 N is more than 5 % of it
+  weak[400] = 1.19;
+  EXPECT_DOUBLE_EQ(push(weak).force_settled, 0.301);
+  weak[699] = 2;
+  EXPECT_DOUBLE_EQ(push(weak).force_settled, 0.7);  // with the tail
+  weak[700] = 2;
+  EXPECT_TRUE(std::isnan(push(weak).force_settled));
+  EXPECT_FALSE(push(weak).force_quiet());
+}
+
+TEST(Contact, RippleIsThatAfterPositionAndForceHaveSettled) {
+  Column force(1000, 10);
+  force[300] = 12;
+  force[500] = 10.3;
+  EXPECT_NEAR(push(force).ripple, 0.3, 1e-12);
+  Column x(1000, 0.001);
+  x[550] = 0.002;
+  const Column t = times(1000);
+  EXPECT_EQ(measure_contact({.t = t, .x = x, .force = force}).ripple, 0);
+  for (std::size_t i = 0; i < x.size(); i += 2) x[i] = 0.002;  // never still: only the tail
+  force[650] = 14;
+  force[800] = 10.1;
+  EXPECT_NEAR(measure_contact({.t = t, .x = x, .force = force}).ripple, 0.1, 1e-12);
+}
+
+TEST(Contact, AJumpIsMoreThanAFifthOfANewtonFromOneTickToTheNext) {
+  Column force(1000, 2);
+  for (std::size_t i = 400; i < force.size(); ++i) force[i] = 2.25;
+  EXPECT_EQ(push(force).jumps, 1);
+  force[600] = 2.06;  // 0.19 N down and up again
+  EXPECT_EQ(push(force).jumps, 1);
+  force[700] = 2.04;  // 0.21 N
+  EXPECT_EQ(push(force).jumps, 3);
+  Column x(1000, 0.001);
+  x[400] = 0.002;  // settled only after the first
+  const Column t = times(1000);
+  EXPECT_EQ(measure_contact({.t = t, .x = x, .force = force}).jumps, 2);
+}
+
+TEST(Contact, ClicksArePerceivedThoughTheForceRestsAtTheEnd) {
+  Column force(6000, 10);
+  for (std::size_t i = 0; i < 3000; i += 20) force[i] = 10.45;  // within the band
+  const WallContact c = push(force);
+  EXPECT_EQ(c.force_settled, 0);
+  EXPECT_EQ(c.force_swing, 0);
+  EXPECT_GT(c.perceived, kQuietPerceived);
+  EXPECT_FALSE(c.force_quiet());
+  for (std::size_t i = 400; i < 3000; i += 20) force[i] = 10;
+  EXPECT_TRUE(push(force).force_quiet());  // a short time after the arrival
+}
+
+TEST(Contact, VibrationCountsFromTwiceTheSettlingTime) {
+  const Column t = times(6000);
+  Column x(6000, 0.001);
+  x[999] = 0.002;
+  Column force(6000, 10);
+  for (std::size_t i = 1000; i < 1990; i += 10) force[i] = 10.45;
+  EXPECT_TRUE(measure_contact({.t = t, .x = x, .force = force}).force_quiet());
+  for (std::size_t i = 2000; i < 2300; i += 10) force[i] = 10.45;
+  EXPECT_FALSE(measure_contact({.t = t, .x = x, .force = force}).force_quiet());
+}
+
+TEST(Contact, FewRowsASecondShowNoVibration) {
+  const WallContact c = push(Column(1000, 3), 79);
+  EXPECT_TRUE(std::isnan(c.perceived));
+  EXPECT_TRUE(std::isnan(c.ripple_high));
+  EXPECT_EQ(c.ripple, 0);
+  EXPECT_FALSE(c.force_quiet());
+  EXPECT_TRUE(push(Column(1000, 3), 81).force_quiet());
 }
 
 TEST(Contact, TheHardestPullIsTheLargestRecorded) {

@@ -30,6 +30,7 @@ TEST(IdealWall, RestsWhereTheForcesBalance) {
       EXPECT_LT(c.swing, 1e-5);
       EXPECT_GE(c.settled, 0);
       EXPECT_LT(c.settled, 3);
+      EXPECT_TRUE(c.quiet);
     }
   }
 }
@@ -41,6 +42,7 @@ TEST(IdealWall, WithoutDampingItSwingsForEverAndAsDeepAgain) {
   EXPECT_NEAR(c.peak, 2 * rest, 1e-7);
   EXPECT_NEAR(c.swing, 2 * rest, 1e-5);  // sampled once a millisecond
   EXPECT_TRUE(std::isnan(c.settled));
+  EXPECT_FALSE(c.quiet);
 }
 
 /// Runge and Kutta's steps of a microsecond: position every millisecond.

@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "ebac/sim/perceived_ripple.hpp"
+
 namespace ebac {
 
 namespace {
@@ -22,11 +24,12 @@ double width(Values values) {
   return high - low;
 }
 
-/// From when on x stays within half of the quiet swing of its rest.
-double settling(Values t, Values x, double rest) {
-  std::size_t i = x.size();
-  while (i > 0 && std::abs(x[i - 1] - rest) <= kQuietSwing / 2) --i;
-  return t[std::min(i, t.size() - 1)];
+/// The row from which on values stay within a band around their rest, their number if the last does
+/// not.
+std::size_t settling(Values values, double rest, double band) {
+  std::size_t i = values.size();
+  while (i > 0 && std::abs(values[i - 1] - rest) <= band) --i;
+  return i;
 }
 
 /// Upward crossings of the rest per second. A crossing counts after a dip of a quarter of the
@@ -67,6 +70,50 @@ double largest_step(Values values) {
   return largest;
 }
 
+/// Changes by more than a jump between two rows, both from `first` on.
+double jumps_from(std::size_t first, Values values) {
+  int jumps = 0;
+  for (std::size_t i = first + 1; i < values.size(); ++i) {
+    jumps += std::abs(values[i] - values[i - 1]) > kForceJump ? 1 : 0;
+  }
+  return jumps;
+}
+
+/// Root mean square around the mean, in one pass; `near` is a value close to the mean.
+double deviation(Values values, double near) {
+  double sum = 0;
+  double squares = 0;
+  for (const double value : values) {
+    sum += value - near;
+    squares += (value - near) * (value - near);
+  }
+  const auto rows = static_cast<double>(values.size());
+  return std::sqrt(std::max(0.0, squares / rows - sum / rows * (sum / rows)));
+}
+
+/// How the force settles and ripples; `still_from` is the row from which on the position is settled,
+/// the first of the tail where it is not.
+void measure_force(const ContactRecord& r, std::size_t tail, std::size_t still_from,
+                   WallContact& c) {
+  const std::size_t rows = r.force.size();
+  c.force_rest = mean(r.force.subspan(tail));
+  const double band = std::max(kForceShare * std::abs(c.force_rest), kForceBand);
+  const std::size_t from = settling(r.force, c.force_rest, band);
+  if (from <= tail) c.force_settled = r.t[from];
+  const std::size_t settled = std::max(std::min(from, tail), still_from);
+  const Values after = r.force.subspan(settled);
+  c.ripple = width(after);
+  c.ripple_rms = deviation(after, c.force_rest);
+  c.jumps = jumps_from(still_from, r.force);
+  const double rate = static_cast<double>(rows - 1) / (r.t.back() - r.t.front());
+  const auto least = static_cast<std::size_t>(std::min(std::ceil(kRingsLeast * rate), 1e9));
+  const std::size_t perceived_from = std::max(kRingsDown * still_from, still_from + least);
+  const PerceivedRipple perceived =
+      perceived_ripple(r.force, rate, settled, std::min(perceived_from, tail));
+  c.ripple_high = perceived.high;
+  c.perceived = perceived.perceived;
+}
+
 void check_rows(const ContactRecord& r) {
   const std::size_t rows = r.x.size();
   if (rows < kFewestRows) {
@@ -97,11 +144,16 @@ WallContact measure_contact(const ContactRecord& r) {
                 .force_swing = width(r.force.last(tail)),
                 .peak = std::ranges::max(r.x),
                 .force_step = largest_step(r.force)};
-  if (c.quiet()) {
-    c.settled = settling(r.t, r.x, c.rest);
+  const std::size_t tail_from = r.x.size() - tail;
+  std::size_t still_from = tail_from;
+  if (c.still()) {
+    const std::size_t from = settling(r.x, c.rest, kStillSwing / 2);
+    c.settled = r.t[std::min(from, r.t.size() - 1)];
+    still_from = std::min(from, tail_from);
   } else {
     c.limit_cycle = frequency(r.t.last(tail), x, c.rest, c.swing);
   }
+  measure_force(r, tail_from, still_from, c);
   if (!r.energy.empty()) c.least_energy = std::ranges::min(r.energy);
   if (!r.energy.empty() && !r.stored.empty()) c.most_drawn = drawn(r.energy, r.stored);
   if (!r.clamped.empty()) c.clamped_share = mean(r.clamped);

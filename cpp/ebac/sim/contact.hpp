@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <span>
@@ -12,10 +13,21 @@
 namespace ebac {
 
 inline constexpr double kTailShare = 0.3;       // of a run, over which rest and swing are taken
-inline constexpr double kQuietSwing = 0.25e-3;  // m, peak to peak; a smaller oscillation is quiet
 inline constexpr std::size_t kFewestRows = 10;  // fewer have no tail to measure
 
+inline constexpr double kStillSwing = 0.25e-3;  // m, peak to peak; a smaller oscillation is still
+inline constexpr double kForceShare = 0.05;     // of its rest: a settled force stays that close,
+inline constexpr double kForceBand = 0.2;       // N, or that close, whichever is the wider
+inline constexpr double kForceJump = 0.2;       // N; a larger change between two ticks is a jump
+inline constexpr std::size_t kRingsDown = 2;    // settling times after which vibration counts,
+inline constexpr double kRingsLeast = 0.5;      // s after settling at least
+inline constexpr double kQuietPerceived = 3;    // detection thresholds, 10 dB: quiet below
+
 /// A contact in numbers; NaN where a thing does not exist.
+///
+/// Rests are means over the last 30 % of a run, its tail. What is measured after settling begins
+/// with the row from which on position, force or both stay close to their rest, and with the tail
+/// where that never comes or comes later.
 struct WallContact {
   static constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
@@ -30,8 +42,21 @@ struct WallContact {
   double clamped_share = kNone;  // 1
   double force_step = kNone;     // N
   double most_pull = kNone;      // N
+  double force_rest = kNone;     // N
+  double force_settled = kNone;  // s
+  double ripple = kNone;         // N
+  double ripple_rms = kNone;     // N
+  double ripple_high = kNone;    // N
+  double jumps = kNone;          // 1
+  double perceived = kNone;      // 1
 
-  bool quiet() const { return swing < kQuietSwing; }
+  /// The position swings by less than 0.25 mm.
+  bool still() const { return swing < kStillSwing; }
+  /// The force settles before the tail, and its vibration is below three detection thresholds once
+  /// the handle has rung down.
+  bool force_quiet() const { return !std::isnan(force_settled) && perceived < kQuietPerceived; }
+  /// The one definition of a quiet contact behind every verdict, study, map, border and table.
+  bool quiet() const { return still(); }
 
   static constexpr auto fields() {
     using F = Field<WallContact>;
@@ -44,7 +69,7 @@ struct WallContact {
           "from when on it stays within 0.125 mm of its rest"},
         F{"peak", &WallContact::peak, "m", "deepest position of the whole run"},
         F{"limit_cycle", &WallContact::limit_cycle, "Hz",
-          "frequency of the swing where it is not quiet"},
+          "frequency of the swing where it is not still"},
         F{"least_energy", &WallContact::least_energy, "J", "lowest physical port energy"},
         F{"most_drawn", &WallContact::most_drawn, "J",
           "most energy taken out in any window, beyond what an ideal wall stores at its start"},
@@ -54,6 +79,22 @@ struct WallContact {
           "largest change of the applied force from one tick to the next"},
         F{"most_pull", &WallContact::most_pull, "N",
           "hardest pull of the hand while the virtual world acts"},
+        F{"force_rest", &WallContact::force_rest, "N",
+          "mean applied force over the last 30 % of the run"},
+        F{"force_settled", &WallContact::force_settled, "s",
+          "from when on the applied force stays within 5 % or 0.2 N of its rest, the larger; none "
+          "where that comes after the tail has begun"},
+        F{"ripple", &WallContact::ripple, "N",
+          "applied force, peak to peak, after position and force have settled"},
+        F{"ripple_rms", &WallContact::ripple_rms, "N",
+          "the same, root mean square around its mean"},
+        F{"ripple_high", &WallContact::ripple_high, "N", "the same above 20 Hz, root mean square"},
+        F{"jumps", &WallContact::jumps, "1",
+          "changes of the applied force by more than 0.2 N from one tick to the next, after the "
+          "position has settled"},
+        F{"perceived", &WallContact::perceived, "1",
+          "largest vibration of the applied force, in detection thresholds, from twice the "
+          "time in which the position settles, and 0.5 s after it has settled at least"},
     };
   }
 };

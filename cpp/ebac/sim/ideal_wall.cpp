@@ -44,6 +44,13 @@ class IdealAxis {
 
   double x() const { return axis().truth().x; }
 
+  /// Force of the wall on the device [N].
+  double force() const {
+    const AxisTruth& truth = axis().truth();
+    if (!touches_) return 0;
+    return wall_.stiffness * (truth.x - wall_.position) + wall_.damping * truth.v;
+  }
+
   void advance(double t) {
     const Target target = hand_.target(0, t, tick_);
     std::int64_t left = kQuanta;
@@ -126,11 +133,12 @@ IdealContact ideal_contact(const Setup& setup, ContactRecorder& recorder) {
   recorder.start(rows);
   for (std::size_t i = 0; i < rows; ++i) {
     const double t = setup.timing.dt * static_cast<double>(i);
-    recorder.add(t, axis.x(), 0, 0, 0);
+    recorder.add(t, axis.x(), axis.force(), 0, 0);
     axis.advance(t);
   }
   const WallContact c = measure_contact(recorder.record());
-  return {.rest = c.rest, .swing = c.swing, .settled = c.settled, .peak = c.peak};
+  return {
+      .rest = c.rest, .swing = c.swing, .settled = c.settled, .peak = c.peak, .quiet = c.quiet()};
 }
 
 }  // namespace ebac

@@ -15,6 +15,7 @@ struct IdealContact {
   double swing = WallContact::kNone;    // m
   double settled = WallContact::kNone;  // s
   double peak = WallContact::kNone;     // m
+  bool quiet = false;
 
   static constexpr auto fields() {
     using F = Field<IdealContact>;
@@ -25,6 +26,7 @@ struct IdealContact {
         F{"settled", &IdealContact::settled, "s",
           "from when on it stays within 0.125 mm of its rest"},
         F{"peak", &IdealContact::peak, "m", "deepest position of the whole run"},
+        F{"quiet", &IdealContact::quiet, "1", "whether it is quiet, as a law's contact is"},
     };
   }
 };

@@ -37,6 +37,9 @@ struct Outcome {
   Fault fault = Fault::kNone;
   bool diverged = false;
   bool done = false;  // false when cancelled before its end
+
+  /// Whether the run came to its end; what ended before is neither still nor quiet.
+  bool whole() const { return done && !diverged && fault == Fault::kNone; }
 };
 
 /// Progress of a sweep, and its cancellation, for a caller in another thread.
@@ -115,7 +118,9 @@ Outcome measure_run(const Setup& setup, const Scalar& scalar, const RunLimits& l
   }
   if (recorder.rows() >= kFewestRows) outcome.contact = measure_contact(recorder.record());
   outcome.rest_power = rest_power(recorder.record());
-  if (outcome.ticks < rows) outcome.contact.settled = WallContact::kNone;
+  if (outcome.ticks < rows) {
+    outcome.contact.settled = outcome.contact.force_settled = WallContact::kNone;
+  }
   outcome.done = true;
   return outcome;
 }
