@@ -24,6 +24,16 @@ WALL_KEYS = [
     "limit_cycle_Hz",
     "least_energy_J",
     "clamped_share",
+    "force_rest_N",
+    "force_settled_s",
+    "ripple_N",
+    "ripple_rms_N",
+    "ripple_high_N",
+    "jumps",
+    "perceived",
+    "still",
+    "force_quiet",
+    "quiet",
 ]
 
 

@@ -2,6 +2,7 @@
 
 import json
 import math
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -139,6 +140,163 @@ def test_each_axis_is_measured_by_itself(run: Any) -> None:
     assert rests == pytest.approx([0.02, -0.01], abs=1e-4)
 
 
+# --- the force ---
+
+
+def force(f: NDArray[np.float64], dt: float = 1e-3) -> ebac.Contact:
+    """Return the contact of a force at a position that never moves."""
+    return ebac.contact(synthetic(np.zeros(len(f)), dt, f_applied=f))
+
+
+def threshold_at(frequency: float, dt: float = 1e-3) -> tuple[float, float]:
+    """Return the high-pass and the amplitude that is just detected [N], from the transfer functions of the docs."""
+    k = math.tan(math.pi * frequency * dt) / math.tan(math.pi * 20 * dt)
+    high = k**2 / math.sqrt(1 + k**4)
+    pole = np.exp(2 * math.pi * 200 * dt * (-0.5 + 1j * math.sqrt(0.75)))
+    z = np.exp(2j * math.pi * frequency * dt)
+    low = abs(1 - pole) ** 2 / (abs(1 - pole / z) * abs(1 - pole.conjugate() / z))
+    return high, 25e-3 / (high * low)
+
+
+@given(rest=st.floats(-50, 50), rows=st.integers(10, 3000))
+def test_a_constant_force_is_quiet(rest: float, rows: int) -> None:
+    row = force(np.full(rows, rest))
+    assert row.force_rest_N == pytest.approx(rest)
+    assert (row.force_settled_s, row.ripple_N, row.jumps) == (0, 0, 0)
+    assert row.ripple_rms_N == pytest.approx(0, abs=1e-9)
+    assert row.perceived == pytest.approx(0, abs=1e-6)
+    assert row.still
+    assert row.force_quiet
+
+
+@given(
+    rest=st.floats(-20, 20),
+    amplitude=st.floats(1e-3, 0.19),
+    frequency=st.floats(22, 240),
+    phase=st.floats(0, 6),
+)
+def test_a_sine_ripples_as_its_amplitude_says_and_is_perceived_as_the_curve_says(
+    rest: float, amplitude: float, frequency: float, phase: float
+) -> None:
+    row = force(rest + amplitude * np.sin(2 * np.pi * frequency * T + phase))
+    high, threshold = threshold_at(frequency)
+    assert row.force_settled_s == 0
+    assert row.ripple_N == pytest.approx(2 * amplitude, rel=0.15)  # four samples a period or more
+    assert row.ripple_rms_N == pytest.approx(amplitude / math.sqrt(2), rel=0.02)
+    assert row.ripple_high_N == pytest.approx(high * amplitude / math.sqrt(2), rel=0.02)
+    assert row.perceived == pytest.approx(amplitude / threshold, rel=0.04)
+    assert row.force_quiet is ((row.perceived or 0) < 3)
+
+
+@given(frequency=st.floats(0.2, 2), amplitude=st.floats(0.01, 0.19))
+def test_what_moves_slowly_is_not_perceived(frequency: float, amplitude: float) -> None:
+    row = force(10 + amplitude * np.sin(2 * np.pi * frequency * T))
+    assert row.ripple_N == pytest.approx(2 * amplitude, rel=0.01)
+    assert row.force_quiet
+
+
+@given(seed=st.integers(0, 99), factor=st.floats(0.01, 10), offset=st.floats(-20, 20))
+def test_ripple_and_what_is_perceived_of_it_scale_with_the_force(
+    seed: int, factor: float, offset: float
+) -> None:
+    noise = np.random.default_rng(seed).uniform(-0.01, 0.01, 2000)
+    one, other = force(noise), force(factor * noise + offset)
+    for name in ("ripple_N", "ripple_rms_N", "ripple_high_N", "perceived"):
+        assert getattr(other, name) == pytest.approx(factor * getattr(one, name), rel=1e-6), name
+    assert other.force_rest_N == pytest.approx(factor * one.force_rest_N + offset)
+
+
+@given(size=st.floats(-5, 5), at=st.integers(100, 900))
+def test_a_step_is_one_jump_if_it_is_larger_than_a_fifth_of_a_newton(size: float, at: int) -> None:
+    row = force(np.where(np.arange(1000) < at, 3.0, 3.0 + size))
+    if abs(abs(size) - 0.2) > 1e-9:
+        assert row.jumps == (abs(size) > 0.2)
+
+
+@given(count=st.integers(0, 40), size=st.floats(0.25, 5))
+def test_every_click_is_two_jumps(count: int, size: float) -> None:
+    f = np.full(1000, 3.0)
+    f[100 : 100 + 20 * count : 20] += size
+    assert force(f).jumps == 2 * count
+
+
+@given(last=st.integers(0, 999), rest=st.floats(0.1, 50), beyond=st.floats(1.01, 3))
+def test_a_force_settles_after_it_left_its_band_for_the_last_time(
+    last: int, rest: float, beyond: float
+) -> None:
+    f = np.full(1000, rest)
+    f[last] += beyond * max(0.05 * rest, 0.2) + (0.02 if last >= 700 else 0)
+    row = force(f)
+    if last < 700:
+        assert row.force_settled_s == pytest.approx(1e-3 * (last + 1))
+    else:
+        assert row.force_settled_s is None
+        assert not row.force_quiet
+
+
+def test_without_a_settled_position_the_force_is_measured_over_the_tail() -> None:
+    x = 0.001 * (-1.0) ** np.arange(1000)
+    f = np.full(1000, 2.0)
+    f[600], f[800] = 9.0, 2.1
+    row = ebac.contact(synthetic(x, f_applied=f))
+    assert (row.still, row.settled_s, row.jumps) == (False, None, 0)
+    assert row.ripple_N == pytest.approx(0.1)
+    f[900] = 3.0
+    assert ebac.contact(synthetic(x, f_applied=f)).jumps == 2
+
+
+def test_few_rows_a_second_show_no_vibration() -> None:
+    row = force(np.zeros(100), dt=0.0126)
+    assert (row.ripple_high_N, row.perceived, row.force_quiet) == (None, None, False)
+
+
+def test_the_completed_law_clicks_and_the_bounded_one_does_not(run: Any) -> None:
+    clicks, smooth = ebac.contact(run("ebac")), ebac.contact(run("eba"))
+    assert clicks.still
+    assert not clicks.force_quiet
+    assert clicks.jumps > 300
+    assert clicks.force_settled_s > 2
+    assert clicks.perceived > 10
+    assert smooth.still
+    assert smooth.force_quiet
+    assert smooth.jumps == 0
+    assert smooth.perceived < 1
+
+
+def test_an_ideal_wall_is_quiet() -> None:
+    """A spring and a damper, continuous: the handle rings down on it at 25 Hz."""
+    mass, damping, stiffness, pull = 0.4, 40.0, 10e3, 12.0
+    decay, ring = damping / (2 * mass), math.sqrt(stiffness / mass - (damping / (2 * mass)) ** 2)
+    swing = np.exp(-decay * T) * (np.cos(ring * T) + decay / ring * np.sin(ring * T))
+    x = pull / stiffness * (1 - swing)
+    row = ebac.contact(synthetic(x, f_applied=stiffness * x))
+    assert row.quiet
+    assert row.force_quiet
+
+
+def test_the_verdict_on_the_force_is_read_in_words(run: Any) -> None:
+    assert (
+        ebac.contact(run("ebac")).force_verdict
+        == "not quiet: settled 2.994 s, 338 jumps, vibration 19.8 thresholds"
+    )
+    assert (
+        ebac.contact(run("eba")).force_verdict
+        == "quiet: settled 0.407 s, no jump, vibration 0.809 thresholds"
+    )
+    assert "vibration not known" in force(np.zeros(100), dt=0.1).force_verdict
+    assert force(np.where(np.arange(1000) < 990, 1.0, 2.0)).force_verdict.startswith(
+        "not quiet: settled never, 1 jump, vibration "
+    )
+
+
+def test_a_still_contact_that_is_not_quiet_says_so(run: Any) -> None:
+    rippling = replace(ebac.contact(run("ebac")), quiet=False)
+    assert rippling.verdict == "exact, force not quiet"
+    assert replace(rippling, rest_m=0.002).verdict == "too deep by 0.835 mm, force not quiet"
+    assert replace(rippling, ideal_m=None).verdict == "force not quiet"
+    assert replace(rippling, still=False).verdict == "swings"
+
+
 # --- the ideal ---
 
 
@@ -271,5 +429,7 @@ def test_the_row_is_the_documented_one(run: Any) -> None:
     assert list(row) == [
         "law", "rest_m", "ideal_m", "swing_m", "force_swing_N", "settled_s", "peak_m",
         "limit_cycle_Hz", "least_energy_J", "clamped_share",
+        "force_rest_N", "force_settled_s", "ripple_N", "ripple_rms_N", "ripple_high_N", "jumps", "perceived",
+        "still", "force_quiet", "quiet",
     ]  # fmt: skip
     assert json.loads(json.dumps(row)) == row

@@ -17,7 +17,7 @@ import pytest
 
 import ebac
 from ebac import Operators, SweepResult, sweep
-from ebac.metrics import COLUMNS
+from ebac.metrics import COLUMNS, FLAGS
 from ebac.studies.sweeps.run import seed_of
 
 LAWS = ["tca", "ebac"]
@@ -78,12 +78,14 @@ def test_a_sweep_has_the_numbers_of_single_runs(local: SweepResult) -> None:
     for i in range(len(local)):
         scenario = every[local["scenario"][i]].replace(seed=int(local["seed"][i]))
         single = ebac.contact(ebac.simulate(scenario, str(local["law"][i])))
-        for name in COLUMNS:
+        for name in (*COLUMNS, *FLAGS):
             value = getattr(single, name)
             assert value == local[name][i] or (value is None and np.isnan(local[name][i])), name
         assert local["ideal_m"][i] == single.ideal_m
         assert local.deviation_m[i] == single.deviation_m
         assert local.good[i] == (single.quiet and single.exact)
+    not_quiet = SweepResult({**local.columns, "quiet": np.zeros(len(local), bool)})
+    assert not not_quiet.good.any()
     assert local["done"].all()
     assert (local["ticks"] == 501).all()
 
@@ -125,7 +127,7 @@ def test_a_law_in_python_is_measured_like_one_of_the_core() -> None:
     short = scenarios(3, seconds=0.2)
     mixed = sweep(short, {"spring": Spring(), "direct": "direct"}, seed=1)
     python, core = (SweepResult({n: mixed[n][p] for n in mixed}) for p in (slice(3), slice(3, 6)))
-    for name in (*COLUMNS, "ticks", "fault", "diverged", "done"):
+    for name in (*COLUMNS, *FLAGS, "ticks", "fault", "diverged", "done"):
         np.testing.assert_array_equal(python[name], core[name], err_msg=name)
 
 

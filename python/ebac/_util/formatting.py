@@ -143,18 +143,36 @@ def _environment(environment: Environment) -> str:
 def verdict(contact: Contact) -> str:
     """Return what a contact came to: "exact and quiet", "swings", "quiet, too deep by 5.63 mm".
 
-    "no contact" where the virtual world never acted, "too short to judge" for less than half a second.
+    One that is still and not quiet has a force that is not: "exact, force not quiet". "no contact" where
+    the virtual world never acted, "too short to judge" for less than half a second.
     """
     if contact.touched is False:
         return "no contact"
     if contact.seconds is not None and contact.seconds < JUDGED_FROM:
         return "too short to judge"
-    if not contact.quiet:
+    if not contact.still:
         return "swings"
     deviation = contact.deviation_m
     if deviation is None:
-        return "quiet"
+        return "quiet" if contact.quiet else "force not quiet"
     if contact.exact:
-        return "exact and quiet"
+        return "exact and quiet" if contact.quiet else "exact, force not quiet"
     where = "too deep" if deviation > 0 else "not deep enough"
-    return f"quiet, {where} by {1e3 * abs(deviation):.3g} mm"
+    away = f"{where} by {1e3 * abs(deviation):.3g} mm"
+    return f"quiet, {away}" if contact.quiet else f"{away}, force not quiet"
+
+
+def force_verdict(
+    quiet: bool, settled_s: float | None, jumps: float, perceived: float | None
+) -> str:
+    """Return what the force of a contact came to: "not quiet: settled 2.994 s, 338 jumps, vibration 19.8 thresholds".
+
+    The vibration is in detection thresholds, as `Contact.perceived`.
+    """
+    settled = quantity(settled_s, "s", none="never")
+    counted = "no jump" if jumps == 0 else f"{jumps:.0f} jump{'s' if jumps > 1 else ''}"
+    known = perceived is not None and isfinite(perceived)
+    vibration = f"{perceived:.3g} thresholds" if known else "not known"
+    return (
+        f"{'quiet' if quiet else 'not quiet'}: settled {settled}, {counted}, vibration {vibration}"
+    )

@@ -59,7 +59,9 @@ def fig5() -> Finding:
 def _good(found: dict[tuple[str, str], Contact], law: str) -> bool:
     """Whether a law is quiet, fast and exact at every wall."""
     contacts = [found[law, name] for name in WALLS]
-    return all(c.exact and c.settled_s is not None and c.settled_s < FAST for c in contacts)
+    return all(
+        c.quiet and c.exact and c.settled_s is not None and c.settled_s < FAST for c in contacts
+    )
 
 
 def _silent(trace: Trace) -> tuple[float, float]:

@@ -10,7 +10,7 @@ from matplotlib.colors import BoundaryNorm, ListedColormap, LogNorm
 from matplotlib.figure import Figure
 
 from ebac._util import formatting
-from ebac.metrics import QUIET_SWING
+from ebac.metrics import STILL_SWING
 from ebac.plot.style import Numbers, Picture, new_figure
 
 if TYPE_CHECKING:
@@ -42,7 +42,7 @@ def plot_map(found: StabilityMap) -> Picture:
     swing, energy = 1e3 * found["swing_m"], -1e3 * found["least_energy_J"]
     deviation = 1e3 * np.abs(found["rest_m"] - found["ideal_m"])
     _panel(
-        figure, grid[0, 1], found, swing, 1e3 * QUIET_SWING, (1e-2, 1e2), "swing, peak to peak [mm]"
+        figure, grid[0, 1], found, swing, 1e3 * STILL_SWING, (1e-2, 1e2), "swing, peak to peak [mm]"
     )
     _panel(figure, grid[1, 0], found, energy, 1.0, (1e-2, 1e5), "energy drawn from the port [mJ]")
     _panel(

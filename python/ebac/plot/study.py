@@ -14,7 +14,7 @@ from matplotlib.ticker import FuncFormatter
 from numpy.typing import NDArray
 
 from ebac._util import formatting
-from ebac.metrics import QUIET_SWING
+from ebac.metrics import STILL_SWING
 from ebac.plot.style import Picture, colour, new_figure
 
 if TYPE_CHECKING:
@@ -103,7 +103,7 @@ def _panel(ax: Axes, study: Study, law: str, condition: str) -> None:
     swing = np.clip(1e3 * part["swing_m"], LEAST_SWING, MOST)
     deviation = np.clip(1e3 * (part["rest_m"] - part["ideal_m"]), -MOST, MOST)
     band = 1e3 * float(np.median(part["allowed_m"]))
-    ax.fill_between([LEAST_SWING, 1e3 * QUIET_SWING], -band, band, color="0.88", lw=0)
+    ax.fill_between([LEAST_SWING, 1e3 * STILL_SWING], -band, band, color="0.88", lw=0)
     good = part["good"]
     ax.plot(swing[good], deviation[good], "o", ms=4, mew=0, alpha=0.6, color=colour(law))
     ax.plot(swing[~good], deviation[~good], "x", ms=5, mew=1.1, color=colour(law))
@@ -131,7 +131,7 @@ def _name_worst(
     band: float,
 ) -> None:
     """Write the population's row beside the worst failures, those that lie apart."""
-    badness = np.maximum(np.abs(deviation) / band, swing / (1e3 * QUIET_SWING))
+    badness = np.maximum(np.abs(deviation) / band, swing / (1e3 * STILL_SWING))
     badness[part["good"] | ~np.isfinite(badness)] = 0
     shown: list[tuple[float, float]] = []
     for i in np.argsort(-badness, kind="stable"):

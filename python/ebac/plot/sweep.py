@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ebac.metrics import QUIET_SWING
+from ebac.metrics import STILL_SWING
 from ebac.plot.style import Picture, colour, dress, legend, new_figure
 from ebac.studies.sweeps import SweepResult
 
@@ -46,7 +46,7 @@ def plot_sweep(result: SweepResult) -> Picture:
             color=colour(law),
             label=law,
         )
-    ax.axhline(1e3 * QUIET_SWING, color="0.35", lw=1, ls="--", label="quiet below")
+    ax.axhline(1e3 * STILL_SWING, color="0.35", lw=1, ls="--", label="still below")
     ax.axvline(0, color="0.35", lw=1)
     ax.set_yscale("log")
     ax.set_xlabel("rest minus ideal [mm]")

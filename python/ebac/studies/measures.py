@@ -116,8 +116,7 @@ def _step_inside(trace: Trace) -> float:
 
 
 def _away(runs: Columns) -> float:
-    quiet = runs["swing_m"] < 0.25e-3
-    return _median("away")({"away": np.abs(runs["rest_m"] - runs["ideal_m"])[quiet]})
+    return _median("away")({"away": np.abs(runs["rest_m"] - runs["ideal_m"])[runs["quiet"]]})
 
 
 def _good(key: str, heading: str, condition: str) -> Measure:

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ebac import _core
+from ebac._util import formatting
 from ebac.laws import design
 from ebac.operators import Operators
 from ebac.scenario import Scenario
@@ -32,8 +33,8 @@ class StudyRow:
     hands : int
         Runs.
     good : int or None
-        Hands that rest within two counts and what friction holds of the ideal (`allowed_deviation`) and swing by less
-        than 0.25 mm; None where the condition has no point of rest.
+        Hands that rest within two counts and what friction holds of the ideal (`allowed_deviation`) and are quiet; None
+        where the condition has no point of rest.
     settled_in_time : int or None
         Of the good ones, those settled within 1.5 times what the same hand needs against an ideal wall, plus 0.2 s.
     least_energy_J : float or None
@@ -48,6 +49,8 @@ class StudyRow:
     least_rest_power_W : float or None
         Lowest mean rate of the port energy over the last 30 % of a run, dW/dt at rest; a port that is held for long
         gives out energy without end where it is below zero.
+    force_quiet : int or None
+        Hands for which the force is quiet, see `Contact`; None where the condition has no point of rest.
     """
 
     law: str
@@ -60,6 +63,7 @@ class StudyRow:
     median_settled_s: float | None
     ideal_good: int | None = None
     least_rest_power_W: float | None = None
+    force_quiet: int | None = None
 
     def row(self) -> dict[str, Any]:
         """Return the documented row of `ebac study --json`."""
@@ -128,6 +132,7 @@ class Study:
             median_settled_s=_of(np.median, part["settled_s"]),
             ideal_good=int(part["ideal_good"].sum()) if timed else None,
             least_rest_power_W=_of(np.min, part["rest_power_W"]),
+            force_quiet=int(part["force_quiet"].sum()) if rests else None,
         )
 
     @cached_property
@@ -197,6 +202,9 @@ def _why(run: dict[str, Any]) -> str:
     if run["diverged"]:
         return f"diverged after {run['ticks']} ticks"
     swing, away = 1e3 * run["swing_m"], 1e3 * (run["rest_m"] - run["ideal_m"])
-    if not run["swing_m"] < 0.25e-3:
+    if not run["still"]:
         return f"swings by {swing:.3g} mm"
+    if not run["quiet"]:
+        numbers = (run[name] for name in ("force_quiet", "force_settled_s", "jumps", "perceived"))
+        return f"force {formatting.force_verdict(*numbers)}"
     return f"rests {abs(away):.3g} mm {'too deep' if away > 0 else 'not deep enough'}"

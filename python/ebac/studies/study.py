@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from concurrent.futures import Executor
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,7 +13,6 @@ from numpy.typing import NDArray
 from ebac import _core
 from ebac._util.arguments import require
 from ebac._util.cores import usable_cores
-from ebac.metrics import QUIET_SWING
 from ebac.operators import Operators
 from ebac.scenario import Scenario
 from ebac.studies.conditions import Condition
@@ -88,7 +88,7 @@ def study(
     columns["ideal_settled_s"] = np.tile(ideal["settled_s"], n)
     columns["ideal_good"] = (
         np.abs(np.tile(ideal["rest_m"], n) - columns["ideal_m"]) <= columns["allowed_m"]
-    ) & (np.tile(ideal["swing_m"], n) < QUIET_SWING)
+    ) & np.tile(ideal["quiet"], n)
     columns["good"] = result.good
     columns["settled_in_time"] = result.good & (
         columns["settled_s"] <= SLOWER * columns["ideal_settled_s"] + LATER
@@ -101,8 +101,8 @@ def study(
 
 def ideal_contacts(
     scenarios: Sequence[Scenario], threads: int | None = None
-) -> dict[str, NDArray[np.float64]]:
-    """Return what each hand would do against an ideal, continuous wall: `rest_m`, `swing_m`, `settled_s`.
+) -> dict[str, NDArray[Any]]:
+    """Return what each hand would do against an ideal, continuous wall: `rest_m`, `swing_m`, `settled_s`, `quiet`.
 
     It settles at inf where it never does; NaN where there is no closed form, see `ideal_contact` in the core.
     """
@@ -112,5 +112,6 @@ def ideal_contacts(
     return {
         "rest_m": rest,
         "swing_m": found["swing"],
+        "quiet": found["quiet"] == 1,
         "settled_s": np.where(np.isnan(settled) & np.isfinite(rest), np.inf, settled),
     }

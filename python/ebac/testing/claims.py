@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ebac.metrics import FEWEST_ROWS, QUIET_SWING, TAIL_SHARE
+from ebac.metrics import FEWEST_ROWS, STILL_SWING, TAIL_SHARE
 from ebac.trace import Trace
 
 #: What the rounding of an energy may come to [J].
@@ -50,7 +50,7 @@ def assert_passive(
 
 
 def assert_settles(
-    trace: Trace, *, within: float, band: float = QUIET_SWING / 2, axis: int = 0
+    trace: Trace, *, within: float, band: float = STILL_SWING / 2, axis: int = 0
 ) -> None:
     """Assert that the position comes to rest in time.
 

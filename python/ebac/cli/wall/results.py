@@ -23,6 +23,10 @@ LINES = (
     ("swing", "swing_m", "m", "-"),
     ("force swing", "force_swing_N", "N", "-"),
     ("settled", "settled_s", "s", "never"),
+    ("force settled", "force_settled_s", "s", "never"),
+    ("ripple", "ripple_N", "N", "-"),
+    ("force jumps", "jumps", "1", "-"),
+    ("vibration", "perceived", "thresholds", "-"),
     ("deepest", "peak_m", "m", "-"),
     ("limit cycle", "limit_cycle_Hz", "Hz", "none"),
     ("least energy", "least_energy_J", "J", "-"),
@@ -145,6 +149,7 @@ def show_table(columns: Mapping[str, Contact], *, verdict: bool = True) -> None:
     if verdict:
         grid.add_section()
         grid.add_row("verdict", *(_verdict(contact) for contact in contacts))
+        grid.add_row("force", *(_force(contact) for contact in contacts))
     output.show(grid)
 
 
@@ -153,4 +158,8 @@ def _verdict(contact: Contact) -> str:
 
     words = formatting.verdict(contact)
     good = contact.quiet and contact.exact is not False
-    return f"[{'green' if good else 'yellow' if contact.quiet else 'red'}]{words}[/]"
+    return f"[{'green' if good else 'yellow' if contact.still else 'red'}]{words}[/]"
+
+
+def _force(contact: Contact) -> str:
+    return "[green]quiet[/]" if contact.force_quiet else "[red]not quiet[/]"

@@ -9,7 +9,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ebac.metrics import QUIET_SWING
 from ebac.scenario import Scenario
 from ebac.studies.maps.axes import AXES, MapAxis
 from ebac.studies.sweeps import SweepResult
@@ -17,7 +16,7 @@ from ebac.studies.sweeps import SweepResult
 Numbers = NDArray[np.float64]
 
 #: What a run can come to, best first: a cell of `verdict` is a place in this list.
-VERDICTS = ("exact and quiet", "quiet, not exact", "swings", "diverges")
+VERDICTS = ("exact and quiet", "quiet, not exact", "not quiet", "diverges")
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -57,8 +56,8 @@ class StabilityMap:
 
     @property
     def quiet(self) -> NDArray[np.bool_]:
-        """Where the run swings by less than 0.25 mm at its end."""
-        return np.asarray((self["swing_m"] < QUIET_SWING) & ~self._lost)
+        """Where the run came to its end and its contact is quiet."""
+        return np.asarray(self["quiet"])
 
     @property
     def verdict(self) -> NDArray[np.int64]:

@@ -13,7 +13,14 @@ from numpy.typing import NDArray
 from ebac._core import Fault, RunLimits, SweepProgress
 from ebac.hands import is_own
 from ebac.laws import CoreLaw, PythonLaw
-from ebac.metrics import COLUMNS, FEWEST_ROWS, allowed_deviation, contact, ideal_rest
+from ebac.metrics import (
+    COLUMNS,
+    FEWEST_ROWS,
+    FLAGS,
+    allowed_deviation,
+    contact,
+    ideal_rest,
+)
 from ebac.scenario import Scenario
 from ebac.simulation import LoopFault, simulate
 from ebac.trace import Trace
@@ -23,6 +30,7 @@ Run: TypeAlias = tuple[Scenario, CoreLaw | PythonLaw]
 
 #: Columns beside the numbers of a contact, and what they hold of a run that was not done.
 STATUS: dict[str, tuple[str, Any]] = {
+    **dict.fromkeys(FLAGS, ("?", False)),
     "ticks": ("i8", 0),
     "fault": ("u4", 0),
     "diverged": ("?", False),
@@ -122,7 +130,7 @@ def _row(trace: Trace, limits: RunLimits) -> dict[str, Any]:
     kept = trace[: float(trace["t"][last + 1])] if last + 1 < rows else trace
     if len(kept) >= FEWEST_ROWS:
         numbers = contact(kept)
-        row |= {name: getattr(numbers, name) for name in COLUMNS}
+        row |= {name: getattr(numbers, name) for name in (*COLUMNS, *FLAGS)}
     if last + 1 < rows or Fault(row["fault"]) is not Fault.NONE:
-        row["settled_s"] = None
+        row |= {"settled_s": None, "force_settled_s": None, **dict.fromkeys(FLAGS, False)}
     return {name: nan if value is None else value for name, value in row.items()}

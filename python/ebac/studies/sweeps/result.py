@@ -11,8 +11,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ebac.metrics import QUIET_SWING
-
 if TYPE_CHECKING:
     import pandas as pd
 
@@ -36,7 +34,8 @@ class SweepResult:
         `law` (its name), `scenario` (its place in what was swept), `seed`; each parameter in which the
         scenarios differ, `environment.stiffness_N_per_m` and so on; `ideal_m`, `count_m`,
         `allowed_m` and the numbers of
-        `Contact`, under the same names; `ticks` (rows simulated), `fault`, `diverged` (beyond the limits, ended
+        `Contact`, under the same names; `still`, `force_quiet`, `quiet` (False for a run that ended
+        early); `ticks` (rows simulated), `fault`, `diverged` (beyond the limits, ended
         early), `done` (False when the sweep was interrupted before).
     """
 
@@ -68,10 +67,9 @@ class SweepResult:
 
     @property
     def good(self) -> NDArray[np.bool_]:
-        """Whether each run rests within `allowed_m` of the ideal and swings by less than 0.25 mm."""
+        """Whether each run rests within `allowed_m` of the ideal and is quiet, to its end."""
         exact = np.abs(self.deviation_m) <= self["allowed_m"]
-        ended = self["done"] & ~self["diverged"] & (self["fault"] == 0)
-        return np.asarray(exact & (self["swing_m"] < QUIET_SWING) & ended)
+        return np.asarray(exact & self["quiet"])
 
     def to_pandas(self) -> pd.DataFrame:
         """Return a DataFrame, one run a row."""

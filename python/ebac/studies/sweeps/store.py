@@ -11,16 +11,16 @@ from typing import Any
 import numpy as np
 
 from ebac._core import RunLimits
-from ebac.studies.sweeps.measure import Columns, Run
+from ebac.studies.sweeps.measure import Columns, Run, empty
 
 MANIFEST = "sweep.json"
 
 
 def fingerprint(runs: Sequence[Run], limits: RunLimits) -> str:
-    """Return a hash of all that decides the result: the version, every scenario, every law."""
+    """Return a hash of all that decides the result: the version, the columns, every scenario, every law."""
     from ebac import __version__
 
-    digest = hashlib.sha256(f"{__version__} {limits!r}".encode())
+    digest = hashlib.sha256(f"{__version__} {limits!r} {list(empty(0))}".encode())
     laws: dict[int, str] = {}
     scenarios: dict[int, str] = {}  # each runs under every law
     for scenario, law in runs:

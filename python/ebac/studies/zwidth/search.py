@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from ebac._core import LinearLoop, Timing, Wall
 from ebac._util.arguments import require
 from ebac.laws import LAWS, AnyLaw
-from ebac.metrics import EXACT_COUNTS, QUIET_SWING, ideal_rest
+from ebac.metrics import EXACT_COUNTS, ideal_rest
 from ebac.scenario import Scenario
 from ebac.studies.sweeps import SweepResult, sweep
 from ebac.studies.sweeps.run import Laws, name_laws
@@ -146,7 +146,7 @@ class _Search:
 
 def _judge(result: SweepResult, base: Scenario, epsilon: float, stiffness: Numbers) -> Flags:
     whole = result["done"] & ~result["diverged"] & (result["fault"] == 0)
-    quiet = whole & (result["swing_m"] < QUIET_SWING)
+    quiet = result["quiet"]
     energy = whole & (result["least_energy_J"] >= -epsilon)
     surface = _surface(base) + np.resize(APPROACHES, len(result))
     depth, ideal = result["rest_m"] - surface, result["ideal_m"] - surface
