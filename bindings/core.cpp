@@ -72,6 +72,8 @@ void bind_states(py::module_& m) {
 /// A port is what a law reads, so a law written in Python, or stepped from there, needs to fill one
 /// in.
 void bind_port(py::module_& m) {
+  bind_fields<Estimate>(m, "Estimate",
+                        "State of a device at one port, as the observer estimates it.");
   auto cls = bind_fields<Port>(m, "Port", "Input of a law: one axis in one tick.");
   for (const FieldRow& field : field_table<Port>().rows) {
     cls.def_property(
@@ -80,6 +82,7 @@ void bind_port(py::module_& m) {
         [row = &field](Port& port, double value) { row->in<double>(&port) = value; },
         describe(field).c_str());
   }
+  cls.def_readonly("est", &Port::est, "State that the observer estimates.");
 }
 
 }  // namespace

@@ -1,3 +1,4 @@
+#include "ebac/loop/observer.hpp"
 #include "ebac/model/device.hpp"
 
 #include <pybind11/numpy.h>
@@ -168,6 +169,15 @@ void bind_device(py::module_& m) {
   bind_open(cls);
 }
 
+void bind_observer(py::module_& m) {
+  auto cls = bind_fields<ObserverParams>(
+      m, "Observer",
+      "State of the device from encoder, force sensor and currents, estimated in every tick of a "
+      "loop.");
+  cls.def_static("of", &ObserverParams::of, py::arg("device"), py::arg("timing"),
+                 "Return the observer of a device whose commands act with the delay of `timing`.");
+}
+
 }  // namespace
 
 /// The parts first: a device is made of them.
@@ -177,6 +187,7 @@ void bind_devices(py::module_& m) {
   bind_velocity(m);
   bind_parts(m);
   bind_device(m);
+  bind_observer(m);
 }
 
 }  // namespace ebac::python

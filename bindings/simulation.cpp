@@ -110,11 +110,15 @@ void bind_trace(py::module_& m) {
 void bind_setup(py::module_& m) {
   py::class_<Setup>(m, "Setup", "Setup of a simulated run, without the law.")
       .def(py::init([](const DeviceModel& device, const Hand& hand, const Environment& environment,
-                       const Timing& timing, double seconds, double jitter, std::uint64_t seed) {
-             return Setup{device, for_one_run(hand), environment, timing, seconds, jitter, seed};
+                       const Timing& timing, double seconds, double jitter, std::uint64_t seed,
+                       const std::optional<ObserverParams>& observer) {
+             Setup setup{device, for_one_run(hand), environment, timing, seconds, jitter, seed};
+             setup.observer = observer;
+             return setup;
            }),
            py::kw_only(), py::arg("device"), py::arg("hand"), py::arg("environment"),
-           py::arg("timing"), py::arg("seconds"), py::arg("jitter"), py::arg("seed"))
+           py::arg("timing"), py::arg("seconds"), py::arg("jitter"), py::arg("seed"),
+           py::arg("observer") = py::none())
       .def(
           "_raise_hand_error",
           [](const Setup& setup) {

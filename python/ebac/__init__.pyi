@@ -128,6 +128,9 @@ from ebac._core import (
     Encoder as Encoder,
 )
 from ebac._core import (
+    Estimate as Estimate,
+)
+from ebac._core import (
     ExactPlant as ExactPlant,
 )
 from ebac._core import (
@@ -174,6 +177,9 @@ from ebac._core import (
 )
 from ebac._core import (
     Motor as Motor,
+)
+from ebac._core import (
+    Observer as Observer,
 )
 from ebac._core import (
     PassivityControl as PassivityControl,

@@ -47,6 +47,7 @@ __all__: list[str] = [
     "EmulatorOptions",
     "EmulatorTrouble",
     "Encoder",
+    "Estimate",
     "ExactPlant",
     "Fault",
     "Field",
@@ -75,6 +76,7 @@ __all__: list[str] = [
     "MinimumJerk",
     "Motor",
     "NonlinearGrip",
+    "Observer",
     "PassivityControl",
     "PlannedFrame",
     "Port",
@@ -205,6 +207,108 @@ class Limited(enum.IntFlag):
     SLEW = ...
     THERMAL = ...
 
+class Estimate:
+    """
+    State of a device at one port, as the observer estimates it.
+
+    Parameters
+    ----------
+    x : float
+        handle position, estimated [m].
+    dx : float
+        its change since the last tick [m].
+    v : float
+        handle velocity, estimated [m/s].
+    x_act : float
+        handle position predicted for the instant at which this tick's command acts [m].
+    v_act : float
+        handle velocity predicted for that instant [m/s].
+    disturbance : float
+        force that the model of the device does not explain: friction, weight, sensor bias [N].
+    bound : float
+        largest error of x that the encoder allows [m].
+    weight : float
+        share of the estimate in what the law is given: 1 the observer, 0 the encoder alone.
+    fallback : int
+        0, or why the weight goes to 0: 1 off, 2 force stale, 3 force sensor status, 4 model contradicted.
+    """
+
+    @staticmethod
+    def fields() -> list[Field]:
+        """
+        Return name, unit, meaning, default and range of every parameter.
+        """
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __init__(
+        self,
+        *,
+        x: float = 0.0,
+        dx: float = 0.0,
+        v: float = 0.0,
+        x_act: float = 0.0,
+        v_act: float = 0.0,
+        disturbance: float = 0.0,
+        bound: float = 0.0,
+        weight: float = 0.0,
+        fallback: int = 1,
+    ) -> None: ...
+    def __reduce__(self) -> tuple[typing.Any, ...]: ...
+    def __repr__(self) -> str: ...
+    def as_dict(self) -> dict[str, typing.Any]:
+        """
+        Return the parameters by name.
+        """
+    def replace(self, **changes: typing.Any) -> typing.Self:
+        """
+        Return a copy with some parameters changed, checked as at construction.
+        """
+    @property
+    def bound(self) -> float:
+        """
+        largest error of x that the encoder allows [m]
+        """
+    @property
+    def disturbance(self) -> float:
+        """
+        force that the model of the device does not explain: friction, weight, sensor bias [N]
+        """
+    @property
+    def dx(self) -> float:
+        """
+        its change since the last tick [m]
+        """
+    @property
+    def fallback(self) -> int:
+        """
+        0, or why the weight goes to 0: 1 off, 2 force stale, 3 force sensor status, 4 model contradicted
+        """
+    @property
+    def v(self) -> float:
+        """
+        handle velocity, estimated [m/s]
+        """
+    @property
+    def v_act(self) -> float:
+        """
+        handle velocity predicted for that instant [m/s]
+        """
+    @property
+    def weight(self) -> float:
+        """
+        share of the estimate in what the law is given: 1 the observer, 0 the encoder alone
+        """
+    @property
+    def x(self) -> float:
+        """
+        handle position, estimated [m]
+        """
+    @property
+    def x_act(self) -> float:
+        """
+        handle position predicted for the instant at which this tick's command acts [m]
+        """
+
 class Port:
     """
     Input of a law: one axis in one tick.
@@ -232,6 +336,7 @@ class Port:
     damped : float
         energy the device's known damping surely took, sum of (b/dt) dx^2 [J].
     """
+
     @staticmethod
     def fields() -> list[Field]:
         """
@@ -269,70 +374,75 @@ class Port:
         energy the device's known damping surely took, sum of (b/dt) dx^2 [J]
         """
     @damped.setter
-    def damped(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def damped(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def dt(self) -> float:
         """
         time since the last tick [s]
         """
     @dt.setter
-    def dt(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def dt(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def dx(self) -> float:
         """
         displacement since the last tick [m]
         """
     @dx.setter
-    def dx(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def dx(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def est(self) -> Estimate:
+        """
+        State that the observer estimates.
+        """
     @property
     def f_applied(self) -> float:
         """
         force that acted over the last interval, after limits and delay [N]
         """
     @f_applied.setter
-    def f_applied(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def f_applied(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def f_cmd(self) -> float:
         """
         force the law commands (F_d, force loop included) [N]
         """
     @f_cmd.setter
-    def f_cmd(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def f_cmd(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def f_env(self) -> float:
         """
         force the virtual world asks for (F_e) [N]
         """
     @f_env.setter
-    def f_env(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def f_env(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def f_meas(self) -> float:
         """
         force the F/T sensor measures (F_M) [N]
         """
     @f_meas.setter
-    def f_meas(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def f_meas(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def v(self) -> float:
         """
         handle velocity, estimated [m/s]
         """
     @v.setter
-    def v(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def v(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def work(self) -> float:
         """
         energy the virtual side absorbed, sum of f_applied dx [J]
         """
     @work.setter
-    def work(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def work(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def x(self) -> float:
         """
         handle position; grows into the wall [m]
         """
     @x.setter
-    def x(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def x(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
 
 class Timing:
     """
@@ -2416,6 +2526,7 @@ class Setup:
         seconds: typing.SupportsFloat | typing.SupportsIndex,
         jitter: typing.SupportsFloat | typing.SupportsIndex,
         seed: typing.SupportsInt | typing.SupportsIndex,
+        observer: Observer | None = None,
     ) -> None: ...
     def _raise_hand_error(self) -> None:
         """
@@ -5181,8 +5292,12 @@ class EBAC:
         heaviest hand the recovery is paced for [kg], 0 to 10.
     pull : float
         largest pull of a hand the guard counts with [N], 0 to 1000.
+    pull_rate : float
+        with the observer, fastest growth of the pull beyond what the force sensor shows [N/s], 0 to 1e+06.
     reserve : float
         energy lent at the start, e(0) of eq. (3) [J], 0 to 1.
+    observed_reserve : float
+        the same with the observer, where less is needed [J], 0 to 1.
     continuity : bool
         ratio rows of eq. (10), 0 to 1.
     recovery : bool
@@ -5196,6 +5311,7 @@ class EBAC:
         """
         State of the law, recorded in a trace.
         """
+
         @staticmethod
         def fields() -> list[Field]:
             """
@@ -5299,7 +5415,9 @@ class EBAC:
         filter: float = 0.005,
         heaviest_hand: float = 1.5,
         pull: float = 20.0,
+        pull_rate: float = 1000.0,
         reserve: float = 0.01,
+        observed_reserve: float = 0.002,
         continuity: bool = True,
         recovery: bool = True,
         injection: bool = True,
@@ -5406,6 +5524,11 @@ class EBAC:
         device mass at the handle, M_h; an under-estimate is safe [kg], 0.001 to 100
         """
     @property
+    def observed_reserve(self) -> float:
+        """
+        the same with the observer, where less is needed [J], 0 to 1
+        """
+    @property
     def peak_force(self) -> float:
         """
         largest command [N], 0.001 to 10000
@@ -5414,6 +5537,11 @@ class EBAC:
     def pull(self) -> float:
         """
         largest pull of a hand the guard counts with [N], 0 to 1000
+        """
+    @property
+    def pull_rate(self) -> float:
+        """
+        with the observer, fastest growth of the pull beyond what the force sensor shows [N/s], 0 to 1e+06
         """
     @property
     def recovery(self) -> bool:
@@ -5802,6 +5930,113 @@ class SocketCanJoystick:
     def state(self) -> BusState:
         """
         State of the bus.
+        """
+
+class Observer:
+    """
+    State of the device from encoder, force sensor and currents, estimated in every tick of a loop.
+
+    Parameters
+    ----------
+    mass : float
+        device mass at the handle, M_h [kg], 0.001 to 100.
+    damping : float
+        viscous damping of the device, B_h [N s/m], 0 to 500.
+    count : float
+        one encoder count at the handle [m], 1e-09 to 0.01.
+    current_lag : float
+        time constant of the drive's current loop [s], 0 to 0.1.
+    force_lag : float
+        time constant of the force sensor [s], 0 to 0.1.
+    force_noise : float
+        standard deviation of its noise; sets the bandwidth [N], 1e-04 to 10.
+    force_age : float
+        an older force is not used: the estimate is faded out [s], 1e-05 to 1.
+    delay : int
+        ticks from computing a command to its acting [samples], 0 to 8.
+    every_law : bool
+        laws that are not made for it meet the world at the estimate too, 0 to 1.
+    """
+
+    @staticmethod
+    def fields() -> list[Field]:
+        """
+        Return name, unit, meaning, default and range of every parameter.
+        """
+    @staticmethod
+    def of(device: Device, timing: Timing) -> Observer:
+        """
+        Return the observer of a device whose commands act with the delay of `timing`.
+        """
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __init__(
+        self,
+        *,
+        mass: float = 0.25,
+        damping: float = 2.0,
+        count: float = 3.07e-05,
+        current_lag: float = 0.0003,
+        force_lag: float = 0.0008,
+        force_noise: float = 0.03,
+        force_age: float = 0.003,
+        delay: int = 1,
+        every_law: bool = False,
+    ) -> None: ...
+    def __reduce__(self) -> tuple[typing.Any, ...]: ...
+    def __repr__(self) -> str: ...
+    def as_dict(self) -> dict[str, typing.Any]:
+        """
+        Return the parameters by name.
+        """
+    def replace(self, **changes: typing.Any) -> typing.Self:
+        """
+        Return a copy with some parameters changed, checked as at construction.
+        """
+    @property
+    def count(self) -> float:
+        """
+        one encoder count at the handle [m], 1e-09 to 0.01
+        """
+    @property
+    def current_lag(self) -> float:
+        """
+        time constant of the drive's current loop [s], 0 to 0.1
+        """
+    @property
+    def damping(self) -> float:
+        """
+        viscous damping of the device, B_h [N s/m], 0 to 500
+        """
+    @property
+    def delay(self) -> int:
+        """
+        ticks from computing a command to its acting [samples], 0 to 8
+        """
+    @property
+    def every_law(self) -> bool:
+        """
+        laws that are not made for it meet the world at the estimate too, 0 to 1
+        """
+    @property
+    def force_age(self) -> float:
+        """
+        an older force is not used: the estimate is faded out [s], 1e-05 to 1
+        """
+    @property
+    def force_lag(self) -> float:
+        """
+        time constant of the force sensor [s], 0 to 0.1
+        """
+    @property
+    def force_noise(self) -> float:
+        """
+        standard deviation of its noise; sets the bandwidth [N], 1e-04 to 10
+        """
+    @property
+    def mass(self) -> float:
+        """
+        device mass at the handle, M_h [kg], 0.001 to 100
         """
 
 class Limits:

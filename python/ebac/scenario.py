@@ -8,7 +8,7 @@ from math import cos
 from pathlib import Path
 from typing import Any, Self, TypeAlias
 
-from ebac._core import Corner, Device, Disc, Free, Hand, Setup, Step, Timing, Wall
+from ebac._core import Corner, Device, Disc, Free, Hand, Observer, Setup, Step, Timing, Wall
 from ebac._util import serialisation
 from ebac._util.arguments import keywords_only, refuse_unknown
 from ebac._util.text_file import read_text
@@ -27,7 +27,7 @@ def __dir__() -> list[str]:
 
 Environment: TypeAlias = Free | Wall | Corner | Disc
 
-_PARTS = ("device", "hand", "environment", "timing", "seconds", "jitter", "seed")
+_PARTS = ("device", "hand", "environment", "timing", "seconds", "jitter", "seed", "observer")
 
 
 def _part_of(name: str) -> str:
@@ -65,6 +65,11 @@ class Scenario:
         Largest deviation of a tick from its instant, as a share of the sample time, [0, 0.45].
     seed : int
         Seed of sensor noise, jitter and the place of zero within an encoder count, [0, 2^63).
+    observer : bool or Observer
+        Whether the state of the device is estimated in every tick, from encoder, force sensor and currents: columns
+        `est.*`. `ebac`, and every law with `Observer(every_law=True)`, then meets the world where the device will be
+        when the command acts. True designs it from device and timing, as `Observer.of`; an `Observer` is used as it
+        is; False, the default, runs on the encoder alone.
 
     Raises
     ------
@@ -81,6 +86,7 @@ class Scenario:
     seconds: float = 6.0
     jitter: float = 0.0
     seed: int = 1
+    observer: Observer | bool = False
 
     def __post_init__(self) -> None:
         """Check types and ranges."""
@@ -93,10 +99,11 @@ class Scenario:
             "seconds": (float, int),
             "jitter": (float, int),
             "seed": (int,),
+            "observer": (Observer, bool),
         }
         for name, types in parts.items():
             value = getattr(self, name)
-            if not isinstance(value, types) or isinstance(value, bool):
+            if not isinstance(value, types) or (isinstance(value, bool) and bool not in types):
                 names = " or ".join(t.__name__ for t in types)
                 raise TypeError(f"Scenario.{name} = {value!r}: must be {names}")
         if not 0 < self.seconds <= 1e5:
@@ -198,6 +205,12 @@ class Scenario:
         except ValueError as error:
             raise ValueError(f"{path}: {error}") from None
 
+    def designed_observer(self) -> Observer | None:
+        """Return the observer of a run, or None without one."""
+        if isinstance(self.observer, bool):
+            return Observer.of(self.device, self.timing) if self.observer else None
+        return self.observer
+
     def setup(self) -> Setup:
         """Return what the C++ simulation takes.
 
@@ -215,4 +228,5 @@ class Scenario:
             seconds=float(self.seconds),
             jitter=float(self.jitter),
             seed=self.seed,
+            observer=self.designed_observer(),
         )

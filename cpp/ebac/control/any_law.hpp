@@ -18,6 +18,7 @@ struct LawType {
   std::string_view name;
   std::string_view summary;
   bool passive = false;
+  bool observed = false;  // whether it is made for the observer's estimate
   bool tunable = false;  // whether its gains may change while it runs
   FieldTable params;
   FieldTable state;

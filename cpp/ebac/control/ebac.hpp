@@ -12,6 +12,7 @@
 #include "ebac/control/force_feedback.hpp"
 #include "ebac/control/injection.hpp"
 #include "ebac/control/motion_guard.hpp"
+#include "ebac/control/observed_force.hpp"
 #include "ebac/control/recovery.hpp"
 #include "ebac/control/sub_count_position.hpp"
 #include "ebac/core/concepts.hpp"
@@ -30,6 +31,11 @@ namespace ebac {
 ///   6. force loop  eq. (2), with a small K_p
 ///   7. guard       the total command is limited to what the ledger can pay for
 ///
+/// With the observer (`Scenario(observer=...)`), 1 is counted within a count, 2 to 6 become
+/// F = F_e + B_v v at the state predicted for the instant at which the command acts, and 7 counts
+/// with the velocity and the pull that are measured. Where the observer fails, the law fades to the
+/// steps above in 20 ms, from the force it is at.
+///
 /// The design uses no property of the wall or the hand.
 class Ebac {
  public:
@@ -37,6 +43,9 @@ class Ebac {
   static constexpr std::string_view kSummary =
       "eq. (8) to (10) and (2), completed: recovery, damping, guard";
   static constexpr bool kPassive = false;  // guarded; see docs/explanation/theory.md
+
+  /// It uses the observer's estimate where a run has one.
+  static constexpr bool kObserved = true;
 
   using Params = EbacParams;
   using State = EbacState;
@@ -52,6 +61,10 @@ class Ebac {
         damper_(show_),
         contact_(params.count, show_.stiffness),
         guard_(params.damping, params.mass, params.count, params.pull, timing.longest()),
+        observed_(params.mass, params.count, params.current_lag, timing),
+        work_(params.count),
+        observed_guard_(params.damping, params.mass, params.count / 2, params.pull,
+                        timing.longest()),
         in_flight_(timing.delay) {
     reset();
   }
@@ -59,23 +72,19 @@ class Ebac {
   double step(const Port& port) EBAC_RT {
     if (!(port.dt > 0)) return begin(port);
     if (port.dt != dt_) set_tick(port.dt);
-    ledger_.take(port.f_applied, sub_count_.step(port.x, port.dt), port.dx);  // 1
-    const double damping = damper_.step(port.dx);
-    readings_.push(port.x, time_ += port.dt);
-    contact_.watch(port, sub_count_.direction());
-    state_.slope = contact_.slope();
+    const double weight = port.est.weight;
+    if (weight != weight_) shift(port, weight);
     state_.clamped = false;
     state_.admitted = 1;
-    if (port.f_env == 0) {
-      release();  // 4
-    } else if (port.dx != 0) {
-      move(port);  // 2
-    } else if (params_.recovery) {
-      recover(port);  // 3
+    double command = 0;
+    if (weight < 1) {
+      double wanted = by_encoder(port);
+      if (weight > 0) wanted += weight * (held(observed_.step(port)) - wanted);
+      command = guarded(wanted, port);
+    } else {
+      ledger_.take(port, work_, observed_.slope());  // 1
+      command = observed_guarded(by_observer(port), port);
     }
-    state_.f_d = std::clamp(state_.f_d, -params_.peak_force, params_.peak_force);
-    const double wanted = port.f_env == 0 ? 0.0 : complete(port, damping);  // 5, 6
-    const double command = params_.guard ? guarded(wanted, port) : wanted;  // 7
     finish(command, port);
     return command;
   }
@@ -95,7 +104,9 @@ class Ebac {
     state_ = {};
     state_.energy = params_.reserve;
     contact_ = ContactEstimator(params_.count, show_.stiffness);
-    time_ = dt_ = ratio_ = 0;
+    observed_ = ObservedForce(params_.mass, params_.count, params_.current_lag, timing_);
+    work_ = ObservedWork(params_.count);
+    time_ = dt_ = ratio_ = weight_ = 0;
   }
 
   const State& state() const EBAC_RT { return state_; }
@@ -108,6 +119,7 @@ class Ebac {
   static constexpr double kFloor = 0.5;   // of c_h: slope that continuity always allows
   static constexpr double kYield = 0.01;  // s, F_d follows a command the guard holds back
   static constexpr int kWindow = 16;      // samples, velocity the guard counts with
+  static constexpr double kSensor = 0.5;  // N, error of the force sensor the guard counts with
 
   /// Values that depend on the time since the last tick alone.
   void set_tick(double dt) EBAC_RT {
@@ -119,7 +131,57 @@ class Ebac {
   double begin(const Port& port) EBAC_RT {
     sub_count_.start(port.x);
     readings_.push(port.x, 0);
+    work_.start(port);
     return 0;
+  }
+
+  /// The observer comes or goes: what takes over starts where the other is. The encoder's part
+  /// needs a larger reserve.
+  void shift(const Port& port, double weight) EBAC_RT {
+    if (weight_ >= 1 && weight < 1) {
+      sub_count_.start(port.x);
+      damper_.reset();
+      loop_.reset();
+      readings_.clear();
+      contact_ = ContactEstimator(params_.count, show_.stiffness);
+      ratio_ = 0;
+    }
+    if (weight_ < 1 && weight >= 1) work_.start(port);
+    weight_ = weight;
+  }
+
+  /// Steps 1 to 6 on the encoder's readings.
+  double by_encoder(const Port& port) EBAC_RT {
+    ledger_.lend(params_.reserve);
+    ledger_.take(port.f_applied, sub_count_.step(port.x, port.dt), port.dx);  // 1
+    const double damping = damper_.step(port.dx);
+    readings_.push(port.x, time_ += port.dt);
+    contact_.watch(port, sub_count_.direction());
+    state_.slope = contact_.slope();
+    if (port.f_env == 0) {
+      release();  // 4
+    } else if (port.dx != 0) {
+      move(port);  // 2
+    } else if (params_.recovery) {
+      recover(port);  // 3
+    }
+    state_.f_d = held(state_.f_d);
+    return port.f_env == 0 ? 0.0 : complete(port, damping);  // 5, 6
+  }
+
+  /// The same on the observer's estimate: nothing is left for eq. (8) to (10) to bound or recover.
+  double by_observer(const Port& port) EBAC_RT {
+    ledger_.lend(params_.observed_reserve);
+    const double wanted = observed_.step(port);
+    state_.slope = observed_.slope();
+    state_.f_d = held(port.f_env);
+    state_.injected = observed_.injected();
+    state_.record(0, 0, 0, 0);
+    return held(wanted);
+  }
+
+  double held(double force) const EBAC_RT {
+    return std::clamp(force, -params_.peak_force, params_.peak_force);
   }
 
   void release() EBAC_RT {
@@ -167,10 +229,11 @@ class Ebac {
       state_.injected = desired - state_.f_d;
     }
     const double total = desired + loop_.step(desired, port.f_meas, port.dt);  // eq. (2)
-    return std::clamp(total, -params_.peak_force, params_.peak_force);
+    return held(total);
   }
 
   double guarded(double wanted, const Port& port) EBAC_RT {
+    if (!params_.guard) return wanted;
     const double energy = ledger_.energy();
     const double step = std::abs(port.dx) + params_.count;  // no window slopes by more than this
     if (guard_.surely_admits(wanted, in_flight_, ledger_.lagged(), energy, step)) return wanted;
@@ -187,13 +250,35 @@ class Ebac {
     return command;
   }
 
+  /// With the velocity of the observer, half a count, and the pull that the force sensor shows: a
+  /// hand may vanish at any time, but its pull grows no faster than declared.
+  double observed_guarded(double wanted, const Port& port) EBAC_RT {
+    if (!params_.guard || wanted == 0) return wanted;
+    const double shown = std::max(0.0, wanted > 0 ? -port.f_meas : port.f_meas);
+    const double grown = params_.pull_rate * (timing_.delay + 1) * port.dt;
+    const double pull = std::min(params_.pull, shown + kSensor + grown);
+    const double v = port.est.v;
+    const double energy = ledger_.energy();
+    if (observed_guard_.surely_admits(wanted, in_flight_, ledger_.lagged(), energy,
+                                      std::abs(v) * port.dt, pull)) {
+      return wanted;
+    }
+    const double command =
+        observed_guard_.admit(wanted, in_flight_, ledger_.lagged(), energy, v, pull, /*first=*/0.5);
+    if (command != wanted) {
+      state_.clamped = true;
+      state_.admitted = command / wanted;
+    }
+    return command;
+  }
+
   void finish(double command, const Port& port) EBAC_RT {
     if (port.f_env == 0) {
       loop_.reset();
       state_.injected = 0;
     }
     in_flight_.push(command);
-    ledger_.leak(command, contact_.stored_at());
+    ledger_.leak(command, weight_ < 1 ? contact_.stored_at() : observed_.stored_at());
     state_.energy = ledger_.energy();
   }
 
@@ -207,12 +292,16 @@ class Ebac {
   Damper damper_;
   ContactEstimator contact_;
   MotionGuard guard_;
+  ObservedForce observed_;
+  ObservedWork work_;
+  MotionGuard observed_guard_;
   CommandsInFlight in_flight_;
   Readings readings_{};
   State state_{};
-  double dt_ = 0;     // s, argument of the last set_tick
-  double time_ = 0;   // s
-  double ratio_ = 0;  // N/m, beta(t-1)
+  double dt_ = 0;      // s, argument of the last set_tick
+  double time_ = 0;    // s
+  double ratio_ = 0;   // N/m, beta(t-1)
+  double weight_ = 0;  // of the observer, in the last tick
 };
 
 static_assert(Controller<Ebac>);

@@ -18,11 +18,13 @@ struct EbacParams {
   double growth = 1.2;
   double decay = 0.8;
   double kp = 0.1;
-  double kd = 0;               // s
-  double filter = 5e-3;        // s
-  double heaviest_hand = 1.5;  // kg
-  double pull = 20;            // N
-  double reserve = 0.010;      // J
+  double kd = 0;                    // s
+  double filter = 5e-3;             // s
+  double heaviest_hand = 1.5;       // kg
+  double pull = 20;                 // N
+  double pull_rate = 1e3;           // N/s
+  double reserve = 0.010;           // J
+  double observed_reserve = 0.002;  // J
   bool continuity = true;
   bool recovery = true;
   bool injection = true;
@@ -56,7 +58,12 @@ struct EbacParams {
         F{"heaviest_hand", &EbacParams::heaviest_hand, "kg",
           "heaviest hand the recovery is paced for", 0, 10},
         F{"pull", &EbacParams::pull, "N", "largest pull of a hand the guard counts with", 0, 1e3},
+        F{"pull_rate", &EbacParams::pull_rate, "N/s",
+          "with the observer, fastest growth of the pull beyond what the force sensor shows", 0,
+          1e6},
         F{"reserve", &EbacParams::reserve, "J", "energy lent at the start, e(0) of eq. (3)", 0, 1},
+        F{"observed_reserve", &EbacParams::observed_reserve, "J",
+          "the same with the observer, where less is needed", 0, 1},
         F{"continuity", &EbacParams::continuity, "1", "ratio rows of eq. (10)", 0, 1},
         F{"recovery", &EbacParams::recovery, "1", "relaxation towards F_e at dx = 0", 0, 1},
         F{"injection", &EbacParams::injection, "1", "virtual damping while in contact", 0, 1},

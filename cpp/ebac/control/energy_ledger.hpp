@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "ebac/control/lagged_force.hpp"
+#include "ebac/control/observed_work.hpp"
 #include "ebac/core/realtime.hpp"
 
 namespace ebac {
@@ -42,6 +43,20 @@ class EnergyLedger {
   void take(double f_applied, double moved, double dx) EBAC_RT {
     const double sure = std::max(std::abs(dx) - count_, 0.0);
     energy_ += lagged_.hold(f_applied) * moved + b_ * sure * sure;
+  }
+
+  /// The same with the observer's position; `slope` is that of the world [N/m].
+  void take(const Port& port, ObservedWork& work, double slope) EBAC_RT {
+    energy_ += work.step(lagged_.hold(port.f_applied), port, slope, b_);
+  }
+
+  /// From now on `reserve` [J] is lent in all. More is added at once; less is taken back as far as
+  /// the account holds more than `reserve`.
+  void lend(double reserve) EBAC_RT {
+    double change = reserve - reserve_;
+    if (change < 0) change = -std::min(-change, std::max(0.0, energy_ - reserve));
+    energy_ += change;
+    reserve_ += change;
   }
 
   /// Charges a force that changes while no motion is seen, one count of it: past the edge crossed

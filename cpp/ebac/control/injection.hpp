@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "ebac/core/realtime.hpp"
+#include "ebac/core/sample.hpp"
 #include "ebac/core/timing.hpp"
 
 namespace ebac {
@@ -51,9 +52,17 @@ class Damper {
     per_dt_ = 1 / dt;
   }
 
+  /// Force on the velocity of the readings.
   double step(double dx) EBAC_RT {
     v_ += (dx * per_dt_ - v_) * share_;
     return damping_ * v_;
+  }
+
+  /// Force on the predicted velocity, as far as the observer is trusted.
+  double step(const Port& port) EBAC_RT {
+    const double read = step(port.dx);
+    const double weight = port.est.weight;
+    return weight > 0 ? read + weight * (damping_ * port.est.v_act - read) : read;
   }
 
   void retune(double damping) EBAC_RT { damping_ = damping; }

@@ -91,7 +91,7 @@ class LagCompensator {
   double step(const Port& port) EBAC_RT {
     if (!(port.dt > 0)) return 0;
     if (port.dt != dt_) damper_.set_tick(dt_ = port.dt);
-    const double damping = damper_.step(port.dx);
+    const double damping = damper_.step(port);
     const double change = port.f_env - std::exchange(last_env_, port.f_env);
     contact_.watch(port, /*direction=*/0);
     if (port.f_env == 0) {

@@ -47,6 +47,7 @@ const LawType& law_type() {
       .name = Law::kName,
       .summary = Law::kSummary,
       .passive = Law::kPassive,
+      .observed = requires { Law::kObserved; },
       .tunable = LawOf<Law>::kTunable,
       .params = field_table<Params>(),
       .state = field_table<State>(),

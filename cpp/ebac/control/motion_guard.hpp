@@ -32,9 +32,13 @@ class MotionGuard {
   /// velocity. It takes R <= |F| |s|.
   bool surely_admits(double force, const CommandsInFlight& in_flight, const LaggedForce& lagged,
                      double energy, double step) const EBAC_RT {
+    return surely_admits(force, in_flight, lagged, energy, step, pull_);
+  }
+  bool surely_admits(double force, const CommandsInFlight& in_flight, const LaggedForce& lagged,
+                     double energy, double step, double pull) const EBAC_RT {
     if (force == 0) return true;
     const double largest = std::max(in_flight.largest_with(force), std::abs(lagged.force()));
-    const double last = step + (1 + in_flight.size()) * (pull_ + largest) * jump_per_newton_;
+    const double last = step + (1 + in_flight.size()) * (pull + largest) * jump_per_newton_;
     // Every interval, and the tails of two forces, at the largest force and the furthest reach.
     const double intervals = 1 + in_flight.size() + lagged.ticks() * (2 + lagged.later());
     return largest * (intervals * last + count_) <= energy;
@@ -46,17 +50,23 @@ class MotionGuard {
   /// than its two parts.
   double admit(double force, const CommandsInFlight& in_flight, LaggedForce lagged, double energy,
                double v) const EBAC_RT {
+    return admit(force, in_flight, lagged, energy, v, pull_, 1);
+  }
+  /// `first` is the share of a jump that the first interval can deviate by: 1, or a half where the
+  /// velocity is known at its start.
+  double admit(double force, const CommandsInFlight& in_flight, LaggedForce lagged, double energy,
+               double v, double pull, double first) const EBAC_RT {
     const double largest = std::max(in_flight.largest_with(0), std::abs(lagged.force()));
-    const double jump = (pull_ + std::max(std::abs(force), largest)) * jump_per_newton_;
+    const double jump = (pull + std::max(std::abs(force), largest)) * jump_per_newton_;
     const auto loss = [&](double held, int j) EBAC_RT {
-      return Loss(held, v * tick_, (1 + j) * jump, b_).at(std::abs(held));
+      return Loss(held, v * tick_, (first + j) * jump, b_).at(std::abs(held));
     };
     double left = energy;
     for (int j = 0; j < in_flight.size(); ++j) left -= loss(lagged.hold(in_flight[j]), j);
     const int d = in_flight.size();
     const double tail = lagged.force();  // when the new command begins to act
     left -= lagged.ticks() * (loss(tail, d) + std::abs(tail) * jump * lagged.later());
-    const Loss own(force, v * tick_, (1 + d) * jump, b_);
+    const Loss own(force, v * tick_, (first + d) * jump, b_);
     const double line = lagged.ticks() * jump;  // its own tail acts one jump further
     const double above = own.largest_force(left, line + count_);  // when it is itself the largest
     const double most = above >= largest

@@ -45,6 +45,14 @@ class PerAxis {
   {
     for (Law& law : laws_) law.retune(next);
   }
+  /// Whether it is made for the observer's estimate.
+  bool observed() const {
+    if constexpr (std::same_as<Law, AnyLaw>) {
+      return laws_[0].type().observed;
+    } else {
+      return requires { Law::kObserved; };
+    }
+  }
   decltype(auto) state(std::size_t i) const EBAC_RT { return laws_[i].state(); }
   /// Of a law whose type is known at run time only.
   const FieldTable& state_table() const EBAC_RT

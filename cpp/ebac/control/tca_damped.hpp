@@ -68,7 +68,7 @@ class TcaDamped {
   double step(const Port& port) EBAC_RT {
     if (!(port.dt > 0)) return 0;
     if (port.dt != dt_) damper_.set_tick(dt_ = port.dt);
-    const double damping = damper_.step(port.dx);
+    const double damping = damper_.step(port);
     state_.injected = 0;
     double desired = port.f_env;
     if (port.f_env != 0) {

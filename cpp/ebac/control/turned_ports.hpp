@@ -34,6 +34,12 @@ class TurnedPorts {
     const Axes v = turned(&Port::v);
     const Axes applied = turned(&Port::f_applied);
     const Axes measured = turned(&Port::f_meas);
+    const auto estimate = [&](auto of) EBAC_RT { return turn_estimate(axes, contact, of); };
+    const Axes moved = estimate([](const Port& p) EBAC_RT { return p.est.dx; });
+    const Axes estimated = estimate([](const Port& p) EBAC_RT { return p.est.v; });
+    const Axes predicted = estimate([](const Port& p) EBAC_RT { return p.est.v_act; });
+    const Axes offset = estimate([](const Port& p) EBAC_RT { return p.est.x - p.x; });
+    const Axes ahead = estimate([](const Port& p) EBAC_RT { return p.est.x_act - p.est.x; });
     for (std::size_t i = 0; i < axes.size(); ++i) {
       const auto e = static_cast<Eigen::Index>(i);
       Port& port = port_[i];
@@ -44,6 +50,12 @@ class TurnedPorts {
       port.f_env = contact.along[e];
       port.f_applied = applied[e];
       port.f_meas = measured[e];
+      port.est = axes[i].port.est;
+      port.est.dx = moved[e];
+      port.est.v = estimated[e];
+      port.est.v_act = predicted[e];
+      port.est.x = port.x + offset[e];
+      port.est.x_act = port.est.x + ahead[e];
     }
   }
 
@@ -60,6 +72,15 @@ class TurnedPorts {
     Axes all = Axes::Zero();
     for (std::size_t i = 0; i < axes.size(); ++i)
       all[static_cast<Eigen::Index>(i)] = axes[i].port.*member;
+    return contact.frame * all;
+  }
+
+  template <class Of>
+  static Axes turn_estimate(std::span<const Axis> axes, const ContactForce& contact,
+                            Of of) EBAC_RT {
+    Axes all = Axes::Zero();
+    for (std::size_t i = 0; i < axes.size(); ++i)
+      all[static_cast<Eigen::Index>(i)] = of(axes[i].port);
     return contact.frame * all;
   }
 

@@ -79,6 +79,49 @@ struct Joint {
   }
 };
 
+/// Why the observer gives no estimate, or one that is not trusted.
+enum class Fallback : std::int32_t {
+  kNone = 0,         // the estimate is used
+  kOff = 1,          // the scenario has no observer, or the law does not use it
+  kForceStale = 2,   // the force is older than allowed
+  kForceStatus = 3,  // the force sensor is saturated, disconnected or in error
+  kModel = 4,        // the encoder contradicts the model for longer than a transient
+};
+
+/// State of the device at one port, from encoder, force sensor and current: see `Observer`.
+struct Estimate {
+  double x = 0;            // m
+  double dx = 0;           // m, since the last tick
+  double v = 0;            // m/s
+  double x_act = 0;        // m, when the command of this tick acts
+  double v_act = 0;        // m/s
+  double disturbance = 0;  // N
+  double bound = 0;        // m
+  double weight = 0;       // 1
+  int fallback = static_cast<int>(Fallback::kOff);
+  int spare = 0;  // to whole words
+
+  static constexpr auto fields() {
+    using F = Field<Estimate>;
+    return std::array{
+        F{"x", &Estimate::x, "m", "handle position, estimated"},
+        F{"dx", &Estimate::dx, "m", "its change since the last tick"},
+        F{"v", &Estimate::v, "m/s", "handle velocity, estimated"},
+        F{"x_act", &Estimate::x_act, "m",
+          "handle position predicted for the instant at which this tick's command acts"},
+        F{"v_act", &Estimate::v_act, "m/s", "handle velocity predicted for that instant"},
+        F{"disturbance", &Estimate::disturbance, "N",
+          "force that the model of the device does not explain: friction, weight, sensor bias"},
+        F{"bound", &Estimate::bound, "m", "largest error of x that the encoder allows"},
+        F{"weight", &Estimate::weight, "1",
+          "share of the estimate in what the law is given: 1 the observer, 0 the encoder alone"},
+        F{"fallback", &Estimate::fallback, "1",
+          "0, or why the weight goes to 0: 1 off, 2 force stale, 3 force sensor status, 4 model "
+          "contradicted"},
+    };
+  }
+};
+
 /// Quantities of the theory: the power-conjugate pair at which hand and virtual world interact.
 struct Port {
   double x = 0;          // m
@@ -91,6 +134,7 @@ struct Port {
   double f_meas = 0;     // N, force sensor (F_M)
   double work = 0;       // J, W_k = sum of f_applied dx
   double damped = 0;     // J, sum of (b/dt) dx^2: energy the device's own damping surely dissipated
+  Estimate est{};        // of the observer
 
   static constexpr auto fields() {
     using F = Field<Port>;

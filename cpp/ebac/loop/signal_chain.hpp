@@ -5,8 +5,10 @@
 #include <span>
 
 #include "ebac/core/concepts.hpp"
+#include "ebac/loop/observer.hpp"
 #include "ebac/model/device.hpp"
 #include "ebac/model/environment.hpp"
+#include "ebac/model/pose.hpp"
 
 namespace ebac {
 
@@ -14,7 +16,8 @@ namespace ebac {
 /// with their memory. Its functions are the stages of `tick`, in order.
 class SignalChain {
  public:
-  SignalChain(const DeviceModel& device, const Environment& environment);
+  SignalChain(const DeviceModel& device, const Environment& environment,
+              const Observing& observing = {});
 
   /// Another virtual world, from this tick on.
   void change(const Environment& environment) EBAC_RT { environment_ = environment; }
@@ -30,6 +33,11 @@ class SignalChain {
 
   /// q, dq, applied current -> x, dx, v, f_applied, f_meas
   void forward(const Reading& reading, double dt, std::span<Axis> axes) EBAC_RT;
+
+  /// counts, f_meas, currents -> est: the state now and when the command of this tick acts
+  void observe(const Reading& reading, double dt, std::span<Axis> axes) EBAC_RT {
+    if (observing_.on) estimate(reading, dt, axes);
+  }
 
   /// f_applied, dx -> work, damped: the energy account, whatever the law
   void account(std::span<Axis> axes) const EBAC_RT {
@@ -61,6 +69,9 @@ class SignalChain {
   }
   template <class Part>
   static Axes all(std::span<const Axis> axes, Part Axis::* part, double Part::* member) EBAC_RT;
+  void estimate(const Reading& reading, double dt, std::span<Axis> axes) EBAC_RT;
+  void trust(const Reading& reading, double dt, std::size_t axes) EBAC_RT;
+  void estimate_general(double dt, std::span<Axis> axes) EBAC_RT;
   void forward_general(const Reading& reading, double dt, std::span<Axis> axes) EBAC_RT;
   void drive_general(double dt, std::span<Axis> axes) EBAC_RT;
   void send(Joint& joint, double tau) const EBAC_RT;
@@ -71,6 +82,10 @@ class SignalChain {
   Velocity estimator_;
   Compensation compensation_;
   Environment environment_;
+  Observing observing_;
+  std::array<AxisObserver, kMaxAxes> observer_;
+  double weight_ = 1;  // of the estimate
+  Fallback fallback_ = Fallback::kNone;
   double damping_;         // N s/m, lower bound of the device's own damping
   double rad_per_count_;   // joint
   double radius_;          // m
@@ -91,12 +106,16 @@ class SignalChain {
 
 // Inline: every line of a tick is here or in `tick`.
 
-inline SignalChain::SignalChain(const DeviceModel& device, const Environment& environment)
+inline SignalChain::SignalChain(const DeviceModel& device, const Environment& environment,
+                                const Observing& observing)
     : kinematics_(device.kinematics),
       encoder_(device.encoder),
       estimator_(device.velocity),
       compensation_(device.compensation),
       environment_(environment),
+      observing_(observing),
+      observer_{AxisObserver(observing.params), AxisObserver(observing.params),
+                AxisObserver(observing.params)},
       damping_(std::max(0.0, device.facts().damping)),
       rad_per_count_(device.encoder.count() / device.capstan.ratio()),
       radius_(device.radius()),
@@ -162,9 +181,112 @@ inline void SignalChain::forward_general(const Reading& reading, double dt,
   }
 }
 
+/// Fades the estimate out in 20 ms where its inputs or its model fail, and in again.
+inline void SignalChain::trust(const Reading& reading, double dt, std::size_t axes) EBAC_RT {
+  constexpr double kFade = 0.02;  // s
+  constexpr double kContradicted = 0.5, kAgrees = 0.1;
+  double contradicted = 0;
+  for (std::size_t i = 0; i < axes; ++i) {
+    contradicted = std::max(contradicted, observer_[i].contradicted());
+  }
+  const bool model_fails = contradicted > (fallback_ == Fallback::kModel ? kAgrees : kContradicted);
+  fallback_ = !observing_.acts                                  ? Fallback::kOff
+              : reading.force_status != SensorStatus::kGood     ? Fallback::kForceStatus
+              : reading.force_age > observing_.params.force_age ? Fallback::kForceStale
+              : model_fails                                     ? Fallback::kModel
+                                                                : Fallback::kNone;
+  if (fallback_ == Fallback::kOff) {
+    weight_ = 0;
+  } else if (fallback_ == Fallback::kNone) {
+    weight_ = dt > 0 ? std::min(1.0, weight_ + dt / kFade) : 1.0;
+  } else {
+    weight_ = std::max(0.0, weight_ - dt / kFade);
+  }
+}
+
+inline void SignalChain::estimate(const Reading& reading, double dt, std::span<Axis> axes) EBAC_RT {
+  trust(reading, dt, axes.size());
+  if (!linear_) return estimate_general(dt, axes);
+  for (std::size_t i = 0; i < axes.size(); ++i) {
+    const Joint& joint = axes[i].joint;
+    Port& port = axes[i].port;
+    AxisObserver& observer = observer_[i];
+    if (dt > 0) {
+      observer.give(force_per_amp_ * joint.current);
+      observer.step(port.x, port.f_meas, port.f_applied, dt);
+    } else {
+      observer.start(port.x);
+    }
+    Estimate& est = port.est;
+    est.x = observer.x();
+    est.dx = dt > 0 ? observer.moved() : 0.0;
+    est.v = observer.v();
+    observer.predict(est.x_act, est.v_act);
+    est.disturbance = observer.disturbance();
+    est.bound = observing_.params.count / 2 + std::abs(port.x - est.x);
+    est.weight = weight_;
+    est.fallback = static_cast<int>(fallback_);
+  }
+}
+
+/// The same in the joints, where counts and currents are: s = R q, with the inertia of the pose.
+inline void SignalChain::estimate_general(double dt, std::span<Axis> axes) EBAC_RT {
+  const Axes q = all(axes, &Axis::joint, &Joint::q);
+  const Pose here = pose(kinematics_, q, Axes::Zero());
+  Axes measured = Axes::Zero();
+  for (std::size_t i = 0; i < axes.size(); ++i)
+    measured[static_cast<Eigen::Index>(i)] = axes[i].port.f_meas;
+  const Axes along = here.j.transpose() * measured / radius_;
+  Axes now = Axes::Zero(), speed = Axes::Zero(), then = Axes::Zero(), speed_then = Axes::Zero();
+  for (std::size_t i = 0; i < axes.size(); ++i) {
+    const auto e = static_cast<Eigen::Index>(i);
+    const Joint& joint = axes[i].joint;
+    AxisObserver& observer = observer_[i];
+    observer.set_mass_share(here.inertia[e] / (radius_ * radius_));
+    if (dt > 0) {
+      observer.give(force_per_amp_ * joint.current);
+      observer.step(radius_ * joint.q, along[e], force_per_amp_ * joint.current_applied, dt);
+    } else {
+      observer.start(radius_ * joint.q);
+    }
+    now[e] = observer.x() / radius_;
+    speed[e] = observer.v() / radius_;
+    observer.predict(then[e], speed_then[e]);
+    then[e] /= radius_;
+    speed_then[e] /= radius_;
+  }
+  const Axes x = ebac::forward(kinematics_, now);
+  const Axes v = jacobian(kinematics_, now) * speed;
+  const Axes x_act = ebac::forward(kinematics_, then);
+  const Axes v_act = jacobian(kinematics_, then) * speed_then;
+  for (std::size_t i = 0; i < axes.size(); ++i) {
+    const auto e = static_cast<Eigen::Index>(i);
+    Port& port = axes[i].port;
+    Estimate& est = port.est;
+    est.dx = dt > 0 ? x[e] - est.x : 0.0;
+    est.x = x[e];
+    est.v = v[e];
+    est.x_act = x_act[e];
+    est.v_act = v_act[e];
+    est.disturbance = observer_[i].disturbance();
+    est.bound = observing_.params.count / 2 + std::abs(port.x - est.x);
+    est.weight = weight_;
+    est.fallback = static_cast<int>(fallback_);
+  }
+}
+
 inline ContactForce SignalChain::contact(std::span<Axis> axes) const EBAC_RT {
-  ContactForce contact = ebac::contact(environment_, all(axes, &Axis::port, &Port::x),
-                                       all(axes, &Axis::port, &Port::v));
+  Axes x = all(axes, &Axis::port, &Port::x);
+  Axes v = all(axes, &Axis::port, &Port::v);
+  if (observing_.acts && weight_ > 0) {
+    for (std::size_t i = 0; i < axes.size(); ++i) {
+      const auto e = static_cast<Eigen::Index>(i);
+      const Estimate& est = axes[i].port.est;
+      x[e] += weight_ * (est.x_act - x[e]);
+      v[e] += weight_ * (est.v_act - v[e]);
+    }
+  }
+  ContactForce contact = ebac::contact(environment_, x, v);
   for (std::size_t i = 0; i < axes.size(); ++i) {
     axes[i].port.f_env = contact.force[static_cast<Eigen::Index>(i)];
   }

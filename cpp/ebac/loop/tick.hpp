@@ -54,6 +54,7 @@ Reading sense(SignalChain& chain, D& device, const Instant& now, Sample& s,
 
   chain.measure(reading, now.dt, axes);
   chain.forward(reading, now.dt, axes);
+  chain.observe(reading, now.dt, axes);
   return reading;
 }
 

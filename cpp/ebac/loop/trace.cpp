@@ -7,6 +7,8 @@ Trace::Trace(int axes) : axes_(axes) {
   const std::size_t first = offsetof(Sample, axis);
   add("", field_table<Joint>(), first + offsetof(Axis, joint), sizeof(Axis));
   add("", field_table<Port>(), first + offsetof(Axis, port), sizeof(Axis));
+  add("est.", field_table<Estimate>(), first + offsetof(Axis, port) + offsetof(Port, est),
+      sizeof(Axis));
   row_ = first + sizeof(Axis) * static_cast<std::size_t>(axes);
 }
 

@@ -21,6 +21,7 @@ CHOICES: dict[str, tuple[type, ...]] = {
     "hand": (_core.Hand,),
     "model": (_core.Reflex, _core.FingerPad, _core.NonlinearGrip, _core.LetGo),
     "timing": (_core.Timing,),
+    "observer": (_core.Observer,),
     "motor": (_core.Motor,),
     "drive": (_core.Drive,),
     "encoder": (_core.Encoder,),

@@ -199,6 +199,14 @@ class RunOptions:
 
     rate: Rate = None
     jitter: Jitter = None
+    observer: Annotated[
+        bool | None,
+        option(
+            "--observer/--no-observer",
+            text="Estimate the state from encoder and force sensor, and predict it; `ebac` uses it",
+            panel=RUN,
+        ),
+    ] = None
     seconds: Annotated[
         float | None, option(text="Length of the run [s]", default="6", panel=RUN)
     ] = None
@@ -231,7 +239,9 @@ def scenario_of(*groups: Any, seconds: float | None = None) -> Scenario:
         hand=hand_of(base.hand, given),
         environment=wall_of(base.environment, given),
         timing=setting.choose_timing(base.timing, given.get("rate"), given.get("delay")),
-        **setting.given(jitter=given.get("jitter"), seconds=length, seed=given.get("seed")),
+        **setting.given(
+            jitter=given.get("jitter"), seconds=length, seed=given.get("seed"), observer=given.get("observer")
+        ),
     )  # fmt: skip
 
 

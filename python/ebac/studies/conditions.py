@@ -41,8 +41,12 @@ class Condition:
     def scenarios(self, operators: Operators, base: Scenario) -> list[Scenario]:
         """Return what is simulated under this condition."""
         if self.drives:
-            return [drive(self.change(base)) for drive in self.drives]
-        return [self.change(one) for one in operators.scenarios(base)]
+            return [self.made(drive(self.change(base))) for drive in self.drives]
+        return [self.made(self.change(one)) for one in operators.scenarios(base)]
+
+    def made(self, changed: Scenario) -> Scenario:
+        """Return a changed scenario with its observer, if it has one, designed from the believed facts."""
+        return to.observer_of(changed, *self.believed(changed))
 
 
 def cell(delay: int, damping: float, stiffness: float) -> Change:

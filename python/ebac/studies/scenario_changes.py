@@ -125,6 +125,18 @@ def pump(amplitude: float, frequency: float, depth: float = 2e-3) -> Change:
     return change
 
 
+def observer_of(s: Scenario, facts: DeviceFacts, timing: Timing) -> Scenario:
+    """Give the observer of a scenario, if it has one, the facts that laws are designed from."""
+    designed = s.designed_observer()
+    if designed is None or (facts, timing) == truth(s):
+        return s
+    told = designed.replace(
+        mass=facts.mass, damping=max(0.0, facts.damping), count=facts.count,
+        current_lag=facts.current_lag, delay=timing.delay,
+    )  # fmt: skip
+    return s.replace(observer=told)
+
+
 def truth(s: Scenario) -> tuple[DeviceFacts, Timing]:
     """Return what laws are designed for when nothing is mistaken."""
     return s.device.facts, s.known_timing

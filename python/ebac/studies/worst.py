@@ -148,7 +148,7 @@ def worst(
         For a number out of range, a family or condition that does not exist, or a condition that changes the hand.
     """
     where = _condition(condition, base or Scenario())
-    scenario = where.change(base or Scenario())
+    scenario = where.made(where.change(base or Scenario()))
     made = design(law, *where.believed(scenario))
     declared, reserve = (getattr(made, name, None) for name in ("pull", "reserve"))
     most = pull if pull is not None else declared or PULL

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "ebac/control/injection.hpp"
+#include "ebac/core/realtime.hpp"
+#include "ebac/core/sample.hpp"
+
+namespace ebac {
+
+/// The force of the virtual world at the state predicted for the instant at which the command acts,
+/// with a damper on the predicted velocity: F = F_e + B_v v_act, never against F_e.
+///
+/// Without a count of noise in the velocity, mass and delay alone bound the damper: B_v = 0.35 M /
+/// ((d + 1/2) T + current_lag). The world may be shown at its whole stiffness while moving.
+class ObservedForce {
+ public:
+  ObservedForce(double mass, double count, double current_lag, const Timing& timing) EBAC_RT
+      : show_(mass, kNoCount, current_lag, timing),
+        stored_at_(show_.stiffness),
+        least_(kLeast* count) {}
+
+  double step(const Port& port) EBAC_RT {
+    watch(port);
+    injected_ = 0;
+    if (port.f_env == 0) return 0;
+    const double damped = port.f_env + show_.damping * port.est.v_act;
+    const double force = port.f_env > 0 ? std::max(damped, 0.0) : std::min(damped, 0.0);
+    injected_ = force - port.f_env;
+    return force;
+  }
+
+  double damping() const EBAC_RT { return show_.damping; }  // N s/m
+  double injected() const EBAC_RT { return injected_; }     // N
+  double slope() const EBAC_RT { return slope_; }           // N/m, 0 out of contact
+
+  /// Stiffness at which the last contact can have stored energy [N/m].
+  double stored_at() const EBAC_RT { return stored_at_; }
+
+ private:
+  static constexpr double kNoCount = 1e-12;  // m: the velocity has no noise of counts
+  static constexpr double kLeast = 0.02;     // counts: a smaller motion shows no slope
+  static constexpr double kForget = 0.02;    // per tick, of a slope steeper than the last
+
+  void watch(const Port& port) EBAC_RT {
+    const double dx = std::abs(port.est.x_act - last_x_);
+    if (port.f_env == 0) {
+      slope_ = 0;
+    } else if (dx > least_ && last_env_ != 0) {
+      const double seen = std::abs(port.f_env - last_env_) / dx;
+      slope_ = seen > slope_ ? seen : slope_ + kForget * (seen - slope_);
+      stored_at_ = std::min(show_.stiffness, slope_);
+    }
+    last_env_ = port.f_env;
+    last_x_ = port.est.x_act;
+  }
+
+  Injection show_;
+  double stored_at_;  // N/m
+  double least_;      // m
+  double slope_ = 0;
+  double injected_ = 0;
+  double last_env_ = 0;  // N
+  double last_x_ = 0;    // m
+};
+
+}  // namespace ebac

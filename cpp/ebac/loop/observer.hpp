@@ -1,0 +1,230 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "ebac/control/commands_in_flight.hpp"
+#include "ebac/control/lagged_force.hpp"
+#include "ebac/core/concepts.hpp"
+#include "ebac/core/fields.hpp"
+#include "ebac/core/realtime.hpp"
+#include "ebac/core/sample.hpp"
+#include "ebac/core/timing.hpp"
+#include "ebac/model/device.hpp"
+
+namespace ebac {
+
+/// Facts the observer is designed from: those of the device and its force sensor, nothing of wall or
+/// hand.
+struct ObserverParams {
+  double mass = 0.25;         // kg
+  double damping = 2.0;       // N s/m
+  double count = 3.07e-5;     // m
+  double current_lag = 3e-4;  // s
+  double force_lag = 8e-4;    // s
+  double force_noise = 0.03;  // N
+  double force_age = 3e-3;    // s
+  int delay = 1;              // samples
+  bool every_law = false;
+
+  /// Of a device and the delay of its commands.
+  static ObserverParams of(const DeviceModel& device, const Timing& timing) EBAC_RT {
+    return {.mass = device.mass(),
+            .damping = device.mechanics.damping,
+            .count = device.count(),
+            .current_lag = device.drive.current_lag,
+            .force_lag = device.sensor.lag,
+            .force_noise = std::max(kLeastNoise, device.sensor.noise),
+            .delay = timing.delay};
+  }
+  static constexpr double kLeastNoise = 0.03;  // N, of a usual six-axis sensor
+
+  static constexpr auto fields() {
+    using F = Field<ObserverParams>;
+    return std::array{
+        F{"mass", &ObserverParams::mass, "kg", "device mass at the handle, M_h", 1e-3, 100},
+        F{"damping", &ObserverParams::damping, "N s/m", "viscous damping of the device, B_h", 0,
+          500},
+        F{"count", &ObserverParams::count, "m", "one encoder count at the handle", 1e-9, 0.01},
+        F{"current_lag", &ObserverParams::current_lag, "s",
+          "time constant of the drive's current loop", 0, 0.1},
+        F{"force_lag", &ObserverParams::force_lag, "s", "time constant of the force sensor", 0,
+          0.1},
+        F{"force_noise", &ObserverParams::force_noise, "N",
+          "standard deviation of its noise; sets the bandwidth", 1e-4, 10},
+        F{"force_age", &ObserverParams::force_age, "s",
+          "an older force is not used: the estimate is faded out", 1e-5, 1},
+        F{"delay", &ObserverParams::delay, "samples",
+          "ticks from computing a command to its acting", 0, kMaxDelay},
+        F{"every_law", &ObserverParams::every_law, "1",
+          "laws that are not made for it meet the world at the estimate too", 0, 1},
+    };
+  }
+};
+
+/// State of one axis from encoder, force sensor and current: where the device is within an encoder
+/// count, how fast it moves without lag, and both for the instant at which the next command acts.
+///
+/// The device obeys M v' = F_h - b v - f + D, with the force of the hand F_h, the motor's force f
+/// behind its current loop, and a slow disturbance D (friction, weight, bias of the sensor). The
+/// sensor shows F_M = G F_h with G = 1/(force_lag s + 1). Passed through G, the equation holds for
+/// what is measured:
+///
+///   M u' = F_M + D - b u - G f,    u = G v,    v = u + force_lag u'
+///
+/// so the lag costs no noise. The encoder corrects x, u and D by what lies outside its cell: the
+/// innovation has a dead zone of half a count, and x is kept within 3/4 count of the reading.
+/// Bandwidth w = sqrt(sqrt(12) force_noise / (M count)): the steady Kalman gain of force noise
+/// against a reading uniform within a count.
+class AxisObserver {
+ public:
+  AxisObserver(const ObserverParams& params, double mass_share = 1) EBAC_RT
+      : params_(params),
+        mass_(params.mass* mass_share),
+        force_lag_(apart(params.force_lag, params.current_lag)),
+        in_flight_(params.delay) {}
+
+  void start(double x) EBAC_RT {
+    x_ = x;
+    u_ = v_ = disturbance_ = motor_ = late_ = measured_ = before_last_ = steady_ = contradicted_ =
+        0;
+    in_flight_ = CommandsInFlight(params_.delay);
+    dt_ = 0;
+  }
+
+  /// The mass felt on this axis, as a share of that of the parameters (a gimbal's first axis).
+  void set_mass_share(double share) EBAC_RT { mass_ = params_.mass * share; }
+
+  /// Takes one tick: reading [m], force sensor [N], force that acted over the last interval [N].
+  void step(double reading, double measured, double applied, double dt) EBAC_RT {
+    if (dt != dt_) set_tick(dt);
+    const double f = motor_ - applied;  // transients of the motor's force and of G f
+    const double g = late_ - applied;
+    const double late = applied + f * cross_ * (motor_mean_ - late_mean_) + g * late_mean_;
+    late_ = applied + f * cross_ * (motor_keep_ - late_keep_) + g * late_keep_;
+    motor_ = applied + f * motor_keep_;
+    // The mean over the interval, of the parabola through the last three readings.
+    const double force = (5 * measured + 8 * measured_ - before_last_) / 12 + disturbance_;
+    steady_ = 0.5 * (measured + measured_);
+    before_last_ = measured_;
+    measured_ = measured;
+    const double a = (force - params_.damping * u_ - late) / mass_;
+    const double before = x_;
+    x_ += (u_ + (0.5 * dt + force_lag_) * a) * dt;
+    u_ += a * dt;
+    correct(reading, dt);
+    moved_ = x_ - before;
+    v_ = u_ + force_lag_ * acceleration(late_, u_);
+  }
+
+  /// The command of the last tick, as force at the handle, joins those in flight.
+  void give(double force) EBAC_RT { in_flight_.push(force); }
+
+  /// Where the device is when a command given now acts, in the middle of its interval: over every
+  /// command in flight, half a tick and the current lag, the hand's force held. It is the mean of two
+  /// readings: a force that alternates from tick to tick is no prediction.
+  void predict(double& x, double& v) const EBAC_RT {
+    x = x_;
+    v = v_;
+    double motor = motor_;
+    const auto advance = [&](double force, double time) EBAC_RT {
+      const double a = (steady_ + disturbance_ - params_.damping * v - force) / mass_;
+      x += (v + 0.5 * a * time) * time;
+      v += a * time;
+    };
+    for (int j = 0; j < in_flight_.size(); ++j) {
+      const double transient = motor - in_flight_[j];
+      advance(in_flight_[j] + transient * motor_mean_, dt_);
+      motor = in_flight_[j] + transient * motor_keep_;
+    }
+    advance(motor, 0.5 * dt_ + params_.current_lag);
+  }
+
+  double x() const EBAC_RT { return x_; }
+  double moved() const EBAC_RT { return moved_; }  // m, in the last interval
+  double v() const EBAC_RT { return v_; }
+  double disturbance() const EBAC_RT { return disturbance_; }
+
+  /// Share of the last 50 ms in which the reading was more than a count from where the model put it.
+  double contradicted() const EBAC_RT { return contradicted_; }
+
+ private:
+  static constexpr double kCell = 0.75;    // counts from the reading that x may have
+  static constexpr double kMemory = 0.05;  // s, of the contradictions
+
+  /// Lags so close that their partial fractions lose digits are taken apart.
+  static double apart(double lag, double other) EBAC_RT {
+    return std::abs(lag - other) < 1e-3 * other ? other * 1.001 : lag;
+  }
+
+  double acceleration(double late, double u) const EBAC_RT {
+    return (measured_ + disturbance_ - params_.damping * u - late) / mass_;
+  }
+
+  void correct(double reading, double dt) EBAC_RT {
+    const double half = params_.count / 2;
+    const double off = reading - x_;
+    const double sure = off - std::clamp(off, -half, half);
+    contradicted_ += ((std::abs(sure) > params_.count ? 1.0 : 0.0) - contradicted_) * forget_;
+    x_ += gain_x_ * sure;
+    u_ += gain_v_ * sure / dt;
+    disturbance_ += gain_d_ * sure * mass_ / (dt * dt);
+    x_ = std::clamp(x_, reading - kCell * params_.count, reading + kCell * params_.count);
+  }
+
+  void set_tick(double dt) EBAC_RT {
+    dt_ = dt;
+    const double w = std::sqrt(std::sqrt(12.0) * params_.force_noise / (mass_ * params_.count));
+    const double z = std::exp(-w * dt);
+    const double q = std::exp(-0.5 * w * dt);
+    gain_x_ = 1 - z * z * q;
+    gain_v_ = (1 - z) * (1 - z) + (1 - q) * (1 - z) * (1 + z);
+    gain_d_ = (1 - z) * (1 - z) * (1 - q);
+    const double lag = params_.current_lag;
+    motor_keep_ = lag > 0 ? std::exp(-dt / lag) : 0;
+    late_keep_ = force_lag_ > 0 ? std::exp(-dt / force_lag_) : 0;
+    motor_mean_ = lag / dt * (1 - motor_keep_);
+    late_mean_ = force_lag_ / dt * (1 - late_keep_);
+    cross_ = lag > 0 ? lag / (lag - force_lag_) : 0;
+    forget_ = dt / (kMemory + dt);
+  }
+
+  ObserverParams params_;
+  double mass_;       // kg
+  double force_lag_;  // s
+  CommandsInFlight in_flight_;
+  double x_ = 0;            // m
+  double moved_ = 0;        // m
+  double u_ = 0;            // m/s, the velocity behind the sensor's lag
+  double v_ = 0;            // m/s
+  double disturbance_ = 0;  // N
+  double motor_ = 0;        // N, behind the current loop
+  double late_ = 0;         // N, the same behind the sensor's lag
+  double measured_ = 0;     // N
+  double before_last_ = 0;  // N, the reading before
+  double steady_ = 0;       // N, mean of the last two
+  double contradicted_ = 0;
+  double dt_ = 0;  // s, argument of the last set_tick
+  double gain_x_ = 0, gain_v_ = 0, gain_d_ = 0;
+  double motor_keep_ = 0, late_keep_ = 0;  // of a transient, over one interval
+  double motor_mean_ = 0, late_mean_ = 0;  // of a transient, in the mean over one interval
+  double cross_ = 0;
+  double forget_ = 0;
+};
+
+/// What a run does with the observer.
+struct Observing {
+  bool on = false;    // estimates, in every row
+  bool acts = false;  // the world is met where the estimate says, and the law uses it
+  ObserverParams params{};
+};
+
+/// Whether a law is made for the observer.
+template <class Law>
+bool made_for_observer(const Law& law) {
+  if constexpr (requires { law.observed(); }) return law.observed();
+  return false;
+}
+
+}  // namespace ebac
