@@ -1,10 +1,10 @@
-#include "ebac/loop/observer.hpp"
 #include "ebac/model/device.hpp"
 
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 
 #include "bind.hpp"
+#include "ebac/loop/observer.hpp"
 #include "fields.hpp"
 
 namespace ebac::python {

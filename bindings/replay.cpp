@@ -1,6 +1,7 @@
 #include "replay.hpp"
 
 #include <pybind11/numpy.h>
+#include <pybind11/stl.h>
 
 #include "bind.hpp"
 #include "values.hpp"
@@ -89,6 +90,7 @@ void bind_replay(py::module_& m) {
            py::arg("counts"), py::arg("counts_age"), py::arg("current_applied"), py::arg("force"),
            py::arg("f_env"), py::arg("f_cmd"), py::arg("current"))
       .def("__len__", &ReplayLog::rows)
+      .def_readwrite("observer", &ReplayLog::observer, "Observer of the replay, or None.")
       .def_property_readonly(
           "axes", [](const ReplayLog& log) { return log.axes; }, "Number of axes.");
 }

@@ -11,7 +11,7 @@ import ebac
 from ebac import _core
 
 S: Any = ebac.Scenario
-has = "; it has: device, hand, environment, timing, seconds, jitter, seed"
+has = "; it has: device, hand, environment, timing, seconds, jitter, seed, observer"
 
 
 @pytest.mark.parametrize(
@@ -182,5 +182,5 @@ def test_a_law_that_does_not_exist_is_refused_with_the_nearest(name: str) -> Non
 
 def test_a_scenario_still_shows_its_signature() -> None:
     assert list(inspect.signature(ebac.Scenario).parameters) == [
-        *("device", "hand", "environment", "timing", "seconds", "jitter", "seed")
+        *("device", "hand", "environment", "timing", "seconds", "jitter", "seed", "observer")
     ]

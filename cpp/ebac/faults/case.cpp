@@ -122,11 +122,11 @@ Result run_case(InjectedFault injected, std::shared_ptr<Trace>* rows) {
   TestBench bench(setup, injected);
   const auto updates = std::make_unique<ParameterUpdates<FaultyLaw>>(law);
   const Limits limits = Limits::of(setup.device);
-  FaultyLoop loop(FaultyDevice(bench), FaultyClock(kDt, injected, law, *updates),
-                  FaultyLaw(law, injected),
-                  SignalChain(known, setup.environment, setup.observing(law)), setup.device.axes(),
-                  {.plan = {.soft_start = 0.02, .ramp_down = 0.02, .arm = true, .ticks = kRunTicks},
-                   .limiter = SafetyLimiter(limits, setup.device, kDt)});
+  FaultyLoop loop(
+      FaultyDevice(bench), FaultyClock(kDt, injected, law, *updates), FaultyLaw(law, injected),
+      SignalChain(known, setup.environment, observing(setup.observer, law)), setup.device.axes(),
+      {.plan = {.soft_start = 0.02, .ramp_down = 0.02, .arm = true, .ticks = kRunTicks},
+       .limiter = SafetyLimiter(limits, setup.device, kDt)});
   const std::shared_ptr<Trace> trace = loop.make_trace(kRows);
   loop.run(*trace, updates.get());
 

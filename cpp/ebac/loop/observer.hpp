@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "ebac/control/commands_in_flight.hpp"
 #include "ebac/control/lagged_force.hpp"
@@ -27,6 +28,7 @@ struct ObserverParams {
   double force_age = 3e-3;    // s
   int delay = 1;              // samples
   bool every_law = false;
+  double steady = 0.5;
 
   /// Of a device and the delay of its commands.
   static ObserverParams of(const DeviceModel& device, const Timing& timing) EBAC_RT {
@@ -57,6 +59,7 @@ struct ObserverParams {
           "an older force is not used: the estimate is faded out", 1e-5, 1},
         F{"delay", &ObserverParams::delay, "samples",
           "ticks from computing a command to its acting", 0, kMaxDelay},
+        F{"steady", &ObserverParams::steady, "1", "x", -2, 2},
         F{"every_law", &ObserverParams::every_law, "1",
           "laws that are not made for it meet the world at the estimate too", 0, 1},
     };
@@ -106,7 +109,7 @@ class AxisObserver {
     motor_ = applied + f * motor_keep_;
     // The mean over the interval, of the parabola through the last three readings.
     const double force = (5 * measured + 8 * measured_ - before_last_) / 12 + disturbance_;
-    steady_ = 0.5 * (measured + measured_);
+    steady_ = measured + params_.steady * (measured_ - measured);
     before_last_ = measured_;
     measured_ = measured;
     const double a = (force - params_.damping * u_ - late) / mass_;
@@ -225,6 +228,13 @@ template <class Law>
 bool made_for_observer(const Law& law) {
   if constexpr (requires { law.observed(); }) return law.observed();
   return false;
+}
+
+/// What a run under `law` does with an observer, if it has one.
+template <class Law>
+Observing observing(const std::optional<ObserverParams>& observer, const Law& law) {
+  if (!observer) return {};
+  return {.on = true, .acts = observer->every_law || made_for_observer(law), .params = *observer};
 }
 
 }  // namespace ebac

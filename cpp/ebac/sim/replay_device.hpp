@@ -4,11 +4,13 @@
 #include <array>
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include "ebac/core/concepts.hpp"
+#include "ebac/loop/observer.hpp"
 
 /// A recorded log as hardware: its counts, applied currents and forces drive a law open loop.
 /// Nothing the new law commands comes back: the hand and the device move as they did.
@@ -45,6 +47,7 @@ struct ReplayLog {
   std::vector<Instant> instant;
   std::vector<Fault> fault;  // of the device; kNone where a law or the world was at fault
   std::vector<ReplayAxis> axis;
+  std::optional<ObserverParams> observer{};
 
   std::size_t rows() const EBAC_RT { return instant.size(); }
 };

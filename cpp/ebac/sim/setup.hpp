@@ -23,13 +23,6 @@ struct Setup {
   std::uint64_t seed = 1;
   LoopOptions loop{};  // soft start and limits; none by default
   std::optional<ObserverParams> observer{};
-
-  /// What a run under `law` does with the observer.
-  template <class Law>
-  Observing observing(const Law& law) const {
-    if (!observer) return {};
-    return {.on = true, .acts = observer->every_law || made_for_observer(law), .params = *observer};
-  }
 };
 
 }  // namespace ebac

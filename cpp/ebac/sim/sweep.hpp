@@ -101,7 +101,7 @@ Outcome measure_run(const Setup& setup, const Scalar& scalar, const RunLimits& l
   const bool* clamped = clamped_of(law);
   SimulatedDevice device(setup);
   VirtualClock clock(setup.timing.dt, setup.jitter, setup.seed);
-  SignalChain chain(setup.device, setup.environment, setup.observing(law));
+  SignalChain chain(setup.device, setup.environment, observing(setup.observer, law));
   Sample sample{};
   sample.axes = setup.device.axes();
   Outcome outcome;

@@ -107,7 +107,7 @@ template <Device Plant, class Setup, AxesController Law>
 std::shared_ptr<Trace> simulate_through_can(const Setup& setup, Law law, std::size_t rows) {
   auto device = device_through_can<Plant>(setup);
   device.enable();
-  const SignalChain chain(setup.device, setup.environment, setup.observing(law));
+  const SignalChain chain(setup.device, setup.environment, observing(setup.observer, law));
   Loop loop(std::move(device), VirtualClock(setup.timing.dt, setup.jitter, setup.seed),
             std::move(law), chain, setup.device.axes(), setup.loop);
   auto trace = loop.make_trace(rows);

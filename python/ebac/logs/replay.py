@@ -83,6 +83,7 @@ def replay(
         )
     _check(recorded)
     source = _source(recorded)
+    source.observer = scenario.designed_observer()
     finished = design(law, scenario.device, scenario.known_timing, **changes)
     if isinstance(finished, CoreLaw):
         rows = finished._replay(source, scenario.device, scenario.environment)

@@ -1,0 +1,188 @@
+#include "ebac/loop/observer.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <random>
+#include <stdexcept>
+
+#include "designed_law.hpp"
+#include "ebac/control/ebac.hpp"
+#include "ebac/control/observed_work.hpp"
+#include "ebac/sim/any_law.hpp"
+
+namespace ebac {
+namespace {
+
+/// The reference hand against the reference wall, under EBAC with the observer.
+Setup observed(double seconds = 2) {
+  ebac::Setup setup{.seconds = seconds};
+  setup.device.sensor.noise = 0.03;
+  setup.observer = ObserverParams::of(setup.device, setup.timing);
+  return setup;
+}
+
+struct Errors {
+  double x = 0;         // m, largest
+  double v = 0;         // m/s, root mean square
+  double reading = 0;   // counts, largest distance from the reading
+  double ahead = 0;     // m, root mean square, of the predicted position when its command acts
+  double at_count = 0;  // m, the same of the reading
+};
+
+/// Errors of the estimate under EBAC; what the loop believes may differ from the device.
+Errors errors(const ebac::Setup& setup) {
+  const auto trace = simulate_any(setup, designed_law("ebac", setup));
+  const double count = setup.device.count();
+  const auto truth = [&](std::size_t row, const char* name) {
+    for (const Column& column : trace->columns()) {
+      if (column.name != name) continue;
+      double value = 0;
+      std::memcpy(&value, trace->data() + row * trace->row_bytes() + column.offset, sizeof value);
+      return value;
+    }
+    throw std::invalid_argument(name);
+  };
+  Errors e;
+  const auto rows = trace->size() - 4;
+  for (std::size_t i = 1; i < rows; ++i) {
+    const Port port = trace->sample(i).axis[0].port;
+    e.x = std::max(e.x, std::abs(port.est.x - truth(i, "true.x")));
+    e.v += std::pow(port.est.v - truth(i, "true.v"), 2);
+    e.reading = std::max(e.reading, std::abs(port.est.x - port.x) / count);
+    const auto at = i + static_cast<std::size_t>(setup.timing.delay);  // to the middle of a tick
+    const double then = 0.5 * (truth(at, "true.x") + truth(at + 1, "true.x"));
+    e.ahead += std::pow(port.est.x_act - then, 2);
+    e.at_count += std::pow(port.x - then, 2);
+  }
+  for (double* mean : {&e.v, &e.ahead, &e.at_count})
+    *mean = std::sqrt(*mean / static_cast<double>(rows));
+  return e;
+}
+
+TEST(Observer, KnowsThePositionWithinACountAndTheVelocityWithoutItsNoise) {
+  const ebac::Setup setup = observed();
+  const Errors e = errors(setup);
+  const double count = setup.device.count();
+  EXPECT_LE(e.reading, 0.75 + 1e-9);
+  EXPECT_LT(e.x, 1.25 * count);                   // half a count of it is the encoder's phase
+  EXPECT_LT(e.v, 0.1 * count / setup.timing.dt);  // one count of velocity is 31 mm/s
+}
+
+TEST(Observer, PredictsWhereTheCommandActs) {
+  for (const int delay : {0, 1, 2}) {
+    ebac::Setup setup = observed(0.3);  // the impact: later, nothing moves
+    setup.timing.delay = delay;
+    setup.observer = ObserverParams::of(setup.device, setup.timing);
+    const Errors e = errors(setup);
+    EXPECT_LT(e.ahead, 0.25 * e.at_count) << delay << " samples of delay";
+  }
+}
+
+/// A sensor of 3 ms: its lag costs a filter of the same form on what is known, and no noise.
+TEST(Observer, SeesThroughTheLagOfTheSensor) {
+  ebac::Setup slow = observed();
+  slow.device.sensor.lag = 3e-3;
+  slow.observer = ObserverParams::of(slow.device, slow.timing);
+  ebac::Setup unaware = slow;
+  unaware.observer->force_lag = 0;
+  EXPECT_LT(errors(slow).v, 0.2 * slow.device.count() / slow.timing.dt);
+  EXPECT_LT(errors(slow).v, 0.5 * errors(unaware).v);
+}
+
+/// Weight and bias of the sensor go to the disturbance.
+TEST(Observer, FindsAConstantForceItIsNotTold) {
+  ebac::Setup setup = observed(1);
+  setup.device.mechanics.gravity = 2;  // m/s^2 on 0.25 kg
+  const auto trace = simulate_any(setup, designed_law("ebac", setup));
+  EXPECT_NEAR(trace->sample(900).axis[0].port.est.disturbance, 0.5, 0.1);
+}
+
+/// With the true position, the count never exceeds the true work by more than what half a count of
+/// the present force can hide.
+TEST(ObservedWork, NeverCountsMoreThanTheTruth) {
+  constexpr double kCount = 3e-5;
+  std::mt19937 random(7);
+  std::normal_distribution<double> normal;
+  for (int run = 0; run < 50; ++run) {
+    ObservedWork work(kCount);
+    Port port{.dt = 1e-3};
+    const double slope = std::pow(10, 3 + 1.5 * std::abs(normal(random)));
+    const double pace = std::pow(10, -2 + normal(random));  // counts in a tick
+    double x = 0, force = 0, truth = 0, counted = 0;
+    work.start(port);
+    for (int k = 0; k < 5000; ++k) {
+      force += 0.1 * normal(random) - 0.02 * force;
+      const double dx = pace * kCount * normal(random);
+      x += dx;
+      truth += force * dx;
+      const double reading = kCount * std::round(x / kCount);
+      port.dx = reading - port.x;
+      port.x = reading;
+      port.est.x = x;
+      port.f_applied = force;
+      counted += work.step(force, port, slope, /*b=*/0);
+      ASSERT_LE(counted, truth + kCount / 2 * std::abs(force) + 1e-12) << "run " << run;
+    }
+  }
+}
+
+/// A force that rests costs nothing, however long and whatever the reading does.
+TEST(ObservedWork, ChargesNothingForAForceThatRests) {
+  constexpr double kCount = 3e-5;
+  ObservedWork work(kCount);
+  Port port{.dt = 1e-3, .f_applied = 10};
+  work.start(port);
+  double counted = work.step(10, port, 10e3, 0);
+  const double start = counted;
+  for (int k = 0; k < 10'000; ++k) {
+    port.dx = k % 2 == 0 ? kCount : -kCount;
+    port.x += port.dx;
+    port.est.x = kCount / 2;  // an edge
+    counted += work.step(10 + 0.02 * (k % 3), port, 10e3, 0);
+  }
+  EXPECT_NEAR(counted, start, 1e-4);
+}
+
+Ebac designed() {
+  const ebac::Setup setup{};
+  return Ebac(EbacParams::design(setup.device.facts(), setup.timing), setup.timing);
+}
+
+Port pressed(double weight, int tick) {
+  Port port{.x = 1e-3, .dt = 1e-3, .f_env = 10, .f_applied = 10, .f_meas = 10};
+  port.est = {.x = 1e-3, .x_act = 1e-3, .weight = weight};
+  if (tick == 0) port.dt = 0;
+  return port;
+}
+
+/// The observer goes during a contact, and comes back: no step of the force.
+TEST(Ebac, FadesToTheEncoderAndBackWithoutAJump) {
+  Ebac law = designed();
+  double before = 0;
+  for (int k = 0; k < 1000; ++k) {
+    const double off = std::clamp((k - 400) / 20.0, 0.0, 1.0);
+    const double on = std::clamp((k - 700) / 20.0, 0.0, 1.0);
+    const double force = law.step(pressed(1 - off + on, k));
+    if (k > 400) ASSERT_NEAR(force, before, 0.3) << "tick " << k;
+    before = force;
+  }
+  EXPECT_NEAR(before, 10, 0.1);
+}
+
+/// The reserve is lent once: an observer that comes and goes lends no more each time.
+TEST(Ebac, LendsItsReserveOnce) {
+  Ebac law = designed();
+  double most = 0;
+  for (int k = 0; k < 2000; ++k) {
+    Port port = pressed(k / 50 % 2, k);
+    port.f_env = port.f_applied = port.f_meas = 0;
+    law.step(port);
+    most = std::max(most, law.state().energy);
+  }
+  EXPECT_LE(most, law.params().reserve + 1e-12);
+}
+
+}  // namespace
+}  // namespace ebac

@@ -1,0 +1,204 @@
+"""The observer: what a run shows with it, how it is chosen, and what happens where it fails."""
+
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import ebac
+from ebac.laws import design
+
+NOISY = ebac.Device(sensor=ebac.ForceSensor(noise=0.03))
+TWO = NOISY.replace(kinematics=ebac.Linear(axes=2))
+OBSERVED = ebac.Scenario(device=NOISY, observer=True)
+
+
+def settled_from(values: np.ndarray, times: np.ndarray, band: float) -> float:
+    """From when on values stay within a band of their mean over the last 30 % [s]."""
+    rest = values[int(0.7 * len(values)) :].mean()
+    outside = np.nonzero(np.abs(values - rest) > max(band, 0.05 * abs(rest)))[0]
+    return float(times[outside[-1] + 1]) if len(outside) else 0.0
+
+
+# --- what it is for ---
+
+
+@pytest.mark.parametrize("seed", [1, 2, 3])
+def test_position_and_force_settle_at_once_and_stay(seed: int) -> None:
+    trace = ebac.simulate(OBSERVED.replace(seed=seed), "ebac")
+    contact = ebac.contact(trace)
+    force, t = trace["f_applied"], trace["t"]
+    assert contact.settled_s < 0.05
+    assert settled_from(force, t, 0.2) < 0.05
+    after = force[t > 0.1]
+    assert np.ptp(after) < 0.6
+    assert np.abs(np.diff(after)).max() < 0.25
+    assert contact.least_energy_J == 0
+    assert contact.peak_m < 1.6e-3
+    assert contact.rest_m == pytest.approx(ebac.ideal_rest(OBSERVED), abs=2 * NOISY.count)
+
+
+def test_on_the_encoder_alone_the_same_force_clicks() -> None:
+    """What the observer is for; with it off, the law is the one without."""
+    trace = ebac.simulate(OBSERVED.replace(observer=False), "ebac")
+    force = trace["f_applied"][trace["t"] > 0.5]
+    assert np.abs(np.diff(force)).max() > 0.5
+
+
+@pytest.mark.parametrize(
+    "condition", ["d0K20", "d2K20", "slow-press-d2K20", "slow-let-go-d2", "told-mass+50"]
+)
+def test_conditions_that_are_hard_on_the_encoder_alone_are_good(condition: str) -> None:
+    found = ebac.study(ebac.Operators.grid()[::6], ["ebac"], [condition], base=OBSERVED)
+    row = found.rows[0]
+    assert row.least_energy_J > -1e-4
+    if row.good is not None:
+        assert row.good == row.hands
+
+
+@pytest.mark.parametrize("stiffness", [20e3, 35e3])
+def test_the_prediction_is_what_makes_a_late_stiff_wall_rest(stiffness: float) -> None:
+    late = OBSERVED.replace(
+        timing=ebac.Timing(delay=2), environment=ebac.Wall(stiffness=stiffness), seconds=3.0
+    )
+    assert ebac.contact(ebac.simulate(late, "ebac")).quiet
+    assert ebac.contact(ebac.simulate(late, "tca-damped")).most_drawn_J > 1e-3
+
+
+@pytest.mark.parametrize(
+    "kinematics", [ebac.Linear(axes=2), ebac.Gimbal()], ids=["linear", "gimbal"]
+)
+@pytest.mark.parametrize("angle", [0.0, 0.6])
+def test_several_axes_rest_as_quietly(kinematics: Any, angle: float) -> None:
+    scenario = ebac.Scenario(
+        device=NOISY.replace(kinematics=kinematics),
+        hand=ebac.Hand(target=(0.03, 0.01)),
+        environment=ebac.Wall(position=0.005, angle=angle),
+        observer=True,
+        seconds=2.0,
+    )
+    trace = ebac.simulate(scenario, "ebac")
+    late = trace["t"] > 0.5
+    force = trace["f_applied"][late]
+    assert np.ptp(force, axis=0).max() < 0.8
+    normal = np.array([np.cos(angle), np.sin(angle)])
+    mean = force.mean(axis=0)
+    assert mean @ normal / np.linalg.norm(mean) > np.cos(np.radians(2))
+
+
+# --- choosing it ---
+
+
+def test_the_estimate_is_in_every_row() -> None:
+    trace = ebac.simulate(OBSERVED.replace(seconds=0.5), "ebac")
+    assert np.abs(trace["est.x"] - trace["x"]).max() <= 0.75 * NOISY.count + 1e-12
+    assert (trace["est.bound"] >= NOISY.count / 2).all()
+    assert (trace["est.weight"] == 1).all()
+    assert (trace["est.fallback"] == 0).all()
+
+
+def test_a_law_not_made_for_it_runs_as_without_and_is_estimated_all_the_same() -> None:
+    short = OBSERVED.replace(seconds=0.5)
+    with_it, without = (ebac.simulate(s, "tca") for s in (short, short.replace(observer=False)))
+    for name in ("x", "f_env", "f_cmd", "true.x"):
+        np.testing.assert_array_equal(with_it[name], without[name])
+    assert (with_it["est.weight"] == 0).all()
+    assert np.abs(with_it["est.x"] - with_it["x"]).max() > 0
+    assert (without["est.x"] == 0).all()
+
+
+def test_every_law_may_use_it() -> None:
+    observer = ebac.Observer.of(NOISY, ebac.Timing()).replace(every_law=True)
+    trace = ebac.simulate(OBSERVED.replace(observer=observer), "tca-damped")
+    plain = ebac.simulate(OBSERVED, "tca-damped")
+    assert (trace["est.weight"] == 1).all()
+    late = trace["t"] > 0.5
+    assert np.ptp(trace["f_applied"][late]) < 0.3 * np.ptp(plain["f_applied"][late])
+
+
+def test_it_is_designed_from_device_and_timing() -> None:
+    timing = ebac.Timing(delay=2)
+    observer = ebac.Observer.of(NOISY, timing)
+    assert observer.mass == NOISY.mass
+    assert observer.count == NOISY.count
+    assert observer.delay == 2
+    assert OBSERVED.replace(timing=timing).designed_observer() == observer
+    assert ebac.Scenario().designed_observer() is None
+
+
+@pytest.mark.parametrize(
+    "observer", [True, False, ebac.Observer(mass=0.3)], ids=["on", "off", "own"]
+)
+def test_toml_keeps_it(observer: Any) -> None:
+    scenario = ebac.Scenario(observer=observer)
+    assert ebac.Scenario.from_toml(scenario.to_toml()) == scenario
+
+
+def test_it_is_bool_or_observer() -> None:
+    with pytest.raises(TypeError, match="observer = 1: must be Observer or bool"):
+        ebac.Scenario(observer=1)  # type: ignore[arg-type]
+    with pytest.raises(ValueError, match=r"mass = -1 kg: must lie in"):
+        ebac.Observer(mass=-1)
+
+
+# --- where it fails ---
+
+
+def test_a_saturated_sensor_fades_it_out_and_the_wall_still_holds() -> None:
+    """The sensor shows at most 5 N of 12: the law goes back to the encoder, and says why."""
+    device = NOISY.replace(sensor=ebac.ForceSensor(noise=0.03, range=5.0))
+    trace = ebac.simulate(ebac.Scenario(device=device, observer=True), "ebac")
+    pressed = trace["t"] > 0.5
+    assert (trace["est.fallback"][pressed] == 3).all()
+    assert (trace["est.weight"][pressed] == 0).all()
+    steps = np.diff(trace["est.weight"])
+    assert np.abs(steps).max() < 0.051  # 20 ms
+    contact = ebac.contact(trace)
+    assert contact.swing_m < 0.25e-3
+    assert contact.least_energy_J > -1e-3
+    assert contact.rest_m == pytest.approx(ebac.ideal_rest(OBSERVED), abs=4 * NOISY.count)
+
+
+@given(
+    mass=st.floats(0.5, 1.5), damping=st.floats(0, 2), noise=st.floats(0, 0.1), lag=st.floats(0, 1.5e-3),
+    seed=st.integers(0, 1000), delay=st.integers(0, 2),
+)  # fmt: skip
+@settings(max_examples=15, deadline=None)
+def test_wrong_facts_keep_the_wall_quiet_and_the_port_passive(
+    mass: float, damping: float, noise: float, lag: float, seed: int, delay: int
+) -> None:
+    """Facts of device and sensor off by a half: it still rests, and gives out no more than its reserve."""
+    device = ebac.Device(sensor=ebac.ForceSensor(noise=noise, lag=lag))
+    timing = ebac.Timing(delay=delay)
+    told = ebac.Observer.of(ebac.Device(), timing)
+    observer = told.replace(mass=mass * told.mass, damping=damping * told.damping)
+    scenario = ebac.Scenario(
+        device=device, timing=timing, observer=observer, seed=seed, seconds=2.0
+    )
+    contact = ebac.contact(ebac.simulate(scenario, "ebac"))
+    assert contact.swing_m < 0.25e-3
+    assert contact.least_energy_J >= -2e-3
+
+
+@given(
+    k=st.floats(2e3, 35e3), m=st.floats(0.03, 1.5), b=st.floats(1, 25), stiffness=st.floats(50, 1200),
+    pull=st.floats(1, 35), delay=st.integers(0, 2), gone=st.floats(0.02, 0.3),
+)  # fmt: skip
+@settings(max_examples=25, deadline=None)
+def test_a_hand_that_lets_go_takes_no_more_than_the_reserve(
+    k: float, m: float, b: float, stiffness: float, pull: float, delay: int, gone: float
+) -> None:
+    hand = ebac.Hand(
+        mass=m, damping=b, stiffness=stiffness, target=pull / stiffness, release_at=gone
+    )
+    scenario = OBSERVED.replace(
+        hand=hand,
+        environment=ebac.Wall(stiffness=k),
+        timing=ebac.Timing(delay=delay),
+        seconds=gone + 0.4,
+    )
+    law = design("ebac", scenario.device, scenario.timing)
+    contact = ebac.contact(ebac.simulate(scenario, law))
+    assert contact.least_energy_J >= -law.observed_reserve
