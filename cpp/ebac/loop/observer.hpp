@@ -28,7 +28,6 @@ struct ObserverParams {
   double force_age = 3e-3;    // s
   int delay = 1;              // samples
   bool every_law = false;
-  double steady = 0.5;
 
   /// Of a device and the delay of its commands.
   static ObserverParams of(const DeviceModel& device, const Timing& timing) EBAC_RT {
@@ -59,7 +58,6 @@ struct ObserverParams {
           "an older force is not used: the estimate is faded out", 1e-5, 1},
         F{"delay", &ObserverParams::delay, "samples",
           "ticks from computing a command to its acting", 0, kMaxDelay},
-        F{"steady", &ObserverParams::steady, "1", "x", -2, 2},
         F{"every_law", &ObserverParams::every_law, "1",
           "laws that are not made for it meet the world at the estimate too", 0, 1},
     };
@@ -90,8 +88,7 @@ class AxisObserver {
 
   void start(double x) EBAC_RT {
     x_ = x;
-    u_ = v_ = disturbance_ = motor_ = late_ = measured_ = before_last_ = steady_ = contradicted_ =
-        0;
+    u_ = v_ = disturbance_ = motor_ = late_ = measured_ = before_last_ = contradicted_ = 0;
     in_flight_ = CommandsInFlight(params_.delay);
     dt_ = 0;
   }
@@ -109,7 +106,6 @@ class AxisObserver {
     motor_ = applied + f * motor_keep_;
     // The mean over the interval, of the parabola through the last three readings.
     const double force = (5 * measured + 8 * measured_ - before_last_) / 12 + disturbance_;
-    steady_ = measured + params_.steady * (measured_ - measured);
     before_last_ = measured_;
     measured_ = measured;
     const double a = (force - params_.damping * u_ - late) / mass_;
@@ -125,14 +121,13 @@ class AxisObserver {
   void give(double force) EBAC_RT { in_flight_.push(force); }
 
   /// Where the device is when a command given now acts, in the middle of its interval: over every
-  /// command in flight, half a tick and the current lag, the hand's force held. It is the mean of two
-  /// readings: a force that alternates from tick to tick is no prediction.
+  /// command in flight, half a tick and the current lag, the hand's force held.
   void predict(double& x, double& v) const EBAC_RT {
     x = x_;
     v = v_;
     double motor = motor_;
     const auto advance = [&](double force, double time) EBAC_RT {
-      const double a = (steady_ + disturbance_ - params_.damping * v - force) / mass_;
+      const double a = (measured_ + disturbance_ - params_.damping * v - force) / mass_;
       x += (v + 0.5 * a * time) * time;
       v += a * time;
     };
@@ -206,7 +201,6 @@ class AxisObserver {
   double late_ = 0;         // N, the same behind the sensor's lag
   double measured_ = 0;     // N
   double before_last_ = 0;  // N, the reading before
-  double steady_ = 0;       // N, mean of the last two
   double contradicted_ = 0;
   double dt_ = 0;  // s, argument of the last set_tick
   double gain_x_ = 0, gain_v_ = 0, gain_d_ = 0;
