@@ -2673,6 +2673,14 @@ class ReplayLog:
     ) -> None: ...
     def __len__(self) -> int: ...
     @property
+    def observer(self) -> Observer | None:
+        """
+        Observer of the replay, or None.
+        """
+
+    @observer.setter
+    def observer(self, arg0: Observer | None) -> None: ...
+    @property
     def axes(self) -> int:
         """
         Number of axes.

@@ -23,41 +23,51 @@ Setup observed(double seconds = 2) {
   return setup;
 }
 
-struct Errors {
-  double x = 0;         // m, largest
-  double v = 0;         // m/s, root mean square
-  double reading = 0;   // counts, largest distance from the reading
-  double ahead = 0;     // m, root mean square, of the predicted position when its command acts
-  double at_count = 0;  // m, the same of the reading
+/// Deviation of errors that all have the offset of the encoder's zero within its first count.
+class Deviation {
+ public:
+  void add(double error) {
+    ++n_;
+    sum_ += error;
+    squares_ += error * error;
+  }
+  double value() const { return std::sqrt(squares_ / n_ - sum_ * sum_ / (n_ * n_)); }
+
+ private:
+  double n_ = 0, sum_ = 0, squares_ = 0;
 };
 
-/// Errors of the estimate under EBAC; what the loop believes may differ from the device.
+struct Errors {
+  double reading = 0;     // counts, largest distance of the estimate from the reading
+  Deviation x, v;         // m, m/s
+  Deviation ahead;        // m, of the position predicted for when its command acts
+  Deviation unpredicted;  // m, the same of the reading
+};
+
+double value_in(const Trace& trace, std::size_t row, const char* name) {
+  for (const Column& column : trace.columns()) {
+    if (column.name != name) continue;
+    double value = 0;
+    std::memcpy(&value, trace.data() + row * trace.row_bytes() + column.offset, sizeof value);
+    return value;
+  }
+  throw std::invalid_argument(name);
+}
+
 Errors errors(const ebac::Setup& setup) {
   const auto trace = simulate_any(setup, designed_law("ebac", setup));
-  const double count = setup.device.count();
-  const auto truth = [&](std::size_t row, const char* name) {
-    for (const Column& column : trace->columns()) {
-      if (column.name != name) continue;
-      double value = 0;
-      std::memcpy(&value, trace->data() + row * trace->row_bytes() + column.offset, sizeof value);
-      return value;
-    }
-    throw std::invalid_argument(name);
-  };
+  const auto truth = [&](std::size_t row) { return value_in(*trace, row, "true.x"); };
   Errors e;
-  const auto rows = trace->size() - 4;
-  for (std::size_t i = 1; i < rows; ++i) {
+  for (std::size_t i = 1; i + 4 < trace->size(); ++i) {
     const Port port = trace->sample(i).axis[0].port;
-    e.x = std::max(e.x, std::abs(port.est.x - truth(i, "true.x")));
-    e.v += std::pow(port.est.v - truth(i, "true.v"), 2);
-    e.reading = std::max(e.reading, std::abs(port.est.x - port.x) / count);
+    e.reading = std::max(e.reading, std::abs(port.est.x - port.x) / setup.device.count());
+    e.x.add(port.est.x - truth(i));
+    e.v.add(port.est.v - value_in(*trace, i, "true.v"));
     const auto at = i + static_cast<std::size_t>(setup.timing.delay);  // to the middle of a tick
-    const double then = 0.5 * (truth(at, "true.x") + truth(at + 1, "true.x"));
-    e.ahead += std::pow(port.est.x_act - then, 2);
-    e.at_count += std::pow(port.x - then, 2);
+    const double then = 0.5 * (truth(at) + truth(at + 1));
+    e.ahead.add(port.est.x_act - then);
+    e.unpredicted.add(port.x - then);
   }
-  for (double* mean : {&e.v, &e.ahead, &e.at_count})
-    *mean = std::sqrt(*mean / static_cast<double>(rows));
   return e;
 }
 
@@ -66,17 +76,17 @@ TEST(Observer, KnowsThePositionWithinACountAndTheVelocityWithoutItsNoise) {
   const Errors e = errors(setup);
   const double count = setup.device.count();
   EXPECT_LE(e.reading, 0.75 + 1e-9);
-  EXPECT_LT(e.x, 1.25 * count);                   // half a count of it is the encoder's phase
-  EXPECT_LT(e.v, 0.1 * count / setup.timing.dt);  // one count of velocity is 31 mm/s
+  EXPECT_LT(e.x.value(), 0.5 * count);
+  EXPECT_LT(e.v.value(), 0.1 * count / setup.timing.dt);  // one count of velocity is 31 mm/s
 }
 
 TEST(Observer, PredictsWhereTheCommandActs) {
-  for (const int delay : {0, 1, 2}) {
+  for (const int delay : {1, 2}) {
     ebac::Setup setup = observed(0.3);  // the impact: later, nothing moves
     setup.timing.delay = delay;
     setup.observer = ObserverParams::of(setup.device, setup.timing);
     const Errors e = errors(setup);
-    EXPECT_LT(e.ahead, 0.25 * e.at_count) << delay << " samples of delay";
+    EXPECT_LT(e.ahead.value(), 0.4 * e.unpredicted.value()) << delay << " samples of delay";
   }
 }
 
@@ -87,16 +97,17 @@ TEST(Observer, SeesThroughTheLagOfTheSensor) {
   slow.observer = ObserverParams::of(slow.device, slow.timing);
   ebac::Setup unaware = slow;
   unaware.observer->force_lag = 0;
-  EXPECT_LT(errors(slow).v, 0.2 * slow.device.count() / slow.timing.dt);
-  EXPECT_LT(errors(slow).v, 0.5 * errors(unaware).v);
+  EXPECT_LT(errors(slow).v.value(), 0.2 * slow.device.count() / slow.timing.dt);
+  EXPECT_LT(errors(slow).v.value(), 0.5 * errors(unaware).v.value());
 }
 
 /// Weight and bias of the sensor go to the disturbance.
 TEST(Observer, FindsAConstantForceItIsNotTold) {
   ebac::Setup setup = observed(1);
-  setup.device.mechanics.gravity = 2;  // m/s^2 on 0.25 kg
+  setup.device.mechanics.gravity = 2;  // m/s^2
   const auto trace = simulate_any(setup, designed_law("ebac", setup));
-  EXPECT_NEAR(trace->sample(900).axis[0].port.est.disturbance, 0.5, 0.1);
+  const double weight = 2 * setup.device.mechanics.handle_mass;  // the rotor is balanced
+  EXPECT_NEAR(trace->sample(900).axis[0].port.est.disturbance, weight, 0.1 * weight);
 }
 
 /// With the true position, the count never exceeds the true work by more than what half a count of
@@ -165,7 +176,9 @@ TEST(Ebac, FadesToTheEncoderAndBackWithoutAJump) {
     const double off = std::clamp((k - 400) / 20.0, 0.0, 1.0);
     const double on = std::clamp((k - 700) / 20.0, 0.0, 1.0);
     const double force = law.step(pressed(1 - off + on, k));
-    if (k > 400) ASSERT_NEAR(force, before, 0.3) << "tick " << k;
+    if (k > 400) {
+      ASSERT_NEAR(force, before, 0.3) << "tick " << k;
+    }
     before = force;
   }
   EXPECT_NEAR(before, 10, 0.1);

@@ -143,6 +143,19 @@ def test_it_is_bool_or_observer() -> None:
         ebac.Observer(mass=-1)
 
 
+def test_a_replay_gives_the_commands_of_its_run() -> None:
+    trace = ebac.simulate(OBSERVED.replace(seconds=0.5), "ebac")
+    again = ebac.replay(trace, "ebac")
+    for name in ("f_env", "f_cmd", "est.x", "est.v_act"):
+        np.testing.assert_array_equal(again[name], trace[name])
+
+
+def test_a_search_counts_with_the_reserve_of_the_observer() -> None:
+    found = ebac.worst("ebac", base=OBSERVED, family=["impact"], evaluations=40)
+    assert found.reserve == found.made.observed_reserve
+    assert ebac.worst("ebac", family=["impact"], evaluations=40).reserve == found.made.reserve
+
+
 # --- where it fails ---
 
 

@@ -19,7 +19,7 @@ struct LawType {
   std::string_view summary;
   bool passive = false;
   bool observed = false;  // whether it is made for the observer's estimate
-  bool tunable = false;  // whether its gains may change while it runs
+  bool tunable = false;   // whether its gains may change while it runs
   FieldTable params;
   FieldTable state;
   void (*design)(void* params, const DeviceFacts& facts, const Timing& timing) = nullptr;

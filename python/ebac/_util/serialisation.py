@@ -33,6 +33,9 @@ CHOICES: dict[str, tuple[type, ...]] = {
     "second": (_core.Wall,),
 }
 
+#: Plain values that a part of that name may have instead: an observer on or off, the name of a sensor's model.
+PLAIN: dict[str, type] = {"observer": bool, "model": str}
+
 
 def to_document(value: Any) -> Any:
     """Return a value of the core as nested plain tables, lists and numbers."""
@@ -53,7 +56,7 @@ def from_document(name: str, item: Any, where: str) -> Any:
     ValueError
         For an unknown name or type or a number out of range; the message names the place.
     """
-    if name not in CHOICES or (name == "observer" and isinstance(item, bool)):
+    if name not in CHOICES or isinstance(item, PLAIN.get(name, ())):
         return item
     if isinstance(item, list):
         return tuple(from_document(name, one, f"{where}[{i}]") for i, one in enumerate(item))

@@ -130,11 +130,11 @@ def observer_of(s: Scenario, facts: DeviceFacts, timing: Timing) -> Scenario:
     designed = s.designed_observer()
     if designed is None or (facts, timing) == truth(s):
         return s
-    told = designed.replace(
+    believed = designed.replace(
         mass=facts.mass, damping=max(0.0, facts.damping), count=facts.count,
         current_lag=facts.current_lag, delay=timing.delay,
     )  # fmt: skip
-    return s.replace(observer=told)
+    return s.replace(observer=believed)
 
 
 def truth(s: Scenario) -> tuple[DeviceFacts, Timing]:

@@ -150,7 +150,9 @@ def worst(
     where = _condition(condition, base or Scenario())
     scenario = where.made(where.change(base or Scenario()))
     made = design(law, *where.believed(scenario))
-    declared, reserve = (getattr(made, name, None) for name in ("pull", "reserve"))
+    observed = scenario.observer and hasattr(made, "observed_reserve")
+    declared = getattr(made, "pull", None)
+    reserve = getattr(made, "observed_reserve" if observed else "reserve", None)
     most = pull if pull is not None else declared or PULL
     _check(evaluations=(evaluations, 40, 10**7), seed=(seed, 0, 2**31 - 1), pull=(most, 1e-3, 1e3))
     wanted = [find_family(n, most) for n in dict.fromkeys(family or families(most))]
