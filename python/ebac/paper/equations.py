@@ -71,7 +71,7 @@ def eq3() -> Finding:
             ("eba-account", 0.0),
             ("ebac", reserve),
             ("ebac-printed", reserve),
-        )  # fmt: skip
+        )
     )
     return Finding(
         name="eq3",
