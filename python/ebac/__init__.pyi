@@ -282,6 +282,15 @@ from ebac.studies import (
     Study as Study,
 )
 from ebac.studies import (
+    Tuned as Tuned,
+)
+from ebac.studies import (
+    TunedRow as TunedRow,
+)
+from ebac.studies import (
+    TuningInterrupted as TuningInterrupted,
+)
+from ebac.studies import (
     Worst as Worst,
 )
 from ebac.studies import (
@@ -289,6 +298,9 @@ from ebac.studies import (
 )
 from ebac.studies import (
     study as study,
+)
+from ebac.studies import (
+    tune as tune,
 )
 from ebac.studies import (
     worst as worst,
