@@ -166,7 +166,7 @@ LAWS = """
         passive = True
 
         def __init__(self, facts, timing, share):
-            self.inner, self.share = ebac.EBA.design(facts, timing), share
+            self.inner, self.share = ebac.EBAAccount.design(facts, timing), share
 
         @classmethod
         def design(cls, facts, timing):
