@@ -31,9 +31,8 @@ class ObservedForce {
     return force;
   }
 
-  double damping() const EBAC_RT { return show_.damping; }  // N s/m
-  double injected() const EBAC_RT { return injected_; }     // N
-  double slope() const EBAC_RT { return slope_; }           // N/m, 0 out of contact
+  double injected() const EBAC_RT { return injected_; }  // N
+  double slope() const EBAC_RT { return slope_; }        // N/m, 0 out of contact
 
   /// Stiffness at which the last contact can have stored energy [N/m].
   double stored_at() const EBAC_RT { return stored_at_; }

@@ -17,11 +17,12 @@ namespace ebac {
 ///   F = F_r + n,  F_r = play of half-width max(0.3 N, 3/4 slope count) on F, zero without force
 ///
 /// F_r rests with the hand, is counted with whole readings and charged half a count for every
-/// change: proven. n is counted with the observer's position, kept within half a count of the
-/// reading, and charged half a count for what its change in a tick exceeds 0.05 N: motion faster
-/// than the observer follows. This part is declared, not proven: it takes mass, lags and sensor to
-/// be as told, and a motion below 20 Hz within one count is not seen. Such a motion can draw at most
-/// 2 |n| count a cycle; searches find less, see docs/explanation/observer.md.
+/// change: proven for the sum of mean force times displacement, up to half a count of the present
+/// force. n is counted with the observer's position, kept within half a count of the reading, and
+/// charged half a count for what its change in a tick exceeds 0.05 N: motion faster than the
+/// observer follows. This part is declared, not proven: it takes mass, lags and sensor to be as
+/// given, and a motion below 20 Hz within one count is not seen. Such a motion can draw at most
+/// 2 |n| count a cycle, again in every cycle; docs/explanation/observer.md has what searches find.
 class ObservedWork {
  public:
   explicit ObservedWork(double count) EBAC_RT : half_(count / 2) {}
@@ -48,7 +49,7 @@ class ObservedWork {
   }
 
  private:
-  // Chosen on the training hands of `ebac study`, judged by `ebac worst` and other hands.
+  // The first two from a study before this law; kSlow from searches of `ebac worst` at d1K10.
   static constexpr double kPlay = 0.3;    // N
   static constexpr double kCell = 0.75;   // counts by which the force of a held wall wanders
   static constexpr double kSlow = 0.05;   // N, a change in a tick that sensor noise can cause

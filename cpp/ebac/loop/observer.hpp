@@ -6,7 +6,6 @@
 #include <optional>
 
 #include "ebac/control/commands_in_flight.hpp"
-#include "ebac/control/lagged_force.hpp"
 #include "ebac/core/concepts.hpp"
 #include "ebac/core/fields.hpp"
 #include "ebac/core/realtime.hpp"
