@@ -5,11 +5,13 @@
 #include <cmath>
 #include <cstring>
 #include <random>
+#include <span>
 #include <stdexcept>
 
 #include "designed_law.hpp"
 #include "ebac/control/ebac.hpp"
 #include "ebac/control/observed_work.hpp"
+#include "ebac/loop/signal_chain.hpp"
 #include "ebac/sim/any_law.hpp"
 
 namespace ebac {
@@ -108,6 +110,42 @@ TEST(Observer, FindsAConstantForceItIsNotTold) {
   const auto trace = simulate_any(setup, designed_law("ebac", setup));
   const double weight = 2 * setup.device.mechanics.handle_mass;  // the rotor is balanced
   EXPECT_NEAR(trace->sample(900).axis[0].port.est.disturbance, weight, 0.1 * weight);
+}
+
+/// What makes the estimate fade, in 20 ms, and what it says of it.
+TEST(Observer, FadesWhereTheForceIsOldOrTheSensorSaysSo) {
+  const DeviceModel device;
+  const auto params = ObserverParams::of(device, Timing{});
+  struct Case {
+    double age;
+    SensorStatus status;
+    Fallback says;
+  };
+  for (const Case& at : {Case{1.5 * params.force_age, SensorStatus::kGood, Fallback::kForceStale},
+                         Case{0, SensorStatus::kDisconnected, Fallback::kForceStatus},
+                         Case{0, SensorStatus::kSaturated, Fallback::kForceStatus},
+                         Case{0.5 * params.force_age, SensorStatus::kGood, Fallback::kNone}}) {
+    SignalChain chain(device, Wall{}, {.on = true, .acts = true, .params = params});
+    Axis axis;
+    const auto tick = [&](const Reading& reading, double dt) {
+      const std::span axes(&axis, 1);
+      chain.measure(reading, dt, axes);
+      chain.forward(reading, dt, axes);
+      chain.observe(reading, dt, axes);
+      return axis.port.est;
+    };
+    EXPECT_EQ(tick({}, 0).weight, 1);
+    Estimate est;
+    for (int k = 0; k < 20; ++k) {
+      const double before = axis.port.est.weight;
+      est = tick({.force_age = at.age, .force_status = at.status}, 1e-3);
+      EXPECT_NEAR(est.weight, before, 0.05 + 1e-9);
+    }
+    EXPECT_EQ(est.fallback, static_cast<int>(at.says));
+    EXPECT_NEAR(est.weight, at.says == Fallback::kNone ? 1 : 0, 1e-9);
+    for (int k = 0; k < 20; ++k) est = tick({}, 1e-3);
+    EXPECT_NEAR(est.weight, 1, 1e-9);
+  }
 }
 
 /// With the true position, the count never exceeds the true work by more than what half a count of
