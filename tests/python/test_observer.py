@@ -8,6 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import ebac
+from ebac._util.formatting import describe
 from ebac.laws import design
 
 NOISY = ebac.Device(sensor=ebac.ForceSensor(noise=0.03))
@@ -134,6 +135,11 @@ def test_it_is_designed_from_device_and_timing() -> None:
 def test_toml_keeps_it(observer: Any) -> None:
     scenario = ebac.Scenario(observer=observer)
     assert ebac.Scenario.from_toml(scenario.to_toml()) == scenario
+
+
+def test_every_figure_and_table_says_that_it_is_on() -> None:
+    assert "1 sample of delay, state observer" in describe(OBSERVED)
+    assert "observer" not in describe(OBSERVED.replace(observer=False))
 
 
 def test_it_is_bool_or_observer() -> None:

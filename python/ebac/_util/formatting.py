@@ -80,12 +80,13 @@ def describe(scenario: Scenario) -> str:
     timing = scenario.timing
     samples = "1 sample" if timing.delay == 1 else f"{timing.delay} samples"
     jitter = f", jitter {100 * scenario.jitter:g} %" if scenario.jitter else ""
+    observer = ", state observer" if scenario.observer else ""
     return "; ".join(
         (
             _device(scenario.device),
             _hand(scenario.hand),
             _environment(scenario.environment),
-            f"{_kilo(1 / timing.dt, 'Hz')}, {samples} of delay{jitter}",
+            f"{_kilo(1 / timing.dt, 'Hz')}, {samples} of delay{jitter}{observer}",
             f"{scenario.seconds:g} s, seed {scenario.seed}",
         )
     )
