@@ -25,9 +25,22 @@ double SimulatedDevice::whole_permille(double current) const EBAC_RT {
   return one * (std::round(current / one) + 0.0);  // a whole number has no negative zero
 }
 
+/// The force, by the records of a sensor that is not prompt.
+template <class P>
+void SimulatedDevice::feel(const P& plant, Reading& reading) EBAC_RT {
+  ForceRecords::Forces force{};
+  for (std::size_t i = 0; i < axes_; ++i) force[i] = plant.truth(i).f_sensor;
+  records_.tick(device_.sensor, t_, force, axes_, [&](std::size_t i, double at) EBAC_RT {
+    shown_[i] = device_.sensor.read(at, random_);
+  });
+  reading.force = shown_;
+  reading.force_age = records_.age();
+}
+
 template <class P>
 Reading SimulatedDevice::latch(const P& plant) EBAC_RT {
   Reading reading = blank_;
+  if (!prompt_) feel(plant, reading);
   for (std::size_t i = 0; i < axes_; ++i) {
     const double angle = plant.motor_angle(i);
     if (!std::isfinite(angle)) {
@@ -36,7 +49,7 @@ Reading SimulatedDevice::latch(const P& plant) EBAC_RT {
     }
     reading.counts[i] = device_.encoder.read(angle + phase_[i]);
     reading.current_applied[i] = applied_[static_cast<Eigen::Index>(i)];
-    reading.force[i] = device_.sensor.read(plant.truth(i).f_sensor, random_);
+    if (prompt_) reading.force[i] = device_.sensor.read(plant.truth(i).f_sensor, random_);
     if (std::abs(reading.force[i]) >= device_.sensor.range) {
       reading.force_status = SensorStatus::kSaturated;
     }

@@ -9,6 +9,7 @@
 
 #include "ebac/core/concepts.hpp"
 #include "ebac/model/exact_plant.hpp"
+#include "ebac/model/force_records.hpp"
 #include "ebac/model/stepped_plant.hpp"
 #include "ebac/sim/setup.hpp"
 
@@ -29,6 +30,7 @@ class SimulatedDevice {
         random_(setup.seed),
         axes_(static_cast<std::size_t>(setup.device.axes())),
         peak_current_(setup.device.drive.peak_current(setup.device.motor)),
+        prompt_(setup.device.sensor.prompt()),
         tick_(setup.timing.dt),
         delay_(static_cast<std::size_t>(setup.timing.delay)) {
     Noise chance(setup.seed, /*stream=*/2);
@@ -60,6 +62,8 @@ class SimulatedDevice {
   double whole_permille(double current) const EBAC_RT;
   template <class P>
   Reading latch(const P& plant) EBAC_RT;
+  template <class P>
+  void feel(const P& plant, Reading& reading) EBAC_RT;
 
   Reading blank_{};  // copied: to clear one takes the processor a string instruction, 2 ns
   DeviceModel device_;
@@ -67,6 +71,9 @@ class SimulatedDevice {
   Noise random_;
   std::size_t axes_;
   double peak_current_;  // A
+  bool prompt_;          // the force sensor
+  ForceRecords records_;
+  std::array<double, kMaxAxes> shown_{};  // N, by the last record
   double tick_;
   std::size_t delay_;
   double t_ = 0;
