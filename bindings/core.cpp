@@ -67,6 +67,14 @@ void bind_states(py::module_& m) {
       .value("RAMP", Limited::kRamp)
       .value("NOT_FINITE", Limited::kNotFinite)
       .finalize();
+  py::native_enum<Fallback>(m, "Fallback", "enum.IntEnum",
+                            "Why the observer's estimate is not used in a tick.")
+      .value("NONE", Fallback::kNone)
+      .value("OFF", Fallback::kOff)
+      .value("FORCE_STALE", Fallback::kForceStale)
+      .value("FORCE_STATUS", Fallback::kForceStatus)
+      .value("MODEL", Fallback::kModel)
+      .finalize();
 }
 
 /// A port is what a law reads, so a law written in Python, or stepped from there, needs to fill one

@@ -12,12 +12,14 @@ namespace {
 
 using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
 using Counts = py::array_t<std::int64_t, py::array::c_style | py::array::forcecast>;
-using Faults = py::array_t<std::uint32_t, py::array::c_style | py::array::forcecast>;
+using Codes = py::array_t<std::uint32_t, py::array::c_style | py::array::forcecast>;
 
 /// What a log is read from: columns of (rows), and of (rows, axes).
 struct LogColumns {
   Numbers t, dt, lateness;
-  Faults fault;
+  Codes fault;
+  Numbers force_age;
+  Codes force_status;
   Counts counts;
   Numbers counts_age, current_applied, force, f_env, f_cmd, current;
 };
@@ -42,6 +44,8 @@ void require_shapes(const LogColumns& c) {
   require_shape(c.dt, "dt", rows, 0);
   require_shape(c.lateness, "lateness", rows, 0);
   require_shape(c.fault, "fault", rows, 0);
+  require_shape(c.force_age, "force_age", rows, 0);
+  require_shape(c.force_status, "force_status", rows, 0);
   require_shape(c.counts, "counts", rows, axes);
   require_shape(c.counts_age, "counts_age", rows, axes);
   require_shape(c.current_applied, "current_applied", rows, axes);
@@ -56,12 +60,13 @@ std::shared_ptr<ReplayLog> make_log(const LogColumns& c) {
   const auto rows = static_cast<std::size_t>(c.t.shape(0));
   auto log = std::make_shared<ReplayLog>();
   log->axes = static_cast<std::size_t>(c.counts.shape(1));
-  log->instant.reserve(rows);
-  log->fault.reserve(rows);
+  log->row.reserve(rows);
   log->axis.reserve(rows * log->axes);
   for (std::size_t i = 0; i < rows; ++i) {
-    log->instant.push_back({c.t.data()[i], c.dt.data()[i], c.lateness.data()[i]});
-    log->fault.push_back(static_cast<Fault>(c.fault.data()[i]));
+    log->row.push_back({.instant = {c.t.data()[i], c.dt.data()[i], c.lateness.data()[i]},
+                        .fault = static_cast<Fault>(c.fault.data()[i]),
+                        .force_age = c.force_age.data()[i],
+                        .force_status = static_cast<SensorStatus>(c.force_status.data()[i])});
   }
   for (std::size_t i = 0; i < rows * log->axes; ++i) {
     log->axis.push_back({.counts = c.counts.data()[i],
@@ -80,15 +85,17 @@ std::shared_ptr<ReplayLog> make_log(const LogColumns& c) {
 void bind_replay(py::module_& m) {
   py::class_<ReplayLog, std::shared_ptr<ReplayLog>>(m, "ReplayLog", "A recorded log as a device.")
       .def(py::init([](const Numbers& t, const Numbers& dt, const Numbers& lateness,
-                       const Faults& fault, const Counts& counts, const Numbers& counts_age,
+                       const Codes& fault, const Numbers& force_age, const Codes& force_status,
+                       const Counts& counts, const Numbers& counts_age,
                        const Numbers& current_applied, const Numbers& force, const Numbers& f_env,
                        const Numbers& f_cmd, const Numbers& current) {
-             return make_log({t, dt, lateness, fault, counts, counts_age, current_applied, force,
-                              f_env, f_cmd, current});
+             return make_log({t, dt, lateness, fault, force_age, force_status, counts, counts_age,
+                              current_applied, force, f_env, f_cmd, current});
            }),
            py::kw_only(), py::arg("t"), py::arg("dt"), py::arg("lateness"), py::arg("fault"),
-           py::arg("counts"), py::arg("counts_age"), py::arg("current_applied"), py::arg("force"),
-           py::arg("f_env"), py::arg("f_cmd"), py::arg("current"))
+           py::arg("force_age"), py::arg("force_status"), py::arg("counts"), py::arg("counts_age"),
+           py::arg("current_applied"), py::arg("force"), py::arg("f_env"), py::arg("f_cmd"),
+           py::arg("current"))
       .def("__len__", &ReplayLog::rows)
       .def_readwrite("observer", &ReplayLog::observer, "Observer of the replay, or None.")
       .def_property_readonly(

@@ -49,7 +49,8 @@ RunSetup make_setup(const DeviceModel& device, const Environment& environment, d
                     const std::optional<Limits>& limits,
                     const std::optional<sensor::RdtClientSetup>& sensor, std::size_t rows,
                     bool ring, rt::Mode mode, const rt::Options& realtime, const Values& drives,
-                    const std::optional<std::shared_ptr<rt::SharedHandTarget>>& aim) {
+                    const std::optional<std::shared_ptr<rt::SharedHandTarget>>& aim,
+                    const std::optional<ObserverParams>& observer) {
   check(Timing{.dt = dt}, "Timing");
   const bool fits = answer_time > 0 && answer_time <= dt;
   if (!fits) {
@@ -64,6 +65,7 @@ RunSetup make_setup(const DeviceModel& device, const Environment& environment, d
           .sensor = sensor,
           .aim = aim.value_or(nullptr),
           .limits = limits,
+          .observer = observer,
           .plan = plan,
           .rows = rows,
           .ring = ring,
@@ -179,7 +181,7 @@ void bind_running(py::module_& m) {
            py::arg("dt"), py::arg("nodes"), py::arg("answer_time"), py::arg("plan"),
            py::arg("limits"), py::arg("sensor"), py::arg("rows"), py::arg("ring"), py::arg("mode"),
            py::arg("realtime"), py::arg("drives"), py::arg("aim") = py::none(),
-           "`drives` are the fields of CanopenSetup by name.");
+           py::arg("observer") = py::none(), "`drives` are the fields of CanopenSetup by name.");
   bind_running_class(m);
 }
 

@@ -11,6 +11,7 @@
 #include "ebac/can/any_bus.hpp"
 #include "ebac/can/wait.hpp"
 #include "ebac/canopen/canopen_device.hpp"
+#include "ebac/loop/observer.hpp"
 #include "ebac/loop/retune.hpp"
 #include "ebac/rt/loop_thread.hpp"
 #include "ebac/rt/monotonic_clock.hpp"
@@ -38,6 +39,7 @@ struct RunSetup {
   std::optional<sensor::RdtClientSetup> sensor;
   std::shared_ptr<rt::SharedHandTarget> aim;  // of a simulated hand, where it is one
   std::optional<Limits> limits;
+  std::optional<ObserverParams> observer;
   RunPlan plan;
   std::size_t rows = 0;
   bool ring = false;

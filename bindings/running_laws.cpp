@@ -8,9 +8,10 @@ Running::Running(can::AnyBus bus, const AnyLaw& law, const RunSetup& setup)
     : bus_(std::move(bus)), newest_(law), updates_(std::make_shared<ParameterUpdates<All>>(law)) {
   LoopOptions options{.plan = setup.plan};
   if (setup.limits) options.limiter = SafetyLimiter(*setup.limits, setup.device, setup.dt);
-  auto loop = std::make_unique<Work>(hardware(setup), rt::MonotonicClock(setup.dt), All(law),
-                                     SignalChain(setup.device, setup.environment),
-                                     setup.device.axes(), options);
+  All laws(law);
+  const SignalChain chain(setup.device, setup.environment, observing(setup.observer, laws));
+  auto loop = std::make_unique<Work>(hardware(setup), rt::MonotonicClock(setup.dt), std::move(laws),
+                                     chain, setup.device.axes(), options);
   trace_ = loop->make_trace(setup.rows, setup.ring);
   thread_ = std::make_unique<Thread>(std::move(loop), trace_, updates_, setup.mode, setup.realtime);
 }

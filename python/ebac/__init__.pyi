@@ -134,6 +134,9 @@ from ebac._core import (
     ExactPlant as ExactPlant,
 )
 from ebac._core import (
+    Fallback as Fallback,
+)
+from ebac._core import (
     Fault as Fault,
 )
 from ebac._core import (
@@ -246,10 +249,16 @@ from ebac.metrics import (
     Contact as Contact,
 )
 from ebac.metrics import (
+    ObserverUse as ObserverUse,
+)
+from ebac.metrics import (
     contact as contact,
 )
 from ebac.metrics import (
     ideal_rest as ideal_rest,
+)
+from ebac.metrics import (
+    observer_use as observer_use,
 )
 from ebac.operators import (
     Operators as Operators,

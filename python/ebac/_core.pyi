@@ -49,6 +49,7 @@ __all__: list[str] = [
     "Encoder",
     "Estimate",
     "ExactPlant",
+    "Fallback",
     "Fault",
     "Field",
     "FingerPad",
@@ -206,6 +207,17 @@ class Limited(enum.IntFlag):
     RAMP = ...
     SLEW = ...
     THERMAL = ...
+
+class Fallback(enum.IntEnum):
+    """
+    Why the observer's estimate is not used in a tick.
+    """
+
+    FORCE_STALE = ...
+    FORCE_STATUS = ...
+    MODEL = ...
+    NONE = ...
+    OFF = ...
 
 class Estimate:
     """
@@ -1302,7 +1314,20 @@ class ForceSensor:
         one step of its reading; 0 for none [N], 0 to 100.
     range : float
         largest force it can show; it saturates [N], 0.001 to 1e+05.
+    bias : float
+        what it shows without a force [N], -1000 to 1000.
+    period : float
+        time from record to record, of which the loop knows the age; 0 for one in every tick [s], 0 to 0.02.
+    delay : float
+        time from a force to its record, of which the loop knows nothing [s], 0 to 0.02.
+    stops_at : float
+        when no new record comes; inf for never [s], at least 0.
+    resumes_at : float
+        when records come again; inf for never [s], at least 0.
+    repeats : bool
+        whether it sends its last record over and over meanwhile, so that nothing looks old.
     """
+
     @staticmethod
     def fields() -> list[Field]:
         """
@@ -1311,7 +1336,18 @@ class ForceSensor:
     def __eq__(self, other: typing.Any) -> bool: ...
     def __hash__(self) -> int: ...
     def __init__(
-        self, *, lag: float = 0.0008, noise: float = 0.0, quantum: float = 0.0, range: float = 145.0
+        self,
+        *,
+        lag: float = 0.0008,
+        noise: float = 0.0,
+        quantum: float = 0.0,
+        range: float = 145.0,
+        bias: float = 0.0,
+        period: float = 0.0,
+        delay: float = 0.0,
+        stops_at: float = ...,
+        resumes_at: float = ...,
+        repeats: bool = False,
     ) -> None: ...
     def __reduce__(self) -> tuple[typing.Any, ...]: ...
     def __repr__(self) -> str: ...
@@ -1324,6 +1360,16 @@ class ForceSensor:
         Return a copy with some parameters changed, checked as at construction.
         """
     @property
+    def bias(self) -> float:
+        """
+        what it shows without a force [N], -1000 to 1000
+        """
+    @property
+    def delay(self) -> float:
+        """
+        time from a force to its record, of which the loop knows nothing [s], 0 to 0.02
+        """
+    @property
     def lag(self) -> float:
         """
         time constant of its first-order lag [s], 0 to 0.1
@@ -1334,6 +1380,11 @@ class ForceSensor:
         standard deviation of its noise [N], 0 to 100
         """
     @property
+    def period(self) -> float:
+        """
+        time from record to record, of which the loop knows the age; 0 for one in every tick [s], 0 to 0.02
+        """
+    @property
     def quantum(self) -> float:
         """
         one step of its reading; 0 for none [N], 0 to 100
@@ -1342,6 +1393,21 @@ class ForceSensor:
     def range(self) -> float:
         """
         largest force it can show; it saturates [N], 0.001 to 1e+05
+        """
+    @property
+    def repeats(self) -> bool:
+        """
+        whether it sends its last record over and over meanwhile, so that nothing looks old
+        """
+    @property
+    def resumes_at(self) -> float:
+        """
+        when records come again; inf for never [s], at least 0
+        """
+    @property
+    def stops_at(self) -> float:
+        """
+        when no new record comes; inf for never [s], at least 0
         """
 
 class Compensation:
@@ -2663,6 +2729,8 @@ class ReplayLog:
         dt: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
         lateness: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
         fault: typing.Annotated[numpy.typing.ArrayLike, numpy.uint32],
+        force_age: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
+        force_status: typing.Annotated[numpy.typing.ArrayLike, numpy.uint32],
         counts: typing.Annotated[numpy.typing.ArrayLike, numpy.int64],
         counts_age: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
         current_applied: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
@@ -2673,18 +2741,17 @@ class ReplayLog:
     ) -> None: ...
     def __len__(self) -> int: ...
     @property
-    def observer(self) -> Observer | None:
-        """
-        Observer of the replay, or None.
-        """
-
-    @observer.setter
-    def observer(self, arg0: Observer | None) -> None: ...
-    @property
     def axes(self) -> int:
         """
         Number of axes.
         """
+    @property
+    def observer(self) -> Observer | None:
+        """
+        Observer of the replay, or None.
+        """
+    @observer.setter
+    def observer(self, arg0: Observer | None) -> None: ...
 
 class SensorModel(enum.IntEnum):
     """
@@ -6275,6 +6342,7 @@ class RunSetup:
         realtime: RealTime,
         drives: dict[str, typing.Any],
         aim: SharedHandTarget | None = None,
+        observer: Observer | None = None,
     ) -> None:
         """
         `drives` are the fields of CanopenSetup by name.

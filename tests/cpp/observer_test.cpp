@@ -103,6 +103,51 @@ TEST(Observer, SeesThroughTheLagOfTheSensor) {
   EXPECT_LT(errors(slow).v.value(), 0.5 * errors(unaware).v.value());
 }
 
+/// Records of a sensor that come between the ticks: their age is known, and counts.
+TEST(Observer, SeesThroughTheAgeOfTheForce) {
+  ebac::Setup setup = observed();
+  const double prompt = errors(setup).v.value();
+  setup.device.sensor.period = 1.3e-3;  // ages from 0 to 1.3 ms, every one in turn
+  const double aged = errors(setup).v.value();
+  EXPECT_LT(aged, 2 * prompt);
+  setup.device.sensor.period = 0;
+  setup.device.sensor.delay = 0.65e-3;  // as old in the mean, and the loop knows nothing of it
+  EXPECT_LT(aged, 0.8 * errors(setup).v.value());
+}
+
+/// Counts that begin to arrive while a device is armed are no motion, and the estimate begins at
+/// them. Counts that fail to arrive correct nothing, and late ones where they were latched.
+TEST(Observer, TakesCountsForWhenTheyWereLatched) {
+  const DeviceModel device;
+  const auto params = ObserverParams::of(device, Timing{});
+  SignalChain chain(device, Wall{.position = 1}, {.on = true, .acts = true, .params = params});
+  Axis axis;
+  const auto tick = [&](const Reading& reading, double dt) {
+    const std::span axes(&axis, 1);
+    chain.measure(reading, dt, axes);
+    chain.forward(reading, dt, axes);
+    chain.observe(reading, dt, axes);
+    return axis.port.est;
+  };
+  tick({}, 0);
+  chain.forget();
+  tick({.counts = {100'000}}, 1e-3);
+  Estimate est = tick({.counts = {100'000}}, 1e-3);
+  EXPECT_EQ(est.v, 0);
+  EXPECT_EQ(est.x, axis.port.x);
+  constexpr double kPace = 20;  // counts in a tick
+  std::int64_t counts = 100'000;
+  for (int k = 0; k < 200; ++k) est = tick({.counts = {counts += 20}}, 1e-3);
+  const double v = kPace * params.count / 1e-3;
+  EXPECT_NEAR(est.v, v, 0.02 * v);
+  for (int k = 1; k <= 5; ++k) est = tick({.counts = {counts}, .counts_age = {1e-3 * k}}, 1e-3);
+  EXPECT_NEAR(est.x - axis.port.x, 5 * kPace * params.count, 2 * params.count);
+  EXPECT_NEAR(est.v, v, 0.02 * v);
+  counts += 100;
+  est = tick({.counts = {counts}, .counts_age = {1e-3}}, 1e-3);
+  EXPECT_NEAR(est.x - axis.port.x, kPace * params.count, 2 * params.count);
+}
+
 /// Weight and bias of the sensor go to the disturbance.
 TEST(Observer, FindsAConstantForceItIsNotTold) {
   ebac::Setup setup = observed(1);

@@ -18,8 +18,7 @@ std::shared_ptr<ReplayLog> log_of(const Trace& trace) {
   log->axes = static_cast<std::size_t>(trace.axes());
   for (std::size_t i = 0; i < trace.size(); ++i) {
     const Sample s = trace.sample(i);
-    log->instant.push_back({s.t, s.axis[0].port.dt, s.lateness});
-    log->fault.push_back(Fault::kNone);
+    log->row.push_back({.instant = {s.t, s.axis[0].port.dt, s.lateness}});
     for (std::size_t a = 0; a < log->axes; ++a) {
       const auto& [joint, port] = s.axis[a];
       log->axis.push_back({.counts = joint.counts,
@@ -78,7 +77,7 @@ TEST(Replay, TheFaultOfTheDeviceComesInItsTick) {
   const auto setup = two_axes();
   const auto law = designed<Ebac>(setup);
   const auto log = log_of(*simulate(setup, law));
-  log->fault[100] = Fault::kDriveSilent;
+  log->row[100].fault = Fault::kDriveSilent;
   const auto again = replay(std::shared_ptr<const ReplayLog>(log), PerAxis<Ebac>(law), setup.device,
                             setup.environment);
   EXPECT_EQ(again->size(), 110u);

@@ -73,7 +73,9 @@ struct ObserverParams {
 ///
 ///   M u' = F_M + D - b u - G f,    u = G v,    v = u + force_lag u'
 ///
-/// so the lag costs no noise. The encoder corrects x, u and D by what lies outside its cell: the
+/// so the lag costs no noise. A force that is old when it is read, as one that came over a network,
+/// is behind G by its age as well: its mean age joins force_lag, and a reading older or newer than
+/// that is moved to it along the line through the last two records. The encoder corrects x, u and D by what lies outside its cell: the
 /// innovation has a dead zone of half a count, and x is kept within 3/4 count of the reading.
 /// Bandwidth w = sqrt(sqrt(12) force_noise / (M count)): the steady Kalman gain of force noise
 /// against a reading uniform within a count.
@@ -89,15 +91,25 @@ class AxisObserver {
     x_ = x;
     u_ = v_ = disturbance_ = motor_ = late_ = measured_ = before_last_ = contradicted_ = 0;
     in_flight_ = CommandsInFlight(params_.delay);
+    records_ = {};
     dt_ = 0;
   }
 
   /// The mass felt on this axis, as a share of that of the parameters (a gimbal's first axis).
   void set_mass_share(double share) EBAC_RT { mass_ = params_.mass * share; }
 
-  /// Takes one tick: reading [m], force sensor [N], force that acted over the last interval [N].
-  void step(double reading, double measured, double applied, double dt) EBAC_RT {
-    if (dt != dt_) set_tick(dt);
+  /// A reading of the encoder or the force sensor, and how old it was when it was read [s].
+  struct Aged {
+    double value = 0;
+    double age = 0;
+  };
+
+  /// Takes one tick: the encoder [m], if it was read anew, the force sensor [N], and the force that
+  /// acted over the last interval [N].
+  void step(const std::optional<Aged>& encoder, const Aged& seen, double applied,
+            double dt) EBAC_RT {
+    const double measured = records_.at_mean_age(seen, dt, params_.force_age);
+    if (dt != dt_ || records_.started()) set_tick(dt);
     const double f = motor_ - applied;  // transients of the motor's force and of G f
     const double g = late_ - applied;
     const double late = applied + f * cross_ * (motor_mean_ - late_mean_) + g * late_mean_;
@@ -111,7 +123,7 @@ class AxisObserver {
     const double before = x_;
     x_ += (u_ + (0.5 * dt + force_lag_) * a) * dt;
     u_ += a * dt;
-    correct(reading, dt);
+    if (encoder) correct(encoder->value + v_ * encoder->age, dt);
     moved_ = x_ - before;
     v_ = u_ + force_lag_ * acceleration(late_, u_);
   }
@@ -172,6 +184,7 @@ class AxisObserver {
 
   void set_tick(double dt) EBAC_RT {
     dt_ = dt;
+    force_lag_ = apart(params_.force_lag + records_.mean_age(), params_.current_lag);
     const double w = std::sqrt(std::sqrt(12.0) * params_.force_noise / (mass_ * params_.count));
     const double z = std::exp(-w * dt);
     const double q = std::exp(-0.5 * w * dt);
@@ -187,7 +200,43 @@ class AxisObserver {
     forget_ = dt / (kMemory + dt);
   }
 
+  /// The last two records of the force sensor and their mean age. Without an age, readings pass as
+  /// they are.
+  class Records {
+   public:
+    /// What the sensor showed one mean age ago [N]. Ages above `limit` do not count.
+    double at_mean_age(const Aged& read, double dt, double limit) EBAC_RT {
+      if (!started_) {
+        if (read.age == 0) return read.value;
+        newest_ = older_ = read;
+        mean_age_ = std::min(read.age, limit);
+        return started_ = true, read.value;
+      }
+      newest_.age += dt;
+      older_.age += dt;
+      if (newest_.age - read.age > kSame * dt) {
+        older_ = newest_;
+        newest_ = read;
+      }
+      if (newest_.age <= limit) mean_age_ += (newest_.age - mean_age_) * dt / (kMemory + dt);
+      const double between = older_.age - newest_.age;
+      if (!(between > 0)) return newest_.value;
+      const double back = std::clamp((mean_age_ - newest_.age) / between, -1.0, 1.0);
+      return newest_.value + back * (older_.value - newest_.value);
+    }
+    bool started() const EBAC_RT { return started_; }
+    double mean_age() const EBAC_RT { return mean_age_; }  // s
+
+   private:
+    static constexpr double kMemory = 0.2;  // s, of the mean
+    static constexpr double kSame = 0.01;   // ticks: records as close as this are one
+    bool started_ = false;
+    Aged newest_, older_;
+    double mean_age_ = 0;
+  };
+
   ObserverParams params_;
+  Records records_;
   double mass_;       // kg
   double force_lag_;  // s
   CommandsInFlight in_flight_;

@@ -22,10 +22,11 @@ class SignalChain {
   /// Another virtual world, from this tick on.
   void change(const Environment& environment) EBAC_RT { environment_ = environment; }
 
-  /// Velocity and acceleration begin anew.
+  /// Velocity, acceleration and the observer begin anew.
   void forget() EBAC_RT {
     velocity_ = {};
     speed_ = acceleration_ = {};
+    forgot_ = true;
   }
 
   /// counts -> q, dq
@@ -71,7 +72,12 @@ class SignalChain {
   static Axes all(std::span<const Axis> axes, Part Axis::* part, double Part::* member) EBAC_RT;
   void estimate(const Reading& reading, double dt, std::span<Axis> axes) EBAC_RT;
   void trust(const Reading& reading, double dt, std::size_t axes) EBAC_RT;
-  void estimate_general(double dt, std::span<Axis> axes) EBAC_RT;
+  void estimate_general(const Reading& reading, double dt, std::span<Axis> axes) EBAC_RT;
+  std::optional<AxisObserver::Aged> encoder(const Reading& reading, std::size_t axis,
+                                            double x) const EBAC_RT {
+    if (!counted_[axis]) return std::nullopt;
+    return AxisObserver::Aged{x, reading.counts_age[axis]};
+  }
   void forward_general(const Reading& reading, double dt, std::span<Axis> axes) EBAC_RT;
   void drive_general(double dt, std::span<Axis> axes) EBAC_RT;
   void send(Joint& joint, double tau) const EBAC_RT;
@@ -84,7 +90,8 @@ class SignalChain {
   Environment environment_;
   Observing observing_;
   std::array<AxisObserver, kMaxAxes> observer_;
-  double weight_ = 1;  // of the estimate
+  bool forgot_ = false;  // the observer begins in this tick
+  double weight_ = 1;    // of the estimate
   Fallback fallback_ = Fallback::kNone;
   double damping_;         // N s/m, lower bound of the device's own damping
   double rad_per_count_;   // joint
@@ -100,6 +107,7 @@ class SignalChain {
   bool compensates_;
   std::array<VelocityState, kMaxAxes> velocity_{};
   std::array<double, kMaxAxes> counts_age_{};    // s, of the last reading
+  std::array<bool, kMaxAxes> counted_{};         // whether new counts came
   std::array<double, kMaxAxes> speed_{};         // m/s, at the handle
   std::array<double, kMaxAxes> acceleration_{};  // m/s^2, filtered
 };
@@ -136,7 +144,8 @@ inline void SignalChain::measure(const Reading& reading, double dt, std::span<Ax
     joint.q = rad_per_count_ * static_cast<double>(joint.counts);
     const double since = dt > 0 ? dt + counts_age_[i] - reading.counts_age[i] : 0.0;
     counts_age_[i] = reading.counts_age[i];
-    if (since > 0 || dt == 0) {  // otherwise no new counts came, and the estimate stands
+    counted_[i] = since > 0 || dt == 0;
+    if (counted_[i]) {  // otherwise the estimate stands
       joint.dq = velocity_[i].update(estimator_, joint.q, joint.q - before, since, rad_per_count_);
     }
     joint.current_applied = reading.current_applied[i];
@@ -198,7 +207,7 @@ inline void SignalChain::trust(const Reading& reading, double dt, std::size_t ax
   if (fallback_ == Fallback::kOff) {
     weight_ = 0;
   } else if (fallback_ == Fallback::kNone) {
-    weight_ = dt > 0 ? std::min(1.0, weight_ + dt / kFade) : 1.0;
+    weight_ = dt > 0 && !forgot_ ? std::min(1.0, weight_ + dt / kFade) : 1.0;
   } else {
     weight_ = std::max(0.0, weight_ - dt / kFade);
   }
@@ -206,14 +215,17 @@ inline void SignalChain::trust(const Reading& reading, double dt, std::size_t ax
 
 inline void SignalChain::estimate(const Reading& reading, double dt, std::span<Axis> axes) EBAC_RT {
   trust(reading, dt, axes.size());
-  if (!linear_) return estimate_general(dt, axes);
+  if (forgot_) dt = 0;
+  forgot_ = false;
+  if (!linear_) return estimate_general(reading, dt, axes);
   for (std::size_t i = 0; i < axes.size(); ++i) {
     const Joint& joint = axes[i].joint;
     Port& port = axes[i].port;
     AxisObserver& observer = observer_[i];
     if (dt > 0) {
       observer.give(force_per_amp_ * joint.current);
-      observer.step(port.x, port.f_meas, port.f_applied, dt);
+      observer.step(encoder(reading, i, port.x), {port.f_meas, reading.force_age}, port.f_applied,
+                    dt);
     } else {
       observer.start(port.x);
     }
@@ -230,7 +242,8 @@ inline void SignalChain::estimate(const Reading& reading, double dt, std::span<A
 }
 
 /// The same in the joints, where counts and currents are: s = R q, with the inertia of the pose.
-inline void SignalChain::estimate_general(double dt, std::span<Axis> axes) EBAC_RT {
+inline void SignalChain::estimate_general(const Reading& reading, double dt,
+                                          std::span<Axis> axes) EBAC_RT {
   const Axes q = all(axes, &Axis::joint, &Joint::q);
   const Pose here = pose(kinematics_, q, Axes::Zero());
   Axes measured = Axes::Zero();
@@ -245,7 +258,8 @@ inline void SignalChain::estimate_general(double dt, std::span<Axis> axes) EBAC_
     observer.set_mass_share(here.inertia[e] / (radius_ * radius_));
     if (dt > 0) {
       observer.give(force_per_amp_ * joint.current);
-      observer.step(radius_ * joint.q, along[e], force_per_amp_ * joint.current_applied, dt);
+      observer.step(encoder(reading, i, radius_ * joint.q), {along[e], reading.force_age},
+                    force_per_amp_ * joint.current_applied, dt);
     } else {
       observer.start(radius_ * joint.q);
     }

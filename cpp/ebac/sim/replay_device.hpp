@@ -41,15 +41,22 @@ struct ReplayAxis {
   State recorded;
 };
 
+/// What was recorded of the whole device in one tick.
+struct ReplayRow {
+  Instant instant;
+  Fault fault = Fault::kNone;  // of the device; kNone where a law or the world was at fault
+  double force_age = 0;        // s
+  SensorStatus force_status = SensorStatus::kGood;
+};
+
 /// The ticks of a log. Row i has `axes` entries in `axis`, from i * axes on.
 struct ReplayLog {
   std::size_t axes = 1;
-  std::vector<Instant> instant;
-  std::vector<Fault> fault;  // of the device; kNone where a law or the world was at fault
+  std::vector<ReplayRow> row;
   std::vector<ReplayAxis> axis;
   std::optional<ObserverParams> observer{};
 
-  std::size_t rows() const EBAC_RT { return instant.size(); }
+  std::size_t rows() const EBAC_RT { return row.size(); }
 };
 
 /// A log as a device. Answers tick after tick, whatever the commands.
@@ -64,7 +71,9 @@ class ReplayDevice {
   Reading exchange(const Command&) EBAC_RT {
     at_ = std::min(next_, log_->rows() - 1);
     ++next_;
-    Reading reading{.fault = log_->fault[at_]};
+    const ReplayRow& row = log_->row[at_];
+    Reading reading{
+        .force_age = row.force_age, .force_status = row.force_status, .fault = row.fault};
     for (std::size_t i = 0; i < log_->axes; ++i) {
       const ReplayAxis& axis = log_->axis[at_ * log_->axes + i];
       reading.counts[i] = axis.counts;
@@ -92,7 +101,7 @@ class ReplayClock {
  public:
   explicit ReplayClock(std::shared_ptr<const ReplayLog> log) : log_(std::move(log)) {}
 
-  Instant wait() EBAC_RT { return log_->instant[std::min(next_++, log_->rows() - 1)]; }
+  Instant wait() EBAC_RT { return log_->row[std::min(next_++, log_->rows() - 1)].instant; }
 
  private:
   std::shared_ptr<const ReplayLog> log_;

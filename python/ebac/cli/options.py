@@ -134,6 +134,16 @@ Threads: TypeAlias = Annotated[
 ]
 
 
+def observer(*, default: str | bool = False) -> Any:
+    """Return the option that turns the state observer on or off."""
+    return option(
+        "--observer/--no-observer",
+        text="Estimate the state from encoder and force sensor, and predict it; `ebac` uses it",
+        default=default,
+        panel=RUN,
+    )
+
+
 def resume(what: str) -> Any:
     """Return the option that continues a study, map or ablation where it was stopped."""
     text = f"Continue a stopped {what} in its folder: that of --out, or the last one."
@@ -199,14 +209,7 @@ class RunOptions:
 
     rate: Rate = None
     jitter: Jitter = None
-    observer: Annotated[
-        bool | None,
-        option(
-            "--observer/--no-observer",
-            text="Estimate the state from encoder and force sensor, and predict it; `ebac` uses it",
-            panel=RUN,
-        ),
-    ] = None
+    observer: Annotated[bool | None, observer()] = None
     seconds: Annotated[
         float | None, option(text="Length of the run [s]", default="6", panel=RUN)
     ] = None

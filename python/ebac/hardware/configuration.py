@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, Self
 
-from ebac._core import Device, Hand, Limits, RealTime, Timing, Wall
+from ebac._core import Device, Hand, Limits, Observer, RealTime, Timing, Wall
 from ebac._util.text_file import read_text
 from ebac._util.wrong_calls import plain_constructor
 from ebac.drives.errors import ProfileError
@@ -70,8 +70,16 @@ class Configuration:
         Time after which the log is forced to the disk [s].
     sensor : SensorConfig or None
         The force sensor, where there is one.
+    observer : bool or Observer
+        Whether the state of the device is estimated from encoder, force sensor and currents, as in a `Scenario`. Needs
+        a sensor.
     hand : Hand
         Who holds the simulated device.
+
+    Raises
+    ------
+    ValueError
+        For an observer without a force sensor.
     """
 
     name: str = "a configuration"
@@ -96,7 +104,16 @@ class Configuration:
     memory: float = 60.0
     sync: float | None = None
     sensor: SensorConfig | None = None
+    observer: Observer | bool = False
     hand: Hand = field(default_factory=Hand)
+
+    def __post_init__(self) -> None:
+        """Refuse an observer without a force."""
+        if self.observer and self.sensor is None:
+            raise ValueError(
+                "Configuration.observer: estimates the state from a measured force, but no force sensor is "
+                "configured; observer=False, or add a table [sensor]"
+            )
 
     @classmethod
     def load(cls, path: str | Path) -> Self:
@@ -142,6 +159,7 @@ class Configuration:
             environment=self.environment,
             timing=self.timing,
             seconds=seconds or self.seconds,
+            observer=self.observer,
         )
 
     def simulate(self, *, seconds: float | None = None) -> Trace:

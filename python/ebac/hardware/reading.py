@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ebac import presets
-from ebac._core import Device, Hand, Limits, RealTime, Timing
+from ebac._core import Device, Hand, Limits, Observer, RealTime, Timing
 from ebac._util.serialisation import from_document
 from ebac.drives.errors import ProfileError
 from ebac.drives.toml_positions import Source
@@ -32,6 +32,7 @@ TABLES = [
     "realtime",
     "recording",
     "sensor",
+    "observer",
     "simulated",
 ]
 
@@ -58,6 +59,7 @@ def read(source: Source) -> dict[str, Any]:
     known(source, ("recording",), [key.name for key in RECORDING])
     values |= {key.name: number(source, ("recording",), key) for key in RECORDING}
     values["sensor"] = _sensor(source)
+    values["observer"] = _observer(source, values)
     values["hand"] = _hand(source)
     _fit(source, values)
     return values
@@ -109,6 +111,21 @@ def _sensor(source: Source) -> SensorConfig | None:
     found = known(source, ("sensor",), [one.name for one in dataclasses.fields(SensorConfig)])
     made: SensorConfig = refusing(source, ("sensor",), lambda: SensorConfig.from_table(found))
     return made
+
+
+def _observer(source: Source, values: Mapping[str, Any]) -> Observer | bool:
+    """Return the observer of the table, on top of its design; True for the design itself."""
+    if "observer" not in source.table:
+        return False
+    if values["sensor"] is None:
+        raise source.refuse(
+            ("observer",),
+            "[observer]: estimates the state from a measured force, but no force sensor is configured; "
+            "add a table [sensor]",
+        )
+    designed = Observer.of(values["device"], values["timing"])
+    made: Observer = on_top(source, ("observer",), designed)
+    return True if made == designed else made
 
 
 def _environment(source: Source) -> Environment:

@@ -56,6 +56,7 @@ def run_setup(
             ticks=ticks,
         ),
         limits=limits,
+        observer=known.scenario().designed_observer(),
         sensor=None if backend.sensor is None else backend.sensor.core(),
         rows=min(ticks, ceil(known.memory / dt)) + _MORE_ROWS,
         ring=True,

@@ -18,6 +18,8 @@ if TYPE_CHECKING:
 
 #: The state of a loop in which the law acts, in the column `state` of a log that has one.
 RUN = 2
+#: A force sensor that reports an error, as the loop knows it.
+ERROR = 3
 
 #: What a replay reads of each axis: the name of the argument, the column.
 _EACH = {
@@ -139,6 +141,11 @@ def _source(recorded: Trace) -> _core.ReplayLog:
         dt=dt,
         lateness=recorded["lateness"],
         counts_age=_counts_age(recorded, dt),
+        force_age=_first_axis(recorded, "ft.age"),
+        # An observer took note of it; the log has no other column that does.
+        force_status=np.where(
+            _first_axis(recorded, "est.fallback") == int(_core.Fallback.FORCE_STATUS), ERROR, 0
+        ).astype(np.uint32),
         # What a stage of the loop found, the loop finds again, or not: that is for the new law to show.
         fault=np.where(fault >= int(_core.Fault.DEVICE), fault, 0),
         **each,
@@ -155,6 +162,13 @@ def _counts_age(recorded: Trace, dt: NDArray[np.float64]) -> NDArray[np.float64]
         before = ages[row - 1, axis] if ticks[row, axis] > 1 and row > 0 else 0.0
         ages[row, axis] = before + dt[row]
     return ages
+
+
+def _first_axis(recorded: Trace, column: str) -> NDArray[np.float64]:
+    """Return a column that is the same on every axis; zeros where the log has none."""
+    if column not in recorded:
+        return np.zeros(len(recorded))
+    return _per_axis(recorded, column)[:, 0].astype(float)
 
 
 def _per_axis(recorded: Trace, column: str) -> NDArray[Any]:

@@ -16,8 +16,13 @@ MOST_SHOWN = 10
 
 def document(read: Log) -> str:
     """Return the JSON document."""
+    from dataclasses import asdict
+
+    from ebac.metrics import observer_use
+
     trace = read.trace
     t = trace["t"]
+    used = observer_use(trace)
     rows = [
         {"column": name, "unit": info.unit, "meaning": info.meaning, "type": str(trace[name].dtype),
          "values_per_row": 1 if trace[name].ndim == 1 else trace[name].shape[1]}
@@ -39,6 +44,7 @@ def document(read: Log) -> str:
         axes=trace.axes,
         law=trace.law or None,
         law_repr=trace.law_repr or None,
+        observer=None if used is None else asdict(used),
         start_s=read.about.start_ns / 1e9 if read.about.start_ns else None,
         made_by=dict(read.about.made_by),
         attachments=list(read.about.attachments),
@@ -80,6 +86,8 @@ def show(read: Log) -> None:
 def _lines(read: Log) -> list[tuple[str, str]]:
     from datetime import UTC, datetime
 
+    from ebac.metrics import observer_use
+
     trace, condition = read.trace, read.condition
     t = trace["t"]
     rate = _rate(trace)
@@ -103,6 +111,8 @@ def _lines(read: Log) -> list[tuple[str, str]]:
             ", ".join(f"{k} {v}" for k, v in read.about.made_by.items() if v) or "not in the log",
         ),
     ]
+    if (used := observer_use(trace)) is not None:
+        lines.append(("observer", str(used)))
     if start:
         began = datetime.fromtimestamp(start / 1e9, UTC)
         lines.insert(3, ("began", f"{began:%Y-%m-%d %H:%M:%S} UTC"))

@@ -88,6 +88,7 @@ def meter(value: float, most: float, unit: str, factor: float) -> str:
 def lines(configuration: Configuration, run: Run, tail: Trace) -> list[str]:
     """Return state, lateness, bus and log in words."""
     from ebac._core import Fault, LoopState
+    from ebac.metrics import observer_use
 
     late = 1e6 * np.percentile(tail["lateness"], [50, 99.9])
     fault = Fault(int(tail["fault"][-1]))
@@ -100,6 +101,9 @@ def lines(configuration: Configuration, run: Run, tail: Trace) -> list[str]:
         f"in the last {_BACK:g} s",
         f"bus: {int(tail['bus.missing'].max())} answers missing, {int(tail['bus.refused'].max())} frames refused",
     ]
+    used = observer_use(tail)
+    if used is not None:
+        shown.append(f"observer: {used}")
     if run.recorder is not None:
         lost = run.recorder.lost
         shown.append(

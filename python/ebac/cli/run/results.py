@@ -14,7 +14,7 @@ from ebac.cli.machine.grants import show_refused
 
 if TYPE_CHECKING:
     from ebac.hardware import Configuration, Report, Times
-    from ebac.metrics import Contact
+    from ebac.metrics import Contact, ObserverUse
     from ebac.simulation import LoopFault
     from ebac.trace import Trace
 
@@ -49,6 +49,8 @@ class Result:
         The contact with the wall; None where there were too few rows under the law.
     expected : Contact or None
         The same of `Configuration.simulate`, by its readings; None on hardware, and where a run changed on its way.
+    observer : ObserverUse or None
+        How far the law relied on the observer; None without one.
     times : Times or None
         How quick and punctual the loop was.
     fault : str or None
@@ -66,6 +68,7 @@ class Result:
     simulated: bool
     contact: Contact | None
     expected: Contact | None
+    observer: ObserverUse | None
     times: Times | None
     fault: str | None
     virtual: bool = False
@@ -77,7 +80,7 @@ class Result:
     ) -> Self:
         """Measure a run on a virtual clock."""
         from ebac.hardware import Report
-        from ebac.metrics import FEWEST_ROWS, contact
+        from ebac.metrics import FEWEST_ROWS, contact, observer_use
 
         measured = len(trace) >= FEWEST_ROWS and fault is None
         return cls(
@@ -88,6 +91,7 @@ class Result:
             simulated=True,
             contact=contact(trace, truth=False) if measured else None,
             expected=None,
+            observer=observer_use(trace),
             times=None,
             fault=None if fault is None else fault.fault.name.lower(),
             virtual=True,
@@ -107,7 +111,7 @@ class Result:
     ) -> Self:
         """Measure a run; `changed` on its way, it has no verdict and no simulation beside it."""
         from ebac.hardware import times, under_the_law
-        from ebac.metrics import FEWEST_ROWS, contact
+        from ebac.metrics import FEWEST_ROWS, contact, observer_use
 
         part = under_the_law(trace)
         measured = len(part) >= FEWEST_ROWS and fault is None
@@ -120,6 +124,7 @@ class Result:
             simulated=simulated,
             contact=contact(part) if measured else None,
             expected=_expected(configuration) if measured and whole and simulated else None,
+            observer=observer_use(part),
             times=times(part) if len(part) else None,
             fault=None if fault is None else fault.fault.name.lower(),
             changed=changed,
@@ -137,6 +142,7 @@ class Result:
             place=self.place,
             expected=None if self.expected is None else self.expected.row(),
             scenario=scenario,
+            observer=None if self.observer is None else asdict(self.observer),
             times=None if self.times is None else asdict(self.times),
             fault=self.fault,
             **self.report.row(),
@@ -186,6 +192,8 @@ def show(result: Result) -> None:
                 "Parameters changed during the run (--at): ideal rest and deviation are those of the configured world "
                 "and hand, and there is no verdict."
             )
+    if result.observer is not None:
+        output.say(f"Observer: {result.observer}.")
     if result.times is not None:
         _show_times(result.times)
     report = result.report

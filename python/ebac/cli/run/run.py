@@ -52,6 +52,7 @@ def run(
         float | None,
         options.option(text="Time the law acts [s]", default="as configured", panel=options.RUN),
     ] = None,
+    observer: Annotated[bool | None, options.observer(default="as configured")] = None,
     at: Annotated[
         list[str] | None,
         typer.Option(
@@ -106,6 +107,8 @@ def run(
 
     * `ebac run joystick.toml --virtual`: the same on a virtual clock, as fast as the machine computes.
 
+    * `ebac run joystick.toml --simulated --observer`: the same wall at the estimated state, from encoder and force.
+
     * `ebac run joystick.toml --simulated --at "3 environment.stiffness=2e4" --at "6 hand.target=0"`: a
       harder wall after 3 s; the hand goes back after 6 s. The log has the tick from which each acts.
 
@@ -120,7 +123,7 @@ def run(
         )
     style.check()
     with output.refusing(), telling():
-        known = _configuration(configuration, law, seconds, rate, wall, person)
+        known = _configuration(configuration, law, seconds, rate, observer, wall, person)
         schedule = Schedule.parse(at or [])
         if not virtual:
             schedule.check(known, simulated=simulated)
@@ -142,6 +145,7 @@ def _configuration(
     law: str | None,
     seconds: float | None,
     rate: float | None,
+    observer: bool | None,
     wall: options.WallOptions,
     person: options.HandOptions,
 ) -> Configuration:
@@ -153,6 +157,7 @@ def _configuration(
         "hand": options.hand_of(known.hand, person),
         "timing": setting.choose_timing(known.timing, rate, None),
         **setting.given(seconds=seconds),
+        **_observer(known, observer),
     }
     name = None if law is None else setting.one_law(law)
     if name is not None and name != known.law:
@@ -161,6 +166,13 @@ def _configuration(
     chosen.scenario()
     chosen.design()
     return chosen
+
+
+def _observer(known: Configuration, wanted: bool | None) -> dict[str, Any]:
+    """Return the change that turns the observer on or off; one that is configured stays as it is."""
+    if wanted is None or wanted == bool(known.observer):
+        return {}
+    return {"observer": wanted}
 
 
 def _run(

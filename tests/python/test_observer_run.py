@@ -1,0 +1,184 @@
+"""The observer on hardware runs: how it is chosen, what a run says of it, and what its log replays to."""
+
+import json
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+import ebac
+from ebac.cli import app
+from ebac.hardware import Configuration, ConfigurationError, Run, backends, under_the_law
+from ebac.sensor import EmulatorTrouble, SensorConfig, SharedForce, SimulatedSensor
+
+EXAMPLE = Path(__file__).parents[2] / "examples" / "joystick.toml"
+SENSOR = "[sensor]\nhost = '10.0.0.1'\n"
+
+
+def patient(**changes: Any) -> Configuration:
+    """The example with its observer, patient with a busy machine."""
+    known = Configuration.load(EXAMPLE)
+    limits = known.limits.replace(overruns=100_000, jump=1.0, speed=100.0, force_age=10.0)
+    return known.replace(silent=1000, limits=limits, observer=True, **changes)
+
+
+# --- choosing it ---
+
+
+def test_a_table_turns_it_on_with_the_design_of_the_device() -> None:
+    known = Configuration.from_toml(f"{SENSOR}[observer]\n[timing]\ndelay = 2\n")
+    assert known.observer is True
+    designed = ebac.Observer.of(known.device, known.timing)
+    assert known.scenario().designed_observer() == designed
+    assert designed.delay == 2
+    changed = Configuration.from_toml(f"{SENSOR}[observer]\nforce_noise = 0.1\n")
+    expected = ebac.Observer.of(known.device, ebac.Timing()).replace(force_noise=0.1)
+    assert changed.observer == expected
+    assert Configuration.from_toml(SENSOR).observer is False
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("[observer]\n", "line 1: [observer]: estimates the state from a measured force"),
+        (f"{SENSOR}[observer]\nmas = 1.0\n", "line 4: observer.mas: no such name"),
+        (f"{SENSOR}[observer]\nmass = -1.0\n", "line 4: Observer.mass = -1 kg: must lie in"),
+    ],
+)
+def test_what_cannot_be_is_refused_with_its_line(text: str, words: str) -> None:
+    with pytest.raises(ConfigurationError) as refused:
+        Configuration.from_toml(text)
+    assert words in str(refused.value)
+
+
+def test_without_a_sensor_it_is_refused() -> None:
+    with pytest.raises(ValueError, match=r"Configuration.observer: .* add a table \[sensor\]"):
+        patient(sensor=None)
+
+
+# --- what a run says of it ---
+
+
+def test_a_run_names_its_share_and_what_it_fell_back_to() -> None:
+    trace = ebac.simulate(ebac.Scenario(seconds=0.1, observer=True))
+    assert ebac.observer_use(trace) == ebac.ObserverUse(trusted=1.0, fallback={})
+    weight, code = np.ones(len(trace)), np.zeros(len(trace), int)
+    weight[50:], code[50:75] = 0.5, int(ebac.Fallback.FORCE_STALE)
+    use = ebac.observer_use(
+        trace.with_column("est.weight", weight).with_column("est.fallback", code)
+    )
+    assert use is not None
+    assert use.trusted == 50 / 101
+    assert use.fallback == {"force_stale": 25 / 101}
+    assert str(use) == "trusted in 49.5 % of the ticks; encoder alone: force stale in 24.8 %"
+    assert ebac.observer_use(ebac.simulate(ebac.Scenario(seconds=0.1))) is None
+    plain = ebac.observer_use(ebac.simulate(ebac.Scenario(seconds=0.1, observer=True), "tca"))
+    assert plain == ebac.ObserverUse(trusted=0.0, fallback={"off": 1.0})
+
+
+def test_the_command_turns_it_on_tells_of_it_and_logs_it(tmp_path: Path) -> None:
+    run = ["run", str(EXAMPLE), "--virtual", "--seconds", "1.5"]
+    done = CliRunner().invoke(app, [*run, "--observer", "--json", "--out", str(tmp_path)])
+    assert done.exit_code == 0, done.output
+    told = json.loads(done.stdout)
+    assert told["observer"] == {"trusted": 1.0, "fallback": {}}
+    assert told["scenario"]["observer"] is True
+    (log,) = tmp_path.glob("*.mcap")
+    trace = ebac.load(log)
+    assert (trace["est.weight"] == 1).all()
+    assert (
+        np.abs(trace["est.x"] - trace["x"]).max() <= 0.75 * Configuration.load(EXAMPLE).device.count
+    )
+    info = CliRunner().invoke(app, ["log", "info", str(log), "--json"])
+    assert json.loads(info.stdout)["observer"] == told["observer"]
+    shown = CliRunner().invoke(app, [*run, "--observer", "--no-files"]).stdout
+    assert "Observer: trusted in 100 % of the ticks." in shown
+    without = CliRunner().invoke(app, [*run, "--no-observer", "--json"])
+    assert json.loads(without.stdout)["observer"] is None
+
+
+# --- in real time ---
+
+
+class Desk:
+    """A device on simulated drives, and its simulated sensor."""
+
+    device: ebac.hardware.OpenDevice
+    sensor: SimulatedSensor
+
+
+@contextmanager
+def a_desk(known: Configuration) -> Iterator[Desk]:
+    made = Desk()
+
+    @contextmanager
+    def beside(
+        config: SensorConfig, shared_force: SharedForce, *_: object
+    ) -> Iterator[SensorConfig]:
+        with SimulatedSensor(shared_force) as made.sensor:
+            yield made.sensor.config
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(backends, "sensor_of", beside)
+        patch.setattr(backends, "virtual_can", lambda: None)
+        with ebac.Device.open(known, simulate=True) as made.device:
+            yield made
+
+
+def at_tick(tick: int, act: Callable[[], None]) -> Callable[[Run], None]:
+    """Act once, from that tick on."""
+    waits = True
+
+    def look(run: Run) -> None:
+        nonlocal waits
+        if waits and run.ticks > tick:
+            act()
+            waits = False
+
+    return look
+
+
+@pytest.mark.real_time
+def test_the_same_press_has_the_same_verdict_on_either_clock_and_as_a_scenario() -> None:
+    known = patient(seconds=4.0)
+    with a_desk(known) as desk:
+        real = under_the_law(desk.device.run())
+    virtual, scenario = known.simulate(), ebac.simulate(known.scenario(), known.design())
+    contacts = [ebac.contact(trace, truth=False) for trace in (real, virtual, scenario)]
+    assert [one.verdict for one in contacts] == ["exact and quiet"] * 3
+    for one in contacts:
+        assert one.settled_s is not None
+        assert contacts[2].rest_m == pytest.approx(one.rest_m, abs=2 * known.device.count)
+        assert contacts[2].settled_s == pytest.approx(one.settled_s, abs=0.2)
+    use = ebac.observer_use(real)
+    assert use is not None
+    assert use.trusted > 0.5  # on a busy machine; on a quiet one all but 1
+
+
+@pytest.mark.real_time
+def test_a_sensor_that_falls_silent_fades_it_out_and_in_and_the_wall_holds(tmp_path: Path) -> None:
+    """During a contact. The log replays to the bit: ages of force and counts, and the arming, included."""
+    known = patient(seconds=4.0)
+    with a_desk(known) as desk:
+
+        def silent() -> None:
+            desk.sensor.inject(EmulatorTrouble(silent=True))
+            time.sleep(0.3)
+            desk.sensor.inject(EmulatorTrouble())
+
+        trace = desk.device.run(log=tmp_path / "run.mcap", look=at_tick(2500, silent))
+    part = under_the_law(trace)
+    gone = part["est.fallback"][:, 0] == int(ebac.Fallback.FORCE_STALE)
+    assert gone.mean() * 4 > 0.1
+    assert (part["est.weight"][gone][40:] < 1).all()
+    assert part["est.weight"][-1, 0] == 1
+    pressed = part["t"] > 2.0
+    assert np.ptp(part["x"][pressed, 0]) < 0.25e-3
+    again = ebac.replay(tmp_path / "run.mcap", known.design())
+    for name in ("est.x", "est.v_act", "est.weight", "est.fallback", "f_env", "f_cmd"):
+        np.testing.assert_array_equal(again[name][: len(part)], part[name], err_msg=name)
