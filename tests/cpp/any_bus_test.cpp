@@ -7,7 +7,7 @@
 
 #include "ebac/can/wait.hpp"
 
-namespace ebac::can {
+namespace ebac::can::any_bus_test {
 namespace {
 
 using std::chrono::milliseconds;
@@ -63,4 +63,4 @@ TEST(WaitOn, LooksAgainWhileThereIsAFrameAndEndsWithItsBudget) {
 }
 
 }  // namespace
-}  // namespace ebac::can
+}  // namespace ebac::can::any_bus_test

@@ -9,7 +9,7 @@
 
 #include "ebac/identify/arm_step.hpp"
 
-namespace ebac {
+namespace ebac::arm_record_test {
 namespace {
 
 constexpr double kDt = 1e-3;  // s
@@ -203,4 +203,4 @@ TEST(ArmRecord, WhatDoesNotFitIsRefused) {
 }
 
 }  // namespace
-}  // namespace ebac
+}  // namespace ebac::arm_record_test

@@ -9,7 +9,7 @@
 
 #include "ebac/model/stepped_plant.hpp"
 
-namespace ebac {
+namespace ebac::cable_test {
 namespace {
 
 constexpr double kTick = 1e-3;
@@ -174,4 +174,4 @@ TEST(SteppedPlant, RefusesWhatItCannotResolve) {
 }
 
 }  // namespace
-}  // namespace ebac
+}  // namespace ebac::cable_test

@@ -13,7 +13,7 @@
 #include "ebac/simulated_drives/exchange_benchmark.hpp"
 #include "scripted_drives.hpp"
 
-namespace ebac::can {
+namespace ebac::can::canopen_device_test {
 namespace {
 
 using Drives = ScriptedDrives;
@@ -542,4 +542,4 @@ TEST(InTheLoop, AFaultOfAnotherStageStopsTheDrives) {
 }
 
 }  // namespace
-}  // namespace ebac::can
+}  // namespace ebac::can::canopen_device_test

@@ -9,7 +9,7 @@
 #include "ebac/model/noise.hpp"
 #include "scripted_drives.hpp"
 
-namespace ebac::can {
+namespace ebac::can::canopen_fuzz_test {
 namespace {
 
 constexpr int kFrames = 1'000'000;
@@ -120,4 +120,4 @@ TEST_P(Fuzz, AMillionFramesMoveNothingTheyShouldNot) {
 INSTANTIATE_TEST_SUITE_P(Seeds, Fuzz, testing::Values(1, 2));
 
 }  // namespace
-}  // namespace ebac::can
+}  // namespace ebac::can::canopen_fuzz_test

@@ -3,7 +3,7 @@
 
 #include "transcript.hpp"
 
-namespace ebac::can {
+namespace ebac::can::cia402_test {
 namespace {
 
 constexpr std::array<DriveState, kDriveStates> kStates{DriveState::kNotReady,
@@ -172,4 +172,4 @@ TEST(Cia402, NoCurrentUnlessEnabled) {
 }
 
 }  // namespace
-}  // namespace ebac::can
+}  // namespace ebac::can::cia402_test

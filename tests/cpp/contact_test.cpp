@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <vector>
 
-namespace ebac {
+namespace ebac::contact_test {
 namespace {
 
 using Column = std::vector<double>;
@@ -270,4 +270,4 @@ TEST(Contact, ARecordingTooShortOrTornIsRefused) {
 }
 
 }  // namespace
-}  // namespace ebac
+}  // namespace ebac::contact_test

@@ -4,7 +4,7 @@
 
 #include "transcript.hpp"
 
-namespace ebac::can {
+namespace ebac::can::drive_fuzz_test {
 namespace {
 
 constexpr int kFrames = 1'000'000;
@@ -98,7 +98,7 @@ void expect_allowed(const SimulatedDrive& drive, const Frame& said) {
   }
 }
 
-TEST(Fuzz, AMillionFramesIntoTheDrive) {
+TEST(DriveFuzz, AMillionFramesIntoTheDrive) {
   Chance chance(20);
   SimulatedDrive drive;
   std::array<int, kDriveStates> visits{};
@@ -136,7 +136,7 @@ TEST(Fuzz, AMillionFramesIntoTheDrive) {
 }
 
 /// Every number within the limits of its object, whatever was written.
-TEST(Fuzz, ValuesStayWithinTheirLimits) {
+TEST(DriveFuzz, ValuesStayWithinTheirLimits) {
   Chance chance(21);
   SimulatedDrive drive = ready_drive();
   for (int i = 0; i < 200'000; ++i) {
@@ -156,4 +156,4 @@ TEST(Fuzz, ValuesStayWithinTheirLimits) {
 }
 
 }  // namespace
-}  // namespace ebac::can
+}  // namespace ebac::can::drive_fuzz_test

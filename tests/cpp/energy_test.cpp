@@ -7,7 +7,7 @@
 #include "ebac/control/eba_account.hpp"
 #include "ebac/model/noise.hpp"
 
-namespace ebac {
+namespace ebac::energy_test {
 namespace {
 
 /// A world that is out for energy: displacements and forces of every size, walls, and now and then
@@ -84,4 +84,4 @@ TEST_P(EbaBound, HoldsOverHundredsOfThousandsOfHostileSteps) {
 INSTANTIATE_TEST_SUITE_P(Delay, EbaBound, testing::Values(0, 1, 2, 5));
 
 }  // namespace
-}  // namespace ebac
+}  // namespace ebac::energy_test

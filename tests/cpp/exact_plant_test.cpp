@@ -6,7 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
-namespace ebac {
+namespace ebac::exact_plant_test {
 namespace {
 
 constexpr double kTick = 1e-3;
@@ -204,4 +204,4 @@ TEST(ExactPlant, HandLetsGo) {
 }
 
 }  // namespace
-}  // namespace ebac
+}  // namespace ebac::exact_plant_test

@@ -4,7 +4,7 @@
 
 #include "ebac/faults/case.hpp"
 
-namespace ebac::faults {
+namespace ebac::faults::faults_test {
 namespace {
 
 class EveryKind : public testing::TestWithParam<std::size_t> {};
@@ -38,4 +38,4 @@ INSTANTIATE_TEST_SUITE_P(, EveryKind, testing::Range<std::size_t>(0, kKinds),
                          });
 
 }  // namespace
-}  // namespace ebac::faults
+}  // namespace ebac::faults::faults_test

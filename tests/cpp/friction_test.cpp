@@ -7,7 +7,7 @@
 
 #include "ebac/model/stepped_plant.hpp"
 
-namespace ebac {
+namespace ebac::friction_test {
 namespace {
 
 constexpr double kTick = 1e-3;
@@ -100,4 +100,4 @@ TEST(SteppedPlant, NotANumberInGivesNotANumberOut) {
 }
 
 }  // namespace
-}  // namespace ebac
+}  // namespace ebac::friction_test

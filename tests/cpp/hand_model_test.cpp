@@ -9,7 +9,7 @@
 #include "ebac/model/exact_plant.hpp"
 #include "ebac/model/stepped_plant.hpp"
 
-namespace ebac {
+namespace ebac::hand_model_test {
 namespace {
 
 constexpr double kTick = 1e-3;
@@ -121,4 +121,4 @@ TEST(HandModel, TheExactPlantRefusesIt) {
 static_assert(std::is_nothrow_move_constructible_v<HandForces>);
 
 }  // namespace
-}  // namespace ebac
+}  // namespace ebac::hand_model_test

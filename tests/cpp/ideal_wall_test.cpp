@@ -7,7 +7,7 @@
 #include <array>
 #include <cmath>
 
-namespace ebac {
+namespace ebac::ideal_wall_test {
 namespace {
 
 Setup setup(const Hand& hand, const Wall& wall, double damping = 2) {
@@ -122,4 +122,4 @@ TEST(IdealWall, KnowsWhatItDoesNotCover) {
 }
 
 }  // namespace
-}  // namespace ebac
+}  // namespace ebac::ideal_wall_test

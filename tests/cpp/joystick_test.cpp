@@ -11,7 +11,7 @@
 #include "ebac/control/laws.hpp"
 #include "ebac/sim/simulate.hpp"
 
-namespace ebac::can {
+namespace ebac::can::joystick_test {
 namespace {
 
 /// The plant behind the drives: no delay of its own, torque in whole thousandths.
@@ -211,4 +211,4 @@ TEST(Joystick, FaultStopsItsAxisWithinTheTick) {
 }
 
 }  // namespace
-}  // namespace ebac::can
+}  // namespace ebac::can::joystick_test

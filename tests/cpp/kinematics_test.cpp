@@ -10,7 +10,7 @@
 #include "ebac/model/noise.hpp"
 #include "ebac/model/pose.hpp"
 
-namespace ebac {
+namespace ebac::kinematics_test {
 namespace {
 
 constexpr double kStep = 1e-5;  // rad, of a central difference
@@ -140,4 +140,4 @@ TEST(Gimbal, PointsOffTheSphereGoToItsRim) {
 }
 
 }  // namespace
-}  // namespace ebac
+}  // namespace ebac::kinematics_test

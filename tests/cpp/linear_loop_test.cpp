@@ -11,7 +11,7 @@
 #include "ebac/control/direct.hpp"
 #include "ebac/sim/simulate.hpp"
 
-namespace ebac {
+namespace ebac::linear_loop_test {
 namespace {
 
 const Hand kNoHand{.mass = 0, .damping = 0, .stiffness = 0};
@@ -120,4 +120,4 @@ TEST(LinearLoop, RefusesWhatIsNotLinear) {
 }
 
 }  // namespace
-}  // namespace ebac
+}  // namespace ebac::linear_loop_test

@@ -27,7 +27,7 @@ void* operator new(std::size_t size) { return counted(size); }
 void operator delete(void* memory) noexcept { std::free(memory); }
 void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 
-namespace ebac::can {
+namespace ebac::can::loopback_bus_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -401,4 +401,4 @@ TEST(Threads, EndsComeAndGoWhileOthersSend) {
 }
 
 }  // namespace
-}  // namespace ebac::can
+}  // namespace ebac::can::loopback_bus_test

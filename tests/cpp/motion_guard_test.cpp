@@ -8,7 +8,7 @@
 
 #include "ebac/model/noise.hpp"
 
-namespace ebac {
+namespace ebac::motion_guard_test {
 namespace {
 
 constexpr double kTick = 1e-3;      // s
@@ -108,4 +108,4 @@ INSTANTIATE_TEST_SUITE_P(DelayAndLag, Guard,
                                           testing::Values(0.0, 3e-4, 2e-3)));
 
 }  // namespace
-}  // namespace ebac
+}  // namespace ebac::motion_guard_test

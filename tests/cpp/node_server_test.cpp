@@ -13,7 +13,7 @@
 #include "ebac/simulated_drives/joystick.hpp"
 #include "timed_run.hpp"
 
-namespace ebac::can {
+namespace ebac::can::node_server_test {
 namespace {
 
 using std::chrono::milliseconds;
@@ -162,4 +162,4 @@ TEST(NodeServer, AFrameThatWaitedCountsFromWhenItCame) {
 }
 
 }  // namespace
-}  // namespace ebac::can
+}  // namespace ebac::can::node_server_test

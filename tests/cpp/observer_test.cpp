@@ -14,7 +14,7 @@
 #include "ebac/loop/signal_chain.hpp"
 #include "ebac/sim/any_law.hpp"
 
-namespace ebac {
+namespace ebac::observer_test {
 namespace {
 
 /// The reference hand against the reference wall, under EBAC with the observer.
@@ -281,4 +281,4 @@ TEST(Ebac, LendsItsReserveOnce) {
 }
 
 }  // namespace
-}  // namespace ebac
+}  // namespace ebac::observer_test

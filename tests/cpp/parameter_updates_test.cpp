@@ -11,7 +11,7 @@
 #include "ebac/loop/retune.hpp"
 #include "ebac/sim/simulate.hpp"
 
-namespace ebac {
+namespace ebac::parameter_updates_test {
 namespace {
 
 TEST(Mailbox, IsEmptyUntilSomethingIsPosted) {
@@ -137,4 +137,4 @@ TEST(Retune, ToTheSameChangesNothing) {
 }
 
 }  // namespace
-}  // namespace ebac
+}  // namespace ebac::parameter_updates_test

@@ -5,7 +5,7 @@
 
 #include <string>
 
-namespace ebac::can {
+namespace ebac::can::pdo_plan_test {
 namespace {
 
 using std::string;
@@ -114,4 +114,4 @@ TEST(BusLoad, RefusesWhatNoBusHas) {
 }
 
 }  // namespace
-}  // namespace ebac::can
+}  // namespace ebac::can::pdo_plan_test

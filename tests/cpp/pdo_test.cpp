@@ -1,7 +1,7 @@
 // PDOs of a drive: remapping step by step, and when which type sends and takes effect.
 #include "transcript.hpp"
 
-namespace ebac::can {
+namespace ebac::can::pdo_test {
 namespace {
 
 constexpr std::int64_t kTpdo1 = kNoRemote | 0x181;
@@ -201,4 +201,4 @@ TEST(Pdo, SyncIdentifierMayMove) {
 }
 
 }  // namespace
-}  // namespace ebac::can
+}  // namespace ebac::can::pdo_test

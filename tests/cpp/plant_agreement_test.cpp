@@ -8,7 +8,7 @@
 #include "ebac/model/noise.hpp"
 #include "ebac/model/stepped_plant.hpp"
 
-namespace ebac {
+namespace ebac::plant_agreement_test {
 namespace {
 
 constexpr double kTick = 1e-3;
@@ -100,4 +100,4 @@ INSTANTIATE_TEST_SUITE_P(Cases, BothPlants, testing::ValuesIn(kAgreements),
                          [](const auto& one) { return std::string(one.param.name); });
 
 }  // namespace
-}  // namespace ebac
+}  // namespace ebac::plant_agreement_test

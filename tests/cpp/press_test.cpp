@@ -7,7 +7,7 @@
 #include "ebac/control/ebac.hpp"
 #include "ebac/control/tca.hpp"
 
-namespace ebac {
+namespace ebac::press_test {
 namespace {
 
 Setup pressing() {
@@ -68,4 +68,4 @@ TEST(Press, AGoalFartherAwayIsLater) {
 }
 
 }  // namespace
-}  // namespace ebac
+}  // namespace ebac::press_test

@@ -7,7 +7,7 @@
 #include "ebac/sensor/emulator.hpp"
 #include "ebac/sensor/rdt_link.hpp"
 
-namespace ebac::sensor {
+namespace ebac::sensor::rdt_emulator_test {
 namespace {
 
 /// An emulator and a link, hand to hand.
@@ -102,4 +102,4 @@ TEST(RdtEmulator, WhatItDoesBadlyIsWhatTheLinkCounts) {
 }
 
 }  // namespace
-}  // namespace ebac::sensor
+}  // namespace ebac::sensor::rdt_emulator_test

@@ -10,7 +10,7 @@
 #include "ebac/model/noise.hpp"
 #include "ebac/sensor/rdt_link.hpp"
 
-namespace ebac::sensor {
+namespace ebac::sensor::rdt_test {
 namespace {
 
 TEST(Rdt, BytesAreThoseOfTheManual) {
@@ -253,4 +253,4 @@ TEST(Mounting, ThereAndBackIsNothing) {
 }
 
 }  // namespace
-}  // namespace ebac::sensor
+}  // namespace ebac::sensor::rdt_test

@@ -37,7 +37,7 @@ void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory); }
 void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
 
-namespace ebac {
+namespace ebac::realtime_test {
 namespace {
 
 constexpr int kTicks = 10'000;
@@ -189,4 +189,4 @@ TEST(Realtime, SimulatedDrivesDoNotAllocate) {
 }
 
 }  // namespace
-}  // namespace ebac
+}  // namespace ebac::realtime_test

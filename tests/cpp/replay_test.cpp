@@ -9,7 +9,7 @@
 #include "ebac/control/tca.hpp"
 #include "ebac/sim/simulate.hpp"
 
-namespace ebac {
+namespace ebac::replay_test {
 namespace {
 
 /// The log of a run, as a recorder would have kept it.
@@ -94,4 +94,4 @@ TEST(Replay, BeyondItsEndALogStandsStill) {
 }
 
 }  // namespace
-}  // namespace ebac
+}  // namespace ebac::replay_test

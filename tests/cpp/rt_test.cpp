@@ -13,7 +13,7 @@
 #include "ebac/rt/monotonic_clock.hpp"
 #include "ebac/sim/simulate.hpp"
 
-namespace ebac::rt {
+namespace ebac::rt::rt_test {
 namespace {
 
 TEST(MonotonicClock, NeverWakesBeforeItsInstantAndCountsWhatItSkips) {
@@ -151,4 +151,4 @@ TEST(LoopThread, AFullTraceIsAStopAndNothingIsSilent) {
 }
 
 }  // namespace
-}  // namespace ebac::rt
+}  // namespace ebac::rt::rt_test

@@ -8,7 +8,7 @@
 #include "ebac/control/direct.hpp"
 #include "ebac/sim/simulate.hpp"
 
-namespace ebac {
+namespace ebac::safety_limiter_test {
 namespace {
 
 constexpr double kDt = 1e-3;
@@ -255,4 +255,4 @@ TEST(RunStateMachine, AStopWhileArmingNeverRuns) {
 }
 
 }  // namespace
-}  // namespace ebac
+}  // namespace ebac::safety_limiter_test

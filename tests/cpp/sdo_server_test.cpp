@@ -1,7 +1,7 @@
 // What the SDO server of a drive answers, byte by byte.
 #include "transcript.hpp"
 
-namespace ebac::can {
+namespace ebac::can::sdo_server_test {
 namespace {
 
 TEST(Sdo, ExpeditedUploadOfEveryLength) {
@@ -191,4 +191,4 @@ TEST(Sdo, StoresAndRestores) {
 }
 
 }  // namespace
-}  // namespace ebac::can
+}  // namespace ebac::can::sdo_server_test

@@ -9,7 +9,7 @@
 #include "ebac/sensor/emulator.hpp"
 #include "ebac/sensor/rdt_client.hpp"
 
-namespace ebac::sensor {
+namespace ebac::sensor::sensor_fuzz_test {
 namespace {
 
 /// A record, or something like it.
@@ -77,4 +77,4 @@ TEST(RdtFuzz, TheSocketTakesAnything) {
 }
 
 }  // namespace
-}  // namespace ebac::sensor
+}  // namespace ebac::sensor::sensor_fuzz_test

@@ -9,7 +9,7 @@
 #include "ebac/sim/simulate.hpp"
 #include "through_udp.hpp"
 
-namespace ebac::sensor {
+namespace ebac::sensor::sensor_loop_test {
 namespace {
 
 using Device = WithForceSensor<ForcePublisher<SimulatedDevice>, StepSensor>;
@@ -177,4 +177,4 @@ TEST(WithForceSensor, ASensorThatNeverComesIsToldAfterAWhile) {
 }
 
 }  // namespace
-}  // namespace ebac::sensor
+}  // namespace ebac::sensor::sensor_loop_test

@@ -11,7 +11,7 @@
 #include "ebac/sensor/emulator_server.hpp"
 #include "ebac/sensor/rdt_client.hpp"
 
-namespace ebac::sensor {
+namespace ebac::sensor::sensor_udp_test {
 namespace {
 
 using std::chrono::milliseconds;
@@ -279,4 +279,4 @@ TEST(EmulatorServer, IsUsedFromManyThreads) {
 }
 
 }  // namespace
-}  // namespace ebac::sensor
+}  // namespace ebac::sensor::sensor_udp_test

@@ -11,7 +11,7 @@
 
 #include "ebac/sim/simulated_device.hpp"
 
-namespace ebac::rt {
+namespace ebac::rt::shared_hand_target_test {
 namespace {
 
 constexpr double kStay = std::numeric_limits<double>::quiet_NaN();
@@ -95,4 +95,4 @@ TEST(TargetSubscriber, TheHandGoesThereAndAnAxisThatIsNotToldStays) {
 }
 
 }  // namespace
-}  // namespace ebac::rt
+}  // namespace ebac::rt::shared_hand_target_test

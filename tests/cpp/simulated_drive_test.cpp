@@ -1,7 +1,7 @@
 // The node itself: NMT, heartbeats, EMCY, faults on request, and the torque it makes of a target.
 #include "transcript.hpp"
 
-namespace ebac::can {
+namespace ebac::can::simulated_drive_test {
 namespace {
 
 constexpr std::int64_t kSecond = 1000 * kMillisecond;
@@ -393,4 +393,4 @@ TEST(Torque, ScaleIsThatOfTheMotorData) {
 }
 
 }  // namespace
-}  // namespace ebac::can
+}  // namespace ebac::can::simulated_drive_test

@@ -9,7 +9,7 @@
 #include "ebac/can/socketcan.hpp"
 #include "timed_run.hpp"
 
-namespace ebac::can {
+namespace ebac::can::socketcan_drives_test {
 namespace {
 
 TEST(SocketCanDrives, RunUnderTorqueAndRestAfterwards) {
@@ -31,4 +31,4 @@ TEST(SocketCanDrives, RunUnderTorqueAndRestAfterwards) {
 }
 
 }  // namespace
-}  // namespace ebac::can
+}  // namespace ebac::can::socketcan_drives_test

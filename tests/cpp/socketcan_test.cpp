@@ -18,7 +18,7 @@
 #include "ebac/can/raw_socket.hpp"
 #include "ebac/canopen/cob_id.hpp"
 
-namespace ebac::can {
+namespace ebac::can::socketcan_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -355,4 +355,4 @@ TEST_F(OnInterface, OtherInterfacesAreNoCan) {
 }
 
 }  // namespace
-}  // namespace ebac::can
+}  // namespace ebac::can::socketcan_test

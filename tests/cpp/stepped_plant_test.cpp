@@ -7,7 +7,7 @@
 #include <Eigen/LU>
 #include <cmath>
 
-namespace ebac {
+namespace ebac::stepped_plant_test {
 namespace {
 
 constexpr double kTick = 1e-3;
@@ -172,4 +172,4 @@ TEST(SteppedPlant, UnusedAxesStayEmpty) {
 }
 
 }  // namespace
-}  // namespace ebac
+}  // namespace ebac::stepped_plant_test

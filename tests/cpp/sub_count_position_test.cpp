@@ -7,7 +7,7 @@
 
 #include "ebac/control/energy_ledger.hpp"
 
-namespace ebac {
+namespace ebac::sub_count_position_test {
 namespace {
 
 constexpr double kCount = 3.07e-5;   // m
@@ -92,4 +92,4 @@ TEST(SubCountPosition, ADirectionIsToldAtAnEdgeAndNotWithinIt) {
 }
 
 }  // namespace
-}  // namespace ebac
+}  // namespace ebac::sub_count_position_test

@@ -12,7 +12,7 @@
 #include "ebac/control/law_type.hpp"
 #include "ebac/sim/any_law.hpp"
 
-namespace ebac {
+namespace ebac::sweep_test {
 namespace {
 
 struct Tasks {
@@ -188,4 +188,4 @@ TEST(Sweep, CountsWhatIsDone) {
 }
 
 }  // namespace
-}  // namespace ebac
+}  // namespace ebac::sweep_test

@@ -13,7 +13,7 @@
 #include "ebac/control/law_types.hpp"
 #include "ebac/sim/any_law.hpp"
 
-namespace ebac {
+namespace ebac::through_can_test {
 namespace {
 
 /// Every value of every column of `wanted` stands in `got`, to the bit.
@@ -208,4 +208,4 @@ TEST(ThroughCan, RefusesWhatABusCannotDo) {
 }
 
 }  // namespace
-}  // namespace ebac
+}  // namespace ebac::through_can_test

@@ -12,7 +12,7 @@
 #include "ebac/control/ebac.hpp"
 #include "ebac/sim/simulate.hpp"
 
-namespace ebac {
+namespace ebac::tick_test {
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
@@ -282,4 +282,4 @@ TEST(Fault, LatchesOnTheSimulatedDeviceToo) {
 }
 
 }  // namespace
-}  // namespace ebac
+}  // namespace ebac::tick_test

@@ -7,7 +7,7 @@
 
 #include "ebac/loop/trace.hpp"
 
-namespace ebac {
+namespace ebac::trace_ring_test {
 namespace {
 
 /// A state whose size is no multiple of a word.
@@ -102,4 +102,4 @@ TEST(TraceRing, AReaderNeverGetsATornRow) {
 }
 
 }  // namespace
-}  // namespace ebac
+}  // namespace ebac::trace_ring_test
