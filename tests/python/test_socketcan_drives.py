@@ -18,7 +18,7 @@ from typer.testing import CliRunner
 from ebac.cli import app
 
 INTERFACE = os.environ.get("EBAC_CAN", "")
-PROGRAM = Path(os.environ.get("EBAC_CPP_TESTS", "."), "socketcan_drives_test")
+PROGRAM = os.environ.get("EBAC_KERNEL_TESTS", "kernel_tests")
 EBAC = [sys.executable, "-c", "from ebac.cli import app; app()"]
 
 pytestmark = pytest.mark.skipif(
@@ -69,7 +69,10 @@ def test_configure_enable_run_stop(
     assert drive("verify", str(profile)) == []
 
     run = subprocess.run(
-        [PROGRAM], env=os.environ | {"EBAC_CAN_DRIVES": INTERFACE}, capture_output=True, text=True
+        [PROGRAM, "--gtest_filter=SocketCanDrives.*"],
+        env=os.environ | {"EBAC_CAN_DRIVES": INTERFACE},
+        capture_output=True,
+        text=True,
     )
     assert run.returncode == 0, run.stdout + run.stderr
     told = [line for line in run.stdout.splitlines() if "ticks of 1 ms" in line]
