@@ -59,6 +59,7 @@ math_eqref_format = "(T{number})"  # the numbers of the paper have no letter
 copybutton_exclude = ".linenos, .gp, .go"
 myst_heading_anchors = 3
 nb_execution_mode = "cache"  # executed again when a notebook changes; CI builds from nothing
+nb_execution_in_temp = True  # as its reader does, who has no clone
 nb_execution_timeout = 120
 nb_execution_raise_on_error = True
 nb_execution_show_tb = True

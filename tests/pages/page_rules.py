@@ -34,7 +34,11 @@ RULES = (
         r"^\.venv/bin/pytest|^pytest\b", NEVER, "is this test run; .ci/run does it as README says"
     ),
     Rule(r"^cmake |^ctest ", NEVER, "builds C++; .ci/run builds and tests the same example"),
-    Rule(r"^jupy\w+ ", NEVER, "a test of its own opens and runs every notebook"),
+    Rule(
+        r"^jupy\w+ ",
+        NEVER,
+        "a test of its own opens every notebook, the building of the site executes it",
+    ),
     Rule(r"docs/figures/", NEVER, "takes minutes, and needs a clone"),
     Rule(
         r"\bv?can\d\b|=socketcan|--interface socketcan",
