@@ -148,6 +148,19 @@ TEST(Observer, TakesCountsForWhenTheyWereLatched) {
   EXPECT_NEAR(est.x - axis.port.x, kPace * params.count, 2 * params.count);
 }
 
+/// The hand lets go while the sensor goes on showing its pull: what the readings prove of the
+/// velocity stands against the model.
+TEST(Observer, FollowsTheReadingsWhereTheForceIsWrongByFar) {
+  ebac::Setup setup = observed(0.62);
+  setup.hand.release_at = 0.5;
+  setup.device.sensor.stops_at = 0.5;
+  setup.device.sensor.repeats = true;
+  const auto trace = simulate_any(setup, designed_law("ebac", setup));
+  for (std::size_t i = 506; i < trace->size(); ++i) {
+    EXPECT_NEAR(trace->sample(i).axis[0].port.est.v, value_in(*trace, i, "true.v"), 0.15) << i;
+  }
+}
+
 /// Weight and bias of the sensor go to the disturbance.
 TEST(Observer, FindsAConstantForceItIsNotTold) {
   ebac::Setup setup = observed(1);

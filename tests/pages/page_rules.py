@@ -61,7 +61,7 @@ RULES = (
     Rule(r"^ebac tune [\w,-]+( --json.*)?$", NEVER, "takes minutes; tests search with few hands"),
     Rule(r"^ebac identify check", NEVER, "takes a minute; tests run it with few logs"),
     Rule(
-        r"^ebac study.* (cells|five|robustness|all|hands|damped-walls)\b",
+        r"^ebac study.* (cells|five|robustness|failures|all|hands|damped-walls)\b",
         NEVER,
         "takes a minute; tests run the conditions",
     ),

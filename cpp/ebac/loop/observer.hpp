@@ -76,7 +76,8 @@ struct ObserverParams {
 /// so the lag costs no noise. A force that is old when it is read, as one that came over a network,
 /// is behind G by its age as well: its mean age joins force_lag, and a reading older or newer than
 /// that is moved to it along the line through the last two records. The encoder corrects x, u and D by what lies outside its cell: the
-/// innovation has a dead zone of half a count, and x is kept within 3/4 count of the reading.
+/// innovation has a dead zone of half a count, x is kept within 3/4 count of the reading, and v within
+/// what two readings prove of it.
 /// Bandwidth w = sqrt(sqrt(12) force_noise / (M count)): the steady Kalman gain of force noise
 /// against a reading uniform within a count.
 class AxisObserver {
@@ -88,7 +89,8 @@ class AxisObserver {
         in_flight_(params.delay) {}
 
   void start(double x) EBAC_RT {
-    x_ = x;
+    x_ = reading_ = x;
+    pace_ = unread_ = astray_ = 0;
     u_ = v_ = disturbance_ = motor_ = late_ = measured_ = before_last_ = contradicted_ = 0;
     in_flight_ = CommandsInFlight(params_.delay);
     records_ = {};
@@ -123,9 +125,12 @@ class AxisObserver {
     const double before = x_;
     x_ += (u_ + (0.5 * dt + force_lag_) * a) * dt;
     u_ += a * dt;
-    if (encoder) correct(encoder->value + v_ * encoder->age, dt);
+    unread_ += dt;
+    const double reading = encoder ? encoder->value + v_ * encoder->age : reading_;
+    if (encoder) correct(reading, dt);
     moved_ = x_ - before;
     v_ = u_ + force_lag_ * acceleration(late_, u_);
+    if (encoder) keep_pace(reading);
   }
 
   /// The command of the last tick, as force at the handle, joins those in flight.
@@ -159,8 +164,9 @@ class AxisObserver {
   double contradicted() const EBAC_RT { return contradicted_; }
 
  private:
-  static constexpr double kCell = 0.75;    // counts from the reading that x may have
-  static constexpr double kMemory = 0.05;  // s, of the contradictions
+  static constexpr double kCell = 0.75;        // counts from the reading that x may have
+  static constexpr double kMemory = 0.05;      // s, of the contradictions
+  static constexpr double kPatience = 3.5e-3;  // s, half a period of a cable's resonance of 140 Hz
 
   /// Lags so close that their partial fractions lose digits are taken apart.
   static double apart(double lag, double other) EBAC_RT {
@@ -180,6 +186,25 @@ class AxisObserver {
     u_ += gain_v_ * sure / dt;
     disturbance_ += gain_d_ * sure * mass_ / (dt * dt);
     x_ = std::clamp(x_, reading - kCell * params_.count, reading + kCell * params_.count);
+  }
+
+  /// Two readings prove the mean velocity between them within a count; now, it may be off by half of
+  /// what it changes by, each to a count. A force that is wrong by far does not lead beyond that for
+  /// longer than `kPatience`. Where motor and handle ring on a cable, the sign alternates sooner.
+  void keep_pace(double reading) EBAC_RT {
+    const double pace = (reading - reading_) / unread_;
+    const double unsure = 2 * params_.count / unread_ + 0.5 * std::abs(pace - pace_);
+    const double off = v_ - std::clamp(v_, pace - unsure, pace + unsure);
+    const double less = std::copysign(std::max(0.0, std::abs(astray_) - unread_), astray_);
+    astray_ = off == 0 ? less : (off * astray_ < 0 ? 0.0 : astray_) + std::copysign(unread_, off);
+    if (std::abs(astray_) > kPatience) {
+      contradicted_ += (1 - contradicted_) * forget_;
+      u_ -= off;
+      v_ -= off;
+    }
+    reading_ = reading;
+    pace_ = pace;
+    unread_ = 0;
   }
 
   void set_tick(double dt) EBAC_RT {
@@ -250,7 +275,11 @@ class AxisObserver {
   double measured_ = 0;     // N
   double before_last_ = 0;  // N, the reading before
   double contradicted_ = 0;
-  double dt_ = 0;  // s, argument of the last set_tick
+  double reading_ = 0;  // m, the last one
+  double pace_ = 0;     // m/s, mean velocity between the last two
+  double unread_ = 0;   // s, since the last one
+  double astray_ = 0;   // s, that v was beyond what the readings prove, with the sign of its error
+  double dt_ = 0;       // s, argument of the last set_tick
   double gain_x_ = 0, gain_v_ = 0, gain_d_ = 0;
   double motor_keep_ = 0, late_keep_ = 0;  // of a transient, over one interval
   double motor_mean_ = 0, late_mean_ = 0;  // of a transient, in the mean over one interval

@@ -148,6 +148,31 @@ _ROBUSTNESS = [
             to.scenario(seconds=20.0), drives=_PUMPS),
 ]  # fmt: skip
 
+_SENSOR = [
+    _robust("sensor-stale", "the force sensor falls silent at 1 s", to.device("sensor", stops_at=1.0)),
+    _robust("sensor-gap", "the force sensor falls silent from 1 to 1.5 s, during the contact",
+            to.device("sensor", stops_at=1.0, resumes_at=1.5)),
+    _robust("sensor-gap-impact", "the force sensor falls silent from 30 to 130 ms, about the impact",
+            to.device("sensor", stops_at=0.03, resumes_at=0.13)),
+    _robust("sensor-repeats", "from 1 s on the force sensor sends its last reading over and over, as if it were new",
+            to.device("sensor", stops_at=1.0, repeats=True)),
+    _robust("sensor-saturated", "the force sensor shows 5 N at most, and its status says so",
+            to.device("sensor", range=5.0)),
+    _robust("sensor-bias", "the force sensor shows 2 N more", to.device("sensor", bias=2.0)),
+    _robust("sensor-slow", "the force sensor has a lag of 3 ms", to.device("sensor", lag=3e-3)),
+    _robust("sensor-slow-untold", "the same, and the observer is told 0.8 ms",
+            to.untold(to.device("sensor", lag=3e-3))),
+    _robust("sensor-records", "the force sensor gives a record every 1.3 ms, its age known",
+            to.device("sensor", period=1.3e-3)),
+    _robust("sensor-delay", "the force sensor shows the force of 1 ms ago, and its age is not known",
+            to.device("sensor", delay=1e-3)),
+    _robust("cable", "a cable of 100 kN/m between motor and lever", to.device("mechanics", cable_stiffness=1e5)),
+    _robust("backlash", "the same with 0.05 mm of play",
+            to.device("mechanics", cable_stiffness=1e5, backlash=5e-5)),
+]  # fmt: skip
+_TOLD = ("told-mass+50", "told-mass-50", "told-delay-1-of-2")
+_OTHER = ("device-0.1kg", "encoder-12bit", "friction-1", "jitter")
+
 _MODELS = (
     ("reflex", "hands with a stretch reflex of 40 ms, see ebac.hands.Reflex", Reflex()),
     ("finger-pad", "hands behind the pulp of the fingers, see ebac.hands.FingerPad", FingerPad()),
@@ -175,7 +200,7 @@ _HELD = [
 
 #: Every condition by its name.
 CONDITIONS: dict[str, Condition] = {
-    c.name: c for c in (*_FIVE, *_CELLS, *_ROBUSTNESS, *_HANDS, *_DAMPED, *_HELD)
+    c.name: c for c in (*_FIVE, *_CELLS, *_ROBUSTNESS, *_SENSOR, *_HANDS, *_DAMPED, *_HELD)
 }
 
 #: Shorter names of conditions: d2K20 is d2b2K20, as d1K10 has a damping of 2 N s/m.
@@ -192,6 +217,7 @@ GROUPS: dict[str, tuple[str, ...]] = {
         for d in (0, 1, 2) for b in (1, 2, 4) for k in (2, 5, 10, 20)
     ),
     "robustness": tuple(c.name for c in _ROBUSTNESS),
+    "failures": (*(c.name for c in _SENSOR), *_TOLD, *_OTHER),
     "hands": tuple(c.name for c in _HANDS),
     "damped-walls": tuple(c.name for c in _DAMPED),
     "all": tuple(CONDITIONS),

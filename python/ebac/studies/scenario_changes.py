@@ -52,6 +52,16 @@ def device(part: str, **values: Any) -> Change:
     )
 
 
+def untold(change: Change) -> Change:
+    """Change a scenario without a word to its observer, if it has one."""
+
+    def hidden(s: Scenario) -> Scenario:
+        observer = s.designed_observer()
+        return change(s).replace(observer=False if observer is None else observer)
+
+    return hidden
+
+
 def device_mass(mass: float) -> Change:
     """Give the device a mass at the handle [kg], handle and rotor in the same shares."""
 

@@ -1,0 +1,82 @@
+"""Where the observer's inputs or its model fail: `ebac` with it is no worse than without it, and says what it does."""
+
+import numpy as np
+import pytest
+
+import ebac
+from ebac.studies import CONDITIONS, GROUPS
+from ebac.studies import scenario_changes as to
+from ebac.studies.conditions import Condition
+
+BASE = ebac.Scenario(device=ebac.Device(sensor=ebac.ForceSensor(noise=0.03)))
+HANDS = ebac.Operators.grid()[::12]
+#: What sensor noise and the edge of an encoder count do to a resting force anyway, peak to peak [N].
+RIPPLE = 1.0
+#: A light device moves more by the noise of its sensor, and clicks less on the encoder alone [N].
+RIPPLE_LIGHT = 1.9
+#: What the observer's part and the encoder's part of the account are lent, together [J].
+LENT = 0.012
+
+
+def compared(condition: str | Condition) -> tuple[ebac.studies.Study, ebac.studies.Study]:
+    without, with_it = (
+        ebac.study(HANDS, ["ebac"], [condition], base=BASE.replace(observer=on))
+        for on in (False, True)
+    )
+    return without, with_it
+
+
+@pytest.mark.parametrize("condition", GROUPS["failures"])
+def test_it_is_never_worse_than_the_encoder_alone(condition: str) -> None:
+    without, with_it = compared(condition)
+    before, after = without.rows[0], with_it.rows[0]
+    assert after.good is not None
+    assert before.good is not None
+    assert after.good >= before.good
+    assert after.least_energy_J is not None
+    assert before.least_energy_J is not None
+    assert after.least_energy_J >= min(before.least_energy_J, -1e-9)
+    swings = [s.columns["force_swing_N"].max() for s in (without, with_it)]
+    assert swings[1] <= max(swings[0], RIPPLE_LIGHT if condition == "device-0.1kg" else RIPPLE)
+
+
+TAPS = to.tapping(1.5)
+
+
+@pytest.mark.parametrize(
+    ("condition", "named"),
+    [
+        ("sensor-stale", {"force_stale"}),
+        ("sensor-gap", {"force_stale"}),
+        ("sensor-gap-impact", {"force_stale"}),
+        ("sensor-repeats", {"model"}),
+        ("sensor-saturated", {"force_status"}),
+        ("none", set()),
+    ],
+)
+def test_a_hand_that_taps_on_draws_no_more_than_was_lent_and_the_loop_says_why(
+    condition: str, named: set[str]
+) -> None:
+    """The sensor fails as the hand moves away: what it showed last is wrong by all of the force."""
+    change = TAPS if condition == "none" else to.together(CONDITIONS[condition].change, TAPS)
+    _, found = compared(Condition(name="tapped", summary="", change=change))
+    assert found.columns["most_drawn_J"].max() < LENT
+    assert found.columns["least_energy_J"].min() >= -1e-9
+    uses = [ebac.observer_use(found.trace(run)) for run in range(len(HANDS))]
+    reasons = {name for use in uses if use is not None for name in use.fallback}
+    assert named <= reasons
+    assert bool(reasons) == bool(named)
+
+
+def test_it_comes_back_during_a_contact_without_a_step() -> None:
+    """None larger than those that the encoder alone makes anyway, and soon much smaller ones."""
+    _, found = compared("sensor-gap")
+    for run in range(len(HANDS)):
+        trace = found.trace(run)
+        t, weight = trace["t"], trace["est.weight"]
+        steps = np.abs(np.diff(trace["f_applied"], prepend=0.0))
+        assert weight[np.argmax(t > 1.49)] == 0
+        assert weight[np.argmax(t > 1.53)] == 1
+        clicks = steps[(t > 1.1) & (t < 1.5)].max()
+        assert steps[(t > 1.5) & (t < 1.53)].max() <= clicks + 0.05
+        assert steps[(t > 1.53) & (t < 1.6)].max() < 0.5
