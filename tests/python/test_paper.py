@@ -38,7 +38,10 @@ def test_specs_agree_but_for_the_workspace() -> None:
     found = values("specs")
     assert found["resolution"] == pytest.approx(0.0307e-3, abs=5e-8)
     assert found["continuous force"] == pytest.approx(10.6)
-    assert found["peak force"] == pytest.approx(42.4)
+    assert found["peak force, an input"] == pytest.approx(42.4)
+    paper_has = {str(line["quantity"]): line["paper"] for line in find("specs").rows}
+    assert paper_has["peak force, an input"] is None  # chosen from the paper's own number
+    assert found["force of the motor's stall current"] > 1.5 * found["peak force, an input"]
     assert found["travel, chord"] == pytest.approx(0.1)
     assert found["travel, arc"] == pytest.approx(0.1047, abs=5e-5)
     assert find("specs").verdict == "reproduced in part"
@@ -49,7 +52,7 @@ def test_fig5_completed_law_holds_from_contact_and_from_free_air() -> None:
     found = values("fig5")
     completed = [v for q, v in found.items() if q.startswith("completed") and "ideal" in q]
     printed = [v for q, v in found.items() if q.startswith("as printed") and "ideal" in q]
-    assert len(completed) == len(printed) == 3
+    assert (len(completed), len(printed)) == (3, 6)  # printed: with its force loop, and K_p = 0
     assert max(map(abs, completed)) < 0.062e-3
     assert min(printed) > 1e-3
     assert find("fig5").verdict == "reproduced in part"
@@ -139,8 +142,16 @@ def test_fig11_judges_each_claim() -> None:
         "EBAC (as printed): the position has no steady-state deviation": False,
         "EBAC (completed): the force stabilizes quickly": False,
         "EBAC (as printed): the force stabilizes quickly": True,
+        "EBAC (as printed, K_p = 0): the position has no steady-state deviation": False,
+        "EBAC (as printed, K_p = 0): the force stabilizes quickly": True,
     }
     assert "simulation" in find("fig11").why
+    found = values("fig11")
+    assert found["ideal wall: short of the hand's target"] > 30e-3  # the other reading
+    assert "target of the hand" in find("fig11").why
+    for law in ("tca", "eba", "ebac"):
+        assert found[f"{law}: short of the hand's target"] == 0.04 - found[f"{law}: rest"]
+    assert found["ebac-printed, K_p = 0: beyond the ideal"] > 1e-3
     assert values("fig11")["ebac: force settled"] > values("fig11")["ebac: position settled"]
 
 
