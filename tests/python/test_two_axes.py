@@ -1,5 +1,6 @@
 """Walls on a slant, corners and discs on two axes: quiet, exact, and along the normal."""
 
+import itertools
 from dataclasses import dataclass
 from math import pi
 
@@ -64,6 +65,34 @@ def test_a_wall_on_a_slant_is_quiet_exact_and_pushes_along_its_normal(
     assert degrees_apart(end.force, normal) < 2
     assert end.swing < ebac.metrics.STILL_SWING
     assert end.least_energy >= -1e-3
+
+
+@pytest.mark.parametrize("observer", [False, True])
+@pytest.mark.parametrize("apart", [30, 150])
+@pytest.mark.parametrize("aside", [0.0, 2e-3, 8e-3])
+def test_a_narrow_or_flat_corner_is_quiet_and_exact(
+    apart: float, aside: float, observer: bool
+) -> None:
+    """Normals that are nearly parallel: both walls share every direction of the plane."""
+    half = np.radians(apart / 2)
+    target = np.array([0.03, aside])
+    for mass, damping, stiffness in itertools.product((0.05, 0.5), (2, 6), (100, 600)):
+        scenario = ebac.Scenario(
+            device=DEVICES["linear"].replace(sensor=ebac.ForceSensor(noise=0.03)),
+            hand=ebac.Hand(mass=mass, damping=damping, stiffness=stiffness, target=tuple(target)),
+            environment=ebac.Corner(first=ebac.Wall(angle=-half), second=ebac.Wall(angle=half)),
+            observer=observer,
+        )
+        end = ebac.simulate(scenario, "ebac")[4.2:]["true.x"]
+        normals = np.array([direction(-half), direction(half)])
+        wanted = np.linalg.solve(
+            stiffness * np.eye(2) + 1e4 * normals.T @ normals, stiffness * target
+        )
+        if (normals @ wanted < 0).any():  # one wall alone holds the hand
+            (n,) = normals[normals @ wanted > 0]
+            wanted = target - n * (n @ target) * 1e4 / (1e4 + stiffness)
+        assert np.abs(end.mean(axis=0) - wanted).max() <= EXACT
+        assert np.ptp(end, axis=0).max() < ebac.metrics.STILL_SWING
 
 
 @every_device

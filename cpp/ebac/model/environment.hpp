@@ -66,7 +66,8 @@ struct Wall {
 };
 
 /// Two walls that meet: each pushes along its own normal. The frame is that of the first; walls
-/// that do not meet at a right angle share their directions.
+/// that do not meet at a right angle share their directions. Where they are closer to parallel than
+/// to that, the frame has the directions in which both together are stiffest and softest.
 struct Corner {
   Wall first{};
   Wall second{.angle = std::numbers::pi / 2};
@@ -76,6 +77,7 @@ struct Corner {
     const Axes m = second.normal();
     const double one = first.push_along(n.dot(x), n.dot(v));
     const double other = second.push_along(m.dot(x), m.dot(v));
+    if (std::abs(n.dot(m)) > kNarrow) return narrow(one * n + other * m);
     ContactForce contact = ContactForce::along_normal(n, one);
     const double across = contact.frame.row(1).dot(m);
     const bool square =
@@ -83,6 +85,22 @@ struct Corner {
     contact.along +=
         square ? Axes{0, std::copysign(other, across), 0} : Axes(other * (contact.frame * m));
     contact.force += other * m;
+    return contact;
+  }
+
+ private:
+  static constexpr double kNarrow = 0.5;  // cosine between the normals
+
+  /// In the principal directions of both stiffnesses.
+  ContactForce narrow(const Axes& force) const EBAC_RT {
+    const double a = 2 * first.angle, b = 2 * second.angle;
+    const double stiffest =
+        0.5 * std::atan2(first.stiffness * std::sin(a) + second.stiffness * std::sin(b),
+                         first.stiffness * std::cos(a) + second.stiffness * std::cos(b));
+    ContactForce contact =
+        ContactForce::along_normal({std::cos(stiffest), std::sin(stiffest), 0}, 0);
+    contact.force = force;
+    contact.along = contact.frame * force;
     return contact;
   }
 };
