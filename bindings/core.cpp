@@ -47,6 +47,7 @@ void bind_fault(py::module_& m) {
       .value("FORCE_DISCONNECTED", Fault::kForceDisconnected)
       .value("OVERRUNS", Fault::kOverruns)
       .value("FORCE_ERROR", Fault::kForceError)
+      .value("STARVED", Fault::kStarved)
       .finalize();
 }
 

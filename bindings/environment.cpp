@@ -47,6 +47,9 @@ void bind_environment(py::module_& m) {
         take_part(given, "Corner", "first", made.first, "a Wall");
         take_part(given, "Corner", "second", made.second, "a Wall");
         refuse_rest("Corner", given, known);
+        if (made.first.motion_amplitude != 0 || made.second.motion_amplitude != 0) {
+          throw std::invalid_argument("Corner: motion_amplitude of a wall must be 0 m");
+        }
         return made;
       },
       "__init__(self: ebac._core.Corner, *, first: ebac._core.Wall = " +

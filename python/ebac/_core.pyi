@@ -182,6 +182,7 @@ class Fault(enum.IntEnum):
     OVERRUNS = ...
     OVERSPEED = ...
     POSITION_NOT_FINITE = ...
+    STARVED = ...
     TORQUE_NOT_FINITE = ...
     WORKSPACE = ...
 
@@ -344,9 +345,13 @@ class Port:
     f_meas : float
         force the F/T sensor measures (F_M) [N].
     work : float
-        energy the virtual side absorbed, sum of f_applied dx [J].
+        energy the virtual side absorbed, sum of f_applied dx; dx of the observer where there is one [J].
+    unsure : float
+        largest error of work: the position's, half a count or est.bound, times every change of the force [J].
     damped : float
-        energy the device's known damping surely took, sum of (b/dt) dx^2 [J].
+        energy the device's known damping took: with the observer sum of b v^2 dt, estimated; without at least sum of (b/dt) max(|dx| - count, 0)^2 [J].
+    world_v : float
+        velocity of the virtual world's surface, where it moves and tells so [m/s].
     """
 
     @staticmethod
@@ -368,7 +373,9 @@ class Port:
         f_applied: float = 0.0,
         f_meas: float = 0.0,
         work: float = 0.0,
+        unsure: float = 0.0,
         damped: float = 0.0,
+        world_v: float = 0.0,
     ) -> None: ...
     def __reduce__(self) -> tuple[typing.Any, ...]: ...
     def __repr__(self) -> str: ...
@@ -383,7 +390,7 @@ class Port:
     @property
     def damped(self) -> float:
         """
-        energy the device's known damping surely took, sum of (b/dt) dx^2 [J]
+        energy the device's known damping took: with the observer sum of b v^2 dt, estimated; without at least sum of (b/dt) max(|dx| - count, 0)^2 [J]
         """
     @damped.setter
     def damped(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
@@ -435,6 +442,13 @@ class Port:
     @f_meas.setter
     def f_meas(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
+    def unsure(self) -> float:
+        """
+        largest error of work: the position's, half a count or est.bound, times every change of the force [J]
+        """
+    @unsure.setter
+    def unsure(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
     def v(self) -> float:
         """
         handle velocity, estimated [m/s]
@@ -444,10 +458,17 @@ class Port:
     @property
     def work(self) -> float:
         """
-        energy the virtual side absorbed, sum of f_applied dx [J]
+        energy the virtual side absorbed, sum of f_applied dx; dx of the observer where there is one [J]
         """
     @work.setter
     def work(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def world_v(self) -> float:
+        """
+        velocity of the virtual world's surface, where it moves and tells so [m/s]
+        """
+    @world_v.setter
+    def world_v(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def x(self) -> float:
         """
@@ -519,7 +540,10 @@ class DeviceFacts:
         time constant of the drive's current loop [s], 0 to 0.1.
     peak_force : float
         largest force the motor can give [N], 0.001 to 10000.
+    resonance : float
+        first resonance of the structure, handle held; 0 where none is known [Hz], 0 to 1e+05.
     """
+
     @staticmethod
     def fields() -> list[Field]:
         """
@@ -535,6 +559,7 @@ class DeviceFacts:
         count: float = 3.07e-05,
         current_lag: float = 0.0003,
         peak_force: float = 42.4,
+        resonance: float = 0.0,
     ) -> None: ...
     def __reduce__(self) -> tuple[typing.Any, ...]: ...
     def __repr__(self) -> str: ...
@@ -570,6 +595,11 @@ class DeviceFacts:
     def peak_force(self) -> float:
         """
         largest force the motor can give [N], 0.001 to 10000
+        """
+    @property
+    def resonance(self) -> float:
+        """
+        first resonance of the structure, handle held; 0 where none is known [Hz], 0 to 1e+05
         """
 
 class RealTimeMode(enum.IntEnum):
@@ -2304,7 +2334,12 @@ class Wall:
         where its surface cuts the normal through the origin [m], -10 to 10.
     angle : float
         direction into the wall, from +x towards +y [rad], -3.2 to 3.2.
+    motion_amplitude : float
+        of a sine along the normal; not in a Corner [m], 0 to 0.1.
+    motion_frequency : float
+        of that motion [Hz], 0 to 100.
     """
+
     @staticmethod
     def fields() -> list[Field]:
         """
@@ -2319,6 +2354,8 @@ class Wall:
         damping: float = 0.0,
         position: float = 0.0,
         angle: float = 0.0,
+        motion_amplitude: float = 0.0,
+        motion_frequency: float = 2.0,
     ) -> None: ...
     def __reduce__(self) -> tuple[typing.Any, ...]: ...
     def __repr__(self) -> str: ...
@@ -2347,6 +2384,16 @@ class Wall:
     def damping(self) -> float:
         """
         B of eq. (12) [N s/m], 0 to 10000
+        """
+    @property
+    def motion_amplitude(self) -> float:
+        """
+        of a sine along the normal; not in a Corner [m], 0 to 0.1
+        """
+    @property
+    def motion_frequency(self) -> float:
+        """
+        of that motion [Hz], 0 to 100
         """
     @property
     def position(self) -> float:
@@ -5353,6 +5400,8 @@ class EBAC:
         one encoder count at the handle [m], 0 to 0.01.
     peak_force : float
         largest command [N], 0.001 to 10000.
+    resonance : float
+        first resonance of the structure, which bounds the virtual damper; 0 where none is known [Hz], 0 to 1e+05.
     growth : float
         c1 of eq. (10), 1 to 1.2.
     decay : float
@@ -5442,6 +5491,11 @@ class EBAC:
             """
             stiffness of the environment as seen [N/m]
             """
+        @property
+        def starved(self) -> float:
+            """
+            time for which the guard has let less than half of the command through; falls tenfold when it lets more [s]
+            """
 
     name: typing.ClassVar[str] = "ebac"
     passive: typing.ClassVar[bool] = False
@@ -5483,6 +5537,7 @@ class EBAC:
         current_lag: float = 0.0003,
         count: float = 3.07e-05,
         peak_force: float = 42.4,
+        resonance: float = 0.0,
         growth: float = 1.2,
         decay: float = 0.8,
         kp: float = 0.1,
@@ -5627,6 +5682,11 @@ class EBAC:
     def reserve(self) -> float:
         """
         energy lent at the start, e(0) of eq. (3) [J], 0 to 1
+        """
+    @property
+    def resonance(self) -> float:
+        """
+        first resonance of the structure, which bounds the virtual damper; 0 where none is known [Hz], 0 to 1e+05
         """
     @property
     def state(self) -> EBAC.State:
@@ -6146,7 +6206,10 @@ class Limits:
         whether a force sensor that is stale, saturated or gone is a fault, 0 to 1.
     overruns : int
         ticks in a row that came a tick or more too late, which are a fault [samples], 1 to 1e+05.
+    starved : float
+        time for which a law's energy account may withhold more than half of its force [s], 0.001 to 1e+06.
     """
+
     @staticmethod
     def fields() -> list[Field]:
         """
@@ -6175,6 +6238,7 @@ class Limits:
         force_age: float = 0.02,
         watch_force: bool = True,
         overruns: int = 10,
+        starved: float = 2.0,
     ) -> None: ...
     def __reduce__(self) -> tuple[typing.Any, ...]: ...
     def __repr__(self) -> str: ...
@@ -6240,6 +6304,11 @@ class Limits:
     def speed(self) -> float:
         """
         faster, over 0.9 ms and by more than an encoder count, is a fault [m/s], 0.001 to 100
+        """
+    @property
+    def starved(self) -> float:
+        """
+        time for which a law's energy account may withhold more than half of its force [s], 0.001 to 1e+06
         """
     @property
     def thermal_time(self) -> float:

@@ -99,7 +99,9 @@ def test_work_is_the_sum_of_applied_force_times_displacement_to_the_bit(
 
 
 @pytest.mark.parametrize("axes", [1, 2])
-def test_damped_is_the_sum_of_known_damping_times_displacement_squared(axes: int) -> None:
+def test_damped_is_the_sum_of_known_damping_times_displacement_beyond_a_count_squared(
+    axes: int,
+) -> None:
     given_back = ebac.Compensation(friction=0.5, friction_speed=0.5)  # spends 1 of 3 N s/m
     device = ebac.Device(
         kinematics=ebac.Linear(axes=axes),
@@ -110,8 +112,38 @@ def test_damped_is_the_sum_of_known_damping_times_displacement_squared(axes: int
     assert device.facts.damping == 2.0
     dx = trace["dx"].reshape(len(trace), axes)[1:]
     dt = trace["dt"].reshape(len(trace), axes)[1:]
-    expected = np.add.accumulate(2.0 / dt * dx * dx)
+    sure = np.maximum(np.abs(dx) - device.count, 0)
+    expected = np.add.accumulate(2.0 / dt * sure * sure)
     assert trace["damped"].reshape(len(trace), axes)[1:].tobytes() == expected.tobytes()
+
+
+HELD = (
+    ebac.Hand(),
+    ebac.Hand(mass=0.05, damping=20.0, stiffness=1000.0, target=0.01),
+    ebac.Hand(path=[ebac.Sine(centre=4e-3, amplitude=2e-3, frequency=2.0)]),
+)
+
+
+@pytest.mark.parametrize("hand", range(len(HELD)))
+@pytest.mark.parametrize("name", ["ebac", "tca-damped"])
+@pytest.mark.parametrize("observer", [False, True])
+def test_work_and_damped_are_right_while_a_wall_is_held(
+    hand: int, name: str, observer: bool
+) -> None:
+    """While one count toggles, readings jump by a count under a device that hardly moves."""
+    device = ebac.Device(sensor=ebac.ForceSensor(noise=0.03))
+    scenario = ebac.Scenario(device=device, hand=HELD[hand], seconds=20.0, observer=observer)
+    trace = ebac.simulate(scenario, name)
+    x = trace["true.x"]
+    work = np.cumsum(trace["f_applied"] * np.diff(x, prepend=x[0]))
+    damped = np.cumsum(2.0 * trace["true.v"] ** 2 * trace["dt"])
+    assert (np.abs(trace["work"] - work) <= trace["unsure"] + 1e-9).all()
+    if observer:
+        assert trace["damped"][-1] == pytest.approx(damped[-1], rel=0.45)
+        assert np.abs(trace["work"] - work).max() < 2e-3
+        assert trace["unsure"][-1] > 0
+    else:
+        assert (trace["damped"] <= damped + 1e-9).all()
 
 
 def test_damping_that_compensation_has_spent_is_not_counted() -> None:

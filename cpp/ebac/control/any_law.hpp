@@ -40,6 +40,8 @@ class LawObject {
   virtual void reset() EBAC_RT = 0;
   /// The gains of `next`, a law of the same type.
   virtual void retune(const LawObject& next) EBAC_RT = 0;
+  /// How long its energy account has held its force back [s]; 0 for a law without one.
+  virtual double starved() const EBAC_RT = 0;
   virtual std::unique_ptr<LawObject> clone() const = 0;
 
   const LawType& type() const EBAC_RT { return *type_; }
@@ -80,6 +82,7 @@ class AnyLaw {
   void reset() EBAC_RT { law_->reset(); }
   void retune(const AnyLaw& next) EBAC_RT { law_->retune(*next.law_); }
 
+  double starved() const EBAC_RT { return law_->starved(); }
   const LawType& type() const EBAC_RT { return law_->type(); }
   const void* params() const EBAC_RT { return law_->params(); }
   const void* state() const EBAC_RT { return law_->state(); }

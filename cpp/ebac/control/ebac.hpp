@@ -53,7 +53,7 @@ class Ebac {
   explicit Ebac(const Params& params, const Timing& timing = {})
       : params_(checked(params, "EBAC")),
         timing_(checked(timing, "Timing")),
-        show_(params.mass, params.count, params.current_lag, timing),
+        show_(params.mass, params.count, params.current_lag, timing, params.resonance),
         recovery_(kPace * (params.heaviest_hand + params.mass) / show_.damping, show_.stiffness),
         loop_(params.kp, params.kd, params.filter),
         ledger_(params.damping, params.count, params.current_lag, params.reserve),
@@ -61,11 +61,12 @@ class Ebac {
         damper_(show_),
         contact_(params.count, show_.stiffness),
         guard_(params.damping, params.mass, params.count, params.pull, timing.longest()),
-        observed_(params.mass, params.count, params.current_lag, timing),
+        observed_(params.mass, params.count, params.current_lag, timing, params.resonance),
         work_(params.count),
         observed_guard_(params.damping, params.mass, params.count / 2, params.pull,
                         timing.longest()),
-        in_flight_(timing.delay) {
+        in_flight_(timing.delay),
+        asked_(std::min(timing.delay + 1, kMaxDelay)) {
     reset();
   }
 
@@ -82,7 +83,7 @@ class Ebac {
       if (weight > 0) wanted += weight * (held(observed_.step(port)) - wanted);
       command = guarded(wanted, port);
     } else {
-      ledger_.take(port, work_, observed_.slope());  // 1
+      ledger_.take(port, work_, observed_.slope(), surface(port), asked_[0]);  // 1
       command = observed_guarded(by_observer(port), port);
     }
     finish(command, port);
@@ -100,16 +101,19 @@ class Ebac {
     damper_.reset();
     ledger_ = EnergyLedger(params_.damping, params_.count, params_.current_lag, params_.reserve);
     in_flight_ = CommandsInFlight(timing_.delay);
+    asked_ = CommandsInFlight(asked_.size());
     readings_.clear();
     state_ = {};
     state_.energy = params_.reserve;
     contact_ = ContactEstimator(params_.count, show_.stiffness);
-    observed_ = ObservedForce(params_.mass, params_.count, params_.current_lag, timing_);
+    observed_ =
+        ObservedForce(params_.mass, params_.count, params_.current_lag, timing_, params_.resonance);
     work_ = ObservedWork(params_.count);
-    time_ = dt_ = ratio_ = weight_ = 0;
+    time_ = dt_ = ratio_ = weight_ = recovered_ = command_ = world_v_ = 0;
   }
 
   const State& state() const EBAC_RT { return state_; }
+  double starved() const EBAC_RT { return state_.starved; }
   const Params& params() const EBAC_RT { return params_; }
   const Timing& timing() const EBAC_RT { return timing_; }
 
@@ -119,6 +123,8 @@ class Ebac {
   static constexpr double kFloor = 0.5;   // of c_h: slope that continuity always allows
   static constexpr double kYield = 0.01;  // s, F_d follows a command the guard holds back
   static constexpr int kWindow = 16;      // samples, velocity the guard counts with
+  static constexpr double kShort = 0.5;   // of a command: less is starved
+  static constexpr double kFed = 10;      // s by which `starved` falls in a second
   static constexpr double kSensor = 0.5;  // N, error of the force sensor the guard counts with
 
   /// Values that depend on the time since the last tick alone.
@@ -132,7 +138,24 @@ class Ebac {
     sub_count_.start(port.x);
     readings_.push(port.x, 0);
     work_.start(port);
+    world_v_ = port.world_v;
     return 0;
+  }
+
+  /// Way of the world's surface over the last interval [m].
+  double surface(const Port& port) EBAC_RT {
+    const double mean = 0.5 * (world_v_ + port.world_v);
+    world_v_ = port.world_v;
+    return mean * port.dt;
+  }
+
+  /// What the ledger has for the guard: a surface that yields takes its share of the energy until
+  /// the command has acted.
+  double to_spend(double wanted, const Port& port) const EBAC_RT {
+    const double yields = std::copysign(port.world_v, port.world_v * wanted);
+    if (!(yields > 0)) return ledger_.energy();
+    const double time = (timing_.delay + 1) * port.dt + params_.current_lag;
+    return ledger_.energy() - in_flight_.largest_with(wanted) * yields * time;
   }
 
   /// The observer comes or goes: what takes over starts where the other is. The encoder's part
@@ -152,8 +175,10 @@ class Ebac {
 
   /// Steps 1 to 6 on the encoder's readings.
   double by_encoder(const Port& port) EBAC_RT {
+    recovered_ = 0;
     ledger_.lend(params_.reserve);
-    ledger_.take(port.f_applied, sub_count_.step(port.x, port.dt), port.dx);  // 1
+    ledger_.take(port.f_applied, sub_count_.step(port.x, port.dt), port.dx, surface(port),
+                 asked_[0]);  // 1
     const double damping = damper_.step(port.dx);
     readings_.push(port.x, time_ += port.dt);
     contact_.watch(port, sub_count_.direction());
@@ -215,7 +240,8 @@ class Ebac {
     const double off = port.f_env - state_.f_d;
     const double sure = std::max(off - open, 0.0) + std::min(off + open, 0.0);
     const double change = sure * recovery_.share(slope, contact_.pace(), port.dt);
-    ledger_.charge_unseen(change);
+    ledger_.charge_unseen(std::abs(change));
+    recovered_ = change;
     state_.f_d += change;
     state_.record(0, 0, 0, 0);
   }
@@ -234,7 +260,7 @@ class Ebac {
 
   double guarded(double wanted, const Port& port) EBAC_RT {
     if (!params_.guard) return wanted;
-    const double energy = ledger_.energy();
+    const double energy = to_spend(wanted, port);
     const double step = std::abs(port.dx) + params_.count;  // no window slopes by more than this
     if (guard_.surely_admits(wanted, in_flight_, ledger_.lagged(), energy, step)) return wanted;
     const double v = adaptive_slope(readings_, kWindow, params_.count);
@@ -242,12 +268,20 @@ class Ebac {
     if (command != wanted) {
       state_.clamped = true;
       state_.admitted = command / wanted;
+      take_back(command);
       const double size = std::abs(command);
       if (std::abs(state_.f_d) > size) {
         state_.f_d += (std::copysign(size, state_.f_d) - state_.f_d) * port.dt / (kYield + port.dt);
       }
     }
     return command;
+  }
+
+  /// A force that the guard does not give is not charged.
+  void take_back(double command) EBAC_RT {
+    const double asked = std::abs(recovered_);
+    const double given = std::copysign(1.0, recovered_) * (command - command_);
+    ledger_.charge_unseen(std::clamp(given, 0.0, asked) - asked);
   }
 
   /// With the velocity of the observer, half a count, and the pull that the force sensor shows: a
@@ -258,7 +292,7 @@ class Ebac {
     const double grown = params_.pull_rate * (timing_.delay + 1) * port.dt;
     const double pull = std::min(params_.pull, shown + kSensor + grown);
     const double v = port.est.v;
-    const double energy = ledger_.energy();
+    const double energy = to_spend(wanted, port);
     if (observed_guard_.surely_admits(wanted, in_flight_, ledger_.lagged(), energy,
                                       std::abs(v) * port.dt, pull)) {
       return wanted;
@@ -277,9 +311,13 @@ class Ebac {
       loop_.reset();
       state_.injected = 0;
     }
+    command_ = command;
     in_flight_.push(command);
+    if (port.world_v != 0) asked_.push(port.f_env);
     ledger_.leak(command, weight_ < 1 ? contact_.stored_at() : observed_.stored_at());
     state_.energy = ledger_.energy();
+    const double longer = state_.admitted < kShort ? port.dt : -kFed * port.dt;
+    state_.starved = std::max(0.0, state_.starved + longer);
   }
 
   Params params_;
@@ -296,12 +334,16 @@ class Ebac {
   ObservedWork work_;
   MotionGuard observed_guard_;
   CommandsInFlight in_flight_;
+  CommandsInFlight asked_;  // N, of the world: for the commands in flight and the one that acts
   Readings readings_{};
   State state_{};
-  double dt_ = 0;      // s, argument of the last set_tick
-  double time_ = 0;    // s
-  double ratio_ = 0;   // N/m, beta(t-1)
-  double weight_ = 0;  // of the observer, in the last tick
+  double dt_ = 0;         // s, argument of the last set_tick
+  double time_ = 0;       // s
+  double ratio_ = 0;      // N/m, beta(t-1)
+  double weight_ = 0;     // of the observer, in the last tick
+  double recovered_ = 0;  // N, change of F_d by recovery in this tick
+  double command_ = 0;    // N, of the last tick
+  double world_v_ = 0;    // m/s, of the last tick
 };
 
 static_assert(Controller<Ebac>);

@@ -15,6 +15,7 @@ struct EbacParams {
   double current_lag = 3e-4;  // s
   double count = 3.07e-5;     // m
   double peak_force = 42.4;   // N
+  double resonance = 0;       // Hz
   double growth = 1.2;
   double decay = 0.8;
   double kp = 0.1;
@@ -35,7 +36,8 @@ struct EbacParams {
             .mass = facts.mass,
             .current_lag = facts.current_lag,
             .count = facts.count,
-            .peak_force = facts.peak_force};
+            .peak_force = facts.peak_force,
+            .resonance = facts.resonance};
   }
   static constexpr auto fields() {
     using F = Field<EbacParams>;
@@ -48,6 +50,10 @@ struct EbacParams {
           0, 0.1},
         F{"count", &EbacParams::count, "m", "one encoder count at the handle", 0, 0.01},
         F{"peak_force", &EbacParams::peak_force, "N", "largest command", 1e-3, 1e4},
+        F{"resonance", &EbacParams::resonance, "Hz",
+          "first resonance of the structure, which bounds the virtual damper; 0 where none is "
+          "known",
+          0, 1e5},
         F{"growth", &EbacParams::growth, "1", "c1 of eq. (10)", 1, 1.2},
         F{"decay", &EbacParams::decay, "1", "c2 of eq. (10)", 0.8, 1},
         F{"kp", &EbacParams::kp, "1", "K_p of eq. (2); it divides the device's damping by 1 + K_p",
@@ -79,6 +85,7 @@ struct EbacState : BetaTrace {
   double energy = 0;    // J
   double slope = 0;     // N/m
   double admitted = 1;
+  double starved = 0;  // s
   bool clamped = false;
 
   static constexpr auto fields() {
@@ -92,6 +99,9 @@ struct EbacState : BetaTrace {
         F{"energy", &EbacState::energy, "J", "ledger: what the virtual side may give back"},
         F{"slope", &EbacState::slope, "N/m", "stiffness of the environment as seen"},
         F{"admitted", &EbacState::admitted, "1", "share of the command the guard let through"},
+        F{"starved", &EbacState::starved, "s",
+          "time for which the guard has let less than half of the command through; falls tenfold "
+          "when it lets more"},
         F{"clamped", &EbacState::clamped, "1",
           "1 where the energy bound or the guard held the force"},
     };

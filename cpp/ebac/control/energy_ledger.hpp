@@ -15,6 +15,10 @@ namespace ebac {
 ///
 /// An account that only grows would later pay for any instability, so it leaks, slowly, towards the
 /// energy that the last contact can have stored.
+///
+/// Where the surface of the virtual world moves and tells so, its own work is not the law's: -F_w dp
+/// with the way dp of the surface and the part F_w of the mean force, at most what the world had
+/// asked for. The account is then of F_bar s - F_w dp.
 class EnergyLedger {
  public:
   EnergyLedger(double damping, double count, double current_lag, double reserve) EBAC_RT
@@ -40,14 +44,18 @@ class EnergyLedger {
     leak_keep_ = std::exp(-dt / kLeakTime);
   }
 
-  void take(double f_applied, double moved, double dx) EBAC_RT {
+  /// `world` is the way of the world's surface over the interval [m], `asked` its force [N].
+  void take(double f_applied, double moved, double dx, double world = 0, double asked = 0) EBAC_RT {
     const double sure = std::max(std::abs(dx) - count_, 0.0);
-    energy_ += lagged_.hold(f_applied) * moved + b_ * sure * sure;
+    const double mean = lagged_.hold(f_applied);
+    energy_ += mean * moved + b_ * sure * sure - of_world(mean, asked) * world;
   }
 
   /// The same with the observer's position; `slope` is that of the world [N/m].
-  void take(const Port& port, ObservedWork& work, double slope) EBAC_RT {
-    energy_ += work.step(lagged_.hold(port.f_applied), port, slope, b_);
+  void take(const Port& port, ObservedWork& work, double slope, double world,
+            double asked) EBAC_RT {
+    const double mean = lagged_.hold(port.f_applied);
+    energy_ += work.step(mean, port, slope, b_) - of_world(mean, asked) * world;
   }
 
   /// From now on `reserve` [J] is lent in all. More is added at once; less is taken back as far as
@@ -60,8 +68,9 @@ class EnergyLedger {
   }
 
   /// Charges a force that changes while no motion is seen, one count of it: past the edge crossed
-  /// last the device may have gone that far before it turns.
-  void charge_unseen(double change) EBAC_RT { energy_ -= count_ * std::abs(change); }
+  /// last the device may have gone that far before it turns. What is not given after all is taken
+  /// back by a `size` below zero.
+  void charge_unseen(double size) EBAC_RT { energy_ -= count_ * size; }
 
   /// Leaks towards reserve + F_peak^2 / stiffness, with F_peak the largest command of about a
   /// second.
@@ -72,6 +81,10 @@ class EnergyLedger {
   }
 
  private:
+  static double of_world(double mean, double asked) EBAC_RT {
+    return std::clamp(mean, std::min(asked, 0.0), std::max(asked, 0.0));
+  }
+
   static constexpr double kLeakTime = 1.0;  // s
 
   double damping_;

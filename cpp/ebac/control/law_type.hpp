@@ -24,6 +24,7 @@ class LawOf final : public LawObject {
   void retune(const LawObject& next) EBAC_RT override {
     if constexpr (kTunable) law_.retune(static_cast<const LawOf&>(next).law_);
   }
+  double starved() const EBAC_RT override { return starved_of(law_); }
   std::unique_ptr<LawObject> clone() const override { return std::make_unique<LawOf>(law_); }
 
   const Law& law() const { return law_; }

@@ -16,16 +16,19 @@ namespace ebac {
 /// ((d + 1/2) T + current_lag). The world may be shown at its whole stiffness while moving.
 class ObservedForce {
  public:
-  ObservedForce(double mass, double count, double current_lag, const Timing& timing) EBAC_RT
-      : show_(mass, kNoCount, current_lag, timing),
+  ObservedForce(double mass, double count, double current_lag, const Timing& timing,
+                double resonance = 0) EBAC_RT
+      : show_(mass, kNoCount, current_lag, timing, resonance),
+        half_period_(show_.half_period),
         stored_at_(show_.stiffness),
         least_(kLeast* count) {}
 
   double step(const Port& port) EBAC_RT {
     watch(port);
     injected_ = 0;
+    const double asked = half_period_.step(port.f_env + show_.damping * port.est.v_act);
     if (port.f_env == 0) return 0;
-    const double damped = port.f_env + show_.damping * port.est.v_act;
+    const double damped = asked;
     const double force = port.f_env > 0 ? std::max(damped, 0.0) : std::min(damped, 0.0);
     injected_ = force - port.f_env;
     return force;
@@ -56,6 +59,7 @@ class ObservedForce {
   }
 
   Injection show_;
+  HalfPeriod half_period_;
   double stored_at_;  // N/m
   double least_;      // m
   double slope_ = 0;

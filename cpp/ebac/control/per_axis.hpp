@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <concepts>
 #include <span>
@@ -52,6 +53,11 @@ class PerAxis {
     } else {
       return requires { Law::kObserved; };
     }
+  }
+  double starved() const EBAC_RT {
+    double longest = 0;
+    for (const Law& law : laws_) longest = std::max(longest, starved_of(law));
+    return longest;
   }
   decltype(auto) state(std::size_t i) const EBAC_RT { return laws_[i].state(); }
   /// Of a law whose type is known at run time only.

@@ -34,6 +34,7 @@ class TurnedPorts {
     const Axes v = turned(&Port::v);
     const Axes applied = turned(&Port::f_applied);
     const Axes measured = turned(&Port::f_meas);
+    const Axes surface = turned(&Port::world_v);
     const auto estimate = [&](auto of) EBAC_RT { return turn_estimate(axes, contact, of); };
     const Axes moved = estimate([](const Port& p) EBAC_RT { return p.est.dx; });
     const Axes estimated = estimate([](const Port& p) EBAC_RT { return p.est.v; });
@@ -50,6 +51,7 @@ class TurnedPorts {
       port.f_env = contact.along[e];
       port.f_applied = applied[e];
       port.f_meas = measured[e];
+      port.world_v = surface[e];
       port.est = axes[i].port.est;
       port.est.dx = moved[e];
       port.est.v = estimated[e];

@@ -28,6 +28,13 @@ concept Controller =
       { view.timing() } noexcept -> std::same_as<const Timing&>;
     };
 
+/// How long the energy account of a law has held its force back [s]; 0 for a law without one.
+template <class L>
+double starved_of(const L& law) EBAC_RT {
+  if constexpr (requires { law.starved(); }) return law.starved();
+  return 0;
+}
+
 struct Command {
   std::array<double, kMaxAxes> current{};  // A, computed in the last tick
   double elapsed = 0;                      // s, since the last exchange; 0 in the first

@@ -14,6 +14,7 @@ struct DeviceFacts {
   double count = 3.07e-5;     // m
   double current_lag = 3e-4;  // s
   double peak_force = 42.4;   // N
+  double resonance = 0;       // Hz
 
   static constexpr auto fields() {
     using F = Field<DeviceFacts>;
@@ -28,6 +29,8 @@ struct DeviceFacts {
           "time constant of the drive's current loop", 0, 0.1},
         F{"peak_force", &DeviceFacts::peak_force, "N", "largest force the motor can give", 1e-3,
           1e4},
+        F{"resonance", &DeviceFacts::resonance, "Hz",
+          "first resonance of the structure, handle held; 0 where none is known", 0, 1e5},
     };
   }
 };

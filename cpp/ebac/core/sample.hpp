@@ -35,6 +35,7 @@ enum class Fault : std::uint32_t {
   kForceDisconnected = 18,    // the force sensor does not answer
   kOverruns = 19,             // too many ticks in a row came too late
   kForceError = 20,           // the force sensor reports an error of its own
+  kStarved = 21,              // the law's energy account has held its force back for too long
 };
 
 /// Where a loop stands. Every way out of kRun is kStop; after it, kIdle or, latched, kFault.
@@ -133,7 +134,9 @@ struct Port {
   double f_applied = 0;  // N, acted over the last interval: after limits, after the delay
   double f_meas = 0;     // N, force sensor (F_M)
   double work = 0;       // J, W_k = sum of f_applied dx
-  double damped = 0;     // J, sum of (b/dt) dx^2: energy the device's own damping surely dissipated
+  double unsure = 0;     // J, largest error of `work` by what is not known of the position
+  double damped = 0;     // J, energy the device's own damping dissipated
+  double world_v = 0;    // m/s, of the surface of a virtual world that moves
   Estimate est{};        // of the observer
 
   static constexpr auto fields() {
@@ -148,9 +151,18 @@ struct Port {
         F{"f_applied", &Port::f_applied, "N",
           "force that acted over the last interval, after limits and delay"},
         F{"f_meas", &Port::f_meas, "N", "force the F/T sensor measures (F_M)"},
-        F{"work", &Port::work, "J", "energy the virtual side absorbed, sum of f_applied dx"},
+        F{"work", &Port::work, "J",
+          "energy the virtual side absorbed, sum of f_applied dx; dx of the observer where there "
+          "is "
+          "one"},
+        F{"unsure", &Port::unsure, "J",
+          "largest error of work: the position's, half a count or est.bound, times every change of "
+          "the force"},
         F{"damped", &Port::damped, "J",
-          "energy the device's known damping surely took, sum of (b/dt) dx^2"},
+          "energy the device's known damping took: with the observer sum of b v^2 dt, estimated; "
+          "without at least sum of (b/dt) max(|dx| - count, 0)^2"},
+        F{"world_v", &Port::world_v, "m/s",
+          "velocity of the virtual world's surface, where it moves and tells so"},
     };
   }
 };

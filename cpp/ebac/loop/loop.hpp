@@ -149,7 +149,7 @@ class Loop {
   }
 
   void note(const Reading& reading, const Instant& now, std::span<const Axis> axes) EBAC_RT {
-    const Fault watched = limiter_.watch(reading, now, axes);
+    const Fault watched = limiter_.watch(reading, now, axes, starved_of(law_));
     if (sample_.fault != Fault::kNone) return;
     const Fault judged = judge(reading, axes);
     sample_.fault = judged != Fault::kNone ? judged : watched;

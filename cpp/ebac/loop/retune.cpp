@@ -12,8 +12,8 @@ namespace ebac {
 namespace {
 
 /// Parameters that a law keeps from its start: those of the device, and the energy reserve.
-constexpr std::array<std::string_view, 5> kFixedParams{"mass", "damping", "count", "current_lag",
-                                                       "reserve"};
+constexpr std::array<std::string_view, 6> kFixedParams{"mass",        "damping", "count",
+                                                       "current_lag", "reserve", "resonance"};
 
 }  // namespace
 

@@ -47,13 +47,16 @@ class SafetyLimiter {
 
   bool on() const EBAC_RT { return on_; }
 
-  /// Returns the fault, if any, in the motion, the force sensor or the timing of the device.
-  Fault watch(const Reading& reading, const Instant& now, std::span<const Axis> axes) EBAC_RT {
+  /// Returns the fault, if any, in the motion, the force sensor or the timing of the device, or of a
+  /// law that has been `starved` too long [s].
+  Fault watch(const Reading& reading, const Instant& now, std::span<const Axis> axes,
+              double starved = 0) EBAC_RT {
     if (!on_) return Fault::kNone;
     overruns_ = now.skipped > 0 ? overruns_ + 1 : 0;
     Fault found = motion(reading, now.dt, axes);
     if (found == Fault::kNone && limits_.watch_force) found = sensor(reading);
     if (found == Fault::kNone && overruns_ >= limits_.overruns) found = Fault::kOverruns;
+    if (found == Fault::kNone && starved > limits_.starved) found = Fault::kStarved;
     return found;
   }
 

@@ -40,17 +40,30 @@ class SignalChain {
     if (observing_.on) estimate(reading, dt, axes);
   }
 
-  /// f_applied, dx -> work, damped: the energy account, whatever the law
-  void account(std::span<Axis> axes) const EBAC_RT {
-    for (Axis& axis : axes) {
-      Port& port = axis.port;
-      port.work += port.f_applied * port.dx;
-      port.damped += b_ * port.dx * port.dx;
+  /// f_applied, dx -> work, unsure, damped: the energy account, whatever the law
+  void account(std::span<Axis> axes) EBAC_RT {
+    for (std::size_t i = 0; i < axes.size(); ++i) {
+      Port& port = axes[i].port;
+      const double f = port.f_applied;
+      const double bound = observing_.on ? port.est.bound : half_count_;
+      // By summation by parts: what the last position leaves open, and every change of the force.
+      changes_[i] += bound_[i] * std::abs(f - acted_[i]);
+      acted_[i] = f;
+      bound_[i] = bound;
+      port.unsure = changes_[i] + bound * std::abs(f);
+      if (observing_.on) {
+        port.work += f * port.est.dx;
+        port.damped += damping_ * port.dt * port.est.v * port.est.v;
+      } else {
+        const double sure = std::max(std::abs(port.dx) - 2 * half_count_, 0.0);
+        port.work += f * port.dx;
+        port.damped += b_ * sure * sure;
+      }
     }
   }
 
-  /// x, v -> f_env
-  ContactForce contact(std::span<Axis> axes) const EBAC_RT;
+  /// x, v at time t -> f_env, world_v
+  ContactForce contact(double t, std::span<Axis> axes) const EBAC_RT;
 
   /// f_cmd -> tau -> current: transpose, static compensation of eq. (2), the drive's peak
   void drive(double dt, std::span<Axis> axes) EBAC_RT;
@@ -94,6 +107,7 @@ class SignalChain {
   double weight_ = 1;    // of the estimate
   Fallback fallback_ = Fallback::kNone;
   double damping_;         // N s/m, lower bound of the device's own damping
+  double half_count_;      // m
   double rad_per_count_;   // joint
   double radius_;          // m
   double torque_per_amp_;  // N m/A, at the joint
@@ -110,6 +124,9 @@ class SignalChain {
   std::array<bool, kMaxAxes> counted_{};         // whether new counts came
   std::array<double, kMaxAxes> speed_{};         // m/s, at the handle
   std::array<double, kMaxAxes> acceleration_{};  // m/s^2, filtered
+  std::array<double, kMaxAxes> acted_{};         // N, force of the last interval
+  std::array<double, kMaxAxes> bound_{};         // m, error of the last position
+  std::array<double, kMaxAxes> changes_{};       // J, of `unsure`, without the present force
 };
 
 // Inline: every line of a tick is here or in `tick`.
@@ -125,6 +142,7 @@ inline SignalChain::SignalChain(const DeviceModel& device, const Environment& en
       observer_{AxisObserver(observing.params), AxisObserver(observing.params),
                 AxisObserver(observing.params)},
       damping_(std::max(0.0, device.facts().damping)),
+      half_count_(device.facts().count / 2),
       rad_per_count_(device.encoder.count() / device.capstan.ratio()),
       radius_(device.radius()),
       torque_per_amp_(device.motor.torque_constant * device.capstan.ratio()),
@@ -289,7 +307,7 @@ inline void SignalChain::estimate_general(const Reading& reading, double dt,
   }
 }
 
-inline ContactForce SignalChain::contact(std::span<Axis> axes) const EBAC_RT {
+inline ContactForce SignalChain::contact(double t, std::span<Axis> axes) const EBAC_RT {
   Axes x = all(axes, &Axis::port, &Port::x);
   Axes v = all(axes, &Axis::port, &Port::v);
   if (observing_.acts && weight_ > 0) {
@@ -299,10 +317,13 @@ inline ContactForce SignalChain::contact(std::span<Axis> axes) const EBAC_RT {
       x[e] += weight_ * (est.x_act - x[e]);
       v[e] += weight_ * (est.v_act - v[e]);
     }
+    t += weight_ * ((observing_.params.delay + 0.5) * dt_ + observing_.params.current_lag);
   }
-  ContactForce contact = ebac::contact(environment_, x, v);
+  ContactForce contact = ebac::contact(environment_, x, v, t);
   for (std::size_t i = 0; i < axes.size(); ++i) {
-    axes[i].port.f_env = contact.force[static_cast<Eigen::Index>(i)];
+    const auto e = static_cast<Eigen::Index>(i);
+    axes[i].port.f_env = contact.force[e];
+    axes[i].port.world_v = contact.velocity[e];
   }
   return contact;
 }

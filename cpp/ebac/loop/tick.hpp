@@ -62,7 +62,7 @@ Reading sense(SignalChain& chain, D& device, const Instant& now, Sample& s,
 template <AxesController Law, std::size_t N>
 void render(SignalChain& chain, Law& law, const Instant& now, std::span<Axis, N> axes) EBAC_RT {
   chain.account(axes);
-  const ContactForce contact = chain.contact(axes);
+  const ContactForce contact = chain.contact(now.t, axes);
   law.step(axes, contact);
   chain.drive(now.dt, axes);
 }

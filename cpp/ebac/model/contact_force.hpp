@@ -13,7 +13,8 @@ struct ContactForce {
   Axes force = Axes::Zero();
   Axes along = Axes::Zero();
   Jacobian frame = Jacobian::Identity();
-  bool turned = false;  // whether the frame is other than the axes of the device
+  Axes velocity = Axes::Zero();  // m/s, of the surface itself, in the axes of the device
+  bool turned = false;           // whether the frame is other than the axes of the device
 
   static ContactForce straight(const Axes& force) EBAC_RT {
     return {.force = force, .along = force};

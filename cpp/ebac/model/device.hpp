@@ -1,5 +1,9 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
 #include "ebac/core/device_facts.hpp"
 #include "ebac/model/capstan.hpp"
 #include "ebac/model/compensation.hpp"
@@ -43,12 +47,20 @@ struct DeviceModel {
   }
   double mass() const EBAC_RT { return mechanics.handle_mass + reflected_mass(); }
 
+  /// First resonance of a cable that gives: the rotor against a handle that is held [Hz]; 0 without.
+  double resonance() const EBAC_RT {
+    if (mechanics.cable_stiffness == 0) return 0;
+    const double w = std::sqrt(mechanics.cable_stiffness / std::max(1e-6, reflected_mass()));
+    return w / (2 * std::numbers::pi);
+  }
+
   DeviceFacts facts() const EBAC_RT {
     return {.damping = compensation.damping_left(mechanics.damping, mechanics.coulomb),
             .mass = compensation.mass_left(mass()),
             .count = count(),
             .current_lag = drive.current_lag,
-            .peak_force = peak_force()};
+            .peak_force = peak_force(),
+            .resonance = resonance()};
   }
 };
 

@@ -29,12 +29,15 @@ inline double push(double stiffness, double damping, double depth, double speed)
   return std::max(0.0, damping == 0 ? spring : spring + damping * speed);
 }
 
-/// A flat wall.
+/// A flat wall. It may move to and fro along its normal: what it does to the hand by that is work of
+/// the world, which it tells by the velocity of its surface.
 struct Wall {
-  double stiffness = 10e3;  // N/m
-  double damping = 0;       // N s/m
-  double position = 0;      // m
-  double angle = 0;         // rad
+  double stiffness = 10e3;      // N/m
+  double damping = 0;           // N s/m
+  double position = 0;          // m
+  double angle = 0;             // rad
+  double motion_amplitude = 0;  // m
+  double motion_frequency = 2;  // Hz
 
   Axes normal() const EBAC_RT { return {std::cos(angle), std::sin(angle), 0}; }
 
@@ -53,6 +56,17 @@ struct Wall {
     return ContactForce::along_normal(n, push_along(n.dot(x), n.dot(v)));
   }
 
+  /// The same at time `t` [s], with the wall where its motion has it.
+  ContactForce contact(const Axes& x, const Axes& v, double t) const EBAC_RT {
+    if (motion_amplitude == 0) return contact(x, v);
+    const Axes n = normal();
+    const double w = 2 * std::numbers::pi * motion_frequency;
+    const Axes rate = w * motion_amplitude * std::cos(w * t) * n;
+    ContactForce made = contact(x - motion_amplitude * std::sin(w * t) * n, v - rate);
+    made.velocity = rate;
+    return made;
+  }
+
   static constexpr auto fields() {
     using F = Field<Wall>;
     return std::array{
@@ -61,6 +75,9 @@ struct Wall {
         F{"position", &Wall::position, "m", "where its surface cuts the normal through the origin",
           -10, 10},
         F{"angle", &Wall::angle, "rad", "direction into the wall, from +x towards +y", -3.2, 3.2},
+        F{"motion_amplitude", &Wall::motion_amplitude, "m",
+          "of a sine along the normal; not in a Corner", 0, 0.1},
+        F{"motion_frequency", &Wall::motion_frequency, "Hz", "of that motion", 0, 100},
     };
   }
 };
@@ -136,8 +153,18 @@ struct Disc {
 
 using Environment = std::variant<Free, Wall, Corner, Disc>;
 
-inline ContactForce contact(const Environment& environment, const Axes& x, const Axes& v) EBAC_RT {
-  return std::visit([&](const auto& shape) { return shape.contact(x, v); }, environment);
+/// At time `t` [s] of the run.
+inline ContactForce contact(const Environment& environment, const Axes& x, const Axes& v,
+                            double t) EBAC_RT {
+  return std::visit(
+      [&](const auto& shape) EBAC_RT {
+        if constexpr (requires { shape.contact(x, v, t); }) {
+          return shape.contact(x, v, t);
+        } else {
+          return shape.contact(x, v);
+        }
+      },
+      environment);
 }
 
 }  // namespace ebac

@@ -116,7 +116,7 @@ class IdealAxis {
 
 const Wall* straight_wall(const Setup& setup) {
   const auto* wall = std::get_if<Wall>(&setup.environment);
-  return wall != nullptr && wall->angle == 0 ? wall : nullptr;
+  return wall != nullptr && wall->angle == 0 && wall->motion_amplitude == 0 ? wall : nullptr;
 }
 
 }  // namespace
