@@ -77,7 +77,7 @@ TEST(Observer, KnowsThePositionWithinACountAndTheVelocityWithoutItsNoise) {
   const ebac::Setup setup = observed();
   const Errors e = errors(setup);
   const double count = setup.device.count();
-  EXPECT_LE(e.reading, 0.75 + 1e-9);
+  EXPECT_LE(e.reading, 1.5 + 1e-9);
   EXPECT_LT(e.x.value(), 0.5 * count);
   EXPECT_LT(e.v.value(), 0.1 * count / setup.timing.dt);  // one count of velocity is 31 mm/s
 }

@@ -75,11 +75,16 @@ struct ObserverParams {
 ///
 /// so the lag costs no noise. A force that is old when it is read, as one that came over a network,
 /// is behind G by its age as well: its mean age joins force_lag, and a reading older or newer than
-/// that is moved to it along the line through the last two records. The encoder corrects x, u and D by what lies outside its cell: the
-/// innovation has a dead zone of half a count, x is kept within 3/4 count of the reading, and v within
-/// what two readings prove of it.
-/// Bandwidth w = sqrt(sqrt(12) force_noise / (M count)): the steady Kalman gain of force noise
-/// against a reading uniform within a count.
+/// that is moved to it along the line through the last two records.
+///
+/// The encoder corrects x, u and D. A reading says little about where in its count the device is, so
+/// an innovation counts half up to one count and whole beyond, and x is kept within 1.5 counts of the
+/// reading. The steady Kalman gain of force noise against a reading uniform within a count has the
+/// bandwidth w = sqrt(sqrt(12) force_noise / (M count)). Half of it is used in motion, a quarter at
+/// rest, where an edge of a count would be felt as a click; D is slower than x and u, by far so at
+/// rest. At rest the prediction takes the force of the hand without its noise, from the mean over
+/// 30 ms. Where the force turns out to be noisier than told, all of w is used. v is kept within what
+/// two readings prove of it.
 class AxisObserver {
  public:
   AxisObserver(const ObserverParams& params, double mass_share = 1) EBAC_RT
@@ -91,7 +96,9 @@ class AxisObserver {
   void start(double x) EBAC_RT {
     x_ = reading_ = x;
     pace_ = unread_ = astray_ = 0;
-    u_ = v_ = disturbance_ = motor_ = late_ = measured_ = before_last_ = contradicted_ = 0;
+    u_ = v_ = disturbance_ = motor_ = late_ = 0;
+    measured_ = before_last_ = calm_ = contradicted_ = rough_ = 0;
+    moving_ = 1;
     in_flight_ = CommandsInFlight(params_.delay);
     records_ = {};
     dt_ = 0;
@@ -119,8 +126,12 @@ class AxisObserver {
     motor_ = applied + f * motor_keep_;
     // The mean over the interval, of the parabola through the last three readings.
     const double force = (5 * measured + 8 * measured_ - before_last_) / 12 + disturbance_;
+    const double bend = measured - 2 * measured_ + before_last_;
+    const bool loud = std::abs(bend) > kLoud * params_.force_noise;
+    rough_ += ((loud ? 1.0 : 0.0) - rough_) * roughening_;
     before_last_ = measured_;
     measured_ = measured;
+    calm_ += (measured - calm_) * calming_;
     const double a = (force - params_.damping * u_ - late) / mass_;
     const double before = x_;
     x_ += (u_ + (0.5 * dt + force_lag_) * a) * dt;
@@ -142,8 +153,9 @@ class AxisObserver {
     x = x_;
     v = v_;
     double motor = motor_;
+    const double hand = calm_ + moving_ * (measured_ - calm_) + disturbance_;
     const auto advance = [&](double force, double time) EBAC_RT {
-      const double a = (measured_ + disturbance_ - params_.damping * v - force) / mass_;
+      const double a = (hand - params_.damping * v - force) / mass_;
       x += (v + 0.5 * a * time) * time;
       v += a * time;
     };
@@ -164,9 +176,34 @@ class AxisObserver {
   double contradicted() const EBAC_RT { return contradicted_; }
 
  private:
-  static constexpr double kCell = 0.75;        // counts from the reading that x may have
+  // Found by random search on 72 hands in 25 cells of delay, stiffness and error of the facts: force
+  // ripple, hands at rest and energy given out.
+  static constexpr double kCell = 1.5;  // counts from the reading that x may have
+  static constexpr double kDithered =
+      0.09;                                // 1, (w dt)^2 from which noise moves x over whole counts
+  static constexpr double kMoving = 0.01;  // m/s, from here on the device moves
+  static constexpr double kRests = 0.05;   // s, until it counts as resting
+  static constexpr double kCalm = 0.03;    // s, mean of the hand's force at rest
+  static constexpr double kLoud = 10;    // standard deviations in a second difference, 4 of its own
+  static constexpr double kRough = 0.1;  // s, memory of such differences
   static constexpr double kMemory = 0.05;      // s, of the contradictions
   static constexpr double kPatience = 3.5e-3;  // s, half a period of a cable's resonance of 140 Hz
+
+  /// Gains of the three states.
+  struct Gains {
+    double x = 0, v = 0, d = 0;
+
+    /// Poles at two times `bandwidth` for x and u, one at `slow` of it for D.
+    static Gains of(double bandwidth, double slow, double dt) EBAC_RT {
+      const double z = std::exp(-bandwidth * dt);
+      const double q = std::exp(-slow * bandwidth * dt);
+      return {1 - z * z * q, (1 - z) * (1 - z) + (1 - q) * (1 - z) * (1 + z),
+              (1 - z) * (1 - z) * (1 - q)};
+    }
+    Gains towards(const Gains& other, double share) const EBAC_RT {
+      return {x + share * (other.x - x), v + share * (other.v - v), d + share * (other.d - d)};
+    }
+  };
 
   /// Lags so close that their partial fractions lose digits are taken apart.
   static double apart(double lag, double other) EBAC_RT {
@@ -178,14 +215,18 @@ class AxisObserver {
   }
 
   void correct(double reading, double dt) EBAC_RT {
-    const double half = params_.count / 2;
+    const double count = params_.count;
     const double off = reading - x_;
-    const double sure = off - std::clamp(off, -half, half);
-    contradicted_ += ((std::abs(sure) > params_.count ? 1.0 : 0.0) - contradicted_) * forget_;
-    x_ += gain_x_ * sure;
-    u_ += gain_v_ * sure / dt;
-    disturbance_ += gain_d_ * sure * mass_ / (dt * dt);
-    x_ = std::clamp(x_, reading - kCell * params_.count, reading + kCell * params_.count);
+    const double within = std::clamp(off, -count, count);
+    const double noisy = std::clamp(2.5 * rough_ - 0.5, 0.0, 1.0);
+    const double innovation = off - (1 - noisy) * (1 - within_) * within;
+    contradicted_ += ((std::abs(off) > 1.5 * count ? 1.0 : 0.0) - contradicted_) * forget_;
+    moving_ = std::max(std::min(1.0, std::abs(u_) / kMoving), moving_ * resting_);
+    const Gains gain = at_rest_.towards(in_motion_, moving_).towards(full_, noisy);
+    x_ += gain.x * innovation;
+    u_ += gain.v * innovation / dt;
+    disturbance_ += gain.d * innovation * mass_ / (dt * dt);
+    x_ = std::clamp(x_, reading - kCell * count, reading + kCell * count);
   }
 
   /// Two readings prove the mean velocity between them within a count; now, it may be off by half of
@@ -211,11 +252,13 @@ class AxisObserver {
     dt_ = dt;
     force_lag_ = apart(params_.force_lag + records_.mean_age(), params_.current_lag);
     const double w = std::sqrt(std::sqrt(12.0) * params_.force_noise / (mass_ * params_.count));
-    const double z = std::exp(-w * dt);
-    const double q = std::exp(-0.5 * w * dt);
-    gain_x_ = 1 - z * z * q;
-    gain_v_ = (1 - z) * (1 - z) + (1 - q) * (1 - z) * (1 + z);
-    gain_d_ = (1 - z) * (1 - z) * (1 - q);
+    within_ = std::clamp(w * w * dt * dt / kDithered, 0.5, 1.0);
+    full_ = Gains::of(w, 0.5, dt);
+    in_motion_ = Gains::of(0.5 * w, 0.5, dt);
+    at_rest_ = Gains::of(0.5 * within_ * w, 0.1, dt);
+    resting_ = std::max(0.0, 1 - dt / kRests);
+    calming_ = dt / (kCalm + dt);
+    roughening_ = dt / (kRough + dt);
     const double lag = params_.current_lag;
     motor_keep_ = lag > 0 ? std::exp(-dt / lag) : 0;
     late_keep_ = force_lag_ > 0 ? std::exp(-dt / force_lag_) : 0;
@@ -280,8 +323,13 @@ class AxisObserver {
   double unread_ = 0;   // s, since the last one
   double astray_ = 0;   // s, that v was beyond what the readings prove, with the sign of its error
   double dt_ = 0;       // s, argument of the last set_tick
-  double gain_x_ = 0, gain_v_ = 0, gain_d_ = 0;
-  double motor_keep_ = 0, late_keep_ = 0;  // of a transient, over one interval
+  double calm_ = 0;     // N, the force of the hand without its noise
+  double rough_ = 0;    // share of ticks with more noise than told
+  double moving_ = 1;   // 1 in motion, 0 at rest
+  Gains in_motion_{}, at_rest_{}, full_{};
+  double within_ = 1;                                  // share of an innovation within a count
+  double resting_ = 0, calming_ = 0, roughening_ = 0;  // share kept, share taken, per tick
+  double motor_keep_ = 0, late_keep_ = 0;              // of a transient, over one interval
   double motor_mean_ = 0, late_mean_ = 0;  // of a transient, in the mean over one interval
   double cross_ = 0;
   double forget_ = 0;
