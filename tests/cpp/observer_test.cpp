@@ -88,7 +88,7 @@ TEST(Observer, PredictsWhereTheCommandActs) {
     setup.timing.delay = delay;
     setup.observer = ObserverParams::of(setup.device, setup.timing);
     const Errors e = errors(setup);
-    EXPECT_LT(e.ahead.value(), 0.4 * e.unpredicted.value()) << delay << " samples of delay";
+    EXPECT_LT(e.ahead.value(), 0.45 * e.unpredicted.value()) << delay << " samples of delay";
   }
 }
 
@@ -137,11 +137,11 @@ TEST(Observer, TakesCountsForWhenTheyWereLatched) {
   EXPECT_EQ(est.x, axis.port.x);
   constexpr double kPace = 20;  // counts in a tick
   std::int64_t counts = 100'000;
-  for (int k = 0; k < 200; ++k) est = tick({.counts = {counts += 20}}, 1e-3);
+  for (int k = 0; k < 600; ++k) est = tick({.counts = {counts += 20}}, 1e-3);
   const double v = kPace * params.count / 1e-3;
   EXPECT_NEAR(est.v, v, 0.02 * v);
   for (int k = 1; k <= 5; ++k) est = tick({.counts = {counts}, .counts_age = {1e-3 * k}}, 1e-3);
-  EXPECT_NEAR(est.x - axis.port.x, 5 * kPace * params.count, 2 * params.count);
+  EXPECT_NEAR(est.x - axis.port.x, 5 * kPace * params.count, 3 * params.count);
   EXPECT_NEAR(est.v, v, 0.02 * v);
   counts += 100;
   est = tick({.counts = {counts}, .counts_age = {1e-3}}, 1e-3);

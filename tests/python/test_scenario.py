@@ -45,6 +45,7 @@ paths = st.one_of(
     *[any_of(c) for c in (ebac.Step, ebac.MinimumJerk, ebac.Sine, ebac.Tapping)], recorded
 )
 walls = any_of(ebac.Wall)
+still = walls.map(lambda wall: wall.replace(motion_amplitude=0.0))
 devices = st.builds(
     ebac.Device,
     kinematics=any_of(ebac.Linear) | any_of(ebac.Gimbal),
@@ -63,7 +64,7 @@ scenarios = st.builds(
     ebac.Scenario,
     device=devices,
     hand=any_of(ebac.Hand, path=paths | st.lists(paths, min_size=1, max_size=3)),
-    environment=walls | st.just(ebac.Free()) | st.builds(ebac.Corner, first=walls, second=walls),
+    environment=walls | st.just(ebac.Free()) | st.builds(ebac.Corner, first=still, second=still),
     timing=any_of(ebac.Timing),
     seconds=st.floats(0.1, 1e5) | st.integers(1, 100),
     jitter=st.floats(0, 0.45),

@@ -83,7 +83,7 @@ struct ObserverParams {
 /// bandwidth w = sqrt(sqrt(12) force_noise / (M count)). Half of it is used in motion, a quarter at
 /// rest, where an edge of a count would be felt as a click; D is slower than x and u, by far so at
 /// rest. At rest the prediction takes the force of the hand without its noise, from the mean over
-/// 30 ms. Where the force turns out to be noisier than told, all of w is used. v is kept within what
+/// 30 ms. Where the force turns out to be noisier than declared, all of w is used. v is kept within what
 /// two readings prove of it.
 class AxisObserver {
  public:
@@ -143,6 +143,9 @@ class AxisObserver {
     v_ = u_ + force_lag_ * acceleration(late_, u_);
     if (encoder) keep_pace(reading);
   }
+
+  /// The force is not to be relied on: for now the encoder counts in full.
+  void doubt() EBAC_RT { rough_ = 1; }
 
   /// The command of the last tick, as force at the handle, joins those in flight.
   void give(double force) EBAC_RT { in_flight_.push(force); }
@@ -324,7 +327,7 @@ class AxisObserver {
   double astray_ = 0;   // s, that v was beyond what the readings prove, with the sign of its error
   double dt_ = 0;       // s, argument of the last set_tick
   double calm_ = 0;     // N, the force of the hand without its noise
-  double rough_ = 0;    // share of ticks with more noise than told
+  double rough_ = 0;    // share of ticks with more noise than declared; 1 in doubt
   double moving_ = 1;   // 1 in motion, 0 at rest
   Gains in_motion_{}, at_rest_{}, full_{};
   double within_ = 1;                                  // share of an innovation within a count

@@ -160,7 +160,7 @@ _SENSOR = [
             to.device("sensor", range=5.0)),
     _robust("sensor-bias", "the force sensor shows 2 N more", to.device("sensor", bias=2.0)),
     _robust("sensor-slow", "the force sensor has a lag of 3 ms", to.device("sensor", lag=3e-3)),
-    _robust("sensor-slow-untold", "the same, and the observer is told 0.8 ms",
+    _robust("sensor-slow-untold", "the same, and the observer assumes 0.8 ms",
             to.untold(to.device("sensor", lag=3e-3))),
     _robust("sensor-records", "the force sensor gives a record every 1.3 ms, its age known",
             to.device("sensor", period=1.3e-3)),
