@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 
 #include "ebac/core/realtime.hpp"
@@ -18,7 +19,7 @@ class HalfPeriod {
   /// Half a period of `resonance` [Hz]; 0 where that is less than half a tick or longer than kept.
   static int ticks(double resonance, double dt) EBAC_RT {
     const double half = 0.5 / (resonance * dt);
-    return half < kMost - 0.5 ? static_cast<int>(half + 0.5) : 0;
+    return half < kMost - 0.5 ? static_cast<int>(std::lround(half)) : 0;
   }
 
   explicit HalfPeriod(int ticks) EBAC_RT : ticks_(ticks) {}
