@@ -73,6 +73,15 @@ Errors errors(const ebac::Setup& setup) {
   return e;
 }
 
+/// The estimate of one tick on readings.
+ebac::Estimate observe(SignalChain& chain, Axis& axis, const Reading& reading, double dt) {
+  const std::span axes(&axis, 1);
+  chain.measure(reading, dt, axes);
+  chain.forward(reading, dt, axes);
+  chain.observe(reading, dt, axes);
+  return axis.port.est;
+}
+
 TEST(Observer, KnowsThePositionWithinACountAndTheVelocityWithoutItsNoise) {
   const ebac::Setup setup = observed();
   const Errors e = errors(setup);
@@ -123,11 +132,7 @@ TEST(Observer, TakesCountsForWhenTheyWereLatched) {
   SignalChain chain(device, Wall{.position = 1}, {.on = true, .acts = true, .params = params});
   Axis axis;
   const auto tick = [&](const Reading& reading, double dt) {
-    const std::span axes(&axis, 1);
-    chain.measure(reading, dt, axes);
-    chain.forward(reading, dt, axes);
-    chain.observe(reading, dt, axes);
-    return axis.port.est;
+    return observe(chain, axis, reading, dt);
   };
   tick({}, 0);
   chain.forget();
@@ -186,11 +191,7 @@ TEST(Observer, FadesWhereTheForceIsOldOrTheSensorSaysSo) {
     SignalChain chain(device, Wall{}, {.on = true, .acts = true, .params = params});
     Axis axis;
     const auto tick = [&](const Reading& reading, double dt) {
-      const std::span axes(&axis, 1);
-      chain.measure(reading, dt, axes);
-      chain.forward(reading, dt, axes);
-      chain.observe(reading, dt, axes);
-      return axis.port.est;
+      return observe(chain, axis, reading, dt);
     };
     EXPECT_EQ(tick({}, 0).weight, 1);
     Estimate est;
