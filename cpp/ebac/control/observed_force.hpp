@@ -26,9 +26,8 @@ class ObservedForce {
   double step(const Port& port) EBAC_RT {
     watch(port);
     injected_ = 0;
-    const double asked = half_period_.step(port.f_env + show_.damping * port.est.v_act);
+    const double damped = half_period_.step(port.f_env + show_.damping * port.est.v_act);
     if (port.f_env == 0) return 0;
-    const double damped = asked;
     const double force = port.f_env > 0 ? std::max(damped, 0.0) : std::min(damped, 0.0);
     injected_ = force - port.f_env;
     return force;

@@ -144,7 +144,7 @@ class AxisObserver {
     if (encoder) keep_pace(reading);
   }
 
-  /// The force is not to be relied on: for now the encoder counts in full.
+  /// The force is old: for now the encoder counts in full.
   void doubt() EBAC_RT { rough_ = 1; }
 
   /// The command of the last tick, as force at the handle, joins those in flight.

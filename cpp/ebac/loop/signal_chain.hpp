@@ -228,10 +228,9 @@ inline void SignalChain::trust(const Reading& reading, double dt, std::size_t ax
     weight_ = dt > 0 && !forgot_ ? std::min(1.0, weight_ + dt / kFade) : 1.0;
   } else {
     weight_ = std::max(0.0, weight_ - dt / kFade);
-    const bool wrong =
-        fallback_ == Fallback::kForceStale ||
-        (fallback_ == Fallback::kForceStatus && reading.force_status != SensorStatus::kSaturated);
-    for (std::size_t i = 0; i < axes && wrong; ++i) observer_[i].doubt();
+    if (fallback_ == Fallback::kForceStale) {
+      for (std::size_t i = 0; i < axes; ++i) observer_[i].doubt();
+    }
   }
 }
 
