@@ -53,7 +53,7 @@ struct EbacParams {
         F{"resonance", &EbacParams::resonance, "Hz",
           "first resonance of the structure, which bounds the virtual damper; 0 where none is "
           "known",
-          0, 1e5},
+          0, 1e4},
         F{"growth", &EbacParams::growth, "1", "c1 of eq. (10)", 1, 1.2},
         F{"decay", &EbacParams::decay, "1", "c2 of eq. (10)", 0.8, 1},
         F{"kp", &EbacParams::kp, "1", "K_p of eq. (2); it divides the device's damping by 1 + K_p",

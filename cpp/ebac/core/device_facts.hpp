@@ -30,7 +30,7 @@ struct DeviceFacts {
         F{"peak_force", &DeviceFacts::peak_force, "N", "largest force the motor can give", 1e-3,
           1e4},
         F{"resonance", &DeviceFacts::resonance, "Hz",
-          "first resonance of the structure, handle held; 0 where none is known", 0, 1e5},
+          "first resonance of the structure, handle held; 0 where none is known", 0, 1e4},
     };
   }
 };
