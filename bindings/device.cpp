@@ -4,7 +4,7 @@
 #include <pybind11/stl.h>
 
 #include "bind.hpp"
-#include "ebac/loop/observer.hpp"
+#include "ebac/loop/observer_params.hpp"
 #include "fields.hpp"
 
 namespace ebac::python {

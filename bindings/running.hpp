@@ -11,7 +11,7 @@
 #include "ebac/can/any_bus.hpp"
 #include "ebac/can/wait.hpp"
 #include "ebac/canopen/canopen_device.hpp"
-#include "ebac/loop/observer.hpp"
+#include "ebac/loop/observer_params.hpp"
 #include "ebac/loop/retune.hpp"
 #include "ebac/rt/loop_thread.hpp"
 #include "ebac/rt/monotonic_clock.hpp"

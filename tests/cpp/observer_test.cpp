@@ -1,5 +1,3 @@
-#include "ebac/loop/observer.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -11,6 +9,7 @@
 #include "designed_law.hpp"
 #include "ebac/control/ebac.hpp"
 #include "ebac/control/observed_work.hpp"
+#include "ebac/loop/axis_observer.hpp"
 #include "ebac/loop/signal_chain.hpp"
 #include "ebac/sim/any_law.hpp"
 

@@ -5,7 +5,8 @@
 #include <span>
 
 #include "ebac/core/concepts.hpp"
-#include "ebac/loop/observer.hpp"
+#include "ebac/loop/axis_observer.hpp"
+#include "ebac/loop/observing.hpp"
 #include "ebac/model/device.hpp"
 #include "ebac/model/environment.hpp"
 #include "ebac/model/pose.hpp"
@@ -86,10 +87,9 @@ class SignalChain {
   void estimate(const Reading& reading, double dt, std::span<Axis> axes) EBAC_RT;
   void trust(const Reading& reading, double dt, std::size_t axes) EBAC_RT;
   void estimate_general(const Reading& reading, double dt, std::span<Axis> axes) EBAC_RT;
-  std::optional<AxisObserver::Aged> encoder(const Reading& reading, std::size_t axis,
-                                            double x) const EBAC_RT {
+  std::optional<Aged> encoder(const Reading& reading, std::size_t axis, double x) const EBAC_RT {
     if (!counted_[axis]) return std::nullopt;
-    return AxisObserver::Aged{x, reading.counts_age[axis]};
+    return Aged{x, reading.counts_age[axis]};
   }
   void forward_general(const Reading& reading, double dt, std::span<Axis> axes) EBAC_RT;
   void drive_general(double dt, std::span<Axis> axes) EBAC_RT;

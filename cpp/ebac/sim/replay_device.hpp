@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "ebac/core/concepts.hpp"
-#include "ebac/loop/observer.hpp"
+#include "ebac/loop/observer_params.hpp"
 
 /// A recorded log as hardware: its counts, applied currents and forces drive a law open loop.
 /// Nothing the new law commands comes back: the hand and the device move as they did.

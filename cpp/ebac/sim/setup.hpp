@@ -5,7 +5,7 @@
 
 #include "ebac/core/timing.hpp"
 #include "ebac/loop/loop.hpp"
-#include "ebac/loop/observer.hpp"
+#include "ebac/loop/observer_params.hpp"
 #include "ebac/model/device.hpp"
 #include "ebac/model/environment.hpp"
 #include "ebac/model/hand.hpp"

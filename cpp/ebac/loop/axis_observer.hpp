@@ -1,67 +1,15 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <optional>
 
 #include "ebac/control/commands_in_flight.hpp"
-#include "ebac/core/concepts.hpp"
-#include "ebac/core/fields.hpp"
 #include "ebac/core/realtime.hpp"
-#include "ebac/core/sample.hpp"
-#include "ebac/core/timing.hpp"
-#include "ebac/model/device.hpp"
+#include "ebac/loop/force_history.hpp"
+#include "ebac/loop/observer_params.hpp"
 
 namespace ebac {
-
-/// Facts the observer is designed from: those of the device and its force sensor, nothing of wall or
-/// hand.
-struct ObserverParams {
-  double mass = 0.25;         // kg
-  double damping = 2.0;       // N s/m
-  double count = 3.07e-5;     // m
-  double current_lag = 3e-4;  // s
-  double force_lag = 8e-4;    // s
-  double force_noise = 0.03;  // N
-  double force_age = 3e-3;    // s
-  int delay = 1;              // samples
-  bool every_law = false;
-
-  /// Of a device and the delay of its commands.
-  static ObserverParams of(const DeviceModel& device, const Timing& timing) EBAC_RT {
-    return {.mass = device.mass(),
-            .damping = device.mechanics.damping,
-            .count = device.count(),
-            .current_lag = device.drive.current_lag,
-            .force_lag = device.sensor.lag,
-            .force_noise = std::max(kLeastNoise, device.sensor.noise),
-            .delay = timing.delay};
-  }
-  static constexpr double kLeastNoise = 0.03;  // N, of a usual six-axis sensor
-
-  static constexpr auto fields() {
-    using F = Field<ObserverParams>;
-    return std::array{
-        F{"mass", &ObserverParams::mass, "kg", "device mass at the handle, M_h", 1e-3, 100},
-        F{"damping", &ObserverParams::damping, "N s/m", "viscous damping of the device, B_h", 0,
-          500},
-        F{"count", &ObserverParams::count, "m", "one encoder count at the handle", 1e-9, 0.01},
-        F{"current_lag", &ObserverParams::current_lag, "s",
-          "time constant of the drive's current loop", 0, 0.1},
-        F{"force_lag", &ObserverParams::force_lag, "s", "time constant of the force sensor", 0,
-          0.1},
-        F{"force_noise", &ObserverParams::force_noise, "N",
-          "standard deviation of its noise; sets the bandwidth", 1e-4, 10},
-        F{"force_age", &ObserverParams::force_age, "s",
-          "an older force is not used: the estimate is faded out", 1e-5, 1},
-        F{"delay", &ObserverParams::delay, "samples",
-          "ticks from computing a command to its acting", 0, kMaxDelay},
-        F{"every_law", &ObserverParams::every_law, "1",
-          "laws that are not made for it meet the world at the estimate too", 0, 1},
-    };
-  }
-};
 
 /// State of one axis from encoder, force sensor and current: where the device is within an encoder
 /// count, how fast it moves without lag, and both for the instant at which the next command acts.
@@ -106,12 +54,6 @@ class AxisObserver {
 
   /// The mass felt on this axis, as a share of that of the parameters (a gimbal's first axis).
   void set_mass_share(double share) EBAC_RT { mass_ = params_.mass * share; }
-
-  /// A reading of the encoder or the force sensor, and how old it was when it was read [s].
-  struct Aged {
-    double value = 0;
-    double age = 0;
-  };
 
   /// Takes one tick: the encoder [m], if it was read anew, the force sensor [N], and the force that
   /// acted over the last interval [N].
@@ -271,43 +213,8 @@ class AxisObserver {
     forget_ = dt / (kMemory + dt);
   }
 
-  /// The last two records of the force sensor and their mean age. Without an age, readings pass as
-  /// they are.
-  class Records {
-   public:
-    /// What the sensor showed one mean age ago [N]. Ages above `limit` do not count.
-    double at_mean_age(const Aged& read, double dt, double limit) EBAC_RT {
-      if (!started_) {
-        if (read.age == 0) return read.value;
-        newest_ = older_ = read;
-        mean_age_ = std::min(read.age, limit);
-        return started_ = true, read.value;
-      }
-      newest_.age += dt;
-      older_.age += dt;
-      if (newest_.age - read.age > kSame * dt) {
-        older_ = newest_;
-        newest_ = read;
-      }
-      if (newest_.age <= limit) mean_age_ += (newest_.age - mean_age_) * dt / (kMemory + dt);
-      const double between = older_.age - newest_.age;
-      if (!(between > 0)) return newest_.value;
-      const double back = std::clamp((mean_age_ - newest_.age) / between, -1.0, 1.0);
-      return newest_.value + back * (older_.value - newest_.value);
-    }
-    bool started() const EBAC_RT { return started_; }
-    double mean_age() const EBAC_RT { return mean_age_; }  // s
-
-   private:
-    static constexpr double kMemory = 0.2;  // s, of the mean
-    static constexpr double kSame = 0.01;   // ticks: records as close as this are one
-    bool started_ = false;
-    Aged newest_, older_;
-    double mean_age_ = 0;
-  };
-
   ObserverParams params_;
-  Records records_;
+  ForceHistory records_;
   double mass_;       // kg
   double force_lag_;  // s
   CommandsInFlight in_flight_;
@@ -337,26 +244,5 @@ class AxisObserver {
   double cross_ = 0;
   double forget_ = 0;
 };
-
-/// What a run does with the observer.
-struct Observing {
-  bool on = false;    // estimates, in every row
-  bool acts = false;  // the world is met where the estimate says, and the law uses it
-  ObserverParams params{};
-};
-
-/// Whether a law is made for the observer.
-template <class Law>
-bool made_for_observer(const Law& law) {
-  if constexpr (requires { law.observed(); }) return law.observed();
-  return false;
-}
-
-/// What a run under `law` does with an observer, if it has one.
-template <class Law>
-Observing observing(const std::optional<ObserverParams>& observer, const Law& law) {
-  if (!observer) return {};
-  return {.on = true, .acts = observer->every_law || made_for_observer(law), .params = *observer};
-}
 
 }  // namespace ebac
