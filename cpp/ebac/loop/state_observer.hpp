@@ -1,0 +1,169 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <span>
+#include <variant>
+
+#include "ebac/core/concepts.hpp"
+#include "ebac/core/realtime.hpp"
+#include "ebac/loop/axis_observer.hpp"
+#include "ebac/loop/observing.hpp"
+#include "ebac/loop/of_all.hpp"
+#include "ebac/model/device.hpp"
+#include "ebac/model/pose.hpp"
+
+namespace ebac {
+
+/// State of a whole device: an observer for each axis, in the joints, where counts and currents are,
+/// and the share of their estimate that is used.
+class StateObserver {
+ public:
+  StateObserver(const DeviceModel& device, const Observing& observing)
+      : kinematics_(device.kinematics),
+        linear_(std::holds_alternative<Linear>(device.kinematics)),
+        radius_(device.radius()),
+        force_per_amp_(device.motor.torque_constant * device.capstan.ratio() / radius_),
+        observing_(observing),
+        observer_{AxisObserver(observing.params), AxisObserver(observing.params),
+                  AxisObserver(observing.params)} {}
+
+  bool on() const EBAC_RT { return observing_.on; }
+
+  /// Share of the estimate in what world and law are given.
+  double weight() const EBAC_RT { return observing_.acts ? weight_ : 0.0; }
+
+  /// Time from a tick of `dt` to when its command acts, in the middle of its interval [s].
+  double ahead(double dt) const EBAC_RT {
+    return (observing_.params.delay + 0.5) * dt + observing_.params.current_lag;
+  }
+
+  /// Begins anew in the next tick.
+  void forget() EBAC_RT { forgot_ = true; }
+
+  /// counts, f_meas, currents -> est; `counted` tells of every axis whether new counts came.
+  void step(const Reading& reading, const std::array<bool, kMaxAxes>& counted, double dt,
+            std::span<Axis> axes) EBAC_RT {
+    trust(reading, dt, axes.size());
+    if (forgot_) dt = 0;
+    forgot_ = false;
+    if (linear_) {  // the general case below, with J = R
+      for (std::size_t i = 0; i < axes.size(); ++i) {
+        Port& port = axes[i].port;
+        const AxisObserver& observer =
+            follow(i, axes[i].joint, port.f_meas, reading, counted[i], dt);
+        Estimate& est = port.est;
+        est.x = observer.x();
+        est.dx = dt > 0 ? observer.moved() : 0.0;
+        est.v = observer.v();
+        observer.predict(est.x_act, est.v_act);
+        enter(i, port);
+      }
+    } else {
+      step_general(reading, counted, dt, axes);
+    }
+  }
+
+ private:
+  void trust(const Reading& reading, double dt, std::size_t axes) EBAC_RT;
+  void step_general(const Reading& reading, const std::array<bool, kMaxAxes>& counted, double dt,
+                    std::span<Axis> axes) EBAC_RT;
+
+  /// One axis in its joint: s = R q, and `force` along it.
+  const AxisObserver& follow(std::size_t axis, const Joint& joint, double force,
+                             const Reading& reading, bool counted, double dt) EBAC_RT {
+    AxisObserver& observer = observer_[axis];
+    const double s = radius_ * joint.q;
+    if (dt > 0) {
+      const Aged encoder{s, reading.counts_age[axis]};
+      observer.give(force_per_amp_ * joint.current);
+      observer.step(counted ? std::optional(encoder) : std::nullopt, {force, reading.force_age},
+                    force_per_amp_ * joint.current_applied, dt);
+    } else {
+      observer.start(s);
+    }
+    return observer;
+  }
+
+  void enter(std::size_t axis, Port& port) const EBAC_RT {
+    Estimate& est = port.est;
+    est.disturbance = observer_[axis].disturbance();
+    est.bound = observing_.params.count / 2 + std::abs(port.x - est.x);
+    est.weight = weight_;
+    est.fallback = static_cast<int>(fallback_);
+  }
+
+  Kinematics kinematics_;
+  bool linear_;
+  double radius_;         // m
+  double force_per_amp_;  // N/A, at the handle of a linear device
+  Observing observing_;
+  std::array<AxisObserver, kMaxAxes> observer_;
+  bool forgot_ = false;  // begins in this tick
+  double weight_ = 1;    // of the estimate
+  Fallback fallback_ = Fallback::kNone;
+};
+
+/// Fades the estimate out in 20 ms where its inputs or its model fail, and in again.
+inline void StateObserver::trust(const Reading& reading, double dt, std::size_t axes) EBAC_RT {
+  constexpr double kFade = 0.02;  // s
+  constexpr double kContradicted = 0.5, kAgrees = 0.1;
+  double contradicted = 0;
+  for (std::size_t i = 0; i < axes; ++i) {
+    contradicted = std::max(contradicted, observer_[i].contradicted());
+  }
+  const bool model_fails = contradicted > (fallback_ == Fallback::kModel ? kAgrees : kContradicted);
+  fallback_ = !observing_.acts                                  ? Fallback::kOff
+              : reading.force_status != SensorStatus::kGood     ? Fallback::kForceStatus
+              : reading.force_age > observing_.params.force_age ? Fallback::kForceStale
+              : model_fails                                     ? Fallback::kModel
+                                                                : Fallback::kNone;
+  if (fallback_ == Fallback::kOff) {
+    weight_ = 0;
+  } else if (fallback_ == Fallback::kNone) {
+    weight_ = dt > 0 && !forgot_ ? std::min(1.0, weight_ + dt / kFade) : 1.0;
+  } else {
+    weight_ = std::max(0.0, weight_ - dt / kFade);
+    if (fallback_ == Fallback::kForceStale) {
+      for (std::size_t i = 0; i < axes; ++i) observer_[i].doubt();
+    }
+  }
+}
+
+/// With the inertia of the pose.
+inline void StateObserver::step_general(const Reading& reading,
+                                        const std::array<bool, kMaxAxes>& counted, double dt,
+                                        std::span<Axis> axes) EBAC_RT {
+  const Axes q = of_all(axes, &Axis::joint, &Joint::q);
+  const Pose here = pose(kinematics_, q, Axes::Zero());
+  const Axes along = here.j.transpose() * of_all(axes, &Axis::port, &Port::f_meas) / radius_;
+  Axes now = Axes::Zero(), speed = Axes::Zero(), then = Axes::Zero(), speed_then = Axes::Zero();
+  for (std::size_t i = 0; i < axes.size(); ++i) {
+    const auto e = static_cast<Eigen::Index>(i);
+    observer_[i].set_mass_share(here.inertia[e] / (radius_ * radius_));
+    const AxisObserver& observer = follow(i, axes[i].joint, along[e], reading, counted[i], dt);
+    now[e] = observer.x() / radius_;
+    speed[e] = observer.v() / radius_;
+    observer.predict(then[e], speed_then[e]);
+    then[e] /= radius_;
+    speed_then[e] /= radius_;
+  }
+  const Axes x = forward(kinematics_, now);
+  const Axes v = jacobian(kinematics_, now) * speed;
+  const Axes x_act = forward(kinematics_, then);
+  const Axes v_act = jacobian(kinematics_, then) * speed_then;
+  for (std::size_t i = 0; i < axes.size(); ++i) {
+    const auto e = static_cast<Eigen::Index>(i);
+    Estimate& est = axes[i].port.est;
+    est.dx = dt > 0 ? x[e] - est.x : 0.0;
+    est.x = x[e];
+    est.v = v[e];
+    est.x_act = x_act[e];
+    est.v_act = v_act[e];
+    enter(i, axes[i].port);
+  }
+}
+
+}  // namespace ebac
