@@ -6,6 +6,16 @@
 
 namespace ebac {
 
+/// What is left of a transient of a first-order lag over an interval with a constant input.
+struct Transient {
+  double end = 0;   // at its end
+  double mean = 0;  // in its mean
+
+  Transient() = default;
+  Transient(double lag, double dt) EBAC_RT : end(lag > 0 ? std::exp(-dt / lag) : 0.0),
+                                             mean(lag / dt * (1 - end)) {}
+};
+
 /// Force behind a drive's current loop, f' = (u - f) / lag: the force that acts differs from the
 /// command, and a part of it acts after the command has ended.
 class LaggedForce {
@@ -14,19 +24,19 @@ class LaggedForce {
 
   void set_tick(double dt) EBAC_RT {
     ticks_ = lag_ / dt;
-    decay_ = lag_ > 0 ? std::exp(-dt / lag_) : 0.0;
-    share_ = ticks_ * (1 - decay_);
-    later_ = decay_ / (1 - decay_);
+    left_ = Transient(lag_, dt);
+    later_ = left_.end / (1 - left_.end);
   }
 
   /// Holds `command` for one interval; returns the mean force over it.
   double hold(double command) EBAC_RT {
     const double transient = force_ - command;
-    force_ = command + transient * decay_;
-    return command + transient * share_;
+    force_ = command + transient * left_.end;
+    return command + transient * left_.mean;
   }
 
   double force() const EBAC_RT { return force_; }  // N, now
+  const Transient& left() const EBAC_RT { return left_; }
 
   /// The lag, in ticks: a force whose command has gone acts as long as this in all.
   double ticks() const EBAC_RT { return ticks_; }
@@ -37,9 +47,8 @@ class LaggedForce {
  private:
   double lag_;        // s
   double force_ = 0;  // N
+  Transient left_;
   double ticks_ = 0;
-  double decay_ = 0;  // of a transient, over one interval
-  double share_ = 0;  // of a transient, in the mean over one interval
   double later_ = 0;
 };
 

@@ -7,6 +7,7 @@
 #include "ebac/control/commands_in_flight.hpp"
 #include "ebac/core/realtime.hpp"
 #include "ebac/loop/force_history.hpp"
+#include "ebac/loop/motor_force.hpp"
 #include "ebac/loop/observer_params.hpp"
 
 namespace ebac {
@@ -38,13 +39,14 @@ class AxisObserver {
   AxisObserver(const ObserverParams& params, double mass_share = 1) EBAC_RT
       : params_(params),
         mass_(params.mass* mass_share),
-        force_lag_(apart(params.force_lag, params.current_lag)),
+        motor_(params.current_lag),
         in_flight_(params.delay) {}
 
   void start(double x) EBAC_RT {
     x_ = reading_ = x;
     pace_ = unread_ = astray_ = 0;
-    u_ = v_ = disturbance_ = motor_ = late_ = 0;
+    u_ = v_ = disturbance_ = 0;
+    motor_ = MotorForce(params_.current_lag);
     measured_ = before_last_ = calm_ = contradicted_ = rough_ = 0;
     moving_ = 1;
     in_flight_ = CommandsInFlight(params_.delay);
@@ -61,11 +63,7 @@ class AxisObserver {
             double dt) EBAC_RT {
     const double measured = records_.at_mean_age(seen, dt, params_.force_age);
     if (dt != dt_ || records_.started()) set_tick(dt);
-    const double f = motor_ - applied;  // transients of the motor's force and of G f
-    const double g = late_ - applied;
-    const double late = applied + f * cross_ * (motor_mean_ - late_mean_) + g * late_mean_;
-    late_ = applied + f * cross_ * (motor_keep_ - late_keep_) + g * late_keep_;
-    motor_ = applied + f * motor_keep_;
+    const double motor = motor_.hold(applied);  // G f
     // The mean over the interval, of the parabola through the last three readings.
     const double force = (5 * measured + 8 * measured_ - before_last_) / 12 + disturbance_;
     const double bend = measured - 2 * measured_ + before_last_;
@@ -74,15 +72,15 @@ class AxisObserver {
     before_last_ = measured_;
     measured_ = measured;
     calm_ += (measured - calm_) * calming_;
-    const double a = (force - params_.damping * u_ - late) / mass_;
+    const double a = (force - params_.damping * u_ - motor) / mass_;
     const double before = x_;
-    x_ += (u_ + (0.5 * dt + force_lag_) * a) * dt;
+    x_ += (u_ + (0.5 * dt + motor_.sensor_lag()) * a) * dt;
     u_ += a * dt;
     unread_ += dt;
     const double reading = encoder ? encoder->value + v_ * encoder->age : reading_;
     if (encoder) correct(reading, dt);
     moved_ = x_ - before;
-    v_ = u_ + force_lag_ * acceleration(late_, u_);
+    v_ = u_ + motor_.sensor_lag() * acceleration();
     if (encoder) keep_pace(reading);
   }
 
@@ -97,7 +95,7 @@ class AxisObserver {
   void predict(double& x, double& v) const EBAC_RT {
     x = x_;
     v = v_;
-    double motor = motor_;
+    LaggedForce motor = motor_.acts();
     const double hand = calm_ + moving_ * (measured_ - calm_) + disturbance_;
     const auto advance = [&](double force, double time) EBAC_RT {
       const double a = (hand - params_.damping * v - force) / mass_;
@@ -105,11 +103,9 @@ class AxisObserver {
       v += a * time;
     };
     for (int j = 0; j < in_flight_.size(); ++j) {
-      const double transient = motor - in_flight_[j];
-      advance(in_flight_[j] + transient * motor_mean_, dt_);
-      motor = in_flight_[j] + transient * motor_keep_;
+      advance(motor.hold(in_flight_[j]), dt_);
     }
-    advance(motor, 0.5 * dt_ + params_.current_lag);
+    advance(motor.force(), 0.5 * dt_ + params_.current_lag);
   }
 
   double x() const EBAC_RT { return x_; }
@@ -150,13 +146,8 @@ class AxisObserver {
     }
   };
 
-  /// Lags so close that their partial fractions lose digits are taken apart.
-  static double apart(double lag, double other) EBAC_RT {
-    return std::abs(lag - other) < 1e-3 * other ? other * 1.001 : lag;
-  }
-
-  double acceleration(double late, double u) const EBAC_RT {
-    return (measured_ + disturbance_ - params_.damping * u - late) / mass_;
+  double acceleration() const EBAC_RT {
+    return (measured_ + disturbance_ - params_.damping * u_ - motor_.shown()) / mass_;
   }
 
   void correct(double reading, double dt) EBAC_RT {
@@ -195,7 +186,7 @@ class AxisObserver {
 
   void set_tick(double dt) EBAC_RT {
     dt_ = dt;
-    force_lag_ = apart(params_.force_lag + records_.mean_age(), params_.current_lag);
+    motor_.set_tick(params_.force_lag + records_.mean_age(), dt);
     const double w = std::sqrt(std::sqrt(12.0) * params_.force_noise / (mass_ * params_.count));
     within_ = std::clamp(w * w * dt * dt / kDithered, 0.5, 1.0);
     full_ = Gains::of(w, 0.5, dt);
@@ -204,27 +195,19 @@ class AxisObserver {
     resting_ = std::max(0.0, 1 - dt / kRests);
     calming_ = dt / (kCalm + dt);
     roughening_ = dt / (kRough + dt);
-    const double lag = params_.current_lag;
-    motor_keep_ = lag > 0 ? std::exp(-dt / lag) : 0;
-    late_keep_ = force_lag_ > 0 ? std::exp(-dt / force_lag_) : 0;
-    motor_mean_ = lag / dt * (1 - motor_keep_);
-    late_mean_ = force_lag_ / dt * (1 - late_keep_);
-    cross_ = lag > 0 ? lag / (lag - force_lag_) : 0;
     forget_ = dt / (kMemory + dt);
   }
 
   ObserverParams params_;
   ForceHistory records_;
-  double mass_;       // kg
-  double force_lag_;  // s
+  double mass_;  // kg
+  MotorForce motor_;
   CommandsInFlight in_flight_;
   double x_ = 0;            // m
   double moved_ = 0;        // m
   double u_ = 0;            // m/s, the velocity behind the sensor's lag
   double v_ = 0;            // m/s
   double disturbance_ = 0;  // N
-  double motor_ = 0;        // N, behind the current loop
-  double late_ = 0;         // N, the same behind the sensor's lag
   double measured_ = 0;     // N
   double before_last_ = 0;  // N, the reading before
   double contradicted_ = 0;
@@ -239,9 +222,6 @@ class AxisObserver {
   Gains in_motion_{}, at_rest_{}, full_{};
   double within_ = 1;                                  // share of an innovation within a count
   double resting_ = 0, calming_ = 0, roughening_ = 0;  // share kept, share taken, per tick
-  double motor_keep_ = 0, late_keep_ = 0;              // of a transient, over one interval
-  double motor_mean_ = 0, late_mean_ = 0;  // of a transient, in the mean over one interval
-  double cross_ = 0;
   double forget_ = 0;
 };
 
