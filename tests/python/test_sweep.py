@@ -17,7 +17,7 @@ import pytest
 
 import ebac
 from ebac import Operators, SweepResult, sweep
-from ebac.metrics import COLUMNS, FLAGS
+from ebac.metrics.wall_contact import COLUMNS, FLAGS
 from ebac.studies.sweeps.run import seed_of
 
 LAWS = ["tca", "ebac"]

@@ -9,52 +9,19 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ebac._core import (
-    Fallback,
-    Hand,
-    Linear,
-    MinimumJerk,
-    Step,
-    Wall,
-    _measure_contact,
-    _stored_energy,
-)
+from ebac._core import _measure_contact, _stored_energy
 from ebac._util import formatting
 from ebac._util.arguments import require
 from ebac.hands import is_own
-from ebac.scenario import Scenario
+from ebac.metrics.ideal import allowed_deviation, ideal_rest
 from ebac.trace import Trace
-
-__all__ = [
-    "EXACT_COUNTS",
-    "FEWEST_ROWS",
-    "STILL_SWING",
-    "TAIL_SHARE",
-    "Contact",
-    "ObserverUse",
-    "allowed_deviation",
-    "contact",
-    "ideal_rest",
-    "observer_use",
-]
-
-
-def __dir__() -> list[str]:
-    return __all__
-
 
 #: The end of a run over which rest and swing are taken.
 TAIL_SHARE = 0.3
 #: A contact swinging by less than this, peak to peak, is still [m].
 STILL_SWING = 0.25e-3
-#: Rest within this many encoder counts of the ideal, and the band that friction holds, is exact.
-EXACT_COUNTS = 2
 #: Fewer rows have no tail to measure.
 FEWEST_ROWS = 10
-#: A hand with a model balances within so far from zero, or has no rest [m].
-LARGEST_REST = 10.0
-#: Half of the way over which the slope of a steady force is taken [m].
-SMALL = 1e-6
 #: The numbers of a contact, and what the core calls them.
 COLUMNS = {
     "rest_m": "rest",
@@ -351,122 +318,6 @@ def contact(trace: Trace, *, axis: int = 0, truth: bool = True) -> Contact:
     )
 
 
-@dataclass(frozen=True, kw_only=True)
-class ObserverUse:
-    """How far a run relied on its observer.
-
-    Attributes
-    ----------
-    trusted : float
-        Share of the ticks in which the law acted on the estimate alone, [0, 1]; in the others it faded to the
-        encoder alone, or back.
-    fallback : dict of str to float
-        Share of the ticks in which there was a reason to fall back to the encoder alone, by reason: `Fallback` in
-        lower case, "force_stale", "force_status", "model", or "off" for a law that does not use the estimate. Only
-        reasons that occurred.
-    """
-
-    trusted: float
-    fallback: dict[str, float]
-
-    def __str__(self) -> str:
-        """Return it as a sentence: "trusted in 97.1 % of the ticks; encoder alone: force stale in 2.2 %"."""
-        reasons = ", ".join(
-            f"{name.replace('_', ' ')} in {100 * share:.3g} %"
-            for name, share in self.fallback.items()
-        )
-        why = f"; encoder alone: {reasons}" if reasons else ""
-        return f"trusted in {100 * self.trusted:.3g} % of the ticks{why}"
-
-
-def observer_use(trace: Trace) -> ObserverUse | None:
-    """Return how far a run relied on its observer; None for a run without one.
-
-    Parameters
-    ----------
-    trace : Trace
-        At least one row.
-
-    Raises
-    ------
-    TypeError
-        When it is no trace.
-    """
-    require(trace, Trace, "ebac.observer_use", "a trace, as ebac.simulate or ebac.load returns it")
-    if "est.bound" not in trace or not trace["est.bound"].any():
-        return None
-    weight, code = trace.axis("est.weight"), trace.axis("est.fallback")
-    shares = {one.name.lower(): float(np.mean(code == int(one))) for one in Fallback}
-    return ObserverUse(
-        trusted=float(np.mean(weight == 1)),
-        fallback={name: share for name, share in shares.items() if name != "none" and share > 0},
-    )
-
-
 def _columns(trace: Trace, name: str) -> NDArray[np.float64]:
     """Return a column in the shape (rows, axes)."""
     return trace[name].reshape(len(trace), -1)
-
-
-def allowed_deviation(scenario: Scenario) -> float:
-    """Return how far from the ideal a rest still is exact: 2 counts + f_c / (K0 + K) [m].
-
-    Friction of up to f_c holds a hand and an *ideal* wall anywhere within f_c / (K0 + K) of their balance, so a rest
-    within that band is no fault of a law. f_c is the friction at standstill; K counts only where the ideal rest
-    lies inside the wall.
-    """
-    mechanics, wall = scenario.device.mechanics, scenario.environment
-    counts = EXACT_COUNTS * scenario.device.count
-    friction = max(mechanics.coulomb, mechanics.breakaway)
-    ideal = ideal_rest(scenario)
-    if friction == 0 or ideal is None:
-        return counts
-    hand = scenario.hand
-    stiffness = hand.stiffness
-    if hand.model is not None:
-        stiffness = (hand.steady(ideal - SMALL) - hand.steady(ideal + SMALL)) / (2 * SMALL)
-    if isinstance(wall, Wall) and ideal > wall.position:
-        stiffness += wall.stiffness
-    return counts + friction / stiffness
-
-
-def ideal_rest(scenario: Scenario) -> float | None:
-    """Return where hand and ideal wall balance, x* = (K0 X0 + K p + weight) / (K0 + K) [m].
-
-    None where there is no such point: no straight wall across the first axis, or a hand that never rests. With a
-    model of `ebac.hands` it is where the steady force of the model and the wall balance; None for a hand of your own.
-    """
-    require(scenario, Scenario, "ebac.ideal_rest", "a Scenario")
-    wall, hand = scenario.environment, scenario.hand
-    path = hand.path[0]
-    if not isinstance(wall, Wall) or wall.angle != 0 or np.isfinite(hand.release_at):
-        return None
-    if not isinstance(path, (Step, MinimumJerk)) or not isinstance(
-        scenario.device.kinematics, Linear
-    ):
-        return None
-    mechanics, given = scenario.device.mechanics, scenario.device.compensation
-    weight = (mechanics.handle_mass - given.gravity_mass) * mechanics.gravity
-    if hand.model is not None:
-        return _balance(hand, wall, weight)
-    pull = hand.stiffness * path.target + weight
-    if hand.stiffness == 0 or pull <= hand.stiffness * wall.position:
-        return pull / hand.stiffness if hand.stiffness > 0 else None
-    return (pull + wall.stiffness * wall.position) / (hand.stiffness + wall.stiffness)
-
-
-def _balance(hand: Hand, wall: Wall, weight: float) -> float | None:
-    """Return where a hand with a model, a wall and a weight balance, by bisection of a falling force."""
-
-    def left(x: float) -> float:
-        depth = max(x - wall.position, 0.0)
-        return hand.steady(x) + weight - wall.stiffness * depth
-
-    low, high = -LARGEST_REST, LARGEST_REST
-    if not left(low) > 0 > left(high):  # NaN too: a hand that never rests, or is not known
-        return None
-    while True:
-        middle = (low + high) / 2
-        if middle in (low, high):
-            return middle
-        low, high = (middle, high) if left(middle) > 0 else (low, middle)

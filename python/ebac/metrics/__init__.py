@@ -1,0 +1,28 @@
+"""Measure a contact with a wall, and the use of the observer, from a trace alone."""
+
+from ebac.metrics.ideal import EXACT_COUNTS, allowed_deviation, ideal_rest
+from ebac.metrics.observer import ObserverUse, observer_use
+from ebac.metrics.wall_contact import (
+    FEWEST_ROWS,
+    STILL_SWING,
+    TAIL_SHARE,
+    Contact,
+    contact,
+)
+
+__all__ = [
+    "EXACT_COUNTS",
+    "FEWEST_ROWS",
+    "STILL_SWING",
+    "TAIL_SHARE",
+    "Contact",
+    "ObserverUse",
+    "allowed_deviation",
+    "contact",
+    "ideal_rest",
+    "observer_use",
+]
+
+
+def __dir__() -> list[str]:
+    return __all__

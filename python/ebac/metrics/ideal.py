@@ -1,0 +1,80 @@
+"""Where hand and ideal wall balance, and how far from there a rest is still exact."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ebac._core import Hand, Linear, MinimumJerk, Step, Wall
+from ebac._util.arguments import require
+from ebac.scenario import Scenario
+
+#: Rest within this many encoder counts of the ideal, and the band that friction holds, is exact.
+EXACT_COUNTS = 2
+#: A hand with a model balances within so far from zero, or has no rest [m].
+LARGEST_REST = 10.0
+#: Half of the way over which the slope of a steady force is taken [m].
+SMALL = 1e-6
+
+
+def allowed_deviation(scenario: Scenario) -> float:
+    """Return how far from the ideal a rest still is exact: 2 counts + f_c / (K0 + K) [m].
+
+    Friction of up to f_c holds a hand and an *ideal* wall anywhere within f_c / (K0 + K) of their balance, so a rest
+    within that band is no fault of a law. f_c is the friction at standstill; K counts only where the ideal rest
+    lies inside the wall.
+    """
+    mechanics, wall = scenario.device.mechanics, scenario.environment
+    counts = EXACT_COUNTS * scenario.device.count
+    friction = max(mechanics.coulomb, mechanics.breakaway)
+    ideal = ideal_rest(scenario)
+    if friction == 0 or ideal is None:
+        return counts
+    hand = scenario.hand
+    stiffness = hand.stiffness
+    if hand.model is not None:
+        stiffness = (hand.steady(ideal - SMALL) - hand.steady(ideal + SMALL)) / (2 * SMALL)
+    if isinstance(wall, Wall) and ideal > wall.position:
+        stiffness += wall.stiffness
+    return counts + friction / stiffness
+
+
+def ideal_rest(scenario: Scenario) -> float | None:
+    """Return where hand and ideal wall balance, x* = (K0 X0 + K p + weight) / (K0 + K) [m].
+
+    None where there is no such point: no straight wall across the first axis, or a hand that never rests. With a
+    model of `ebac.hands` it is where the steady force of the model and the wall balance; None for a hand of your own.
+    """
+    require(scenario, Scenario, "ebac.ideal_rest", "a Scenario")
+    wall, hand = scenario.environment, scenario.hand
+    path = hand.path[0]
+    if not isinstance(wall, Wall) or wall.angle != 0 or np.isfinite(hand.release_at):
+        return None
+    if not isinstance(path, (Step, MinimumJerk)) or not isinstance(
+        scenario.device.kinematics, Linear
+    ):
+        return None
+    mechanics, given = scenario.device.mechanics, scenario.device.compensation
+    weight = (mechanics.handle_mass - given.gravity_mass) * mechanics.gravity
+    if hand.model is not None:
+        return _balance(hand, wall, weight)
+    pull = hand.stiffness * path.target + weight
+    if hand.stiffness == 0 or pull <= hand.stiffness * wall.position:
+        return pull / hand.stiffness if hand.stiffness > 0 else None
+    return (pull + wall.stiffness * wall.position) / (hand.stiffness + wall.stiffness)
+
+
+def _balance(hand: Hand, wall: Wall, weight: float) -> float | None:
+    """Return where a hand with a model, a wall and a weight balance, by bisection of a falling force."""
+
+    def left(x: float) -> float:
+        depth = max(x - wall.position, 0.0)
+        return hand.steady(x) + weight - wall.stiffness * depth
+
+    low, high = -LARGEST_REST, LARGEST_REST
+    if not left(low) > 0 > left(high):  # NaN too: a hand that never rests, or is not known
+        return None
+    while True:
+        middle = (low + high) / 2
+        if middle in (low, high):
+            return middle
+        low, high = (middle, high) if left(middle) > 0 else (low, middle)
