@@ -41,6 +41,22 @@ def test_the_same_law_commands_the_same_to_the_bit(law: str, scenario: ebac.Scen
     assert_same_commands(ebac.replay(recorded, law), recorded)
 
 
+def test_a_force_sensor_that_saturates_replays_to_the_bit(tmp_path: Path) -> None:
+    """Its status is no column: the observer took note of it. Contacts made and left, so it comes and goes."""
+    taps = ebac.Hand(path=ebac.Tapping(target=0.04, rest=-0.01, frequency=2.0))
+    device = ebac.Device(sensor=ebac.ForceSensor(noise=0.03, range=5.0))
+    recorded = ebac.simulate(
+        ebac.Scenario(seconds=2, hand=taps, device=device, observer=True), "ebac"
+    )
+    recorded.save(tmp_path / "run.mcap")
+    saturated = recorded["est.fallback"] == int(ebac.Fallback.FORCE_STATUS)
+    assert 0.1 < saturated.mean() < 0.9
+    assert {0.0, 1.0} < {*recorded["est.weight"]}
+    assert np.count_nonzero(np.diff(saturated)) > 4
+    for log in (recorded, tmp_path / "run.mcap"):
+        assert_same_commands(ebac.replay(log, "ebac"), recorded)
+
+
 def test_through_a_log_on_disk_and_a_bus(tmp_path: Path) -> None:
     recorded = ebac.simulate(ebac.Scenario(seconds=0.4), "ebac", through="can")
     recorded.save(tmp_path / "run.mcap")
