@@ -15,7 +15,7 @@ from ebac.drives.errors import ProfileError
 from ebac.drives.network import Network
 from ebac.drives.toml_positions import Source
 from ebac.hardware.law import designed
-from ebac.hardware.reading import read
+from ebac.hardware.reading import needs_force, read
 from ebac.hardware.tables import ConfigurationError
 from ebac.laws import CoreLaw
 from ebac.scenario import Environment, Scenario
@@ -109,11 +109,8 @@ class Configuration:
 
     def __post_init__(self) -> None:
         """Refuse an observer without a force."""
-        if self.observer and self.sensor is None:
-            raise ValueError(
-                "Configuration.observer: estimates the state from a measured force, but no force sensor is "
-                "configured; observer=False, or add a table [sensor]"
-            )
+        if self.observer:
+            needs_force(self.sensor)
 
     @classmethod
     def load(cls, path: str | Path) -> Self:

@@ -113,16 +113,20 @@ def _sensor(source: Source) -> SensorConfig | None:
     return made
 
 
+def needs_force(sensor: SensorConfig | None) -> None:
+    """Raise ValueError for an observer without a force sensor."""
+    if sensor is None:
+        raise ValueError(
+            "observer: estimates the state from a measured force, but no force sensor is configured; leave out the "
+            "observer, or add a table [sensor]"
+        )
+
+
 def _observer(source: Source, values: Mapping[str, Any]) -> Observer | bool:
     """Return the observer of the table, on top of its design; True for the design itself."""
     if "observer" not in source.table:
         return False
-    if values["sensor"] is None:
-        raise source.refuse(
-            ("observer",),
-            "[observer]: estimates the state from a measured force, but no force sensor is configured; "
-            "add a table [sensor]",
-        )
+    refusing(source, ("observer",), lambda: needs_force(values["sensor"]))
     designed = Observer.of(values["device"], values["timing"])
     made: Observer = on_top(source, ("observer",), designed)
     return True if made == designed else made
