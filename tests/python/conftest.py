@@ -1,4 +1,4 @@
-"""What the tests share: cached runs of scenarios, hypothesis profiles, a bus.
+"""What the tests share: cached runs of scenarios, hypothesis profiles, a bus, a device with its sensor.
 
 More examples than usual: `pytest --hypothesis-profile=explore`.
 
@@ -10,6 +10,7 @@ import re
 import signal
 import time
 from collections.abc import Callable, Iterator
+from contextlib import AbstractContextManager, contextmanager
 from functools import cache
 from itertools import count
 from typing import TYPE_CHECKING, Any
@@ -23,7 +24,8 @@ import ebac
 if TYPE_CHECKING:
     import can
 
-    from ebac.hardware import Run
+    from ebac.hardware import Configuration, OpenDevice, Run
+    from ebac.sensor import SensorConfig, SharedForce, SimulatedSensor
 
 settings.register_profile("ebac", deadline=None, derandomize=True, database=None)
 settings.register_profile("explore", deadline=None, max_examples=5000, database=None)
@@ -69,6 +71,53 @@ def until() -> Callable[["Run", Callable[[], bool]], None]:
             time.sleep(0.01)
 
     return wait
+
+
+@pytest.fixture(scope="session")
+def at_tick() -> Callable[[int, Callable[[], None]], Callable[["Run"], None]]:
+    """`look=at_tick(200, act)`: acts once in a run, after that tick."""
+
+    def make(tick: int, act: Callable[[], None]) -> Callable[["Run"], None]:
+        waits = True
+
+        def look(run: "Run") -> None:
+            nonlocal waits
+            if waits and run.ticks > tick:
+                act()
+                waits = False
+
+        return look
+
+    return make
+
+
+@pytest.fixture
+def open_with_sensor() -> Callable[
+    ["Configuration"], AbstractContextManager[tuple["OpenDevice", "SimulatedSensor"]]
+]:
+    """A function that opens a device on simulated drives, with its simulated force sensor."""
+    from ebac.hardware import backends
+    from ebac.sensor import SimulatedSensor
+
+    @contextmanager
+    def opened(known: "Configuration") -> Iterator[tuple["OpenDevice", SimulatedSensor]]:
+        made: list[SimulatedSensor] = []
+
+        @contextmanager
+        def beside(
+            config: "SensorConfig", shared_force: "SharedForce", *_: object
+        ) -> Iterator["SensorConfig"]:
+            with SimulatedSensor(shared_force) as sensor:
+                made.append(sensor)
+                yield sensor.config
+
+        with pytest.MonkeyPatch.context() as patch:
+            patch.setattr(backends, "sensor_of", beside)
+            patch.setattr(backends, "virtual_can", lambda: None)
+            with ebac.Device.open(known, simulate=True) as device:
+                yield device, made[0]
+
+    return opened
 
 
 _CHANNELS = count()

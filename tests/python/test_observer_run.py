@@ -2,10 +2,10 @@
 
 import json
 import time
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
+from contextlib import AbstractContextManager
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
 import pytest
@@ -13,10 +13,14 @@ from typer.testing import CliRunner
 
 import ebac
 from ebac.cli import app
-from ebac.hardware import Configuration, ConfigurationError, Run, backends, under_the_law
-from ebac.sensor import EmulatorTrouble, SensorConfig, SharedForce, SimulatedSensor
+from ebac.hardware import Configuration, ConfigurationError, OpenDevice, Run, under_the_law
+from ebac.sensor import EmulatorTrouble, SimulatedSensor
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "joystick.toml"
+Opened: TypeAlias = Callable[
+    [Configuration], AbstractContextManager[tuple[OpenDevice, SimulatedSensor]]
+]
+AtTick: TypeAlias = Callable[[int, Callable[[], None]], Callable[[Run], None]]
 SENSOR = "[sensor]\nhost = '10.0.0.1'\n"
 
 
@@ -105,49 +109,13 @@ def test_the_command_turns_it_on_tells_of_it_and_logs_it(tmp_path: Path) -> None
 # --- in real time ---
 
 
-class Desk:
-    """A device on simulated drives, and its simulated sensor."""
-
-    device: ebac.hardware.OpenDevice
-    sensor: SimulatedSensor
-
-
-@contextmanager
-def a_desk(known: Configuration) -> Iterator[Desk]:
-    made = Desk()
-
-    @contextmanager
-    def beside(
-        config: SensorConfig, shared_force: SharedForce, *_: object
-    ) -> Iterator[SensorConfig]:
-        with SimulatedSensor(shared_force) as made.sensor:
-            yield made.sensor.config
-
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(backends, "sensor_of", beside)
-        patch.setattr(backends, "virtual_can", lambda: None)
-        with ebac.Device.open(known, simulate=True) as made.device:
-            yield made
-
-
-def at_tick(tick: int, act: Callable[[], None]) -> Callable[[Run], None]:
-    """Act once, from that tick on."""
-    waits = True
-
-    def look(run: Run) -> None:
-        nonlocal waits
-        if waits and run.ticks > tick:
-            act()
-            waits = False
-
-    return look
-
-
 @pytest.mark.real_time
-def test_the_same_press_has_the_same_verdict_on_either_clock_and_as_a_scenario() -> None:
+def test_the_same_press_has_the_same_verdict_on_either_clock_and_as_a_scenario(
+    open_with_sensor: Opened,
+) -> None:
     known = patient(seconds=4.0)
-    with a_desk(known) as desk:
-        real = under_the_law(desk.device.run())
+    with open_with_sensor(known) as (device, _):
+        real = under_the_law(device.run())
     virtual, scenario = known.simulate(), ebac.simulate(known.scenario(), known.design())
     contacts = [ebac.contact(trace, truth=False) for trace in (real, virtual, scenario)]
     assert [one.verdict for one in contacts] == ["exact and quiet"] * 3
@@ -161,17 +129,19 @@ def test_the_same_press_has_the_same_verdict_on_either_clock_and_as_a_scenario()
 
 
 @pytest.mark.real_time
-def test_a_sensor_that_falls_silent_fades_it_out_and_in_and_the_wall_holds(tmp_path: Path) -> None:
+def test_a_sensor_that_falls_silent_fades_it_out_and_in_and_the_wall_holds(
+    open_with_sensor: Opened, at_tick: AtTick, tmp_path: Path
+) -> None:
     """During a contact. The log replays to the bit: ages of force and counts, and the arming, included."""
     known = patient(seconds=4.0)
-    with a_desk(known) as desk:
+    with open_with_sensor(known) as (device, sensor):
 
         def silent() -> None:
-            desk.sensor.inject(EmulatorTrouble(silent=True))
+            sensor.inject(EmulatorTrouble(silent=True))
             time.sleep(0.3)
-            desk.sensor.inject(EmulatorTrouble())
+            sensor.inject(EmulatorTrouble())
 
-        trace = desk.device.run(log=tmp_path / "run.mcap", look=at_tick(2500, silent))
+        trace = device.run(log=tmp_path / "run.mcap", look=at_tick(2500, silent))
     part = under_the_law(trace)
     gone = part["est.fallback"][:, 0] == int(ebac.Fallback.FORCE_STALE)
     assert gone.mean() * 4 > 0.1

@@ -1,18 +1,21 @@
 """A run in real time with a force sensor that fails on the way. No test asserts a deadline."""
 
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import AbstractContextManager
 from pathlib import Path
+from typing import TypeAlias
 
 import numpy as np
 import pytest
 
 import ebac
-from ebac.hardware import Configuration, OpenDevice, Run, backends, under_the_law
-from ebac.sensor import EmulatorTrouble, SensorConfig, SharedForce, SimulatedSensor
+from ebac.hardware import Configuration, OpenDevice, Run, under_the_law
+from ebac.sensor import EmulatorTrouble, SimulatedSensor
 
 pytestmark = pytest.mark.real_time
 
+Desk: TypeAlias = tuple[OpenDevice, SimulatedSensor]
+AtTick: TypeAlias = Callable[[int, Callable[[], None]], Callable[[Run], None]]
 EXAMPLE = Path(__file__).parents[2] / "examples" / "joystick.toml"
 
 
@@ -26,61 +29,26 @@ def configuration() -> Configuration:
     return known.replace(silent=1000, limits=limits, soft_start=0.05, ramp_down=0.05, hand=hand)
 
 
-class Desk:
-    """A device on simulated drives, and its simulated sensor."""
-
-    device: OpenDevice
-    sensor: SimulatedSensor
-
-    def run(self, fails: Callable[[], None]) -> None:
-        """Run until the sensor fails, after a while, and its fault is raised."""
-        waits = True
-
-        def look(run: Run) -> None:
-            nonlocal waits
-            if waits and run.ticks > 200:
-                fails()
-                waits = False
-
-        self.device.run(seconds=60, look=look)
-
-
-@contextmanager
-def a_desk() -> Iterator[Desk]:
-    made = Desk()
-
-    @contextmanager
-    def beside(
-        known: SensorConfig, shared_force: SharedForce, *_: object
-    ) -> Iterator[SensorConfig]:
-        with SimulatedSensor(shared_force) as made.sensor:
-            yield made.sensor.config
-
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(backends, "sensor_of", beside)
-        patch.setattr(backends, "virtual_can", lambda: None)
-        with ebac.Device.open(configuration(), simulate=True) as made.device:
-            yield made
-
-
 @pytest.fixture
-def desk() -> Iterator[Desk]:
-    """Give a desk with a sensor that works; a new one, as drives in fault stay so."""
-    with a_desk() as made:
+def desk(
+    open_with_sensor: Callable[[Configuration], AbstractContextManager[Desk]],
+) -> Iterator[Desk]:
+    """Give a device with a sensor that works; a new one, as drives in fault stay so."""
+    with open_with_sensor(configuration()) as made:
         yield made
 
 
 @pytest.mark.parametrize("law", ["tca", "ebac"])
-def test_the_force_that_is_felt_comes_back_over_the_network(law: str) -> None:
+def test_the_force_that_is_felt_comes_back_over_the_network(desk: Desk, law: str) -> None:
+    device, sensor = desk
     wall = ebac.Wall(stiffness=2e3, position=0.01)  # soft enough for either law
-    with a_desk() as desk:
-        trace = under_the_law(desk.device.run(law, wall, seconds=1.5))
+    trace = under_the_law(device.run(law, wall, seconds=1.5))
     push = float(trace["f_meas"][-500:, 0].mean())
     assert push > 3  # N
     # At rest the hand pushes as hard as the motor holds: two ways to the same force.
     assert push == pytest.approx(float(trace["f_applied"][-500:, 0].mean()), rel=0.05)
     assert trace["ft.received"][-1, 0] > 1000
-    assert trace["ft.lost"][-1, 0] == desk.sensor.counts.dropped == 0
+    assert trace["ft.lost"][-1, 0] == sensor.counts.dropped == 0
     assert (trace["ft.malformed"] == 0).all()
 
 
@@ -93,32 +61,35 @@ def test_the_force_that_is_felt_comes_back_over_the_network(law: str) -> None:
     ],
 )
 def test_a_sensor_that_fails_ends_the_run_by_name(
-    desk: Desk, trouble: EmulatorTrouble, fault: ebac.Fault
+    desk: Desk, at_tick: AtTick, trouble: EmulatorTrouble, fault: ebac.Fault
 ) -> None:
+    device, sensor = desk
     with pytest.raises(ebac.LoopFault) as caught:
-        desk.run(lambda: desk.sensor.inject(trouble))
+        device.run(seconds=60, look=at_tick(200, lambda: sensor.inject(trouble)))
     error = caught.value
     assert error.fault is fault
     row = int(np.argmax(error.trace["fault"] != 0))
     assert (error.trace["current"][row:] == 0).all()
     assert (error.trace["f_applied"][-1] == 0).all()
-    report = desk.device.report
+    report = device.report
     assert report is not None
     assert report.drives == ("switch on disabled",) * 2
 
 
 def test_a_run_without_its_sensor_does_not_begin(desk: Desk) -> None:
-    desk.sensor.inject(EmulatorTrouble(silent=True))
+    device, sensor = desk
+    sensor.inject(EmulatorTrouble(silent=True))
     with pytest.raises(ebac.LoopFault) as caught:
-        desk.device.run(seconds=60)
+        device.run(seconds=60)
     assert caught.value.fault is ebac.Fault.FORCE_DISCONNECTED
     assert set(caught.value.trace["state"]) <= {1, 3}  # it never ran
     assert (caught.value.trace["current"] == 0).all()
 
 
 def test_losses_on_the_way_are_counted_and_do_not_stop_it(desk: Desk) -> None:
-    desk.sensor.inject(EmulatorTrouble(loss=0.1, duplicate=0.1, reorder=0.1))
-    trace = desk.device.run("ebac", ebac.Free(), seconds=1)
+    device, sensor = desk
+    sensor.inject(EmulatorTrouble(loss=0.1, duplicate=0.1, reorder=0.1))
+    trace = device.run("ebac", ebac.Free(), seconds=1)
     assert trace["fault"][-1] == 0
     assert 50 < trace["ft.lost"][-1, 0] < 300
     assert trace["ft.late"][-1, 0] > 30
