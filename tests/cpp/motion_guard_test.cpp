@@ -64,7 +64,7 @@ class Guard : public testing::TestWithParam<std::tuple<int, double>> {
 };
 
 TEST_P(Guard, AdmitsTheLargestForceTheEnergyCovers) {
-  const MotionGuard guard(kDamping, kMass, kCount, kPull, kTick);
+  const MotionGuard guard(kDamping, kMass, kCount, kTick);
   Noise random(1);
   for (int i = 0; i < 2000; ++i) {
     CommandsInFlight in_flight(delay());
@@ -73,7 +73,7 @@ TEST_P(Guard, AdmitsTheLargestForceTheEnergyCovers) {
     const double asked = 20 * random.normal();
     const double v = 0.3 * random.normal();
     const double energy = 0.02 * (1 + random.symmetric());
-    const double given = guard.admit(asked, in_flight, lagged, energy, v);
+    const double given = guard.admit(asked, in_flight, lagged, energy, v, kPull);
 
     ASSERT_LE(std::abs(given), std::abs(asked));
     ASSERT_GE(given * asked, 0);
@@ -86,7 +86,7 @@ TEST_P(Guard, AdmitsTheLargestForceTheEnergyCovers) {
 }
 
 TEST_P(Guard, TheCheapTestNeverAdmitsMoreThanTheExactOne) {
-  const MotionGuard guard(kDamping, kMass, kCount, kPull, kTick);
+  const MotionGuard guard(kDamping, kMass, kCount, kTick);
   Noise random(2);
   int admitted = 0;
   for (int i = 0; i < 20000; ++i) {
@@ -96,9 +96,10 @@ TEST_P(Guard, TheCheapTestNeverAdmitsMoreThanTheExactOne) {
     const double asked = 10 * random.normal();
     const double v = 0.1 * random.normal();
     const double energy = 0.03 * (1 + random.symmetric());
-    if (!guard.surely_admits(asked, in_flight, lagged, energy, std::abs(v) * kTick)) continue;
+    if (!guard.surely_admits(asked, in_flight, lagged, energy, std::abs(v) * kTick, kPull))
+      continue;
     ++admitted;
-    ASSERT_EQ(guard.admit(asked, in_flight, lagged, energy, v), asked);
+    ASSERT_EQ(guard.admit(asked, in_flight, lagged, energy, v, kPull), asked);
   }
   EXPECT_GT(admitted, 1000);
 }

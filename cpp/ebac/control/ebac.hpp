@@ -60,11 +60,10 @@ class Ebac {
         sub_count_(params.count),
         damper_(show_),
         contact_(params.count, show_.stiffness),
-        guard_(params.damping, params.mass, params.count, params.pull, timing.longest()),
+        guard_(params.damping, params.mass, params.count, timing.longest()),
         observed_(params.mass, params.count, params.current_lag, timing, params.resonance),
         work_(params.count),
-        observed_guard_(params.damping, params.mass, params.count / 2, params.pull,
-                        timing.longest()),
+        observed_guard_(params.damping, params.mass, params.count / 2, timing.longest(), kKnown),
         in_flight_(timing.delay),
         asked_(std::min(timing.delay + 1, kMaxDelay)) {
     reset();
@@ -94,7 +93,6 @@ class Ebac {
     params_ = next.params_;
     loop_.retune(params_.kp, params_.kd, params_.filter);
     recovery_ = next.recovery_;
-    guard_ = next.guard_;
   }
   void reset() EBAC_RT {
     loop_.reset();
@@ -126,6 +124,7 @@ class Ebac {
   static constexpr double kShort = 0.5;   // of a command: less is starved
   static constexpr double kFed = 10;      // s by which `starved` falls in a second
   static constexpr double kSensor = 0.5;  // N, error of the force sensor the guard counts with
+  static constexpr double kKnown = 0.5;   // of a jump: the velocity is that at the interval's start
 
   /// Values that depend on the time since the last tick alone.
   void set_tick(double dt) EBAC_RT {
@@ -262,9 +261,12 @@ class Ebac {
     if (!params_.guard) return wanted;
     const double energy = to_spend(wanted, port);
     const double step = std::abs(port.dx) + params_.count;  // no window slopes by more than this
-    if (guard_.surely_admits(wanted, in_flight_, ledger_.lagged(), energy, step)) return wanted;
+    if (guard_.surely_admits(wanted, in_flight_, ledger_.lagged(), energy, step, params_.pull)) {
+      return wanted;
+    }
     const double v = adaptive_slope(readings_, kWindow, params_.count);
-    const double command = guard_.admit(wanted, in_flight_, ledger_.lagged(), energy, v);
+    const double command =
+        guard_.admit(wanted, in_flight_, ledger_.lagged(), energy, v, params_.pull);
     if (command != wanted) {
       state_.clamped = true;
       state_.admitted = command / wanted;
@@ -298,7 +300,7 @@ class Ebac {
       return wanted;
     }
     const double command =
-        observed_guard_.admit(wanted, in_flight_, ledger_.lagged(), energy, v, pull, /*first=*/0.5);
+        observed_guard_.admit(wanted, in_flight_, ledger_.lagged(), energy, v, pull);
     if (command != wanted) {
       state_.clamped = true;
       state_.admitted = command / wanted;

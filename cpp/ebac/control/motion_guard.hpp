@@ -21,19 +21,17 @@ namespace ebac {
 /// still gives out when the commands have gone, and one count of the largest.
 class MotionGuard {
  public:
-  MotionGuard(double damping, double mass, double count, double pull, double longest) EBAC_RT
+  /// `first` is the share of a jump that the first interval can deviate by: 1, or a half where the
+  /// velocity is known at its start.
+  MotionGuard(double damping, double mass, double count, double longest, double first = 1) EBAC_RT
       : b_(damping / longest),
         count_(count),
-        pull_(pull),
         tick_(longest),
+        first_(first),
         jump_per_newton_(longest* longest / mass) {}
 
   /// Enough for any velocity with |v| T <= `step`: a cheap test before the exact one needs the
   /// velocity. It takes R <= |F| |s|.
-  bool surely_admits(double force, const CommandsInFlight& in_flight, const LaggedForce& lagged,
-                     double energy, double step) const EBAC_RT {
-    return surely_admits(force, in_flight, lagged, energy, step, pull_);
-  }
   bool surely_admits(double force, const CommandsInFlight& in_flight, const LaggedForce& lagged,
                      double energy, double step, double pull) const EBAC_RT {
     if (force == 0) return true;
@@ -44,29 +42,24 @@ class MotionGuard {
     return largest * (intervals * last + count_) <= energy;
   }
 
-  /// The largest |F| <= |force| with the sign of `force` that `energy` covers, at velocity `v`.
+  /// The largest |F| <= |force| with the sign of `force` that `energy` covers, at velocity `v`,
+  /// against a hand that pulls with `pull`.
   ///
   /// R is convex and R(0) = 0: the mean of a force that follows its command with a lag costs no more
   /// than its two parts.
   double admit(double force, const CommandsInFlight& in_flight, LaggedForce lagged, double energy,
-               double v) const EBAC_RT {
-    return admit(force, in_flight, lagged, energy, v, pull_, 1);
-  }
-  /// `first` is the share of a jump that the first interval can deviate by: 1, or a half where the
-  /// velocity is known at its start.
-  double admit(double force, const CommandsInFlight& in_flight, LaggedForce lagged, double energy,
-               double v, double pull, double first) const EBAC_RT {
+               double v, double pull) const EBAC_RT {
     const double largest = std::max(in_flight.largest_with(0), std::abs(lagged.force()));
     const double jump = (pull + std::max(std::abs(force), largest)) * jump_per_newton_;
     const auto loss = [&](double held, int j) EBAC_RT {
-      return Loss(held, v * tick_, (first + j) * jump, b_).at(std::abs(held));
+      return Loss(held, v * tick_, (first_ + j) * jump, b_).at(std::abs(held));
     };
     double left = energy;
     for (int j = 0; j < in_flight.size(); ++j) left -= loss(lagged.hold(in_flight[j]), j);
     const int d = in_flight.size();
     const double tail = lagged.force();  // when the new command begins to act
     left -= lagged.ticks() * (loss(tail, d) + std::abs(tail) * jump * lagged.later());
-    const Loss own(force, v * tick_, (first + d) * jump, b_);
+    const Loss own(force, v * tick_, (first_ + d) * jump, b_);
     const double line = lagged.ticks() * jump;  // its own tail acts one jump further
     const double above = own.largest_force(left, line + count_);  // when it is itself the largest
     const double most = above >= largest
@@ -114,8 +107,8 @@ class MotionGuard {
 
   double b_;                // N/m, B = b/T
   double count_;            // m
-  double pull_;             // N
   double tick_;             // s, the longest
+  double first_;            // jumps, of the first interval
   double jump_per_newton_;  // m/N, T^2 / M_h
 };
 
