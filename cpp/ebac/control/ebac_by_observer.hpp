@@ -1,0 +1,74 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "ebac/control/ebac_shared.hpp"
+#include "ebac/control/motion_guard.hpp"
+#include "ebac/control/observed_force.hpp"
+#include "ebac/control/observed_work.hpp"
+#include "ebac/core/realtime.hpp"
+
+namespace ebac {
+
+/// The way of `Ebac` from the observer's estimate to a command: nothing is left for eq. (8) to (10)
+/// to bound or recover.
+class EbacByObserver {
+ public:
+  EbacByObserver(const EbacParams& params, const Timing& timing) EBAC_RT
+      : force_(params.mass, params.count, params.current_lag, timing, params.resonance),
+        work_(params.count),
+        guard_(params.damping, params.mass, params.count / 2, timing.longest(), kKnown) {}
+
+  /// The account begins with this tick.
+  void begin(const Port& port) EBAC_RT { work_.start(port); }
+
+  /// Stiffness at which the last contact can have stored energy [N/m].
+  double stored_at() const EBAC_RT { return force_.stored_at(); }
+
+  /// Steps 2 to 6 alone.
+  double force(const Port& port, const EbacShared& shared) EBAC_RT {
+    return shared.held(force_.step(port));
+  }
+
+  /// Steps 1 to 6: the force that is wanted.
+  double step(const Port& port, EbacShared& shared) EBAC_RT {
+    shared.ledger.take(port, work_, force_.slope(), shared.surface(port), shared.asked[0]);
+    shared.ledger.lend(shared.params.observed_reserve);
+    const double wanted = force(port, shared);
+    shared.state.slope = force_.slope();
+    shared.state.f_d = shared.held(port.f_env);
+    shared.state.injected = force_.injected();
+    shared.state.record(0, 0, 0, 0);
+    return wanted;
+  }
+
+  /// Step 7, with the velocity of the observer, half a count, and the pull that the force sensor
+  /// shows: a hand may vanish at any time, but its pull grows no faster than declared.
+  double guarded(double wanted, const Port& port, EbacShared& shared) const EBAC_RT {
+    if (!shared.params.guard || wanted == 0) return wanted;
+    const double shown = std::max(0.0, wanted > 0 ? -port.f_meas : port.f_meas);
+    const double grown = shared.params.pull_rate * (shared.timing.delay + 1) * port.dt;
+    const double pull = std::min(shared.params.pull, shown + kSensor + grown);
+    const double v = port.est.v;
+    const double energy = shared.to_spend(wanted, port);
+    if (guard_.surely_admits(wanted, shared.in_flight, shared.ledger.lagged(), energy,
+                             std::abs(v) * port.dt, pull)) {
+      return wanted;
+    }
+    const double command =
+        guard_.admit(wanted, shared.in_flight, shared.ledger.lagged(), energy, v, pull);
+    if (command != wanted) shared.limited(command, wanted);
+    return command;
+  }
+
+ private:
+  static constexpr double kSensor = 0.5;  // N, error of the force sensor the guard counts with
+  static constexpr double kKnown = 0.5;   // of a jump: the velocity is that at the interval's start
+
+  ObservedForce force_;
+  ObservedWork work_;
+  MotionGuard guard_;
+};
+
+}  // namespace ebac

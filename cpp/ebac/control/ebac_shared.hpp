@@ -1,0 +1,78 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "ebac/control/commands_in_flight.hpp"
+#include "ebac/control/ebac_params.hpp"
+#include "ebac/control/energy_ledger.hpp"
+#include "ebac/core/realtime.hpp"
+#include "ebac/core/sample.hpp"
+#include "ebac/core/timing.hpp"
+
+namespace ebac {
+
+/// What the two ways of `Ebac` to a command share: parameters, the account, commands in flight, and
+/// the state that is recorded.
+struct EbacShared {
+  EbacParams params;
+  Timing timing;
+  EbacState state{};
+  EnergyLedger ledger;
+  CommandsInFlight in_flight;
+  CommandsInFlight asked;  // N, of the world: for the commands in flight and the one that acts
+  double command = 0;      // N, of the last tick
+  double world_v = 0;      // m/s, of the last tick
+
+  EbacShared(const EbacParams& given, const Timing& tick) EBAC_RT
+      : params(given),
+        timing(tick),
+        ledger(given.damping, given.count, given.current_lag, given.reserve),
+        in_flight(tick.delay),
+        asked(std::min(tick.delay + 1, kMaxDelay)) {
+    state.energy = given.reserve;
+  }
+
+  double held(double force) const EBAC_RT {
+    return std::clamp(force, -params.peak_force, params.peak_force);
+  }
+
+  /// Way of the world's surface over the last interval [m].
+  double surface(const Port& port) EBAC_RT {
+    const double mean = 0.5 * (world_v + port.world_v);
+    world_v = port.world_v;
+    return mean * port.dt;
+  }
+
+  /// What the ledger has for the guard: a surface that yields takes its share of the energy until
+  /// the command has acted.
+  double to_spend(double wanted, const Port& port) const EBAC_RT {
+    const double yields = std::copysign(port.world_v, port.world_v * wanted);
+    if (!(yields > 0)) return ledger.energy();
+    const double time = (timing.delay + 1) * port.dt + params.current_lag;
+    return ledger.energy() - in_flight.largest_with(wanted) * yields * time;
+  }
+
+  /// The guard lets less through.
+  void limited(double command_given, double wanted) EBAC_RT {
+    state.clamped = true;
+    state.admitted = command_given / wanted;
+  }
+
+  /// The command is given; `stored_at` is the stiffness at which contact can have stored energy.
+  void give(double given, const Port& port, double stored_at) EBAC_RT {
+    command = given;
+    in_flight.push(given);
+    if (port.world_v != 0) asked.push(port.f_env);
+    ledger.leak(given, stored_at);
+    state.energy = ledger.energy();
+    const double longer = state.admitted < kShort ? port.dt : -kFed * port.dt;
+    state.starved = std::max(0.0, state.starved + longer);
+  }
+
+ private:
+  static constexpr double kShort = 0.5;  // of a command: less is starved
+  static constexpr double kFed = 10;     // s by which `starved` falls in a second
+};
+
+}  // namespace ebac
