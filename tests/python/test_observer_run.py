@@ -148,9 +148,8 @@ def test_a_sensor_that_falls_silent_fades_it_out_and_in_and_the_wall_holds(
     assert (part["est.weight"][gone][40:] < 1).all()
     assert part["est.weight"][-1, 0] == 1
     pressed = part["t"] > 2.0
-    assert (
-        np.ptp(part["x"][pressed, 0]) < 5e-3
-    )  # it is not gone; a late tick of a loaded machine moves it by a few mm
+    # On a machine busy with other things it was 0.09 mm, three counts; else one or two.
+    assert np.ptp(part["x"][pressed, 0]) < ebac.metrics.STILL_SWING
     again = ebac.replay(tmp_path / "run.mcap", known.design())
     for name in ("est.x", "est.v_act", "est.weight", "est.fallback", "f_env", "f_cmd"):
         np.testing.assert_array_equal(again[name][: len(part)], part[name], err_msg=name)
