@@ -16,6 +16,7 @@ from itertools import count
 from typing import TYPE_CHECKING, Any
 
 import pytest
+import typer.testing
 from _pytest.runner import runtestprotocol
 from hypothesis import settings
 
@@ -30,6 +31,9 @@ if TYPE_CHECKING:
 settings.register_profile("ebac", deadline=None, derandomize=True, database=None)
 settings.register_profile("explore", deadline=None, max_examples=5000, database=None)
 settings.load_profile("ebac")
+
+# A runner builds all commands of a program at every call: 40 ms, most of what a test of a wrong option takes.
+typer.testing._get_command = cache(typer.testing._get_command)
 
 # A shell that starts pytest in the background has SIGINT ignored, and every program that a test interrupts would too.
 if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:

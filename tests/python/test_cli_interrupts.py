@@ -102,7 +102,7 @@ def test_a_run_that_was_interrupted_names_its_log_and_what_to_do_with_it(tmp_pat
 
 
 def test_what_was_interrupted_is_resumed(tmp_path: Path) -> None:
-    words = "map --side 60 --seconds 20"
+    words = "map --side 60 --seconds 10"  # long enough to be interrupted after its first points
     code, said, _ = interrupted(words, tmp_path, kept="ebac-map/sweep-ebac/*.npz")
     assert code == 130, said
     kept = {file: file.stat().st_mtime_ns for file in (tmp_path / "ebac-map").rglob("*.npz")}
