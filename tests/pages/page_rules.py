@@ -15,11 +15,12 @@ NEVER, SLOW, BESIDE, FAILS = "never", "slow", "beside", "fails"
 
 @dataclass(frozen=True)
 class Rule:
-    """What is done with a command, and why."""
+    """What is done with a command, and why; `fewer` are options it is run with, for fewer runs of the same kind."""
 
     pattern: str
     action: str
     why: str
+    fewer: str = ""
 
 
 RULES = (
@@ -65,6 +66,7 @@ RULES = (
         NEVER,
         "takes a minute; tests run the conditions",
     ),
+    Rule(r"\bhold-1h\b", NEVER, "takes half a minute; `hold` is run"),
     Rule(
         r"--hands [1-9]\d{2,}|--evaluations \d{5}|--cases \d{5}|--runs \d{3}",
         NEVER,
@@ -75,14 +77,18 @@ RULES = (
         NEVER,
         "takes half a minute",
     ),
-    # What takes more than some seconds of one core.
+    # What takes more than some seconds of one core: with fewer hands, points or cases it does all that a page shows.
+    Rule(r"^ebac (study|ablation)\b", SLOW, "takes seconds", fewer="--population random --hands 3"),
+    Rule(r"^ebac tune\b", SLOW, "takes seconds", fewer="--hands 3 --evaluations 4"),
+    Rule(r"^ebac worst\b", SLOW, "takes seconds", fewer="--evaluations 40"),
+    Rule(r"^ebac zwidth\b", SLOW, "takes seconds", fewer="--points 2"),
+    Rule(r"^ebac map\b", SLOW, "takes seconds", fewer="--side 8"),
+    Rule(r"^ebac faults\b", SLOW, "takes seconds", fewer="--cases 5"),
+    Rule(r"^ebac track --simulated", SLOW, "takes seconds", fewer="--runs 4"),
+    Rule(r"^ebac jitter\b", SLOW, "takes seconds", fewer="--seconds 1"),
+    Rule(r"^ebac (paper|doctor|run)\b", SLOW, "takes seconds"),
     Rule(
-        r"^ebac (study|ablation|tune|worst|zwidth|map|faults|paper|jitter|doctor|run)\b",
-        SLOW,
-        "takes seconds",
-    ),
-    Rule(
-        r"^ebac wall.*(--law all|--format)|^ebac identify gains|^ebac track --simulated|--through can",
+        r"^ebac wall.*(--law all|--format)|^ebac identify gains|--through can",
         SLOW,
         "takes seconds",
     ),
@@ -92,3 +98,12 @@ RULES = (
 def rule(command: str) -> Rule | None:
     """Return the rule for a command, None for one that is always run."""
     return next((known for known in RULES if re.search(known.pattern, command)), None)
+
+
+def as_run(command: str) -> str:
+    """Return a command as a test runs it."""
+    known = rule(command)
+    if known is None or not known.fewer:
+        return command
+    words, rest = re.fullmatch(r"([^|&;<>]*)(.*)", command, re.S).groups()  # type: ignore[union-attr]
+    return f"{words.rstrip()} {known.fewer} {rest}".rstrip()

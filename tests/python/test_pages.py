@@ -1,7 +1,7 @@
 """README, documentation and help are done as they stand: every command and every block of Python, in an empty folder.
 
 Files come from `ebac demo` and from the steps before. `tests/pages/page_rules.py` says what is not run, and why; what
-takes seconds is run where EBAC_ALL_COMMANDS is set, as .ci/run does.
+takes seconds is run where EBAC_ALL_COMMANDS is set, as .ci/run does, with fewer hands, points or cases than the page.
 """
 
 import contextlib
@@ -19,7 +19,7 @@ from typing import Any
 import page_process
 import pytest
 import typer.main
-from page_rules import NEVER, SLOW, rule
+from page_rules import NEVER, SLOW, as_run, rule
 from page_steps import ROOT, Step, commands, examples, inline, notebooks, pages, steps
 
 import ebac
@@ -91,7 +91,9 @@ def follow(found: list[Step], where: str, tmp_path: Path) -> None:
             done([sys.executable, "-m", "pytest", "-q", *words, file.name], room, env)
         chosen = [s for s in chosen if s.kind == "sh"]
     file = tmp_path / "steps.json"
-    data = [{**vars(s), "page": where, "action": action(s.text)} for s in chosen]
+    data = [
+        {**vars(s), "text": as_run(s.text), "page": where, "action": action(s.text)} for s in chosen
+    ]
     file.write_text(json.dumps(data), encoding="utf-8")
     done([sys.executable, page_process.__file__, str(file)], room, env)
 
@@ -145,10 +147,16 @@ def test_a_notebook_opens_in_jupyter(page: Path) -> None:
     assert notebook.metadata.kernelspec.name == "python3"
 
 
+@cache
+def program() -> Any:
+    """Return ebac as a command; to build it takes 40 ms."""
+    return typer.main.get_command(app)
+
+
 def refused(text: str) -> Any:
     """Parse a command line of ebac without running it; what the parser has against it, or None."""
     words = shlex.split(text.partition(">")[0], comments=True)[1:]
-    command: Any = typer.main.get_command(app)
+    command = program()
     name = "ebac"
     while hasattr(command, "commands") and words and words[0] in command.commands:
         name = words.pop(0)
@@ -191,6 +199,12 @@ def test_a_command_that_does_not_exist_is_noticed() -> None:
     assert refused("ebac wall --wal tca")
     assert refused("ebac wal")
     assert refused("ebac wall --law tca") is None
+
+
+def test_a_command_is_run_with_fewer_hands_before_its_output_goes_elsewhere() -> None:
+    assert as_run("ebac study > table.txt").split()[-2:] == [">", "table.txt"]
+    assert "--hands" in as_run("ebac study > table.txt").partition(">")[0]
+    assert as_run("ebac wall --law all") == "ebac wall --law all"
 
 
 def test_most_commands_are_run() -> None:
