@@ -68,8 +68,8 @@ class Scenario:
     observer : bool or Observer
         Whether the state of the device is estimated in every tick, from encoder, force sensor and currents: columns
         `est.*`. `ebac`, and every law with `Observer(every_law=True)`, then meets the world where the device will be
-        when the command acts. True designs it from device and timing, as `Observer.of`; an `Observer` is used as it
-        is; False, the default, runs on the encoder alone.
+        when the command acts. True, the default, designs it from device and timing, as `Observer.of`; an `Observer` is
+        used as it is; False runs on the encoder alone.
 
     Raises
     ------
@@ -86,7 +86,7 @@ class Scenario:
     seconds: float = 6.0
     jitter: float = 0.0
     seed: int = 1
-    observer: Observer | bool = False
+    observer: Observer | bool = True
 
     def __post_init__(self) -> None:
         """Check types and ranges."""

@@ -56,7 +56,7 @@ struct WallContact {
   /// the handle has rung down.
   bool force_quiet() const { return !std::isnan(force_settled) && perceived < kQuietPerceived; }
   /// The one definition of a quiet contact behind every verdict, study, map, border and table.
-  bool quiet() const { return still(); }
+  bool quiet() const { return still() && force_quiet(); }
 
   static constexpr auto fields() {
     using F = Field<WallContact>;

@@ -134,7 +134,7 @@ Threads: TypeAlias = Annotated[
 ]
 
 
-def observer(*, default: str | bool = False) -> Any:
+def observer(*, default: str | bool = True) -> Any:
     """Return the option that turns the state observer on or off."""
     return option(
         "--observer/--no-observer",
