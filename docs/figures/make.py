@@ -32,35 +32,38 @@ from ebac.studies.zwidth import zwidth
 
 HERE = Path(__file__).parent
 LAWS = ("tca", "tca-damped", "eba", "ebac-printed", "ebac")
+#: The reference scenario with the noise of a force sensor [N].
+NOISY = ebac.Scenario(device=ebac.Device(sensor=ebac.ForceSensor(noise=0.03)))
 #: Dots an inch and colours: legible on a page, and no file above 150 kB.
 DPI, COLOURS = 80, 128
 
 
 def walls() -> Picture:
-    """`ebac wall --law tca --law eba --law ebac-printed --law ebac`."""
+    """`ebac wall --device-noise 0.03 --law tca --law eba --law ebac-printed --law ebac`."""
     names = ("tca", "eba", "ebac-printed", "ebac")
+    return plot_walls([ebac.simulate(NOISY, name) for name in names])
+
+
+def laws() -> Picture:
+    """`ebac wall`, the picture of the README."""
+    names = ("tca", "tca-damped", "eba", "ebac")
     return plot_walls([ebac.simulate(ebac.Scenario(), name) for name in names])
 
 
-def three_laws() -> Picture:
-    """`ebac wall`, the picture of the README."""
-    return plot_walls([ebac.simulate(ebac.Scenario(), name) for name in ("tca", "eba", "ebac")])
-
-
 def hands() -> Picture:
-    """`ebac study` under five laws: where each of 60 hands ends."""
-    return dict(plot_study(ebac.study(ebac.Operators.grid(), LAWS)))["hands"]
+    """`ebac study --device-noise 0.03` under five laws: where each of 60 hands ends."""
+    return dict(plot_study(ebac.study(ebac.Operators.grid(), LAWS, base=NOISY)))["hands"]
 
 
 def ablation() -> Picture:
-    """`ebac ablation`."""
-    return plot_ablation(ebac.ablation())
+    """`ebac ablation --device-noise 0.03`."""
+    return plot_ablation(ebac.ablation(base=NOISY))
 
 
 def map_kb() -> Picture:
-    """`ebac map --side 100`: EBAC over wall stiffness and damping."""
+    """`ebac map --side 100 --device-noise 0.03`: EBAC over wall stiffness and damping."""
     xs, ys = (AXES[name].values(100) for name in ("damping", "stiffness"))
-    return plot_map(stability_map("ebac", xs=xs, ys=ys))
+    return plot_map(stability_map("ebac", xs=xs, ys=ys, base=NOISY))
 
 
 def z_width() -> Picture:
@@ -71,7 +74,7 @@ def z_width() -> Picture:
 def energy() -> Picture:
     """The energy account under the drive that draws most, with the guard and without."""
     laws = {"ebac": "ebac", "guard off": ebac.Variant("ebac", {"guard": False})}
-    found = ebac.study(ebac.Operators.grid(), laws, ["pumping"])
+    found = ebac.study(ebac.Operators.grid(), laws, ["pumping"], base=NOISY)
     least = found.runs("guard off", "pumping")
     worst = int(least[np.argmin(found.columns["least_energy_J"][least])])
     figure = new_figure(10, 6)
@@ -105,7 +108,7 @@ def energy() -> Picture:
 
 
 FIGURES: dict[str, Callable[[], Picture]] = {
-    "three_laws": three_laws,
+    "laws": laws,
     "walls": walls,
     "hands": hands,
     "ablation": ablation,
