@@ -46,6 +46,7 @@ class PythonLaw final : public LawObject {
   }
   void retune(const LawObject&) noexcept override {}
   double starved() const EBAC_RT override { return 0; }
+  bool observed() const EBAC_RT override { return false; }
   std::unique_ptr<LawObject> clone() const override {
     return std::make_unique<PythonLaw>(py::module_::import("copy").attr("deepcopy")(law_), raised_);
   }

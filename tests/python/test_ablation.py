@@ -18,15 +18,18 @@ from ebac.studies import MEASURES, pieces
 
 FEW = Operators.grid(mass=[0.15], damping=[2, 6], stiffness=[300], target=[0.04])  # 2 hands
 KEYS = [
-    "law", "piece", "changes", "hands", "good", "settled_in_time", "median_settled_s", "good_K20", "good_d2_K20",
+    "law", "piece", "changes", "hands", "good", "exact_and_still", "settled_in_time", "median_settled_s", "good_K20", "good_d2_K20",
     "good_slow_press_d2_K20", "good_tremor", "least_energy_impact_J", "least_energy_let_go_J",
     "least_energy_pumping_J", "ripple_N", "ripple_noise_N", "force_step_N", "friction_m", "worse", "better",
 ]  # fmt: skip
 
+#: On the encoder alone, and without a piece.
+ENCODER = [{"observer": False, "recovery": False}, {"observer": False, "guard": False}]
+
 
 @pytest.fixture(scope="module")
 def few() -> Ablation:
-    return ablation(FEW)
+    return ablation(FEW, changes=ENCODER)
 
 
 # --- a law with parameters changed ---
@@ -95,7 +98,7 @@ def test_a_law_of_ones_own_has_its_pieces_taken_too() -> None:
     quick = ebac.Scenario(seconds=0.2)
     found = ablation(one, Own(), beside=(), base=quick, measures=MEASURES[:2])
     assert [row.label for row in found.rows] == ["own", "damped off"]
-    assert list(found.rows[0].values) == ["good", "settled_in_time"]
+    assert list(found.rows[0].values) == ["good", "exact_and_still"]
     assert [c.name for c in found.study.conditions] == ["d1K10"]
 
 
@@ -124,7 +127,7 @@ def test_what_cannot_be_taken_apart_is_refused() -> None:
 
 def test_a_row_for_the_law_each_piece_and_each_law_beside(few: Ablation) -> None:
     labels = [row.label for row in few.rows]
-    expected = [piece.label for piece in pieces("ebac")]
+    expected = [piece.label for piece in pieces("ebac", ENCODER)]
     assert labels == ["ebac", *expected, "tca", "eba"]
     assert list(few.rows[0].row()) == KEYS
     assert all(row.hands == 2 for row in few.rows)
@@ -166,14 +169,20 @@ def test_the_force_step_is_the_largest_inside_of_the_wall_over_all_hands(few: Ab
 
 def test_what_the_law_needs_is_worse_without_it(few: Ablation) -> None:
     rows = {row.label: row for row in few.rows}
-    assert "good" in rows["recovery off"].worse
-    assert "good" in rows["injection off"].worse
-    assert "least_energy_pumping_J" in rows["guard off"].worse
-    assert rows["recovery off"].earns
+    for off in ("observer off", "injection off", "observer off, recovery off"):
+        assert "good" in rows[off].worse
+    assert "exact_and_still" in rows["observer off, recovery off"].worse
+    assert "exact_and_still" not in rows["observer off"].worse
+    assert not rows["recovery off"].worse  # with the observer nothing is left to recover
+    assert "least_energy_pumping_J" in rows["observer off"].worse
+    worse = rows["observer off, guard off"].values["least_energy_pumping_J"]
+    assert worse is not None
+    assert worse < 10 * (rows["observer off"].values["least_energy_pumping_J"] or 0)
+    assert rows["injection off"].earns
     assert "good" in rows["tca"].worse
     assert rows["tca"].earns is None
-    off = rows["guard off"]
-    runs = few.study.runs("ebac, guard off", "pumping")
+    off = rows["observer off, guard off"]
+    runs = few.study.runs("ebac, observer off, guard off", "pumping")
     assert off.values["least_energy_pumping_J"] == few.study.columns["least_energy_J"][runs].min()
 
 
@@ -217,20 +226,20 @@ def test_the_command_writes_tables_and_a_figure(hands_csv: Path) -> None:
         "--beside",
         "eba",
         "--change",
-        "kp=0.3,guard=off",
+        "observer=off,guard=off",
         "--out",
         "out",
     )
     shown = " ".join(command(*words).stdout.split())
-    assert "recovery off (relaxation towards F_e at dx = 0): worse" in shown
-    assert "kp = 0.3, guard off: worse" in shown
+    assert "injection off (virtual damping while in contact): worse" in shown
+    assert "observer off, guard off: worse" in shown
     out = hands_csv.parent / "out"
     names = {file.name for file in out.iterdir()} - {"sweep"}
     assert names == {"ablation.csv", "ablation.json", "ablation.png", "population.csv", "runs.csv"}
     rows = json.loads((out / "ablation.json").read_text())["rows"]
     assert [list(row) for row in rows] == [KEYS] * len(rows)
-    [mine] = [row for row in rows if row["piece"] == "kp, guard"]
-    assert mine["changes"] == {"kp": 0.3, "guard": False}
+    [mine] = [row for row in rows if row["piece"] == "observer, guard"]
+    assert mine["changes"] == {"observer": False, "guard": False}
     assert rows[-1]["law"] == "eba"
     with (out / "ablation.csv").open() as file:
         assert list(next(csv.reader(file))) == KEYS

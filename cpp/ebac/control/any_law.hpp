@@ -18,8 +18,7 @@ struct LawType {
   std::string_view name;
   std::string_view summary;
   bool passive = false;
-  bool observed = false;  // whether it is made for the observer's estimate
-  bool tunable = false;   // whether its gains may change while it runs
+  bool tunable = false;  // whether its gains may change while it runs
   FieldTable params;
   FieldTable state;
   void (*design)(void* params, const DeviceFacts& facts, const Timing& timing) = nullptr;
@@ -42,6 +41,8 @@ class LawObject {
   virtual void retune(const LawObject& next) EBAC_RT = 0;
   /// How long its energy account has held its force back [s]; 0 for a law without one.
   virtual double starved() const EBAC_RT = 0;
+  /// Whether it uses the observer's estimate where a run has one.
+  virtual bool observed() const EBAC_RT = 0;
   virtual std::unique_ptr<LawObject> clone() const = 0;
 
   const LawType& type() const EBAC_RT { return *type_; }
@@ -83,6 +84,7 @@ class AnyLaw {
   void retune(const AnyLaw& next) EBAC_RT { law_->retune(*next.law_); }
 
   double starved() const EBAC_RT { return law_->starved(); }
+  bool observed() const EBAC_RT { return law_->observed(); }
   const LawType& type() const EBAC_RT { return law_->type(); }
   const void* params() const EBAC_RT { return law_->params(); }
   const void* state() const EBAC_RT { return law_->state(); }

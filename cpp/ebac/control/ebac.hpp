@@ -35,9 +35,6 @@ class Ebac {
       "eq. (8) to (10) and (2), completed: recovery, damping, guard";
   static constexpr bool kPassive = false;  // guarded; see docs/explanation/theory.md
 
-  /// It uses the observer's estimate where a run has one.
-  static constexpr bool kObserved = true;
-
   using Params = EbacParams;
   using State = EbacState;
 
@@ -80,6 +77,8 @@ class Ebac {
   const State& state() const EBAC_RT { return shared_.state; }
   double starved() const EBAC_RT { return shared_.state.starved; }
   const Params& params() const EBAC_RT { return shared_.params; }
+  /// Whether it uses the observer's estimate where a run has one.
+  bool observed() const EBAC_RT { return shared_.params.observer; }
   const Timing& timing() const EBAC_RT { return shared_.timing; }
 
  private:

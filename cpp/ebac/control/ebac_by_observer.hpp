@@ -16,7 +16,7 @@ namespace ebac {
 class EbacByObserver {
  public:
   EbacByObserver(const EbacParams& params, const Timing& timing) EBAC_RT
-      : force_(params.mass, params.count, params.current_lag, timing, params.resonance),
+      : force_(params, timing),
         work_(params.count),
         guard_(params.damping, params.mass, params.count / 2, timing.longest(), kKnown) {}
 

@@ -30,6 +30,7 @@ struct EbacParams {
   bool recovery = true;
   bool injection = true;
   bool guard = true;
+  bool observer = true;
 
   static constexpr EbacParams design(const DeviceFacts& facts, Timing) {
     return {.damping = facts.damping,
@@ -74,6 +75,8 @@ struct EbacParams {
         F{"recovery", &EbacParams::recovery, "1", "relaxation towards F_e at dx = 0", 0, 1},
         F{"injection", &EbacParams::injection, "1", "virtual damping while in contact", 0, 1},
         F{"guard", &EbacParams::guard, "1", "hold the command to what the ledger covers", 0, 1},
+        F{"observer", &EbacParams::observer, "1",
+          "meet the world at the observer's estimate, where a run has one", 0, 1},
     };
   }
 };

@@ -25,6 +25,7 @@ class LawOf final : public LawObject {
     if constexpr (kTunable) law_.retune(static_cast<const LawOf&>(next).law_);
   }
   double starved() const EBAC_RT override { return starved_of(law_); }
+  bool observed() const EBAC_RT override { return observed_of(law_); }
   std::unique_ptr<LawObject> clone() const override { return std::make_unique<LawOf>(law_); }
 
   const Law& law() const { return law_; }
@@ -48,7 +49,6 @@ const LawType& law_type() {
       .name = Law::kName,
       .summary = Law::kSummary,
       .passive = Law::kPassive,
-      .observed = requires { Law::kObserved; },
       .tunable = LawOf<Law>::kTunable,
       .params = field_table<Params>(),
       .state = field_table<State>(),

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ebac/control/ebac_params.hpp"
 #include "ebac/control/injection.hpp"
 #include "ebac/core/realtime.hpp"
 #include "ebac/core/sample.hpp"
@@ -16,17 +17,18 @@ namespace ebac {
 /// ((d + 1/2) T + current_lag). The world may be shown at its whole stiffness while moving.
 class ObservedForce {
  public:
-  ObservedForce(double mass, double count, double current_lag, const Timing& timing,
-                double resonance = 0) EBAC_RT
-      : show_(mass, kNoCount, current_lag, timing, resonance),
+  /// Without a damper where `injection` is off.
+  ObservedForce(const EbacParams& law, const Timing& timing) EBAC_RT
+      : show_(law.mass, kNoCount, law.current_lag, timing, law.resonance),
         half_period_(show_.half_period),
+        damping_(law.injection ? show_.damping : 0.0),
         stored_at_(show_.stiffness),
-        least_(kLeast* count) {}
+        least_(kLeast* law.count) {}
 
   double step(const Port& port) EBAC_RT {
     watch(port);
     injected_ = 0;
-    const double damped = half_period_.step(port.f_env + show_.damping * port.est.v_act);
+    const double damped = half_period_.step(port.f_env + damping_ * port.est.v_act);
     if (port.f_env == 0) return 0;
     const double force = port.f_env > 0 ? std::max(damped, 0.0) : std::min(damped, 0.0);
     injected_ = force - port.f_env;
@@ -59,6 +61,7 @@ class ObservedForce {
 
   Injection show_;
   HalfPeriod half_period_;
+  double damping_;    // N s/m
   double stored_at_;  // N/m
   double least_;      // m
   double slope_ = 0;

@@ -47,13 +47,7 @@ class PerAxis {
     for (Law& law : laws_) law.retune(next);
   }
   /// Whether it is made for the observer's estimate.
-  bool observed() const {
-    if constexpr (std::same_as<Law, AnyLaw>) {
-      return laws_[0].type().observed;
-    } else {
-      return requires { Law::kObserved; };
-    }
-  }
+  bool observed() const EBAC_RT { return observed_of(laws_[0]); }
   double starved() const EBAC_RT {
     double longest = 0;
     for (const Law& law : laws_) longest = std::max(longest, starved_of(law));

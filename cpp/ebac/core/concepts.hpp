@@ -35,6 +35,13 @@ double starved_of(const L& law) EBAC_RT {
   return 0;
 }
 
+/// Whether a law uses the observer's estimate where a run has one.
+template <class L>
+bool observed_of(const L& law) EBAC_RT {
+  if constexpr (requires { law.observed(); }) return law.observed();
+  return false;
+}
+
 struct Command {
   std::array<double, kMaxAxes> current{};  // A, computed in the last tick
   double elapsed = 0;                      // s, since the last exchange; 0 in the first

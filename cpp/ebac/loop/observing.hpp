@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "ebac/core/concepts.hpp"
 #include "ebac/loop/observer_params.hpp"
 
 namespace ebac {
@@ -13,18 +14,11 @@ struct Observing {
   ObserverParams params{};
 };
 
-/// Whether a law is made for the observer.
-template <class Law>
-bool made_for_observer(const Law& law) {
-  if constexpr (requires { law.observed(); }) return law.observed();
-  return false;
-}
-
 /// What a run under `law` does with an observer, if it has one.
 template <class Law>
 Observing observing(const std::optional<ObserverParams>& observer, const Law& law) {
   if (!observer) return {};
-  return {.on = true, .acts = observer->every_law || made_for_observer(law), .params = *observer};
+  return {.on = true, .acts = observer->every_law || observed_of(law), .params = *observer};
 }
 
 }  // namespace ebac

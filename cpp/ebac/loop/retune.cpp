@@ -11,9 +11,10 @@ namespace ebac {
 
 namespace {
 
-/// Parameters that a law keeps from its start: those of the device, and the energy reserve.
-constexpr std::array<std::string_view, 6> kFixedParams{"mass",        "damping", "count",
-                                                       "current_lag", "reserve", "resonance"};
+/// Parameters that a law keeps from its start: those of the device, the energy reserve, the way
+/// it is measured.
+constexpr std::array<std::string_view, 7> kFixedParams{
+    "mass", "damping", "count", "current_lag", "reserve", "resonance", "observer"};
 
 }  // namespace
 
