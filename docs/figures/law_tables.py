@@ -6,7 +6,7 @@ import re
 from collections.abc import Callable
 
 import numpy as np
-from printed import Printed, Row, code, fixed, joules, table
+from printed import NOISE, Printed, Row, code, fixed, joules, table
 
 import ebac
 from ebac.studies.conditions import conditions
@@ -14,9 +14,11 @@ from ebac.studies.families import find_family
 from ebac.studies.zwidth.result import CRITERIA
 
 TO_50 = "zwidth --law direct --law ebac --most-damping 50 --points 21 --delay 1"
+NOISY = ebac.Scenario(device=ebac.Device(sensor=ebac.ForceSensor(noise=0.03)))
 #: Measures of `ebac ablation`: the key, the heading, how its number is written.
 MEASURES: tuple[tuple[str, str, Callable[[float | None], str]], ...] = (
     ("good", "good", lambda n: fixed(n, 0)),
+    ("exact_and_still", "exact, still", lambda n: fixed(n, 0)),
     ("settled_in_time", "in time", lambda n: fixed(n, 0)),
     ("median_settled_s", "settled [s]", lambda s: fixed(s, 3)),
     ("good_K20", "20 kN/m", lambda n: fixed(n, 0)),
@@ -32,6 +34,7 @@ MEASURES: tuple[tuple[str, str, Callable[[float | None], str]], ...] = (
     ("friction_m", "off, friction 1 N [mm]", lambda x: fixed(x, 3, 1e3)),
 )
 PURPOSE = {
+    "observer": "quiet in force, fast, and seen below a count",
     "continuity": "smaller steps of the force inside of the wall",
     "recovery": "rests where the wall is",
     "injection": "takes out what recovery puts in",
@@ -42,8 +45,18 @@ PURPOSE = {
 
 def ablation(printed: Printed) -> str:
     """The law without each of its pieces; bold what gets worse, italics what gets better."""
+    return _pieces(printed.rows(f"ablation {NOISE}"))
+
+
+def ablation_encoder(printed: Printed) -> str:
+    """The same on the encoder alone."""
+    rows = printed.rows(f"ablation {NOISE} --no-observer")
+    return _pieces([r for r in rows if "observer" not in (r["changes"] or {})])
+
+
+def _pieces(found: list[Row]) -> str:
     rows = []
-    for r in printed.rows("ablation"):
+    for r in found:
         parts = [
             f"{k} off" if v is False else f"{k} = {v:g}" for k, v in (r["changes"] or {}).items()
         ]
@@ -61,21 +74,24 @@ def ablation(printed: Printed) -> str:
 
 def worst(printed: Printed) -> str:
     """The worst hand of every family; the same hand behind other parts, and for longer."""
-    found = printed.document("worst")
-    free = {r["family"]: r["energy_drawn_J"] for r in printed.rows("worst --change guard=off")}
+    found = printed.document(f"worst {NOISE}")
+    free, alone = (
+        {r["family"]: r["energy_drawn_J"] for r in printed.rows(f"worst {NOISE} {change}")}
+        for change in ("--change guard=off", "--no-observer")
+    )
     rows = []
     for r in found["rows"]:
         family = find_family(r["family"], found["allowed_pull_N"])
         (where,) = conditions([r["condition"]])
         values = {p["name"]: p["value"] for p in r["parameters"]}
-        hand = family.make(where.change(ebac.Scenario()), values)
+        hand = family.make(where.change(NOISY), values)
         others = [(True, 1, 1), (False, 64, 1), (True, 64, 1), (False, 1, 5)]
         rows.append(
             [code(family.name), joules(r["energy_drawn_J"]), fixed(r["most_pull_N"], 1),
-             *(joules(_behind(hand, *other)) for other in others), joules(free[family.name])]
+             *(joules(_behind(hand, *other)) for other in others), joules(free[family.name]), joules(alone[family.name])]
         )  # fmt: skip
     heads = ["family", "drawn [mJ]", "hardest pull [N]", "no current lag", "64 times the counts", "both",
-             "five times as long", "guard off: drawn [mJ]"]  # fmt: skip
+             "five times as long", "guard off: drawn [mJ]", "`--no-observer`: drawn [mJ]"]  # fmt: skip
     return table(heads, rows)
 
 

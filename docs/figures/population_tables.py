@@ -5,12 +5,16 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
-from printed import Printed, Row, code, count, fixed, joules, table
+from printed import NOISE, Printed, Row, code, fixed, joules, table
 
 import ebac
 from ebac.studies.tuning import TUNING_CONDITIONS
 
-CELLS, FIVE = "study -c cells", "study -c five --population random --hands 500 --seed"
+CELLS = f"study -c cells {NOISE}"
+FIVE = f"study -c five --population random --hands 500 {NOISE} --seed"
+ROBUSTNESS = f"study -c robustness {NOISE} --law all"
+#: `ebac` on the encoder alone, in a table of its own command.
+ALONE, ALONE_NAME = "--law ebac --no-observer", "`ebac`, `--no-observer`"
 #: Left out of the wide tables: it rests too deep everywhere.
 NARROW = "virtual-coupling"
 SEEDS = (1, 2, 3)
@@ -42,15 +46,20 @@ def grid(printed: Printed) -> str:
     heads = [
         "law",
         "good",
+        "exact, still",
+        "quiet force",
         "in time",
         "least energy [mJ]",
         "most drawn [mJ]",
         "settled, median [s]",
     ]
     rows = [
-        [code(r["law"]), str(r["good"]), str(r["settled_in_time"]), joules(r["least_energy_J"]),
-         joules(r["most_drawn_J"]), fixed(r["median_settled_s"], 2)]
-        for r in printed.rows("study --law all")
+        [name, str(r["good"]), str(r["exact_and_still"]), str(r["force_quiet"]), str(r["settled_in_time"]),
+         joules(r["least_energy_J"]), joules(r["most_drawn_J"]), fixed(r["median_settled_s"], 2)]
+        for name, r in (
+            *((code(r["law"]), r) for r in printed.rows(f"study {NOISE} --law all")),
+            (ALONE_NAME, printed.rows(f"study {NOISE} {ALONE}")[0]),
+        )
     ]  # fmt: skip
     return table(heads, rows)
 
@@ -93,40 +102,47 @@ def cells(printed: Printed) -> str:
     every = by_law(printed.rows(f"{CELLS} --law all"))
     surface = printed.rows(f"{CELLS} --approach 0 --law ebac")
     named = {code(law): rows for law, rows in every.items()}
+    named[ALONE_NAME] = printed.rows(f"{CELLS} {ALONE}")
     named["`ebac`, from the surface (`--approach 0`)"] = surface
     hands = total(surface, "hands")
     rows = [
-        [name, total(r, "good"), total(r, "settled_in_time"), joules(least(r)), joules(drawn(r))]
+        [name, total(r, "good"), total(r, "exact_and_still"), total(r, "settled_in_time"),
+         joules(least(r)), joules(drawn(r))]
         for name, r in named.items()
-    ]
-    heads = ["law", f"good of {hands}", "in time", "least energy [mJ]", "most drawn [mJ]"]
+    ]  # fmt: skip
+    heads = ["law", f"good of {hands}", "exact, still", "in time", "least energy [mJ]", "most drawn [mJ]"]
     return (
-        f"{table(heads, rows)}\n\nCells of `ebac` that are not 60 of 60: {_missing(every['ebac'])}.\n"
-        f"From the surface: {_missing(surface)}."
+        f"{table(heads, rows)}\n\nCells in which not all 60 hands are good under `ebac`: "
+        f"{_missing(every['ebac'], 'good')}.\nNot exact and still: {_missing(every['ebac'], 'exact_and_still')}. "
+        f"From the surface: {_missing(surface, 'exact_and_still')}."
     )
 
 
-def _missing(rows: list[Row]) -> str:
-    lost = [f"{code(r['condition'])} {r['good']}" for r in rows if r["good"] < r["hands"]]
+def _missing(rows: list[Row], key: str) -> str:
+    lost = [f"{code(r['condition'])} {r[key]}" for r in rows if r[key] < r["hands"]]
     return ", ".join(lost) or "none"
 
 
 def five(printed: Printed) -> str:
-    """500 random hands, five conditions, three seeds."""
+    """500 random hands, five conditions, the worst of three seeds."""
     seeds = [by_law(printed.rows(f"{FIVE} {seed} --law all")) for seed in SEEDS]
     named = list(dict.fromkeys(r["condition"] for r in seeds[0]["ebac"]))
 
-    def line(law: str, key: str) -> list[str]:
+    def fewest(law: str, key: str) -> list[int]:
         found = [{r["condition"]: r[key] for r in seed[law]} for seed in seeds]
-        return [", ".join(str(of[name]) for of in found) for name in named]
+        return [min(of[name] for of in found) for name in named]
+
+    def both(law: str) -> list[str]:
+        pairs = zip(fewest(law, "good"), fewest(law, "exact_and_still"), strict=True)
+        return [f"{good} / {still}" for good, still in pairs]
 
     ours = [row for seed in seeds for row in seed["ebac"]]
     rows = [
-        [code(law), *line(law, "good"), joules(min(least(s[law]) for s in seeds))]
+        [code(law), *both(law), joules(min(least(s[law]) for s in seeds))]
         for law in seeds[0]
     ]
-    rows += [["`ebac`, in time", *line("ebac", "settled_in_time"), ""]]
-    rows += [["ideal wall", *line("ebac", "ideal_good"), ""]]
+    rows += [["`ebac`, in time", *map(str, fewest("ebac", "settled_in_time")), ""]]
+    rows += [["ideal wall", *map(str, fewest("ebac", "ideal_good")), ""]]
     return (
         f"{table(['law', *map(code, named), 'least energy [mJ]'], rows)}\n\nMost energy `ebac` drew in any window of "
         f"these {total(ours, 'hands')} runs: {joules(drawn(ours), ' mJ')}."
@@ -135,19 +151,30 @@ def five(printed: Printed) -> str:
 
 def robustness_good(printed: Printed) -> str:
     """Good hands under every condition of the robustness list."""
-    every = by_law(printed.rows("study -c robustness --law all"))
-    ideal = [[code(r["condition"]), count(r["ideal_good"])] for r in every["ebac"]]
-    columns = [[count(r["good"]) for r in rows] for rows in every.values()]
+    every = _robustness(printed)
+    ideal = [[code(r["condition"]), _pair(r, "ideal_good")] for r in every["`ebac`"]]
+    columns = [[_pair(r, "good", "exact_and_still") for r in rows] for rows in every.values()]
     rows = [[*first, *rest] for first, rest in zip(ideal, zip(*columns, strict=True), strict=True)]
-    return table(["condition", "ideal wall", *map(code, every)], rows)
+    return table(["condition", "ideal wall", *every], rows)
+
+
+def _robustness(printed: Printed) -> dict[str, list[Row]]:
+    every = {code(law): rows for law, rows in by_law(printed.rows(ROBUSTNESS)).items()}
+    return every | {ALONE_NAME: printed.rows(f"study -c robustness {NOISE} {ALONE}")}
+
+
+def _pair(row: Row, *keys: str) -> str:
+    """Return counts of hands, once where they are the same; a dash where there is no point of rest."""
+    counts = [row[key] for key in keys]
+    return "-" if None in counts else " / ".join(str(n) for n in dict.fromkeys(counts))
 
 
 def robustness_energy(printed: Printed) -> str:
     """Least port energy under every condition of the robustness list."""
-    every = by_law(printed.rows("study -c robustness --law all"))
-    first = [code(r["condition"]) for r in every["ebac"]]
+    every = _robustness(printed)
+    first = [code(r["condition"]) for r in every["`ebac`"]]
     columns = [[joules(r["least_energy_J"]) for r in rows] for rows in every.values()]
-    return table(["condition", *map(code, every)], list(zip(first, *columns, strict=True)))
+    return table(["condition", *every], list(zip(first, *columns, strict=True)))
 
 
 LAWS = "direct,tca,tca-damped,eba,ebac"
@@ -155,9 +182,9 @@ LAWS = "direct,tca,tca-damped,eba,ebac"
 
 def models(printed: Printed) -> str:
     """Hands beyond eq. (4): good, and least port energy; the damper alone beside them."""
-    every = by_law(printed.rows(f"study -c hands --law {LAWS}"))
+    every = by_law(printed.rows(f"study -c hands {NOISE} --law {LAWS}"))
     rows = [
-        [code(first["condition"]), *(str(r[i]["good"]) for r in every.values()),
+        [code(first["condition"]), *(_pair(r[i], "good", "exact_and_still") for r in every.values()),
          *(joules(r[i]["least_energy_J"]) for r in every.values())]
         for i, first in enumerate(every["ebac"])
     ]  # fmt: skip
@@ -167,22 +194,26 @@ def models(printed: Printed) -> str:
 
 def held(printed: Printed) -> str:
     """One light hand that holds for long."""
-    found = printed.rows("study -c hold-10min,hold-1h --law direct,tca-damped,eba,ebac")
+    long = f"study -c hold-10min,hold-1h {NOISE}"
+    found = [
+        *((code(r["law"]), r) for r in printed.rows(f"{long} --law direct,tca-damped,eba,ebac")),
+        *((ALONE_NAME, r) for r in printed.rows(f"{long} {ALONE}")),
+    ]
     rows = [
-        [code(r["condition"]), code(r["law"]), joules(r["least_energy_J"]),
+        [code(r["condition"]), name, joules(r["least_energy_J"]),
          f"{round(1e6 * r['least_rest_power_W'], 1) + 0.0:.1f}"]
-        for r in found
+        for name, r in sorted(found, key=lambda one: one[1]["condition"] == "hold-1h")
     ]  # fmt: skip
     return table(["condition", "law", "least energy [mJ]", "power at rest [uW]"], rows)
 
 
 def damped(printed: Printed) -> str:
     """Walls with damping: good hands over stiffness and damping."""
-    every = by_law(printed.rows(f"study -c damped-walls --law {LAWS}"))
+    every = by_law(printed.rows(f"study -c damped-walls {NOISE} --law {LAWS}"))
     stiff = list(dict.fromkeys(r["condition"].partition("K")[2] for r in every["ebac"]))
     n = len(stiff)
     rows = [
-        [code(law), r[i]["condition"].partition("K")[0][1:], *(str(one["good"]) for one in r[i : i + n])]
+        [code(law), r[i]["condition"].partition("K")[0][1:], *(_pair(one, "good", "exact_and_still") for one in r[i : i + n])]
         for law, r in every.items()
         for i in range(0, len(r), n)
     ]  # fmt: skip

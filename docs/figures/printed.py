@@ -16,6 +16,8 @@ from typing import Any
 
 MARKED = re.compile(r"(<!-- table: ([\w-]+) -->\n).*?(<!-- end -->)", re.S)
 Row = dict[str, Any]
+#: Every study of these pages has it: the force sensor's noise [N], which the observer is designed for.
+NOISE = "--device-noise 0.03"
 #: Energy that is written as 0 [J].
 NOTHING = 5e-8
 
@@ -89,11 +91,6 @@ def table(heads: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
 def code(name: str) -> str:
     """Return a name as it is typed."""
     return f"`{name}`"
-
-
-def count(number: int | None) -> str:
-    """Return a number of hands; None where there is no point of rest."""
-    return "-" if number is None else str(number)
 
 
 def joules(energy: float | None, unit: str = "") -> str:

@@ -45,6 +45,7 @@ TABLES: dict[str, Callable[[Printed], str]] = {
     "held": populations.held,
     "damped": populations.damped,
     "ablation": laws.ablation,
+    "ablation-encoder": laws.ablation_encoder,
     "pieces": story.pieces,
     "worst": laws.worst,
     "zwidth": laws.z_width,

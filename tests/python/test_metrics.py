@@ -250,8 +250,10 @@ def test_few_rows_a_second_show_no_vibration() -> None:
     assert (row.ripple_high_N, row.perceived, row.force_quiet) == (None, None, False)
 
 
-def test_the_completed_law_clicks_and_the_bounded_one_does_not(run: Any) -> None:
-    clicks, smooth = ebac.contact(run("ebac")), ebac.contact(run("eba"))
+def test_the_completed_law_clicks_on_the_encoder_alone_and_the_bounded_one_does_not(
+    run: Any,
+) -> None:
+    clicks, smooth = ebac.contact(run("ebac", observer=False)), ebac.contact(run("eba"))
     assert clicks.still
     assert not clicks.force_quiet
     assert clicks.jumps > 300
@@ -276,7 +278,7 @@ def test_an_ideal_wall_is_quiet() -> None:
 
 def test_the_verdict_on_the_force_is_read_in_words(run: Any) -> None:
     assert (
-        ebac.contact(run("ebac")).force_verdict
+        ebac.contact(run("ebac", observer=False)).force_verdict
         == "not quiet: settled 2.994 s, 338 jumps, vibration 19.8 thresholds"
     )
     assert (
@@ -290,7 +292,7 @@ def test_the_verdict_on_the_force_is_read_in_words(run: Any) -> None:
 
 
 def test_a_still_contact_that_is_not_quiet_says_so(run: Any) -> None:
-    rippling = replace(ebac.contact(run("ebac")), quiet=False)
+    rippling = ebac.contact(run("ebac", observer=False))
     assert rippling.verdict == "exact, force not quiet"
     assert replace(rippling, rest_m=0.002).verdict == "too deep by 0.835 mm, force not quiet"
     assert replace(rippling, ideal_m=None).verdict == "force not quiet"

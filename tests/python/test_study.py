@@ -19,7 +19,7 @@ from ebac.studies.study import ideal_contacts
 
 FEW = Operators.grid(mass=[0.15], damping=[2, 4, 6], stiffness=[300], target=[0.04])  # 3 hands
 ROW = [
-    "law", "condition", "hands", "good", "settled_in_time", "least_energy_J", "most_drawn_J",
+    "law", "condition", "hands", "good", "exact_and_still", "settled_in_time", "least_energy_J", "most_drawn_J",
     "median_settled_s", "ideal_good", "least_rest_power_W", "force_quiet",
 ]  # fmt: skip
 
@@ -44,7 +44,14 @@ def test_the_completed_law_is_good_where_the_force_loop_swings(few: Study) -> No
     assert (tca.least_energy_J or 0) < -0.1
     assert (ebac_.most_drawn_J or 0) < 1e-3
     assert tca.median_settled_s is None
-    assert (tca.force_quiet, ebac_.force_quiet) == (0, 0)
+    assert (tca.force_quiet, ebac_.force_quiet) == (0, 3)
+
+
+def test_a_hand_that_only_clicks_is_exact_and_still_and_not_good() -> None:
+    found = study(FEW, {"ebac": ebac.Variant("ebac", {"observer": False})}, ["d1K10"])
+    [row] = found.rows
+    assert (row.good, row.exact_and_still, row.settled_in_time) == (0, 3, 3)
+    assert all(failure.why.startswith("force not quiet: ") for failure in found.failures)
 
 
 def test_what_never_rests_is_neither_good_nor_bad(few: Study) -> None:

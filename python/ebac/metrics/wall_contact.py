@@ -65,7 +65,7 @@ LINES = (
     ("ripple, rms", "ripple_rms_N", "N", "-"),
     ("above 20 Hz, rms", "ripple_high_N", "N", "-"),
     ("force jumps", "jumps", "1", "-"),
-    ("vibration", "perceived", "thresholds", "-"),
+    ("vibration/threshold", "perceived", "1", "-"),
     ("deepest", "peak_m", "m", "-"),
     ("limit cycle", "limit_cycle_Hz", "Hz", "none"),
     ("least port energy", "least_energy_J", "J", "-"),
@@ -93,7 +93,7 @@ class Contact:
     peak_m : float
         Deepest position of the whole run.
     limit_cycle_Hz : float or None
-        Frequency of the swing; None when it is quiet or drifts without swinging back.
+        Frequency of the swing; None when it is still or drifts without swinging back.
     least_energy_J : float or None
         Lowest physical port energy, integral of (f v + b v^2 + friction); None without a simulation.
     most_drawn_J : float or None
@@ -132,7 +132,7 @@ class Contact:
     force_quiet : bool
         Whether the force settles and `perceived` is below 3.
     quiet : bool
-        The verdict behind every table, study, map and figure: `still`, without a look at the force.
+        The verdict behind every table, study, map and figure: `still` and `force_quiet`.
     count_m : float or None
         One encoder count.
     allowed_m : float or None

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from ebac.studies.maps import MapAxis, StabilityMap
 
 #: Colours of the verdicts, best first.
-VERDICT_COLOURS = ("#0072b2", "#a6cee3", "#f0c05a", "#8c2d04")
+VERDICT_COLOURS = ("#0072b2", "#56b4e9", "#c9dff0", "#f0c05a", "#8c2d04")
 LINE: dict[str, Any] = {"colors": "black", "linewidths": 1.2, "linestyles": "solid"}
 
 

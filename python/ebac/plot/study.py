@@ -91,7 +91,8 @@ def _scatter(study: Study, conditions: list[str], *, narrow: bool) -> Picture:
     figure.suptitle(
         f"How {len(study.operators)} hands come to rest, one mark each, simulated: {device}; {rest[1]}\n"
         "Grey area: a good hand, which rests within 2 encoder counts of the ideal, or as far as friction holds it, "
-        "and swings by less than 0.25 mm\nCross: not good, the worst with their row in the population (#)",
+        "and swings by less than 0.25 mm\nRing: its force is not quiet. Cross: not good by position, the worst with their "
+        "row in the population (#)",
         fontsize="medium",
     )
     return figure
@@ -104,9 +105,13 @@ def _panel(ax: Axes, study: Study, law: str, condition: str) -> None:
     deviation = np.clip(1e3 * (part["rest_m"] - part["ideal_m"]), -MOST, MOST)
     band = 1e3 * float(np.median(part["allowed_m"]))
     ax.fill_between([LEAST_SWING, 1e3 * STILL_SWING], -band, band, color="0.88", lw=0)
-    good = part["good"]
-    ax.plot(swing[good], deviation[good], "o", ms=4, mew=0, alpha=0.6, color=colour(law))
-    ax.plot(swing[~good], deviation[~good], "x", ms=5, mew=1.1, color=colour(law))
+    good, there = part["good"], part["exact_and_still"]
+    for which, mark in (
+        (good, {"marker": "o", "ms": 4, "mew": 0, "alpha": 0.6}),
+        (there & ~good, {"marker": "o", "ms": 4, "mew": 0.9, "mfc": "none"}),
+        (~there, {"marker": "x", "ms": 5, "mew": 1.1}),
+    ):
+        ax.plot(swing[which], deviation[which], ls="", color=colour(law), **mark)
     ax.set_xscale("log")
     ax.set_yscale("symlog", linthresh=0.1)
     ax.set_xlim(LEAST_SWING / 2, 2 * MOST)
@@ -132,7 +137,7 @@ def _name_worst(
 ) -> None:
     """Write the population's row beside the worst failures, those that lie apart."""
     badness = np.maximum(np.abs(deviation) / band, swing / (1e3 * STILL_SWING))
-    badness[part["good"] | ~np.isfinite(badness)] = 0
+    badness[part["exact_and_still"] | ~np.isfinite(badness)] = 0
     shown: list[tuple[float, float]] = []
     for i in np.argsort(-badness, kind="stable"):
         if badness[i] == 0 or len(shown) == NAMED:

@@ -116,7 +116,7 @@ def _step_inside(trace: Trace) -> float:
 
 
 def _away(runs: Columns) -> float:
-    return _median("away")({"away": np.abs(runs["rest_m"] - runs["ideal_m"])[runs["quiet"]]})
+    return _median("away")({"away": np.abs(runs["rest_m"] - runs["ideal_m"])[runs["still"]]})
 
 
 def _good(key: str, heading: str, condition: str) -> Measure:
@@ -134,10 +134,12 @@ def _energy(key: str, heading: str, *conditions: str) -> Measure:
 #: Every measure of an ablation, in the order of its columns.
 MEASURES = (
     _good("good", "good", "d1K10"),
+    Measure(key="exact_and_still", heading="exact, still", unit="hands", conditions=("d1K10",),
+            of=_count("exact_and_still"), more=True, matters=0.02),
     Measure(key="settled_in_time", heading="in time", unit="hands", conditions=("d1K10",),
             of=_count("settled_in_time"), more=True, matters=0.02),
     Measure(key="median_settled_s", heading="settled", unit="s", conditions=("d1K10",),
-            of=_median("settled_s", "good"), matters=0.1, relative=True),
+            of=_median("settled_s", "exact_and_still"), matters=0.1, relative=True),
     _good("good_K20", "good, 20 kN/m", "d1K20"),
     _good("good_d2_K20", "good, 20 kN/m, delay 2", "d2b2K20"),
     _good("good_slow_press_d2_K20", "good, slow press, 20 kN/m, delay 2", "slow-press-d2K20"),
@@ -146,9 +148,9 @@ MEASURES = (
     _energy("least_energy_let_go_J", "least energy, let go", "slow-let-go", "slow-let-go-d2", "slow-let-go-K20"),
     _energy("least_energy_pumping_J", "least energy, pumping", "pumping"),
     Measure(key="ripple_N", heading="ripple at rest", unit="N", conditions=("d1K10",),
-            of=_largest("force_swing_N", "good"), matters=0.1, relative=True),
+            of=_largest("force_swing_N", "exact_and_still"), matters=0.1, relative=True),
     Measure(key="ripple_noise_N", heading="ripple, sensor noise 0.2 N", unit="N", conditions=("force-noise",),
-            of=_largest("force_swing_N", "good"), matters=0.1, relative=True),
+            of=_largest("force_swing_N", "exact_and_still"), matters=0.1, relative=True),
     Measure(key="force_step_N", heading="largest force step inside", unit="N", conditions=("d1K10",),
             of=_largest("traced"), traced=_step_inside, matters=0.1, relative=True),
     Measure(key="friction_m", heading="off the ideal, friction 1 N", unit="m", conditions=("friction-1",),

@@ -33,10 +33,13 @@ class StudyRow:
     hands : int
         Runs.
     good : int or None
-        Hands that rest within two counts and what friction holds of the ideal (`allowed_deviation`) and are quiet; None
-        where the condition has no point of rest.
+        Hands that rest within two counts and what friction holds of the ideal (`allowed_deviation`) and are quiet, in
+        position and force; None where the condition has no point of rest.
+    exact_and_still : int or None
+        The same by position alone: hands that would be good if nobody felt the force.
     settled_in_time : int or None
-        Of the good ones, those settled within 1.5 times what the same hand needs against an ideal wall, plus 0.2 s.
+        Of those, hands whose position settles within 1.5 times what the same hand needs against an ideal wall, plus
+        0.2 s.
     least_energy_J : float or None
         Lowest physical port energy of all runs.
     most_drawn_J : float or None
@@ -57,6 +60,7 @@ class StudyRow:
     condition: str
     hands: int
     good: int | None
+    exact_and_still: int | None
     settled_in_time: int | None
     least_energy_J: float | None
     most_drawn_J: float | None
@@ -96,7 +100,7 @@ class Study:
         What was simulated: all hands of the first condition, then of the second, and so on.
     columns : dict of str to array, shape (runs,)
         Those of `SweepResult`, and `condition`, `operator` (row from 1, 0 for a drive), `ideal_settled_s` (inf where
-        even an ideal wall does not settle, NaN where that is not known), `ideal_good`, `good`, `settled_in_time`.
+        even an ideal wall does not settle, NaN where that is not known), `ideal_good`, `exact_and_still`, `good`, `settled_in_time`.
     """
 
     operators: Operators
@@ -126,6 +130,7 @@ class Study:
             condition=condition,
             hands=len(runs),
             good=int(part["good"].sum()) if rests else None,
+            exact_and_still=int(part["exact_and_still"].sum()) if rests else None,
             settled_in_time=int(part["settled_in_time"].sum()) if timed else None,
             least_energy_J=_of(np.min, part["least_energy_J"]),
             most_drawn_J=_of(np.max, part["most_drawn_J"]),

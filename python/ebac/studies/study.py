@@ -89,8 +89,9 @@ def study(
     columns["ideal_good"] = (
         np.abs(np.tile(ideal["rest_m"], n) - columns["ideal_m"]) <= columns["allowed_m"]
     ) & np.tile(ideal["quiet"], n)
+    columns["exact_and_still"] = result.exact_and_still
     columns["good"] = result.good
-    columns["settled_in_time"] = result.good & (
+    columns["settled_in_time"] = result.exact_and_still & (
         columns["settled_s"] <= SLOWER * columns["ideal_settled_s"] + LATER
     )
     return Study(

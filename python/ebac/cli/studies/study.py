@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from ebac.operators import Operators
     from ebac.studies import Study
 
-DEFAULT_LAWS = ("direct", "tca", "eba", "ebac")
+DEFAULT_LAWS = ("direct", "tca", "tca-damped", "eba", "ebac")
 _WHO, _WHAT = "Population", "Laws and conditions"
 
 
@@ -74,8 +74,9 @@ def study(
     """Simulate laws with many different hands and conditions.
 
     In simulation. A hand is good when it rests within two encoder counts of the ideal, or where friction f_c holds it,
-    f_c/(K0 + K) farther, and swings by less than 0.25 mm. It is in time when it settles within 1.5 times what it needs
-    against an ideal wall, plus 0.2 s.
+    f_c/(K0 + K) farther, swings by less than 0.25 mm, and feels no vibration of the force (quiet force). Exact, still is
+    the same without a look at the force; such a hand is in time when it settles within 1.5 times what it needs against
+    an ideal wall, plus 0.2 s.
 
     **Examples**
 

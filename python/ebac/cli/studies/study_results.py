@@ -78,6 +78,7 @@ def show(study: Study) -> None:
         "hands",
         "ideal wall good",
         "good",
+        "exact, still",
         "in time",
         "quiet force",
         "least energy",
@@ -85,7 +86,7 @@ def show(study: Study) -> None:
         "power at rest",
         "settled",
     ]
-    grid = output.table(headings, numbers=range(2, 10))
+    grid = output.table(headings, numbers=range(2, 11))
     last = ""
     for row in study.rows:
         if last and row.condition != last:
@@ -96,6 +97,7 @@ def show(study: Study) -> None:
             str(row.hands),
             "-" if row.ideal_good is None else str(row.ideal_good),
             _count(row.good, row),
+            _count(row.exact_and_still, row),
             _count(row.settled_in_time, row),
             _count(row.force_quiet, row),
             formatting.quantity(row.least_energy_J, "J"),

@@ -26,7 +26,7 @@ LINES = (
     ("force settled", "force_settled_s", "s", "never"),
     ("ripple", "ripple_N", "N", "-"),
     ("force jumps", "jumps", "1", "-"),
-    ("vibration", "perceived", "thresholds", "-"),
+    ("vibration/threshold", "perceived", "1", "-"),
     ("deepest", "peak_m", "m", "-"),
     ("limit cycle", "limit_cycle_Hz", "Hz", "none"),
     ("least energy", "least_energy_J", "J", "-"),
@@ -35,7 +35,7 @@ LINES = (
 
 
 #: More laws than this side by side do not fit 80 columns.
-LAWS_ABREAST = 3
+LAWS_ABREAST = 4
 
 
 def write(
@@ -149,17 +149,12 @@ def show_table(columns: Mapping[str, Contact], *, verdict: bool = True) -> None:
     if verdict:
         grid.add_section()
         grid.add_row("verdict", *(_verdict(contact) for contact in contacts))
-        grid.add_row("force", *(_force(contact) for contact in contacts))
     output.show(grid)
 
 
 def _verdict(contact: Contact) -> str:
     from ebac._util import formatting
 
-    words = formatting.verdict(contact)
+    words = formatting.verdict(contact).replace(", ", ",\n").replace(" by ", "\nby ")
     good = contact.quiet and contact.exact is not False
     return f"[{'green' if good else 'yellow' if contact.still else 'red'}]{words}[/]"
-
-
-def _force(contact: Contact) -> str:
-    return "[green]quiet[/]" if contact.force_quiet else "[red]not quiet[/]"

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from ebac.scenario import Scenario
     from ebac.trace import Trace
 
-DEFAULT_LAWS = ("tca", "eba", "ebac")
+DEFAULT_LAWS = ("tca", "tca-damped", "eba", "ebac")
 #: Fewer rows have no tail to measure; more belong into a script, their logs would fill gigabytes.
 TICKS = (10, 2_000_000)
 

@@ -16,7 +16,7 @@ from ebac.studies.sweeps import SweepResult
 Numbers = NDArray[np.float64]
 
 #: What a run can come to, best first: a cell of `verdict` is a place in this list.
-VERDICTS = ("exact and quiet", "quiet, not exact", "not quiet", "diverges")
+VERDICTS = ("exact and quiet", "exact, force not quiet", "still, not exact", "swings", "diverges")
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -62,8 +62,9 @@ class StabilityMap:
     @property
     def verdict(self) -> NDArray[np.int64]:
         """What each run came to: the place in `VERDICTS`."""
-        exact = self.result.good.reshape(self.quiet.shape)
-        return np.where(self._lost, 3, np.where(exact, 0, np.where(self.quiet, 1, 2)))
+        still, exact = self["still"], self.result.exact.reshape(self.quiet.shape)
+        of_still = np.where(exact, np.where(self.quiet, 0, 1), 2)
+        return np.where(self._lost, 4, np.where(still, of_still, 3))
 
     @property
     def _lost(self) -> NDArray[np.bool_]:

@@ -66,10 +66,19 @@ class SweepResult:
         return np.asarray(self["rest_m"] - self["ideal_m"])
 
     @property
+    def exact(self) -> NDArray[np.bool_]:
+        """Whether each run rests within `allowed_m` of the ideal."""
+        return np.asarray(np.abs(self.deviation_m) <= self["allowed_m"])
+
+    @property
+    def exact_and_still(self) -> NDArray[np.bool_]:
+        """Whether each run is good to its end by its position alone, whatever its force does."""
+        return np.asarray(self.exact & self["still"])
+
+    @property
     def good(self) -> NDArray[np.bool_]:
-        """Whether each run rests within `allowed_m` of the ideal and is quiet, to its end."""
-        exact = np.abs(self.deviation_m) <= self["allowed_m"]
-        return np.asarray(exact & self["quiet"])
+        """Whether each run is exact and quiet, in position and force, to its end."""
+        return np.asarray(self.exact & self["quiet"])
 
     def to_pandas(self) -> pd.DataFrame:
         """Return a DataFrame, one run a row."""
