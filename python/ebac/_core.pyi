@@ -5430,6 +5430,8 @@ class EBAC:
         virtual damping while in contact, 0 to 1.
     guard : bool
         hold the command to what the ledger covers, 0 to 1.
+    observer : bool
+        meet the world at the observer's estimate, where a run has one, 0 to 1.
     """
     class State:
         """
@@ -5552,6 +5554,7 @@ class EBAC:
         recovery: bool = True,
         injection: bool = True,
         guard: bool = True,
+        observer: bool = True,
         timing: Timing = ...,
     ) -> None: ...
     def __reduce__(self) -> tuple[typing.Any, ...]: ...
@@ -5657,6 +5660,11 @@ class EBAC:
     def observed_reserve(self) -> float:
         """
         the same with the observer, where less is needed [J], 0 to 1
+        """
+    @property
+    def observer(self) -> bool:
+        """
+        meet the world at the observer's estimate, where a run has one, 0 to 1
         """
     @property
     def peak_force(self) -> float:

@@ -1,44 +1,55 @@
 """What the README claims is what the program prints."""
 
+import json
 import re
 from pathlib import Path
+from typing import Any
 
 import pytest
 from typer.testing import CliRunner
 
 import ebac
-from ebac._util.formatting import verdict
 from ebac.cli import app
+from ebac.studies.conditions import conditions as find
 
 README = Path(__file__).parents[2] / "README.md"
 FIRST_WALL = README.parent / "docs/tutorials/first_wall.md"
-LAWS = ("tca", "tca-damped", "eba", "ebac")
-#: The two walls of the table: stiffness [N/m] and delay [samples].
-WALLS = ((10e3, 1), (20e3, 2))
 
 
 def table() -> list[list[str]]:
-    """Return the cells of the table of four laws, six rows of numbers."""
-    rows = re.findall(
-        r"^\|([^|]+)\|([^|]+)\|([^|]+)\|([^|]+)\|([^|]+)\|$", README.read_text(), re.M
-    )
+    """Return the cells of the table of three laws, four rows of numbers for each wall."""
+    rows = re.findall(r"^\|([^|]+)\|([^|]+)\|([^|]+)\|([^|]+)\|$", README.read_text(), re.M)
     return [[cell.strip() for cell in cells] for cells in rows][2:]
 
 
-@pytest.mark.parametrize("wall", [0, 1])
-@pytest.mark.parametrize(("column", "law"), list(enumerate(LAWS, 1)))
-def test_the_table_is_what_the_walls_give(wall: int, column: int, law: str) -> None:
-    stiffness, delay = WALLS[wall]
-    scenario = ebac.Scenario(
-        environment=ebac.Wall(stiffness=stiffness), timing=ebac.Timing(dt=1e-3, delay=delay)
-    )
-    found = ebac.contact(ebac.simulate(scenario, law))
-    words, settled, energy = table()[3 * wall : 3 * wall + 3]
-    assert f"{stiffness / 1e3:g} kN/m, {delay} sample" in words[0]
-    assert words[column] == verdict(found)
-    assert settled[column] == ("never" if found.settled_s is None else f"{found.settled_s:.3f} s")
-    mJ = 1e3 * (found.least_energy_J or 0)
-    assert energy[column] == (f"{mJ:.1f} mJ" if -1 < mJ < 0 else f"{mJ:.0f} mJ")
+def test_the_table_is_what_the_study_gives() -> None:
+    command = re.search(r"^ebac (study .*--device-noise.*)$", README.read_text(), re.M)
+    assert command
+    result = CliRunner().invoke(app, [*command[1].split(), "--json"])
+    by_wall: dict[str, list[dict[str, Any]]] = {}
+    for row in json.loads(result.stdout)["rows"]:
+        by_wall.setdefault(row["condition"], []).append(row)
+    for (name, rows), place in zip(by_wall.items(), (0, 4), strict=True):
+        still, good, settled, energy = table()[place : place + 4]
+        change = find([name])[0].change(ebac.Scenario())
+        wall, timing = change.environment, change.timing
+        assert isinstance(wall, ebac.Wall)
+        assert f"{wall.stiffness / 1e3:g} kN/m, {timing.delay} sample" in still[0]
+        assert [row["law"] for row in rows] == ["tca", "tca-damped", "ebac"]
+        assert still[1:] == [str(row["exact_and_still"]) for row in rows]
+        assert good[1:] == [str(row["good"]) for row in rows]
+        assert settled[1:] == [_seconds(row["median_settled_s"]) for row in rows]
+        assert energy[1:] == [_energy(row["least_energy_J"]) for row in rows]
+
+
+def _seconds(value: float | None) -> str:
+    return "never" if value is None else f"{value:.3f} s"
+
+
+def _energy(joule: float) -> str:
+    if joule < -1:
+        return f"{joule:.1f} J"
+    return "0 mJ" if joule > -5e-8 else f"{1e3 * joule:.1f} mJ"
 
 
 @pytest.mark.parametrize("page", [README, FIRST_WALL], ids=lambda page: page.name)

@@ -97,7 +97,8 @@ def _least(column: Column) -> int:
 
 
 def _widest(column: Column) -> int:
-    return max((_text(cell).cell_len for cell in column.cells), default=0)
+    lines = (line for cell in column.cells for line in _text(cell).split())
+    return max((line.cell_len for line in lines), default=0)
 
 
 def _word(cell: object) -> int:

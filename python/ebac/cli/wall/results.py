@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, NoReturn
@@ -155,6 +156,6 @@ def show_table(columns: Mapping[str, Contact], *, verdict: bool = True) -> None:
 def _verdict(contact: Contact) -> str:
     from ebac._util import formatting
 
-    words = formatting.verdict(contact).replace(", ", ",\n").replace(" by ", "\nby ")
+    words = re.sub(r" (?=by|and|not quiet)|(?<=,) ", "\n", formatting.verdict(contact))
     good = contact.quiet and contact.exact is not False
     return f"[{'green' if good else 'yellow' if contact.still else 'red'}]{words}[/]"
