@@ -64,6 +64,7 @@ class Ebac {
   void retune(const Ebac& next) EBAC_RT {
     shared_.params = next.params();
     encoder_.retune(next.params(), next.encoder_);
+    observer_.retune(next.observer_);
   }
   void reset() EBAC_RT {
     const EbacParams params = shared_.params;

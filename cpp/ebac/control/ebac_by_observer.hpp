@@ -20,6 +20,8 @@ class EbacByObserver {
         work_(params.count),
         guard_(params.damping, params.mass, params.count / 2, timing.longest(), kKnown) {}
 
+  void retune(const EbacByObserver& next) EBAC_RT { force_.retune(next.force_); }
+
   /// The account begins with this tick.
   void begin(const Port& port) EBAC_RT { work_.start(port); }
 

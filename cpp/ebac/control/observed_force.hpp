@@ -35,6 +35,8 @@ class ObservedForce {
     return force;
   }
 
+  void retune(const ObservedForce& next) EBAC_RT { damping_ = next.damping_; }
+
   double injected() const EBAC_RT { return injected_; }  // N
   double slope() const EBAC_RT { return slope_; }        // N/m, 0 out of contact
 
