@@ -91,7 +91,7 @@ void bind_port(py::module_& m) {
         [row = &field](Port& port, double value) { row->in<double>(&port) = value; },
         describe(field).c_str());
   }
-  cls.def_readonly("est", &Port::est, "State that the observer estimates.");
+  cls.def_readwrite("est", &Port::est, "State that the observer estimates.");
 }
 
 }  // namespace

@@ -24,7 +24,10 @@ class PythonLaw final : public LawObject {
   };
 
   PythonLaw(const py::object& law, std::shared_ptr<std::exception_ptr> raised)
-      : LawObject(record()), law_(law), raised_(std::move(raised)) {
+      : LawObject(record()),
+        law_(law),
+        observed_(py::bool_(py::getattr(law, "observer", py::bool_(false)))),
+        raised_(std::move(raised)) {
     lies_at(&nothing_, &nothing_, &timing_);
   }
 
@@ -46,7 +49,7 @@ class PythonLaw final : public LawObject {
   }
   void retune(const LawObject&) noexcept override {}
   double starved() const EBAC_RT override { return 0; }
-  bool observed() const EBAC_RT override { return false; }
+  bool observed() const EBAC_RT override { return observed_; }
   std::unique_ptr<LawObject> clone() const override {
     return std::make_unique<PythonLaw>(py::module_::import("copy").attr("deepcopy")(law_), raised_);
   }
@@ -69,6 +72,7 @@ class PythonLaw final : public LawObject {
   }
 
   py::object law_;
+  bool observed_;
   std::shared_ptr<std::exception_ptr> raised_;
   Nothing nothing_{};
   Timing timing_{};

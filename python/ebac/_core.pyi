@@ -413,6 +413,8 @@ class Port:
         """
         State that the observer estimates.
         """
+    @est.setter
+    def est(self, arg0: Estimate) -> None: ...
     @property
     def f_applied(self) -> float:
         """

@@ -90,7 +90,9 @@ LAWS: dict[str, type[CoreLaw]] = {
 class PythonLaw(Protocol):
     """A law written in Python: the same loop runs it, some ten times slower.
 
-    One independent deep copy is made for each axis. What it raises stops the loop with zero force and is
+    One independent deep copy is made for each axis. With an attribute `observer` that is true it uses the estimate of
+    the state observer, as `EBAC(observer=True)`: the world is met where the handle will be, and `port.est` is what
+    the law goes by. What it raises stops the loop with zero force and is
     raised again after the run.
     """
 

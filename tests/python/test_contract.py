@@ -176,9 +176,11 @@ def test_a_python_law_is_copied_for_every_axis() -> None:
     assert (trace["f_cmd"] == ([[1, 1]] * 5 + [[0, 0]] * 16)).all()
 
 
-def test_a_core_law_wrapped_in_python_gives_the_same_bits() -> None:
+@pytest.mark.parametrize("observer", [False, True])
+def test_a_core_law_wrapped_in_python_gives_the_same_bits(observer: bool) -> None:
     class Wrapped:
-        def __init__(self) -> None:
+        def __init__(self, observer: bool) -> None:
+            self.observer = observer
             self.inner = made("ebac")
 
         def step(self, port: ebac.Port) -> float:
@@ -188,7 +190,8 @@ def test_a_core_law_wrapped_in_python_gives_the_same_bits() -> None:
             self.inner.reset()
 
     scenario = ebac.Scenario(seconds=0.5)
-    inside, outside = ebac.simulate(scenario, Wrapped()), ebac.simulate(scenario, "ebac")
+    law = ebac.Variant("ebac", {"observer": observer})
+    inside, outside = ebac.simulate(scenario, Wrapped(observer)), ebac.simulate(scenario, law)
     for column in ("x", "f_cmd", "f_applied", "true.x", "true.energy"):
         assert inside[column].tobytes() == outside[column].tobytes()
 

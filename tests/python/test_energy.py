@@ -93,7 +93,7 @@ def test_energy_of_a_handle_that_coasts_is_its_kinetic_energy() -> None:
 def test_work_is_the_sum_of_applied_force_times_displacement_to_the_bit(
     name: str, changes: dict[str, Any], run: Any
 ) -> None:
-    trace = run(name, seconds=1.0, **changes)
+    trace = run(name, seconds=1.0, observer=False, **changes)
     steps = trace["f_applied"] * trace["dx"]
     assert trace["work"].tobytes() == np.add.accumulate(steps).tobytes()
 
@@ -108,7 +108,8 @@ def test_damped_is_the_sum_of_known_damping_times_displacement_beyond_a_count_sq
         mechanics=ebac.Mechanics(damping=3.0),
         compensation=given_back,
     )
-    trace = ebac.simulate(ebac.Scenario(device=device, seconds=0.5, jitter=0.2), "ebac")
+    scenario = ebac.Scenario(device=device, seconds=0.5, jitter=0.2, observer=False)
+    trace = ebac.simulate(scenario, "ebac")
     assert device.facts.damping == 2.0
     dx = trace["dx"].reshape(len(trace), axes)[1:]
     dt = trace["dt"].reshape(len(trace), axes)[1:]
@@ -165,7 +166,8 @@ def test_the_account_of_the_loop_is_a_lower_bound_of_the_energy(
         drive=ebac.Drive(current_lag=0.0), encoder=ebac.Encoder(counts_per_turn=1 << 26)
     )
     hand = ebac.Hand(mass=hand_mass, stiffness=stiffness)
-    trace = ebac.simulate(ebac.Scenario(device=device, hand=hand, seconds=0.5, jitter=0.2), name)
+    scenario = ebac.Scenario(device=device, hand=hand, seconds=0.5, jitter=0.2, observer=False)
+    trace = ebac.simulate(scenario, name)
     slack = trace["true.energy"] - trace["work"] - trace["damped"]
     one_count = (
         2 * device.peak_force * device.count

@@ -37,7 +37,7 @@ def test_the_account_falls_for_no_force_that_was_not_given(
 
 
 def test_a_starved_guard_is_seen_in_the_row_and_ends_a_run_with_limits() -> None:
-    scenario = ebac.Scenario(device=on_a_cable(100e3), seconds=6.0)
+    scenario = ebac.Scenario(device=on_a_cable(100e3), seconds=6.0, observer=False)
     law = undeclared(scenario)
     trace = ebac.simulate(scenario, law)
     assert trace["law.starved"].max() > 3.0
@@ -51,15 +51,16 @@ def test_a_starved_guard_is_seen_in_the_row_and_ends_a_run_with_limits() -> None
     assert before[-1] == pytest.approx(1.0, abs=2e-3)
 
 
-def test_no_ordinary_contact_is_starved() -> None:
-    assert not ebac.simulate(ebac.Scenario(), "ebac")["law.starved"].any()
+@pytest.mark.parametrize("observer", [False, True])
+def test_no_ordinary_contact_is_starved(observer: bool) -> None:
+    assert not ebac.simulate(ebac.Scenario(observer=observer), "ebac")["law.starved"].any()
 
 
 def test_a_starved_wall_comes_back_when_the_hand_has_moved() -> None:
     """Away from the wall the device's damping gives the account what the next contact needs."""
     shake = ebac.Sine(centre=0.0, amplitude=0.03, frequency=0.5)
     hand = ebac.Hand(mass=0.3, path=[shake])
-    scenario = ebac.Scenario(device=on_a_cable(100e3), hand=hand, seconds=8.0)
+    scenario = ebac.Scenario(device=on_a_cable(100e3), hand=hand, seconds=8.0, observer=False)
     trace = ebac.simulate(scenario, undeclared(scenario))
     starved, force = trace["law.starved"], trace["f_cmd"]
     presses = [(trace["t"] > t) & (trace["t"] < t + 1) for t in (0, 2, 4, 6)]
@@ -89,14 +90,14 @@ def test_with_the_observer_a_declared_resonance_keeps_the_wall(
 
 @pytest.mark.parametrize("resonance", [50.0, 1e4])
 def test_a_resonance_that_the_delay_does_not_drive_changes_nothing(resonance: float) -> None:
-    scenario = ebac.Scenario(seconds=0.5)
+    scenario = ebac.Scenario(seconds=0.5, observer=False)
     plain = ebac.simulate(scenario, "ebac")
     law = ebac.design("ebac", scenario.device, scenario.timing, resonance=resonance)
     assert ebac.simulate(scenario, law)["f_cmd"].tobytes() == plain["f_cmd"].tobytes()
 
 
 def test_a_resonance_that_it_drives_softens_the_damper() -> None:
-    scenario = ebac.Scenario(seconds=0.5)
+    scenario = ebac.Scenario(seconds=0.5, observer=False)
     law = ebac.design("ebac", scenario.device, scenario.timing, resonance=100.0)
     plain, softer = (ebac.simulate(scenario, one) for one in ("ebac", law))
     damping = [trace["law.injected"].max() / trace["v"].max() for trace in (plain, softer)]

@@ -80,7 +80,7 @@ def test_a_run_names_its_share_and_what_it_fell_back_to() -> None:
     assert use.trusted == 50 / 101
     assert use.fallback == {"force_stale": 25 / 101}
     assert str(use) == "trusted in 49.5 % of the ticks; encoder alone: force stale in 24.8 %"
-    assert ebac.observer_use(ebac.simulate(ebac.Scenario(seconds=0.1))) is None
+    assert ebac.observer_use(ebac.simulate(ebac.Scenario(seconds=0.1, observer=False))) is None
     plain = ebac.observer_use(ebac.simulate(ebac.Scenario(seconds=0.1, observer=True), "tca"))
     assert plain == ebac.ObserverUse(trusted=0.0, fallback={"off": 1.0})
 

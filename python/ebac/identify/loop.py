@@ -156,9 +156,10 @@ def wall_of(r: Recording) -> Wall | None:
     if r.desired is None:
         return None
     touched = r.desired > 0.01 * float(np.abs(r.desired).max(initial=0.0))
-    if touched.sum() < LEAST_TOUCHED or np.ptp(r.x[touched]) <= 3 * r.count:
+    x = r.x if r.met is None else r.met
+    if touched.sum() < LEAST_TOUCHED or np.ptp(x[touched]) <= 3 * r.count:
         return None
-    A: NDArray[np.float64] = np.array([r.x[touched], np.ones(touched.sum())]).T
+    A: NDArray[np.float64] = np.array([x[touched], np.ones(touched.sum())]).T
     (stiffness, offset), *_ = np.linalg.lstsq(A, r.desired[touched], rcond=None)
     if not 0 < stiffness < 1e6:
         return None

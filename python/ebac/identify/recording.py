@@ -38,6 +38,8 @@ class Recording:
         Force of the motor over the interval that ends at each row [N], positive when it resists +x.
     desired : array, shape (rows,), or None
         Force the law was asked for [N], F_D of eq. (2).
+    met : array, shape (rows,), or None
+        Position at which the virtual world was asked for that force [m], where the loop had a state observer; None: `x`.
     target : array, shape (rows,), or None
         Instructed position of the hand [m], when that was recorded.
     count : float
@@ -65,6 +67,7 @@ class Recording:
     force: NDArray[np.float64] | None = None
     motor: NDArray[np.float64] | None = None
     desired: NDArray[np.float64] | None = None
+    met: NDArray[np.float64] | None = None
     target: NDArray[np.float64] | None = None
     count: float = 0.0
     lag: float = 0.0
@@ -126,6 +129,7 @@ class Recording:
             "force": self.force,
             "motor": self.motor,
             "desired": self.desired,
+            "met": self.met,
             "target": self.target,
         }
         return {name: values for name, values in every.items() if values is not None}
@@ -151,6 +155,9 @@ class Recording:
             for key, column in OF_TRACE.items()
             if column in trace
         }
+        if "est.weight" in trace and trace["est.weight"].any():
+            ahead = trace.axis("est.x_act", axis) - columns["x"]
+            columns["met"] = columns["x"] + trace.axis("est.weight", axis) * ahead
         facts = trace_facts(trace, axis)
         if not facts["count"]:
             facts["count"] = count_of(columns["x"])

@@ -36,7 +36,7 @@ class StudyRow:
         Hands that rest within two counts and what friction holds of the ideal (`allowed_deviation`) and are quiet, in
         position and force; None where the condition has no point of rest.
     exact_and_still : int or None
-        The same by position alone: hands that would be good if nobody felt the force.
+        The same by position alone: hands that would be good whatever their force does.
     settled_in_time : int or None
         Of those, hands whose position settles within 1.5 times what the same hand needs against an ideal wall, plus
         0.2 s.

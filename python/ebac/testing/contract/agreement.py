@@ -25,6 +25,7 @@ WORLDS: dict[str, dict[str, Any]] = {
 }
 #: All that a law may read of a tick.
 READ = ("x", "dx", "v", "dt", "f_env", "f_applied", "f_meas")
+ESTIMATED = tuple(field.name for field in ebac.Estimate.fields())
 
 
 class Agreement:
@@ -75,6 +76,11 @@ class Agreement:
         for axis in range(trace.axes):
             law.reset()
             columns = [trace.axis(column, axis).tolist() for column in READ]
+            estimates = [trace.axis(f"est.{name}", axis).tolist() for name in ESTIMATED]
             for k, values in enumerate(zip(*columns, strict=True)):
-                force = law.step(ebac.Port(**dict(zip(READ, values, strict=True))))
+                port = ebac.Port(**dict(zip(READ, values, strict=True)))
+                port.est = ebac.Estimate(
+                    **{name: column[k] for name, column in zip(ESTIMATED, estimates, strict=True)}
+                )
+                force = law.step(port)
                 assert bits(force) == trace.axis("f_cmd", axis)[k].tobytes(), f"tick {k}"
