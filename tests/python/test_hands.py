@@ -147,7 +147,8 @@ def test_a_force_that_is_no_number_is_named() -> None:
 
 
 def test_sweeps_take_hands_in_python() -> None:
-    own, core = pressing().replace(hand=Spring()), pressing()
+    core = pressing(observer=False)
+    own = core.replace(hand=Spring())
     result = ebac.sweep([own, core], "ebac")
     assert result["rest_m"][0] == pytest.approx(result["rest_m"][1], abs=1e-9)
     assert np.isnan(result["most_pull_N"][0])
