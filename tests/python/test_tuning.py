@@ -60,7 +60,7 @@ def test_an_interrupt_keeps_the_best_so_far(monkeypatch: pytest.MonkeyPatch) -> 
             raise KeyboardInterrupt
         return ebac.sweep(*args, **more)
 
-    monkeypatch.setattr(tuning, "sweep", sweep)
+    monkeypatch.setattr(tuning.search, "sweep", sweep)
     with pytest.raises(TuningInterrupted) as stopped:
         quick(conditions=("d0K20", "d1K20"))
     (found,) = stopped.value.result

@@ -1,0 +1,34 @@
+"""What a search makes small: the cost of runs."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ebac.studies.sweeps.result import SweepResult
+
+# The cost of a run: at most 0.3 for one that is good, at least 1 for another.
+_WEIGHT = 0.1  # of settling, of energy and of ripple
+_HALF_SETTLING = 0.5  # s, at which half of the weight is charged
+_HALF_ENERGY = 10e-3  # J
+_HALF_RIPPLE = 1.0  # N
+_FAR = 1e-3  # m, error and swing of a run that is not good
+
+
+def cost_of(result: SweepResult) -> float:
+    """Return the mean cost of some runs [1]; less is better.
+
+    A good run costs 0.1 s/(s + 0.5 s) for settling at s; any other 1 + e/(2 (e + 1 mm)) for an error and a swing of e
+    together. To both comes 0.1 E/(E + 10 mJ), E the most energy drawn in any window, and 0.1 R/(R + 1 N), R the force
+    swing at rest. A good hand more outweighs what two others can gain.
+    """
+    bad = 1 + 0.5 * _share(np.abs(result.deviation_m) + result["swing_m"], _FAR)
+    settling = _WEIGHT * _share(result["settled_s"], _HALF_SETTLING)
+    energy = _WEIGHT * _share(result["most_drawn_J"], _HALF_ENERGY)
+    ripple = _WEIGHT * _share(result["force_swing_N"], _HALF_RIPPLE)
+    return float(np.mean(np.where(result.good, settling, bad) + energy + ripple))
+
+
+def _share(values: NDArray[np.float64], half: float) -> NDArray[np.float64]:
+    """Return x/(x + half); 1 where there is no number."""
+    return np.asarray(1 - half / (np.nan_to_num(values, nan=np.inf, posinf=np.inf) + half))

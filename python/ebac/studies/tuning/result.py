@@ -1,0 +1,91 @@
+"""What a search found: the parameters, and how the law does on the test hands."""
+
+from __future__ import annotations
+
+from dataclasses import asdict, dataclass
+from typing import Any
+
+from ebac.laws import Variant, shown_value
+
+
+@dataclass(frozen=True, kw_only=True)
+class TunedRow:
+    """A law under one condition, over the test hands; None where there is none.
+
+    Attributes
+    ----------
+    condition : str
+        Its name.
+    hands, good : int
+        Hands, and the good ones, see `StudyRow`.
+    median_settled_s : float or None
+        Median settling time of those that settled [s].
+    least_energy_J, most_drawn_J : float or None
+        Least energy of the port, and most drawn in any window of any run [J].
+    ripple_N : float or None
+        Largest force swing at rest of a good hand [N].
+    """
+
+    condition: str
+    hands: int
+    good: int
+    median_settled_s: float | None
+    least_energy_J: float | None
+    most_drawn_J: float | None
+    ripple_N: float | None
+
+
+@dataclass(frozen=True, kw_only=True)
+class Tuned:
+    """A law tuned for one delay.
+
+    Attributes
+    ----------
+    law : str
+        Its name.
+    delay : int
+        Transport delay [samples] of the conditions.
+    changes : dict
+        The parameters found, in SI units; none where the design is best.
+    tried : int
+        Points that were tried, the default among them.
+    cost, default_cost : float
+        Of the training hands, see `cost_of`.
+    test, default : tuple of TunedRow
+        One per condition, of the test hands: with these parameters, and with those of the design.
+    """
+
+    law: str
+    delay: int
+    changes: dict[str, float | bool]
+    tried: int
+    cost: float
+    default_cost: float
+    test: tuple[TunedRow, ...]
+    default: tuple[TunedRow, ...]
+
+    @property
+    def variant(self) -> Variant:
+        """The law with these parameters, to be used wherever a law can be."""
+        return Variant(self.law, self.changes)
+
+    def row(self) -> dict[str, Any]:
+        """Return the documented row of `ebac tune --json`."""
+        return asdict(self)
+
+    def __repr__(self) -> str:
+        """Return the parameters and how many test hands are good."""
+        found = ", ".join(f"{n} = {shown_value(v)}" for n, v in self.changes.items())
+        good = ", ".join(
+            f"{t.condition} {t.good} of {t.hands} (before: {d.good})"
+            for t, d in zip(self.test, self.default, strict=True)
+        )
+        return f"<{self.law}, delay {self.delay}: {found}; good, simulated: {good}>"
+
+
+class TuningInterrupted(KeyboardInterrupt):
+    """A search was interrupted from the keyboard; `result` holds the best so far."""
+
+    def __init__(self, result: list[Tuned]) -> None:
+        self.result = result
+        super().__init__("the best so far is kept" if result else "nothing was tried yet")

@@ -1,0 +1,140 @@
+"""`tune`: a law's parameters searched on training hands, judged on others."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+from ebac._util.arguments import unknown_name
+from ebac.laws import LAWS, AnyLaw, Variant
+from ebac.operators import Operators
+from ebac.scenario import Scenario
+from ebac.studies.conditions import Condition
+from ebac.studies.conditions import conditions as find
+from ebac.studies.result import Study
+from ebac.studies.study import study
+from ebac.studies.sweeps.job import Progress
+from ebac.studies.tuning.ranges import RANGES, Range, Ranges
+from ebac.studies.tuning.result import Tuned, TunedRow, TuningInterrupted
+from ebac.studies.tuning.search import Search
+
+#: Conditions of a search: delay 0, 1, 2 at 10 and 20 kN/m.
+TUNING_CONDITIONS = ("d0K10", "d0K20", "d1K10", "d1K20", "d2K10", "d2K20")
+#: Training hands: so many random ones, of this seed; the test hands are the grid of 60.
+HANDS, HANDS_SEED = 24, 14
+
+
+def tune(
+    law: str,
+    conditions: Sequence[str | Condition] = TUNING_CONDITIONS,
+    *,
+    training: Operators | None = None,
+    test: Operators | None = None,
+    ranges: Mapping[str, Range] | None = None,
+    base: Scenario | None = None,
+    evaluations: int = 120,
+    seed: int = 1,
+    threads: int | None = None,
+    progress: Progress | None = None,
+) -> list[Tuned]:
+    """Search a law's parameters on training hands; judge the best on test hands.
+
+    Conditions of one delay are tuned together and each delay for itself: a law is designed for its timing, and knows
+    nothing of the wall.
+
+    Parameters
+    ----------
+    law : str
+        A name of `RANGES`, or any law with `ranges`.
+    conditions : sequence of str or Condition
+        As `study` takes them.
+    training, test : Operators, optional
+        Hands of the search, default 24 random ones; and those of the result, default the grid of 60.
+    ranges : mapping of str to (low, high), optional
+        Parameters to search, in SI units, within what the law allows; (0, 1) for a switch.
+    base : Scenario, optional
+        What conditions change; default: the reference scenario.
+    evaluations : int
+        Points to try for each delay, at least 2; each runs every training hand under every condition of the delay.
+    seed : int
+        Gives each hand its noise and jitter.
+    threads : int, optional
+        Default: one per core.
+    progress : callable, optional
+        Called with (points done, points in all).
+
+    Returns
+    -------
+    list of Tuned
+        One for each delay, in the order of the conditions.
+
+    Raises
+    ------
+    TuningInterrupted
+        On a keyboard interrupt; carries the best so far, judged on the test hands.
+    ValueError
+        For a law without ranges, a parameter it does not have, or a number out of range.
+    """
+    if law not in LAWS:
+        raise unknown_name("law", law, LAWS)
+    if evaluations < 2:
+        raise ValueError(f"evaluations = {evaluations}: must be at least 2")
+    searched = Ranges(law, RANGES.get(law, {}) if ranges is None else ranges)
+    hands = Operators.sample(HANDS, HANDS_SEED) if training is None else training
+    others = Operators.grid() if test is None else test
+    start = base or Scenario()
+    groups: dict[int, list[Condition]] = {}
+    for one in find(conditions):
+        delay = one.believed(one.scenarios(hands[:1], start)[0])[1].delay
+        groups.setdefault(delay, []).append(one)
+    done: list[Tuned] = []
+    total = len(groups) * evaluations
+    for i, (delay, chosen) in enumerate(groups.items()):
+        search = Search(law, searched, chosen, hands, start, seed, threads)
+        search.report = lambda n, i=i: progress and progress(min(i * evaluations + n, total), total)
+        stopped = False
+        try:
+            search.run(evaluations)
+        except KeyboardInterrupt:
+            stopped = True
+        if search.tried:
+            done.append(_judged(search, delay, others, start, seed, threads))
+        if stopped:
+            raise TuningInterrupted(done)
+    return done
+
+
+def _judged(
+    search: Search, delay: int, hands: Operators, base: Scenario, seed: int, threads: int | None
+) -> Tuned:
+    changes, cost = min(search.tried, key=lambda tried: tried[1])
+    laws: dict[str, AnyLaw] = {"default": search.law, "tuned": Variant(search.law, changes)}
+    found = study(hands, laws, search.conditions, base=base, seed=seed, threads=threads)
+    return Tuned(
+        law=search.law,
+        delay=delay,
+        changes=changes,
+        tried=len(search.tried),
+        cost=cost,
+        default_cost=search.tried[0][1],
+        test=_rows(found, "tuned"),
+        default=_rows(found, "default"),
+    )
+
+
+def _rows(found: Study, law: str) -> tuple[TunedRow, ...]:
+    rows = []
+    for row in (row for row in found.rows if row.law == law):
+        runs = found.runs(law, row.condition)
+        swings = found.columns["force_swing_N"][runs][found.columns["good"][runs]]
+        rows.append(
+            TunedRow(
+                condition=row.condition,
+                hands=row.hands,
+                good=row.good or 0,
+                median_settled_s=row.median_settled_s,
+                least_energy_J=row.least_energy_J,
+                most_drawn_J=row.most_drawn_J,
+                ripple_N=float(swings.max()) if len(swings) else None,
+            )
+        )
+    return tuple(rows)
