@@ -6,7 +6,7 @@ import dataclasses
 from dataclasses import dataclass, field
 from math import cos
 from pathlib import Path
-from typing import Any, Self, TypeAlias
+from typing import Any, Final, Literal, Self, TypeAlias
 
 from ebac._core import Corner, Device, Disc, Free, Hand, Observer, Setup, Step, Timing, Wall
 from ebac._util import serialisation
@@ -27,6 +27,8 @@ def __dir__() -> list[str]:
 
 Environment: TypeAlias = Free | Wall | Corner | Disc
 
+#: The observer that every law acts on.
+EVERY_LAW: Final = "every-law"
 _PARTS = ("device", "hand", "environment", "timing", "seconds", "jitter", "seed", "observer")
 
 
@@ -65,11 +67,11 @@ class Scenario:
         Largest deviation of a tick from its instant, as a share of the sample time, [0, 0.45].
     seed : int
         Seed of sensor noise, jitter and the place of zero within an encoder count, [0, 2^63).
-    observer : bool or Observer
+    observer : bool, "every-law" or Observer
         Whether the state of the device is estimated in every tick, from encoder, force sensor and currents: columns
-        `est.*`. `ebac`, and every law with `Observer(every_law=True)`, then meets the world where the device will be
-        when the command acts. True, the default, designs it from device and timing, as `Observer.of`; an `Observer` is
-        used as it is; False runs on the encoder alone.
+        `est.*`. `ebac` then meets the world where the device will be when the command acts; so does any other law with
+        "every-law". True, the default, and "every-law" design it from device and timing, as `Observer.of`; an
+        `Observer` is used as it is; False runs on the encoder alone.
 
     Raises
     ------
@@ -86,7 +88,7 @@ class Scenario:
     seconds: float = 6.0
     jitter: float = 0.0
     seed: int = 1
-    observer: Observer | bool = True
+    observer: Observer | bool | Literal["every-law"] = True
 
     def __post_init__(self) -> None:
         """Check types and ranges."""
@@ -99,13 +101,17 @@ class Scenario:
             "seconds": (float, int),
             "jitter": (float, int),
             "seed": (int,),
-            "observer": (Observer, bool),
+            "observer": (Observer, bool, str),
         }
         for name, types in parts.items():
             value = getattr(self, name)
             if not isinstance(value, types) or (isinstance(value, bool) and bool not in types):
                 names = " or ".join(t.__name__ for t in types)
                 raise TypeError(f"Scenario.{name} = {value!r}: must be {names}")
+        if isinstance(self.observer, str) and self.observer != EVERY_LAW:
+            raise ValueError(
+                f"Scenario.observer = {self.observer!r}: must be True, False, {EVERY_LAW!r} or an Observer"
+            )
         if not 0 < self.seconds <= 1e5:
             raise ValueError(f"Scenario.seconds = {self.seconds} s: must lie in (0, 100000] s")
         if not 0 <= self.jitter <= 0.45:
@@ -163,7 +169,7 @@ class Scenario:
             )
 
         values = {f.name: getattr(self, f.name) for f in dataclasses.fields(self)}
-        numbers = {k: v for k, v in values.items() if isinstance(v, (int, float))}
+        numbers = {k: v for k, v in values.items() if isinstance(v, (int, float, str))}
         parts = {k: serialisation.to_document(v) for k, v in values.items() if k not in numbers}
         return "# ebac scenario; SI units throughout\n" + tomli_w.dumps(numbers | parts)
 
@@ -207,9 +213,12 @@ class Scenario:
 
     def designed_observer(self) -> Observer | None:
         """Return the observer of a run, or None without one."""
-        if isinstance(self.observer, bool):
-            return Observer.of(self.device, self.timing) if self.observer else None
-        return self.observer
+        if isinstance(self.observer, Observer):
+            return self.observer
+        if not self.observer:
+            return None
+        designed = Observer.of(self.device, self.timing)
+        return designed.replace(every_law=True) if self.observer == EVERY_LAW else designed
 
     def setup(self) -> Setup:
         """Return what the C++ simulation takes.

@@ -1,14 +1,17 @@
 """The observer: what a run shows with it, how it is chosen, and what happens where it fails."""
 
+import json
 from typing import Any
 
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from typer.testing import CliRunner
 
 import ebac
 from ebac._util.formatting import describe
+from ebac.cli import app
 from ebac.laws import design
 
 NOISY = ebac.Device(sensor=ebac.ForceSensor(noise=0.03))
@@ -224,3 +227,28 @@ def test_a_hand_that_lets_go_takes_no_more_than_the_reserve(
     law = design("ebac", scenario.device, scenario.timing)
     contact = ebac.contact(ebac.simulate(scenario, law))
     assert contact.least_energy_J >= -law.observed_reserve
+
+
+def test_every_law_takes_one_that_is_designed_for_each_delay() -> None:
+    scenario = OBSERVED.replace(observer="every-law")
+    for delay in (0, 2):
+        one = scenario.replace(timing=ebac.Timing(delay=delay))
+        own = ebac.Observer.of(NOISY, one.timing).replace(every_law=True)
+        assert one.designed_observer() == own
+    short = scenario.replace(seconds=0.5)
+    assert (ebac.simulate(short, "tca-damped")["est.weight"] == 1).all()
+    assert ebac.Scenario.from_toml(scenario.to_toml()) == scenario
+    with pytest.raises(ValueError, match="'all': must be"):
+        scenario.replace(observer="all")
+
+
+def test_the_command_gives_it_to_every_law() -> None:
+    words = ["wall", "--law", "tca-damped", "--device-noise", "0.03", "--seconds", "2", "--json"]
+    with_it, without = (
+        json.loads(CliRunner().invoke(app, [*words, *more]).stdout)["rows"][0]
+        for more in (["--observer-every-law"], [])
+    )
+    assert with_it["perceived"] < 0.5 * without["perceived"]
+    refused = CliRunner().invoke(app, [*words, "--observer-every-law", "--no-observer"])
+    assert refused.exit_code == 2
+    assert "--observer-every-law" in refused.output

@@ -80,7 +80,10 @@ def describe(scenario: Scenario) -> str:
     timing = scenario.timing
     samples = "1 sample" if timing.delay == 1 else f"{timing.delay} samples"
     jitter = f", jitter {100 * scenario.jitter:g} %" if scenario.jitter else ""
-    observer = ", state observer" if scenario.observer else ""
+    used = scenario.designed_observer()
+    observer = "" if used is None else ", state observer"
+    if used is not None and used.every_law:
+        observer += " for every law"
     return "; ".join(
         (
             _device(scenario.device),

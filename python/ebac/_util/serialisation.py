@@ -33,8 +33,9 @@ CHOICES: dict[str, tuple[type, ...]] = {
     "second": (_core.Wall,),
 }
 
-#: Plain values that a part of that name may have instead: an observer on or off, the name of a sensor's model.
-PLAIN: dict[str, type] = {"observer": bool, "model": str}
+#: Plain values that a part of that name may have instead: an observer on, off or for every law, the name of a
+#: sensor's model.
+PLAIN: dict[str, tuple[type, ...]] = {"observer": (bool, str), "model": (str,)}
 
 
 def to_document(value: Any) -> Any:

@@ -210,6 +210,14 @@ class RunOptions:
     rate: Rate = None
     jitter: Jitter = None
     observer: Annotated[bool | None, observer()] = None
+    observer_every_law: Annotated[
+        bool,
+        typer.Option(
+            "--observer-every-law",
+            help="Let every law act on the estimate of the observer, not `ebac` alone.",
+            rich_help_panel=RUN,
+        ),
+    ] = False
     seconds: Annotated[
         float | None, option(text="Length of the run [s]", default="6", panel=RUN)
     ] = None
@@ -243,9 +251,19 @@ def scenario_of(*groups: Any, seconds: float | None = None) -> Scenario:
         environment=wall_of(base.environment, given),
         timing=setting.choose_timing(base.timing, given.get("rate"), given.get("delay")),
         **setting.given(
-            jitter=given.get("jitter"), seconds=length, seed=given.get("seed"), observer=given.get("observer")
+            jitter=given.get("jitter"), seconds=length, seed=given.get("seed"), observer=_observer_of(given)
         ),
     )  # fmt: skip
+
+
+def _observer_of(given: dict[str, Any]) -> Any:
+    from ebac.scenario import EVERY_LAW
+
+    if not given.get("observer_every_law"):
+        return given.get("observer")
+    if given.get("observer") is False:
+        raise ValueError("--observer-every-law: needs the observer that --no-observer turns off")
+    return EVERY_LAW
 
 
 def wall_of(environment: Environment, group: Any) -> Environment:
