@@ -128,8 +128,8 @@ def test_counts_need_friction() -> None:
 
 
 def search(**changes: Any) -> ZWidth:
-    given = {"delays": (0, 1), "dampings": (0.0, 10.0), "rungs": 9}
-    return zwidth(None, **{**given, "laws": ("direct", "eba"), **changes})
+    given = {"base": None, "delays": (0, 1), "dampings": (0.0, 10.0), "rungs": 9}
+    return zwidth(**{**given, "laws": ("direct", "eba"), **changes})
 
 
 @pytest.fixture(scope="module")
@@ -138,19 +138,27 @@ def found() -> ZWidth:
 
 
 def test_direct_reaches_the_limit_of_the_linear_loop(found: ZWidth) -> None:
-    quiet = found.limits["quiet"][0]
-    assert quiet.shape == found.spectral.shape == (2, 2)
-    assert (quiet < 1.05 * found.spectral).all()
-    assert (quiet > 0.6 * found.spectral).all()
+    still = found.limits["still"][0]
+    assert still.shape == found.spectral.shape == (2, 2)
+    assert (still < 1.05 * found.spectral).all()
+    assert (still > 0.6 * found.spectral).all()
 
 
-def test_usable_is_the_strictest_criterion(found: ZWidth) -> None:
+def test_usable_is_the_strictest_criterion_and_quiet_is_stricter_than_still(found: ZWidth) -> None:
     for name in ("quiet", "energy"):
         assert (found.limits["usable"] <= found.limits[name]).all()
+    assert (found.limits["quiet"] <= found.limits["still"]).all()
 
 
-def test_eba_is_quiet_on_every_wall_and_shows_few(found: ZWidth) -> None:
-    assert (found.limits["quiet"][1] == found.top).all()
+def test_wall_damping_on_encoder_counts_is_felt_however_soft_the_wall(found: ZWidth) -> None:
+    assert (found.limits["quiet"][0, :, 1] == 0).all()
+    base = ebac.Scenario(seconds=3.0, observer="every-law")
+    observed = search(base=base, laws="direct", delays=(1,))
+    assert (observed.limits["quiet"][0, 0] > 1e3).all()
+
+
+def test_eba_is_still_on_every_wall_and_shows_few(found: ZWidth) -> None:
+    assert (found.limits["still"][1] == found.top).all()
     assert (found.limits["usable"][1] < 0.2 * found.top).all()
 
 

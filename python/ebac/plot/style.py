@@ -105,8 +105,8 @@ def new_figure(width: float, height: float) -> Picture:
 
 
 def colour(law: str) -> str:
-    """Return the colour of a law."""
-    return COLOURS.get(law, OTHER_LAW)
+    """Return the colour of a law; a tuned one has that of its design."""
+    return COLOURS.get(law.partition("-tuned")[0], OTHER_LAW)
 
 
 def dress(ax: Axes, ylabel: str) -> None:

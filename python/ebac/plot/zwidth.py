@@ -60,7 +60,7 @@ def plot_zwidth(found: ZWidth) -> Picture:
     parts = formatting.describe(found.base).split("; ")
     figure.suptitle(
         f"Z-width, simulated: {parts[0]}; {parts[1]}; {1e-3 / found.base.timing.dt:g} kHz\n"
-        "Hardest wall K that each law renders, by wall damping B, with no limit cycle (quiet), with at most "
+        "Hardest wall K that each law renders, by wall damping B, still and with a quiet force (quiet), with at most "
         f"{1e3 * found.epsilon:g} mJ drawn from the port,\n"
         "and with both and at least half of K shown (usable); bars: mean over B",
         fontsize="medium",

@@ -71,9 +71,10 @@ def zwidth(
 ) -> None:
     """Find the stiffest wall each law can render (Z-width).
 
-    A simulation, over wall damping and delay. *quiet*: no limit cycle, for a press and a tap. *energy*: takes no
-    more than epsilon out of the port.
-    *usable*: both, and shows at least half of the stiffness asked for. The score is the area under the border.
+    A simulation, over wall damping and delay. *still*: no limit cycle, for a press and a tap. *quiet*: still, and no
+    vibration of the force that can be felt. *energy*: takes no more than epsilon out of the port.
+    *usable*: quiet and energy, and shows at least half of the stiffness asked for. The score is the area under the
+    border.
 
     **Examples**
 
@@ -149,7 +150,7 @@ def _show(found: ZWidth) -> None:
     from ebac._util import formatting
     from ebac.studies.zwidth import CRITERIA
 
-    grid = output.table(["delay", "law", *CRITERIA], numbers=range(2, 5))
+    grid = output.table(["delay", "law", *CRITERIA], numbers=range(2, 2 + len(CRITERIA)))
     for number, delay in enumerate(found.delays):
         if number:
             grid.add_section()

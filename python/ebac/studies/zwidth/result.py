@@ -14,7 +14,8 @@ Numbers = NDArray[np.float64]
 
 #: The criteria of the search, and what each asks of a press and of a tap.
 CRITERIA: dict[str, str] = {
-    "quiet": "no sustained limit cycle: swings by less than 0.25 mm at the end",
+    "still": "no sustained limit cycle: swings by less than 0.25 mm at the end",
+    "quiet": "still, and a quiet force, see `Contact`",
     "energy": "takes no more than epsilon out of the port",
     "usable": "quiet, energy, and at least half of the stiffness shown at rest",
 }

@@ -146,14 +146,14 @@ class _Search:
 
 def _judge(result: SweepResult, base: Scenario, epsilon: float, stiffness: Numbers) -> Flags:
     whole = result["done"] & ~result["diverged"] & (result["fault"] == 0)
-    quiet = result["quiet"]
+    still, quiet = result["still"], result["quiet"]
     energy = whole & (result["least_energy_J"] >= -epsilon)
     surface = _surface(base) + np.resize(APPROACHES, len(result))
     depth, ideal = result["rest_m"] - surface, result["ideal_m"] - surface
     held = ideal * (base.hand.stiffness + stiffness) - base.hand.stiffness * depth  # N, at rest
     slack = EXACT_COUNTS * result["count_m"]
     shown = held >= SHOWN_SHARE * stiffness * (depth - slack)
-    return np.array([quiet, energy, quiet & energy & shown])
+    return np.array([still, quiet, energy, quiet & energy & shown])
 
 
 def _surface(base: Scenario) -> float:
