@@ -142,7 +142,8 @@ def design(
     law : str, law class, Variant, law or PythonLaw
         A name of `LAWS`, a class of the core or a `Variant` is designed from `device` and `timing`, never from the
         wall or the hand. A finished law comes back as it is. "tca-damped-tuned" is `tca-damped` with what
-        `ebac tune` found for the reference device and the nearest delay.
+        `ebac tune` found for the reference device and the nearest delay; "tca-damped-tuned-observer" with what it found
+        for a law that acts on the estimate, `Scenario(observer="every-law")`.
     device : Device or DeviceFacts
         What a user can know of the device.
     timing : Timing
@@ -215,25 +216,29 @@ def changed(law: AnyLaw, **changes: Any) -> AnyLaw:
 
 @cache
 def tuned_laws() -> tuple[str, ...]:
-    """Return the names of the laws with tuned parameters: "tca-damped-tuned" and so on."""
-    return tuple(dict.fromkeys(f"{row['law']}-tuned" for row in _tuned_rows()))
+    """Return the names of the laws with tuned parameters: "tca-damped-tuned", "tca-damped-tuned-observer" and so on."""
+    return tuple(dict.fromkeys(f"{row['law']}{end}" for end in _TUNED for row in _tuned_rows(end)))
 
 
 def tuned(name: str, delay: int) -> tuple[str, dict[str, Any]]:
     """Return the law behind a name of `tuned_laws`, and its parameters for the nearest delay [samples].
 
-    They were searched for the reference device at 1 kHz with `ebac tune all --json`; other devices need a search of
-    their own.
+    They were searched for the reference device at 1 kHz with `ebac tune all --device-noise 0.03 --json`, and with
+    `--observer-every-law`; other devices need a search of their own.
     """
-    law = name.removesuffix("-tuned")
-    rows = [row for row in _tuned_rows() if row["law"] == law]
+    law, end, more = name.partition("-tuned")
+    rows = [row for row in _tuned_rows(end + more) if row["law"] == law]
     nearest = min(rows, key=lambda row: abs(row["delay"] - delay))
     return law, dict(nearest["changes"])
 
 
+#: What `ebac tune` found, by the ending of the laws' names.
+_TUNED = {"-tuned": "tuned_rivals.json", "-tuned-observer": "tuned_rivals_observer.json"}
+
+
 @cache
-def _tuned_rows() -> list[dict[str, Any]]:
-    text = Path(__file__).with_name("tuned_rivals.json").read_text(encoding="utf-8")
+def _tuned_rows(ending: str) -> list[dict[str, Any]]:
+    text = Path(__file__).with_name(_TUNED[ending]).read_text(encoding="utf-8")
     rows: list[dict[str, Any]] = json.loads(text)["rows"]
     return rows
 

@@ -13,17 +13,21 @@ _HALF_SETTLING = 0.5  # s, at which half of the weight is charged
 _HALF_ENERGY = 10e-3  # J
 _HALF_RIPPLE = 1.0  # N
 _FAR = 1e-3  # m, error and swing of a run that is not good
+_FELT = 3.0  # detection thresholds, the vibration at which a force is no longer quiet
 
 
 def cost_of(result: SweepResult) -> float:
     """Return the mean cost of some runs [1]; less is better.
 
-    A good run costs 0.1 s/(s + 0.5 s) for settling at s; any other 1 + e/(2 (e + 1 mm)) for an error and a swing of e
-    together. To both comes 0.1 E/(E + 10 mJ), E the most energy drawn in any window, and 0.1 R/(R + 1 N), R the force
-    swing at rest. A good hand more outweighs what two others can gain.
+    A good run is exact, and quiet in position and force; it costs 0.1 s/(s + 0.5 s), where position and force have
+    settled at s. Any other costs 1 + e/(4 (e + 1 mm)) + p/(4 (p + 3)) for an error and a swing of e together and a
+    vibration of p detection thresholds. To both comes 0.1 E/(E + 10 mJ), E the most energy drawn in any window, and
+    0.1 R/(R + 1 N), R the force swing at rest. A good hand more outweighs what two others can gain.
     """
-    bad = 1 + 0.5 * _share(np.abs(result.deviation_m) + result["swing_m"], _FAR)
-    settling = _WEIGHT * _share(result["settled_s"], _HALF_SETTLING)
+    away = _share(np.abs(result.deviation_m) + result["swing_m"], _FAR)
+    bad = 1 + 0.25 * away + 0.25 * _share(result["perceived"], _FELT)
+    settled = np.maximum(result["settled_s"], result["force_settled_s"])
+    settling = _WEIGHT * _share(settled, _HALF_SETTLING)
     energy = _WEIGHT * _share(result["most_drawn_J"], _HALF_ENERGY)
     ripple = _WEIGHT * _share(result["force_swing_N"], _HALF_RIPPLE)
     return float(np.mean(np.where(result.good, settling, bad) + energy + ripple))

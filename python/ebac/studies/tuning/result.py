@@ -5,7 +5,10 @@ from __future__ import annotations
 from dataclasses import asdict, dataclass
 from typing import Any
 
+import numpy as np
+
 from ebac.laws import Variant, shown_value
+from ebac.studies.result import Study
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -17,18 +20,21 @@ class TunedRow:
     condition : str
         Its name.
     hands, good : int
-        Hands, and the good ones, see `StudyRow`.
+        Hands, and the good ones: exact, and quiet in position and force.
+    exact_and_still : int
+        Hands that are exact and still, whatever their force does.
     median_settled_s : float or None
-        Median settling time of those that settled [s].
+        Median over the good hands of the time from which on position and force have settled [s].
     least_energy_J, most_drawn_J : float or None
         Least energy of the port, and most drawn in any window of any run [J].
     ripple_N : float or None
-        Largest force swing at rest of a good hand [N].
+        Largest force swing at rest of a hand that is exact and still [N].
     """
 
     condition: str
     hands: int
     good: int
+    exact_and_still: int
     median_settled_s: float | None
     least_energy_J: float | None
     most_drawn_J: float | None
@@ -45,6 +51,8 @@ class Tuned:
         Its name.
     delay : int
         Transport delay [samples] of the conditions.
+    observer : bool
+        Whether the law acted on the estimate of an observer, which `base` gives with "every-law".
     changes : dict
         The parameters found, in SI units; none where the design is best.
     tried : int
@@ -57,6 +65,7 @@ class Tuned:
 
     law: str
     delay: int
+    observer: bool
     changes: dict[str, float | bool]
     tried: int
     cost: float
@@ -89,3 +98,26 @@ class TuningInterrupted(KeyboardInterrupt):
     def __init__(self, result: list[Tuned]) -> None:
         self.result = result
         super().__init__("the best so far is kept" if result else "nothing was tried yet")
+
+
+def rows_of(found: Study, law: str) -> tuple[TunedRow, ...]:
+    """Return how a law does under each condition of a study."""
+    rows = []
+    for row in (row for row in found.rows if row.law == law):
+        runs = {name: of[found.runs(law, row.condition)] for name, of in found.columns.items()}
+        exact = np.abs(runs["rest_m"] - runs["ideal_m"]) <= runs["allowed_m"]
+        good, resting = runs["good"], exact & runs["still"]
+        settled = np.maximum(runs["settled_s"], runs["force_settled_s"])[good]
+        rows.append(
+            TunedRow(
+                condition=row.condition,
+                hands=row.hands,
+                good=int(good.sum()),
+                exact_and_still=int(resting.sum()),
+                median_settled_s=float(np.median(settled)) if len(settled) else None,
+                least_energy_J=row.least_energy_J,
+                most_drawn_J=row.most_drawn_J,
+                ripple_N=float(runs["force_swing_N"][resting].max()) if resting.any() else None,
+            )
+        )
+    return tuple(rows)

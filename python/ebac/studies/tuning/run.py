@@ -10,11 +10,10 @@ from ebac.operators import Operators
 from ebac.scenario import Scenario
 from ebac.studies.conditions import Condition
 from ebac.studies.conditions import conditions as find
-from ebac.studies.result import Study
 from ebac.studies.study import study
 from ebac.studies.sweeps.job import Progress
 from ebac.studies.tuning.ranges import RANGES, Range, Ranges
-from ebac.studies.tuning.result import Tuned, TunedRow, TuningInterrupted
+from ebac.studies.tuning.result import Tuned, TuningInterrupted, rows_of
 from ebac.studies.tuning.search import Search
 
 #: Conditions of a search: delay 0, 1, 2 at 10 and 20 kN/m.
@@ -52,7 +51,8 @@ def tune(
     ranges : mapping of str to (low, high), optional
         Parameters to search, in SI units, within what the law allows; (0, 1) for a switch.
     base : Scenario, optional
-        What conditions change; default: the reference scenario.
+        What conditions change; default: the reference scenario. With `observer="every-law"` the law acts on the
+        estimate, else on the encoder.
     evaluations : int
         Points to try for each delay, at least 2; each runs every training hand under every condition of the delay.
     seed : int
@@ -107,34 +107,17 @@ def _judged(
     search: Search, delay: int, hands: Operators, base: Scenario, seed: int, threads: int | None
 ) -> Tuned:
     changes, cost = min(search.tried, key=lambda tried: tried[1])
+    observer = base.designed_observer()
     laws: dict[str, AnyLaw] = {"default": search.law, "tuned": Variant(search.law, changes)}
     found = study(hands, laws, search.conditions, base=base, seed=seed, threads=threads)
     return Tuned(
         law=search.law,
         delay=delay,
+        observer=observer is not None and observer.every_law,
         changes=changes,
         tried=len(search.tried),
         cost=cost,
         default_cost=search.tried[0][1],
-        test=_rows(found, "tuned"),
-        default=_rows(found, "default"),
+        test=rows_of(found, "tuned"),
+        default=rows_of(found, "default"),
     )
-
-
-def _rows(found: Study, law: str) -> tuple[TunedRow, ...]:
-    rows = []
-    for row in (row for row in found.rows if row.law == law):
-        runs = found.runs(law, row.condition)
-        swings = found.columns["force_swing_N"][runs][found.columns["good"][runs]]
-        rows.append(
-            TunedRow(
-                condition=row.condition,
-                hands=row.hands,
-                good=row.good or 0,
-                median_settled_s=row.median_settled_s,
-                least_energy_J=row.least_energy_J,
-                most_drawn_J=row.most_drawn_J,
-                ripple_N=float(swings.max()) if len(swings) else None,
-            )
-        )
-    return tuple(rows)
