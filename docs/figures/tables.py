@@ -18,6 +18,7 @@ import adversaries as hostile
 import identify_tables as identified
 import law_tables as laws
 import population_tables as populations
+import rival_tables as rivals
 import story_tables as story
 import tracking_tables as tracked
 from printed import Printed, names, put
@@ -35,7 +36,9 @@ PAGES = tuple(
 )
 TABLES: dict[str, Callable[[Printed], str]] = {
     "grid": populations.grid,
-    "tuned": populations.tuned,
+    "tuned": rivals.tuned,
+    "tuned-energy": rivals.tuned_energy,
+    "tuned-values": rivals.tuned_values,
     "hands": story.hands,
     "cells": populations.cells,
     "five": populations.five,
@@ -48,7 +51,7 @@ TABLES: dict[str, Callable[[Printed], str]] = {
     "ablation-encoder": laws.ablation_encoder,
     "pieces": story.pieces,
     "worst": laws.worst,
-    "zwidth": laws.z_width,
+    "zwidth": rivals.z_width,
     "adversaries": hostile.adversaries,
     "walls": story.walls,
     "identify-arm": identified.arm,

@@ -1,0 +1,193 @@
+"""The tables of the rivals at their best, beside `ebac`: hands, energy, parameters, Z-width."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable
+from dataclasses import asdict, dataclass
+from pathlib import Path
+
+import numpy as np
+from printed import NOISE, Printed, Row, code, fixed, joules, table
+
+import ebac
+from ebac.laws import shown_value
+from ebac.studies.tuning import RANGES, TUNING_CONDITIONS
+from ebac.studies.tuning.result import rows_of
+from ebac.studies.zwidth.result import CRITERIA
+
+LET_GO, PUMPING = ("slow-let-go", "slow-let-go-d2", "slow-let-go-K20"), "pumping"
+DELAYS = (0, 1, 2)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Form:
+    """A way to run laws: on the observer's estimate or on the encoder alone.
+
+    Attributes
+    ----------
+    word : str
+        What a table says of it.
+    ending : str
+        Of the names of the laws that were tuned so.
+    rivals, own : str
+        The options that run them so, and `ebac`.
+    """
+
+    word: str
+    ending: str
+    rivals: str
+    own: str
+
+    def laws(self, *, base: Iterable[str] = RANGES) -> str:
+        """Return the names of the tuned laws, as an option takes them."""
+        return ",".join(f"{name}{self.ending}" for name in base)
+
+    def rows(self) -> list[Row]:
+        """Return what the package keeps of the search."""
+        name = "tuned_rivals_observer" if "observer" in self.ending else "tuned_rivals"
+        file = Path(ebac.__file__).with_name(f"{name}.json")
+        rows: list[Row] = json.loads(file.read_text("utf-8"))["rows"]
+        return rows
+
+
+FORMS = (
+    Form(word="no", ending="-tuned", rivals=NOISE, own=f"{NOISE} --no-observer"),
+    Form(word="yes", ending="-tuned-observer", rivals=f"{NOISE} --observer-every-law", own=NOISE),
+)
+
+
+def tuned(printed: Printed) -> str:
+    """Every law tuned, on the test hands of `ebac tune`; `ebac` as designed."""
+    cells = [f"{name}: exact, still / quiet" for name in TUNING_CONDITIONS]
+    heads = ["law", "observer", *cells, "quiet of 360", "settled, median [s]", "ripple [N]"]
+    rows = [
+        [code(law), form.word, *_all_six([part for row in form.rows() if row["law"] == law for part in row["test"]])]
+        for law in RANGES
+        for form in FORMS
+    ]  # fmt: skip
+    own = [[code("ebac"), form.word, *_all_six(_own(form, printed))] for form in FORMS]
+    return table(heads, [*rows, *own])
+
+
+def _own(form: Form, printed: Printed) -> list[Row]:
+    """Return `ebac`, judged as the tuned laws are."""
+    device = ebac.Device(sensor=ebac.ForceSensor(noise=0.03))
+    base = ebac.Scenario(device=device, observer=form.word == "yes")
+    found = ebac.study(
+        ebac.Operators.grid(), "ebac", TUNING_CONDITIONS, base=base, threads=printed.threads
+    )
+    return [asdict(row) for row in rows_of(found, "ebac")]
+
+
+def _all_six(parts: list[Row]) -> list[str]:
+    def of(key: str) -> list[float]:
+        return [part[key] for part in parts if part[key] is not None]
+
+    settled, ripple = of("median_settled_s"), of("ripple_N")
+    return [
+        *(f"{part['exact_and_still']} / {part['good']}" for part in parts),
+        str(sum(part["good"] for part in parts)),
+        f"{min(settled):.2f} to {max(settled):.2f}" if settled else "-",
+        f"{max(ripple):.1f}" if ripple else "-",
+    ]
+
+
+def tuned_energy(printed: Printed) -> str:
+    """What the port of each gives out: on impact, when let go, under pumping, to the worst hands."""
+    heads = ["law", "observer", "impact [mJ]", "let go [mJ]", "pumping [mJ]", "worst hand [mJ]"]
+    rows = [
+        _given_out(printed, law, f"{law}{form.ending}", form, form.laws(), form.rivals)
+        for law in RANGES
+        for form in FORMS
+    ]
+    own = [_given_out(printed, "ebac", "ebac", form, "ebac", form.own) for form in FORMS]
+    return table(heads, [*rows, *own])
+
+
+def _given_out(printed: Printed, law: str, name: str, form: Form, laws: str, how: str) -> list[str]:
+    conditions = ",".join((*TUNING_CONDITIONS, *LET_GO, PUMPING))
+    rows = [
+        r for r in printed.rows(f"study -c {conditions} {how} --law {laws}") if r["law"] == name
+    ]
+
+    def least(*names: str) -> str:
+        return joules(min(r["least_energy_J"] for r in rows if r["condition"] in names))
+
+    named = {row["condition"] for row in rows} - {*LET_GO, PUMPING}
+    worst = printed.rows(f"worst --evaluations 150 {how} --law {name}")
+    drawn = max(row["energy_drawn_J"] for row in worst)
+    return [code(law), form.word, least(*named), least(*LET_GO), least(PUMPING), joules(-drawn)]
+
+
+def tuned_values(printed: Printed) -> str:
+    """The parameters that were found, for each delay."""
+    del printed  # they are kept in the package
+    rows = []
+    for law in RANGES:
+        for form in FORMS:
+            found = {r["delay"]: r["changes"] for r in form.rows() if r["law"] == law}
+            rows.append([code(law), form.word, *(_values(found[delay]) for delay in DELAYS)])
+    return table(["law", "observer", *(f"d = {delay}" for delay in DELAYS)], rows)
+
+
+def _values(changes: Row) -> str:
+    shown = (f"{name} = {shown_value(value)}" for name, value in changes.items())
+    return ", ".join(shown) or "as designed"
+
+
+def z_width(printed: Printed) -> str:
+    """Areas under the borders of the tuned laws and of `ebac`."""
+    laws = [f"direct,{FORMS[0].laws()}", f"direct,{FORMS[1].laws()},ebac"]
+    alone, observed = (
+        printed.document(f"zwidth {form.rivals} --law {given}")
+        for form, given in zip(FORMS, laws, strict=True)
+    )
+    own = printed.document(f"zwidth {FORMS[0].own} --law ebac")
+    scores = {
+        (score["law"].partition("-tuned")[0], word, score["delay_samples"]): score
+        for word, found in (("no", alone), ("no", own), ("yes", observed))
+        for score in found["scores"]
+    }
+    rows = [
+        [code(law), form.word,
+         *(f"{scores[law, form.word, d][f'{name}_area'] / 1e3:.0f}" for d in DELAYS for name in CRITERIA)]
+        for law in ("direct", *RANGES, "ebac")
+        for form in FORMS
+    ]  # fmt: skip
+    heads = ["law", "observer", *(f"{name}, d = {d}" for d in DELAYS for name in CRITERIA)]
+    return f"{table(heads, rows)}\n\n{_best(scores)}\n\n{_ceilings(alone)}"
+
+
+def _best(scores: dict[tuple[str, str, int], Row]) -> str:
+    """Say how the usable area of `ebac` compares with that of the best simple law, at each delay."""
+
+    def area(key: tuple[str, str, int]) -> float:
+        return float(scores[key]["usable_area"])
+
+    parts = []
+    for delay in DELAYS:
+        of = {key: area(key) for key in scores if key[2] == delay and key[0] != "ebac"}
+        best = max(of, key=lambda key: of[key])
+        ours = area(("ebac", "yes", delay))
+        observer = "with" if best[1] == "yes" else "without"
+        parts.append(
+            f"{ours / of[best]:.2f} at d = {delay} ({code(best[0])} {observer} the observer: "
+            f"{of[best] / 1e3:.0f}, `ebac`: {ours / 1e3:.0f})"
+        )
+    return f"Usable area of `ebac` over that of the best simple law: {', '.join(parts)}."
+
+
+def _ceilings(found: Row) -> str:
+    rows, top = found["rows"], found["top_N_per_m"]
+    linear, passive = [], []
+    for d in DELAYS:
+        of = [r for r in rows if r["delay_samples"] == d and r["law"] == "direct"]
+        at = [r["damping_Ns_per_m"] for r in of]
+        limits = [min(r["spectral_N_per_m"], top) for r in of]
+        linear.append(fixed(float(np.trapezoid(limits, at)), 0, 1e-3))
+        passive.append(f"{of[0]['passive_N_per_m'] / 1e3:.2g}")
+    return (
+        f"Ceilings: the linear loop without a law (spectral radius below 1) has {', '.join(linear)} at d = 0, 1, 2; "
+        f"a wall without damping is passive without a law up to {', '.join(passive)} kN/m."
+    )
