@@ -101,13 +101,15 @@ def cost(
     *,
     force: float = 0.0,
     felt: float = 0.0,
+    away: float = 0.0,
 ) -> float:
     columns = {
         "settled_s": settled, "force_settled_s": force, "most_drawn_J": drawn, "force_swing_N": ripple,
-        "perceived": felt, "swing_m": 0.0, "rest_m": 0.0, "ideal_m": 0.0, "allowed_m": 0.0,
+        "perceived": felt, "swing_m": 0.0, "rest_m": away, "ideal_m": 0.0, "allowed_m": 0.0,
     }  # fmt: skip
     runs = {name: np.array([value]) for name, value in columns.items()}
-    return tuning.cost_of(ebac.SweepResult({**runs, "quiet": np.array([good])}))
+    flags = {"quiet": np.array([good]), "still": np.array([True])}
+    return tuning.cost_of(ebac.SweepResult({**runs, **flags}))
 
 
 def test_a_good_hand_more_outweighs_settling_energy_and_ripple() -> None:
@@ -122,6 +124,9 @@ def test_a_good_hand_more_outweighs_settling_energy_and_ripple() -> None:
 def test_the_force_counts_as_the_position_does() -> None:
     assert cost(True, 0.1, 0, 0, force=0.3) == cost(True, 0.3, 0, 0, force=0.1)
     assert cost(False, 0.1, 0, 0, felt=4) < cost(False, 0.1, 0, 0, felt=20)
+    # But a hand that rests elsewhere is worse, however quiet it is.
+    assert cost(False, 0, 0, 0, felt=1e6) < cost(False, 0, 0, 0, away=1e-4)
+    assert cost(False, 0, 0, 0, away=1e-3) < cost(False, 0, 0, 0, away=2e-3)
     # A force that is felt makes a hand bad that is exact and still.
     felt = ebac.sweep([ebac.Scenario(observer=False)], ["tca-damped", "direct"])
     assert felt["still"][0]

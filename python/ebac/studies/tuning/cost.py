@@ -7,7 +7,8 @@ from numpy.typing import NDArray
 
 from ebac.studies.sweeps.result import SweepResult
 
-# The cost of a run: at most 0.3 for one that is good, at least 1 for another.
+# The cost of a run: at most 0.3 for one that is good, from 1 on for one whose force is not quiet, from 1.5 on for one
+# that is not exact and still.
 _WEIGHT = 0.1  # of settling, of energy and of ripple
 _HALF_SETTLING = 0.5  # s, at which half of the weight is charged
 _HALF_ENERGY = 10e-3  # J
@@ -20,12 +21,14 @@ def cost_of(result: SweepResult) -> float:
     """Return the mean cost of some runs [1]; less is better.
 
     A good run is exact, and quiet in position and force; it costs 0.1 s/(s + 0.5 s), where position and force have
-    settled at s. Any other costs 1 + e/(4 (e + 1 mm)) + p/(4 (p + 3)) for an error and a swing of e together and a
-    vibration of p detection thresholds. To both comes 0.1 E/(E + 10 mJ), E the most energy drawn in any window, and
-    0.1 R/(R + 1 N), R the force swing at rest. A good hand more outweighs what two others can gain.
+    settled at s. One that is exact and still, but whose force vibrates by p detection thresholds, costs
+    1 + p/(2 (p + 3)); any other 1.5 + e/(2 (e + 1 mm)), e its error and its swing together. To all comes
+    0.1 E/(E + 10 mJ), E the most energy drawn in any window, and 0.1 R/(R + 1 N), R the force swing at rest. A good
+    hand more outweighs what two others that are good can gain.
     """
-    away = _share(np.abs(result.deviation_m) + result["swing_m"], _FAR)
-    bad = 1 + 0.25 * away + 0.25 * _share(result["perceived"], _FELT)
+    felt = 1 + 0.5 * _share(result["perceived"], _FELT)
+    away = 1.5 + 0.5 * _share(np.abs(result.deviation_m) + result["swing_m"], _FAR)
+    bad = np.where(result.exact_and_still, felt, away)
     settled = np.maximum(result["settled_s"], result["force_settled_s"])
     settling = _WEIGHT * _share(settled, _HALF_SETTLING)
     energy = _WEIGHT * _share(result["most_drawn_J"], _HALF_ENERGY)

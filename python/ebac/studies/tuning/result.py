@@ -105,8 +105,7 @@ def rows_of(found: Study, law: str) -> tuple[TunedRow, ...]:
     rows = []
     for row in (row for row in found.rows if row.law == law):
         runs = {name: of[found.runs(law, row.condition)] for name, of in found.columns.items()}
-        exact = np.abs(runs["rest_m"] - runs["ideal_m"]) <= runs["allowed_m"]
-        good, resting = runs["good"], exact & runs["still"]
+        good, resting = runs["good"], runs["exact_and_still"]
         settled = np.maximum(runs["settled_s"], runs["force_settled_s"])[good]
         rows.append(
             TunedRow(
