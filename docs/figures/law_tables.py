@@ -5,15 +5,12 @@ from __future__ import annotations
 import re
 from collections.abc import Callable
 
-import numpy as np
 from printed import NOISE, Printed, Row, code, fixed, joules, table
 
 import ebac
 from ebac.studies.conditions import conditions
 from ebac.studies.families import find_family
-from ebac.studies.zwidth.result import CRITERIA
 
-TO_50 = "zwidth --law direct --law ebac --most-damping 50 --points 21 --delay 1"
 NOISY = ebac.Scenario(device=ebac.Device(sensor=ebac.ForceSensor(noise=0.03)))
 #: Measures of `ebac ablation`: the key, the heading, how its number is written.
 MEASURES: tuple[tuple[str, str, Callable[[float | None], str]], ...] = (
@@ -105,48 +102,6 @@ def _behind(hand: ebac.Scenario, no_lag: bool, finer: int, longer: int) -> float
     )
     trace = ebac.simulate(hand.replace(device=other, seconds=longer * hand.seconds), "ebac")
     return max(0.0, -(ebac.contact(trace).least_energy_J or 0.0))
-
-
-def z_width(printed: Printed) -> str:
-    """Areas under the borders, and how many times that of `direct`."""
-    found = printed.document("zwidth")
-    delays = list(dict.fromkeys(score["delay_samples"] for score in found["scores"]))
-    rows = []
-    for law in dict.fromkeys(score["law"] for score in found["scores"]):
-        of = {score["delay_samples"]: score for score in found["scores"] if score["law"] == law}
-        rows.append([code(law), *(_area(of[d], name) for d in delays for name in CRITERIA)])
-    table_ = table(["law", *(f"{name}, d = {d}" for d in delays for name in CRITERIA)], rows)
-    return f"{table_}\n\n{_ceilings(found)}\n\n{_to_50(printed)}"
-
-
-def _area(score: Row, name: str) -> str:
-    return f"{score[f'{name}_area'] / 1e3:.0f} ({score[f'{name}_times_direct']:.1f})"
-
-
-def _ceilings(found: Row) -> str:
-    rows, top = found["rows"], found["top_N_per_m"]
-    linear, passive = [], []
-    for d in dict.fromkeys(r["delay_samples"] for r in rows):
-        of = [r for r in rows if r["delay_samples"] == d and r["law"] == "direct"]
-        at = [r["damping_Ns_per_m"] for r in of]
-        limits = [min(r["spectral_N_per_m"], top) for r in of]
-        linear.append(fixed(float(np.trapezoid(limits, at)), 0, 1e-3))
-        passive.append(f"{of[0]['passive_N_per_m'] / 1e3:.2g}")
-    return (
-        f"Ceilings: the linear loop without a law (spectral radius below 1) has {', '.join(linear)} at d = 0, 1, 2; "
-        f"a wall without damping is passive without a law up to {', '.join(passive)} kN/m."
-    )
-
-
-def _to_50(printed: Printed) -> str:
-    scores = printed.document(TO_50)["scores"]
-    direct, ours = scores
-    parts = [
-        f"{name}: `direct` {direct[f'{name}_area'] / 1e3:.0f}, `ebac` {ours[f'{name}_area'] / 1e3:.0f} "
-        f"({ours[f'{name}_times_direct']:.1f} times)"
-        for name in CRITERIA
-    ]
-    return f"To 50 N s/m at d = 1, of 5000: {'; '.join(parts)}."
 
 
 def speed(printed: Printed) -> str:

@@ -2,13 +2,7 @@
 
 from __future__ import annotations
 
-import json
-from pathlib import Path
-
 from printed import NOISE, Printed, Row, code, fixed, joules, table
-
-import ebac
-from ebac.studies.tuning import TUNING_CONDITIONS
 
 CELLS = f"study -c cells {NOISE}"
 FIVE = f"study -c five --population random --hands 500 {NOISE} --seed"
@@ -62,39 +56,6 @@ def grid(printed: Printed) -> str:
         )
     ]  # fmt: skip
     return table(heads, rows)
-
-
-def tuned(printed: Printed) -> str:
-    """Every law as designed and tuned, on the test hands of `ebac tune`; `ebac` as designed."""
-    heads = [
-        "law", "parameters", "good of 360", "settled, median [s]", "least energy [mJ]", "most drawn [mJ]", "ripple [N]"
-    ]  # fmt: skip
-    found = json.loads((Path(ebac.__file__).parent / "tuned_rivals.json").read_text("utf-8"))[
-        "rows"
-    ]
-    rows = []
-    for law in dict.fromkeys(row["law"] for row in found):
-        for what, key in (("designed", "default"), ("tuned", "test")):
-            parts = [part for row in found if row["law"] == law for part in row[key]]
-            rows.append([code(law), what, *_all_six(parts)])
-    found = ebac.study(ebac.Operators.grid(), "ebac", TUNING_CONDITIONS, threads=printed.threads)
-    swings = found.columns["force_swing_N"][found.columns["good"]]
-    parts = [{**row.row(), "ripple_N": float(swings.max())} for row in found.rows]
-    return table(heads, [*rows, [code("ebac"), "designed", *_all_six(parts)]])
-
-
-def _all_six(parts: list[Row]) -> list[str]:
-    def of(key: str) -> list[float]:
-        return [part[key] for part in parts if part.get(key) is not None]
-
-    def span(values: list[float]) -> str:
-        return f"{min(values):.2f} to {max(values):.2f}" if values else "-"
-
-    ripple = of("ripple_N")
-    return [
-        total(parts, "good"), span(of("median_settled_s")), joules(min(of("least_energy_J"))),
-        joules(max(of("most_drawn_J"))), f"{max(ripple):.1f}" if ripple else "-",
-    ]  # fmt: skip
 
 
 def cells(printed: Printed) -> str:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
@@ -39,16 +38,16 @@ class Form:
     rivals: str
     own: str
 
-    def laws(self, *, base: Iterable[str] = RANGES) -> str:
-        """Return the names of the tuned laws, as an option takes them."""
-        return ",".join(f"{name}{self.ending}" for name in base)
-
     def rows(self) -> list[Row]:
         """Return what the package keeps of the search."""
         name = "tuned_rivals_observer" if "observer" in self.ending else "tuned_rivals"
         file = Path(ebac.__file__).with_name(f"{name}.json")
         rows: list[Row] = json.loads(file.read_text("utf-8"))["rows"]
         return rows
+
+    def of(self, law: str) -> list[Row]:
+        """Return how a tuned law does on the test hands, under one condition after the other."""
+        return [part for row in self.rows() if row["law"] == law for part in row["test"]]
 
 
 FORMS = (
@@ -61,11 +60,7 @@ def tuned(printed: Printed) -> str:
     """Every law tuned, on the test hands of `ebac tune`; `ebac` as designed."""
     cells = [f"{name}: exact, still / quiet" for name in TUNING_CONDITIONS]
     heads = ["law", "observer", *cells, "quiet of 360", "settled, median [s]", "ripple [N]"]
-    rows = [
-        [code(law), form.word, *_all_six([part for row in form.rows() if row["law"] == law for part in row["test"]])]
-        for law in RANGES
-        for form in FORMS
-    ]  # fmt: skip
+    rows = [[code(law), form.word, *_all_six(form.of(law))] for law in RANGES for form in FORMS]
     own = [[code("ebac"), form.word, *_all_six(_own(form, printed))] for form in FORMS]
     return table(heads, [*rows, *own])
 
@@ -97,27 +92,26 @@ def tuned_energy(printed: Printed) -> str:
     """What the port of each gives out: on impact, when let go, under pumping, to the worst hands."""
     heads = ["law", "observer", "impact [mJ]", "let go [mJ]", "pumping [mJ]", "worst hand [mJ]"]
     rows = [
-        _given_out(printed, law, f"{law}{form.ending}", form, form.laws(), form.rivals)
+        [code(law), form.word, *_given_out(printed, f"{law}{form.ending}", form.rivals, form.of(law))]
         for law in RANGES
         for form in FORMS
+    ]  # fmt: skip
+    own = [
+        [code("ebac"), form.word, *_given_out(printed, "ebac", form.own, _own(form, printed))]
+        for form in FORMS
     ]
-    own = [_given_out(printed, "ebac", "ebac", form, "ebac", form.own) for form in FORMS]
     return table(heads, [*rows, *own])
 
 
-def _given_out(printed: Printed, law: str, name: str, form: Form, laws: str, how: str) -> list[str]:
-    conditions = ",".join((*TUNING_CONDITIONS, *LET_GO, PUMPING))
-    rows = [
-        r for r in printed.rows(f"study -c {conditions} {how} --law {laws}") if r["law"] == name
-    ]
-
-    def least(*names: str) -> str:
-        return joules(min(r["least_energy_J"] for r in rows if r["condition"] in names))
-
-    named = {row["condition"] for row in rows} - {*LET_GO, PUMPING}
-    worst = printed.rows(f"worst --evaluations 150 {how} --law {name}")
+def _given_out(printed: Printed, law: str, how: str, impacts: list[Row]) -> list[str]:
+    conditions = ",".join((*LET_GO, PUMPING))
+    *let_go, pumping = (
+        row["least_energy_J"] for row in printed.rows(f"study -c {conditions} {how} --law {law}")
+    )
+    worst = printed.rows(f"worst --evaluations 150 {how} --law {law}")
     drawn = max(row["energy_drawn_J"] for row in worst)
-    return [code(law), form.word, least(*named), least(*LET_GO), least(PUMPING), joules(-drawn)]
+    impact = min(part["least_energy_J"] for part in impacts)
+    return [joules(impact), joules(min(let_go)), joules(pumping), joules(-drawn)]
 
 
 def tuned_values(printed: Printed) -> str:
@@ -138,25 +132,21 @@ def _values(changes: Row) -> str:
 
 def z_width(printed: Printed) -> str:
     """Areas under the borders of the tuned laws and of `ebac`."""
-    laws = [f"direct,{FORMS[0].laws()}", f"direct,{FORMS[1].laws()},ebac"]
-    alone, observed = (
-        printed.document(f"zwidth {form.rivals} --law {given}")
-        for form, given in zip(FORMS, laws, strict=True)
-    )
-    own = printed.document(f"zwidth {FORMS[0].own} --law ebac")
+    runs = {
+        **{("direct", form.word): f"{form.rivals} --law direct" for form in FORMS},
+        **{(law, form.word): f"{form.rivals} --law {law}{form.ending}" for law in RANGES for form in FORMS},
+        **{("ebac", form.word): f"{form.own} --law ebac" for form in FORMS},
+    }  # fmt: skip
+    found = {key: printed.document(f"zwidth {how}") for key, how in runs.items()}
     scores = {
-        (score["law"].partition("-tuned")[0], word, score["delay_samples"]): score
-        for word, found in (("no", alone), ("no", own), ("yes", observed))
-        for score in found["scores"]
+        (*key, score["delay_samples"]): score for key in found for score in found[key]["scores"]
     }
     rows = [
-        [code(law), form.word,
-         *(f"{scores[law, form.word, d][f'{name}_area'] / 1e3:.0f}" for d in DELAYS for name in CRITERIA)]
-        for law in ("direct", *RANGES, "ebac")
-        for form in FORMS
+        [code(law), word, *(f"{scores[law, word, d][f'{name}_area'] / 1e3:.0f}" for d in DELAYS for name in CRITERIA)]
+        for law, word in runs
     ]  # fmt: skip
     heads = ["law", "observer", *(f"{name}, d = {d}" for d in DELAYS for name in CRITERIA)]
-    return f"{table(heads, rows)}\n\n{_best(scores)}\n\n{_ceilings(alone)}"
+    return f"{table(heads, rows)}\n\n{_best(scores)}\n\n{_ceilings(found['direct', 'no'])}"
 
 
 def _best(scores: dict[tuple[str, str, int], Row]) -> str:
