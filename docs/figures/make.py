@@ -67,8 +67,10 @@ def map_kb() -> Picture:
 
 
 def z_width() -> Picture:
-    """`ebac zwidth`."""
-    return plot_zwidth(zwidth())
+    """`ebac zwidth --device-noise 0.03 --observer-every-law` under EBAC and the best of the simple laws."""
+    tuned = (f"{name}-tuned-observer" for name in ("tca-damped", "lag-compensator", "sfa"))
+    base = NOISY.replace(seconds=3.0, observer="every-law")
+    return plot_zwidth(zwidth(base, ("direct", *tuned, "ebac")))
 
 
 def energy() -> Picture:

@@ -59,7 +59,7 @@ RULES = (
     # What takes minutes.
     Rule(r"^ebac paper( all)?( --out \S+)?$", NEVER, "takes minutes; tests run its items"),
     Rule(r"^ebac bench", NEVER, "takes a minute; tests run it with small numbers"),
-    Rule(r"^ebac tune [\w,-]+( --json.*)?$", NEVER, "takes minutes; tests search with few hands"),
+    Rule(r"^ebac tune(?!.*--evaluations)", NEVER, "takes minutes; tests search with few hands"),
     Rule(r"^ebac identify check", NEVER, "takes a minute; tests run it with few logs"),
     Rule(
         r"^ebac study.* (cells|five|robustness|failures|all|hands|damped-walls)\b",
