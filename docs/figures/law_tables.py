@@ -85,7 +85,8 @@ def worst(printed: Printed) -> str:
         others = [(True, 1, 1), (False, 64, 1), (True, 64, 1), (False, 1, 5)]
         rows.append(
             [code(family.name), joules(r["energy_drawn_J"]), fixed(r["most_pull_N"], 1),
-             *(joules(_behind(hand, *other)) for other in others), joules(free[family.name]), joules(alone[family.name])]
+             *(joules(_behind(hand, *other)) for other in others),
+             *(joules(found[family.name]) for found in (free, alone))]
         )  # fmt: skip
     heads = ["family", "drawn [mJ]", "hardest pull [N]", "no current lag", "64 times the counts", "both",
              "five times as long", "guard off: drawn [mJ]", "`--no-observer`: drawn [mJ]"]  # fmt: skip

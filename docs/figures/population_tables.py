@@ -71,7 +71,14 @@ def cells(printed: Printed) -> str:
          joules(least(r)), joules(drawn(r))]
         for name, r in named.items()
     ]  # fmt: skip
-    heads = ["law", f"good of {hands}", "exact, still", "in time", "least energy [mJ]", "most drawn [mJ]"]
+    heads = [
+        "law",
+        f"good of {hands}",
+        "exact, still",
+        "in time",
+        "least energy [mJ]",
+        "most drawn [mJ]",
+    ]
     return (
         f"{table(heads, rows)}\n\nCells in which not all 60 hands are good under `ebac`: "
         f"{_missing(every['ebac'], 'good')}.\nNot exact and still: {_missing(every['ebac'], 'exact_and_still')}. "
@@ -98,10 +105,7 @@ def five(printed: Printed) -> str:
         return [f"{good} / {still}" for good, still in pairs]
 
     ours = [row for seed in seeds for row in seed["ebac"]]
-    rows = [
-        [code(law), *both(law), joules(min(least(s[law]) for s in seeds))]
-        for law in seeds[0]
-    ]
+    rows = [[code(law), *both(law), joules(min(least(s[law]) for s in seeds))] for law in seeds[0]]
     rows += [["`ebac`, in time", *map(str, fewest("ebac", "settled_in_time")), ""]]
     rows += [["ideal wall", *map(str, fewest("ebac", "ideal_good")), ""]]
     return (
@@ -174,7 +178,8 @@ def damped(printed: Printed) -> str:
     stiff = list(dict.fromkeys(r["condition"].partition("K")[2] for r in every["ebac"]))
     n = len(stiff)
     rows = [
-        [code(law), r[i]["condition"].partition("K")[0][1:], *(_pair(one, "good", "exact_and_still") for one in r[i : i + n])]
+        [code(law), r[i]["condition"].partition("K")[0][1:],
+         *(_pair(one, "good", "exact_and_still") for one in r[i : i + n])]
         for law, r in every.items()
         for i in range(0, len(r), n)
     ]  # fmt: skip

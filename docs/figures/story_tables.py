@@ -58,11 +58,14 @@ def pieces(printed: Printed) -> str:
     """The law put together again, piece by piece."""
     asked = " ".join(f"--change {off}" for off in BUILT if off)
     made = {
-        _typed(r["changes"]): r for r in printed.rows(f"ablation {NOISE} {asked}") if r["law"] == "ebac"
+        _typed(r["changes"]): r
+        for r in printed.rows(f"ablation {NOISE} {asked}")
+        if r["law"] == "ebac"
     }
     keys = ("least_energy_impact_J", "least_energy_let_go_J", "least_energy_pumping_J")
     rows = [
-        [name, *(str(made[off][k]) for k in ("good", "exact_and_still", "good_K20")), *(joules(made[off][k], " mJ") for k in keys)]
+        [name, *(str(made[off][k]) for k in ("good", "exact_and_still", "good_K20")),
+         *(joules(made[off][k], " mJ") for k in keys)]
         for off, name in BUILT.items()
     ]  # fmt: skip
     heads = ["the law has", "good", "exact, still", "good, 20 kN/m", "least energy, impact", "slow press, then let go",

@@ -18,8 +18,8 @@ from ebac.studies import MEASURES, pieces
 
 FEW = Operators.grid(mass=[0.15], damping=[2, 6], stiffness=[300], target=[0.04])  # 2 hands
 KEYS = [
-    "law", "piece", "changes", "hands", "good", "exact_and_still", "settled_in_time", "median_settled_s", "good_K20", "good_d2_K20",
-    "good_slow_press_d2_K20", "good_tremor", "least_energy_impact_J", "least_energy_let_go_J",
+    "law", "piece", "changes", "hands", "good", "exact_and_still", "settled_in_time", "median_settled_s", "good_K20",
+    "good_d2_K20", "good_slow_press_d2_K20", "good_tremor", "least_energy_impact_J", "least_energy_let_go_J",
     "least_energy_pumping_J", "ripple_N", "ripple_noise_N", "force_step_N", "friction_m", "worse", "better",
 ]  # fmt: skip
 

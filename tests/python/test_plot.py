@@ -22,7 +22,7 @@ def labels(figure: Figure) -> list[str]:
 @pytest.mark.parametrize("law", list(ebac.LAWS))
 def test_every_law_has_a_colour_and_a_figure(law: str, run: Run, tmp_path: Path) -> None:
     assert law in COLOURS
-    figure = plot_trace(run(law))
+    figure = plot_trace(run(law, observer=False))
     units = ("position [mm]", "force [N]", "energy [")
     assert all(any(unit in label for label in labels(figure)) for unit in units)
     assert any("beta" in label for label in labels(figure)) == ("law.beta" in run(law))
@@ -42,7 +42,7 @@ def test_a_log_without_the_columns_of_a_loop_is_drawn_with_what_it_has(
 
 def test_one_column_of_panels_per_axis_in_use(run: Run) -> None:
     joystick = ebac.presets.device("joystick")
-    figure = plot_trace(run("ebac", device=joystick, seconds=1.0))
+    figure = plot_trace(run("ebac", device=joystick, seconds=1.0, observer=False))
     assert len(figure.axes) == 4
     assert "axis 1 not in use" in figure.get_suptitle()
     hand = ebac.Hand(path=(ebac.Step(target=0.02), ebac.Step(target=0.01), ebac.Step(target=0.0)))
@@ -58,7 +58,7 @@ def test_a_part_of_a_trace_is_drawn_over_its_own_time(run: Run) -> None:
 
 
 def test_beta_panel_is_bounded(run: Run) -> None:
-    panel = next(ax for ax in plot_trace(run("ebac")).axes if "beta" in ax.get_ylabel())
+    panel = next(ax for ax in plot_trace(run("ebac", observer=False)).axes if "beta" in ax.get_ylabel())
     assert panel.get_yscale() == "symlog"
     assert max(map(abs, panel.get_ylim())) <= 6e4
 

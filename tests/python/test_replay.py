@@ -108,7 +108,7 @@ def test_a_law_in_python_is_driven_too() -> None:
 
 
 def test_another_law_meets_the_same_motion_and_no_feedback() -> None:
-    recorded = ebac.simulate(ebac.Scenario(seconds=1), "tca")
+    recorded = ebac.simulate(ebac.Scenario(seconds=1, observer=False), "tca")
     replayed = ebac.replay(recorded, "ebac")
     for name in (
         "tick",

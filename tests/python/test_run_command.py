@@ -76,7 +76,7 @@ def test_a_run_gives_rows_verdict_figure_and_a_log_that_others_read(
     wanted = ebac.contact(known.simulate(seconds=3), truth=False)
     assert told["expected"] == wanted.row()
     assert contact["swing_m"] < 0.25e-3
-    assert wanted.quiet
+    assert wanted.still
     assert wanted.exact
     assert wanted.ideal_m is not None
     assert abs(contact["rest_m"] - wanted.ideal_m) < 3 * known.device.count

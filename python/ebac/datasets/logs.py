@@ -56,7 +56,7 @@ def tapping() -> Trace:
 
 
 def press() -> Trace:
-    """Return a log of a hand that presses into a wall of 10 kN/m from 1 s on, under the law `ebac` on the encoder alone, 4 s.
+    """Return a log of a hand that presses into a wall of 10 kN/m from 1 s on, 4 s, under `ebac` on the encoder alone.
 
     `trace.scenario.hand` is the true hand: 0.15 kg, 6 N s/m, 300 N/m.
     """

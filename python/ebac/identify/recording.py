@@ -39,7 +39,8 @@ class Recording:
     desired : array, shape (rows,), or None
         Force the law was asked for [N], F_D of eq. (2).
     met : array, shape (rows,), or None
-        Position at which the virtual world was asked for that force [m], where the loop had a state observer; None: `x`.
+        Position at which the virtual world was asked for that force [m], where the loop had a state observer; None: at
+        `x`.
     target : array, shape (rows,), or None
         Instructed position of the hand [m], when that was recorded.
     count : float

@@ -91,8 +91,8 @@ def _scatter(study: Study, conditions: list[str], *, narrow: bool) -> Picture:
     figure.suptitle(
         f"How {len(study.operators)} hands come to rest, one mark each, simulated: {device}; {rest[1]}\n"
         "Grey area: a good hand, which rests within 2 encoder counts of the ideal, or as far as friction holds it, "
-        "and swings by less than 0.25 mm\nRing: its force is not quiet. Cross: not good by position, the worst with their "
-        "row in the population (#)",
+        "and swings by less than 0.25 mm\nRing: its force is not quiet. Cross: not good by position, the worst with "
+        "their row in the population (#)",
         fontsize="medium",
     )
     return figure
@@ -106,12 +106,13 @@ def _panel(ax: Axes, study: Study, law: str, condition: str) -> None:
     band = 1e3 * float(np.median(part["allowed_m"]))
     ax.fill_between([LEAST_SWING, 1e3 * STILL_SWING], -band, band, color="0.88", lw=0)
     good, there = part["good"], part["exact_and_still"]
-    for which, mark in (
-        (good, {"marker": "o", "ms": 4, "mew": 0, "alpha": 0.6}),
-        (there & ~good, {"marker": "o", "ms": 4, "mew": 0.9, "mfc": "none"}),
-        (~there, {"marker": "x", "ms": 5, "mew": 1.1}),
-    ):
-        ax.plot(swing[which], deviation[which], ls="", color=colour(law), **mark)
+    marks: tuple[tuple[NDArray[np.bool_], str, dict[str, Any]], ...] = (
+        (good, "o", {"ms": 4, "mew": 0, "alpha": 0.6}),
+        (there & ~good, "o", {"ms": 4, "mew": 0.9, "mfc": "none"}),
+        (~there, "x", {"ms": 5, "mew": 1.1}),
+    )
+    for which, mark, style in marks:
+        ax.plot(swing[which], deviation[which], mark, color=colour(law), **style)
     ax.set_xscale("log")
     ax.set_yscale("symlog", linthresh=0.1)
     ax.set_xlim(LEAST_SWING / 2, 2 * MOST)

@@ -100,7 +100,8 @@ class Study:
         What was simulated: all hands of the first condition, then of the second, and so on.
     columns : dict of str to array, shape (runs,)
         Those of `SweepResult`, and `condition`, `operator` (row from 1, 0 for a drive), `ideal_settled_s` (inf where
-        even an ideal wall does not settle, NaN where that is not known), `ideal_good`, `exact_and_still`, `good`, `settled_in_time`.
+        even an ideal wall does not settle, NaN where that is not known), `ideal_good`, `exact_and_still`, `good`,
+        `settled_in_time`.
     """
 
     operators: Operators

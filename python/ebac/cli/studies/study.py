@@ -74,9 +74,9 @@ def study(
     """Simulate laws with many different hands and conditions.
 
     In simulation. A hand is good when it rests within two encoder counts of the ideal, or where friction f_c holds it,
-    f_c/(K0 + K) farther, swings by less than 0.25 mm, and feels no vibration of the force (quiet force). Exact, still is
-    the same without a look at the force; such a hand is in time when it settles within 1.5 times what it needs against
-    an ideal wall, plus 0.2 s.
+    f_c/(K0 + K) farther, swings by less than 0.25 mm, and feels no vibration of the force (quiet force). "Exact, still"
+    is the same without a look at the force; such a hand is in time when it settles within 1.5 times what it needs
+    against an ideal wall, plus 0.2 s.
 
     **Examples**
 

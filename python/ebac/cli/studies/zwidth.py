@@ -72,7 +72,7 @@ def zwidth(
     """Find the stiffest wall each law can render (Z-width).
 
     A simulation, over wall damping and delay. *still*: no limit cycle, for a press and a tap. *quiet*: still, and no
-    vibration of the force that can be felt. *energy*: takes no more than epsilon out of the port.
+    vibration of the force above three detection thresholds. *energy*: takes no more than epsilon out of the port.
     *usable*: quiet and energy, and shows at least half of the stiffness asked for. The score is the area under the
     border.
 

@@ -14,7 +14,7 @@ _HALF_SETTLING = 0.5  # s, at which half of the weight is charged
 _HALF_ENERGY = 10e-3  # J
 _HALF_RIPPLE = 1.0  # N
 _FAR = 1e-3  # m, error and swing of a run that is not good
-_FELT = 3.0  # detection thresholds, the vibration at which a force is no longer quiet
+_LIMIT = 3.0  # detection thresholds, the vibration at which a force is no longer quiet
 
 
 def cost_of(result: SweepResult) -> float:
@@ -26,9 +26,9 @@ def cost_of(result: SweepResult) -> float:
     0.1 E/(E + 10 mJ), E the most energy drawn in any window, and 0.1 R/(R + 1 N), R the force swing at rest. A good
     hand more outweighs what two others that are good can gain.
     """
-    felt = 1 + 0.5 * _share(result["perceived"], _FELT)
+    rough = 1 + 0.5 * _share(result["perceived"], _LIMIT)
     away = 1.5 + 0.5 * _share(np.abs(result.deviation_m) + result["swing_m"], _FAR)
-    bad = np.where(result.exact_and_still, felt, away)
+    bad = np.where(result.exact_and_still, rough, away)
     settled = np.maximum(result["settled_s"], result["force_settled_s"])
     settling = _WEIGHT * _share(settled, _HALF_SETTLING)
     energy = _WEIGHT * _share(result["most_drawn_J"], _HALF_ENERGY)
