@@ -58,8 +58,8 @@ FORMS = (
 
 def tuned(printed: Printed) -> str:
     """Every law tuned, on the test hands of `ebac tune`; `ebac` as designed."""
-    cells = [f"{name}: exact, still / quiet" for name in TUNING_CONDITIONS]
-    heads = ["law", "observer", *cells, "quiet of 360", "settled, median [s]", "ripple [N]"]
+    cells = [code(name) for name in TUNING_CONDITIONS]
+    heads = ["law", "observer", *cells, "of 360", "settled, median [s]", "ripple [N]"]
     rows = [[code(law), form.word, *_all_six(form.of(law))] for law in RANGES for form in FORMS]
     own = [[code("ebac"), form.word, *_all_six(_own(form, printed))] for form in FORMS]
     return table(heads, [*rows, *own])
@@ -76,16 +76,22 @@ def _own(form: Form, printed: Printed) -> list[Row]:
 
 
 def _all_six(parts: list[Row]) -> list[str]:
-    def of(key: str) -> list[float]:
-        return [part[key] for part in parts if part[key] is not None]
-
-    settled, ripple = of("median_settled_s"), of("ripple_N")
+    settled, ripple = (
+        [part[key] for part in parts if part[key] is not None]
+        for key in ("median_settled_s", "ripple_N")
+    )
     return [
-        *(f"{part['exact_and_still']} / {part['good']}" for part in parts),
-        str(sum(part["good"] for part in parts)),
-        f"{min(settled):.2f} to {max(settled):.2f}" if settled else "-",
+        *(_counts([part]) for part in parts),
+        _counts(parts),
+        " to ".join(dict.fromkeys(f"{of(settled):.2f}" for of in (min, max))) if settled else "-",
         f"{max(ripple):.1f}" if ripple else "-",
     ]
+
+
+def _counts(parts: list[Row]) -> str:
+    """Return good hands, and those that are exact and still, once where they are the same."""
+    numbers = (str(sum(part[key] for part in parts)) for key in ("good", "exact_and_still"))
+    return " / ".join(dict.fromkeys(numbers))
 
 
 def tuned_energy(printed: Printed) -> str:
