@@ -74,9 +74,9 @@ def z_width() -> Picture:
 
 
 def energy() -> Picture:
-    """The energy account under the drive that draws most, with the guard and without."""
+    """The energy account under the drive that draws most, with the guard and without, on the encoder alone."""
     laws = {"ebac": "ebac", "guard off": ebac.Variant("ebac", {"guard": False})}
-    found = ebac.study(ebac.Operators.grid(), laws, ["pumping"], base=NOISY)
+    found = ebac.study(ebac.Operators.grid(), laws, ["pumping"], base=NOISY.replace(observer=False))
     least = found.runs("guard off", "pumping")
     worst = int(least[np.argmin(found.columns["least_energy_J"][least])])
     figure = new_figure(10, 6)

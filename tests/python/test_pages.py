@@ -5,6 +5,7 @@ takes seconds is run where EBAC_ALL_COMMANDS is set, as .ci/run does, with fewer
 """
 
 import contextlib
+import fcntl
 import io
 import json
 import os
@@ -12,6 +13,8 @@ import re
 import shlex
 import subprocess
 import sys
+import tempfile
+from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -95,7 +98,19 @@ def follow(found: list[Step], where: str, tmp_path: Path) -> None:
         {**vars(s), "text": as_run(s.text), "page": where, "action": action(s.text)} for s in chosen
     ]
     file.write_text(json.dumps(data), encoding="utf-8")
-    done([sys.executable, page_process.__file__, str(file)], room, env)
+    with sensor_port(chosen):
+        done([sys.executable, page_process.__file__, str(file)], room, env)
+
+
+@contextlib.contextmanager
+def sensor_port(chosen: list[Step]) -> Iterator[None]:
+    """Wait until no other page has a simulated sensor at the usual UDP port, where these steps start one."""
+    if not any("sensor simulate" in step.text for step in chosen):
+        yield
+        return
+    with (Path(tempfile.gettempdir()) / "ebac-pages-sensor-port").open("w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        yield
 
 
 def done(words: list[str], room: Path, env: dict[str, str]) -> None:
