@@ -58,7 +58,9 @@ def test_a_part_of_a_trace_is_drawn_over_its_own_time(run: Run) -> None:
 
 
 def test_beta_panel_is_bounded(run: Run) -> None:
-    panel = next(ax for ax in plot_trace(run("ebac", observer=False)).axes if "beta" in ax.get_ylabel())
+    panel = next(
+        ax for ax in plot_trace(run("ebac", observer=False)).axes if "beta" in ax.get_ylabel()
+    )
     assert panel.get_yscale() == "symlog"
     assert max(map(abs, panel.get_ylim())) <= 6e4
 
