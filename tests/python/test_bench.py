@@ -66,3 +66,11 @@ def test_the_comparison(monkeypatch: pytest.MonkeyPatch) -> None:
     assert rest["MuJoCo"] == pytest.approx(0.001165, rel=0.01)
     errors = {row["program"]: row["value"] for row in rows if "error" in row["subject"]}
     assert errors["ebac"] < 1e-9
+
+
+@pytest.mark.parametrize("option", ["--no-observer", "--observer-every-law", "--seconds=1"])
+def test_a_comparison_refuses_options_of_a_scenario(option: str) -> None:
+    """None is left out in silence, a switch that is off by default neither."""
+    refused = CliRunner().invoke(app, ["bench", "--peers", option])
+    assert refused.exit_code == 2
+    assert "leave its options out" in refused.stderr

@@ -211,13 +211,13 @@ class RunOptions:
     jitter: Jitter = None
     observer: Annotated[bool | None, observer()] = None
     observer_every_law: Annotated[
-        bool,
+        bool | None,
         typer.Option(
             "--observer-every-law",
             help="Let every law act on the estimate of the observer, not `ebac` alone.",
             rich_help_panel=RUN,
         ),
-    ] = False
+    ] = None
     seconds: Annotated[
         float | None, option(text="Length of the run [s]", default="6", panel=RUN)
     ] = None

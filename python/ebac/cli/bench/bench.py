@@ -72,9 +72,7 @@ def bench(
     """
     if with_peers + with_can + with_logs > 1:
         output.fail("--peers, --can and --logs are comparisons of their own: give one of them")
-    if (with_peers or with_can or with_logs) and any(
-        v not in (None, False) for v in vars(setup).values()
-    ):
+    if (with_peers or with_can or with_logs) and any(v is not None for v in vars(setup).values()):
         output.fail("--peers, --can and --logs have scenarios of their own: leave its options out")
     output.keeping("nothing was written; fewer --repeats take less time")
     if with_logs:
