@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 from typer.testing import CliRunner
 
 import ebac
+from ebac import identify
 from ebac.cli import app
 from ebac.identify import Limits, Recording, Target, fit_gains, fit_loop
 from ebac.identify.gains.check import MEASURES, check_gains
@@ -52,6 +53,19 @@ def test_the_loop_is_that_of_the_log(loop) -> None:
     assert loop.device.mass == pytest.approx(0.25, rel=0.02)
     assert loop.arm["K0"].value == pytest.approx(300, rel=0.01)
     assert loop.scenario.hand.mass == pytest.approx(0.2, rel=0.02)
+
+
+@pytest.mark.parametrize("file", ["log.csv", "log.npz", "late.mcap"])
+def test_the_wall_of_an_observed_loop_is_where_it_was_met(trace, file: str, tmp_path) -> None:
+    """The observer asks the world ahead of the reading: against x the wall would be 7 % too soft."""
+    path = tmp_path / file
+    if file.startswith("late"):  # rows that are not equally spaced
+        t = trace["t"].copy()
+        t[1::2] += 2e-5
+        trace = trace.with_column("t", t)
+    trace.to_csv(path) if path.suffix == ".csv" else trace.save(path)
+    loop = fit_loop(identify.load(path), Target.of(trace.scenario.hand, trace["t"]))
+    assert loop.wall.stiffness == pytest.approx(3e3, rel=0.02)
 
 
 def test_the_choice_keeps_all_and_costs_less(chosen) -> None:

@@ -22,11 +22,12 @@ from ebac.identify.files import (
 )
 from ebac.identify.recording import (
     LEAST_ROWS,
-    OF_TRACE,
     Recording,
     count_of,
     path_of,
+    signals_of,
     trace_facts,
+    where_met,
 )
 from ebac.trace import Trace
 
@@ -129,12 +130,7 @@ def _of_trace(trace: Trace, name: str, axis: int, wrong: list[str]) -> Recording
     if len(t) > 1 and (step > 0).all() and np.ptp(step) <= 1e-3 * float(np.median(step)):
         found = Recording.from_trace(trace, axis=axis, name=name)
         return replace(found, remarks=(*found.remarks, *wrong))
-    signals: Columns = {
-        key: np.array(trace.axis(column, axis), dtype=float)
-        for key, column in OF_TRACE.items()
-        if column in trace
-    }
-    even = _evenly(name, {"t": t, **signals}, wrong)
+    even = _evenly(name, {"t": t, **signals_of(trace, axis)}, wrong)
     facts = trace_facts(trace, axis)
     values: dict[str, Any] = dict(even)
     return Recording(name=name, remarks=(*facts.pop("remarks"), *wrong), **facts, **values)
@@ -171,6 +167,9 @@ def _recording(
         if rate is None:
             raise ValueError(f"{name}: has no time; say how many rows a second: rate=... or --rate")
         signals["t"] = np.arange(len(signals["x"])) / rate
+    ours = {heading.partition(" [")[0]: values for heading, values in raw.items()}
+    if "desired" in signals and {"est.x_act", "est.weight"} <= set(ours):
+        signals |= where_met(signals["x"], ours["est.x_act"], ours["est.weight"])
     even: dict[str, Any] = dict(_evenly(name, signals, remarks))
     _plausible(name, even)
     found = count_of(even["x"])

@@ -151,14 +151,7 @@ class Recording:
     @classmethod
     def from_trace(cls, trace: Trace, *, axis: int = 0, name: str = "trace") -> Self:
         """Look at one axis of a `Trace`; count and lag are taken from its scenario where it has one."""
-        columns: dict[str, Any] = {
-            key: np.array(trace.axis(column, axis), dtype=float)
-            for key, column in OF_TRACE.items()
-            if column in trace
-        }
-        if "est.weight" in trace and trace["est.weight"].any():
-            ahead = trace.axis("est.x_act", axis) - columns["x"]
-            columns["met"] = columns["x"] + trace.axis("est.weight", axis) * ahead
+        columns: dict[str, Any] = signals_of(trace, axis)
         facts = trace_facts(trace, axis)
         if not facts["count"]:
             facts["count"] = count_of(columns["x"])
@@ -186,6 +179,26 @@ def require_recordings(value: object, function: str) -> None:
 
 #: Signals of a recording, and the columns of a trace they are.
 OF_TRACE = {"x": "x", "force": "f_meas", "motor": "f_applied", "desired": "f_env"}
+
+
+def signals_of(trace: Trace, axis: int) -> dict[str, NDArray[np.float64]]:
+    """Return the signals of a recording that a trace has."""
+    found = {
+        key: np.array(trace.axis(column, axis), dtype=float)
+        for key, column in OF_TRACE.items()
+        if column in trace
+    }
+    if "est.weight" in trace:
+        predicted, weight = (trace.axis(f"est.{name}", axis) for name in ("x_act", "weight"))
+        found |= where_met(found["x"], predicted, weight)
+    return found
+
+
+def where_met(
+    x: NDArray[np.float64], predicted: NDArray[np.float64], weight: NDArray[np.float64]
+) -> dict[str, NDArray[np.float64]]:
+    """Return the signal `met` of a loop with a state observer; none where it was never trusted."""
+    return {"met": x + weight * (predicted - x)} if weight.any() else {}
 
 
 def trace_facts(trace: Trace, axis: int) -> dict[str, Any]:
