@@ -15,7 +15,7 @@ from ebac.identify.fit import fitted
 from ebac.identify.guess import regression, solve
 from ebac.identify.informativeness import FASTEST
 from ebac.identify.intervals import Z95
-from ebac.identify.parameters import BEFORE_LEVELS, kind, lay_out
+from ebac.identify.parameters import BEFORE_LEVELS, Parameters, kind, lay_out
 from ebac.identify.problem import Problem
 from ebac.identify.recording import Recording, require_recordings
 from ebac.identify.response import guess_by_response
@@ -96,7 +96,7 @@ def fit_arm(
         free=free,
         own=own,
     )
-    problem = Problem(recordings=tuple(recordings), targets=tuple(targets), parameters=parameters)
+    problem = _without_pauses(recordings, targets, parameters)
     result = _searched(problem, starts, robust, seed, began)
     if starts < AGAIN and (_partly_determined(result) or _too_fast(result)):
         result = _searched(problem, AGAIN, robust, seed, began)
@@ -105,6 +105,31 @@ def fit_arm(
         other = _searched(turned, starts, robust, seed, began)
         result = replace(result, other_sign=other.explained)
     return result
+
+
+def _without_pauses(
+    recordings: Sequence[Recording], targets: Sequence[Target], parameters: Parameters
+) -> Problem:
+    """Return the problem of all stretches between pauses; those of a recording share all of its parameters."""
+    parts: list[Recording] = []
+    wanted: list[Target] = []
+    places: list[NDArray[np.intp]] = []
+    for r, target, place in zip(recordings, targets, parameters.places, strict=True):
+        if len(r.stretches) == 1:
+            parts.append(r)
+            wanted.append(target)
+            places.append(place)
+            continue
+        for i, rows in enumerate(r.stretches, 1):
+            cut, levels = target.cut(r, rows)
+            parts.append(replace(r.rows(rows), name=f"{r.name} ({i} of {len(r.stretches)})"))
+            wanted.append(cut)
+            places.append(np.append(place[:BEFORE_LEVELS], place[BEFORE_LEVELS:][list(levels)]))
+    return Problem(
+        recordings=tuple(parts),
+        targets=tuple(wanted),
+        parameters=replace(parameters, places=tuple(places)),
+    )
 
 
 def _searched(
@@ -174,10 +199,11 @@ def _check(
 
 
 def better_guess(problem: Problem) -> Values:
-    """Return the likelier one of two guesses: by regression over time, and by the spectra of the first recording."""
+    """Return the likelier one of two guesses: by regression over time, and by the spectra of the longest recording."""
     by_time = first_guess(problem)
-    place = problem.parameters.places[0]
-    recording, target = problem.recordings[0], problem.targets[0]
+    first = int(np.argmax([len(r.t) for r in problem.recordings]))
+    place = problem.parameters.places[first]
+    recording, target = problem.recordings[first], problem.targets[first]
     try:
         found = guess_by_response(recording, target, by_time[place[BEFORE_LEVELS:]])
     except ValueError:  # too short for spectra
@@ -187,7 +213,7 @@ def better_guess(problem: Problem) -> Values:
     other = by_time.copy()
     other[place[:3]] = found
     other = problem.parameters.clip(other)
-    noise, record = float(problem.shown[0]), problem.records[0]
+    noise, record = float(problem.shown[first]), problem.records[first]
     costs = [minus_two_log(record, g[place], g[place], noise) for g in (by_time, other)]
     return other if costs[1] < costs[0] else by_time
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,7 +12,15 @@ from ebac._core import ArmRecord
 from ebac.identify.parameters import BOUNDS, Parameters
 from ebac.identify.problem import Problem
 from ebac.identify.recording import Recording
-from ebac.identify.signals import by_place, kernels, readings, rough, smoothed, stair
+from ebac.identify.signals import (
+    by_place,
+    kernels,
+    readings,
+    rough,
+    smoothed,
+    stair,
+    unknown_force,
+)
 from ebac.identify.target import Target
 
 Values = NDArray[np.float64]
@@ -67,40 +76,49 @@ def driven(r: Recording, current_lag: float) -> Drive:
         )
     if r.force is None:
         r = replace(r, lag=0.0)
+    edge = kernels(r.dt).shape[1] // 2
+    slow = max(SLOWEST, COUNTS * r.count / (0.5 * edge * r.dt))
+    parts = [_stretch(r.rows(rows), current_lag, edge, slow) for rows in r.stretches]
+    found = {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
+    slides, sign = found["slides"], found["sign"]
+    if slides.sum() < LEAST_SLIDING:
+        raise ValueError(
+            f"{r.name}: slides in {slides.sum()} rows only, faster than {1e3 * slow:.2g} mm/s; needs {LEAST_SLIDING}"
+        )
+    if not ((sign > 0).any() and (sign < 0).any()):
+        raise ValueError(f"{r.name}: moves one way only; friction shows when it moves both ways")
+    return Drive(recording=r, **found)
+
+
+def _stretch(r: Recording, current_lag: float, edge: int, slow: float) -> dict[str, Any]:
+    """Return the columns of a `Drive` between two pauses: at their ends friction is whatever it has to be."""
     force, beyond = np.zeros(len(r.t)), np.zeros(len(r.t))
     if r.motor is not None:
         force, beyond = stair(r.motor, r.dt, current_lag, r.lag)
     if r.force is not None:
         force = force - r.force
     h = kernels(r.dt)
-    edge = h.shape[1] // 2
 
-    def whole(values: Values) -> Values:
-        return np.pad(values, edge, mode="edge")
+    def whole(values: Values, kernel: Values) -> Values:
+        if len(values) < len(kernel):
+            return np.zeros(len(values))
+        return np.pad(smoothed(values, kernel), edge, mode="edge")
 
-    velocity, acceleration = whole(smoothed(r.x, h[1])), whole(smoothed(r.x, h[2]))
-    slow = max(SLOWEST, COUNTS * r.count / (0.5 * edge * r.dt))
+    velocity = whole(r.x, h[1])
     sign = np.where(np.abs(velocity) > slow, np.sign(velocity), 0.0)
     width = 2 * max(1, round(AROUND / r.dt)) + 1
-    steady = np.convolve(sign, np.ones(width), mode="same")
+    steady = np.convolve(sign, np.ones(width), mode="same")[: len(r.t)]
     slides = np.abs(steady) > width - 0.5
     slides[:edge] = slides[-edge:] = False
-    if slides.sum() < LEAST_SLIDING:
-        raise ValueError(
-            f"{r.name}: slides in {slides.sum()} rows only, faster than {1e3 * slow:.2g} mm/s; needs {LEAST_SLIDING}"
-        )
-    if not ((sign[slides] > 0).any() and (sign[slides] < 0).any()):
-        raise ValueError(f"{r.name}: moves one way only; friction shows when it moves both ways")
-    return Drive(
-        recording=r,
-        force=force,
-        beyond=beyond,
-        slides=slides,
-        sign=np.where(slides, np.sign(sign), 0.0),
-        velocity=velocity,
-        acceleration=acceleration,
-        smooth_force=whole(smoothed(force, h[0])),
-    )
+    return {
+        "force": force,
+        "beyond": beyond,
+        "slides": slides,
+        "sign": np.where(slides, np.sign(sign), 0.0),
+        "velocity": velocity,
+        "acceleration": whole(r.x, h[2]),
+        "smooth_force": whole(force, h[0]),
+    }
 
 
 def columns_of(drive: Drive, speed: float | None) -> Values:
@@ -188,13 +206,14 @@ def _record(drive: Drive, speed: float | None, r: Recording, noise: Values | Non
         inputs.append(ahead * falls)
     largest = float(np.abs(r.force).max()) + 1e-9
     still = np.zeros(n)
+    missed = np.maximum(jumps(drive.recording), unknown_force(r))
     return ArmRecord(
         x=(read.x if noise is None else still).tolist(),
         force=(r.force if noise is None else noise).tolist(),
         variance=np.where(drive.slides, read.variance, np.inf).tolist(),
         early=read.early.tolist(),
         known=still.tolist(),
-        doubt=np.where(drive.slides, jumps(drive.recording), WHATEVER * largest).tolist(),
+        doubt=np.where(drive.slides, missed, WHATEVER * largest).tolist(),
         inputs=[(values if noise is None else still).tolist() for values in inputs],
         switches=[],
         segments=[0],

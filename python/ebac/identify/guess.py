@@ -146,6 +146,7 @@ def instruments(recording: Recording, target: Target, taps: int) -> NDArray[np.f
     dt = recording.dt
     h = kernels(dt)[0]
     delays = np.round(np.arange(0, MEMORY, max(SPACING, dt)) / dt).astype(int)
+    delays = delays[delays < path.shape[1]]
     columns = [np.ones(len(recording.t) - taps + 1)]
     for row in path:
         for delay in delays:

@@ -15,7 +15,7 @@ from ebac.identify.intervals import Z95
 from ebac.identify.parameters import Parameters, kind
 from ebac.identify.recording import Recording, require_recordings
 from ebac.identify.response import Densities, densities
-from ebac.identify.target import Target
+from ebac.identify.target import Target, longest
 
 Values = NDArray[np.float64]
 
@@ -118,7 +118,7 @@ def check_log(
     for name in ask:
         if name not in ASKED:
             raise ValueError(unknown(f"parameter {name}", name, list(ASKED)))
-    target = target or Target.held()
+    recording, target = longest(recording, target or Target.held())
     guess, _ = solve([regression(recording, target)])
     found = densities(recording, target, guess[3:])
     hand = np.asarray(guess[:3])

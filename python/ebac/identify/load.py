@@ -29,6 +29,7 @@ from ebac.identify.recording import (
     trace_facts,
     where_met,
 )
+from ebac.identify.rows import on_rows
 from ebac.trace import Trace
 
 
@@ -56,15 +57,15 @@ def load(
     units : mapping, optional
         Unit of each, as `{"x": "mm"}`; otherwise that of the heading, `pos [mm]`, or SI.
     rate : float, optional
-        Rows per second [Hz], for a file without time.
+        Rows per second [Hz], for a file without time, or one whose times are wrong: they are not used then.
     lag : float, optional
         Lag of the force sensor [s]; default: of the scenario of a trace, else 0.
     current_lag : float, optional
         Lag of the motor's current loop [s]; default: of the scenario of a trace, else 0.3 ms.
     count : float, optional
-        Step of the encoder at the handle [m]; default: found in the position.
+        Step of the encoder at the handle [m], 0 for none; default: found in the position.
     axis : int
-        Which axis of a trace.
+        Which axis of a trace; other files have one.
     flip_force : bool
         Whether the force of the hand is logged with the other sign: positive where the handle pushes the hand to +x.
 
@@ -77,7 +78,8 @@ def load(
     FileNotFoundError
         When there is no such file.
     ValueError
-        When it cannot be read, a column is missing, is no number, or a unit is unknown.
+        When it cannot be read, a column is missing, is no number, or a unit is unknown; for an option that this file
+        has no use for.
     """
     path = Path(path)
     if not path.exists():
@@ -86,8 +88,11 @@ def load(
         raise ValueError(f"{path.name}: is a folder; give a file in it")
     trace, origin, wrong = _trace(path)
     if trace is not None and not columns:
+        _refuse_unused(path.name, rate=rate, units=units or None)
         found = _of_trace(trace, path.name, axis, wrong)
     else:
+        if trace is None:
+            _refuse_unused(path.name, axis=axis or None)
         raw = _flat(trace) if trace is not None else read_columns(path)
         found = _recording(path.name, raw, columns or {}, units or {}, rate)
         if trace is not None:
@@ -96,8 +101,34 @@ def load(
     for name, value in (("lag", lag), ("current_lag", current_lag), ("count", count)):
         if value is not None:
             changes[name] = value
+    if count:
+        _in_steps(found, count)
     found = replace(found, **changes)
     return found.flipped() if flip_force else found
+
+
+#: Options that not every file has a use for, and why not.
+UNUSED = {
+    "rate": "the log has times of its own",
+    "units": "the log names its units",
+    "axis": "the file has one axis; name its columns instead: columns={...} or --column x=NAME",
+}
+
+
+def _refuse_unused(name: str, **given: object) -> None:
+    for option, value in given.items():
+        if value is not None:
+            raise ValueError(f"{name}: {option} = {value}: {UNUSED[option]}")
+
+
+def _in_steps(r: Recording, count: float) -> None:
+    """Refuse a count [m] that is none of a position."""
+    read = r.x if r.known is None else r.x[r.known]
+    steps = np.diff(read) / count
+    if (np.abs(steps - np.round(steps)) < 0.1).mean() < 0.95:
+        shown = count_of(read)
+        what = f"it shows steps of {shown:.6g} m" if shown else "it shows none"
+        raise ValueError(f"{r.name}: count = {count:g} m: x does not move in such steps; {what}")
 
 
 def _trace(path: Path) -> tuple[Trace | None, str, list[str]]:
@@ -130,8 +161,10 @@ def _of_trace(trace: Trace, name: str, axis: int, wrong: list[str]) -> Recording
     if len(t) > 1 and (step > 0).all() and np.ptp(step) <= 1e-3 * float(np.median(step)):
         found = Recording.from_trace(trace, axis=axis, name=name)
         return replace(found, remarks=(*found.remarks, *wrong))
-    even = _evenly(name, {"t": t, **signals_of(trace, axis)}, wrong)
+    signals = signals_of(trace, axis)
+    even = _evenly(name, {"t": t, **signals}, wrong)
     facts = trace_facts(trace, axis)
+    facts["count"] = facts["count"] or count_of(signals["x"])
     values: dict[str, Any] = dict(even)
     return Recording(name=name, remarks=(*facts.pop("remarks"), *wrong), **facts, **values)
 
@@ -163,6 +196,10 @@ def _recording(
         raise ValueError(
             f"{name}: found no position among {', '.join(raw)}; which is it? columns={{'x': ...}} or --column x=NAME"
         )
+    if rate is not None and "t" in signals:
+        signals.pop("t")
+        remarks = [text for text in remarks if not text.startswith("t: ")]
+        remarks.append(f"t: {rate:g} rows a second as asked, column {chosen['t']!r} is not used")
     if "t" not in signals:
         if rate is None:
             raise ValueError(f"{name}: has no time; say how many rows a second: rate=... or --rate")
@@ -172,7 +209,7 @@ def _recording(
         signals |= where_met(signals["x"], ours["est.x_act"], ours["est.weight"])
     even: dict[str, Any] = dict(_evenly(name, signals, remarks))
     _plausible(name, even)
-    found = count_of(even["x"])
+    found = count_of(signals["x"])  # of the readings, before anything is put between them
     remarks.append(
         f"encoder step of {1e3 * found:.4g} mm found in x" if found else "x shows no encoder step"
     )
@@ -188,7 +225,7 @@ SLOWEST = 0.1
 
 def _plausible(name: str, signals: Columns) -> None:
     """Refuse numbers in a wrong unit, as far as that shows, and a force that never changes."""
-    dt, reach = float(np.diff(signals["t"]).mean()), float(np.ptp(signals["x"]))
+    dt, reach = float(np.median(np.diff(signals["t"]))), float(np.ptp(signals["x"]))
     if len(signals["t"]) >= LEAST_ROWS and reach > 0 and dt > SLOWEST:
         raise ValueError(
             f"{name}: rows are {dt:.4g} s apart, {SLOWEST:g} s at most resolve a hand: is the unit of t right? "
@@ -216,7 +253,7 @@ def _plausible(name: str, signals: Columns) -> None:
 
 
 def _evenly(name: str, signals: Columns, remarks: list[str]) -> Columns:
-    """Return the signals on equal time steps; jittered rows are interpolated, with a remark."""
+    """Return the signals on rows of equal time steps, see `on_rows`; a log that cannot be is refused."""
     t = signals["t"]
     for key, values in signals.items():
         wrong = np.flatnonzero(~np.isfinite(values))
@@ -231,13 +268,4 @@ def _evenly(name: str, signals: Columns, remarks: list[str]) -> Columns:
         raise ValueError(
             f"{name}: t does not rise in row {where}; sort the log by time, or give times with more digits"
         )
-    dt = float(np.median(step))
-    if np.ptp(step) <= 1e-3 * dt:
-        return signals
-    even = np.arange(t[0], t[-1] + 0.5 * dt, dt)
-    even = even[even <= t[-1]]
-    worst = float(np.abs(step - dt).max())
-    remarks.append(
-        f"time steps differ by up to {1e3 * worst:.3g} ms from {1e3 * dt:.4g} ms: put on equal steps"
-    )
-    return {key: even if key == "t" else np.interp(even, t, v) for key, v in signals.items()}
+    return on_rows(name, signals, remarks)

@@ -95,7 +95,7 @@ def fit_loop(
     """
     require_recordings(recordings, "fit_loop")
     result = fit_arm(recordings, targets, **arm)
-    first = result.recordings[0]
+    first = recordings if isinstance(recordings, Recording) else recordings[0]
     remarks: list[str] = []
     found = _device_of(first, remarks)
     known = _merged(device or Device(), found, first, remarks)

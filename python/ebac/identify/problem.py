@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from ebac._core import ArmGains, ArmRecord
 from ebac.identify.parameters import INPUTS, STEPS, Parameters, kind
 from ebac.identify.recording import Recording
-from ebac.identify.signals import Fold, by_target, readings, ripple, rough
+from ebac.identify.signals import Fold, by_target, readings, ripple, rough, unknown_force
 from ebac.identify.target import Target
 
 #: Steps of the differences, as a share of a value.
@@ -230,7 +230,7 @@ def arm_record(
         variance=read.variance.tolist(),
         early=read.early.tolist(),
         known=known.tolist(),
-        doubt=np.zeros(len(read.x)).tolist(),
+        doubt=unknown_force(recording).tolist(),
         inputs=[(ripple(recording) if noise is None else np.zeros(len(read.x))).tolist()],
         switches=[s - t0 for s in target.switches],
         segments=list(target.segments),

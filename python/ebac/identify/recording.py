@@ -1,8 +1,10 @@
-"""A recording: the signals of one axis of a log, in SI units, at a constant time step."""
+"""A recording: the signals of one axis of a log, in SI units, on rows of a constant time step."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
+from functools import cached_property
+from itertools import pairwise
 from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
@@ -17,19 +19,21 @@ if TYPE_CHECKING:
 
 #: Fewer rows contain nothing about a hand.
 LEAST_ROWS = 50
+#: A longer step between two rows is a pause [rows].
+PAUSE = 1.5
 
 
 @plain_constructor
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Recording:
-    """Position and forces of one axis over time, equally spaced.
+    """Position and forces of one axis over time, on equally spaced rows that may pause.
 
     Parameters
     ----------
     name : str
         For messages and tables.
     t : array, shape (rows,)
-        Time [s], equally spaced.
+        Time [s], equally spaced but for pauses, which are longer steps.
     x : array, shape (rows,)
         Position of the handle [m].
     force : array, shape (rows,), or None
@@ -43,6 +47,10 @@ class Recording:
         `x`.
     target : array, shape (rows,), or None
         Instructed position of the hand [m], when that was recorded.
+    early : array, shape (rows,), or None
+        How long before the time of its row each position was read [s]; None: at that time.
+    known : array of bool, shape (rows,), or None
+        Which rows were recorded; the others bridge a few lost ones. None: all of them.
     count : float
         Step of the position [m]; 0 when it has none.
     lag : float
@@ -70,6 +78,8 @@ class Recording:
     desired: NDArray[np.float64] | None = None
     met: NDArray[np.float64] | None = None
     target: NDArray[np.float64] | None = None
+    early: NDArray[np.float64] | None = None
+    known: NDArray[np.bool_] | None = None
     count: float = 0.0
     lag: float = 0.0
     current_lag: float = 3e-4
@@ -82,7 +92,7 @@ class Recording:
         n = len(self.t)
         if n < LEAST_ROWS:
             raise ValueError(f"{self.name}: {n} rows; needs at least {LEAST_ROWS}")
-        for name, values in self.channels().items():
+        for name, values in self._columns().items():
             if values.shape != (n,):
                 raise ValueError(
                     f"{self.name}: {name} has the shape {values.shape}, t has ({n},); give one value a row"
@@ -98,7 +108,8 @@ class Recording:
             raise ValueError(
                 f"{self.name}: t does not rise in row {int(np.argmin(step > 0)) + 1}; sort the log by time"
             )
-        if np.ptp(step) > 1e-3 * self.dt:
+        within = step[step < PAUSE * self.dt]
+        if np.ptp(within) > 1e-3 * self.dt:
             raise ValueError(
                 f"{self.name}: t is not equally spaced; read it with ebac.identify.load"
             )
@@ -112,10 +123,14 @@ class Recording:
                     f"{self.name}: {name} = {getattr(self, name):g} s: must lie in [0, 0.1] s"
                 )
 
-    @property
+    @cached_property
     def dt(self) -> float:
         """Time step [s]."""
-        return float(self.t[-1] - self.t[0]) / (len(self.t) - 1)
+        steps = np.diff(self.t)
+        within = steps < PAUSE * np.median(steps)
+        if within.all():
+            return float(self.t[-1] - self.t[0]) / (len(self.t) - 1)
+        return float(steps[within].mean())
 
     @property
     def seconds(self) -> float:
@@ -135,11 +150,31 @@ class Recording:
         }
         return {name: values for name, values in every.items() if values is not None}
 
+    def _columns(self) -> dict[str, NDArray[Any]]:
+        """Return everything that has one value a row, by name."""
+        more = {"early": self.early, "known": self.known}
+        return self.channels() | {n: v for n, v in more.items() if v is not None}
+
+    def rows(self, part: slice) -> Self:
+        """Return some rows of it."""
+        cut: dict[str, Any] = {name: values[part] for name, values in self._columns().items()}
+        return replace(self, **cut)
+
+    @cached_property
+    def stretches(self) -> tuple[slice, ...]:
+        """The rows between pauses."""
+        ends = np.flatnonzero(np.diff(self.t) > PAUSE * self.dt) + 1
+        edges = [0, *ends.tolist(), len(self.t)]
+        return tuple(slice(a, b) for a, b in pairwise(edges))
+
+    @property
+    def longest(self) -> Self:
+        """The longest stretch between two pauses."""
+        return self.rows(max(self.stretches, key=lambda part: part.stop - part.start))
+
     def between(self, start: float, stop: float) -> Self:
         """Return the rows with start <= t < stop [s]."""
-        part = slice(*(int(np.searchsorted(self.t, t)) for t in (start, stop)))
-        cut: dict[str, Any] = {name: values[part] for name, values in self.channels().items()}
-        return replace(self, **cut)
+        return self.rows(slice(*(int(np.searchsorted(self.t, t)) for t in (start, stop))))
 
     def flipped(self) -> Self:
         """Return the same with the force of the hand of the other sign."""

@@ -155,7 +155,7 @@ def frequency_response(
     Parameters
     ----------
     recording : Recording
-        With position and force of the hand.
+        With position and force of the hand; where it pauses, its longest stretch is taken.
     target : Target, optional
         Where the hand wanted to be; default: held in one place.
     levels : array, optional
@@ -171,9 +171,12 @@ def frequency_response(
     """
     require_recordings(recording, "frequency_response")
     target = target or Target.held()
-    found = densities(
-        recording, target, np.zeros(target.levels) if levels is None else np.asarray(levels)
-    )
+    levels = np.zeros(target.levels) if levels is None else np.asarray(levels)
+    if len(recording.stretches) > 1:
+        part = max(recording.stretches, key=lambda rows: rows.stop - rows.start)
+        target, used = target.cut(recording, part)
+        recording, levels = recording.rows(part), levels[list(used)]
+    found = densities(recording, target, levels)
     d, tiny = found.density, 1e-300
     xx = d[0, 0].real
     xf = d[0, 2] + stiffness * d[0, 3]  # -F + K0 X0 = Z x

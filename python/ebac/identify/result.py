@@ -16,12 +16,13 @@ from ebac.identify.intervals import Z95
 from ebac.identify.parameters import BEFORE_LEVELS, OWN, Parameters, kind
 from ebac.identify.problem import Problem, arm_record
 from ebac.identify.recording import Recording
-from ebac.identify.target import Target
+from ebac.identify.target import Target, longest
 from ebac.identify.validation import (
     Prediction,
     ResidualTests,
     best_levels,
     best_start,
+    enough,
     judge,
     residual_tests,
 )
@@ -159,12 +160,14 @@ class ArmResult:
 
     @cached_property
     def tests(self) -> dict[str, ResidualTests]:
-        """Whiteness and independence of the errors, by recording."""
+        """Whiteness and independence of the errors, by recording; of several, those with enough readings."""
         out, start = {}, 0
         for r in self.recordings:
             assert r.force is not None
-            out[r.name] = residual_tests(self.errors[start : start + len(r.t)], r.force)
+            errors = self.errors[start : start + len(r.t)]
             start += len(r.t)
+            if enough(errors) or len(self.recordings) == 1:
+                out[r.name] = residual_tests(errors, r.force)
         return out
 
     @cached_property
@@ -216,7 +219,7 @@ class ArmResult:
         rows = []
         for i, r in enumerate(self.recordings):
             rows.append(judge(r, self.simulated(i), held=False))
-        for r, target in held_out:
+        for r, target in (longest(*pair) for pair in held_out):
             record = arm_record(r, target)
             hand = self.values[self.parameters.places[0]][:4]
             base = np.concatenate([hand, np.zeros(len(OWN) + target.levels)])

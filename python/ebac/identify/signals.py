@@ -49,28 +49,53 @@ def readings(recording: Recording) -> Readings:
     would all lie ahead of the handle.
     """
     x, count, dt = recording.x, recording.count, recording.dt
-    early = np.zeros(len(x))
+    early = np.zeros(len(x)) if recording.early is None else recording.early.copy()
+    rows = np.arange(len(x)) if recording.known is None else np.flatnonzero(recording.known)
+    variance, position = np.full(len(x), np.inf), x.copy()
     if count <= 0:
         floor = 1e-6 * float(np.ptp(x))
-        return Readings(x=x, variance=np.full(len(x), max(rough(x), floor) ** 2), early=early)
-    step = np.abs(np.diff(x, prepend=x[0])) / count
-    changed = np.flatnonzero(step > 0.5)
-    variance, position = np.full(len(x), np.inf), x.copy()
-    fast = np.abs(speed(x, dt)) * dt > FAST * count
-    variance[fast] = count**2 / 12
-    ends = np.concatenate([[0], changed, [len(x)]])
+        variance[rows] = max(rough(x), floor) ** 2
+        return Readings(x=x, variance=variance, early=early)
+    value, at = x[rows], rows * dt - early[rows]
+    since = np.diff(at, prepend=at[0] - dt)  # s, from the reading before
+    changed = np.flatnonzero(np.abs(np.diff(value, prepend=value[0])) > 0.5 * count)
+    fast = np.abs(speed(x, dt))[rows] * dt > FAST * count
+    plain = fast.copy()
+    plain[changed] |= since[changed] > 1.5 * dt  # the edge may be any of the lost rows
+    variance[rows[plain]] = count**2 / 12
+    ends = np.concatenate([[0], changed, [len(rows)]])
     runs = np.diff(ends)
-    rows = np.minimum(runs[:-1], runs[1:])  # that a count lasts, before or after
-    slow = ~fast[changed]
+    lasts = np.minimum(runs[:-1], runs[1:])  # rows that a count lasts, before or after
+    slow = ~plain[changed]
     edge = changed[slow]
-    position[edge] = 0.5 * (x[edge] + x[edge - 1])
-    early[edge] = 0.5 * dt
-    travel = count / np.maximum(rows[slow], 1)  # m, in the tick
-    variance[edge] = travel**2 / 12 + (0.02 * count) ** 2
+    position[rows[edge]] = 0.5 * (value[edge] + value[edge - 1])
+    early[rows[edge]] += 0.5 * since[edge]
+    travel = count / np.maximum(lasts[slow], 1) * since[edge] / dt  # m, in the tick
+    variance[rows[edge]] = travel**2 / 12 + (0.02 * count) ** 2
     for first, last in pairwise(ends.tolist()):
         if last - first > REST:
-            variance[(first + last) // 2] = count**2 / 12
+            variance[rows[(first + last) // 2]] = count**2 / 12
     return Readings(x=position, variance=variance, early=early)
+
+
+def unknown_force(recording: Recording) -> NDArray[np.float64]:
+    """Return the standard deviation of the force that bridges lost rows [N], for each row; 0 where it was recorded.
+
+    What a straight line over as many rows misses elsewhere in the log, all of them the same way.
+    """
+    out = np.zeros(len(recording.t))
+    if recording.known is None or recording.known.all() or recording.force is None:
+        return out
+    force = recording.force
+    steps = np.diff(np.concatenate([[0], ~recording.known, [0]]).astype(int))
+    for first, last in zip(np.flatnonzero(steps > 0), np.flatnonzero(steps < 0), strict=True):
+        lost = int(last - first)
+        middle = (lost + 1) // 2
+        share = middle / (lost + 1)
+        line = (1 - share) * force[: -lost - 1] + share * force[lost + 1 :]
+        missed = force[middle : middle + len(line)] - line
+        out[first - 1 : last] = np.sqrt(np.mean(missed**2) * lost)
+    return out
 
 
 def speed(x: NDArray[np.float64], dt: float) -> NDArray[np.float64]:

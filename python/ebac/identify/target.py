@@ -55,6 +55,17 @@ class Target:
         """Return the same with every switch later by some time [s]."""
         return replace(self, switches=tuple(at + seconds for at in self.switches))
 
+    def cut(self, recording: Recording, part: slice) -> tuple[Target, tuple[int, ...]]:
+        """Return the target over some rows of a recording, and which of the levels it has there."""
+        start, end = float(recording.t[part.start]), float(recording.t[part.stop - 1])
+        passed = sum(at <= start for at in self.switches)
+        inside = tuple(at for at in self.switches if start < at < end)
+        segments = self.segments[passed : passed + len(inside) + 1]
+        used = tuple(sorted(set(segments)))
+        path = None if self.path is None else self.path[part]
+        numbers = tuple(used.index(level) for level in segments)
+        return Target(switches=inside, segments=numbers, path=path), used
+
     @classmethod
     def held(cls) -> Target:
         """One place, all the time."""
@@ -105,6 +116,14 @@ class Target:
             at = tuple(s for s in (ticks * dt).tolist() if s < end - 0.5 * dt)
             return cls(switches=at, segments=taps.segments[: len(at) + 1])
         return cls.following(_positions(path, t))
+
+
+def longest(recording: Recording, target: Target) -> tuple[Recording, Target]:
+    """Return the longest stretch of a recording between two pauses, and the target there."""
+    if len(recording.stretches) == 1:
+        return recording, target
+    part = max(recording.stretches, key=lambda rows: rows.stop - rows.start)
+    return recording.rows(part), target.cut(recording, part)[0]
 
 
 def in_words(path: Path) -> str:

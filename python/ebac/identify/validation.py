@@ -43,12 +43,19 @@ class ResidualTests:
         return self.independence_p > 0.01 or float(np.abs(self.cross).max()) < 0.1
 
 
+#: Rows in which the filter settles, and how many must be left.
+SETTLING, LEAST_READINGS = 5, 8
+
+
+def enough(errors: NDArray[np.float64]) -> bool:
+    """Return whether errors, shape (rows,), are enough to be tested."""
+    return int(np.count_nonzero(errors)) - SETTLING >= LEAST_READINGS
+
+
 def residual_tests(errors: NDArray[np.float64], force: NDArray[np.float64]) -> ResidualTests:
     """Test the errors of one recording, shape (rows,), against themselves and the force [N]."""
-    informative = np.flatnonzero(errors)[
-        5:
-    ]  # rows with a reading, but for those in which the filter settles
-    if informative.size < 8:
+    informative = np.flatnonzero(errors)[SETTLING:]  # rows with a reading
+    if not enough(errors):
         raise ValueError(f"{informative.size} readings with information: too few to test errors on")
     e = errors[informative] - errors[informative].mean()
     u = np.diff(force[informative], prepend=force[informative[0]])

@@ -151,7 +151,12 @@ class Reading:
         list[str] | None, _log("SIGNAL=UNIT, as x=mm; repeat it.", "from the heading, else SI")
     ] = None
     rate: Annotated[
-        float | None, _log("Rows per second [Hz], for a log without time.", min=0.1, max=1e6)
+        float | None,
+        _log("Rows per second [Hz], for a log without time or with wrong ones.", min=0.1, max=1e6),
+    ] = None
+    count: Annotated[
+        float | None,
+        _log("Step of the encoder at the handle [m], 0 for none.", "found in x", min=0, max=0.01),
     ] = None
     lag: Annotated[
         float | None, _log("Lag of the force sensor [s].", "of the trace, else 0", min=0, max=1)
@@ -184,6 +189,7 @@ class Reading:
             rate=self.rate,
             lag=self.lag,
             current_lag=self.current_lag,
+            count=self.count,
             axis=self.axis,
             flip_force=self.flip_force,
         )
