@@ -48,6 +48,8 @@ void bind_fault(py::module_& m) {
       .value("OVERRUNS", Fault::kOverruns)
       .value("FORCE_ERROR", Fault::kForceError)
       .value("STARVED", Fault::kStarved)
+      .value("TORQUE_MISMATCH", Fault::kTorqueMismatch)
+      .value("SECOND_MASTER", Fault::kSecondMaster)
       .finalize();
 }
 

@@ -339,6 +339,98 @@ INSTANTIATE_TEST_SUITE_P(
         InjectedFault{"interface gone", [](TestBench& d) { d.bus.now = BusState::kDown; },
                       Fault::kBusDown, 1}));
 
+/// Ticks until a torque is found that is not the loop's, or 100; `asked` A in tick `i`.
+template <class Asked>
+int until_mismatch(TestBench& bench, Asked asked) {
+  int n = 1;
+  while (n < 100 && bench.tick(asked(n), 0).fault == Fault::kNone) ++n;
+  return n;
+}
+
+TEST(Torque, ThatWasNotCommandedIsAFault) {
+  const auto found_after = [](int offset, int factor, double asked) {
+    TestBench bench;
+    bench.enable();
+    bench.ticks(5);
+    bench.drives.drive[0].offset = offset;
+    bench.drives.drive[0].factor = factor;
+    const int n = until_mismatch(bench, [&](int) { return asked; });
+    if (n < 100) {
+      EXPECT_EQ(bench.device.fault(), Fault::kTorqueMismatch);
+      bench.tick(asked, 0);
+      EXPECT_EQ(bench.row().target_permille, 0);
+    }
+    return n;
+  };
+  EXPECT_EQ(found_after(0, 1, 3.0), 100);
+  EXPECT_EQ(found_after(4000, 1, 0), 11) << "an offset: the drive gives it one tick late";
+  EXPECT_EQ(found_after(-150, 1, 0), 11);
+  EXPECT_EQ(found_after(0, -1, 1.0), 11) << "the other sign";
+  EXPECT_EQ(found_after(0, 2, 1.0), 11) << "another scale";
+  EXPECT_EQ(found_after(0, 0, 3.0), 100) << "a drive that holds its torque back limits it";
+  EXPECT_EQ(found_after(90, 1, 0), 100) << "noise of a current sensor";
+}
+
+TEST(Torque, MayLagAndBeNoisyButNotBeAnothersInEverySecondTick) {
+  // Contact that chatters from end to end at every period, behind a lag of up to eight ticks.
+  for (const int period : {2, 3, 7, 20}) {
+    for (const int lag : {0, 1, 4, 8}) {
+      TestBench bench;
+      bench.enable();
+      bench.drives.drive[0].factor = 0;  // what the drive gives is told below
+      std::vector<int> asked(16, 0);
+      for (int i = 0; i < 300; ++i) {
+        const int torque = i % period < period / 2 + 1 ? 4000 : -4000;
+        asked.push_back(torque);
+        const auto late = asked[asked.size() - 2 - static_cast<std::size_t>(lag)];
+        bench.drives.drive[0].offset = late;
+        ASSERT_EQ(bench.tick(torque * one(), 0).fault, Fault::kNone) << period << ' ' << lag;
+      }
+    }
+  }
+  TestBench bench;
+  bench.enable();
+  int n = 0;
+  for (; n < 100 && bench.device.fault() == Fault::kNone; ++n) {
+    bench.drives.drive[0].offset = n % 2 == 0 ? 2000 : 0;
+    bench.tick(0, 0);
+  }
+  EXPECT_EQ(bench.device.fault(), Fault::kTorqueMismatch);
+  EXPECT_LT(n, 45);
+}
+
+TEST(Torque, IsComparedBeforeTheFirstCommandToo) {
+  TestBench bench;
+  bench.drives.drive[1].stuck = true;  // keeps the pair from being enabled
+  bench.drives.drive[0].offset = 1500;
+  bench.device.enable();
+  const int n = until_mismatch(bench, [](int) { return 0.0; });
+  EXPECT_LT(n, 20);
+  EXPECT_EQ(bench.device.fault(), Fault::kTorqueMismatch);
+}
+
+TEST(SecondMaster, IsFoundByTheFirstFrame) {
+  for (const Frame& stray : {frame(0x201, {0x0F, 0, 0xA0, 0x0F}), frame(0x202, {0x0F, 0, 0, 0}),
+                             frame(0x080, {}), frame(0x764, {5})}) {
+    TestBench bench({.axes = 2, .own_node = 100});
+    bench.bus.waiting.push_back(stray);
+    bench.tick();  // it is heard before the drives are enabled
+    bench.enable();
+    bench.bus.waiting.push_back(frame(0x181 + 2, {1}));  // of no concern
+    bench.bus.waiting.push_back(frame(0x201 + 2, {1}));
+    ASSERT_EQ(bench.tick(1, 1).fault, Fault::kNone);
+    Frame own = stray;
+    own.own = true;  // an echo of the loop's own
+    bench.bus.waiting.push_back(own);
+    ASSERT_EQ(bench.tick(1, 1).fault, Fault::kNone);
+    bench.bus.waiting.push_back(stray);
+    EXPECT_EQ(bench.tick(1, 1).fault, Fault::kSecondMaster) << stray.id;
+    bench.tick(1, 1);
+    EXPECT_EQ(bench.row(0).target_permille, 0);
+    EXPECT_EQ(bench.row(1).target_permille, 0);
+  }
+}
+
 TEST(Enabling, TellsWhyItDoesNotSucceed) {
   const CanopenSetup hasty{.axes = 2, .enable_ticks = 20};
   const auto outcome = [&](auto change) {

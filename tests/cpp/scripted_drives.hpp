@@ -50,6 +50,8 @@ struct ScriptedDrives {
     std::int16_t target = 0;
     std::int16_t actual = 0;
     std::int32_t position = 0;
+    int offset = 0;      // of the torque, as 0x60B2
+    int factor = 1;      // of the torque
     int copies = 1;      // of each answer
     bool stuck = false;  // stays in its state
   };
@@ -77,7 +79,8 @@ struct ScriptedDrives {
         for (int k = 0; k < one.copies; ++k) {
           bus->waiting.push_back(answer(node, one.statusword, one.position, one.actual));
         }
-        one.actual = one.statusword == 0x27 ? one.target : std::int16_t{0};
+        const int torque = one.factor * one.target + one.offset;
+        one.actual = static_cast<std::int16_t>(one.statusword == 0x27 ? torque : 0);
       }
     }
     syncs += frame.id == kSync ? 1 : 0;

@@ -114,7 +114,10 @@ def test_plan_apply_verify_restore(drive: Run, tmp_path: Path) -> None:
 def test_one_node_of_a_network_and_a_profile_of_ones_own(drive: Run, tmp_path: Path) -> None:
     assert {row["node"] for row in drive("plan", "-n", "2", "--json")["rows"]} == {2}
     mine = tmp_path / "mine.toml"
-    mine.write_text("[limits]\nrated_torque = 0.053\nmax_torque = 0.1\n", encoding="utf-8")
+    mine.write_text(
+        "[limits]\nrated_torque = 0.053\nmax_torque = 0.1\n[heartbeat]\nconsumer = 0.3\n",
+        encoding="utf-8",
+    )
     names = {row["name"] for row in drive("plan", str(mine), "-n", "1", "--json")["rows"]}
     assert "max_torque" in names
     assert "is a profile for any node: choose one with --node" in said(

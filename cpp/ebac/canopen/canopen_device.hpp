@@ -10,6 +10,7 @@
 #include "ebac/canopen/enable_sequence.hpp"
 #include "ebac/canopen/node_link.hpp"
 #include "ebac/canopen/torque.hpp"
+#include "ebac/canopen/torque_watch.hpp"
 #include "ebac/core/concepts.hpp"
 
 namespace ebac::can {
@@ -47,9 +48,12 @@ class CanopenDevice {
     send(command);
     collect();
     sequence_.tick();
-    for (NodeLink& link : links()) {
+    for (std::size_t i = 0; NodeLink& link : links()) {
       link.close();
       link.row().foreign = foreign_;
+      watch_[i].ask(link.row().target_permille);
+      if (link.answered()) watch_[i].answer(link.row().actual_permille);
+      ++i;
     }
     supervise();
     return reading();
@@ -57,8 +61,10 @@ class CanopenDevice {
 
   void enable() EBAC_RT {
     fault_ = Fault::kNone;
+    second_master_ = false;
     sequence_.want(EnableSequence::Goal::kRun);
     for (NodeLink& link : links()) link.start();
+    for (TorqueWatch& watch : watch_) watch.start();
   }
   /// Zero torque, then down the states one by one: the end of a good run.
   void disable() EBAC_RT {
@@ -138,8 +144,19 @@ class CanopenDevice {
       for (NodeLink& link : links()) {
         if (link.take(frame)) return;
       }
+      if (!frame.own && commands(frame)) second_master_ = true;
     }
     ++foreign_;
+  }
+
+  /// Whether only this loop may send this frame: SYNC, the torques, its heartbeat.
+  bool commands(const Frame& frame) const EBAC_RT {
+    if (frame.id == kSync) return true;
+    if (setup_.own_node != 0 && frame.id == heartbeat(static_cast<NodeId>(setup_.own_node))) {
+      return true;
+    }
+    return std::ranges::any_of(
+        links(), [&](const NodeLink& link) { return frame.id == rpdo(1, link.node()); });
   }
 
   void supervise() EBAC_RT {
@@ -152,11 +169,17 @@ class CanopenDevice {
       sequence_.run();
     }
     fault_ = down() ? Fault::kBusDown : Fault::kNone;
+    if (fault_ == Fault::kNone && second_master_) fault_ = Fault::kSecondMaster;
     for (const NodeLink& link : links()) {
       if (fault_ == Fault::kNone) fault_ = sequence_.running() ? lost(link) : not_enabled(link);
     }
+    for (std::size_t i = 0; i < links().size(); ++i) {
+      if (fault_ == Fault::kNone && watch_[i].differs()) fault_ = Fault::kTorqueMismatch;
+    }
     if (fault_ != Fault::kNone) stop();
   }
+
+  TorqueWatch watch() const EBAC_RT { return {setup_.torque_ticks, setup_.torque_tolerance}; }
 
   bool down() const EBAC_RT { return std::as_const(*bus_).state() >= BusState::kBusOff; }
 
@@ -198,8 +221,10 @@ class CanopenDevice {
   EnableSequence sequence_;
   std::array<NodeLink, kMaxAxes> link_{NodeLink(setup_.node[0]), NodeLink(setup_.node[1]),
                                        NodeLink(setup_.node[2])};
+  std::array<TorqueWatch, kMaxAxes> watch_{watch(), watch(), watch()};
   std::int64_t foreign_ = 0;
-  double since_beat_ = 0;  // s
+  bool second_master_ = false;  // heard since the drives were last enabled
+  double since_beat_ = 0;       // s
   Fault fault_ = Fault::kNone;
 };
 

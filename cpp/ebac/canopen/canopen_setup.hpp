@@ -3,6 +3,7 @@
 #include <array>
 
 #include "ebac/canopen/cob_id.hpp"
+#include "ebac/canopen/torque_watch.hpp"
 #include "ebac/core/fields.hpp"
 #include "ebac/model/motor.hpp"
 
@@ -16,6 +17,8 @@ struct CanopenSetup {
   Drive drive{};                               // for its limit
   int silent_ticks = 3;                        // samples
   int enable_ticks = 1000;                     // samples
+  int torque_ticks = 10;                       // samples
+  int torque_tolerance = 100;                  // thousandths of the rated torque
   double heartbeat_timeout = 0;                // s
   bool quick_stop = false;
   int own_node = 0;
@@ -29,6 +32,14 @@ struct CanopenSetup {
           "ticks in a row without process data, in either direction, that are a fault", 1, 1000},
         F{"enable_ticks", &CanopenSetup::enable_ticks, "samples",
           "ticks the drives may take to reach operation enabled", 1, 1e6},
+        F{"torque_ticks", &CanopenSetup::torque_ticks, "samples",
+          "lag a drive's torque may have behind the commanded one, and how long it may differ from "
+          "it before that is a fault",
+          1, TorqueWatch::kMostTicks},
+        F{"torque_tolerance", &CanopenSetup::torque_tolerance, "1",
+          "difference that is none, in thousandths of the rated torque, on top of a tenth of the "
+          "commanded torque",
+          1, 32767},
         F{"heartbeat_timeout", &CanopenSetup::heartbeat_timeout, "s",
           "longest time between two heartbeats of a node; 0 watches none", 0, 60},
         F{"quick_stop", &CanopenSetup::quick_stop, "1",

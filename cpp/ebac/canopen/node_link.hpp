@@ -116,6 +116,7 @@ class NodeLink {
     quiet_ = 0;
   }
 
+  NodeId node() const EBAC_RT { return node_; }
   int unsent() const EBAC_RT { return unsent_; }  // ticks in a row
   bool answered() const EBAC_RT { return answered_; }
   bool heard() const EBAC_RT { return heard_; }      // process data, ever

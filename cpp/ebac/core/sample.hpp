@@ -36,6 +36,8 @@ enum class Fault : std::uint32_t {
   kOverruns = 19,             // too many ticks in a row came too late
   kForceError = 20,           // the force sensor reports an error of its own
   kStarved = 21,              // the law's energy account has held its force back for too long
+  kTorqueMismatch = 22,       // a drive reports a torque that was not commanded
+  kSecondMaster = 23,         // another node sends frames that only the loop may send
 };
 
 /// Where a loop stands. Every way out of kRun is kStop; after it, kIdle or, latched, kFault.

@@ -34,6 +34,7 @@ from ebac.drives.objects import Object, find
 from ebac.drives.pdo import Pdo
 from ebac.drives.plan import Change, Plan, plan
 from ebac.drives.profile import Profile, builtin
+from ebac.drives.stall import check_stall, hold_time
 from ebac.drives.state import TRANSITIONS, Command, Controlword, State, Statusword, path
 
 __all__ = [
@@ -69,8 +70,10 @@ __all__ = [
     "apply",
     "builtin",
     "bus_load",
+    "check_stall",
     "find",
     "frame_bits",
+    "hold_time",
     "load",
     "path",
     "plan",

@@ -162,6 +162,8 @@ def backup_groups(held: dict[tuple[int, int], bytes]) -> list[Group]:
     plain: list[Setting] = []
     for key, data in held.items():
         obj = find(key)
+        if obj.name == "torque_offset":
+            continue  # a torque is never put back
         value = obj.decode(data)
         assert isinstance(value, int)
         setting = Setting(object=obj, value=value, why="as it was before")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import errno
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from types import TracebackType
@@ -42,6 +42,7 @@ class DriveBus:
         import canopen
 
         self.monitor = BusMonitor()
+        self._opened = time.monotonic()
         self.network = canopen.Network(bus)
         self.network.NOTIFIER_CYCLE = 0.01  # s; closing waits for it
         self._drives: dict[int, Drive] = {}
@@ -114,6 +115,28 @@ class DriveBus:
         if node not in self._drives:
             self._drives[node] = Drive(self, node, eds=eds, timeout=timeout)
         return self._drives[node]
+
+    def check_alone(self, nodes: Sequence[int], *, seconds: float = 0.05) -> None:
+        """Listen, and refuse a bus on which somebody else commands these nodes.
+
+        Parameters
+        ----------
+        nodes : sequence of int
+            Ids of the drives.
+        seconds : float
+            How long to listen after the bus was opened, at least [s].
+
+        Raises
+        ------
+        BusError
+            When another node sends SYNC, or torques to one of them.
+        """
+        time.sleep(max(0.0, self._opened + seconds - time.monotonic()))
+        if found := self.monitor.commanding(nodes):
+            raise BusError(
+                f"somebody else commands on this bus: {', '.join(found)}. End the other loop or master first; two of "
+                "them would take turns at the same motors"
+            )
 
     def scan(self, *, seconds: float = 0.3, nodes: range = range(1, 128)) -> list[int]:
         """Return the ids of the nodes that answer an SDO or send other frames.

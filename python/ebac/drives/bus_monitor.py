@@ -5,6 +5,7 @@ from __future__ import annotations
 import threading
 import time
 from collections import Counter, deque
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -41,10 +42,15 @@ class BusMonitor:
         self._lock = threading.Lock()
         self._frames: deque[tuple[float, int]] = deque(maxlen=_FRAMES)
         self._nmt: dict[int, tuple[float, int]] = {}
+        self._errors = 0
+        self._boots: Counter[int] = Counter()
+        self._twice: Counter[int] = Counter()
         self._emergencies: dict[int, deque[Emergency]] = {}
 
     def __call__(self, message: can.Message) -> None:
         """Take one frame from the bus."""
+        if message.is_error_frame:
+            self._errors += 1
         if message.is_error_frame or message.is_remote_frame or message.is_extended_id:
             return
         now, cob, data = time.monotonic(), message.arbitration_id, bytes(message.data)
@@ -53,6 +59,7 @@ class BusMonitor:
             self._frames.append((now, cob))
             if cob & 0x780 == 0x700 and node and data:
                 self._nmt[node] = (now, data[0] & 0x7F)
+                self._boots[node] += data[0] == 0
             elif cob & 0x780 == 0x080 and node and len(data) >= 3:
                 kept = self._emergencies.setdefault(node, deque(maxlen=_EMERGENCIES))
                 code = int.from_bytes(data[:2], "little")
@@ -67,6 +74,23 @@ class BusMonitor:
         resets = [i for i, one in enumerate(found) if one.code & 0xFF00 == 0]
         return found[resets[-1] + 1 :] if resets else found
 
+    def answered_twice(self, node: int) -> None:
+        """Note that a node sent a second answer to a request."""
+        with self._lock:
+            self._twice[node] += 1
+
+    def troubles(self) -> list[str]:
+        """Return in words what is wrong with the bus itself: error frames, restarts, a node id that two nodes have."""
+        with self._lock:
+            found = [f"{self._errors} error frames"] if self._errors else []
+            found += [f"node {node} restarted {n} times" for node, n in self._boots.items() if n]
+            found += [
+                f"node {node} answered {n} requests twice: two nodes have this id, or another program talks to it"
+                for node, n in self._twice.items()
+                if n
+            ]
+        return found
+
     def nmt(self, node: int) -> str | None:
         """Return the NMT state in the last heartbeat of a node, None when none was received."""
         with self._lock:
@@ -79,6 +103,14 @@ class BusMonitor:
             cobs = {cob for _, cob in self._frames} | {0x700 + node for node in self._nmt}
         services = (0x080, 0x180, 0x280, 0x380, 0x480, 0x580, 0x700)
         return sorted({cob & 0x7F for cob in cobs if cob & 0x780 in services and cob & 0x7F})
+
+    def commanding(self, nodes: Sequence[int]) -> list[str]:
+        """Return in words who else sends what only the master of these nodes may send."""
+        ids = {0x080: "SYNC", **{0x200 + node: f"torques to node {node}" for node in nodes}}
+        count = self.since(0.0)
+        return [
+            f"{what} (0x{cob:03X}, {count[cob]} times)" for cob, what in ids.items() if count[cob]
+        ]
 
     def since(self, start: float) -> Counter[int]:
         """Return how many frames of each identifier came since `start` [s, monotonic]."""
@@ -100,6 +132,7 @@ class BusMonitor:
         parts += [f"0x{cob:03X} ({count[cob]} times)" for cob in others[:8]]
         if len(others) > 8:
             parts.append(f"{len(others) - 8} more identifiers")
+        parts += self.troubles()
         if parts:
             return ", ".join(parts)
         before = self.nodes()

@@ -131,7 +131,8 @@ class Drive(Node):
                 "torque, 4 profile torque",
                 node=self.node,
             )
-        self._zero_torque()
+        self.zero_torque()
+        self.bus.check_alone([self.node])
         try:
             self.go(State.OPERATION_ENABLED, timeout=timeout)
         except DriveError as error:
@@ -139,14 +140,21 @@ class Drive(Node):
                 self.disable()
             raise
 
-    def _zero_torque(self) -> None:
+    def zero_torque(self) -> None:
+        """Write zero to the target torque and to its offset, and read both back.
+
+        Raises
+        ------
+        WrongAnswer
+            When one of them does not stay zero.
+        """
         for name in ("target_torque", "torque_offset"):
             if name == "torque_offset" and not self.look(name):
                 continue  # none, or 0
             self.write(name, 0)
             if self.number(name) != 0:
                 raise WrongAnswer(
-                    f"node {self.node}: {name} does not stay 0: who else commands it?",
+                    f"node {self.node}: {name} does not stay 0: another program or master commands it; end that one",
                     node=self.node,
                 )
 

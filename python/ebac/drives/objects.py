@@ -133,6 +133,7 @@ _TABLE: tuple[tuple[str, int, int, str, str, str], ...] = (
     ("motor_peak_torque_old", 0x6410, 13, "u32", "1e-5 N m", "as 0x2383:13, older firmware"),
     ("motor_continuous_torque_old", 0x6410, 14, "u32", "1e-5 N m", "as 0x2383:14, older firmware"),
     ("motor_counts_per_turn_old", 0x6410, 23, "u32", "counts", "as 0x2383:23, older firmware"),
+    ("connection_option", 0x6007, 0, "i16", "", "what it does when it loses its loop"),
     ("error_code", 0x603F, 0, "u16", "bits", "emergency code of the last fault"),
     ("controlword", 0x6040, 0, "u16", "bits", "what is asked of the state machine"),
     ("statusword", 0x6041, 0, "u16", "bits", "state of the state machine"),

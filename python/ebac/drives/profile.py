@@ -79,6 +79,16 @@ class Profile:
         changes = {name.replace("__", "."): value for name, value in values.items()}
         return dataclasses.replace(self, values={**self.values, **changes})
 
+    def with_deadline(self, seconds: float) -> Self:
+        """Return a copy whose drive waits at least `seconds` for each torque it has a deadline for."""
+        pdos = tuple(
+            dataclasses.replace(pdo, event=max(pdo.event, seconds))
+            if pdo.event > 0 and not pdo.sent
+            else pdo
+            for pdo in self.pdos
+        )
+        return dataclasses.replace(self, pdos=pdos)
+
     def traffic(self, node: int) -> list[Traffic]:
         """Return the frames of a node that come again and again."""
         frames = [pdo.traffic(node, sync_period(self.values)) for pdo in self.pdos]

@@ -35,6 +35,7 @@ class Sdo:
         self._node = node
         self._monitor = monitor
         self._lock = threading.RLock()
+        self._answered = False  # the last request, with all that belongs to it
         self._quiet_until = 0.0  # s, time.monotonic(): until then a late answer may come
         self.timeout = timeout
 
@@ -84,11 +85,17 @@ class Sdo:
         from canopen.sdo.exceptions import SdoAbortedError, SdoCommunicationError
 
         time.sleep(max(0.0, self._quiet_until - time.monotonic()))
+        if self._answered and not self._client.responses.empty():
+            self._monitor.answered_twice(self._node)
+        self._answered = False
         try:
             if data is None:
-                return bytes(self._client.upload(obj.index, obj.sub))
-            self._client.download(obj.index, obj.sub, data)
-            return b""
+                data = bytes(self._client.upload(obj.index, obj.sub))
+            else:
+                self._client.download(obj.index, obj.sub, data)
+                data = b""
+            self._answered = True
+            return data
         except SdoAbortedError as error:
             verb = "reading" if data is None else "writing"
             raise Refused(self._node, obj, verb, error.code) from None

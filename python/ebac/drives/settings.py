@@ -123,6 +123,12 @@ def _write(setting: Setting, held: Held) -> Write:
 
 def _plain(profile: Profile, node: int) -> Iterator[Setting]:
     values = profile.values
+    yield Setting(
+        object=find("torque_offset"),
+        value=0,
+        why="nothing is added to the loop's torque",
+        optional=True,  # a drive without one adds nothing
+    )
     for key in KEYS:
         if key.name == "emcy.on":
             yield from _identifiers(bool(values[key.name]), node)

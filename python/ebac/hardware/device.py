@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any, Self
 
 from ebac._util.exception_notes import noted_on
 from ebac._util.wrong_calls import plain_constructor
-from ebac.drives import Backups
+from ebac.drives import Backups, check_stall
 from ebac.hardware import drive_setup
 from ebac.hardware.backends import hardware, simulated
 from ebac.hardware.configuration import Configuration
@@ -66,7 +66,7 @@ class OpenDevice:
     Raises
     ------
     ProfileError
-        When they take over 90 % of it.
+        When they take over 90 % of it, or a drive would hold its torque without the loop.
     DriveError
         When a drive cannot be reached, is in fault, or holds something else than its profile.
     """
@@ -78,10 +78,11 @@ class OpenDevice:
         self.simulated = simulate
         self._detached = detached
         self._nodes = drive_setup.nodes_of(configuration, simulate=simulate)
-        if not simulate and configuration.interface == "socketcan":
-            network = replace(configuration.drives, nodes=self._nodes)
-            if (warning := network.check_load()) is not None:
-                warnings.warn(warning, stacklevel=2)
+        network = replace(configuration.drives, nodes=self._nodes)
+        check_stall(network)
+        loaded = not simulate and configuration.interface == "socketcan"
+        if loaded and (warning := network.check_load()) is not None:
+            warnings.warn(warning, stacklevel=2)
         with ExitStack() as stack:
             self.interrupts = stack.enter_context(Interrupts())
             self.backend: Backend = stack.enter_context(

@@ -19,15 +19,22 @@ if TYPE_CHECKING:
 #: The shortest period of SYNC written to a simulated drive [s]. It takes the silence of twenty for a broken bus, and an
 #: ordinary kernel under load, or in a virtual machine, pauses a loop for 20 ms now and then.
 _SHORTEST = 10e-3
+#: Periods of SYNC that a simulated drive may miss, and torques that any drive may.
+_SYNCS, _MISSED = 20, 5
 
 
 def nodes_of(configuration: Configuration, *, simulate: bool) -> tuple[Node, ...]:
-    """Return the drives, their SYNC period that of the loop."""
+    """Return the drives, their SYNC period that of the loop, no deadline of a torque shorter than five of its ticks."""
     dt = configuration.timing.dt
     if simulate:
         dt = max(dt, _SHORTEST)
+    longest = _SYNCS * dt if simulate else _MISSED * dt
     return tuple(
-        Node(id=node.id, name=node.name, profile=node.profile.replace(sync__period=dt))
+        Node(
+            id=node.id,
+            name=node.name,
+            profile=node.profile.with_deadline(longest).replace(sync__period=dt),
+        )
         for node in configuration.drives.nodes
     )
 
@@ -74,10 +81,16 @@ def set_up(
 
 
 def start(backend: Backend, nodes: Sequence[Node]) -> None:
-    """Let the drives take process data; they stay without power until the loop enables them. Raises as `set_up`."""
+    """Let the drives take process data; they stay without power until the loop enables them. Raises as `set_up`.
+
+    All that sets, adds to, scales or limits their torque is read back first.
+    """
     with drives_at(backend, nodes) as drives:
-        for drive in drives:
+        for drive, node in zip(drives, nodes, strict=True):
             _rest(drive)
+            drive.zero_torque()
+            verify(drive, node)
+        drives[0].bus.check_alone([node.id for node in nodes])
         for drive in drives:
             drive.nmt("start")
 

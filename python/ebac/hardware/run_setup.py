@@ -19,6 +19,8 @@ _MORE_ROWS = 4096
 _ENABLE = 2.0
 #: Monitored for three of a drive's heartbeats.
 _BEATS = 3.0
+#: The longest a drive's torque may lag behind, and differ [s].
+_LAG = 0.01
 
 
 def run_setup(
@@ -65,9 +67,10 @@ def run_setup(
         aim=backend.aim,
         drives={
             "silent_ticks": known.silent,
+            "torque_ticks": min(max(10, ceil(_LAG / dt)), 128),
             "enable_ticks": ceil(_ENABLE / dt),
             "heartbeat_timeout": _BEATS * max(watched),
-            "own_node": masters.pop() if beat > 0 and len(masters) == 1 else 0,
+            "own_node": masters.pop() if beat > 0 else 0,  # one: `check_stall`
             "heartbeat_period": max(1e-3, beat / 10) if beat > 0 else 0.01,
         },
     )

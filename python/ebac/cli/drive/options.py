@@ -214,6 +214,7 @@ def network_of(profile: str, node: list[int] | None, bitrate: int | None) -> Net
     with telling():
         network = library.load(profile, nodes=node or (), bitrate=bitrate)
         network.check_load()
+        library.check_stall(network)
     return network
 
 

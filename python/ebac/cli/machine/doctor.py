@@ -2,16 +2,24 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from ebac.cli import output
 
+if TYPE_CHECKING:
+    from ebac.realtime import Finding
+
 _MARKS = {"good": "[green]good[/]", "fair": "[yellow]fair[/]", "bad": "[bold red]bad[/]"}
 
 
 def doctor(
+    configuration: Annotated[
+        Path | None,
+        typer.Argument(help="Configuration of a run: what its drives do when the loop stalls."),
+    ] = None,
     priority: Annotated[
         int, typer.Option(help="Priority the control thread would ask for.", min=1, max=99)
     ] = 80,
@@ -30,11 +38,15 @@ def doctor(
     * `ebac doctor`
 
     * `ebac doctor --cpu 0`: would a thread get CPU 0?
+
+    * `ebac doctor joystick.toml`: and how long its drives hold a torque when the loop stalls
     """
     from ebac.realtime import RealTime, examine
 
     with output.refusing():
         findings = examine(RealTime(priority=priority, cpu=cpu))
+        if configuration is not None:
+            findings = [*findings, *_stalls(configuration)]
     verdicts = [finding.verdict for finding in findings]
     worst = next(v for v in ("bad", "fair", "good") if v in verdicts)
     if as_json:
@@ -51,3 +63,32 @@ def doctor(
                 output.indented(f"{finding.what}: {finding.remedy}")
     if worst == "bad":
         raise typer.Exit(output.FAILED)
+
+
+def _stalls(path: Path) -> list[Finding]:
+    """Return what each drive of a configuration does when its loop stalls."""
+    from ebac.drives.stall import LONGEST, REACTION, watches
+    from ebac.hardware.configuration import Configuration
+    from ebac.hardware.drive_setup import nodes_of
+    from ebac.realtime import Finding
+
+    found = []
+    for node in nodes_of(Configuration.load(path), simulate=False):
+        acting = watches(node.profile)
+        worst = min(acting.values(), default=float("inf"))
+        text = ", ".join(f"{key} {1e3 * after:g} ms" for key, after in acting.items())
+        then = REACTION[int(node.profile.values["drive.connection_lost"])]
+        good = worst <= LONGEST
+        found.append(
+            Finding(
+                what=f"node {node.id}, a loop that stalls",
+                found=f"{then} after {1e3 * worst:g} ms at worst ({text})"
+                if acting
+                else "holds its torque for ever",
+                verdict="good" if good else "bad",
+                remedy=""
+                if good
+                else "give pdo.rpdo1.event = 0.005 or heartbeat.consumer = 0.3, best both",
+            )
+        )
+    return found

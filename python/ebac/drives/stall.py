@@ -1,0 +1,67 @@
+"""What a drive does when the loop stalls or dies: how long it may hold its last torque."""
+
+from __future__ import annotations
+
+from math import inf
+
+from ebac.drives.errors import ProfileError
+from ebac.drives.network import Network
+from ebac.drives.profile import Profile
+
+#: The longest a drive may hold a torque that nobody commands any more [s].
+LONGEST = 0.5
+#: What `drive.connection_lost` makes of it (CiA 402-2, 0x6007).
+REACTION = {1: "fault, power off", 2: "power off", 3: "quick stop"}
+
+
+def watches(profile: Profile) -> dict[str, float]:
+    """Return the watches of a drive over its loop: key of the profile, and after how long [s] it acts.
+
+    The watch over SYNC (0x1006) is not among them: whether a drive has one, and after how many periods it acts, is
+    the maker's.
+    """
+    found = {
+        f"pdo.{pdo.name}.event": pdo.event
+        for pdo in profile.pdos
+        if not pdo.sent and "target_torque" in pdo.objects and pdo.event > 0
+    }
+    if (consumer := float(profile.values.get("heartbeat.consumer", 0.0))) > 0:
+        found["heartbeat.consumer"] = consumer
+    return found
+
+
+def hold_time(profile: Profile) -> float:
+    """Return for how long a drive holds its torque at worst once the loop has stalled [s]; infinite without a watch."""
+    return min(watches(profile).values(), default=inf)
+
+
+def check_stall(network: Network) -> None:
+    """Refuse drives that would hold a torque without their loop, or limit none, or watch different loops.
+
+    Raises
+    ------
+    ProfileError
+        For the first such drive, with the remedy.
+    """
+    masters: dict[int, int] = {}
+    for node in network.nodes:
+        values, who = node.profile.values, f"{network.name}: node {node.id}"
+        if (worst := hold_time(node.profile)) > LONGEST:
+            held = "for ever" if worst == inf else f"for {worst:g} s"
+            raise ProfileError(
+                f"{who} would hold its last torque {held} when the loop stalls or dies: must be at most {LONGEST:g} s; "
+                "give pdo.rpdo1.event = 0.005 (s without a torque) or heartbeat.consumer = 0.3 (s without the loop's "
+                "heartbeat), best both"
+            )
+        if "limits.max_torque" not in values:
+            raise ProfileError(
+                f"{who} has no limits.max_torque: the torque the drive allows (0x6072) would be any; give it in N m"
+            )
+        if "heartbeat.consumer" in watches(node.profile):
+            masters.setdefault(int(values["heartbeat.master"]), node.id)
+    if len(masters) > 1:
+        text = ", ".join(f"{master} on node {node}" for master, node in masters.items())
+        raise ProfileError(
+            f"{network.name}: heartbeat.master is {text}: one loop sends one heartbeat, and the others would not be "
+            "watched; give all drives the same"
+        )

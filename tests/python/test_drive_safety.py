@@ -1,0 +1,239 @@
+"""What can hurt a hand: torque nobody asked for, a drive that holds it without a loop, a second master."""
+
+import threading
+import time
+from collections.abc import Callable, Iterator
+from math import inf
+from pathlib import Path
+from typing import Any
+
+import can
+import pytest
+
+import ebac
+from ebac import drives
+from ebac.drives.bus_monitor import BusMonitor
+from ebac.hardware import Configuration
+
+Open = Callable[[], can.BusABC]
+pytestmark = pytest.mark.real_time
+
+EXAMPLE = Path(__file__).parents[2] / "examples" / "joystick.toml"
+
+
+def configuration() -> Configuration:
+    """The example without its sensor, patient with a busy machine."""
+    known = Configuration.load(EXAMPLE)
+    patient = known.limits.replace(overruns=100_000, jump=1.0, speed=100.0)
+    return known.replace(silent=1000, limits=patient, soft_start=0.05, ramp_down=0.05, sensor=None)
+
+
+@pytest.fixture
+def bus(open_bus: Open) -> Iterator[drives.DriveBus]:
+    with drives.DriveBus(open_bus()) as opened:
+        yield opened
+
+
+@pytest.fixture
+def node() -> drives.Node:
+    return drives.load("joystick").nodes[0]
+
+
+@pytest.fixture
+def device(monkeypatch: pytest.MonkeyPatch) -> Iterator["ebac.hardware.OpenDevice"]:
+    from ebac.hardware import backends
+
+    monkeypatch.setattr(backends, "virtual_can", lambda: None)
+    with ebac.Device.open(configuration(), simulate=True) as opened:
+        yield opened
+
+
+def other_bus(device: "ebac.hardware.OpenDevice") -> can.BusABC:
+    return can.Bus(interface=device.backend.interface, channel=device.backend.channel)
+
+
+# --- a torque nobody asked for ---
+
+
+def test_a_torque_offset_is_planned_refused_and_zeroed(
+    bus: drives.DriveBus, node: drives.Node, tmp_path: Any
+) -> None:
+    drive, shelf = bus.drive(1), drives.Backups(tmp_path)
+    drive.write("torque_offset", 4000)
+    (change,) = [c for c in drives.plan(drive, node).changes if c.object.name == "torque_offset"]
+    assert (change.now, change.wanted) == (4000, 0)
+    drives.apply(drive, node, backups=shelf)
+    assert drive.number("torque_offset") == 0
+    drive.write("torque_offset", 4000)
+    with pytest.raises(drives.NotVerified, match=r"torque_offset \(0x60B2\) is 4000"):
+        drives.verify(drive, node)
+    drive.write("torque_offset", 0)
+    drives.restore(drive, backups=shelf)
+    assert drive.number("torque_offset") == 0, "a torque is never put back"
+
+
+def test_an_offset_written_between_runs_is_gone_before_power(
+    device: "ebac.hardware.OpenDevice",
+) -> None:
+    with drives.DriveBus(other_bus(device)) as bus:
+        bus.drive(1).write("torque_offset", 4000)
+    trace = device.run(seconds=0.2)
+    assert abs(trace["bus.actual_permille"][trace["state"] == ebac.LoopState.ARM]).max() == 0
+    with drives.DriveBus(other_bus(device)) as bus:
+        bus.drive(2).write("max_torque", 65535)
+    with pytest.raises(drives.NotVerified, match="max_torque"):
+        device.run(seconds=0.2)
+
+
+def test_an_offset_written_while_a_loop_runs_ends_it(
+    device: "ebac.hardware.OpenDevice", at_tick: Callable[..., Any]
+) -> None:
+    def attack() -> None:
+        with drives.DriveBus(other_bus(device)) as bus:
+            bus.drive(1, timeout=5.0).write("torque_offset", 1000)
+
+    with pytest.raises(ebac.LoopFault) as stopped:
+        device.run(seconds=5.0, look=at_tick(200, attack))
+    assert stopped.value.fault == ebac.Fault.TORQUE_MISMATCH
+
+
+# --- somebody else's torque ---
+
+
+@pytest.mark.parametrize("cob_id", [0x201, 0x202, 0x080, 0x700 + 127])
+def test_a_second_master_ends_a_run(
+    device: "ebac.hardware.OpenDevice", at_tick: Callable[..., Any], cob_id: int
+) -> None:
+    data = {0x080: b"", 0x77F: b"\x05"}.get(cob_id, b"\x0f\x00\xa0\x0f")
+
+    def attack() -> None:
+        with other_bus(device) as bus:
+            bus.send(can.Message(arbitration_id=cob_id, data=data, is_extended_id=False))
+
+    with pytest.raises(ebac.LoopFault) as stopped:
+        device.run(seconds=5.0, look=at_tick(200, attack))
+    assert stopped.value.fault == ebac.Fault.SECOND_MASTER
+
+
+def test_a_bus_on_which_somebody_else_commands_is_refused(
+    open_bus: Open, device: "ebac.hardware.OpenDevice", tmp_path: Any
+) -> None:
+    over = threading.Event()
+
+    def command(bus: can.BusABC) -> None:
+        frame = can.Message(arbitration_id=0x201, data=bytes(4), is_extended_id=False)
+        with bus:
+            while not over.wait(0.01):
+                bus.send(frame)
+
+    others = [
+        threading.Thread(target=command, args=[one]) for one in (open_bus(), other_bus(device))
+    ]
+    for other in others:
+        other.start()
+    try:
+        with drives.DriveBus(open_bus()) as bus:
+            drive = bus.drive(1)
+            drives.apply(drive, drives.load("joystick").nodes[0], backups=drives.Backups(tmp_path))
+            with pytest.raises(drives.BusError, match=r"torques to node 1 \(0x201, "):
+                drive.enable()
+            assert not drive.state.powered
+        with pytest.raises(drives.BusError, match="somebody else commands on this bus"):
+            device.run(seconds=0.2)
+    finally:
+        over.set()
+        for other in others:
+            other.join()
+
+
+def test_every_diagnosis_tells_of_the_bus_itself() -> None:
+    monitor = BusMonitor()
+    assert monitor.describe(0) == "nothing at all"
+    monitor(can.Message(is_error_frame=True))
+    monitor(can.Message(arbitration_id=0x702, data=b"\0", is_extended_id=False))
+    monitor.answered_twice(3)
+    text = monitor.describe(time.monotonic() + 1)
+    assert "1 error frames, node 2 restarted 1 times, node 3 answered 1 requests twice" in text
+
+
+def test_two_nodes_of_one_id_are_told(bus: drives.DriveBus, open_bus: Open) -> None:
+    """A second node answers what the first one has answered already."""
+    drive, twin = bus.drive(1), open_bus()
+    drive.number("statusword")
+    twin.send(can.Message(arbitration_id=0x581, data=bytes(8), is_extended_id=False))
+    time.sleep(0.1)
+    drive.number("statusword")
+    assert any("node 1 answered 1 requests twice" in one for one in bus.monitor.troubles())
+    twin.shutdown()
+
+
+# --- a loop that stalls ---
+
+
+def test_no_profile_holds_a_torque_without_its_loop() -> None:
+    for name in ("copley-accelnet", "copley-xenus", "generic-cia402"):
+        network = drives.load(name, nodes=[1])
+        drives.check_stall(network)
+        (node,) = network.nodes
+        assert drives.hold_time(node.profile) == 0.005
+        assert node.profile.values["drive.connection_lost"] == 1
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"heartbeat__consumer": 0.0}, "would hold its last torque for ever when the loop stalls"),
+        ({"heartbeat__consumer": 2.0}, "would hold its last torque for 2 s when the loop stalls"),
+    ],
+)
+def test_a_drive_that_would_hold_its_torque_is_refused(
+    changes: dict[str, Any], message: str
+) -> None:
+    known = configuration()
+    nodes = [
+        drives.Node(
+            id=one.id,
+            profile=drives.Profile(
+                name="mine",
+                values=one.profile.replace(**changes).values,
+                pdos=tuple(p for p in one.profile.pdos if p.sent),
+            ),
+        )
+        for one in known.drives.nodes
+    ]
+    assert drives.hold_time(nodes[0].profile) == (changes["heartbeat__consumer"] or inf)
+    network = drives.Network(name="mine", nodes=tuple(nodes))
+    with pytest.raises(drives.ProfileError, match=message):
+        ebac.Device.open(known.replace(drives=network), simulate=True)
+
+
+def test_two_masters_are_refused() -> None:
+    known = configuration()
+    first, second = known.drives.nodes
+    other = drives.Node(id=second.id, profile=second.profile.replace(heartbeat__master=100))
+    network = drives.Network(name="mine", nodes=(first, other))
+    with pytest.raises(
+        drives.ProfileError, match=r"heartbeat\.master is 127 on node 1, 100 on node 2"
+    ):
+        ebac.Device.open(known.replace(drives=network), simulate=True)
+
+
+def test_a_drive_as_shipped_lets_go_when_the_loop_stalls(
+    bus: drives.DriveBus, node: drives.Node, tmp_path: Any
+) -> None:
+    drive = bus.drive(1)
+    drives.apply(drive, node, backups=drives.Backups(tmp_path))
+    drive.nmt("start")
+    torque, most = b"\xf4\x01", 0
+    for i in range(150):
+        word = (0x06, 0x07, 0x0F)[min(i // 10, 2)]
+        bus.network.send_message(0x201, bytes([word, 0]) + (torque if i > 50 else bytes(2)))
+        bus.network.send_message(0x080, b"")
+        time.sleep(0.001)
+        if i == 100:
+            most = drive.number("actual_torque")
+    stalled = time.monotonic()
+    while drive.number("actual_torque") != 0:
+        assert time.monotonic() < stalled + 0.3
+    assert drive.state is drives.State.FAULT
+    assert most in (0, 500)  # 0: this machine itself was late by 5 ms before
