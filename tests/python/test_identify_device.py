@@ -82,7 +82,7 @@ def test_a_force_of_the_other_sign_is_named_and_never_turned_silently(
     file = tmp_path / "device.csv"
     np.savetxt(file, rows, fmt="%.9g", delimiter=",", header="t,x,force,motor", comments="")
     run = CliRunner().invoke(app, ["identify", "device", str(file)])
-    assert run.exit_code == 0
+    assert run.exit_code == 1
     assert "--flip-force" in run.output
     run = CliRunner().invoke(app, ["identify", "device", str(file), "--flip-force"])
     assert "seems to hold" not in run.output

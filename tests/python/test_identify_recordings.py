@@ -115,3 +115,79 @@ def test_intervals_hold_the_truth_on_rough_logs() -> None:
     assert len(found) >= 9
     assert np.mean([j.held for j in found]) > 0.85
     assert max(abs(j.error) for j in found) < 0.02
+
+
+def pushed(seconds: float = 8.0) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return time, counted position and the force [N] towards +x that moves 0.8 kg, 3 N s/m, 0.5 N to and fro."""
+    t = np.arange(0, seconds, 1e-3)
+    w, size = 2 * np.pi * np.array([[0.7], [1.9]]), np.array([[0.03], [0.01]])
+    v = (size * w * np.cos(w * t)).sum(0)
+    force = 0.8 * -(size * w**2 * np.sin(w * t)).sum(0) + 3 * v + 0.5 * np.sign(v)
+    return t, 1e-5 * np.floor((size * np.sin(w * t)).sum(0) / 1e-5), force
+
+
+def test_a_motor_of_the_other_sign_is_an_error_that_names_the_option(tmp_path: Path) -> None:
+    """As a drive's log has it: the motor's force drives to +x."""
+    t, x, force = pushed()
+    path = written(tmp_path, t=t, x=x, motor=force)
+    found = fit_device(load(path))
+    assert found.impossible
+    assert found.other_signs["motor"] > 0.99
+    assert set(found.undetermined) == set(found.names)
+    assert found.compensation.friction == 0
+    run = CliRunner().invoke(app, ["identify", "device", str(path)])
+    assert run.exit_code == 1
+    assert "--flip-motor" in run.stderr
+    run = CliRunner().invoke(app, ["identify", "device", str(path), "--json"])
+    assert run.exit_code == 1
+    run = CliRunner().invoke(app, ["identify", "device", str(path), "--flip-motor"])
+    assert run.exit_code == 0
+    right = fit_device(load(path, flip_motor=True))
+    assert right.estimates["M_h"].value == pytest.approx(0.8, rel=0.02)
+    assert right.misses == ()
+
+
+@pytest.mark.parametrize("turned", ["force", "motor", "force and motor"])
+def test_of_two_forces_those_of_the_other_sign_are_found(turned: str, tmp_path: Path) -> None:
+    t, x, force = pushed()
+    share = 0.5 + 0.3 * np.sin(1.3 * t)
+    log = load(written(tmp_path, t=t, x=x, force=share * force, motor=-(1 - share) * force))
+    assert fit_device(log).misses == ()
+    wrong = fit_device(log.flipped(*turned.split(" and ")))
+    assert max(wrong.other_signs, key=wrong.other_signs.get) == turned
+    assert wrong.other_signs[turned] > 0.98
+
+
+def shaken(mass: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return time, position and force of a hand of 40 N s/m and 2 kN/m that rests while a device shakes it."""
+    t = 1e-3 * np.arange(8000)
+    s = 2j * np.pi * np.fft.rfftfreq(len(t), 1e-3)
+    draw = np.random.default_rng(4)
+    lines = (np.abs(s) > 2) & (np.abs(s) < 50)
+    motion = np.where(lines, np.exp(2j * np.pi * draw.random(len(s))), 0)
+    x = np.fft.irfft(motion, len(t))
+    motion *= 0.004 / x.std()
+    force = -np.fft.irfft((mass * s**2 + 40 * s + 2000) * motion, len(t))
+    return t, 1e-5 * np.floor(0.004 / x.std() * x / 1e-5), force + draw.normal(0, 0.05, len(t))
+
+
+def test_a_hand_at_the_bound_of_the_search_is_not_determined(tmp_path: Path) -> None:
+    t, x, force = shaken(11.0)
+    found = fit_arm(load(written(tmp_path, t=t, x=x, force=force)))
+    assert "M0" in found.undetermined
+    t, x, force = shaken(8.0)
+    found = fit_arm(load(written(tmp_path, t=t, x=x, force=force)))
+    assert found.undetermined == ()
+    assert found["M0"].value == pytest.approx(8.0, rel=0.01)
+
+
+def test_a_hand_that_explains_less_than_none_is_an_error(tmp_path: Path) -> None:
+    t, x, force = shaken(2.0)
+    path = written(tmp_path, t=t, x=x, force=-force)
+    found = fit_arm(load(path))
+    assert found.impossible
+    assert {"M0", "B0", "K0"} <= set(found.undetermined)
+    run = CliRunner().invoke(app, ["identify", "arm", str(path)])
+    assert run.exit_code == 1
+    assert "This is no hand" in run.stderr
+    assert CliRunner().invoke(app, ["identify", "arm", str(path), "--flip-force"]).exit_code == 0

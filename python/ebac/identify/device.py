@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from time import perf_counter
 from typing import Any
@@ -21,6 +22,7 @@ from ebac.identify.device_problem import (
 )
 from ebac.identify.fit import Fitted, fitted
 from ebac.identify.intervals import Z95
+from ebac.identify.parameters import BOUNDS
 from ebac.identify.recording import Recording, require_recordings
 from ebac.identify.result import Estimate
 from ebac.identify.validation import POOR, flip_advice, seems_flipped
@@ -50,8 +52,9 @@ class DeviceResult:
     explained: float
     converged: bool
     seconds: float
-    #: Share explained with the hand's force of the other sign, where this fit explains little.
-    other_sign: float | None = None
+    #: Share explained with forces of the other sign, "force", "motor" or "force and motor", where this fit explains
+    #: little or is impossible; only of devices that are possible.
+    other_signs: Mapping[str, float] = field(default_factory=dict)
 
     @cached_property
     def estimates(self) -> dict[str, Estimate]:
@@ -72,6 +75,8 @@ class DeviceResult:
         }
 
     def _determined(self, name: str, value: float, half: float) -> bool:
+        if self.impossible:
+            return False
         if name in ("M_h", "B_h"):
             return half <= 0.25 * abs(value)
         reach = float(np.sqrt(np.mean(self.drive.force[self.drive.slides] ** 2)))
@@ -83,20 +88,50 @@ class DeviceResult:
         return tuple(name for name, e in self.estimates.items() if not e.determined)
 
     @property
+    def impossible(self) -> tuple[str, ...]:
+        """Why no device is like this, a sentence each: then nothing of it is a result."""
+        rows = zip(
+            self.names, self.values.tolist(), np.sqrt(np.diag(self.covariance)), UNITS, strict=False
+        )
+        out = []
+        for name, value, deviation, unit in rows:
+            low, high = BOUNDS[name]
+            if value <= low + Z95 * deviation and name == "M_h":
+                out.append(f"{name} = {value:.4g} {unit}: a device has a mass")
+            elif value + Z95 * deviation < 0 and name in ("B_h", "coulomb"):
+                out.append(f"{name} = {value:.4g} {unit}: friction that drives is none")
+            elif not low < value < high:
+                out.append(f"{name} = {value:.4g} {unit}: at the bound of the search")
+        if self.explained < 0:
+            out.append("the device explains less of the force than none would")
+        return tuple(out)
+
+    @property
+    def other_sign(self) -> float | None:
+        """Share explained with the hand's force of the other sign, where that was tried."""
+        return self.other_signs.get("force")
+
+    @property
     def misses(self) -> tuple[str, ...]:
         """What the model misses, a sentence each."""
-        if self.other_sign is None or not seems_flipped(self.explained, self.other_sign):
-            return ()
-        sentence = "The device explains {} of the force where it slides"
-        return (flip_advice(sentence, max(0.0, self.explained), self.other_sign),)
+        turned = max(self.other_signs, key=lambda key: self.other_signs[key], default="")
+        wrong = [f"This is no device: {'; '.join(self.impossible)}."] if self.impossible else []
+        share = 0.0 if wrong else self.explained
+        if turned and seems_flipped(share, self.other_signs[turned]):
+            sentence = "The device explains {} of the force where it slides"
+            said = max(0.0, self.explained)
+            wrong.insert(0, flip_advice(sentence, said, self.other_signs[turned], turned))
+        return tuple(wrong)
 
     @property
     def compensation(self) -> Compensation:
         """Return tau_static of eq. (2), never more than is surely there.
 
-        The lower bounds of friction and of the weight against +x. Inertia is left alone: given back it costs
-        damping, see `Compensation`.
+        The lower bounds of friction and of the weight against +x; nothing of a device that is impossible. Inertia is
+        left alone: given back it costs damping, see `Compensation`.
         """
+        if self.impossible:
+            return Compensation()
         friction = max(0.0, self.estimates["coulomb"].low)
         weight = max(0.0, -self.estimates["weight"].high)
         return Compensation(friction=friction, gravity_mass=weight / GRAVITY)
@@ -108,6 +143,7 @@ class DeviceResult:
             "stribeck_speed_m_per_s": self.stribeck_speed,
             "explained_share": self.explained,
             "undetermined": list(self.undetermined),
+            "impossible": list(self.impossible),
             "misses": list(self.misses),
             "compensation": self.compensation.as_dict(),
             "converged": self.converged,
@@ -152,10 +188,23 @@ def fit_device(recording: Recording, *, current_lag: float | None = None) -> Dev
     require_recordings(recording, "fit_device")
     lag = recording.current_lag if current_lag is None else current_lag
     result = _searched(recording, lag)
-    if result.explained < POOR and recording.force is not None:
-        other = _searched(recording.flipped(), lag)
-        result = replace(result, other_sign=other.explained, seconds=result.seconds + other.seconds)
+    if result.explained < POOR or result.impossible:
+        result = replace(result, other_signs=_other_signs(recording, lag))
     return result
+
+
+def _other_signs(recording: Recording, lag: float) -> dict[str, float]:
+    """Return the share that a regression explains with forces of the other sign, where that is a device."""
+    has = [name for name in ("force", "motor") if getattr(recording, name) is not None]
+    out = {}
+    for names in [(name,) for name in has] + ([tuple(has)] if len(has) > 1 else []):
+        drive = driven(recording.flipped(*names), lag)
+        guess = first_guess(drive)
+        if guess.values[0] > 0 and guess.values[2] >= 0:
+            force = drive.smooth_force[drive.slides]
+            share = 1 - guess.cost / len(force) / (float(np.var(force)) + 1e-300)
+            out[" and ".join(names)] = share
+    return out
 
 
 def _searched(recording: Recording, current_lag: float) -> DeviceResult:

@@ -214,9 +214,8 @@ def undetermined(
     out: list[str] = []
     for i in parameters.free:
         name, value = parameters.names[i], float(values[i])
-        if _at_bound(parameters, int(i), value) or not half[i] <= DETERMINED * scale_of(
-            name, value, span
-        ):
+        loose = not half[i] <= DETERMINED * scale_of(name, value, span)
+        if loose or _at_bound(parameters, int(i), value, float(half[i])):
             out.append(name)
     names = [parameters.names[i] for i in parameters.free]
     out += [name for name in _too_fast(parameters, values, correlation, dt) if name not in out]
@@ -229,9 +228,11 @@ def undetermined(
     return tuple(out)
 
 
-def _at_bound(parameters: Parameters, index: int, value: float) -> bool:
+def _at_bound(parameters: Parameters, index: int, value: float, half: float = 0.0) -> bool:
+    """Return whether a search ended at a bound, or its interval reaches one: beyond lies what was not tried."""
     low, high = float(parameters.low[index]), float(parameters.high[index])
-    return value <= low + 1e-9 * (high - low) or value >= high - 1e-9 * (high - low)
+    near = max(half, 1e-9 * (high - low))
+    return value <= low + near or value >= high - near
 
 
 def _too_fast(

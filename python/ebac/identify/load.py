@@ -44,6 +44,7 @@ def load(
     count: float | None = None,
     axis: int = 0,
     flip_force: bool = False,
+    flip_motor: bool = False,
 ) -> Recording:
     """Read MCAP, CSV, .mat, or NPZ (of `Trace.to_npz`, or plain arrays).
 
@@ -68,6 +69,8 @@ def load(
         Which axis of a trace; other files have one.
     flip_force : bool
         Whether the force of the hand is logged with the other sign: positive where the handle pushes the hand to +x.
+    flip_motor : bool
+        Whether the force of the motor is logged with the other sign: positive where it drives to +x.
 
     Returns
     -------
@@ -104,7 +107,8 @@ def load(
     if count:
         _in_steps(found, count)
     found = replace(found, **changes)
-    return found.flipped() if flip_force else found
+    turned = [name for name, on in (("force", flip_force), ("motor", flip_motor)) if on]
+    return found.flipped(*turned) if turned else found
 
 
 #: Options that not every file has a use for, and why not.

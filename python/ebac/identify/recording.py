@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ebac._util.arguments import require
+from ebac._util.serialisation import unknown
 from ebac._util.wrong_calls import plain_constructor
 
 if TYPE_CHECKING:
@@ -39,7 +40,8 @@ class Recording:
     force : array, shape (rows,), or None
         Force of the hand on the handle [N], towards +x, as the F/T sensor shows it.
     motor : array, shape (rows,), or None
-        Force of the motor over the interval that ends at each row [N], positive when it resists +x.
+        Force of the motor over the interval that ends at each row [N], positive when it resists +x; a log in which it
+        drives to +x is `flipped("motor")`.
     desired : array, shape (rows,), or None
         Force the law was asked for [N], F_D of eq. (2).
     met : array, shape (rows,), or None
@@ -176,12 +178,20 @@ class Recording:
         """Return the rows with start <= t < stop [s]."""
         return self.rows(slice(*(int(np.searchsorted(self.t, t)) for t in (start, stop))))
 
-    def flipped(self) -> Self:
-        """Return the same with the force of the hand of the other sign."""
-        if self.force is None:
-            raise ValueError(f"{self.name}: has no force of the hand to flip")
-        remark = "the force of the hand was taken with the other sign"
-        return replace(self, force=-self.force, remarks=(*self.remarks, remark))
+    def flipped(self, *signals: str) -> Self:
+        """Return the same with forces of the other sign: "force" of the hand (default), "motor"."""
+        said = {"force": "the force of the hand", "motor": "the force of the motor"}
+        changes: dict[str, Any] = {}
+        remarks = self.remarks
+        for signal in signals or ("force",):
+            if signal not in said:
+                raise ValueError(unknown(f"{self.name}: signal {signal}", signal, list(said)))
+            values = getattr(self, signal)
+            if values is None:
+                raise ValueError(f"{self.name}: has no {said[signal].removeprefix('the ')} to flip")
+            changes[signal] = -values
+            remarks = (*remarks, f"{said[signal]} was taken with the other sign")
+        return replace(self, **changes, remarks=remarks)
 
     @classmethod
     def from_trace(cls, trace: Trace, *, axis: int = 0, name: str = "trace") -> Self:

@@ -117,9 +117,19 @@ class ArmResult:
         """Names of what this log does not determine."""
         half = Z95 * self.deviation
         dt = max(r.dt for r in self.recordings)
+        if self.impossible:
+            return tuple(self.parameters.names[i] for i in self.parameters.free)
         return informativeness.undetermined(
             self.parameters, self.values, half, self.correlation, self._span, dt
         )
+
+    @cached_property
+    def impossible(self) -> tuple[str, ...]:
+        """Why nothing of this is a result, a sentence each: the model explains less of the motion than none would."""
+        if self.explained >= 0:
+            return ()
+        share = f"{100 * self.explained:.3g} %"
+        return (f"the hand explains less of the motion than none would (VAF {share})",)
 
     @cached_property
     def inseparable(self) -> tuple[tuple[str, str, float], ...]:
@@ -251,6 +261,7 @@ class ArmResult:
             "free": [self.parameters.names[i] for i in self.parameters.free],
             "inseparable": [list(pair) for pair in self.inseparable],
             "undetermined": list(self.undetermined),
+            "impossible": list(self.impossible),
             "misses": list(self.misses),
             "force_noise_N": self.force_noise.tolist(),
             "predictions": [vars(p) for p in self.predictions()],

@@ -141,12 +141,27 @@ def seems_flipped(explained: float, other_sign: float | None) -> bool:
     return other_sign is not None and other_sign > max(POOR, explained)
 
 
-def flip_advice(sentence: str, explained: float, other_sign: float) -> str:
-    """Return what to do about a force of the other sign; {} of the sentence is the share explained."""
+#: What turning a force means, by what is turned.
+TURNED = {
+    "force": "the force on the hand instead of the force of the hand",
+    "motor": "the force that the motor drives to +x with instead of the force it resists with",
+}
+
+
+def flip_advice(sentence: str, explained: float, other_sign: float, turned: str = "force") -> str:
+    """Return what to do about forces of the other sign; {} of the sentence is the share explained.
+
+    `turned` names them: "force", "motor", or "force and motor".
+    """
+    names = turned.split(" and ")
+    options = " and ".join(f"--flip-{name}" for name in names)
+    words = {"force": "the force", "motor": "the motor's force"}
+    other = " and ".join(words[n] for n in names)
     return (
-        f"{sentence.format(f'{100 * explained:.3g} %')}, with the force of the other sign {100 * other_sign:.3g} %: "
-        "the log seems to hold the force on the hand instead of the force of the hand. --flip-force turns the sign, "
-        "in Python load(..., flip_force=True)."
+        f"{sentence.format(f'{100 * explained:.3g} %')}, with {other} of the other sign "
+        f"{100 * other_sign:.3g} %: the log seems to hold {', and '.join(TURNED[n] for n in names)}. {options} "
+        f"{'turns the sign' if len(names) == 1 else 'turn the signs'}, "
+        f"in Python load(..., {', '.join(f'flip_{n}=True' for n in names)})."
     )
 
 

@@ -57,6 +57,8 @@ def arm(
     * `ebac demo arm`, then `ebac identify arm arm.csv`: a perturbed arm
 
     * `ebac demo tapping`, then `ebac identify arm tapping.mcap --out report`
+
+    Exit code 1 where the result is no hand: it explains less of the motion than none would.
     """
     from ebac.identify import fit_arm
 
@@ -92,10 +94,12 @@ def arm(
         typer.echo(
             output.document("identify arm", rows, **more, remarks=remarks, second_opinion=second)
         )
-        return
-    show(result, profiles, predictions, opinions, remarks)
-    if to.out is not None:
-        output.list_files(to.out, files)
+    else:
+        show(result, profiles, predictions, opinions, remarks)
+        if to.out is not None:
+            output.list_files(to.out, files)
+    if result.impossible:
+        output.fail(f"This is no hand: {'; '.join(result.impossible)}.", code=output.FAILED)
 
 
 def _profiles(result: ArmResult) -> dict[str, tuple[float, float]]:

@@ -29,6 +29,8 @@ def device(
     * `ebac demo device`, then `ebac identify device device.csv`
 
     * `ebac identify device device.csv --out report`: with a page and figures
+
+    Exit code 1 where the result is no device, such as a negative friction; the sign that fits is named.
     """
     from ebac.identify import fit_device
 
@@ -43,6 +45,7 @@ def device(
         typer.echo(
             output.document("identify device", rows, **more, remarks=list(recording.remarks))
         )
+        _end(result)
         return
     for text in recording.remarks:
         output.say(text, style="dim")
@@ -55,6 +58,13 @@ def device(
         output.say(text)
     if to.out is not None:
         output.list_files(to.out, files)
+    _end(result)
+
+
+def _end(result: DeviceResult) -> None:
+    """End with an error where no device is like that."""
+    if result.impossible:
+        output.fail(f"{result.recording.name}: {' '.join(result.misses)}", code=output.FAILED)
 
 
 def _notes(result: DeviceResult) -> list[str]:

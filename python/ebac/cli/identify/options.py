@@ -175,6 +175,15 @@ class Reading:
         ),
     ] = False
 
+    flip_motor: Annotated[
+        bool,
+        typer.Option(
+            "--flip-motor",
+            help="The motor's force drives to +x, where positive.",
+            rich_help_panel=LOG,
+        ),
+    ] = False
+
     def load(self, path: Path) -> Recording:
         """Read one log."""
         from ebac.identify.load import load
@@ -192,6 +201,7 @@ class Reading:
             count=self.count,
             axis=self.axis,
             flip_force=self.flip_force,
+            flip_motor=self.flip_motor,
         )
 
 
