@@ -5,6 +5,7 @@
 /// The parts of the module, in the order in which they need each other.
 namespace ebac::python {
 
+void bind_leaving();
 void bind_core(pybind11::module_& m);
 void bind_realtime(pybind11::module_& m);
 void bind_kinematics(pybind11::module_& m);

@@ -11,6 +11,7 @@
 #include "ebac/can/bus_benchmark.hpp"
 #include "ebac/can/loopback_bus.hpp"
 #include "open_socketcan.hpp"
+#include "others_run.hpp"
 
 namespace ebac::python {
 
@@ -108,7 +109,7 @@ std::optional<Frame> receive(End& end, std::optional<double> timeout) {
     if (timeout) left = std::min<std::chrono::nanoseconds>(left, until - Clock::now());
     if (left.count() <= 0 || end.state() == BusState::kClosed) return std::nullopt;
     {
-      const py::gil_scoped_release others_run;
+      const OthersRun others_run;
       if (end.receive(in, left)) return in;
     }
     if (PyErr_CheckSignals() != 0) throw py::error_already_set();
@@ -175,9 +176,9 @@ void bind_can(py::module_& m) {
   bind_loopback(m);
   bind_socketcan(m);
   m.def("_time_bus", &can::time_one_thread, py::arg("frames"), py::arg("repeats"),
-        py::call_guard<py::gil_scoped_release>());
+        py::call_guard<OthersRun>());
   m.def("_time_bus_threads", &can::time_two_threads, py::arg("frames"), py::arg("repeats"),
-        py::call_guard<py::gil_scoped_release>());
+        py::call_guard<OthersRun>());
 }
 
 }  // namespace ebac::python

@@ -3,6 +3,7 @@
 #include "bind.hpp"
 #include "ebac/canopen/pdo_plan.hpp"
 #include "ebac/simulated_drives/exchange_benchmark.hpp"
+#include "others_run.hpp"
 
 namespace ebac::python {
 
@@ -53,7 +54,7 @@ void bind_can_plan(py::module_& m) {
       py::arg("nodes"),
       "SYNC, and for every node an RPDO (controlword, target torque) and a TPDO (statusword,\n"
       "position, actual torque): the frames of one tick (CiA 301, CiA 402).");
-  const py::call_guard<py::gil_scoped_release> others_run;
+  const py::call_guard<OthersRun> others_run;
   m.def("_time_exchange", &can::time_exchange, py::arg("ticks"), py::arg("repeats"), others_run);
   m.def("_time_own_exchange", &can::time_own_exchange, py::arg("ticks"), py::arg("repeats"),
         others_run);

@@ -3,6 +3,7 @@
 #include "bind.hpp"
 #include "ebac/faults/campaign.hpp"
 #include "fields.hpp"
+#include "others_run.hpp"
 #include "sweep.hpp"
 
 namespace ebac::python {
@@ -18,7 +19,7 @@ std::tuple<Values, std::vector<std::string>> run(std::size_t cases, std::uint64_
                                                  SweepProgress& progress) {
   faults::Campaign campaign;
   {
-    const py::gil_scoped_release release;
+    const OthersRun release;
     campaign = faults::run_campaign(cases, seed, threads, progress);
   }
   const auto& rows = campaign.results;

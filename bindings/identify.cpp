@@ -3,6 +3,7 @@
 
 #include "bind.hpp"
 #include "ebac/identify/arm_record.hpp"
+#include "others_run.hpp"
 
 namespace ebac::python {
 
@@ -30,7 +31,7 @@ py::array_t<double> rows_of(const ArmRecord& record) {
 ArmGains gains(const ArmRecord& record, const Numbers& theta, double force_noise) {
   const auto view = theta_of(record, theta);
   if (!(force_noise >= 0)) throw std::invalid_argument("ArmRecord: force_noise is negative");
-  const py::gil_scoped_release release;
+  const OthersRun release;
   return record.gains(ArmGuess::from(view, record.inputs()), force_noise);
 }
 
@@ -46,7 +47,7 @@ py::array_t<double> innovations(const ArmRecord& record, const Numbers& theta,
   auto out = rows_of(record);
   const std::span<double> errors(out.mutable_data(), record.rows());
   {
-    const py::gil_scoped_release release;
+    const OthersRun release;
     record.innovations(ArmGuess::from(view, record.inputs()), gains, errors);
   }
   return out;
@@ -68,7 +69,7 @@ py::array_t<double> jacobian(const ArmRecord& record, const Numbers& theta, cons
   py::array_t<double> out({which.size(), record.rows()});
   const std::span<double> columns(out.mutable_data(), which.size() * record.rows());
   {
-    const py::gil_scoped_release release;
+    const OthersRun release;
     record.jacobian(view, gains, which, steps, columns);
   }
   return out;
@@ -79,7 +80,7 @@ py::array_t<double> simulate(const ArmRecord& record, const Numbers& theta, doub
   auto out = rows_of(record);
   const std::span<double> positions(out.mutable_data(), record.rows());
   {
-    const py::gil_scoped_release release;
+    const OthersRun release;
     record.simulate(ArmGuess::from(view, record.inputs()), x, v, positions);
   }
   return out;

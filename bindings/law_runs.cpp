@@ -4,6 +4,7 @@
 #include "ebac/sim/simulate.hpp"
 #include "ebac/simulated_drives/through_can.hpp"
 #include "law_class.hpp"
+#include "others_run.hpp"
 #include "replay.hpp"
 #include "simulate_either.hpp"
 #include "sweep.hpp"
@@ -40,7 +41,7 @@ void add_sweep(const LawClass& law) {
     }
     std::vector<Outcome> outcomes;
     {
-      const py::gil_scoped_release release;
+      const OthersRun release;
       outcomes = sweep_any(setups, laws, threads, limits, progress);
     }
     return columns_of(outcomes);
@@ -59,7 +60,7 @@ void add_press(const LawClass& law) {
     }
     std::vector<Press> rows;
     {
-      const py::gil_scoped_release release;
+      const OthersRun release;
       rows = press_any(setups, laws, goals, threads, limits, progress);
     }
     std::vector<Outcome> outcomes;
@@ -85,7 +86,7 @@ void add_time(const LawClass& law, const char* name) {
   law.def(
       name,
       [](const AnyLaw& any, const Setup& setup, int repeats) {
-        const py::gil_scoped_release release;
+        const OthersRun release;
         return time(setup, any, repeats);
       },
       "(self: LAW, setup: ebac._core.Setup, repeats: typing.SupportsInt | typing.SupportsIndex) -> "
@@ -113,7 +114,7 @@ void add_runs(const LawClass& law) {
   law.def(
       "_simulate",
       [](const AnyLaw& any, const Setup& setup, bool through_can) {
-        const py::gil_scoped_release release;
+        const OthersRun release;
         return simulate_either(setup, any, through_can);
       },
       "(self: LAW, setup: ebac._core.Setup, through_can: bool = False) -> ebac._core.Rows", "",
@@ -122,7 +123,7 @@ void add_runs(const LawClass& law) {
       "_replay",
       [](const AnyLaw& any, const std::shared_ptr<ReplayLog>& log, const DeviceModel& device,
          const Environment& environment) {
-        const py::gil_scoped_release release;
+        const OthersRun release;
         return replay_on(log, any, device, environment);
       },
       "(self: LAW, log: ebac._core.ReplayLog, device: ebac._core.Device, environment: "

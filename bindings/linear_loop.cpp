@@ -4,6 +4,7 @@
 #include <pybind11/stl.h>
 
 #include "bind.hpp"
+#include "others_run.hpp"
 
 namespace ebac::python {
 
@@ -22,8 +23,7 @@ void bind_linear_loop(py::module_& m) {
            py::arg("damping"),
            "Return the largest modulus of an eigenvalue; the loop is stable below 1.")
       .def("stiffness_limit", &LinearLoop::stiffness_limit, py::arg("damping"),
-           py::call_guard<py::gil_scoped_release>(),
-           "Return the largest stable stiffness [N/m]; 0 for none.");
+           py::call_guard<OthersRun>(), "Return the largest stable stiffness [N/m]; 0 for none.");
 }
 
 }  // namespace ebac::python

@@ -2,6 +2,7 @@
 
 PYBIND11_MODULE(_core, m, pybind11::mod_gil_not_used()) {
   m.doc() = "The C++ core of ebac. Use it through the package `ebac`.";
+  ebac::python::bind_leaving();
   ebac::python::bind_core(m);
   ebac::python::bind_realtime(m);
   ebac::python::bind_kinematics(m);

@@ -10,6 +10,7 @@
 #include "ebac/can/socketcan.hpp"
 #include "joystick.hpp"
 #include "open_socketcan.hpp"
+#include "others_run.hpp"
 
 namespace ebac::python {
 
@@ -38,7 +39,7 @@ void add_work(py::class_<JoystickServer<Bus>>& cls) {
   const auto stop = [](const py::object& self) {
     auto& work = self.cast<Work&>();
     {
-      const py::gil_scoped_release others_run;
+      const OthersRun others_run;
       work.stop();
     }
     at_exit().attr("unregister")(self.attr("stop"));

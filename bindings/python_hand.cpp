@@ -4,6 +4,8 @@
 #include <string>
 #include <utility>
 
+#include "others_run.hpp"
+
 namespace ebac::python {
 
 PythonHand::PythonHand(py::object object, Raised raised)
@@ -12,13 +14,13 @@ PythonHand::PythonHand(py::object object, Raised raised)
       raised_(std::move(raised)) {}
 
 PythonHand::~PythonHand() {
-  const py::gil_scoped_acquire held;
+  const Held held;
   object_ = py::object();
 }
 
 double PythonHand::force(const HandMotion& at, const HandState&) const EBAC_RT {
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-  const py::gil_scoped_acquire held;
+  const Held held;
   if (*raised_) return kNone;
   try {
     const py::object answer = object_.attr("force")(at.t, at.x, at.v);
@@ -38,7 +40,7 @@ double PythonHand::force(const HandMotion& at, const HandState&) const EBAC_RT {
 
 void PythonHand::advance(const HandMotion& at) EBAC_RT {
   if (!advances_) return;
-  const py::gil_scoped_acquire held;
+  const Held held;
   if (*raised_) return;
   try {
     object_.attr("advance")(at.t, at.x, at.v);
@@ -48,13 +50,13 @@ void PythonHand::advance(const HandMotion& at) EBAC_RT {
 }
 
 std::unique_ptr<HandForce> PythonHand::clone() const {
-  const py::gil_scoped_acquire held;
+  const Held held;
   return std::make_unique<PythonHand>(py::module_::import("copy").attr("deepcopy")(object_),
                                       raised_);
 }
 
 void PythonHand::start(int axis) {
-  const py::gil_scoped_acquire held;
+  const Held held;
   if (py::hasattr(object_, "start")) object_.attr("start")(axis);
 }
 

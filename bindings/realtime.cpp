@@ -19,6 +19,7 @@
 #include "ebac/rt/thread.hpp"
 #include "fields.hpp"
 #include "from_system.hpp"
+#include "others_run.hpp"
 
 namespace ebac::python {
 
@@ -73,12 +74,12 @@ template <class T>
 T interruptible(std::future<T> work, std::atomic<bool>& cancelled) {
   for (;;) {
     {
-      const py::gil_scoped_release release;
+      const OthersRun release;
       if (work.wait_for(std::chrono::milliseconds(50)) == std::future_status::ready) break;
     }
     if (PyErr_CheckSignals() != 0) {
       cancelled = true;
-      const py::gil_scoped_release release;
+      const OthersRun release;
       work.wait();
       break;
     }
@@ -112,7 +113,7 @@ void bind_realtime(py::module_& m) {
   m.def(
       "_ask_realtime",
       [](const rt::Options& options) {
-        const py::gil_scoped_release release;
+        const OthersRun release;
         const rt::Thread thread(rt::Mode::kAuto, options, [] {});
         return thread.report().grants;
       },

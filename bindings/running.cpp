@@ -9,6 +9,7 @@
 
 #include "bind.hpp"
 #include "open_socketcan.hpp"
+#include "others_run.hpp"
 
 namespace ebac::python {
 
@@ -98,7 +99,7 @@ std::vector<Told> changes_from(const Running& run, std::size_t start) {
 
 /// Whether it ended within `seconds`; other threads of Python run meanwhile.
 bool wait_for(const Running& run, double seconds) {
-  const py::gil_scoped_release others_run;
+  const OthersRun others_run;
   const auto most = std::chrono::duration<double>(std::clamp(seconds, 0.0, 1e6));
   const auto end = std::chrono::steady_clock::now() + most;
   while (!run.done() && std::chrono::steady_clock::now() < end) std::this_thread::sleep_for(kLook);
@@ -123,7 +124,7 @@ void bind_running_class(py::module_& m) {
       .def(
           "join",
           [](const Running& run) {
-            const py::gil_scoped_release others_run;
+            const OthersRun others_run;
             run.join();
           },
           "Wait until the loop has ended.")

@@ -9,6 +9,7 @@
 
 #include "bind.hpp"
 #include "ebac/sensor/rdt_client.hpp"
+#include "others_run.hpp"
 
 namespace ebac::python {
 
@@ -149,7 +150,7 @@ bool poll(TimedClient& self, double timeout) {
     const std::chrono::nanoseconds left = until - Steady::now();
     if (left.count() <= 0 || self.client.state() == LinkState::kClosed) return false;
     {
-      const py::gil_scoped_release others_run;
+      const OthersRun others_run;
       self.client.wait(std::min<std::chrono::nanoseconds>(left, kSlice));
     }
     if (PyErr_CheckSignals() != 0) throw py::error_already_set();

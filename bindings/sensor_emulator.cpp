@@ -10,6 +10,7 @@
 #include "ebac/sensor/shared_force.hpp"
 #include "ebac/sim/setup.hpp"
 #include "ebac/sim/simulated_device.hpp"
+#include "others_run.hpp"
 #include "sensor.hpp"
 
 namespace ebac::python {
@@ -87,8 +88,7 @@ void bind_sensor_emulator(py::module_& m) {
       .def_property_readonly(
           "grants", &EmulatorServer::grants,
           "Resources that its thread requested and was granted; empty before the start.")
-      .def("stop", &EmulatorServer::stop, py::call_guard<py::gil_scoped_release>(),
-           "Stop the sensor for good.")
+      .def("stop", &EmulatorServer::stop, py::call_guard<OthersRun>(), "Stop the sensor for good.")
       .def("set", &EmulatorServer::set, py::arg("trouble"), "Set the errors to emulate.")
       .def_property_readonly("counts", &EmulatorServer::counts, "Counts so far.")
       .def_property_readonly(

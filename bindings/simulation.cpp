@@ -6,6 +6,7 @@
 #include "ebac/sim/setup.hpp"
 #include "ebac/sim/simulated_device.hpp"
 #include "fields.hpp"
+#include "others_run.hpp"
 #include "python_hand.hpp"
 
 namespace ebac::python {
@@ -24,7 +25,7 @@ std::pair<std::size_t, Bytes> copy_of(const Trace& trace, std::size_t start, std
   std::vector<std::byte> copied((stop - from) * trace.row_bytes());
   std::size_t lost = 0;
   {
-    const py::gil_scoped_release release;
+    const OthersRun release;
     lost = trace.copy(from, copied);
   }
   const std::size_t gone = lost * trace.row_bytes();

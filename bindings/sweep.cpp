@@ -5,6 +5,7 @@
 
 #include "bind.hpp"
 #include "ebac/sim/ideal_wall.hpp"
+#include "others_run.hpp"
 
 namespace ebac::python {
 
@@ -63,7 +64,7 @@ Values ideal_contacts(const std::vector<const Setup*>& setups, int threads,
   require_all(setups, "setups");
   std::vector<IdealContact> rows(setups.size());
   {
-    const py::gil_scoped_release release;
+    const OthersRun release;
     for_each_run(setups.size(), threads, progress, [&](std::size_t i, ContactRecorder& recorder) {
       rows[i] = ideal_contact(*setups[i], recorder);
     });

@@ -13,6 +13,7 @@ channel receive each other's frames, and the C++ loop on the same `ebac._core.Lo
 
 from __future__ import annotations
 
+import atexit
 import logging
 import time
 from collections.abc import Sequence
@@ -37,6 +38,10 @@ DEFAULT_CHANNEL = "joystick"
 DEFAULT_QUEUE = 16_384
 #: The most there can be.
 MOST_FRAMES = 1_048_576
+
+
+#: Those that nobody has shut down yet.
+_OPEN: WeakSet[EbacBus] = WeakSet()
 
 
 class EbacBus(can.BusABC):
@@ -81,6 +86,7 @@ class EbacBus(can.BusABC):
         self._tasks: WeakSet[Any] = WeakSet()
         self._told = 0
         super().__init__(channel=name, can_filters=can_filters, **kwargs)
+        _OPEN.add(self)
 
     @property
     def counts(self) -> BusCounts:
@@ -207,3 +213,10 @@ def _refuse_fd(options: dict[str, Any]) -> None:
 
 def _closed(info: str) -> str:
     return f"{info}: the bus is shut down; open it anew with can.Bus(interface='ebac')"
+
+
+@atexit.register
+def _let_go() -> None:
+    """Let a program end with buses open: nothing more is sent, and what waits to receive waits on in silence."""
+    for bus in list(_OPEN):
+        can.BusABC.shutdown(bus)
