@@ -5,7 +5,7 @@ from __future__ import annotations
 import errno
 import time
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from types import TracebackType
 from typing import TYPE_CHECKING, Any, Self
@@ -89,7 +89,12 @@ class DriveBus:
 
     def close(self) -> None:
         """Close the bus. Drives stay as they are."""
-        self.network.disconnect()
+        import can
+
+        with suppress(
+            can.CanError, OSError
+        ):  # an interface that went down, which was reported when it was used
+            self.network.disconnect()
 
     def drive(self, node: int, *, eds: str | Path | None = None, timeout: float = TIMEOUT) -> Drive:
         """Return the drive of that node; the same object every time, so that its lock is one.
@@ -139,7 +144,7 @@ class DriveBus:
             )
 
     def scan(self, *, seconds: float = 0.3, nodes: range = range(1, 128)) -> list[int]:
-        """Return the ids of the nodes that answer an SDO or send other frames.
+        """Return the ids of the nodes that answer an SDO or send a heartbeat.
 
         Parameters
         ----------
@@ -160,13 +165,15 @@ class DriveBus:
             try:
                 self.network.send_message(0x600 + node, read_device_type)
             except (can.CanError, OSError, RuntimeError) as error:
+                self.monitor.check_receiving(f"asking node {node}")
                 raise BusError(
                     f"asking node {node}: the bus took no frame ({error}); a bus with nobody else on "
                     "it acknowledges nothing: are the drives powered and wired?"
                 ) from error
             time.sleep(0.001)  # a request is 0.13 ms at 1 Mbit/s; a send queue holds only ten
         time.sleep(seconds)
-        return [node for node in self.monitor.nodes() if node in nodes]
+        self.monitor.check_receiving("asking who is there")
+        return [node for node in self.monitor.nodes(asked=True) if node in nodes]
 
 
 def open_bus(
@@ -202,7 +209,12 @@ def _telling(interface: str | None, channel: str | None) -> Iterator[None]:
     except OSError as error:
         raise BusError(f"{asked}: {error.strerror or error}; {_remedy(error.errno)}") from error
     except (can.CanError, ValueError, TypeError, NotImplementedError) as error:
-        raise BusError(f"{asked}: cannot be opened ({error})") from error
+        raise BusError(f"{asked}: cannot be opened ({error})") from error.with_traceback(None)
+    except Exception as error:  # what a maker's library raises that is missing
+        raise BusError(
+            f"{asked}: its driver is missing or does not load ({type(error).__name__}: {error}); install the maker's "
+            "driver and its library for Python, or choose another interface"
+        ) from error.with_traceback(None)
 
 
 def _remedy(number: int | None) -> str:

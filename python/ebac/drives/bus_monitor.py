@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from ebac.drives import faults
+from ebac.drives.errors import BusError
 
 if TYPE_CHECKING:
     import can
@@ -42,6 +43,7 @@ class BusMonitor:
         self._lock = threading.Lock()
         self._frames: deque[tuple[float, int]] = deque(maxlen=_FRAMES)
         self._nmt: dict[int, tuple[float, int]] = {}
+        self.broken: Exception | None = None  #: why nothing can be received any more
         self._errors = 0
         self._boots: Counter[int] = Counter()
         self._twice: Counter[int] = Counter()
@@ -97,11 +99,27 @@ class BusMonitor:
             found = self._nmt.get(node)
         return None if found is None else NMT_STATES.get(found[1], f"unknown 0x{found[1]:02X}")
 
-    def nodes(self) -> list[int]:
-        """Return the nodes seen on the bus: by heartbeat, SDO answer, PDO or emergency."""
+    def on_error(self, error: Exception) -> None:
+        """Note that nothing more can be received; python-can calls this in its thread."""
+        self.broken = error
+
+    def check_receiving(self, doing: str) -> None:
+        """Raise BusError where the interface stopped receiving."""
+        if self.broken is not None:
+            raise BusError(
+                f"{doing}: the interface has stopped ({self.broken}); is it down, or unplugged? Bring it up: `sudo ip "
+                "link set can0 up type can bitrate 1000000` (with your interface), then open it anew"
+            ) from self.broken
+
+    def nodes(self, *, asked: bool = False) -> list[int]:
+        """Return the nodes seen on the bus: by heartbeat, SDO answer, PDO or emergency.
+
+        With `asked`, by heartbeat and SDO answer alone: only these are sure to be a node's. A sensor may send on any
+        other identifier.
+        """
         with self._lock:
             cobs = {cob for _, cob in self._frames} | {0x700 + node for node in self._nmt}
-        services = (0x080, 0x180, 0x280, 0x380, 0x480, 0x580, 0x700)
+        services = (0x580, 0x700) if asked else (0x080, 0x180, 0x280, 0x380, 0x480, 0x580, 0x700)
         return sorted({cob & 0x7F for cob in cobs if cob & 0x780 in services and cob & 0x7F})
 
     def commanding(self, nodes: Sequence[int]) -> list[str]:

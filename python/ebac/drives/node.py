@@ -126,6 +126,7 @@ class Node:
         try:
             self.bus.network.send_message(0, bytes([NMT[command], self.node]))
         except (can.CanError, OSError, RuntimeError) as error:
+            self.bus.monitor.check_receiving(f"node {self.node}, NMT {command}")
             raise BusError(
                 f"node {self.node}: NMT {command} was not sent, the bus took no frame ({error})",
                 node=self.node,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import struct
 import threading
 import time
 from typing import TYPE_CHECKING
@@ -100,6 +101,7 @@ class Sdo:
             verb = "reading" if data is None else "writing"
             raise Refused(self._node, obj, verb, error.code) from None
         except SdoCommunicationError as error:
+            self._monitor.check_receiving(f"node {self._node}, {doing}")
             self._quiet_until = time.monotonic() + self.timeout
             if "No SDO response" not in str(error):
                 raise WrongAnswer(
@@ -113,11 +115,18 @@ class Sdo:
                 traffic=self._monitor.describe(start),
                 check=self._monitor.advice(self._node, start),
             ) from None
+        except (struct.error, IndexError, ValueError) as error:
+            raise WrongAnswer(
+                f"node {self._node}, {doing}: an answer that is none, too short or of another form ({error}); do two "
+                "nodes have this id, or is its firmware no CANopen?",
+                node=self._node,
+            ) from None
         except RuntimeError as error:  # as canopen has it
             raise BusError(
                 f"node {self._node}, {doing}: the bus is closed; open it anew", node=self._node
             ) from error
         except (can.CanError, OSError) as error:
+            self._monitor.check_receiving(f"node {self._node}, {doing}")
             raise BusError(
                 f"node {self._node}, {doing}: the bus took no frame ({error}); is the interface up, "
                 "is a second node on the bus to acknowledge, is the bus terminated?",

@@ -58,13 +58,22 @@ def show(
 
     * `ebac drive show --all --json --interface ebac --channel joystick`: PDO parameters too, as JSON
     """
+    from ebac.drives import DriveError
+
+    rows, failures = [], []
     with opened(where) as bus:
-        chosen = drives(bus, node, where.timeout)
-        rows = [row for one in chosen for row in results.holdings(one, everything)]
-    if as_json:
-        typer.echo(output.document("drive show", rows))
-    else:
-        results.objects(rows)
+        for one in drives(bus, node, where.timeout):
+            try:
+                for row in results.holdings(one, everything):
+                    rows.append(row)
+            except DriveError as error:
+                failures.append(error)
+        if as_json and (rows or not failures):
+            typer.echo(output.document("drive show", rows))
+        elif rows:
+            results.objects(rows)
+        if failures:
+            raise failures[0]
 
 
 def plan(

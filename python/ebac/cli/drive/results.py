@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import suppress
 from typing import TYPE_CHECKING, Any
 
 from ebac.cli import output
 
 if TYPE_CHECKING:
-    from ebac.drives import Change, Drive, Network
+    from ebac.drives import Change, Drive, Network, Object
 
 
 #: Columns of a terminal below which what an object means finds no room.
@@ -87,40 +88,64 @@ def who(drive: Drive) -> dict[str, Any]:
         except DriveError:
             row[name.removeprefix("device_")] = None
     known = is_drive(drive)
-    row["state"] = drive.state.value if known else None
-    row["latched"] = drive.latched() if known else []
+    row["state"], row["latched"] = None, []
+    if known:
+        with suppress(DriveError, ValueError):  # what it is stands in the row all the same
+            row["state"], row["latched"] = drive.state.value, drive.latched()
     return row
 
 
-def holdings(drive: Drive, everything: bool) -> list[dict[str, Any]]:
-    """Return the objects of a drive that the table knows and the drive has, as plain rows."""
-    from ebac.drives.objects import known, mapped
-    from ebac.drives.state import State
+def holdings(drive: Drive, everything: bool) -> Iterator[dict[str, Any]]:
+    """Yield the objects of a drive that the table knows and the drive has, as plain rows.
 
-    rows = []
+    One that the drive refuses to read, or answers wrongly, is a row without a value.
+
+    Raises
+    ------
+    NoAnswer, BusError
+        When the drive does not answer any more; all before has been yielded.
+    """
+    from ebac.drives import Refused, WrongAnswer
+    from ebac.drives.objects import known
+
     for obj in known().values():
         if "pdo" in obj.name and not everything:
             continue
-        value = drive.look(obj)
-        if value is None:
-            continue
-        text = obj.show(value).removesuffix(obj.unit).rstrip()
-        if obj.name == "statusword" and isinstance(value, int):
-            text = f"{text} ({State.of(value).value})"
-        if "_entry" in obj.name and isinstance(value, int) and value:
-            text = mapped(value)
-        rows.append(
-            {
-                "node": drive.node,
-                "object": obj.where,
-                "name": obj.name,
-                "value": value,
-                "unit": "" if obj.hexadecimal else obj.unit,
-                "meaning": obj.meaning,
-                "text": text,
-            }
-        )
-    return rows
+        try:
+            value = drive.look(obj)
+        except Refused as error:
+            value, text = None, f"not read: 0x{error.code:08X}"
+        except WrongAnswer:
+            value, text = None, "not read: wrong answer"
+        else:
+            if value is None:
+                continue
+            text = _text(obj, value)
+        yield {
+            "node": drive.node,
+            "object": obj.where,
+            "name": obj.name,
+            "value": value,
+            "unit": "" if obj.hexadecimal or value is None else obj.unit,
+            "meaning": obj.meaning,
+            "text": text,
+        }
+
+
+def _text(obj: Object, value: int | str) -> str:
+    """Return a value as people read it, without its unit."""
+    from ebac.drives.objects import mapped
+    from ebac.drives.state import State
+
+    text = obj.show(value).removesuffix(obj.unit).rstrip()
+    if obj.name == "statusword" and isinstance(value, int):
+        try:
+            return f"{text} ({State.of(value).value})"
+        except ValueError:
+            return f"{text} (no state of CiA 402)"
+    if "_entry" in obj.name and isinstance(value, int) and value:
+        return mapped(value)
+    return text
 
 
 def _hex(value: object) -> str:
