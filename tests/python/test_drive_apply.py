@@ -4,6 +4,7 @@ import dataclasses
 import json
 import os
 from collections.abc import Callable, Iterator
+from contextlib import nullcontext, suppress
 from pathlib import Path
 from typing import Any
 
@@ -355,3 +356,91 @@ def test_without_a_backup_nothing_is_written(
 
 def test_backups_lie_in_the_state_folder_of_the_user(tmp_path: Path) -> None:
     assert state_folder() == tmp_path / "state" / "ebac" / "drives"
+
+
+# --- two profiles, one after the other ---
+
+_NUMBERS = {
+    "motor.torque_constant": st.sampled_from([0.02, 0.0538, 0.06, 0.2]),
+    "motor.peak_torque": st.sampled_from([0.05, 0.1, 0.212, 1.0]),
+    "limits.max_torque": st.sampled_from([0.02, 0.05, 0.1, 0.2]),
+    "limits.max_current": st.sampled_from([0.1, 0.5, 2.0, 3.94]),
+    "torque.slope": st.sampled_from([1.0, 100.0, 1000.0]),
+}
+
+
+@st.composite
+def profiles(draw: st.DrawFn) -> drives.Profile:
+    """Any profile that the drive, which works out rated torque and current itself, can hold."""
+    values: dict[str, Any] = {"drive.quick_stop": draw(st.sampled_from([0, 1, 2]))}
+    rated = draw(st.sampled_from([0.02, 0.053, 0.1]))
+    values |= {name: draw(numbers) for name, numbers in _NUMBERS.items() if draw(st.booleans())}
+    constant = values.setdefault("motor.torque_constant", 0.0538)
+    values["motor.continuous_torque"] = values["limits.rated_torque"] = rated
+    values["limits.rated_current"] = round(rated / constant, 3)
+    for one in ("max_torque", "max_current"):
+        most, base = values.get(f"limits.{one}"), values[f"limits.rated_{one[4:]}"]
+        if most is not None:
+            values[f"limits.{one}"] = max(most, base / 50)
+    return drives.Profile(name="any", values=values)
+
+
+class Rules:
+    """A drive that takes some values only where they fit others, and no rated ones."""
+
+    def __init__(self, drive: drives.Drive, monkeypatch: pytest.MonkeyPatch, strict: bool) -> None:
+        whole, sdo = type(drive.sdo).download, drive.sdo
+
+        def fits(name: str, value: int) -> bool:
+            names = ("motor_peak_torque", "motor_continuous_torque", "max_torque")
+            if name not in names or not strict:
+                return True
+            held = {key: value if key == name else int(drive.look(key) or 0) for key in names}
+            most = 1000 * held["motor_peak_torque"] / held["motor_continuous_torque"]
+            return held["max_torque"] <= most + 1
+
+        def download(obj: drives.Object, data: bytes) -> None:
+            value = int.from_bytes(data, "little")
+            if not fits(obj.name, value):
+                raise drives.Refused(drive.node, obj, "writing", 0x06090030)
+            whole(sdo, obj, data)
+
+        monkeypatch.setattr(sdo, "download", download)
+
+
+@settings(max_examples=12, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@given(first=profiles(), second=profiles(), strict=st.booleans())
+def test_two_profiles_in_a_row_are_undone(
+    first: drives.Profile, second: drives.Profile, strict: bool, open_bus: Open, tmp_path: Path
+) -> None:
+    shelf = drives.Backups(tmp_path / "two")
+    with drives.DriveBus(open_bus()) as bus, pytest.MonkeyPatch.context() as patch:
+        drive, before = bus.drive(1), held(bus)
+        Rules(drive, patch, strict)
+        for profile in (first, second):
+            # A profile may ask for what the strict drive never takes.
+            with suppress(drives.NotApplied) if strict else nullcontext():
+                drives.apply(drive, drives.Node(id=1, profile=profile), backups=shelf)
+        if shelf.load(drive) is not None:
+            drives.restore(drive, backups=shelf)
+        assert held(bus) == before
+
+
+def test_a_profile_with_a_motor_and_then_one_with_limits_alone_are_undone(
+    bus: drives.DriveBus, shelf: drives.Backups
+) -> None:
+    """The rated current is read only, and worked out from motor data that come later in the backup."""
+    before, drive = held(bus), bus.drive(1)
+    limits = {"limits.rated_torque": 0.1, "limits.rated_current": 1.667, "drive.quick_stop": 1}
+    motor = {
+        "motor.torque_constant": 0.06,
+        "motor.continuous_torque": 0.1,
+        "limits.rated_torque": 0.1,
+        "limits.rated_current": 1.667,
+    }
+    for values in (motor, limits):
+        profile = drives.Profile(name="mine", values=values)
+        drives.apply(drive, drives.Node(id=1, profile=profile), backups=shelf)
+    assert drive.number("rated_current") == 1667
+    drives.restore(drive, backups=shelf)
+    assert held(bus) == before

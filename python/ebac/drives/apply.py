@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from itertools import groupby
 from pathlib import Path
 
 from ebac.drives.aborts import READ_ONLY
@@ -17,6 +18,9 @@ from ebac.drives.settings import Group, Setting, Write, writes
 
 #: "save" as 0x1010 takes it (CiA 301).
 _SAVE = b"save"
+
+#: How often what a drive holds is read and written again, where one value changes others.
+_ROUNDS = 3
 
 #: Called after every write: how many are done, of how many.
 Progress = Callable[[int, int], None]
@@ -81,15 +85,20 @@ def apply(
     """
     shelf = backups or Backups()
     drive.disable()
-    made = plan(drive, node)
+    first = made = plan(drive, node)
     steps = made.writes()
     backup = shelf.keep(drive, made.held) if steps else None
-    _carry_out(drive, steps, progress)
+    for _ in range(_ROUNDS):  # a value written may change others
+        _carry_out(drive, made.writes(), progress)
+        made = plan(drive, node)
+        if not made.changes:
+            break
+        steps += made.writes()
     verify(drive, node)
     if store:
         _store(drive)
     return Applied(
-        changes=made.changes,
+        changes=first.changes,
         written=tuple(str(step) for step in steps),
         backup=backup,
         stored=store,
@@ -136,10 +145,15 @@ def restore(
         )
     drive.disable()
     wanted = backup_groups(kept.held)
-    held = read_held(drive, wanted)
-    changes = differences(drive.node, wanted, held)
-    steps = [step for group in wanted for step in writes(group, held)]
-    _carry_out(drive, steps, progress)
+    changes, steps = [], []
+    for _ in range(_ROUNDS):
+        held = read_held(drive, wanted)
+        more = [step for group in wanted for step in writes(group, held)]
+        if not more:
+            break
+        changes += differences(drive.node, wanted, held)
+        steps += more
+        _carry_out(drive, more, progress)
     must = [replace(g, settings=tuple(s for s in g.settings if not s.optional)) for g in wanted]
     left = differences(drive.node, must, read_held(drive, must))
     if left:
@@ -188,25 +202,51 @@ def _used(settings: Sequence[Setting]) -> list[Setting]:
 
 
 def _carry_out(drive: Drive, steps: Sequence[Write], progress: Progress) -> None:
-    done = 0
+    """Write all of it; what a drive refuses is tried again after the rest, for as long as that gets on.
+
+    A drive may take a value only once another one fits it: a peak torque under the limit, a rated current that
+    it works out itself from motor data still to come.
+    """
+    done: list[Write] = []
+
+    def write(step: Write) -> None:
+        _write(drive, step)
+        done.append(step)
+        progress(len(done), len(steps))
+
     try:
-        for step in steps:
-            _write(drive, step)
-            done += 1
-            progress(done, len(steps))
+        for ordered, part in groupby(steps, key=lambda step: step.ordered):
+            left = list(part)
+            while left and not ordered:
+                left = _passed_over(write, left)
+            for step in left:
+                write(step)
     except KeyboardInterrupt as interrupt:
         interrupt.add_note(
-            f"node {drive.node}: interrupted after {done} of {len(steps)} writes. {_after(drive)}"
+            f"node {drive.node}: interrupted after {len(done)} of {len(steps)} writes. {_after(drive)}"
         )
         raise
     except DriveError as error:
         raise NotApplied(
             drive.node,
             f"{error}.",
-            written=[str(step) for step in steps[:done]],
-            left=[str(step) for step in steps[done:]],
+            written=[str(step) for step in done],
+            left=[str(step) for step in steps if step not in done],
             after=_after(drive),
         ) from error
+
+
+def _passed_over(write: Callable[[Write], None], steps: Sequence[Write]) -> list[Write]:
+    """Write each, and return those the drive refused; raise the first refusal when it refused all."""
+    refused: list[tuple[Write, Refused]] = []
+    for step in steps:
+        try:
+            write(step)
+        except Refused as error:
+            refused.append((step, error))
+    if len(refused) == len(steps):
+        raise refused[0][1]
+    return [step for step, _ in refused]
 
 
 def _write(drive: Drive, step: Write) -> None:

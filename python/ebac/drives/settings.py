@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from ebac.drives.objects import PDO_OFF, PDOS, Object, find
 from ebac.drives.pdo import Pdo
@@ -68,6 +68,7 @@ class Write:
     object: Object
     data: bytes
     optional: bool = False  # whether the drive may refuse it
+    ordered: bool = False  # whether it must come where it stands: part of a PDO
 
     def __str__(self) -> str:
         return f"{self.object.name} = {self.object.show(self.object.decode(self.data))}"
@@ -94,6 +95,10 @@ def writes(group: Group, held: Held) -> list[Write]:
         return []
     if not group.pdo:
         return [_write(one, held) for one in there if not one.holds(held[one.object.key])]
+    return [replace(one, ordered=True) for one in _remapped(there, held)]
+
+
+def _remapped(there: list[Setting], held: Held) -> list[Write]:
     (cob,) = [one for one in there if one.object.name.endswith("_cob_id")]
     rest = [one for one in there if one is not cob]
     if not rest:
