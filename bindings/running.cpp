@@ -120,7 +120,8 @@ void bind_running_class(py::module_& m) {
           "grants", [](const Running& run) { return run.grants(); },
           "Resources that its thread requested and was granted.")
       .def(
-          "stop", [](const Running& run) { run.stop(); }, "Request a stop.")
+          "stop", [](const Running& run, bool at_once) { run.stop(at_once); },
+          py::arg("at_once") = false, "Request a stop; at once: without the ramp of the force.")
       .def(
           "join",
           [](const Running& run) {

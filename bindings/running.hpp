@@ -57,7 +57,7 @@ class Running {
   /// Starts; throws what `rt::Thread` and the parts of the loop throw.
   Running(can::AnyBus bus, const AnyLaw& law, const RunSetup& setup);
 
-  void stop() const { thread_->stop(); }
+  void stop(bool at_once) const { thread_->stop(at_once); }
   /// Waits for the end of the loop, then stops the stream of the sensor.
   void join() const;
   bool done() const { return thread_->done(); }

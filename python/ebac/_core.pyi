@@ -6218,6 +6218,8 @@ class Limits:
         whether a force sensor that is stale, saturated or gone is a fault, 0 to 1.
     overruns : int
         ticks in a row that came a tick or more too late, which are a fault [samples], 1 to 1e+05.
+    pause : float
+        time lost by late ticks, at once or within a second, that is a fault; after a fifth of it at once the force comes in anew [s], 0.001 to 10000.
     starved : float
         time for which a law's energy account may withhold more than half of its force [s], 0.001 to 1e+06.
     """
@@ -6250,6 +6252,7 @@ class Limits:
         force_age: float = 0.02,
         watch_force: bool = True,
         overruns: int = 10,
+        pause: float = 0.05,
         starved: float = 2.0,
     ) -> None: ...
     def __reduce__(self) -> tuple[typing.Any, ...]: ...
@@ -6303,6 +6306,11 @@ class Limits:
         ticks in a row that came a tick or more too late, which are a fault [samples], 1 to 1e+05
         """
     @property
+    def pause(self) -> float:
+        """
+        time lost by late ticks, at once or within a second, that is a fault; after a fifth of it at once the force comes in anew [s], 0.001 to 10000
+        """
+    @property
     def peak_current(self) -> float:
         """
         largest current at any time [A], 0.001 to 1000
@@ -6345,6 +6353,8 @@ class RunPlan:
         time in which it goes out at a good end [s], 0 to 10.
     stop_ticks : int
         ticks with zero force in which the device is told to stop [samples], 1 to 1e+05.
+    rest_ticks : int
+        further ticks of that kind for a device that is not at rest yet, at most [samples], 0 to 1e+06.
     arm : bool
         begin by enabling the device; a run that does always ends by a stop, 0 to 1.
     ticks : int
@@ -6363,6 +6373,7 @@ class RunPlan:
         soft_start: float = 0.0,
         ramp_down: float = 0.0,
         stop_ticks: int = 10,
+        rest_ticks: int = 0,
         arm: bool = False,
         ticks: int = 0,
     ) -> None: ...
@@ -6385,6 +6396,11 @@ class RunPlan:
     def ramp_down(self) -> float:
         """
         time in which it goes out at a good end [s], 0 to 10
+        """
+    @property
+    def rest_ticks(self) -> int:
+        """
+        further ticks of that kind for a device that is not at rest yet, at most [samples], 0 to 1e+06
         """
     @property
     def soft_start(self) -> float:
@@ -6460,9 +6476,9 @@ class Running:
         """
         Apply the gains of `law` from the next tick on; return the serial number of the update.
         """
-    def stop(self) -> None:
+    def stop(self, at_once: bool = False) -> None:
         """
-        Request a stop.
+        Request a stop; at once: without the ramp of the force.
         """
     def wait(self, seconds: typing.SupportsFloat | typing.SupportsIndex) -> bool:
         """

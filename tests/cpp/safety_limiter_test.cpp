@@ -189,6 +189,34 @@ TEST(SafetyLimiter, NamesWhatItSees) {
   EXPECT_EQ(seen(p, {}, 0), Fault::kNone);
 }
 
+TEST(SafetyLimiter, HasABudgetOfLostTimeForOnePauseAndForMany) {
+  Limits limits = Limits::of(kDevice);
+  limits.overruns = 1000;
+  ASSERT_EQ(limits.pause, 0.05);
+  // Ticks until a fault when each `every`-th one comes `skipped` too late, or 10000.
+  const auto found = [&](int skipped, int every) {
+    SafetyLimiter limiter(limits, kDevice, kDt);
+    const std::array<Axis, 1> axes{};
+    for (int i = 1; i <= 10'000; ++i) {
+      const int lost = i % every == 0 ? skipped : 0;
+      const Instant now{.dt = (1 + lost) * kDt, .skipped = lost};
+      if (limiter.watch({}, now, axes) != Fault::kNone) return i;
+    }
+    return 10'000;
+  };
+  EXPECT_EQ(found(49, 5000), 10'000);
+  EXPECT_EQ(found(51, 1), 1) << "one pause, not so many ticks";
+  EXPECT_EQ(found(62, 3), 3);
+  EXPECT_EQ(found(5000, 7), 7);
+  EXPECT_EQ(found(2, 100), 10'000) << "2 % of the time";
+  EXPECT_LE(found(20, 100), 400) << "20 % of it";
+
+  const SafetyLimiter limiter(limits, kDevice, kDt);
+  EXPECT_FALSE(limiter.paused({.dt = 10 * kDt, .skipped = 9}));
+  EXPECT_TRUE(limiter.paused({.dt = 12 * kDt, .skipped = 11}));
+  EXPECT_FALSE(SafetyLimiter().paused({.skipped = 1000}));
+}
+
 TEST(SafetyLimiter, RefusesLimitsThatContradictEachOther) {
   Limits limits;
   limits.continuous_current = 2 * limits.peak_current;

@@ -92,6 +92,13 @@ TEST(RdtClient, AgeIsTheTimeWithoutANewerRecord) {
   EXPECT_EQ(s.client.age(), 0);
 }
 
+TEST(Age, IsNoLongerThanTheTimeSinceTheLastPollWhateverTheWallClockDoes) {
+  constexpr std::int64_t kMs = 1'000'000, kSecond = 1000 * kMs, kStamp = 1'700'000'000 * kSecond;
+  EXPECT_DOUBLE_EQ(record_age(kStamp, kStamp + kMs / 2, kMs), 0.5e-3);
+  EXPECT_DOUBLE_EQ(record_age(kStamp, kStamp + kSecond, kMs), 1e-3) << "it stepped by a second";
+  EXPECT_DOUBLE_EQ(record_age(kStamp, kStamp - kSecond, kMs), 0) << "and back";
+}
+
 /// Linux begins to stamp packets on arrival some time after the first socket asks for it; until then
 /// a stamp is the time of reading. Returns a socket that keeps the stamps on.
 UdpSocket stamps_on_arrival() {

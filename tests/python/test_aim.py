@@ -31,7 +31,9 @@ def patient(**changes: object) -> Configuration:
     known = Configuration.load(EXAMPLE)
     return known.replace(
         silent=1000,
-        limits=known.limits.replace(overruns=100_000, force_age=10, jump=1.0, speed=100.0),
+        limits=known.limits.replace(
+            overruns=100_000, pause=100, force_age=10, jump=1.0, speed=100.0
+        ),
         environment=ebac.Free(),
         hand=known.hand.replace(path=[ebac.Step(target=0.0)] * 3),
         soft_start=0.05,

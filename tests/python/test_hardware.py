@@ -4,6 +4,7 @@ import gc
 import json
 import os
 import signal
+import threading
 import time
 from collections.abc import Callable
 from pathlib import Path
@@ -30,7 +31,7 @@ def configuration(**changes: object) -> Configuration:
         path=[ebac.MinimumJerk(target=0.04, at=0, duration=0.2), ebac.Step(target=0)]
     )
     # An answer that comes after others were missed looks like a leap.
-    patient = known.limits.replace(overruns=100_000, force_age=10, jump=1.0, speed=100.0)
+    patient = known.limits.replace(overruns=100_000, pause=100, force_age=10, jump=1.0, speed=100.0)
     return known.replace(
         silent=1000, limits=patient, soft_start=0.05, ramp_down=0.05, hand=hand
     ).replace(**changes)
@@ -124,6 +125,40 @@ def test_a_fault_is_one_exception_with_the_last_rows(tmp_path: Path) -> None:
     assert [e.values["fault"] for e in log.events if e.kind == "fault"] == [14]
 
 
+def test_after_a_fault_a_run_wants_a_reset(device: OpenDevice) -> None:
+    known = configuration()
+    device.configuration = known.replace(limits=known.limits.replace(speed=0.02))
+    with pytest.raises(ebac.LoopFault):
+        device.run(seconds=5)
+    device.configuration = known
+    for _ in range(2):
+        with pytest.raises(RuntimeError, match=r"ended by a fault.*call `reset\(\)`"):
+            device.run(seconds=0.1)
+    assert states(device.backend) == [drives.State.SWITCH_ON_DISABLED] * 2
+    device.reset()
+    device.run(seconds=0.1)
+    assert device.report is not None
+    assert device.report.ended_by == "time"
+
+
+def test_a_second_ctrl_c_leaves_out_the_ramp() -> None:
+    known = configuration(ramp_down=10.0)
+    with ebac.Device.open(known, simulate=True) as device:
+        timer = threading.Timer(0.5, os.kill, [os.getpid(), signal.SIGINT])
+        start = time.monotonic()
+
+        def look(run: Run) -> None:
+            if run.ticks > 200:
+                timer.start()
+                os.kill(os.getpid(), signal.SIGINT)
+
+        with pytest.raises(KeyboardInterrupt):
+            device.run(seconds=60, look=look)
+        timer.join()
+        assert 0.5 < time.monotonic() - start < 8
+        assert states(device.backend) == [drives.State.SWITCH_ON_DISABLED] * 2
+
+
 def test_an_exception_ends_the_run_and_comes_after_it(device: OpenDevice, tmp_path: Path) -> None:
     class Mine(Exception):
         pass
@@ -146,6 +181,10 @@ def test_an_exception_ends_the_run_and_comes_after_it(device: OpenDevice, tmp_pa
         (signal.SIGINT, KeyboardInterrupt),
         (signal.SIGTERM, Terminated),
         (signal.SIGHUP, Terminated),
+        (signal.SIGQUIT, Terminated),
+        (signal.SIGTSTP, Terminated),
+        (signal.SIGUSR1, Terminated),
+        (signal.SIGALRM, Terminated),
     ],
 )
 def test_a_signal_ends_it_and_a_second_one_does_no_harm(

@@ -27,7 +27,9 @@ SENSOR = "[sensor]\nhost = '10.0.0.1'\n"
 def patient(**changes: Any) -> Configuration:
     """The example with its observer, patient with a busy machine."""
     known = Configuration.load(EXAMPLE)
-    limits = known.limits.replace(overruns=100_000, jump=1.0, speed=100.0, force_age=10.0)
+    limits = known.limits.replace(
+        overruns=100_000, pause=100, jump=1.0, speed=100.0, force_age=10.0
+    )
     return known.replace(silent=1000, limits=limits, observer=True, **changes)
 
 

@@ -25,7 +25,7 @@ def configuration() -> Configuration:
     hand = known.hand.replace(
         path=[ebac.MinimumJerk(target=0.04, at=0, duration=0.2), ebac.Step(target=0)]
     )
-    limits = known.limits.replace(overruns=100_000, jump=1.0, speed=100.0, force_age=0.3)
+    limits = known.limits.replace(overruns=100_000, pause=100, jump=1.0, speed=100.0, force_age=0.3)
     return known.replace(silent=1000, limits=limits, soft_start=0.05, ramp_down=0.05, hand=hand)
 
 

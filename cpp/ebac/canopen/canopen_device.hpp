@@ -28,7 +28,7 @@ class CanopenDevice {
   using State = BusRow;
   static constexpr std::string_view kPrefix = "bus.";
   /// More than a bus can carry in a tick; a flood is read on in the next one.
-  static constexpr int kMostFrames = 128;
+  static constexpr int kMostFrames = 1024;
 
   /// Throws std::invalid_argument for a setup that cannot be.
   CanopenDevice(B& bus, W wait, const CanopenSetup& setup)

@@ -81,7 +81,7 @@ class Loop {
         trace.commit();
       }
       ++sample_.tick;
-      over = run_state_.finish();
+      over = run_state_.finish(at_rest());
     }
     return true;
   }
@@ -123,7 +123,9 @@ class Loop {
     const bool arming = run_state_.state() == LoopState::kArm;
     if (arming) chain_.forget();  // counts that begin to arrive are no motion
     const Reading reading = sense(chain_, device_, now, sample_, axes);
-    run_state_.advance(ready(), updates != nullptr && updates->stop_asked(), now.dt);
+    run_state_.advance(ready(), updates != nullptr && updates->stop_asked(), now.dt,
+                       updates != nullptr && updates->at_once());
+    if (limiter_.paused(now)) run_state_.resume();
     sample_.state = static_cast<int>(run_state_.state());
     if (run_state_.state() == LoopState::kArm) {
       rest(axes);
@@ -162,6 +164,11 @@ class Loop {
     for (Axis& axis : axes) axis.port.f_cmd = axis.joint.tau = 0;
     limiter_.shut(axes, now.dt);
     sample_.limited = 0;
+  }
+
+  bool at_rest() const EBAC_RT {
+    if constexpr (requires { device_.at_rest(); }) return device_.at_rest();
+    return true;
   }
 
   bool ready() const EBAC_RT {

@@ -78,8 +78,13 @@ class ParameterUpdates {
   std::uint64_t post(const Scalar& law) EBAC_RT { return send(law_, law); }
   std::uint64_t post(const Environment& world) EBAC_RT { return send(world_, world); }
   std::uint64_t post(const HandTarget& aim) EBAC_RT { return send(aim_, aim); }
-  void stop() EBAC_RT { stop_.store(true, std::memory_order_release); }
+  /// `at_once`: without the ramp of the force.
+  void stop(bool at_once = false) EBAC_RT {
+    if (at_once) at_once_.store(true, std::memory_order_release);
+    stop_.store(true, std::memory_order_release);
+  }
 
+  bool at_once() const EBAC_RT { return at_once_.load(std::memory_order_acquire); }
   bool stop_asked() const EBAC_RT { return stop_.load(std::memory_order_acquire); }
   const AppliedUpdates& applied() const EBAC_RT { return applied_; }
 
@@ -122,6 +127,7 @@ class ParameterUpdates {
   std::uint64_t serial_ = 0;  // the writer's
   AppliedUpdates applied_;
   std::atomic<bool> stop_{false};
+  std::atomic<bool> at_once_{false};
 };
 
 }  // namespace ebac

@@ -14,6 +14,7 @@ struct RunPlan {
   double soft_start = 0;  // s
   double ramp_down = 0;   // s
   int stop_ticks = 10;    // samples
+  int rest_ticks = 0;     // samples
   bool arm = false;
   std::int64_t ticks = 0;  // samples
 
@@ -24,6 +25,8 @@ struct RunPlan {
         F{"ramp_down", &RunPlan::ramp_down, "s", "time in which it goes out at a good end", 0, 10},
         F{"stop_ticks", &RunPlan::stop_ticks, "samples",
           "ticks with zero force in which the device is told to stop", 1, 100000},
+        F{"rest_ticks", &RunPlan::rest_ticks, "samples",
+          "further ticks of that kind for a device that is not at rest yet, at most", 0, 1e6},
         F{"arm", &RunPlan::arm, "1",
           "begin by enabling the device; a run that does always ends by a stop", 0, 1},
         F{"ticks", &RunPlan::ticks, "samples", "ticks under the law; 0 for until it is asked", 0,
@@ -54,8 +57,9 @@ class RunStateMachine {
     return true;
   }
 
-  /// Starts a tick, `dt` s after the last one; `asked`: a stop is requested.
-  void advance(bool ready, bool asked, double dt) EBAC_RT {
+  /// Starts a tick, `dt` s after the last one; `asked`: a stop is requested; `at_once`: without its
+  /// ramp.
+  void advance(bool ready, bool asked, double dt, bool at_once = false) EBAC_RT {
     first_ = false;
     if (state_ == LoopState::kArm && asked) end();
     if (state_ == LoopState::kArm && ready) {
@@ -67,7 +71,7 @@ class RunStateMachine {
       ++ran_;
       gain_ = plan_.soft_start > 0 ? std::min(1.0, gain_ + dt / plan_.soft_start) : 1.0;
     } else if (state_ == LoopState::kStop) {
-      const bool ramp = fault_ == Fault::kNone && plan_.ramp_down > 0;
+      const bool ramp = fault_ == Fault::kNone && plan_.ramp_down > 0 && !at_once;
       gain_ = ramp ? std::max(0.0, gain_ - dt / plan_.ramp_down) : 0.0;
       if (gain_ == 0) ++stopped_;
     }
@@ -80,9 +84,14 @@ class RunStateMachine {
     state_ = LoopState::kStop;
     gain_ = 0;
   }
-  /// Ends a tick; returns whether it was the last one.
-  bool finish() EBAC_RT {
-    if (state_ == LoopState::kStop && stopped_ >= plan_.stop_ticks) {
+  /// The loop has paused: zero force, which comes in as at the start.
+  void resume() EBAC_RT {
+    if (state_ == LoopState::kRun && plan_.soft_start > 0) gain_ = 0;
+  }
+  /// Ends a tick, after which the device is at rest or not; returns whether it was the last one.
+  bool finish(bool at_rest = true) EBAC_RT {
+    const int most = plan_.stop_ticks + (at_rest ? 0 : plan_.rest_ticks);
+    if (state_ == LoopState::kStop && stopped_ >= most) {
       state_ = fault_ == Fault::kNone ? LoopState::kIdle : LoopState::kFault;
     }
     return state_ == LoopState::kIdle || state_ == LoopState::kFault;

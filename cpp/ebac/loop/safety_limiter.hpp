@@ -53,11 +53,18 @@ class SafetyLimiter {
               double starved = 0) EBAC_RT {
     if (!on_) return Fault::kNone;
     overruns_ = now.skipped > 0 ? overruns_ + 1 : 0;
+    lost_ = std::max(0.0, lost_ - limits_.pause * now.dt) + lost(now);  // forgotten in a second
     Fault found = motion(reading, now.dt, axes);
     if (found == Fault::kNone && limits_.watch_force) found = sensor(reading);
-    if (found == Fault::kNone && overruns_ >= limits_.overruns) found = Fault::kOverruns;
+    const bool late = overruns_ >= limits_.overruns || lost_ > limits_.pause;
+    if (found == Fault::kNone && late) found = Fault::kOverruns;
     if (found == Fault::kNone && starved > limits_.starved) found = Fault::kStarved;
     return found;
+  }
+
+  /// Whether the loop paused for so long before this tick that its force must come in anew.
+  bool paused(const Instant& now) const EBAC_RT {
+    return on_ && kAnew * lost(now) >= limits_.pause;
   }
 
   /// Limits the currents; `gain` in [0, 1] is that of soft start and stop. Returns the bits of
@@ -92,6 +99,7 @@ class SafetyLimiter {
   void restart() EBAC_RT {
     last_ = {};
     overruns_ = 0;
+    lost_ = 0;
     moved_ = false;
   }
 
@@ -167,7 +175,10 @@ class SafetyLimiter {
     return value;
   }
 
+  double lost(const Instant& now) const EBAC_RT { return dt_ * static_cast<double>(now.skipped); }
+
   static constexpr double kSpan = 0.9e-3;  // s
+  static constexpr double kAnew = 5;
 
   bool on_ = false;
   Limits limits_{};
@@ -184,6 +195,7 @@ class SafetyLimiter {
   std::array<State, kMaxAxes> state_{};
   bool moved_ = false;
   int overruns_ = 0;  // samples in a row
+  double lost_ = 0;   // s, by late ticks
 };
 
 }  // namespace ebac

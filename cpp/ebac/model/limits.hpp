@@ -21,8 +21,9 @@ struct Limits {
   double end = 0.0574;                // m
   double force_age = 0.02;            // s
   bool watch_force = true;
-  int overruns = 10;   // samples
-  double starved = 2;  // s
+  int overruns = 10;    // samples
+  double pause = 0.05;  // s
+  double starved = 2;   // s
 
   /// The edge lies 5 mm before 30 degrees of the lever, the end as far behind it.
   static Limits of(const DeviceModel& device) EBAC_RT {
@@ -61,6 +62,10 @@ struct Limits {
           "whether a force sensor that is stale, saturated or gone is a fault", 0, 1},
         F{"overruns", &Limits::overruns, "samples",
           "ticks in a row that came a tick or more too late, which are a fault", 1, 100000},
+        F{"pause", &Limits::pause, "s",
+          "time lost by late ticks, at once or within a second, that is a fault; after a fifth of "
+          "it at once the force comes in anew",
+          1e-3, 1e4},
         F{"starved", &Limits::starved, "s",
           "time for which a law's energy account may withhold more than half of its force", 1e-3,
           1e6},

@@ -31,7 +31,7 @@ class LoopThread {
   LoopThread& operator=(LoopThread&&) = delete;
 
   /// Requests a stop; `join` waits for its end.
-  void stop() EBAC_RT { updates_->stop(); }
+  void stop(bool at_once = false) EBAC_RT { updates_->stop(at_once); }
   void join() { thread_.join(); }
   bool done() const EBAC_RT { return done_.load(std::memory_order_acquire); }
 

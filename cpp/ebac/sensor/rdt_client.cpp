@@ -20,12 +20,16 @@ UdpSocket socket_for(const Endpoint& sensor) {
   return UdpSocket({.address = here ? kLoopbackAddress : 0});
 }
 
-double since(std::int64_t stamp) EBAC_RT {  // s
-  const auto now = std::chrono::system_clock::now().time_since_epoch();
-  return std::max(0.0, static_cast<double>(std::chrono::nanoseconds(now).count() - stamp) * 1e-9);
+template <class Clock>
+std::int64_t now() EBAC_RT {  // ns
+  return std::chrono::nanoseconds(Clock::now().time_since_epoch()).count();
 }
 
 }  // namespace
+
+double record_age(std::int64_t stamp, std::int64_t wall, std::int64_t since_poll) EBAC_RT {
+  return static_cast<double>(std::clamp<std::int64_t>(wall - stamp, 0, since_poll)) * 1e-9;
+}
 
 void check_client(const RdtClientSetup& setup) {
   if (setup.sensor.port == 0) {
@@ -80,6 +84,9 @@ bool RdtClient::poll(double elapsed) EBAC_RT {
   age_ += elapsed;
   quiet_ += elapsed;
   since_asked_ += elapsed;
+  const std::int64_t polled = now<std::chrono::steady_clock>();
+  since_poll_ = polled - polled_;
+  polled_ = polled;
   bool newer = false;
   Datagram in;
   for (int i = 0; i < kMostPackets && socket_.open(); ++i) {
@@ -109,7 +116,8 @@ bool RdtClient::take(const Datagram& in) EBAC_RT {
     return false;
   }
   if (!link_.take(in.bytes())) return false;
-  age_ = setup_.stamped && in.stamp != 0 ? since(in.stamp) : 0;
+  const std::int64_t wall = now<std::chrono::system_clock>();
+  age_ = setup_.stamped && in.stamp != 0 ? record_age(in.stamp, wall, since_poll_) : 0;
   quiet_ = 0;
   if (wanted_) state_ = LinkState::kStreaming;
   return true;

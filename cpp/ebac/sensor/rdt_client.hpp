@@ -35,6 +35,11 @@ struct RdtClientSetup {
 /// Throws std::invalid_argument for a setup that cannot be; scale and mounting apart.
 void check_client(const RdtClientSetup& setup);
 
+/// Age [s] of a record that the kernel stamped at `stamp` on the wall clock, read `since_poll` after
+/// the last poll, which had left none. All in ns. The wall clock may step meanwhile: the age is then
+/// wrong by no more than that time.
+double record_age(std::int64_t stamp, std::int64_t wall, std::int64_t since_poll) EBAC_RT;
+
 /// A force/torque sensor on the network, polled by its owner. No call waits, except `wait`.
 class RdtClient {
  public:
@@ -89,10 +94,12 @@ class RdtClient {
   RdtLink link_;
   UdpSocket socket_;
   LinkState state_ = LinkState::kStopped;
-  bool wanted_ = false;     // a stream
-  double age_ = 0;          // s
-  double quiet_ = 0;        // s, since a poll last read a record
-  double since_asked_ = 0;  // s
+  bool wanted_ = false;          // a stream
+  double age_ = 0;               // s
+  double quiet_ = 0;             // s, since a poll last read a record
+  double since_asked_ = 0;       // s
+  std::int64_t polled_ = 0;      // ns, monotonic
+  std::int64_t since_poll_ = 0;  // ns
   std::int64_t foreign_ = 0;
   std::int64_t asked_ = 0;
   std::int64_t refused_ = 0;

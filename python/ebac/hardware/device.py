@@ -76,6 +76,7 @@ class OpenDevice:
     ) -> None:
         self.configuration = configuration
         self.simulated = simulate
+        self._cleared: Report | None = None  # of the fault that `reset` was called for
         self._detached = detached
         self._nodes = drive_setup.nodes_of(configuration, simulate=simulate)
         network = replace(configuration.drives, nodes=self._nodes)
@@ -152,7 +153,9 @@ class OpenDevice:
         Raises
         ------
         LoopFault
-            When the loop ended by a fault; it carries the rows.
+            When the loop ended by a fault; it carries the rows. The next run asks for `reset` first.
+        RuntimeError
+            When a run is under way, or the last one ended by a fault and `reset` was not called.
         DriveError, OSError
             When a drive does not obey, or the log cannot be written.
         KeyboardInterrupt, Terminated
@@ -172,9 +175,23 @@ class OpenDevice:
         log: str | Path | None = None,
         **changes: Any,
     ) -> Run:
-        """Start a run and return at once: to change parameters, to look at the rows, to stop it. As `run`."""
+        """Start a run and return at once: to change parameters, to look at the rows, to stop it. As `run`.
+
+        Raises
+        ------
+        RuntimeError
+            When a run is under way, or the last one ended by a fault and `reset` was not called.
+        """
         if self._held.run is not None and self._held.run.report is None:
             raise RuntimeError("a run is under way: end it first")
+        if (
+            self.report is not None
+            and self.report.ended_by == "fault"
+            and self.report is not self._cleared
+        ):
+            raise RuntimeError(
+                "the last run ended by a fault: look at its rows and at the device, then call `reset()` and run again"
+            )
         known = self.configuration
         finished = self._law(law, changes)
         chosen = known if environment is None else known.replace(environment=environment)
@@ -217,6 +234,10 @@ class OpenDevice:
             run.end()
             raise
         return run
+
+    def reset(self) -> None:
+        """Allow another run after one that ended by a fault. A drive in fault is reset by `ebac drive reset-fault`."""
+        self._cleared = self.report
 
     def _law(self, law: AnyLaw | None, changes: dict[str, Any]) -> CoreLaw:
         known = self.configuration

@@ -11,12 +11,18 @@ from typing import Any, Self
 
 #: Signals that end a run; what the system sends when somebody types Ctrl-C, ends a process, or closes a terminal.
 SIGNALS = (signal.SIGINT, signal.SIGTERM, *([signal.SIGHUP] if hasattr(signal, "SIGHUP") else []))
+#: Those that would end or freeze the process in the middle of a run, and end the run where nobody else takes them.
+OTHERS = tuple(
+    getattr(signal, name)
+    for name in ("SIGQUIT", "SIGTSTP", "SIGUSR1", "SIGUSR2", "SIGALRM")
+    if hasattr(signal, name)
+)
 #: How often somebody looks whether the parent is still there [s].
 PARENT = 0.1
 
 
 class Terminated(SystemExit):
-    """The process received a signal to end (SIGTERM, SIGHUP); all that moved has been stopped before this was raised.
+    """The process received a signal to end (SIGTERM, ...); all that moved has been stopped before this was raised.
 
     Attributes
     ----------
@@ -34,7 +40,7 @@ class Interrupts:
 
     The first one while something moves is raised where the main thread stands: KeyboardInterrupt for SIGINT,
     `Terminated` for the others. From then on, or from `ending`, they are kept until `settled`: a second Ctrl-C does not
-    keep a motor on. Elsewhere than in the main thread Python takes no signals, and nothing changes.
+    keep a motor on, but calls `hurry`. Elsewhere than in the main thread Python takes no signals, and nothing changes.
     """
 
     def __init__(self) -> None:
@@ -43,10 +49,14 @@ class Interrupts:
         self._ending = False
         self._kept: int | None = None
         self.first: int | None = None  #: number of the signal that ended what moved last
+        self.hurry: Callable[[], None] = lambda: None  #: leaves out what is gentle in the stop
 
     def __enter__(self) -> Self:
         if threading.current_thread() is threading.main_thread():
-            self._before = {number: signal.signal(number, self._take) for number in SIGNALS}
+            free = [one for one in OTHERS if signal.getsignal(one) == signal.SIG_DFL]
+            self._before = {
+                number: signal.signal(number, self._take) for number in (*SIGNALS, *free)
+            }
         return self
 
     def __exit__(
@@ -84,6 +94,7 @@ class Interrupts:
     def _take(self, number: int, frame: FrameType | None) -> None:
         if self._ending:
             self._kept = number
+            self.hurry()
             return
         self._ending = self._moving
         if self._moving:

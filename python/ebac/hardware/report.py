@@ -186,6 +186,14 @@ BY_TIME = frozenset(
 )
 
 
+#: Keys of a configuration that make a loop patient with a machine without real time.
+PATIENT = {
+    Fault.DRIVE_SILENT: "bus.silent = 50",
+    Fault.FORCE_STALE: "limits.force_age = 0.2",
+    Fault.OVERRUNS: "limits.overruns = 100 and limits.pause = 0.5",
+}
+
+
 def lateness(trace: Trace) -> str:
     """Return how late the loop was: "woke up to 12.3 ms late and skipped 14 ticks"; empty on a virtual clock."""
     most = 1e3 * float(trace["lateness"].max(initial=0.0))
@@ -195,6 +203,15 @@ def lateness(trace: Trace) -> str:
     return (
         f"woke up to {most:.3g} ms late and skipped {skipped:,} tick{'' if skipped == 1 else 's'}"
     )
+
+
+def remedy(fault: Fault) -> str:
+    """Return what to do first about a fault of a loop that was late."""
+    first = "`ebac doctor` says what this machine lacks for real time"
+    patient = PATIENT.get(fault)
+    more = f"; a machine without it needs patience, such as {patient}" if patient else ""
+    last = "; only then look at cables and termination" if fault is Fault.DRIVE_SILENT else ""
+    return f"{first}{more}{last}"
 
 
 def under_the_law(trace: Trace) -> Trace:

@@ -17,7 +17,7 @@ from ebac.drives.errors import DriveError
 from ebac.hardware.current_parameters import CurrentParameters
 from ebac.hardware.interrupts import Interrupts, OfParent
 from ebac.hardware.live_status import LiveStatus
-from ebac.hardware.report import BY_TIME, Report, lateness
+from ebac.hardware.report import BY_TIME, Report, lateness, remedy
 from ebac.logs.about import SIMULATED_DRIVES
 from ebac.trace import Trace
 
@@ -60,6 +60,7 @@ class Run(LiveStatus):
             origin=SIMULATED_DRIVES if hand else "",  # a simulated hand holds a simulated device
         )
         self._interrupts = interrupts
+        interrupts.hurry = lambda: running.stop(at_once=True)
         self._power_off = power_off
         self._grants = [*running.grants, *grants]
         self._lock = threading.RLock()  # who changes or ends it
@@ -208,9 +209,7 @@ class Run(LiveStatus):
 
             error = LoopFault(fault, trace)
             if fault in BY_TIME and (late := lateness(trace)):
-                error.add_note(
-                    f"the loop {late}; `ebac doctor` says what this machine lacks for real time"
-                )
+                error.add_note(f"the loop {late}: {remedy(fault)}")
             raise error
         return trace
 
@@ -221,6 +220,8 @@ class Run(LiveStatus):
                 return
             self._interrupts.ending()
             self._running.stop()
+            while not self._running.wait(LOOK):  # a second Ctrl-C is taken in between
+                pass
             self._running.join()
             if self._parent is not None:
                 self._parent.over.set()

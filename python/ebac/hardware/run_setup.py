@@ -19,6 +19,8 @@ _MORE_ROWS = 4096
 _ENABLE = 2.0
 #: Monitored for three of a drive's heartbeats.
 _BEATS = 3.0
+#: How long the loop goes on at zero force for drives that are not off yet [s].
+_REST = 0.5
 #: The longest a drive's torque may lag behind, and differ [s].
 _LAG = 0.01
 
@@ -54,6 +56,7 @@ def run_setup(
             soft_start=known.soft_start,
             ramp_down=known.ramp_down,
             stop_ticks=max(10, ceil(0.02 / dt)),
+            rest_ticks=ceil(_REST / dt),
             arm=True,
             ticks=ticks,
         ),
