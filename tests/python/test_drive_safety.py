@@ -1,5 +1,6 @@
 """What can hurt a hand: torque nobody asked for, a drive that holds it without a loop, a second master."""
 
+import json
 import queue
 import threading
 import time
@@ -10,10 +11,12 @@ from typing import Any
 
 import can
 import pytest
+from typer.testing import CliRunner
 
 import ebac
 from ebac import drives
 from ebac._core import SimulatedDrive
+from ebac.cli import app
 from ebac.drives.bus_monitor import BusMonitor
 from ebac.hardware import Configuration
 
@@ -222,6 +225,33 @@ def test_two_masters_are_refused() -> None:
         drives.ProfileError, match=r"heartbeat\.master is 127 on node 1, 100 on node 2"
     ):
         ebac.Device.open(known.replace(drives=network), simulate=True)
+
+
+def test_doctor_prints_how_long_each_drive_would_hold_its_torque(tmp_path: Path) -> None:
+    text, mine = EXAMPLE.read_text(encoding="utf-8"), tmp_path / "mine.toml"
+    for bare, found, verdict in (
+        (
+            False,
+            "fault, power off after 5 ms at worst (pdo.rpdo1.event 5 ms, heartbeat.consumer 300 ms)",
+            "good",
+        ),
+        (True, "holds its torque for ever", "bad"),
+    ):
+        if bare:
+            profile = tmp_path / "bare.toml"
+            profile.write_text(
+                "[limits]\nrated_torque = 0.053\nmax_torque = 0.1\n", encoding="utf-8"
+            )
+            nodes = "".join(f'[[node]]\nid = {n}\nprofile = "bare.toml"\n' for n in (1, 2))
+            (tmp_path / "net.toml").write_text(nodes, encoding="utf-8")
+            text = text.replace('drives = "joystick" ', 'drives = "net.toml" ')
+        mine.write_text(text, encoding="utf-8")
+        ran = CliRunner().invoke(app, ["doctor", str(mine), "--json"])
+        rows = {row["what"]: row for row in json.loads(ran.stdout)["rows"]}
+        for node in (1, 2):
+            row = rows[f"node {node}, a loop that stalls"]
+            assert (row["found"], row["verdict"]) == (found, verdict)
+        assert ran.exit_code == (1 if verdict == "bad" else ran.exit_code)
 
 
 class VirtualBus(can.BusABC):

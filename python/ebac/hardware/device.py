@@ -38,8 +38,8 @@ class OpenDevice:
     """The drives of a device, set up and without power. Get it from `ebac.Device.open`; a context manager.
 
     Only a run powers the motors. Each ends without power, however it ends: by its time, a fault, `stop`, an exception,
-    SIGINT, SIGTERM, SIGHUP, the end of the program or of its parent. One that is killed leaves the drives to their own
-    watch over the loop's heartbeat.
+    a signal such as SIGINT, the end of the program or of its parent. One that is killed leaves the drives to their own
+    watch over the loop's torques and heartbeat.
 
     Parameters
     ----------
