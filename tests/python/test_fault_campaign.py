@@ -61,9 +61,7 @@ def test_every_fault_of_the_table_can_be_made() -> None:
         "DRIVE_FAULT",
         "OVERSPEED",
         "POSITION_NOT_FINITE",
-        "SECOND_MASTER",
         "STARVED",
-        "TORQUE_MISMATCH",
         "WORKSPACE",
     ]
 

@@ -34,8 +34,10 @@ enum class Kind : std::uint8_t {
   kOverruns,
   kParameterWrites,
   kStop,
+  kSecondMaster,
+  kTorqueOffset,
 };
-inline constexpr std::size_t kKinds = 24;
+inline constexpr std::size_t kKinds = 26;
 
 struct KindFacts {
   std::string_view name;
@@ -113,6 +115,14 @@ inline constexpr std::array<KindFacts, kKinds> kKindFacts{{
     {"overruns", "ticks come one or two too late", 1, 20, 10, 0, {Fault::kOverruns}},
     {"parameter_writes", "gains and walls change at any moment", kForEver, kForEver, 0, 0, {}},
     {"stop", "a stop is asked for", 1, 1, 0, 0, {}},
+    {"second_master", "another node sends torques to a drive", 1, 40, 1, 0, {Fault::kSecondMaster}},
+    {"torque_offset",
+     "an offset (0x60B2) adds to the torque of a drive",
+     kForEver,
+     kForEver,
+     1,
+     0,
+     {Fault::kTorqueMismatch, Fault::kOverspeed, Fault::kWorkspace}},
 }};
 
 constexpr const KindFacts& facts_of(Kind kind) {

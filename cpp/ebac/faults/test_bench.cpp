@@ -34,6 +34,7 @@ TestBench::TestBench(const Setup& setup, InjectedFault& injected)
     : injected_(&injected),
       other_(FaultyPlant(plant_of(setup), injected), setup.device, hub_.open()),
       near_(hub_.open(), injected),
+      intruder_(hub_.open({.frames = 1})),
       can_(near_, can::RunOther(other_), can_setup(setup.device)) {
   const auto most =
       static_cast<int>(can::TorqueScale::of(setup.device.motor, setup.device.drive).most);
@@ -68,6 +69,22 @@ void TestBench::spoil_drive() EBAC_RT {
   }
 }
 
+/// Torques of another master; an offset of up to 1.5 times the rated torque by another program, on
+/// top of the loop's torque: one against it is found only when the command falls below it.
+void TestBench::intrude() EBAC_RT {
+  can::SimulatedDrive& drive = this->drive(injected_->axis);
+  const auto size = static_cast<std::int16_t>(500 + injected_->chance % 1001);
+  const int asked = can_.state(injected_->axis).target_permille;
+  const auto torque = static_cast<std::int16_t>(asked < 0 ? -size : size);
+  if (injected_->on(Kind::kSecondMaster)) {
+    can::Frame frame{.id = can::rpdo(1, drive.node()), .size = can::kRpdoSize};
+    can::put(frame.data, 0, can::word_of(can::DriveCommand::kEnableOperation));
+    can::put(frame.data, 2, torque);
+    intruder_.send(frame);
+  }
+  if (injected_->begins(Kind::kTorqueOffset)) drive.write(0x60B2, 0, torque);
+}
+
 void TestBench::spoil_sensor(Reading& reading) EBAC_RT {
   const std::size_t axis = injected_->axis;
   if (injected_->on(Kind::kNanCurrent)) reading.current_applied[axis] = kNoNumber;
@@ -80,6 +97,7 @@ void TestBench::spoil_sensor(Reading& reading) EBAC_RT {
 
 Reading TestBench::exchange(const Command& command) EBAC_RT {
   spoil_drive();
+  intrude();
   Reading reading = can_.exchange(command);
   const Reading& seen = other_.joystick().reading();
   reading.force = seen.force;

@@ -38,12 +38,14 @@ class TestBench {
  private:
   void set_up(can::SimulatedDrive& drive, int most) const;
   void spoil_drive() EBAC_RT;
+  void intrude() EBAC_RT;
   void spoil_sensor(Reading& reading) EBAC_RT;
 
   InjectedFault* injected_;
   can::LoopbackHub hub_;
   Other other_;
   FaultyBus near_;
+  can::LoopbackBus intruder_;
   Can can_;
   double force_age_ = 0;  // s
 };
