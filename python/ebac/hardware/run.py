@@ -209,7 +209,7 @@ class Run(LiveStatus):
 
             error = LoopFault(fault, trace)
             if fault in BY_TIME and (late := lateness(trace)):
-                error.add_note(f"the loop {late}: {remedy(fault)}")
+                error.add_note(f"the loop {late}; {remedy(fault)}")
             raise error
         return trace
 
