@@ -16,6 +16,7 @@ import pytest
 from typer.testing import CliRunner
 
 from ebac.cli import app
+from ebac.drives.profile import read_source
 
 INTERFACE = os.environ.get("EBAC_CAN", "")
 PROGRAM = os.environ.get("EBAC_KERNEL_TESTS", "kernel_tests")
@@ -29,12 +30,12 @@ pytestmark = pytest.mark.skipif(
 PATIENT = """
 [[node]]
 id = 1
-profile = "copley-accelnet"
+profile = "patient-drive.toml"
 sync.period = 1.0
 
 [[node]]
 id = 2
-profile = "copley-accelnet"
+profile = "patient-drive.toml"
 sync.period = 1.0
 """
 
@@ -63,6 +64,10 @@ def test_configure_enable_run_stop(
 ) -> None:
     profile = tmp_path / "patient.toml"
     profile.write_text(PATIENT, encoding="utf-8")
+    shipped = read_source("copley-accelnet").text
+    assert "event = 0.005" in shipped
+    patient = shipped.replace("event = 0.005", "event = 0.4")
+    (tmp_path / "patient-drive.toml").write_text(patient, encoding="utf-8")
     backup = ["--backup", str(tmp_path / "backups"), "--yes"]
     assert [row["node"] for row in drive("scan")] == [1, 2]
     assert len(drive("apply", str(profile), *backup)) > 20

@@ -41,7 +41,7 @@ def config(tmp_path: Path) -> Path:
         ('setup = "verify"', 'setup = "apply"'),
         ("dt = 1e-3", f"dt = {DT}"),
         ("stiffness = 10e3", "stiffness = 50.0"),
-        ("[limits]", "[limits]\noverruns = 100000\nforce_age = 10.0\njump = 0.05"),
+        ("[limits]", "[limits]\noverruns = 100000\npause = 1000.0\nforce_age = 10.0\njump = 0.05"),
         ("seconds = 10.0", "seconds = 3.0"),
     ):
         assert before in text, before
