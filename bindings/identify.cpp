@@ -24,15 +24,22 @@ std::span<const double> theta_of(const ArmRecord& record, const Numbers& theta) 
   return view;
 }
 
+std::vector<double> list_of(const Numbers& column) {
+  return {column.data(), column.data() + column.size()};
+}
+
 py::array_t<double> rows_of(const ArmRecord& record) {
   return py::array_t<double>(static_cast<py::ssize_t>(record.rows()));
 }
 
-ArmGains gains(const ArmRecord& record, const Numbers& theta, double force_noise) {
+ArmGains gains(const ArmRecord& record, const Numbers& theta, double force_noise, double drift,
+               double offset) {
   const auto view = theta_of(record, theta);
-  if (!(force_noise >= 0)) throw std::invalid_argument("ArmRecord: force_noise is negative");
+  if (!(force_noise >= 0) || !(drift >= 0) || !(offset >= 0)) {
+    throw std::invalid_argument("ArmRecord: force_noise, drift or offset is negative");
+  }
   const OthersRun release;
-  return record.gains(ArmGuess::from(view, record.inputs()), force_noise);
+  return record.gains(ArmGuess::from(view, record.inputs()), force_noise, drift, offset);
 }
 
 void require_same(const ArmRecord& record, const ArmGains& gains) {
@@ -53,24 +60,55 @@ py::array_t<double> innovations(const ArmRecord& record, const Numbers& theta,
   return out;
 }
 
+py::array_t<double> drifts(const ArmRecord& record, const Numbers& theta, const ArmGains& gains) {
+  const auto view = theta_of(record, theta);
+  require_same(record, gains);
+  auto errors = rows_of(record);
+  auto out = rows_of(record);
+  record.innovations(ArmGuess::from(view, record.inputs()), gains,
+                     {errors.mutable_data(), record.rows()}, {out.mutable_data(), record.rows()});
+  return out;
+}
+
+void require_steps(std::size_t parameters, const std::vector<std::size_t>& which,
+                   const std::vector<double>& steps) {
+  if (which.size() != steps.size()) {
+    throw std::invalid_argument("ArmRecord: needs one step for each parameter");
+  }
+  for (std::size_t i = 0; i < which.size(); ++i) {
+    if (which[i] >= parameters || !(steps[i] > 0)) {
+      throw std::invalid_argument("ArmRecord: no such parameter, or its step is not positive");
+    }
+  }
+}
+
 py::array_t<double> jacobian(const ArmRecord& record, const Numbers& theta, const ArmGains& gains,
                              const std::vector<std::size_t>& which,
                              const std::vector<double>& steps) {
   const auto view = theta_of(record, theta);
   require_same(record, gains);
-  if (which.size() != steps.size()) {
-    throw std::invalid_argument("ArmRecord: needs one step for each parameter");
-  }
-  for (std::size_t i = 0; i < which.size(); ++i) {
-    if (which[i] >= view.size() || !(steps[i] > 0)) {
-      throw std::invalid_argument("ArmRecord: no such parameter, or its step is not positive");
-    }
-  }
+  require_steps(view.size(), which, steps);
   py::array_t<double> out({which.size(), record.rows()});
   const std::span<double> columns(out.mutable_data(), which.size() * record.rows());
   {
     const OthersRun release;
     record.jacobian(view, gains, which, steps, columns);
+  }
+  return out;
+}
+
+py::array_t<double> renewed_jacobian(const ArmRecord& record, const Numbers& theta,
+                                     const Numbers& held, std::array<double, 3> noise,
+                                     const std::vector<std::size_t>& which,
+                                     const std::vector<double>& steps) {
+  const auto view = theta_of(record, theta);
+  const auto made = theta_of(record, held);
+  require_steps(view.size(), which, steps);
+  py::array_t<double> out({which.size(), record.rows()});
+  const std::span<double> columns(out.mutable_data(), which.size() * record.rows());
+  {
+    const OthersRun release;
+    record.renewed_jacobian(view, made, {noise[0], noise[1], noise[2]}, which, steps, columns);
   }
   return out;
 }
@@ -98,26 +136,33 @@ void bind_identify(py::module_& m) {
                         "A log of one hand, and its prediction by eq. (4).\n\n"
                         "theta: mass [kg], damping [N s/m], stiffness [N/m], delay [s], onset "
                         "[s], bend [1], a share for each input, then the levels of the target [m].")
-      .def(
-          py::init([](std::vector<double> x, std::vector<double> force,
-                      std::vector<double> variance, std::vector<double> early,
-                      std::vector<double> known, std::vector<double> doubt,
-                      std::vector<std::vector<double>> inputs, std::vector<double> switches,
-                      std::vector<int> segments, double dt, double lag) {
-            return ArmRecord({std::move(x), std::move(force), std::move(variance), std::move(early),
-                              std::move(known), std::move(doubt), std::move(inputs),
-                              std::move(switches), std::move(segments), dt, lag});
-          }),
-          py::kw_only(), py::arg("x"), py::arg("force"), py::arg("variance"), py::arg("early"),
-          py::arg("known"), py::arg("doubt"), py::arg("inputs"), py::arg("switches"),
-          py::arg("segments"), py::arg("dt"), py::arg("lag"))
+      .def(py::init([](const Numbers& x, const Numbers& force, const Numbers& variance,
+                       const Numbers& early, const Numbers& known, const Numbers& doubt,
+                       const std::vector<Numbers>& inputs, std::vector<double> switches,
+                       std::vector<int> segments, double dt, double lag) {
+             std::vector<std::vector<double>> columns;
+             for (const Numbers& input : inputs) columns.push_back(list_of(input));
+             return ArmRecord({list_of(x), list_of(force), list_of(variance), list_of(early),
+                               list_of(known), list_of(doubt), std::move(columns),
+                               std::move(switches), std::move(segments), dt, lag});
+           }),
+           py::kw_only(), py::arg("x"), py::arg("force"), py::arg("variance"), py::arg("early"),
+           py::arg("known"), py::arg("doubt"), py::arg("inputs"), py::arg("switches"),
+           py::arg("segments"), py::arg("dt"), py::arg("lag"))
       .def_property_readonly("parameters", &ArmRecord::parameters, "Length of theta.")
-      .def("gains", &gains, py::arg("theta"), py::arg("force_noise"),
-           "Return the gains for theta and force readings of standard deviation `force_noise` [N].")
+      .def("gains", &gains, py::arg("theta"), py::arg("force_noise"), py::arg("drift") = 0.0,
+           py::arg("offset") = 0.0,
+           "Return the gains for theta and force readings of standard deviation `force_noise` [N] "
+           "that drift by a random walk of `drift` [N/sqrt(s)] from within `offset` [N].")
+      .def("drifts", &drifts, py::arg("theta"), py::arg("gains"),
+           "Return by how much the force reads too high at each row [N], shape (rows,).")
       .def("innovations", &innovations, py::arg("theta"), py::arg("gains"),
            "Return the one-step prediction errors, each divided by its standard deviation.")
       .def("jacobian", &jacobian, py::arg("theta"), py::arg("gains"), py::arg("which"),
            py::arg("steps"), "Return d innovations / d theta[which], shape (which, rows).")
+      .def("renewed_jacobian", &renewed_jacobian, py::arg("theta"), py::arg("held"),
+           py::arg("noise"), py::arg("which"), py::arg("steps"),
+           "As `jacobian`, the gains made anew for each change; `noise` as of `gains`.")
       .def(
           "simulate", &simulate, py::arg("theta"), py::arg("x"), py::arg("v"),
           "Return the position [m] simulated from a state [m, m/s] with the recorded force alone.");

@@ -3562,27 +3562,33 @@ class ArmRecord:
     def __init__(
         self,
         *,
-        x: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex],
-        force: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex],
-        variance: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex],
-        early: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex],
-        known: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex],
-        doubt: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex],
-        inputs: collections.abc.Sequence[
-            collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex]
-        ],
+        x: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
+        force: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
+        variance: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
+        early: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
+        known: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
+        doubt: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
+        inputs: collections.abc.Sequence[typing.Annotated[numpy.typing.ArrayLike, numpy.float64]],
         switches: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex],
         segments: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex],
         dt: typing.SupportsFloat | typing.SupportsIndex,
         lag: typing.SupportsFloat | typing.SupportsIndex,
     ) -> None: ...
+    def drifts(
+        self, theta: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], gains: ArmGains
+    ) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Return by how much the force reads too high at each row [N], shape (rows,).
+        """
     def gains(
         self,
         theta: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
         force_noise: typing.SupportsFloat | typing.SupportsIndex,
+        drift: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+        offset: typing.SupportsFloat | typing.SupportsIndex = 0.0,
     ) -> ArmGains:
         """
-        Return the gains for theta and force readings of standard deviation `force_noise` [N].
+        Return the gains for theta and force readings of standard deviation `force_noise` [N] that drift by a random walk of `drift` [N/sqrt(s)] from within `offset` [N].
         """
     def innovations(
         self, theta: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], gains: ArmGains
@@ -3599,6 +3605,19 @@ class ArmRecord:
     ) -> numpy.typing.NDArray[numpy.float64]:
         """
         Return d innovations / d theta[which], shape (which, rows).
+        """
+    def renewed_jacobian(
+        self,
+        theta: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
+        held: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
+        noise: typing.Annotated[
+            collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(3)"
+        ],
+        which: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex],
+        steps: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex],
+    ) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        As `jacobian`, the gains made anew for each change; `noise` as of `gains`.
         """
     def simulate(
         self,

@@ -28,34 +28,46 @@ constexpr double kSharpen = 1.0 / 12;
 /// How much of a jump a tick may miss.
 constexpr double kJumpDoubt = 0.3;
 
-/// Covariance of position and velocity, predicted.
+/// Covariance of position, velocity and the drift of the force reading, predicted.
 struct Spread {
   static constexpr double kFreePosition = 1;  // m^2: no information on the position of a handle
   static constexpr double kFreeVelocity = 1e2;
 
   double p00 = kFreePosition, p01 = 0, p11 = kFreeVelocity;
+  double p02 = 0, p12 = 0, p22 = 0;
 
   /// Takes a reading of x + forward v of some variance in.
   ArmGains::Row weigh(double variance, double forward, double& log_sum) EBAC_RT {
     if (std::isinf(variance)) return {};
     const double c0 = p00 + forward * p01;
     const double c1 = p01 + forward * p11;
+    const double c2 = p02 + forward * p12;
     const double s = c0 + forward * c1 + variance;
     p00 -= c0 * c0 / s;
     p01 -= c0 * c1 / s;
     p11 -= c1 * c1 / s;
+    p02 -= c0 * c2 / s;
+    p12 -= c1 * c2 / s;
+    p22 -= c2 * c2 / s;
     log_sum += std::log(s);
-    return {c0 / s, c1 / s, 1 / std::sqrt(s)};
+    return {c0 / s, c1 / s, c2 / s, 1 / std::sqrt(s)};
   }
 
-  void move(const Eigen::Matrix2d& f, const Eigen::Vector3d& q) EBAC_RT {
-    const double a = f(0, 0) * p00 + f(0, 1) * p01;
-    const double b = f(0, 0) * p01 + f(0, 1) * p11;
-    const double c = f(1, 0) * p00 + f(1, 1) * p01;
-    const double d = f(1, 0) * p01 + f(1, 1) * p11;
-    p00 = a * f(0, 0) + b * f(0, 1) + q[0];
-    p01 = a * f(1, 0) + b * f(1, 1) + q[1];
-    p11 = c * f(1, 0) + d * f(1, 1) + q[2];
+  /// The drift moves on by a variance, after it has kicked position and velocity over the tick.
+  void move(const Eigen::Matrix2d& f, const Eigen::Vector2d& kick, const Eigen::Vector3d& q,
+            double drift) EBAC_RT {
+    const double a = f(0, 0) * p00 + f(0, 1) * p01 + kick[0] * p02;
+    const double b = f(0, 0) * p01 + f(0, 1) * p11 + kick[0] * p12;
+    const double c = f(1, 0) * p00 + f(1, 1) * p01 + kick[1] * p02;
+    const double d = f(1, 0) * p01 + f(1, 1) * p11 + kick[1] * p12;
+    const double g = f(0, 0) * p02 + f(0, 1) * p12 + kick[0] * p22;
+    const double h = f(1, 0) * p02 + f(1, 1) * p12 + kick[1] * p22;
+    p00 = a * f(0, 0) + b * f(0, 1) + g * kick[0] + q[0];
+    p01 = a * f(1, 0) + b * f(1, 1) + g * kick[1] + q[1];
+    p11 = c * f(1, 0) + d * f(1, 1) + h * kick[1] + q[2];
+    p02 = g;
+    p12 = h;
+    p22 += drift;
   }
 };
 
@@ -173,7 +185,8 @@ std::vector<double> ArmRecord::jumps(const ArmGuess& guess) const {
   return out;
 }
 
-ArmGains ArmRecord::gains(const ArmGuess& guess, double force_noise) const {
+ArmGains ArmRecord::gains(const ArmGuess& guess, double force_noise, double drift,
+                          double offset) const {
   const ArmStep step(guess, log_.dt);
   const Eigen::Vector2d kick = step.start * step.per_mass;
   const Eigen::Vector3d q(kick[0] * kick[0], kick[0] * kick[1], kick[1] * kick[1]);
@@ -182,34 +195,40 @@ ArmGains ArmRecord::gains(const ArmGuess& guess, double force_noise) const {
   ArmGains out;
   out.rows.reserve(rows());
   Spread spread;
+  spread.p22 = offset * offset;
+  const double wander = drift * drift * log_.dt;
   for (std::size_t i = 0; i < rows(); ++i) {
     const double forward = log_.lag + late - log_.early[i];
     out.rows.push_back(spread.weigh(log_.variance[i], forward, out.log_sum));
     const double doubt = kJumpDoubt * jumps[i];
     const double other = log_.doubt[i];
-    spread.move(step.phi, q * (force_noise * force_noise + doubt * doubt + other * other));
+    spread.move(step.phi, kick, q * (force_noise * force_noise + doubt * doubt + other * other),
+                wander);
   }
   return out;
 }
 
-void ArmRecord::innovations(const ArmGuess& guess, const ArmGains& gains,
-                            std::span<double> out) const {
+void ArmRecord::innovations(const ArmGuess& guess, const ArmGains& gains, std::span<double> out,
+                            std::span<double> drifts) const {
   const ArmStep step(guess, log_.dt);
   const Drive drive = this->drive(guess);
   const double ahead = log_.lag + late_by(guess);
   Eigen::Vector2d z = Eigen::Vector2d::Zero();
   double before = 0;  // m/s, velocity a tick ago
+  double off = 0;     // N, by which the force reads too high
   for (std::size_t i = 0; i < rows(); ++i) {
     const ArmGains::Row& gain = gains.rows[i];
     const double early = log_.early[i];  // half a tick: the mean over the tick, with its bend
     const double bend = early * early / log_.dt * (2.0 / 3.0) * (z[1] - before);
     const double e = log_.x[i] - z[0] - (ahead - early) * z[1] - bend;
     out[i] = e * gain.weight;
+    off += gain.drift * e;
+    if (!drifts.empty()) drifts[i] = off;
     if (i + 1 == rows()) break;
     z[0] += gain.x * e;
     z[1] += gain.v * e;
     before = z[1];
-    const double beyond = drive.beyond[i];
+    const double beyond = drive.beyond[i] - off;
     const double now = step.push(drive.force[i] + beyond, drive.target[i + 1]);
     const double next = step.push(drive.force[i + 1] + beyond, drive.target[i + 1]);
     z = step.phi * z + step.start * now + step.change * (next - now);
@@ -230,6 +249,31 @@ void ArmRecord::jacobian(std::span<const double> theta, const ArmGains& gains,
     innovations(ArmGuess::from(at, inputs()), gains, column);
     at[which[i]] = value;
     for (std::size_t k = 0; k < n; ++k) column[k] = (column[k] - here[k]) / steps[i];
+  }
+}
+
+void ArmRecord::renewed_jacobian(std::span<const double> theta, std::span<const double> held,
+                                 const Noise& noise, std::span<const std::size_t> which,
+                                 std::span<const double> steps, std::span<double> out) const {
+  const std::size_t n = rows();
+  std::vector<double> at(theta.begin(), theta.end());
+  std::vector<double> made(held.begin(), held.end());
+  std::vector<double> here(n);
+  const auto errors = [&](std::span<double> into) {
+    const ArmGains gains =
+        this->gains(ArmGuess::from(made, inputs()), noise.force, noise.drift, noise.offset);
+    innovations(ArmGuess::from(at, inputs()), gains, into);
+  };
+  errors(here);
+  for (std::size_t i = 0; i < which.size(); ++i) {
+    const std::span<double> column = out.subspan(i * n, n);
+    const std::size_t k = which[i];
+    at[k] = theta[k] + steps[i];
+    made[k] = held[k] + steps[i];
+    errors(column);
+    at[k] = theta[k];
+    made[k] = held[k];
+    for (std::size_t row = 0; row < n; ++row) column[row] = (column[row] - here[row]) / steps[i];
   }
 }
 

@@ -33,6 +33,7 @@ struct ArmGains {
   struct Row {
     double x = 0;       // 1
     double v = 0;       // 1/s
+    double drift = 0;   // N/m
     double weight = 0;  // 1/m, one over the standard deviation of the error
   };
   std::vector<Row> rows;
@@ -73,17 +74,31 @@ class ArmRecord {
   std::size_t inputs() const { return log_.inputs.size(); }
   std::size_t parameters() const { return ArmGuess::kBeforeInputs + inputs() + levels_; }
 
-  /// The gains for a guess, when a force reading has the standard deviation `force_noise` [N].
-  ArmGains gains(const ArmGuess& guess, double force_noise) const;
+  /// The gains for a guess, when a force reading has the standard deviation `force_noise` [N], and
+  /// reads too high by a random walk of `drift` [N/sqrt(s)] that begins within `offset` [N].
+  ArmGains gains(const ArmGuess& guess, double force_noise, double drift = 0,
+                 double offset = 0) const;
 
-  /// Writes the errors of one tick ahead, each over its standard deviation.
-  void innovations(const ArmGuess& guess, const ArmGains& gains, std::span<double> out) const;
+  /// Writes the errors of one tick ahead, each over its standard deviation, and where asked for by
+  /// how much the force reads too high [N].
+  void innovations(const ArmGuess& guess, const ArmGains& gains, std::span<double> out,
+                   std::span<double> drifts = {}) const;
 
   /// Writes d innovations / d theta[which[i]], one column after the other, by differences of
   /// `steps`.
   void jacobian(std::span<const double> theta, const ArmGains& gains,
                 std::span<const std::size_t> which, std::span<const double> steps,
                 std::span<double> out) const;
+
+  struct Noise {
+    double force = 0;   // N, standard deviation of a reading
+    double drift = 0;   // N/sqrt(s), of its random walk
+    double offset = 0;  // N, within which that begins
+  };
+  /// As `jacobian`, with the gains made anew for each change, from `held` changed alike.
+  void renewed_jacobian(std::span<const double> theta, std::span<const double> held,
+                        const Noise& noise, std::span<const std::size_t> which,
+                        std::span<const double> steps, std::span<double> out) const;
 
   /// Writes the position at each row that the recorded force alone gives from a state [m, m/s] on.
   void simulate(const ArmGuess& guess, double x, double v, std::span<double> out) const;

@@ -137,7 +137,7 @@ def _searched(
 ) -> ArmResult:
     fit = fitted(problem, [better_guess(problem)], starts=starts, robust=robust, seed=seed)
     result = ArmResult(
-        problem=problem,
+        problem=fit.problem,
         values=fit.values,
         optimum=fit.optimum,
         force_noise=fit.force_noise,

@@ -21,13 +21,18 @@ Values = NDArray[np.float64]
 
 
 def minus_two_log(
-    record: ArmRecord, theta: Values, held: Values, force_noise: float, robust: float | None = None
+    record: ArmRecord,
+    theta: Values,
+    held: Values,
+    force_noise: float,
+    robust: float | None = None,
+    wander: tuple[float, float] = (0.0, 0.0),
 ) -> float:
     """Return -2 log of the likelihood, but for a constant; with Huber's loss beyond `robust` deviations.
 
-    `held` is what the filter is made for, see `Problem.held`.
+    `held` is what the filter is made for, see `Problem.held`, `wander` the drift of the force, see `Problem.wander`.
     """
-    gains = record.gains(held, force_noise)
+    gains = record.gains(held, force_noise, *wander)
     e = record.innovations(theta, gains)
     return loss(e, robust) + gains.log_sum
 
@@ -40,7 +45,7 @@ def likely_noise(
     It stands for all that moves a hand beside eq. (4), tremor too, as far as that is white.
     """
     found = []
-    quiet = problem.held(values)
+    quiet, wander = problem.held(values), problem.wander(problem.drift)
     parts = zip(problem.records, problem.parameters.places, np.log(problem.shown), strict=True)
     for i, (record, place, shown) in enumerate(parts):
 
@@ -50,11 +55,52 @@ def likely_noise(
             theta: Values = values[place],
             held: Values = quiet[place],
         ) -> float:
-            return minus_two_log(record, theta, held, float(np.exp(z)), robust)
+            return minus_two_log(record, theta, held, float(np.exp(z)), robust, wander)
 
         limits = float(shown), float(shown + np.log(WIDEST))
         found.append(float(np.exp(lowest(unlikely, float(np.log(before[i])), STEP, *limits))))
     return np.array(found)
+
+
+#: Drifts of a force that are tried, in deviations of the force over one second; one as large as the last is no drift
+#: but a wrong model.
+DRIFTS, LARGEST_DRIFT = (0.003, 0.03, 0.3), 1.0
+#: By how much -2 log of the likelihood must fall for a drift to be believed.
+BELIEVED = 10.0
+#: Noise that is so many times the shown one may be a drift.
+LOUD = 1.2
+
+
+def likely_drift(
+    problem: Problem, values: Values, noise: Values, robust: float | None = None
+) -> float:
+    """Return the drift of the forces [N/sqrt(s)] that makes the errors likeliest; 0 where none is clearly likelier.
+
+    A random walk is the slow part of a reading that a hand does not follow: the sensor warms, or the place the hand
+    wants to be wanders. Fitted without it, the noise is too large; so each drift is tried with the noise shown, too.
+    """
+    held = problem.held(values)
+    scale = max(float(np.std(r.force)) for r in problem.recordings if r.force is not None)
+
+    def unlikely(drift: float, noise: Values) -> float:
+        parts = zip(problem.records, problem.parameters.places, noise, strict=True)
+        wander = problem.wander(drift)
+        return sum(
+            minus_two_log(r, values[p], held[p], float(n), robust, wander) for r, p, n in parts
+        )
+
+    noises = [noise] if (noise < LOUD * problem.shown).all() else [noise, problem.shown]
+    start = problem.drift
+    if not start:
+        tried = [(unlikely(d * scale, n), d, i) for d in DRIFTS for i, n in enumerate(noises)]
+        cost, share, which = min(tried)
+        if cost > unlikely(0.0, noise) - BELIEVED:
+            return 0.0
+        start, noise = share * scale, noises[which]
+    low, high = np.log(0.1 * DRIFTS[0] * scale), np.log(LARGEST_DRIFT * scale)
+    at = float(np.clip(np.log(start), low, high))
+    found = lowest(lambda z: unlikely(float(np.exp(z)), noise), at, STEP, low, high)
+    return 0.0 if found > high - 2 * NEAR else float(np.exp(found))
 
 
 def lowest(

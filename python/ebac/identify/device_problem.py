@@ -208,13 +208,13 @@ def _record(drive: Drive, speed: float | None, r: Recording, noise: Values | Non
     still = np.zeros(n)
     missed = np.maximum(jumps(drive.recording), unknown_force(r))
     return ArmRecord(
-        x=(read.x if noise is None else still).tolist(),
-        force=(r.force if noise is None else noise).tolist(),
-        variance=np.where(drive.slides, read.variance, np.inf).tolist(),
-        early=read.early.tolist(),
-        known=still.tolist(),
-        doubt=np.where(drive.slides, missed, WHATEVER * largest).tolist(),
-        inputs=[(values if noise is None else still).tolist() for values in inputs],
+        x=(read.x if noise is None else still),
+        force=(r.force if noise is None else noise),
+        variance=np.where(drive.slides, read.variance, np.inf),
+        early=read.early,
+        known=still,
+        doubt=np.where(drive.slides, missed, WHATEVER * largest),
+        inputs=[(values if noise is None else still) for values in inputs],
         switches=[],
         segments=[0],
         dt=r.dt,

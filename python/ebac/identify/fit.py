@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ebac._core import ArmGains
-from ebac.identify.bias import likely_noise, without_noise
-from ebac.identify.intervals import covariance
+from ebac.identify.bias import likely_drift, likely_noise, without_noise
+from ebac.identify.intervals import covariance, loose_inverse
 from ebac.identify.parameters import BEFORE_LEVELS, BOUNDS, Parameters, kind
 from ebac.identify.problem import Problem
 from ebac.identify.search import Found, least_squares
@@ -27,6 +27,7 @@ SETTLED = 1e-2
 class Fitted:
     """Values of all parameters, covariance of the free ones, and what is left over."""
 
+    problem: Problem  # with the drift that was found
     values: Values
     optimum: Values  # of the search, before the noise of the input is taken off
     force_noise: Values
@@ -63,31 +64,121 @@ def fitted(
         other = _search(problem, _elsewhere(best.values, parameters, draw), robust)
         if other.likelihood < best.likelihood - 1e-3:
             best = other
-    gains = problem.gains(best.values, best.force_noise)
-    values, pretended = without_noise(problem, best.values, best.force_noise, gains)
+    values, noise, doubted = best.values, best.force_noise, None
+    beside = _with_drift(problem, best, guesses, robust)
+    if beside is not None:
+        problem, values, noise, doubted = beside
+    gains = problem.gains(values, noise)
+    corrected, pretended = without_noise(problem, values, noise, gains)
+    if not problem.drift:
+        values = corrected
     errors = problem.errors(values, gains)
+    spread = _spread(problem, values, noise, errors, pretended, robust)
     return Fitted(
+        problem=problem,
         values=values,
         optimum=best.values,
-        force_noise=best.force_noise,
+        force_noise=noise,
         errors=errors,
-        covariance=_spread(problem, values, gains, errors, pretended, robust),
+        covariance=spread if doubted is None else spread + np.outer(doubted, doubted),
         cost=best.likelihood,
         converged=best.found.converged,
         evaluations=best.evaluations,
     )
 
 
+def _with_drift(
+    problem: Problem, best: _Point, guesses: Sequence[Values], robust: float | None
+) -> tuple[Problem, Values, Values, Values] | None:
+    """Fit a drift of the forces along where the errors ask for one, from the guesses, since it misleads a fit."""
+    if not likely_drift(problem, best.values, best.force_noise, robust):
+        return None
+    found = []
+    for start in guesses:
+        drift = likely_drift(problem, start, problem.shown, robust)
+        if drift:
+            at = problem.drifting(drift)
+            found.append((at, _search(at, start, robust)))
+    if not found:
+        return None
+    at, point = min(found, key=lambda pair: pair[1].likelihood)
+    return _beside_drift(at, point.values, point.force_noise, robust)
+
+
+#: Rounds of: values, then drift; settled when it changes by less than this share.
+DRIFT_ROUNDS, SAME_DRIFT = 4, 0.05
+#: A drift is known to about this share: so many times larger, it moves the values by what the intervals hold.
+DOUBTED_DRIFT = 1.25
+#: Least fall of the cost that a step must promise [deviations squared].
+SMALL_FALL = 1e-2
+
+
+def _beside_drift(
+    problem: Problem, values: Values, noise: Values, robust: float | None
+) -> tuple[Problem, Values, Values, Values] | None:
+    """Return problem, values and noise without what a drift does to them, and how far they are off by its doubt.
+
+    None where the errors ask for more than a drift.
+
+    A drift is noise of the input, and strong where a hand hardly moves. With the filters held, it is taken for force
+    that moved nothing. With filters made anew for each change, the sum of squared errors is least at the truth: it is
+    that of the smallest noise of both signals that explains them (total least squares).
+    """
+    p, which = problem.parameters, problem.moved
+
+    def full(part: Values) -> Values:
+        out = values.copy()
+        out[which] = part
+        return out
+
+    def errors(part: Values) -> Values:
+        return problem.objective(full(part), problem.gains(full(part), noise))
+
+    def slope(part: Values) -> NDArray[np.float64]:
+        return problem.renewed_slope(full(part), noise)
+
+    for _ in range(DRIFT_ROUNDS):
+        found = least_squares(
+            errors,
+            slope,
+            values[which],
+            p.low[which],
+            p.high[which],
+            robust=robust,
+            tolerance=SMALL_FALL,
+        )
+        values = full(found.values)
+        before, drift = problem.drift, likely_drift(problem, values, noise, robust)
+        if not drift:
+            return None
+        problem = problem.drifting(drift)
+        if abs(problem.drift / before - 1) < SAME_DRIFT:
+            break
+        noise = likely_noise(problem, values, noise, robust)
+    wider = problem.drifting(DOUBTED_DRIFT * problem.drift)
+    J = wider.renewed_slope(values, noise)
+    e = wider.objective(values, wider.gains(values, noise))
+    scale = np.sqrt(np.einsum("ik,ik->i", J, J))
+    scale[scale == 0] = 1.0  # without influence
+    inverse = loose_inverse(np.einsum("ik,jk->ij", J, J) / np.outer(scale, scale))
+    moves = -inverse @ (np.einsum("ik,k->i", J, e) / scale) / scale
+    return problem, values, noise, moves[: len(p.free)]
+
+
 def _spread(
     problem: Problem,
     values: Values,
-    gains: list[ArmGains],
+    noise: Values,
     errors: Values,
     pretended: Values,
     robust: float | None,
 ) -> NDArray[np.float64]:
     """Return the covariance of the free parameters at some values."""
-    jacobian = problem.jacobian(values, gains, problem.moved)
+    gains = problem.gains(values, noise)
+    if problem.drift:
+        jacobian = problem.renewed_slope(values, noise)[:, : len(errors)]
+    else:
+        jacobian = problem.jacobian(values, gains, problem.moved)
     unseen = problem.jacobian(values, gains, problem.unseen.which)
     unseen *= problem.unseen.deviation[:, None]
     lengths = [len(r.t) for r in problem.recordings]
@@ -100,7 +191,7 @@ def spread_at(problem: Problem, values: Values) -> NDArray[np.float64]:
     noise = likely_noise(problem, values, problem.shown)
     gains = problem.gains(values, noise)
     _, pretended = without_noise(problem, values, noise, gains)
-    return _spread(problem, values, gains, problem.errors(values, gains), pretended, None)
+    return _spread(problem, values, noise, problem.errors(values, gains), pretended, None)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from copy import copy
 from dataclasses import dataclass, field, replace
 from typing import TypeAlias
 
@@ -31,6 +32,7 @@ class Problem:
     parameters: Parameters
     make: Make = field(default_factory=lambda: arm_record)
     folds: tuple[Fold | None, ...] | None = None  # by default as the targets repeat
+    drift: float = 0.0  # N/sqrt(s), of every force reading
     records: tuple[ArmRecord, ...] = field(init=False)
     doubt: Doubt = field(init=False)  # moves with the search
     unseen: Doubt = field(init=False)  # does not, but widens the intervals
@@ -50,6 +52,17 @@ class Problem:
         unseen = {"bend": BEND, "delay": DELAY_DRIVEN if driven else DELAY}
         object.__setattr__(self, "unseen", doubt_of(self, unseen))
 
+    def drifting(self, drift: float) -> Problem:
+        """Return the same with another drift of the force [N/sqrt(s)]."""
+        out = copy(self)  # nothing of the records depends on it
+        object.__setattr__(out, "drift", drift)
+        return out
+
+    def wander(self, drift: float) -> tuple[float, float]:
+        """Return a drift, and within which force it begins [N]: what it comes to over all recordings."""
+        start, end = (f(r.t[i] for r in self.recordings) for f, i in ((min, 0), (max, -1)))
+        return drift, drift * float(np.sqrt(end - start))
+
     @property
     def shown(self) -> NDArray[np.float64]:
         """Return the least noise of each force that is believed [N]: what its signal shows, never none."""
@@ -65,7 +78,7 @@ class Problem:
         """
         held = self.held(values)
         return [
-            record.gains(held[place], float(noise))
+            record.gains(held[place], float(noise), *self.wander(self.drift))
             for record, place, noise in zip(
                 self.records, self.parameters.places, force_noise, strict=True
             )
@@ -104,6 +117,25 @@ class Problem:
         free = len(self.parameters.free)
         outer[free:] = np.diag(1 / self.doubt.deviation)
         return np.hstack([inner, outer])
+
+    def renewed_slope(
+        self, values: NDArray[np.float64], force_noise: NDArray[np.float64]
+    ) -> NDArray[np.float64]:
+        """Return the same as `slope`, with the filters made anew for each change of a free parameter."""
+        out = self.slope(values, self.gains(values, force_noise))
+        held, free, start = self.held(values), self.parameters.free, 0
+        parts = zip(self.records, self.parameters.places, force_noise.tolist(), strict=True)
+        for r, (record, place, noise) in zip(self.recordings, parts, strict=True):
+            rows = [i for i, f in enumerate(free) if f in place]
+            which = [int(np.flatnonzero(place == free[i])[0]) for i in rows]
+            steps = [self._step(int(place[w]), values) for w in which]
+            known = [noise, *self.wander(self.drift)]
+            end = start + len(r.t)
+            out[rows, start:end] = record.renewed_jacobian(
+                values[place], held[place], known, which, steps
+            )
+            start = end
+        return out
 
     def jacobian(
         self,
@@ -225,13 +257,13 @@ def arm_record(
     known = target.path if target.path is not None else np.zeros(len(recording.t))
     read = readings(recording)
     return ArmRecord(
-        x=(read.x if noise is None else np.zeros(len(read.x))).tolist(),
-        force=(recording.force if noise is None else noise).tolist(),
-        variance=read.variance.tolist(),
-        early=read.early.tolist(),
-        known=known.tolist(),
-        doubt=unknown_force(recording).tolist(),
-        inputs=[(ripple(recording) if noise is None else np.zeros(len(read.x))).tolist()],
+        x=(read.x if noise is None else np.zeros(len(read.x))),
+        force=(recording.force if noise is None else noise),
+        variance=read.variance,
+        early=read.early,
+        known=known,
+        doubt=unknown_force(recording),
+        inputs=[(ripple(recording) if noise is None else np.zeros(len(read.x)))],
         switches=[s - t0 for s in target.switches],
         segments=list(target.segments),
         dt=recording.dt,

@@ -17,6 +17,8 @@ Lines = NDArray[np.complex128]
 SEGMENT = 2.0
 #: A hand does nothing of its own beyond this [Hz].
 HIGHEST = 60.0
+#: A target that moves by less than this share of the motion rests: what it shows is its rounding.
+RESTS = 1e-3
 #: Fewest segments: with fewer the coherence means nothing, with one it is always 1.
 FEWEST = 4
 #: Share of the segments that counts as independent: half overlapping, Hann's window (Welch 1967).
@@ -140,7 +142,7 @@ def densities(recording: Recording, target: Target, levels: Values) -> Densities
         frequency=frequency[use],
         density=density[..., use],
         segments=count,
-        moving=float(np.ptp(wanted)) > 1e-9 * float(np.ptp(x)),
+        moving=float(np.ptp(wanted)) > RESTS * float(np.ptp(x)),
     )
 
 

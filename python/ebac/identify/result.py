@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
@@ -216,7 +216,25 @@ class ArmResult:
     def simulated(self, recording: int = 0) -> NDArray[np.float64]:
         """Return the position [m] that a recording's force alone gives with this hand, from the best start."""
         theta = self.values[self.parameters.places[recording]]
-        return best_start(self.problem.records[recording], theta, self.recordings[recording].x)
+        r = self.recordings[recording]
+        record = self.problem.records[recording]
+        if self.drift and r.force is not None:
+            record = arm_record(
+                replace(r, force=r.force - self.drifts(recording)), self.problem.targets[recording]
+            )
+        return best_start(record, theta, r.x)
+
+    @property
+    def drift(self) -> float:
+        """Drift of the force that the errors asked for [N/sqrt(s)]; 0 for none."""
+        return self.problem.drift
+
+    def drifts(self, recording: int = 0) -> NDArray[np.float64]:
+        """Return by how much the force of a recording reads too high at each row, as far as known there [N]."""
+        place = self.problem.parameters.places[recording]
+        gains = self.problem.gains(self.values, self.force_noise)[recording]
+        out = self.problem.records[recording].drifts(self.values[place], gains)
+        return np.asarray(out)
 
     def predictions(
         self, held_out: Sequence[tuple[Recording, Target]] = ()
@@ -264,6 +282,7 @@ class ArmResult:
             "impossible": list(self.impossible),
             "misses": list(self.misses),
             "force_noise_N": self.force_noise.tolist(),
+            "force_drift_N_per_sqrt_s": self.drift,
             "predictions": [vars(p) for p in self.predictions()],
             "residuals": {
                 name: {

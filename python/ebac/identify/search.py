@@ -96,7 +96,7 @@ class _Parabola:
         out = np.zeros_like(self.g)
         if self.move.any():
             along = self.axes.T @ (self.g[self.move] / self.scale)
-            along /= np.maximum(self.sizes + damping, FLATTEST * self.sizes[-1])
+            along /= np.maximum(self.sizes + damping, max(FLATTEST * self.sizes[-1], 1e-300))
             out[self.move] = -(self.axes @ along) / self.scale
         return out
 

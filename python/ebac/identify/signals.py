@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from itertools import pairwise
+from weakref import WeakKeyDictionary
 
 import numpy as np
 from numpy.typing import NDArray
@@ -37,6 +38,17 @@ FAST = 1.0
 
 
 def readings(recording: Recording) -> Readings:
+    """Return the positions the encoder determines, see `_read`; looked for once in each recording."""
+    found = _READ.get(recording)
+    if found is None:
+        found = _READ[recording] = _read(recording)
+    return found
+
+
+_READ: WeakKeyDictionary[Recording, Readings] = WeakKeyDictionary()
+
+
+def _read(recording: Recording) -> Readings:
     """Return the positions the encoder determines.
 
     A count is most precise where it changes: then the handle crossed the edge between two counts, in the tick before,
@@ -160,6 +172,8 @@ def by_place(recording: Recording, sign: NDArray[np.float64]) -> Fold | None:
         return None
     place = np.round((recording.x - recording.x.min()) / recording.count).astype(np.intp)
     most = int(place.max()) + 1
+    if most > len(place):  # counts so fine that none comes again
+        return None
     return np.asarray(np.where(sign >= 0, place, 2 * most - 1 - place), dtype=np.intp)
 
 
