@@ -80,6 +80,16 @@ def test_pauses_everywhere_are_refused_with_a_sentence(tmp_path: Path) -> None:
         load(written(tmp_path, t=log.t[keep], x=log.x[keep], force=log.force[keep]))
 
 
+def test_a_stretch_at_rest_is_left_out(tmp_path: Path) -> None:
+    log = recorded(0, level="clean", task="multisine", seconds=4)
+    t = np.concatenate([1e-3 * np.arange(400), log.t + 1.0])
+    x = np.concatenate([np.zeros(400), log.x])
+    force = np.concatenate([0.01 * np.sin(np.arange(400)), log.force])
+    r = load(written(tmp_path, t=t, x=x, force=force))
+    assert len(r.stretches) == 1
+    assert any("400 rows are left out" in text for text in r.remarks)
+
+
 def test_a_device_is_identified_across_a_pause(tmp_path: Path) -> None:
     t = 1e-3 * np.arange(6000)
     w = 2 * np.pi * np.array([[0.7], [1.9]])

@@ -50,7 +50,9 @@ def on_rows(name: str, signals: Signals, remarks: list[str]) -> dict[str, NDArra
     whole = np.round(step / usual)
     dt = float(step[~paused].sum() / whole[~paused].sum())
     least = max(LEAST_ROWS, round(SHORTEST / dt)) if len(stretches) > 1 else 0
-    long = [rows for rows in stretches if len(rows) >= least]
+    x = signals["x"]
+    moves = [rows for rows in stretches if least == 0 or np.ptp(x[rows]) > 0]
+    long = [rows for rows in moves if len(rows) >= least]
     if not long:
         most = max(len(rows) for rows in stretches)
         raise ValueError(
@@ -103,6 +105,6 @@ def _said(out: dict[str, NDArray[Any]], dt: float, stretches: int, left_out: int
         said.append(f"the recording pauses: {stretches} stretches, fitted as one hand")
     if left_out:
         said.append(
-            f"{left_out} rows are left out: two at a time, or in a stretch that is too short"
+            f"{left_out} rows are left out: two at a time, or in a stretch that is too short or at rest"
         )
     return said
