@@ -62,9 +62,9 @@ def likely_noise(
     return np.array(found)
 
 
-#: Drifts of a force that are tried, in deviations of the force over one second; one as large as the last is no drift
-#: but a wrong model.
-DRIFTS, LARGEST_DRIFT = (0.003, 0.03, 0.3), 1.0
+#: Drifts of a force that are tried, in deviations of the force over one second; one beyond the last is no drift but a
+#: wrong model, such as a force of the wrong sign.
+DRIFTS, LARGEST_DRIFT = (0.003, 0.03, 0.3), 0.4
 #: By how much -2 log of the likelihood must fall for a drift to be believed.
 BELIEVED = 10.0
 #: Noise that is so many times the shown one may be a drift.
