@@ -35,6 +35,7 @@ PURPOSE = {
     "continuity": "smaller steps of the force inside of the wall",
     "recovery": "rests where the wall is",
     "injection": "takes out what recovery puts in",
+    "fast_stiffness": "noise does not ring with a heavy hand on a stiff wall",
     "guard": "nobody draws more than was lent",
     "kp": "less friction felt",
 }

@@ -44,6 +44,44 @@ def test_position_and_force_settle_at_once_and_stay(seed: int) -> None:
     assert contact.rest_m == pytest.approx(ebac.ideal_rest(OBSERVED), abs=2 * NOISY.count)
 
 
+@settings(max_examples=20, deadline=None)
+@given(
+    mass=st.floats(0.05, 1.0),
+    stiffness=st.floats(100, 800),
+    wall=st.floats(1e3, 35e3),
+    delay=st.integers(0, 2),
+)
+def test_small_fast_changes_alone_are_shown_softer(
+    mass: float, stiffness: float, wall: float, delay: int
+) -> None:
+    scenario = OBSERVED.replace(
+        hand=ebac.Hand(mass=mass, stiffness=stiffness),
+        environment=ebac.Wall(stiffness=wall),
+        timing=ebac.Timing(delay=delay),
+        seconds=2.0,
+    )
+    trace = ebac.simulate(scenario, "ebac")
+    peak = design("ebac", scenario.device, scenario.timing).peak_force
+    off = trace["law.f_d"] - np.clip(trace["f_env"], -peak, peak)
+    assert np.abs(off).max() <= 0.6 + 1e-9
+    if wall < 4e3:  # softer than what small changes are shown with
+        assert not off.any()
+
+
+def test_a_heavy_hand_on_a_stiff_wall_is_quiet_in_force_with_fast_stiffness_alone() -> None:
+    heavy = OBSERVED.replace(
+        hand=ebac.Hand(mass=1.0, damping=2.0, stiffness=300.0),
+        environment=ebac.Wall(stiffness=20e3),
+        timing=ebac.Timing(delay=2),
+    )
+    whole = ebac.Variant(law="ebac", changes={"fast_stiffness": 0.0})
+    soft, stiff = (ebac.contact(ebac.simulate(heavy, law)) for law in ("ebac", whole))
+    assert soft.quiet
+    assert stiff.still
+    assert not stiff.quiet
+    assert soft.rest_m == pytest.approx(stiff.rest_m, abs=NOISY.count)
+
+
 def test_on_the_encoder_alone_the_same_force_clicks() -> None:
     """What the observer is for; with it off, the law is the one without."""
     trace = ebac.simulate(OBSERVED.replace(observer=False), "ebac")

@@ -23,7 +23,8 @@ namespace ebac {
 ///   7. guard       the total command is limited to what the ledger can pay for
 ///
 /// With the observer (`Scenario(observer=...)`), 1 is counted within a count, 2 to 6 become
-/// F = F_e + B_v v at the state predicted for the instant at which the command acts, and 7 counts
+/// F = F_e + B_v v at the state predicted for the instant at which the command acts, small fast
+/// changes of F_e softer (`DynamicStiffness`), and 7 counts
 /// with the velocity and the pull that are measured. Where the observer fails, the law fades to the
 /// steps above in 20 ms, from the force it is at.
 ///

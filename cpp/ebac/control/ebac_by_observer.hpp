@@ -39,7 +39,7 @@ class EbacByObserver {
     shared.ledger.lend(shared.params.observed_reserve);
     const double wanted = force(port, shared);
     shared.state.slope = force_.slope();
-    shared.state.f_d = shared.held(port.f_env);
+    shared.state.f_d = shared.held(force_.shown());
     shared.state.injected = force_.injected();
     shared.state.record(0, 0, 0, 0);
     return wanted;

@@ -21,6 +21,7 @@ struct EbacParams {
   double kp = 0.1;
   double kd = 0;                    // s
   double filter = 5e-3;             // s
+  double fast_stiffness = 5e3;      // N/m
   double heaviest_hand = 1.5;       // kg
   double pull = 20;                 // N
   double pull_rate = 1e3;           // N/s
@@ -62,8 +63,12 @@ struct EbacParams {
         F{"kd", &EbacParams::kd, "s", "K_d of eq. (2)", 0, 0.01},
         F{"filter", &EbacParams::filter, "s", "low-pass on the derivative of the force error", 0,
           1},
+        F{"fast_stiffness", &EbacParams::fast_stiffness, "N/m",
+          "with the observer, stiffness for changes of the force below about 1 N that are faster "
+          "than 1 Hz; 0 shows them with the world's own",
+          0, 1e6},
         F{"heaviest_hand", &EbacParams::heaviest_hand, "kg",
-          "heaviest hand the recovery is paced for", 0, 10},
+          "heaviest hand that recovery, and on soft walls the damper, are designed for", 0, 10},
         F{"pull", &EbacParams::pull, "N", "largest pull of a hand the guard counts with", 0, 1e3},
         F{"pull_rate", &EbacParams::pull_rate, "N/s",
           "with the observer, fastest growth of the pull beyond what the force sensor shows", 0,
@@ -97,7 +102,9 @@ struct EbacState : BetaTrace {
         beta_field<EbacState>(),
         beta_min_field<EbacState>(),
         beta_max_field<EbacState>(),
-        F{"f_d", &EbacState::f_d, "N", "F_d of eq. (8), before damping and force loop"},
+        F{"f_d", &EbacState::f_d, "N",
+          "F_d of eq. (8), before damping and force loop; with the observer the world's force as "
+          "shown"},
         F{"injected", &EbacState::injected, "N", "force of the virtual damper"},
         F{"energy", &EbacState::energy, "J", "ledger: what the virtual side may give back"},
         F{"slope", &EbacState::slope, "N/m", "stiffness of the environment as seen"},

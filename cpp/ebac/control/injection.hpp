@@ -42,7 +42,7 @@ class HalfPeriod {
 
 /// How much stiffness and virtual damping a device can show, from its mass and its delay alone.
 ///
-/// At w the delayed pair c + B_v s leads by about 0.8 rad, of which the delay may cost 0.35;
+/// At w the delayed pair c + B_v s leads by about 0.8 rad, of which the delay may cost `phase_lag`;
 /// heavier hands lower the crossover. One encoder count of velocity may not cause more than 1 N.
 /// Where a first resonance of the structure is declared that the delay would drive, the velocity is
 /// averaged with that of half its period before (`HalfPeriod`), and w follows from the later damper.
@@ -53,10 +53,9 @@ struct Injection {
   double velocity_lag;  // s
   int half_period;      // ticks, of the resonance; 0 where nothing is averaged
 
-  /// `resonance` in Hz; 0 where none is declared.
+  /// `resonance` in Hz, 0 where none is declared; `phase_lag` in rad.
   Injection(double mass, double count, double current_lag, const Timing& timing,
-            double resonance = 0) EBAC_RT {
-    constexpr double kPhaseLag = 0.35;   // rad of delay at w, against 0.8 rad of lead
+            double resonance = 0, double phase_lag = 0.35) EBAC_RT {
     constexpr double kCountForce = 1.0;  // N, largest force step one count may cause
     double late = (timing.delay + 0.5) * timing.dt + current_lag;
     const double smooth = kCountForce * std::max(timing.dt, kVelocityTime) / (count * mass);
@@ -65,7 +64,7 @@ struct Injection {
       half_period = HalfPeriod::ticks(resonance, timing.dt);
       late += 0.5 * half_period * timing.dt;
     }
-    bandwidth = std::min(kPhaseLag / late, smooth);
+    bandwidth = std::min(phase_lag / late, smooth);
     stiffness = 0.9 * mass * bandwidth * bandwidth;
     damping = mass * bandwidth;
     velocity_lag = smoothing(timing);

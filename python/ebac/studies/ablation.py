@@ -17,7 +17,7 @@ from ebac.studies.result import Study
 from ebac.studies.study import study
 
 #: Numbers that are pieces too: zero switches them off.
-GAINS = ("kp",)
+GAINS = ("kp", "fast_stiffness")
 
 
 @dataclass(frozen=True, kw_only=True)
