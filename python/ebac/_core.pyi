@@ -5435,8 +5435,10 @@ class EBAC:
         K_d of eq. (2) [s], 0 to 0.01.
     filter : float
         low-pass on the derivative of the force error [s], 0 to 1.
+    fast_stiffness : float
+        with the observer, stiffness for changes of the force below about 1 N that are faster than 1 Hz; 0 shows them with the world's own [N/m], 0 to 1e+06.
     heaviest_hand : float
-        heaviest hand the recovery is paced for [kg], 0 to 10.
+        heaviest hand that recovery, and on soft walls the damper, are designed for [kg], 0 to 10.
     pull : float
         largest pull of a hand the guard counts with [N], 0 to 1000.
     pull_rate : float
@@ -5568,6 +5570,7 @@ class EBAC:
         kp: float = 0.1,
         kd: float = 0.0,
         filter: float = 0.005,
+        fast_stiffness: float = 5000.0,
         heaviest_hand: float = 1.5,
         pull: float = 20.0,
         pull_rate: float = 1000.0,
@@ -5640,6 +5643,11 @@ class EBAC:
         c2 of eq. (10), 0.8 to 1
         """
     @property
+    def fast_stiffness(self) -> float:
+        """
+        with the observer, stiffness for changes of the force below about 1 N that are faster than 1 Hz; 0 shows them with the world's own [N/m], 0 to 1e+06
+        """
+    @property
     def filter(self) -> float:
         """
         low-pass on the derivative of the force error [s], 0 to 1
@@ -5657,7 +5665,7 @@ class EBAC:
     @property
     def heaviest_hand(self) -> float:
         """
-        heaviest hand the recovery is paced for [kg], 0 to 10
+        heaviest hand that recovery, and on soft walls the damper, are designed for [kg], 0 to 10
         """
     @property
     def injection(self) -> bool:

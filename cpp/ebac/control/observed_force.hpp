@@ -17,14 +17,16 @@ namespace ebac {
 /// fast changes are shown softer (`DynamicStiffness`).
 ///
 /// Without a count of noise in the velocity, mass and delay alone bound the damper: B_v = 0.5 M /
-/// ((d + 1/2) T + current_lag), so that a device of half the mass that was told still obeys. On a
-/// soft world, of slope K, it is at most sqrt(K (M + heaviest hand)), half of critical for that hand:
-/// more would only make it slow. The world may be shown at its whole stiffness while moving.
+/// ((d + 0.8) T + current_lag). Twice as much loses walls where the observer is told half of the
+/// mass or a wrong lag of the sensor. On a soft world, of slope K, it is at most sqrt(K (M + heaviest
+/// hand)), half of critical for that hand: more would only make it slow. The world may be shown at its
+/// whole stiffness while moving.
 class ObservedForce {
  public:
   /// Without a damper where `injection` is off.
   ObservedForce(const EbacParams& law, const Timing& timing) EBAC_RT
-      : show_(law.mass, kNoCount, law.current_lag, timing, law.resonance, kPhaseLag),
+      : show_(law.mass, kNoCount, law.current_lag + kSpare * timing.dt, timing, law.resonance,
+              kPhaseLag),
         dynamic_(law.fast_stiffness),
         half_period_(show_.half_period),
         damping_(law.injection ? show_.damping : 0.0),
@@ -57,6 +59,7 @@ class ObservedForce {
 
  private:
   static constexpr double kPhaseLag = 0.5;   // rad of delay at w
+  static constexpr double kSpare = 0.3;      // ticks of delay, for facts that are wrong
   static constexpr double kNoCount = 1e-12;  // m: the velocity has no noise of counts
   static constexpr double kLeast = 0.02;     // counts: a smaller motion shows no slope
   static constexpr double kForget = 0.02;    // per tick, of a slope steeper than the last
