@@ -70,7 +70,7 @@ def test_small_fast_changes_alone_are_shown_softer(
 
 def test_a_heavy_hand_on_a_stiff_wall_is_quiet_in_force_with_fast_stiffness_alone() -> None:
     heavy = OBSERVED.replace(
-        hand=ebac.Hand(mass=1.0, damping=2.0, stiffness=300.0),
+        hand=ebac.Hand(mass=0.6, damping=2.0, stiffness=500.0),
         environment=ebac.Wall(stiffness=20e3),
         timing=ebac.Timing(delay=2),
     )

@@ -152,7 +152,7 @@ def test_fig11_judges_each_claim() -> None:
     for law in ("tca", "eba", "ebac"):
         assert found[f"{law}: short of the hand's target"] == 0.04 - found[f"{law}: rest"]
     assert found["ebac-printed, K_p = 0: beyond the ideal"] > 1e-3
-    assert values("fig11")["ebac: force settled"] > values("fig11")["ebac: position settled"]
+    assert values("fig11")["ebac: force settled"] < 0.05  # s
 
 
 def test_table1_and_its_figures() -> None:
