@@ -40,7 +40,7 @@ RULES = (
         NEVER,
         "a test of its own opens every notebook, the building of the site executes it",
     ),
-    Rule(r"docs/figures/", NEVER, "takes minutes, and needs a clone"),
+    Rule(r"docs/figures/|tests/recordings/", NEVER, "takes minutes, and needs a clone"),
     Rule(
         r"\bv?can\d\b|=socketcan|--interface socketcan",
         NEVER,

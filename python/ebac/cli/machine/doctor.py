@@ -39,7 +39,7 @@ def doctor(
 
     * `ebac doctor --cpu 0`: would a thread get CPU 0?
 
-    * `ebac doctor joystick.toml`: and how long its drives hold a torque when the loop stalls
+    * `ebac demo joystick`, then `ebac doctor joystick.toml`: and how long its drives hold a torque when the loop stalls
     """
     from ebac.realtime import RealTime, examine
 
