@@ -198,11 +198,12 @@ def _run(
                 fault, trace = error, error.trace
             except BaseException:
                 _tell_end(device, as_json)
+                raise
+            finally:  # whatever comes after the run: its log is there
                 if log is not None and log.exists():
                     output.keeping(
                         f"look at the rows with `ebac log info {log}`, plot them with `ebac log plot {log}`"
                     )
-                raise
         report, place = device.report, device.backend
     assert report is not None
     with output.refusing():
