@@ -9,8 +9,10 @@ import time
 from pathlib import Path
 
 import pytest
+from typer.testing import CliRunner
 
 from ebac import datasets
+from ebac.cli import app
 
 pytestmark = pytest.mark.skipif(not Path("/proc/self/stat").exists(), reason="needs /proc")
 
@@ -99,6 +101,24 @@ def test_a_run_that_was_interrupted_names_its_log_and_what_to_do_with_it(tmp_pat
     assert process.returncode == 130, said
     (log,) = (tmp_path / "ebac-run").iterdir()
     assert f"`ebac log plot ebac-run/{log.name}`" in said
+
+
+@pytest.mark.parametrize("clock", ["--simulated --seconds 0.2", "--virtual --seconds 0.2"])
+def test_an_interruption_after_a_run_names_its_log(
+    clock: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """While its result is being drawn."""
+
+    def stopped(*_: object) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(sys.modules["ebac.cli.run.run"], "_give", stopped)
+    datasets.write("joystick", tmp_path)
+    result = CliRunner().invoke(app, ["run", "joystick.toml", *clock.split()])
+    assert result.exit_code == 130
+    (log,) = (tmp_path / "ebac-run").glob("*.mcap")
+    assert f"`ebac log plot ebac-run/{log.name}`" in " ".join(result.output.split())
 
 
 def test_what_was_interrupted_is_resumed(tmp_path: Path) -> None:

@@ -199,11 +199,8 @@ def _run(
             except BaseException:
                 _tell_end(device, as_json)
                 raise
-            finally:  # whatever comes after the run: its log is there
-                if log is not None and log.exists():
-                    output.keeping(
-                        f"look at the rows with `ebac log info {log}`, plot them with `ebac log plot {log}`"
-                    )
+            finally:
+                _keep(log)
         report, place = device.report, device.backend
     assert report is not None
     with output.refusing():
@@ -211,6 +208,14 @@ def _run(
             known, trace, report, place.about, simulated, fault, changed=bool(schedule.orders)
         )
     _give(result, stem, as_json, style, fault)
+
+
+def _keep(log: Path | None) -> None:
+    """From here on, whatever ends the command: the log is there."""
+    if log is not None and log.exists():
+        output.keeping(
+            f"look at the rows with `ebac log info {log}`, plot them with `ebac log plot {log}`"
+        )
 
 
 def _run_virtual(
@@ -229,6 +234,7 @@ def _run_virtual(
             fault, trace = error, error.trace
         if log is not None:
             logs.save(trace, log)
+            _keep(log)
         result = results.Result.of_virtual(known, trace, log, fault)
     _give(result, stem, as_json, style, fault)
 
