@@ -141,6 +141,7 @@ void bind_identify(py::module_& m) {
                        const std::vector<Numbers>& inputs, std::vector<double> switches,
                        std::vector<int> segments, double dt, double lag) {
              std::vector<std::vector<double>> columns;
+             columns.reserve(inputs.size());
              for (const Numbers& input : inputs) columns.push_back(list_of(input));
              return ArmRecord({list_of(x), list_of(force), list_of(variance), list_of(early),
                                list_of(known), list_of(doubt), std::move(columns),

@@ -15,15 +15,15 @@ constexpr int kMostLooks = 5000;  // a second
 
 }  // namespace
 
-std::atomic<bool> Leaving::leaving_{false};
-std::atomic<int> Leaving::entering_{0};
-std::thread::id Leaving::leaver_;
+std::atomic<bool> Leaving::leaving{false};
+std::atomic<int> Leaving::entering{0};
+std::thread::id Leaving::leaver;
 
 void Leaving::leave() {
-  leaver_ = std::this_thread::get_id();
-  leaving_.store(true);
+  leaver = std::this_thread::get_id();
+  leaving.store(true);
   const OthersRun others_run;
-  for (int i = 0; i < kMostLooks && entering_.load() > 0; ++i) std::this_thread::sleep_for(kLook);
+  for (int i = 0; i < kMostLooks && entering.load() > 0; ++i) std::this_thread::sleep_for(kLook);
 }
 
 void Leaving::stay() {

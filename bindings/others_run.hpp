@@ -16,17 +16,17 @@ class Leaving {
   static void leave();
   /// Called without the interpreter's lock, before it is taken; `done` after that.
   static void enter() {
-    entering_.fetch_add(1);
-    if (leaving_.load() && std::this_thread::get_id() != leaver_) stay();
+    entering.fetch_add(1);
+    if (leaving.load() && std::this_thread::get_id() != leaver) stay();
   }
-  static void done() { entering_.fetch_sub(1); }
+  static void done() { entering.fetch_sub(1); }
 
  private:
   [[noreturn]] static void stay();
 
-  static std::atomic<bool> leaving_;
-  static std::atomic<int> entering_;
-  static std::thread::id leaver_;  // ends the interpreter, and may come back
+  static std::atomic<bool> leaving;
+  static std::atomic<int> entering;
+  static std::thread::id leaver;  // ends the interpreter, and may come back
 };
 
 /// Gives the interpreter's lock away for a scope. Not `py::gil_scoped_release`: see `Leaving`.
@@ -35,6 +35,8 @@ class OthersRun {
   OthersRun() : state_(PyEval_SaveThread()) {}
   OthersRun(const OthersRun&) = delete;
   OthersRun& operator=(const OthersRun&) = delete;
+  // CPython ends a thread by unwinding it: without noexcept(false) that is std::terminate.
+  // NOLINTNEXTLINE(bugprone-unsafe-to-allow-exceptions)
   ~OthersRun() noexcept(false) {
     Leaving::enter();
     PyEval_RestoreThread(state_);
