@@ -1,7 +1,6 @@
 """What can hurt a hand: torque nobody asked for, a drive that holds it without a loop, a second master."""
 
 import json
-import queue
 import threading
 import time
 from collections.abc import Callable, Iterator
@@ -11,6 +10,7 @@ from typing import Any
 
 import can
 import pytest
+from simulated_bus import SimulatedBus
 from typer.testing import CliRunner
 
 import ebac
@@ -254,33 +254,10 @@ def test_doctor_prints_how_long_each_drive_would_hold_its_torque(tmp_path: Path)
         assert ran.exit_code == (1 if verdict == "bad" else ran.exit_code)
 
 
-class VirtualBus(can.BusABC):
-    """A simulated drive in virtual time."""
-
-    def __init__(self) -> None:
-        self.drive, self.heard = SimulatedDrive(node=1), queue.Queue[can.Message]()
-        self.channel_info = "virtual"
-        super().__init__(channel=None)
-
-    def send(self, msg: can.Message, timeout: float | None = None) -> None:
-        self.drive.receive(msg.arbitration_id, bytes(msg.data))
-        self.elapse(1e-5)
-
-    def elapse(self, seconds: float) -> None:
-        self.drive.elapse(seconds)
-        for identifier, data in self.drive.take():
-            self.heard.put(can.Message(arbitration_id=identifier, data=data, is_extended_id=False))
-
-    def _recv_internal(self, timeout: float | None) -> tuple[can.Message | None, bool]:
-        try:
-            return self.heard.get(timeout=timeout), False
-        except queue.Empty:
-            return None, False
-
-
 @pytest.mark.parametrize("name", ["copley-accelnet", "generic-cia402"])
 def test_a_drive_as_shipped_lets_go_when_the_loop_stalls(name: str, tmp_path: Path) -> None:
-    raw = VirtualBus()
+    simulated = SimulatedDrive(node=1)
+    raw = SimulatedBus(simulated, per_frame=1e-5)
     with drives.DriveBus(raw) as bus:
         drive, (node,) = bus.drive(1), drives.load(name, nodes=[1]).nodes
         drives.apply(drive, node, backups=drives.Backups(tmp_path))
@@ -289,9 +266,9 @@ def test_a_drive_as_shipped_lets_go_when_the_loop_stalls(name: str, tmp_path: Pa
             raw.send(frame(0x201, bytes([word, 0, 0xF4, 0x01])))
             raw.send(frame(0x080, b""))
             raw.elapse(1e-3)
-        assert raw.drive.current == pytest.approx(0.4926, abs=1e-3)
+        assert simulated.current == pytest.approx(0.4926, abs=1e-3)
         stalled = 1e-3  # s, since the last torque
-        while raw.drive.current != 0:
+        while simulated.current != 0:
             raw.elapse(1e-4)
             stalled += 1e-4
             assert stalled <= drives.hold_time(node.profile) + 2e-4

@@ -1,13 +1,11 @@
 """The simulated drive, seen by canopen: a stranger who knows nothing but its EDS."""
 
 import io
-import queue
 import re
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-import can
 import canopen
 import numpy as np
 import pytest
@@ -15,6 +13,7 @@ from canopen.objectdictionary import ODVariable
 from canopen.objectdictionary.datatypes import SIGNED_TYPES, VISIBLE_STRING
 from hypothesis import given
 from hypothesis import strategies as st
+from simulated_bus import SimulatedBus
 
 import ebac
 from ebac import _core
@@ -24,41 +23,12 @@ CONTROLWORDS = {"none": 0x80, "off": 0, "quick stop": 2, "shutdown": 6, "switch 
                 "enable": 15, "reset": 0x80}  # fmt: skip
 
 
-class DriveBus(can.BusABC):
-    """A bus with simulated drives at its other end; time passes when a test says so."""
-
-    def __init__(self, drives: SimulatedDrive | Joystick) -> None:
-        self.drives = drives
-        self.heard: queue.Queue[can.Message] = queue.Queue()
-        self.channel_info = "simulated drives"
-        super().__init__(channel=0)
-        self.elapse(0)
-
-    def send(self, msg: can.Message, timeout: float | None = None) -> None:
-        self.drives.receive(msg.arbitration_id, bytes(msg.data or b""), remote=msg.is_remote_frame)
-        self._listen()
-
-    def elapse(self, seconds: float) -> None:
-        self.drives.elapse(seconds)
-        self._listen()
-
-    def _listen(self) -> None:
-        for identifier, data in self.drives.take():
-            self.heard.put(can.Message(arbitration_id=identifier, data=data, is_extended_id=False))
-
-    def _recv_internal(self, timeout: float | None) -> tuple[can.Message | None, bool]:
-        try:
-            return self.heard.get(timeout=timeout), False
-        except queue.Empty:
-            return None, False
-
-
 class Desk:
     """One drive, a bus, a network, and the drive's node in it."""
 
     def __init__(self, drives: SimulatedDrive | Joystick, drive: SimulatedDrive) -> None:
         self.drive = drive
-        self.bus = DriveBus(drives)
+        self.bus = SimulatedBus(drives)
         self.network = canopen.Network(self.bus)
         self.network.NOTIFIER_CYCLE = 0.01
         self.network.NOTIFIER_SHUTDOWN_TIMEOUT = 1.0
