@@ -109,6 +109,8 @@ TEST(Retune, TellsWhatMayNotChange) {
                  "ebac.mass = 0.3 kg: cannot change from 0.25 while the loop runs; stop it first");
   }
   EXPECT_THROW(check_retune(now, Ebac({}, {.delay = 2})), std::invalid_argument);
+  EXPECT_THROW(check_retune(now, Ebac({.reserve = 0.02})), std::invalid_argument);
+  EXPECT_THROW(check_retune(now, Ebac({.observed_reserve = 0.02})), std::invalid_argument);
 }
 
 /// Retuned to what it is, a law goes on as if nothing had happened.

@@ -332,13 +332,19 @@ def test_the_ideal_is_where_all_forces_balance(
         {"hand": ebac.Hand(release_at=1.0)},
         {"hand": ebac.Hand(path=ebac.Sine())},
         {"hand": ebac.Hand(path=ebac.Tapping())},
-        {"hand": ebac.Hand(path=ebac.Recorded(t=[0.0, 1.0], x=[0.0, 1.0]))},
+        {"hand": ebac.Hand(path=ebac.Recorded(t=[0.0, 6.0], x=[0.0, 1.0]))},  # as long as the run
         {"hand": ebac.presets.hand("open")},
         {"device": ebac.presets.device("joystick")},
     ],
 )
 def test_there_is_no_ideal_where_nothing_comes_to_rest(changes: dict[str, Any]) -> None:
     assert ebac.ideal_rest(ebac.Scenario(**changes)) is None
+
+
+def test_a_recorded_path_rests_where_it_ends() -> None:
+    stepped = ebac.Scenario(hand=ebac.Hand(path=ebac.Step(target=0.03)))
+    recorded = ebac.Hand(path=ebac.Recorded(t=[0.0, 1.0, 2.0], x=[0.0, 0.05, 0.03]))
+    assert ebac.ideal_rest(stepped.replace(hand=recorded)) == ebac.ideal_rest(stepped)
 
 
 def test_the_reference_rests_ideally_at_the_figure_of_the_theory() -> None:

@@ -24,8 +24,8 @@ namespace ebac {
 ///
 /// With the observer (`Scenario(observer=...)`), 1 is counted within a count, 2 to 6 become
 /// F = F_e + B_v v at the state predicted for the instant at which the command acts, small fast
-/// changes of F_e softer (`DynamicStiffness`), and 7 counts
-/// with the velocity and the pull that are measured. Where the observer fails, the law fades to the
+/// changes of F_e softer while the account is rich (`DynamicStiffness`), and 7 counts with the
+/// velocity and the pull that are measured. Where the observer fails, the law fades to the
 /// steps above in 20 ms, from the force it is at.
 ///
 /// The design uses no property of the wall or the hand.
@@ -103,6 +103,7 @@ class Ebac {
   void shift(const Port& port) EBAC_RT {
     const double weight = port.est.weight;
     if (weight_ >= 1 && weight < 1) encoder_.take_over(port, shared_.params);
+    if (weight_ <= 0) observer_.forget();
     if (weight_ < 1 && weight >= 1) observer_.begin(port);
     weight_ = weight;
   }

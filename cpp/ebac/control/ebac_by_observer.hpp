@@ -25,12 +25,15 @@ class EbacByObserver {
   /// The account begins with this tick.
   void begin(const Port& port) EBAC_RT { work_.start(port); }
 
+  /// Nothing is known of the contact.
+  void forget() EBAC_RT { force_.forget(); }
+
   /// Stiffness at which the last contact can have stored energy [N/m].
   double stored_at() const EBAC_RT { return force_.stored_at(); }
 
   /// Steps 2 to 6 alone.
   double force(const Port& port, const EbacShared& shared) EBAC_RT {
-    return shared.held(force_.step(port));
+    return shared.held(force_.step(port, shared.ledger.energy()));
   }
 
   /// Steps 1 to 6: the force that is wanted.
@@ -46,11 +49,12 @@ class EbacByObserver {
   }
 
   /// Step 7, with the velocity of the observer, half a count, and the pull that the force sensor
-  /// shows: a hand may vanish at any time, but its pull grows no faster than declared.
+  /// shows, behind its lag: a hand may vanish at any time, but its pull grows no faster than declared.
   double guarded(double wanted, const Port& port, EbacShared& shared) const EBAC_RT {
     if (!shared.params.guard || wanted == 0) return wanted;
     const double shown = std::max(0.0, wanted > 0 ? -port.f_meas : port.f_meas);
-    const double grown = shared.params.pull_rate * (shared.timing.delay + 1) * port.dt;
+    const double unseen = (shared.timing.delay + 1) * port.dt + kBehind;
+    const double grown = shared.params.pull_rate * unseen;
     const double pull = std::min(shared.params.pull, shown + kSensor + grown);
     const double v = port.est.v;
     const double energy = shared.to_spend(wanted, port);
@@ -65,8 +69,9 @@ class EbacByObserver {
   }
 
  private:
-  static constexpr double kSensor = 0.5;  // N, error of the force sensor the guard counts with
-  static constexpr double kKnown = 0.5;   // of a jump: the velocity is that at the interval's start
+  static constexpr double kSensor = 0.5;   // N, error of the force sensor the guard counts with
+  static constexpr double kBehind = 1e-3;  // s, lag of a usual force sensor and age of its reading
+  static constexpr double kKnown = 0.5;  // of a jump: the velocity is that at the interval's start
 
   ObservedForce force_;
   ObservedWork work_;

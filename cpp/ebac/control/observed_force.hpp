@@ -7,6 +7,7 @@
 #include "ebac/control/dynamic_stiffness.hpp"
 #include "ebac/control/ebac_params.hpp"
 #include "ebac/control/injection.hpp"
+#include "ebac/control/static_slope.hpp"
 #include "ebac/core/realtime.hpp"
 #include "ebac/core/sample.hpp"
 
@@ -14,7 +15,8 @@ namespace ebac {
 
 /// The force of the virtual world at the state predicted for the instant at which the command acts,
 /// with a damper on the predicted velocity: F = F_e + B_v v_act, never against F_e. Of F_e, small
-/// fast changes are shown softer (`DynamicStiffness`).
+/// fast changes are shown softer while the account is rich, stiffer while it is poor
+/// (`DynamicStiffness`).
 ///
 /// Without a count of noise in the velocity, mass and delay alone bound the damper: B_v = 0.5 M /
 /// ((d + 0.8) T + current_lag). Twice as much loses walls where the observer is told half of the
@@ -30,14 +32,17 @@ class ObservedForce {
         dynamic_(law.fast_stiffness),
         half_period_(show_.half_period),
         damping_(law.injection ? show_.damping : 0.0),
+        stiffest_(2 * damping_ * damping_ / law.mass),
         heaviest_(law.mass + law.heaviest_hand),
+        reserve_(law.observed_reserve),
         stored_at_(show_.stiffness),
-        least_(kLeast* law.count) {}
+        slope_(kLeast* law.count) {}
 
-  double step(const Port& port) EBAC_RT {
+  /// `energy` is what the account holds [J].
+  double step(const Port& port, double energy) EBAC_RT {
     watch(port);
     injected_ = 0;
-    shown_ = dynamic_.step(port.f_env, slope_, port.dt);
+    shown_ = dynamic_.step(port.f_env, slope_.value(), softer(port.f_env, energy), port.dt);
     const double damped = half_period_.step(shown_ + std::min(damping_, enough_) * port.est.v_act);
     if (port.f_env == 0) return 0;
     const double force = port.f_env > 0 ? std::max(damped, 0.0) : std::min(damped, 0.0);
@@ -45,14 +50,23 @@ class ObservedForce {
     return force;
   }
 
+  /// Nothing is known of the contact.
+  void forget() EBAC_RT {
+    slope_.forget();
+    dynamic_.forget();
+    half_period_ = HalfPeriod(show_.half_period);
+  }
+
   void retune(const ObservedForce& next) EBAC_RT {
     dynamic_.retune(next.dynamic_);
     damping_ = next.damping_;
+    stiffest_ = next.stiffest_;
+    heaviest_ = next.heaviest_;
   }
 
-  double shown() const EBAC_RT { return shown_; }        // N, of the world
-  double injected() const EBAC_RT { return injected_; }  // N
-  double slope() const EBAC_RT { return slope_; }        // N/m, 0 out of contact
+  double shown() const EBAC_RT { return shown_; }          // N, of the world
+  double injected() const EBAC_RT { return injected_; }    // N
+  double slope() const EBAC_RT { return slope_.value(); }  // N/m, 0 out of contact
 
   /// Stiffness at which the last contact can have stored energy [N/m].
   double stored_at() const EBAC_RT { return stored_at_; }
@@ -62,35 +76,38 @@ class ObservedForce {
   static constexpr double kSpare = 0.3;      // ticks of delay, for facts that are wrong
   static constexpr double kNoCount = 1e-12;  // m: the velocity has no noise of counts
   static constexpr double kLeast = 0.02;     // counts: a smaller motion shows no slope
-  static constexpr double kForget = 0.02;    // per tick, of a slope steeper than the last
 
+  /// The estimate that fades in or out is not where the world was met.
   void watch(const Port& port) EBAC_RT {
-    const double dx = std::abs(port.est.x_act - last_x_);
-    if (port.f_env == 0) {
-      slope_ = 0;
-    } else if (dx > least_ && last_env_ != 0) {
-      const double seen = std::abs(port.f_env - last_env_) / dx;
-      slope_ = seen > slope_ ? seen : slope_ + kForget * (seen - slope_);
-      stored_at_ = std::min(show_.stiffness, slope_);
-      enough_ = std::sqrt(slope_ * heaviest_);
-    }
-    last_env_ = port.f_env;
-    last_x_ = port.est.x_act;
+    if (port.est.weight < 1) return;
+    const double surface = port.world_v * port.dt;
+    if (!slope_.step(port.f_env, port.est.x_act, port.est.v_act, surface)) return;
+    stored_at_ = std::min(show_.stiffness, slope_.value());
+    enough_ = std::sqrt(slope_.value() * heaviest_);
+  }
+
+  /// Share by which small fast changes are softer: all while the account holds a reserve beyond what
+  /// a spring would, none at half of it, and stiffer below, as far as the damper bears it.
+  double softer(double force, double energy) const EBAC_RT {
+    const double slope = slope_.value();
+    if (slope <= 0 || reserve_ <= 0) return 1;
+    const double beyond = energy - 0.5 * force * force / slope;
+    const double borne = std::clamp(stiffest_ / slope - 1, 0.0, 1.0);
+    return std::clamp(2 * beyond / reserve_ - 1, -borne, 1.0);
   }
 
   Injection show_;
   DynamicStiffness dynamic_;
   HalfPeriod half_period_;
   double damping_;    // N s/m
+  double stiffest_;   // N/m, at which the damper is half of critical for the device alone
   double heaviest_;   // kg, device and hand
+  double reserve_;    // J
   double stored_at_;  // N/m
-  double least_;      // m
-  double slope_ = 0;
+  StaticSlope slope_;
   double enough_ = std::numeric_limits<double>::infinity();  // N s/m, on the last world
   double shown_ = 0;
   double injected_ = 0;
-  double last_env_ = 0;  // N
-  double last_x_ = 0;    // m
 };
 
 }  // namespace ebac

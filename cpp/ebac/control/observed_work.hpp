@@ -16,19 +16,29 @@ namespace ebac {
 ///
 ///   F = F_r + n,  F_r = play of half-width max(0.3 N, 3/4 slope count) on F, zero without force
 ///
-/// F_r rests with the hand, is counted with whole readings and charged half a count for every
-/// change: proven for the sum of mean force times displacement, up to half a count of the present
-/// force. n is counted with the observer's position, kept within half a count of the reading, and
-/// charged half a count for what its change in a tick exceeds 0.05 N: motion faster than the
-/// observer follows. This part is declared, not proven: it takes mass, lags and sensor to be as
-/// given, and a motion below 20 Hz within one count is not seen. Such a motion can draw at most
-/// 2 |n| count a cycle, again in every cycle; docs/explanation/observer.md has what searches find.
+/// F_r rests with the hand, n with the noise. n is counted with the observer's position, kept within
+/// half a count of the reading, and charged half a count for what its change in a tick exceeds
+/// 0.05 N: motion faster than the observer follows. For F_r the position is known where the reading
+/// changes, at the edge of a count. Until the next edge it is reckoned from there with the observer's
+/// displacement, and every change of F_r is charged the way to the further edge of the count: proven
+/// for the sum of mean force times displacement, up to the present force times that way. At the next
+/// edge the error of the reckoning shows. If that edge comes within 0.1 s, the changes since the last
+/// one are charged this error instead.
+///
+/// Declared, not proven, is n, and that between two edges the reckoning is no worse than at the
+/// second: both take mass, lags and sensor to be as given, and a motion below 20 Hz within one count
+/// is not seen. Such a motion can draw at most 2 |n| count a cycle, again in every cycle;
+/// docs/explanation/observer.md has what searches find.
 class ObservedWork {
  public:
   explicit ObservedWork(double count) EBAC_RT : half_(count / 2) {}
 
   /// The observer's place within the count, from which displacements are counted.
-  void start(const Port& port) EBAC_RT { within_ = within(port); }
+  void start(const Port& port) EBAC_RT {
+    within_ = within(port);
+    reached_ = port.x + within_;
+    charged_ = changed_ = way_ = 0;  // its place is no edge
+  }
 
   /// `mean` is the mean force of the interval that ended with `port`, `slope` that of the world
   /// [N/m], `b` the device's damping over the tick [N/m].
@@ -39,13 +49,13 @@ class ObservedWork {
     const double rest = mean - counted;
     const double place = within(port);
     const double fast = std::max(0.0, std::abs(rest - rest_) - kSlow);
-    const double unknown = half_ * (std::abs(counted - counted_) + fast);
     const double moved = port.dx + place - within_;
     const double sure = std::max(std::abs(port.dx) - half_, 0.0);
+    const double held = from_edge(counted, port);
     counted_ = counted;
     rest_ = rest;
     within_ = place;
-    return counted * port.dx + rest * moved - unknown + b * sure * sure;
+    return held + rest * moved - half_ * fast + b * sure * sure;
   }
 
  private:
@@ -54,13 +64,43 @@ class ObservedWork {
   static constexpr double kCell = 0.75;   // counts by which the force of a held wall wanders
   static constexpr double kSlow = 0.05;   // N, a change in a tick that sensor noise can cause
   static constexpr double kEnded = 0.05;  // N
+  static constexpr double kSoon = 0.1;    // s, from edge to edge
 
   double within(const Port& port) const EBAC_RT {
     return std::clamp(port.est.x - port.x, -half_, half_);
   }
 
+  /// Work of F_r over the tick, charges included.
+  double from_edge(double force, const Port& port) EBAC_RT {
+    const double change = std::abs(force - counted_);
+    const double before = reached_;
+    const double reckoned = before + port.est.dx;
+    unread_ += port.dt;
+    changed_ += change;
+    if (port.dx == 0) {
+      reached_ = std::clamp(reckoned, port.x - half_, port.x + half_);
+      const double unknown = (half_ + std::abs(reached_ - port.x)) * change;
+      charged_ += unknown;
+      return force * (reached_ - before) - unknown;
+    }
+    // Crossed in the middle of the tick, on average.
+    const double beyond = std::min(half_, std::abs(port.est.v) * port.dt / 2);
+    reached_ = port.x - std::copysign(half_ - beyond, port.dx);
+    const double off = std::min(2 * half_, std::abs(reached_ - reckoned));
+    const bool passed = port.dx * way_ > 0 && unread_ < kSoon;
+    const double charge = passed ? charged_ - off * changed_ : -half_ * change;
+    unread_ = charged_ = changed_ = 0;
+    way_ = port.dx;
+    return force * (reached_ - before) + charge;
+  }
+
   double half_;         // m
   double within_ = 0;   // m
+  double reached_ = 0;  // m, reckoned from the last edge
+  double unread_ = 0;   // s, since that edge
+  double way_ = 0;      // m, over that edge
+  double charged_ = 0;  // J, since then
+  double changed_ = 0;  // N, changes of F_r since then
   double counted_ = 0;  // N, F_r
   double rest_ = 0;     // N, n
 };

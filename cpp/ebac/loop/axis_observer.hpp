@@ -31,8 +31,8 @@ namespace ebac {
 /// reading. The steady Kalman gain of force noise against a reading uniform within a count has the
 /// bandwidth w = sqrt(sqrt(12) force_noise / (M count)). Half of it is used in motion, a quarter at
 /// rest, where an edge of a count would be felt as a click; D is slower than x and u, by far so at
-/// rest. At rest the prediction takes the force of the hand without its noise, from the mean over
-/// 30 ms. Where the force turns out to be noisier than declared, all of w is used. v is kept within what
+/// rest. The prediction takes the force of the hand to change as it did in the last 5 ms, and at rest
+/// without its noise: a lag in that force of 1 N would be 4 m/s^2. Where the force turns out to be noisier than declared, all of w is used. v is kept within what
 /// two readings prove of it.
 class AxisObserver {
  public:
@@ -47,8 +47,9 @@ class AxisObserver {
     pace_ = unread_ = astray_ = 0;
     u_ = v_ = disturbance_ = 0;
     motor_ = MotorForce(params_.current_lag);
-    measured_ = before_last_ = calm_ = contradicted_ = rough_ = 0;
+    measured_ = before_last_ = calm_ = trend_ = contradicted_ = rough_ = 0;
     moving_ = 1;
+    doubted_ = 0;
     in_flight_ = CommandsInFlight(params_.delay);
     records_ = {};
     dt_ = 0;
@@ -63,6 +64,8 @@ class AxisObserver {
             double dt) EBAC_RT {
     const double measured = records_.at_mean_age(seen, dt, params_.force_age);
     if (dt != dt_ || records_.started()) set_tick(dt);
+    if (doubted_ == 1) regain(measured);
+    if (doubted_ > 0) --doubted_;
     const double motor = motor_.hold(applied);  // G f
     // The mean over the interval, of the parabola through the last three readings.
     const double force = (5 * measured + 8 * measured_ - before_last_) / 12 + disturbance_;
@@ -71,7 +74,7 @@ class AxisObserver {
     rough_ += ((loud ? 1.0 : 0.0) - rough_) * roughening_;
     before_last_ = measured_;
     measured_ = measured;
-    calm_ += (measured - calm_) * calming_;
+    follow_hand(measured);
     const double a = (force - params_.damping * u_ - motor) / mass_;
     const double before = x_;
     x_ += (u_ + (0.5 * dt + motor_.sensor_lag()) * a) * dt;
@@ -84,23 +87,30 @@ class AxisObserver {
     if (encoder) keep_pace(reading);
   }
 
-  /// The force is old: for now the encoder counts in full.
-  void doubt() EBAC_RT { rough_ = 1; }
+  /// The force is old: for now the encoder counts in full, and D holds what the force has changed by.
+  void doubt() EBAC_RT {
+    if (doubted_ == 0) undoubted_ = disturbance_;
+    rough_ = 1;
+    doubted_ = 2;
+  }
 
   /// The command of the last tick, as force at the handle, joins those in flight.
   void give(double force) EBAC_RT { in_flight_.push(force); }
 
   /// Where the device is when a command given now acts, in the middle of its interval: over every
-  /// command in flight, half a tick and the current lag, the hand's force held.
+  /// command in flight, half a tick and the current lag, the hand's force changing as it does.
   void predict(double& x, double& v) const EBAC_RT {
     x = x_;
     v = v_;
     LaggedForce motor = motor_.acts();
     const double hand = calm_ + moving_ * (measured_ - calm_) + disturbance_;
+    double ahead = params_.force_lag;
     const auto advance = [&](double force, double time) EBAC_RT {
-      const double a = (hand - params_.damping * v - force) / mass_;
+      const double grown = trend_ * (ahead + 0.5 * time);
+      const double a = (hand + grown - params_.damping * v - force) / mass_;
       x += (v + 0.5 * a * time) * time;
       v += a * time;
+      ahead += time;
     };
     for (int j = 0; j < in_flight_.size(); ++j) {
       advance(motor.hold(in_flight_[j]), dt_);
@@ -124,7 +134,8 @@ class AxisObserver {
       0.09;                                // 1, (w dt)^2 from which noise moves x over whole counts
   static constexpr double kMoving = 0.01;  // m/s, from here on the device moves
   static constexpr double kRests = 0.05;   // s, until it counts as resting
-  static constexpr double kCalm = 0.03;    // s, mean of the hand's force at rest
+  static constexpr double kCalm = 5e-3;    // s, over which the hand's force is smoothed
+  static constexpr double kNoise = 2;      // standard deviations that smoothing takes away at most
   static constexpr double kLoud = 10;    // standard deviations in a second difference, 4 of its own
   static constexpr double kRough = 0.1;  // s, memory of such differences
   static constexpr double kMemory = 0.05;      // s, of the contradictions
@@ -148,6 +159,22 @@ class AxisObserver {
 
   double acceleration() const EBAC_RT {
     return (measured_ + disturbance_ - params_.damping * u_ - motor_.shown()) / mass_;
+  }
+
+  /// The first force after a silence: D is what it was before.
+  void regain(double measured) EBAC_RT {
+    disturbance_ = undoubted_;
+    measured_ = before_last_ = calm_ = measured;
+    trend_ = 0;
+  }
+
+  /// Level and trend of the hand's force, a second-order filter that follows a ramp without lag and
+  /// takes away no more than noise can be.
+  void follow_hand(double measured) EBAC_RT {
+    const double off = measured - calm_ - trend_ * dt_;
+    const double noise = kNoise * params_.force_noise;
+    trend_ += trending_ * off;
+    calm_ = measured - std::clamp((1 - calming_) * off, -noise, noise);
   }
 
   void correct(double reading, double dt) EBAC_RT {
@@ -193,7 +220,10 @@ class AxisObserver {
     in_motion_ = Gains::of(0.5 * w, 0.5, dt);
     at_rest_ = Gains::of(0.5 * within_ * w, 0.1, dt);
     resting_ = std::max(0.0, 1 - dt / kRests);
-    calming_ = dt / (kCalm + dt);
+    const double kept =
+        std::exp(-dt / (kCalm * std::sqrt(params_.force_noise / ObserverParams::kLeastNoise)));
+    calming_ = 1 - kept * kept;
+    trending_ = (1 - kept) * (1 - kept) / dt;
     roughening_ = dt / (kRough + dt);
     forget_ = dt / (kMemory + dt);
   }
@@ -217,11 +247,15 @@ class AxisObserver {
   double astray_ = 0;   // s, that v was beyond what the readings prove, with the sign of its error
   double dt_ = 0;       // s, argument of the last set_tick
   double calm_ = 0;     // N, the force of the hand without its noise
-  double rough_ = 0;    // share of ticks with more noise than declared; 1 in doubt
-  double moving_ = 1;   // 1 in motion, 0 at rest
+  double trend_ = 0;    // N/s, its change
+  double undoubted_ = 0;  // N, the disturbance when the force began to be old
+  int doubted_ = 0;       // ticks left to a force that is no longer old
+  double rough_ = 0;      // share of ticks with more noise than declared; 1 in doubt
+  double moving_ = 1;     // 1 in motion, 0 at rest
   Gains in_motion_{}, at_rest_{}, full_{};
   double within_ = 1;                                  // share of an innovation within a count
   double resting_ = 0, calming_ = 0, roughening_ = 0;  // share kept, share taken, per tick
+  double trending_ = 0;                                // 1/s
   double forget_ = 0;
 };
 

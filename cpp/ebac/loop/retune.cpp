@@ -13,8 +13,9 @@ namespace {
 
 /// Parameters that a law keeps from its start: those of the device, the energy reserve, the way
 /// it is measured.
-constexpr std::array<std::string_view, 7> kFixedParams{
-    "mass", "damping", "count", "current_lag", "reserve", "resonance", "observer"};
+constexpr std::array<std::string_view, 8> kFixedParams{"mass",        "damping", "count",
+                                                       "current_lag", "reserve", "observed_reserve",
+                                                       "resonance",   "observer"};
 
 }  // namespace
 

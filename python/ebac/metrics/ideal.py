@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ebac._core import Hand, Linear, MinimumJerk, Step, Wall
+from ebac._core import Hand, Linear, MinimumJerk, Recorded, Step, Wall
 from ebac._util.arguments import require
 from ebac.scenario import Scenario
 
@@ -41,7 +41,7 @@ def allowed_deviation(scenario: Scenario) -> float:
 def ideal_rest(scenario: Scenario) -> float | None:
     """Return where hand and ideal wall balance, x* = (K0 X0 + K p + weight) / (K0 + K) [m].
 
-    None where there is no such point: no straight wall across the first axis, or a hand that never rests. With a
+    None where there is no such point: no straight wall across the first axis, or a hand without rest. With a
     model of `ebac.hands` it is where the steady force of the model and the wall balance; None for a hand of your own.
     """
     require(scenario, Scenario, "ebac.ideal_rest", "a Scenario")
@@ -49,15 +49,21 @@ def ideal_rest(scenario: Scenario) -> float | None:
     path = hand.path[0]
     if not isinstance(wall, Wall) or wall.angle != 0 or np.isfinite(hand.release_at):
         return None
-    if not isinstance(path, (Step, MinimumJerk)) or not isinstance(
-        scenario.device.kinematics, Linear
-    ):
+    if isinstance(path, Recorded):
+        if path.t[-1] >= scenario.seconds:
+            return None
+        target = path.x[-1]
+    elif isinstance(path, (Step, MinimumJerk)):
+        target = path.target
+    else:
+        return None
+    if not isinstance(scenario.device.kinematics, Linear):
         return None
     mechanics, given = scenario.device.mechanics, scenario.device.compensation
     weight = (mechanics.handle_mass - given.gravity_mass) * mechanics.gravity
     if hand.model is not None:
         return _balance(hand, wall, weight)
-    pull = hand.stiffness * path.target + weight
+    pull = hand.stiffness * target + weight
     if hand.stiffness == 0 or pull <= hand.stiffness * wall.position:
         return pull / hand.stiffness if hand.stiffness > 0 else None
     return (pull + wall.stiffness * wall.position) / (hand.stiffness + wall.stiffness)

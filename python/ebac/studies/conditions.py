@@ -104,6 +104,7 @@ _DAMPED = [
 
 _SLOW = to.slow_press(3.0)
 _PUMPS = [to.pump(1e-3 * mm, hz) for mm in (0.1, 0.3, 1, 2, 4) for hz in (0.5, 1, 2, 4, 8, 15, 30)]
+_WAVES = (to.waves(5e-3, 1.0, 40.0), to.scenario(seconds=60.0))
 _LET_GO_LATE = to.hand(release_at=5.0)
 
 _ROBUSTNESS = [
@@ -140,6 +141,8 @@ _ROBUSTNESS = [
     _robust("slow-press-d2", "slow press at 2 samples of delay", _SLOW, at=(2, 2, 10e3)),
     _robust("slow-press-K20", "slow press at 20 kN/m", _SLOW, at=(1, 2, 20e3)),
     _robust("slow-press-d2K20", "slow press at 2 samples of delay and 20 kN/m", _SLOW, at=(2, 2, 20e3)),
+    _robust("slow-waves", "the target swings 5 mm at 1 Hz for 40 s, then rests", *_WAVES),
+    _robust("slow-waves-K20", "the same at 20 kN/m", *_WAVES, at=(1, 2, 20e3)),
     _robust("let-go", "impact, then the hand lets go at 3 s", to.hand(release_at=3.0)),
     _robust("slow-let-go", "slow press, then the hand lets go at 5 s", _SLOW, _LET_GO_LATE),
     _robust("slow-let-go-d2", "the same at 2 samples of delay", _SLOW, _LET_GO_LATE, at=(2, 2, 10e3)),

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from math import pi, sin
 from typing import TYPE_CHECKING, Any, TypeAlias
 
-from ebac._core import DeviceFacts, Hand, MinimumJerk, Sine, Step, Tapping, Timing, Wall
+from ebac._core import DeviceFacts, Hand, MinimumJerk, Recorded, Sine, Step, Tapping, Timing, Wall
 
 if TYPE_CHECKING:
     from ebac.scenario import Scenario
@@ -95,6 +96,13 @@ def approach(way: float) -> Change:
 def slow_press(duration: float) -> Change:
     """Let the hand reach its target along a minimum-jerk path of so many seconds."""
     return _path(lambda target, surface: MinimumJerk(target=target, duration=duration))
+
+
+def waves(amplitude: float, frequency: float, seconds: float) -> Change:
+    """Let the hand's target swing about its place [m], [Hz] for so many seconds, then rest there."""
+    times = [0.01 * i for i in range(round(100 * seconds) + 1)]
+    swing = [amplitude * sin(2 * pi * frequency * t) for t in times]
+    return _path(lambda target, surface: Recorded(t=times, x=[target + x for x in swing]))
 
 
 def held(seconds: float) -> Change:

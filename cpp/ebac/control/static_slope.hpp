@@ -1,0 +1,55 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "ebac/core/realtime.hpp"
+
+namespace ebac {
+
+/// Stiffness of a world as its force shows it, without what its damping adds: dF = K dx + B dv, with
+/// dx against the world's surface. B is what two successive changes agree on, where they differ in
+/// direction; K follows from the last. A steeper K counts at once, a softer one is followed over 50
+/// ticks.
+class StaticSlope {
+ public:
+  /// Changes below `least` [m] show nothing.
+  explicit StaticSlope(double least) EBAC_RT : least_(least) {}
+
+  double value() const EBAC_RT { return slope_; }  // N/m, 0 where unknown
+
+  void forget() EBAC_RT { *this = StaticSlope(least_); }
+
+  /// Force [N] at position [m] and velocity [m/s]; `surface` is the way of the world's surface since
+  /// the last call [m]. Says whether the slope is known better now.
+  bool step(double force, double x, double v, double surface) EBAC_RT {
+    const double df = force - force_, dx = x - x_ - surface, dv = v - v_;
+    const bool both = force != 0 && force_ != 0;
+    force_ = force;
+    x_ = x;
+    v_ = v;
+    if (force == 0) slope_ = damping_ = df_ = dx_ = dv_ = 0;
+    if (!both || std::abs(dx) <= least_) return false;
+    const double turn = dx_ * dv - dx * dv_;
+    if (std::abs(turn) > kTurned * (std::abs(dx_ * dv) + std::abs(dx * dv_))) {
+      damping_ = std::max(0.0, (dx_ * df - dx * df_) / turn);
+    }
+    df_ = df;
+    dx_ = dx;
+    dv_ = dv;
+    const double seen = std::max(0.0, (df - damping_ * dv) / dx);
+    slope_ = seen > slope_ ? seen : slope_ + kForget * (seen - slope_);
+    return true;
+  }
+
+ private:
+  static constexpr double kTurned = 0.05;  // of two parts that would cancel in one direction
+  static constexpr double kForget = 0.02;  // per tick
+
+  double least_;                    // m
+  double slope_ = 0, damping_ = 0;  // N/m, N s/m
+  double force_ = 0, x_ = 0, v_ = 0;
+  double df_ = 0, dx_ = 0, dv_ = 0;
+};
+
+}  // namespace ebac

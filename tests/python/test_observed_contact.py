@@ -1,0 +1,81 @@
+"""A long contact under `ebac` with the observer: what it draws, the stiffness it sees, the estimate that comes back."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+import ebac
+from ebac.studies import scenario_changes as to
+
+NOISY = ebac.Device(sensor=ebac.ForceSensor(noise=0.03))
+
+
+def pressed(stiffness: float, *, path: Any, **more: Any) -> ebac.Trace:
+    wall = ebac.Wall(stiffness=stiffness, position=0.01, damping=more.pop("damping", 0.0))
+    hand = ebac.Hand(mass=0.15, damping=10.0, stiffness=300.0, path=path)
+    return ebac.simulate(ebac.Scenario(device=NOISY, environment=wall, hand=hand, **more), "ebac")
+
+
+@pytest.mark.parametrize("frequency", [0.5, 1.0, 2.0])
+@pytest.mark.parametrize("stiffness", [10e3, 20e3])
+def test_a_press_that_varies_slowly_keeps_its_wall(stiffness: float, frequency: float) -> None:
+    """An estimate that lags by a tenth of a count, or a charge for each, once spent the account in 10 s."""
+    trace = pressed(
+        stiffness,
+        path=ebac.Sine(centre=0.03, amplitude=5e-3, frequency=frequency),
+        seconds=40.0,
+    )
+    late = trace["t"] > 20
+    assert trace["law.admitted"][late].min() > 0.9
+    deepest = trace["true.x"][late].max() - 0.01
+    assert deepest < 300 * 0.025 / stiffness + 3 * NOISY.count
+
+
+@pytest.mark.parametrize("delay", [0, 1, 2])
+def test_the_velocity_is_predicted_without_lag_in_slow_motion(delay: int) -> None:
+    path = ebac.Sine(centre=0.03, amplitude=13e-3, frequency=2.0)
+    trace = pressed(10e3, path=path, seconds=4.0, timing=ebac.Timing(delay=delay))
+    rows = np.flatnonzero(trace["t"] > 1)[: -delay - 2]
+    truth = trace["true.v"][rows + delay + 1]
+    guess = trace["est.v_act"][rows]
+    assert 0.85 < np.dot(guess, truth) / np.dot(truth, truth) < 1.15
+
+
+@pytest.mark.parametrize("damping", [0.0, 20.0, 40.0])
+@pytest.mark.parametrize("stiffness", [300.0, 3e3])
+def test_the_stiffness_seen_is_the_walls_whatever_its_damping(
+    stiffness: float, damping: float
+) -> None:
+    trace = pressed(stiffness, damping=damping, path=ebac.Step(target=0.03), seconds=2.0)
+    inside = (trace["t"] > 0.1) & (trace["f_env"] > 0)
+    seen = trace["law.slope"][inside]
+    assert np.median(seen) == pytest.approx(stiffness, rel=0.02)
+    assert seen.max() < 1.1 * stiffness
+
+
+def test_an_estimate_that_comes_back_knows_nothing_of_the_contact_it_left() -> None:
+    """The hand presses three times harder while the sensor is silent."""
+    silent = to.device("sensor", stops_at=1.0, resumes_at=3.0)
+    path = ebac.Recorded(t=[0.0, 0.5, 1.2, 2.0], x=[0.0, 0.02, 0.02, 0.05])
+    hand = ebac.Hand(mass=0.15, damping=10.0, stiffness=300.0, path=path)
+    base = ebac.Scenario(
+        device=NOISY, hand=hand, environment=ebac.Wall(stiffness=20e3), seconds=4.0
+    )
+    trace = ebac.simulate(silent(base), "ebac")
+    back = (trace["est.weight"] == 1) & (trace["t"] > 3.02) & (trace["t"] < 3.3)
+    assert back.any()
+    assert np.abs(trace["law.f_d"] - trace["f_env"])[back].max() < 0.2
+
+
+def test_the_force_shown_ends_with_the_force_of_the_world() -> None:
+    """Lifted off slowly, what is shown stays between zero and twice the world's force."""
+    path = ebac.Recorded(t=[0.0, 0.5, 2.0, 4.0], x=[0.0, 0.03, 0.03, 0.005])
+    trace = pressed(20e3, path=path, seconds=4.5)
+    inside = (trace["t"] > 1.5) & (trace["f_env"] > 0)
+    shown, asked = trace["law.f_d"][inside], trace["f_env"][inside]
+    assert asked.min() < 0.3
+    assert (shown >= 0).all()
+    assert (shown <= 2 * asked + 1e-9).all()
