@@ -54,6 +54,12 @@ void bind_enums(py::module_& m) {
       .value("ENCODER_LOST", can::Condition::kEncoderLost)
       .value("OVER_TEMPERATURE", can::Condition::kOverTemperature)
       .value("SILENT", can::Condition::kSilent)
+      .value("UNDER_VOLTAGE", can::Condition::kUnderVoltage)
+      .value("MOTOR_TEMPERATURE", can::Condition::kMotorTemperature)
+      .value("SHORT_CIRCUIT", can::Condition::kShortCircuit)
+      .value("TORQUE_OFF", can::Condition::kTorqueOff)
+      .value("ENABLE_MISSING", can::Condition::kEnableMissing)
+      .value("BRAKE_STUCK", can::Condition::kBrakeStuck)
       .finalize();
   py::native_enum<can::DriveState>(m, "DriveState", "enum.IntEnum",
                                    "State of a simulated drive (CiA 402).")
@@ -86,14 +92,18 @@ void bind_simulated_drive(py::module_& m) {
   py::class_<SimulatedDrive> cls(
       m, "SimulatedDrive",
       "A simulated CANopen servo drive without a motor: receives frames, advances time, answers.");
-  cls.def(py::init([](int node, const Motor& motor, const Drive& drive, double peak_time) {
+  cls.def(py::init([](int node, const Motor& motor, const Drive& drive, double peak_time,
+                      const std::vector<SheetRow>& sheet) {
+            const std::vector<can::SheetEntry> entries = checked_sheet(sheet);
             return SimulatedDrive({.node = checked_node(node, 1),
                                    .motor = motor,
                                    .drive = drive,
-                                   .peak_time = checked_peak_time(peak_time)});
+                                   .peak_time = checked_peak_time(peak_time),
+                                   .sheet = entries});
           }),
           py::kw_only(), py::arg("node") = 1, py::arg("motor") = Motor{},
-          py::arg("drive") = Drive{}, py::arg("peak_time") = 2.0)
+          py::arg("drive") = Drive{}, py::arg("peak_time") = 2.0,
+          py::arg("sheet") = std::vector<SheetRow>{})
       .def_property_readonly("node", &SimulatedDrive::node, "Node number.")
       .def_property_readonly("state", &SimulatedDrive::state, "State of CiA 402.")
       .def_property_readonly("current", &SimulatedDrive::current, "Motor current [A].")
@@ -114,7 +124,8 @@ void bind_joystick(py::module_& m) {
                                 "Simulated drives on the axes of one simulated device and hand.");
   cls.def(py::init(&make_joystick), py::arg("setup"), py::kw_only(), py::arg("first") = 1,
           py::arg("peak_time") = 2.0, py::arg("force") = py::none(),
-          py::arg("wait_for_power") = false, py::arg("aim") = py::none())
+          py::arg("wait_for_power") = false, py::arg("aim") = py::none(),
+          py::arg("sheet") = std::vector<SheetRow>{})
       .def_property_readonly("axes", &PlantOfDrives::axes, "Number of axes.")
       .def(
           "drive",

@@ -2,6 +2,9 @@
 
 #include <memory>
 #include <optional>
+#include <string>
+#include <tuple>
+#include <vector>
 
 #include "ebac/rt/shared_hand_target.hpp"
 #include "ebac/sensor/shared_force.hpp"
@@ -31,6 +34,32 @@ inline double checked_peak_time(double seconds) {
   return seconds;
 }
 
+/// One entry of an electronic data sheet: index, sub-index, access ("ro", "wo", "rw"), whether a PDO
+/// may carry it, bytes (0 for text), lowest, highest, initial value, initial text.
+using SheetRow = std::tuple<std::uint16_t, std::uint8_t, std::string, bool, std::uint8_t,
+                            std::int64_t, std::int64_t, std::optional<std::int64_t>, std::string>;
+
+inline std::vector<can::SheetEntry> checked_sheet(const std::vector<SheetRow>& rows) {
+  std::vector<can::SheetEntry> sheet;
+  sheet.reserve(rows.size());
+  for (const auto& [index, sub, access, mappable, width, low, high, initial, text] : rows) {
+    if (width > 8) throw std::invalid_argument("sheet: an entry has at most 8 bytes");
+    sheet.push_back({.index = index,
+                     .sub = sub,
+                     .access = access == "rw"   ? can::Access::kRw
+                               : access == "wo" ? can::Access::kWo
+                                                : can::Access::kRo,
+                     .mappable = mappable,
+                     .width = width,
+                     .low = low,
+                     .high = high,
+                     .initial = initial.value_or(0),
+                     .has_initial = initial.has_value(),
+                     .text = text});
+  }
+  return sheet;
+}
+
 template <class Cell>
 using Shared = std::optional<std::shared_ptr<Cell>>;
 
@@ -38,14 +67,20 @@ using Shared = std::optional<std::shared_ptr<Cell>>;
 /// the hand follows the target in `aim`.
 inline PlantOfDrives make_joystick(Setup setup, int first, double peak_time,
                                    const Shared<sensor::SharedForce>& force, bool wait_for_power,
-                                   const Shared<rt::SharedHandTarget>& aim) {
+                                   const Shared<rt::SharedHandTarget>& aim,
+                                   const std::vector<SheetRow>& sheet = {}) {
   const can::NodeId node = checked_node(first, setup.device.axes());
   setup.device.drive.permille = true;  // what a drive is told in
   setup.timing.delay = 0;              // its delay is that of the bus
+  const std::vector<can::SheetEntry> entries = checked_sheet(sheet);
   return {
       sensor::ForcePublisher(rt::TargetSubscriber(SimulatedDevice(setup), aim.value_or(nullptr)),
                              force.value_or(nullptr)),
-      setup.device, node, checked_peak_time(peak_time), wait_for_power};
+      setup.device,
+      node,
+      checked_peak_time(peak_time),
+      wait_for_power,
+      entries};
 }
 
 }  // namespace ebac::python

@@ -73,13 +73,15 @@ void bind_node_server(py::module_& m) {
       "its own that never waits for Python. A context manager.");
   inside.def(
       py::init([](can::LoopbackHub& hub, const Setup& setup, int first, double peak_time,
-                  const OptionalForce& force, bool wait_for_power, const OptionalTarget& aim) {
-        PlantOfDrives joystick = make_joystick(setup, first, peak_time, force, wait_for_power, aim);
+                  const OptionalForce& force, bool wait_for_power, const OptionalTarget& aim,
+                  const std::vector<SheetRow>& sheet) {
+        PlantOfDrives joystick =
+            make_joystick(setup, first, peak_time, force, wait_for_power, aim, sheet);
         return std::make_unique<OnLoopback>(hub.open({.frames = kFrames}), std::move(joystick));
       }),
       py::arg("hub"), py::arg("setup"), py::kw_only(), py::arg("first") = 1,
       py::arg("peak_time") = 2.0, py::arg("force") = py::none(), py::arg("wait_for_power") = false,
-      py::arg("aim") = py::none());
+      py::arg("aim") = py::none(), py::arg("sheet") = std::vector<SheetRow>{});
   add_work(inside);
   py::class_<OnSocketCan> outside(
       m, "SocketCanJoystick",
@@ -87,13 +89,15 @@ void bind_node_server(py::module_& m) {
       "thread of its own that never waits for Python. A context manager.");
   outside.def(
       py::init([](const std::string& interface, const Setup& setup, int first, double peak_time,
-                  const OptionalForce& force, bool wait_for_power, const OptionalTarget& aim) {
-        PlantOfDrives joystick = make_joystick(setup, first, peak_time, force, wait_for_power, aim);
+                  const OptionalForce& force, bool wait_for_power, const OptionalTarget& aim,
+                  const std::vector<SheetRow>& sheet) {
+        PlantOfDrives joystick =
+            make_joystick(setup, first, peak_time, force, wait_for_power, aim, sheet);
         return std::make_unique<OnSocketCan>(open_socketcan(interface, {}), std::move(joystick));
       }),
       py::arg("interface"), py::arg("setup"), py::kw_only(), py::arg("first") = 1,
       py::arg("peak_time") = 2.0, py::arg("force") = py::none(), py::arg("wait_for_power") = false,
-      py::arg("aim") = py::none());
+      py::arg("aim") = py::none(), py::arg("sheet") = std::vector<SheetRow>{});
   add_work(outside);
 }
 

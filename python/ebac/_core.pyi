@@ -3329,10 +3329,16 @@ class DriveCondition(enum.IntFlag):
     Conditions that can be injected into a simulated drive.
     """
 
+    BRAKE_STUCK = ...
+    ENABLE_MISSING = ...
     ENCODER_LOST = ...
+    MOTOR_TEMPERATURE = ...
     OVER_TEMPERATURE = ...
     OVER_VOLTAGE = ...
+    SHORT_CIRCUIT = ...
     SILENT = ...
+    TORQUE_OFF = ...
+    UNDER_VOLTAGE = ...
 
 class DriveState(enum.IntEnum):
     """
@@ -3359,6 +3365,9 @@ class SimulatedDrive:
         motor: Motor = ...,
         drive: Drive = ...,
         peak_time: typing.SupportsFloat | typing.SupportsIndex = 2.0,
+        sheet: collections.abc.Sequence[
+            tuple[int, int, str, bool, int, int, int, int | None, str]
+        ] = [],
     ) -> None: ...
     def eds(self) -> str:
         """
@@ -3419,6 +3428,9 @@ class Joystick:
         force: SharedForce | None = None,
         wait_for_power: bool = False,
         aim: SharedHandTarget | None = None,
+        sheet: collections.abc.Sequence[
+            tuple[int, int, str, bool, int, int, int, int | None, str]
+        ] = [],
     ) -> None: ...
     def drive(self, axis: typing.SupportsInt | typing.SupportsIndex = 0) -> SimulatedDrive:
         """
@@ -6037,6 +6049,9 @@ class LoopbackJoystick:
         force: SharedForce | None = None,
         wait_for_power: bool = False,
         aim: SharedHandTarget | None = None,
+        sheet: collections.abc.Sequence[
+            tuple[int, int, str, bool, int, int, int, int | None, str]
+        ] = [],
     ) -> None: ...
     def start(self, mode: RealTimeMode = ..., realtime: RealTime = ...) -> typing.Any:
         """
@@ -6081,6 +6096,9 @@ class SocketCanJoystick:
         force: SharedForce | None = None,
         wait_for_power: bool = False,
         aim: SharedHandTarget | None = None,
+        sheet: collections.abc.Sequence[
+            tuple[int, int, str, bool, int, int, int, int | None, str]
+        ] = [],
     ) -> None: ...
     def start(self, mode: RealTimeMode = ..., realtime: RealTime = ...) -> typing.Any:
         """

@@ -175,7 +175,9 @@ def test_an_object_the_drive_lacks_is_refused_before_anything_is_written(
     (pdo,) = profile.pdos
     late = dataclasses.replace(profile, pdos=(dataclasses.replace(pdo, inhibit=0.1),))
     node = drives.Node(id=1, profile=late)
-    with pytest.raises(drives.Refused, match=r"rpdo1_inhibit \(0x1400:3\)") as caught:
+    with pytest.raises(
+        drives.Refused, match=r"0x1400:3 rpdo1_inhibit \(key pdo\.rpdo1\.inhibit\)"
+    ) as caught:
         drives.apply(bus.drive(1), node, backups=shelf)
     assert caught.value.absent
     assert held(bus) == start

@@ -1,5 +1,6 @@
 """What can hurt a hand: torque nobody asked for, a drive that holds it without a loop, a second master."""
 
+import dataclasses
 import json
 import threading
 import time
@@ -106,6 +107,29 @@ def test_an_offset_written_while_a_loop_runs_ends_it(
     assert stopped.value.fault == ebac.Fault.TORQUE_MISMATCH
 
 
+def test_the_loop_asks_drives_that_it_guards(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Without its requests neither side would hear of the other, and the run would end by a lost heartbeat."""
+    from ebac.hardware import backends
+
+    monkeypatch.setattr(backends, "virtual_can", lambda: None)
+    profile = drives.load("copley-xenus", nodes=[1]).nodes[0].profile
+    values = {name: value for name, value in profile.values.items() if name != "heartbeat.consumer"}
+    guarded = dataclasses.replace(
+        profile,
+        values={**values, "heartbeat.guard": 0.3},
+        pdos=tuple(dataclasses.replace(pdo, event=0.0) for pdo in profile.pdos),
+    )
+    nodes = tuple(drives.Node(id=node, profile=guarded) for node in (1, 2))
+    known = configuration().replace(drives=drives.Network(name="guarded", nodes=nodes))
+    with ebac.Device.open(known, simulate=True) as opened:
+        trace = opened.run(seconds=0.5)
+        assert set(trace["bus.heartbeat"][-1].ravel()) == {5}
+        with drives.DriveBus(other_bus(opened)) as bus:
+            drive = bus.drive(1)
+            assert (drive.read("guard_time"), drive.read("life_time_factor")) == (100, 3)
+            assert drive.read("heartbeat_producer") == 0
+
+
 # --- somebody else's torque ---
 
 
@@ -180,11 +204,13 @@ def test_two_nodes_of_one_id_are_told(bus: drives.DriveBus, open_bus: Open) -> N
 
 
 def test_no_profile_holds_a_torque_without_its_loop() -> None:
-    for name in ("copley-accelnet", "copley-xenus", "generic-cia402"):
+    for name in drives.builtin():
         network = drives.load(name, nodes=[1])
         drives.check_stall(network)
         (node,) = network.nodes
-        assert drives.hold_time(node.profile) == 0.005
+        deadline = any(pdo.event > 0 for pdo in node.profile.pdos)
+        assert drives.hold_time(node.profile) == (0.005 if deadline else 0.1)
+        assert deadline == (name in ("copley-accelnet", "copley-xenus", "joystick"))
         assert node.profile.values["drive.connection_lost"] == 1
 
 

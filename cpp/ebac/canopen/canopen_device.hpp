@@ -112,6 +112,7 @@ class CanopenDevice {
       link.sent(bus_->send(link.command(sequence_.command(link.state()), torque)));
     }
     beat(command.elapsed);
+    guard(command.elapsed);
     if (!bus_->send({.id = kSync})) {
       for (NodeLink& link : links()) ++link.row().refused;
     }
@@ -123,6 +124,16 @@ class CanopenDevice {
     if (setup_.own_node == 0 || since_beat_ < setup_.heartbeat_period) return;
     since_beat_ = 0;
     bus_->send(frame(heartbeat(static_cast<NodeId>(setup_.own_node)), {NodeLink::kOperational}));
+  }
+
+  /// Node guarding, for drives that watch no heartbeat (0x100C).
+  void guard(double elapsed) EBAC_RT {
+    since_guard_ += elapsed;
+    if (setup_.guard_period <= 0 || since_guard_ < setup_.guard_period) return;
+    since_guard_ = 0;
+    for (const NodeLink& link : links()) {
+      bus_->send({.id = heartbeat(link.node()), .size = 1, .remote = true});
+    }
   }
 
   void collect() EBAC_RT {
@@ -225,6 +236,7 @@ class CanopenDevice {
   std::int64_t foreign_ = 0;
   bool second_master_ = false;  // heard since the drives were last enabled
   double since_beat_ = 0;       // s
+  double since_guard_ = 0;      // s
   Fault fault_ = Fault::kNone;
 };
 

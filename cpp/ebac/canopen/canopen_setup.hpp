@@ -23,6 +23,7 @@ struct CanopenSetup {
   bool quick_stop = false;
   int own_node = 0;
   double heartbeat_period = 0.01;  // s
+  double guard_period = 0;         // s
 
   static constexpr auto fields() {
     using F = Field<CanopenSetup>;
@@ -49,6 +50,8 @@ struct CanopenSetup {
           kLastNode},
         F{"heartbeat_period", &CanopenSetup::heartbeat_period, "s",
           "time between two of the loop's own heartbeats", 1e-3, 60},
+        F{"guard_period", &CanopenSetup::guard_period, "s",
+          "time between two requests of node guarding to each node; 0 sends none", 0, 60},
     };
   }
 };

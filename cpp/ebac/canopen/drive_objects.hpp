@@ -17,7 +17,7 @@ inline constexpr std::int64_t kNoRemote = 1LL << 30;
 
 namespace detail {
 
-using DriveTable = ObjectTable<256, 96>;
+using DriveTable = ObjectTable<288, 112>;
 
 constexpr void add_communication(DriveTable& t) {
   t.var(0x1000, "Device type", Type::kU32, Access::kConst, 0x00020192);  // 402, servo drive
@@ -31,10 +31,13 @@ constexpr void add_communication(DriveTable& t) {
   }
   t.var(0x1005, "COB-ID SYNC message", Type::kU32, Access::kRw, 0x80);
   t.var(0x1006, "Communication cycle period", Type::kU32, Access::kRw);  // us
+  t.var(0x1007, "Synchronous window length", Type::kU32, Access::kRw);   // us
   t.var(0x1008, "Manufacturer device name", Type::kString, Access::kConst).text =
       "ebac simulated drive";
   t.var(0x1009, "Manufacturer hardware version", Type::kString, Access::kConst).text = "none";
   t.var(0x100A, "Manufacturer software version", Type::kString, Access::kConst).text = "1";
+  t.var(0x100C, "Guard time", Type::kU16, Access::kRw);       // ms
+  t.var(0x100D, "Life time factor", Type::kU8, Access::kRw);  // guard times
   t.group(0x1010, "Store parameters", Shape::kArray, 1);
   t.sub(1, "Save all parameters", Type::kU32, Access::kRw, 1);
   t.group(0x1011, "Restore default parameters", Shape::kArray, 1);
@@ -54,6 +57,7 @@ constexpr void add_communication(DriveTable& t) {
   t.sub(2, "Product code", Type::kU32, Access::kConst, 0x65626163);  // "ebac"
   t.sub(3, "Revision number", Type::kU32, Access::kConst, 0x00010000);
   t.sub(4, "Serial number", Type::kU32, Access::kRo).plus_node = true;
+  t.var(0x1019, "Synchronous counter overflow value", Type::kU8, Access::kRw).high = 240;
   t.group(0x1029, "Error behavior", Shape::kArray, 1);
   t.sub(1, "Communication error", Type::kU8, Access::kRw).high = 2;
   t.group(0x1200, "SDO server parameter", Shape::kRecord, 2);
@@ -135,7 +139,8 @@ constexpr void add_manufacturer(DriveTable& t) {
   t.var(0x2183, "Latched faults", Type::kU32, Access::kRw);     // a 1 written clears the bit
   t.var(0x2300, "Desired state", Type::kU16, Access::kRw, 30);  // 30: CANopen servo
   add_motor(t, 0x2383, "Motor data");
-  t.var(0x5F00, "Simulated conditions", Type::kU8, Access::kWo).high = 0x0F;  // see Condition
+  t.var(0x5F00, "Simulated conditions", Type::kU8, Access::kWo);          // see Condition
+  t.var(0x5F01, "Simulated inputs", Type::kU8, Access::kWo).high = 0x03;  // its upper bits
 }
 
 constexpr void add_profile(DriveTable& t) {
@@ -147,6 +152,10 @@ constexpr void add_profile(DriveTable& t) {
   t.var(0x6040, "Controlword", Type::kU16, Access::kRw, 0, M::kBoth);
   t.var(0x6041, "Statusword", Type::kU16, Access::kRo, 0, M::kTpdo);
   t.var(0x605A, "Quick stop option code", Type::kI16, Access::kRw, 2);
+  t.var(0x605B, "Shutdown option code", Type::kI16, Access::kRw);
+  t.var(0x605C, "Disable operation option code", Type::kI16, Access::kRw);
+  t.var(0x605D, "Halt option code", Type::kI16, Access::kRw, 1);
+  t.var(0x605E, "Fault reaction option code", Type::kI16, Access::kRw, 2);
   t.var(0x6060, "Modes of operation", Type::kI8, Access::kRw, kNoMode, M::kBoth);
   t.var(0x6061, "Modes of operation display", Type::kI8, Access::kRo, 0, M::kTpdo);
   t.var(0x6064, "Position actual value", Type::kI32, Access::kRo, 0, M::kTpdo);  // counts
@@ -159,8 +168,13 @@ constexpr void add_profile(DriveTable& t) {
   t.var(0x6076, "Motor rated torque", Type::kU32, Access::kRo);   // mN m, likewise
   t.var(0x6077, "Torque actual value", Type::kI16, Access::kRo, 0, M::kTpdo);
   t.var(0x6078, "Current actual value", Type::kI16, Access::kRo, 0, M::kTpdo);
+  // In torque modes it is torque that a quick stop takes off: permille/s, by default all at once.
+  t.var(0x6085, "Quick stop deceleration", Type::kU32, Access::kRw, 0xFFFFFFFF, M::kBoth);
   t.var(0x6087, "Torque slope", Type::kU32, Access::kRw, 1000, M::kBoth);  // permille/s
   t.var(0x60B2, "Torque offset", Type::kI16, Access::kRw, 0, M::kBoth);
+  t.var(0x60FD, "Digital inputs", Type::kU32, Access::kRo, 0, M::kTpdo);  // see Input
+  t.group(0x60FE, "Digital outputs", Shape::kArray, 1);
+  t.sub(1, "Physical outputs", Type::kU32, Access::kRo, 1);  // bit 0: the brake holds
   t.var(0x6403, "Motor catalogue number", Type::kString, Access::kRw, 0);
   t.var(0x6404, "Motor manufacturer", Type::kString, Access::kRw, 1);
   add_motor(t, 0x6410, "Motor data, former index");  // the same values as 0x2383

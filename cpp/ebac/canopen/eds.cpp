@@ -84,7 +84,8 @@ std::string default_of(const ObjectDictionary& objects, std::size_t slot) {
 void write_value(std::ostream& out, const ObjectDictionary& objects, std::size_t slot) {
   const Entry& entry = kDriveTable.entry[slot];
   out << "DataType=0x" << hex(static_cast<std::int64_t>(entry.type), 4)
-      << "\nAccessType=" << access(entry.access) << "\nDefaultValue=" << default_of(objects, slot)
+      << "\nAccessType=" << access(objects.access(slot))
+      << "\nDefaultValue=" << default_of(objects, slot)
       << "\nPDOMapping=" << (entry.mapping == Mapping::kNo ? 0 : 1) << "\n";
   if (entry.type == Type::kString) return;
   if (entry.low > lowest(entry.type)) out << "LowLimit=" << number(entry.type, entry.low) << "\n";
@@ -100,11 +101,19 @@ void write_object(std::ostream& out, const ObjectDictionary& objects, const Obje
   if (object.shape == Shape::kVar) return write_value(out, objects, object.first);
   out << "SubNumber=" << object.count << "\n";
   for (std::size_t slot = object.first; slot < std::size_t{object.first} + object.count; ++slot) {
+    if (objects.hidden(slot)) continue;
     const Entry& entry = kDriveTable.entry[slot];
     out << "\n[" << section << "sub" << hex(entry.sub, 1) << "]\nParameterName=" << entry.name
         << "\nObjectType=0x7\n";
     write_value(out, objects, slot);
   }
+}
+
+bool all_hidden(const ObjectDictionary& objects, const Object& object) {
+  for (std::size_t slot = object.first; slot < std::size_t{object.first} + object.count; ++slot) {
+    if (!objects.hidden(slot)) return false;
+  }
+  return true;
 }
 
 /// CiA 306 sorts: mandatory ones, optional ones of the standards, the manufacturer's.
@@ -124,7 +133,7 @@ std::string eds(const ObjectDictionary& objects) {
     std::vector<const Object*> members;
     for (std::size_t i = 0; i < kDriveTable.objects; ++i) {
       const Object& object = kDriveTable.object[i];
-      if (list_of(object.index) == list) members.push_back(&object);
+      if (list_of(object.index) == list && !all_hidden(objects, object)) members.push_back(&object);
     }
     out << "\n[" << kLists[list] << "]\nSupportedObjects=" << members.size() << "\n";
     for (std::size_t i = 0; i < members.size(); ++i) {

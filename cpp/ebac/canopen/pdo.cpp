@@ -18,7 +18,7 @@ struct Mapped {
   std::size_t bits = 0;
 };
 
-Mapped look_up(std::int64_t value, Direction direction) EBAC_RT {
+Mapped look_up(const ObjectDictionary& objects, std::int64_t value, Direction direction) EBAC_RT {
   const auto index = static_cast<std::uint16_t>(value >> 16);
   const auto sub = static_cast<std::uint8_t>(value >> 8 & 0xFF);
   Mapped found{.bits = static_cast<std::size_t>(value & 0xFF)};
@@ -26,12 +26,13 @@ Mapped look_up(std::int64_t value, Direction direction) EBAC_RT {
     if (found.bits != dummy_bits(index)) found.why = Abort::kNotMappable;
     return found;
   }
-  found.why = ObjectDictionary::locate(index, sub, found.slot);
+  found.why = objects.locate(index, sub, found.slot);
   if (found.why != Abort::kNone) return found;
   const Entry& entry = kDriveTable.entry[found.slot];
   const Mapping wanted = direction == Direction::kReceive ? Mapping::kRpdo : Mapping::kTpdo;
   const bool offered = entry.mapping == wanted || entry.mapping == Mapping::kBoth;
-  if (!offered || found.bits != std::size_t{8} * width(entry.type)) found.why = Abort::kNotMappable;
+  if (!offered || !objects.mappable(found.slot) || found.bits != std::size_t{8} * width(entry.type))
+    found.why = Abort::kNotMappable;
   return found;
 }
 
@@ -42,7 +43,8 @@ Abort check_count(const ObjectDictionary& objects, const Entry& entry, Direction
   const std::size_t first = kDriveTable.slot(entry.index, 1);
   std::size_t bits = 0;
   for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
-    const Mapped mapped = look_up(objects[first + i], direction);
+    if (objects.hidden(first + i)) return Abort::kPdoLength;
+    const Mapped mapped = look_up(objects, objects[first + i], direction);
     if (mapped.why != Abort::kNone) return mapped.why;
     bits += mapped.bits;
   }
@@ -91,7 +93,7 @@ Abort check_pdo(const ObjectDictionary& objects, const Entry& entry, std::int64_
   if ((objects[kDriveTable.slot(communication, 1)] & kInvalid) == 0) return Abort::kUnsupported;
   if (entry.sub == 0) return check_count(objects, entry, direction, value);
   if (objects[kDriveTable.slot(entry.index, 0)] != 0) return Abort::kUnsupported;
-  return value == 0 ? Abort::kNone : look_up(value, direction).why;  // 0 empties the entry
+  return value == 0 ? Abort::kNone : look_up(objects, value, direction).why;  // 0 empties the entry
 }
 
 PdoMap read_map(const ObjectDictionary& objects, Direction direction, std::size_t number) EBAC_RT {
@@ -100,7 +102,7 @@ PdoMap read_map(const ObjectDictionary& objects, Direction direction, std::size_
   PdoMap map;
   map.count = static_cast<std::uint8_t>(objects[first]);
   for (std::size_t i = 0; i < map.count; ++i) {
-    const Mapped mapped = look_up(objects[first + 1 + i], direction);
+    const Mapped mapped = look_up(objects, objects[first + 1 + i], direction);
     map.slot[i] = mapped.slot == kNoSlot ? kDummy : static_cast<std::uint16_t>(mapped.slot);
     map.size[i] = static_cast<std::uint8_t>(mapped.bits / 8);
     map.bytes = static_cast<std::uint8_t>(map.bytes + map.size[i]);

@@ -9,6 +9,9 @@ enum class Abort : std::uint32_t {
   kNone = 0,
   kToggle = 0x05030000,        // toggle bit not alternated
   kCommand = 0x05040001,       // command unknown, or not expected now
+  kBlockSize = 0x05040002,     // of a block transfer
+  kSequence = 0x05040003,      // number of a segment of a block
+  kChecksum = 0x05040004,      // of a block transfer
   kUnsupported = 0x06010000,   // this access is not possible
   kWriteOnly = 0x06010001,     // attempt to read
   kReadOnly = 0x06010002,      // attempt to write

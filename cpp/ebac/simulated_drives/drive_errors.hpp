@@ -12,6 +12,11 @@ enum class Cause : std::uint8_t {
   kOverVoltage,
   kEncoderLost,
   kOverTemperature,
+  kUnderVoltage,
+  kMotorTemperature,
+  kShortCircuit,
+  kMotorBlocked,   // the brake does not open
+  kSyncLength,     // a SYNC with a counter, or without one, against 0x1019
   kOverload,       // i2t
   kHeartbeatLost,  // a producer of 0x1016 fell silent
   kRpdoLate,       // an RPDO stayed away longer than its event timer
@@ -19,7 +24,7 @@ enum class Cause : std::uint8_t {
   kSyncLost,       // no SYNC for kSyncPatience periods of 0x1006
   kConnection,     // the node left Operational while the motor was on
 };
-inline constexpr std::size_t kCauses = 9;
+inline constexpr std::size_t kCauses = 14;
 
 /// Periods of 0x1006 without a SYNC until it is lost. A loop on an ordinary kernel is several late
 /// now and then: 6 of 1 ms in one of a thousand ticks.
@@ -37,6 +42,11 @@ inline constexpr std::array<CauseFacts, kCauses> kCauseFacts{{
     {0x3210, 0x04, 1U << 5, 1U << 2},
     {0x7305, 0x20, 1U << 7, 1U << 5},
     {0x4210, 0x08, 1U << 3, 1U << 1},
+    {0x3220, 0x04, 1U << 6, 1U << 3},
+    {0x4310, 0x08, 1U << 4, 1U << 4},
+    {0x2320, 0x02, 1U << 2, 1U << 0},
+    {0x7121, 0x20, 1U << 12, 1U << 14},
+    {0x8240, 0x10, 0, 0},
     {0x2350, 0x02, 1U << 10, 1U << 7},
     {0x8130, 0x10, 0, 0},
     {0x8250, 0x10, 0, 0},

@@ -25,7 +25,7 @@ template <Device D>
 class Joystick {
  public:
   Joystick(D plant, const DeviceModel& device, NodeId first = 1, double peak_time = 2,
-           bool wait_for_power = false)
+           bool wait_for_power = false, std::span<const SheetEntry> sheet = {})
       : plant_(std::move(plant)),
         axes_(static_cast<std::size_t>(device.axes())),
         waits_(wait_for_power) {
@@ -34,7 +34,8 @@ class Joystick {
                                   .motor = device.motor,
                                   .drive = device.drive,
                                   .counts_per_turn = device.encoder.counts_per_turn,
-                                  .peak_time = peak_time});
+                                  .peak_time = peak_time,
+                                  .sheet = sheet});
     }
     D peek = plant_;  // the first reading must not change the plant
     show(peek.exchange({}));

@@ -23,10 +23,13 @@ class PowerStage {
   void configure(const StageLimits& limits) EBAC_RT { limits_ = limits; }
 
   /// Sets the target, permille; a ramp starts from where the demand is.
-  void aim(int target, bool ramp) EBAC_RT {
+  void aim(int target, bool ramp) EBAC_RT { aim(target, ramp ? limits_.slope : kAtOnce); }
+  /// The same with a slope of its own [permille/s].
+  void aim(int target, double slope) EBAC_RT {
     asked_ = target;
     target_ = std::clamp(target, -limits_.torque, limits_.torque);
-    if (!ramp) demand_ = target_;
+    slope_ = slope;
+    if (slope >= kAtOnce) demand_ = target_;
   }
   void off() EBAC_RT {
     asked_ = target_ = 0;
@@ -40,7 +43,7 @@ class PowerStage {
     const double budget = std::max(0.0, peak * peak - 1) * limits_.peak_time;
     if (spent_ > budget) holding_ = true;
     if (spent_ == 0) holding_ = false;
-    const double step = limits_.slope * seconds;
+    const double step = slope_ * seconds;
     demand_ += std::clamp(target_ - demand_, -step, step);
   }
 
@@ -55,14 +58,17 @@ class PowerStage {
   bool limited() const EBAC_RT { return asked_ != target_ || torque() != demand(); }
   bool holding() const EBAC_RT { return holding_; }
 
+  static constexpr double kAtOnce = 4294967295.0;  // permille/s
+
  private:
   static constexpr double kRated = 1000;  // permille
 
   StageLimits limits_;
-  int asked_ = 0;      // permille
-  int target_ = 0;     // permille
-  double demand_ = 0;  // permille
-  double spent_ = 0;   // s, rated current squared is 1
+  int asked_ = 0;           // permille
+  int target_ = 0;          // permille
+  double demand_ = 0;       // permille
+  double slope_ = kAtOnce;  // permille/s
+  double spent_ = 0;        // s, rated current squared is 1
   bool holding_ = false;
 };
 

@@ -19,7 +19,25 @@ SimulatedDrive::SimulatedDrive(const DriveSettings& settings) : objects_(setting
   objects_.set_default(kAt<0x2112>, whole(settings.peak_time * 1e3, 65535));
   objects_.set_default(kAt<0x6072>, whole(peak / one, 65535));
   objects_.set_default(kAt<0x6073>, whole(peak / one, 65535));
+  start_as(settings.sheet);
   boot(0xFFFF);
+}
+
+/// Takes the dictionary of a data sheet, and those of its defaults that this drive can have: not
+/// those of its PDOs, nor modes it does not offer.
+void SimulatedDrive::start_as(std::span<const SheetEntry> sheet) {
+  objects_.describe(sheet);
+  for (const SheetEntry& given : sheet) {
+    const std::size_t slot = kDriveTable.slot(given.index, given.sub);
+    if (slot == kNoSlot || !given.has_initial || is_pdo(given.index)) continue;
+    const Entry& entry = kDriveTable.entry[slot];
+    const bool own = given.index == 0x6502 || given.index == 0x1003;
+    if (own || entry.type == Type::kString) continue;
+    const bool fits = ObjectDictionary::check_limits(entry, given.initial) == Abort::kNone &&
+                      check(slot, given.initial) == Abort::kNone;
+    const bool group = entry.sub == 0 && kDriveTable.slot(entry.index, 1) != kNoSlot;
+    if (fits && !group) objects_.set_default(slot, given.initial);
+  }
 }
 
 void SimulatedDrive::send(const Frame& frame) EBAC_RT {
@@ -28,8 +46,13 @@ void SimulatedDrive::send(const Frame& frame) EBAC_RT {
 
 /// Power-on (`last_index` 0xFFFF) or a new start of the communication alone (0x1FFF).
 void SimulatedDrive::boot(std::uint16_t last_index) EBAC_RT {
+  if (lss_.pending() != 0) objects_.set_node(lss_.pending());
+  lss_.reset();
   objects_.restore(0x1000, last_index);
   sdo_.reset();
+  life_.sleep();
+  guard_toggle_ = 0;
+  synced_at_ = kNever;
   emcy_.clear();
   if (last_index == 0xFFFF) {
     errors_.clear();
@@ -56,17 +79,23 @@ bool SimulatedDrive::is_sync(const Frame& frame) const EBAC_RT {
 }
 
 void SimulatedDrive::receive(const Frame& frame) EBAC_RT {
-  if (silent_ || frame.remote || frame.error || frame.extended) return;
-  if (frame.size > Frame::kMaxSize) return;
+  if (silent_ || frame.error || frame.extended || frame.size > Frame::kMaxSize) return;
+  if (frame.remote) {
+    if (frame.id == heartbeat(node())) guard();
+    return;
+  }
   if (frame.id == kNmt) {
     if (frame.size >= 2 && (frame.data[1] == 0 || frame.data[1] == node())) {
       command_node(frame.data[0]);
     }
   } else if (is_sync(frame)) {
-    if (nmt_ == NmtState::kOperational) synchronise();
+    if (nmt_ == NmtState::kOperational) synchronise(frame);
+  } else if (frame.id == kLssMaster) {
+    set_layer(frame);
   } else if (frame.id == sdo_request(node()) && nmt_ != NmtState::kStopped) {
     Frame reply{.id = sdo_answer(node())};
     if (sdo_.answer(frame.bytes(), *this, reply)) send(reply);
+    while (sdo_.segment(reply)) send(reply);
   } else if (frame.id > heartbeat(0) && frame.id <= heartbeat(kLastNode)) {
     hear_heartbeat(frame);
   } else if (nmt_ == NmtState::kOperational) {
@@ -111,8 +140,36 @@ void SimulatedDrive::change(NmtState next) EBAC_RT {
   }
 }
 
+/// Node guarding (CiA 301, 7.2.8.2.2.1): answers the master, and watches it from then on. A node
+/// with a heartbeat is not guarded.
+void SimulatedDrive::guard() EBAC_RT {
+  if (objects_.get<0x1017>() != 0) return;
+  send(frame(heartbeat(node()),
+             {static_cast<std::uint8_t>(static_cast<unsigned>(nmt_) | guard_toggle_)}));
+  guard_toggle_ ^= 0x80U;
+  life_.feed(now_);
+  cure(Cause::kHeartbeatLost);
+}
+
+void SimulatedDrive::set_layer(const Frame& frame) EBAC_RT {
+  LssSlave::Identity own{};
+  for (std::size_t i = 0; i < own.size(); ++i) {
+    own[i] = static_cast<std::uint32_t>(objects_[kAt<0x1018, 1> + i]);
+  }
+  Frame reply;
+  if (lss_.answer(frame, own, node(), reply)) send(reply);
+}
+
 /// First sends the inputs as they are at this SYNC; then applies the data received before it.
-void SimulatedDrive::synchronise() EBAC_RT {
+void SimulatedDrive::synchronise(const Frame& sync) EBAC_RT {
+  const std::size_t counter = objects_.get<0x1019>() == 0 ? 0 : 1;
+  if (sync.size != counter) {
+    raise(Cause::kSyncLength);
+    errors_.gone(Cause::kSyncLength);
+    return;
+  }
+  cure(Cause::kSyncLength);
+  synced_at_ = now_;
   sync_watch_.feed(now_);
   cure(Cause::kSyncLost);
   Frame frame;
@@ -137,6 +194,8 @@ void SimulatedDrive::receive_pdo(const Frame& frame) EBAC_RT {
     cure(Cause::kRpdoLate);
     rpdo.deadline.feed(now_);
     if (rpdo.settings.synchronous()) {
+      const std::int64_t window = objects_.get<0x1007>() * kMicrosecond;
+      if (window > 0 && synced_at_ != kNever && now_ - synced_at_ > window) continue;
       rpdo.waiting = frame;
       rpdo.is_waiting = true;
     } else {
@@ -188,6 +247,7 @@ void SimulatedDrive::watch() EBAC_RT {
   for (Watchdog& producer : producer_) {
     if (producer.cries(now_)) lose_connection(Cause::kHeartbeatLost);
   }
+  if (life_.cries(now_)) lose_connection(Cause::kHeartbeatLost);
   if (nmt_ != NmtState::kOperational) return;
   for (Rpdo& rpdo : rpdo_) {
     if (rpdo.deadline.cries(now_)) lose_connection(Cause::kRpdoLate);

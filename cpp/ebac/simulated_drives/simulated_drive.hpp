@@ -2,6 +2,7 @@
 
 #include "ebac/can/frame_queue.hpp"
 #include "ebac/canopen/cob_id.hpp"
+#include "ebac/canopen/lss.hpp"
 #include "ebac/canopen/pdo.hpp"
 #include "ebac/canopen/sdo_server.hpp"
 #include "ebac/model/motor.hpp"
@@ -14,17 +15,24 @@ namespace ebac::can {
 struct DriveSettings {
   NodeId node = 1;
   Motor motor{};
-  Drive drive{};               // its peak torque is the default of 0x6072
-  int counts_per_turn = 1024;  // counts
-  double peak_time = 2;        // s, at the peak current before i2t acts
+  Drive drive{};                        // its peak torque is the default of 0x6072
+  int counts_per_turn = 1024;           // counts
+  double peak_time = 2;                 // s, at the peak current before i2t acts
+  std::span<const SheetEntry> sheet{};  // whose dictionary it has; empty: its own
 };
 
-/// Conditions that can be injected into a drive; bits of 0x5F00.
-enum class Condition : std::uint8_t {
+/// Conditions that can be injected into a drive; bits of 0x5F00, and from 256 on of 0x5F01.
+enum class Condition : std::uint16_t {
   kOverVoltage = 1,
   kEncoderLost = 2,
   kOverTemperature = 4,
   kSilent = 8,  // neither receives nor sends
+  kUnderVoltage = 16,
+  kMotorTemperature = 32,
+  kShortCircuit = 64,
+  kTorqueOff = 128,      // safe torque off (STO): no power, no fault
+  kEnableMissing = 256,  // the enable input is open: no operation, no fault
+  kBrakeStuck = 512,     // the brake does not open
 };
 
 /// A CANopen servo drive (CiA 301, CiA 402-2): a state machine that takes frames, lets time pass
@@ -70,11 +78,14 @@ class SimulatedDrive {
  private:
   // frames and time: simulated_drive.cpp
   void send(const Frame& frame) EBAC_RT;
+  void start_as(std::span<const SheetEntry> sheet);
   void command_node(std::uint8_t command) EBAC_RT;
   void enter(NmtState next) EBAC_RT;
   void change(NmtState next) EBAC_RT;
   void boot(std::uint16_t last_index) EBAC_RT;
-  void synchronise() EBAC_RT;
+  void synchronise(const Frame& frame) EBAC_RT;
+  void guard() EBAC_RT;
+  void set_layer(const Frame& frame) EBAC_RT;
   void receive_pdo(const Frame& frame) EBAC_RT;
   void apply(const Rpdo& rpdo, const Frame& frame) EBAC_RT;
   void hear_heartbeat(const Frame& frame) EBAC_RT;
@@ -106,6 +117,9 @@ class SimulatedDrive {
   bool in_fault() const EBAC_RT {
     return state_ == DriveState::kFault || state_ == DriveState::kFaultReaction;
   }
+  /// The slope by which an option code takes the torque off [permille/s].
+  double slope_of(std::int64_t option) const EBAC_RT;
+  bool hindered() const EBAC_RT { return torque_off_ || enable_missing_; }
   bool remote() const EBAC_RT { return objects_.get<0x2300>() == 30; }
 
   // errors: simulated_drive_errors.cpp
@@ -120,10 +134,14 @@ class SimulatedDrive {
 
   ObjectDictionary objects_;
   SdoServer sdo_;
+  LssSlave lss_;
   std::array<Rpdo, kPdos> rpdo_;
   std::array<Tpdo, kPdos> tpdo_;
   std::array<Watchdog, kProducers> producer_;
   Watchdog sync_watch_;
+  Watchdog life_;  // of node guarding
+  std::uint8_t guard_toggle_ = 0;
+  std::int64_t synced_at_ = kNever;  // ns
   Timer heartbeat_;
   ErrorState errors_;
   FrameQueue<8> emcy_;
@@ -134,7 +152,11 @@ class SimulatedDrive {
   DriveState state_ = DriveState::kNotReady;
   std::uint16_t last_word_ = 0;  // controlword
   PowerStage stage_;
+  DriveState leaving_ = DriveState::kOperationEnabled;  // to go to once the torque is off
   bool silent_ = false;
+  bool torque_off_ = false;
+  bool enable_missing_ = false;
+  bool brake_stuck_ = false;
   std::int64_t counts_ = 0;      // encoder
   std::int64_t counted_at_ = 0;  // ns
 };

@@ -9,11 +9,22 @@ void SimulatedDrive::raise(Cause cause) EBAC_RT {
   push_emcy(facts_of(cause).emcy);
 }
 
-/// Stops the motor and stays stopped.
+namespace {
+
+/// Whether the power stage can no longer bring the torque down by a ramp.
+bool at_once(Cause cause) EBAC_RT {
+  return cause == Cause::kOverVoltage || cause == Cause::kUnderVoltage ||
+         cause == Cause::kShortCircuit || cause == Cause::kMotorBlocked;
+}
+
+}  // namespace
+
+/// Stops the motor by 0x605E, or at once, and stays stopped.
 void SimulatedDrive::trip(Cause cause) EBAC_RT {
   raise(cause);
   if (!in_fault()) state_ = DriveState::kFaultReaction;
-  stage_.off();
+  leaving_ = DriveState::kOperationEnabled;
+  if (at_once(cause) || slope_of(objects_.get<0x605E>()) >= PowerStage::kAtOnce) stage_.off();
 }
 
 /// Ends a reported cause. A cause that stopped the drive waits for its reset.
@@ -69,9 +80,36 @@ void SimulatedDrive::set_condition(Condition condition, bool present) EBAC_RT {
     if (silent_) out_.clear();
     return;
   }
-  const Cause cause = condition == Condition::kOverVoltage   ? Cause::kOverVoltage
-                      : condition == Condition::kEncoderLost ? Cause::kEncoderLost
-                                                             : Cause::kOverTemperature;
+  if (condition == Condition::kTorqueOff || condition == Condition::kEnableMissing) {
+    (condition == Condition::kTorqueOff ? torque_off_ : enable_missing_) = present;
+    if (hindered() && !in_fault() && state_ != DriveState::kNotReady) {
+      state_ = DriveState::kSwitchOnDisabled;
+      stage_.off();
+    }
+    return refresh();
+  }
+  if (condition == Condition::kBrakeStuck) {
+    brake_stuck_ = present;
+    if (!present) errors_.gone(Cause::kMotorBlocked);
+    if (present && motor_on()) trip(Cause::kMotorBlocked);
+    return refresh();
+  }
+  const Cause cause = [condition] {
+    switch (condition) {
+      case Condition::kOverVoltage:
+        return Cause::kOverVoltage;
+      case Condition::kEncoderLost:
+        return Cause::kEncoderLost;
+      case Condition::kUnderVoltage:
+        return Cause::kUnderVoltage;
+      case Condition::kMotorTemperature:
+        return Cause::kMotorTemperature;
+      case Condition::kShortCircuit:
+        return Cause::kShortCircuit;
+      default:
+        return Cause::kOverTemperature;
+    }
+  }();
   if (present && !errors_.present(cause)) {
     trip(cause);
   } else if (!present) {

@@ -20,15 +20,22 @@ Abort one_of(std::int64_t value, const std::array<std::int64_t, N>& offered) EBA
 
 std::size_t SimulatedDrive::size_of(std::uint16_t index, std::uint8_t sub) const EBAC_RT {
   const std::size_t slot = kDriveTable.slot(index, sub);
-  return slot == kNoSlot ? 0 : width(kDriveTable.entry[slot].type);
+  if (slot != kNoSlot) return width(kDriveTable.entry[slot].type);
+  const std::size_t extra = objects_.extra(index, sub);
+  return extra == kNoSlot ? 0 : objects_.extra_entry(extra).width;
 }
 
 Abort SimulatedDrive::upload(std::uint16_t index, std::uint8_t sub, std::span<std::uint8_t> out,
                              std::size_t& size) const EBAC_RT {
+  if (const std::size_t extra = objects_.extra(index, sub); extra != kNoSlot) {
+    if (objects_.extra_entry(extra).access == Access::kWo) return Abort::kWriteOnly;
+    size = objects_.read_extra(extra, out);
+    return Abort::kNone;
+  }
   std::size_t slot = kNoSlot;
-  const Abort why = ObjectDictionary::locate(index, sub, slot);
+  const Abort why = objects_.locate(index, sub, slot);
   if (why != Abort::kNone) return why;
-  if (kDriveTable.entry[slot].access == Access::kWo) return Abort::kWriteOnly;
+  if (objects_.access(slot) == Access::kWo) return Abort::kWriteOnly;
   if (index == 0x1003 && sub > objects_.get<0x1003>()) return Abort::kNoData;
   size = objects_.read(slot, out);
   return Abort::kNone;
@@ -36,11 +43,20 @@ Abort SimulatedDrive::upload(std::uint16_t index, std::uint8_t sub, std::span<st
 
 Abort SimulatedDrive::prepare_download(std::uint16_t index, std::uint8_t sub,
                                        std::int64_t announced) const EBAC_RT {
+  const auto fixed = [](Access access) {
+    return access == Access::kRo || access == Access::kConst;
+  };
+  if (const std::size_t extra = objects_.extra(index, sub); extra != kNoSlot) {
+    const SheetEntry& entry = objects_.extra_entry(extra);
+    if (fixed(entry.access)) return Abort::kReadOnly;
+    const bool fits = announced < 0 || entry.width == 0 || announced == entry.width;
+    return fits ? Abort::kNone : Abort::kLength;
+  }
   std::size_t slot = kNoSlot;
-  const Abort why = ObjectDictionary::locate(index, sub, slot);
+  const Abort why = objects_.locate(index, sub, slot);
   if (why != Abort::kNone) return why;
   const Entry& entry = kDriveTable.entry[slot];
-  if (entry.access == Access::kRo || entry.access == Access::kConst) return Abort::kReadOnly;
+  if (fixed(objects_.access(slot))) return Abort::kReadOnly;
   if (entry.type == Type::kString) {
     return announced > static_cast<std::int64_t>(kTextRoom) ? Abort::kTooLong : Abort::kNone;
   }
@@ -71,8 +87,18 @@ Abort SimulatedDrive::check(std::size_t slot, std::int64_t value) const EBAC_RT 
     case 0x2300:
       if (motor_on()) return Abort::kState;
       return one_of<2>(value, {0, 30});
+    case 0x1019:  // only while no SYNC is expected (CiA 301, 7.5.2.22)
+      if (objects_.get<0x1006>() != 0) return Abort::kState;
+      return value == 1 ? Abort::kValue : Abort::kNone;
     case 0x605A:
       return one_of<5>(value, {0, 1, 2, 5, 6});
+    case 0x605B:
+    case 0x605C:
+      return one_of<2>(value, {0, 1});
+    case 0x605D:
+      return one_of<3>(value, {1, 2, 3});
+    case 0x605E:
+      return one_of<3>(value, {0, 1, 2});
     case 0x6060:
       return one_of<3>(value, {kNoMode, kProfileTorque, kCyclicTorque});
     default:
@@ -103,6 +129,9 @@ Abort SimulatedDrive::download(std::uint16_t index, std::uint8_t sub,
                                std::span<const std::uint8_t> bytes) EBAC_RT {
   const Abort why = prepare_download(index, sub, static_cast<std::int64_t>(bytes.size()));
   if (why != Abort::kNone) return why;
+  if (const std::size_t extra = objects_.extra(index, sub); extra != kNoSlot) {
+    return objects_.write_extra(extra, bytes);
+  }
   const std::size_t slot = kDriveTable.slot(index, sub);
   const Entry& entry = kDriveTable.entry[slot];
   if (entry.type == Type::kString) {
@@ -116,7 +145,7 @@ Abort SimulatedDrive::write(std::uint16_t index, std::uint8_t sub, std::int64_t 
   const Abort why = prepare_download(index, sub, -1);
   if (why != Abort::kNone) return why;
   const std::size_t slot = kDriveTable.slot(index, sub);
-  if (kDriveTable.entry[slot].type == Type::kString) return Abort::kLength;
+  if (slot == kNoSlot || kDriveTable.entry[slot].type == Type::kString) return Abort::kLength;
   const Abort refused = set(slot, value);
   refresh();
   return refused;
@@ -156,11 +185,13 @@ bool SimulatedDrive::execute(std::size_t slot, std::int64_t value, Abort& why) E
       return true;
     }
     case 0x5F00:
-      for (const auto condition : {Condition::kOverVoltage, Condition::kEncoderLost,
-                                   Condition::kOverTemperature, Condition::kSilent}) {
-        set_condition(condition, (value & static_cast<std::int64_t>(condition)) != 0);
+    case 0x5F01: {
+      const unsigned shift = kDriveTable.entry[slot].index == 0x5F00 ? 0 : 8;
+      for (unsigned bit = 0; bit < (shift == 0 ? 8U : 2U); ++bit) {
+        set_condition(static_cast<Condition>(1U << (bit + shift)), (value >> bit & 1) != 0);
       }
       return true;
+    }
     default:
       return false;
   }
@@ -175,6 +206,9 @@ void SimulatedDrive::take_effect(std::size_t slot) EBAC_RT {
       return;
     case 0x1006:
       return sync_watch_.set(kSyncPatience * objects_[slot] * kMicrosecond);
+    case 0x100C:
+    case 0x100D:
+      return life_.set(objects_.get<0x100C>() * objects_.get<0x100D>() * kMillisecond);
     case 0x1016:
       return producer_[slot - kAt<0x1016, 1>].set((objects_[slot] & 0xFFFF) * kMillisecond);
     case 0x1017:
@@ -216,6 +250,7 @@ void SimulatedDrive::configure_all() EBAC_RT {
   for (std::size_t i = 0; i < kProducers; ++i) take_effect(kAt<0x1016, 1> + i);
   take_effect(kAt<0x1006>);
   take_effect(kAt<0x1017>);
+  take_effect(kAt<0x100C>);
   for (std::size_t i = 1; i <= 4; ++i) take_effect(kAt<0x2383> + i);
 }
 

@@ -16,10 +16,12 @@ from ebac.drives.apply import Applied, apply, restore, verify
 from ebac.drives.backup import Backup, Backups
 from ebac.drives.bus import DriveBus
 from ebac.drives.drive import Drive
+from ebac.drives.eds import Sheet, SheetEntry, parse_eds, read_eds
 from ebac.drives.errors import (
     BusError,
     DriveError,
     DriveFault,
+    Missing,
     NoAnswer,
     NotApplied,
     NotVerified,
@@ -29,13 +31,16 @@ from ebac.drives.errors import (
     WrongState,
 )
 from ebac.drives.load import BusLoad, Traffic, bus_load, frame_bits
-from ebac.drives.network import Network, Node, load
+from ebac.drives.network import Network, Node, check_sheet, load
 from ebac.drives.objects import Object, find
+from ebac.drives.own_objects import OwnObject
 from ebac.drives.pdo import Pdo
 from ebac.drives.plan import Change, Plan, plan
 from ebac.drives.profile import Profile, builtin
+from ebac.drives.simulate import inject
 from ebac.drives.stall import check_stall, hold_time
 from ebac.drives.state import TRANSITIONS, Command, Controlword, State, Statusword, path
+from ebac.drives.timing import BusTiming, bus_timing, exact_bits
 
 __all__ = [
     "TRANSITIONS",
@@ -44,6 +49,7 @@ __all__ = [
     "Backups",
     "BusError",
     "BusLoad",
+    "BusTiming",
     "Change",
     "Command",
     "Controlword",
@@ -51,17 +57,21 @@ __all__ = [
     "DriveBus",
     "DriveError",
     "DriveFault",
+    "Missing",
     "Network",
     "NoAnswer",
     "Node",
     "NotApplied",
     "NotVerified",
     "Object",
+    "OwnObject",
     "Pdo",
     "Plan",
     "Profile",
     "ProfileError",
     "Refused",
+    "Sheet",
+    "SheetEntry",
     "State",
     "Statusword",
     "Traffic",
@@ -70,13 +80,19 @@ __all__ = [
     "apply",
     "builtin",
     "bus_load",
+    "bus_timing",
+    "check_sheet",
     "check_stall",
+    "exact_bits",
     "find",
     "frame_bits",
     "hold_time",
+    "inject",
     "load",
+    "parse_eds",
     "path",
     "plan",
+    "read_eds",
     "restore",
     "verify",
 ]

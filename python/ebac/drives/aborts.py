@@ -45,6 +45,8 @@ def remedy(code: int) -> str:
     return ABORTS[code][1] if code in ABORTS else "see the drive's manual"
 
 
+#: The object cannot be read.
+WRITE_ONLY = 0x06010001
 #: The object cannot be written.
 READ_ONLY = 0x06010002
 #: Codes that mean "there is no such thing here".

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     import can
 
     from ebac.drives.drive import Drive
+    from ebac.drives.eds import Sheet
 
 #: How long an SDO answer may take [s]. Drives answer within a few ms; a busy laptop does not.
 TIMEOUT = 0.3
@@ -96,14 +97,16 @@ class DriveBus:
         ):  # an interface that went down, which was reported when it was used
             self.network.disconnect()
 
-    def drive(self, node: int, *, eds: str | Path | None = None, timeout: float = TIMEOUT) -> Drive:
+    def drive(
+        self, node: int, *, eds: str | Path | Sheet | None = None, timeout: float = TIMEOUT
+    ) -> Drive:
         """Return the drive of that node; the same object every time, so that its lock is one.
 
         Parameters
         ----------
         node : int
             Node id, 1 to 127.
-        eds : str or Path, optional
+        eds : str, Path or Sheet, optional
             Electronic data sheet, for names this package does not know.
         timeout : float
             How long an SDO answer may take [s], 0.001 to 60.

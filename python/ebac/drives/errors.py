@@ -65,6 +65,45 @@ class Refused(DriveError):
         return self.code in aborts.ABSENT
 
 
+class Missing(Refused):
+    """A drive has not all objects that a profile sets; the message lists every one, with the key that wants it.
+
+    Parameters
+    ----------
+    node : int
+        Node id.
+    lacking : sequence of (Object, str, int)
+        Objects, the key of each, and the abort code the drive answered with.
+    """
+
+    def __init__(self, node: int, lacking: Sequence[tuple[Object, str, int]]) -> None:
+        DriveError.__init__(
+            self, f"node {node} {lacks([(o, k) for o, k, _ in lacking])}", node=node
+        )
+        self.object, _, self.code = lacking[0]
+        self.lacking = tuple(lacking)
+
+
+def lacks(lacking: Sequence[tuple[Object, str]]) -> str:
+    """Return in words what a drive has not, and what to do about it."""
+    count = f"{len(lacking)} objects" if len(lacking) > 1 else "1 object"
+    listed = ", ".join(
+        f"{obj.where} {obj.name}" + (f" (key {key})" if key else "") for obj, key in lacking
+    )
+    return (
+        f"lacks {count} of the profile: {listed}. Leave the key out, or name it under `without` where it only scales "
+        "others; a maker's own object goes under [objects]. Is this the right profile for the drive?"
+    )
+
+
+def says_absent(obj: Object, key: str) -> str:
+    """Return in words that a drive has what a profile says it has not."""
+    return (
+        f"has {obj}, and the profile's `without` says that it does not ({key}): its torques would mean something else. "
+        "Is this the right profile for the drive? Take the key out of `without`, or set the object under [objects]"
+    )
+
+
 class WrongAnswer(DriveError):
     """A drive answered something else than was asked, or does not carry out a command."""
 

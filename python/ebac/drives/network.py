@@ -8,7 +8,8 @@ from pathlib import Path
 from typing import Any
 
 from ebac._util.wrong_calls import plain_constructor
-from ebac.drives.errors import ProfileError
+from ebac.drives.eds import Sheet
+from ebac.drives.errors import ProfileError, lacks, says_absent
 from ebac.drives.load import BITRATES, BusLoad, Traffic, bus_load
 from ebac.drives.pdo import sync_period
 from ebac.drives.profile import Profile, read_profile, read_source
@@ -76,6 +77,44 @@ class Network:
         if load.refused:
             raise ProfileError(f"{self.name}: {load.describe()}")
         return f"{self.name}: {load.describe()}" if load.warned else None
+
+
+def check_sheet(network: Network, sheet: Sheet) -> None:
+    """Refuse profiles that a drive with this electronic data sheet cannot take, before anything is on a bus.
+
+    Raises
+    ------
+    ProfileError
+        For the first node whose drive lacks objects, or cannot map them; all of them are listed.
+    """
+    from ebac.drives.objects import find
+    from ebac.drives.settings import groups
+
+    for node in network.nodes:
+        settings = [one for group in groups(node.profile, node.id) for one in group.settings]
+        lacking = [
+            (one.object, one.key)
+            for one in settings
+            if not one.optional and one.object.key not in sheet.entries
+        ]
+        mapped = [(find(name), f"pdo.{p.name}") for p in node.profile.pdos for name in p.objects]
+        lacking += [pair for pair in mapped if pair[0].key not in sheet.entries]
+        if lacking:
+            raise ProfileError(f"{network.name}, node {node.id}: {sheet.name} {lacks(lacking)}")
+        for obj, key in node.profile.absent():
+            if obj.key in sheet.entries:
+                raise ProfileError(
+                    f"{network.name}, node {node.id}: {sheet.name} {says_absent(obj, key)}"
+                )
+        fixed = [
+            f"{obj.where} {obj.name} ({key})"
+            for obj, key in mapped
+            if not sheet.entries[obj.key].mappable
+        ]
+        if fixed:
+            raise ProfileError(
+                f"{network.name}, node {node.id}: {sheet.name} lets no PDO carry {', '.join(fixed)}: map another object"
+            )
 
 
 def load(name: str | Path, *, nodes: Sequence[int] = (), bitrate: int | None = None) -> Network:

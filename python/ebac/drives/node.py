@@ -5,7 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ebac.drives.errors import BusError, Refused, WrongAnswer
+from ebac.drives.eds import Sheet, read_eds
+from ebac.drives.errors import BusError, DriveError, Refused, WrongAnswer
 from ebac.drives.objects import Object, find
 from ebac.drives.sdo import Sdo
 
@@ -14,8 +15,6 @@ if TYPE_CHECKING:
 
 #: NMT commands (CiA 301).
 NMT = {"start": 0x01, "stop": 0x02, "pre-operational": 0x80, "reset": 0x81, "reset-comm": 0x82}
-#: Types of an electronic data sheet (CiA 301, 7.4.7).
-_TYPES = {2: "i8", 3: "i16", 4: "i32", 5: "u8", 6: "u16", 7: "u32"}
 
 
 class Node:
@@ -27,19 +26,19 @@ class Node:
         Where it is.
     node : int
         Node id, 1 to 127.
-    eds : str or Path, optional
+    eds : str, Path or Sheet, optional
         Electronic data sheet, for names this package does not know.
     timeout : float
         How long an SDO answer may take [s].
     """
 
     def __init__(
-        self, bus: DriveBus, node: int, *, eds: str | Path | None = None, timeout: float
+        self, bus: DriveBus, node: int, *, eds: str | Path | Sheet | None = None, timeout: float
     ) -> None:
         import canopen
 
-        dictionary = canopen.import_od(None if eds is None else str(eds), node)
-        self._remote = canopen.RemoteNode(node, dictionary)
+        self.sheet = eds if eds is None or isinstance(eds, Sheet) else read_eds(eds)
+        self._remote = canopen.RemoteNode(node, canopen.import_od(None, node))
         bus.network.add_node(self._remote)
         self.bus = bus
         self.node = node
@@ -64,16 +63,28 @@ class Node:
 
     def _sheet(self, name: str) -> Object | None:
         """Return what the electronic data sheet has by that name: "Motor data.Torque constant"."""
-        from canopen.objectdictionary import ODVariable
+        entry = None if self.sheet is None else self.sheet.find(name)
+        if entry is None:
+            return None
+        return Object(name=name, index=entry.index, sub=entry.sub, kind=entry.kind)
 
-        try:
-            entry = self._remote.object_dictionary[name]
-        except KeyError:
-            return None
-        if not isinstance(entry, ODVariable):
-            return None
-        kind = _TYPES.get(entry.data_type or 0, "str")
-        return Object(name=name, index=entry.index, sub=entry.subindex, kind=kind)
+    def check_sheet(self) -> None:
+        """Compare the maker of the drive (0x1018) with that of its electronic data sheet, where one was given.
+
+        Raises
+        ------
+        DriveError
+            When the sheet is another maker's.
+        """
+        if self.sheet is None or self.sheet.vendor == 0:
+            return
+        vendor = self.look("vendor_id")
+        if isinstance(vendor, int) and vendor not in (0, self.sheet.vendor):
+            raise DriveError(
+                f"node {self.node} is by vendor 0x{vendor:X}, and {self.sheet.name} is for vendor "
+                f"0x{self.sheet.vendor:X} ({self.sheet.vendor_name}): take the data sheet of this drive, or none",
+                node=self.node,
+            )
 
     def read(self, what: str | int | tuple[int, int] | Object) -> int | str:
         """Read an object in its own unit (`objects.find(what).unit`).

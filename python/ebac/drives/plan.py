@@ -6,11 +6,12 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any
 
+from ebac.drives.aborts import WRITE_ONLY
 from ebac.drives.drive import Drive
-from ebac.drives.errors import Refused
+from ebac.drives.errors import DriveError, Missing, Refused, says_absent
 from ebac.drives.network import Node
-from ebac.drives.objects import ENTRIES, Object, mapped
-from ebac.drives.settings import Group, Setting, Write, groups, writes
+from ebac.drives.objects import ENTRIES, Object, find, mapped
+from ebac.drives.settings import Group, Write, groups, writes
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -92,8 +93,10 @@ def plan(drive: Drive, node: Node) -> Plan:
 
     Raises
     ------
-    Refused
-        When the drive has no object the profile sets.
+    Missing
+        When the drive lacks objects the profile sets; all of them are listed.
+    DriveError
+        When it has one that the profile's `without` says it lacks.
     NoAnswer, WrongAnswer, BusError
         When the drive gives no value.
     """
@@ -101,6 +104,9 @@ def plan(drive: Drive, node: Node) -> Plan:
         raise ValueError(f"node = {node.id}: the drive is node {drive.node}")
     wanted = tuple(groups(node.profile, node.id))
     held = read_held(drive, wanted)
+    for obj, key in node.profile.absent():
+        if drive.look(obj) is not None:
+            raise DriveError(f"node {drive.node} {says_absent(obj, key)}", node=drive.node)
     return Plan(
         node=node, groups=wanted, held=held, changes=tuple(differences(drive.node, wanted, held))
     )
@@ -111,17 +117,24 @@ def read_held(drive: Drive, wanted: Iterable[Group]) -> dict[tuple[int, int], by
 
     Raises
     ------
-    Refused
-        When the drive lacks an object that is not optional.
+    Missing
+        When the drive lacks objects that are not optional.
     """
     held: dict[tuple[int, int], bytes] = {}
+    lacking: list[tuple[Object, str, int]] = []
     for group in wanted:
         for setting in group.settings:
-            data = _look(drive, setting)
-            if data is not None:
-                held[setting.object.key] = data
-        if group.pdo and len(group.settings) > 1:
+            try:
+                held[setting.object.key] = _look(drive, setting.object)
+            except Refused as error:
+                if not error.absent:
+                    raise
+                if not setting.optional:
+                    lacking.append((setting.object, setting.key, error.code))
+        if group.pdo and len(group.settings) > 1 and not lacking:
             held |= _other_entries(drive, group, held)
+    if lacking:
+        raise Missing(drive.node, lacking)
     return held
 
 
@@ -143,12 +156,13 @@ def differences(
     return found
 
 
-def _look(drive: Drive, setting: Setting) -> bytes | None:
+def _look(drive: Drive, obj: Object) -> bytes:
+    """Read an object; the mode of a drive that lets nobody read it (0x6060) is the mode that acts (0x6061)."""
     try:
-        return drive.sdo.upload(setting.object)
+        return drive.sdo.upload(obj)
     except Refused as error:
-        if error.absent and setting.optional:
-            return None
+        if obj.name == "mode" and error.code == WRITE_ONLY:
+            return drive.sdo.upload(find("mode_display"))
         raise
 
 

@@ -14,6 +14,8 @@ from ebac._util.text_file import read_text
 from ebac._util.wrong_calls import plain_constructor
 from ebac.drives.errors import ProfileError
 from ebac.drives.load import Traffic
+from ebac.drives.objects import Object, find
+from ebac.drives.own_objects import OwnObject, read_objects
 from ebac.drives.pdo import Pdo, read_pdo, sync_period
 from ebac.drives.profile_fields import BY_NAME, KEYS, RULES, Value
 from ebac.drives.toml_positions import Path as Where
@@ -40,6 +42,10 @@ class Profile:
         What it exchanges with the loop.
     silence : bool
         Whether PDOs that are not listed are switched off.
+    objects : tuple of OwnObject
+        Objects of the maker's own, and their raw numbers.
+    without : tuple of str
+        Keys whose object the drive does not have: they scale others and are not written.
 
     Raises
     ------
@@ -52,6 +58,8 @@ class Profile:
     values: Mapping[str, Value]
     pdos: tuple[Pdo, ...] = ()
     silence: bool = True
+    objects: tuple[OwnObject, ...] = ()
+    without: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         """Check what must hold between keys, where no file is to blame."""
@@ -68,6 +76,25 @@ class Profile:
         object.__setattr__(self, "values", values)
         for name, wrong in _broken(values):
             raise ProfileError(f"{self.name}: {wrong} (key {name})")
+        for name in self.without:
+            if (wrong := _not_without(name)) is not None:
+                raise ProfileError(f"{self.name}: {wrong}")
+        if self._unbounded():
+            raise ProfileError(
+                f"{self.name}: without names every limit of torque and current: the drive would allow any; give the "
+                "maker's own limit under [objects]"
+            )
+
+    def _unbounded(self) -> bool:
+        limits = ("limits.max_torque", "limits.max_current")
+        given = [name for name in limits if name in self.values]
+        return bool(given) and set(given) <= set(self.without) and not self.objects
+
+    def absent(self) -> list[tuple[Object, str]]:
+        """Return the objects a drive must not have, and the key of each."""
+        own = {one.object.key for one in self.objects}
+        pairs = [(find(BY_NAME[name].sets), name) for name in self.without]
+        return [pair for pair in pairs if pair[0].key not in own]
 
     def replace(self, **values: Value) -> Self:
         """Return a copy with some values changed, dots written as two underscores.
@@ -92,6 +119,8 @@ class Profile:
     def traffic(self, node: int) -> list[Traffic]:
         """Return the frames of a node that come again and again."""
         frames = [pdo.traffic(node, sync_period(self.values)) for pdo in self.pdos]
+        if guard := float(self.values.get("heartbeat.guard", 0.0)):
+            return [*frames, Traffic(name=f"guarding of node {node}", size=1, rate=10 / guard)]
         beat = float(self.values["heartbeat.producer"])
         return [*frames, Traffic(name=f"heartbeat of node {node}", size=1, rate=1 / beat)]
 
@@ -163,6 +192,12 @@ def read_profile(source: Source, *, base: Profile | None = None, at: Where = ())
             for name, item in table["pdo"].items()
             if name != "others"
         }
+    without = _without(source, table, at) if "without" in table else base.without if base else ()
+    owned = {one.object.key: one for one in base.objects} if base else {}
+    if "objects" in table:
+        taken = {key.sets: key.name for key in KEYS if key.sets and key.name not in without}
+        new = read_objects(source, table["objects"], (*at, "objects"), taken)
+        owned |= {one.object.key: one for one in new}
     about = table.get("about", base.about if base else "")
     if not isinstance(about, str):
         raise source.refuse((*at, "about"), f"about = {about!r}: must be text")
@@ -172,13 +207,36 @@ def read_profile(source: Source, *, base: Profile | None = None, at: Where = ())
         values=merged,
         pdos=tuple(pdos.values()),
         silence=silence,
+        objects=tuple(owned.values()),
+        without=without,
     )
+
+
+def _without(source: Source, table: Mapping[str, Any], at: Where) -> tuple[str, ...]:
+    given, path = table["without"], (*at, "without")
+    if not isinstance(given, list) or not all(isinstance(name, str) for name in given):
+        raise source.refuse(path, f"without = {given!r}: must be a list of keys")
+    for name in given:
+        if (wrong := _not_without(name)) is not None:
+            raise source.refuse(path, wrong)
+    return tuple(dict.fromkeys(given))
+
+
+def _not_without(name: str) -> str | None:
+    """Return why a drive must have the object of a key; None where it may lack it."""
+    from ebac._util.serialisation import unknown
+
+    may = [key.name for key in KEYS if key.sets and key.name != "torque.mode"]
+    if name in BY_NAME and name not in may:
+        return f"without: {name}: every drive needs it, or it sets no object; leave it out of the profile instead"
+    return None if name in may else f"without: {unknown(name, name, may)}"
 
 
 def _values(source: Source, table: Mapping[str, Any], at: Where) -> Iterator[tuple[str, Value]]:
     from ebac._util.serialisation import unknown
 
-    apart = ("about", "pdo") if not at else ("id", "name", "profile")
+    own = ("objects", "without")
+    apart = ("about", "pdo", *own) if not at else ("id", "name", "profile", *own)
     for title, item in table.items():
         if title in apart:
             continue

@@ -167,6 +167,8 @@ KEYS: tuple[Key, ...] = (
     Key(name="heartbeat.consumer", unit="s", low=0.0, high=60.0,
         remedy="three times the loop's heartbeat period; 0 watches nobody",
         scale=1e-3, why="the drive stops when the loop falls silent"),
+    Key(name="heartbeat.guard", unit="s", low=0.03, high=60.0, scale=1e-3,
+        remedy="node guarding (0x100C, 0x100D), for a drive that watches no heartbeat; then it sends none"),
     Key(name="heartbeat.master", low=1, high=127, whole=True, default=127,
         remedy="node id of the loop, one no drive has"),
 )  # fmt: skip

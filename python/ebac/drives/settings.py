@@ -33,6 +33,8 @@ class Setting:
         Bits that count, None for all; the others stay as the drive has them.
     optional : bool
         Whether a drive without the object, or one that keeps another value, is right as it is.
+    key : str
+        The key of the profile that wants it; empty where every profile does.
     """
 
     object: Object
@@ -40,6 +42,7 @@ class Setting:
     why: str
     mask: int | None = None
     optional: bool = False
+    key: str = ""
 
     def holds(self, data: bytes) -> bool:
         """Return whether the drive holds it already."""
@@ -137,13 +140,32 @@ def _plain(profile: Profile, node: int) -> Iterator[Setting]:
     for key in KEYS:
         if key.name == "emcy.on":
             yield from _identifiers(bool(values[key.name]), node)
+        elif key.name in profile.without:
+            continue
+        elif key.name == "heartbeat.guard" and key.name in values:
+            yield from _guarded(float(values[key.name]))
+        elif key.name == "heartbeat.producer" and "heartbeat.guard" in values:
+            yield Setting(
+                object=find("heartbeat_producer"),
+                value=0,
+                why="a guarded drive sends no heartbeat",
+                key="heartbeat.guard",
+            )
         elif key.name == "heartbeat.consumer" and key.name in values:
             yield _consumer(float(values[key.name]), int(values["heartbeat.master"]))
         elif key.sets and key.name in values:
             name = key.sets
             if name.startswith("motor_") and values["motor.object"] == "0x6410":
                 name += "_old"
-            yield Setting(object=find(name), value=key.raw(values[key.name], values), why=key.why)
+            yield Setting(
+                object=find(name),
+                value=key.raw(values[key.name], values),
+                why=key.why,
+                optional=key.name == "sync.period",  # without it a drive only does not watch SYNC
+                key=key.name,
+            )
+    for own in profile.objects:
+        yield Setting(object=own.object, value=own.value, why=own.why, key=f"objects.{own.where}")
 
 
 def _identifiers(emergencies: bool, node: int) -> Iterator[Setting]:
@@ -159,13 +181,23 @@ def _identifiers(emergencies: bool, node: int) -> Iterator[Setting]:
         value=0x080 + node if emergencies else PDO_OFF | 0x080 + node,
         mask=_COB,
         why="a fault is reported at once" if emergencies else "the profile wants no emergencies",
+        optional=emergencies,  # a drive without the object, or that fixes it, sends them by CiA 301's default
+        key="emcy.on",
     )
+
+
+def _guarded(seconds: float) -> Iterator[Setting]:
+    for name, value in (("guard_time", round(1e3 * seconds / 3)), ("life_time_factor", 3)):
+        why = "stops when the loop no longer asks"
+        yield Setting(object=find(name), value=value, why=why, key="heartbeat.guard")
 
 
 def _consumer(seconds: float, master: int) -> Setting:
     watched = master << 16 | round(1e3 * seconds) if seconds else 0
     why = f"stops when node {master} is silent" if seconds else "watches nobody"
-    return Setting(object=find("heartbeat_consumer"), value=watched, why=why)
+    return Setting(
+        object=find("heartbeat_consumer"), value=watched, why=why, key="heartbeat.consumer"
+    )
 
 
 def _pdos(profile: Profile, node: int) -> Iterator[Group]:
@@ -190,17 +222,33 @@ def _pdos(profile: Profile, node: int) -> Iterator[Group]:
 
 def _planned(pdo: Pdo, name: str, node: int) -> Iterator[Setting]:
     way = "from the drive" if pdo.sent else "to the drive"
+    key = f"pdo.{name}"
     carries = f"{way}: {', '.join(pdo.objects)}"
-    yield Setting(object=find(f"{name}_cob_id"), value=pdo.cob_id(node), mask=_COB, why=carries)
+    yield Setting(
+        object=find(f"{name}_cob_id"), value=pdo.cob_id(node), mask=_COB, why=carries, key=key
+    )
     when = "with every SYNC" if pdo.type == 1 else f"transmission type {pdo.type}"
-    yield Setting(object=find(f"{name}_type"), value=pdo.type, why=when)
+    yield Setting(object=find(f"{name}_type"), value=pdo.type, why=when, key=f"{key}.type")
     for part, unit, why in (
         ("inhibit", 1e-4, "least time between two"),
         ("event", 1e-3, "longest time between two"),
     ):
         value = round(getattr(pdo, part) / unit)
-        yield Setting(object=find(f"{name}_{part}"), value=value, why=why, optional=value == 0)
+        yield Setting(
+            object=find(f"{name}_{part}"),
+            value=value,
+            why=why,
+            optional=value == 0,
+            key=f"{key}.{part}",
+        )
     entries = pdo.entries()
-    yield Setting(object=find(f"{name}_count"), value=len(entries), why=f"{len(entries)} objects")
+    yield Setting(
+        object=find(f"{name}_count"), value=len(entries), why=f"{len(entries)} objects", key=key
+    )
     for i, entry in enumerate(entries, start=1):
-        yield Setting(object=find(f"{name}_entry{i}"), value=entry, why=pdo.objects[i - 1])
+        yield Setting(
+            object=find(f"{name}_entry{i}"),
+            value=entry,
+            why=pdo.objects[i - 1],
+            key=f"{key}.objects",
+        )

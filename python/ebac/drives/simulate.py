@@ -8,17 +8,69 @@ from __future__ import annotations
 
 import threading
 import time
+from collections.abc import Sequence
 from dataclasses import dataclass
 from types import TracebackType
 from typing import TYPE_CHECKING, Protocol, Self
 
-from ebac.drives.errors import BusError
+from ebac.drives.errors import BusError, DriveError
+from ebac.drives.objects import Object
 
 if TYPE_CHECKING:
     import can
 
+    from ebac.drives.drive import Drive
+
+#: Conditions of a simulated drive by name: bits of its objects 0x5F00 and, from 256 on, 0x5F01.
+CONDITIONS = {
+    "over-voltage": 1,
+    "encoder-lost": 2,
+    "over-temperature": 4,
+    "silent": 8,
+    "under-voltage": 16,
+    "motor-temperature": 32,
+    "short-circuit": 64,
+    "torque-off": 128,
+    "enable-missing": 256,
+    "brake-stuck": 512,
+}
+#: Product code of a simulated drive with a dictionary of its own (0x1018:2).
+_SIMULATED = 0x65626163
+
 #: Longest wait for a frame [s]: heartbeats and timers of the drives are this late at most.
 _WAIT = 1e-3
+
+
+def inject(drive: Drive, names: Sequence[str]) -> None:
+    """Put a simulated drive into conditions, over the bus, and out of all others.
+
+    Parameters
+    ----------
+    drive : Drive
+        Which.
+    names : sequence of str
+        Of `CONDITIONS`; none ends them all. A silent drive hears nothing, not even that it is over.
+
+    Raises
+    ------
+    ValueError
+        For a name that is none.
+    DriveError
+        When the drive is not a simulated one with its own dictionary.
+    """
+    from ebac._util.serialisation import unknown
+
+    for name in names:
+        if name not in CONDITIONS:
+            raise ValueError(unknown(f"fault {name}", name, list(CONDITIONS)))
+    if drive.look("product_code") != _SIMULATED or drive.look("vendor_id"):
+        raise DriveError(
+            f"node {drive.node} is no simulated drive with its own dictionary: faults are injected only there",
+            node=drive.node,
+        )
+    bits = sum({CONDITIONS[name] for name in names})
+    for sub, part in ((0x5F01, bits >> 8), (0x5F00, bits & 0xFF)):
+        drive.sdo.download(Object(name="conditions", index=sub, kind="u8"), bytes([part]))
 
 
 class SimulatedNodes(Protocol):

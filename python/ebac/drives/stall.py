@@ -25,8 +25,9 @@ def watches(profile: Profile) -> dict[str, float]:
         for pdo in profile.pdos
         if not pdo.sent and "target_torque" in pdo.objects and pdo.event > 0
     }
-    if (consumer := float(profile.values.get("heartbeat.consumer", 0.0))) > 0:
-        found["heartbeat.consumer"] = consumer
+    for key in ("heartbeat.consumer", "heartbeat.guard"):
+        if (watched := float(profile.values.get(key, 0.0))) > 0:
+            found[key] = watched
     return found
 
 

@@ -14,6 +14,7 @@ from ebac.cli.drive.options import (
     BusOptions,
     Nodes,
     Yes,
+    checked,
     drives,
     opened,
     sure,
@@ -58,7 +59,7 @@ def enable(
         on: list[Drive] = []
         try:
             for n in chosen:
-                on.append(bus.drive(n, timeout=where.timeout))
+                on.append(checked(bus, n, where))
                 on[-1].enable(mode=mode)
         except BaseException as error:
             _off(on, error)
@@ -86,7 +87,7 @@ def disable(
     * `ebac drive disable --interface ebac --channel joystick`: every drive on the bus
     """
     with opened(where) as bus:
-        _each("drive disable", lambda one: one.disable(), drives(bus, node, where.timeout), as_json)
+        _each("drive disable", lambda one: one.disable(), drives(bus, node, where), as_json)
 
 
 def reset_fault(
@@ -104,7 +105,7 @@ def reset_fault(
         _each(
             "drive reset-fault",
             lambda one: one.reset_fault(),
-            drives(bus, node, where.timeout),
+            drives(bus, node, where),
             as_json,
         )
 

@@ -9,14 +9,18 @@ import typer
 from ebac.cli import output
 from ebac.cli.drive import results
 from ebac.cli.drive.options import (
+    Bitrate,
     BusOptions,
     Nodes,
     ProfileName,
     ProfileNodes,
     about,
+    checked,
     drives,
     network_of,
     opened,
+    sheet_of,
+    telling,
 )
 
 if TYPE_CHECKING:
@@ -34,8 +38,9 @@ def scan(
     * `ebac drive scan --interface ebac --channel joystick`: a simulated joystick
     """
     with opened(where) as bus:
+        sheet = sheet_of(where)
         nodes = bus.scan(seconds=where.timeout)
-        rows = [results.who(bus.drive(node, timeout=where.timeout)) for node in nodes]
+        rows = [results.who(bus.drive(node, eds=sheet, timeout=where.timeout)) for node in nodes]
     if as_json:
         typer.echo(output.document("drive scan", rows))
     elif rows:
@@ -50,7 +55,7 @@ def show(
     everything: Annotated[bool, typer.Option("--all", help="PDO parameters too.")] = False,
     as_json: output.AsJson = False,
 ) -> None:
-    """Read the objects of a drive that ebac knows by name. Nothing is changed.
+    """Read the objects of a drive that ebac knows by name, and with `--eds` all of its own. Nothing is changed.
 
     **Examples**
 
@@ -62,7 +67,7 @@ def show(
 
     rows, failures = [], []
     with opened(where) as bus:
-        for one in drives(bus, node, where.timeout):
+        for one in drives(bus, node, where):
             try:
                 for row in results.holdings(one, everything):
                     rows.append(row)
@@ -88,14 +93,63 @@ def plan(
 
     * `ebac drive plan joystick --interface ebac --channel joystick`: both drives of the paper's joystick
     """
-    network = network_of(profile, node, where.bitrate)
+    network = network_of(profile, node, where)
     with opened(where) as bus:
-        found = _differences(bus, network, where.timeout)
+        found = _differences(bus, network, where)
     if as_json:
         typer.echo(output.document("drive plan", [c.row() for c in found], **about(network)))
         return
     results.changes(found, "The drives hold all of it: nothing would change.")
     results.load(network)
+
+
+def timing(
+    profile: ProfileName = "joystick",
+    node: ProfileNodes = None,
+    bitrate: Bitrate = None,
+    dt: Annotated[float, typer.Option(help="Sample time [s].", min=1e-4, max=1.0)] = 1e-3,
+    answer: Annotated[
+        float | None,
+        typer.Option(help="How long the loop waits for answers [s].", show_default="half of --dt"),
+    ] = None,
+    ticks: Annotated[int, typer.Option(help="Samples to simulate.", min=1, max=1_000_000)] = 1000,
+    errors: Annotated[
+        float, typer.Option(help="Share of frames that are destroyed.", min=0.0, max=1.0)
+    ] = 0.0,
+    broken: Annotated[
+        int | None,
+        typer.Option(
+            help="Id of a node that destroys its every frame.", show_default="none", min=1, max=127
+        ),
+    ] = None,
+    seed: Annotated[int, typer.Option(help="Of data and errors.", min=0)] = 0,
+    as_json: output.AsJson = False,
+) -> None:
+    """Simulate how long the exchanges of a loop take on the bus, and whether answers come in time. No bus is opened.
+
+    Exit code 1 when an answer came late or not at all.
+
+    **Examples**
+
+    * `ebac drive timing joystick --answer 0.6e-3`: two drives at 1 Mbit/s
+
+    * `ebac drive timing generic-cia402 --node 1 --bitrate 500000 --answer 0.9e-3`: one drive on a slower bus
+    """
+    from dataclasses import asdict
+
+    from ebac import drives as library
+
+    with telling():
+        network = library.load(profile, nodes=node or (), bitrate=bitrate)
+        found = library.bus_timing(
+            network, dt=dt, answer=answer, ticks=ticks, error_rate=errors, broken=broken, seed=seed
+        )
+    if as_json:
+        typer.echo(output.document("drive timing", [asdict(found)], profile=network.name))
+    else:
+        output.say(f"Simulation. {found.describe()}.")
+    if not found.good:
+        raise typer.Exit(output.FAILED)
 
 
 def verify(
@@ -110,9 +164,9 @@ def verify(
 
     * `ebac drive verify --interface ebac --channel joystick`: new simulated drives hold none of it, exit code 1
     """
-    network = network_of(profile, node, where.bitrate)
+    network = network_of(profile, node, where)
     with opened(where) as bus:
-        found = _differences(bus, network, where.timeout)
+        found = _differences(bus, network, where)
     if as_json:
         typer.echo(output.document("drive verify", [c.row() for c in found], **about(network)))
     else:
@@ -125,8 +179,8 @@ def verify(
         raise typer.Exit(output.FAILED)
 
 
-def _differences(bus: DriveBus, network: Network, timeout: float) -> list[Change]:
+def _differences(bus: DriveBus, network: Network, where: BusOptions) -> list[Change]:
     from ebac.drives import plan as plan_of
 
-    plans = [plan_of(bus.drive(node.id, timeout=timeout), node) for node in network.nodes]
+    plans = [plan_of(checked(bus, node.id, where), node) for node in network.nodes]
     return [change for one in plans for change in one.changes]

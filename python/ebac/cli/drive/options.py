@@ -14,7 +14,7 @@ import typer
 from ebac.cli import output
 
 if TYPE_CHECKING:
-    from ebac.drives import Drive, DriveBus, Network
+    from ebac.drives import Drive, DriveBus, Network, Sheet
 
 _BUS = "Bus"
 
@@ -32,6 +32,16 @@ Bitrate: TypeAlias = Annotated[
         show_default="python-can's configuration",
         min=1000,
         max=8_000_000,
+        rich_help_panel=_BUS,
+    ),
+]
+
+
+SheetFile: TypeAlias = Annotated[
+    Path | None,
+    typer.Option(
+        help="Electronic data sheet of the drives (EDS or DCF, CiA 306), in any encoding.",
+        show_default=False,
         rich_help_panel=_BUS,
     ),
 ]
@@ -58,6 +68,7 @@ class BusOptions:
         ),
     ] = None
     bitrate: Bitrate = None
+    eds: SheetFile = None
     timeout: Annotated[
         float,
         typer.Option(
@@ -95,7 +106,7 @@ ProfileName: TypeAlias = Annotated[
     str,
     typer.Argument(
         help="A profile or network file, or the name of one that comes with ebac: "
-        "joystick, copley-accelnet, copley-xenus, generic-cia402.",
+        "joystick, copley-accelnet, generic-cia402, ...",
         autocompletion=_profiles,
     ),
 ]
@@ -163,6 +174,7 @@ def opened(where: BusOptions) -> Iterator[DriveBus]:
 
     with output.refusing():
         known_interface(where.interface)
+        sheet_of(where)
     with (
         telling(),
         DriveBus.open(
@@ -172,19 +184,35 @@ def opened(where: BusOptions) -> Iterator[DriveBus]:
         yield bus
 
 
-def drives(bus: DriveBus, nodes: list[int] | None, timeout: float) -> list[Drive]:
+def sheet_of(where: BusOptions) -> Sheet | None:
+    """Return the electronic data sheet of --eds; None where none was given."""
+    from ebac.drives import read_eds
+
+    return None if where.eds is None else read_eds(where.eds)
+
+
+def drives(bus: DriveBus, nodes: list[int] | None, where: BusOptions) -> list[Drive]:
     """Return the drives of the nodes given, or every CiA 402 drive that answers."""
     from ebac.drives import DriveError
 
+    sheet = sheet_of(where)
     if nodes:
-        return [bus.drive(node, timeout=timeout) for node in dict.fromkeys(nodes)]
-    found = [bus.drive(node, timeout=timeout) for node in bus.scan(seconds=timeout)]
+        return [bus.drive(n, eds=sheet, timeout=where.timeout) for n in dict.fromkeys(nodes)]
+    answering = bus.scan(seconds=where.timeout)
+    found = [bus.drive(node, eds=sheet, timeout=where.timeout) for node in answering]
     chosen = [drive for drive in found if is_drive(drive)]
     if not chosen:
         raise DriveError(
             "no drive answers on this bus: check power, bit rate and termination, or give --node"
         )
     return chosen
+
+
+def checked(bus: DriveBus, node: int, where: BusOptions) -> Drive:
+    """Return one drive, after a look whether --eds is its maker's."""
+    drive = bus.drive(node, eds=sheet_of(where), timeout=where.timeout)
+    drive.check_sheet()
+    return drive
 
 
 def is_drive(drive: Drive) -> bool:
@@ -207,14 +235,16 @@ def sure(question: str, yes: bool) -> None:
         output.fail("nothing was done", code=output.FAILED)
 
 
-def network_of(profile: str, node: list[int] | None, bitrate: int | None) -> Network:
-    """Return the drives of a profile or network file; a bus that would be too busy ends the command."""
+def network_of(profile: str, node: list[int] | None, where: BusOptions) -> Network:
+    """Return the drives of a profile or network file; one that cannot be right ends the command."""
     from ebac import drives as library
 
     with telling():
-        network = library.load(profile, nodes=node or (), bitrate=bitrate)
+        network = library.load(profile, nodes=node or (), bitrate=where.bitrate)
         network.check_load()
         library.check_stall(network)
+        if (sheet := sheet_of(where)) is not None:
+            library.check_sheet(network, sheet)
     return network
 
 

@@ -106,11 +106,8 @@ def holdings(drive: Drive, everything: bool) -> Iterator[dict[str, Any]]:
         When the drive does not answer any more; all before has been yielded.
     """
     from ebac.drives import Refused, WrongAnswer
-    from ebac.drives.objects import known
 
-    for obj in known().values():
-        if "pdo" in obj.name and not everything:
-            continue
+    for obj in _objects(drive, everything):
         try:
             value = drive.look(obj)
         except Refused as error:
@@ -130,6 +127,26 @@ def holdings(drive: Drive, everything: bool) -> Iterator[dict[str, Any]]:
             "meaning": obj.meaning,
             "text": text,
         }
+
+
+def _objects(drive: Drive, everything: bool) -> Iterator[Object]:
+    """Yield the objects of the table, and those that only the drive's data sheet has."""
+    from ebac.drives import Object
+    from ebac.drives.objects import known
+
+    named = {obj.key for obj in known().values()}
+    yield from (obj for obj in known().values() if everything or "pdo" not in obj.name)
+    for key, entry in () if drive.sheet is None else drive.sheet.entries.items():
+        if key in named or entry.access == "wo" or (0x1400 <= key[0] < 0x1C00 and not everything):
+            continue
+        kind = entry.kind if entry.size <= 4 else "str"
+        yield Object(
+            name=entry.name,
+            index=entry.index,
+            sub=entry.sub,
+            kind=kind,
+            meaning="of the data sheet",
+        )
 
 
 def _text(obj: Object, value: int | str) -> str:

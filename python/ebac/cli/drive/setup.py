@@ -19,6 +19,7 @@ from ebac.cli.drive.options import (
     Store,
     Yes,
     about,
+    checked,
     drives,
     network_of,
     opened,
@@ -55,9 +56,9 @@ def apply(
     """
     from ebac import drives as library
 
-    network = network_of(profile, node, where.bitrate)
+    network = network_of(profile, node, where)
     with opened(where) as bus:
-        pairs = [(bus.drive(n.id, timeout=where.timeout), n) for n in network.nodes]
+        pairs = [(checked(bus, n.id, where), n) for n in network.nodes]
         if not as_json:
             found = [change for one, n in pairs for change in library.plan(one, n).changes]
             results.changes(found, "The drives hold all of it: nothing will change.")
@@ -88,7 +89,7 @@ def restore(
     from ebac import drives as library
 
     with opened(where) as bus:
-        chosen = drives(bus, node, where.timeout)
+        chosen = drives(bus, node, where)
         shelf = library.Backups(backup)
         if not node:
             chosen = [one for one in chosen if shelf.load(one) is not None]

@@ -14,7 +14,14 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from ebac.cli import options, output, simulated
-from ebac.cli.drive.options import Bitrate, known_interface, telling
+from ebac.cli.drive.options import (
+    Bitrate,
+    BusOptions,
+    SheetFile,
+    known_interface,
+    opened,
+    telling,
+)
 from ebac.cli.machine.grants import show_refused
 
 if TYPE_CHECKING:
@@ -37,6 +44,7 @@ def simulate(
         str, typer.Option(help="Interface of python-can.", rich_help_panel="Bus")
     ] = "socketcan",
     bitrate: Bitrate = None,
+    eds: SheetFile = None,
     first: Annotated[
         int, typer.Option("--first", help="Node id of the first drive.", min=1, max=126)
     ] = 1,
@@ -110,10 +118,13 @@ def simulate(
 
     * `ebac drive simulate --interface udp_multicast --channel 239.74.163.2`: without SocketCAN.
 
+    * `ebac drive simulate --eds MAKER.eds --channel vcan0`: with the objects of that data sheet, and no others.
+
     * `ebac wall --out first`, then `ebac drive simulate --scenario first/scenario.toml --channel vcan0`: the hand of
       a scenario.
     """
     from ebac._core import RealTime, SharedForce, SharedHandTarget
+    from ebac.drives import read_eds
     from ebac.drives.simulate import Simulation
     from ebac.hardware.backends import Request, sensor_of
     from ebac.sensor import SensorConfig
@@ -138,6 +149,7 @@ def simulate(
             "force": shared_force,
             "wait_for_power": wait_for_power,
             "aim": cell,
+            "sheet": [] if eds is None else read_eds(eds).rows(first),
         }
         with (
             sensor_of(known if sensor else None, shared_force, request, grants) as found,
@@ -162,6 +174,35 @@ def simulate(
     refused = f", {counts.refused} refused by the bus" if counts.refused else ""
     lost = f", {counts.lost} lost before they were read" if counts.lost else ""
     output.say(f"Stopped: {counts.received} frames received, {counts.sent} sent{refused}{lost}.")
+
+
+def inject(
+    where: BusOptions,
+    fault: Annotated[
+        list[str] | None,
+        typer.Argument(
+            help="over-voltage, under-voltage, short-circuit, over-temperature, motor-temperature, encoder-lost, "
+            "brake-stuck, torque-off (STO), enable-missing, silent.",
+            show_default="none: all are over",
+        ),
+    ] = None,
+    node: Annotated[
+        int, typer.Option("--node", "-n", help="Node id of the simulated drive.", min=1, max=127)
+    ] = 1,
+) -> None:
+    """Put a simulated drive into the faults named, and out of all others. Real drives are refused.
+
+    **Examples**, with `ebac drive simulate` in another terminal
+
+    * `ebac drive inject under-voltage --node 1 --interface socketcan --channel vcan0`
+
+    * `ebac drive inject --interface ebac --channel joystick`: no fault
+    """
+    from ebac.drives import inject as put
+
+    with opened(where) as bus:
+        put(bus.drive(node, timeout=where.timeout), fault or [])
+    output.say(f"Node {node}: {', '.join(fault) if fault else 'no fault is injected'}.")
 
 
 @contextmanager

@@ -1,0 +1,124 @@
+"""The table `[objects]` of a profile: objects of a maker's own, as raw numbers."""
+
+from __future__ import annotations
+
+import dataclasses
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from ebac._util.wrong_calls import plain_constructor
+from ebac.drives.objects import NUMBERS, Object, find, known
+from ebac.drives.toml_positions import Path as Where
+from ebac.drives.toml_positions import Source
+
+_WHERE = re.compile(r"0x([0-9A-Fa-f]{1,4})(?::(\d{1,3}))?$")
+#: What commands the motor, or belongs to a key of its own: never a raw number of a profile.
+_COMMANDS = frozenset(
+    {0x6040, 0x6042, 0x6060, 0x6071, 0x607A, 0x60B0, 0x60B1, 0x60B2, 0x60C1, 0x60FF}
+)
+_RESERVED = frozenset({0x1005, 0x1010, 0x1011, 0x1014, 0x1016, 0x1017})
+
+
+@plain_constructor
+@dataclass(frozen=True, kw_only=True)
+class OwnObject:
+    """One object that a profile sets by its index.
+
+    Parameters
+    ----------
+    object : Object
+        Which.
+    value : int
+        Raw number.
+    why : str
+        For people.
+    """
+
+    object: Object
+    value: int
+    why: str = "set by the profile"
+
+    @property
+    def where(self) -> str:
+        """Index and sub-index: 0x3001:1."""
+        return self.object.where
+
+
+def read_objects(
+    source: Source, table: Any, path: Where, taken: Mapping[str, str]
+) -> list[OwnObject]:
+    """Return the objects of a table: "0x3001:1" = 985, or "0x2001" = { value = -5, type = "i16", why = "..." }.
+
+    Parameters
+    ----------
+    source : Source
+        The document.
+    table : mapping
+        As TOML has it.
+    path : tuple
+        Where it stands.
+    taken : mapping
+        Names of objects that keys of the profile set, and those keys.
+
+    Raises
+    ------
+    ProfileError
+        For what is no object, or one that a profile must not set by its number.
+    """
+    if not isinstance(table, Mapping):
+        raise source.refuse(path, f"objects = {table!r}: must be a table")
+    reserved = {
+        known()[name + old].key: key
+        for name, key in taken.items()
+        for old in ("", "_old")
+        if name + old in known()
+    }
+    found = []
+    for name, given in table.items():
+        at = (*path, name)
+        match = _WHERE.match(name)
+        if match is None or int(match[2] or 0) > 0xFF:
+            raise source.refuse(
+                at,
+                f'objects: "{name}": must be an index, "0x3001", or with a sub-index, "0x3001:1"',
+            )
+        key = int(match[1], 16), int(match[2] or 0)
+        if key[0] in _COMMANDS or 0x1400 <= key[0] < 0x1C00 or key[0] in _RESERVED:
+            raise source.refuse(
+                at,
+                f"objects: {name}: commands the motor or the bus, which is not a matter of [objects]: PDOs have "
+                "[pdo], heartbeats and SYNC their own keys",
+            )
+        if key in reserved:
+            raise source.refuse(at, f"objects: {name}: is set by {reserved[key]}: use that key")
+        found.append(_own(source, at, name, find(key), given))
+    return found
+
+
+def _own(source: Source, at: Where, name: str, obj: Object, given: Any) -> OwnObject:
+    parts = given if isinstance(given, Mapping) else {"value": given}
+    value, why = parts.get("value"), parts.get("why", "set by the profile")
+    kind = parts.get("type", obj.kind)
+    if unknown := set(parts) - {"value", "type", "why"}:
+        raise source.refuse(at, f"objects: {name}: {unknown.pop()}: must be value, type or why")
+    if kind not in NUMBERS:
+        raise source.refuse(
+            at, f"objects: {name}: type = {kind!r}: must be one of {', '.join(NUMBERS)}"
+        )
+    if isinstance(value, bool) or not isinstance(value, int) or not isinstance(why, str):
+        raise source.refuse(
+            at, f"objects: {name} = {given!r}: must be a whole number, as the drive holds it"
+        )
+    typed = dataclasses.replace(obj, kind=kind, unit=obj.unit if kind == obj.kind else "")
+    try:
+        typed.encode(value)
+    except ValueError as error:
+        hint = (
+            ""
+            if "type" in parts
+            else '; a negative number needs its type, { value = -5, type = "i16" }'
+        )
+        raise source.refuse(at, f"objects: {name}: {error}{hint}") from None
+    return OwnObject(object=typed, value=value, why=why)
