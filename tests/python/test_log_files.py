@@ -233,7 +233,7 @@ def test_export_refuses(recorded: Path) -> None:
     assert not recorded.with_name("a.csv").exists()
     missing = recorded.parent / "no folder" / "a.csv"
     assert "there is no folder" in invoke("export", recorded, missing, code=2)
-    assert "no rows --to -1 s" in invoke(
+    assert "no rows before -1 s" in invoke(
         "export", recorded, recorded.with_name("a.csv"), "--to", -1, code=2
     )
     assert "x.csv: must end in .mcap" in invoke("repair", recorded, "--out", "x.csv", code=2)

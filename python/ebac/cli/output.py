@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import json
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
@@ -17,7 +18,8 @@ from ebac.cli.tables import table as table
 if TYPE_CHECKING:
     from rich.console import Console
 
-#: Exit codes: the input was bad; the work itself failed.
+#: Exit codes: the input was bad; the work itself failed; it was done, but parts of the input are damaged.
+DAMAGED = 3
 BAD_INPUT = 2
 FAILED = 1
 #: A keyboard interrupt, as shells have it.
@@ -52,6 +54,10 @@ def _plain(text: str) -> str:
     return escape(" ".join(text.split()))
 
 
+#: Errors of a disk that takes no more.
+_FULL = (errno.ENOSPC, errno.EFBIG, getattr(errno, "EDQUOT", errno.ENOSPC))
+
+
 @contextmanager
 def refusing() -> Iterator[None]:
     """Turn what the library says about bad input into the end of the command."""
@@ -61,7 +67,8 @@ def refusing() -> Iterator[None]:
         fail(_missing(Path(error.filename)))
     except OSError as error:
         where = "" if error.filename is None else f"{error.filename}: "
-        fail(f"{where}cannot be read ({error.strerror or error})")
+        verb = "written" if error.errno in _FULL else "read"
+        fail(f"{where}cannot be {verb} ({error.strerror or error})")
     except (KeyError, TypeError, ValueError) as error:
         from ebac.cli.setting import in_options
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import atexit
+import io
 import tempfile
 import warnings
 import weakref
@@ -21,10 +22,12 @@ from ebac.hardware.backends import hardware, simulated
 from ebac.hardware.configuration import Configuration
 from ebac.hardware.interrupts import Interrupts
 from ebac.hardware.law import designed
+from ebac.hardware.rating import check_rating
 from ebac.hardware.report import Report
 from ebac.hardware.run import Run
 from ebac.hardware.run_setup import run_setup, started
 from ebac.logs.about import SIMULATED_FILE
+from ebac.logs.writer import discard, new_log
 
 if TYPE_CHECKING:
     from ebac.hardware.backends import Backend
@@ -50,6 +53,8 @@ class OpenDevice:
         as it is: the loop's thread, its clock, the bus, the set-up of the drives.
     detached : bool
         Whether a run goes on when the program that started this one has died.
+    beyond_rating : bool
+        Whether limits may exceed the data sheet of the motor.
 
     Attributes
     ----------
@@ -61,10 +66,14 @@ class OpenDevice:
     Warns
     -----
     UserWarning
-        When the process data take over 70 % of the bus.
+        When the process data take over 70 % of the bus, or the force sensor's own page cannot be read.
 
     Raises
     ------
+    ConfigurationError
+        When a limit exceeds the data sheet of the motor, without `beyond_rating`.
+    SensorError
+        When the force sensor scales its counts otherwise than configured.
     ProfileError
         When they take over 90 % of it, or a drive would hold its torque without the loop.
     DriveError
@@ -72,8 +81,15 @@ class OpenDevice:
     """
 
     def __init__(
-        self, configuration: Configuration, *, simulate: bool = False, detached: bool = False
+        self,
+        configuration: Configuration,
+        *,
+        simulate: bool = False,
+        detached: bool = False,
+        beyond_rating: bool = False,
     ) -> None:
+        if not beyond_rating:
+            check_rating(configuration.limits, configuration.device)
         self.configuration = configuration
         self.simulated = simulate
         self._cleared: Report | None = None  # of the fault that `reset` was called for
@@ -94,6 +110,8 @@ class OpenDevice:
                 backups = Backups(Path(stack.enter_context(tempfile.TemporaryDirectory())))
             write = simulate or configuration.setup == "apply"
             drive_setup.set_up(self.backend, self._nodes, write=write, backups=backups)
+            if not simulate and configuration.sensor is not None:
+                configuration.sensor.check_scale()
             self._held = _Held(stack.pop_all())
         # What is forgotten, in a notebook or at the end of its program, is closed all the same.
         self._forgotten = weakref.finalize(self, self._held.close)
@@ -112,11 +130,12 @@ class OpenDevice:
         *,
         simulate: bool = False,
         detached: bool = False,
+        beyond_rating: bool = False,
     ) -> Self:
         """Open the device of a configuration, or of its file. Raises as `Configuration.load` and the class."""
         if not isinstance(configuration, Configuration):
             configuration = Configuration.load(configuration)
-        return cls(configuration, simulate=simulate, detached=detached)
+        return cls(configuration, simulate=simulate, detached=detached, beyond_rating=beyond_rating)
 
     def run(
         self,
@@ -204,7 +223,12 @@ class OpenDevice:
         def power_off() -> list[str]:
             return drive_setup.power_off(backend, nodes)
 
-        drive_setup.start(backend, nodes)
+        file = None if path is None else new_log(path)  # before there is power
+        try:
+            drive_setup.start(backend, nodes)
+        except BaseException:
+            _discard(file, path)
+            raise
         self.interrupts.moving()
         try:
             running = started(finished, backend, setup)
@@ -220,6 +244,7 @@ class OpenDevice:
             )
         except BaseException:
             self.interrupts.ending()
+            _discard(file, path)
             power_off()
             self.interrupts.forget()
             raise
@@ -228,7 +253,7 @@ class OpenDevice:
                 files = {"configuration.toml": known.text}
                 if backend.aim is not None:  # a simulated hand: drives and device are simulated too
                     files[SIMULATED_FILE] = f"{backend.about}\n"
-                run.record(path, files=files, sync=known.sync)
+                run.record(path, files=files, sync=known.sync, file=file)
             self._held.last_to_register()
         except BaseException:
             run.end()
@@ -289,6 +314,11 @@ class _Held:
                 self.run.end()
         finally:
             self._stack.close()
+
+
+def _discard(file: io.FileIO | None, path: Path | None) -> None:
+    if file is not None and path is not None:
+        discard(file, path)
 
 
 def _free(path: Path) -> Path:

@@ -24,7 +24,7 @@ class Report:
     Attributes
     ----------
     ended_by : str
-        "time", "fault", "stop", "parent", "exception", "recorder", or the name of a signal such as "SIGINT".
+        "time", "fault", "stop", "key", "parent", "exception", "recorder", or the name of a signal such as "SIGINT".
     log : Path or None
         The log.
     ticks, recorded, lost_rows : int

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import threading
 import time
 import warnings
@@ -149,12 +150,27 @@ class Run(LiveStatus):
 
     # --- its end ---
 
-    def stop(self) -> None:
-        """Ask for the end: force ramped to zero, drives without power. `finish` waits for it."""
-        self._note_end("stop")
-        self._running.stop()
+    def stop(self, *, at_once: bool = False, by: str = "stop") -> None:
+        """Ask for the end: force ramped to zero, drives without power. `finish` waits for it.
 
-    def record(self, path: Path, *, files: Mapping[str, str], sync: float | None = None) -> None:
+        Parameters
+        ----------
+        at_once : bool
+            Without the ramp: zero force from the next tick on.
+        by : str
+            What `Report.ended_by` will say.
+        """
+        self._note_end(by)
+        self._running.stop(at_once=at_once)
+
+    def record(
+        self,
+        path: Path,
+        *,
+        files: Mapping[str, str],
+        sync: float | None = None,
+        file: io.FileIO | None = None,
+    ) -> None:
         """Write the rows to a log from here on, in a thread of its own."""
         from ebac.logs import Recorder
 
@@ -168,6 +184,7 @@ class Run(LiveStatus):
             watch=self._parameters.updates.events,
             sync=sync,
             start=time.time() - self._age(),
+            file=file,
         )
 
     def _age(self) -> float:

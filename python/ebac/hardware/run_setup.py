@@ -40,7 +40,10 @@ def run_setup(
     dt = known.timing.dt
     ticks = max(1, round(seconds / dt))
     profiles = [node.profile.values for node in nodes]
-    watched = [float(values["heartbeat.producer"]) for values in profiles]
+    guards = [float(values.get("heartbeat.guard", 0.0)) for values in profiles]
+    guard = min((one for one in guards if one > 0), default=0.0)
+    sent = [float(values["heartbeat.producer"]) for values in profiles]
+    watched = [one / _BEATS if one else beat for one, beat in zip(guards, sent, strict=True)]
     consumers = [float(values.get("heartbeat.consumer", 0.0)) for values in profiles]
     masters = {int(values["heartbeat.master"]) for values in profiles}
     beat = min((one for one in consumers if one > 0), default=0.0)
@@ -75,6 +78,7 @@ def run_setup(
             "heartbeat_timeout": _BEATS * max(watched),
             "own_node": masters.pop() if beat > 0 else 0,  # one: `check_stall`
             "heartbeat_period": max(1e-3, beat / 10) if beat > 0 else 0.01,
+            "guard_period": guard / 5,
         },
     )
 

@@ -10,10 +10,14 @@ from dataclasses import dataclass, field
 from ebac._util.cores import usable_cores
 from ebac.logs.events import Event
 from ebac.logs.layout import MESSAGE, Layout
-from ebac.logs.records import unpacked
+from ebac.logs.records import unpacked, unpacked_size
 
 #: Packed bytes that are unpacked together: the rows of a log on disk come twenty at a time.
 _TOGETHER = 1 << 18
+#: Bytes of rows that are unpacked together, where they are packed more tightly than ours.
+_TOGETHER_UNPACKED = 1 << 22
+#: Bytes of rows under way at most, and one chunk more: a small file may hold very large chunks.
+_UNDER_WAY = 1 << 25
 #: Threads at most; the packing library and the checksum leave the interpreter alone meanwhile.
 _THREADS = 4
 #: So many of those are under way at most, that memory does not fill with what nobody has taken yet.
@@ -60,41 +64,50 @@ class Chunks:
     """Takes chunks as they stand in a file, gives what they hold in that order. A small log needs no thread."""
 
     def __init__(self, pool: ThreadPoolExecutor) -> None:
-        self._batch: list[tuple[int, bytes]] = []
+        self._batch: list[_Part] = []
         self._bytes = 0
+        self._unpacked = 0
         self._pool = pool
-        self._under_way: deque[Future[Content]] = deque()
+        self._under_way: deque[tuple[Future[Content], int]] = deque()
 
-    def put(self, where: Where, start: int, data: bytes) -> Iterator[Content]:
-        """Take a chunk whose content begins at byte `start`; give what is ready."""
-        self._batch.append((start, data))
+    def put(
+        self, where: Where, start: int, data: bytes, *, packed: bool = True
+    ) -> Iterator[Content]:
+        """Take a chunk whose content begins at byte `start`, or a message that stands alone; give what is ready."""
+        self._batch.append((start, data, packed))
         self._bytes += len(data)
-        if self._bytes < _TOGETHER:
+        self._unpacked += unpacked_size(data) if packed else len(data)
+        if self._bytes < _TOGETHER and self._unpacked < _TOGETHER_UNPACKED:
             return
-        self._under_way.append(self._pool.submit(_content, where, self._taken()))
-        while len(self._under_way) > _AHEAD:
-            yield self._under_way.popleft().result()
+        size = self._unpacked
+        self._under_way.append((self._pool.submit(_content, where, self._taken()), size))
+        while len(self._under_way) > _AHEAD or sum(n for _, n in self._under_way) > _UNDER_WAY:
+            yield self._under_way.popleft()[0].result()
 
     def rest(self, where: Where) -> Iterator[Content]:
         """Give all that was put and not given yet."""
         while self._under_way:
-            yield self._under_way.popleft().result()
+            yield self._under_way.popleft()[0].result()
         if self._batch:
             yield _content(where, self._taken())
 
-    def _taken(self) -> list[tuple[int, bytes]]:
-        batch, self._batch, self._bytes = self._batch, [], 0
+    def _taken(self) -> list[_Part]:
+        batch, self._batch, self._bytes, self._unpacked = self._batch, [], 0, 0
         return batch
 
 
-def _content(where: Where, batch: list[tuple[int, bytes]]) -> Content:
+#: First byte, content of the record, and whether it is a chunk: else it is a message, whole.
+_Part = tuple[int, bytes, bool]
+
+
+def _content(where: Where, batch: list[_Part]) -> Content:
     """Return what chunks hold; one that cannot be read costs no other."""
-    start, data = batch[-1]
+    start, data, _ = batch[-1]
     content = Content(end=start + len(data))
     parts: list[tuple[int, bytes]] = []
-    for start, data in batch:
+    for start, data, packed in batch:
         try:
-            parts.append((start, unpacked(data)))
+            parts.append((start, unpacked(data) if packed else data))
         except ValueError as error:
             content.wrong.append((start, error))
     size = where.layout.record.itemsize

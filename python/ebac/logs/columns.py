@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from math import inf
 from typing import Any
 
 import numpy as np
@@ -18,8 +19,12 @@ _GROWTH = 8
 class Columns:
     """Columns that grow to what the log is likely to hold, so that nothing is copied twice."""
 
-    def __init__(self, layout: Layout) -> None:
+    def __init__(self, layout: Layout, start: float = -inf, stop: float = inf) -> None:
         self._layout = layout
+        self._start, self._stop = start, stop
+        self._part = (start, stop) != (-inf, inf)
+        #: Time of the first and the last row that came, taken or not [s].
+        self.span: tuple[float, float] | None = None
         self._rows = 0
         self._room = 0
         self._data = {
@@ -29,6 +34,11 @@ class Columns:
     def take(self, records: bytes, share: float) -> None:
         """Append message records; they and all before them are about this share of the log, 0 to 1."""
         rows = np.frombuffer(records, self._layout.record)
+        t = rows["t"]
+        if len(t):
+            self.span = (float(t[0]) if self.span is None else self.span[0], float(t[-1]))
+        if self._part:
+            rows = rows[(t >= self._start) & (t < self._stop)]
         stop = self._rows + len(rows)
         if stop > self._room:
             self._make_room(stop, share)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import csv
 import re
 import warnings
 from pathlib import Path
@@ -41,8 +42,9 @@ def read_csv(path: Path) -> Trace:
         raise ValueError(f"{path}: {_first_wrong(path, [], 0, ',')}") from None
     if not heading.strip():
         raise ValueError(f"{path}: the file is empty: needs headings, `t [s],x [m],...`, and rows")
-    mark = max(",;\t", key=heading.count)
-    split = [signal_heading(cell.strip().strip('"')) for cell in heading.split(mark)]
+    mark = max(",;\t", key=re.sub(r'"[^"]*"', "", heading).count)
+    cells = next(csv.reader([heading.rstrip("\n")], delimiter=mark, skipinitialspace=True))
+    split = [signal_heading(cell.strip()) for cell in cells]
     names = [name for name, _, _ in split]
     if twice := sorted({name for name in names if names.count(name) > 1}):
         raise ValueError(f"{path}: line {line} has column {twice[0]!r} more than once; rename one")

@@ -97,6 +97,8 @@ class Event:
         """
         try:
             document = json.loads(data)
+            if isinstance(document["tick"], bool) or isinstance(document["t"], bool):
+                raise TypeError("true is no number")
             event = cls(
                 kind=str(document["name"]),
                 message=str(document["message"]),

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import errno
 import os
+import warnings
 from collections.abc import Callable, Mapping
 from contextlib import suppress
 from pathlib import Path
@@ -70,7 +72,8 @@ def save(trace: Trace, path: str | Path, *, progress: Progress | None = None) ->
         write(trace, draft, progress or (lambda done, total: None))
         draft.replace(path)
     except OSError as error:  # names the file asked for, not the draft beside it
-        raise type(error)(error.errno, error.strerror, str(path)) from None
+        number, why = error.errno or errno.EIO, error.strerror or str(error)
+        raise OSError(number, why, str(path)) from None
     finally:
         with suppress(OSError):  # a folder that is none has no draft either
             draft.unlink(missing_ok=True)
@@ -90,28 +93,41 @@ def extension(path: Path, known: tuple[str, ...]) -> str:
     return found
 
 
-def load(path: str | Path, *, progress: Progress | None = None) -> Trace:
+def load(
+    path: str | Path,
+    *,
+    start: float | None = None,
+    stop: float | None = None,
+    progress: Progress | None = None,
+) -> Trace:
     """Read a trace, the format by the extension: MCAP (whole or cut), NPZ, CSV, Parquet, MATLAB or HDF5.
 
     Parameters
     ----------
     path : str or Path
         What `Trace.save` or a recorder wrote. CSV holds neither scenario nor law.
+    start, stop : float, optional
+        Only rows with start <= t < stop [s]; of MCAP no others come into memory.
     progress : callable, optional
         Called with bytes read and bytes in all, for MCAP.
+
+    Warns
+    -----
+    UserWarning
+        When parts of an MCAP file are damaged: the rows in them are missing. `ebac.logs.read` gives more.
 
     Raises
     ------
     FileNotFoundError
         When there is no such file.
     ValueError
-        For another extension, or a file that is not in the format of its extension.
+        For another extension, a file that is not in the format of its extension, or a part outside it.
     ModuleNotFoundError
         When the library of a format is not installed; the message names it.
     """
     from ebac.logs import imports
     from ebac.logs.csv_file import read_csv
-    from ebac.logs.reader import read
+    from ebac.logs.reader import check_part, read
     from ebac.trace import Trace
 
     path = Path(path)
@@ -119,7 +135,10 @@ def load(path: str | Path, *, progress: Progress | None = None) -> Trace:
     if path.is_dir():
         raise IsADirectoryError(21, "is a folder; give a file in it", str(path))
     if kind == ".mcap":
-        return read(path, progress=progress).trace
+        log = read(path, start=start, stop=stop, progress=progress)
+        if log.condition.damaged:
+            warnings.warn(f"{path}: {log.condition.damage}", stacklevel=2)
+        return log.trace
     readers: dict[str, Callable[[Path], Trace]] = {
         ".npz": Trace.from_npz,
         ".csv": read_csv,
@@ -127,7 +146,11 @@ def load(path: str | Path, *, progress: Progress | None = None) -> Trace:
         ".mat": imports.from_mat,
         ".h5": imports.from_hdf5,
     }
-    return readers[kind](path)
+    trace = readers[kind](path)
+    if (start is None and stop is None) or len(trace) == 0:
+        return trace
+    check_part(path, (float(trace["t"][0]), float(trace["t"][-1])), start, stop)
+    return trace.between(start, stop)
 
 
 def write_mcap(

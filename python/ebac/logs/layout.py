@@ -273,6 +273,16 @@ class Layout:
         fit = (len(chunk) - at) // size
         if fit == 0 or chunk[at : at + len(ours)] != ours:
             return 0
-        heads = np.frombuffer(chunk, np.uint8, fit * size, at).reshape(fit, size)[:, : len(ours)]
-        same = (heads == np.frombuffer(ours, np.uint8)).all(axis=1)
-        return fit if same.all() else int(same.argmin())
+        known = np.frombuffer(ours, np.uint8)
+        same, step = (
+            1,
+            8,
+        )  # looked at in growing steps: between rows and events in turn a run is short
+        while same < fit:
+            step = min(2 * step, fit - same)
+            rows = np.frombuffer(chunk, np.uint8, step * size, at + same * size)
+            alike = (rows.reshape(step, size)[:, : len(ours)] == known).all(axis=1)
+            if not alike.all():
+                return same + int(alike.argmin())
+            same += step
+        return same

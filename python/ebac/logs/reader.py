@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import mmap
+import math
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -12,7 +12,7 @@ from ebac.logs.about import SCENARIO_FILE, About
 from ebac.logs.chunks import Chunks, Content, Where, unpackers
 from ebac.logs.columns import Columns
 from ebac.logs.events import Event
-from ebac.logs.layout import Layout
+from ebac.logs.layout import MESSAGE, Layout
 from ebac.logs.log import Log
 from ebac.logs.records import (
     ATTACHMENT,
@@ -21,8 +21,12 @@ from ebac.logs.records import (
     MAGIC,
     METADATA,
     Condition,
+    FileBytes,
+    channels,
     parsed,
     records,
+    summary_channels,
+    unpacked,
 )
 from ebac.logs.summary import EVENTS_TOPIC, ROWS_TOPIC
 from ebac.scenario import Scenario
@@ -36,24 +40,37 @@ _DIGITS = 19
 class _Found:
     """Contents of the records of a file so far."""
 
+    start: float = -math.inf
+    stop: float = math.inf
     where: Where | None = None
     columns: Columns | None = None
+    by_summary: bool | None = (
+        None  # whether that describes the channels; None before it was looked at
+    )
     events_channel: int | None = None
     events: list[Event] = field(default_factory=list)
     metadata: dict[str, dict[str, str]] = field(default_factory=dict)
     files: dict[str, str] = field(default_factory=dict)
 
 
-def read(path: str | Path, *, progress: Callable[[int, int], None] | None = None) -> Log:
+def read(
+    path: str | Path,
+    *,
+    start: float | None = None,
+    stop: float | None = None,
+    progress: Callable[[int, int], None] | None = None,
+) -> Log:
     """Read a log, whatever state it is in.
 
     What is whole is read: a log whose writer was killed loses at most its last chunk, a damaged chunk is left out and
-    counted in `condition`.
+    counted in `condition`. So is a log that the `mcap` library or command wrote anew, in other chunks or none.
 
     Parameters
     ----------
     path : str or Path
         A file that ebac wrote: MCAP, or one of the other formats of `Trace.save`, by the extension.
+    start, stop : float, optional
+        Only rows and events with start <= t < stop [s]. Of MCAP no others come into memory.
     progress : callable, optional
         Called with bytes read and bytes in all.
 
@@ -67,24 +84,20 @@ def read(path: str | Path, *, progress: Callable[[int, int], None] | None = None
     FileNotFoundError
         When there is no such file.
     ValueError
-        When it is no log of ebac, or was cut before its columns were written.
+        When it is no log of ebac, was cut before its columns were written, or `start` and `stop` lie outside it.
     """
     path = Path(path)
     if path.suffix.lower() in (".npz", ".csv", ".parquet", ".mat", ".h5"):
-        return _of_trace(path)
+        return _of_trace(path, start, stop)
     with path.open("rb") as file:
-        size = file.seek(0, 2)
-        if size == 0:
-            return read_bytes(b"", path)
-        with mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ) as data:
-            return read_bytes(data, path, progress=progress)
+        return read_bytes(FileBytes(file), path, start=start, stop=stop, progress=progress)
 
 
-def _of_trace(path: Path) -> Log:
+def _of_trace(path: Path, start: float | None, stop: float | None) -> Log:
     """Read a file that holds the rows alone, with law and scenario where its format has room for them."""
     from ebac.logs.files import load
 
-    trace = load(path)
+    trace = load(path, start=start, stop=stop)
     about = About(
         axes=trace.axes, law=trace.law, law_repr=trace.law_repr, scenario=trace.scenario, made_by={}
     )
@@ -100,36 +113,73 @@ def _of_trace(path: Path) -> Log:
 
 
 def read_bytes(
-    data: bytes | mmap.mmap,
+    data: bytes | FileBytes,
     name: str | Path,
     *,
+    start: float | None = None,
+    stop: float | None = None,
     progress: Callable[[int, int], None] | None = None,
 ) -> Log:
     """Read a log that is in memory; `name` is for messages. As `read`."""
-    path, condition, found, size = Path(name), Condition(), _Found(), len(data)
+    path, condition, size = Path(name), Condition(), len(data)
+    found = _Found(-math.inf if start is None else start, math.inf if stop is None else stop)
     if not MAGIC.startswith(data[: len(MAGIC)]):
         raise ValueError(f"{path}: not an MCAP file (it does not begin like one)")
     if size < len(MAGIC):
         raise ValueError(f"{path}: {size} bytes, cut before anything was written")
     with unpackers() as pool:
         chunks = Chunks(pool)
-        for opcode, start, stop in records(data, condition, progress or _silent):
+        for opcode, first, end in records(data, condition, progress or _silent):
             try:
-                if opcode != CHUNK:
-                    _take(found, opcode, data[start:stop])
-                elif found.where is None:
-                    raise ValueError("it stands before the columns are described")
-                else:
-                    for content in chunks.put(found.where, start, data[start:stop]):
+                if opcode not in (CHUNK, MESSAGE):
+                    if opcode in _NAMES:
+                        _take(found, opcode, data[first:end])
+                    continue
+                packed = opcode == CHUNK
+                part = data[first if packed else first - _HEAD : end]
+                _look_for_channels(found, data, part if packed else b"")
+                if found.where is not None:
+                    for content in chunks.put(found.where, first, part, packed=packed):
                         _take_content(found, condition, content, size)
             except ValueError as error:
-                condition.leave_out(_NAMES.get(opcode, "a record"), start, error)
+                condition.leave_out(_NAMES.get(opcode, "a record"), first, error)
         if found.where is not None:
             for content in chunks.rest(found.where):
                 _take_content(found, condition, content, size)
+    if found.columns is not None and found.columns.span is not None:
+        check_part(path, found.columns.span, start, stop)
     return _log(path, found, condition, size)
 
 
+def _look_for_channels(found: _Found, data: bytes | FileBytes, chunk: bytes) -> None:
+    """Look for the channels that no record before described: in the summary, or in the chunk itself.
+
+    ebac describes them first. The `mcap` library does so inside a chunk, and again in the summary.
+    """
+    if found.where is not None and found.events_channel is not None:
+        return
+    if found.by_summary is None:
+        described = summary_channels(data)
+        found.by_summary = bool(described)
+        for channel in described:
+            _take(found, CHANNEL, channel)
+    if chunk and not found.by_summary:
+        for channel in channels(unpacked(chunk)):
+            _take(found, CHANNEL, channel)
+
+
+def check_part(
+    path: Path, span: tuple[float, float], start: float | None, stop: float | None
+) -> None:
+    """Refuse a part that lies outside a log [s]."""
+    if (start or 0.0) > span[1] or (stop is not None and stop < span[0]):
+        wanted = ((" from", start), (" before", stop))
+        asked = "".join(f"{word} {t:g} s" for word, t in wanted if t is not None)
+        raise ValueError(f"{path}: no rows{asked}: the log has {span[0]:g} to {span[1]:g} s")
+
+
+#: Bytes of opcode and length before a record.
+_HEAD = 9
 _NAMES = {CHUNK: "a chunk", CHANNEL: "a channel", METADATA: "metadata", ATTACHMENT: "an attachment"}
 
 
@@ -138,8 +188,6 @@ def _silent(done: int, total: int) -> None:
 
 
 def _take(found: _Found, opcode: int, data: bytes) -> None:
-    if opcode not in _NAMES:
-        return
     from mcap.records import Attachment, Channel, Metadata
 
     if opcode == CHANNEL:
@@ -156,7 +204,7 @@ def _take_channel(found: _Found, channel: Any) -> None:
     if channel.topic == ROWS_TOPIC and channel.message_encoding == "cdr" and found.where is None:
         layout = Layout.from_json(channel.metadata.get("columns", ""))
         found.where = Where(layout=layout, rows=channel.id, events=found.events_channel)
-        found.columns = Columns(layout)
+        found.columns = Columns(layout, found.start, found.stop)
     elif channel.topic == EVENTS_TOPIC and channel.message_encoding == "json":
         found.events_channel = channel.id
         if found.where is not None:
@@ -169,7 +217,7 @@ def _take_content(found: _Found, condition: Condition, content: Content, size: i
         condition.leave_out(_NAMES[CHUNK], start, error)
     for run in content.runs:
         found.columns.take(run, content.end / size)
-    found.events += content.events
+    found.events += [e for e in content.events if found.start <= e.t < found.stop]
 
 
 def _log(path: Path, found: _Found, condition: Condition, size: int) -> Log:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import atexit
 import contextlib
+import errno
+import io
 import threading
 import time
 import warnings
@@ -64,6 +66,8 @@ class Recorder:
         that happens at the end only: a killed process loses nothing by it, a computer without power does.
     start : float, optional
         When t was 0, in seconds since 1970 (UTC); now, if not given.
+    file : FileIO, optional
+        What `ebac.logs.writer.new_log` returned for this path: a log that was begun before the loop.
 
     Attributes
     ----------
@@ -98,6 +102,7 @@ class Recorder:
         interval: float = INTERVAL,
         sync: float | None = None,
         start: float | None = None,
+        file: io.FileIO | None = None,
     ) -> None:
         _check("interval", interval, 1e-3, 10)
         if sync is not None:
@@ -114,7 +119,8 @@ class Recorder:
             files=dict(files or {}),
         )
         none = row_views(rows, np.empty(0, np.uint8))
-        self._writer = LogWriter(path, layout=Layout.of(none, column_infos(rows)), about=about)
+        layout = Layout.of(none, column_infos(rows))
+        self._writer = LogWriter(path, layout=layout, about=about, file=file)
         self._seen = 0
         self._last: tuple[int, float, int] = (-1, 0.0, 0)  # tick, t, fault of the last row
         self._waiting: list[Event] = []
@@ -190,9 +196,13 @@ class Recorder:
                 self.error = error
         if self.error is not None:
             self._writer.abandon()
+            number = getattr(self.error, "errno", None) or errno.EIO
+            why = getattr(self.error, "strerror", None) or self.error
             raise OSError(
-                f"{self.path}: recording stopped after {self.written} rows: {self.error}; "
-                "what was written can be read, and repaired by `ebac log repair`"
+                number,
+                f"recording stopped after {self.written} rows: {why}; "
+                "what was written can be read, and repaired by `ebac log repair`",
+                str(self.path),
             ) from self.error
         if self.lost:
             warnings.warn(

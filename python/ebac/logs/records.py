@@ -8,15 +8,15 @@ import zlib
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from io import BytesIO
-from typing import TYPE_CHECKING, Any
-
-if TYPE_CHECKING:
-    import mmap
+from typing import Any, BinaryIO
 
 MAGIC = b"\x89MCAP0\r\n"
-FOOTER, SCHEMA, CHANNEL, CHUNK, METADATA, ATTACHMENT = 0x02, 0x03, 0x04, 0x06, 0x0C, 0x09
+FOOTER, CHANNEL, CHUNK, METADATA, ATTACHMENT = 0x02, 0x04, 0x06, 0x0C, 0x09
 #: A chunk larger than this is damage: ebac writes at most some MB, other programs 4.
 MOST_CHUNK = 1 << 26
+#: So is one of over a megabyte that would unpack to this many times its size: rows give a hundred times at most.
+MOST_RATIO = 1000
+_FOOTER_BYTES = 1 + 8 + 20  # opcode, length; where summary and offsets begin, checksum
 _HEAD = struct.Struct("<BQ")
 _CHUNK = struct.Struct(
     "<QQQII"
@@ -44,6 +44,14 @@ class Condition:
     bytes_left: int = 0
     remarks: list[str] = field(default_factory=list)
 
+    @property
+    def damage(self) -> str:
+        """What was left out, in words; empty where nothing was."""
+        if not self.damaged:
+            return ""
+        left_out = "1 damaged part" if self.damaged == 1 else f"{self.damaged} damaged parts"
+        return f"{left_out} left out: {'; '.join(self.remarks)}"
+
     def leave_out(self, what: str, at: int, why: object) -> None:
         """Note a record that is left out."""
         self.damaged += 1
@@ -51,14 +59,35 @@ class Condition:
             self.remarks.append(f"{what} at byte {at} left out: {why}")
 
 
+class FileBytes:
+    """The bytes of a file, read where they are asked for: no more of it is in memory.
+
+    Where another program cuts the file meanwhile, a part comes out short; a mapping would end the process.
+    """
+
+    def __init__(self, file: BinaryIO) -> None:
+        self._file = file
+        self._size = file.seek(0, 2)
+
+    def __len__(self) -> int:
+        """Return the bytes there were when it was opened."""
+        return self._size
+
+    def __getitem__(self, part: slice) -> bytes:
+        """Return a part."""
+        start, stop, _ = part.indices(self._size)
+        self._file.seek(start)
+        return self._file.read(max(0, stop - start))
+
+
 def records(
-    data: bytes | mmap.mmap, condition: Condition, report: Callable[[int, int], None]
+    data: bytes | FileBytes, condition: Condition, report: Callable[[int, int], None]
 ) -> Iterator[tuple[int, int, int]]:
     """Yield (opcode, first byte, byte after the last) of the content of each whole record.
 
     Parameters
     ----------
-    data : bytes or mmap
+    data : bytes or FileBytes
         The file.
     condition : Condition
         Takes what is wrong.
@@ -67,7 +96,10 @@ def records(
     """
     at, size = len(MAGIC), len(data)
     while at + _HEAD.size <= size:
-        opcode, length = _HEAD.unpack_from(data, at)
+        head = data[at : at + _HEAD.size]
+        if len(head) < _HEAD.size:
+            break
+        opcode, length = _HEAD.unpack(head)
         start = at + _HEAD.size
         if opcode == 0 or length > size - start:
             break
@@ -80,6 +112,35 @@ def records(
                 at += len(MAGIC)
             break
     condition.bytes_left = max(0, size - at)
+
+
+def summary_channels(data: bytes | FileBytes) -> list[bytes]:
+    """Return the channels that the summary of a closed file repeats, as they stand in it; none for another file."""
+    end = len(data) - len(MAGIC) - _FOOTER_BYTES
+    if end < len(MAGIC) or data[end + _FOOTER_BYTES : len(data)] != MAGIC:
+        return []
+    opcode, _, at = struct.unpack("<BQQ", data[end : end + 17])
+    if opcode != FOOTER or not len(MAGIC) <= at < end:
+        return []
+    return channels(data[at:end])
+
+
+def channels(content: bytes) -> list[bytes]:
+    """Return the channels among records, as they stand there."""
+    found = []
+    at = 0
+    while at + _HEAD.size <= len(content):
+        opcode, length = _HEAD.unpack_from(content, at)
+        at += _HEAD.size + length
+        if opcode == CHANNEL:
+            found.append(content[at - length : at])
+    return found
+
+
+def unpacked_size(data: bytes) -> int:
+    """Return how many bytes a chunk record gives as its content's, at most as many as are ever unpacked."""
+    size = int.from_bytes(data[16:24], "little")
+    return size if size <= MOST_CHUNK else 0
 
 
 def parsed(kind: Any, data: bytes) -> Any:
@@ -118,6 +179,8 @@ def unpacked(data: bytes) -> bytes:
     at += _LENGTH.size
     if at + length != len(data):
         raise ValueError("it ends too early or too late")
+    if size > 1 << 20 and size > MOST_RATIO * length:
+        raise ValueError(f"its header gives {size} bytes for {length} packed ones")
     content = _decompress(how, data[at:], size)
     if len(content) != size:
         raise ValueError(f"{len(content)} bytes instead of {size}")

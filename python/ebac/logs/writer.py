@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import contextlib
+import errno
+import io
 import os
 import struct
 import zlib
@@ -16,13 +18,42 @@ from numpy.typing import NDArray
 
 from ebac._util.wrong_calls import plain_constructor
 from ebac.logs import events
-from ebac.logs.about import About
+from ebac.logs.about import About, versions
 from ebac.logs.layout import MESSAGE, Layout
 from ebac.logs.summary import EVENTS, ROWS, Summary, described, record_bytes
 
 MAGIC = b"\x89MCAP0\r\n"
 _MESSAGE_HEAD = struct.Struct("<BQHIQQ")
 _INDEX_HEAD = struct.Struct("<BQHI")
+
+
+def new_log(path: Path) -> io.FileIO:
+    """Begin a log before there is a row, and have at hand what writing one needs.
+
+    So a folder that takes no file is found before anything moves, and the first chunk is not late.
+
+    Raises
+    ------
+    OSError
+        When there is such a file, or the folder takes none.
+    """
+    import mcap.records  # noqa: F401
+    import zstandard  # noqa: F401
+
+    versions()  # asks git
+    file = io.FileIO(path, "xb")
+    try:
+        file.write(MAGIC)
+    except BaseException:
+        discard(file, path)
+        raise
+    return file
+
+
+def discard(file: io.FileIO, path: Path) -> None:
+    """Close a log that was begun, and remove it."""
+    file.close()
+    path.unlink(missing_ok=True)
 
 
 @plain_constructor
@@ -40,6 +71,8 @@ class LogWriter:
         Columns of a row.
     about : About
         Law, scenario, versions.
+    file : FileIO, optional
+        What `new_log` returned for this path.
 
     Raises
     ------
@@ -47,7 +80,9 @@ class LogWriter:
         When there is such a file.
     """
 
-    def __init__(self, path: str | Path, *, layout: Layout, about: About) -> None:
+    def __init__(
+        self, path: str | Path, *, layout: Layout, about: About, file: io.FileIO | None = None
+    ) -> None:
         import zstandard
 
         self.path = Path(path)
@@ -55,14 +90,13 @@ class LogWriter:
         self.about = about
         self.rows = 0
         self._compress = zstandard.ZstdCompressor(level=1).compress
-        self._at = 0
-        self._file = self.path.open("xb", buffering=0)
+        self._at = len(MAGIC)
+        self._file = new_log(self.path) if file is None else file
         try:
             self._summary = Summary(layout, self.path.parent)
             self._begin()
         except BaseException:
-            self._file.close()
-            self.path.unlink(missing_ok=True)
+            discard(self._file, self.path)
             raise
 
     def _begin(self) -> None:
@@ -71,7 +105,7 @@ class LogWriter:
         from ebac import __version__
 
         header = record_bytes(Header(profile="", library=f"ebac {__version__}"))
-        self._write(MAGIC + header + b"".join(map(record_bytes, described(self.layout))))
+        self._write(header + b"".join(map(record_bytes, described(self.layout))))
         self._metadata("ebac", self.about.metadata)
         for name, text in self.about.attachments.items():
             self._attach(name, text)
@@ -91,8 +125,10 @@ class LogWriter:
         Raises
         ------
         OSError
-            When the file cannot be written; the file then ends as if cut there.
+            When the file cannot be written; the file then ends as if cut there. Also when another program deleted it,
+            or cut it.
         """
+        self._check_file()
         start = self.about.start_ns
         rows = self.layout.pack(data, channel=ROWS, start_ns=start)
         content = [rows.tobytes()]
@@ -114,6 +150,17 @@ class LogWriter:
         if indexes:
             self._chunk(b"".join(content), indexes)
             self.rows += len(rows)
+
+    def _check_file(self) -> None:
+        """Raise OSError where another program took from the file what was written."""
+        now = os.fstat(self._file.fileno())
+        if now.st_nlink == 0:
+            happened = "it was deleted while it was written"
+        elif now.st_size < self._at:
+            happened = f"it was cut to {now.st_size} bytes while it was written"
+        else:
+            return
+        raise OSError(errno.EIO, happened, str(self.path))
 
     def _chunk(self, content: bytes, indexes: Mapping[int, NDArray[np.uint64]]) -> None:
         from mcap.records import Chunk

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from math import isfinite
@@ -19,6 +20,8 @@ Wrench: TypeAlias = tuple[float, float, float, float, float, float]
 
 #: Models by name.
 MODELS = dict(zip(BITS, _core.SensorModel, strict=True))
+#: Share by which counts may differ from those on the sensor's page, which are rounded.
+_SAME_SCALE = 1e-3
 #: Parameters that the core checks as a scale.
 _SCALE = ("counts_per_force", "counts_per_torque", "force_range", "torque_range")
 
@@ -48,6 +51,9 @@ class SensorConfig:
         1 where the sensor shows the force of the hand on the handle, -1 for the opposite.
     bias : 6 floats
         What is taken as zero, in the sensor's axes: force [N], torque [N m].
+    http_port : int
+        Port of the sensor's own page, whose counts are compared with these before a run, 1 to 65535; 0 for a sensor
+        without a page.
     retry : float
         Silence after which the stream is asked for again [s], 1e-3 to 60.
     gone : float
@@ -71,6 +77,7 @@ class SensorConfig:
     rotation: Rotation = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
     sign: int = 1
     bias: Wrench = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    http_port: int = 80
     retry: float = 0.25
     gone: float = 0.5
 
@@ -81,10 +88,12 @@ class SensorConfig:
             raise TypeError(
                 f"sensor.host = {host!r}: must be an address or a name, as '192.168.1.1'"
             )
-        for name in ("port", "sign"):
+        for name in ("port", "sign", "http_port"):
             value = getattr(self, name)
             if not isinstance(value, int) or isinstance(value, bool):
                 raise TypeError(f"sensor.{name} = {value!r}: must be a whole number")
+        if not 0 <= self.http_port <= 65535:
+            raise ValueError(f"sensor.http_port = {self.http_port}: must lie in [0, 65535]")
         if self.model not in MODELS:
             raise ValueError(f"sensor.model = {self.model!r}: must be one of {', '.join(MODELS)}")
         rows = numbers("rotation", self.rotation, 3, inner=3)
@@ -116,6 +125,47 @@ class SensorConfig:
         table["rotation"] = [list(row) for row in self.rotation]
         table["bias"] = list(self.bias)
         return table
+
+    def check_scale(self, *, timeout: float = 1.0) -> None:
+        """Compare the counts with those on the sensor's own page; nothing where `http_port` is 0.
+
+        Parameters
+        ----------
+        timeout : float
+            Longest wait for the page [s], above 0.
+
+        Warns
+        -----
+        UserWarning
+            When the page cannot be read: nothing was compared.
+
+        Raises
+        ------
+        SensorError
+            When they differ by more than 0.1 %: every force would be wrong.
+        """
+        from ebac.sensor.errors import SensorError
+        from ebac.sensor.page import read_page
+
+        if self.http_port == 0:
+            return
+        try:
+            page = read_page(self.host, http_port=self.http_port, timeout=timeout)
+        except SensorError as error:
+            warnings.warn(
+                f"the counts of the force sensor were not compared with its own page: {error}; "
+                "sensor.http_port = 0 for a sensor without a page",
+                stacklevel=2,
+            )
+            return
+        for name in ("counts_per_force", "counts_per_torque"):
+            mine, own = float(getattr(self, name)), float(getattr(page, name))
+            if abs(mine - own) > _SAME_SCALE * own:
+                raise SensorError(
+                    f"sensor.{name} = {mine:g}: the page of the sensor at {self.host} has {own:g}, "
+                    "and every force would be wrong by that; correct the configuration, or the sensor's "
+                    "active calibration"
+                )
 
     def core(self) -> _core.RdtSetup:
         """Return it as the core takes it; a name is looked up now.

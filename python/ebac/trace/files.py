@@ -27,7 +27,7 @@ def write_csv(
     """Write CSV, see `Trace.to_csv`."""
     columns = list(trace.flat())
     heading = ",".join(
-        name if info.unit == "1" else f"{name} [{info.unit}]" for name, info, _ in columns
+        _quoted(name if info.unit == "1" else f"{name} [{info.unit}]") for name, info, _ in columns
     )
     with Path(path).open("w", encoding="utf-8") as file:
         file.write(heading + "\n")
@@ -37,6 +37,13 @@ def write_csv(
             file.writelines(",".join(row) + "\n" for row in zip(*texts, strict=True))
             if progress is not None:
                 progress(min(first + _CSV_ROWS, len(trace)), len(trace))
+
+
+def _quoted(heading: str) -> str:
+    """Return a heading as a cell of CSV: in quotation marks where a comma or one of them is in it."""
+    if not set(heading) & set(',"\n'):
+        return heading
+    return '"' + heading.replace('"', '""') + '"'
 
 
 def write_npz(trace: Trace, path: str | Path) -> None:

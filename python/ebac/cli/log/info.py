@@ -33,10 +33,7 @@ def document(read: Log) -> str:
         rows,
         file=str(read.path),
         bytes=read.bytes,
-        complete=read.condition.complete,
-        damaged=read.condition.damaged,
-        bytes_left=read.condition.bytes_left,
-        remarks=read.condition.remarks,
+        **condition(read),
         log_rows=len(trace),
         first_s=float(t[0]) if len(t) else None,
         last_s=float(t[-1]) if len(t) else None,
@@ -54,6 +51,16 @@ def document(read: Log) -> str:
         events=[{"kind": e.kind, "message": e.message, "tick": e.tick, "t_s": e.t, "values": e.values}
                 for e in read.events],
     )  # fmt: skip
+
+
+def condition(read: Log) -> dict[str, Any]:
+    """Return what is wrong with a log, for JSON."""
+    return {
+        "complete": read.condition.complete,
+        "damaged": read.condition.damaged,
+        "bytes_left": read.condition.bytes_left,
+        "remarks": read.condition.remarks,
+    }
 
 
 def _rate(trace: Trace) -> float | None:
@@ -94,7 +101,7 @@ def _lines(read: Log) -> list[tuple[str, str]]:
     span = f"{t[0]:.3f} to {t[-1]:.3f} s" if len(t) else "none"
     state = "complete" if condition.complete else "cut: its end is missing"
     if condition.damaged:
-        state += f", {condition.damaged} damaged parts left out"
+        state += f", {output.plural(condition.damaged, 'damaged part')} left out"
     start = read.about.start_ns
     lines = [
         ("file", f"{state}; {read.bytes / 1e6:.3g} MB"),

@@ -14,7 +14,6 @@ from ebac.cli.log import info as log_info
 
 if TYPE_CHECKING:
     from ebac.logs import Log
-    from ebac.trace import Trace
 
 log = typer.Typer(
     cls=Group,
@@ -36,7 +35,7 @@ To: TypeAlias = Annotated[
 def info(file: LogFile, as_json: output.AsJson = False) -> None:
     """Print what a log holds: rows, time, columns with units, gaps, faults, versions.
 
-    Also reads logs that a crash cut short.
+    Also reads logs that a crash cut short. Exit code 3 when parts are damaged.
 
     **Examples**
 
@@ -49,6 +48,7 @@ def info(file: LogFile, as_json: output.AsJson = False) -> None:
         typer.echo(log_info.document(read))
     else:
         log_info.show(read)
+    _report(read, quiet=True)
 
 
 def export(
@@ -67,7 +67,8 @@ def export(
     """Write the rows of a log in the format of another program, by the extension of OUT.
 
     Every number keeps all its digits, every column its unit. MATLAB needs `pip install 'ebac[log]'`, so does HDF5;
-    Parquet `ebac[sweep]`.
+    Parquet `ebac[sweep]`. Only the rows asked for come into memory. Exit code 3 when parts of the log are damaged:
+    the rows in them are missing.
 
     **Examples**
 
@@ -81,7 +82,8 @@ def export(
         extension(out, tuple(FORMATS))
     new_file("OUT", out, force=force)
     output.keeping("nothing was written")
-    trace = _part(_read(file, quiet=as_json).trace, start, stop)
+    read = _read(file, start, stop, quiet=as_json)
+    trace = read.trace
     with output.refusing(), output.counting(f"writing {out.name}", quiet=as_json) as progress:
         try:
             trace.save(out, progress=progress)
@@ -91,10 +93,11 @@ def export(
             output.fail(f"{out}: cannot be written ({error.strerror})")
     if as_json:
         row = {"file": str(out), "rows": len(trace), "bytes": out.stat().st_size}
-        typer.echo(output.document("log export", [row]))
+        typer.echo(output.document("log export", [row], **log_info.condition(read)))
     else:
         output.path(out)
         output.say(f"{output.plural(len(trace), 'row')}, {len(list(trace))} columns.")
+    _report(read, quiet=as_json)
 
 
 def repair(
@@ -168,6 +171,8 @@ def plot(
 ) -> None:
     """Draw a log over time: position, force, beta and energy, or columns by name.
 
+    Exit code 3 when parts of the log are damaged: the rows in them are missing.
+
     **Examples**
 
     * `ebac wall --law ebac --log run.mcap`, then `ebac log plot run.mcap`: writes run.png
@@ -183,8 +188,8 @@ def plot(
         )
     if out is not None:
         new_file("--out", out, force=force)
-    read = _read(file, quiet=False)
-    trace = _part(read.trace, start, stop)
+    read = _read(file, start, stop, quiet=False)
+    trace = read.trace
     with output.refusing():
         from ebac.plot import plot_columns, plot_trace
 
@@ -196,6 +201,7 @@ def plot(
     for picture in files:
         output.path(picture)
     output.say(f"{output.plural(len(trace), 'row')} drawn.")
+    _report(read, quiet=False)
 
 
 add(log, info)
@@ -204,25 +210,22 @@ add(log, repair)
 add(log, plot)
 
 
-def _read(file: Path, *, quiet: bool) -> Log:
+def _read(file: Path, start: float | None = None, stop: float | None = None, *, quiet: bool) -> Log:
     from ebac.logs import read
 
     with output.refusing(), output.counting(f"reading {file.name}", quiet=quiet) as progress:
         try:
-            return read(file, progress=progress)
+            return read(file, start=start, stop=stop, progress=progress)
         except ModuleNotFoundError as error:
             output.fail(f"{file}: {error}")
 
 
-def _part(trace: Trace, start: float | None, stop: float | None) -> Trace:
-    if start is None and stop is None:
-        return trace
-    try:
-        return trace.between(start, stop)
-    except ValueError:
-        t = trace["t"]
-        has = f"the log has {t[0]:g} to {t[-1]:g} s"
-        wanted = " ".join(
-            f"{word} {t:g} s" for word, t in (("--from", start), ("--to", stop)) if t is not None
-        )
-        output.fail(f"no rows {wanted}: {has}")
+def _report(read: Log, *, quiet: bool) -> None:
+    """Say what is missing of a log, and end with exit code 3 where it is damaged."""
+    condition = read.condition
+    if not (quiet or condition.complete):
+        output.say(f"{read.path.name} was cut: its end is missing.", style="yellow")
+    if condition.damaged:
+        if not quiet:
+            output.say(f"{read.path.name}: {condition.damage}", style="yellow")
+        raise typer.Exit(output.DAMAGED)

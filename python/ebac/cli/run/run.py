@@ -85,6 +85,12 @@ def run(
         bool,
         typer.Option("--detached", help="Go on when the program that started this one has died."),
     ] = False,
+    beyond_rating: Annotated[
+        bool,
+        typer.Option(
+            "--beyond-rating", help="Allow limits beyond the data sheet of the motor. It may burn."
+        ),
+    ] = False,
     as_json: output.AsJson = False,
 ) -> None:
     """Run a law on a device in real time.
@@ -92,7 +98,7 @@ def run(
     **The motors get power and the device moves.**
 
     The drives are checked against their profiles, enabled, run under the law for the time asked, and left without
-    power, however it ends: Ctrl-C, a closed terminal, a fault, the death of the program that started this one.
+    power, however it ends: any key, Ctrl-C, a closed terminal, a fault, the death of the program that started this one.
     A fault gives exit code 1 and the last rows stay in the log.
 
     With `--simulated` nothing moves: the drives, the device and the hand are simulated, in another process on a
@@ -134,7 +140,8 @@ def run(
         if virtual:
             _run_virtual(known, stem, as_json, style)
         else:
-            _run(known, simulated, detached, stem, shown and not as_json, as_json, schedule, style)
+            how = {"simulate": simulated, "detached": detached, "beyond_rating": beyond_rating}
+            _run(known, how, stem, shown and not as_json, as_json, schedule, style)
     finally:
         if stem is not None:
             leave(stem)
@@ -177,8 +184,7 @@ def _observer(known: Configuration, wanted: bool | None) -> dict[str, Any]:
 
 def _run(
     known: Configuration,
-    simulated: bool,
-    detached: bool,
+    how: dict[str, bool],
     stem: Path | None,
     live: bool,
     as_json: bool,
@@ -191,7 +197,7 @@ def _run(
     log = None if stem is None else stem.with_suffix(".mcap")
     fault: LoopFault | None = None
     with telling():
-        with OpenDevice.open(known, simulate=simulated, detached=detached) as device:
+        with OpenDevice.open(known, **how) as device:
             try:
                 trace = _watched(device, log, live, schedule)
             except LoopFault as error:
@@ -205,7 +211,13 @@ def _run(
     assert report is not None
     with output.refusing():
         result = results.Result.of(
-            known, trace, report, place.about, simulated, fault, changed=bool(schedule.orders)
+            known,
+            trace,
+            report,
+            place.about,
+            how["simulate"],
+            fault,
+            changed=bool(schedule.orders),
         )
     _give(result, stem, as_json, style, fault)
 
@@ -280,11 +292,13 @@ def _tell_end(device: OpenDevice, as_json: bool) -> None:
 
 
 def _watched(device: OpenDevice, log: Path | None, live: bool, schedule: Schedule) -> Trace:
+    from ebac.cli.run.any_key import any_key
     from ebac.cli.run.live import view
 
-    with view(device.configuration, shown=live) as picture:
+    with view(device.configuration, shown=live) as picture, any_key() as key:
 
         def look(run: Run) -> None:
+            key(run)
             schedule.look(run)
             picture(run)
 

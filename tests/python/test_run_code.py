@@ -1,0 +1,107 @@
+"""The run code that keeps a hand safe, part by part, with stand-ins: each test notices one bug of tests/mutants."""
+
+import signal
+import threading
+from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
+
+import pytest
+
+from ebac import _core, drives
+from ebac.drives.state import State
+from ebac.hardware import Configuration, Run, drive_setup
+from ebac.hardware.interrupts import Interrupts
+from ebac.hardware.run_setup import run_setup
+
+EXAMPLE = Path(__file__).parents[2] / "examples" / "joystick.toml"
+
+
+@pytest.fixture
+def setup(monkeypatch: pytest.MonkeyPatch) -> Any:
+    """What a loop is made of, for the example."""
+    known = Configuration.load(EXAMPLE)
+    monkeypatch.setattr(_core, "RunSetup", lambda **parts: SimpleNamespace(**parts))
+    place: Any = SimpleNamespace(sensor=None, aim=None)
+    return run_setup(known, known.drives.nodes, backend=place, seconds=1.0)
+
+
+def test_the_drives_watch_the_loop_and_it_watches_them(setup: Any) -> None:
+    assert setup.drives["own_node"] == 127
+    assert setup.drives["heartbeat_period"] < 0.3  # s, what the profile lets pass
+    assert setup.drives["heartbeat_timeout"] == pytest.approx(0.3)
+
+
+def test_force_comes_in_softly(setup: Any) -> None:
+    assert setup.plan.soft_start == 0.2
+    assert setup.plan.arm
+
+
+def test_a_drive_in_fault_is_reported_and_never_reset() -> None:
+    called: list[str] = []
+    drive: Any = SimpleNamespace(
+        disable=lambda: State.FAULT,
+        reset_fault=lambda: called.append("reset"),
+        fault=lambda doing: drives.DriveError(doing),
+    )
+    with pytest.raises(drives.DriveError, match="being set up"):
+        drive_setup._rest(drive)
+    assert not called
+
+
+def test_a_second_signal_hurries_and_does_not_break_the_stop() -> None:
+    interrupts, hurried = Interrupts(), []
+    interrupts.hurry = lambda: hurried.append(True)
+    interrupts.moving()
+    with pytest.raises(KeyboardInterrupt):
+        interrupts._take(signal.SIGINT, None)
+    assert not hurried
+    interrupts._take(signal.SIGINT, None)
+    assert hurried == [True]
+
+
+def bare_run(**parts: Any) -> tuple[Run, list[bool]]:
+    """A run whose loop has one tick left, and how it was asked to stop."""
+    asked: list[bool] = []
+    ticks = iter([False, True, True, True, True])
+    running = SimpleNamespace(
+        wait=lambda _: next(ticks),
+        stop=lambda at_once=False: asked.append(at_once),
+        join=lambda: None,
+        done=True,
+        state=_core.LoopState.IDLE,
+        rows=SimpleNamespace(count=1),
+        bus=SimpleNamespace(sent=0, received=0, refused=0, lost=0),
+        changes_lost=0,
+    )
+    run = Run.__new__(Run)
+    values = {
+        "_running": running,
+        "_lock": threading.RLock(),
+        "_interrupts": Interrupts(),
+        "_parent": None,
+        "_grants": [],
+        "_ended_by": "",
+        "_power_off": list,
+        "recorder": None,
+        "report": None,
+        **parts,
+    }
+    for name, value in values.items():
+        setattr(run, name, value)
+    return run, asked
+
+
+def test_a_drive_that_keeps_its_power_is_told() -> None:
+    def fail() -> list[str]:
+        raise drives.DriveError("node 2 has power")
+
+    run, _ = bare_run(_power_off=fail)
+    with pytest.raises(drives.DriveError, match="has power"):
+        run.end()
+
+
+def test_a_recorder_that_fails_ends_the_run() -> None:
+    run, asked = bare_run(recorder=SimpleNamespace(error=OSError("disk full")))
+    run.wait()
+    assert asked == [False]
