@@ -42,7 +42,7 @@ BAD: dict[str, tuple[bytes, str]] = {
     "three.csv": (text("t,x,force", T[:3], X[:3], F[:3]), "3 rows; needs at least 50"),
     "empty.csv": (b"", "lines = 0: needs a heading"),
     "heading.csv": (b"t,x,force\n", "lines = 1: needs a heading"),
-    "words.csv": (b"t,x,force\n0,left,1\n", "'left' in row 1, column 'x', is no number"),
+    "words.csv": (b"t,x,force\n0,left,1\n1,2,1\n", "'left' in row 1, column 'x', is no number"),
     "ragged.csv": (b"t,x,force\n0,1,1\n1,2\n", "row 2 has 2 cells, the heading 3"),
     "binary.csv": (NOISE, "is no text in UTF-8"),
     "binary.npz": (NOISE, "is no NumPy archive"),
@@ -131,3 +131,27 @@ def test_a_wall_that_pushes_unrecorded_is_no_device(tmp_path: Path) -> None:
     r = load(tmp_path / "hand.csv")
     assert fit_arm(r, Target.tapping(1.5, r.seconds)).undetermined == ()
     assert fit_device(r).explained < 0.9
+
+
+def test_columns_of_text_are_left_out(tmp_path: Path) -> None:
+    rows = [f"{t:.6g},hold,{x:.6g},{f:.6g}" for t, x, f in zip(T, X, F, strict=True)]
+    path = tmp_path / "log.csv"
+    path.write_text("\n".join(["t,phase,x,force", *rows]))
+    assert load(path).x == pytest.approx(X, abs=1e-9)
+
+
+@pytest.mark.parametrize("by_row", [False, True])
+def test_a_struct_of_matlab_is_a_table(tmp_path: Path, by_row: bool) -> None:
+    scipy_io = pytest.importorskip("scipy.io")
+    columns = {"t": T, "x": X, "force": F}
+    log: object = {**columns, "who": "a hand"}
+    if by_row:
+        log = np.zeros(ROWS, dtype=[(name, object) for name in (*columns, "who")])
+        for name, values in columns.items():
+            log[name] = values
+        log["who"] = "a hand"
+    scipy_io.savemat(tmp_path / "log.mat", {"log": log})
+    found = load(tmp_path / "log.mat")
+    assert found.force is not None
+    assert found.force == pytest.approx(F)
+    assert found.x == pytest.approx(X)

@@ -1,5 +1,7 @@
 """How a fit searches: noise by parabolas, levels as forces, and logs that mislead a search."""
 
+import tracemalloc
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -15,7 +17,7 @@ from ebac.identify.fit import Pull
 from ebac.identify.parameters import lay_out
 from ebac.identify.problem import Problem
 from ebac.identify.search import least_squares
-from ebac.identify.target import lagged
+from ebac.identify.target import indicators, lagged
 from ebac.identify.unbiased import second_opinion
 
 
@@ -177,3 +179,16 @@ def test_the_second_opinion_is_near_the_truth_and_says_how_near(number: int) -> 
         truth = case.truth()[opinion.name]
         assert abs(opinion.unbiased / truth - 1) < 0.02, opinion
         assert abs(opinion.unbiased - truth) < 4 * opinion.unbiased_deviation, opinion
+
+
+def test_many_taps_take_no_memory_for_each_tap() -> None:
+    """Levels of ten minutes of tapping took rows times taps, 9 GB."""
+    t, x = 1e-3 * np.arange(30_000), np.sin(np.arange(30_000))
+    target = Target.tapping(2.0, 30.0)
+    tracemalloc.start()
+    shares = indicators(Recording(name="taps", t=t, x=x), target)
+    most = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    assert most < 20 * t.nbytes  # of 121 levels in turn
+    assert shares.sum(axis=0) == pytest.approx(np.ones(len(t)))
+    assert set(np.unique(np.round(shares, 9))) == {0.0, 1.0}

@@ -52,20 +52,25 @@ def _csv(path: Path) -> Columns:
         raise ValueError(
             f"{path.name}: has no heading; put the names of the columns into its first line"
         )
-    rows = []
-    for number, line in enumerate(lines[1:], 1):
-        cells = line.split(mark)
+    try:  # as most files are; the rest looks for what is wrong, and for text
+        return dict(zip(names, np.loadtxt(lines[1:], delimiter=mark, ndmin=2).T, strict=True))
+    except ValueError:
+        return _with_text(path.name, names, [line.split(mark) for line in lines[1:]])
+
+
+def _with_text(file: str, names: list[str], rows: list[list[str]]) -> Columns:
+    """Return the columns of numbers of a table that has others too: text, cells that are empty."""
+    for number, cells in enumerate(rows, 1):
         if len(cells) != len(names):
             raise ValueError(
-                f"{path.name}: row {number} has {len(cells)} cells, the heading {len(names)}"
+                f"{file}: row {number} has {len(cells)} cells, the heading {len(names)}"
             )
-        rows.append(
-            [
-                _number(cell, path.name, number, name)
-                for cell, name in zip(cells, names, strict=True)
-            ]
-        )
-    return dict(zip(names, np.array(rows).T, strict=True))
+    out = {}
+    for name, column in zip(names, zip(*rows, strict=True), strict=True):
+        if any(_is_number(cell.strip().strip('"')) for cell in column):
+            numbers = [_number(cell, file, number, name) for number, cell in enumerate(column, 1)]
+            out[name] = np.array(numbers)
+    return out
 
 
 def _is_number(text: str) -> bool:
@@ -126,18 +131,41 @@ def _mat(path: Path) -> Columns:
     return _series({name: v for name, v in content.items() if not name.startswith("__")})
 
 
-def _series(arrays: Mapping[str, Any]) -> Columns:
-    out = {}
+def _series(arrays: Mapping[str, Any], within: str = "") -> Columns:
+    """Return every series of numbers; what is in a struct in a struct by both names, `force_x`."""
+    out: Columns = {}
     for name, values in arrays.items():
         array = np.asarray(values)
+        if array.dtype.names:  # a struct array of MATLAB: one value a row, or all rows in one
+            fields = {field: array[field] for field in array.dtype.names}
+            whole = array.ndim == 0 or array.size == 1
+            out |= _series(
+                {
+                    field: np.squeeze(each).item() if whole else each.astype(float)
+                    for field, each in fields.items()
+                    if whole or _of_numbers(each)
+                },
+                f"{within}{name}_" if within else "_",
+            )
+            continue
         if array.dtype.kind not in "fiub":
             continue
         array = np.squeeze(array.astype(float))
+        name = f"{within.removeprefix('_')}{name}"
         if array.ndim == 1 and array.size > 1:
             out[name] = array
         elif array.ndim == 2:
             out |= {f"{name}_{i}": column for i, column in enumerate(array.T)}
     return out
+
+
+def _of_numbers(cells: Any) -> bool:
+    """Return whether cells of an array of objects hold one number each."""
+    try:
+        cells.astype(float)
+    except (TypeError, ValueError):
+        return False
+    return True
 
 
 #: The signals of a recording and their SI unit.

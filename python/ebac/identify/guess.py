@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from ebac.identify.intervals import newey_west
 from ebac.identify.recording import Recording
-from ebac.identify.signals import Fold, folded, kernels, smoothed
+from ebac.identify.signals import Fold, every, folded, kernels, smoothed
 from ebac.identify.target import Target, indicators, lagged
 
 
@@ -27,7 +27,8 @@ class Regression:
 
     force: NDArray[np.float64]
     columns: NDArray[np.float64]  # (rows, 3 + levels)
-    taps: int
+    taps: int  # of the kernel, in rows of the recording
+    step: int  # rows of the recording from one of these to the next
 
 
 def regression(recording: Recording, target: Target) -> Regression:
@@ -46,10 +47,12 @@ def regression(recording: Recording, target: Target) -> Regression:
     if target.path is not None:
         moved[2] = moved[2] - smoothed(lagged(target.path, recording.dt, recording.lag), h[0])
     levels = [smoothed(row, h[0]) for row in indicators(recording, target)]
+    step = every(recording.dt)
     return Regression(
-        force=smoothed(recording.force, h[0]),
-        columns=np.array([*moved, *levels]).T,
+        force=smoothed(recording.force, h[0])[::step],
+        columns=np.array([each[::step] for each in (*moved, *levels)]).T,
         taps=h.shape[1],
+        step=step,
     )
 
 
@@ -84,7 +87,7 @@ def solve(
     raw = left @ ((Z / scale).T @ y)
     e = y - (A / scale) @ raw
     scores = (Z / scale) * e[:, None]
-    block_rows = max(regressions[0].taps, len(scores) // 60)
+    block_rows = max(regressions[0].taps // regressions[0].step, len(scores) // 60)
     ends = np.add.reduceat(scores, np.arange(0, len(scores), block_rows), axis=0)
     raw_cov = left @ (ends.T @ ends) @ left.T
     if any(fold is not None for fold in folds):
@@ -106,7 +109,9 @@ def _repeated(
     for part, fold in zip(parts, folds, strict=True):
         rows, half = slice(start, start + len(part.force)), part.taps // 2
         mine = scores[:, rows]
-        out += newey_west(mine if fold is None else folded(mine, fold[half:-half]), reach=half)
+        if fold is not None:
+            mine = folded(mine, fold[half:-half][:: part.step] // part.step)
+        out += newey_west(mine, reach=half // part.step)
         start = rows.stop
     return out
 
@@ -126,12 +131,19 @@ def _projected(
     start = 0
     for Z, part in zip(instruments, parts, strict=True):
         rows = slice(start, start + len(part.force))
-        found, *_ = np.linalg.lstsq(Z, A[rows], rcond=1e-8)
-        out[rows] = Z @ found
+        scale = np.sqrt(np.einsum("ki,ki->i", Z, Z)) + 1e-300
+        Z = Z / scale
+        sizes, axes = np.linalg.eigh(np.einsum("ki,kj->ij", Z, Z))  # BLAS waits for its threads
+        sizes[sizes < WEAK * sizes[-1]] = np.inf
+        axes = axes / np.sqrt(sizes)
+        Z = np.einsum("ki,ij->kj", Z, axes)
+        out[rows] = np.einsum("ki,ij->kj", Z, np.einsum("ki,kj->ij", Z, A[rows]))
         start = rows.stop
     return out
 
 
+#: Instruments of less than this share of the strongest one, in power, are noise [1].
+WEAK = 1e-12
 #: Longest delay of the target among the instruments [s], and their spacing.
 MEMORY, SPACING = 0.6, 0.012
 
@@ -147,9 +159,9 @@ def instruments(recording: Recording, target: Target, taps: int) -> NDArray[np.f
     h = kernels(dt)[0]
     delays = np.round(np.arange(0, MEMORY, max(SPACING, dt)) / dt).astype(int)
     delays = delays[delays < path.shape[1]]
-    columns = [np.ones(len(recording.t) - taps + 1)]
+    rows, longest = len(recording.t) - taps + 1, int(delays[-1])
+    columns = [np.ones(rows)]
     for row in path:
-        for delay in delays:
-            late = np.concatenate([np.full(delay, row[0]), row[: len(row) - delay]])
-            columns.append(smoothed(late, h))
-    return np.array(columns).T
+        late = smoothed(np.concatenate([np.full(longest, row[0]), row]), h)
+        columns += [late[longest - d :][:rows] for d in delays.tolist()]
+    return np.array([column[:: every(dt)] for column in columns]).T

@@ -141,6 +141,11 @@ def kernels(dt: float, width: float = WIDTH) -> NDArray[np.float64]:
     return np.array([g, first, second])
 
 
+def every(dt: float) -> int:
+    """Return of how many smoothed rows one holds what all of them do: they end far below half its rate."""
+    return max(1, round(0.5 * WIDTH / dt))
+
+
 def smoothed(values: NDArray[np.float64], kernel: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return the part of a convolution that sees no edge, shorter by taps - 1."""
     return np.convolve(values, kernel, mode="valid")
@@ -174,7 +179,8 @@ def by_place(recording: Recording, sign: NDArray[np.float64]) -> Fold | None:
     most = int(place.max()) + 1
     if most > len(place):  # counts so fine that none comes again
         return None
-    return np.asarray(np.where(sign >= 0, place, 2 * most - 1 - place), dtype=np.intp)
+    passed = np.where(sign >= 0, place, 2 * most - 1 - place)
+    return np.asarray(np.unique(passed, return_inverse=True)[1], dtype=np.intp)  # counts it met
 
 
 def folded(scores: NDArray[np.float64], fold: Fold) -> NDArray[np.float64]:

@@ -149,12 +149,15 @@ def _positions(path: MinimumJerk | Sine | Recorded, t: NDArray[np.float64]) -> N
 
 def indicators(recording: Recording, target: Target) -> NDArray[np.float64]:
     """Return one row per level, shape (levels, rows): the share of the tick before that it held, behind the lag."""
-    edges = np.array([-np.inf, *target.switches, np.inf])
     t, dt = recording.t, recording.dt
-    from_, to = np.maximum(edges[:-1, None], t - dt), np.minimum(edges[1:, None], t)
-    shares = np.clip(to - from_, 0.0, dt) / dt
     out = np.zeros((target.levels, len(t)))
-    np.add.at(out, np.asarray(target.segments), shares)
+    begins = np.array([-np.inf, *target.switches])
+    ends = np.array([*target.switches, np.inf])
+    first = np.searchsorted(t, begins, side="right")
+    last = np.searchsorted(t - dt, ends, side="left")
+    for level, a, b, i, k in zip(target.segments, begins, ends, first, last, strict=True):
+        inside = t[i:k]
+        out[level, i:k] += (np.minimum(b, inside) - np.maximum(a, inside - dt)) / dt
     return np.array([lagged(row, dt, recording.lag, stepping=True) for row in out])
 
 

@@ -14,7 +14,7 @@ from ebac.identify.intervals import Z95
 from ebac.identify.parameters import BEFORE_LEVELS, OWN
 from ebac.identify.recording import Recording
 from ebac.identify.result import HAND
-from ebac.identify.signals import by_target, kernels, ripple, smoothed
+from ebac.identify.signals import by_target, every, kernels, ripple, smoothed
 from ebac.identify.target import Target, indicators
 
 if TYPE_CHECKING:
@@ -149,11 +149,8 @@ def _jumps(r: Recording, target: Target) -> NDArray[np.float64]:
     Samples of a lagged step lie a tenth of a tick later than the step itself: a jump of acceleration, which is taken
     from the places, and that of the force are independent.
     """
-    h = kernels(r.dt)[0]
+    h, step = kernels(r.dt)[0], every(r.dt)
     shares = indicators(r, target)[1:]
-    pulses = [smoothed(np.diff(row, prepend=row[0]), h) for row in shares]
-    return (
-        np.array(pulses).reshape(len(pulses), -1).T
-        if pulses
-        else np.zeros((len(r.t) - len(h) + 1, 0))
-    )
+    pulses = [smoothed(np.diff(row, prepend=row[0]), h)[::step] for row in shares]
+    rows = len(range(0, len(r.t) - len(h) + 1, step))
+    return np.array(pulses).reshape(len(pulses), rows).T
