@@ -1,0 +1,214 @@
+"""Put each bug of `mutants.toml` into the code, and see whether tests and fault campaign notice.
+
+    python tests/mutants/run.py --build build
+
+By hand or at night: half a minute of a core for each bug in C++. Nothing in the clone is changed. A header with its bug
+lies in a folder before all others, and what includes it, the campaign or a test, is compiled anew beside the library of
+the build, which must be that of this clone. A Python module with its bug replaces the one of the package in a copy.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import tomllib
+from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor, as_completed
+from dataclasses import asdict, dataclass
+from pathlib import Path
+
+ROOT = Path(__file__).parents[2]
+#: One file of all that the campaign is made of: its headers are compiled once.
+CAMPAIGN = (
+    "cpp/ebac/faults/campaign.cpp",
+    "cpp/ebac/faults/case.cpp",
+    "cpp/ebac/faults/test_bench.cpp",
+    "tests/cpp/faults_test.cpp",
+)
+#: Longest run of a compiled program [s]: a loop that never ends is noticed, too.
+LONGEST = 120.0
+
+
+@dataclass(frozen=True, kw_only=True)
+class Mutant:
+    """One bug."""
+
+    name: str
+    file: str
+    old: str
+    new: str
+    tests: list[str]
+
+    def text(self) -> str:
+        """Return the file with the bug.
+
+        Raises
+        ------
+        ValueError
+            When the line does not stand once in the file.
+        """
+        text = (ROOT / self.file).read_text(encoding="utf-8")
+        if text.count(self.old) != 1 or "\n" in self.old + self.new or self.old == self.new:
+            raise ValueError(f"{self.name}: must change one line of {self.file}: {self.old!r}")
+        return text.replace(self.old, self.new)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Found:
+    """Who noticed a bug; None for what was not asked."""
+
+    name: str
+    tests: bool | None
+    campaign: bool | None
+
+
+def mutants() -> list[Mutant]:
+    """Return all bugs of the file beside this one."""
+    table = tomllib.loads(Path(__file__).with_name("mutants.toml").read_text(encoding="utf-8"))
+    return [Mutant(**one) for one in table["mutant"]]
+
+
+class Machine:
+    """Compiler and library."""
+
+    def __init__(self, build: Path, folder: Path) -> None:
+        self.library = build / "libebac.a"
+        commands = (build / "build.ninja").read_text(encoding="utf-8")
+        self.flags = sorted(set(re.findall(r"-isystem \S+", commands)))
+        self.folder = folder
+        self.ccache = [] if shutil.which("ccache") is None else ["ccache"]
+        self.campaign = folder / "campaign.cpp"
+        lines = [f'#include "{ROOT / one}"' for one in CAMPAIGN]
+        self.campaign.write_text("\n".join(lines) + "\n", encoding="utf-8")
+
+    def fails(self, source: Path, overlay: Path) -> bool:
+        """Compile a test with the headers of `overlay` first; return whether it fails, or does not compile."""
+        program = overlay / source.stem
+        thing = program.with_suffix(".o")
+        include = [f"-I{overlay}", f"-I{ROOT}/cpp", f"-I{ROOT}/tests/cpp"]
+        flags = [word for flag in self.flags for word in flag.split()]
+        options = ["-std=c++20", "-O1", "-fno-math-errno", "-ffp-contract=off", "-w"]
+        compiled = [
+            *self.ccache,
+            "g++",
+            *options,
+            *include,
+            *flags,
+            "-c",
+            str(source),
+            "-o",
+            str(thing),
+        ]
+        libraries = [str(self.library), "-lgtest_main", "-lgtest", "-lpthread"]
+        linked = ["g++", str(thing), *libraries, "-o", str(program)]
+        for command in (compiled, linked):
+            made = subprocess.run(command, capture_output=True, text=True, check=False)
+            if made.returncode != 0:
+                raise RuntimeError(made.stderr[-2000:])
+        try:
+            ran = subprocess.run(
+                [str(program), "--gtest_brief=1"], capture_output=True, check=False, timeout=LONGEST
+            )
+        except subprocess.TimeoutExpired:
+            return True
+        return ran.returncode != 0
+
+    def judge(
+        self, mutant: Mutant | None, *, tests: list[str], campaign: bool
+    ) -> tuple[bool, bool]:
+        """Return whether tests and campaign fail with a bug, or without one."""
+        with tempfile.TemporaryDirectory(dir=self.folder) as name:
+            overlay = Path(name)
+            if mutant is not None:
+                made = overlay / mutant.file.removeprefix("cpp/")
+                made.parent.mkdir(parents=True)
+                made.write_text(mutant.text(), encoding="utf-8")
+            by_tests = any(self.fails(ROOT / f"tests/cpp/{one}_test.cpp", overlay) for one in tests)
+            return by_tests, campaign and self.fails(self.campaign, overlay)
+
+
+def fails_in_python(mutant: Mutant, folder: Path) -> bool:
+    """Return whether the tests of a Python mutant fail, in a copy of the package."""
+    with tempfile.TemporaryDirectory(dir=folder) as name:
+        copy = Path(name) / "python"
+        shutil.copytree(ROOT / "python", copy, ignore=shutil.ignore_patterns("__pycache__"))
+        (copy.parent / mutant.file).write_text(mutant.text(), encoding="utf-8")
+        files = [str(ROOT / f"tests/python/{one}.py") for one in mutant.tests]
+        command = [sys.executable, "-m", "pytest", "-q", "-x", "-p", "no:cacheprovider", *files]
+        environment = {**os.environ, "PYTHONPATH": str(copy)}
+        ran = subprocess.run(
+            command, cwd=ROOT, env=environment, capture_output=True, check=False, timeout=600
+        )
+        return ran.returncode != 0
+
+
+def judged(chosen: list[Mutant], build: Path, only: str, jobs: int) -> Iterator[Found]:
+    """Give what became of each bug, in the order of their ends."""
+    with tempfile.TemporaryDirectory() as name, ThreadPoolExecutor(jobs) as pool:
+        folder = Path(name)
+        machine = Machine(build, folder) if any(m.file.endswith("pp") for m in chosen) else None
+
+        def one(mutant: Mutant) -> Found:
+            if machine is None or mutant.file.endswith(".py"):
+                found = None if only == "campaign" else fails_in_python(mutant, folder)
+                return Found(name=mutant.name, tests=found, campaign=None)
+            tests = [] if only == "campaign" else mutant.tests
+            by_tests, by_campaign = machine.judge(mutant, tests=tests, campaign=only != "tests")
+            return Found(
+                name=mutant.name,
+                tests=None if only == "campaign" else by_tests,
+                campaign=None if only == "tests" else by_campaign,
+            )
+
+        asked = machine is not None and only != "tests"
+        if asked and machine is not None and machine.judge(None, tests=[], campaign=True)[1]:
+            raise RuntimeError("the campaign fails without any bug")
+        for future in as_completed([pool.submit(one, mutant) for mutant in chosen]):
+            yield future.result()
+
+
+def main() -> int:
+    """Run, print the score, and return 1 where a bug was not noticed by the tests."""
+    parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
+    parser.add_argument("--build", type=Path, default=ROOT / "build", help="build with libebac.a")
+    parser.add_argument("--only", choices=["campaign", "tests"], default="", help="who is asked")
+    parser.add_argument("--name", action="append", help="only mutants with this in their name")
+    parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1)
+    parser.add_argument("--json", action="store_true")
+    given = parser.parse_args()
+    chosen = [m for m in mutants() if not given.name or any(one in m.name for one in given.name)]
+    from rich.progress import track
+
+    results = list(
+        track(
+            judged(chosen, given.build.resolve(), given.only, given.jobs),
+            total=len(chosen),
+            description="mutants",
+            disable=given.json,
+        )
+    )
+    score = {
+        who: [sum(found), len(found)]
+        for who in ("tests", "campaign")
+        if (found := [bool(getattr(r, who)) for r in results if getattr(r, who) is not None])
+    }
+    if given.json:
+        print(json.dumps({"score": score, "rows": [asdict(one) for one in results]}))
+    else:
+        for one in results:
+            missed = [who for who in ("tests", "campaign") if getattr(one, who) is False]
+            if missed:
+                print(f"not noticed by the {' and the '.join(missed)}: {one.name}")
+        for who, (noticed, of) in score.items():
+            print(f"{who}: {noticed} of {of} ({100 * noticed / of:.0f} %)")
+    return 0 if all(one.tests is not False for one in results) else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
