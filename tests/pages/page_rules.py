@@ -80,6 +80,12 @@ RULES = (
     # What takes more than some seconds of one core: with fewer hands, points or cases it does all that a page shows.
     Rule(r"^ebac (study|ablation)\b", SLOW, "takes seconds", fewer="--population random --hands 3"),
     Rule(r"^ebac tune\b", SLOW, "takes seconds", fewer="--hands 3 --evaluations 4"),
+    Rule(
+        r"^ebac worst (?=.*--device-noise)(?!.*--family)",
+        SLOW,
+        "takes seconds; the help's examples search every family",
+        fewer="--evaluations 40 --family swinging",
+    ),
     Rule(r"^ebac worst\b", SLOW, "takes seconds", fewer="--evaluations 40"),
     Rule(r"^ebac zwidth\b", SLOW, "takes seconds", fewer="--points 2"),
     Rule(r"^ebac map\b", SLOW, "takes seconds", fewer="--side 8"),

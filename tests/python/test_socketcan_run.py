@@ -68,7 +68,7 @@ def served(config: Path) -> Iterator[subprocess.Popen[str]]:
         port = re.search(r"force sensor at 127\.0\.0\.1:(\d+)", said)
         assert port, said
         text = config.read_text(encoding="utf-8")
-        there = f'host = "127.0.0.1"\nport = {port[1]}'
+        there = f'host = "127.0.0.1"\nport = {port[1]}\nhttp_port = 0'
         config.write_text(text.replace('host = "192.168.1.1"', there), encoding="utf-8")
         try:
             yield process
