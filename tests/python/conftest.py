@@ -3,9 +3,12 @@
 More examples than usual: `pytest --hypothesis-profile=explore`.
 
 A test marked `real_time` runs a loop against the clock. Where a loop in it ended because this machine kept it or what
-answers it waiting, the test is repeated, four times at most, and the summary says so; any other failure is one at once.
+answers it waiting, the test is repeated, seven times at most and while no other worker runs a test, and the summary says
+so; any other failure is one at once.
 """
 
+import fcntl
+import os
 import re
 import signal
 import time
@@ -13,6 +16,7 @@ from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, contextmanager
 from functools import cache
 from itertools import count
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import pytest
@@ -146,7 +150,7 @@ _LATE = re.compile(
     r"|ticks could not be kept and were skipped(?=[\s\S]*fault 21 \(starved)"
 )
 #: How often a test is run at most.
-_TRIES = 5
+_TRIES = 8
 
 
 def pytest_configure(config: pytest.Config) -> None:
@@ -156,15 +160,33 @@ def pytest_configure(config: pytest.Config) -> None:
     )
 
 
-def pytest_runtest_protocol(item: pytest.Item, nextitem: pytest.Item | None) -> bool | None:
-    """Run a test of the clock again where a loop in it ended on the machine's account."""
-    if item.get_closest_marker("real_time") is None:
-        return None
+@contextmanager
+def _machine(alone: bool) -> Iterator[None]:
+    """Hold the machine for a test: beside those of other workers, or alone.
+
+    Who runs holds this file locked. Who waits for it holds its folder, so that those who come later cannot overtake.
+    """
+    held = os.open(__file__, os.O_RDONLY)
+    turn = os.open(Path(__file__).parent, os.O_RDONLY)
+    try:
+        fcntl.flock(turn, fcntl.LOCK_EX)
+        fcntl.flock(held, fcntl.LOCK_EX if alone else fcntl.LOCK_SH)
+        fcntl.flock(turn, fcntl.LOCK_UN)
+        yield
+    finally:
+        os.close(turn)
+        os.close(held)
+
+
+def pytest_runtest_protocol(item: pytest.Item, nextitem: pytest.Item | None) -> bool:
+    """Run a test; one of the clock again, alone, where a loop in it ended on the machine's account."""
     item.ihook.pytest_runtest_logstart(nodeid=item.nodeid, location=item.location)
-    for left in reversed(range(_TRIES)):
-        reports = runtestprotocol(item, nextitem=nextitem, log=False)  # with fixtures anew
+    tries = 1 if item.get_closest_marker("real_time") is None else _TRIES
+    for tried in range(tries):
+        with _machine(alone=tried > 0):
+            reports = runtestprotocol(item, nextitem=nextitem, log=False)  # with fixtures anew
         late = [_LATE.search(_message(one)) for one in reports if one.failed]
-        if not late or not all(late) or left == 0:
+        if not late or not all(late) or tried == tries - 1:
             break
         item.user_properties.append(("repeated", next(one[0] for one in late if one)))
     for report in reports:

@@ -26,7 +26,7 @@ TEST = """
         (0, "fault 16 (force stale)"),
         (2, "fault 16 (force stale) in tick 7"),
         (1, "fault 19 (overruns)"),
-        (5, "fault 9 (drive silent)"),
+        (8, "fault 9 (drive silent)"),
         (1, "30 ticks could not be kept and were skipped. Error: fault 21 (starved)"),
         (1, "fault 21 (starved)"),
         (1, "fault 14 (overspeed)"),
@@ -49,7 +49,44 @@ def test_only_a_stall_is_repeated(pytester: pytest.Pytester, more: tuple[str, ..
     result = pytester.runpytest_subprocess("-p", "no:cacheprovider", *more)
     result.assert_outcomes(passed=4, failed=5)
     said = [line for line in result.outlines if line.startswith("repeated, this machine stalled")]
-    assert [line.count("fault ", line.index("]")) for line in sorted(said)] == [0, 1, 2, 4]
+    assert [line.count("fault ", line.index("]")) for line in sorted(said)] == [0, 1, 2, 7]
+
+
+ALONE = """
+    import time
+    from pathlib import Path
+
+    import pytest
+
+    tried = []
+
+    def others(tmp_path_factory):
+        return tmp_path_factory.getbasetemp().parent.glob("running-*")
+
+    @pytest.mark.real_time
+    def test_of_the_clock(tmp_path_factory):
+        tried.append(1)
+        for _ in range(20):
+            assert not list(others(tmp_path_factory)) or len(tried) > 1, "fault 19 (overruns)"
+            assert not list(others(tmp_path_factory)), "not alone"
+            time.sleep(0.01)
+        assert len(tried) > 1, "fault 19 (overruns)"
+
+    @pytest.mark.parametrize("number", range(20))
+    def test_other(tmp_path_factory, number):
+        mark = tmp_path_factory.getbasetemp().parent / f"running-{number}"
+        mark.touch()
+        time.sleep(0.05)
+        mark.unlink()
+"""
+
+
+def test_what_is_repeated_is_repeated_alone(pytester: pytest.Pytester) -> None:
+    pytest.importorskip("xdist")
+    pytester.makeconftest(CONFTEST.read_text(encoding="utf-8"))
+    pytester.makepyfile(test_mine=ALONE)
+    result = pytester.runpytest_subprocess("-p", "no:cacheprovider", "-n", "3")
+    result.assert_outcomes(passed=21)
 
 
 def test_the_words_are_those_of_a_fault() -> None:
