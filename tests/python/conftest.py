@@ -3,8 +3,8 @@
 More examples than usual: `pytest --hypothesis-profile=explore`.
 
 A test marked `real_time` runs a loop against the clock. Where a loop in it ended because this machine kept it or what
-answers it waiting, the test is repeated, seven times at most and while no other worker runs a test, and the summary says
-so; any other failure is one at once.
+answers it waiting, the test is repeated while no other worker runs one, seven times at most. The summary says so. Any
+other failure is one at once.
 """
 
 import fcntl

@@ -62,6 +62,29 @@ def test_a_run_that_does_not_begin_leaves_no_log(
     assert not path.exists()
 
 
+def test_power_goes_off_whatever_the_log_does(
+    device: OpenDevice, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    off: list[object] = []
+
+    def refuses(*_: object) -> None:
+        raise RuntimeError("no")
+
+    def full(file: Any, _: object) -> None:
+        file.close()
+        raise OSError(errno.ENOSPC, "disk full")
+
+    power_off = drive_setup.power_off
+    monkeypatch.setattr("ebac.hardware.device.started", refuses)
+    monkeypatch.setattr("ebac.hardware.device._discard", full)
+    monkeypatch.setattr(
+        drive_setup, "power_off", lambda *given: (off.append(given), power_off(*given))[1]
+    )
+    with pytest.raises(OSError, match="disk full"):
+        device.run(seconds=1, log=tmp_path / "run.mcap")
+    assert len(off) == 1
+
+
 # --- what other programs do to it ---
 
 

@@ -32,8 +32,8 @@ namespace ebac {
 /// bandwidth w = sqrt(sqrt(12) force_noise / (M count)). Half of it is used in motion, a quarter at
 /// rest, where an edge of a count would be felt as a click; D is slower than x and u, by far so at
 /// rest. The prediction takes the force of the hand to change as it did in the last 5 ms, and at rest
-/// without its noise: a lag in that force of 1 N would be 4 m/s^2. Where the force turns out to be noisier than declared, all of w is used. v is kept within what
-/// two readings prove of it.
+/// without its noise: a lag in that force of 1 N would be 4 m/s^2. Where the force turns out to be
+/// noisier than declared, all of w is used. v is kept within what two readings prove of it.
 class AxisObserver {
  public:
   AxisObserver(const ObserverParams& params, double mass_share = 1) EBAC_RT
@@ -49,7 +49,7 @@ class AxisObserver {
     motor_ = MotorForce(params_.current_lag);
     measured_ = before_last_ = calm_ = trend_ = contradicted_ = rough_ = 0;
     moving_ = 1;
-    doubted_ = 0;
+    old_ = false;
     in_flight_ = CommandsInFlight(params_.delay);
     records_ = {};
     dt_ = 0;
@@ -64,8 +64,7 @@ class AxisObserver {
             double dt) EBAC_RT {
     const double measured = records_.at_mean_age(seen, dt, params_.force_age);
     if (dt != dt_ || records_.started()) set_tick(dt);
-    if (doubted_ == 1) regain(measured);
-    if (doubted_ > 0) --doubted_;
+    doubt(seen.age > params_.force_age, measured);
     const double motor = motor_.hold(applied);  // G f
     // The mean over the interval, of the parabola through the last three readings.
     const double force = (5 * measured + 8 * measured_ - before_last_) / 12 + disturbance_;
@@ -85,13 +84,6 @@ class AxisObserver {
     moved_ = x_ - before;
     v_ = u_ + motor_.sensor_lag() * acceleration();
     if (encoder) keep_pace(reading);
-  }
-
-  /// The force is old: for now the encoder counts in full, and D holds what the force has changed by.
-  void doubt() EBAC_RT {
-    if (doubted_ == 0) undoubted_ = disturbance_;
-    rough_ = 1;
-    doubted_ = 2;
   }
 
   /// The command of the last tick, as force at the handle, joins those in flight.
@@ -161,11 +153,17 @@ class AxisObserver {
     return (measured_ + disturbance_ - params_.damping * u_ - motor_.shown()) / mass_;
   }
 
-  /// The first force after a silence: D is what it was before.
-  void regain(double measured) EBAC_RT {
-    disturbance_ = undoubted_;
-    measured_ = before_last_ = calm_ = measured;
-    trend_ = 0;
+  /// While the force is old, the encoder counts in full and D holds what the force has changed by.
+  /// With the first force after that, D is what it was before.
+  void doubt(bool old, double measured) EBAC_RT {
+    if (old && !old_) undoubted_ = disturbance_;
+    if (old) rough_ = 1;
+    if (old_ && !old) {
+      disturbance_ = undoubted_;
+      measured_ = before_last_ = calm_ = measured;
+      trend_ = 0;
+    }
+    old_ = old;
   }
 
   /// Level and trend of the hand's force, a second-order filter that follows a ramp without lag and
@@ -249,7 +247,7 @@ class AxisObserver {
   double calm_ = 0;     // N, the force of the hand without its noise
   double trend_ = 0;    // N/s, its change
   double undoubted_ = 0;  // N, the disturbance when the force began to be old
-  int doubted_ = 0;       // ticks left to a force that is no longer old
+  bool old_ = false;      // the force
   double rough_ = 0;      // share of ticks with more noise than declared; 1 in doubt
   double moving_ = 1;     // 1 in motion, 0 at rest
   Gains in_motion_{}, at_rest_{}, full_{};

@@ -126,9 +126,6 @@ inline void StateObserver::trust(const Reading& reading, double dt, std::size_t 
     weight_ = dt > 0 && !forgot_ ? std::min(1.0, weight_ + dt / kFade) : 1.0;
   } else {
     weight_ = std::max(0.0, weight_ - dt / kFade);
-    if (fallback_ == Fallback::kForceStale) {
-      for (std::size_t i = 0; i < axes; ++i) observer_[i].doubt();
-    }
   }
 }
 

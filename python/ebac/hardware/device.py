@@ -224,13 +224,13 @@ class OpenDevice:
             return drive_setup.power_off(backend, nodes)
 
         file = None if path is None else new_log(path)  # before there is power
-        try:
+        with ExitStack() as undo:  # from the last to the first, each whatever the others raise
+            undo.callback(_discard, file, path)
             drive_setup.start(backend, nodes)
-        except BaseException:
-            _discard(file, path)
-            raise
-        self.interrupts.moving()
-        try:
+            undo.callback(self.interrupts.forget)
+            undo.callback(power_off)
+            undo.callback(self.interrupts.ending)
+            self.interrupts.moving()
             running = started(finished, backend, setup)
             run = self._held.run = Run(
                 running,
@@ -242,12 +242,7 @@ class OpenDevice:
                 hand=backend.aim is not None,
                 detached=self._detached,
             )
-        except BaseException:
-            self.interrupts.ending()
-            _discard(file, path)
-            power_off()
-            self.interrupts.forget()
-            raise
+            undo.pop_all()
         try:
             if path is not None:
                 files = {"configuration.toml": known.text}

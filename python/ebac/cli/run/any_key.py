@@ -38,9 +38,9 @@ def any_key() -> Iterator[Callable[[Run], None]]:
             os.read(terminal, 1024)
             run.stop(at_once=True, by="key")
 
-    tty.setcbreak(terminal, termios.TCSADRAIN)
-    termios.tcflush(terminal, termios.TCIFLUSH)
     try:
+        tty.setcbreak(terminal, termios.TCSADRAIN)
+        termios.tcflush(terminal, termios.TCIFLUSH)
         yield look
     finally:
         termios.tcsetattr(terminal, termios.TCSAFLUSH, before)
