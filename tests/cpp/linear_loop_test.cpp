@@ -9,7 +9,8 @@
 #include <string_view>
 
 #include "ebac/control/direct.hpp"
-#include "ebac/sim/simulate.hpp"
+#include "ebac/control/law_type.hpp"
+#include "ebac/sim/any_law.hpp"
 
 namespace ebac::linear_loop_test {
 namespace {
@@ -59,7 +60,7 @@ TEST(LinearLoop, StepsLikeTheSimulation) {
       s.device.encoder.counts_per_turn = 1 << 26;
       s.device.velocity = estimator;
       s.seconds = 0.1;
-      const auto trace = simulate(s, Direct({.peak_force = 1e3}));
+      const auto trace = simulate_any(s, any_law(Direct({.peak_force = 1e3})));
       const Eigen::MatrixXd matrix = LinearLoop(s).matrix(wall.stiffness, wall.damping);
       const auto states = changes(*trace, delay);
       for (std::size_t k = 1; k < states.size(); ++k) {

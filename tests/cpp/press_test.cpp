@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "ebac/control/ebac.hpp"
-#include "ebac/control/tca.hpp"
+#include "designed_law.hpp"
+#include "ebac/sim/any_law.hpp"
 
 namespace ebac::press_test {
 namespace {
@@ -16,10 +16,9 @@ Setup pressing() {
   return setup;
 }
 
-template <class Law>
-Press one(const Setup& setup, const Law& law, double goal) {
+Press one(const Setup& setup, const AnyLaw& law, double goal) {
   SweepProgress progress;
-  return press<Law>({&setup}, {&law}, {goal}, 1, RunLimits{}, progress).front();
+  return press_any({&setup}, {&law}, {goal}, 1, RunLimits{}, progress).front();
 }
 
 TEST(EffortWatch, MeasuresWhatItSees) {
@@ -49,7 +48,7 @@ TEST(EffortWatch, ARunTooShortHasNoNoise) {
 
 TEST(Press, IsTheRunOfASweepAndMore) {
   const auto setup = pressing();
-  const Ebac law(Ebac::Params::design(setup.device.facts(), setup.timing), setup.timing);
+  const AnyLaw law = designed_law("ebac", setup);
   const Press found = one(setup, law, 1.165e-3);
   ContactRecorder recorder;
   const std::atomic<bool> cancelled = false;
@@ -63,7 +62,7 @@ TEST(Press, IsTheRunOfASweepAndMore) {
 
 TEST(Press, AGoalFartherAwayIsLater) {
   const auto setup = pressing();
-  const Tca law(Tca::Params{}, setup.timing);
+  const AnyLaw law = designed_law("tca", setup);
   EXPECT_LT(one(setup, law, 0.0).effort.lateness, one(setup, law, 0.1).effort.lateness);
 }
 

@@ -1,13 +1,10 @@
-#include "ebac/sim/replay.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cstddef>
 #include <cstring>
 
-#include "ebac/control/ebac.hpp"
-#include "ebac/control/tca.hpp"
-#include "ebac/sim/simulate.hpp"
+#include "designed_law.hpp"
+#include "ebac/sim/any_law.hpp"
 
 namespace ebac::replay_test {
 namespace {
@@ -39,16 +36,11 @@ Setup two_axes() {
   return setup;
 }
 
-template <Controller Law>
-Law designed(const Setup& setup) {
-  return Law(Law::Params::design(setup.device.facts(), setup.timing), setup.timing);
-}
-
 TEST(Replay, TheSameLawCommandsTheSameBits) {
   const auto setup = two_axes();
-  const auto law = designed<Ebac>(setup);
-  const auto recorded = simulate(setup, law);
-  const auto again = replay(log_of(*recorded), PerAxis<Ebac>(law), setup.device, setup.environment);
+  const auto law = designed_law("ebac", setup);
+  const auto recorded = simulate_any(setup, law);
+  const auto again = replay_any(log_of(*recorded), law, setup.device, setup.environment);
   ASSERT_EQ(again->size(), recorded->size());
   for (std::size_t i = 0; i < recorded->size(); ++i) {
     const std::byte* was = recorded->data() + i * recorded->row_bytes() + offsetof(Sample, axis);
@@ -59,9 +51,9 @@ TEST(Replay, TheSameLawCommandsTheSameBits) {
 
 TEST(Replay, AnotherLawMovesNothing) {
   const auto setup = two_axes();
-  const auto recorded = simulate(setup, designed<Ebac>(setup));
-  const auto other = replay(log_of(*recorded), PerAxis<Tca>(designed<Tca>(setup)), setup.device,
-                            setup.environment);
+  const auto recorded = simulate_any(setup, designed_law("ebac", setup));
+  const auto other =
+      replay_any(log_of(*recorded), designed_law("tca", setup), setup.device, setup.environment);
   bool differs = false;
   for (std::size_t i = 0; i < recorded->size(); ++i) {
     const Axis was = recorded->sample(i).axis[0];
@@ -75,11 +67,11 @@ TEST(Replay, AnotherLawMovesNothing) {
 
 TEST(Replay, TheFaultOfTheDeviceComesInItsTick) {
   const auto setup = two_axes();
-  const auto law = designed<Ebac>(setup);
-  const auto log = log_of(*simulate(setup, law));
+  const auto law = designed_law("ebac", setup);
+  const auto log = log_of(*simulate_any(setup, law));
   log->row[100].fault = Fault::kDriveSilent;
-  const auto again = replay(std::shared_ptr<const ReplayLog>(log), PerAxis<Ebac>(law), setup.device,
-                            setup.environment);
+  const auto again =
+      replay_any(std::shared_ptr<const ReplayLog>(log), law, setup.device, setup.environment);
   EXPECT_EQ(again->size(), 110u);
   EXPECT_EQ(again->sample(99).fault, Fault::kNone);
   EXPECT_EQ(again->sample(100).fault, Fault::kDriveSilent);
@@ -87,7 +79,7 @@ TEST(Replay, TheFaultOfTheDeviceComesInItsTick) {
 }
 
 TEST(Replay, BeyondItsEndALogStandsStill) {
-  const auto log = log_of(*simulate(two_axes(), designed<Ebac>(two_axes())));
+  const auto log = log_of(*simulate_any(two_axes(), designed_law("ebac", two_axes())));
   ReplayDevice device(log);
   for (std::size_t i = 0; i < log->rows() + 5; ++i) device.exchange({});
   EXPECT_EQ(device.exchange({}).counts[0], log->axis[(log->rows() - 1) * 2].counts);
