@@ -9,7 +9,6 @@
 
 #include "designed_law.hpp"
 #include "ebac/can/node_server.hpp"
-#include "ebac/sim/any_law.hpp"
 #include "ebac/sim/simulate.hpp"
 
 namespace ebac::can::joystick_test {
@@ -110,7 +109,7 @@ void expect_same_rows(const char* name, Setup setup) {
   setup.device.drive.permille = true;
   setup.timing.delay = 1;
   const AnyLaw law = designed_law(name, setup);
-  const auto plain = simulate_any(setup, law);
+  const auto plain = simulate(setup, law);
 
   auto joystick = std::make_shared<Joystick<SimulatedDevice>>(plant_of(setup), setup.device);
   commission(*joystick);
