@@ -106,7 +106,7 @@ class Scenario:
         for name, types in parts.items():
             value = getattr(self, name)
             if not isinstance(value, types) or (isinstance(value, bool) and bool not in types):
-                names = " or ".join(t.__name__ for t in types)
+                names = " or ".join(repr(EVERY_LAW) if t is str else t.__name__ for t in types)
                 raise TypeError(f"Scenario.{name} = {value!r}: must be {names}")
         if isinstance(self.observer, str) and self.observer != EVERY_LAW:
             raise ValueError(

@@ -184,7 +184,7 @@ def test_every_figure_and_table_says_that_it_is_on() -> None:
 
 
 def test_it_is_bool_or_observer() -> None:
-    with pytest.raises(TypeError, match="observer = 1: must be Observer or bool"):
+    with pytest.raises(TypeError, match="observer = 1: must be Observer or bool or 'every-law'"):
         ebac.Scenario(observer=1)  # type: ignore[arg-type]
     with pytest.raises(ValueError, match=r"mass = -1 kg: must lie in"):
         ebac.Observer(mass=-1)

@@ -100,7 +100,7 @@ class ObservedForce {
   DynamicStiffness dynamic_;
   HalfPeriod half_period_;
   double damping_;    // N s/m
-  double stiffest_;   // N/m, at which the damper is half of critical for the device alone
+  double stiffest_;   // N/m, at which the damper is 0.35 of critical for the device alone
   double heaviest_;   // kg, device and hand
   double reserve_;    // J
   double stored_at_;  // N/m
