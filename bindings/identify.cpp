@@ -70,31 +70,36 @@ py::array_t<double> drifts(const ArmRecord& record, const Numbers& theta, const 
   return out;
 }
 
-void require_steps(std::size_t parameters, const std::vector<std::size_t>& which,
-                   const std::vector<double>& steps) {
-  if (which.size() != steps.size()) {
-    throw std::invalid_argument("ArmRecord: needs one step for each parameter");
-  }
-  for (std::size_t i = 0; i < which.size(); ++i) {
-    if (which[i] >= parameters || !(steps[i] > 0)) {
-      throw std::invalid_argument("ArmRecord: no such parameter, or its step is not positive");
-    }
+void require_known(std::size_t parameters, const std::vector<std::size_t>& which) {
+  for (const std::size_t index : which) {
+    if (index >= parameters) throw std::invalid_argument("ArmRecord: no such parameter");
   }
 }
 
-py::array_t<double> jacobian(const ArmRecord& record, const Numbers& theta, const ArmGains& gains,
-                             const std::vector<std::size_t>& which,
-                             const std::vector<double>& steps) {
+void require_steps(const std::vector<std::size_t>& which, const std::vector<double>& steps) {
+  if (which.size() != steps.size()) {
+    throw std::invalid_argument("ArmRecord: needs one step for each parameter");
+  }
+  for (const double step : steps) {
+    if (!(step > 0)) throw std::invalid_argument("ArmRecord: a step is not positive");
+  }
+}
+
+std::pair<py::array_t<double>, py::array_t<double>> linearised(
+    const ArmRecord& record, const Numbers& theta, const ArmGains& gains,
+    const std::vector<std::size_t>& which) {
   const auto view = theta_of(record, theta);
   require_same(record, gains);
-  require_steps(view.size(), which, steps);
+  require_known(view.size(), which);
+  auto errors = rows_of(record);
   py::array_t<double> out({which.size(), record.rows()});
+  const std::span<double> rows(errors.mutable_data(), record.rows());
   const std::span<double> columns(out.mutable_data(), which.size() * record.rows());
   {
     const OthersRun release;
-    record.jacobian(view, gains, which, steps, columns);
+    record.linearised(view, gains, which, rows, columns);
   }
-  return out;
+  return {errors, out};
 }
 
 py::array_t<double> renewed_jacobian(const ArmRecord& record, const Numbers& theta,
@@ -103,7 +108,8 @@ py::array_t<double> renewed_jacobian(const ArmRecord& record, const Numbers& the
                                      const std::vector<double>& steps) {
   const auto view = theta_of(record, theta);
   const auto made = theta_of(record, held);
-  require_steps(view.size(), which, steps);
+  require_known(view.size(), which);
+  require_steps(which, steps);
   py::array_t<double> out({which.size(), record.rows()});
   const std::span<double> columns(out.mutable_data(), which.size() * record.rows());
   {
@@ -159,11 +165,14 @@ void bind_identify(py::module_& m) {
            "Return by how much the force reads too high at each row [N], shape (rows,).")
       .def("innovations", &innovations, py::arg("theta"), py::arg("gains"),
            "Return the one-step prediction errors, each divided by its standard deviation.")
-      .def("jacobian", &jacobian, py::arg("theta"), py::arg("gains"), py::arg("which"),
-           py::arg("steps"), "Return d innovations / d theta[which], shape (which, rows).")
+      .def("linearised", &linearised, py::arg("theta"), py::arg("gains"), py::arg("which"),
+           "Return the innovations, shape (rows,), and d innovations / d theta[which], shape "
+           "(which, "
+           "rows); exact.")
       .def("renewed_jacobian", &renewed_jacobian, py::arg("theta"), py::arg("held"),
            py::arg("noise"), py::arg("which"), py::arg("steps"),
-           "As `jacobian`, the gains made anew for each change; `noise` as of `gains`.")
+           "Return d innovations / d theta[which] with the gains made anew for each change, by "
+           "differences of `steps`; `noise` as of `gains`.")
       .def(
           "simulate", &simulate, py::arg("theta"), py::arg("x"), py::arg("v"),
           "Return the position [m] simulated from a state [m, m/s] with the recorded force alone.");

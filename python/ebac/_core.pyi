@@ -3608,15 +3608,14 @@ class ArmRecord:
         """
         Return the one-step prediction errors, each divided by its standard deviation.
         """
-    def jacobian(
+    def linearised(
         self,
         theta: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
         gains: ArmGains,
         which: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex],
-        steps: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex],
-    ) -> numpy.typing.NDArray[numpy.float64]:
+    ) -> tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64]]:
         """
-        Return d innovations / d theta[which], shape (which, rows).
+        Return the innovations, shape (rows,), and d innovations / d theta[which], shape (which, rows); exact.
         """
     def renewed_jacobian(
         self,
@@ -3629,7 +3628,7 @@ class ArmRecord:
         steps: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex],
     ) -> numpy.typing.NDArray[numpy.float64]:
         """
-        As `jacobian`, the gains made anew for each change; `noise` as of `gains`.
+        Return d innovations / d theta[which] with the gains made anew for each change, by differences of `steps`; `noise` as of `gains`.
         """
     def simulate(
         self,

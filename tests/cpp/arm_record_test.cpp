@@ -163,7 +163,8 @@ TEST(ArmRecord, TheJacobianIsTheSlopeOfTheErrors) {
   const std::vector<std::size_t> which{0, 1, 2, 7};
   const std::vector<double> steps{1e-7, 1e-5, 1e-3, 1e-7};
   std::vector<double> J(which.size() * kRows);
-  record.jacobian(kHand, gains, which, steps, J);
+  std::vector<double> errors(kRows);
+  record.linearised(kHand, gains, which, errors, J);
   for (std::size_t k = 0; k < which.size(); ++k) {
     std::vector<double> up = kHand;
     std::vector<double> down = kHand;

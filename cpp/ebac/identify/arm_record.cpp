@@ -23,10 +23,23 @@ void require_numbers(const std::vector<double>& values, const std::string& name)
          name + " has no finite number in row " + std::to_string(wrong - values.begin()));
 }
 
-/// Straight pieces through samples weaken a sine by (w T)^2/12; this gives it back beforehand.
-constexpr double kSharpen = 1.0 / 12;
 /// How much of a jump a tick may miss.
 constexpr double kJumpDoubt = 0.3;
+
+/// A sum of logarithms, of which few are taken: products are ten times faster.
+class LogSum {
+ public:
+  void add(double value) EBAC_RT {
+    product_ *= value;
+    if (product_ > 1e-200 && product_ < 1e200) return;
+    sum_ += std::log(product_);
+    product_ = 1;
+  }
+  double sum() const { return sum_ + std::log(product_); }
+
+ private:
+  double product_ = 1, sum_ = 0;
+};
 
 /// Covariance of position, velocity and the drift of the force reading, predicted.
 struct Spread {
@@ -37,20 +50,22 @@ struct Spread {
   double p02 = 0, p12 = 0, p22 = 0;
 
   /// Takes a reading of x + forward v of some variance in.
-  ArmGains::Row weigh(double variance, double forward, double& log_sum) EBAC_RT {
+  ArmGains::Row weigh(double variance, double forward, LogSum& log_sum) EBAC_RT {
     if (std::isinf(variance)) return {};
     const double c0 = p00 + forward * p01;
     const double c1 = p01 + forward * p11;
     const double c2 = p02 + forward * p12;
     const double s = c0 + forward * c1 + variance;
-    p00 -= c0 * c0 / s;
-    p01 -= c0 * c1 / s;
-    p11 -= c1 * c1 / s;
-    p02 -= c0 * c2 / s;
-    p12 -= c1 * c2 / s;
-    p22 -= c2 * c2 / s;
-    log_sum += std::log(s);
-    return {c0 / s, c1 / s, c2 / s, 1 / std::sqrt(s)};
+    const double certainty = 1 / s;
+    const ArmGains::Row row{c0 * certainty, c1 * certainty, c2 * certainty, std::sqrt(certainty)};
+    p00 -= c0 * row.x;
+    p01 -= c0 * row.v;
+    p11 -= c1 * row.v;
+    p02 -= c0 * row.drift;
+    p12 -= c1 * row.drift;
+    p22 -= c2 * row.drift;
+    log_sum.add(s);
+    return row;
   }
 
   /// The drift moves on by a variance, after it has kicked position and velocity over the tick.
@@ -109,63 +124,6 @@ ArmRecord::ArmRecord(Log log) : log_(std::move(log)) {
   keep_ = log_.lag > 0 ? std::exp(-log_.dt / log_.lag) : 0.0;
 }
 
-double ArmRecord::whole_ticks(const ArmGuess& guess) const {
-  return std::round(guess.delay / log_.dt);
-}
-
-double ArmRecord::late_by(const ArmGuess& guess) const {
-  return guess.delay - whole_ticks(guess) * log_.dt;
-}
-
-/// The level of the target, averaged over the tick that ends at row `tick`.
-double ArmRecord::mean_target(std::size_t tick, double onset, std::span<const double> levels,
-                              std::size_t& segment) const {
-  const double end = log_.dt * static_cast<double>(tick);
-  double from = end - log_.dt;
-  double sum = 0;
-  const auto level = [&] { return levels[static_cast<std::size_t>(log_.segments[segment])]; };
-  while (segment < log_.switches.size() && log_.switches[segment] + onset < end) {
-    const double at = std::max(from, log_.switches[segment] + onset);
-    sum += (at - from) * level();
-    from = at;
-    ++segment;
-  }
-  return (sum + (end - from) * level()) / log_.dt;
-}
-
-ArmRecord::Drive ArmRecord::drive(const ArmGuess& guess) const {
-  const std::size_t n = rows();
-  Drive out{std::vector<double>(n), std::vector<double>(n), std::vector<double>(n)};
-  const auto whole = static_cast<std::ptrdiff_t>(whole_ticks(guess));
-  const double late = late_by(guess);
-  const auto last = static_cast<std::ptrdiff_t>(n) - 1;
-  const auto raw = [&](std::ptrdiff_t i) {
-    return log_.force[static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(i, 0, last))];
-  };
-  const double sharpen = kSharpen + guess.bend;
-  const auto at = [&](std::ptrdiff_t i) {
-    return raw(i) - sharpen * (raw(i + 1) - 2 * raw(i) + raw(i - 1));
-  };
-  for (std::size_t i = 0; i < n; ++i) {
-    out.force[i] = at(static_cast<std::ptrdiff_t>(i) + whole);
-    for (std::size_t k = 0; k < guess.shares.size(); ++k) {
-      out.beyond[i] += guess.shares[k] * log_.inputs[k][i];
-    }
-  }
-  const double lagging = log_.lag > 0 ? log_.lag / log_.dt * (1 - keep_) : 0.0;
-  std::size_t segment = 0;
-  const double onset = guess.onset + late;
-  double y = mean_target(0, onset, guess.levels, segment) + log_.known[0];
-  for (std::size_t i = 1; i < n; ++i) {
-    const double moves = log_.known[i] - log_.known[i - 1];
-    const double wanted = mean_target(i, onset, guess.levels, segment) + log_.known[i] -
-                          (0.5 + late / log_.dt) * moves;
-    out.target[i] = wanted + (y - wanted) * lagging;
-    y = wanted + (y - wanted) * keep_;
-  }
-  return out;
-}
-
 /// Where the target jumps, the force jumps within a tick, which its samples do not resolve: the
 /// size of the jump, for the rows it is felt in.
 std::vector<double> ArmRecord::jumps(const ArmGuess& guess) const {
@@ -195,16 +153,18 @@ ArmGains ArmRecord::gains(const ArmGuess& guess, double force_noise, double drif
   ArmGains out;
   out.rows.reserve(rows());
   Spread spread;
+  LogSum log_sum;
   spread.p22 = offset * offset;
   const double wander = drift * drift * log_.dt;
   for (std::size_t i = 0; i < rows(); ++i) {
     const double forward = log_.lag + late - log_.early[i];
-    out.rows.push_back(spread.weigh(log_.variance[i], forward, out.log_sum));
+    out.rows.push_back(spread.weigh(log_.variance[i], forward, log_sum));
     const double doubt = kJumpDoubt * jumps[i];
     const double other = log_.doubt[i];
     spread.move(step.phi, kick, q * (force_noise * force_noise + doubt * doubt + other * other),
                 wander);
   }
+  out.log_sum = log_sum.sum();
   return out;
 }
 
@@ -232,48 +192,6 @@ void ArmRecord::innovations(const ArmGuess& guess, const ArmGains& gains, std::s
     const double now = step.push(drive.force[i] + beyond, drive.target[i + 1]);
     const double next = step.push(drive.force[i + 1] + beyond, drive.target[i + 1]);
     z = step.phi * z + step.start * now + step.change * (next - now);
-  }
-}
-
-void ArmRecord::jacobian(std::span<const double> theta, const ArmGains& gains,
-                         std::span<const std::size_t> which, std::span<const double> steps,
-                         std::span<double> out) const {
-  const std::size_t n = rows();
-  std::vector<double> at(theta.begin(), theta.end());
-  std::vector<double> here(n);
-  innovations(ArmGuess::from(at, inputs()), gains, here);
-  for (std::size_t i = 0; i < which.size(); ++i) {
-    const std::span<double> column = out.subspan(i * n, n);
-    const double value = at[which[i]];
-    at[which[i]] = value + steps[i];
-    innovations(ArmGuess::from(at, inputs()), gains, column);
-    at[which[i]] = value;
-    for (std::size_t k = 0; k < n; ++k) column[k] = (column[k] - here[k]) / steps[i];
-  }
-}
-
-void ArmRecord::renewed_jacobian(std::span<const double> theta, std::span<const double> held,
-                                 const Noise& noise, std::span<const std::size_t> which,
-                                 std::span<const double> steps, std::span<double> out) const {
-  const std::size_t n = rows();
-  std::vector<double> at(theta.begin(), theta.end());
-  std::vector<double> made(held.begin(), held.end());
-  std::vector<double> here(n);
-  const auto errors = [&](std::span<double> into) {
-    const ArmGains gains =
-        this->gains(ArmGuess::from(made, inputs()), noise.force, noise.drift, noise.offset);
-    innovations(ArmGuess::from(at, inputs()), gains, into);
-  };
-  errors(here);
-  for (std::size_t i = 0; i < which.size(); ++i) {
-    const std::span<double> column = out.subspan(i * n, n);
-    const std::size_t k = which[i];
-    at[k] = theta[k] + steps[i];
-    made[k] = held[k] + steps[i];
-    errors(column);
-    at[k] = theta[k];
-    made[k] = held[k];
-    for (std::size_t row = 0; row < n; ++row) column[row] = (column[row] - here[row]) / steps[i];
   }
 }
 

@@ -13,7 +13,7 @@ namespace ebac {
 /// As a vector: mass, damping, stiffness, delay, onset, bend, one share for each input of the log,
 /// then the levels of the target.
 struct ArmGuess {
-  static constexpr std::size_t kBeforeInputs = 6;
+  enum Index : std::size_t { kMass, kDamping, kStiffness, kDelay, kOnset, kBend, kBeforeInputs };
 
   double mass = 0.15;      // kg
   double damping = 6;      // N s/m
@@ -84,18 +84,19 @@ class ArmRecord {
   void innovations(const ArmGuess& guess, const ArmGains& gains, std::span<double> out,
                    std::span<double> drifts = {}) const;
 
-  /// Writes d innovations / d theta[which[i]], one column after the other, by differences of
-  /// `steps`.
-  void jacobian(std::span<const double> theta, const ArmGains& gains,
-                std::span<const std::size_t> which, std::span<const double> steps,
-                std::span<double> out) const;
+  /// Writes the innovations, and d innovations / d theta[which[i]], one column after the other:
+  /// exact, by forward sensitivities. Along `onset`, where a switch falls on a row, towards later.
+  void linearised(std::span<const double> theta, const ArmGains& gains,
+                  std::span<const std::size_t> which, std::span<double> errors,
+                  std::span<double> out) const;
 
   struct Noise {
     double force = 0;   // N, standard deviation of a reading
     double drift = 0;   // N/sqrt(s), of its random walk
     double offset = 0;  // N, within which that begins
   };
-  /// As `jacobian`, with the gains made anew for each change, from `held` changed alike.
+  /// The same derivatives, with the gains made anew for each change, from `held` changed alike; by
+  /// differences of `steps`.
   void renewed_jacobian(std::span<const double> theta, std::span<const double> held,
                         const Noise& noise, std::span<const std::size_t> which,
                         std::span<const double> steps, std::span<double> out) const;
@@ -111,6 +112,14 @@ class ArmRecord {
   };
 
   Drive drive(const ArmGuess& guess) const;
+  /// d target / d theta[index] [m per unit], and d force / d bend [N].
+  std::vector<double> target_slope(const ArmGuess& guess, std::size_t index) const;
+  std::vector<double> bend_slope(const ArmGuess& guess) const;
+  void put_behind_lag(std::span<double> wanted) const;
+  /// `linearised` for a few parameters that are computed side by side.
+  void columns(const ArmGuess& guess, const Drive& drive, const ArmGains& gains,
+               std::span<const std::size_t> which, std::span<double> errors,
+               std::span<double> out) const;
   /// The delay in whole ticks, by which the force is shifted; and the rest of it, which is put on
   /// the motion as the lag is: a force between two rows would be an average, and less noisy than
   /// one at a row, which a fit takes for a reason to prefer it.

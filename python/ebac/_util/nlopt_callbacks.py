@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import weakref
 from collections.abc import Callable
 from typing import Any
 
@@ -22,19 +23,26 @@ class Carried:
 
     def __init__(self, optimiser: Any) -> None:
         optimiser.set_exceptions_enabled(False)
-        self._optimiser = optimiser
+        # It holds its callbacks and they this: a circle through C++, which no garbage collector sees.
+        self._optimiser = weakref.proxy(optimiser)
         self._raised: BaseException | None = None
 
     def __call__(
         self, function: Callable[[Values], float], *, instead: float
     ) -> Callable[[Values, Any], float]:
         """Return `function` as NLopt calls it; `instead` is what it gives once something was raised."""
+        return self.with_gradient(lambda point, _: function(point), instead=instead)
 
-        def called(point: Values, gradient: Any) -> float:
+    def with_gradient(
+        self, function: Callable[[Values, Values], float], *, instead: float
+    ) -> Callable[[Values, Values], float]:
+        """Return the same of a function that also fills a gradient in, where that is not empty."""
+
+        def called(point: Values, gradient: Values) -> float:
             if self._raised is not None:
                 return instead
             try:
-                return function(point)
+                return function(point, gradient)
             except BaseException as error:
                 self._raised = error
                 self._optimiser.force_stop()

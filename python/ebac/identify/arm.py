@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ebac.identify.bias import minus_two_log
-from ebac.identify.fit import fitted
+from ebac.identify.fit import Fitted, fitted
 from ebac.identify.guess import regression, solve
 from ebac.identify.informativeness import FASTEST
 from ebac.identify.intervals import Z95
@@ -97,12 +97,19 @@ def fit_arm(
         own=own,
     )
     problem = _without_pauses(recordings, targets, parameters)
-    result = _searched(problem, starts, robust, seed, began)
+    guesses = [better_guess(problem)]
+    fit = fitted(problem, guesses, starts=starts, robust=robust, seed=seed)
+    result = _result(fit, robust, began)
     if starts < AGAIN and (_partly_determined(result) or _too_fast(result)):
-        result = _searched(problem, AGAIN, robust, seed, began)
+        again = fitted(problem, guesses, starts=AGAIN, robust=robust, seed=seed, before=fit)
+        if again is not fit:
+            result = _result(again, robust, began)
     if result.explained < POOR:
         turned = replace(problem, recordings=tuple(r.flipped() for r in recordings))
-        other = _searched(turned, starts, robust, seed, began)
+        guesses = [better_guess(turned)]
+        other = _result(
+            fitted(turned, guesses, starts=starts, robust=robust, seed=seed), robust, began
+        )
         result = replace(result, other_sign=other.explained)
     return result
 
@@ -132,20 +139,17 @@ def _without_pauses(
     )
 
 
-def _searched(
-    problem: Problem, starts: int, robust: float | None, seed: int, began: float
-) -> ArmResult:
-    fit = fitted(problem, [better_guess(problem)], starts=starts, robust=robust, seed=seed)
+def _result(fit: Fitted, robust: float | None, began: float) -> ArmResult:
     result = ArmResult(
         problem=fit.problem,
         values=fit.values,
         optimum=fit.optimum,
         force_noise=fit.force_noise,
         errors=fit.errors,
-        covariance=with_counts(problem, fit.covariance),
+        covariance=with_counts(fit.problem, fit.covariance),
         robust=robust,
-        converged=fit.converged,
-        evaluations=fit.evaluations,
+        converged=fit.found.converged,
+        evaluations=fit.found.evaluations,
         seconds=perf_counter() - began,
     )
     return _widened(result)
@@ -155,6 +159,8 @@ def _widened(result: ArmResult) -> ArmResult:
     """Return the result with intervals that hold a contradicting regression too, where the errors have structure."""
     if all(t.white and t.independent for t in result.tests.values()):
         return result
+    if {result.parameters.names[i] for i in result.parameters.free}.issubset(result.undetermined):
+        return result  # nothing that another estimate could contradict
     other = disagreement(result)
     apart = [
         other[name] - float(result.values[i])

@@ -218,7 +218,7 @@ def _searched(recording: Recording, current_lag: float) -> DeviceResult:
     if guess.cost < 0.995 * start.cost:
         other = _fit(drive, tried, guess)
         rise = other.values[-1] / np.sqrt(max(other.covariance[-1, -1], 1e-300))
-        if other.cost < best.cost - GAIN and rise > BELIEVED:
+        if other.found.likelihood < best.found.likelihood - GAIN and rise > BELIEVED:
             best, speed = other, tried
     left = drive.smooth_force[drive.slides] + columns_of(drive, speed) @ best.values
     return DeviceResult(
@@ -229,7 +229,7 @@ def _searched(recording: Recording, current_lag: float) -> DeviceResult:
         covariance=best.covariance,
         stribeck_speed=speed,
         explained=1 - float(np.var(left) / (np.var(drive.smooth_force[drive.slides]) + 1e-300)),
-        converged=best.converged,
+        converged=best.found.converged,
         seconds=perf_counter() - began,
     )
 

@@ -8,11 +8,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ebac._core import ArmGains
 from ebac.identify.bias import likely_drift, likely_noise, without_noise
 from ebac.identify.intervals import covariance, loose_inverse
-from ebac.identify.parameters import BEFORE_LEVELS, BOUNDS, Parameters, kind
+from ebac.identify.parameters import Parameters, kind
 from ebac.identify.problem import Problem
+from ebac.identify.pull import Pull
 from ebac.identify.search import Found, least_squares
 
 Values = NDArray[np.float64]
@@ -33,13 +33,17 @@ class Fitted:
     force_noise: Values
     errors: Values
     covariance: NDArray[np.float64]
-    cost: float
-    converged: bool
-    evaluations: int
+    found: Point
 
 
 def fitted(
-    problem: Problem, guesses: Sequence[Values], *, starts: int, robust: float | None, seed: int
+    problem: Problem,
+    guesses: Sequence[Values],
+    *,
+    starts: int,
+    robust: float | None,
+    seed: int,
+    before: Fitted | None = None,
 ) -> Fitted:
     """Search from every guess and from `starts` - 1 random points around the best; then judge the best.
 
@@ -55,15 +59,19 @@ def fitted(
         Where Huber's loss begins, in deviations.
     seed : int
         Of the further starts.
+    before : Fitted, optional
+        What was found from the guesses alone; returned where no further start leads to anything likelier.
     """
     parameters = problem.parameters
-    found = [_search(problem, guess, robust) for guess in guesses]
-    best = min(found, key=lambda point: point.likelihood)
+    found = (_search(problem, guess, robust) for guess in guesses)
+    best = before.found if before else min(found, key=lambda point: point.likelihood)
     draw = np.random.Generator(np.random.PCG64(seed))
     for _ in range(starts - 1):
         other = _search(problem, _elsewhere(best.values, parameters, draw), robust)
         if other.likelihood < best.likelihood - 1e-3:
             best = other
+    if before is not None and best is before.found:
+        return before
     values, noise, doubted = best.values, best.force_noise, None
     beside = _with_drift(problem, best, guesses, robust)
     if beside is not None:
@@ -81,14 +89,12 @@ def fitted(
         force_noise=noise,
         errors=errors,
         covariance=spread if doubted is None else spread + np.outer(doubted, doubted),
-        cost=best.likelihood,
-        converged=best.found.converged,
-        evaluations=best.evaluations,
+        found=best,
     )
 
 
 def _with_drift(
-    problem: Problem, best: _Point, guesses: Sequence[Values], robust: float | None
+    problem: Problem, best: Point, guesses: Sequence[Values], robust: float | None
 ) -> tuple[Problem, Values, Values, Values] | None:
     """Fit a drift of the forces along where the errors ask for one, from the guesses, since it misleads a fit."""
     if not likely_drift(problem, best.values, best.force_noise, robust):
@@ -131,16 +137,12 @@ def _beside_drift(
         out[which] = part
         return out
 
-    def errors(part: Values) -> Values:
-        return problem.objective(full(part), problem.gains(full(part), noise))
-
-    def slope(part: Values) -> NDArray[np.float64]:
-        return problem.renewed_slope(full(part), noise)
+    def model(part: Values) -> tuple[Values, NDArray[np.float64]]:
+        return problem.renewed(full(part), noise)
 
     for _ in range(DRIFT_ROUNDS):
         found = least_squares(
-            errors,
-            slope,
+            model,
             values[which],
             p.low[which],
             p.high[which],
@@ -156,8 +158,7 @@ def _beside_drift(
             break
         noise = likely_noise(problem, values, noise, robust)
     wider = problem.drifting(DOUBTED_DRIFT * problem.drift)
-    J = wider.renewed_slope(values, noise)
-    e = wider.objective(values, wider.gains(values, noise))
+    e, J = wider.renewed(values, noise)
     scale = np.sqrt(np.einsum("ik,ik->i", J, J))
     scale[scale == 0] = 1.0  # without influence
     inverse = loose_inverse(np.einsum("ik,jk->ij", J, J) / np.outer(scale, scale))
@@ -176,7 +177,7 @@ def _spread(
     """Return the covariance of the free parameters at some values."""
     gains = problem.gains(values, noise)
     if problem.drift:
-        jacobian = problem.renewed_slope(values, noise)[:, : len(errors)]
+        jacobian = problem.renewed(values, noise)[1][:, : len(errors)]
     else:
         jacobian = problem.jacobian(values, gains, problem.moved)
     unseen = problem.jacobian(values, gains, problem.unseen.which)
@@ -195,15 +196,17 @@ def spread_at(problem: Problem, values: Values) -> NDArray[np.float64]:
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class _Point:
-    found: Found
+class Point:
+    """Where a search ended, with the filter for it."""
+
+    converged: bool
     values: Values
     force_noise: Values
     likelihood: float
     evaluations: int
 
 
-def _search(problem: Problem, start: Values, robust: float | None) -> _Point:
+def _search(problem: Problem, start: Values, robust: float | None) -> Point:
     """Make the filter for the guess, search with it, until the two agree.
 
     The first filter is made for the noise that the force shows: at a bad guess a far larger one is likelier, and with
@@ -223,8 +226,8 @@ def _search(problem: Problem, start: Values, robust: float | None) -> _Point:
             break
     gains = problem.gains(values, noise)
     likelihood = found.cost + sum(g.log_sum for g in gains)
-    return _Point(
-        found=found,
+    return Point(
+        converged=found.converged,
         values=values,
         force_noise=noise,
         likelihood=likelihood,
@@ -239,8 +242,7 @@ def _with_filter(
     gains = problem.gains(values, noise)
     low, high = pull.bounds
     return least_squares(
-        lambda part: problem.objective(pull.full(part, values), gains),
-        lambda part: pull.slope(pull.full(part, values), gains),
+        lambda part: pull.linearised(pull.full(part, values), gains),
         pull.moved(values),
         low,
         high,
@@ -260,69 +262,3 @@ def _elsewhere(values: Values, parameters: Parameters, draw: np.random.Generator
             low, high = HANDS[kind(name)]
             out[i] = low * (high / low) ** draw.random()
     return parameters.clip(out)
-
-
-#: Least K0 that a force is divided by [N/m].
-SOFTEST = 1e-3
-
-
-@dataclass(frozen=True, kw_only=True, eq=False)
-class Pull:
-    """Which of what is moved are levels, and where the K0 of each stands among all parameters."""
-
-    problem: Problem
-    which: NDArray[np.intp]  # of all parameters: what is moved
-    levels: tuple[tuple[int, int, int], ...]  # row among the moved: of X0, of its K0; K0 among all
-
-    @classmethod
-    def of(cls, problem: Problem) -> Pull:
-        """Return what is moved; levels that are bounded, or whose K0 is given, stay levels."""
-        p, which = problem.parameters, problem.moved
-        row = {int(index): i for i, index in enumerate(which)}
-        pairs = {
-            int(level): int(place[2])
-            for place in p.places
-            for level in place[BEFORE_LEVELS:]
-            if kind(p.names[place[2]]) == "K0"
-        }
-        levels = tuple(
-            (row[x], row[k], k)
-            for x, k in pairs.items()
-            if x in row and k in row and (p.low[x], p.high[x]) == BOUNDS["X0"]
-        )
-        return cls(problem=problem, which=which, levels=levels)
-
-    @property
-    def bounds(self) -> tuple[Values, Values]:
-        """Least and largest of what is moved; a force has none."""
-        low, high = (
-            self.problem.parameters.low[self.which],
-            self.problem.parameters.high[self.which],
-        )
-        for x, _, _ in self.levels:
-            low[x], high[x] = -np.inf, np.inf
-        return low, high
-
-    def moved(self, values: Values) -> Values:
-        """Return what is moved, of all parameters."""
-        out = values[self.which]
-        for x, _, k in self.levels:
-            out[x] *= max(values[k], SOFTEST)
-        return out
-
-    def full(self, part: Values, values: Values) -> Values:
-        """Return all parameters: `values` with what is moved put in."""
-        out = values.copy()
-        out[self.which] = part
-        for x, _, k in self.levels:
-            out[self.which[x]] = part[x] / max(out[k], SOFTEST)
-        return out
-
-    def slope(self, values: Values, gains: list[ArmGains]) -> NDArray[np.float64]:
-        """Return d objective / d moved, shape (moved, rows + doubts)."""
-        out = self.problem.slope(values, gains)
-        for x, row, k in self.levels:
-            by = max(float(values[k]), SOFTEST)
-            out[row] -= out[x] * values[self.which[x]] / by
-            out[x] /= by
-        return out

@@ -130,9 +130,15 @@ def profile(result: ArmResult, name: str, level: float) -> tuple[float, float]:
             return out
 
         rows = np.flatnonzero(moved != index)
+
+        def linearised(
+            part: NDArray[np.float64],
+        ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+            errors, slope = result.problem.linearised(spread(part), gains)
+            return errors, slope[rows]
+
         found = least_squares(
-            lambda part: result.problem.objective(spread(part), gains),
-            lambda part: result.problem.slope(spread(part), gains)[rows],
+            linearised,
             full[others],
             p.low[others],
             p.high[others],

@@ -110,19 +110,26 @@ class Problem:
         off = (values[doubt.which] - self.parameters.fixed[doubt.which]) / doubt.deviation
         return np.concatenate([self.errors(values, gains), off])
 
+    def linearised(
+        self, values: NDArray[np.float64], gains: list[ArmGains]
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Return objective, and d objective / d moved, shape (moved, rows + doubts)."""
+        doubt, moved, free = self.doubt, self.moved, len(self.parameters.free)
+        inner, errors = self._linearised(self.records, values, gains, moved, len(doubt.which))
+        rows = len(errors) - len(doubt.which)
+        errors[rows:] = (values[doubt.which] - self.parameters.fixed[doubt.which]) / doubt.deviation
+        inner[free:, rows:] = np.diag(1 / doubt.deviation)
+        return errors, inner
+
     def slope(self, values: NDArray[np.float64], gains: list[ArmGains]) -> NDArray[np.float64]:
         """Return d objective / d moved, shape (moved, rows + doubts)."""
-        inner = self.jacobian(values, gains, self.moved)
-        outer = np.zeros((len(inner), len(self.doubt.which)))
-        free = len(self.parameters.free)
-        outer[free:] = np.diag(1 / self.doubt.deviation)
-        return np.hstack([inner, outer])
+        return self.linearised(values, gains)[1]
 
-    def renewed_slope(
+    def renewed(
         self, values: NDArray[np.float64], force_noise: NDArray[np.float64]
-    ) -> NDArray[np.float64]:
-        """Return the same as `slope`, with the filters made anew for each change of a free parameter."""
-        out = self.slope(values, self.gains(values, force_noise))
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Return the same as `linearised`, with the filters made anew for each change of a free parameter."""
+        errors, out = self.linearised(values, self.gains(values, force_noise))
         held, free, start = self.held(values), self.parameters.free, 0
         parts = zip(self.records, self.parameters.places, force_noise.tolist(), strict=True)
         for r, (record, place, noise) in zip(self.recordings, parts, strict=True):
@@ -135,7 +142,7 @@ class Problem:
                 values[place], held[place], known, which, steps
             )
             start = end
-        return out
+        return errors, out
 
     def jacobian(
         self,
@@ -145,7 +152,7 @@ class Problem:
     ) -> NDArray[np.float64]:
         """Return d errors / d parameters, shape (parameters, rows); by default of the free ones."""
         chosen = self.parameters.free if wanted is None else wanted
-        return self._jacobian(self.records, values, gains, chosen)
+        return self._linearised(self.records, values, gains, chosen)[0]
 
     def of_noise(
         self,
@@ -170,30 +177,30 @@ class Problem:
         noiseless = ("X0", "onset", *INPUTS)  # a target is known without noise
         places = [kind(self.parameters.names[i]) not in noiseless for i in wanted]
         out = np.zeros((len(wanted), sum(len(r.t) for r in self.recordings)))
-        out[places] = self._jacobian(records, still, gains, wanted[places])
-        parts = zip(records, self.parameters.places, gains, strict=True)
-        return out, np.concatenate([r.innovations(still[place], g) for r, place, g in parts])
+        out[places], errors = self._linearised(records, still, gains, wanted[places])
+        return out, errors
 
-    def _jacobian(
+    def _linearised(
         self,
         records: tuple[ArmRecord, ...],
         values: NDArray[np.float64],
         gains: list[ArmGains],
         chosen: NDArray[np.intp],
-    ) -> NDArray[np.float64]:
-        out = np.zeros((len(chosen), sum(len(r.t) for r in self.recordings)))
+        more: int = 0,
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Return Jacobian and errors of all recordings, one after the other, and `more` zeros behind them."""
+        rows = sum(len(r.t) for r in self.recordings) + more
+        out, errors = np.zeros((len(chosen), rows)), np.zeros(rows)
         start = 0
         parts = zip(records, self.parameters.places, gains, self.recordings, strict=True)
         for record, place, gain, r in parts:
-            mine = [
-                (i, int(np.flatnonzero(place == f)[0])) for i, f in enumerate(chosen) if f in place
-            ]
-            which = [w for _, w in mine]
-            steps = [self._step(int(place[w]), values) for w in which]
-            rows = slice(start, start + len(r.t))
-            out[[i for i, _ in mine], rows] = record.jacobian(values[place], gain, which, steps)
-            start = rows.stop
-        return out
+            index = {int(f): w for w, f in enumerate(place)}
+            mine = [(i, index[f]) for i, f in enumerate(chosen.tolist()) if f in index]
+            part = slice(start, start + len(r.t))
+            errors[part], columns = record.linearised(values[place], gain, [w for _, w in mine])
+            out[[i for i, _ in mine], part] = columns
+            start = part.stop
+        return out, errors
 
     def _step(self, index: int, values: NDArray[np.float64]) -> float:
         least = STEPS[kind(self.parameters.names[index])]

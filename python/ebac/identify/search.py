@@ -1,17 +1,23 @@
-"""Least squares between bounds: Levenberg and Marquardt's steps, the best point kept."""
+"""Least squares between bounds: NLopt's SLSQP, in coordinates in which the cost is round."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
 Values = NDArray[np.float64]
+Matrix = NDArray[np.float64]
 
 #: A direction flatter than this, as a share of the steepest one, is no way to go [1].
 FLATTEST = 1e-12
+#: Evaluations after which the coordinates are made anew: they are those of a parabola, and far away it is another one.
+ONE_ROUND = 6
+#: So near a bound is on it [deviations].
+ROUNDING = 1e-9
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -22,12 +28,11 @@ class Found:
     cost: float
     evaluations: int
     converged: bool
-    information: NDArray[np.float64]
+    information: Matrix
 
 
 def least_squares(
-    errors: Callable[[Values], Values],
-    jacobian: Callable[[Values], NDArray[np.float64]],
+    model: Callable[[Values], tuple[Values, Matrix]],
     start: Values,
     low: Values,
     high: Values,
@@ -36,78 +41,137 @@ def least_squares(
     most: int = 40,
     tolerance: float = 1e-4,
 ) -> Found:
-    """Minimise the sum of squares, or Huber's loss beyond `robust` deviations.
+    """Minimise the sum of squares, or Huber's loss beyond `robust` deviations, within bounds.
+
+    `model` returns errors, shape (rows,), and their Jacobian, shape (parameters, rows).
+
+    Sequential quadratic programming (Kraft 1988) builds its second derivatives up from gradients. It begins with a unit
+    matrix, so every round sets coordinates in which that is the Gauss-Newton one: a unit step is a deviation.
 
     Converged when a full step would lower the cost by less than `tolerance`, a ten-thousandth of what moves a 95 %
-    bound; or when the last one lowered it by what was
-    predicted, to that, and nearly to the bottom.
+    bound; or when a round lowered it by less than that.
+
+    Raises
+    ------
+    ValueError
+        Where errors or derivatives are no finite numbers at the start of a round.
     """
-    x = np.clip(start, low, high)
-    e = errors(x)
-    cost, damping, evaluations = loss(e, robust), 1e-4, 1
-    for _ in range(most):
-        J = jacobian(x)
+    evaluations = 0
+
+    def at(x: Values) -> _Point:
+        nonlocal evaluations
         evaluations += 1
-        if not (np.isfinite(cost) and np.isfinite(J).all()):
+        e, J = model(x)
+        return _Point(x=x, errors=e, jacobian=J, cost=loss(e, robust), robust=robust)
+
+    point, before, done = at(np.clip(start, low, high)), np.inf, False
+    for _ in range(most):
+        if not (np.isfinite(point.cost) and np.isfinite(point.jacobian).all()):
             raise ValueError(
                 "no fit: the model runs away from what was recorded; is a force of the wrong sign, or the wrong column?"
             )
-        w = weights(e, robust)
-        Jw = J * w
-        H = np.einsum("ik,jk->ij", Jw, J)  # not by BLAS: its threads cost more than they save
-        g = np.einsum("ik,k->i", Jw, e)
-        near = _Parabola(H, g, ~(((x <= low) & (g > 0)) | ((x >= high) & (g < 0))))
-        done = near.depth < tolerance
-        while not done:
-            full = near.step(damping)
-            step = np.clip(x + full, low, high) - x
-            inside = bool(np.allclose(step, full, rtol=1e-9, atol=0.0))
-            predicted = near.lowers(step)
-            e_trial = errors(x + step)
-            evaluations += 1
-            gain = cost - loss(e_trial, robust)
-            if gain >= 0:
-                left = abs(gain - predicted) + near.depth - predicted
-                done = left < tolerance or (gain < tolerance and inside)
-                x, e, cost, damping = x + step, e_trial, cost - gain, max(damping / 10, 1e-9)
-                break
-            # A step that a bound has bent may lead up; along the slope, by much damping, none does.
-            done = abs(predicted) < tolerance and (inside or damping > 1)
-            damping *= 8
+        done = before - point.cost < tolerance or point.depth(low, high) < tolerance
         if done:
-            return Found(
-                values=x, cost=cost, evaluations=evaluations, converged=True, information=H
-            )
-    return Found(values=x, cost=cost, evaluations=evaluations, converged=False, information=H)
+            break
+        before = point.cost
+        point = _round(at, point, low, high, tolerance)
+    return Found(
+        values=point.x,
+        cost=point.cost,
+        evaluations=evaluations,
+        converged=done,
+        information=point.information,
+    )
 
 
-class _Parabola:
-    """The cost near a point: 2 g s + s H s for a step s of what may move."""
+@dataclass(frozen=True, kw_only=True, eq=False)
+class _Point:
+    x: Values
+    errors: Values
+    jacobian: Matrix
+    cost: float
+    robust: float | None
 
-    def __init__(self, H: NDArray[np.float64], g: Values, move: NDArray[np.bool_]) -> None:
-        self.H, self.g, self.move = H, g, move
-        self.scale = np.sqrt(np.diag(H))[move]
-        self.scale[self.scale == 0] = 1.0  # without influence
-        inner = H[np.ix_(move, move)] / np.outer(self.scale, self.scale)
-        self.sizes, self.axes = np.linalg.eigh(inner)
+    @cached_property
+    def slope(self) -> Values:
+        """Half the slope of the cost."""
+        weighted = weights(self.errors, self.robust) * self.errors
+        return np.asarray(np.einsum("ik,k->i", self.jacobian, weighted))
 
-    def step(self, damping: float) -> Values:
-        """Return Levenberg and Marquardt's step; without damping, the one to the bottom."""
-        out = np.zeros_like(self.g)
-        if self.move.any():
-            along = self.axes.T @ (self.g[self.move] / self.scale)
-            along /= np.maximum(self.sizes + damping, max(FLATTEST * self.sizes[-1], 1e-300))
-            out[self.move] = -(self.axes @ along) / self.scale
-        return out
+    @cached_property
+    def information(self) -> Matrix:
+        """Half the second derivative of the cost, as of a parabola (Gauss-Newton)."""
+        weighted = self.jacobian * weights(self.errors, self.robust)
+        return np.asarray(
+            np.einsum("ik,jk->ij", weighted, self.jacobian)
+        )  # not by BLAS, see `squares`
 
-    def lowers(self, step: Values) -> float:
-        """Return by how much a step lowers the cost."""
-        return -float(2 * self.g @ step + step @ self.H @ step)
+    def depth(self, low: Values, high: Values) -> float:
+        """By how much the bottom of the parabola lies below, as far as bounds let one go there."""
+        stuck = ((self.x <= low) & (self.slope > 0)) | ((self.x >= high) & (self.slope < 0))
+        if stuck.all():
+            return 0.0
+        along = axes(self.information[np.ix_(~stuck, ~stuck)]).T @ self.slope[~stuck]
+        return float(along @ along)
 
-    @property
-    def depth(self) -> float:
-        """How far the bottom lies below."""
-        return self.lowers(self.step(0.0))
+
+def axes(H: Matrix) -> Matrix:
+    """Return steps of one deviation each, independent of one another: the columns."""
+    scale = np.sqrt(np.diag(H))
+    scale[scale == 0] = 1.0  # without influence
+    sizes, across = np.linalg.eigh(H / np.outer(scale, scale))
+    flat = max(FLATTEST * float(sizes[-1]), 1e-300)
+    return np.asarray(across / np.sqrt(np.maximum(sizes, flat)) / scale[:, None])
+
+
+def _round(
+    at: Callable[[Values], _Point], start: _Point, low: Values, high: Values, tolerance: float
+) -> _Point:
+    """Return the best point that NLopt meets in one round."""
+    import nlopt
+
+    from ebac._util.nlopt_callbacks import Carried
+
+    across, best = axes(start.information), start
+    optimiser = nlopt.opt(nlopt.LD_SLSQP, len(start.x))
+    carried = Carried(optimiser)
+
+    def half_cost(step: Values, gradient: Values) -> float:
+        nonlocal best
+        point = at(inside(start.x + across @ step)) if step.any() else start
+        if not np.isfinite(point.cost):
+            return 1e300
+        if point.cost < best.cost:
+            best = point
+        if gradient.size:
+            gradient[:] = across.T @ point.slope
+        return 0.5 * point.cost
+
+    size = np.sqrt(np.einsum("ij,ij->i", across, across))
+
+    def inside(x: Values) -> Values:  # on a bound that a rounding error keeps it from
+        x = np.where(x - low < ROUNDING * size, low, x)
+        return np.where(high - x < ROUNDING * size, high, x)
+
+    optimiser.set_min_objective(carried.with_gradient(half_cost, instead=np.inf))
+    above, below = np.isfinite(high), np.isfinite(low)
+    rows = np.vstack([across[above], -across[below]])
+    room = np.concatenate([(high - start.x)[above], (start.x - low)[below]])
+    length = np.concatenate([size[above], size[below]])
+    rows, room = rows / length[:, None], room / length
+
+    def beyond(result: Values, step: Values, gradient: Values) -> None:
+        result[:] = rows @ step - room
+        if gradient.size:
+            gradient[:] = rows
+
+    if room.size:
+        optimiser.add_inequality_mconstraint(beyond, np.zeros(room.size))
+    optimiser.set_ftol_abs(0.5 * tolerance)
+    optimiser.set_maxeval(ONE_ROUND)
+    optimiser.optimize(np.zeros(len(start.x)))
+    carried.settle()
+    return best
 
 
 def weights(e: Values, robust: float | None) -> Values:

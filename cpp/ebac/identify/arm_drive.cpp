@@ -1,0 +1,129 @@
+#include <algorithm>
+#include <cmath>
+
+#include "ebac/identify/arm_record.hpp"
+
+namespace ebac {
+
+namespace {
+
+/// Straight pieces through samples weaken a sine by (w T)^2/12; this gives it back beforehand.
+constexpr double kSharpen = 1.0 / 12;
+
+/// Force readings some ticks later; at the ends the first and the last one hold.
+struct Shifted {
+  std::span<const double> force;  // N
+  double ticks;
+
+  double operator()(std::ptrdiff_t row) const {
+    const auto last = static_cast<std::ptrdiff_t>(force.size()) - 1;
+    const auto at = row + static_cast<std::ptrdiff_t>(ticks);
+    return force[static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(at, 0, last))];
+  }
+  double curvature(std::ptrdiff_t row) const {
+    return (*this)(row + 1) - 2 * (*this)(row) + (*this)(row - 1);
+  }
+};
+
+}  // namespace
+
+double ArmRecord::whole_ticks(const ArmGuess& guess) const {
+  return std::round(guess.delay / log_.dt);
+}
+
+double ArmRecord::late_by(const ArmGuess& guess) const {
+  return guess.delay - whole_ticks(guess) * log_.dt;
+}
+
+/// The level of the target, averaged over the tick that ends at row `tick`.
+double ArmRecord::mean_target(std::size_t tick, double onset, std::span<const double> levels,
+                              std::size_t& segment) const {
+  const double end = log_.dt * static_cast<double>(tick);
+  double from = end - log_.dt;
+  double sum = 0;
+  const auto level = [&] { return levels[static_cast<std::size_t>(log_.segments[segment])]; };
+  while (segment < log_.switches.size() && log_.switches[segment] + onset < end) {
+    const double at = std::max(from, log_.switches[segment] + onset);
+    sum += (at - from) * level();
+    from = at;
+    ++segment;
+  }
+  return (sum + (end - from) * level()) / log_.dt;
+}
+
+ArmRecord::Drive ArmRecord::drive(const ArmGuess& guess) const {
+  const std::size_t n = rows();
+  Drive out{std::vector<double>(n), std::vector<double>(n), std::vector<double>(n)};
+  const Shifted raw{log_.force, whole_ticks(guess)};
+  const double late = late_by(guess);
+  const double sharpen = kSharpen + guess.bend;
+  for (std::size_t i = 0; i < n; ++i) {
+    const auto row = static_cast<std::ptrdiff_t>(i);
+    out.force[i] = raw(row) - sharpen * raw.curvature(row);
+    for (std::size_t k = 0; k < guess.shares.size(); ++k) {
+      out.beyond[i] += guess.shares[k] * log_.inputs[k][i];
+    }
+  }
+  std::size_t segment = 0;
+  const double onset = guess.onset + late;
+  out.target[0] = mean_target(0, onset, guess.levels, segment) + log_.known[0];
+  for (std::size_t i = 1; i < n; ++i) {
+    const double moves = log_.known[i] - log_.known[i - 1];
+    out.target[i] = mean_target(i, onset, guess.levels, segment) + log_.known[i] -
+                    (0.5 + late / log_.dt) * moves;
+  }
+  put_behind_lag(out.target);
+  return out;
+}
+
+/// Replaces the mean over each tick by that behind the sensor's lag.
+void ArmRecord::put_behind_lag(std::span<double> wanted) const {
+  const double lagging = log_.lag > 0 ? log_.lag / log_.dt * (1 - keep_) : 0.0;
+  double y = wanted[0];
+  wanted[0] = 0;
+  for (double& mean : wanted.subspan(1)) {
+    const double now = mean;
+    mean = now + (y - now) * lagging;
+    y = now + (y - now) * keep_;
+  }
+}
+
+std::vector<double> ArmRecord::target_slope(const ArmGuess& guess, std::size_t index) const {
+  std::vector<double> out(rows(), 0.0);
+  std::size_t segment = 0;
+  const double onset = guess.onset + late_by(guess);
+  const std::size_t first_level = ArmGuess::kBeforeInputs + inputs();
+  if (index >= first_level) {
+    std::vector<double> one(levels_, 0.0);
+    one[index - first_level] = 1;
+    for (std::size_t i = 0; i < rows(); ++i) out[i] = mean_target(i, onset, one, segment);
+  } else if (index == ArmGuess::kDelay || index == ArmGuess::kOnset) {
+    for (std::size_t k = 0; k < log_.switches.size(); ++k) {  // later means longer before
+      const auto level = [&](std::size_t part) {
+        return guess.levels[static_cast<std::size_t>(log_.segments[part])];
+      };
+      const double at = log_.switches[k] + onset;
+      double tick = std::floor(at / log_.dt);
+      if (at >= log_.dt * tick) ++tick;
+      if (tick < 0 || tick >= static_cast<double>(rows())) continue;
+      out[static_cast<std::size_t>(tick)] += (level(k) - level(k + 1)) / log_.dt;
+    }
+    if (index == ArmGuess::kDelay) {
+      for (std::size_t i = 1; i < rows(); ++i)
+        out[i] -= (log_.known[i] - log_.known[i - 1]) / log_.dt;
+    }
+  } else {
+    return out;
+  }
+  put_behind_lag(out);
+  return out;
+}
+
+std::vector<double> ArmRecord::bend_slope(const ArmGuess& guess) const {
+  const Shifted raw{log_.force, whole_ticks(guess)};
+  std::vector<double> out(rows());
+  for (std::size_t i = 0; i < rows(); ++i) out[i] = -raw.curvature(static_cast<std::ptrdiff_t>(i));
+  return out;
+}
+
+}  // namespace ebac

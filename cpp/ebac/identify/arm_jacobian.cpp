@@ -1,0 +1,166 @@
+#include <Eigen/Core>
+#include <algorithm>
+#include <array>
+#include <unsupported/Eigen/MatrixFunctions>
+
+#include "ebac/identify/arm_record.hpp"
+#include "ebac/identify/arm_step.hpp"
+
+namespace ebac {
+
+namespace {
+
+constexpr std::size_t kLanes = 4;  // columns that are computed side by side
+using Lanes = Eigen::Array<double, static_cast<int>(kLanes), 1>;
+
+/// What a change of some parameters does to a tick, one lane each.
+struct TickSlope {
+  std::array<Lanes, 8> flow{};      // of x from x, v, push, its change; of v from them
+  Lanes of_target = Lanes::Zero();  // of the push, 1/s^2
+  Lanes of_push = Lanes::Zero();    // of the push, for each of its own
+  Lanes ahead = Lanes::Zero();      // of how far ahead of the hand it is read, s
+  std::vector<double> force;        // of the force at each row, along `bend`
+  Lanes bends = Lanes::Zero();      // 1 for `bend`
+  std::vector<Lanes> held;          // of the push, over the tick from each row on
+
+  explicit TickSlope(std::size_t rows) : held(rows, Lanes::Zero()) { flow.fill(Lanes::Zero()); }
+};
+
+/// The derivative of the exact step along a change of its generator.
+Eigen::Matrix<double, 2, 4> flow_slope(const ArmGuess& guess, double dt, std::size_t index) {
+  const double per_mass = 1 / guess.mass;
+  Eigen::Matrix<double, 8, 8> a = Eigen::Matrix<double, 8, 8>::Zero();
+  for (const int k : {0, 4}) {
+    a(k, k + 1) = dt;
+    a(k + 1, k) = -guess.stiffness * per_mass * dt;
+    a(k + 1, k + 1) = -guess.damping * per_mass * dt;
+    a(k + 1, k + 2) = dt;
+    a(k + 2, k + 3) = 1;
+  }
+  if (index == ArmGuess::kMass) {
+    a(1, 4) = -a(1, 0) * per_mass;
+    a(1, 5) = -a(1, 1) * per_mass;
+  } else {
+    a(1, index == ArmGuess::kStiffness ? 4 : 5) = -per_mass * dt;
+  }
+  const Eigen::Matrix<double, 8, 8> flow = a.exp();
+  return flow.block<2, 4>(0, 4);
+}
+
+}  // namespace
+
+void ArmRecord::linearised(std::span<const double> theta, const ArmGains& gains,
+                           std::span<const std::size_t> which, std::span<double> errors,
+                           std::span<double> out) const {
+  const ArmGuess guess = ArmGuess::from(theta, inputs());
+  const Drive drive = this->drive(guess);
+  std::size_t done = 0;
+  do {
+    const std::size_t many = std::min(kLanes, which.size() - done);
+    columns(guess, drive, gains, which.subspan(done, many), errors, out.subspan(done * rows()));
+    done += many;
+  } while (done < which.size());
+}
+
+void ArmRecord::columns(const ArmGuess& guess, const Drive& drive, const ArmGains& gains,
+                        std::span<const std::size_t> which, std::span<double> errors,
+                        std::span<double> out) const {
+  const std::size_t n = rows();
+  const ArmStep step(guess, log_.dt);
+  TickSlope slope(n);
+  for (std::size_t k = 0; k < which.size(); ++k) {
+    const auto lane = static_cast<Eigen::Index>(k);
+    const std::size_t index = which[k];
+    if (index <= ArmGuess::kStiffness) {
+      const Eigen::Matrix<double, 2, 4> d = flow_slope(guess, log_.dt, index);
+      for (int j = 0; j < 8; ++j) slope.flow[static_cast<std::size_t>(j)][lane] = d(j / 4, j % 4);
+      if (index == ArmGuess::kMass) slope.of_push[lane] = -step.per_mass;
+      if (index == ArmGuess::kStiffness) slope.of_target[lane] = step.per_mass;
+      continue;
+    }
+    if (index == ArmGuess::kBend) {
+      slope.bends[lane] = -step.per_mass;
+      slope.force = bend_slope(guess);
+      continue;
+    }
+    if (index == ArmGuess::kDelay) slope.ahead[lane] = 1;
+    const std::size_t input = index - ArmGuess::kBeforeInputs;
+    if (index >= ArmGuess::kBeforeInputs && input < inputs()) {
+      for (std::size_t i = 0; i < n; ++i)
+        slope.held[i][lane] = -step.per_mass * log_.inputs[input][i];
+      continue;
+    }
+    const std::vector<double> target = target_slope(guess, index);
+    for (std::size_t i = 0; i + 1 < n; ++i) {
+      slope.held[i][lane] = step.per_mass * step.stiffness * target[i + 1];
+    }
+  }
+  if (slope.force.empty()) slope.force.assign(n, 0.0);
+
+  const double ahead = log_.lag + late_by(guess);
+  Eigen::Vector2d z = Eigen::Vector2d::Zero();
+  double before = 0;
+  double off = 0;
+  Lanes dx = Lanes::Zero(), dv = dx, dbefore = dx, doff = dx;  // of the same
+  for (std::size_t i = 0; i < n; ++i) {
+    const ArmGains::Row& gain = gains.rows[i];
+    const double early = log_.early[i];
+    const double bend = early * early / log_.dt * (2.0 / 3.0);
+    const double e = log_.x[i] - z[0] - (ahead - early) * z[1] - bend * (z[1] - before);
+    errors[i] = e * gain.weight;
+    const Lanes de = -dx - (ahead - early) * dv - slope.ahead * z[1] - bend * (dv - dbefore);
+    for (std::size_t k = 0; k < which.size(); ++k) {
+      out[k * n + i] = de[static_cast<Eigen::Index>(k)] * gain.weight;
+    }
+    if (i + 1 == n) break;
+    off += gain.drift * e;
+    z[0] += gain.x * e;
+    z[1] += gain.v * e;
+    doff += gain.drift * de;
+    dx += gain.x * de;
+    dv += gain.v * de;
+    before = z[1];
+    dbefore = dv;
+    const double beyond = drive.beyond[i] - off;
+    const double now = step.push(drive.force[i] + beyond, drive.target[i + 1]);
+    const double turn = step.push(drive.force[i + 1] + beyond, drive.target[i + 1]) - now;
+    const auto& f = slope.flow;
+    const Lanes dnow = slope.held[i] + step.per_mass * doff +
+                       slope.of_target * drive.target[i + 1] + slope.of_push * now +
+                       slope.bends * slope.force[i];
+    const Lanes dturn = slope.of_push * turn + slope.bends * (slope.force[i + 1] - slope.force[i]);
+    const Lanes x = step.phi(0, 0) * dx + step.phi(0, 1) * dv + step.start[0] * dnow +
+                    step.change[0] * dturn + f[0] * z[0] + f[1] * z[1] + f[2] * now + f[3] * turn;
+    dv = step.phi(1, 0) * dx + step.phi(1, 1) * dv + step.start[1] * dnow + step.change[1] * dturn +
+         f[4] * z[0] + f[5] * z[1] + f[6] * now + f[7] * turn;
+    dx = x;
+    z = step.phi * z + step.start * now + step.change * turn;
+  }
+}
+
+void ArmRecord::renewed_jacobian(std::span<const double> theta, std::span<const double> held,
+                                 const Noise& noise, std::span<const std::size_t> which,
+                                 std::span<const double> steps, std::span<double> out) const {
+  const std::size_t n = rows();
+  std::vector<double> at(theta.begin(), theta.end());
+  std::vector<double> made(held.begin(), held.end());
+  std::vector<double> here(n);
+  const auto errors = [&](std::span<double> into) {
+    const ArmGains gains =
+        this->gains(ArmGuess::from(made, inputs()), noise.force, noise.drift, noise.offset);
+    innovations(ArmGuess::from(at, inputs()), gains, into);
+  };
+  errors(here);
+  for (std::size_t i = 0; i < which.size(); ++i) {
+    const std::span<double> column = out.subspan(i * n, n);
+    const std::size_t k = which[i];
+    at[k] = theta[k] + steps[i];
+    made[k] = held[k] + steps[i];
+    errors(column);
+    at[k] = theta[k];
+    made[k] = held[k];
+    for (std::size_t row = 0; row < n; ++row) column[row] = (column[row] - here[row]) / steps[i];
+  }
+}
+
+}  // namespace ebac
