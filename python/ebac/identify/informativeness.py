@@ -219,6 +219,7 @@ def undetermined(
             out.append(name)
     names = [parameters.names[i] for i in parameters.free]
     out += [name for name in _too_fast(parameters, values, correlation, dt) if name not in out]
+    out += [name for name in _multiples(parameters, correlation) if name not in out]
     lost = [names.index(name) for name in out]
     out += [
         name
@@ -252,6 +253,20 @@ def _too_fast(
         if together or _at_bound(parameters, m, float(values[m])):
             names = [parameters.names[i] for i in place[:3] if i in free]
             out += [name for name in names if name not in out]
+    return out
+
+
+def _multiples(parameters: Parameters, correlation: NDArray[np.float64]) -> list[str]:
+    """Return M0, B0, K0 of each hand of which only multiples differ: all three move together.
+
+    That is a hand that moves the device on its own: what then seems to tell the multiples apart is an error of the
+    readings, such as jitter. On a hand that something else moves the three differ: 0.4 is much.
+    """
+    names, free, out = parameters.names, parameters.free.tolist(), list[str]()
+    for place in parameters.places:
+        hand = [free.index(i) for i in place[:3].tolist() if i in free]
+        if len(hand) == 3 and correlation[np.ix_(hand, hand)].min() > TOGETHER:
+            out += [names[free[i]] for i in hand if names[free[i]] not in out]
     return out
 
 
