@@ -7,12 +7,15 @@ import tempfile
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
-from time import process_time
+from time import process_time, sleep
 
 import numpy as np
 from recorded_arm import LEVELS, TASKS, RecordedArm, recorded
 
 from ebac import identify
+
+#: Threads of BLAS burn the processor for so long after the simulator needed them [s]; no part of a fit.
+SETTLES = 0.1
 
 
 @dataclass(frozen=True)
@@ -34,6 +37,7 @@ def judged(log: RecordedArm, folder: Path) -> list[Judged]:
     path = folder / "log.npz"
     columns = {"t": log.t, "x": log.x, "force": log.force}
     np.savez(path, **(columns if log.path is None else columns | {"target": log.path}))
+    sleep(SETTLES)
     began = process_time()
     recording = identify.load(path)
     if recording.target is None:

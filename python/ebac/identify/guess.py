@@ -83,10 +83,11 @@ def solve(
     A, y = np.vstack(blocks), np.concatenate([r.force for r in regressions])
     Z = A if instruments is None else _projected(A, instruments, regressions)
     scale = np.sqrt(np.mean(A**2, axis=0)) + 1e-300
-    left = np.linalg.pinv((Z / scale).T @ (A / scale), rcond=1e-10)
-    raw = left @ ((Z / scale).T @ y)
-    e = y - (A / scale) @ raw
-    scores = (Z / scale) * e[:, None]
+    A, Z = A / scale, Z / scale  # products of long columns not by BLAS, which waits for its threads
+    left = np.linalg.pinv(np.einsum("ki,kj->ij", Z, A), rcond=1e-10)
+    raw = left @ np.einsum("ki,k->i", Z, y)
+    e = y - np.einsum("ki,i->k", A, raw)
+    scores = Z * e[:, None]
     block_rows = max(regressions[0].taps // regressions[0].step, len(scores) // 60)
     ends = np.add.reduceat(scores, np.arange(0, len(scores), block_rows), axis=0)
     raw_cov = left @ (ends.T @ ends) @ left.T

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import wraps
 from itertools import pairwise
+from typing import TypeVar
 from weakref import WeakKeyDictionary
 
 import numpy as np
@@ -37,18 +40,24 @@ REST = 30
 FAST = 1.0
 
 
+Found = TypeVar("Found")
+
+
+def _once(look: Callable[[Recording], Found]) -> Callable[[Recording], Found]:
+    """Look once in each recording."""
+    known: WeakKeyDictionary[Recording, Found] = WeakKeyDictionary()
+
+    @wraps(look)
+    def looked(recording: Recording) -> Found:
+        if recording not in known:
+            known[recording] = look(recording)
+        return known[recording]
+
+    return looked
+
+
+@_once
 def readings(recording: Recording) -> Readings:
-    """Return the positions the encoder determines, see `_read`; looked for once in each recording."""
-    found = _READ.get(recording)
-    if found is None:
-        found = _READ[recording] = _read(recording)
-    return found
-
-
-_READ: WeakKeyDictionary[Recording, Readings] = WeakKeyDictionary()
-
-
-def _read(recording: Recording) -> Readings:
     """Return the positions the encoder determines.
 
     A count is most precise where it changes: then the handle crossed the edge between two counts, in the tick before,
@@ -90,6 +99,7 @@ def _read(recording: Recording) -> Readings:
     return Readings(x=position, variance=variance, early=early)
 
 
+@_once
 def unknown_force(recording: Recording) -> NDArray[np.float64]:
     """Return the standard deviation of the force that bridges lost rows [N], for each row; 0 where it was recorded.
 

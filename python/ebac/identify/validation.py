@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ebac.identify.intervals import normal_tail
+from ebac.identify.intervals import loose_inverse, normal_tail
 from ebac.identify.parameters import BEFORE_LEVELS
 
 if TYPE_CHECKING:
@@ -99,8 +99,7 @@ def best_start(
     """Simulate a hand under a recorded force from the initial state that fits best."""
     none = record.simulate(theta, 0.0, 0.0)
     parts = np.array([record.simulate(theta, *z) - none for z in ((1.0, 0.0), (0.0, 1.0))])
-    state, *_ = np.linalg.lstsq(parts.T, x - none, rcond=1e-12)
-    return np.asarray(none + state @ parts)
+    return np.asarray(none + _explained(parts, x - none))
 
 
 def best_levels(
@@ -113,8 +112,15 @@ def best_levels(
         other = base.copy()
         other[j] += 1.0
         moves.append(record.simulate(other, 0.0, 0.0) - none)
-    found, *_ = np.linalg.lstsq(np.array(moves).T, x - none, rcond=1e-12)
-    return np.asarray(none + found @ np.array(moves))
+    return np.asarray(none + _explained(np.array(moves), x - none))
+
+
+def _explained(columns: NDArray[np.float64], y: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return what some columns, shape (columns, rows), explain of y by least squares; not by BLAS, see `search`."""
+    scale = np.sqrt(np.einsum("ik,ik->i", columns, columns)) + 1e-300
+    inverse = loose_inverse(np.einsum("ik,jk->ij", columns, columns) / np.outer(scale, scale))
+    share = inverse @ (np.einsum("ik,k->i", columns, y) / scale) / scale
+    return np.asarray(np.einsum("i,ik->k", share, columns))
 
 
 @dataclass(frozen=True, kw_only=True)
