@@ -50,6 +50,10 @@ void bind_fault(py::module_& m) {
       .value("STARVED", Fault::kStarved)
       .value("TORQUE_MISMATCH", Fault::kTorqueMismatch)
       .value("SECOND_MASTER", Fault::kSecondMaster)
+      .value("ENCODER_FROZEN", Fault::kEncoderFrozen)
+      .value("TORQUE_REVERSED", Fault::kTorqueReversed)
+      .value("MOTION_IMPLAUSIBLE", Fault::kMotionImplausible)
+      .value("DUPLICATE_NODE", Fault::kDuplicateNode)
       .finalize();
 }
 

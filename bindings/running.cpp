@@ -20,8 +20,22 @@ constexpr std::size_t kFrames = 4096;
 /// Longest sleep of `wait` at a time: how late its end is noticed.
 constexpr std::chrono::milliseconds kLook{2};
 
+/// Signs of each axis; none given are all 1.
+std::array<int, kMaxAxes> signs_of(const char* name, const std::vector<int>& given, int axes) {
+  std::array<int, kMaxAxes> signs{1, 1, 1};
+  if (given.empty()) return signs;
+  if (given.size() != static_cast<std::size_t>(axes)) {
+    throw std::invalid_argument("RunSetup." + std::string(name) + ": " +
+                                std::to_string(given.size()) + " signs for a device of " +
+                                std::to_string(axes) + " axes: give one for each");
+  }
+  std::ranges::copy(given, signs.begin());
+  return signs;
+}
+
 can::CanopenSetup drives_of(const DeviceModel& device, const std::vector<int>& nodes,
-                            const Values& more) {
+                            const std::vector<int>& motor_sign,
+                            const std::vector<int>& encoder_sign, const Values& more) {
   can::CanopenSetup drives{.axes = device.axes(), .motor = device.motor, .drive = device.drive};
   if (nodes.size() != static_cast<std::size_t>(drives.axes)) {
     throw std::invalid_argument("RunSetup.nodes: " + std::to_string(nodes.size()) +
@@ -41,6 +55,8 @@ can::CanopenSetup drives_of(const DeviceModel& device, const std::vector<int>& n
     if (!set_field(table, &drives, "RunSetup", word, item))
       refuse_keyword("RunSetup", word, field_names(table));
   }
+  drives.motor_sign = signs_of("motor_sign", motor_sign, drives.axes);
+  drives.encoder_sign = signs_of("encoder_sign", encoder_sign, drives.axes);
   check_setup(drives);
   return drives;
 }
@@ -51,7 +67,8 @@ RunSetup make_setup(const DeviceModel& device, const Environment& environment, d
                     const std::optional<sensor::RdtClientSetup>& sensor, std::size_t rows,
                     bool ring, rt::Mode mode, const rt::Options& realtime, const Values& drives,
                     const std::optional<std::shared_ptr<rt::SharedHandTarget>>& aim,
-                    const std::optional<ObserverParams>& observer) {
+                    const std::optional<ObserverParams>& observer,
+                    const std::vector<int>& motor_sign, const std::vector<int>& encoder_sign) {
   check(Timing{.dt = dt}, "Timing");
   const bool fits = answer_time > 0 && answer_time <= dt;
   if (!fits) {
@@ -62,7 +79,7 @@ RunSetup make_setup(const DeviceModel& device, const Environment& environment, d
           .environment = environment,
           .dt = dt,
           .answer_time = answer_time,
-          .drives = drives_of(device, nodes, drives),
+          .drives = drives_of(device, nodes, motor_sign, encoder_sign, drives),
           .sensor = sensor,
           .aim = aim.value_or(nullptr),
           .limits = limits,
@@ -183,7 +200,9 @@ void bind_running(py::module_& m) {
            py::arg("dt"), py::arg("nodes"), py::arg("answer_time"), py::arg("plan"),
            py::arg("limits"), py::arg("sensor"), py::arg("rows"), py::arg("ring"), py::arg("mode"),
            py::arg("realtime"), py::arg("drives"), py::arg("aim") = py::none(),
-           py::arg("observer") = py::none(), "`drives` are the fields of CanopenSetup by name.");
+           py::arg("observer") = py::none(), py::arg("motor_sign") = std::vector<int>{},
+           py::arg("encoder_sign") = std::vector<int>{},
+           "`drives` are the fields of CanopenSetup by name.");
   bind_running_class(m);
 }
 

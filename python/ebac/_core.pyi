@@ -169,6 +169,8 @@ class Fault(enum.IntEnum):
     DRIVE_EMERGENCY = ...
     DRIVE_FAULT = ...
     DRIVE_SILENT = ...
+    DUPLICATE_NODE = ...
+    ENCODER_FROZEN = ...
     ENCODER_JUMP = ...
     ENVIRONMENT_NOT_FINITE = ...
     FORCE_DISCONNECTED = ...
@@ -178,6 +180,7 @@ class Fault(enum.IntEnum):
     FORCE_STALE = ...
     HEARTBEAT_LOST = ...
     LAW_NOT_FINITE = ...
+    MOTION_IMPLAUSIBLE = ...
     NONE = ...
     OVERRUNS = ...
     OVERSPEED = ...
@@ -186,6 +189,7 @@ class Fault(enum.IntEnum):
     STARVED = ...
     TORQUE_MISMATCH = ...
     TORQUE_NOT_FINITE = ...
+    TORQUE_REVERSED = ...
     WORKSPACE = ...
 
 class LoopState(enum.IntEnum):
@@ -6260,6 +6264,10 @@ class Limits:
         an older force is a fault [s], 1e-04 to 10.
     watch_force : bool
         whether a force sensor that is stale, saturated or gone is a fault, 0 to 1.
+    watch_motion : bool
+        whether an encoder, a force sensor and a motor that contradict each other are a fault; needs a force sensor, 0 to 1.
+    unexplained : float
+        force at the handle by which they may differ: friction the device model does not know, weight, bias of the sensor [N], 0.01 to 1000.
     overruns : int
         ticks in a row that came a tick or more too late, which are a fault [samples], 1 to 1e+05.
     pause : float
@@ -6295,6 +6303,8 @@ class Limits:
         end: float = 0.0574,
         force_age: float = 0.02,
         watch_force: bool = True,
+        watch_motion: bool = True,
+        unexplained: float = 2.0,
         overruns: int = 10,
         pause: float = 0.05,
         starved: float = 2.0,
@@ -6380,9 +6390,19 @@ class Limits:
         time constant of the winding in the i2t model (indicative: RE 30 data sheet, from memory) [s], 0.01 to 10000
         """
     @property
+    def unexplained(self) -> float:
+        """
+        force at the handle by which they may differ: friction the device model does not know, weight, bias of the sensor [N], 0.01 to 1000
+        """
+    @property
     def watch_force(self) -> bool:
         """
         whether a force sensor that is stale, saturated or gone is a fault, 0 to 1
+        """
+    @property
+    def watch_motion(self) -> bool:
+        """
+        whether an encoder, a force sensor and a motor that contradict each other are a fault; needs a force sensor, 0 to 1
         """
 
 class RunPlan:
@@ -6484,6 +6504,8 @@ class RunSetup:
         drives: dict[str, typing.Any],
         aim: SharedHandTarget | None = None,
         observer: Observer | None = None,
+        motor_sign: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex] = [],
+        encoder_sign: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex] = [],
     ) -> None:
         """
         `drives` are the fields of CanopenSetup by name.

@@ -431,6 +431,61 @@ TEST(SecondMaster, IsFoundByTheFirstFrame) {
   }
 }
 
+/// Ticks until a second, different answer is found, where one comes every `period` ticks.
+int until_duplicate(int period) {
+  TestBench bench({.axes = 2});
+  bench.enable();
+  for (int i = 1; i < 300; ++i) {
+    if (i % period == 0) bench.bus.waiting.push_back(answer(2, 0x27, 50, 0));
+    if (bench.tick().fault == Fault::kDuplicateNode) return i;
+  }
+  return 0;
+}
+
+TEST(DuplicateNode, IsFoundByItsThirdAnswer) {
+  EXPECT_EQ(until_duplicate(1), 3);
+  EXPECT_EQ(until_duplicate(3), 9);
+  EXPECT_EQ(until_duplicate(50), 0) << "one now and then is none";
+}
+
+TEST(DuplicateNode, IsNeitherADoubledFrameNorAnAnswerThatIsLate) {
+  TestBench doubled({.axes = 1});
+  doubled.drives.drive[0].copies = 2;
+  doubled.enable();
+  EXPECT_EQ(doubled.ticks(50).fault, Fault::kNone);
+  TestBench late({.axes = 1, .silent_ticks = 50});
+  late.enable();
+  for (std::int32_t i = 0; i < 20; ++i) {
+    late.drives.drive[0].position = i;
+    late.drives.drive[0].copies = 0;
+    late.tick();
+    late.drives.drive[0].copies = 1;
+    late.tick();
+    late.bus.waiting.push_back(answer(1, 0x27, i - 1, 0));  // that of the tick before
+    ASSERT_EQ(late.tick().fault, Fault::kNone) << i;
+  }
+}
+
+TEST(Signs, TurnCurrentsAndCounts) {
+  TestBench bench({.axes = 2, .motor_sign = {-1, 1, 1}, .encoder_sign = {1, -1, 1}});
+  bench.enable();
+  bench.drives.drive[0].position = bench.drives.drive[1].position = 700;
+  bench.tick(0.1, 0.1);
+  bench.tick(0.1, 0.1);
+  const Reading reading = bench.tick(0.1, 0.1);
+  EXPECT_EQ(bench.row(0).target_permille, -bench.row(1).target_permille);
+  EXPECT_EQ(reading.counts[0], 700);
+  EXPECT_EQ(reading.counts[1], -700);
+  EXPECT_NEAR(reading.current_applied[0], 0.1, one());
+  EXPECT_EQ(reading.current_applied[0], reading.current_applied[1]);
+}
+
+TEST(Signs, AreOneOrMinusOne) {
+  ScriptedBus bus;
+  Drives drives{.bus = &bus};
+  EXPECT_THROW(Tested(bus, RunOther(drives), {.encoder_sign = {0, 1, 1}}), std::invalid_argument);
+}
+
 TEST(Enabling, TellsWhyItDoesNotSucceed) {
   const CanopenSetup hasty{.axes = 2, .enable_ticks = 20};
   const auto outcome = [&](auto change) {

@@ -51,7 +51,7 @@ def test_a_case_tells_its_story(kind: str) -> None:
 
 
 def test_every_fault_of_the_table_can_be_made() -> None:
-    """But for a bus that no simulation brings down, an axis that leaves its place by itself, and a drive's own word for
+    """But for a bus that no simulation brings down, a device that is another, and a drive's own word for
     what its emergency has told before; nor does any injected fault starve the law's account (test_ledger.py)."""
     seen = {int(faults.run_case(i, seed=4).trace["fault"].max()) for i in range(KINDS * 10)}
     every = {int(fault) for fault in _core.Fault} - {0}
@@ -59,7 +59,7 @@ def test_every_fault_of_the_table_can_be_made() -> None:
         "BUS_DOWN",
         "DRIVE_DISABLED",
         "DRIVE_FAULT",
-        "OVERSPEED",
+        "MOTION_IMPLAUSIBLE",
         "POSITION_NOT_FINITE",
         "STARVED",
         "WORKSPACE",

@@ -106,8 +106,8 @@ class CanopenDevice {
 
   void send(const Command& command) EBAC_RT {
     for (std::size_t i = 0; NodeLink& link : links()) {
-      const std::int16_t torque =
-          sequence_.running() ? scale_.permille(command.current[i]) : std::int16_t{0};
+      const double current = setup_.motor_sign[i] * command.current[i];
+      const std::int16_t torque = sequence_.running() ? scale_.permille(current) : std::int16_t{0};
       ++i;
       link.sent(bus_->send(link.command(sequence_.command(link.state()), torque)));
     }
@@ -182,6 +182,7 @@ class CanopenDevice {
     fault_ = down() ? Fault::kBusDown : Fault::kNone;
     if (fault_ == Fault::kNone && second_master_) fault_ = Fault::kSecondMaster;
     for (const NodeLink& link : links()) {
+      if (fault_ == Fault::kNone && link.duplicated()) fault_ = Fault::kDuplicateNode;
       if (fault_ == Fault::kNone) fault_ = sequence_.running() ? lost(link) : not_enabled(link);
     }
     for (std::size_t i = 0; i < links().size(); ++i) {
@@ -217,9 +218,9 @@ class CanopenDevice {
   Reading reading() const EBAC_RT {
     Reading out{.fault = fault_};
     for (std::size_t i = 0; const NodeLink& link : links()) {
-      out.counts[i] = link.counts();
+      out.counts[i] = setup_.encoder_sign[i] * link.counts();
       out.counts_age[i] = link.counts_age();
-      out.current_applied[i] = scale_.current(link.actual_permille());
+      out.current_applied[i] = setup_.motor_sign[i] * scale_.current(link.actual_permille());
       ++i;
     }
     return out;

@@ -13,13 +13,17 @@ namespace ebac::can {
 struct CanopenSetup {
   int axes = 1;
   std::array<NodeId, kMaxAxes> node{1, 2, 3};  // of each axis, in their order
-  Motor motor{};                               // for eq. (1)
-  Drive drive{};                               // for its limit
-  int silent_ticks = 3;                        // samples
-  int enable_ticks = 1000;                     // samples
-  int torque_ticks = 10;                       // samples
-  int torque_tolerance = 100;                  // thousandths of the rated torque
-  double heartbeat_timeout = 0;                // s
+  /// Of each axis, 1 or -1: what a positive current and a rising count are turned by, so that both
+  /// have the signs of sample.hpp.
+  std::array<int, kMaxAxes> motor_sign{1, 1, 1};
+  std::array<int, kMaxAxes> encoder_sign{1, 1, 1};
+  Motor motor{};                 // for eq. (1)
+  Drive drive{};                 // for its limit
+  int silent_ticks = 3;          // samples
+  int enable_ticks = 1000;       // samples
+  int torque_ticks = 10;         // samples
+  int torque_tolerance = 100;    // thousandths of the rated torque
+  double heartbeat_timeout = 0;  // s
   bool quick_stop = false;
   int own_node = 0;
   double heartbeat_period = 0.01;  // s
@@ -56,7 +60,7 @@ struct CanopenSetup {
   }
 };
 
-/// Throws std::invalid_argument for a field or a node out of range, and for a node given twice.
+/// Throws std::invalid_argument for a field, a node or a sign out of range, and for a node given twice.
 void check_setup(const CanopenSetup& setup);
 
 }  // namespace ebac::can

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 
@@ -105,7 +106,9 @@ class NodeLink {
   /// The time for answers is over.
   void close() EBAC_RT {
     synced_ = false;
+    twice_ = std::max(0, twice_ - 1);
     if (answered_) return;
+    owed_ = std::min(owed_ + 1, kMostOwed);
     ++row_.missing;
     ++row_.age;
   }
@@ -114,11 +117,14 @@ class NodeLink {
   void start() EBAC_RT {
     alarmed_ = false;
     quiet_ = 0;
+    twice_ = 0;
   }
 
   NodeId node() const EBAC_RT { return node_; }
   int unsent() const EBAC_RT { return unsent_; }  // ticks in a row
   bool answered() const EBAC_RT { return answered_; }
+  /// Whether answers come that this drive cannot have sent: more than one a tick, of other contents.
+  bool duplicated() const EBAC_RT { return twice_ > 2 * kTwice; }
   bool heard() const EBAC_RT { return heard_; }      // process data, ever
   bool alarmed() const EBAC_RT { return alarmed_; }  // an emergency stands
   double quiet() const EBAC_RT { return quiet_; }    // s, since the last heartbeat
@@ -133,12 +139,17 @@ class NodeLink {
   BusRow& row() EBAC_RT { return row_; }
 
  private:
+  static constexpr int kMostOwed = 8;  // ticks
+  static constexpr int kTwice = 10;    // ticks that one such answer is remembered
+
   void take_process_data(const Frame& frame) EBAC_RT {
     if (frame.size != kTpdoSize) {
       ++row_.malformed;
       return;
     }
     if (answered_) ++row_.duplicate;
+    if (answered_ && frame.data != answer_) count_second();
+    answer_ = frame.data;
     if (!answered_ && !synced_ && heard_) ++row_.late;
     answered_ = true;
     row_.age = 0;
@@ -146,6 +157,15 @@ class NodeLink {
     row_.statusword = get<std::uint16_t>(frame.bytes(), 0);
     unwrap(get<std::uint32_t>(frame.bytes(), 2));
     row_.actual_permille = get<std::int16_t>(frame.bytes(), 6);
+  }
+
+  /// A second answer in a tick is one that is owed, from a tick that had none, or another node's.
+  void count_second() EBAC_RT {
+    if (owed_ > 0) {
+      --owed_;
+    } else {
+      twice_ += kTwice;
+    }
   }
 
   /// 0x6064 wraps after 32 bits; the nearest count to the last one that shows the same is meant.
@@ -183,6 +203,9 @@ class NodeLink {
   double quiet_ = 0;       // s
   double counts_age_ = 0;  // s
   int unsent_ = 0;
+  int owed_ = 0;   // answers
+  int twice_ = 0;  // ticks
+  std::array<std::uint8_t, 8> answer_{};
   std::int64_t counts_ = 0;
   BusRow row_{};
 };

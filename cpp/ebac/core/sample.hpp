@@ -38,6 +38,10 @@ enum class Fault : std::uint32_t {
   kStarved = 21,              // the law's energy account has held its force back for too long
   kTorqueMismatch = 22,       // a drive reports a torque that was not commanded
   kSecondMaster = 23,         // another node sends frames that only the loop may send
+  kEncoderFrozen = 24,        // the forces must have moved an axis, its encoder shows nothing
+  kTorqueReversed = 25,       // an axis moves as if its motor pushed the other way
+  kMotionImplausible = 26,    // encoder, force sensor and motor contradict the model of the device
+  kDuplicateNode = 27,        // two nodes send the process data of one drive
 };
 
 /// Where a loop stands. Every way out of kRun is kStop; after it, kIdle or, latched, kFault.

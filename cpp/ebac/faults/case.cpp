@@ -35,6 +35,11 @@ Setup setup_of(const InjectedFault& injected) {
     setup.environment = Free{};
     setup.hand.path[0] = MinimumJerk{.target = 0.038, .at = 0.01, .duration = between(0.1, 0.15)};
   }
+  if (injected.kind == Kind::kEncoderFrozen) {  // on its way, 0.3 m/s or faster
+    setup.environment = Wall{.stiffness = 10e3, .position = 0.02};
+    setup.hand.path[0] = MinimumJerk{.target = 0.035, .at = 0.01, .duration = 0.1};
+    setup.hand.path[1] = setup.hand.path[0];
+  }
   return setup;
 }
 
@@ -105,7 +110,7 @@ InjectedFault injected_fault_of(std::uint64_t seed, std::uint64_t index) {
     return low +
            static_cast<std::int64_t>(random.bits() % static_cast<std::uint64_t>(high - low + 1));
   };
-  injected.at = whole(30, 180);
+  injected.at = whole(facts.first, facts.last);
   injected.ticks = static_cast<int>(whole(facts.shortest, facts.longest));
   injected.axis = static_cast<std::size_t>(whole(0, 1));
   injected.chance = random.bits();

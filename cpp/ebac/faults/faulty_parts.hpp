@@ -13,17 +13,22 @@ namespace ebac::faults {
 
 inline constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
 
-/// The simulated plant, with an encoder that may jump.
+/// The simulated plant, with an encoder that may jump or freeze, and a motor that may be reversed.
 class FaultyPlant {
  public:
   FaultyPlant(SimulatedDevice plant, const InjectedFault& injected)
       : plant_(std::move(plant)), injected_(&injected) {}
 
-  Reading exchange(const Command& command) EBAC_RT {
+  Reading exchange(Command command) EBAC_RT {
+    double& current = command.current[injected_->axis];
+    if (injected_->on(Kind::kTorqueReversed)) current = -current;
     Reading reading = plant_.exchange(command);
+    std::int64_t& counts = reading.counts[injected_->axis];
+    if (injected_->on(Kind::kEncoderFrozen)) counts = counts_;
+    counts_ = counts;
     if (injected_->on(Kind::kEncoderJump)) {
       const auto size = static_cast<std::int64_t>(200 + injected_->chance % 100'000);
-      reading.counts[injected_->axis] += (injected_->chance & 1U) != 0 ? size : -size;
+      counts += (injected_->chance & 1U) != 0 ? size : -size;
     }
     return reading;
   }
@@ -32,6 +37,7 @@ class FaultyPlant {
  private:
   SimulatedDevice plant_;
   const InjectedFault* injected_;
+  std::int64_t counts_ = 0;  // as last shown
 };
 
 /// EBAC on every axis; it may lose its mind.

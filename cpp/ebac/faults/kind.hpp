@@ -36,8 +36,11 @@ enum class Kind : std::uint8_t {
   kStop,
   kSecondMaster,
   kTorqueOffset,
+  kTorqueReversed,
+  kEncoderFrozen,
+  kImpostor,
 };
-inline constexpr std::size_t kKinds = 26;
+inline constexpr std::size_t kKinds = 29;
 
 struct KindFacts {
   std::string_view name;
@@ -50,6 +53,8 @@ struct KindFacts {
   int slack;
   /// Faults by which it may be reported.
   std::array<Fault, 3> faults;
+  /// Tick in which it begins, at the earliest and the latest.
+  int first = 30, last = 180;
 };
 
 inline constexpr int kForEver = 1'000'000;
@@ -123,6 +128,31 @@ inline constexpr std::array<KindFacts, kKinds> kKindFacts{{
      1,
      0,
      {Fault::kTorqueMismatch, Fault::kOverspeed, Fault::kWorkspace}},
+    {"torque_reversed",
+     "a motor pushes the other way, in contact",
+     kForEver,
+     kForEver,
+     1,
+     0,
+     {Fault::kTorqueReversed, Fault::kOverspeed, Fault::kWorkspace},
+     100,
+     150},
+    {"encoder_frozen",
+     "the counts stand still while the hand moves",
+     kForEver,
+     kForEver,
+     1,
+     0,
+     {Fault::kEncoderFrozen},
+     50,
+     65},
+    {"impostor",
+     "another node sends the position of a drive",
+     1,
+     40,
+     3,
+     2,
+     {Fault::kDuplicateNode, Fault::kEncoderJump}},
 }};
 
 constexpr const KindFacts& facts_of(Kind kind) {

@@ -69,7 +69,7 @@ void TestBench::spoil_drive() EBAC_RT {
   }
 }
 
-/// Torques of another master; an offset of up to 1.5 times the rated torque by another program, on
+/// Torques of another master; positions of another node; an offset of up to 1.5 times the rated torque by another program, on
 /// top of the loop's torque: one against it is found only when the command falls below it.
 void TestBench::intrude() EBAC_RT {
   can::SimulatedDrive& drive = this->drive(injected_->axis);
@@ -80,6 +80,16 @@ void TestBench::intrude() EBAC_RT {
     can::Frame frame{.id = can::rpdo(1, drive.node()), .size = can::kRpdoSize};
     can::put(frame.data, 0, can::word_of(can::DriveCommand::kEnableOperation));
     can::put(frame.data, 2, torque);
+    intruder_.send(frame);
+  }
+  if (injected_->on(Kind::kImpostor)) {  // up to 2 mm from where the drive is
+    can::Frame frame{.id = can::tpdo(1, drive.node()), .size = can::kTpdoSize};
+    const can::BusRow& row = can_.state(injected_->axis);
+    const auto off = static_cast<std::uint32_t>(1 + injected_->chance % 64);
+    const std::int64_t counts = other_.joystick().reading().counts[injected_->axis];
+    can::put(frame.data, 0, static_cast<std::uint16_t>(row.statusword));
+    can::put(frame.data, 2, static_cast<std::uint32_t>(counts) + off);
+    can::put(frame.data, 6, static_cast<std::int16_t>(row.actual_permille));
     intruder_.send(frame);
   }
   if (injected_->begins(Kind::kTorqueOffset)) drive.write(0x60B2, 0, torque);

@@ -4,11 +4,13 @@
 #include <atomic>
 #include <cstring>
 #include <memory>
+#include <optional>
 #include <tuple>
 #include <utility>
 
 #include "ebac/core/check.hpp"
 #include "ebac/loop/parameter_updates.hpp"
+#include "ebac/loop/plausibility.hpp"
 #include "ebac/loop/row_parts.hpp"
 #include "ebac/loop/run_state_machine.hpp"
 #include "ebac/loop/safety_limiter.hpp"
@@ -38,6 +40,7 @@ class Loop {
         run_state_(options.plan),
         limiter_(options.limiter) {
     check(options.plan, "RunPlan");
+    if (const auto facts = limiter_.watches_motion()) plausibility_.emplace(*facts);
     sample_.axes = axes;
   }
 
@@ -91,7 +94,7 @@ class Loop {
     if (!run_state_.reset()) return false;
     sample_.fault = Fault::kNone;
     law_.reset();
-    limiter_.restart();
+    restart();
     return true;
   }
 
@@ -133,7 +136,7 @@ class Loop {
       if (run_state_.first()) begin(axes);
       render(chain_, law_, now, axes);
     }
-    if (arming) limiter_.restart();
+    if (arming) restart();
     note(reading, now, axes);
     if (sample_.fault == Fault::kNone && run_state_.gain() > 0) {
       sample_.limited = limiter_.limit(axes, run_state_.gain(), now.dt);
@@ -145,13 +148,22 @@ class Loop {
     if (row != nullptr) append(row, axes.size());
   }
 
+  void restart() EBAC_RT {
+    limiter_.restart();
+    if (plausibility_) plausibility_->restart();
+  }
+
   /// The law's memory starts here: motion while the device was being enabled is not counted as work.
   static void begin(std::span<Axis> axes) EBAC_RT {
     for (Axis& axis : axes) axis.port.dx = axis.port.dt = 0;
   }
 
   void note(const Reading& reading, const Instant& now, std::span<const Axis> axes) EBAC_RT {
-    const Fault watched = limiter_.watch(reading, now, axes, starved_of(law_));
+    Fault watched = limiter_.watch(reading, now, axes, starved_of(law_));
+    if (plausibility_) {
+      const Fault implausible = plausibility_->watch(reading, now, axes);
+      if (watched == Fault::kNone) watched = implausible;
+    }
     if (sample_.fault != Fault::kNone) return;
     const Fault judged = judge(reading, axes);
     sample_.fault = judged != Fault::kNone ? judged : watched;
@@ -238,6 +250,7 @@ class Loop {
   SignalChain chain_;
   RunStateMachine run_state_;
   SafetyLimiter limiter_;
+  std::optional<Plausibility> plausibility_;  // where the limits ask for it
   Sample sample_{};
   std::size_t limiter_at_ = 0;
   std::size_t clock_at_ = 0;

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <span>
 #include <string_view>
 
 #include "ebac/core/concepts.hpp"
+#include "ebac/loop/impulse_balance.hpp"
 #include "ebac/model/limits.hpp"
 #include "ebac/model/thermal.hpp"
 
@@ -40,12 +42,18 @@ class SafetyLimiter {
         dt_(dt),
         radius_(device.radius()),
         count_(device.facts().count),
-        amp_per_newton_(1 / device.force(1)) {
+        amp_per_newton_(1 / device.force(1)),
+        balance_(BalanceFacts::of(device, limits.unexplained, dt)) {
     check_limits(limits);
     thermal_.fill(Thermal(limits.continuous_current, limits.thermal_time));
   }
 
   bool on() const EBAC_RT { return on_; }
+
+  /// What encoder, force sensor and motor are held against, if they are.
+  std::optional<BalanceFacts> watches_motion() const {
+    return on_ && limits_.watch_motion ? std::optional(balance_) : std::nullopt;
+  }
 
   /// Returns the fault, if any, in the motion, the force sensor or the timing of the device, or of a
   /// law that has been `starved` too long [s].
@@ -193,6 +201,7 @@ class SafetyLimiter {
   std::array<double, kMaxAxes> from_{};        // rad, where the span began
   std::array<double, kMaxAxes> span_{};        // s
   std::array<State, kMaxAxes> state_{};
+  BalanceFacts balance_{};
   bool moved_ = false;
   int overruns_ = 0;  // samples in a row
   double lost_ = 0;   // s, by late ticks

@@ -21,9 +21,11 @@ struct Limits {
   double end = 0.0574;                // m
   double force_age = 0.02;            // s
   bool watch_force = true;
-  int overruns = 10;    // samples
-  double pause = 0.05;  // s
-  double starved = 2;   // s
+  bool watch_motion = true;
+  double unexplained = 2;  // N
+  int overruns = 10;       // samples
+  double pause = 0.05;     // s
+  double starved = 2;      // s
 
   /// The edge lies 5 mm before 30 degrees of the lever, the end as far behind it.
   static Limits of(const DeviceModel& device) EBAC_RT {
@@ -60,6 +62,14 @@ struct Limits {
         F{"force_age", &Limits::force_age, "s", "an older force is a fault", 1e-4, 10},
         F{"watch_force", &Limits::watch_force, "1",
           "whether a force sensor that is stale, saturated or gone is a fault", 0, 1},
+        F{"watch_motion", &Limits::watch_motion, "1",
+          "whether an encoder, a force sensor and a motor that contradict each other are a fault; "
+          "needs a force sensor",
+          0, 1},
+        F{"unexplained", &Limits::unexplained, "N",
+          "force at the handle by which they may differ: friction the device model does not know, "
+          "weight, bias of the sensor",
+          0.01, 1e3},
         F{"overruns", &Limits::overruns, "samples",
           "ticks in a row that came a tick or more too late, which are a fault", 1, 100000},
         F{"pause", &Limits::pause, "s",
