@@ -24,6 +24,7 @@ NEEDS = {
     "identify log": ["arm.csv"],
     "track": ["line.csv"],
     "tune": ["tca"],
+    "drive signs": ["joystick.toml", "--simulated"],
     "run": ["joystick.toml", "--simulated", "--no-files"],
     "log info": ["run.npz"],
     "log export": ["run.npz", "new.csv"],
@@ -157,7 +158,7 @@ def test_wrong_input_is_refused_in_a_sentence(
         case = Case(case.command, case.option, case.kind, (*case.words, "new.csv"), case.hint)
     if (
         case.command.startswith("drive")
-        and case.command != "drive timing"
+        and case.command not in ("drive timing", "drive signs")
         and case.option not in BUS
     ):
         needs += BUS

@@ -59,6 +59,13 @@ def test_an_empty_one_is_the_paper_s_joystick() -> None:
         ("[device.motor]\ntorque_constant = 0.06\n", None, "motor.torque_constant = 0.0538"),
         ("[sensor]\nhost = '10.0.0.1'\nport = 70000\n", 3, "port = 70000"),
         ("[sensor]\ncounts_per_forc = 1.0\n", 2, "did you mean 'counts_per_force'"),
+        (
+            "[signs]\nmotor = [1]\n",
+            2,
+            "signs.motor = [1]: must be a list of 1 or -1 for each of the 2",
+        ),
+        ("[signs]\nencoder = [1, 0]\n", 2, "signs.encoder = [1, 0]: must be a list of 1 or -1"),
+        ("[signs]\nmotors = [1, 1]\n", 2, "did you mean 'motor'"),
         ("[run\n", None, "not a TOML document"),
     ],
 )
@@ -70,6 +77,12 @@ def test_what_cannot_be_is_refused_with_its_line(text: str, line: int | None, wo
     assert message.startswith("mine.toml")
     if line is not None:
         assert f"line {line}:" in message, message
+
+
+def test_signs_are_those_of_the_axes() -> None:
+    known = Configuration.from_toml("[signs]\nmotor = [1, -1]\n")
+    assert known.signs == ebac.hardware.Signs(motor=(1, -1))
+    assert known.simulated_signs is None
 
 
 def test_without_a_sensor_nothing_is_fed_back() -> None:

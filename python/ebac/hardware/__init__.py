@@ -9,22 +9,27 @@
 from ebac.hardware.backends import Backend, virtual_can
 from ebac.hardware.configuration import Configuration
 from ebac.hardware.device import OpenDevice
+from ebac.hardware.find_signs import AxisSigns, find_signs
 from ebac.hardware.interrupts import Terminated
 from ebac.hardware.law import designed
 from ebac.hardware.report import Report, Times, times, under_the_law
 from ebac.hardware.run import Run
+from ebac.hardware.signs import Signs
 from ebac.hardware.tables import ConfigurationError
 
 __all__ = [
+    "AxisSigns",
     "Backend",
     "Configuration",
     "ConfigurationError",
     "OpenDevice",
     "Report",
     "Run",
+    "Signs",
     "Terminated",
     "Times",
     "designed",
+    "find_signs",
     "times",
     "under_the_law",
     "virtual_can",

@@ -16,6 +16,7 @@ from ebac.drives.network import Network
 from ebac.drives.toml_positions import Source
 from ebac.hardware.law import designed
 from ebac.hardware.reading import needs_force, read
+from ebac.hardware.signs import Signs
 from ebac.hardware.tables import ConfigurationError
 from ebac.laws import CoreLaw
 from ebac.scenario import Environment, Scenario
@@ -40,6 +41,10 @@ class Configuration:
         Of the CAN bus: "socketcan" and "can0", or "ebac" and a channel inside this process.
     drives : Network
         The drives, one per axis, each with its profile.
+    signs : Signs
+        Of every axis: -1 turns the current of its motor, the counts of its encoder.
+    simulated_signs : Signs or None
+        Those that the simulated device needs; None for the same, a device that is wired as configured.
     setup : "verify" or "apply"
         Whether a drive that holds something else than its profile is refused, or written.
     silent : int
@@ -87,6 +92,8 @@ class Configuration:
     interface: str = "socketcan"
     channel: str = "can0"
     drives: Network
+    signs: Signs = field(default_factory=Signs)
+    simulated_signs: Signs | None = None
     setup: Literal["verify", "apply"] = "verify"
     silent: int = 3
     answer_share: float = 0.5

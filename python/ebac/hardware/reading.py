@@ -13,6 +13,7 @@ from ebac._util.serialisation import from_document
 from ebac.drives.errors import ProfileError
 from ebac.drives.toml_positions import Source
 from ebac.hardware.configuration_fields import BUS, RECORDING, RUN, number, word
+from ebac.hardware.signs import Signs
 from ebac.hardware.tables import known, on_top, refusing, table
 from ebac.laws import LAWS, design
 from ebac.scenario import Environment, Scenario
@@ -24,6 +25,7 @@ TABLES = [
     "about",
     "bus",
     "device",
+    "signs",
     "timing",
     "environment",
     "law",
@@ -49,6 +51,9 @@ def read(source: Source) -> dict[str, Any]:
     values: dict[str, Any] = {"name": source.name, "text": source.text}
     values |= _bus(source)
     values["device"] = _device(source)
+    axes = values["device"].axes
+    values["signs"] = _signs(source, ("signs",), axes) or Signs()
+    values["simulated_signs"] = _signs(source, ("simulated", "signs"), axes)
     values["timing"] = on_top(source, ("timing",), Timing())
     values["environment"] = _environment(source)
     values |= _law(source, values)
@@ -94,8 +99,17 @@ def _device(source: Source) -> Device:
     return made
 
 
+def _signs(source: Source, path: tuple[str, ...], axes: int) -> Signs | None:
+    """Return the signs of motors and encoders of a table; None where there is none."""
+    found = known(source, path, ["motor", "encoder"])
+    if not found:
+        return None
+    made: Signs = refusing(source, path, lambda: Signs.from_table(found, axes))
+    return made
+
+
 def _hand(source: Source) -> Hand:
-    known(source, ("simulated",), ["hand"])
+    known(source, ("simulated",), ["hand", "signs"])
     path = ("simulated", "hand")
     name = table(source, path).get("preset", "reference")
     base = refusing(source, (*path, "preset"), lambda: presets.hand(name))

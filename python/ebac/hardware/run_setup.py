@@ -38,6 +38,9 @@ def run_setup(
     if not 0.01 <= seconds <= 1e5:
         raise ValueError(f"seconds = {seconds:g} s: must lie in [0.01, 100000] s")
     dt = known.timing.dt
+    signs = known.signs
+    if backend.aim is not None:  # what the configuration does not turn rightly stays turned
+        signs = signs.against(known.simulated_signs)
     ticks = max(1, round(seconds / dt))
     profiles = [node.profile.values for node in nodes]
     guards = [float(values.get("heartbeat.guard", 0.0)) for values in profiles]
@@ -48,7 +51,8 @@ def run_setup(
     masters = {int(values["heartbeat.master"]) for values in profiles}
     beat = min((one for one in consumers if one > 0), default=0.0)
     watch = known.limits.watch_force and backend.sensor is not None
-    limits = known.limits.replace(watch_force=watch)
+    both = known.limits.watch_motion and backend.sensor is not None
+    limits = known.limits.replace(watch_force=watch, watch_motion=both)
     return _core.RunSetup(
         device=known.device,
         environment=known.environment,
@@ -71,6 +75,8 @@ def run_setup(
         mode=_core.RealTimeMode[known.mode.upper()],
         realtime=known.realtime,
         aim=backend.aim,
+        motor_sign=list(signs.motor),
+        encoder_sign=list(signs.encoder),
         drives={
             "silent_ticks": known.silent,
             "torque_ticks": min(max(10, ceil(_LAG / dt)), 128),

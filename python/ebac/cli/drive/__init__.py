@@ -7,6 +7,7 @@ import typer
 from ebac.cli.command import Group, add
 from ebac.cli.drive import enable as drive_power
 from ebac.cli.drive import look, setup
+from ebac.cli.drive import signs as drive_signs
 from ebac.cli.drive import simulate as drive_simulate
 
 app = typer.Typer(
@@ -45,5 +46,6 @@ add(app, setup.restore)
 add(app, drive_power.enable)
 add(app, drive_power.disable)
 add(app, drive_power.reset_fault)
+add(app, drive_signs.signs)
 add(app, drive_simulate.simulate)
 add(app, drive_simulate.inject)

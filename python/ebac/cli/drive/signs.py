@@ -1,0 +1,105 @@
+"""`ebac drive signs`: push every axis a little, and find which signs are right."""
+
+from __future__ import annotations
+
+from dataclasses import asdict
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from ebac.cli import output
+from ebac.cli.drive.options import Yes, sure, telling
+
+if TYPE_CHECKING:
+    from ebac.hardware import AxisSigns
+
+
+def signs(
+    configuration: Annotated[
+        Path,
+        typer.Argument(help="Configuration in TOML, as `ebac demo joystick` writes it."),
+    ],
+    simulated: Annotated[
+        bool, typer.Option("--simulated", help="With simulated drives, device and hand.")
+    ] = False,
+    current: Annotated[
+        float, typer.Option(help="Current of every push [A].", min=0.02, max=0.3)
+    ] = 0.1,
+    write: Annotated[
+        bool, typer.Option("--write", help="Write the signs into the file; all else in it stays.")
+    ] = False,
+    yes: Yes = False,
+    as_json: output.AsJson = False,
+) -> None:
+    """Find which motor and which encoder has a wrong sign.
+
+    **The motors get power and the handle moves by some millimetres.** Every axis is pushed to and fro with a tenth of
+    an ampere that comes in slowly; any key stops it. Put the handle into the middle and let go of it. With a force
+    sensor hold it loosely instead: its force against the motor distinguishes a wrong motor from a wrong
+    encoder. Without one, a motor is called wrong where the two contradict each other.
+
+    Exit code 1 when a sign is wrong and was not written, or an axis did not move.
+
+    **Examples**
+
+    * `ebac demo joystick`, then `ebac drive signs joystick.toml --simulated`
+
+    * `ebac drive signs my-joystick.toml --write`
+    """
+    from ebac.cli.run.any_key import any_key
+    from ebac.hardware import Configuration, Signs, find_signs
+    from ebac.simulation import LoopFault
+
+    with telling():
+        known = Configuration.load(configuration)
+    if not simulated:
+        sure("The motors get power and the handle moves. Is it in the middle, and free?", yes)
+    try:
+        with telling(), any_key() as key:
+            rows = find_signs(known, simulate=simulated, current=current, look=key)
+    except LoopFault as error:
+        output.fail(f"{str(error).partition('; see')[0]}; nothing was written", code=output.FAILED)
+    except RuntimeError as error:
+        output.fail(str(error), code=output.FAILED)
+    motor = [row.motor for row in rows if row.motor is not None]
+    encoder = [row.encoder for row in rows if row.encoder is not None]
+    found = len(motor) == len(rows)
+    written = write and found and not all(row.right for row in rows)
+    if written:
+        with output.refusing():
+            right = Signs(motor=tuple(motor), encoder=tuple(encoder))
+            text = right.written_into(configuration.read_text(encoding="utf-8"))
+            draft = configuration.with_name(f"{configuration.name}.draft")
+            draft.write_text(text, encoding="utf-8")
+            draft.replace(configuration)  # all or nothing
+    if as_json:
+        typer.echo(output.document("drive signs", [asdict(row) for row in rows], written=written))
+    else:
+        _show(rows)
+        if written:
+            output.say(f"Written to {configuration}: motor = {motor}, encoder = {encoder}.")
+        elif found and not all(row.right for row in rows):
+            output.say("Nothing was written; --write writes the signs into the file.")
+    if not found or not (written or all(row.right for row in rows)):
+        raise typer.Exit(output.FAILED)
+
+
+def _show(rows: list[AxisSigns]) -> None:
+    grid = output.table(["axis", "motor", "encoder", "moved", "force", "what"], numbers=range(1, 5))
+    for row in rows:
+        grid.add_row(
+            str(row.axis),
+            _change(row.configured_motor, row.motor),
+            _change(row.configured_encoder, row.encoder),
+            f"{1e3 * row.moved_m:.2f} mm",
+            "-" if row.force_N is None else f"{row.force_N:.2f} N",
+            row.remark,
+        )
+    output.show(grid)
+
+
+def _change(configured: int, found: int | None) -> str:
+    if found is None:
+        return f"{configured}, not known"
+    return str(found) if found == configured else f"{configured} -> {found}"

@@ -1,0 +1,216 @@
+"""Find the signs of motors and encoders: push each axis a little, and see where it goes."""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ebac._core import Free, LoopState, Step, Wall
+from ebac.hardware.configuration import Configuration
+from ebac.hardware.device import OpenDevice
+from ebac.hardware.run import Run
+from ebac.hardware.signs import Signs
+
+#: Longest push, and pause after each [s].
+PUSH, PAUSE = 0.5, 0.4
+#: A push ends here; what moves less than the other did not move [m].
+FAR, LEAST = 5e-3, 5e-4
+#: Share of the motor's force that a hand must hold against, for the force sensor to count.
+HELD = 0.3
+#: Where the wall stands that pushes with a force that hardly changes [m].
+_BEHIND = -1.0
+#: Current comes in with this slope [A/s].
+_SLEW = 1.0
+_SPEED = 0.5  # m/s
+_ENDING = (LoopState.STOP, LoopState.IDLE, LoopState.FAULT)
+
+
+@dataclass(frozen=True, kw_only=True)
+class AxisSigns:
+    """What the pushes of one axis showed.
+
+    Attributes
+    ----------
+    axis : int
+        From 0.
+    configured_motor, configured_encoder : int
+        The signs of the configuration.
+    motor, encoder : int or None
+        The right ones; None where the axis did not move, or not to and fro.
+    moved_m : float
+        Way along +x under a positive force, mean of both directions; negative is right.
+    force_N : float or None
+        What the force sensor showed against a positive force; positive is right, None where nobody held.
+    remark : str
+        What came of it.
+    """
+
+    axis: int
+    configured_motor: int
+    configured_encoder: int
+    motor: int | None
+    encoder: int | None
+    moved_m: float
+    force_N: float | None
+    remark: str
+
+    @property
+    def right(self) -> bool:
+        """Whether the configured signs are the right ones."""
+        return (self.motor, self.encoder) == (self.configured_motor, self.configured_encoder)
+
+
+def gentle(known: Configuration, current: float) -> Configuration:
+    """Return the configuration of the test: no wall, no law, at most `current` [A] that comes in slowly."""
+    limits = known.limits.replace(
+        peak_current=current,
+        continuous_current=min(current, known.limits.continuous_current),
+        slew=_SLEW,
+        speed=_SPEED,
+        edge_stiffness=0.0,
+        watch_motion=False,
+    )
+    axes = known.device.axes
+    return known.replace(
+        law="direct",
+        changes={},
+        environment=Free(),
+        limits=limits,
+        observer=False,
+        hand=known.hand.replace(path=[Step(target=0.0)] * axes),
+    )
+
+
+def find_signs(
+    known: Configuration,
+    *,
+    simulate: bool = False,
+    current: float = 0.1,
+    look: Callable[[Run], None] = lambda run: None,
+) -> list[AxisSigns]:
+    """Push every axis to and fro with a small current, and return which signs are right.
+
+    The handle is let go, or held loosely: only where a hand holds against the motor does the force sensor distinguish a
+    wrong motor from a wrong encoder. Without it a motor is called wrong where both together are.
+
+    Parameters
+    ----------
+    known : Configuration
+        The device.
+    simulate : bool
+        Whether simulated drives stand in for the real ones.
+    current : float
+        Of every push [A], 0.02 to 0.3.
+    look : callable
+        Called between two looks at the rows; it may stop the run, which ends the test.
+
+    Raises
+    ------
+    ValueError
+        For a current out of range, and for a device of three axes.
+    RuntimeError
+        When the test was stopped before its end.
+    LoopFault, DriveError
+        As a run.
+    """
+    if not 0.02 <= current <= 0.3:
+        raise ValueError(f"current = {current:g} A: must lie in [0.02, 0.3] A")
+    axes = known.device.axes
+    if axes > 2:
+        raise ValueError(
+            f"device: {axes} axes; the test knows devices of 1 or 2, set [signs] by hand"
+        )
+    tested = gentle(known, current)
+    signs = known.signs.of_all(axes)
+    seconds = 2.0 + axes * 2 * (PUSH + PAUSE) * 3
+    with (
+        OpenDevice(tested, simulate=simulate) as device,
+        device.start(seconds=seconds) as run,
+    ):
+        _wait(run, look, lambda: run.state is LoopState.RUN, PUSH * 10)
+        pushes = [
+            [_push(run, look, axis, way * known.device.force(current)) for way in (1, -1)]
+            for axis in range(axes)
+        ]
+        run.stop()
+        run.finish()
+    sensor = known.sensor is not None
+    return [
+        judged(axis, signs, np.array(both), known.device.force(current), sensor=sensor)
+        for axis, both in enumerate(pushes)
+    ]
+
+
+def _wait(run: Run, look: Callable[[Run], None], there: Callable[[], bool], seconds: float) -> None:
+    end = time.monotonic() + seconds
+    while time.monotonic() < end and not there():
+        look(run)
+        if run.done or run.state in _ENDING:
+            run.finish()
+            raise RuntimeError("the test was stopped before its end; nothing was written")
+        time.sleep(0.005)
+
+
+def _push(run: Run, look: Callable[[Run], None], axis: int, force: float) -> tuple[float, float]:
+    """Push one axis; return its way [m] and the change of the measured force [N], both for a positive force."""
+    before = _mean(run, axis, 50)
+    angle = axis * math.pi / 2 + (0.0 if force > 0 else math.pi)
+    angle -= 2 * math.pi if angle > math.pi + 0.05 else 0.0
+    run.change(Wall(stiffness=abs(force) / -_BEHIND, position=_BEHIND, angle=angle))
+    _wait(run, look, lambda: bool(abs(_mean(run, axis, 1)[0] - before[0]) > FAR), PUSH)
+    after = _mean(run, axis, 20)
+    run.change(Free())
+    _wait(run, look, lambda: False, PAUSE)
+    way, reaction = (after - before) * math.copysign(1.0, force)
+    return float(way), float(reaction)
+
+
+def _mean(run: Run, axis: int, rows: int) -> NDArray[np.float64]:
+    last = run.tail(rows)
+    columns = [np.reshape(last[name], (len(last), -1))[:, axis] for name in ("x", "f_meas")]
+    return np.array([column.mean() for column in columns])
+
+
+def judged(
+    axis: int, signs: Signs, pushes: NDArray[np.float64], force: float, *, sensor: bool
+) -> AxisSigns:
+    """Return the signs of an axis from way [m] and reaction force [N] of a push each way, shape (2, 2)."""
+    ways, reaction = pushes[:, 0], pushes[:, 1]
+    motor, encoder = signs.motor[axis], signs.encoder[axis]
+    held = (
+        sensor and bool((np.abs(reaction) > HELD * force).all()) and reaction[0] * reaction[1] > 0
+    )
+    shown: dict[str, Any] = {
+        "axis": axis,
+        "configured_motor": motor,
+        "configured_encoder": encoder,
+        "moved_m": float(ways.mean()),
+        "force_N": float(reaction.mean()) if held else None,
+    }
+    if not (np.abs(ways) > LEAST).all():
+        remark = "did not move: let go of the handle, look at friction, brake and drive, or give more current"
+        return AxisSigns(**shown, motor=None, encoder=None, remark=remark)
+    if ways[0] * ways[1] < 0:
+        remark = "moved the same way under both forces: something else pushes; let go of the handle"
+        return AxisSigns(**shown, motor=None, encoder=None, remark=remark)
+    together = bool(ways[0] < 0)
+    motor_right = bool(reaction[0] > 0) if held else together
+    encoder_right = together == motor_right
+    wrong = [
+        name for name, right in (("motor", motor_right), ("encoder", encoder_right)) if not right
+    ]
+    remark = f"{' and '.join(wrong)} wrong" if wrong else "right"
+    if not held:
+        remark += "; by the encoder alone: where x grows to the wrong side, turn motor and encoder"
+    return AxisSigns(
+        **shown,
+        motor=motor if motor_right else -motor,
+        encoder=encoder if encoder_right else -encoder,
+        remark=remark,
+    )

@@ -1,0 +1,110 @@
+"""Signs of motors and encoders: found on simulated drives that are wired wrongly, and written into the file."""
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+import ebac
+from ebac.cli import app
+from ebac.hardware import Configuration, Signs, find_signs
+from ebac.hardware.find_signs import judged
+
+EXAMPLE = Path(__file__).parents[2] / "examples" / "joystick.toml"
+#: A busy machine is no wrong sign.
+PATIENT = {"force_age": 0.5, "overruns": 1000, "pause": 5.0}
+
+
+def wired(tmp_path: Path, motor: list[int], encoder: list[int], *, sensor: bool = True) -> Path:
+    text = EXAMPLE.read_text(encoding="utf-8").replace("silent = 10", "silent = 500")
+    if not sensor:
+        text = text[: text.index("[sensor]")] + text[text.index("# [observer]") :]
+    patient = "".join(f"{key} = {value}\n" for key, value in PATIENT.items())
+    text = text.replace("speed = 1.0 # m/s\n", f"speed = 1.0 # m/s\n{patient}")
+    text += f"\n[simulated.signs]\nmotor = {motor}\nencoder = {encoder}\n"
+    path = tmp_path / "mine.toml"
+    path.write_text(text, encoding="utf-8")
+    return path
+
+
+@pytest.mark.parametrize(("motor", "encoder"), [([-1, 1], [1, -1]), ([1, -1], [1, -1])])
+def test_each_wrong_sign_is_found_and_repaired(
+    tmp_path: Path, motor: list[int], encoder: list[int]
+) -> None:
+    path = wired(tmp_path, motor, encoder)
+    before = path.read_text(encoding="utf-8")
+    command = ["drive", "signs", str(path), "--simulated", "--json"]
+    first = CliRunner().invoke(app, command)
+    rows = json.loads(first.stdout)["rows"]
+    assert [row["motor"] for row in rows] == motor, rows
+    assert [row["encoder"] for row in rows] == encoder, rows
+    assert first.exit_code == 1
+    assert path.read_text(encoding="utf-8") == before
+    written = CliRunner().invoke(app, [*command, "--write"])
+    assert written.exit_code == 0, written.output
+    after = path.read_text(encoding="utf-8")
+    assert set(before.splitlines()) <= set(after.splitlines()), "every other line stays"
+    again = CliRunner().invoke(app, command)
+    assert again.exit_code == 0, again.output
+
+
+def test_without_a_sensor_the_two_together_are_found(tmp_path: Path) -> None:
+    known = Configuration.load(wired(tmp_path, [-1, 1], [1, -1], sensor=False))
+    rows = find_signs(known, simulate=True)
+    assert [(row.motor, row.encoder) for row in rows] == [(-1, 1), (-1, 1)]
+    assert "by the encoder alone" in rows[0].remark
+
+
+def test_a_current_out_of_range_is_refused() -> None:
+    with pytest.raises(ValueError, match=r"current = 1 A: must lie in \[0.02, 0.3\] A"):
+        find_signs(Configuration.from_toml(""), current=1)
+
+
+def test_a_run_that_is_stopped_ends_the_test(tmp_path: Path) -> None:
+    known = Configuration.load(wired(tmp_path, [1, 1], [1, 1]))
+    with pytest.raises(RuntimeError, match="stopped before its end"):
+        find_signs(known, simulate=True, look=lambda run: run.stop(at_once=True))
+
+
+def test_what_moves_by_itself_or_not_at_all_is_no_sign() -> None:
+    signs = Signs().of_all(1)
+    still = judged(0, signs, np.array([[1e-5, 1.0], [-1e-5, 1.0]]), 1.0, sensor=True)
+    assert still.motor is None
+    assert "did not move" in still.remark
+    pushed = judged(0, signs, np.array([[-4e-3, 1.0], [4e-3, 1.0]]), 1.0, sensor=True)
+    assert pushed.encoder is None
+    assert "something else pushes" in pushed.remark
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "",
+        'about = "x"',
+        "[signs] # mine\nmotor = [1, 1] # left\n\n[run]\nseconds = 1.0\n",
+        "[signs]\n[run]\nseconds = 1.0\n",
+        "[run]\nseconds = 1.0\n[signs]\nencoder = [-1, 1]",
+    ],
+)
+def test_signs_are_written_line_by_line(text: str) -> None:
+    made = Signs(motor=(-1, 1), encoder=(1, -1)).written_into(text)
+    known = Configuration.from_toml(made)
+    assert known.signs == Signs(motor=(-1, 1), encoder=(1, -1))
+    for comment in ("# mine", "# left"):
+        assert (comment in made) == (comment in text)
+    assert known.seconds == Configuration.from_toml(text).seconds
+
+
+def test_signs_in_another_form_are_left_alone() -> None:
+    with pytest.raises(ValueError, match="by hand"):
+        Signs(motor=(-1,), encoder=(1,)).written_into("signs = { motor = [1] }\n")
+
+
+def test_a_device_wired_as_configured_runs_as_any() -> None:
+    text = EXAMPLE.read_text(encoding="utf-8") + "\n[signs]\nmotor = [-1, 1]\n"
+    known = Configuration.from_toml(text)
+    assert known.signs.against(known.simulated_signs) == Signs()
+    assert known.signs.against(Signs(motor=(1, 1))) == Signs(motor=(-1, 1))
+    assert ebac.hardware.Signs is Signs
