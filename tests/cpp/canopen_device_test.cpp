@@ -466,6 +466,18 @@ TEST(DuplicateNode, IsNeitherADoubledFrameNorAnAnswerThatIsLate) {
   }
 }
 
+TEST(DuplicateNode, IsNotABacklogOfADriveThatWasHeldUp) {
+  TestBench bench({.axes = 1, .silent_ticks = 50});
+  bench.enable();
+  bench.drives.drive[0].copies = 0;
+  bench.ticks(40);
+  bench.drives.drive[0].copies = 1;
+  for (std::int32_t i = 0; i < 40; ++i) bench.bus.waiting.push_back(answer(1, 0x27, i, 0));
+  EXPECT_EQ(bench.ticks(3).fault, Fault::kNone);
+  for (std::int32_t i = 0; i < 5; ++i) bench.bus.waiting.push_back(answer(1, 0x27, 99 + i, 0));
+  EXPECT_EQ(bench.tick().fault, Fault::kDuplicateNode) << "nothing is owed any more";
+}
+
 TEST(Signs, TurnCurrentsAndCounts) {
   TestBench bench({.axes = 2, .motor_sign = {-1, 1, 1}, .encoder_sign = {1, -1, 1}});
   bench.enable();

@@ -14,11 +14,11 @@ from ebac.hardware.find_signs import judged
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "joystick.toml"
 #: A busy machine is no wrong sign.
-PATIENT = {"force_age": 0.5, "overruns": 1000, "pause": 5.0}
+PATIENT = {"force_age": 10.0, "overruns": 100000, "pause": 100.0, "jump": 1.0}
 
 
 def wired(tmp_path: Path, motor: list[int], encoder: list[int], *, sensor: bool = True) -> Path:
-    text = EXAMPLE.read_text(encoding="utf-8").replace("silent = 10", "silent = 500")
+    text = EXAMPLE.read_text(encoding="utf-8").replace("silent = 10", "silent = 1000")
     if not sensor:
         text = text[: text.index("[sensor]")] + text[text.index("# [observer]") :]
     patient = "".join(f"{key} = {value}\n" for key, value in PATIENT.items())
@@ -29,27 +29,33 @@ def wired(tmp_path: Path, motor: list[int], encoder: list[int], *, sensor: bool 
     return path
 
 
+def signs(path: Path, *more: str) -> tuple[int, list[dict[str, object]]]:
+    """Exit code and rows of the command on simulated drives."""
+    done = CliRunner().invoke(app, ["drive", "signs", str(path), "--simulated", "--json", *more])
+    assert done.stdout, done.stderr
+    return done.exit_code, json.loads(done.stdout)["rows"]
+
+
+@pytest.mark.real_time
 @pytest.mark.parametrize(("motor", "encoder"), [([-1, 1], [1, -1]), ([1, -1], [1, -1])])
 def test_each_wrong_sign_is_found_and_repaired(
     tmp_path: Path, motor: list[int], encoder: list[int]
 ) -> None:
     path = wired(tmp_path, motor, encoder)
     before = path.read_text(encoding="utf-8")
-    command = ["drive", "signs", str(path), "--simulated", "--json"]
-    first = CliRunner().invoke(app, command)
-    rows = json.loads(first.stdout)["rows"]
+    code, rows = signs(path)
     assert [row["motor"] for row in rows] == motor, rows
     assert [row["encoder"] for row in rows] == encoder, rows
-    assert first.exit_code == 1
+    assert code == 1
     assert path.read_text(encoding="utf-8") == before
-    written = CliRunner().invoke(app, [*command, "--write"])
-    assert written.exit_code == 0, written.output
+    assert signs(path, "--write")[0] == 0
     after = path.read_text(encoding="utf-8")
     assert set(before.splitlines()) <= set(after.splitlines()), "every other line stays"
-    again = CliRunner().invoke(app, command)
-    assert again.exit_code == 0, again.output
+    code, rows = signs(path)
+    assert code == 0, rows
 
 
+@pytest.mark.real_time
 def test_without_a_sensor_the_two_together_are_found(tmp_path: Path) -> None:
     known = Configuration.load(wired(tmp_path, [-1, 1], [1, -1], sensor=False))
     rows = find_signs(known, simulate=True)
@@ -62,6 +68,7 @@ def test_a_current_out_of_range_is_refused() -> None:
         find_signs(Configuration.from_toml(""), current=1)
 
 
+@pytest.mark.real_time
 def test_a_run_that_is_stopped_ends_the_test(tmp_path: Path) -> None:
     known = Configuration.load(wired(tmp_path, [1, 1], [1, 1]))
     with pytest.raises(RuntimeError, match="stopped before its end"):
@@ -69,11 +76,11 @@ def test_a_run_that_is_stopped_ends_the_test(tmp_path: Path) -> None:
 
 
 def test_what_moves_by_itself_or_not_at_all_is_no_sign() -> None:
-    signs = Signs().of_all(1)
-    still = judged(0, signs, np.array([[1e-5, 1.0], [-1e-5, 1.0]]), 1.0, sensor=True)
+    ones = Signs().of_all(1)
+    still = judged(0, ones, np.array([[1e-5, 1.0], [-1e-5, 1.0]]), 1.0, sensor=True)
     assert still.motor is None
     assert "did not move" in still.remark
-    pushed = judged(0, signs, np.array([[-4e-3, 1.0], [4e-3, 1.0]]), 1.0, sensor=True)
+    pushed = judged(0, ones, np.array([[-4e-3, 1.0], [4e-3, 1.0]]), 1.0, sensor=True)
     assert pushed.encoder is None
     assert "something else pushes" in pushed.remark
 

@@ -107,6 +107,8 @@ class NodeLink {
   void close() EBAC_RT {
     synced_ = false;
     twice_ = std::max(0, twice_ - 1);
+    steady_ = answered_ ? std::min(steady_ + 1, kForgotten) : 0;
+    if (steady_ == kForgotten) owed_ = 0;
     if (answered_) return;
     owed_ = std::min(owed_ + 1, kMostOwed);
     ++row_.missing;
@@ -139,8 +141,9 @@ class NodeLink {
   BusRow& row() EBAC_RT { return row_; }
 
  private:
-  static constexpr int kMostOwed = 8;  // ticks
-  static constexpr int kTwice = 10;    // ticks that one such answer is remembered
+  static constexpr int kMostOwed = 1000;   // answers: the most ticks a drive may be silent for
+  static constexpr int kForgotten = 1000;  // ticks in a row with an answer: what is owed is lost
+  static constexpr int kTwice = 10;        // ticks that a second answer is remembered
 
   void take_process_data(const Frame& frame) EBAC_RT {
     if (frame.size != kTpdoSize) {
@@ -203,8 +206,9 @@ class NodeLink {
   double quiet_ = 0;       // s
   double counts_age_ = 0;  // s
   int unsent_ = 0;
-  int owed_ = 0;   // answers
-  int twice_ = 0;  // ticks
+  int owed_ = 0;    // answers
+  int steady_ = 0;  // ticks in a row with an answer
+  int twice_ = 0;   // ticks
   std::array<std::uint8_t, 8> answer_{};
   std::int64_t counts_ = 0;
   BusRow row_{};
