@@ -22,7 +22,7 @@ def wired(tmp_path: Path, motor: list[int], encoder: list[int], *, sensor: bool 
     if not sensor:
         text = text[: text.index("[sensor]")] + text[text.index("# [observer]") :]
     patient = "".join(f"{key} = {value}\n" for key, value in PATIENT.items())
-    text = text.replace("speed = 1.0 # m/s\n", f"speed = 1.0 # m/s\n{patient}")
+    text = text.replace("speed = 1.0 # m/s\n", f"speed = 100.0\n{patient}")
     text += f"\n[simulated.signs]\nmotor = {motor}\nencoder = {encoder}\n"
     path = tmp_path / "mine.toml"
     path.write_text(text, encoding="utf-8")

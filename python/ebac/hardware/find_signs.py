@@ -27,7 +27,6 @@ HELD = 0.3
 _BEHIND = -1.0
 #: Current comes in with this slope [A/s].
 _SLEW = 1.0
-_SPEED = 0.5  # m/s
 _ENDING = (LoopState.STOP, LoopState.IDLE, LoopState.FAULT)
 
 
@@ -72,7 +71,6 @@ def gentle(known: Configuration, current: float) -> Configuration:
         peak_current=current,
         continuous_current=min(current, known.limits.continuous_current),
         slew=_SLEW,
-        speed=_SPEED,
         edge_stiffness=0.0,
         watch_motion=False,
     )
