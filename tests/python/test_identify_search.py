@@ -14,9 +14,9 @@ from ebac.identify.arm import better_guess
 from ebac.identify.bias import NEAR, lowest
 from ebac.identify.cases import draw
 from ebac.identify.check import run_case
+from ebac.identify.level_forces import LevelForces
 from ebac.identify.parameters import lay_out
 from ebac.identify.problem import Problem
-from ebac.identify.pull import Pull
 from ebac.identify.search import least_squares
 from ebac.identify.target import indicators, lagged
 from ebac.identify.unbiased import second_opinion
@@ -95,7 +95,7 @@ def test_a_search_keeps_nothing_of_what_it_searched() -> None:
 @settings(max_examples=20)
 @given(st.lists(st.floats(0.01, 2), min_size=3, max_size=3), st.floats(-0.1, 0.1))
 def test_forces_and_levels_say_the_same(problem: Problem, hand: list[float], level: float) -> None:
-    pull, values = Pull.of(problem), better_guess(problem)
+    pull, values = LevelForces.of(problem), better_guess(problem)
     values[:3] = hand[0], 5 * hand[1], 300 * hand[2]
     values[-2:] = level, -level
     assert pull.full(pull.moved(values), values) == pytest.approx(values, abs=1e-12)
@@ -104,7 +104,7 @@ def test_forces_and_levels_say_the_same(problem: Problem, hand: list[float], lev
 
 
 def test_the_slope_along_forces_is_that_of_the_objective(problem: Problem) -> None:
-    pull, values = Pull.of(problem), better_guess(problem)
+    pull, values = LevelForces.of(problem), better_guess(problem)
     gains = problem.gains(values, problem.shown)
     (_, slope), at = pull.linearised(values, gains), pull.moved(values)
     onset = problem.parameters.names.index("onset")  # has a kink where it is held
@@ -122,10 +122,10 @@ def test_the_slope_along_forces_is_that_of_the_objective(problem: Problem) -> No
 
 def test_a_bounded_level_stays_a_level(problem: Problem) -> None:
     bounded = lay_out([2], fixed={}, bounds={"X0/2": (-0.1, 0.1)}, free=(), own=())
-    pull = Pull.of(
+    pull = LevelForces.of(
         Problem(recordings=problem.recordings, targets=problem.targets, parameters=bounded)
     )
-    assert len(pull.levels) == len(Pull.of(problem).levels) - 1
+    assert len(pull.levels) == len(LevelForces.of(problem).levels) - 1
     assert np.isfinite(pull.bounds[0]).sum() == len(pull.which) - 1
 
 

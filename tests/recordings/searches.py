@@ -20,8 +20,8 @@ from scipy.optimize import least_squares as scipy_least_squares
 
 from ebac import identify
 from ebac.identify.arm import _without_pauses, better_guess
+from ebac.identify.level_forces import LevelForces
 from ebac.identify.parameters import lay_out
-from ebac.identify.pull import Pull
 from ebac.identify.search import least_squares
 
 Values: TypeAlias = NDArray[np.float64]
@@ -43,7 +43,7 @@ def case(number: int, level: str, folder: Path) -> tuple[Model, Values, Values, 
         target = identify.Target.following(recording.target)
     layout = lay_out([target.levels], fixed={}, bounds={}, free=(), own=())
     problem = _without_pauses([recording], [target], layout)
-    guess, pull = better_guess(problem), Pull.of(problem)
+    guess, pull = better_guess(problem), LevelForces.of(problem)
     gains, (low, high) = problem.gains(guess, problem.shown), pull.bounds
     start = np.clip(pull.moved(guess), low, high)
     return (lambda part: pull.linearised(pull.full(part, guess), gains)), start, low, high

@@ -118,7 +118,7 @@ class ImpulseBalance {
   }
 
   double excess_over(double sum) const EBAC_RT {
-    if (known_ <= 2 * n_) return 0;
+    if (known_ <= std::int64_t{2} * n_) return 0;
     const double n = n_;
     const double span = n * facts_.dt;
     const double impulse = sum / (n * n);

@@ -10,9 +10,9 @@ from numpy.typing import NDArray
 
 from ebac.identify.bias import likely_drift, likely_noise, without_noise
 from ebac.identify.intervals import covariance, loose_inverse
+from ebac.identify.level_forces import LevelForces
 from ebac.identify.parameters import Parameters, kind
 from ebac.identify.problem import Problem
-from ebac.identify.pull import Pull
 from ebac.identify.search import Found, least_squares
 
 Values = NDArray[np.float64]
@@ -213,14 +213,14 @@ def _search(problem: Problem, start: Values, robust: float | None) -> Point:
     it anything fits.
     """
     values, noise, evaluations = start, problem.shown, 0
-    pull = Pull.of(problem)
+    forces = LevelForces.of(problem)
     for i in range(MOST_ROUNDS):
         if i > 0:
             noise = likely_noise(problem, values, noise, robust)
-        began = pull.moved(values)
-        found = _with_filter(problem, values, noise, pull, robust)
+        began = forces.moved(values)
+        found = _with_filter(problem, values, noise, forces, robust)
         evaluations += found.evaluations
-        values = pull.full(found.values, values)
+        values = forces.full(found.values, values)
         step = found.values - began
         if i > 0 and float(step @ found.information @ step) < SETTLED:
             break
@@ -236,14 +236,14 @@ def _search(problem: Problem, start: Values, robust: float | None) -> Point:
 
 
 def _with_filter(
-    problem: Problem, values: Values, noise: Values, pull: Pull, robust: float | None
+    problem: Problem, values: Values, noise: Values, forces: LevelForces, robust: float | None
 ) -> Found:
     """Search from some values with the filter made for them."""
     gains = problem.gains(values, noise)
-    low, high = pull.bounds
+    low, high = forces.bounds
     return least_squares(
-        lambda part: pull.linearised(pull.full(part, values), gains),
-        pull.moved(values),
+        lambda part: forces.linearised(forces.full(part, values), gains),
+        forces.moved(values),
         low,
         high,
         robust=robust,

@@ -259,7 +259,7 @@ def _too_fast(
 def _multiples(parameters: Parameters, correlation: NDArray[np.float64]) -> list[str]:
     """Return M0, B0, K0 of each hand of which only multiples differ: all three move together.
 
-    That is a hand that moves the device on its own: what then seems to tell the multiples apart is an error of the
+    That is a hand that moves the device on its own: what then seems to separate the multiples is an error of the
     readings, such as jitter. On a hand that something else moves the three differ: 0.4 is much.
     """
     names, free, out = parameters.names, parameters.free.tolist(), list[str]()

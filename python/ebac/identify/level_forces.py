@@ -18,7 +18,7 @@ SOFTEST = 1e-3
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Pull:
+class LevelForces:
     """Which of what is moved are levels, and where the K0 of each stands among all parameters."""
 
     problem: Problem
@@ -26,7 +26,7 @@ class Pull:
     levels: tuple[tuple[int, int, int], ...]  # row among the moved: of X0, of its K0; K0 among all
 
     @classmethod
-    def of(cls, problem: Problem) -> Pull:
+    def of(cls, problem: Problem) -> LevelForces:
         """Return what is moved; levels that are bounded, or whose K0 is given, stay levels."""
         p, which = problem.parameters, problem.moved
         row = {int(index): i for i, index in enumerate(which)}
