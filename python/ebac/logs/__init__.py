@@ -17,11 +17,13 @@ from ebac.logs.recorder import Recorder
 from ebac.logs.records import Condition
 from ebac.logs.repair import repair
 from ebac.logs.replay import replay
+from ebac.logs.ros2 import Bag, to_ros2
 from ebac.logs.writer import LogWriter
 
 __all__ = [
     "FORMATS",
     "About",
+    "Bag",
     "Condition",
     "Event",
     "Gap",
@@ -33,6 +35,7 @@ __all__ = [
     "repair",
     "replay",
     "save",
+    "to_ros2",
 ]
 
 

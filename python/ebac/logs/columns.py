@@ -39,6 +39,9 @@ class Columns:
             self.span = (float(t[0]) if self.span is None else self.span[0], float(t[-1]))
         if self._part:
             rows = rows[(t >= self._start) & (t < self._stop)]
+        self._append(rows, share)
+
+    def _append(self, rows: NDArray[Any], share: float) -> None:
         stop = self._rows + len(rows)
         if stop > self._room:
             self._make_room(stop, share)

@@ -5,8 +5,8 @@ from __future__ import annotations
 import errno
 import os
 import warnings
-from collections.abc import Callable, Mapping
-from contextlib import suppress
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -34,7 +34,13 @@ FORMATS = {
 READABLE = tuple(FORMATS)
 
 
-def save(trace: Trace, path: str | Path, *, progress: Progress | None = None) -> None:
+#: What an MCAP file can be made for: a log of ebac, or ROS 2.
+PROFILES = ("ebac", "ros2")
+
+
+def save(
+    trace: Trace, path: str | Path, *, profile: str = "ebac", progress: Progress | None = None
+) -> None:
     """Write a trace in the format of the extension; the file appears when it is whole.
 
     Parameters
@@ -43,40 +49,64 @@ def save(trace: Trace, path: str | Path, *, progress: Progress | None = None) ->
         Any number of rows.
     path : str or Path
         Ends in one of `FORMATS`; a file of that name is replaced.
+    profile : str
+        Of .mcap: `ebac`, or `ros2` for a bag of ROS 2, see `to_ros2`, which ebac does not read back.
     progress : callable, optional
         Called with rows written and rows in all, where the format is written in parts.
 
     Raises
     ------
     ValueError
-        For another extension.
+        For another extension or profile, or columns that the format cannot hold.
     ModuleNotFoundError
         When the library of a format is not installed; the message names it.
     OSError
         When the file cannot be written.
     """
-    from ebac.logs import export
+    from ebac.logs import export, ros2
 
     path = Path(path)
+    known = extension(path, tuple(FORMATS))
+    check_profile(path, profile)
     writers: dict[str, Callable[[Trace, Path, Progress], Any]] = {
-        ".mcap": write_mcap,
+        ".mcap": ros2.write_trace if profile == "ros2" else write_mcap,
         ".npz": lambda t, p, _: t.to_npz(p),
         ".csv": lambda t, p, progress: t.to_csv(p, progress=progress),
         ".parquet": export.to_parquet,
         ".mat": export.to_mat,
         ".h5": export.to_hdf5,
     }
-    write = writers[extension(path, tuple(FORMATS))]
-    draft = path.with_name(f".{path.name}.{os.getpid()}.draft")
+    with draft(path) as name:
+        writers[known](trace, name, progress or (lambda done, total: None))
+
+
+@contextmanager
+def draft(path: Path) -> Iterator[Path]:
+    """Give the name of a file beside `path` that takes its place once it is whole, and is removed otherwise."""
+    name = path.with_name(f".{path.name}.{os.getpid()}.draft")
     try:
-        write(trace, draft, progress or (lambda done, total: None))
-        draft.replace(path)
+        yield name
+        name.replace(path)
     except OSError as error:  # names the file asked for, not the draft beside it
         number, why = error.errno or errno.EIO, error.strerror or str(error)
         raise OSError(number, why, str(path)) from None
     finally:
         with suppress(OSError):  # a folder that is none has no draft either
-            draft.unlink(missing_ok=True)
+            name.unlink(missing_ok=True)
+
+
+def check_profile(path: Path, profile: str) -> None:
+    """Refuse a profile that is none, or that the format of a file does not have.
+
+    Raises
+    ------
+    ValueError
+        Then.
+    """
+    if profile not in PROFILES:
+        raise ValueError(f"profile {profile!r}: must be {' or '.join(PROFILES)}")
+    if profile != "ebac" and path.suffix.lower() != ".mcap":
+        raise ValueError(f"{path}: the profile {profile} must end in .mcap")
 
 
 def extension(path: Path, known: tuple[str, ...]) -> str:
@@ -164,16 +194,21 @@ def write_mcap(
     from ebac.logs.writer import LogWriter
 
     data = {name: trace[name] for name in trace}
-    simulated = {SIMULATED_FILE: ""} if trace.origin == SIMULATED_DRIVES else {}
-    about = About(
-        axes=trace.axes,
-        law=trace.law,
-        law_repr=trace.law_repr,
-        scenario=trace.scenario,
-        files={**simulated, **(files or {})},
-    )
+    about = about_trace(trace, files or {})
     with LogWriter(path, layout=Layout.of(data, trace.columns), about=about) as log:
         for first in range(0, len(trace), CHUNK_ROWS):
             log.write({name: v[first : first + CHUNK_ROWS] for name, v in data.items()})
             progress(min(first + CHUNK_ROWS, len(trace)), len(trace))
         log.close(rows=len(trace), lost=0)
+
+
+def about_trace(trace: Trace, files: Mapping[str, str]) -> About:
+    """Return what stands beside the rows of a trace in a log, with text files attached."""
+    simulated = {SIMULATED_FILE: ""} if trace.origin == SIMULATED_DRIVES else {}
+    return About(
+        axes=trace.axes,
+        law=trace.law,
+        law_repr=trace.law_repr,
+        scenario=trace.scenario,
+        files={**simulated, **files},
+    )

@@ -188,7 +188,8 @@ class Layout:
         lines = ["# One tick of the loop; SI units. Columns of a trace, with _ for the dot."]
         for c in self.packed:
             kind = c.kind if c.size == 1 else f"{c.kind}[{c.size}]"
-            lines.append(f"{kind} {c.field}  # [{c.unit}] {c.meaning}")
+            comment = " ".join(f"[{c.unit}] {c.meaning}".split())  # a line each
+            lines.append(f"{kind} {c.field}  # {comment}")
         return "\n".join(lines) + "\n"
 
     @functools.cached_property

@@ -24,6 +24,7 @@ from ebac.logs.records import (
     FileBytes,
     channels,
     parsed,
+    profile,
     records,
     summary_channels,
     unpacked,
@@ -44,6 +45,7 @@ class _Found:
     stop: float = math.inf
     where: Where | None = None
     columns: Columns | None = None
+    into: Callable[[Layout, float, float], Columns] = Columns
     by_summary: bool | None = (
         None  # whether that describes the channels; None before it was looked at
     )
@@ -119,10 +121,13 @@ def read_bytes(
     start: float | None = None,
     stop: float | None = None,
     progress: Callable[[int, int], None] | None = None,
+    into: Callable[[Layout, float, float], Columns] = Columns,
 ) -> Log:
-    """Read a log that is in memory; `name` is for messages. As `read`."""
+    """Read a log that is in memory; `name` is for messages, `into` makes what takes the rows. As `read`."""
     path, condition, size = Path(name), Condition(), len(data)
-    found = _Found(-math.inf if start is None else start, math.inf if stop is None else stop)
+    found = _Found(
+        -math.inf if start is None else start, math.inf if stop is None else stop, into=into
+    )
     if not MAGIC.startswith(data[: len(MAGIC)]):
         raise ValueError(f"{path}: not an MCAP file (it does not begin like one)")
     if size < len(MAGIC):
@@ -146,6 +151,11 @@ def read_bytes(
         if found.where is not None:
             for content in chunks.rest(found.where):
                 _take_content(found, condition, content, size)
+    if found.where is None and profile(data) == "ros2":
+        raise ValueError(
+            f"{path}: a bag of ROS 2, no log of ebac; give the log it was exported from, or read it with rosbags "
+            "or mcap-ros2-support"
+        )
     if found.columns is not None and found.columns.span is not None:
         check_part(path, found.columns.span, start, stop)
     return _log(path, found, condition, size)
@@ -204,7 +214,7 @@ def _take_channel(found: _Found, channel: Any) -> None:
     if channel.topic == ROWS_TOPIC and channel.message_encoding == "cdr" and found.where is None:
         layout = Layout.from_json(channel.metadata.get("columns", ""))
         found.where = Where(layout=layout, rows=channel.id, events=found.events_channel)
-        found.columns = Columns(layout, found.start, found.stop)
+        found.columns = found.into(layout, found.start, found.stop)
     elif channel.topic == EVENTS_TOPIC and channel.message_encoding == "json":
         found.events_channel = channel.id
         if found.where is not None:

@@ -11,7 +11,8 @@ from io import BytesIO
 from typing import Any, BinaryIO
 
 MAGIC = b"\x89MCAP0\r\n"
-FOOTER, CHANNEL, CHUNK, METADATA, ATTACHMENT = 0x02, 0x04, 0x06, 0x0C, 0x09
+HEADER, FOOTER, CHANNEL, CHUNK = 0x01, 0x02, 0x04, 0x06
+METADATA, ATTACHMENT = 0x0C, 0x09
 #: A chunk larger than this is damage: ebac writes at most some MB, other programs 4.
 MOST_CHUNK = 1 << 26
 #: So is one of over a megabyte that would unpack to this many times its size: rows give a hundred times at most.
@@ -112,6 +113,15 @@ def records(
                 at += len(MAGIC)
             break
     condition.bytes_left = max(0, size - at)
+
+
+def profile(data: bytes | FileBytes) -> str:
+    """Return what kind of messages a file announces, such as ros2; empty where it does not."""
+    start = len(MAGIC) + _HEAD.size
+    head = data[len(MAGIC) : start + 4]
+    if len(head) < _HEAD.size + 4 or head[0] != HEADER:
+        return ""
+    return data[start + 4 : start + 4 + min(head[_HEAD.size], 64)].decode(errors="replace")
 
 
 def summary_channels(data: bytes | FileBytes) -> list[bytes]:

@@ -215,7 +215,13 @@ class Trace:
         frame.attrs["units"] = {name: info.unit for name, info, _ in columns}
         return frame
 
-    def save(self, path: str | Path, *, progress: Callable[[int, int], None] | None = None) -> None:
+    def save(
+        self,
+        path: str | Path,
+        *,
+        profile: str = "ebac",
+        progress: Callable[[int, int], None] | None = None,
+    ) -> None:
         """Write a file, the format by its extension: .mcap, .npz, .csv, .parquet, .mat or .h5.
 
         A log, .mcap, opens in PlotJuggler and Foxglove and holds all a trace has. The file appears when it is whole,
@@ -225,19 +231,22 @@ class Trace:
         ----------
         path : str or Path
             Name of the file.
+        profile : str
+            Of .mcap: `ebac` for a log, or `ros2` for a bag of ROS 2, which rosbags and mcap-ros2-support read and
+            ebac does not.
         progress : callable, optional
             Called with rows written and rows in all.
 
         Raises
         ------
         ValueError
-            For another extension.
+            For another extension or profile.
         ModuleNotFoundError
             When the library a format needs is not installed; the message names what to install.
         """
         from ebac.logs.files import save
 
-        save(self, path, progress=progress)
+        save(self, path, profile=profile, progress=progress)
 
     @classmethod
     def load(cls, path: str | Path) -> Trace:

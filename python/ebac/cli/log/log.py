@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from enum import StrEnum
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, TypeAlias
 
@@ -30,6 +31,13 @@ From: TypeAlias = Annotated[
 To: TypeAlias = Annotated[
     float | None, typer.Option("--to", help="Only rows before this time [s].")
 ]
+
+
+class Profile(StrEnum):
+    """What an MCAP file is made for."""
+
+    EBAC = "ebac"
+    ROS2 = "ros2"
 
 
 def info(file: LogFile, as_json: output.AsJson = False) -> None:
@@ -61,6 +69,9 @@ def export(
     ],
     start: From = None,
     stop: To = None,
+    profile: Annotated[
+        Profile, typer.Option("--profile", help="Of .mcap: a log of ebac, or a bag of ROS 2.")
+    ] = Profile.EBAC,
     force: Annotated[bool, typer.Option("--force", help="Replace a file of that name.")] = False,
     as_json: output.AsJson = False,
 ) -> None:
@@ -75,13 +86,19 @@ def export(
     * `ebac wall --law ebac --log run.mcap`, then `ebac log export run.mcap run.csv`
 
     * `ebac log export run.mcap part.npz --from 2 --to 5`: three seconds of it, for NumPy
+
+    * `ebac log export run.mcap run-ros2.mcap --profile ros2`: a bag for ROS 2, rosbags and mcap-ros2-support
     """
-    from ebac.logs.files import FORMATS, extension
+    from ebac.logs.files import FORMATS, check_profile, extension
 
     with output.refusing():
         extension(out, tuple(FORMATS))
+        check_profile(out, profile)
     new_file("OUT", out, force=force)
     output.keeping("nothing was written")
+    if profile == Profile.ROS2:
+        _export_ros2(file, out, start, stop, as_json=as_json)
+        return
     read = _read(file, start, stop, quiet=as_json)
     trace = read.trace
     with output.refusing(), output.counting(f"writing {out.name}", quiet=as_json) as progress:
@@ -218,6 +235,27 @@ def _read(file: Path, start: float | None = None, stop: float | None = None, *, 
             return read(file, start=start, stop=stop, progress=progress)
         except ModuleNotFoundError as error:
             output.fail(f"{file}: {error}")
+
+
+def _export_ros2(
+    file: Path, out: Path, start: float | None, stop: float | None, *, as_json: bool
+) -> None:
+    from ebac.logs import to_ros2
+
+    with output.refusing(), output.counting(f"writing {out.name}", quiet=as_json) as progress:
+        try:
+            bag = to_ros2(file, out, start=start, stop=stop, progress=progress)
+        except ModuleNotFoundError as error:
+            output.fail(f"{file}: {error}")
+    if as_json:
+        rows, size = bag.messages["/ebac/row"], out.stat().st_size
+        row = {"file": str(out), "rows": rows, "messages": bag.messages, "bytes": size}
+        typer.echo(output.document("log export", [row], **log_info.condition(bag.log)))
+    else:
+        output.path(out)
+        for topic, number in bag.messages.items():
+            output.say(f"{topic}: {output.plural(number, 'message')}")
+    _report(bag.log, quiet=as_json)
 
 
 def _report(read: Log, *, quiet: bool) -> None:
