@@ -9,7 +9,7 @@ from typer.testing import CliRunner
 
 from ebac import drives
 from ebac.cli import app
-from ebac.drives.timing import crc15
+from ebac.drives.frame_length import crc15
 
 
 def by_hand(cob_id: int, data: bytes) -> int:

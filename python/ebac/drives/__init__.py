@@ -30,7 +30,8 @@ from ebac.drives.errors import (
     WrongAnswer,
     WrongState,
 )
-from ebac.drives.load import BusLoad, Traffic, bus_load, frame_bits
+from ebac.drives.frame_length import exact_bits, frame_bits
+from ebac.drives.load import BusLoad, Traffic, bus_load
 from ebac.drives.network import Network, Node, check_sheet, load
 from ebac.drives.objects import Object, find
 from ebac.drives.own_objects import OwnObject
@@ -40,7 +41,7 @@ from ebac.drives.profile import Profile, builtin
 from ebac.drives.simulate import inject
 from ebac.drives.stall import check_stall, hold_time
 from ebac.drives.state import TRANSITIONS, Command, Controlword, State, Statusword, path
-from ebac.drives.timing import BusTiming, bus_timing, exact_bits
+from ebac.drives.timing import BusTiming, bus_timing
 
 __all__ = [
     "TRANSITIONS",

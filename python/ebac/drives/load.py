@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from ebac._core import REFUSED_LOAD, WARNED_LOAD, worst_bits
+from ebac._core import REFUSED_LOAD, WARNED_LOAD
+from ebac.drives.frame_length import frame_bits
 
 #: Bit rates of CiA 301 [bit/s].
 BITRATES = (10_000, 20_000, 50_000, 100_000, 125_000, 250_000, 500_000, 800_000, 1_000_000)
@@ -76,22 +77,6 @@ class BusLoad:
 
 
 _REMEDY = "raise the bit rate, lengthen sync.period, map fewer objects, or use a second bus"
-
-
-def frame_bits(size: int) -> int:
-    """Return the bits of a classical CAN frame with `size` bytes, stuffed as badly as can be.
-
-    47 bits frame it (11-bit identifier, interframe space included); one stuff bit may follow
-    every four of the 34 + 8 n bits that are stuffed (ISO 11898-1; Davis et al. 2007, eq. 1).
-
-    Raises
-    ------
-    ValueError
-        When `size` is not in [0, 8].
-    """
-    if not 0 <= size <= 8:
-        raise ValueError(f"size = {size} bytes: a classical CAN frame has 0 to 8")
-    return worst_bits(size)
 
 
 def bus_load(traffic: Iterable[Traffic], *, bitrate: int) -> BusLoad:

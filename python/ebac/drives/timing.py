@@ -1,4 +1,4 @@
-"""The time that a bus takes, simulated: lengths of frames, arbitration, errors, and what comes too late for a loop."""
+"""The time that a bus takes, simulated: arbitration, errors, and what comes too late for a loop."""
 
 from __future__ import annotations
 
@@ -7,71 +7,15 @@ from collections import deque
 from dataclasses import dataclass, field
 
 from ebac._util.wrong_calls import plain_constructor
+from ebac.drives.frame_length import exact_bits
 from ebac.drives.network import Network
 
-#: CRC-15 of CAN (ISO 11898-1), and the bits that are never stuffed: delimiters, ACK, end, interframe space.
-_POLYNOMIAL, _FIXED = 0x4599, 1 + 2 + 7 + 3
 #: Bits of an error frame with its delimiter and interframe space, and what an error-passive node waits beside [bit].
 _ERROR_FRAME, _SUSPEND = 6 + 6 + 8 + 3, 8
 #: Counts of errors above which a node is passive, and off the bus (ISO 11898-1).
 _PASSIVE, _OFF = 127, 255
 #: What a drive takes to answer a SYNC [s].
 _ANSWER = 50e-6
-
-
-def exact_bits(
-    cob_id: int, data: bytes = b"", *, remote: bool = False, size: int | None = None
-) -> int:
-    """Return the bits of a classical CAN frame with an 11-bit identifier, stuff bits and interframe space included.
-
-    Parameters
-    ----------
-    cob_id : int
-        Identifier, 0 to 0x7FF.
-    data : bytes
-        At most 8.
-    remote : bool
-        A remote frame: no data, `size` as its length code.
-    size : int, optional
-        Length code of a remote frame, 0 to 8.
-
-    Raises
-    ------
-    ValueError
-        For an identifier or a length that no such frame has.
-    """
-    length = len(data) if size is None else size
-    if not 0 <= cob_id <= 0x7FF or not 0 <= length <= 8 or (data and remote):
-        raise ValueError(
-            f"frame 0x{cob_id:X} with {length} bytes: must be at most 0x7FF with at most 8 bytes"
-        )
-    # start of frame, identifier, RTR, IDE, r0, length code, data
-    word, bits = (cob_id << 7) | (int(remote) << 6) | length, 1 + 11 + 3 + 4
-    for byte in data:
-        word, bits = word << 8 | byte, bits + 8
-    word, bits = word << 15 | crc15(word, bits), bits + 15
-    return bits + _stuffed(word, bits) + _FIXED
-
-
-def crc15(word: int, bits: int) -> int:
-    """Return the CRC-15 of CAN over the lowest `bits` bits of a number, the highest first."""
-    crc = 0
-    for at in range(bits - 1, -1, -1):
-        top = crc >> 14 & 1 ^ word >> at & 1
-        crc = (crc << 1 & 0x7FFF) ^ (_POLYNOMIAL if top else 0)
-    return crc
-
-
-def _stuffed(word: int, bits: int) -> int:
-    """Return the stuff bits: one of the other value after every five alike, which counts for the next five."""
-    count, run, last = 0, 0, None
-    for at in range(bits - 1, -1, -1):
-        bit = word >> at & 1
-        run = run + 1 if bit == last else 1
-        last = bit
-        if run == 5:
-            count, run, last = count + 1, 1, 1 - bit
-    return count
 
 
 @plain_constructor
