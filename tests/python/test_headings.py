@@ -55,6 +55,25 @@ def test_the_letters_of_a_unit_may_be_capital(form: str) -> None:
     )  # a meganewton is no millinewton
 
 
+@pytest.mark.parametrize("form", ["{} [{}]", "{} ({})", "{}_{}", "{} {}", "{}/{}", "{}.{}"])
+@pytest.mark.parametrize(
+    "mark", ["", " ", "*", ".", "-", "_", "\u00b7", "\u22c5"], ids=lambda mark: f"N{mark}m"
+)
+@pytest.mark.parametrize("prefix", ["", "m", "k"])
+def test_a_torque_in_any_spelling(form: str, mark: str, prefix: str) -> None:
+    heading = form.format("tau", f"{prefix}N{mark}m")
+    assert split_heading(heading, FACTORS["torque"]) == ("tau", f"{prefix}N m")
+    factor = FACTORS["torque"][f"{prefix}N m"]
+    assert signal_heading(heading) == ("tau", "N m", factor)
+
+
+def test_letters_that_look_like_a_torque() -> None:
+    assert split_heading("tau [MNm]", FACTORS["torque"]) == ("tau", "MNm")  # a mega, no milli
+    assert split_heading("torque_nm", FACTORS["torque"]) == ("torque", "N m")
+    assert signal_heading("x [nm]") == ("x", "nm", 1.0)  # a nanometre, no newton metre
+    assert split_heading("f_n_m", FACTORS["torque"]) == ("f_n_m", None)
+
+
 @pytest.mark.parametrize(
     ("heading", "meant"),
     [
@@ -67,6 +86,11 @@ def test_the_letters_of_a_unit_may_be_capital(form: str) -> None:
         ("law.f_d", ("law.f_d", "1", 1.0)),
         ("x_min", ("x_min", "1", 1.0)),
         ("current [A]", ("current", "A", 1.0)),
+        ("theta_deg", ("theta", "rad", np.pi / 180)),
+        ("x [°]", ("x", "rad", np.pi / 180)),
+        ("motor_mNm", ("motor", "N m", 1e-3)),
+        ("angle", ("angle", "rad", 1.0)),
+        ("tau_0", ("tau_0", "N m", 1.0)),
     ],
 )
 def test_headings_of_a_log(heading: str, meant: tuple[str, str, float]) -> None:

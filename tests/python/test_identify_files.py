@@ -133,11 +133,25 @@ def test_a_wall_that_pushes_unrecorded_is_no_device(tmp_path: Path) -> None:
     assert fit_device(r).explained < 0.9
 
 
-def test_columns_of_text_are_left_out(tmp_path: Path) -> None:
-    rows = [f"{t:.6g},hold,{x:.6g},{f:.6g}" for t, x, f in zip(T, X, F, strict=True)]
+TEXT = {
+    "words": lambda i: "hold",
+    "empty": lambda i: "start" if i == 0 else "",
+    "numbers among them": lambda i: str(i) if i % 7 == 0 else "hold",
+    "a separator in quotes": lambda i: '"held, then let go"',
+}
+
+
+@pytest.mark.parametrize("kind", TEXT)
+def test_columns_of_text_are_left_out_with_a_note(tmp_path: Path, kind: str) -> None:
+    signals = enumerate(zip(T, X, F, strict=True))
+    rows = [f"{t:.6g},{TEXT[kind](i)},{x:.6g},{f:.6g}" for i, (t, x, f) in signals]
     path = tmp_path / "log.csv"
-    path.write_text("\n".join(["t,phase,x,force", *rows]))
-    assert load(path).x == pytest.approx(X, abs=1e-9)
+    path.write_text("\n".join(["t,comment,x,force", *rows]))
+    found = load(path)
+    assert found.x == pytest.approx(X, abs=1e-9)
+    assert "column 'comment' is left out: it holds text" in found.remarks
+    with pytest.raises(ValueError, match=r"in row \d, column 'comment', is no number"):
+        load(path, columns={"force": "comment"})
 
 
 @pytest.mark.parametrize("by_row", [False, True])

@@ -22,6 +22,7 @@ from ebac.identify.device_problem import (
 )
 from ebac.identify.fit import Fitted, fitted
 from ebac.identify.intervals import Z95
+from ebac.identify.joint import usual_lever
 from ebac.identify.parameters import BOUNDS
 from ebac.identify.recording import Recording, require_recordings
 from ebac.identify.result import Estimate
@@ -37,11 +38,15 @@ BELIEVED, GAIN = 4.0, 20.0
 LEAST_START = (0.02, 0.1)
 NAMES = ("M_h", "B_h", "coulomb", "weight", "stribeck")
 UNITS = ("kg", "N s/m", "N", "N", "N")
+ROTARY_UNITS = ("kg m^2", "N m s/rad", "N m", "N m", "N m")
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class DeviceResult:
-    """The device as identified; `result.compensation` feeds a `Device`."""
+    """The device as identified; `result.compensation` feeds a `Device`.
+
+    Of a rotary recording all numbers are of the joint: kg m^2, N m s/rad and N m.
+    """
 
     recording: Recording
     drive: Drive
@@ -55,12 +60,19 @@ class DeviceResult:
     #: Share explained with forces of the other sign, "force", "motor" or "force and motor", where this fit explains
     #: little or is impossible; only of devices that are possible.
     other_signs: Mapping[str, float] = field(default_factory=dict)
+    #: Lever at which a rotary device was searched as a handle [m]; 1 for one in m.
+    lever: float = 1.0
+
+    @property
+    def units(self) -> tuple[str, ...]:
+        """Unit of each of `names`."""
+        return ROTARY_UNITS if self.recording.rotary else UNITS
 
     @cached_property
     def estimates(self) -> dict[str, Estimate]:
         """Every parameter by name: M_h, B_h, coulomb, weight (towards +x), stribeck (breakaway above Coulomb)."""
         half = Z95 * np.sqrt(np.diag(self.covariance))
-        rows = zip(self.names, self.values.tolist(), half.tolist(), UNITS, strict=False)
+        rows = zip(self.names, self.values.tolist(), half.tolist(), self.units, strict=False)
         return {
             name: Estimate(
                 name=name,
@@ -90,14 +102,15 @@ class DeviceResult:
     @property
     def impossible(self) -> tuple[str, ...]:
         """Why no device is like this, a sentence each: then nothing of it is a result."""
-        rows = zip(
-            self.names, self.values.tolist(), np.sqrt(np.diag(self.covariance)), UNITS, strict=False
-        )
+        deviations = np.sqrt(np.diag(self.covariance))
+        rows = zip(self.names, self.values.tolist(), deviations, self.units, strict=False)
         out = []
         for name, value, deviation, unit in rows:
-            low, high = BOUNDS[name]
+            low, high = (bound * _scale(name, self.lever) for bound in BOUNDS[name])
             if value <= low + Z95 * deviation and name == "M_h":
-                out.append(f"{name} = {value:.4g} {unit}: a device has a mass")
+                out.append(
+                    f"{name} = {value:.4g} {unit}: a device has {'inertia' if self.recording.rotary else 'a mass'}"
+                )
             elif value + Z95 * deviation < 0 and name in ("B_h", "coulomb"):
                 out.append(f"{name} = {value:.4g} {unit}: friction that drives is none")
             elif not low < value < high:
@@ -129,7 +142,17 @@ class DeviceResult:
 
         The lower bounds of friction and of the weight against +x; nothing of a device that is impossible. Inertia is
         left alone: given back it costs damping, see `Compensation`.
+
+        Raises
+        ------
+        ValueError
+            Of a rotary device: a `Device` is one of a handle.
         """
+        if self.recording.rotary:
+            raise ValueError(
+                f"{self.recording.name}: is of a rotary device, eq. (2) compensates a force at a handle; load the log "
+                "with lever=0.05 or --lever 0.05, the radius of the handle [m]"
+            )
         if self.impossible:
             return Compensation()
         friction = max(0.0, self.estimates["coulomb"].low)
@@ -140,12 +163,12 @@ class DeviceResult:
         """Return plain numbers in SI units, for JSON."""
         return {
             "rows": [vars(e) for e in self.estimates.values()],
-            "stribeck_speed_m_per_s": self.stribeck_speed,
+            f"stribeck_speed_{self.recording.units[0]}_per_s": self.stribeck_speed,
             "explained_share": self.explained,
             "undetermined": list(self.undetermined),
             "impossible": list(self.impossible),
             "misses": list(self.misses),
-            "compensation": self.compensation.as_dict(),
+            "compensation": None if self.recording.rotary else self.compensation.as_dict(),
             "converged": self.converged,
             "seconds_s": self.seconds,
         }
@@ -185,20 +208,46 @@ def fit_device(recording: Recording, *, current_lag: float | None = None) -> Dev
     ValueError
         When the recording has neither force, or does not slide both ways for long enough.
     """
-    require_recordings(recording, "fit_device")
+    require_recordings(recording, "fit_device", rotary=True)
     lag = recording.current_lag if current_lag is None else current_lag
-    result = _searched(recording, lag)
+    if recording.rotary:
+        lever = usual_lever(recording, lag)
+        handle = recording.at_lever(lever)
+        result = _of_joint(_searched(handle, lag, lever), recording, lever)
+    else:
+        lever, handle = None, recording
+        result = _searched(recording, lag)
     if result.explained < POOR or result.impossible:
-        result = replace(result, other_signs=_other_signs(recording, lag))
+        result = replace(result, other_signs=_other_signs(handle, lag, lever))
     return result
 
 
-def _other_signs(recording: Recording, lag: float) -> dict[str, float]:
+def _scale(name: str, lever: float) -> float:
+    """Return a parameter of a joint over that of a handle at a lever [m]."""
+    return lever**2 if name in ("M_h", "B_h") else lever
+
+
+def _of_joint(result: DeviceResult, joint: Recording, lever: float) -> DeviceResult:
+    """Return the device of a rotary recording that was seen at a lever [m], in rad and N m."""
+    scale = np.array([_scale(name, lever) for name in result.names])
+    speed = result.stribeck_speed
+    return replace(
+        result,
+        recording=joint,
+        drive=result.drive.of_joint(joint, lever),
+        values=result.values * scale,
+        covariance=result.covariance * np.outer(scale, scale),
+        stribeck_speed=None if speed is None else speed / lever,
+        lever=lever,
+    )
+
+
+def _other_signs(recording: Recording, lag: float, lever: float | None) -> dict[str, float]:
     """Return the share that a regression explains with forces of the other sign, where that is a device."""
     has = [name for name in ("force", "motor") if getattr(recording, name) is not None]
     out = {}
     for names in [(name,) for name in has] + ([tuple(has)] if len(has) > 1 else []):
-        drive = driven(recording.flipped(*names), lag)
+        drive = driven(recording.flipped(*names), lag, lever)
         guess = first_guess(drive)
         if guess.values[0] > 0 and guess.values[2] >= 0:
             force = drive.smooth_force[drive.slides]
@@ -207,10 +256,10 @@ def _other_signs(recording: Recording, lag: float) -> dict[str, float]:
     return out
 
 
-def _searched(recording: Recording, current_lag: float) -> DeviceResult:
+def _searched(recording: Recording, current_lag: float, lever: float | None = None) -> DeviceResult:
     """Return the device with the forces as they are."""
     began = perf_counter()
-    drive = driven(recording, current_lag)
+    drive = driven(recording, current_lag, lever)
     start = first_guess(drive)
     best, speed = _fit(drive, None, start), None
     trials = [(float(s), first_guess(drive, float(s))) for s in SPEEDS]

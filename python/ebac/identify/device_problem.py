@@ -52,6 +52,18 @@ class Drive:
     acceleration: Values  # m/s^2
     smooth_force: Values  # N, behind the same kernel as the motion
 
+    def of_joint(self, joint: Recording, lever: float) -> Drive:
+        """Return it in rad and N m, of a recording that was seen at a lever [m]."""
+        return replace(
+            self,
+            recording=joint,
+            force=self.force * lever,
+            beyond=self.beyond * lever,
+            velocity=self.velocity / lever,
+            acceleration=self.acceleration / lever,
+            smooth_force=self.smooth_force * lever,
+        )
+
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Guess:
@@ -62,8 +74,8 @@ class Guess:
     columns: Values
 
 
-def driven(r: Recording, current_lag: float) -> Drive:
-    """Return what drives the device.
+def driven(r: Recording, current_lag: float, lever: float | None = None) -> Drive:
+    """Return what drives the device; one seen at a `lever` [m] is rotary in what is refused.
 
     Raises
     ------
@@ -82,8 +94,9 @@ def driven(r: Recording, current_lag: float) -> Drive:
     found = {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
     slides, sign = found["slides"], found["sign"]
     if slides.sum() < LEAST_SLIDING:
+        fast = f"{slow / lever:.2g} rad/s" if lever else f"{1e3 * slow:.2g} mm/s"
         raise ValueError(
-            f"{r.name}: slides in {slides.sum()} rows only, faster than {1e3 * slow:.2g} mm/s; needs {LEAST_SLIDING}"
+            f"{r.name}: slides in {slides.sum()} rows only, faster than {fast}; needs {LEAST_SLIDING}"
         )
     if not ((sign > 0).any() and (sign < 0).any()):
         raise ValueError(f"{r.name}: moves one way only; friction shows when it moves both ways")

@@ -110,8 +110,10 @@ def plot_device(result: DeviceResult) -> Picture:
     figure = new_figure(10, 9)
     motion, force, friction = figure.subplots(3, 1, height_ratios=[1, 1.2, 1.6])
     r, drive = result.recording, result.drive
-    line(motion, r.t, 1e3 * r.x, color="0.35", lw=1.2)
-    dress(motion, "position [mm]")
+    by, way, effort = (1.0, "rad", "torque") if r.rotary else (1e3, "mm", "force")
+    strength = r.units[1]
+    line(motion, r.t, by * r.x, color="0.35", lw=1.2)
+    dress(motion, f"{'angle' if r.rotary else 'position'} [{way}]")
     on = drive.slides
     columns = columns_of(drive, result.stribeck_speed)
     model = np.full(len(r.t), np.nan)
@@ -120,19 +122,20 @@ def plot_device(result: DeviceResult) -> Picture:
     force.plot(
         r.t, model, color="#009e73", lw=1.0, ls="--", label="eq. (6) with friction, where it slides"
     )
-    dress(force, "driving force [N]")
+    dress(force, f"driving {effort} [{strength}]")
     force.set_xlabel("time [s]")
     legend(force)
     left = -drive.smooth_force[on] - columns[:, [0, 3]] @ result.values[[0, 3]]
     v = drive.velocity[on]
-    friction.plot(1e3 * v, left, ".", ms=1.5, color="0.7", label="force less inertia and weight")
+    rest = f"{effort} less inertia and weight"
+    friction.plot(by * v, left, ".", ms=1.5, color="0.7", label=rest)
     for side in (v > 0, v < 0):
         order = np.argsort(v[side])
         parts = np.delete(columns, [0, 3], axis=1)[side] @ np.delete(result.values, [0, 3])
-        friction.plot(1e3 * v[side][order], parts[order], color="#d55e00", lw=1.6)
+        friction.plot(by * v[side][order], parts[order], color="#d55e00", lw=1.6)
     friction.plot([], [], color="#d55e00", label="damping and friction as fitted")
-    dress(friction, "friction [N]")
-    friction.set_xlabel("velocity [mm/s]")
+    dress(friction, f"friction [{strength}]")
+    friction.set_xlabel(f"velocity [{way}/s]")
     legend(friction)
     words = ", ".join(str(e) for e in list(result.estimates.values())[:3])
     figure.suptitle(f"device identified from {r.name} ({r.origin})\n{words}", fontsize="medium")

@@ -114,7 +114,7 @@ def check_log(
     ValueError
         For a name that is none of these, without force, or when the recording is too short.
     """
-    require_recordings(recording, "check_log")
+    require_recordings(recording, "check_log", rotary=True)  # shares have no unit
     for name in ask:
         if name not in ASKED:
             raise ValueError(unknown(f"parameter {name}", name, list(ASKED)))

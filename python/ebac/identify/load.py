@@ -11,24 +11,12 @@ import numpy as np
 
 from ebac._util.serialisation import unknown
 from ebac._util.text_file import says_simulated
-from ebac.identify.files import (
-    UNITS_OF,
-    Columns,
-    archive_of,
-    assign,
-    name_and_unit,
-    read_columns,
-    unit_factor,
-)
-from ebac.identify.recording import (
-    LEAST_ROWS,
-    Recording,
-    count_of,
-    path_of,
-    signals_of,
-    trace_facts,
-    where_met,
-)
+from ebac.identify.columns import QUANTITIES, assign
+from ebac.identify.files import Columns, Table, archive_of, read_columns
+from ebac.identify.of_trace import path_of, signals_of, trace_facts, where_met
+from ebac.identify.plausible import plausible
+from ebac.identify.recording import Recording, count_of
+from ebac.identify.rotary import Conversion, in_si
 from ebac.identify.rows import on_rows
 from ebac.trace import Trace
 
@@ -45,8 +33,14 @@ def load(
     axis: int = 0,
     flip_force: bool = False,
     flip_motor: bool = False,
+    lever: float | None = None,
+    counts_per_turn: float | None = None,
+    torque_constant: float | None = None,
 ) -> Recording:
     """Read MCAP, CSV, .mat, or NPZ (of `Trace.to_npz`, or plain arrays).
+
+    A log of a knob or a joint has angles (rad, deg, turns, counts) and torques (N m, mN m, currents); its recording is
+    `rotary`, in rad and N m, unless a `lever` is given.
 
     Parameters
     ----------
@@ -64,13 +58,19 @@ def load(
     current_lag : float, optional
         Lag of the motor's current loop [s]; default: of the scenario of a trace, else 0.3 ms.
     count : float, optional
-        Step of the encoder at the handle [m], 0 for none; default: found in the position.
+        Step of the encoder at the handle [m], of a rotary log [rad], 0 for none; default: found in the position.
     axis : int
         Which axis of a trace; other files have one.
     flip_force : bool
         Whether the force of the hand is logged with the other sign: positive where the handle pushes the hand to +x.
     flip_motor : bool
         Whether the force of the motor is logged with the other sign: positive where it drives to +x.
+    lever : float, optional
+        Radius at which the hand holds a rotary device [m]: angles become ways of the handle, torques forces on it.
+    counts_per_turn : float, optional
+        Counts of the encoder for one turn of the knob or joint, all edges and gear included.
+    torque_constant : float, optional
+        Torque at the knob or joint for one ampere [N m/A], gear included, for a motor logged as a current.
 
     Returns
     -------
@@ -89,23 +89,35 @@ def load(
         raise FileNotFoundError(2, "there is no such file", str(path))
     if path.is_dir():
         raise ValueError(f"{path.name}: is a folder; give a file in it")
+    how = Conversion(
+        lever=lever, torque_constant=torque_constant, counts_per_turn=counts_per_turn, count=count
+    )
     trace, origin, wrong = _trace(path)
     if trace is not None and not columns:
-        _refuse_unused(path.name, rate=rate, units=units or None)
+        _refuse_unused(
+            path.name,
+            rate=rate,
+            units=units or None,
+            lever=lever,
+            counts_per_turn=counts_per_turn,
+            torque_constant=torque_constant,
+        )
         found = _of_trace(trace, path.name, axis, wrong)
     else:
         if trace is None:
             _refuse_unused(path.name, axis=axis or None)
-        raw = _flat(trace) if trace is not None else read_columns(path)
-        found = _recording(path.name, raw, columns or {}, units or {}, rate)
+        table = _flat(trace) if trace is not None else read_columns(path)
+        found = _recording(path.name, table, columns or {}, units or {}, rate, how)
         if trace is not None:
             found = replace(found, path=path_of(trace, axis))
     changes: dict[str, Any] = {"origin": origin}
     for name, value in (("lag", lag), ("current_lag", current_lag), ("count", count)):
         if value is not None:
             changes[name] = value
-    if count:
-        _in_steps(found, count)
+    if how.step is not None:
+        changes.setdefault("count", how.step)
+    if count or how.step:
+        _in_steps(found, changes["count"])
     found = replace(found, **changes)
     turned = [name for name, on in (("force", flip_force), ("motor", flip_motor)) if on]
     return found.flipped(*turned) if turned else found
@@ -115,6 +127,9 @@ def load(
 UNUSED = {
     "rate": "the log has times of its own",
     "units": "the log names its units",
+    "lever": "the log is of a handle, in m and N",
+    "counts_per_turn": "the log is of a handle, in m and N",
+    "torque_constant": "the log is of a handle, in m and N",
     "axis": "the file has one axis; name its columns instead: columns={...} or --column x=NAME",
 }
 
@@ -126,13 +141,16 @@ def _refuse_unused(name: str, **given: object) -> None:
 
 
 def _in_steps(r: Recording, count: float) -> None:
-    """Refuse a count [m] that is none of a position."""
+    """Refuse a count [m or rad] that is none of a position."""
     read = r.x if r.known is None else r.x[r.known]
     steps = np.diff(read) / count
     if (np.abs(steps - np.round(steps)) < 0.1).mean() < 0.95:
         shown = count_of(read)
-        what = f"it shows steps of {shown:.6g} m" if shown else "it shows none"
-        raise ValueError(f"{r.name}: count = {count:g} m: x does not move in such steps; {what}")
+        unit = r.units[0]
+        what = f"it shows steps of {shown:.6g} {unit}" if shown else "it shows none"
+        raise ValueError(
+            f"{r.name}: count = {count:g} {unit}: x does not move in such steps; {what}"
+        )
 
 
 def _trace(path: Path) -> tuple[Trace | None, str, list[str]]:
@@ -173,33 +191,36 @@ def _of_trace(trace: Trace, name: str, axis: int, wrong: list[str]) -> Recording
     return Recording(name=name, remarks=(*facts.pop("remarks"), *wrong), **facts, **values)
 
 
-def _flat(trace: Trace) -> Columns:
-    return {name: np.array(values, dtype=float) for name, _, values in trace.flat()}
+def _flat(trace: Trace) -> Table:
+    return Table(columns={name: np.array(values, dtype=float) for name, _, values in trace.flat()})
 
 
 def _recording(
     name: str,
-    raw: Columns,
+    table: Table,
     columns: Mapping[str, str],
     units: Mapping[str, str],
     rate: float | None,
+    how: Conversion,
 ) -> Recording:
+    raw = table.columns
     for key in (*columns, *units):
-        if key not in UNITS_OF:
-            raise ValueError(unknown(f"{name}: signal {key}", key, list(UNITS_OF)))
-    chosen, remarks = assign(name, list(raw), columns)
-    signals: dict[str, Any] = {}
-    for key, column in chosen.items():
-        _, written = name_and_unit(key, column)
-        unit = units.get(key, written)
-        if unit is None:
-            unit = UNITS_OF[key]
-            remarks.append(f"{key}: no unit given, taken as {unit}")
-        signals[key] = raw[column] * unit_factor(name, key, unit)
-    if "x" not in signals:
+        if key not in QUANTITIES:
+            raise ValueError(unknown(f"{name}: signal {key}", key, list(QUANTITIES)))
+    asked = [column for column in columns.values() if column in table.text]
+    chosen, remarks = assign(name, [*raw, *table.mixed, *asked], columns)
+    words = {**table.text, **table.mixed}
+    for column in chosen.values():
+        if column in words:
+            raise ValueError(words[column])
+    remarks += [f"column {column!r} is left out: it holds text" for column in words]
+    if "x" not in chosen:
         raise ValueError(
             f"{name}: found no position among {', '.join(raw)}; which is it? columns={{'x': ...}} or --column x=NAME"
         )
+    signals: dict[str, Any]
+    signals, rotary, said = in_si(name, raw, chosen, units, how)
+    remarks += said
     if rate is not None and "t" in signals:
         signals.pop("t")
         remarks = [text for text in remarks if not text.startswith("t: ")]
@@ -212,48 +233,12 @@ def _recording(
     if "desired" in signals and {"est.x_act", "est.weight"} <= set(ours):
         signals |= where_met(signals["x"], ours["est.x_act"], ours["est.weight"])
     even: dict[str, Any] = dict(_evenly(name, signals, remarks))
-    _plausible(name, even)
+    guessed = any(text.startswith("x: no unit") for text in remarks)
+    plausible(name, even, rotary=rotary, guessed=guessed)
     found = count_of(signals["x"])  # of the readings, before anything is put between them
-    remarks.append(
-        f"encoder step of {1e3 * found:.4g} mm found in x" if found else "x shows no encoder step"
-    )
-    return Recording(name=name, count=found, remarks=tuple(remarks), **even)
-
-
-#: What no hand does, by signal: more than this is a wrong unit [m, N], and so is less [m].
-FARTHEST = {"x": 2.5, "target": 2.5, "force": 5e3, "motor": 5e3, "desired": 5e3}
-NEAREST = 1e-5
-#: Rows farther apart contain nothing about a hand [s].
-SLOWEST = 0.1
-
-
-def _plausible(name: str, signals: Columns) -> None:
-    """Refuse numbers in a wrong unit, as far as that shows, and a force that never changes."""
-    dt, reach = float(np.median(np.diff(signals["t"]))), float(np.ptp(signals["x"]))
-    if len(signals["t"]) >= LEAST_ROWS and reach > 0 and dt > SLOWEST:
-        raise ValueError(
-            f"{name}: rows are {dt:.4g} s apart, {SLOWEST:g} s at most resolve a hand: is the unit of t right? "
-            "Give the unit: units={'t': 'ms'} or --unit t=ms"
-        )
-    if 0 < reach < NEAREST:
-        raise ValueError(
-            f"{name}: x spans {1e6 * reach:.4g} um, less than a hand that holds still: is its unit right? "
-            "Give the unit: units={'x': 'm'} or --unit x=m"
-        )
-    if "force" in signals and np.ptp(signals["force"]) == 0:
-        raise ValueError(
-            f"{name}: force is constant at {signals['force'][0]:g} N: the sensor was off, or it is the wrong column"
-        )
-    for key, most in FARTHEST.items():
-        if key not in signals:
-            continue
-        span = float(np.ptp(signals[key]))
-        if span > most:
-            unit = UNITS_OF[key]
-            raise ValueError(
-                f"{name}: {key} spans {span:.4g} {unit}, a hand {most:g} {unit} at most: is its unit right? "
-                f"Give the unit: units={{'{key}': 'm{unit}'}} or --unit {key}=m{unit}"
-            )
+    step = f"{1e3 * found:.4g} {'mrad' if rotary else 'mm'}"
+    remarks.append(f"encoder step of {step} found in x" if found else "x shows no encoder step")
+    return Recording(name=name, count=found, remarks=tuple(remarks), rotary=rotary, **even)
 
 
 def _evenly(name: str, signals: Columns, remarks: list[str]) -> Columns:

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from ebac._util.arguments import require
 from ebac._util.serialisation import unknown
 from ebac._util.wrong_calls import plain_constructor
+from ebac.identify.of_trace import signals_of, trace_facts
 
 if TYPE_CHECKING:
     from ebac.identify.target import Path
@@ -28,6 +29,8 @@ PAUSE = 1.5
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Recording:
     """Position and forces of one axis over time, on equally spaced rows that may pause.
+
+    Of a rotary device, every [m] here is [rad], and every [N] is [N m].
 
     Parameters
     ----------
@@ -65,6 +68,8 @@ class Recording:
         What was guessed or changed on reading.
     origin : str
         What a figure calls the data: "recorded", "simulated", or what its log says.
+    rotary : bool
+        Whether it is of a knob or a joint, in rad and N m.
 
     Raises
     ------
@@ -88,6 +93,7 @@ class Recording:
     path: Path | None = None
     remarks: tuple[str, ...] = field(default=())
     origin: str = "recorded"
+    rotary: bool = False
 
     def __post_init__(self) -> None:
         """Check lengths, numbers and times."""
@@ -117,13 +123,38 @@ class Recording:
             )
         if np.ptp(self.x) == 0:
             raise ValueError(
-                f"{self.name}: x is constant at {self.x[0]:g} m: nothing moved, or it is the wrong column"
+                f"{self.name}: x is constant at {self.x[0]:g} {self.units[0]}: nothing moved, or it is the wrong column"
             )
         for name in ("lag", "current_lag"):
             if not 0 <= getattr(self, name) <= 0.1:
                 raise ValueError(
                     f"{self.name}: {name} = {getattr(self, name):g} s: must lie in [0, 0.1] s"
                 )
+
+    @property
+    def units(self) -> tuple[str, str]:
+        """Units of positions and of forces."""
+        return ("rad", "N m") if self.rotary else ("m", "N")
+
+    def at_lever(self, lever: float) -> Self:
+        """Return a rotary recording as that of a handle `lever` [m] away from the axis, in m and N."""
+        if not self.rotary:
+            raise ValueError(
+                f"{self.name}: is in m and N already; only a rotary recording wants a lever"
+            )
+        if not 0 < lever < np.inf:
+            raise ValueError(f"{self.name}: lever = {lever:g} m: must be greater than 0")
+        scales = {
+            "x": lever,
+            "target": lever,
+            "met": lever,
+            "force": 1 / lever,
+            "motor": 1 / lever,
+            "desired": 1 / lever,
+        }
+        channels = self.channels()
+        changes: dict[str, Any] = {n: channels[n] * by for n, by in scales.items() if n in channels}
+        return replace(self, **changes, count=lever * self.count, rotary=False)
 
     @cached_property
     def dt(self) -> float:
@@ -207,12 +238,12 @@ class Recording:
         """Return one line: name, rows, rate, channels."""
         return (
             f"<Recording {self.name}: {len(self.t)} rows, {self.seconds:.4g} s at {1 / self.dt:.5g} Hz; "
-            f"{', '.join(self.channels())}; count {1e3 * self.count:.4g} mm>"
+            f"{', '.join(self.channels())}; count {1e3 * self.count:.4g} m{self.units[0]}>"
         )
 
 
-def require_recordings(value: object, function: str) -> None:
-    """Raise TypeError unless a value is a Recording, or a list of them."""
+def require_recordings(value: object, function: str, *, rotary: bool = False) -> None:
+    """Raise TypeError unless a value is a Recording, or a list of them; ValueError for a rotary one, unless allowed."""
     for one in value if isinstance(value, (list, tuple)) else [value]:
         require(
             one,
@@ -220,54 +251,11 @@ def require_recordings(value: object, function: str) -> None:
             f"ebac.identify.{function}",
             "a Recording, as ebac.identify.load returns it",
         )
-
-
-#: Signals of a recording, and the columns of a trace they are.
-OF_TRACE = {"x": "x", "force": "f_meas", "motor": "f_applied", "desired": "f_env"}
-
-
-def signals_of(trace: Trace, axis: int) -> dict[str, NDArray[np.float64]]:
-    """Return the signals of a recording that a trace has."""
-    found = {
-        key: np.array(trace.axis(column, axis), dtype=float)
-        for key, column in OF_TRACE.items()
-        if column in trace
-    }
-    if "est.weight" in trace:
-        predicted, weight = (trace.axis(f"est.{name}", axis) for name in ("x_act", "weight"))
-        found |= where_met(found["x"], predicted, weight)
-    return found
-
-
-def where_met(
-    x: NDArray[np.float64], predicted: NDArray[np.float64], weight: NDArray[np.float64]
-) -> dict[str, NDArray[np.float64]]:
-    """Return the signal `met` of a loop with a state observer; none where it was never trusted."""
-    return {"met": x + weight * (predicted - x)} if weight.any() else {}
-
-
-def trace_facts(trace: Trace, axis: int) -> dict[str, Any]:
-    """Return count, lags, path of the hand and a remark, from the scenario of a trace where it has one."""
-    if trace.scenario is None:
-        return {"count": 0.0, "lag": 0.0, "current_lag": 3e-4, "remarks": ()}
-    device = trace.scenario.device
-    count, lag = device.facts.count, device.sensor.lag
-    said = f"count {1e3 * count:.4g} mm and sensor lag {1e3 * lag:.3g} ms from the scenario"
-    return {
-        "count": count,
-        "lag": lag,
-        "current_lag": device.drive.current_lag,
-        "path": path_of(trace, axis),
-        "remarks": (said,),
-    }
-
-
-def path_of(trace: Trace, axis: int) -> Path | None:
-    """Return where the hand wanted to be along an axis, by the scenario of a trace; None without one."""
-    if trace.scenario is None:
-        return None
-    paths = trace.scenario.hand.path
-    return paths[min(axis, len(paths) - 1)]
+        if isinstance(one, Recording) and one.rotary and not rotary:
+            raise ValueError(
+                f"{one.name}: is of a rotary device, in rad and N m; eq. (4) is of a hand at a handle. "
+                "Give the radius at which it holds [m]: lever=0.05, --lever 0.05 or recording.at_lever(0.05)"
+            )
 
 
 def count_of(x: NDArray[np.float64]) -> float:

@@ -68,7 +68,6 @@ def _end(result: DeviceResult) -> None:
 
 
 def _notes(result: DeviceResult) -> list[str]:
-    static = result.compensation
     share = f"{100 * result.drive.slides.mean():.0f} % of the log"
     explained = (
         f"Explains {100 * result.explained:.2f} % of the force where it slides, {share}."
@@ -79,6 +78,15 @@ def _notes(result: DeviceResult) -> list[str]:
     return [
         *(result.misses or [explained]),
         *([alone] if result.recording.motor is None else []),
+        *_static(result),
+    ]
+
+
+def _static(result: DeviceResult) -> list[str]:
+    if result.recording.rotary:
+        return []
+    static = result.compensation
+    return [
         f"For the device: Compensation(friction={static.friction:.4g} N, gravity_mass={static.gravity_mass:.4g} kg), "
         "the lower bounds of what was found.",
     ]

@@ -156,7 +156,12 @@ class Reading:
     ] = None
     count: Annotated[
         float | None,
-        _log("Step of the encoder at the handle [m], 0 for none.", "found in x", min=0, max=0.01),
+        _log(
+            "Step of the encoder at the handle [m], of a rotary log [rad], 0 for none.",
+            "found in x",
+            min=0,
+            max=1,
+        ),
     ] = None
     lag: Annotated[
         float | None, _log("Lag of the force sensor [s].", "of the trace, else 0", min=0, max=1)
@@ -164,6 +169,28 @@ class Reading:
     current_lag: Annotated[
         float | None,
         _log("Lag of the motor's current loop [s].", "of the trace, else 0.0003", min=0, max=1),
+    ] = None
+    lever: Annotated[
+        float | None,
+        _log(
+            "Radius at which a knob or joint is held [m]; results are then those of its handle.",
+            "results in rad and N m",
+            min=1e-4,
+            max=10,
+        ),
+    ] = None
+    counts_per_turn: Annotated[
+        float | None,
+        _log("Counts for one turn of the knob or joint.", "found in x", min=1, max=1e10),
+    ] = None
+    torque_constant: Annotated[
+        float | None,
+        _log(
+            "Torque at the joint for one ampere [N m/A], of a motor in A.",
+            "none",
+            min=1e-6,
+            max=1e4,
+        ),
     ] = None
     axis: Annotated[int, _log("Axis of a recorded run.", True, min=0)] = 0
     flip_force: Annotated[
@@ -202,6 +229,9 @@ class Reading:
             axis=self.axis,
             flip_force=self.flip_force,
             flip_motor=self.flip_motor,
+            lever=self.lever,
+            counts_per_turn=self.counts_per_turn,
+            torque_constant=self.torque_constant,
         )
 
 

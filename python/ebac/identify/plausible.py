@@ -1,0 +1,71 @@
+"""Whether the numbers of a log are those of a hand, or in a wrong unit."""
+
+from __future__ import annotations
+
+from math import pi
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ebac.identify.recording import LEAST_ROWS
+
+if TYPE_CHECKING:
+    from ebac.identify.files import Columns
+
+#: What no hand does, by signal: more than this is a wrong unit [m, N], and so is less [m].
+FARTHEST = {"x": 2.5, "target": 2.5, "force": 5e3, "motor": 5e3, "desired": 5e3}
+NEAREST = 1e-5
+#: An angle without unit that spans more is one in degrees [rad].
+WIDEST = 4 * pi
+#: Rows farther apart contain nothing about a hand [s].
+SLOWEST = 0.1
+
+
+def plausible(name: str, signals: Columns, *, rotary: bool, guessed: bool) -> None:
+    """Refuse numbers in a wrong unit, as far as that shows, and a force that never changes.
+
+    Parameters
+    ----------
+    name : str
+        Of the file.
+    signals : dict of arrays, shape (rows,)
+        In SI units.
+    rotary : bool
+        Whether they are in rad and N m.
+    guessed : bool
+        Whether nobody said the unit of x.
+    """
+    long, strong = ("rad", "N m") if rotary else ("m", "N")
+    dt, reach = float(np.median(np.diff(signals["t"]))), float(np.ptp(signals["x"]))
+    if len(signals["t"]) >= LEAST_ROWS and reach > 0 and dt > SLOWEST:
+        raise ValueError(
+            f"{name}: rows are {dt:.4g} s apart, {SLOWEST:g} s at most resolve a hand: is the unit of t right? "
+            "Give the unit: units={'t': 'ms'} or --unit t=ms"
+        )
+    if 0 < reach < NEAREST:
+        raise ValueError(
+            f"{name}: x spans {1e6 * reach:.4g} u{long}, less than a hand that holds still: is its unit right? "
+            f"Give the unit: units={{'x': '{long}'}} or --unit x={long}"
+        )
+    if "force" in signals and np.ptp(signals["force"]) == 0:
+        raise ValueError(
+            f"{name}: force is constant at {signals['force'][0]:g} {strong}: "
+            "the sensor was off, or it is the wrong column"
+        )
+    if rotary:
+        if guessed and reach > WIDEST:
+            raise ValueError(
+                f"{name}: x spans {reach:.4g} rad, two turns are {WIDEST:.4g}: is its unit right? "
+                "Give the unit: units={'x': 'deg'} or --unit x=deg"
+            )
+        return
+    for key, most in FARTHEST.items():
+        if key not in signals:
+            continue
+        span = float(np.ptp(signals[key]))
+        if span > most:
+            unit = "m" if key in ("x", "target") else "N"
+            raise ValueError(
+                f"{name}: {key} spans {span:.4g} {unit}, a hand {most:g} {unit} at most: is its unit right? "
+                f"Give the unit: units={{'{key}': 'm{unit}'}} or --unit {key}=m{unit}"
+            )

@@ -1,0 +1,148 @@
+"""Logs of knobs and joints: angles, counts, torques and currents of a file in SI units, of one kind."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from math import pi
+from typing import TYPE_CHECKING
+
+from ebac._util.headings import FACTORS
+from ebac.identify.columns import QUANTITIES, name_and_unit, quantity_of
+
+if TYPE_CHECKING:
+    from ebac.identify.files import Columns
+
+POSITIONS, FORCES = ("x", "target"), ("force", "motor", "desired")
+#: Of the same kind of device, in the order position, force; and their SI units.
+LINEAR, ROTARY = ("length", "force"), ("angle", "torque")
+SI = {"length": "m", "angle": "rad", "force": "N", "torque": "N m", "time": "s"}
+#: Range and unit of each option.
+RANGES = {
+    "lever": (1e-4, 10.0, "m"),
+    "counts_per_turn": (1.0, 1e10, ""),
+    "torque_constant": (1e-6, 1e4, "N m/A"),
+}
+
+
+@dataclass(frozen=True, kw_only=True)
+class Conversion:
+    """What turns columns of a joint into those a fit needs.
+
+    `lever` [m] sees angle and torque as motion and force of a handle, `torque_constant` [N m/A] sees a current as
+    torque, `counts_per_turn` counts as an angle, `count` [m] counts as a way.
+    """
+
+    lever: float | None = None
+    torque_constant: float | None = None
+    counts_per_turn: float | None = None
+    count: float | None = None
+
+    def __post_init__(self) -> None:
+        """Check the ranges."""
+        for name, (low, high, unit) in RANGES.items():
+            value = getattr(self, name)
+            if value is not None and not low <= value <= high:
+                unit = f" {unit}" if unit else ""
+                raise ValueError(f"{name} = {value:g}{unit}: must lie in [{low:g}, {high:g}]{unit}")
+
+    @property
+    def step(self) -> float | None:
+        """Step of an encoder of so many counts a turn, as `in_si` returns the position [rad or m]; None without one."""
+        if self.counts_per_turn is None:
+            return None
+        return 2 * pi / self.counts_per_turn * (self.lever or 1.0)
+
+
+def in_si(
+    file: str,
+    raw: Columns,
+    chosen: Mapping[str, str],
+    units: Mapping[str, str],
+    how: Conversion,
+) -> tuple[Columns, bool, list[str]]:
+    """Return the signals in SI units, whether they are those of a rotary device, and what was taken for granted.
+
+    Raises
+    ------
+    ValueError
+        For a unit that does not fit, angles with forces or ways with torques and no lever, counts or currents without
+        what turns them, or such an option without use.
+    """
+    found, remarks = {}, []
+    for key, column in chosen.items():
+        unit = units.get(key, name_and_unit(key, column)[1])
+        found[key] = quantity_of(file, key, column, unit)
+    for key, (quantity, unit) in found.items():
+        if unit is not None:
+            continue
+        kind = quantity or QUANTITIES[key][0]
+        if quantity is None and key != "x" and found["x"][0] in ("angle", "count"):
+            rotary = found["x"][0] == "angle" or how.counts_per_turn is not None
+            kind = (ROTARY if rotary else LINEAR)[key in FORCES]
+        found[key] = kind, next(iter(FACTORS[kind]))
+        remarks.append(f"{key}: no unit given, taken as {found[key][1]}")
+    _refuse_without_use(file, {quantity for quantity, _ in found.values()}, how)
+    signals, kinds = {}, {}
+    for key, (quantity, unit) in found.items():
+        assert quantity is not None
+        assert unit is not None
+        kinds[key], factor = _converted(file, key, chosen[key], quantity, how)
+        signals[key] = raw[chosen[key]] * (FACTORS[quantity][unit] * factor)
+    rotary = kinds["x"] == "angle"
+    alike = {"time", *(ROTARY if rotary else LINEAR)}
+    for key, kind in kinds.items():
+        if kind not in alike:
+            raise ValueError(
+                f"{file}: x (column {chosen['x']!r}) is {_words(kinds['x'], found['x'][1])} and {key} "
+                f"(column {chosen[key]!r}) {_words(kind, found[key][1])}: eq. (6) needs motion and force of one place. "
+                f"Give the lever between them [m], lever=0.05 or --lever 0.05, or the right unit, --unit {key}="
+                f"{SI[(ROTARY if rotary else LINEAR)[key in FORCES]].replace(' ', '')}"
+            )
+    return signals, rotary, remarks
+
+
+def _words(kind: str, unit: str | None) -> str:
+    article = "an" if kind == "angle" else "a"
+    return f"{article} {kind} in {unit}"
+
+
+def _converted(
+    file: str, key: str, column: str, quantity: str, how: Conversion
+) -> tuple[str, float]:
+    """Return what a signal becomes, and by which factor."""
+    factor = 1.0
+    if quantity == "count":
+        if how.counts_per_turn is None and how.count:
+            return "length", how.count
+        if how.counts_per_turn is None:
+            raise ValueError(
+                f"{file}: {key} (column {column!r}) is in counts: give counts_per_turn=4096 or --counts-per-turn 4096 "
+                "of a knob or a joint, or the step at the handle [m], count=1e-5 or --count 1e-5"
+            )
+        quantity, factor = "angle", 2 * pi / how.counts_per_turn
+    elif quantity == "current":
+        if how.torque_constant is None:
+            raise ValueError(
+                f"{file}: {key} (column {column!r}) is a current: give the torque at the joint for one ampere "
+                "[N m/A], gear included: torque_constant=0.06 or --torque-constant 0.06"
+            )
+        quantity, factor = "torque", how.torque_constant
+    if how.lever is None:
+        return quantity, factor
+    if quantity == "angle":
+        return "length", factor * how.lever
+    if quantity == "torque":
+        return "force", factor / how.lever
+    return quantity, factor
+
+
+def _refuse_without_use(file: str, quantities: set[str | None], how: Conversion) -> None:
+    angles = bool(quantities & {"angle", "count"})
+    for option, value, used, why in (
+        ("lever", how.lever, angles or bool(quantities & {"torque", "current"}), "angle or torque"),
+        ("torque_constant", how.torque_constant, "current" in quantities, "current in A or mA"),
+        ("counts_per_turn", how.counts_per_turn, angles, "angle, and no counts"),
+    ):
+        if value is not None and not used:
+            raise ValueError(f"{file}: {option} = {value:g}: the file has no {why}")
