@@ -169,3 +169,29 @@ def test_a_struct_of_matlab_is_a_table(tmp_path: Path, by_row: bool) -> None:
     assert found.force is not None
     assert found.force == pytest.approx(F)
     assert found.x == pytest.approx(X)
+
+
+def test_signals_of_simulink_are_read_by_their_labels(tmp_path: Path) -> None:
+    """A structure with time: an array of structs, each with all values of one signal."""
+    scipy_io = pytest.importorskip("scipy.io")
+    signals = np.zeros((1, 2), dtype=[(name, object) for name in ("values", "label", "dimensions")])
+    signals[0, 0] = (np.rad2deg(X)[:, None], "theta [deg]", 1)
+    signals[0, 1] = (1e3 * F[:, None], "torque [mN*m]", 1)
+    log = {"time": T[:, None], "signals": signals, "blockName": "knob/scope"}
+    scipy_io.savemat(tmp_path / "log.mat", {"log": log})
+    found = load(tmp_path / "log.mat")
+    assert found.units == ("rad", "N m")
+    assert found.x == pytest.approx(X)
+    assert found.force == pytest.approx(F)
+
+
+def test_trials_in_an_array_of_structs_are_columns(tmp_path: Path) -> None:
+    scipy_io = pytest.importorskip("scipy.io")
+    trials = np.zeros((1, 3), dtype=[(name, object) for name in ("t", "x", "force", "who")])
+    for i in range(3):
+        trials[0, i] = (T, (i + 1) * X, F, "a hand")
+    scipy_io.savemat(tmp_path / "log.mat", {"trials": trials})
+    columns = {"t": "trials_2_t", "x": "trials_2_x", "force": "trials_2_force"}
+    assert load(tmp_path / "log.mat", columns=columns).x == pytest.approx(2 * X)
+    with pytest.raises(ValueError, match="found no position among trials_1_t, trials_1_x"):
+        load(tmp_path / "log.mat")

@@ -1,14 +1,16 @@
 """Logs of knobs and joints: angles and torques in every usual unit, results of a joint, mixtures refused."""
 
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 from typer.testing import CliRunner
 
+import ebac
 from ebac.cli import app
-from ebac.identify import check_log, fit_arm, fit_device, load
+from ebac.identify import Target, check_log, fit_arm, fit_device, load
 
 INERTIA, DAMPING, FRICTION = 2e-4, 1e-3, 4e-3  # kg m^2, N m s/rad, N m
 COUNTS, CONSTANT = 4_000, 0.06  # a turn, N m/A
@@ -206,6 +208,45 @@ def test_a_lever_joins_an_angle_and_a_force(tmp_path: Path) -> None:
     assert r.force == pytest.approx(F)
 
 
+SPARE = {
+    "x,force,i": ["t", "x", "force"],
+    "x,force,current [A]": [
+        "t",
+        "x",
+        "force",
+        "motor: column 'current [A]' is left out, a current; --torque",
+    ],
+    "x [m],force [N],motor_torque [Nm]": [
+        "t",
+        "x",
+        "force",
+        "is left out, a torque in N m with x in m; --lever",
+    ],
+    "theta [rad],torque [Nm],motor_force [N]": [
+        "t",
+        "x",
+        "force",
+        "a force in N with x in rad; --lever",
+    ],
+}
+
+
+@pytest.mark.parametrize("head", SPARE)
+def test_a_column_that_nothing_needs_is_left_out_where_it_does_not_fit(
+    head: str, tmp_path: Path
+) -> None:
+    rows = np.column_stack([T, X, F, F])
+    np.savetxt(tmp_path / "log.csv", rows, delimiter=",", header=f"t,{head}", comments="")
+    found = load(tmp_path / "log.csv")
+    assert list(found.channels()) == SPARE[head][:3]
+    for remark in SPARE[head][3:]:
+        assert any(remark in text for text in found.remarks), found.remarks
+    if len(SPARE[head]) > 3:
+        column = head.split(",")[-1]
+        with pytest.raises(ValueError, match=r"--torque-constant|--lever"):
+            load(tmp_path / "log.csv", columns={"motor": column})
+
+
 def test_counts_of_a_slide(tmp_path: Path) -> None:
     rows = np.column_stack([T, X / 3e-5, F])
     np.savetxt(
@@ -223,10 +264,30 @@ def test_a_hand_at_a_knob_wants_a_lever(tmp_path: Path) -> None:
     )
     with pytest.raises(ValueError, match=r"rotary device.*--lever 0.05"):
         fit_arm(load(tmp_path / "log.csv"))
-    turned_by, held_at = load(tmp_path / "log.csv"), load(tmp_path / "log.csv", lever=0.05)
-    for one, other in zip(check_log(turned_by).rows(), check_log(held_at).rows(), strict=True):
-        assert one["deviation_share"] == pytest.approx(other["deviation_share"], rel=1e-6)
     for command in ("arm", "gains"):
         run = CliRunner().invoke(app, ["identify", command, str(tmp_path / "log.csv")])
         assert run.exit_code == 2
         assert "--lever 0.05" in run.stderr.replace("\n", " ")
+
+
+def test_a_hand_at_a_knob_with_its_lever_is_that_of_the_handle(tmp_path: Path) -> None:
+    """The same press as a handle, in m and N, and as a knob of 50 mm, in deg and mN m."""
+    ebac.datasets.write("press", tmp_path)
+    handle = load(tmp_path / "press.csv")
+    assert handle.force is not None
+    rows = np.column_stack([handle.t, np.rad2deg(handle.x / 0.05), 50 * handle.force])
+    head = "t [s],angle [deg],torque [mN m]"
+    np.savetxt(tmp_path / "knob.csv", rows, fmt="%.12g", delimiter=",", header=head, comments="")
+    turned_by, held_at = load(tmp_path / "knob.csv"), load(tmp_path / "knob.csv", lever=0.05)
+    target = Target.steps(1.0)
+    known, found = check_log(held_at, target).rows(), check_log(turned_by, target).rows()
+    for one, other in zip(known, found, strict=True):
+        assert one["told"] == other["told"]
+        assert one["deviation_share"] == pytest.approx(other["deviation_share"], rel=1e-3)
+    options = {"lag": handle.lag, "current_lag": handle.current_lag}
+    bare = replace(load(tmp_path / "press.csv", **options), motor=None, desired=None)
+    known = fit_arm(bare, target)
+    found = fit_arm(load(tmp_path / "knob.csv", lever=0.05, **options), target)
+    for name in ("M0", "B0", "K0"):
+        assert found[name].unit == known[name].unit
+        assert found[name].value == pytest.approx(known[name].value, rel=1e-3)

@@ -28,12 +28,12 @@ NAMES: dict[str, tuple[str, ...]] = {
     "force": (
         *("f_meas", "f_meas_0", "force", "f", "fx", "f_hand", "fh", "f_sensor", "ft", "force_x"),
         *("grip_force", "tau_meas", "tau_hand", "hand_torque", "torque_hand", "torque_sensor"),
-        *("torque", "tau", "tau_ext", "tz", "mz"),
+        *("torque", "tau", "tau_ext"),
     ),
     "motor": (
         *("f_applied", "f_applied_0", "motor", "motor_force", "f_motor", "actuator_force"),
         *("motor_torque", "torque_motor", "tau_motor", "tau_m", "tau_applied", "actuator_torque"),
-        *("motor_current", "current", "i_motor", "i"),
+        *("motor_current", "current", "i_motor"),
     ),
     "desired": (
         *("f_env", "f_env_0", "f_desired", "desired", "fd", "f_d"),
@@ -49,8 +49,8 @@ NAMES: dict[str, tuple[str, ...]] = {
 _SAYS = {
     "angle": re.compile(r"(theta|phi|q)(_.*)?|.*(angle|joint|knob).*"),
     "count": re.compile(r"counts"),
-    "torque": re.compile(r"(.*_)?tau(_.*)?|.*torque.*|[tm]z"),
-    "current": re.compile(r".*current.*|i(_.*)?"),
+    "torque": re.compile(r"(.*_)?tau(_.*)?|.*torque.*"),
+    "current": re.compile(r".*current.*|i_.*"),
     "force": re.compile(r"f(_.*)?|f[a-z]|.*force.*"),
 }
 

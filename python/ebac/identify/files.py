@@ -166,6 +166,8 @@ def _series(arrays: Mapping[str, Any], within: str = "") -> Columns:
                 },
                 f"{within}{name}_" if within else "_",
             )
+            if not whole:
+                out |= _series_of_each(array.ravel(), f"{within or '_'}{name}")
             continue
         if array.dtype.kind not in "fiub":
             continue
@@ -175,6 +177,20 @@ def _series(arrays: Mapping[str, Any], within: str = "") -> Columns:
             out[name] = array
         elif array.ndim == 2:
             out |= {f"{name}_{i}": column for i, column in enumerate(array.T)}
+    return out
+
+
+def _series_of_each(structs: Any, within: str) -> Columns:
+    """Return the series of structs that hold whole series: `trials_1_x`, signals of Simulink by their labels."""
+    out: Columns = {}
+    for number, one in enumerate(structs, 1):
+        fields = {field: np.asarray(one[field]) for field in structs.dtype.names}
+        series = {field: each for field, each in fields.items() if each.size > 1}
+        label = str(fields["label"]) if "label" in fields else ""
+        if label and "values" in series:
+            out |= _series({label: series["values"]}, "_")
+        else:
+            out |= _series(series, f"{within}_{number}_")
     return out
 
 

@@ -219,7 +219,9 @@ def _recording(
             f"{name}: found no position among {', '.join(raw)}; which is it? columns={{'x': ...}} or --column x=NAME"
         )
     signals: dict[str, Any]
-    signals, rotary, said = in_si(name, raw, chosen, units, how)
+    signals, rotary, said = in_si(
+        name, raw, chosen, units, how, guessed=chosen.keys() - columns.keys()
+    )
     remarks += said
     if rate is not None and "t" in signals:
         signals.pop("t")

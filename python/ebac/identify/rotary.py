@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 from math import pi
 from typing import TYPE_CHECKING
@@ -60,8 +60,12 @@ def in_si(
     chosen: Mapping[str, str],
     units: Mapping[str, str],
     how: Conversion,
+    *,
+    guessed: Collection[str] = (),
 ) -> tuple[Columns, bool, list[str]]:
     """Return the signals in SI units, whether they are those of a rotary device, and what was taken for granted.
+
+    A signal that was `guessed` by its heading, and that nothing needs, is left out where it does not fit the others.
 
     Raises
     ------
@@ -83,23 +87,37 @@ def in_si(
         found[key] = kind, next(iter(FACTORS[kind]))
         remarks.append(f"{key}: no unit given, taken as {found[key][1]}")
     _refuse_without_use(file, {quantity for quantity, _ in found.values()}, how)
-    signals, kinds = {}, {}
-    for key, (quantity, unit) in found.items():
+    signals: Columns = {}
+    kinds: dict[str, str] = {}
+    for key in sorted(found, key=lambda key: key != "x"):
+        quantity, unit = found[key]
         assert quantity is not None
         assert unit is not None
-        kinds[key], factor = _converted(file, key, chosen[key], quantity, how)
-        signals[key] = raw[chosen[key]] * (FACTORS[quantity][unit] * factor)
-    rotary = kinds["x"] == "angle"
-    alike = {"time", *(ROTARY if rotary else LINEAR)}
-    for key, kind in kinds.items():
-        if kind not in alike:
+        spare = key in guessed and key not in ("t", "x", "force") and "force" in found
+        if spare and quantity == "current" and how.torque_constant is None:
+            remarks.append(_left_out(key, chosen[key], "a current", "--torque-constant"))
+            continue
+        kind, factor = _converted(file, key, chosen[key], quantity, how)
+        kinds[key] = kind
+        if kind in ("time", *(ROTARY if kinds["x"] == "angle" else LINEAR)):
+            signals[key] = raw[chosen[key]] * (FACTORS[quantity][unit] * factor)
+        elif spare:
+            what = f"{_words(kind, unit)} with x in {found['x'][1]}"
+            remarks.append(_left_out(key, chosen[key], what, "--lever"))
+        else:
+            fits = SI[(ROTARY if kinds["x"] == "angle" else LINEAR)[key in FORCES]]
             raise ValueError(
                 f"{file}: x (column {chosen['x']!r}) is {_words(kinds['x'], found['x'][1])} and {key} "
-                f"(column {chosen[key]!r}) {_words(kind, found[key][1])}: eq. (6) needs motion and force of one place. "
-                f"Give the lever between them [m], lever=0.05 or --lever 0.05, or the right unit, --unit {key}="
-                f"{SI[(ROTARY if rotary else LINEAR)[key in FORCES]].replace(' ', '')}"
+                f"(column {chosen[key]!r}) {_words(kind, unit)}: eq. (6) needs motion and force of one place. "
+                "Give the lever between them [m], lever=0.05 or --lever 0.05, or the right unit, "
+                f"--unit {key}={fits.replace(' ', '')}"
             )
+    rotary = kinds["x"] == "angle"
     return signals, rotary, remarks
+
+
+def _left_out(key: str, column: str, what: str, option: str) -> str:
+    return f"{key}: column {column!r} is left out, {what}; {option} takes it"
 
 
 def _words(kind: str, unit: str | None) -> str:
