@@ -94,6 +94,7 @@ def test_a_knob_comes_back_in_units_of_a_joint(
     assert found.estimates["M_h"].value == pytest.approx(INERTIA, rel=0.01)
     assert "M_h = 0.0002" in repr(found)
     assert "kg m^2" in repr(found)
+    assert "% of the torque" in repr(found)
 
 
 def test_the_command_shows_and_writes_units_of_a_joint(
@@ -107,6 +108,7 @@ def test_the_command_shows_and_writes_units_of_a_joint(
     for unit in UNITS.values():
         assert unit in run.output
         assert unit in (tmp_path / "report" / "device.html").read_text()
+    assert "% of the torque where it slides" in run.output
     assert "gravity_mass" not in run.output  # a Compensation is one of a handle
     run = CliRunner().invoke(app, [*words, "--json"])
     assert run.exit_code == 0, run.output

@@ -68,6 +68,10 @@ class DeviceResult:
         """Unit of each of `names`."""
         return ROTARY_UNITS if self.recording.rotary else UNITS
 
+    @property
+    def _effort(self) -> str:
+        return "torque" if self.recording.rotary else "force"
+
     @cached_property
     def estimates(self) -> dict[str, Estimate]:
         """Every parameter by name: M_h, B_h, coulomb, weight (towards +x), stribeck (breakaway above Coulomb)."""
@@ -116,7 +120,7 @@ class DeviceResult:
             elif not low < value < high:
                 out.append(f"{name} = {value:.4g} {unit}: at the bound of the search")
         if self.explained < 0:
-            out.append("the device explains less of the force than none would")
+            out.append(f"the device explains less of the {self._effort} than none would")
         return tuple(out)
 
     @property
@@ -131,7 +135,7 @@ class DeviceResult:
         wrong = [f"This is no device: {'; '.join(self.impossible)}."] if self.impossible else []
         share = 0.0 if wrong else self.explained
         if turned and seems_flipped(share, self.other_signs[turned]):
-            sentence = "The device explains {} of the force where it slides"
+            sentence = f"The device explains {{}} of the {self._effort} where it slides"
             said = max(0.0, self.explained)
             wrong.insert(0, flip_advice(sentence, said, self.other_signs[turned], turned))
         return tuple(wrong)
@@ -178,14 +182,14 @@ class DeviceResult:
         from ebac._util import notebook
         from ebac.identify.figures import plot_device
 
-        title = f"Device: explains {100 * self.explained:.2f} % of the force"
+        title = f"Device: explains {100 * self.explained:.2f} % of the {self._effort}"
         rows = [e.row() for e in self.estimates.values()]
         return notebook.result(title, rows, lambda: plot_device(self))
 
     def __repr__(self) -> str:
         """Return the estimates, one a line."""
         lines = ["Device:"] + [f"  {e}" for e in self.estimates.values()]
-        lines.append(f"  explains {100 * self.explained:.2f} % of the force")
+        lines.append(f"  explains {100 * self.explained:.2f} % of the {self._effort}")
         return "\n".join([*lines, *(f"  {text}" for text in self.misses)])
 
 

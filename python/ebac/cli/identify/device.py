@@ -68,13 +68,15 @@ def _end(result: DeviceResult) -> None:
 
 
 def _notes(result: DeviceResult) -> list[str]:
+    effort = "torque" if result.recording.rotary else "force"
     share = f"{100 * result.drive.slides.mean():.0f} % of the log"
     explained = (
-        f"Explains {100 * result.explained:.2f} % of the force where it slides, {share}."
+        f"Explains {100 * result.explained:.2f} % of the {effort} where it slides, {share}."
         if result.explained > 0
-        else f"Explains nothing of the force where it slides, {share}: eq. (6) with these forces is no model of it."
+        else f"Explains nothing of the {effort} where it slides, {share}: "
+        f"eq. (6) with these {effort}s is no model of it."
     )
-    alone = "The log has no force of the motor: true only of a device whose motor gave none."
+    alone = f"The log has no {effort} of the motor: true only of a device whose motor gave none."
     return [
         *(result.misses or [explained]),
         *([alone] if result.recording.motor is None else []),
