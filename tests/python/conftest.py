@@ -39,9 +39,13 @@ settings.load_profile("ebac")
 # A runner builds all commands of a program at every call: 40 ms, most of what a test of a wrong option takes.
 typer.testing._get_command = cache(typer.testing._get_command)
 
-# A shell that starts pytest in the background has SIGINT ignored, and every program that a test interrupts would too.
-if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
-    signal.signal(signal.SIGINT, signal.default_int_handler)
+# A shell that starts pytest in the background has these ignored, and every program that a test interrupts would too.
+for _number, _usual in (
+    (signal.SIGINT, signal.default_int_handler),
+    (signal.SIGQUIT, signal.SIG_DFL),
+):
+    if signal.getsignal(_number) is signal.SIG_IGN:
+        signal.signal(_number, _usual)
 
 
 @pytest.hookimpl(optionalhook=True)

@@ -605,7 +605,18 @@ with can.Bus(interface="ebac", channel="x") as bus:
 
 def test_the_logger_of_python_can(tmp_path: Path) -> None:
     log = tmp_path / "log.asc"
-    command = [sys.executable, "-m", "can.logger", "-i", "ebac", "-c", "quiet", "-f", str(log)]
+    command = [
+        sys.executable,
+        "-u",
+        "-m",
+        "can.logger",
+        "-i",
+        "ebac",
+        "-c",
+        "quiet",
+        "-f",
+        str(log),
+    ]
     with subprocess.Popen(
         command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True
     ) as run:

@@ -110,7 +110,18 @@ def test_ebac_drive_scans_it() -> None:
 
 def test_the_logger_of_python_can_logs_it(tmp_path: Path) -> None:
     log = tmp_path / "log.asc"
-    command = [sys.executable, "-m", "can.logger", "-i", "ebac", "-c", "joystick", "-f", str(log)]
+    command = [
+        sys.executable,
+        "-u",
+        "-m",
+        "can.logger",
+        "-i",
+        "ebac",
+        "-c",
+        "joystick",
+        "-f",
+        str(log),
+    ]
     with subprocess.Popen(
         command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True
     ) as run:
