@@ -138,10 +138,20 @@ _CHANNELS = count()
 @pytest.fixture
 def open_bus() -> Iterator[Callable[[], "can.BusABC"]]:
     """A function that opens a bus with the simulated drives of the joystick on it, nodes 1 and 2."""
+    import can
+
     from ebac.can.interface import EbacBus
 
     channel = f"joystick-{next(_CHANNELS)}"
-    with EbacBus(channel):
+    with EbacBus(channel) as first:
+        for node in (
+            1,
+            2,
+        ):  # an answer comes behind the boot-up, which a bus that is opened later then does not see
+            ask = [0x40, 0x00, 0x10, 0, 0, 0, 0, 0]
+            first.send(can.Message(arbitration_id=0x600 + node, data=ask, is_extended_id=False))
+            while (seen := first.recv(5)) is not None and seen.arbitration_id != 0x580 + node:
+                pass
         yield lambda: EbacBus(channel)
 
 
