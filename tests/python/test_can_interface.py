@@ -16,6 +16,7 @@ from typing import Any
 import can
 import canopen
 import pytest
+from can_logger import logged
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -604,29 +605,7 @@ with can.Bus(interface="ebac", channel="x") as bus:
 
 
 def test_the_logger_of_python_can(tmp_path: Path) -> None:
-    log = tmp_path / "log.asc"
-    command = [
-        sys.executable,
-        "-u",
-        "-m",
-        "can.logger",
-        "-i",
-        "ebac",
-        "-c",
-        "quiet",
-        "-f",
-        str(log),
-    ]
-    with subprocess.Popen(
-        command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True
-    ) as run:
-        assert run.stdout
-        assert run.stdout.readline().startswith("Connected to EbacBus: ebac channel 'quiet'")
-        run.stdout.readline()
-        time.sleep(0.1)
-        run.send_signal(signal.SIGINT)
-        run.communicate(timeout=10)
-    assert log.read_text().startswith("date ")
+    assert logged("quiet", tmp_path / "log.asc", seconds=0.1).startswith("date ")
 
 
 def test_importing_ebac_imports_no_can() -> None:

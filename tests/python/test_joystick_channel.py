@@ -2,7 +2,6 @@
 
 import json
 import re
-import signal
 import subprocess
 import sys
 import time
@@ -13,6 +12,7 @@ from pathlib import Path
 import can
 import canopen
 import pytest
+from can_logger import logged
 from typer.testing import CliRunner
 
 import ebac
@@ -109,29 +109,8 @@ def test_ebac_drive_scans_it() -> None:
 
 
 def test_the_logger_of_python_can_logs_it(tmp_path: Path) -> None:
-    log = tmp_path / "log.asc"
-    command = [
-        sys.executable,
-        "-u",
-        "-m",
-        "can.logger",
-        "-i",
-        "ebac",
-        "-c",
-        "joystick",
-        "-f",
-        str(log),
-    ]
-    with subprocess.Popen(
-        command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True
-    ) as run:
-        assert run.stdout
-        assert run.stdout.readline().startswith("Connected to EbacBus: ebac channel 'joystick'")
-        run.stdout.readline()
-        time.sleep(0.3)
-        run.send_signal(signal.SIGINT)
-        run.communicate(timeout=20)
-    assert re.findall(r" (70[12]) ", log.read_text()) == ["701", "702"]
+    text = logged("joystick", tmp_path / "log.asc", seconds=0.3)
+    assert re.findall(r" (70[12]) ", text) == ["701", "702"]
 
 
 @pytest.mark.parametrize(
