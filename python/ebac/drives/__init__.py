@@ -34,10 +34,10 @@ from ebac.drives.frame_length import exact_bits, frame_bits
 from ebac.drives.load import BusLoad, Traffic, bus_load
 from ebac.drives.network import Network, Node, check_sheet, load
 from ebac.drives.objects import Object, find
-from ebac.drives.own_objects import OwnObject
 from ebac.drives.pdo import Pdo
 from ebac.drives.plan import Change, Plan, plan
 from ebac.drives.profile import Profile, builtin
+from ebac.drives.setting import Setting
 from ebac.drives.simulate import inject
 from ebac.drives.stall import check_stall, hold_time
 from ebac.drives.state import TRANSITIONS, Command, Controlword, State, Statusword, path
@@ -65,12 +65,12 @@ __all__ = [
     "NotApplied",
     "NotVerified",
     "Object",
-    "OwnObject",
     "Pdo",
     "Plan",
     "Profile",
     "ProfileError",
     "Refused",
+    "Setting",
     "Sheet",
     "SheetEntry",
     "State",

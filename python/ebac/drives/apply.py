@@ -14,7 +14,8 @@ from ebac.drives.errors import DriveError, NotApplied, NotVerified, Refused
 from ebac.drives.network import Node
 from ebac.drives.objects import find
 from ebac.drives.plan import Change, Plan, differences, plan, read_held
-from ebac.drives.settings import Group, Setting, Write, writes
+from ebac.drives.setting import Setting
+from ebac.drives.settings import Group, Write, writes
 
 #: "save" as 0x1010 takes it (CiA 301).
 _SAVE = b"save"

@@ -5,11 +5,10 @@ from __future__ import annotations
 import dataclasses
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import Any
 
-from ebac._util.wrong_calls import plain_constructor
 from ebac.drives.objects import NUMBERS, Object, find, known
+from ebac.drives.setting import Setting
 from ebac.drives.toml_positions import Path as Where
 from ebac.drives.toml_positions import Source
 
@@ -21,34 +20,9 @@ _COMMANDS = frozenset(
 _RESERVED = frozenset({0x1005, 0x1010, 0x1011, 0x1014, 0x1016, 0x1017})
 
 
-@plain_constructor
-@dataclass(frozen=True, kw_only=True)
-class OwnObject:
-    """One object that a profile sets by its index.
-
-    Parameters
-    ----------
-    object : Object
-        Which.
-    value : int
-        Raw number.
-    why : str
-        For people.
-    """
-
-    object: Object
-    value: int
-    why: str = "set by the profile"
-
-    @property
-    def where(self) -> str:
-        """Index and sub-index: 0x3001:1."""
-        return self.object.where
-
-
 def read_objects(
     source: Source, table: Any, path: Where, taken: Mapping[str, str]
-) -> list[OwnObject]:
+) -> list[Setting]:
     """Return the objects of a table: "0x3001:1" = 985, or "0x2001" = { value = -5, type = "i16", why = "..." }.
 
     Parameters
@@ -97,7 +71,7 @@ def read_objects(
     return found
 
 
-def _own(source: Source, at: Where, name: str, obj: Object, given: Any) -> OwnObject:
+def _own(source: Source, at: Where, name: str, obj: Object, given: Any) -> Setting:
     parts = given if isinstance(given, Mapping) else {"value": given}
     value, why = parts.get("value"), parts.get("why", "set by the profile")
     kind = parts.get("type", obj.kind)
@@ -121,4 +95,4 @@ def _own(source: Source, at: Where, name: str, obj: Object, given: Any) -> OwnOb
             else '; a negative number needs its type, { value = -5, type = "i16" }'
         )
         raise source.refuse(at, f"objects: {name}: {error}{hint}") from None
-    return OwnObject(object=typed, value=value, why=why)
+    return Setting(object=typed, value=value, why=why, key=f"objects.{typed.where}")

@@ -15,9 +15,10 @@ from ebac._util.wrong_calls import plain_constructor
 from ebac.drives.errors import ProfileError
 from ebac.drives.load import Traffic
 from ebac.drives.objects import Object, find
-from ebac.drives.own_objects import OwnObject, read_objects
+from ebac.drives.own_objects import read_objects
 from ebac.drives.pdo import Pdo, read_pdo, sync_period
 from ebac.drives.profile_fields import BY_NAME, KEYS, RULES, Value
+from ebac.drives.setting import Setting
 from ebac.drives.toml_positions import Path as Where
 from ebac.drives.toml_positions import Source, dotted
 
@@ -42,7 +43,7 @@ class Profile:
         What it exchanges with the loop.
     silence : bool
         Whether PDOs that are not listed are switched off.
-    objects : tuple of OwnObject
+    objects : tuple of Setting
         Objects of the maker's own, and their raw numbers.
     without : tuple of str
         Keys whose object the drive does not have: they scale others and are not written.
@@ -58,7 +59,7 @@ class Profile:
     values: Mapping[str, Value]
     pdos: tuple[Pdo, ...] = ()
     silence: bool = True
-    objects: tuple[OwnObject, ...] = ()
+    objects: tuple[Setting, ...] = ()
     without: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:

@@ -9,50 +9,13 @@ from ebac.drives.objects import PDO_OFF, PDOS, Object, find
 from ebac.drives.pdo import Pdo
 from ebac.drives.profile import Profile
 from ebac.drives.profile_fields import KEYS
+from ebac.drives.setting import Setting
 
 #: What a drive holds: raw bytes by (index, sub-index).
 Held = Mapping[tuple[int, int], bytes]
 
 #: Bits of a COB-ID that decide: off, and the 11-bit identifier. Bits 29 and 30 stay as the drive has them.
 _COB = PDO_OFF | 0x7FF
-
-
-@dataclass(frozen=True, kw_only=True)
-class Setting:
-    """One object and the number it is to hold.
-
-    Parameters
-    ----------
-    object : Object
-        Which.
-    value : int
-        Raw number.
-    why : str
-        For people.
-    mask : int or None
-        Bits that count, None for all; the others stay as the drive has them.
-    optional : bool
-        Whether a drive without the object, or one that keeps another value, is right as it is.
-    key : str
-        The key of the profile that wants it; empty where every profile does.
-    """
-
-    object: Object
-    value: int
-    why: str
-    mask: int | None = None
-    optional: bool = False
-    key: str = ""
-
-    def holds(self, data: bytes) -> bool:
-        """Return whether the drive holds it already."""
-        return self.wanted(data) == self.object.decode(data)
-
-    def wanted(self, data: bytes) -> int:
-        """Return the number to write over what the drive holds."""
-        if self.mask is None:
-            return self.value
-        return (int.from_bytes(data, "little") & ~self.mask) | self.value
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -164,8 +127,7 @@ def _plain(profile: Profile, node: int) -> Iterator[Setting]:
                 optional=key.name == "sync.period",  # without it a drive only does not watch SYNC
                 key=key.name,
             )
-    for own in profile.objects:
-        yield Setting(object=own.object, value=own.value, why=own.why, key=f"objects.{own.where}")
+    yield from profile.objects
 
 
 def _identifiers(emergencies: bool, node: int) -> Iterator[Setting]:
