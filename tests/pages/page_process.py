@@ -1,7 +1,8 @@
-"""Runs the steps of one page in the folder it is started in: `page_process.py STEPS.json`.
+"""Runs the steps of pages, each page in a process of its own: a fork of this one, which has made the usual imports.
 
-Commands of ebac run inside this process, which saves their imports; whatever else in bash. The blocks of Python share
-one namespace, as a reader who types them would have it.
+It reads a request a line, a JSON object: the file of the steps, a folder, an environment, and a file for what is
+printed; it answers with the exit code. Commands of ebac run inside the fork; whatever else in bash. The blocks of
+Python share one namespace, as a reader who types them would have it.
 """
 
 from __future__ import annotations
@@ -81,5 +82,37 @@ def shell(text: str) -> int:
     return 0
 
 
+def serve() -> None:
+    """Follow one page after the other, until there is no further request."""
+    for line in sys.stdin:
+        child = os.fork()
+        if child == 0:
+            request = json.loads(line)
+            begin(request)
+            main(json.loads(Path(request["steps"]).read_text(encoding="utf-8")))
+            return
+        _, status = os.waitpid(child, 0)
+        print(os.waitstatus_to_exitcode(status), flush=True)
+
+
+def begin(request: dict[str, Any]) -> None:
+    """Turn to the folder, the environment and the files of a request."""
+    os.chdir(request["room"])
+    os.environ.clear()
+    os.environ.update(request["environment"])
+    for stream, name, flags in (
+        (sys.stdin, request["input"], os.O_RDONLY),
+        (sys.stdout, request["output"], os.O_WRONLY | os.O_CREAT | os.O_APPEND),
+        (sys.stderr, request["output"], os.O_WRONLY | os.O_APPEND),
+    ):
+        file = os.open(name, flags, 0o644)
+        os.dup2(file, stream.fileno())
+        os.close(file)
+    sys.stdin = open(0, closefd=False)  # noqa: PTH123, SIM115 - the one before is amid its lines
+
+
 if __name__ == "__main__":
-    main(json.loads(Path(sys.argv[1]).read_text(encoding="utf-8")))
+    import ebac.cli
+    import ebac.plot  # noqa: F401
+
+    serve()

@@ -10,7 +10,9 @@ import io
 import json
 import os
 import re
+import select
 import shlex
+import signal
 import subprocess
 import sys
 import tempfile
@@ -99,7 +101,7 @@ def follow(found: list[Step], where: str, tmp_path: Path) -> None:
     ]
     file.write_text(json.dumps(data), encoding="utf-8")
     with sensor_port(chosen):
-        done([sys.executable, page_process.__file__, str(file)], room, env)
+        forked(file, room, env)
 
 
 @contextlib.contextmanager
@@ -115,18 +117,53 @@ def sensor_port(chosen: list[Step]) -> Iterator[None]:
 
 def done(words: list[str], room: Path, env: dict[str, str]) -> None:
     run = subprocess.run(
-        words,
-        cwd=room,
-        env=env,
-        input="y\n" * 10,  # what asks before it writes to a drive
-        capture_output=True,
-        text=True,
-        timeout=TIMEOUT,
-        check=False,
+        words, cwd=room, env=env, capture_output=True, text=True, timeout=TIMEOUT, check=False
     )
-    if run.returncode == 0:
+    judge(run.returncode, f"{run.stdout[-2000:]}\n{run.stderr[-3000:]}")
+
+
+@cache
+def page_server() -> subprocess.Popen[str]:
+    """Return the process of which every page is a fork."""
+    words = [sys.executable, page_process.__file__]
+    env = {**os.environ, "MPLBACKEND": "Agg", "PYTHONPATH": str(Path(ebac.__file__).parents[1])}
+    return subprocess.Popen(
+        words,
+        env=env,
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        text=True,
+        start_new_session=True,
+    )
+
+
+def forked(steps_file: Path, room: Path, env: dict[str, str]) -> None:
+    """Have a page followed."""
+    answers, printed = steps_file.with_name("input"), steps_file.with_name("output")
+    answers.write_text("y\n" * 10)  # what asks before it writes to a drive
+    request = {
+        "steps": str(steps_file),
+        "room": str(room),
+        "environment": env,
+        "input": str(answers),
+        "output": str(printed),
+    }
+    server = page_server()
+    assert server.stdin is not None
+    assert server.stdout is not None
+    print(json.dumps(request), file=server.stdin, flush=True)
+    if not select.select([server.stdout], [], [], TIMEOUT)[0]:
+        os.killpg(server.pid, signal.SIGKILL)
+        page_server.cache_clear()
+        told = printed.read_text(errors="replace")[-5000:]
+        pytest.fail(f"not at its end after {TIMEOUT} s\n{told}", pytrace=False)
+    judge(int(server.stdout.readline() or 1), printed.read_text(errors="replace")[-5000:])
+
+
+def judge(code: int, told: str) -> None:
+    """Fail where a page ended with an error; skip where it lacks a library."""
+    if code == 0:
         return
-    told = f"{run.stdout[-2000:]}\n{run.stderr[-3000:]}"
     missing = re.search(r"pip install '?ebac\[|No module named '(pandas|h5py|pyarrow|bokeh)'", told)
     if missing and not ALL:
         pytest.skip(f"needs the library of an extra: {missing[0]}")

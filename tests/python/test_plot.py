@@ -7,9 +7,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 from matplotlib.figure import Figure
+from matplotlib.image import imread
 
 import ebac
 from ebac.plot import COLOURS, colour, plot_trace, plot_walls
+from ebac.plot.save import PRINT_DPI, SCREEN_DPI, fitted, millimetres, save
 from ebac.plot.style import MOST_POINTS, _extremes
 
 Run = Callable[..., ebac.Trace]
@@ -126,3 +128,15 @@ def test_threads_may_draw_at_once(run: Run) -> None:
         thread.join()
     assert len(set(sizes)) == 1
     assert len(sizes) == 4
+
+
+@pytest.mark.parametrize("width", [None, "single", "double"])
+def test_a_png_is_the_picture_that_matplotlib_saves(
+    run: Run, tmp_path: Path, width: str | None
+) -> None:
+    traces = [run("direct"), run("ebac")]
+    ours = save(plot_walls(traces), tmp_path / "ours.png", width=width)
+    figure, theirs = plot_walls(traces), tmp_path / "theirs.png"
+    with fitted(figure, None if width is None else millimetres(width) / 25.4):
+        Figure.savefig(figure, theirs, dpi=SCREEN_DPI if width is None else PRINT_DPI)
+    assert np.array_equal(imread(ours), imread(theirs))

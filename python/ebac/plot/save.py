@@ -8,11 +8,11 @@ from contextlib import contextmanager
 from pathlib import Path
 from textwrap import wrap
 from threading import RLock
-from typing import Any
+from typing import Any, BinaryIO
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.backends.backend_agg import RendererAgg
+from matplotlib.backends.backend_agg import FigureCanvasAgg, RendererAgg
 from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
@@ -80,10 +80,23 @@ def save(
     narrow = getattr(figure, "narrow", None)
     if narrow is not None and inches is not None and inches < NARROW:
         figure = narrow()
+    dpi = SCREEN_DPI if inches is None else PRINT_DPI
     with fitted(figure, inches):
-        dpi = SCREEN_DPI if inches is None else PRINT_DPI
-        Figure.savefig(figure, file, format=file.suffix[1:], dpi=dpi)
+        if file.suffix == ".png":
+            write_png(figure, file, dpi)
+        else:
+            Figure.savefig(figure, file, format=file.suffix[1:], dpi=dpi)
     return file
+
+
+def write_png(figure: Figure, file: Path | BinaryIO, dpi: float) -> None:
+    """Write what `Figure.savefig` writes, drawn once; that draws a figure that lays itself out twice."""
+    before = figure.dpi
+    figure.dpi = dpi
+    try:
+        FigureCanvasAgg(figure).print_png(file)  # type: ignore[no-untyped-call]
+    finally:
+        figure.dpi = before
 
 
 def millimetres(width: str | float) -> float:

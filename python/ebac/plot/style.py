@@ -93,9 +93,16 @@ class Picture(Figure):
         with fitted(self):
             super().savefig(fname, **kwargs)
 
+    def align_ylabels(self, axs: Any = None) -> None:
+        """Align labels as matplotlib does, only where there is one: each costs the layout a look at all others."""
+        super().align_ylabels([ax for ax in axs or self.axes if ax.get_ylabel()])
+
     def _repr_png_(self) -> bytes:
+        from ebac.plot.save import fitted, write_png
+
         file = BytesIO()
-        self.savefig(file, format="png", dpi=DPI)
+        with fitted(self):
+            write_png(self, file, DPI)
         return file.getvalue()
 
 
