@@ -125,7 +125,7 @@ void bind_joystick(py::module_& m) {
   cls.def(py::init(&make_joystick), py::arg("setup"), py::kw_only(), py::arg("first") = 1,
           py::arg("peak_time") = 2.0, py::arg("force") = py::none(),
           py::arg("wait_for_power") = false, py::arg("aim") = py::none(),
-          py::arg("sheet") = std::vector<SheetRow>{})
+          py::arg("sheet") = std::vector<SheetRow>{}, py::arg("zero") = std::vector<std::int64_t>{})
       .def_property_readonly("axes", &PlantOfDrives::axes, "Number of axes.")
       .def(
           "drive",

@@ -12,6 +12,7 @@
 #include "ebac/sim/simulated_device.hpp"
 #include "ebac/simulated_drives/joystick.hpp"
 #include "fields.hpp"
+#include "zero.hpp"
 
 namespace ebac::python {
 
@@ -64,11 +65,12 @@ template <class Cell>
 using Shared = std::optional<std::shared_ptr<Cell>>;
 
 /// The device and hand of a setup behind drives; publishes the force at the handle to `force`, and
-/// the hand follows the target in `aim`.
+/// the hand follows the target in `aim`. `zero`: counts of each drive at the device's zero.
 inline PlantOfDrives make_joystick(Setup setup, int first, double peak_time,
                                    const Shared<sensor::SharedForce>& force, bool wait_for_power,
                                    const Shared<rt::SharedHandTarget>& aim,
-                                   const std::vector<SheetRow>& sheet = {}) {
+                                   const std::vector<SheetRow>& sheet = {},
+                                   const std::vector<std::int64_t>& zero = {}) {
   const can::NodeId node = checked_node(first, setup.device.axes());
   setup.device.drive.permille = true;  // what a drive is told in
   setup.timing.delay = 0;              // its delay is that of the bus
@@ -80,7 +82,8 @@ inline PlantOfDrives make_joystick(Setup setup, int first, double peak_time,
       node,
       checked_peak_time(peak_time),
       wait_for_power,
-      entries};
+      entries,
+      zero_of("drive", zero, setup.device.axes())};
 }
 
 }  // namespace ebac::python

@@ -74,14 +74,15 @@ void bind_node_server(py::module_& m) {
   inside.def(
       py::init([](can::LoopbackHub& hub, const Setup& setup, int first, double peak_time,
                   const OptionalForce& force, bool wait_for_power, const OptionalTarget& aim,
-                  const std::vector<SheetRow>& sheet) {
+                  const std::vector<SheetRow>& sheet, const std::vector<std::int64_t>& zero) {
         PlantOfDrives joystick =
-            make_joystick(setup, first, peak_time, force, wait_for_power, aim, sheet);
+            make_joystick(setup, first, peak_time, force, wait_for_power, aim, sheet, zero);
         return std::make_unique<OnLoopback>(hub.open({.frames = kFrames}), std::move(joystick));
       }),
       py::arg("hub"), py::arg("setup"), py::kw_only(), py::arg("first") = 1,
       py::arg("peak_time") = 2.0, py::arg("force") = py::none(), py::arg("wait_for_power") = false,
-      py::arg("aim") = py::none(), py::arg("sheet") = std::vector<SheetRow>{});
+      py::arg("aim") = py::none(), py::arg("sheet") = std::vector<SheetRow>{},
+      py::arg("zero") = std::vector<std::int64_t>{});
   add_work(inside);
   py::class_<OnSocketCan> outside(
       m, "SocketCanJoystick",
@@ -90,14 +91,15 @@ void bind_node_server(py::module_& m) {
   outside.def(
       py::init([](const std::string& interface, const Setup& setup, int first, double peak_time,
                   const OptionalForce& force, bool wait_for_power, const OptionalTarget& aim,
-                  const std::vector<SheetRow>& sheet) {
+                  const std::vector<SheetRow>& sheet, const std::vector<std::int64_t>& zero) {
         PlantOfDrives joystick =
-            make_joystick(setup, first, peak_time, force, wait_for_power, aim, sheet);
+            make_joystick(setup, first, peak_time, force, wait_for_power, aim, sheet, zero);
         return std::make_unique<OnSocketCan>(open_socketcan(interface, {}), std::move(joystick));
       }),
       py::arg("interface"), py::arg("setup"), py::kw_only(), py::arg("first") = 1,
       py::arg("peak_time") = 2.0, py::arg("force") = py::none(), py::arg("wait_for_power") = false,
-      py::arg("aim") = py::none(), py::arg("sheet") = std::vector<SheetRow>{});
+      py::arg("aim") = py::none(), py::arg("sheet") = std::vector<SheetRow>{},
+      py::arg("zero") = std::vector<std::int64_t>{});
   add_work(outside);
 }
 

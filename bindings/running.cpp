@@ -10,6 +10,7 @@
 #include "bind.hpp"
 #include "open_socketcan.hpp"
 #include "others_run.hpp"
+#include "zero.hpp"
 
 namespace ebac::python {
 
@@ -35,7 +36,8 @@ std::array<int, kMaxAxes> signs_of(const char* name, const std::vector<int>& giv
 
 can::CanopenSetup drives_of(const DeviceModel& device, const std::vector<int>& nodes,
                             const std::vector<int>& motor_sign,
-                            const std::vector<int>& encoder_sign, const Values& more) {
+                            const std::vector<int>& encoder_sign,
+                            const std::vector<std::int64_t>& encoder_zero, const Values& more) {
   can::CanopenSetup drives{.axes = device.axes(), .motor = device.motor, .drive = device.drive};
   if (nodes.size() != static_cast<std::size_t>(drives.axes)) {
     throw std::invalid_argument("RunSetup.nodes: " + std::to_string(nodes.size()) +
@@ -57,6 +59,7 @@ can::CanopenSetup drives_of(const DeviceModel& device, const std::vector<int>& n
   }
   drives.motor_sign = signs_of("motor_sign", motor_sign, drives.axes);
   drives.encoder_sign = signs_of("encoder_sign", encoder_sign, drives.axes);
+  drives.encoder_zero = zero_of("RunSetup", encoder_zero, drives.axes);
   check_setup(drives);
   return drives;
 }
@@ -68,7 +71,8 @@ RunSetup make_setup(const DeviceModel& device, const Environment& environment, d
                     bool ring, rt::Mode mode, const rt::Options& realtime, const Values& drives,
                     const std::optional<std::shared_ptr<rt::SharedHandTarget>>& aim,
                     const std::optional<ObserverParams>& observer,
-                    const std::vector<int>& motor_sign, const std::vector<int>& encoder_sign) {
+                    const std::vector<int>& motor_sign, const std::vector<int>& encoder_sign,
+                    const std::vector<std::int64_t>& encoder_zero) {
   check(Timing{.dt = dt}, "Timing");
   const bool fits = answer_time > 0 && answer_time <= dt;
   if (!fits) {
@@ -79,7 +83,7 @@ RunSetup make_setup(const DeviceModel& device, const Environment& environment, d
           .environment = environment,
           .dt = dt,
           .answer_time = answer_time,
-          .drives = drives_of(device, nodes, motor_sign, encoder_sign, drives),
+          .drives = drives_of(device, nodes, motor_sign, encoder_sign, encoder_zero, drives),
           .sensor = sensor,
           .aim = aim.value_or(nullptr),
           .limits = limits,
@@ -202,6 +206,7 @@ void bind_running(py::module_& m) {
            py::arg("realtime"), py::arg("drives"), py::arg("aim") = py::none(),
            py::arg("observer") = py::none(), py::arg("motor_sign") = std::vector<int>{},
            py::arg("encoder_sign") = std::vector<int>{},
+           py::arg("encoder_zero") = std::vector<std::int64_t>{},
            "`drives` are the fields of CanopenSetup by name.");
   bind_running_class(m);
 }

@@ -3435,6 +3435,7 @@ class Joystick:
         sheet: collections.abc.Sequence[
             tuple[int, int, str, bool, int, int, int, int | None, str]
         ] = [],
+        zero: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex] = [],
     ) -> None: ...
     def drive(self, axis: typing.SupportsInt | typing.SupportsIndex = 0) -> SimulatedDrive:
         """
@@ -6055,6 +6056,7 @@ class LoopbackJoystick:
         sheet: collections.abc.Sequence[
             tuple[int, int, str, bool, int, int, int, int | None, str]
         ] = [],
+        zero: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex] = [],
     ) -> None: ...
     def start(self, mode: RealTimeMode = ..., realtime: RealTime = ...) -> typing.Any:
         """
@@ -6102,6 +6104,7 @@ class SocketCanJoystick:
         sheet: collections.abc.Sequence[
             tuple[int, int, str, bool, int, int, int, int | None, str]
         ] = [],
+        zero: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex] = [],
     ) -> None: ...
     def start(self, mode: RealTimeMode = ..., realtime: RealTime = ...) -> typing.Any:
         """
@@ -6506,6 +6509,7 @@ class RunSetup:
         observer: Observer | None = None,
         motor_sign: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex] = [],
         encoder_sign: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex] = [],
+        encoder_zero: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex] = [],
     ) -> None:
         """
         `drives` are the fields of CanopenSetup by name.

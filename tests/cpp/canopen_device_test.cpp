@@ -183,6 +183,34 @@ TEST(Counts, AreUnwrappedOverThirtyTwoBits) {
   }
 }
 
+TEST(Counts, AreThoseFromTheZeroOfTheEncoder) {
+  TestBench bench({.axes = 2, .encoder_sign = {1, -1, 1}, .encoder_zero = {12345, -7}});
+  EXPECT_EQ(bench.device.exchange({}).counts[0], -12345) << "the first position shown is 0";
+  bench.enable();
+  bench.drives.drive[0].position = 12345;
+  bench.drives.drive[1].position = -7;
+  EXPECT_EQ(bench.tick().counts[0], 0);
+  EXPECT_EQ(bench.tick().counts[1], 0);
+  bench.drives.drive[0].position = 12345 + 100;
+  bench.drives.drive[1].position = -7 + 30;
+  const Reading reading = bench.tick();
+  EXPECT_EQ(reading.counts[0], 100);
+  EXPECT_EQ(reading.counts[1], -30) << "the zero is the drive's, before its sign";
+}
+
+TEST(Counts, FromAZeroOnTheOtherSideOfTheWrapAreTheNearest) {
+  constexpr std::int32_t kMost = std::numeric_limits<std::int32_t>::max();
+  constexpr std::int32_t kLeast = std::numeric_limits<std::int32_t>::min();
+  for (const std::int32_t zero : {kMost, kLeast, kMost - 3, 0, -1}) {
+    for (const std::int64_t way : {-5, -1, 0, 1, 5, 2'000'000'000}) {
+      TestBench bench({.axes = 1, .encoder_zero = {zero}});
+      bench.drives.drive[0].position =
+          static_cast<std::int32_t>(static_cast<std::uint32_t>(zero + way));
+      EXPECT_EQ(bench.tick().counts[0], way) << zero;
+    }
+  }
+}
+
 TEST(EnableSequence, TakesTheDrivesUpOneStateAnExchange) {
   TestBench bench;
   std::vector<int> words;

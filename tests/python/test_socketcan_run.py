@@ -19,7 +19,7 @@ import pytest
 
 import ebac
 from ebac import drives
-from ebac.hardware import Configuration, under_the_law
+from ebac.hardware import Configuration, PositionError, under_the_law
 
 INTERFACE = os.environ.get("EBAC_CAN", "")
 EXAMPLE = Path(__file__).parents[2] / "examples" / "joystick.toml"
@@ -91,6 +91,10 @@ def has_rows(folder: Path) -> bool:
 
 def test_hardware_is_what_stands_on_the_interface(config: Path, tmp_path: Path) -> None:
     with served(config), ebac.Device.open(config) as device:
+        with pytest.raises(PositionError, match="confirm_zero"):
+            device.run("ebac")
+        assert [one.counts for one in device.positions()] == [0, 0]
+        device.confirm_zero()
         trace = device.run("ebac", log=tmp_path / "run.mcap")
         assert states() == [drives.State.SWITCH_ON_DISABLED] * 2
     part = under_the_law(trace)
@@ -145,6 +149,7 @@ def test_a_hand_in_another_process_is_told_where_to_go(config: Path, tmp_path: P
 def test_a_killed_loop_leaves_the_drives_to_their_own_watch(config: Path, tmp_path: Path) -> None:
     out = tmp_path / "out"
     command = [sys.executable, "-m", "ebac.cli", "run", str(config), "--out", str(out), "--no-live"]
+    command.append("--yes")
     with served(config):
         process = subprocess.Popen([*command, "--seconds", "600"])
         end = time.monotonic() + PATIENCE

@@ -191,6 +191,9 @@ class CanopenDevice {
     if (fault_ != Fault::kNone) stop();
   }
 
+  NodeLink link_to(std::size_t axis) const EBAC_RT {
+    return NodeLink(setup_.node[axis], setup_.encoder_zero[axis]);
+  }
   TorqueWatch watch() const EBAC_RT { return {setup_.torque_ticks, setup_.torque_tolerance}; }
 
   bool down() const EBAC_RT { return std::as_const(*bus_).state() >= BusState::kBusOff; }
@@ -231,8 +234,7 @@ class CanopenDevice {
   CanopenSetup setup_;
   TorqueScale scale_;
   EnableSequence sequence_;
-  std::array<NodeLink, kMaxAxes> link_{NodeLink(setup_.node[0]), NodeLink(setup_.node[1]),
-                                       NodeLink(setup_.node[2])};
+  std::array<NodeLink, kMaxAxes> link_{link_to(0), link_to(1), link_to(2)};
   std::array<TorqueWatch, kMaxAxes> watch_{watch(), watch(), watch()};
   std::int64_t foreign_ = 0;
   bool second_master_ = false;  // heard since the drives were last enabled

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 
 #include "ebac/canopen/cob_id.hpp"
 #include "ebac/canopen/torque_watch.hpp"
@@ -17,6 +18,9 @@ struct CanopenSetup {
   /// have the signs of sample.hpp.
   std::array<int, kMaxAxes> motor_sign{1, 1, 1};
   std::array<int, kMaxAxes> encoder_sign{1, 1, 1};
+  /// What each drive shows (0x6064) with the handle at its zero [counts]; any number will do, as the
+  /// difference is taken in the 32 bits of the drive.
+  std::array<std::int32_t, kMaxAxes> encoder_zero{};
   Motor motor{};                 // for eq. (1)
   Drive drive{};                 // for its limit
   int silent_ticks = 3;          // samples

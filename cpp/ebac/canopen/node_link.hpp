@@ -59,7 +59,10 @@ class NodeLink {
  public:
   static constexpr int kOperational = 0x05;  // NMT state in a heartbeat
 
-  explicit NodeLink(NodeId node) EBAC_RT : node_(node) {}
+  /// `zero`: the position that counts as 0.
+  explicit NodeLink(NodeId node, std::int32_t zero = 0) EBAC_RT
+      : node_(node),
+        zero_(static_cast<std::uint32_t>(zero)) {}
 
   Frame command(DriveCommand command, std::int16_t permille) EBAC_RT {
     const std::uint16_t controlword = word_of(command);
@@ -131,7 +134,7 @@ class NodeLink {
   bool alarmed() const EBAC_RT { return alarmed_; }  // an emergency stands
   double quiet() const EBAC_RT { return quiet_; }    // s, since the last heartbeat
   bool left() const EBAC_RT { return row_.heartbeat >= 0 && row_.heartbeat != kOperational; }
-  std::int64_t counts() const EBAC_RT { return counts_; }
+  std::int64_t counts() const EBAC_RT { return counts_; }    // from the zero
   double counts_age() const EBAC_RT { return counts_age_; }  // s, since their SYNC
   std::int16_t actual_permille() const EBAC_RT {
     return static_cast<std::int16_t>(row_.actual_permille);
@@ -171,10 +174,12 @@ class NodeLink {
     }
   }
 
-  /// 0x6064 wraps after 32 bits; the nearest count to the last one that shows the same is meant.
+  /// 0x6064 wraps after 32 bits; the nearest count to the last one that shows the same is meant. The
+  /// first one is nearest to the zero.
   void unwrap(std::uint32_t position) EBAC_RT {
-    const auto step = static_cast<std::int32_t>(position - static_cast<std::uint32_t>(counts_));
-    counts_ = heard_ ? counts_ + step : static_cast<std::int32_t>(position);
+    const std::uint32_t shown = position - zero_;
+    const auto step = static_cast<std::int32_t>(shown - static_cast<std::uint32_t>(counts_));
+    counts_ = heard_ ? counts_ + step : static_cast<std::int32_t>(shown);
     heard_ = true;
   }
 
@@ -198,6 +203,7 @@ class NodeLink {
   }
 
   NodeId node_;
+  std::uint32_t zero_;  // counts
   bool answered_ = false;
   bool synced_ = false;
   bool heard_ = false;

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <concepts>
+#include <cstdint>
 #include <utility>
 
 #include "ebac/core/concepts.hpp"
@@ -16,7 +18,8 @@ namespace ebac::can {
 /// sends its currents and SYNC in one exchange thus sees a delay of one tick. A current that
 /// changes between two SYNCs (asynchronous RPDO, SDO, ramp, fault) acts from that moment on.
 /// Without a SYNC for a while, the plant follows the elapsed time. With `wait_for_power` its time
-/// begins when a drive is first enabled: until then neither plant nor hand moves.
+/// begins when a drive is first enabled: until then neither plant nor hand moves. `zero` is what each
+/// drive shows with the plant at its zero [counts].
 ///
 /// `D` applies each current as given: a simulated device must have no delay, and torque in whole
 /// thousandths.
@@ -25,10 +28,12 @@ template <Device D>
 class Joystick {
  public:
   Joystick(D plant, const DeviceModel& device, NodeId first = 1, double peak_time = 2,
-           bool wait_for_power = false, std::span<const SheetEntry> sheet = {})
+           bool wait_for_power = false, std::span<const SheetEntry> sheet = {},
+           const std::array<std::int32_t, kMaxAxes>& zero = {})
       : plant_(std::move(plant)),
         axes_(static_cast<std::size_t>(device.axes())),
-        waits_(wait_for_power) {
+        waits_(wait_for_power),
+        zero_(zero) {
     for (std::size_t i = 0; i < axes_; ++i) {
       drive_[i] = SimulatedDrive({.node = static_cast<NodeId>(first + i),
                                   .motor = device.motor,
@@ -106,7 +111,7 @@ class Joystick {
     reading_ = reading;
     for (std::size_t i = 0; i < axes_; ++i) {
       if (reading_.fault != Fault::kNone) drive_[i].set_condition(Condition::kEncoderLost, true);
-      drive_[i].set_position(reading_.counts[i]);
+      drive_[i].set_position(reading_.counts[i] + zero_[i]);
     }
   }
 
@@ -122,11 +127,12 @@ class Joystick {
   D plant_;
   std::array<SimulatedDrive, kMaxAxes> drive_{};
   std::size_t axes_;
-  bool waits_;                              // until a drive is enabled
-  std::array<double, kMaxAxes> current_{};  // A, acting since the plant last moved
-  double since_ = 0;                        // s, since the plant last moved
-  double silence_ = 2 * kPatience;          // s, since the last SYNC
-  double rest_ = 0;                         // ns, less than one, not yet passed to the drives
+  bool waits_;                               // until a drive is enabled
+  std::array<std::int32_t, kMaxAxes> zero_;  // counts
+  std::array<double, kMaxAxes> current_{};   // A, acting since the plant last moved
+  double since_ = 0;                         // s, since the plant last moved
+  double silence_ = 2 * kPatience;           // s, since the last SYNC
+  double rest_ = 0;                          // ns, less than one, not yet passed to the drives
   Reading reading_;
 };
 

@@ -6,6 +6,7 @@
         trace = device.run("ebac", seconds=10, log="run.mcap")
 """
 
+from ebac.hardware.axis_positions import AxisPosition, PositionError, axis_positions, distances
 from ebac.hardware.backends import Backend, virtual_can
 from ebac.hardware.configuration import Configuration
 from ebac.hardware.device import OpenDevice
@@ -16,19 +17,25 @@ from ebac.hardware.report import Report, Times, times, under_the_law
 from ebac.hardware.run import Run
 from ebac.hardware.signs import Signs
 from ebac.hardware.tables import ConfigurationError
+from ebac.hardware.zero import Zero
 
 __all__ = [
+    "AxisPosition",
     "AxisSigns",
     "Backend",
     "Configuration",
     "ConfigurationError",
     "OpenDevice",
+    "PositionError",
     "Report",
     "Run",
     "Signs",
     "Terminated",
     "Times",
+    "Zero",
+    "axis_positions",
     "designed",
+    "distances",
     "find_signs",
     "times",
     "under_the_law",

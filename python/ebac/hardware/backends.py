@@ -26,6 +26,7 @@ if TYPE_CHECKING:
         SocketCanJoystick,
     )
     from ebac.hardware.configuration import Configuration
+    from ebac.hardware.signs import Signs
     from ebac.sensor import SensorConfig, SimulatedSensor
 
 #: How long a simulated drive may take to answer [s]: it shares its processors with all else.
@@ -54,6 +55,8 @@ class Backend:
         Shared target of a simulated hand; None on hardware.
     grants : sequence of Grant
         What the threads of what is simulated asked of the system, and got.
+    real : bool
+        Whether a hand may hold the device: its zero must be confirmed before it has power.
     """
 
     interface: str
@@ -64,6 +67,11 @@ class Backend:
     patience: float = TIMEOUT
     aim: SharedHandTarget | None = None
     grants: Sequence[Grant] = ()
+    real: bool = False
+
+    def signs(self, known: Configuration) -> Signs:
+        """Return what is to turn: on a simulated device what the configuration does not turn rightly stays turned."""
+        return known.signs if self.aim is None else known.signs.against(known.simulated_signs)
 
 
 @contextmanager
@@ -77,6 +85,7 @@ def hardware(configuration: Configuration) -> Iterator[Backend]:
             bus=channel,
             about=f"drives on {channel}",
             sensor=configuration.sensor,
+            real=True,
         )
         return
     from ebac.can.channels import hub_of
@@ -130,7 +139,13 @@ def simulated(configuration: Configuration) -> Iterator[Backend]:
 
     def nodes(hub: LoopbackHub) -> AbstractContextManager[object]:
         served = LoopbackJoystick(
-            hub, scenario.setup(), first=first, force=shared_force, wait_for_power=True, aim=aim
+            hub,
+            scenario.setup(),
+            first=first,
+            force=shared_force,
+            wait_for_power=True,
+            aim=aim,
+            zero=configuration.counts_of_simulated_drives,
         )
         return at_work(served, request, "the simulated drives", grants)
 

@@ -18,6 +18,7 @@ from ebac.hardware.law import designed
 from ebac.hardware.reading import needs_force, read
 from ebac.hardware.signs import Signs
 from ebac.hardware.tables import ConfigurationError
+from ebac.hardware.zero import Zero
 from ebac.laws import CoreLaw
 from ebac.scenario import Environment, Scenario
 
@@ -45,6 +46,10 @@ class Configuration:
         Of every axis: -1 turns the current of its motor, the counts of its encoder.
     simulated_signs : Signs or None
         Those that the simulated device needs; None for the same, a device that is wired as configured.
+    zero : Zero
+        What each drive counts with the handle at its zero.
+    simulated_zero : Zero or None
+        The same of the simulated drives; None for those of `zero`.
     setup : "verify" or "apply"
         Whether a drive that holds something else than its profile is refused, or written.
     silent : int
@@ -94,6 +99,8 @@ class Configuration:
     drives: Network
     signs: Signs = field(default_factory=Signs)
     simulated_signs: Signs | None = None
+    zero: Zero = field(default_factory=Zero)
+    simulated_zero: Zero | None = None
     setup: Literal["verify", "apply"] = "verify"
     silent: int = 3
     answer_share: float = 0.5
@@ -154,6 +161,11 @@ class Configuration:
         """Return the law, designed for the device; without a sensor the gains of a force loop are 0."""
         with_sensor = self.sensor is not None
         return designed(self.law, self.changes, self.device, self.timing, sensor=with_sensor)
+
+    @property
+    def counts_of_simulated_drives(self) -> tuple[int, ...]:
+        """What simulated drives count with the handle at its zero: as real ones do, if not configured otherwise."""
+        return (self.simulated_zero or self.zero).counts
 
     def scenario(self, *, seconds: float | None = None) -> Scenario:
         """Return device, hand, virtual world and time as a scenario, for simulations and logs."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import atexit
-import io
+import json
 import tempfile
 import warnings
 import weakref
@@ -18,16 +18,25 @@ from ebac._util.exception_notes import noted_on
 from ebac._util.wrong_calls import plain_constructor
 from ebac.drives import Backups, check_stall
 from ebac.hardware import drive_setup
+from ebac.hardware.axis_positions import (
+    AxisPosition,
+    PositionError,
+    check_workspace,
+    positions_of,
+    read_positions,
+)
 from ebac.hardware.backends import hardware, simulated
 from ebac.hardware.configuration import Configuration
+from ebac.hardware.held import Held
 from ebac.hardware.interrupts import Interrupts
 from ebac.hardware.law import designed
 from ebac.hardware.rating import check_rating
 from ebac.hardware.report import Report
 from ebac.hardware.run import Run
+from ebac.hardware.run_log import discard_log, free_log
 from ebac.hardware.run_setup import run_setup, started
-from ebac.logs.about import SIMULATED_FILE
-from ebac.logs.writer import discard, new_log
+from ebac.logs.about import POSITIONS_FILE, SIMULATED_FILE
+from ebac.logs.writer import new_log
 
 if TYPE_CHECKING:
     from ebac.hardware.backends import Backend
@@ -92,6 +101,7 @@ class OpenDevice:
             check_rating(configuration.limits, configuration.device)
         self.configuration = configuration
         self.simulated = simulate
+        self._confirmed = False
         self._cleared: Report | None = None  # of the fault that `reset` was called for
         self._detached = detached
         self._nodes = drive_setup.nodes_of(configuration, simulate=simulate)
@@ -112,7 +122,7 @@ class OpenDevice:
             drive_setup.set_up(self.backend, self._nodes, write=write, backups=backups)
             if not simulate and configuration.sensor is not None:
                 configuration.sensor.check_scale()
-            self._held = _Held(stack.pop_all())
+            self._held = Held(stack.pop_all())
         # What is forgotten, in a notebook or at the end of its program, is closed all the same.
         self._forgotten = weakref.finalize(self, self._held.close)
         self._forgotten.atexit = False  # another exit sees to that, in its place among others
@@ -122,6 +132,36 @@ class OpenDevice:
     def report(self) -> Report | None:
         """How the last run went."""
         return None if self._held.run is None else self._held.run.report
+
+    @property
+    def confirmed(self) -> bool:
+        """Whether a run may begin: `confirm_zero` was called, the encoders are absolute, or no hand can be there."""
+        return self._confirmed or not self.backend.real or self.configuration.zero.absolute
+
+    def confirm_zero(self) -> None:
+        """Confirm that `positions` are right, for all runs until `reset` or until the device is closed.
+
+        An incremental encoder counts from wherever its handle was when the drive was switched on: with another zero the
+        virtual world stands elsewhere. Real drives take no run before.
+        """
+        self._confirmed = True
+
+    def positions(self) -> list[AxisPosition]:
+        """Read where each axis stands from the zero of the configuration; between runs only.
+
+        Raises
+        ------
+        RuntimeError
+            While a run is under way.
+        DriveError
+            When a drive does not answer.
+        """
+        self._between_runs()
+        return read_positions(self.configuration, self.backend)
+
+    def _between_runs(self) -> None:
+        if self._held.run is not None and self._held.run.report is None:
+            raise RuntimeError("a run is under way: end it first")
 
     @classmethod
     def open(
@@ -175,6 +215,8 @@ class OpenDevice:
             When the loop ended by a fault; it carries the rows. The next run asks for `reset` first.
         RuntimeError
             When a run is under way, or the last one ended by a fault and `reset` was not called.
+        PositionError
+            When an axis stands outside the workspace, or on real drives `confirm_zero` was not called.
         DriveError, OSError
             When a drive does not obey, or the log cannot be written.
         KeyboardInterrupt, Terminated
@@ -201,8 +243,12 @@ class OpenDevice:
         RuntimeError
             When a run is under way, or the last one ended by a fault and `reset` was not called.
         """
-        if self._held.run is not None and self._held.run.report is None:
-            raise RuntimeError("a run is under way: end it first")
+        self._between_runs()
+        if not self.confirmed:
+            raise PositionError(
+                "nobody has confirmed the zero of the encoders: compare `device.positions()` with the handle, then "
+                "call `device.confirm_zero()`; on the command line `ebac run` asks"
+            )
         if (
             self.report is not None
             and self.report.ended_by == "fault"
@@ -217,16 +263,22 @@ class OpenDevice:
         length = known.seconds if seconds is None else seconds
         scenario = chosen.scenario(seconds=length)
         setup = run_setup(chosen, self._nodes, backend=self.backend, seconds=length)
-        path = None if log is None else _free(Path(log))
+        path = None if log is None else free_log(Path(log))
         backend, nodes = self.backend, self._nodes
+
+        positions: list[AxisPosition] = []
+
+        def check(counts: list[int]) -> None:
+            positions[:] = positions_of(known, backend, counts)
+            check_workspace(known, positions)
 
         def power_off() -> list[str]:
             return drive_setup.power_off(backend, nodes)
 
         file = None if path is None else new_log(path)  # before there is power
         with ExitStack() as undo:  # from the last to the first, each whatever the others raise
-            undo.callback(_discard, file, path)
-            drive_setup.start(backend, nodes)
+            undo.callback(discard_log, file, path)
+            drive_setup.start(backend, nodes, check)
             undo.callback(self.interrupts.forget)
             undo.callback(power_off)
             undo.callback(self.interrupts.ending)
@@ -241,11 +293,13 @@ class OpenDevice:
                 grants=backend.grants,
                 hand=backend.aim is not None,
                 detached=self._detached,
+                positions=positions,
             )
             undo.pop_all()
         try:
             if path is not None:
-                files = {"configuration.toml": known.text}
+                rows = [one.row() for one in positions]
+                files = {"configuration.toml": known.text, POSITIONS_FILE: json.dumps(rows)}
                 if backend.aim is not None:  # a simulated hand: drives and device are simulated too
                     files[SIMULATED_FILE] = f"{backend.about}\n"
                 run.record(path, files=files, sync=known.sync, file=file)
@@ -256,7 +310,11 @@ class OpenDevice:
         return run
 
     def reset(self) -> None:
-        """Allow another run after one that ended by a fault. A drive in fault is reset by `ebac drive reset-fault`."""
+        """Allow another run after one that ended by a fault. A drive in fault is reset by `ebac drive reset-fault`.
+
+        The zero must be confirmed anew: where a fault was a loss of power, an incremental encoder has lost its place.
+        """
+        self._confirmed = False
         self._cleared = self.report
 
     def _law(self, law: AnyLaw | None, changes: dict[str, Any]) -> CoreLaw:
@@ -288,41 +346,3 @@ class OpenDevice:
     def __repr__(self) -> str:
         """Return one line: the configuration and the backend."""
         return f"<OpenDevice of {self.configuration!r}>"
-
-
-class _Held:
-    """What a device must let go of, whoever forgets it: its run first."""
-
-    def __init__(self, stack: ExitStack) -> None:
-        self.run: Run | None = None
-        self._stack = stack
-
-    def last_to_register(self) -> None:
-        """Be the first to be called at the exit of the interpreter: before the recorder, and simulated drives."""
-        atexit.unregister(self.close)
-        atexit.register(self.close)
-
-    def close(self) -> None:
-        atexit.unregister(self.close)
-        try:
-            if self.run is not None:
-                self.run.end()
-        finally:
-            self._stack.close()
-
-
-def _discard(file: io.FileIO | None, path: Path | None) -> None:
-    if file is not None and path is not None:
-        discard(file, path)
-
-
-def _free(path: Path) -> Path:
-    if path.suffix != ".mcap":
-        raise ValueError(
-            f"log = {path}: must end in .mcap; `ebac log export` makes other formats of it"
-        )
-    if path.exists():
-        raise FileExistsError(
-            17, "There is such a file already; a log is never written over", str(path)
-        )
-    return path

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
@@ -80,10 +80,15 @@ def set_up(
                 verify(drive, node)
 
 
-def start(backend: Backend, nodes: Sequence[Node]) -> None:
+def start(
+    backend: Backend,
+    nodes: Sequence[Node],
+    check: Callable[[list[int]], None] = lambda counts: None,
+) -> None:
     """Let the drives take process data; they stay without power until the loop enables them. Raises as `set_up`.
 
-    All that sets, adds to, scales or limits their torque is read back first.
+    All that sets, adds to, scales or limits their torque is read back first. What `check` raises, given the position
+    of each drive [counts], keeps them as they are.
     """
     with drives_at(backend, nodes) as drives:
         for drive, node in zip(drives, nodes, strict=True):
@@ -91,6 +96,7 @@ def start(backend: Backend, nodes: Sequence[Node]) -> None:
             drive.zero_torque()
             verify(drive, node)
         drives[0].bus.check_alone([node.id for node in nodes])
+        check([drive.number("position") for drive in drives])
         for drive in drives:
             drive.nmt("start")
 

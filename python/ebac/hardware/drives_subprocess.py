@@ -49,6 +49,8 @@ def in_a_process(
         command += ["--channel", channel, "--scenario", str(file), "--first", str(first)]
         command += ["--realtime", configuration.mode, "--beside", str(loop.priority)]
         command += ["--wait-for-power", "--until-eof", "--aim", str(aim.descriptor)]
+        for zero in configuration.counts_of_simulated_drives:
+            command += ["--zero", str(zero)]
         if not loop.lock_memory:
             command += ["--no-lock-memory"]
         if sensor is not None:

@@ -129,7 +129,7 @@ def find_signs(
     seconds = 2.0 + axes * 2 * (PUSH + PAUSE) * 3
     with (
         OpenDevice(tested, simulate=simulate) as device,
-        device.start(seconds=seconds) as run,
+        _started(device, seconds) as run,
     ):
         _wait(run, look, lambda: run.state is LoopState.RUN, PUSH * 10)
         pushes = [
@@ -143,6 +143,11 @@ def find_signs(
         judged(axis, signs, np.array(both), known.device.force(current), sensor=sensor)
         for axis, both in enumerate(pushes)
     ]
+
+
+def _started(device: OpenDevice, seconds: float) -> Run:
+    device.confirm_zero()  # whoever asked for the test put the handle into the middle, and there is no wall
+    return device.start(seconds=seconds)
 
 
 def _wait(run: Run, look: Callable[[Run], None], there: Callable[[], bool], seconds: float) -> None:

@@ -15,6 +15,7 @@ from ebac.drives.toml_positions import Source
 from ebac.hardware.configuration_fields import BUS, RECORDING, RUN, number, word
 from ebac.hardware.signs import Signs
 from ebac.hardware.tables import known, on_top, refusing, table
+from ebac.hardware.zero import Zero
 from ebac.laws import LAWS, design
 from ebac.scenario import Environment, Scenario
 
@@ -26,6 +27,7 @@ TABLES = [
     "bus",
     "device",
     "signs",
+    "zero",
     "timing",
     "environment",
     "law",
@@ -54,6 +56,8 @@ def read(source: Source) -> dict[str, Any]:
     axes = values["device"].axes
     values["signs"] = _signs(source, ("signs",), axes) or Signs()
     values["simulated_signs"] = _signs(source, ("simulated", "signs"), axes)
+    values["zero"] = _zero(source, ("zero",), ["counts", "absolute"], axes) or Zero()
+    values["simulated_zero"] = _zero(source, ("simulated", "zero"), ["counts"], axes)
     values["timing"] = on_top(source, ("timing",), Timing())
     values["environment"] = _environment(source)
     values |= _law(source, values)
@@ -108,8 +112,17 @@ def _signs(source: Source, path: tuple[str, ...], axes: int) -> Signs | None:
     return made
 
 
+def _zero(source: Source, path: tuple[str, ...], keys: list[str], axes: int) -> Zero | None:
+    """Return the zero of the encoders of a table; None where there is none."""
+    found = known(source, path, keys)
+    if not found:
+        return None
+    made: Zero = refusing(source, path, lambda: Zero.from_table(found, axes))
+    return made
+
+
 def _hand(source: Source) -> Hand:
-    known(source, ("simulated",), ["hand", "signs"])
+    known(source, ("simulated",), ["hand", "signs", "zero"])
     path = ("simulated", "hand")
     name = table(source, path).get("preset", "reference")
     base = refusing(source, (*path, "preset"), lambda: presets.hand(name))

@@ -14,6 +14,7 @@ from ebac._core import Fault, Grant, LoopState, Running
 from ebac.trace import Trace
 
 if TYPE_CHECKING:
+    from ebac.hardware.axis_positions import AxisPosition
     from ebac.logs import Recorder
 
 
@@ -33,6 +34,8 @@ class Report:
         Changes that acted but of which no note was kept.
     drives : tuple of str
         State of each drive, asked after the run.
+    positions : tuple of AxisPosition
+        Where each axis stood before it had power, and the zero it was counted from; none on a virtual clock.
     grants : tuple of Grant
         What its threads asked of the system, and got: the loop's, then those of what is simulated.
     sent, received, refused, lost_frames : int
@@ -46,6 +49,7 @@ class Report:
     lost_rows: int
     changes_lost: int
     drives: tuple[str, ...]
+    positions: tuple[AxisPosition, ...]
     grants: tuple[Grant, ...]
     sent: int
     received: int
@@ -60,6 +64,7 @@ class Report:
         recorder: Recorder | None,
         drives: Sequence[str],
         grants: Sequence[Grant],
+        positions: Sequence[AxisPosition],
         ended_by: str,
         by_signal: int | None,
     ) -> Self:
@@ -77,6 +82,7 @@ class Report:
             lost_rows=0 if recorder is None else recorder.lost,
             changes_lost=running.changes_lost,
             drives=tuple(drives),
+            positions=tuple(positions),
             grants=tuple(grants),
             sent=bus.sent,
             received=bus.received,
@@ -96,6 +102,7 @@ class Report:
             lost_rows=0,
             changes_lost=0,
             drives=(),
+            positions=(),
             grants=(),
             sent=0,
             received=0,
@@ -107,6 +114,7 @@ class Report:
         """Return it as plain values."""
         values: dict[str, Any] = {one.name: getattr(self, one.name) for one in fields(self)}
         values["log"] = None if self.log is None else str(self.log)
+        values["positions"] = [one.row() for one in self.positions]
         values["grants"] = [grant_row(one) for one in self.grants]
         return values
 

@@ -23,6 +23,7 @@ from ebac.logs.about import SIMULATED_DRIVES
 from ebac.trace import Trace
 
 if TYPE_CHECKING:
+    from ebac.hardware.axis_positions import AxisPosition
     from ebac.laws import CoreLaw
     from ebac.logs import Recorder
     from ebac.scenario import Environment, Scenario
@@ -50,6 +51,7 @@ class Run(LiveStatus):
         grants: Sequence[_core.Grant] = (),
         hand: bool = False,
         detached: bool = False,
+        positions: Sequence[AxisPosition] = (),
     ) -> None:
         self.recorder: Recorder | None = None
         self.report: Report | None = None
@@ -63,6 +65,7 @@ class Run(LiveStatus):
         self._interrupts = interrupts
         interrupts.hurry = lambda: running.stop(at_once=True)
         self._power_off = power_off
+        self._positions = tuple(positions)
         self._grants = [*running.grants, *grants]
         self._lock = threading.RLock()  # who changes or ends it
         self._parent = None if detached else OfParent(self._parent_is_gone)
@@ -258,6 +261,7 @@ class Run(LiveStatus):
                 recorder=self.recorder,
                 drives=drives,
                 grants=self._grants,
+                positions=self._positions,
                 ended_by=self._ended_by,
                 by_signal=self._interrupts.first,
             )

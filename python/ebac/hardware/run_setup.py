@@ -38,9 +38,7 @@ def run_setup(
     if not 0.01 <= seconds <= 1e5:
         raise ValueError(f"seconds = {seconds:g} s: must lie in [0.01, 100000] s")
     dt = known.timing.dt
-    signs = known.signs
-    if backend.aim is not None:  # what the configuration does not turn rightly stays turned
-        signs = signs.against(known.simulated_signs)
+    signs = backend.signs(known)
     ticks = max(1, round(seconds / dt))
     profiles = [node.profile.values for node in nodes]
     guards = [float(values.get("heartbeat.guard", 0.0)) for values in profiles]
@@ -77,6 +75,7 @@ def run_setup(
         aim=backend.aim,
         motor_sign=list(signs.motor),
         encoder_sign=list(signs.encoder),
+        encoder_zero=list(known.zero.counts),
         drives={
             "silent_ticks": known.silent,
             "torque_ticks": min(max(10, ceil(_LAG / dt)), 128),

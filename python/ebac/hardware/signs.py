@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-import re
-import tomllib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Self
 
-_TABLE = re.compile(r"^\s*\[signs\]\s*(#.*)?$")
-_ANY_TABLE = re.compile(r"^\s*\[")
+from ebac.hardware.toml_table import with_table
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -63,42 +60,11 @@ class Signs:
         ValueError
             When the signs stand there in a way that cannot be changed line by line.
         """
-        wanted = {"motor": list(self.motor), "encoder": list(self.encoder)}
-        lines = text.splitlines(keepends=True)
-        start = next((i for i, line in enumerate(lines) if _TABLE.match(line)), None)
-        if start is None:
-            block = "".join(f"{name} = {signs}\n" for name, signs in wanted.items())
-            gap = "" if not text or text.endswith("\n") else "\n"
-            made = f"{text}{gap}\n[signs] # one for each axis, found by `ebac drive signs`\n{block}"
-        else:
-            after = range(start + 1, len(lines))
-            end = next((i for i in after if _ANY_TABLE.match(lines[i])), len(lines))
-            made = "".join(
-                [*lines[: start + 1], *_changed(lines[start + 1 : end], wanted), *lines[end:]]
-            )
-        try:
-            right = tomllib.loads(made).get("signs") == wanted
-        except tomllib.TOMLDecodeError:
-            right = False
-        if not right:
-            raise ValueError(f"signs cannot be written line by line: set {wanted} by hand")
-        return made
+        wanted = {"motor": self.motor, "encoder": self.encoder}
+        return with_table(text, "signs", wanted, "one for each axis, found by `ebac drive signs`")
 
 
 def _product(one: Sequence[int], other: Sequence[int]) -> tuple[int, ...]:
     if not one or not other:
         return tuple(one or other)
     return tuple(a * b for a, b in zip(one, other, strict=True))
-
-
-def _changed(lines: list[str], wanted: Mapping[str, list[int]]) -> list[str]:
-    """Return the lines of the table with the wanted values; comments stay."""
-    kept = list(lines)
-    for name, signs in wanted.items():
-        key = re.compile(rf"^(\s*{name}\s*=\s*)\[[^\]]*\]")
-        at = next((i for i, line in enumerate(kept) if key.match(line)), None)
-        if at is None:
-            kept.insert(0, f"{name} = {signs}\n")
-        else:
-            kept[at] = key.sub(rf"\g<1>{signs}", kept[at])
-    return kept

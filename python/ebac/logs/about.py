@@ -14,6 +14,8 @@ from ebac._util.wrong_calls import plain_constructor
 from ebac.scenario import Scenario
 
 SCENARIO_FILE = "scenario.toml"
+#: Attached to the log of a run on drives: where each axis stood before it had power, and the zero of its encoder.
+POSITIONS_FILE = "positions.json"
 #: Attached to the log of a run on simulated drives: what was simulated.
 SIMULATED_FILE = "simulated.txt"
 #: What titles call such a run.

@@ -9,6 +9,7 @@ from ebac.cli.drive import enable as drive_power
 from ebac.cli.drive import look, setup
 from ebac.cli.drive import signs as drive_signs
 from ebac.cli.drive import simulate as drive_simulate
+from ebac.cli.drive import zero as drive_zero
 
 app = typer.Typer(
     cls=Group,
@@ -47,5 +48,6 @@ add(app, drive_power.enable)
 add(app, drive_power.disable)
 add(app, drive_power.reset_fault)
 add(app, drive_signs.signs)
+add(app, drive_zero.zero)
 add(app, drive_simulate.simulate)
 add(app, drive_simulate.inject)

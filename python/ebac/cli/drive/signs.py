@@ -49,6 +49,7 @@ def signs(
     """
     from ebac.cli.run.any_key import any_key
     from ebac.hardware import Configuration, Signs, find_signs
+    from ebac.hardware.toml_table import rewrite
     from ebac.simulation import LoopFault
 
     with telling():
@@ -69,10 +70,7 @@ def signs(
     if written:
         with output.refusing():
             right = Signs(motor=tuple(motor), encoder=tuple(encoder))
-            text = right.written_into(configuration.read_text(encoding="utf-8"))
-            draft = configuration.with_name(f"{configuration.name}.draft")
-            draft.write_text(text, encoding="utf-8")
-            draft.replace(configuration)  # all or nothing
+            rewrite(configuration, right.written_into)
     if as_json:
         typer.echo(output.document("drive signs", [asdict(row) for row in rows], written=written))
     else:

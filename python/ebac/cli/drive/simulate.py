@@ -59,6 +59,16 @@ def simulate(
             "--wait-for-power", help="The hand holds still until a motor first has power."
         ),
     ] = False,
+    zero: Annotated[
+        list[int] | None,
+        typer.Option(
+            "--zero",
+            help="What a drive counts with the handle at its zero [counts]; once for each axis.",
+            show_default="0 for each",
+            min=-(2**31),
+            max=2**31 - 1,
+        ),
+    ] = None,
     sensor: Annotated[
         bool,
         typer.Option("--sensor", help="Also a simulated force sensor at the handle, on 127.0.0.1."),
@@ -138,6 +148,10 @@ def simulate(
     with output.refusing():
         plant = simulated.plant_of(scenario, device, hand, seed)
         setup = plant.setup()
+        if zero and len(zero) != plant.device.axes:
+            raise ValueError(
+                f"--zero: {output.plural(len(zero), 'number')} for {plant.device.axes} axes; give it once for each axis"
+            )
         loop = RealTime(priority=beside, lock_memory=lock_memory)
         request = Request.beside(realtime, loop)
         cell = None if aim is None else SharedHandTarget(aim)
@@ -149,6 +163,7 @@ def simulate(
             "force": shared_force,
             "wait_for_power": wait_for_power,
             "aim": cell,
+            "zero": zero or [],
             "sheet": [] if eds is None else read_eds(eds).rows(first),
         }
         with (

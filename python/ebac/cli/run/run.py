@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ebac.cli import options, output, setting
-from ebac.cli.drive.options import telling
+from ebac.cli import options, output
+from ebac.cli.drive.options import Yes, telling
 from ebac.cli.files import PANEL, FigureOptions
 from ebac.cli.run import results
+from ebac.cli.run.chosen import chosen
+from ebac.cli.run.confirm import can_ask, confirm
 from ebac.cli.run.names import free_stem, leave
 
 if TYPE_CHECKING:
@@ -91,6 +93,7 @@ def run(
             "--beyond-rating", help="Allow limits beyond the data sheet of the motor. It may burn."
         ),
     ] = False,
+    yes: Yes = False,
     as_json: output.AsJson = False,
 ) -> None:
     """Run a law on a device in real time.
@@ -100,6 +103,10 @@ def run(
     The drives are checked against their profiles, enabled, run under the law for the time asked, and left without
     power, however it ends: any key, Ctrl-C, a closed terminal, a fault, the death of the program that started this one.
     A fault gives exit code 1 and the last rows stay in the log.
+
+    Before they have power, the command shows where each axis stands from the zero of its encoder and how far the wall
+    is, and asks whether that is so; `--yes` does not ask (`ebac drive zero` sets the zero). Simulated drives are not
+    asked about.
 
     With `--simulated` nothing moves: the drives, the device and the hand are simulated, in another process on a
     virtual CAN interface where there is one (`ip link add vcan0 type vcan`), else in a thread of this process. All the
@@ -129,10 +136,12 @@ def run(
         )
     style.check()
     with output.refusing(), telling():
-        known = _configuration(configuration, law, seconds, rate, observer, wall, person)
+        known = chosen(configuration, law, seconds, rate, observer, wall, person)
         schedule = Schedule.parse(at or [])
         if not virtual:
             schedule.check(known, simulated=simulated)
+    if not (virtual or simulated):
+        can_ask(known, yes)
     folder = None if no_files else out or (None if as_json else DEFAULT_OUT)
     stem = free_stem(folder)
     shown = output.console(stderr=True).is_terminal if live is None else live
@@ -141,50 +150,16 @@ def run(
             _run_virtual(known, stem, as_json, style)
         else:
             how = {"simulate": simulated, "detached": detached, "beyond_rating": beyond_rating}
-            _run(known, how, stem, shown and not as_json, as_json, schedule, style)
+            _run(known, how, yes, stem, shown and not as_json, as_json, schedule, style)
     finally:
         if stem is not None:
             leave(stem)
 
 
-def _configuration(
-    file: Path,
-    law: str | None,
-    seconds: float | None,
-    rate: float | None,
-    observer: bool | None,
-    wall: options.WallOptions,
-    person: options.HandOptions,
-) -> Configuration:
-    from ebac.hardware import Configuration
-
-    known = Configuration.load(file)
-    changes: dict[str, Any] = {
-        "environment": options.wall_of(known.environment, wall),
-        "hand": options.hand_of(known.hand, person),
-        "timing": setting.choose_timing(known.timing, rate, None),
-        **setting.given(seconds=seconds),
-        **_observer(known, observer),
-    }
-    name = None if law is None else setting.one_law(law)
-    if name is not None and name != known.law:
-        changes |= {"law": name, "changes": {}}
-    chosen = known.replace(**changes)
-    chosen.scenario()
-    chosen.design()
-    return chosen
-
-
-def _observer(known: Configuration, wanted: bool | None) -> dict[str, Any]:
-    """Return the change that turns the observer on or off; one that is configured stays as it is."""
-    if wanted is None or wanted == bool(known.observer):
-        return {}
-    return {"observer": wanted}
-
-
 def _run(
     known: Configuration,
     how: dict[str, bool],
+    yes: bool,
     stem: Path | None,
     live: bool,
     as_json: bool,
@@ -198,6 +173,7 @@ def _run(
     fault: LoopFault | None = None
     with telling():
         with OpenDevice.open(known, **how) as device:
+            confirm(device, yes, stderr=as_json)
             try:
                 trace = _watched(device, log, live, schedule)
             except LoopFault as error:

@@ -1,0 +1,80 @@
+"""`ebac drive zero`: read where the axes stand, and take that for the zero of their encoders."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from ebac.cli import output
+from ebac.cli.drive import positions
+from ebac.cli.drive.options import Yes, sure, telling
+
+#: The handle stands still: no axis goes further while somebody answers [m].
+STILL = 5e-4
+
+
+def zero(
+    configuration: Annotated[
+        Path,
+        typer.Argument(help="Configuration in TOML, as `ebac demo joystick` writes it."),
+    ],
+    simulated: Annotated[
+        bool, typer.Option("--simulated", help="With simulated drives, device and hand.")
+    ] = False,
+    write: Annotated[
+        bool,
+        typer.Option(
+            "--write", help="Write the counts into the file as its zero; all else in it stays."
+        ),
+    ] = False,
+    yes: Yes = False,
+    as_json: output.AsJson = False,
+) -> None:
+    """Read where each axis stands, and take it for the zero of its encoder.
+
+    Nothing has power and nothing is written to a drive. An incremental encoder counts from wherever its handle was when
+    its drive was switched on: put the handle at its mark and give `--write` after every power-on. For an absolute
+    encoder do it once, and set `absolute = true` in the table `[zero]`: then `ebac run` does not ask.
+
+    Exit code 1 when the handle moved while it was confirmed; nothing is written then.
+
+    **Examples**
+
+    * `ebac demo joystick`, then `ebac drive zero joystick.toml --simulated`: where the axes stand now
+
+    * `ebac drive zero my-joystick.toml --write`
+    """
+    from ebac.hardware import Configuration, Zero, axis_positions, distances
+    from ebac.hardware.toml_table import rewrite
+
+    with telling():
+        known = Configuration.load(configuration)
+        found = axis_positions(known, simulate=simulated)
+    surfaces = distances(known, found)
+    if not as_json:
+        positions.show(found, surfaces)
+    if write:
+        if not simulated:
+            where = ", ".join(f"{one.counts}" for one in found)
+            sure(f"Is the handle at its mark, so that {where} counts are its zero?", yes)
+        with telling():
+            now = axis_positions(known, simulate=simulated)
+        for one, before in zip(now, found, strict=True):
+            if abs(one.position_m - before.position_m) > STILL:
+                output.fail(
+                    f"axis {one.axis} moved by {1e3 * (one.position_m - before.position_m):+.2f} mm meanwhile; nothing "
+                    "was written. Hold the handle at its mark and try again",
+                    code=output.FAILED,
+                )
+        found, right = now, Zero(counts=tuple(one.counts for one in now))
+        with output.refusing():
+            rewrite(configuration, right.written_into)
+    if as_json:
+        rows = [one.row() for one in found]
+        typer.echo(output.document("drive zero", rows, written=write, surfaces_m=surfaces))
+    elif write:
+        output.say(f"Written to {configuration}: zero.counts = {[one.counts for one in found]}.")
+    else:
+        output.say("Nothing was written; --write writes these counts into the file as its zero.")

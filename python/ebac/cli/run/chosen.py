@@ -1,0 +1,47 @@
+"""The configuration of `ebac run`: that of its file, with options on top."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from ebac.cli import options, setting
+
+if TYPE_CHECKING:
+    from ebac.hardware import Configuration
+
+
+def chosen(
+    file: Path,
+    law: str | None,
+    seconds: float | None,
+    rate: float | None,
+    observer: bool | None,
+    wall: options.WallOptions,
+    person: options.HandOptions,
+) -> Configuration:
+    """Return the configuration of a file, with what the command line changes in it."""
+    from ebac.hardware import Configuration
+
+    known = Configuration.load(file)
+    changes: dict[str, Any] = {
+        "environment": options.wall_of(known.environment, wall),
+        "hand": options.hand_of(known.hand, person),
+        "timing": setting.choose_timing(known.timing, rate, None),
+        **setting.given(seconds=seconds),
+        **_observer(known, observer),
+    }
+    name = None if law is None else setting.one_law(law)
+    if name is not None and name != known.law:
+        changes |= {"law": name, "changes": {}}
+    made = known.replace(**changes)
+    made.scenario()
+    made.design()
+    return made
+
+
+def _observer(known: Configuration, wanted: bool | None) -> dict[str, Any]:
+    """Return the change that turns the observer on or off; one that is configured stays as it is."""
+    if wanted is None or wanted == bool(known.observer):
+        return {}
+    return {"observer": wanted}

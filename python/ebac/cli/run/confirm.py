@@ -1,0 +1,38 @@
+"""What `ebac run` asks before real motors have power: whether the handle is where the encoders say."""
+
+from __future__ import annotations
+
+import sys
+from typing import TYPE_CHECKING
+
+from ebac.cli import output
+from ebac.cli.drive import positions
+from ebac.cli.drive.options import sure
+
+if TYPE_CHECKING:
+    from ebac.hardware import Configuration, OpenDevice
+
+_ASKS = "A run on hardware asks whether the zero of the encoders is right."
+
+
+def can_ask(known: Configuration, yes: bool) -> None:
+    """End the command where nobody could be asked, before a drive is asked for anything."""
+    if yes or known.interface != "socketcan" or known.zero.absolute:
+        return
+    if not sys.stdin.isatty():
+        output.fail(
+            f"{_ASKS} Nobody is here to ask: look at `ebac drive zero {known.name}`, then add --yes"
+        )
+
+
+def confirm(device: OpenDevice, yes: bool, *, stderr: bool) -> None:
+    """Show where each axis stands and how far the virtual world is; ask whether that is so, unless `yes`."""
+    from ebac.hardware import distances
+
+    if not device.backend.real:
+        return
+    found = device.positions()
+    positions.show(found, distances(device.configuration, found), stderr=stderr)
+    if not device.confirmed:
+        sure("The motors get power. Is the handle where this says?", yes)
+        device.confirm_zero()

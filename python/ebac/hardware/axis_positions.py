@@ -1,0 +1,162 @@
+"""Where each axis stands before it has power, and where that is in the virtual world."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass
+from typing import TYPE_CHECKING, Any
+
+from ebac._core import Corner, Disc, Wall
+from ebac.drives.errors import DriveError
+from ebac.drives.state import State
+from ebac.hardware.backends import hardware, simulated
+from ebac.hardware.drive_setup import drives_at
+from ebac.hardware.zero import from_zero
+
+if TYPE_CHECKING:
+    from ebac.hardware.backends import Backend
+    from ebac.hardware.configuration import Configuration
+    from ebac.scenario import Environment
+
+
+class PositionError(DriveError):
+    """An axis stands where no run may begin, or nobody has confirmed where it stands."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class AxisPosition:
+    """Where an axis stands.
+
+    Attributes
+    ----------
+    axis, node : int
+        Axis from 0, and the node id of its drive.
+    counts, zero_counts : int
+        What the drive shows (0x6064), and what it shows at the zero of the configuration.
+    angle_rad, position_m : float
+        Angle of the joint from that zero, and the way at the handle: what the limits of the workspace hold.
+    """
+
+    axis: int
+    node: int
+    counts: int
+    zero_counts: int
+    angle_rad: float
+    position_m: float
+
+    def row(self) -> dict[str, Any]:
+        """Return it as plain values."""
+        return asdict(self)
+
+    def __str__(self) -> str:
+        """Return it in words."""
+        return (
+            f"axis {self.axis} (node {self.node}) stands at {1e3 * self.position_m:+.2f} mm "
+            f"({self.counts} counts, its zero at {self.zero_counts})"
+        )
+
+
+def axis_positions(known: Configuration, *, simulate: bool = False) -> list[AxisPosition]:
+    """Read where each axis stands. Nothing is written to the drives, and none may have power.
+
+    Parameters
+    ----------
+    known : Configuration
+        The device.
+    simulate : bool
+        Whether simulated drives stand in for the real ones.
+
+    Raises
+    ------
+    PositionError
+        When a drive has power: somebody else commands it.
+    DriveError
+        When a drive does not answer.
+    """
+    with simulated(known) if simulate else hardware(known) as backend:
+        return read_positions(known, backend)
+
+
+def read_positions(known: Configuration, backend: Backend) -> list[AxisPosition]:
+    """Do the same with the drives of a backend. Raises as `axis_positions`."""
+    with drives_at(backend, known.drives.nodes) as drives:
+        for drive in drives:
+            if drive.state is State.OPERATION_ENABLED:
+                raise PositionError(
+                    f"node {drive.node} has power: end the program that commands it, then read its position",
+                    node=drive.node,
+                )
+        return positions_of(known, backend, [drive.number("position") for drive in drives])
+
+
+def positions_of(
+    known: Configuration, backend: Backend, counts: Sequence[int]
+) -> list[AxisPosition]:
+    """Return where axes stand whose drives show these counts."""
+    device = known.device
+    axes = zip(
+        known.drives.nodes,
+        counts,
+        known.zero.of_all(device.axes),
+        backend.signs(known).of_all(device.axes).encoder,
+        strict=True,
+    )
+    found = []
+    for axis, (node, shown, zero, sign) in enumerate(axes):
+        position = sign * from_zero(shown, zero) * device.count
+        found.append(
+            AxisPosition(
+                axis=axis,
+                node=node.id,
+                counts=shown,
+                zero_counts=zero,
+                angle_rad=position / device.radius,
+                position_m=position,
+            )
+        )
+    return found
+
+
+def check_workspace(known: Configuration, positions: Sequence[AxisPosition]) -> None:
+    """Raise PositionError for an axis that stands outside the workspace, where a run would end at once."""
+    end = known.limits.end
+    for one in positions:
+        if abs(one.position_m) > end:
+            raise PositionError(
+                f"{one}: must lie within {1e3 * end:g} mm of its zero (limits.end = {end:g} m). Nothing has power. "
+                "Move the handle back by hand; where it is there already, put it at its zero and read that by "
+                "`ebac drive zero FILE --write`",
+                node=one.node,
+            )
+
+
+def distances(
+    known: Configuration, positions: Sequence[AxisPosition], environment: Environment | None = None
+) -> dict[str, float]:
+    """Return how far the handle is from each surface of the virtual world [m]; negative inside. A moving wall at rest.
+
+    Parameters
+    ----------
+    known : Configuration
+        The device.
+    positions : sequence of AxisPosition
+        Of all its axes.
+    environment : Free, Wall, Corner or Disc, optional
+        The virtual world; that of the configuration, if not given.
+    """
+    at = [*known.device.kinematics.forward([one.angle_rad for one in positions]), 0.0, 0.0]
+    x, y = float(at[0]), float(at[1])
+
+    def before(wall: Wall) -> float:
+        return wall.position - (math.cos(wall.angle) * x + math.sin(wall.angle) * y)
+
+    match known.environment if environment is None else environment:
+        case Wall() as wall:
+            return {"wall": before(wall)}
+        case Corner(first=first, second=second):
+            return {"first wall": before(first), "second wall": before(second)}
+        case Disc() as disc:
+            return {"disc": math.hypot(x - disc.x, y - disc.y) - disc.radius}
+        case _:
+            return {}
