@@ -83,7 +83,7 @@ inline PlantOfDrives make_joystick(Setup setup, int first, double peak_time,
       checked_peak_time(peak_time),
       wait_for_power,
       entries,
-      zero_of("drive", zero, setup.device.axes())};
+      zero_of("drive", "zero", zero, setup.device.axes())};
 }
 
 }  // namespace ebac::python

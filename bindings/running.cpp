@@ -59,7 +59,7 @@ can::CanopenSetup drives_of(const DeviceModel& device, const std::vector<int>& n
   }
   drives.motor_sign = signs_of("motor_sign", motor_sign, drives.axes);
   drives.encoder_sign = signs_of("encoder_sign", encoder_sign, drives.axes);
-  drives.encoder_zero = zero_of("RunSetup", encoder_zero, drives.axes);
+  drives.encoder_zero = zero_of("RunSetup", "encoder_zero", encoder_zero, drives.axes);
   check_setup(drives);
   return drives;
 }

@@ -12,21 +12,21 @@
 
 namespace ebac::python {
 
-/// Counts of each drive at the zero of its axis; none given are all 0. `owner` names the refused one.
-inline std::array<std::int32_t, kMaxAxes> zero_of(const char* owner,
+/// Counts of each drive at the zero of its axis; none given are all 0. `owner` and `name` are those of the message.
+inline std::array<std::int32_t, kMaxAxes> zero_of(const std::string& owner, const std::string& name,
                                                   const std::vector<std::int64_t>& given,
                                                   int axes) {
   using Counts = std::numeric_limits<std::int32_t>;
   std::array<std::int32_t, kMaxAxes> zero{};
   if (given.empty()) return zero;
   if (given.size() != static_cast<std::size_t>(axes)) {
-    throw std::invalid_argument(std::string(owner) + ".zero: " + std::to_string(given.size()) +
+    throw std::invalid_argument(owner + "." + name + ": " + std::to_string(given.size()) +
                                 " numbers for a device of " + std::to_string(axes) +
                                 " axes: give one for each");
   }
   for (std::size_t i = 0; i < given.size(); ++i) {
     if (given[i] < Counts::min() || given[i] > Counts::max()) {
-      throw std::invalid_argument(range_message(owner, "zero", static_cast<double>(given[i]),
+      throw std::invalid_argument(range_message(owner, name, static_cast<double>(given[i]),
                                                 "counts", Counts::min(), Counts::max()));
     }
     zero[i] = static_cast<std::int32_t>(given[i]);

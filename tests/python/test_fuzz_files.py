@@ -430,7 +430,7 @@ KEYS = [
 TABLES = [
     *("about", "bus", "device", "device.motor", "device.kinematics", "device.encoder", "timing"),
     *("environment", "law", "limits", "run", "realtime", "recording", "sensor", "simulated"),
-    *("simulated.hand", "simulated.hand.path", "xyz", "device.cable", "device.sensor"),
+    *("simulated.hand", "simulated.hand.path", "xyz", "device.cable", "device.sensor", "zero"),
 ]
 
 

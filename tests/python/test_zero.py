@@ -18,7 +18,7 @@ from typer.testing import CliRunner, Result
 
 import ebac
 from ebac import drives
-from ebac._core import LoopbackJoystick
+from ebac._core import Joystick, LoopbackJoystick
 from ebac.can.channels import resting_joystick, standing
 from ebac.cli import app
 from ebac.hardware import (
@@ -239,6 +239,27 @@ def test_an_axis_outside_the_workspace_gets_no_power() -> None:
         "ebac drive zero",
     ):
         assert words in message
+
+
+@pytest.mark.parametrize(
+    ("zero", "words"),
+    [
+        ([1], r"drive\.zero: 1 numbers for a device of 2 axes"),
+        (
+            [0, MOST + 1],
+            r"drive\.zero = 2147483648 counts: must lie in \[-2147483648, 2147483647\]",
+        ),
+    ],
+)
+def test_the_counter_of_a_simulated_drive_has_32_bits(zero: list[int], words: str) -> None:
+    with pytest.raises(ValueError, match=words):
+        Joystick(resting_joystick().setup(), zero=zero)
+
+
+def test_a_counter_of_a_simulated_drive_is_given_for_each_axis() -> None:
+    done = command("drive", "simulate", "--zero", "-7")
+    assert done.exit_code == 2
+    assert "--zero: 1 number for 2 axes" in said(done)
 
 
 # --- ebac drive zero ---
