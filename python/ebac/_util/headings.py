@@ -40,6 +40,7 @@ FACTORS: dict[str, dict[str, float]] = {
     },
     "count": {"counts": 1.0, "count": 1.0, "cts": 1.0, "inc": 1.0, "ticks": 1.0},
     "current": {"A": 1.0, "mA": 1e-3},
+    "voltage": {"V": 1.0, "mV": 1e-3},
     "mass": {"kg": 1.0, "g": 1e-3},
     "damping": {"N s/m": 1.0, "Ns/m": 1.0, "N*s/m": 1.0, "Ns_per_m": 1.0, "N s/mm": 1e3},
     "stiffness": {"N/m": 1.0, "N_per_m": 1.0, "N/mm": 1e3, "kN/m": 1e3},

@@ -12,7 +12,7 @@ QUANTITIES: dict[str, tuple[str, ...]] = {
     "t": ("time",),
     "x": ("length", "angle", "count"),
     "force": ("force", "torque"),
-    "motor": ("force", "torque", "current"),
+    "motor": ("force", "torque", "current", "voltage"),
     "desired": ("force", "torque"),
     "target": ("length", "angle", "count"),
 }
@@ -53,6 +53,16 @@ _SAYS = {
     "current": re.compile(r".*current.*|i_.*"),
     "force": re.compile(r"f(_.*)?|f[a-z]|.*force.*"),
 }
+
+
+#: So many columns are named in a message.
+SHOWN = 20
+
+
+def listed(headings: Sequence[str]) -> str:
+    """Return headings with commas between, the first of many."""
+    more = len(headings) - SHOWN
+    return ", ".join(headings[:SHOWN]) + (f" and {more} more" if more > 0 else "")
 
 
 def _units(signal: str) -> list[str]:
@@ -103,7 +113,7 @@ def assign(
         bare = {name_and_unit(signal, h)[0].lower(): h for h in headings}
         if name not in headings and name.lower() not in bare:
             raise ValueError(
-                f"{file}: there is no column {name!r} for {signal}; there are: {', '.join(headings)}"
+                f"{file}: there is no column {name!r} for {signal}; there are: {listed(headings)}"
             )
         chosen[signal] = name if name in headings else bare[name.lower()]
     for signal, names in NAMES.items():

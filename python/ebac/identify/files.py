@@ -175,8 +175,9 @@ def _series(arrays: Mapping[str, Any], within: str = "") -> Columns:
         name = f"{within.removeprefix('_')}{name}"
         if array.ndim == 1 and array.size > 1:
             out[name] = array
-        elif array.ndim == 2:
-            out |= {f"{name}_{i}": column for i, column in enumerate(array.T)}
+        elif array.ndim == 2:  # time runs along the longer side
+            series = array if array.shape[0] < array.shape[1] else array.T
+            out |= {f"{name}_{i}": column for i, column in enumerate(series)}
     return out
 
 

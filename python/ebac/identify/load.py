@@ -11,7 +11,7 @@ import numpy as np
 
 from ebac._util.serialisation import unknown
 from ebac._util.text_file import says_simulated
-from ebac.identify.columns import QUANTITIES, assign
+from ebac.identify.columns import QUANTITIES, assign, listed
 from ebac.identify.files import Columns, Table, archive_of, read_columns
 from ebac.identify.of_trace import path_of, signals_of, trace_facts, where_met
 from ebac.identify.plausible import plausible
@@ -36,6 +36,7 @@ def load(
     lever: float | None = None,
     counts_per_turn: float | None = None,
     torque_constant: float | None = None,
+    force_constant: float | None = None,
 ) -> Recording:
     """Read MCAP, CSV, .mat, or NPZ (of `Trace.to_npz`, or plain arrays).
 
@@ -70,7 +71,10 @@ def load(
     counts_per_turn : float, optional
         Counts of the encoder for one turn of the knob or joint, all edges and gear included.
     torque_constant : float, optional
-        Torque at the knob or joint for one ampere [N m/A], gear included, for a motor logged as a current.
+        Torque at the knob or joint for one ampere [N m/A], gear included, for a motor logged as a current; for one
+        volt [N m/V] where its drive's voltage command was logged.
+    force_constant : float, optional
+        Force of a slide for one ampere [N/A] or one volt [N/V], for a motor logged as a current or a voltage.
 
     Returns
     -------
@@ -90,7 +94,11 @@ def load(
     if path.is_dir():
         raise ValueError(f"{path.name}: is a folder; give a file in it")
     how = Conversion(
-        lever=lever, torque_constant=torque_constant, counts_per_turn=counts_per_turn, count=count
+        lever=lever,
+        torque_constant=torque_constant,
+        force_constant=force_constant,
+        counts_per_turn=counts_per_turn,
+        count=count,
     )
     trace, origin, wrong = _trace(path)
     if trace is not None and not columns:
@@ -101,6 +109,7 @@ def load(
             lever=lever,
             counts_per_turn=counts_per_turn,
             torque_constant=torque_constant,
+            force_constant=force_constant,
         )
         found = _of_trace(trace, path.name, axis, wrong)
     else:
@@ -130,6 +139,7 @@ UNUSED = {
     "lever": "the log is of a handle, in m and N",
     "counts_per_turn": "the log is of a handle, in m and N",
     "torque_constant": "the log is of a handle, in m and N",
+    "force_constant": "the log is of a handle, in m and N",
     "axis": "the file has one axis; name its columns instead: columns={...} or --column x=NAME",
 }
 
@@ -216,13 +226,16 @@ def _recording(
     remarks += [f"column {column!r} is left out: it holds text" for column in words]
     if "x" not in chosen:
         raise ValueError(
-            f"{name}: found no position among {', '.join(raw)}; which is it? columns={{'x': ...}} or --column x=NAME"
+            f"{name}: found no position among {listed(list(raw))}; which is it? columns={{'x': ...}} or --column x=NAME"
         )
     signals: dict[str, Any]
     signals, rotary, said = in_si(
         name, raw, chosen, units, how, guessed=chosen.keys() - columns.keys()
     )
     remarks += said
+    if len({len(values) for values in signals.values()}) > 1:
+        rows = (f"{key} (column {chosen[key]!r}) has {len(v)} rows" for key, v in signals.items())
+        raise ValueError(f"{name}: {', '.join(rows)}; name columns of one trial: --column x=NAME")
     if rate is not None and "t" in signals:
         signals.pop("t")
         remarks = [text for text in remarks if not text.startswith("t: ")]

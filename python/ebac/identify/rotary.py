@@ -22,19 +22,24 @@ RANGES = {
     "lever": (1e-4, 10.0, "m"),
     "counts_per_turn": (1.0, 1e10, ""),
     "torque_constant": (1e-6, 1e4, "N m/A"),
+    "force_constant": (1e-6, 1e6, "N for one A or V"),
 }
+#: What a drive logs in place of a force or a torque, and its unit.
+COMMANDS = {"current": "A", "voltage": "V"}
 
 
 @dataclass(frozen=True, kw_only=True)
 class Conversion:
     """What turns columns of a joint into those a fit needs.
 
-    `lever` [m] sees angle and torque as motion and force of a handle, `torque_constant` [N m/A] sees a current as
-    torque, `counts_per_turn` counts as an angle, `count` [m] counts as a way.
+    `lever` [m] sees angle and torque as motion and force of a handle, `torque_constant` [N m/A or N m/V] sees a
+    current or a voltage as torque, `force_constant` [N/A or N/V] as force, `counts_per_turn` counts as an angle,
+    `count` [m] counts as a way.
     """
 
     lever: float | None = None
     torque_constant: float | None = None
+    force_constant: float | None = None
     counts_per_turn: float | None = None
     count: float | None = None
 
@@ -45,6 +50,11 @@ class Conversion:
             if value is not None and not low <= value <= high:
                 unit = f" {unit}" if unit else ""
                 raise ValueError(f"{name} = {value:g}{unit}: must lie in [{low:g}, {high:g}]{unit}")
+        if self.force_constant is not None and self.torque_constant is not None:
+            raise ValueError(
+                f"force_constant = {self.force_constant:g}, torque_constant = {self.torque_constant:g}: give one of "
+                "them, as the motor drives a slide or a joint"
+            )
 
     @property
     def step(self) -> float | None:
@@ -94,8 +104,9 @@ def in_si(
         assert quantity is not None
         assert unit is not None
         spare = key in guessed and key not in ("t", "x", "force") and "force" in found
-        if spare and quantity == "current" and how.torque_constant is None:
-            remarks.append(_left_out(key, chosen[key], "a current", "--torque-constant"))
+        if spare and quantity in COMMANDS and how.torque_constant is how.force_constant is None:
+            options = "--torque-constant or --force-constant"
+            remarks.append(_left_out(key, chosen[key], f"a {quantity}", options))
             continue
         kind, factor = _converted(file, key, chosen[key], quantity, how)
         kinds[key] = kind
@@ -139,13 +150,18 @@ def _converted(
                 "of a knob or a joint, or the step at the handle [m], count=1e-5 or --count 1e-5"
             )
         quantity, factor = "angle", 2 * pi / how.counts_per_turn
-    elif quantity == "current":
-        if how.torque_constant is None:
+    elif quantity in COMMANDS:
+        if how.force_constant is not None:
+            quantity, factor = "force", how.force_constant
+        elif how.torque_constant is not None:
+            quantity, factor = "torque", how.torque_constant
+        else:
+            unit = COMMANDS[quantity]
             raise ValueError(
-                f"{file}: {key} (column {column!r}) is a current: give the torque at the joint for one ampere "
-                "[N m/A], gear included: torque_constant=0.06 or --torque-constant 0.06"
+                f"{file}: {key} (column {column!r}) is a {quantity}: give the torque at the joint for one {unit} "
+                f"[N m/{unit}], gear included: torque_constant=0.06 or --torque-constant 0.06; or the force of a "
+                f"slide [N/{unit}]: force_constant=35 or --force-constant 35"
             )
-        quantity, factor = "torque", how.torque_constant
     if how.lever is None:
         return quantity, factor
     if quantity == "angle":
@@ -157,9 +173,12 @@ def _converted(
 
 def _refuse_without_use(file: str, quantities: set[str | None], how: Conversion) -> None:
     angles = bool(quantities & {"angle", "count"})
+    commands = bool(quantities & set(COMMANDS))
+    no_command = "current in A or mA, and no voltage in V or mV"
     for option, value, used, why in (
-        ("lever", how.lever, angles or bool(quantities & {"torque", "current"}), "angle or torque"),
-        ("torque_constant", how.torque_constant, "current" in quantities, "current in A or mA"),
+        ("lever", how.lever, angles or commands or "torque" in quantities, "angle or torque"),
+        ("torque_constant", how.torque_constant, commands, no_command),
+        ("force_constant", how.force_constant, commands, no_command),
         ("counts_per_turn", how.counts_per_turn, angles, "angle, and no counts"),
     ):
         if value is not None and not used:

@@ -186,10 +186,19 @@ class Reading:
     torque_constant: Annotated[
         float | None,
         _log(
-            "Torque at the joint for one ampere [N m/A], of a motor in A.",
+            "Torque at the joint for one ampere or volt [N m/A, N m/V], of a motor in A or V.",
             "none",
             min=1e-6,
             max=1e4,
+        ),
+    ] = None
+    force_constant: Annotated[
+        float | None,
+        _log(
+            "Force of a slide for one ampere or volt [N/A, N/V], of a motor in A or V.",
+            "none",
+            min=1e-6,
+            max=1e6,
         ),
     ] = None
     axis: Annotated[int, _log("Axis of a recorded run.", True, min=0)] = 0
@@ -232,6 +241,7 @@ class Reading:
             lever=self.lever,
             counts_per_turn=self.counts_per_turn,
             torque_constant=self.torque_constant,
+            force_constant=self.force_constant,
         )
 
 
