@@ -151,7 +151,7 @@ def test_a_resting_target_with_rounding_hides_no_hand(tmp_path: Path) -> None:
 def test_fine_counts_take_no_more_memory_than_rows(tmp_path: Path) -> None:
     t, x, force = pushed(4.0)
     r = load(written(tmp_path, t=t, x=x + 1e-9 * np.round(x / 3e-9), force=force), count=1e-9)
-    assert by_place(r, np.ones(len(t))) is None
+    assert by_place(r, np.ones(len(t))).max() < len(t)
 
 
 def pushed(seconds: float = 8.0) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

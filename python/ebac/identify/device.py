@@ -30,8 +30,8 @@ from ebac.identify.validation import POOR, flip_advice, seems_flipped
 
 #: Standard gravity [m/s^2].
 GRAVITY = 9.80665
-#: Stribeck speeds that are tried [m/s].
-SPEEDS = np.geomspace(2e-3, 0.1, 8)
+#: Stribeck speeds that are tried [m/s], up to this share of the fastest motion: a longer fall looks like damping.
+SPEEDS, PASSED = np.geomspace(2e-3, 0.1, 8), 0.5
 #: A friction that falls with speed is believed when it is this many deviations from none and raises the likelihood.
 BELIEVED, GAIN = 4.0, 20.0
 #: A search starts from at least this mass [kg] and damping [N s/m]: from less the model runs away.
@@ -266,8 +266,9 @@ def _searched(recording: Recording, current_lag: float, lever: float | None = No
     drive = driven(recording, current_lag, lever)
     start = first_guess(drive)
     best, speed = _fit(drive, None, start), None
-    trials = [(float(s), first_guess(drive, float(s))) for s in SPEEDS]
-    tried, guess = min(trials, key=lambda trial: trial[1].cost)
+    fastest = PASSED * float(np.abs(drive.velocity[drive.slides]).max())
+    trials = [(float(s), first_guess(drive, float(s))) for s in SPEEDS if s <= fastest]
+    tried, guess = min(trials, key=lambda trial: trial[1].cost, default=(0.0, start))
     if guess.cost < 0.995 * start.cost:
         other = _fit(drive, tried, guess)
         rise = other.values[-1] / np.sqrt(max(other.covariance[-1, -1], 1e-300))
@@ -294,5 +295,6 @@ def _fit(drive: Drive, speed: float | None, guess: Guess) -> Fitted:
     start = np.where(np.isnan(p.fixed), 0.0, p.fixed)
     start[[p.names.index(n) for n in names]] = guess.values
     start[[p.names.index(n) for n in ("M_h", "B_h")]] = np.maximum(guess.values[:2], LEAST_START)
-    fit = fitted(problem, [p.clip(start)], starts=1, robust=None, seed=1)
+    sensed = drive.recording.force is not None  # what a sensor reads drifts, a command does not
+    fit = fitted(problem, [p.clip(start)], starts=1, robust=None, seed=1, drifts=sensed)
     return replace(fit, values=fit.values[p.free])

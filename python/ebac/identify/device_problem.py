@@ -13,6 +13,7 @@ from ebac.identify.parameters import BOUNDS, Parameters
 from ebac.identify.problem import Problem
 from ebac.identify.recording import Recording
 from ebac.identify.signals import (
+    WIDTH,
     by_place,
     kernels,
     readings,
@@ -31,6 +32,8 @@ LEAST_SLIDING = 200
 AROUND = 0.012
 #: Slowest sliding [m/s], and in counts over the width of the kernel.
 SLOWEST, COUNTS = 1e-3, 0.5
+#: A shorter stop than the kernel shows where an encoder is so fine: slowest sliding passes so many counts within WIDTH.
+FINE = 4.0
 #: Where it does not slide, friction is whatever it has to be: so many times the largest force.
 WHATEVER = 100.0
 #: A force jumps where it bends by so many deviations of its noise; a tick may miss this share of it, for so many
@@ -121,7 +124,7 @@ def _stretch(r: Recording, current_lag: float, edge: int, slow: float) -> dict[s
     sign = np.where(np.abs(velocity) > slow, np.sign(velocity), 0.0)
     width = 2 * max(1, round(AROUND / r.dt)) + 1
     steady = np.convolve(sign, np.ones(width), mode="same")[: len(r.t)]
-    slides = np.abs(steady) > width - 0.5
+    slides = (np.abs(steady) > width - 0.5) & ~_stands(r, slow)
     slides[:edge] = slides[-edge:] = False
     return {
         "force": force,
@@ -132,6 +135,16 @@ def _stretch(r: Recording, current_lag: float, edge: int, slow: float) -> dict[s
         "acceleration": whole(r.x, h[2]),
         "smooth_force": whole(force, h[0]),
     }
+
+
+def _stands(r: Recording, slow: float) -> NDArray[np.bool_]:
+    """Return the rows around which the readings themselves move slower than sliding [m/s], as far as they show it."""
+    around = max(1, int(np.ceil(FINE * max(r.count, rough(r.x)) / (slow * r.dt))))
+    out = np.zeros(len(r.t), dtype=bool)
+    if around * r.dt <= WIDTH and len(r.t) > 2 * around:
+        way = np.abs(r.x[2 * around :] - r.x[: -2 * around])
+        out[around:-around] = way < slow * 2 * around * r.dt
+    return out
 
 
 def columns_of(drive: Drive, speed: float | None) -> Values:

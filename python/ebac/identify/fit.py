@@ -44,6 +44,7 @@ def fitted(
     robust: float | None,
     seed: int,
     before: Fitted | None = None,
+    drifts: bool = True,
 ) -> Fitted:
     """Search from every guess and from `starts` - 1 random points around the best; then judge the best.
 
@@ -61,6 +62,8 @@ def fitted(
         Of the further starts.
     before : Fitted, optional
         What was found from the guesses alone; returned where no further start leads to anything likelier.
+    drifts : bool
+        Whether the forces may drift, as those of a sensor do.
     """
     parameters = problem.parameters
     found = (_search(problem, guess, robust) for guess in guesses)
@@ -73,7 +76,7 @@ def fitted(
     if before is not None and best is before.found:
         return before
     values, noise, doubted = best.values, best.force_noise, None
-    beside = _with_drift(problem, best, guesses, robust)
+    beside = _with_drift(problem, best, guesses, robust) if drifts else None
     if beside is not None:
         problem, values, noise, doubted = beside
     gains = problem.gains(values, noise)

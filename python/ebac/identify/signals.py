@@ -162,6 +162,8 @@ def smoothed(values: NDArray[np.float64], kernel: NDArray[np.float64]) -> NDArra
 
 
 Fold = NDArray[np.intp]
+#: Rows in which a place is passed, where no count comes again.
+PASSED_IN = 8
 
 
 def by_target(recording: Recording, target: Target) -> Fold | None:
@@ -177,18 +179,18 @@ def by_target(recording: Recording, target: Target) -> Fold | None:
     return np.asarray(np.repeat(segments, lengths) * int(lengths.max()) + since, dtype=np.intp)
 
 
-def by_place(recording: Recording, sign: NDArray[np.float64]) -> Fold | None:
-    """Return for each row its count, first on the ways up, then on those down; None without counts.
+def by_place(recording: Recording, sign: NDArray[np.float64]) -> Fold:
+    """Return for each row its count, first on the ways up, then on those down.
 
     `sign` is that of the velocity. Where the target is unknown, the same errors are those of the
-    same count passed the same way.
+    same count passed the same way. Without counts, or where they are so fine that none comes again, it is the place.
     """
-    if recording.count <= 0:
-        return None
-    place = np.round((recording.x - recording.x.min()) / recording.count).astype(np.intp)
+    x = recording.x - recording.x.min()
+    step = recording.count
+    if x.max() > step * len(x):
+        step = float(x.max()) * PASSED_IN / len(x)
+    place = np.round(x / step).astype(np.intp)
     most = int(place.max()) + 1
-    if most > len(place):  # counts so fine that none comes again
-        return None
     passed = np.where(sign >= 0, place, 2 * most - 1 - place)
     return np.asarray(np.unique(passed, return_inverse=True)[1], dtype=np.intp)  # counts it met
 
