@@ -13,6 +13,7 @@ from ebac._util.serialisation import unknown
 from ebac.identify.guess import regression, solve
 from ebac.identify.intervals import Z95
 from ebac.identify.parameters import Parameters, kind
+from ebac.identify.plausible import without_place
 from ebac.identify.recording import Recording, require_recordings
 from ebac.identify.response import Densities, densities
 from ebac.identify.target import Target, longest
@@ -220,6 +221,7 @@ def undetermined(
     names = [parameters.names[i] for i in parameters.free]
     out += [name for name in _too_fast(parameters, values, correlation, dt) if name not in out]
     out += [name for name in _multiples(parameters, correlation) if name not in out]
+    out += [name for name in without_place(parameters, values, half) if name not in out]
     lost = [names.index(name) for name in out]
     out += [
         name

@@ -10,7 +10,10 @@ import numpy as np
 from ebac.identify.recording import LEAST_ROWS
 
 if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
     from ebac.identify.files import Columns
+    from ebac.identify.parameters import Parameters
 
 #: What no hand does, by signal: more than this is a wrong unit [m, N], and so is less [m].
 FARTHEST = {"x": 2.5, "target": 2.5, "force": 5e3, "motor": 5e3, "desired": 5e3}
@@ -19,6 +22,25 @@ NEAREST = 1e-5
 WIDEST = 4 * pi
 #: Rows farther apart contain nothing about a hand [s].
 SLOWEST = 0.1
+
+#: A hand goes back to its place within so long, B0/K0 [s].
+RETURNS = 3.0
+
+
+def without_place(
+    parameters: Parameters, values: NDArray[np.float64], half: NDArray[np.float64]
+) -> list[str]:
+    """Return M0 and B0 of each hand that surely has next to no stiffness: it is the device, seen by the other sign.
+
+    `half` is half of each parameter's interval.
+    """
+    free, out = parameters.free.tolist(), list[str]()
+    for place in parameters.places:
+        m, b, k = place[:3].tolist()
+        if k in free and values[k] + half[k] < values[b] / RETURNS:
+            names = [parameters.names[i] for i in (m, b) if i in free]
+            out += [name for name in names if name not in out]
+    return out
 
 
 def plausible(name: str, signals: Columns, *, rotary: bool, guessed: bool) -> None:

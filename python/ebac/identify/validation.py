@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ebac.identify.intervals import loose_inverse, normal_tail
+from ebac.identify.intervals import Z95, loose_inverse, normal_tail
 from ebac.identify.parameters import BEFORE_LEVELS
+from ebac.identify.plausible import without_place
 
 if TYPE_CHECKING:
     from ebac.identify.recording import Recording
@@ -187,6 +188,12 @@ def misses(result: ArmResult) -> tuple[str, ...]:
                 f"other sign {100 * result.other_sign:.3g} %: is "
                 "the target of the hand the right one (--switch, --tapping)?"
             )
+    if without_place(result.parameters, result.values, Z95 * result.deviation):
+        out.append(
+            "The hand has no stiffness, so nothing ties it to a place: this is the device, or what it renders, seen "
+            "with the force of the other sign. --flip-force turns it, in Python load(..., flip_force=True); "
+            "ebac identify device estimates the device."
+        )
     if result.regression:
         other = ", ".join(
             f"{name} = {value:.4g} {result[name].unit} instead of {result[name].value:.4g}"
