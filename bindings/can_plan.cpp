@@ -1,13 +1,79 @@
 #include <pybind11/stl.h>
 
+#include <algorithm>
+#include <optional>
+#include <tuple>
+
 #include "bind.hpp"
+#include "ebac/can/frame_length.hpp"
 #include "ebac/canopen/pdo_plan.hpp"
 #include "ebac/simulated_drives/exchange_benchmark.hpp"
+#include "ebac/simulated_drives/simulated_wire.hpp"
+#include "ebac/simulated_drives/timed_bus.hpp"
+#include "fields.hpp"
 #include "others_run.hpp"
 
 namespace ebac::python {
 
 namespace py = pybind11;
+
+namespace {
+
+using can::SimulatedWire;
+
+can::Frame frame_of(std::uint32_t id, const std::string& data, bool remote, int size) {
+  can::Frame frame{.id = id, .size = static_cast<std::uint8_t>(size), .remote = remote};
+  std::copy_n(data.begin(), std::min(data.size(), frame.data.size()), frame.data.begin());
+  return frame;
+}
+
+/// The wire, for `drives.bus_timing`: times in nanoseconds.
+void bind_wire(py::module_& m) {
+  m.def(
+      "_exact_bits",
+      [](std::uint32_t id, const py::bytes& data, bool remote, int size) {
+        return can::exact_bits(frame_of(id, data, remote, size));
+      },
+      py::arg("id"), py::arg("data"), py::arg("remote"), py::arg("size"));
+  py::class_<SimulatedWire>(m, "_SimulatedWire")
+      .def(py::init([](std::size_t stations, double bit_rate, double error_rate, bool recovers,
+                       std::uint64_t seed) {
+             return SimulatedWire({.stations = stations,
+                                   .bit_rate = bit_rate,
+                                   .error_rate = error_rate,
+                                   .recovers = recovers,
+                                   .seed = seed});
+           }),
+           py::kw_only(), py::arg("stations"), py::arg("bit_rate"), py::arg("error_rate") = 0.0,
+           py::arg("recovers") = false, py::arg("seed") = 0)
+      .def(
+          "send",
+          [](SimulatedWire& wire, std::size_t station, std::uint32_t id, const py::bytes& data,
+             std::int64_t due) {
+            const std::string bytes = data;
+            return wire.send(station, frame_of(id, bytes, false, static_cast<int>(bytes.size())),
+                             due);
+          },
+          py::arg("station"), py::arg("id"), py::arg("data"), py::arg("due"))
+      .def(
+          "next",
+          [](SimulatedWire& wire,
+             std::int64_t until) -> std::optional<std::tuple<std::size_t, int, std::int64_t>> {
+            SimulatedWire::Delivery came;
+            if (!wire.next(until, came)) return std::nullopt;
+            return std::tuple(came.from, static_cast<int>(came.frame.id), came.frame.stamp);
+          },
+          py::arg("until"))
+      .def(
+          "break_station", [](SimulatedWire& wire, std::size_t i) { wire.set_error_rate(i, 1); },
+          py::arg("station"))
+      .def("off", &SimulatedWire::off, py::arg("station"))
+      .def("was_passive", &SimulatedWire::was_passive, py::arg("station"))
+      .def_property_readonly("destroyed", &SimulatedWire::destroyed)
+      .def_property_readonly("busy", &SimulatedWire::busy);
+}
+
+}  // namespace
 
 void bind_can_plan(py::module_& m) {
   using can::BusLoad;
@@ -46,7 +112,12 @@ void bind_can_plan(py::module_& m) {
            "Return a warning over 70 % of the bus, else an empty text.\n\n"
            "Raises\n------\nValueError\n    Over 90 %, or for numbers no CAN bus has; with the "
            "remedy.");
+  bind_fields<can::TimedBus>(m, "TimedBus",
+                             "A CAN bus that takes time in a simulated run, its drives and the "
+                             "watches on both sides.");
+  bind_wire(m);
   m.def("worst_bits", &can::worst_bits, py::arg("size"));
+  m.def("least_bits", &can::least_bits, py::arg("size"));
   m.attr("WARNED_LOAD") = can::kWarnedLoad;
   m.attr("REFUSED_LOAD") = can::kRefusedLoad;
   m.def(

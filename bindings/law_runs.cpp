@@ -96,9 +96,11 @@ void add_time(const LawClass& law, const char* name) {
 
 }  // namespace
 
-std::shared_ptr<Trace> simulate_either(const Setup& setup, const AnyLaw& law, bool through_can) {
+std::shared_ptr<Trace> simulate_either(const Setup& setup, const AnyLaw& law, bool through_can,
+                                       const std::optional<can::TimedBus>& bus) {
   if (!through_can) return simulate_any(setup, law);
-  return can::simulate_through_can<SimulatedDevice>(setup, PerAxis<AnyLaw>(law), row_count(setup));
+  return can::simulate_through_can<SimulatedDevice>(setup, PerAxis<AnyLaw>(law), row_count(setup),
+                                                    bus);
 }
 
 std::shared_ptr<Trace> replay_on(const std::shared_ptr<ReplayLog>& log, const AnyLaw& law,
@@ -113,12 +115,14 @@ std::shared_ptr<Trace> replay_on(const std::shared_ptr<ReplayLog>& log, const An
 void add_runs(const LawClass& law) {
   law.def(
       "_simulate",
-      [](const AnyLaw& any, const Setup& setup, bool through_can) {
+      [](const AnyLaw& any, const Setup& setup, bool through_can,
+         const std::optional<can::TimedBus>& bus) {
         const OthersRun release;
-        return simulate_either(setup, any, through_can);
+        return simulate_either(setup, any, through_can, bus);
       },
-      "(self: LAW, setup: ebac._core.Setup, through_can: bool = False) -> ebac._core.Rows", "",
-      py::arg("setup"), py::arg("through_can") = false);
+      "(self: LAW, setup: ebac._core.Setup, through_can: bool = False, bus: "
+      "ebac._core.TimedBus | None = None) -> ebac._core.Rows",
+      "", py::arg("setup"), py::arg("through_can") = false, py::arg("bus") = py::none());
   law.def(
       "_replay",
       [](const AnyLaw& any, const std::shared_ptr<ReplayLog>& log, const DeviceModel& device,

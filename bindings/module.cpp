@@ -17,8 +17,8 @@ PYBIND11_MODULE(_core, m, pybind11::mod_gil_not_used()) {
   ebac::python::bind_sweeps(m);
   ebac::python::bind_linear_loop(m);
   ebac::python::bind_identify(m);
-  ebac::python::bind_python_law(m);
   ebac::python::bind_can_plan(m);
+  ebac::python::bind_python_law(m);
   ebac::python::bind_can(m);
   ebac::python::bind_node_server(m);
   ebac::python::bind_limits(m);

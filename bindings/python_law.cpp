@@ -93,11 +93,13 @@ std::shared_ptr<Trace> run_python(const py::object& law, Run run) {
 void bind_python_law(py::module_& m) {
   m.def(
       "_simulate_python",
-      [](const Setup& setup, const py::object& law, bool through_can) {
+      [](const Setup& setup, const py::object& law, bool through_can,
+         const std::optional<can::TimedBus>& bus) {
         return run_python(
-            law, [&](const AnyLaw& any) { return simulate_either(setup, any, through_can); });
+            law, [&](const AnyLaw& any) { return simulate_either(setup, any, through_can, bus); });
       },
-      py::arg("setup"), py::arg("law"), py::arg("through_can") = false);
+      py::arg("setup"), py::arg("law"), py::arg("through_can") = false,
+      py::arg("bus") = py::none());
   m.def(
       "_replay_python",
       [](const std::shared_ptr<ReplayLog>& log, const py::object& law, const DeviceModel& device,

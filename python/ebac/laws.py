@@ -21,6 +21,7 @@ from ebac._core import (
     ReplayLog,
     Rows,
     Setup,
+    TimedBus,
     Timing,
     Wall,
 )
@@ -73,7 +74,9 @@ class CoreLaw(Protocol):
         """Return its parameters: names, units, meanings, ranges."""
         ...
 
-    def _simulate(self, setup: Setup, through_can: bool = False) -> Rows: ...
+    def _simulate(
+        self, setup: Setup, through_can: bool = False, bus: TimedBus | None = None
+    ) -> Rows: ...
 
     def _replay(
         self, log: ReplayLog, device: Device, environment: Free | Wall | Corner | Disc

@@ -53,6 +53,7 @@ def simulate(
     law: AnyLaw = "ebac",
     *,
     through: str | None = None,
+    bus: _core.TimedBus | None = None,
     limits: _core.Limits | bool = False,
     soft_start: float = 0.0,
     **changes: Any,
@@ -70,6 +71,11 @@ def simulate(
         one per axis, enabled before the first tick and disabled after the last; torque then goes in whole
         thousandths of the rated torque, and the trace has columns `bus.*`. All others are the same, to the bit,
         as those of a run without a bus whose drive has `permille=True`.
+    bus : TimedBus, optional
+        With `through="can"`: a bus that takes time. Each frame arrives when its last bit has passed, with its own stuff
+        bits, behind frames of a higher priority; drives answer after a time of their own, and frames may be destroyed.
+        Answers that the loop did not wait for are missing in their tick (`bus.missing`, `bus.late`). Drives and loop
+        watch each other, as on hardware. Default: every frame arrives at once.
     limits : Limits or bool
         False runs without limits, True with those of the device (`Limits.of(device)`): current, i2t, slew, edge of
         the workspace; and what else must end a run is then a fault. The trace has columns `limit.*`.
@@ -86,7 +92,7 @@ def simulate(
     Warns
     -----
     UserWarning
-        When the process data would take over 70 % of a bus of 1 Mbit/s.
+        When the process data would take over 70 % of the bus: 1 Mbit/s, or that of `bus`.
 
     Raises
     ------
@@ -94,13 +100,17 @@ def simulate(
         When a stage gave no finite number, or the device left its limits; carries the trace.
     KeyError, TypeError, ValueError
         For a law that does not exist or cannot be made; see `design`. Through CAN also for a delay of 0 samples,
-        and when the process data would take over 90 % of a bus of 1 Mbit/s.
+        and when the process data would take over 90 % of the bus, or more time than the loop waits.
     """
     require(scenario, Scenario, "ebac.simulate", "a Scenario")
     require(limits, (_core.Limits, bool), "ebac.simulate", "limits=True, False or a Limits")
     require(soft_start, (int, float), "ebac.simulate", "soft_start in seconds, a number")
+    if bus is not None:
+        require(bus, _core.TimedBus, "ebac.simulate", "a TimedBus")
+        if through is None:
+            raise ValueError("bus = a TimedBus without a bus to time: give through='can' as well")
     if through is not None:
-        scenario = on_bus(scenario, through)
+        scenario = on_bus(scenario, through, bus)
     finished = design(law, scenario.device, scenario.known_timing, **changes)
     setup = scenario.setup()
     if limits is not False or soft_start != 0:
@@ -109,9 +119,9 @@ def simulate(
             allowed = _core.Limits.of(scenario.device)
         setup = _core._with_loop(setup, soft_start=soft_start, limits=allowed)
     if isinstance(finished, CoreLaw):
-        rows = finished._simulate(setup, through is not None)
+        rows = finished._simulate(setup, through is not None, bus)
     else:
-        rows = _core._simulate_python(setup, finished, through is not None)
+        rows = _core._simulate_python(setup, finished, through is not None, bus)
     name = law if isinstance(law, str) else law_name(finished)
     trace = Trace.from_rows(rows, scenario=scenario, law=name, law_repr=repr(finished))
     fault = _core.Fault(int(trace["fault"][-1]))
@@ -130,7 +140,7 @@ def _hand_error(setup: _core.Setup) -> Exception | None:
     return None
 
 
-def on_bus(scenario: Scenario, through: str) -> Scenario:
+def on_bus(scenario: Scenario, through: str, bus: _core.TimedBus | None = None) -> Scenario:
     """Return the scenario as drives on a bus can run it: torque in whole thousandths.
 
     Raises
@@ -141,7 +151,8 @@ def on_bus(scenario: Scenario, through: str) -> Scenario:
     if through != "can":
         raise ValueError(f"through = {through!r}: must be 'can' or None")
     nodes = list(range(1, scenario.device.axes + 1))
-    load = _core.BusLoad(frames=_core.pdo_plan(nodes), period=scenario.timing.dt)
+    rate = (bus or _core.TimedBus()).bit_rate
+    load = _core.BusLoad(frames=_core.pdo_plan(nodes), bit_rate=rate, period=scenario.timing.dt)
     warning = load.check()
     if warning:
         warnings.warn(warning, stacklevel=3)

@@ -247,7 +247,9 @@ def test_drives_know_nothing_of_the_loop() -> None:
     """They work on a laptop beside the machine."""
     paths = modules("drives")
     assert len(paths) > 10
-    frames = {f"ebac._core.{name}" for name in ("worst_bits", "WARNED_LOAD", "REFUSED_LOAD")}
+    lengths = ("_exact_bits", "least_bits", "worst_bits", "WARNED_LOAD", "REFUSED_LOAD")
+    wire = ("_SimulatedWire", "TimedBus")  # stations, frames and times: no drive, no loop
+    frames = {f"ebac._core.{name}" for name in (*lengths, *wire)}
     for path in paths:
         core = {name for name in imports(path) if name.startswith("ebac._core.")}
         assert core <= frames, path

@@ -9,7 +9,6 @@ from typer.testing import CliRunner
 
 from ebac import drives
 from ebac.cli import app
-from ebac.drives.frame_length import crc15
 
 
 def by_hand(cob_id: int, data: bytes) -> int:
@@ -37,11 +36,6 @@ def test_a_frame_is_as_long_as_counted_by_hand(cob_id: int, data: bytes) -> None
     bits = drives.exact_bits(cob_id, data)
     assert bits == by_hand(cob_id, data)
     assert 47 + 8 * len(data) <= bits <= drives.frame_bits(len(data))
-
-
-def test_the_checksum_is_that_of_the_catalogue() -> None:
-    """CRC-15/CAN of "123456789" is 0x059E (catalogue of parametrised CRC algorithms)."""
-    assert crc15(int.from_bytes(b"123456789", "big"), 72) == 0x059E
 
 
 def test_remote_frames_and_wrong_ones() -> None:

@@ -26,6 +26,8 @@ class FrameQueue {
     --size_;
     return true;
   }
+  /// The next frame; nullptr where none is.
+  const Frame* front() const EBAC_RT { return size_ == 0 ? nullptr : &frames_[head_]; }
   void clear() EBAC_RT { size_ = 0; }
   std::uint64_t refused() const EBAC_RT { return refused_; }
 

@@ -23,9 +23,12 @@ struct PlannedFrame {
   int count = 1;  // frames per period
 };
 
-/// The most bits a frame with an 11-bit identifier takes: 8 n of data, 44 of frame, 3 between
-/// frames, and a stuff bit after every fourth of the 34 + 8 n that can be stuffed.
-constexpr int worst_bits(int size) EBAC_RT { return 8 * size + 47 + (34 + 8 * size - 1) / 4; }
+/// The fewest bits a frame with an 11-bit identifier takes: 8 n of data, 44 of frame, 3 between
+/// frames.
+constexpr int least_bits(int size) EBAC_RT { return 8 * size + 47; }
+
+/// The most bits: those, and a stuff bit after every fourth of the 34 + 8 n that can be stuffed.
+constexpr int worst_bits(int size) EBAC_RT { return least_bits(size) + (34 + 8 * size - 1) / 4; }
 
 /// SYNC, and for every node one RPDO and one TPDO. Throws std::invalid_argument for a node out of
 /// [1, 127] or one given twice.

@@ -2,22 +2,22 @@
 
 #include <utility>
 
-#include "ebac/can/loopback_bus.hpp"
 #include "ebac/canopen/cob_id.hpp"
 #include "ebac/faults/injected_fault.hpp"
+#include "ebac/simulated_drives/virtual_bus.hpp"
 
 namespace ebac::faults {
 
 /// The loop's end of a bus, on which frames are lost, late, doubled or damaged.
 class FaultyBus {
  public:
-  FaultyBus(can::LoopbackBus end, const InjectedFault& injected)
-      : end_(std::move(end)), injected_(&injected) {}
+  FaultyBus(can::VirtualBus& end, const InjectedFault& injected)
+      : end_(&end), injected_(&injected) {}
 
   bool send(const can::Frame& frame) EBAC_RT {
     const bool lost = (injected_->on(Kind::kLostCommand) && frame.id == can::rpdo(1, node())) ||
                       (injected_->on(Kind::kHeartbeatOfLoop) && frame.id > can::heartbeat(0));
-    return lost || end_.send(frame);
+    return lost || end_->send(frame);
   }
 
   bool receive(can::Frame& frame) EBAC_RT {
@@ -31,13 +31,13 @@ class FaultyBus {
       has_twin_ = false;
       return true;
     }
-    while (end_.receive(frame)) {
+    while (end_->receive(frame)) {
       if (arrives(frame)) return true;
     }
     return false;
   }
 
-  can::BusState state() const EBAC_RT { return end_.state(); }
+  can::BusState state() const EBAC_RT { return std::as_const(*end_).state(); }
 
  private:
   can::NodeId node() const EBAC_RT { return static_cast<can::NodeId>(injected_->axis + 1); }
@@ -66,7 +66,7 @@ class FaultyBus {
     return true;
   }
 
-  can::LoopbackBus end_;
+  can::VirtualBus* end_;
   const InjectedFault* injected_;
   can::Frame held_{};
   can::Frame twin_{};

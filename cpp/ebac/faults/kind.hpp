@@ -39,8 +39,12 @@ enum class Kind : std::uint8_t {
   kTorqueReversed,
   kEncoderFrozen,
   kImpostor,
+  kSlowAnswers,
+  kDestroyedFrames,
+  kDriveOffBus,
+  kLoopOffBus,
 };
-inline constexpr std::size_t kKinds = 29;
+inline constexpr std::size_t kKinds = 33;
 
 struct KindFacts {
   std::string_view name;
@@ -55,6 +59,8 @@ struct KindFacts {
   std::array<Fault, 3> faults;
   /// Tick in which it begins, at the earliest and the latest.
   int first = 30, last = 180;
+  /// Whether its bus takes time.
+  bool timed = false;
 };
 
 inline constexpr int kForEver = 1'000'000;
@@ -153,6 +159,37 @@ inline constexpr std::array<KindFacts, kKinds> kKindFacts{{
      3,
      2,
      {Fault::kDuplicateNode, Fault::kEncoderJump}},
+    {"slow_answers",
+     "the drives take milliseconds to answer",
+     1,
+     8,
+     3,
+     0,
+     {Fault::kDriveSilent},
+     30,
+     180,
+     true},
+    {"destroyed_frames", "frames are destroyed on the wire", 1, 40, 0, 0, {}, 30, 180, true},
+    {"drive_off_bus",
+     "every frame of a drive is destroyed: it goes off the bus",
+     kForEver,
+     kForEver,
+     1,
+     0,
+     {Fault::kDriveSilent},
+     30,
+     180,
+     true},
+    {"loop_off_bus",
+     "every frame of the loop is destroyed: it goes off the bus",
+     kForEver,
+     kForEver,
+     1,
+     0,
+     {Fault::kBusDown, Fault::kDriveSilent},
+     30,
+     180,
+     true},
 }};
 
 constexpr const KindFacts& facts_of(Kind kind) {

@@ -1,23 +1,23 @@
 #include "ebac/faults/test_bench.hpp"
 
 #include "ebac/canopen/torque.hpp"
+#include "ebac/simulated_drives/watched_drives.hpp"
 
 namespace ebac::faults {
 
 namespace {
 
-constexpr std::int64_t kProducer = 10;  // ms, heartbeat of a drive
-constexpr std::int64_t kConsumer = 50;  // ms, heartbeat of the loop
-constexpr std::int64_t kRpdoTimer = 5;  // ms, longest time between two torques
+constexpr can::Watches kWatches{.drive_heartbeat = 10, .loop_silence = 50, .torque_silence = 5};
+constexpr can::LoopTimes kTimes{.dt = 1e-3, .answer = 0.7e-3, .response = 50e-6};
 
 /// The loop watches the drives, and they watch the loop.
 can::CanopenSetup can_setup(const DeviceModel& device) {
   return {.axes = device.axes(),
           .motor = device.motor,
           .drive = device.drive,
-          .heartbeat_timeout = 1e-3 * static_cast<double>(kConsumer),
-          .own_node = TestBench::kOwnNode,
-          .heartbeat_period = 1e-3 * static_cast<double>(kProducer)};
+          .heartbeat_timeout = 1e-3 * static_cast<double>(kWatches.loop_silence),
+          .own_node = can::kLoopNode,
+          .heartbeat_period = 1e-3 * static_cast<double>(kWatches.drive_heartbeat)};
 }
 
 SimulatedDevice plant_of(Setup setup) {
@@ -26,37 +26,30 @@ SimulatedDevice plant_of(Setup setup) {
   return SimulatedDevice(setup);
 }
 
-constexpr int kBefore = 2 * kProducer;  // ticks of 1 ms, until every drive is operational
+constexpr int kBefore =
+    2 * kWatches.drive_heartbeat;  // ticks of 1 ms, until every drive is operational
+
+/// The bus takes its time where the fault is one of the wire.
+can::VirtualBus bus_of(const Setup& setup, const InjectedFault& injected) {
+  if (!facts_of(injected.kind).timed) return {};
+  const auto axes = static_cast<std::size_t>(setup.device.axes());
+  return can::VirtualBus(can::SimulatedWire(
+      {.stations = can::VirtualBus::kFirstDrive + axes, .seed = injected.chance}));
+}
 
 }  // namespace
 
 TestBench::TestBench(const Setup& setup, InjectedFault& injected)
     : injected_(&injected),
-      other_(FaultyPlant(plant_of(setup), injected), setup.device, hub_.open()),
-      near_(hub_.open(), injected),
-      intruder_(hub_.open({.frames = 1})),
-      can_(near_, can::RunOther(other_), can_setup(setup.device)) {
+      bus_(bus_of(setup, injected)),
+      other_(FaultyPlant(plant_of(setup), injected), setup.device, bus_, kTimes),
+      near_(bus_, injected),
+      can_(near_, can::OnOtherSide(other_), can_setup(setup.device)) {
   const auto most =
       static_cast<int>(can::TorqueScale::of(setup.device.motor, setup.device.drive).most);
-  for (std::size_t i = 0; i < axes(); ++i) set_up(drive(i), most);
+  for (std::size_t i = 0; i < axes(); ++i) can::set_up(drive(i), most, kWatches);
   near_.send(can::frame(can::kNmt, {static_cast<std::uint8_t>(can::NmtCommand::kStart), 0}));
   for (int i = 0; i < kBefore; ++i) static_cast<void>(can_.exchange({.elapsed = 1e-3}));
-}
-
-void TestBench::set_up(can::SimulatedDrive& drive, int most) const {
-  const auto write = [&](std::uint16_t index, std::uint8_t sub, std::int64_t value) {
-    if (drive.write(index, sub, value) != can::Abort{}) {
-      throw std::logic_error("a simulated drive refused object " + std::to_string(index) + ":" +
-                             std::to_string(sub));
-    }
-  };
-  write(0x1017, 0, kProducer);
-  write(0x1016, 1, std::int64_t{kOwnNode} << 16 | kConsumer);
-  write(0x6007, 0, 1);  // a lost connection is a fault
-  write(0x1400, 5, kRpdoTimer);
-  for (const can::ObjectWrite& one : can::torque_settings(drive.node(), most)) {
-    write(one.index, one.sub, one.value);
-  }
 }
 
 void TestBench::spoil_drive() EBAC_RT {
@@ -66,6 +59,20 @@ void TestBench::spoil_drive() EBAC_RT {
     constexpr std::array kAll{can::Condition::kOverVoltage, can::Condition::kEncoderLost,
                               can::Condition::kOverTemperature};
     drive.set_condition(kAll[injected_->chance % kAll.size()], true);
+  }
+}
+
+/// Answers late by as many milliseconds as the fault lasts, and frames that are destroyed.
+void TestBench::spoil_wire() EBAC_RT {
+  if (!bus_.timed()) return;
+  const bool slow = injected_->on(Kind::kSlowAnswers);
+  other_.respond_after(slow ? kTimes.dt * injected_->ticks : kTimes.response);
+  constexpr double kSome = 0.02;
+  const double some = injected_->on(Kind::kDestroyedFrames) ? kSome : 0;
+  bus_.wire().set_error_rate(can::VirtualBus::kLoop, injected_->on(Kind::kLoopOffBus) ? 1 : some);
+  for (std::size_t i = 0; i < axes(); ++i) {
+    const bool broken = i == injected_->axis && injected_->on(Kind::kDriveOffBus);
+    bus_.wire().set_error_rate(can::VirtualBus::kFirstDrive + i, broken ? 1 : some);
   }
 }
 
@@ -80,7 +87,7 @@ void TestBench::intrude() EBAC_RT {
     can::Frame frame{.id = can::rpdo(1, drive.node()), .size = can::kRpdoSize};
     can::put(frame.data, 0, can::word_of(can::DriveCommand::kEnableOperation));
     can::put(frame.data, 2, torque);
-    intruder_.send(frame);
+    bus_.send_as(can::VirtualBus::kOther, frame, bus_.now());
   }
   if (injected_->on(Kind::kImpostor)) {  // up to 2 mm from where the drive is
     can::Frame frame{.id = can::tpdo(1, drive.node()), .size = can::kTpdoSize};
@@ -90,7 +97,7 @@ void TestBench::intrude() EBAC_RT {
     can::put(frame.data, 0, static_cast<std::uint16_t>(row.statusword));
     can::put(frame.data, 2, static_cast<std::uint32_t>(counts) + off);
     can::put(frame.data, 6, static_cast<std::int16_t>(row.actual_permille));
-    intruder_.send(frame);
+    bus_.send_as(can::VirtualBus::kOther, frame, bus_.now());
   }
   if (injected_->begins(Kind::kTorqueOffset)) drive.write(0x60B2, 0, torque);
 }
@@ -107,6 +114,7 @@ void TestBench::spoil_sensor(Reading& reading) EBAC_RT {
 
 Reading TestBench::exchange(const Command& command) EBAC_RT {
   spoil_drive();
+  spoil_wire();
   intrude();
   Reading reading = can_.exchange(command);
   const Reading& seen = other_.joystick().reading();

@@ -15,8 +15,7 @@ namespace ebac::faults {
 class TestBench {
  public:
   using Other = can::JoystickOnBus<FaultyPlant>;
-  using Can = can::CanopenDevice<FaultyBus, can::RunOther<Other>>;
-  static constexpr int kOwnNode = 100;
+  using Can = can::CanopenDevice<FaultyBus, can::OnOtherSide<Other>>;
 
   TestBench(const Setup& setup, InjectedFault& injected);
   TestBench(const TestBench&) = delete;
@@ -36,16 +35,15 @@ class TestBench {
   bool off() EBAC_RT;
 
  private:
-  void set_up(can::SimulatedDrive& drive, int most) const;
   void spoil_drive() EBAC_RT;
+  void spoil_wire() EBAC_RT;
   void intrude() EBAC_RT;
   void spoil_sensor(Reading& reading) EBAC_RT;
 
   InjectedFault* injected_;
-  can::LoopbackHub hub_;
+  can::VirtualBus bus_;
   Other other_;
   FaultyBus near_;
-  can::LoopbackBus intruder_;
   Can can_;
   double force_age_ = 0;  // s
 };

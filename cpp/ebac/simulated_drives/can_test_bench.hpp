@@ -1,80 +1,42 @@
 #pragma once
 
-#include <stdexcept>
-#include <string>
+#include <algorithm>
+#include <optional>
 #include <utility>
 
-#include "ebac/can/loopback_bus.hpp"
 #include "ebac/canopen/canopen_device.hpp"
 #include "ebac/canopen/torque.hpp"
-#include "ebac/model/device.hpp"
-#include "ebac/simulated_drives/joystick.hpp"
+#include "ebac/simulated_drives/joystick_on_bus.hpp"
+#include "ebac/simulated_drives/timed_bus.hpp"
+#include "ebac/simulated_drives/watched_drives.hpp"
 
 namespace ebac::can {
-
-/// A plant whose reading stays the same as long as no time passes, however often it is read: a SYNC
-/// before the start then draws no noise.
-template <Device D>
-class Still {
- public:
-  explicit Still(D plant) : plant_(std::move(plant)) {}
-
-  Reading exchange(const Command& command) EBAC_RT {
-    if (!read_ || command.elapsed > 0) reading_ = plant_.exchange(command);
-    read_ = true;
-    return reading_;
-  }
-  const D& plant() const EBAC_RT { return plant_; }
-
- private:
-  D plant_;
-  Reading reading_{};
-  bool read_ = false;
-};
-
-/// A plant with simulated drives on one end of a bus.
-template <Device D>
-class JoystickOnBus {
- public:
-  JoystickOnBus(D plant, const DeviceModel& device, LoopbackBus end)
-      : joystick_(Still<D>(std::move(plant)), device, /*first=*/1, kPeakTime),
-        end_(std::move(end)) {}
-
-  /// Advances time, receives the waiting frames and sends the answers.
-  void run(double elapsed) EBAC_RT {
-    joystick_.elapse(elapsed);
-    Frame frame;
-    while (end_.receive(frame)) joystick_.receive(frame);
-    while (joystick_.take(frame)) end_.send(frame);
-  }
-
-  const D& plant() const EBAC_RT { return joystick_.plant().plant(); }
-  Joystick<Still<D>>& joystick() EBAC_RT { return joystick_; }
-  const Joystick<Still<D>>& joystick() const EBAC_RT { return joystick_; }
-
- private:
-  static constexpr double kPeakTime = 65.535;  // s, the longest: a motor that hardly warms
-
-  Joystick<Still<D>> joystick_;
-  LoopbackBus end_;
-};
 
 /// Test bench: a plant with simulated drives, a bus, and the loop's side of it, in one thread and
 /// in virtual time. Not movable: its parts refer to each other.
 template <Device D>
 class CanTestBench {
  public:
-  using Can = CanopenDevice<LoopbackBus, RunOther<JoystickOnBus<D>>>;
+  using Can = CanopenDevice<VirtualBus, OnOtherSide<JoystickOnBus<D>>>;
 
   /// `plant` takes its currents without delay, as a drive sets them at the SYNC. The drives are set
-  /// up and operational, and at rest.
-  CanTestBench(D plant, const DeviceModel& device)
-      : other_(std::move(plant), device, hub_.open()),
-        can_(near_, RunOther(other_),
-             {.axes = device.axes(), .motor = device.motor, .drive = device.drive}) {
+  /// up and operational, and at rest. `dt` is the sample time [s]; with `timed` the bus takes its
+  /// time, and drives and loop watch each other.
+  explicit CanTestBench(D plant, const DeviceModel& device, double dt = 1e-3,
+                        const std::optional<TimedBus>& timed = {})
+      : timed_(timed.value_or(TimedBus{})),
+        bus_(timed ? VirtualBus(SimulatedWire(wire_of(*timed, device.axes()))) : VirtualBus()),
+        other_(std::move(plant), device, bus_,
+               {.dt = dt, .answer = timed_.answer_share * dt, .response = timed_.response}),
+        can_(bus_, OnOtherSide(other_), can_setup(device, timed)) {
     const auto most = static_cast<int>(TorqueScale::of(device.motor, device.drive).most);
-    for (std::size_t i = 0; i < joystick().axes(); ++i) set_up(joystick().drive(i), most);
-    near_.send(frame(kNmt, {kStartNode, kAllNodes}));
+    const Watches watches = timed ? watches_of(*timed) : Watches{};
+    for (std::size_t i = 0; i < joystick().axes(); ++i) set_up(joystick().drive(i), most, watches);
+    bus_.send(frame(kNmt, {kStartNode, kAllNodes}));
+    if (!timed) return;
+    // Until the loop has heard that every drive is operational.
+    const int beats = static_cast<int>(2 * timed_.drive_heartbeat / dt) + 1;
+    for (int i = 0; i < beats; ++i) static_cast<void>(can_.exchange({}));
   }
   CanTestBench(const CanTestBench&) = delete;
   CanTestBench& operator=(const CanTestBench&) = delete;
@@ -82,34 +44,51 @@ class CanTestBench {
   CanTestBench& operator=(CanTestBench&&) = delete;
   ~CanTestBench() = default;
 
-  Can& can() EBAC_RT { return can_; }
-  const Can& can() const EBAC_RT { return can_; }
-  Joystick<Still<D>>& joystick() EBAC_RT { return other_.joystick(); }
-  const D& plant() const EBAC_RT { return other_.plant(); }
-  /// Adds the reading of the force sensor, which is not on this bus.
-  void add_sensor(Reading& reading) const EBAC_RT {
+  /// An exchange of the loop, with the reading of the force sensor, which is not on this bus.
+  Reading exchange(const Command& command) EBAC_RT {
+    t_ += command.elapsed;
+    if (bus_.timed() && timed_.broken > 0 && t_ >= timed_.broken_from) {
+      bus_.wire().set_error_rate(station_of(timed_.broken), 1);
+    }
+    Reading reading = can_.exchange(command);
     const Reading& plant = other_.joystick().reading();
     reading.force = plant.force;
     reading.force_age = plant.force_age;
     reading.force_status = plant.force_status;
+    return reading;
   }
+
+  /// Whether no drive has power: by itself, not by what the loop hears of it.
+  bool off() const EBAC_RT {
+    for (std::size_t i = 0; i < joystick().axes(); ++i) {
+      const SimulatedDrive& drive = joystick().drive(i);
+      const bool on = drive.state() == DriveState::kOperationEnabled ||
+                      drive.state() == DriveState::kQuickStopActive;
+      if (on || drive.current() != 0) return false;
+    }
+    return true;
+  }
+
+  Can& can() EBAC_RT { return can_; }
+  const Can& can() const EBAC_RT { return can_; }
+  const VirtualBus& bus() const EBAC_RT { return bus_; }
+  Joystick<Still<D>>& joystick() EBAC_RT { return other_.joystick(); }
+  const Joystick<Still<D>>& joystick() const EBAC_RT { return other_.joystick(); }
+  const D& plant() const EBAC_RT { return other_.plant(); }
 
  private:
   static constexpr std::uint8_t kStartNode = 0x01;
   static constexpr std::uint8_t kAllNodes = 0;
 
-  static void set_up(SimulatedDrive& drive, int most) {
-    for (const ObjectWrite& write : torque_settings(drive.node(), most)) {
-      if (drive.write(write.index, write.sub, write.value) != Abort{}) {
-        throw std::logic_error("a simulated drive refused object " + std::to_string(write.index));
-      }
-    }
+  static std::size_t station_of(int node) EBAC_RT {
+    return VirtualBus::kFirstDrive + static_cast<std::size_t>(node - 1);
   }
 
-  LoopbackHub hub_;
-  LoopbackBus near_ = hub_.open();
+  TimedBus timed_;
+  VirtualBus bus_;
   JoystickOnBus<D> other_;
   Can can_;
+  double t_ = 0;  // s
 };
 
 }  // namespace ebac::can

@@ -68,11 +68,11 @@ double time_exchanges(D& device, int ticks, int repeats) {
   return best;
 }
 
-/// `exchange` over a LoopbackBus with two simulated drives at its other end.
+/// `exchange` over a bus in one thread with two simulated drives at its other end.
 inline double time_exchange(int ticks, int repeats) {
   DeviceModel model;
   model.kinematics = Linear{.axes = 2};
-  ThroughCan<RestingPlant> device({}, model, /*delay=*/1);
+  ThroughCan<RestingPlant> device({}, model, Timing{});
   device.enable();
   return time_exchanges(device, ticks, repeats);
 }

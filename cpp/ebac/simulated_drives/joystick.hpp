@@ -88,6 +88,7 @@ class Joystick {
   SimulatedDrive& drive(std::size_t axis) EBAC_RT { return drive_[axis]; }
   const SimulatedDrive& drive(std::size_t axis) const EBAC_RT { return drive_[axis]; }
   const D& plant() const EBAC_RT { return plant_; }
+  D& plant() EBAC_RT { return plant_; }
   /// The last reading of the plant, with values that no drive sends, such as the force.
   const Reading& reading() const EBAC_RT { return reading_; }
 

@@ -41,7 +41,7 @@ from ebac.drives.setting import Setting
 from ebac.drives.simulate import inject
 from ebac.drives.stall import check_stall, hold_time
 from ebac.drives.state import TRANSITIONS, Command, Controlword, State, Statusword, path
-from ebac.drives.timing import BusTiming, bus_timing
+from ebac.drives.timing import BusTiming, TimedBus, bus_timing
 
 __all__ = [
     "TRANSITIONS",
@@ -75,6 +75,7 @@ __all__ = [
     "SheetEntry",
     "State",
     "Statusword",
+    "TimedBus",
     "Traffic",
     "WrongAnswer",
     "WrongState",

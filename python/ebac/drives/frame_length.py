@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from ebac._core import worst_bits
+from ebac._core import _exact_bits, least_bits, worst_bits
 
-#: CRC-15 of CAN (ISO 11898-1), and the bits that are never stuffed: delimiters, ACK, end, interframe space.
-_POLYNOMIAL, _FIXED = 0x4599, 1 + 2 + 7 + 3
+__all__ = ["exact_bits", "frame_bits", "least_bits"]
 
 
 def frame_bits(size: int) -> int:
@@ -50,30 +49,4 @@ def exact_bits(
         raise ValueError(
             f"frame 0x{cob_id:X} with {length} bytes: must be at most 0x7FF with at most 8 bytes"
         )
-    # start of frame, identifier, RTR, IDE, r0, length code, data
-    word, bits = (cob_id << 7) | (int(remote) << 6) | length, 1 + 11 + 3 + 4
-    for byte in data:
-        word, bits = word << 8 | byte, bits + 8
-    word, bits = word << 15 | crc15(word, bits), bits + 15
-    return bits + _stuffed(word, bits) + _FIXED
-
-
-def crc15(word: int, bits: int) -> int:
-    """Return the CRC-15 of CAN over the lowest `bits` bits of a number, the highest first."""
-    crc = 0
-    for at in range(bits - 1, -1, -1):
-        top = crc >> 14 & 1 ^ word >> at & 1
-        crc = (crc << 1 & 0x7FFF) ^ (_POLYNOMIAL if top else 0)
-    return crc
-
-
-def _stuffed(word: int, bits: int) -> int:
-    """Return the stuff bits: one of the other value after every five alike, which counts for the next five."""
-    count, run, last = 0, 0, None
-    for at in range(bits - 1, -1, -1):
-        bit = word >> at & 1
-        run = run + 1 if bit == last else 1
-        last = bit
-        if run == 5:
-            count, run, last = count + 1, 1, 1 - bit
-    return count
+    return _exact_bits(cob_id, data, remote, length)

@@ -23,6 +23,7 @@ from ebac.laws import CoreLaw
 from ebac.scenario import Environment, Scenario
 
 if TYPE_CHECKING:
+    from ebac._core import TimedBus
     from ebac.sensor import SensorConfig
     from ebac.trace import Trace
 
@@ -85,6 +86,8 @@ class Configuration:
         a sensor.
     hand : Hand
         Who holds the simulated device.
+    simulated_bus : mapping
+        Fields of `drives.TimedBus` on top of those that follow from drives and bus.
 
     Raises
     ------
@@ -103,7 +106,7 @@ class Configuration:
     simulated_zero: Zero | None = None
     setup: Literal["verify", "apply"] = "verify"
     silent: int = 3
-    answer_share: float = 0.5
+    answer_share: float = 0.7
     device: Device
     timing: Timing = field(default_factory=Timing)
     environment: Environment = field(default_factory=Wall)
@@ -120,6 +123,7 @@ class Configuration:
     sensor: SensorConfig | None = None
     observer: Observer | bool = False
     hand: Hand = field(default_factory=Hand)
+    simulated_bus: Mapping[str, Any] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         """Refuse an observer without a force."""
@@ -178,21 +182,37 @@ class Configuration:
             observer=self.observer,
         )
 
-    def simulate(self, *, seconds: float | None = None) -> Trace:
+    def timed_bus(self) -> TimedBus:
+        """Return the bus as a simulated run has it: bit rate, watches and waiting time as configured."""
+        from ebac.hardware.timed_bus import timed_bus
+
+        return timed_bus(
+            self.drives,
+            silent=self.silent,
+            answer_share=self.answer_share,
+            changes=self.simulated_bus,
+        )
+
+    def simulate(self, *, seconds: float | None = None, bus_time: bool = True) -> Trace:
         """Run it on a virtual clock: same law, drives and bus, every tick on time. What a run should come to.
 
-        Time begins as the drives have power. No answer is late here and no packet lost, the force is read at the
-        handle without a network, and the first run after power-on is meant: the drives count from 0.
+        Time begins as the drives have power. Frames take their time on the bus, and an answer that the loop did not
+        wait for is late, as on hardware. The force is read at the handle without a network, and the first run after
+        power-on is meant: the drives count from 0.
 
         Parameters
         ----------
         seconds : float, optional
             Length of the run [s]; default as configured.
+        bus_time : bool
+            False lets every frame arrive at once.
 
         Raises
         ------
         LoopFault
-            When the device leaves its limits; carries the trace.
+            When the device leaves its limits, or answers stay away; carries the trace.
+        ValueError
+            When the loop does not wait long enough for the answers, with both times.
         """
         from ebac.simulation import simulate
 
@@ -200,6 +220,7 @@ class Configuration:
             self.scenario(seconds=seconds),
             self.design(),
             through="can",
+            bus=self.timed_bus() if bus_time else None,
             limits=self.limits,
             soft_start=self.soft_start,
         )

@@ -23,7 +23,7 @@ BUS = (
         name="answer_share",
         low=0.05,
         high=0.9,
-        default=0.5,
+        default=0.7,
         remedy="the share of a tick the drives may take to answer",
     ),
 )

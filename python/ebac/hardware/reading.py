@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ebac import presets
-from ebac._core import Device, Hand, Limits, Observer, RealTime, Timing
+from ebac._core import Device, Hand, Limits, Observer, RealTime, TimedBus, Timing
 from ebac._util.serialisation import from_document
 from ebac.drives.errors import ProfileError
 from ebac.drives.toml_positions import Source
@@ -70,6 +70,7 @@ def read(source: Source) -> dict[str, Any]:
     values["sensor"] = _sensor(source)
     values["observer"] = _observer(source, values)
     values["hand"] = _hand(source)
+    values["simulated_bus"] = _simulated_bus(source, values)
     _fit(source, values)
     return values
 
@@ -122,12 +123,25 @@ def _zero(source: Source, path: tuple[str, ...], keys: list[str], axes: int) -> 
 
 
 def _hand(source: Source) -> Hand:
-    known(source, ("simulated",), ["hand", "signs", "zero"])
+    known(source, ("simulated",), ["hand", "signs", "zero", "bus"])
     path = ("simulated", "hand")
     name = table(source, path).get("preset", "reference")
     base = refusing(source, (*path, "preset"), lambda: presets.hand(name))
     made: Hand = on_top(source, path, base, apart=("preset",))
     return made
+
+
+def _simulated_bus(source: Source, values: Mapping[str, Any]) -> Mapping[str, Any]:
+    """Return what a simulated run changes of its bus."""
+    from ebac.hardware.timed_bus import timed_bus
+
+    path = ("simulated", "bus")
+    own = ["bit_rate", "answer_share", "silent_ticks"]  # in [bus] and the network file
+    names = [name for name in TimedBus().as_dict() if name not in own]
+    found = dict(known(source, path, names))
+    bus = {key: values[key] for key in ("silent", "answer_share")}
+    refusing(source, path, lambda: timed_bus(values["drives"], **bus, changes=found))
+    return found
 
 
 def _sensor(source: Source) -> SensorConfig | None:

@@ -110,7 +110,7 @@ def timing(
     dt: Annotated[float, typer.Option(help="Sample time [s].", min=1e-4, max=1.0)] = 1e-3,
     answer: Annotated[
         float | None,
-        typer.Option(help="How long the loop waits for answers [s].", show_default="half of --dt"),
+        typer.Option(help="How long the loop waits for answers [s].", show_default="0.7 of --dt"),
     ] = None,
     ticks: Annotated[int, typer.Option(help="Samples to simulate.", min=1, max=1_000_000)] = 1000,
     errors: Annotated[
@@ -131,7 +131,7 @@ def timing(
 
     **Examples**
 
-    * `ebac drive timing joystick --answer 0.6e-3`: two drives at 1 Mbit/s
+    * `ebac drive timing joystick`: two drives at 1 Mbit/s
 
     * `ebac drive timing generic-cia402 --node 1 --bitrate 500000 --answer 0.9e-3`: one drive on a slower bus
     """

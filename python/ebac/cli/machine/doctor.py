@@ -11,6 +11,7 @@ from ebac.cli import output
 
 if TYPE_CHECKING:
     from ebac.realtime import Finding
+    from ebac.realtime.doctor import Verdict
 
 _MARKS = {"good": "[green]good[/]", "fair": "[yellow]fair[/]", "bad": "[bold red]bad[/]"}
 
@@ -18,7 +19,9 @@ _MARKS = {"good": "[green]good[/]", "fair": "[yellow]fair[/]", "bad": "[bold red
 def doctor(
     configuration: Annotated[
         Path | None,
-        typer.Argument(help="Configuration of a run: what its drives do when the loop stalls."),
+        typer.Argument(
+            help="Configuration of a run: what its drives do when the loop stalls, and the time its bus takes."
+        ),
     ] = None,
     priority: Annotated[
         int, typer.Option(help="Priority the control thread would ask for.", min=1, max=99)
@@ -46,7 +49,7 @@ def doctor(
     with output.refusing():
         findings = examine(RealTime(priority=priority, cpu=cpu))
         if configuration is not None:
-            findings = [*findings, *_stalls(configuration)]
+            findings = [*findings, *_stalls(configuration), _bus(configuration)]
     verdicts = [finding.verdict for finding in findings]
     worst = next(v for v in ("bad", "fair", "good") if v in verdicts)
     if as_json:
@@ -63,6 +66,29 @@ def doctor(
                 output.indented(f"{finding.what}: {finding.remedy}")
     if worst == "bad":
         raise typer.Exit(output.FAILED)
+
+
+def _bus(path: Path) -> Finding:
+    """Return how long an exchange takes on the bus of a configuration, against the time the loop waits."""
+    from ebac.hardware.configuration import Configuration
+    from ebac.hardware.timed_bus import exchange_times
+    from ebac.realtime import Finding
+
+    known = Configuration.load(path)
+    load, dt = known.drives.load(), known.timing.dt
+    least, most = exchange_times(known)
+    waits = known.answer_share * dt
+    verdict: Verdict = "good" if most <= waits else "fair" if least <= waits else "bad"
+    share = f"{100 * load.share:.0f} % of {load.bitrate / 1000:g} kbit/s"
+    return Finding(
+        what="the bus, one tick",
+        found=f"answers after {1e6 * least:.0f} to {1e6 * most:.0f} us, the loop waits {1e6 * waits:.0f} us "
+        f"of {1e6 * dt:.0f}; load at most {share}",
+        verdict=verdict,
+        remedy=""
+        if verdict == "good"
+        else "raise bus.answer_share or the bit rate, lengthen timing.dt, or use a second bus",
+    )
 
 
 def _stalls(path: Path) -> list[Finding]:

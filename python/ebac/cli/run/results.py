@@ -158,7 +158,7 @@ def _expected(configuration: Configuration) -> Contact | None:
         return None
     with warnings.catch_warnings(action="ignore"):  # the run has reported how full the bus is
         try:
-            return contact(configuration.simulate(), truth=False)
+            return contact(configuration.simulate(bus_time=False), truth=False)
         except LoopFault as error:
             what = str(error).partition(": the command")[0]
             output.console(stderr=True).print(f"On a virtual clock this run ends by {what}.")

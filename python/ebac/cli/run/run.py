@@ -45,6 +45,13 @@ def run(
             help="The same on a virtual clock, all simulated: no tick is late, however busy the machine is.",
         ),
     ] = False,
+    bus_time: Annotated[
+        bool,
+        typer.Option(
+            "--bus-time/--no-bus-time",
+            help="With --virtual: frames take their time on the bus, or each arrives at once.",
+        ),
+    ] = True,
     law: Annotated[str | None, options.one_law(default="as configured")] = None,
     rate: Annotated[
         float | None,
@@ -147,7 +154,7 @@ def run(
     shown = output.console(stderr=True).is_terminal if live is None else live
     try:
         if virtual:
-            _run_virtual(known, stem, as_json, style)
+            _run_virtual(known, stem, as_json, style, bus_time=bus_time)
         else:
             how = {"simulate": simulated, "detached": detached, "beyond_rating": beyond_rating}
             _run(known, how, yes, stem, shown and not as_json, as_json, schedule, style)
@@ -207,7 +214,7 @@ def _keep(log: Path | None) -> None:
 
 
 def _run_virtual(
-    known: Configuration, stem: Path | None, as_json: bool, style: FigureOptions
+    known: Configuration, stem: Path | None, as_json: bool, style: FigureOptions, *, bus_time: bool
 ) -> None:
     """Run the same on a virtual clock and give what a run gives."""
     from ebac import logs
@@ -217,7 +224,7 @@ def _run_virtual(
     fault: LoopFault | None = None
     with output.refusing():
         try:
-            trace = known.simulate()
+            trace = known.simulate(bus_time=bus_time)
         except LoopFault as error:
             fault, trace = error, error.trace
         if log is not None:

@@ -1,0 +1,54 @@
+#include "ebac/simulated_drives/through_can.hpp"
+
+#include <cmath>
+#include <sstream>
+#include <vector>
+
+#include "ebac/canopen/pdo_plan.hpp"
+
+namespace ebac::can {
+
+namespace {
+
+/// SYNC and process data of a device in every tick.
+BusLoad load_of(int axes, const Timing& timing, const TimedBus& bus) {
+  std::vector<int> nodes;
+  for (int i = 1; i <= axes; ++i) nodes.push_back(i);
+  return {.frames = pdo_plan(nodes), .bit_rate = bus.bit_rate, .period = timing.dt};
+}
+
+/// From the loop's first frame to the last answer [s], without any stuff bit.
+double least_exchange(const BusLoad& load, const TimedBus& bus) {
+  int bits = 0;
+  for (const PlannedFrame& one : load.frames) bits += one.count * least_bits(one.size);
+  return bits / load.bit_rate + bus.response;
+}
+
+}  // namespace
+
+std::string explain_times(int axes, const Timing& timing, const TimedBus& bus) {
+  const BusLoad load = load_of(axes, timing, bus);
+  const auto us = [](double seconds) { return std::llround(1e6 * seconds); };
+  std::ostringstream text;
+  text << "the loop waits " << us(bus.answer_share * timing.dt) << " us for answers, of which the "
+       << "last comes after " << us(least_exchange(load, bus)) << " to "
+       << us(load.seconds() + bus.response) << " us at " << bus.bit_rate / 1e3
+       << " kbit/s; raise bus.answer_share or the bit rate, or lengthen timing.dt";
+  return text.str();
+}
+
+void check_through_can(int axes, const Timing& timing, const std::optional<TimedBus>& timed) {
+  if (timing.delay < 1) {
+    throw std::invalid_argument(
+        "Timing.delay = 0 samples: over a CAN bus a command acts one tick later at the earliest; "
+        "must lie in [1, 8] samples");
+  }
+  const TimedBus bus = timed.value_or(TimedBus{});
+  const BusLoad load = load_of(axes, timing, bus);
+  static_cast<void>(check_load(load));
+  if (!timed || least_exchange(load, bus) <= bus.answer_share * timing.dt) return;
+  throw std::invalid_argument("TimedBus.answer_share = " + std::to_string(bus.answer_share) + ": " +
+                              explain_times(axes, timing, bus));
+}
+
+}  // namespace ebac::can

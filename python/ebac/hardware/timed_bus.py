@@ -1,0 +1,64 @@
+"""The time that the bus of a configuration takes: for its simulation, and as `ebac doctor` reports it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+from ebac._core import TimedBus
+from ebac.drives.frame_length import frame_bits, least_bits
+from ebac.drives.network import Network
+from ebac.drives.stall import watches
+
+if TYPE_CHECKING:
+    from ebac.hardware.configuration import Configuration
+
+
+def timed_bus(
+    network: Network, *, silent: int, answer_share: float, changes: Mapping[str, Any]
+) -> TimedBus:
+    """Return the bus of a network for a simulated run: bit rate, waiting time and watches as configured.
+
+    Parameters
+    ----------
+    network : Network
+        The drives. The shortest watch of any is that of all.
+    silent : int
+        Ticks in a row without process data that are a fault [samples].
+    answer_share : float
+        How long the loop waits for answers, as a share of the sample time.
+    changes : mapping
+        Fields of `TimedBus` on top of that.
+
+    Raises
+    ------
+    TypeError, ValueError
+        For a field that is not there, or out of range.
+    """
+    profiles = [node.profile for node in network.nodes]
+    acting = [watches(profile) for profile in profiles]
+    torque = [after for one in acting for key, after in one.items() if key.startswith("pdo.")]
+    loop = [one["heartbeat.consumer"] for one in acting if "heartbeat.consumer" in one]
+    known = {
+        "bit_rate": float(network.bitrate),
+        "silent_ticks": silent,
+        "answer_share": answer_share,
+        "drive_heartbeat": max(float(one.values["heartbeat.producer"]) for one in profiles),
+        "loop_silence": min(loop, default=0.0),
+        "torque_silence": min(torque, default=0.0),
+    }
+    return TimedBus(**{**known, **changes})
+
+
+def exchange_times(known: Configuration) -> tuple[float, float]:
+    """Return the least and the greatest time from a tick to its last answer [s].
+
+    The least has no stuff bit. The greatest has all there can be, and a heartbeat of every drive and each frame of
+    other traffic in between. No frame is destroyed.
+    """
+    network, bus = known.drives, known.timed_bus()
+    sizes = [0, *(pdo.size for node in network.nodes for pdo in node.profile.pdos)]
+    between = [*(1 for _ in network.nodes), *(other.size for other in network.others)]
+    least = sum(least_bits(size) for size in sizes) / network.bitrate
+    most = sum(frame_bits(size) for size in [*sizes, *between]) / network.bitrate
+    return least + bus.response, most + bus.response

@@ -1,0 +1,80 @@
+// A simulated run on a bus that takes time: late answers, bus-off, and drives at rest.
+#include <gtest/gtest.h>
+
+#include "ebac/control/direct.hpp"
+#include "ebac/sim/simulated_device.hpp"
+#include "ebac/simulated_drives/through_can.hpp"
+
+namespace ebac::timed_bus_test {
+namespace {
+
+using Loop2 = Loop<can::ThroughCan<SimulatedDevice>, VirtualClock, PerAxis<Direct>>;
+
+Setup two_axes() {
+  Setup setup;
+  setup.device.kinematics = Linear{.axes = 2};
+  return setup;
+}
+
+Loop2 loop_on(const can::TimedBus& bus) {
+  const Setup setup = two_axes();
+  auto device = can::device_through_can<SimulatedDevice>(setup, bus);
+  device.enable();
+  return {std::move(device), VirtualClock(1e-3, 0, 1), PerAxis<Direct>(Direct({}, setup.timing)),
+          SignalChain(setup.device, Environment{Wall{.position = -0.01}}), 2};
+}
+
+const can::BusRow& row(Loop2& loop, std::size_t axis) {
+  return loop.device().bench().can().state(axis);
+}
+
+TEST(TimedBus, TwoDrivesAtOneMegabitAreNeverLate) {
+  Loop2 loop = loop_on({});
+  loop.run(*loop.make_trace(1000));
+  EXPECT_EQ(loop.sample().fault, Fault::kNone);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(row(loop, i).late, 0);
+    EXPECT_EQ(row(loop, i).age, 0);
+  }
+}
+
+TEST(TimedBus, ASlowBusIsRefusedBeforeTheRun) {
+  EXPECT_THROW(loop_on({.bit_rate = 250e3}), std::invalid_argument);
+  EXPECT_THROW(loop_on({.answer_share = 0.45}), std::invalid_argument);  // the least is 477 us
+  EXPECT_THROW(loop_on({.answer_share = 0.5}), std::invalid_argument);   // at rest it takes more
+}
+
+TEST(TimedBus, OffTheBusMeansZeroForceAndDrivesAtRest) {
+  for (const can::TimedBus& bus : {can::TimedBus{.broken = 1, .broken_from = 0.1},
+                                   can::TimedBus{.broken = 2, .broken_from = 0.1},
+                                   can::TimedBus{.error_rate = 0.13, .seed = 1},
+                                   can::TimedBus{.error_rate = 0.13, .seed = 2}}) {
+    Loop2 loop = loop_on(bus);
+    const auto trace = loop.make_trace(3000);
+    loop.run(*trace);
+    const Fault fault = loop.sample().fault;
+    EXPECT_TRUE(fault == Fault::kDriveSilent || fault == Fault::kBusDown ||
+                fault == Fault::kDriveEmergency)
+        << static_cast<unsigned>(fault);
+    for (std::size_t i = 0; i < 2; ++i) EXPECT_EQ(loop.sample().axis[i].joint.current, 0);
+    loop.device().disable();
+    EXPECT_TRUE(loop.device().bench().off());
+  }
+}
+
+TEST(TimedBus, TheLoopsOwnControllerOffTheBusIsABusThatIsDown) {
+  can::TimedBus bus;
+  can::VirtualBus near{can::SimulatedWire(can::wire_of(bus, 1))};
+  near.wire().set_error_rate(can::VirtualBus::kLoop, 1);
+  EXPECT_TRUE(near.send({.id = can::kSync}));
+  while (near.advance(20'000'000)) {
+  }
+  EXPECT_EQ(near.state(), can::BusState::kBusOff);
+  EXPECT_FALSE(near.send({.id = can::kSync}));
+  while (near.advance(1'000'000'000)) {
+  }
+  EXPECT_EQ(near.state(), can::BusState::kBusOff);  // restarted by hand
+}
+
+}  // namespace
+}  // namespace ebac::timed_bus_test

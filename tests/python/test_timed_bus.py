@@ -1,0 +1,148 @@
+"""A simulated run on a bus that takes time: what is late, what is refused, and that nothing else changes."""
+
+import json
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from typer.testing import CliRunner
+
+import ebac
+from ebac.cli import app
+from ebac.drives import TimedBus
+from ebac.hardware import Configuration, ConfigurationError
+
+EXAMPLE = Path(__file__).parents[2] / "examples" / "joystick.toml"
+
+
+@pytest.fixture(scope="module")
+def known() -> Configuration:
+    return Configuration.load(EXAMPLE).replace(seconds=1.0)
+
+
+def with_bus(known: Configuration, **changes: Any) -> Configuration:
+    return known.replace(simulated_bus={**known.simulated_bus, **changes})
+
+
+def test_two_drives_at_1_mbit_are_never_late_and_the_wall_is_the_same(known: Configuration) -> None:
+    timed, prompt = known.simulate(), known.simulate(bus_time=False)
+    assert np.ptp(timed["bus.missing"], axis=0).tolist() == [0, 0]
+    assert (timed["bus.age"] == 0).all()
+    assert (timed["t"] == prompt["t"]).all()
+    rests = [ebac.contact(trace, truth=False).rest_m for trace in (timed, prompt)]
+    assert rests[0] == pytest.approx(rests[1], abs=2 * known.device.count)
+
+
+def test_without_its_time_nothing_changes(known: Configuration) -> None:
+    scenario = known.scenario()
+    bare = ebac.simulate(
+        scenario, known.design(), through="can", limits=known.limits, soft_start=known.soft_start
+    )
+    prompt = known.simulate(bus_time=False)
+    for name in bare:
+        assert prompt[name].tobytes() == bare[name].tobytes(), name
+
+
+def test_answers_that_the_loop_does_not_wait_for_are_late_and_a_tick_old(
+    known: Configuration,
+) -> None:
+    trace = known.replace(answer_share=0.53).simulate()
+    late = np.diff(trace["bus.missing"][:, 1]) > 0
+    assert 0.01 < late.mean() < 0.9
+    assert (trace["bus.age"][1:, 1] == late).all()
+    assert trace["bus.missing"][-1, 0] == trace["bus.missing"][0, 0]
+    assert trace["bus.late"][-1, 1] >= late.sum() - 1
+
+
+@pytest.mark.parametrize("share", [0.4, 0.5])
+def test_a_loop_that_waits_too_briefly_is_refused_with_both_times(
+    known: Configuration, share: float
+) -> None:
+    """0.4: no answer can come; 0.5: at rest, where data are zeros and most bits are stuffed, none does."""
+    text = (
+        rf"the loop waits {1000 * share:.0f} us for answers, .* after 477 to 565 us at 1000 kbit/s"
+    )
+    with pytest.raises(ValueError, match=text):
+        known.replace(answer_share=share).simulate()
+
+
+def test_a_slow_bus_is_refused_with_its_load(known: Configuration) -> None:
+    with pytest.raises(ValueError, match="must be at most 90 %"):
+        with_bus(known, bit_rate=250e3).simulate()
+
+
+@pytest.mark.parametrize("node", [1, 2])
+def test_a_drive_off_the_bus_ends_the_run_without_force(known: Configuration, node: int) -> None:
+    with pytest.raises(ebac.LoopFault) as caught:
+        with_bus(known, broken=node, broken_from=0.5).simulate()
+    trace = caught.value.trace
+    assert caught.value.fault is ebac.Fault.DRIVE_SILENT
+    first = int((trace["fault"] != 0).argmax())
+    assert 500 < first <= 500 + known.silent + 3
+    assert (trace["current"][first:] == 0).all()
+    assert (trace["bus.target_permille"][first + 1 :] == 0).all()
+
+
+@settings(max_examples=15, deadline=None)
+@given(seed=st.integers(0, 2**31), rate=st.floats(0.0, 0.3))
+def test_whatever_is_destroyed_a_run_ends_well_or_by_name(seed: int, rate: float) -> None:
+    known = with_bus(Configuration.load(EXAMPLE), error_rate=rate, seed=seed)
+    try:
+        trace = known.simulate(seconds=0.3)
+    except ebac.LoopFault as error:
+        trace = error.trace
+    except ValueError as error:
+        assert "did not reach operation enabled" in str(error)  # noqa: PT017
+        return
+    fault = ebac.Fault(int(trace["fault"][-1]))
+    assert fault.name in ("NONE", "DRIVE_SILENT", "BUS_DOWN", "DRIVE_EMERGENCY", "DRIVE_FAULT")
+    assert (trace["current"][trace["fault"] != 0] == 0).all()
+    assert len(trace) == 301 or fault is not ebac.Fault.NONE
+
+
+def test_a_seed_gives_the_same_rows(known: Configuration) -> None:
+    def rows(seed: int) -> bytes:
+        trace = with_bus(known, error_rate=0.02, seed=seed).simulate()
+        return b"".join(trace[name].tobytes() for name in trace)
+
+    assert rows(1) == rows(1)
+    assert rows(1) != rows(2)
+
+
+def test_the_table_of_a_configuration(tmp_path: Path) -> None:
+    text = EXAMPLE.read_text() + "\n[simulated.bus]\nresponse = 2e-4\nerror_rate = 0.01\n"
+    bus = Configuration.from_toml(text).timed_bus()
+    assert (bus.response, bus.error_rate, bus.bit_rate) == (2e-4, 0.01, 1e6)
+    assert (bus.torque_silence, bus.loop_silence, bus.drive_heartbeat) == (0.005, 0.3, 0.1)
+    for wrong in ("error_rate = 2.0", "speed = 1", "bit_rate = 1e6"):
+        with pytest.raises(ConfigurationError, match=r"(must lie in|simulated\.bus)"):
+            Configuration.from_toml(EXAMPLE.read_text() + f"\n[simulated.bus]\n{wrong}\n")
+
+
+def test_a_bus_needs_a_run_through_it() -> None:
+    with pytest.raises(ValueError, match="give through='can' as well"):
+        ebac.simulate(ebac.Scenario(seconds=0.1), bus=TimedBus())
+
+
+def test_the_command_with_and_without_the_time_of_the_bus() -> None:
+    words = ["run", str(EXAMPLE), "--virtual", "--seconds", "1", "--json"]
+    timed, prompt = (
+        json.loads(CliRunner().invoke(app, [*words, *more]).stdout)["rows"][0]
+        for more in ([], ["--no-bus-time"])
+    )
+    assert timed["law"] == prompt["law"]
+    assert timed != prompt
+
+
+@pytest.mark.parametrize(("share", "verdict"), [(0.7, "good"), (0.5, "fair"), (0.4, "bad")])
+def test_the_doctor_compares_both_times(tmp_path: Path, share: float, verdict: str) -> None:
+    file = tmp_path / "joystick.toml"
+    file.write_text(EXAMPLE.read_text().replace("[bus]", f"[bus]\nanswer_share = {share}", 1))
+    told = json.loads(CliRunner().invoke(app, ["doctor", str(file), "--json"]).stdout)
+    (row,) = [row for row in told["rows"] if row["what"] == "the bus, one tick"]
+    assert row["verdict"] == verdict
+    assert "answers after 477 to 695 us" in row["found"]
+    assert ("answer_share" in (row["remedy"] or "")) == (verdict != "good")
