@@ -27,6 +27,13 @@ can::Frame frame_of(std::uint32_t id, const std::string& data, bool remote, int 
   return frame;
 }
 
+/// `station`, where the wire has it.
+std::size_t known(const SimulatedWire& wire, std::size_t station) {
+  if (station < wire.stations()) return station;
+  throw py::index_error("station = " + std::to_string(station) + ": must lie in [0, " +
+                        std::to_string(wire.stations() - 1) + "]");
+}
+
 /// The wire, for `drives.bus_timing`: times in nanoseconds.
 void bind_wire(py::module_& m) {
   m.def(
@@ -35,7 +42,9 @@ void bind_wire(py::module_& m) {
         return can::exact_bits(frame_of(id, data, remote, size));
       },
       py::arg("id"), py::arg("data"), py::arg("remote"), py::arg("size"));
-  py::class_<SimulatedWire>(m, "_SimulatedWire")
+  py::class_<SimulatedWire>(
+      m, "SimulatedWire",
+      "The wire of a CAN bus in virtual time [ns]: stations, their frames, and when they arrive.")
       .def(py::init([](std::size_t stations, double bit_rate, double error_rate, bool recovers,
                        std::uint64_t seed) {
              return SimulatedWire({.stations = stations,
@@ -51,10 +60,12 @@ void bind_wire(py::module_& m) {
           [](SimulatedWire& wire, std::size_t station, std::uint32_t id, const py::bytes& data,
              std::int64_t due) {
             const std::string bytes = data;
-            return wire.send(station, frame_of(id, bytes, false, static_cast<int>(bytes.size())),
-                             due);
+            if (bytes.size() > can::Frame::kMaxSize) return false;
+            return wire.send(known(wire, station),
+                             frame_of(id, bytes, false, static_cast<int>(bytes.size())), due);
           },
-          py::arg("station"), py::arg("id"), py::arg("data"), py::arg("due"))
+          py::arg("station"), py::arg("id"), py::arg("data"), py::arg("due"),
+          "Queue a frame that may go from `due` [ns] on; False where the station is off, or full.")
       .def(
           "next",
           [](SimulatedWire& wire,
@@ -63,14 +74,28 @@ void bind_wire(py::module_& m) {
             if (!wire.next(until, came)) return std::nullopt;
             return std::tuple(came.from, static_cast<int>(came.frame.id), came.frame.stamp);
           },
-          py::arg("until"))
+          py::arg("until"),
+          "Return station, identifier and time of the next frame that arrives by `until` [ns].")
       .def(
-          "break_station", [](SimulatedWire& wire, std::size_t i) { wire.set_error_rate(i, 1); },
-          py::arg("station"))
-      .def("off", &SimulatedWire::off, py::arg("station"))
-      .def("was_passive", &SimulatedWire::was_passive, py::arg("station"))
-      .def_property_readonly("destroyed", &SimulatedWire::destroyed)
-      .def_property_readonly("busy", &SimulatedWire::busy);
+          "break_station",
+          [](SimulatedWire& wire, std::size_t station) {
+            wire.set_error_rate(known(wire, station), 1);
+          },
+          py::arg("station"), "Destroy every frame of a station from now on.")
+      .def(
+          "off",
+          [](const SimulatedWire& wire, std::size_t station) {
+            return wire.off(known(wire, station));
+          },
+          py::arg("station"), "Return whether a station is off the bus.")
+      .def(
+          "was_passive",
+          [](const SimulatedWire& wire, std::size_t station) {
+            return wire.was_passive(known(wire, station));
+          },
+          py::arg("station"), "Return whether a station has ever been error passive.")
+      .def_property_readonly("destroyed", &SimulatedWire::destroyed, "Frames destroyed so far.")
+      .def_property_readonly("busy", &SimulatedWire::busy, "Time in use so far [ns].");
 }
 
 }  // namespace

@@ -100,6 +100,7 @@ __all__: list[str] = [
     "SharedForce",
     "SharedHandTarget",
     "SimulatedDrive",
+    "SimulatedWire",
     "Sine",
     "SocketCan",
     "SocketCanJoystick",
@@ -108,11 +109,13 @@ __all__: list[str] = [
     "SweepProgress",
     "TCADamped",
     "Tapping",
+    "TimedBus",
     "Timing",
     "VirtualCoupling",
     "Wall",
     "copley_current",
     "estimate_velocity",
+    "least_bits",
     "pdo_plan",
     "worst_bits",
 ]
@@ -3704,7 +3707,9 @@ class Direct:
     def _replay(
         self, log: ReplayLog, device: Device, environment: Free | Wall | Corner | Disc
     ) -> Rows: ...
-    def _simulate(self, setup: Setup, through_can: bool = False) -> Rows: ...
+    def _simulate(
+        self, setup: Setup, through_can: bool = False, bus: TimedBus | None = None
+    ) -> Rows: ...
     def _start(self, bus: typing.Any, setup: RunSetup) -> Running: ...
     def _time_step(
         self, setup: Setup, repeats: typing.SupportsInt | typing.SupportsIndex
@@ -3830,7 +3835,9 @@ class TCA:
     def _replay(
         self, log: ReplayLog, device: Device, environment: Free | Wall | Corner | Disc
     ) -> Rows: ...
-    def _simulate(self, setup: Setup, through_can: bool = False) -> Rows: ...
+    def _simulate(
+        self, setup: Setup, through_can: bool = False, bus: TimedBus | None = None
+    ) -> Rows: ...
     def _start(self, bus: typing.Any, setup: RunSetup) -> Running: ...
     def _time_step(
         self, setup: Setup, repeats: typing.SupportsInt | typing.SupportsIndex
@@ -3979,7 +3986,9 @@ class TCADamped:
     def _replay(
         self, log: ReplayLog, device: Device, environment: Free | Wall | Corner | Disc
     ) -> Rows: ...
-    def _simulate(self, setup: Setup, through_can: bool = False) -> Rows: ...
+    def _simulate(
+        self, setup: Setup, through_can: bool = False, bus: TimedBus | None = None
+    ) -> Rows: ...
     def _start(self, bus: typing.Any, setup: RunSetup) -> Running: ...
     def _time_step(
         self, setup: Setup, repeats: typing.SupportsInt | typing.SupportsIndex
@@ -4133,7 +4142,9 @@ class LagCompensator:
     def _replay(
         self, log: ReplayLog, device: Device, environment: Free | Wall | Corner | Disc
     ) -> Rows: ...
-    def _simulate(self, setup: Setup, through_can: bool = False) -> Rows: ...
+    def _simulate(
+        self, setup: Setup, through_can: bool = False, bus: TimedBus | None = None
+    ) -> Rows: ...
     def _start(self, bus: typing.Any, setup: RunSetup) -> Running: ...
     def _time_step(
         self, setup: Setup, repeats: typing.SupportsInt | typing.SupportsIndex
@@ -4290,7 +4301,9 @@ class PassivityControl:
     def _replay(
         self, log: ReplayLog, device: Device, environment: Free | Wall | Corner | Disc
     ) -> Rows: ...
-    def _simulate(self, setup: Setup, through_can: bool = False) -> Rows: ...
+    def _simulate(
+        self, setup: Setup, through_can: bool = False, bus: TimedBus | None = None
+    ) -> Rows: ...
     def _start(self, bus: typing.Any, setup: RunSetup) -> Running: ...
     def _time_step(
         self, setup: Setup, repeats: typing.SupportsInt | typing.SupportsIndex
@@ -4444,7 +4457,9 @@ class ISS:
     def _replay(
         self, log: ReplayLog, device: Device, environment: Free | Wall | Corner | Disc
     ) -> Rows: ...
-    def _simulate(self, setup: Setup, through_can: bool = False) -> Rows: ...
+    def _simulate(
+        self, setup: Setup, through_can: bool = False, bus: TimedBus | None = None
+    ) -> Rows: ...
     def _start(self, bus: typing.Any, setup: RunSetup) -> Running: ...
     def _time_step(
         self, setup: Setup, repeats: typing.SupportsInt | typing.SupportsIndex
@@ -4588,7 +4603,9 @@ class VirtualCoupling:
     def _replay(
         self, log: ReplayLog, device: Device, environment: Free | Wall | Corner | Disc
     ) -> Rows: ...
-    def _simulate(self, setup: Setup, through_can: bool = False) -> Rows: ...
+    def _simulate(
+        self, setup: Setup, through_can: bool = False, bus: TimedBus | None = None
+    ) -> Rows: ...
     def _start(self, bus: typing.Any, setup: RunSetup) -> Running: ...
     def _time_step(
         self, setup: Setup, repeats: typing.SupportsInt | typing.SupportsIndex
@@ -4730,7 +4747,9 @@ class SFA:
     def _replay(
         self, log: ReplayLog, device: Device, environment: Free | Wall | Corner | Disc
     ) -> Rows: ...
-    def _simulate(self, setup: Setup, through_can: bool = False) -> Rows: ...
+    def _simulate(
+        self, setup: Setup, through_can: bool = False, bus: TimedBus | None = None
+    ) -> Rows: ...
     def _start(self, bus: typing.Any, setup: RunSetup) -> Running: ...
     def _time_step(
         self, setup: Setup, repeats: typing.SupportsInt | typing.SupportsIndex
@@ -4872,7 +4891,9 @@ class ForceBounding:
     def _replay(
         self, log: ReplayLog, device: Device, environment: Free | Wall | Corner | Disc
     ) -> Rows: ...
-    def _simulate(self, setup: Setup, through_can: bool = False) -> Rows: ...
+    def _simulate(
+        self, setup: Setup, through_can: bool = False, bus: TimedBus | None = None
+    ) -> Rows: ...
     def _start(self, bus: typing.Any, setup: RunSetup) -> Running: ...
     def _time_step(
         self, setup: Setup, repeats: typing.SupportsInt | typing.SupportsIndex
@@ -5016,7 +5037,9 @@ class EBA:
     def _replay(
         self, log: ReplayLog, device: Device, environment: Free | Wall | Corner | Disc
     ) -> Rows: ...
-    def _simulate(self, setup: Setup, through_can: bool = False) -> Rows: ...
+    def _simulate(
+        self, setup: Setup, through_can: bool = False, bus: TimedBus | None = None
+    ) -> Rows: ...
     def _start(self, bus: typing.Any, setup: RunSetup) -> Running: ...
     def _time_step(
         self, setup: Setup, repeats: typing.SupportsInt | typing.SupportsIndex
@@ -5166,7 +5189,9 @@ class EBAAccount:
     def _replay(
         self, log: ReplayLog, device: Device, environment: Free | Wall | Corner | Disc
     ) -> Rows: ...
-    def _simulate(self, setup: Setup, through_can: bool = False) -> Rows: ...
+    def _simulate(
+        self, setup: Setup, through_can: bool = False, bus: TimedBus | None = None
+    ) -> Rows: ...
     def _start(self, bus: typing.Any, setup: RunSetup) -> Running: ...
     def _time_step(
         self, setup: Setup, repeats: typing.SupportsInt | typing.SupportsIndex
@@ -5344,7 +5369,9 @@ class EBACPrinted:
     def _replay(
         self, log: ReplayLog, device: Device, environment: Free | Wall | Corner | Disc
     ) -> Rows: ...
-    def _simulate(self, setup: Setup, through_can: bool = False) -> Rows: ...
+    def _simulate(
+        self, setup: Setup, through_can: bool = False, bus: TimedBus | None = None
+    ) -> Rows: ...
     def _start(self, bus: typing.Any, setup: RunSetup) -> Running: ...
     def _time_step(
         self, setup: Setup, repeats: typing.SupportsInt | typing.SupportsIndex
@@ -5605,7 +5632,9 @@ class EBAC:
     def _replay(
         self, log: ReplayLog, device: Device, environment: Free | Wall | Corner | Disc
     ) -> Rows: ...
-    def _simulate(self, setup: Setup, through_can: bool = False) -> Rows: ...
+    def _simulate(
+        self, setup: Setup, through_can: bool = False, bus: TimedBus | None = None
+    ) -> Rows: ...
     def _start(self, bus: typing.Any, setup: RunSetup) -> Running: ...
     def _time_step(
         self, setup: Setup, repeats: typing.SupportsInt | typing.SupportsIndex
@@ -5844,6 +5873,173 @@ class BusLoad:
     def share(self) -> float:
         """
         Share of the bus used by all frames, 0 to 1.
+        """
+
+class TimedBus:
+    """
+    A CAN bus that takes time in a simulated run, its drives and the watches on both sides.
+
+    Parameters
+    ----------
+    bit_rate : float
+        bit rate of the bus [bit/s], 10000 to 1e+06.
+    answer_share : float
+        how long the loop waits for the drives' answers, over the sample time, 0.05 to 0.9.
+    response : float
+        time a drive takes from a frame to its answer [s], 0 to 0.1.
+    error_rate : float
+        probability that a frame is destroyed, 0 to 1.
+    broken : int
+        node whose every frame is destroyed, the first one being 1; 0 for none, 0 to 3.
+    broken_from : float
+        time from which it is broken [s], 0 to 1e+05.
+    silent_ticks : int
+        ticks in a row without process data that are a fault [samples], 1 to 1000.
+    drive_heartbeat : float
+        time between two heartbeats of a drive; 0 sends none [s], 0 to 60.
+    loop_silence : float
+        time without the loop's heartbeat that is a fault of a drive; 0 watches none [s], 0 to 60.
+    torque_silence : float
+        time without a torque that is a fault of a drive; 0 watches none [s], 0 to 60.
+    seed : int
+        seed of what is destroyed, 0 to 9e+15.
+    """
+    @staticmethod
+    def fields() -> list[Field]:
+        """
+        Return name, unit, meaning, default and range of every parameter.
+        """
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __init__(
+        self,
+        *,
+        bit_rate: float = 1000000.0,
+        answer_share: float = 0.7,
+        response: float = 5e-05,
+        error_rate: float = 0.0,
+        broken: int = 0,
+        broken_from: float = 0.0,
+        silent_ticks: int = 3,
+        drive_heartbeat: float = 0.1,
+        loop_silence: float = 0.3,
+        torque_silence: float = 0.005,
+        seed: int = 0,
+    ) -> None: ...
+    def __reduce__(self) -> tuple[typing.Any, ...]: ...
+    def __repr__(self) -> str: ...
+    def as_dict(self) -> dict[str, typing.Any]:
+        """
+        Return the parameters by name.
+        """
+    def replace(self, **changes: typing.Any) -> typing.Self:
+        """
+        Return a copy with some parameters changed, checked as at construction.
+        """
+    @property
+    def answer_share(self) -> float:
+        """
+        how long the loop waits for the drives' answers, over the sample time, 0.05 to 0.9
+        """
+    @property
+    def bit_rate(self) -> float:
+        """
+        bit rate of the bus [bit/s], 10000 to 1e+06
+        """
+    @property
+    def broken(self) -> int:
+        """
+        node whose every frame is destroyed, the first one being 1; 0 for none, 0 to 3
+        """
+    @property
+    def broken_from(self) -> float:
+        """
+        time from which it is broken [s], 0 to 1e+05
+        """
+    @property
+    def drive_heartbeat(self) -> float:
+        """
+        time between two heartbeats of a drive; 0 sends none [s], 0 to 60
+        """
+    @property
+    def error_rate(self) -> float:
+        """
+        probability that a frame is destroyed, 0 to 1
+        """
+    @property
+    def loop_silence(self) -> float:
+        """
+        time without the loop's heartbeat that is a fault of a drive; 0 watches none [s], 0 to 60
+        """
+    @property
+    def response(self) -> float:
+        """
+        time a drive takes from a frame to its answer [s], 0 to 0.1
+        """
+    @property
+    def seed(self) -> int:
+        """
+        seed of what is destroyed, 0 to 9e+15
+        """
+    @property
+    def silent_ticks(self) -> int:
+        """
+        ticks in a row without process data that are a fault [samples], 1 to 1000
+        """
+    @property
+    def torque_silence(self) -> float:
+        """
+        time without a torque that is a fault of a drive; 0 watches none [s], 0 to 60
+        """
+
+class SimulatedWire:
+    """
+    The wire of a CAN bus in virtual time [ns]: stations, their frames, and when they arrive.
+    """
+    def __init__(
+        self,
+        *,
+        stations: typing.SupportsInt | typing.SupportsIndex,
+        bit_rate: typing.SupportsFloat | typing.SupportsIndex,
+        error_rate: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+        recovers: bool = False,
+        seed: typing.SupportsInt | typing.SupportsIndex = 0,
+    ) -> None: ...
+    def break_station(self, station: typing.SupportsInt | typing.SupportsIndex) -> None:
+        """
+        Destroy every frame of a station from now on.
+        """
+    def next(self, until: typing.SupportsInt | typing.SupportsIndex) -> tuple[int, int, int] | None:
+        """
+        Return station, identifier and time of the next frame that arrives by `until` [ns].
+        """
+    def off(self, station: typing.SupportsInt | typing.SupportsIndex) -> bool:
+        """
+        Return whether a station is off the bus.
+        """
+    def send(
+        self,
+        station: typing.SupportsInt | typing.SupportsIndex,
+        id: typing.SupportsInt | typing.SupportsIndex,
+        data: bytes,
+        due: typing.SupportsInt | typing.SupportsIndex,
+    ) -> bool:
+        """
+        Queue a frame that may go from `due` [ns] on; False where the station is off, or full.
+        """
+    def was_passive(self, station: typing.SupportsInt | typing.SupportsIndex) -> bool:
+        """
+        Return whether a station has ever been error passive.
+        """
+    @property
+    def busy(self) -> int:
+        """
+        Time in use so far [ns].
+        """
+    @property
+    def destroyed(self) -> int:
+        """
+        Frames destroyed so far.
         """
 
 class CanFrame:
@@ -6655,6 +6851,12 @@ def _encode_request(
     Return the 8 bytes of a request.
     """
 
+def _exact_bits(
+    id: typing.SupportsInt | typing.SupportsIndex,
+    data: bytes,
+    remote: bool,
+    size: typing.SupportsInt | typing.SupportsIndex,
+) -> int: ...
 def _fault_campaign(
     cases: typing.SupportsInt | typing.SupportsIndex,
     seed: typing.SupportsInt | typing.SupportsIndex,
@@ -6707,7 +6909,9 @@ def _rebuild(arg0: typing.Any, arg1: dict[str, typing.Any]) -> typing.Any: ...
 def _replay_python(
     log: ReplayLog, law: typing.Any, device: Device, environment: Free | Wall | Corner | Disc
 ) -> Rows: ...
-def _simulate_python(setup: Setup, law: typing.Any, through_can: bool = False) -> Rows: ...
+def _simulate_python(
+    setup: Setup, law: typing.Any, through_can: bool = False, bus: TimedBus | None = None
+) -> Rows: ...
 def _stored_energy(
     environment: Free | Wall | Corner | Disc,
     x: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
@@ -6755,6 +6959,7 @@ def estimate_velocity(
     Velocity [m/s] from positions x [m], shape (n,), sampled every dt [s] with an encoder step of count [m].
     """
 
+def least_bits(size: typing.SupportsInt | typing.SupportsIndex) -> int: ...
 def pdo_plan(
     nodes: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex],
 ) -> list[PlannedFrame]:

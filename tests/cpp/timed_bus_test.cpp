@@ -65,7 +65,7 @@ TEST(TimedBus, OffTheBusMeansZeroForceAndDrivesAtRest) {
 TEST(TimedBus, TheLoopsOwnControllerOffTheBusIsABusThatIsDown) {
   can::TimedBus bus;
   can::VirtualBus near{can::SimulatedWire(can::wire_of(bus, 1))};
-  near.wire().set_error_rate(can::VirtualBus::kLoop, 1);
+  near.wire()->set_error_rate(can::VirtualBus::kLoop, 1);
   EXPECT_TRUE(near.send({.id = can::kSync}));
   while (near.advance(20'000'000)) {
   }

@@ -248,7 +248,7 @@ def test_drives_know_nothing_of_the_loop() -> None:
     paths = modules("drives")
     assert len(paths) > 10
     lengths = ("_exact_bits", "least_bits", "worst_bits", "WARNED_LOAD", "REFUSED_LOAD")
-    wire = ("_SimulatedWire", "TimedBus")  # stations, frames and times: no drive, no loop
+    wire = ("SimulatedWire", "TimedBus")  # stations, frames and times: no drive, no loop
     frames = {f"ebac._core.{name}" for name in (*lengths, *wire)}
     for path in paths:
         core = {name for name in imports(path) if name.startswith("ebac._core.")}

@@ -64,15 +64,16 @@ void TestBench::spoil_drive() EBAC_RT {
 
 /// Answers late by as many milliseconds as the fault lasts, and frames that are destroyed.
 void TestBench::spoil_wire() EBAC_RT {
-  if (!bus_.timed()) return;
+  can::SimulatedWire* wire = bus_.wire();
+  if (wire == nullptr) return;
   const bool slow = injected_->on(Kind::kSlowAnswers);
   other_.respond_after(slow ? kTimes.dt * injected_->ticks : kTimes.response);
   constexpr double kSome = 0.02;
   const double some = injected_->on(Kind::kDestroyedFrames) ? kSome : 0;
-  bus_.wire().set_error_rate(can::VirtualBus::kLoop, injected_->on(Kind::kLoopOffBus) ? 1 : some);
+  wire->set_error_rate(can::VirtualBus::kLoop, injected_->on(Kind::kLoopOffBus) ? 1 : some);
   for (std::size_t i = 0; i < axes(); ++i) {
     const bool broken = i == injected_->axis && injected_->on(Kind::kDriveOffBus);
-    bus_.wire().set_error_rate(can::VirtualBus::kFirstDrive + i, broken ? 1 : some);
+    wire->set_error_rate(can::VirtualBus::kFirstDrive + i, broken ? 1 : some);
   }
 }
 

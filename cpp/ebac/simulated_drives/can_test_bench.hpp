@@ -47,8 +47,9 @@ class CanTestBench {
   /// An exchange of the loop, with the reading of the force sensor, which is not on this bus.
   Reading exchange(const Command& command) EBAC_RT {
     t_ += command.elapsed;
-    if (bus_.timed() && timed_.broken > 0 && t_ >= timed_.broken_from) {
-      bus_.wire().set_error_rate(station_of(timed_.broken), 1);
+    SimulatedWire* wire = bus_.wire();
+    if (wire != nullptr && timed_.broken > 0 && t_ >= timed_.broken_from) {
+      wire->set_error_rate(station_of(timed_.broken), 1);
     }
     Reading reading = can_.exchange(command);
     const Reading& plant = other_.joystick().reading();

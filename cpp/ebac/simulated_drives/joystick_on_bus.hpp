@@ -102,10 +102,10 @@ class JoystickOnBus {
     speak(bus_->now());
     hear();
     speak(bus_->now() + nanoseconds(times_.response));
-    for (std::size_t i = 0; i < joystick_.axes();
-         ++i) {  // off the bus, it neither hears nor speaks
-      joystick_.drive(i).set_condition(Condition::kSilent,
-                                       bus_->wire().off(VirtualBus::kFirstDrive + i));
+    const SimulatedWire* wire = bus_->wire();
+    for (std::size_t i = 0; wire != nullptr && i < joystick_.axes(); ++i) {
+      // Off the bus, a drive neither hears nor speaks.
+      joystick_.drive(i).set_condition(Condition::kSilent, wire->off(VirtualBus::kFirstDrive + i));
     }
     return came;
   }

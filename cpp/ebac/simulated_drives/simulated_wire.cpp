@@ -155,7 +155,7 @@ void SimulatedWire::destroy(Station& sender) EBAC_RT {
   if (sender.sent_errors <= kOff) return;
   sender.off = true;
   sender.queue.clear();
-  sender.recovery = kRecovery * kRecessive;
+  sender.recovery = std::int64_t{kRecovery} * kRecessive;
 }
 
 void SimulatedWire::recover(std::int64_t bits) EBAC_RT {

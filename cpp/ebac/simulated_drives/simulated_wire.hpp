@@ -51,6 +51,7 @@ class SimulatedWire {
   /// Whether this station comes back to the bus by itself.
   void set_recovers(std::size_t station, bool does) EBAC_RT { station_[station].recovers = does; }
 
+  std::size_t stations() const EBAC_RT { return station_.size(); }
   BusState state(std::size_t station) const EBAC_RT;
   bool off(std::size_t station) const EBAC_RT { return station_[station].off; }
   bool was_passive(std::size_t station) const EBAC_RT { return station_[station].was_passive; }

@@ -44,6 +44,10 @@ void check_through_can(int axes, const Timing& timing, const std::optional<Timed
         "must lie in [1, 8] samples");
   }
   const TimedBus bus = timed.value_or(TimedBus{});
+  if (bus.broken > axes) {
+    throw std::invalid_argument("TimedBus.broken = " + std::to_string(bus.broken) +
+                                ": the bus has " + std::to_string(axes) + " drives");
+  }
   const BusLoad load = load_of(axes, timing, bus);
   static_cast<void>(check_load(load));
   if (!timed || least_exchange(load, bus) <= bus.answer_share * timing.dt) return;

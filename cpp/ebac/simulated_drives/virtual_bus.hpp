@@ -20,8 +20,9 @@ class VirtualBus {
 
   VirtualBus() = default;
   /// The loop's controller stays off the bus once it is: an interface of Linux is restarted by hand.
-  explicit VirtualBus(SimulatedWire wire) : wire_(std::move(wire)) {
-    wire_->set_recovers(kLoop, false);
+  explicit VirtualBus(SimulatedWire wire) {
+    wire.set_recovers(kLoop, false);
+    wire_ = std::move(wire);
   }
 
   // The loop's end.
@@ -41,7 +42,7 @@ class VirtualBus {
   /// Time goes on to the next frame that arrives, or to `until` [ns]: then false.
   bool advance(std::int64_t until) EBAC_RT {
     SimulatedWire::Delivery came;
-    if (!wire_->next(until, came)) {
+    if (!wire_ || !wire_->next(until, came)) {
       now_ = until;
       return false;
     }
@@ -54,8 +55,8 @@ class VirtualBus {
   bool loop_has_frames() const EBAC_RT { return to_loop_.front() != nullptr; }
 
   bool timed() const EBAC_RT { return wire_.has_value(); }
-  SimulatedWire& wire() EBAC_RT { return *wire_; }
-  const SimulatedWire& wire() const EBAC_RT { return *wire_; }
+  /// nullptr where there is none.
+  SimulatedWire* wire() EBAC_RT { return wire_ ? &*wire_ : nullptr; }
 
  private:
   bool arrive(std::size_t from, const Frame& frame) EBAC_RT {

@@ -12,6 +12,7 @@ A first look::
                 print(change)
 """
 
+from ebac._core import TimedBus
 from ebac.drives.apply import Applied, apply, restore, verify
 from ebac.drives.backup import Backup, Backups
 from ebac.drives.bus import DriveBus
@@ -41,7 +42,7 @@ from ebac.drives.setting import Setting
 from ebac.drives.simulate import inject
 from ebac.drives.stall import check_stall, hold_time
 from ebac.drives.state import TRANSITIONS, Command, Controlword, State, Statusword, path
-from ebac.drives.timing import BusTiming, TimedBus, bus_timing
+from ebac.drives.timing import BusTiming, bus_timing
 
 __all__ = [
     "TRANSITIONS",

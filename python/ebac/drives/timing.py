@@ -6,7 +6,7 @@ import random
 from collections import defaultdict, deque
 from dataclasses import dataclass
 
-from ebac._core import TimedBus, _SimulatedWire
+from ebac._core import SimulatedWire, TimedBus
 from ebac._util.wrong_calls import plain_constructor
 from ebac.drives.network import Network
 
@@ -123,7 +123,7 @@ def bus_timing(
     ):  # fmt: skip
         if not low <= value <= high:
             raise ValueError(f"{name} = {value:g}: must lie in [{low:g}, {high:g}]")
-    wire = _SimulatedWire(
+    wire = SimulatedWire(
         stations=_DRIVES + len(network.nodes),
         bit_rate=network.bitrate,
         error_rate=error_rate,
@@ -145,7 +145,7 @@ class _Exchanges:
     def __init__(
         self,
         network: Network,
-        wire: _SimulatedWire,
+        wire: SimulatedWire,
         dt: float,
         wait: float,
         chance: random.Random,
