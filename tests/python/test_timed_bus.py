@@ -137,6 +137,14 @@ def test_the_command_with_and_without_the_time_of_the_bus() -> None:
     assert timed != prompt
 
 
+def test_the_command_counts_late_answers(tmp_path: Path) -> None:
+    file = tmp_path / "joystick.toml"
+    file.write_text(EXAMPLE.read_text().replace("[bus]", "[bus]\nanswer_share = 0.53", 1))
+    words = ["run", str(file), "--virtual", "--seconds", "1", "--no-files"]
+    shown = " ".join(CliRunner().invoke(app, words).stdout.split())
+    assert "answers came after the loop had stopped waiting" in shown
+
+
 @pytest.mark.parametrize(("share", "verdict"), [(0.7, "good"), (0.5, "fair"), (0.4, "bad")])
 def test_the_doctor_compares_both_times(tmp_path: Path, share: float, verdict: str) -> None:
     file = tmp_path / "joystick.toml"

@@ -207,6 +207,12 @@ def show(result: Result) -> None:
         output.say(
             "Everything was simulated, on a virtual clock: every tick in time.", style="bold"
         )
+        missing = result.trace["bus.missing"]
+        if late := int((missing[-1] - missing[0]).sum()):
+            output.say(
+                f"{output.plural(late, 'answer')} came after the loop had stopped waiting: see `ebac doctor` with this "
+                "configuration."
+            )
         return
     states = ", ".join(report.drives) or "not asked"
     output.say(f"Drives after it: {states}.")
