@@ -108,7 +108,7 @@ def begin(request: dict[str, Any]) -> None:
         file = os.open(name, flags, 0o644)
         os.dup2(file, stream.fileno())
         os.close(file)
-    sys.stdin = open(0, closefd=False)  # noqa: PTH123, SIM115 - the one before is amid its lines
+    sys.stdin = open(0, closefd=False)  # noqa: SIM115 - the one before is amid its lines
 
 
 if __name__ == "__main__":
