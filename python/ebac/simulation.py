@@ -7,6 +7,7 @@ from typing import Any
 
 from ebac import _core
 from ebac._util.arguments import require
+from ebac._util.fault_remedies import REMEDIES
 from ebac.laws import AnyLaw, CoreLaw, design, law_name
 from ebac.scenario import Scenario
 from ebac.trace import Trace
@@ -30,6 +31,8 @@ class LoopFault(RuntimeError):
         The first fault; it latched.
     trace : Trace
         Every row up to the stop; the last ones are the evidence.
+    remedy : str
+        What to do first; empty where a hand of your own raised an error.
 
     Where a hand of your own raised an error, that is its `__cause__`.
     """
@@ -37,6 +40,7 @@ class LoopFault(RuntimeError):
     def __init__(self, fault: _core.Fault, trace: Trace, hand: BaseException | None = None) -> None:
         self.fault = fault
         self.trace = trace
+        self.remedy = "" if hand is not None else REMEDIES[fault]
         row = int((trace["fault"] != 0).argmax())
         cause = fault.name.lower().replace("_", " ")
         if hand is not None:

@@ -1,6 +1,7 @@
 """Limits, states and soft start of a simulated run: nothing exceeds them, and without them nothing changes."""
 
 import math
+import re
 
 import numpy as np
 import pytest
@@ -9,6 +10,7 @@ from hypothesis import strategies as st
 
 import ebac
 from ebac import _core
+from ebac._util.fault_remedies import REMEDIES
 
 Limits = _core.Limits
 
@@ -152,6 +154,8 @@ def test_every_fault_and_every_limit_is_documented() -> None:
     )
     for fault in _core.Fault:
         if fault is not _core.Fault.NONE:
-            assert f"| {int(fault)} | `{fault.name}` |" in text
+            row = re.search(rf"^\| {int(fault)} \| `{fault.name}` \|.*\| (.+?) \|$", text, re.M)
+            assert row is not None
+            assert re.sub(r"\[([^]]+)\]\([^)]*\)", r"\1", row[1]) == REMEDIES[fault]
     for bit in _core.Limited:
         assert f"| {int(bit)} | `{bit.name}` |" in text

@@ -15,7 +15,7 @@ from ebac.cli import app
 from ebac.cli.files import FigureOptions
 from ebac.cli.run import names
 from ebac.hardware import Configuration, Run
-from ebac.hardware.report import lateness
+from ebac.hardware.report import lateness, lateness_of
 from ebac.simulation import LoopFault
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "joystick.toml"
@@ -95,6 +95,29 @@ class Ended(Run):
 
     def trace(self) -> ebac.Trace:
         return self.rows
+
+
+@pytest.mark.parametrize(
+    ("table", "named"),
+    [
+        ("[simulated.signs]\nmotor = [-1, 1]\n", "[simulated.signs] is other than [signs]"),
+        ("[simulated.zero]\ncounts = [12345, -7]\n", "[simulated.zero] is other than [zero]"),
+    ],
+)
+def test_wrong_wiring_is_not_passed_over(tmp_path: Path, table: str, named: str) -> None:
+    file = tmp_path / "joystick.toml"
+    file.write_text(EXAMPLE.read_text(encoding="utf-8") + "\n" + table, encoding="utf-8")
+    done = CliRunner().invoke(app, ["run", str(file), "--virtual", "--seconds", "1", "--no-files"])
+    assert done.exit_code == 2
+    assert named in " ".join(done.output.split())
+
+
+def test_a_fault_of_motion_speaks_of_lateness_where_ticks_were_skipped_only() -> None:
+    late = late_trace(ebac.Fault.OVERSPEED)
+    assert "skipped 12 ticks" in lateness_of(ebac.Fault.OVERSPEED, late)
+    in_time = late.with_column("skipped", np.zeros(len(late), np.int32))
+    assert lateness_of(ebac.Fault.OVERSPEED, in_time) == ""
+    assert lateness_of(ebac.Fault.DRIVE_SILENT, in_time) != ""
 
 
 @pytest.mark.parametrize("fault", [ebac.Fault.DRIVE_SILENT, ebac.Fault.WORKSPACE])

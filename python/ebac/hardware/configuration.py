@@ -211,11 +211,14 @@ class Configuration:
         ------
         LoopFault
             When the device leaves its limits, or answers stay away; carries the trace.
+        ConfigurationError
+            When `[simulated.signs]` or `[simulated.zero]` differ from `[signs]` and `[zero]`, which are taken as right.
         ValueError
             When the loop does not wait long enough for the answers, with both times.
         """
         from ebac.simulation import simulate
 
+        self._refuse_wrong_wiring()
         return simulate(
             self.scenario(seconds=seconds),
             self.design(),
@@ -224,6 +227,21 @@ class Configuration:
             limits=self.limits,
             soft_start=self.soft_start,
         )
+
+    def _refuse_wrong_wiring(self) -> None:
+        axes = self.device.axes
+        wrong = []
+        if self.signs.against(self.simulated_signs).of_all(axes) != Signs().of_all(axes):
+            wrong.append("[simulated.signs] is other than [signs]")
+        if self.simulated_zero is not None and (
+            self.simulated_zero.of_all(axes) != self.zero.of_all(axes)
+        ):
+            wrong.append("[simulated.zero] is other than [zero]")
+        if wrong:
+            raise ConfigurationError(
+                f"{self.name}: {' and '.join(wrong)}: on the virtual clock signs and zero are taken as right; "
+                "--simulated has them as configured"
+            )
 
     def __repr__(self) -> str:
         """Return one line: name, bus, drives, law, timing."""

@@ -202,6 +202,17 @@ PATIENT = {
 }
 
 
+#: Those of motion, which a late loop sees only where it skips ticks.
+BY_MOTION = frozenset({Fault.ENCODER_JUMP, Fault.OVERSPEED})
+
+
+def lateness_of(fault: Fault, trace: Trace) -> str:
+    """Return how late the loop was, where that may have led to a fault; else nothing."""
+    if fault not in BY_TIME or (fault in BY_MOTION and not trace["skipped"].any()):
+        return ""
+    return lateness(trace)
+
+
 def lateness(trace: Trace) -> str:
     """Return how late the loop was: "woke up to 12.3 ms late and skipped 14 ticks"; empty on a virtual clock."""
     most = 1e3 * float(trace["lateness"].max(initial=0.0))

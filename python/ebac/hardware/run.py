@@ -18,7 +18,7 @@ from ebac.drives.errors import DriveError
 from ebac.hardware.current_parameters import CurrentParameters
 from ebac.hardware.interrupts import Interrupts, OfParent
 from ebac.hardware.live_status import LiveStatus
-from ebac.hardware.report import BY_TIME, Report, lateness, remedy
+from ebac.hardware.report import Report, lateness_of, remedy
 from ebac.logs.about import SIMULATED_DRIVES
 from ebac.trace import Trace
 
@@ -228,7 +228,7 @@ class Run(LiveStatus):
             from ebac.simulation import LoopFault
 
             error = LoopFault(fault, trace)
-            if fault in BY_TIME and (late := lateness(trace)):
+            if late := lateness_of(fault, trace):
                 error.add_note(f"the loop {late}; {remedy(fault)}")
             raise error
         return trace

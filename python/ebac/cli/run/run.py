@@ -123,7 +123,8 @@ def run(
 
     * `ebac demo joystick`, then `ebac run joystick.toml --simulated`: ten seconds at the wall, without hardware.
 
-    * `ebac run joystick.toml --simulated --law tca --wall-stiffness 20000`: what plain torque control does there.
+    * `ebac run joystick.toml --simulated --law tca --wall-stiffness 20000`: plain torque control, which shakes
+      there and may end by fault 13 or 14.
 
     * `ebac run joystick.toml --virtual`: the same on a virtual clock, as fast as the machine computes.
 
@@ -254,7 +255,7 @@ def _give(
         notes: list[str] = getattr(fault, "__notes__", [])
         kept = [] if log is None else [f"its rows are in {log}"]
         other = ["--virtual instead of --simulated runs it on a virtual clock"]
-        hints = [*notes, *(other if notes and result.simulated else []), *kept]
+        hints = [*notes, fault.remedy, *(other if notes and result.simulated else []), *kept]
         text = str(fault).partition("; see")[0]
         output.fail("; ".join([text, *hints]), code=output.FAILED)
 

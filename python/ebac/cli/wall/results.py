@@ -104,7 +104,7 @@ def document(scenario: Scenario, contacts: list[Contact], through: str | None = 
 
 def report_fault(error: LoopFault, out: Path | None) -> NoReturn:
     """End the command, leaving the log of the run that stopped."""
-    what = str(error).partition("; see")[0]
+    what = "; ".join(filter(None, [str(error).partition("; see")[0], error.remedy]))
     if out is None:
         output.fail(f"{error.trace.law}: {what}; its log is kept with --out", code=output.FAILED)
     name = f"{error.trace.law}-fault.npz"
