@@ -10,6 +10,7 @@ other failure is one at once.
 import fcntl
 import os
 import re
+import shutil
 import signal
 import time
 from collections.abc import Callable, Iterator
@@ -223,3 +224,16 @@ def pytest_terminal_summary(terminalreporter: Any) -> None:
             if why:
                 told = f"repeated, this machine stalled its loop: {report.nodeid}: {', '.join(why)}"
                 terminalreporter.write_line(told, yellow=True)
+
+
+@pytest.fixture(scope="module")
+def browser() -> Iterator[Any]:
+    """Debian's chromium, driven by playwright; skipped where either is missing. EBAC_CHROMIUM names another."""
+    sync_api = pytest.importorskip("playwright.sync_api")
+    chromium = os.environ.get("EBAC_CHROMIUM") or shutil.which("chromium")
+    if not chromium:
+        pytest.skip("no chromium; EBAC_CHROMIUM may name one")
+    with sync_api.sync_playwright() as playwright:
+        opened = playwright.chromium.launch(executable_path=chromium, args=["--no-sandbox"])
+        yield opened
+        opened.close()

@@ -1,8 +1,6 @@
 """Long traces in a notebook: no peak is lost, axes have units, bad input is told."""
 
-import os
 import re
-import shutil
 import zlib
 from pathlib import Path
 from typing import Any
@@ -112,21 +110,6 @@ def test_the_page_stands_alone(minute: ebac.Trace, tmp_path: Path) -> None:
 
 
 # --- in a real browser ---
-
-CHROMIUM = os.environ.get("EBAC_CHROMIUM") or shutil.which("chromium")
-
-
-@pytest.fixture(scope="module")
-def browser() -> Any:
-    """Debian's chromium, driven by playwright; skipped where either is missing."""
-    sync_api = pytest.importorskip("playwright.sync_api")
-    if not CHROMIUM:
-        pytest.skip("no chromium; EBAC_CHROMIUM may name one")
-    with sync_api.sync_playwright() as playwright:
-        opened = playwright.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox"])
-        yield opened
-        opened.close()
-
 
 SHOWN = """() => {
   const found = {};

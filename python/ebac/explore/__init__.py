@@ -1,8 +1,9 @@
-"""Long traces in a notebook: zoomable, linked panels that stay fluid over a million rows and lose no peak."""
+"""In a notebook: long traces in zoomable panels that lose no peak, and sliders over a scenario."""
 
 from ebac.explore.exploration import Exploration, explore
+from ebac.explore.sliders import sliders
 
-__all__ = ["Exploration", "explore"]
+__all__ = ["Exploration", "explore", "sliders"]
 
 
 def __dir__() -> list[str]:

@@ -1,0 +1,209 @@
+"""`ebac.explore.sliders()`: wall, delay, law and hand under sliders in a notebook, simulated anew at every move."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ebac._core import Wall
+from ebac._util import formatting
+from ebac._util.arguments import require
+from ebac.metrics import contact
+from ebac.scenario import Scenario
+from ebac.simulation import LoopFault, simulate
+
+if TYPE_CHECKING:
+    from anywidget import AnyWidget
+
+    from ebac.trace import Trace
+
+_SCRIPT = Path(__file__).with_name("sliders.js")
+
+
+@dataclass(frozen=True)
+class Slider:
+    """One slider: what it is called, its unit and range; with `decades` equal ways are equal factors."""
+
+    name: str
+    label: str
+    unit: str
+    low: float
+    high: float
+    step: float
+    decades: bool = False
+
+
+SLIDERS = (
+    Slider("stiffness_N_per_m", "wall", "N/m", 100.0, 50e3, 0.0, decades=True),
+    Slider("delay_samples", "delay", "samples", 0, 8, 1),
+    Slider("hand_mass_kg", "hand: mass", "kg", 0.02, 1.0, 0.0, decades=True),
+    Slider("hand_damping_N_s_per_m", "hand: damping", "N s/m", 0.2, 50.0, 0.0, decades=True),
+    Slider("hand_stiffness_N_per_m", "hand: stiffness", "N/m", 10.0, 2000.0, 0.0, decades=True),
+)
+#: Laws to choose among unless others are given.
+LAWS = ("direct", "tca", "tca-damped", "eba", "ebac-printed", "ebac")
+
+
+def values_of(scenario: Scenario, law: str) -> dict[str, Any]:
+    """Return where the sliders stand for a scenario."""
+    wall, hand = scenario.environment, scenario.hand
+    assert isinstance(wall, Wall)
+    return {
+        "law": law,
+        "stiffness_N_per_m": wall.stiffness,
+        "delay_samples": scenario.timing.delay,
+        "hand_mass_kg": hand.mass,
+        "hand_damping_N_s_per_m": hand.damping,
+        "hand_stiffness_N_per_m": hand.stiffness,
+    }
+
+
+def moved(scenario: Scenario, values: dict[str, Any]) -> Scenario:
+    """Return a scenario with what the sliders say."""
+    wall = scenario.environment
+    assert isinstance(wall, Wall)
+    return scenario.replace(
+        environment=wall.replace(stiffness=float(values["stiffness_N_per_m"])),
+        timing=scenario.timing.replace(delay=int(values["delay_samples"])),
+        hand=scenario.hand.replace(
+            mass=float(values["hand_mass_kg"]),
+            damping=float(values["hand_damping_N_s_per_m"]),
+            stiffness=float(values["hand_stiffness_N_per_m"]),
+        ),
+    )
+
+
+def picture(trace: Trace) -> dict[str, Any]:
+    """Return what the page draws: panels of lines, as float32 bytes."""
+    from ebac.plot.style import COLOURS, OTHER_LAW
+
+    def line(name: str, colour: str, values: Any) -> dict[str, Any]:
+        return {
+            "name": name,
+            "colour": colour,
+            "y": np.ascontiguousarray(values, np.float32).tobytes(),
+        }
+
+    own = COLOURS.get(trace.law, OTHER_LAW)
+    return {
+        "t": np.ascontiguousarray(trace["t"], np.float32).tobytes(),
+        "panels": [
+            {
+                "label": "position [mm]",
+                "lines": [line("handle", own, 1e3 * trace.axis("true.x"))],
+            },
+            {
+                "label": "force [N]",
+                "lines": [
+                    line("of the wall", OTHER_LAW, trace.axis("f_env")),
+                    line("commanded", own, trace.axis("f_cmd")),
+                ],
+            },
+            {
+                "label": "energy [mJ]",
+                "lines": [line("at the port", own, 1e3 * trace.axis("true.energy"))],
+            },
+        ],
+    }
+
+
+def sliders(
+    scenario: Scenario | None = None, law: str = "ebac", *, laws: Sequence[str] = LAWS
+) -> AnyWidget:
+    """Return a widget for a notebook: every move of a slider simulates the scenario anew and redraws it.
+
+    Needs `pip install 'ebac[notebook]'`.
+
+    Parameters
+    ----------
+    scenario : Scenario, optional
+        Where the sliders stand at first; default: `Scenario(seconds=2)`. Its environment must be a wall.
+    law : str
+        The law at first.
+    laws : sequence of str
+        The laws to choose among.
+
+    Returns
+    -------
+    anywidget.AnyWidget
+        With `values`, where the sliders stand (units in the names; may be set), `scenario` and `trace`, what was
+        simulated last, `verdict` and `error`.
+
+    Raises
+    ------
+    TypeError
+        For a world that is no wall.
+    ValueError
+        For a law that is not among `laws`.
+    ImportError
+        Without anywidget.
+    """
+    try:
+        from anywidget import AnyWidget
+        from traitlets import Any as Anything
+        from traitlets import Dict, Int, List, Unicode
+    except ImportError as error:
+        raise ImportError("sliders need anywidget: pip install 'ebac[notebook]'") from error
+    start = Scenario(seconds=2.0) if scenario is None else scenario
+    require(start, Scenario, "ebac.explore.sliders", "a Scenario")
+    if not isinstance(start.environment, Wall):
+        kind = type(start.environment).__name__
+        raise TypeError(f"ebac.explore.sliders: the environment is a {kind}: must be a Wall")
+    if law not in laws:
+        raise ValueError(f"ebac.explore.sliders: law = {law!r}: must be one of {', '.join(laws)}")
+
+    class Sliders(AnyWidget):
+        """Sliders over a simulated press."""
+
+        _esm = _SCRIPT
+        controls: List[Any] = List().tag(sync=True)
+        laws: List[Any] = List().tag(sync=True)
+        values = Dict().tag(sync=True)
+        picture = Dict().tag(sync=True)
+        verdict = Unicode().tag(sync=True)
+        error = Unicode().tag(sync=True)
+        serial = Int().tag(sync=True)  # of the answer: the page may send the next values
+        scenario = Anything()
+        trace = Anything()
+
+        def run(self, _change: object = None) -> None:
+            """Simulate what the sliders say."""
+            try:
+                self.scenario = moved(start, self.values)
+                trace = simulate(self.scenario, self.values["law"])
+            except LoopFault as fault:
+                trace, verdict = fault.trace, f"fault: {fault.fault.name.lower().replace('_', ' ')}"
+            except (ValueError, TypeError, KeyError) as error:
+                with self.hold_sync():
+                    self.error = str(error)
+                    self.serial += 1
+                return
+            else:
+                measured = contact(trace)
+                rest = formatting.quantity(measured.deviation_m, "m", signed=True)
+                verdict = f"{formatting.verdict(measured)}; rests {rest} from the ideal wall"
+            with self.hold_sync():
+                self.error, self.verdict = "", verdict
+                self.trace, self.picture = trace, picture(trace)
+                self.serial += 1
+
+    made = Sliders(
+        controls=[asdict(one) for one in SLIDERS],
+        laws=list(laws),
+        values=values_of(start, law),
+    )
+    for one in SLIDERS:
+        at = made.values[one.name]
+        if not math.isfinite(at) or not one.low <= at <= one.high:
+            raise ValueError(
+                f"ebac.explore.sliders: {one.label} = {at:g} {one.unit}: must lie in "
+                f"[{one.low:g}, {one.high:g}] {one.unit}"
+            )
+    made.observe(made.run, names="values")
+    made.run()
+    return made
