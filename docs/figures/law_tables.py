@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable
 
-from printed import NOISE, Printed, Row, code, fixed, joules, table
+from printed import NOISE, Printed, Row, code, fixed, millijoules, table
 
 import ebac
 from ebac.studies.conditions import conditions
@@ -22,9 +22,9 @@ MEASURES: tuple[tuple[str, str, Callable[[float | None], str]], ...] = (
     ("good_d2_K20", "20 kN/m, delay 2", lambda n: fixed(n, 0)),
     ("good_slow_press_d2_K20", "the same, slow press", lambda n: fixed(n, 0)),
     ("good_tremor", "tremor", lambda n: fixed(n, 0)),
-    ("least_energy_impact_J", "impact [mJ]", joules),
-    ("least_energy_let_go_J", "let go [mJ]", joules),
-    ("least_energy_pumping_J", "pumping [mJ]", joules),
+    ("least_energy_impact_J", "impact [mJ]", millijoules),
+    ("least_energy_let_go_J", "let go [mJ]", millijoules),
+    ("least_energy_pumping_J", "pumping [mJ]", millijoules),
     ("ripple_N", "ripple [N]", lambda f: fixed(f, 2)),
     ("ripple_noise_N", "with noise [N]", lambda f: fixed(f, 2)),
     ("force_step_N", "step inside [N]", lambda f: fixed(f, 1)),
@@ -85,9 +85,9 @@ def worst(printed: Printed) -> str:
         hand = family.make(where.change(NOISY), values)
         others = [(True, 1, 1), (False, 64, 1), (True, 64, 1), (False, 1, 5)]
         rows.append(
-            [code(family.name), joules(r["energy_drawn_J"]), fixed(r["most_pull_N"], 1),
-             *(joules(_behind(hand, *other)) for other in others),
-             *(joules(found[family.name]) for found in (free, alone))]
+            [code(family.name), millijoules(r["energy_drawn_J"]), fixed(r["most_pull_N"], 1),
+             *(millijoules(_behind(hand, *other)) for other in others),
+             *(millijoules(found[family.name]) for found in (free, alone))]
         )  # fmt: skip
     heads = ["family", "drawn [mJ]", "hardest pull [N]", "no current lag", "64 times the counts", "both",
              "five times as long", "guard off: drawn [mJ]", "`--no-observer`: drawn [mJ]"]  # fmt: skip

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from printed import NOISE, Printed, Row, code, fixed, joules, table
+from printed import NOISE, Printed, Row, code, fixed, joules, millijoules, table
 
 CELLS = f"study -c cells {NOISE}"
 FIVE = f"study -c five --population random --hands 500 {NOISE} --seed"
@@ -49,7 +49,7 @@ def grid(printed: Printed) -> str:
     ]
     rows = [
         [name, str(r["good"]), str(r["exact_and_still"]), str(r["force_quiet"]), str(r["settled_in_time"]),
-         joules(r["least_energy_J"]), joules(r["most_drawn_J"]), fixed(r["median_settled_s"], 2)]
+         millijoules(r["least_energy_J"]), millijoules(r["most_drawn_J"]), fixed(r["median_settled_s"], 2)]
         for name, r in (
             *((code(r["law"]), r) for r in printed.rows(f"study {NOISE} --law all")),
             (ALONE_NAME, printed.rows(f"study {NOISE} {ALONE}")[0]),
@@ -68,7 +68,7 @@ def cells(printed: Printed) -> str:
     hands = total(surface, "hands")
     rows = [
         [name, total(r, "good"), total(r, "exact_and_still"), total(r, "settled_in_time"),
-         joules(least(r)), joules(drawn(r))]
+         millijoules(least(r)), millijoules(drawn(r))]
         for name, r in named.items()
     ]  # fmt: skip
     heads = [
@@ -105,7 +105,9 @@ def five(printed: Printed) -> str:
         return [f"{good} / {still}" for good, still in pairs]
 
     ours = [row for seed in seeds for row in seed["ebac"]]
-    rows = [[code(law), *both(law), joules(min(least(s[law]) for s in seeds))] for law in seeds[0]]
+    rows = [
+        [code(law), *both(law), millijoules(min(least(s[law]) for s in seeds))] for law in seeds[0]
+    ]
     rows += [["`ebac`, in time", *map(str, fewest("ebac", "settled_in_time")), ""]]
     rows += [["ideal wall", *map(str, fewest("ebac", "ideal_good")), ""]]
     return (
@@ -138,7 +140,7 @@ def robustness_energy(printed: Printed) -> str:
     """Least port energy under every condition of the robustness list."""
     every = _robustness(printed)
     first = [code(r["condition"]) for r in every["`ebac`"]]
-    columns = [[joules(r["least_energy_J"]) for r in rows] for rows in every.values()]
+    columns = [[millijoules(r["least_energy_J"]) for r in rows] for rows in every.values()]
     return table(["condition", *every], list(zip(first, *columns, strict=True)))
 
 
@@ -150,7 +152,7 @@ def models(printed: Printed) -> str:
     every = by_law(printed.rows(f"study -c hands {NOISE} --law {LAWS}"))
     rows = [
         [code(first["condition"]), *(_pair(r[i], "good", "exact_and_still") for r in every.values()),
-         *(joules(r[i]["least_energy_J"]) for r in every.values())]
+         *(millijoules(r[i]["least_energy_J"]) for r in every.values())]
         for i, first in enumerate(every["ebac"])
     ]  # fmt: skip
     good = [f"{code(law)}, good of {every[law][0]['hands']}" for law in every]
@@ -165,7 +167,7 @@ def held(printed: Printed) -> str:
         *((ALONE_NAME, r) for r in printed.rows(f"{long} {ALONE}")),
     ]
     rows = [
-        [code(r["condition"]), name, joules(r["least_energy_J"]),
+        [code(r["condition"]), name, millijoules(r["least_energy_J"]),
          f"{round(1e6 * r['least_rest_power_W'], 1) + 0.0:.1f}"]
         for name, r in sorted(found, key=lambda one: one[1]["condition"] == "hold-1h")
     ]  # fmt: skip

@@ -109,6 +109,17 @@ def joules(energy: float | None, unit: str = "") -> str:
     return told.replace(" ", "\u00a0")
 
 
+def millijoules(energy: float | None) -> str:
+    """Return an energy [J] in mJ; from 1 J on rounded to 0.1 J, from 100 J on to 1 J; 0 below `NOTHING`."""
+    if energy is None:
+        return "-"
+    if abs(energy) < NOTHING:
+        return "0"
+    if abs(energy) < 0.9995:
+        return f"{1e3 * energy:.3g}"
+    return f"{round(1e3 * energy, -3 if abs(energy) >= 99.95 else -2):,.0f}"
+
+
 def fixed(number: float | None, digits: int, scale: float = 1.0) -> str:
     """Return a number with so many digits behind the point."""
     return "-" if number is None else f"{scale * number:.{digits}f}"

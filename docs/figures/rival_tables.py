@@ -7,7 +7,7 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 
 import numpy as np
-from printed import NOISE, Printed, Row, code, fixed, joules, table
+from printed import NOISE, Printed, Row, code, fixed, millijoules, table
 
 import ebac
 from ebac.laws import shown_value
@@ -117,7 +117,12 @@ def _given_out(printed: Printed, law: str, how: str, impacts: list[Row]) -> list
     worst = printed.rows(f"worst --evaluations 150 {how} --law {law}")
     drawn = max(row["energy_drawn_J"] for row in worst)
     impact = min(part["least_energy_J"] for part in impacts)
-    return [joules(impact), joules(min(let_go)), joules(pumping), joules(-drawn)]
+    return [
+        millijoules(impact),
+        millijoules(min(let_go)),
+        millijoules(pumping),
+        millijoules(-drawn),
+    ]
 
 
 def tuned_values(printed: Printed) -> str:
