@@ -33,7 +33,8 @@ def drive() -> None:
 
     * `ebac drive plan joystick --interface ebac --channel joystick`: what would change?
 
-    * `ebac drive apply joystick --yes --interface ebac --channel joystick`: set it
+    * `ebac drive apply joystick --yes --interface ebac --channel joystick`: set it. A real drive keeps it; these
+      simulated ones are gone when the command ends
     """
 
 
