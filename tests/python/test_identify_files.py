@@ -195,3 +195,65 @@ def test_trials_in_an_array_of_structs_are_columns(tmp_path: Path) -> None:
     assert load(tmp_path / "log.mat", columns=columns).x == pytest.approx(2 * X)
     with pytest.raises(ValueError, match="found no position among trials_1_t, trials_1_x"):
         load(tmp_path / "log.mat")
+
+
+# --- which column is the position ---
+
+
+@pytest.mark.parametrize(
+    "heading",
+    [
+        "pos",
+        "Pos [mm]",
+        "handle pos",
+        "Handle Pos [mm]",
+        "handle_pos",
+        "Handle Position (mm)",
+        "pos_x",
+    ],
+)
+def test_usual_names_of_a_position_are_read(heading: str, tmp_path: Path) -> None:
+    (tmp_path / "log.csv").write_bytes(text(f"Time [s],{heading},Force [N]", T, 1e3 * X, F))
+    found = load(tmp_path / "log.csv", units={"x": "mm"})
+    assert found.x == pytest.approx(X, rel=1e-4, abs=1e-9)
+    assert found.force is not None
+
+
+@pytest.mark.parametrize(
+    "heading",
+    [
+        "Target Pos [mm]",
+        "pos_error",
+        "Desired Position [mm]",
+        "Motor Pos [mm]",
+        "pose",
+        "handle force",
+    ],
+)
+def test_nothing_else_is_read_as_a_position(heading: str, tmp_path: Path) -> None:
+    (tmp_path / "log.csv").write_bytes(text(f"t,{heading},Fz", T, 1e3 * X, F))
+    with pytest.raises(ValueError, match="found no position among"):
+        load(tmp_path / "log.csv")
+
+
+def test_other_positions_do_not_take_the_place_of_the_handle(tmp_path: Path) -> None:
+    head = "t,Target Pos [m],Motor Pos [m],Handle Pos [m],force"
+    (tmp_path / "log.csv").write_bytes(text(head, T, 5 * X, 3 * X, X, F))
+    found = load(tmp_path / "log.csv")
+    assert found.x == pytest.approx(X, rel=1e-4, abs=1e-9)
+    assert found.target is None
+
+
+def test_a_position_that_is_not_found_names_the_argument_or_the_option(tmp_path: Path) -> None:
+    log = tmp_path / "log.csv"
+    log.write_bytes(text("t,Handle Way [m],force", T, X, F))
+    with pytest.raises(ValueError, match="which is it") as refused:
+        load(log)
+    assert "columns={'x': 'Handle Way'}" in str(refused.value)
+    assert "--column" not in str(refused.value)
+    assert load(log, columns={"x": "Handle Way"}).x == pytest.approx(X, rel=1e-4, abs=1e-9)
+    said = " ".join(CliRunner().invoke(app, ["identify", "arm", str(log)]).output.split())
+    assert '--column "x=Handle Way"' in said
+    assert "columns=" not in said
+    log.write_bytes(text("t,way,force", T, X, F))
+    assert "--column x=way" in CliRunner().invoke(app, ["identify", "arm", str(log)]).output

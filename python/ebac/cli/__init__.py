@@ -53,7 +53,7 @@ def main(
 ) -> None:
     """Simulate and run haptic controllers: virtual walls, energy-bounding laws, a 1 kHz loop.
 
-    Start with `ebac wall`: a hand against a virtual wall of 10 kN/m under three laws.
+    Start with `ebac wall`: a hand against a virtual wall of 10 kN/m under four laws.
 
     Tables show mm, N, mJ, s and Hz. Options and `--json` are in SI units throughout.
     """

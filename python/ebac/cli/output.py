@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Annotated, Any, NoReturn, TypeAlias
 
 import typer
 
+from ebac.cli.tables import filled as filled
 from ebac.cli.tables import show as show
 from ebac.cli.tables import table as table
 

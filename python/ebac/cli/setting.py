@@ -136,6 +136,7 @@ def population(name: str, hands: int | None, seed: int, approach: float | None =
 def in_options(message: str) -> str:
     """Return what the library says of a value, by the name of the option that gave it."""
     message = message.replace("resume=False", "--force instead of --resume")
+    message = re.sub(r"""columns=\{'(\w+)': (['"])(.*?)\2\}""", _column, message)
     for pattern in (r"(?:[\w ]+: )?([A-Za-z_.]+)(?= ?= )", r"(?:[a-z_]+: )?([a-z_]+)(?= \S+: )"):
         found = re.match(pattern, message)
         if found is None:
@@ -147,6 +148,12 @@ def in_options(message: str) -> str:
         if option is not None:
             return option + message[found.end() :]
     return message
+
+
+def _column(found: re.Match[str]) -> str:
+    """Return the option for columns={'x': 'Handle Pos'}: --column "x=Handle Pos"."""
+    pair = f"{found[1]}={found[3]}"
+    return f'--column "{pair}"' if re.search(r"\s|'", pair) else f"--column {pair}"
 
 
 def given(**options: Any) -> dict[str, Any]:

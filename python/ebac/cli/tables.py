@@ -25,6 +25,13 @@ def table(headings: Sequence[str], *, numbers: Sequence[int] = ()) -> Table:
     return grid
 
 
+def filled(grid: Table) -> Table:
+    """Return a table without the columns that are empty, or "-", in every row."""
+    return _part(
+        grid, [i for i, c in enumerate(grid.columns) if any(x not in ("", "-") for x in c.cells)]
+    )
+
+
 def show(grid: Table) -> None:
     """Print a table, in parts where it is wider than the screen."""
     from rich.console import Console

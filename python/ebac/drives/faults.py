@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
+
 #: Bits of 0x2183, latched faults (Copley): name, what to check.
 LATCHED: tuple[tuple[int, str, str], ...] = (
     (0, "data flash corrupt", "return the drive or load its firmware again"),
@@ -60,9 +62,49 @@ EMERGENCIES: dict[int, str] = {
 
 def latched(word: int) -> list[str]:
     """Return the names of the latched faults in 0x2183, each with what to check."""
-    known = sum(1 << bit for bit, _, _ in LATCHED)
-    named = [f"{name} ({check})" for bit, name, check in LATCHED if word >> bit & 1]
+    return named_bits(word, [f"{name} ({check})" for _, name, check in LATCHED])
+
+
+#: Bits of 0x1001, error register (CiA 301).
+ERRORS = (
+    "generic",
+    "current",
+    "voltage",
+    "temperature",
+    "communication",
+    "of the profile",
+    "",
+    "of the maker",
+)
+#: Bits of 0x6502, supported modes (CiA 402-2).
+MODES = (
+    *(
+        "profile position",
+        "velocity",
+        "profile velocity",
+        "torque",
+        "",
+        "homing",
+        "interpolated position",
+    ),
+    *("cyclic position", "cyclic velocity", "cyclic torque"),
+)
+
+
+def named_bits(word: int, names: Sequence[str]) -> list[str]:
+    """Return the names of the bits that are set, from bit 0 on; those without a name as one number."""
+    known = sum(1 << bit for bit, name in enumerate(names) if name)
+    named = [name for bit, name in enumerate(names) if name and word >> bit & 1]
     return [*named, f"unknown bits 0x{word & ~known:X}"] if word & ~known else named
+
+
+#: What the bits of an object mean, by its name.
+BITS: dict[str, Callable[[int], list[str]]] = {
+    "latched_faults": latched,
+    "error_register": lambda word: named_bits(word, ERRORS),
+    "supported_modes": lambda word: named_bits(word, MODES),
+    "error_code": lambda code: [emergency(code)],
+}
 
 
 def emergency(code: int) -> str:

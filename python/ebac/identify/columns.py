@@ -17,11 +17,12 @@ QUANTITIES: dict[str, tuple[str, ...]] = {
     "target": ("length", "angle", "count"),
 }
 
-#: Names that a column may have, the surest first; compared in small letters without unit.
+#: Names that a column may have, the surest first; compared in small letters without unit, words joined by "_".
 NAMES: dict[str, tuple[str, ...]] = {
     "t": ("t", "time", "timestamp", "zeit", "seconds", "sec"),
     "x": (
         *("x", "x_0", "pos", "position", "px", "x_pos", "handle", "displacement"),
+        *("handle_pos", "handle_position", "handle_x", "pos_x", "position_x", "x_position"),
         *("theta", "theta_0", "phi", "angle", "q", "q_0", "joint_angle", "joint_position"),
         *("knob", "encoder", "enc", "counts"),
     ),
@@ -74,6 +75,11 @@ def name_and_unit(signal: str, heading: str) -> tuple[str, str | None]:
     return split_heading(heading, _units(signal))
 
 
+def _joined(signal: str, heading: str) -> str:
+    """Return the name in a heading in small letters, its words joined: handle_pos of `Handle Pos [mm]`."""
+    return "_".join(name_and_unit(signal, heading)[0].lower().split())
+
+
 def quantity_of(
     file: str, signal: str, heading: str, unit: str | None
 ) -> tuple[str | None, str | None]:
@@ -93,7 +99,7 @@ def quantity_of(
         raise ValueError(
             f"{file}: {signal} in {unit!r}: must be one of {', '.join(known)}; convert the column, or name the unit"
         )
-    name = name_and_unit(signal, heading)[0].lower()
+    name = _joined(signal, heading)
     says = (q for q in QUANTITIES[signal] if q in _SAYS and _SAYS[q].fullmatch(name))
     return next(says, None), None
 
@@ -119,7 +125,7 @@ def assign(
     for signal, names in NAMES.items():
         if signal in chosen:
             continue
-        bare = {name_and_unit(signal, h)[0].lower(): h for h in headings}
+        bare = {_joined(signal, h): h for h in headings}
         match = next((bare[n] for n in names if n in bare and bare[n] not in chosen.values()), None)
         if match is not None:
             chosen[signal] = match

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from ebac.identify import unrecorded_motor
 from ebac.identify.bias import likely_drift, likely_noise, without_noise
 from ebac.identify.intervals import covariance, loose_inverse
 from ebac.identify.level_forces import LevelForces
@@ -185,6 +186,7 @@ def _spread(
         jacobian = problem.jacobian(values, gains, problem.moved)
     unseen = problem.jacobian(values, gains, problem.unseen.which)
     unseen *= problem.unseen.deviation[:, None]
+    unseen = np.vstack([unseen, unrecorded_motor.unseen(problem, values, gains)])
     lengths = [len(r.t) for r in problem.recordings]
     sure = problem.doubt.deviation
     return covariance(jacobian, errors, lengths, robust, sure, pretended, unseen, problem.folds)

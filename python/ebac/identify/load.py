@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -11,7 +11,7 @@ import numpy as np
 
 from ebac._util.serialisation import unknown
 from ebac._util.text_file import says_simulated
-from ebac.identify.columns import QUANTITIES, assign, listed
+from ebac.identify.columns import QUANTITIES, assign, listed, name_and_unit
 from ebac.identify.files import Columns, Table, archive_of, read_columns
 from ebac.identify.of_trace import path_of, signals_of, trace_facts, where_met
 from ebac.identify.plausible import plausible
@@ -140,7 +140,7 @@ UNUSED = {
     "counts_per_turn": "the log is of a handle, in m and N",
     "torque_constant": "the log is of a handle, in m and N",
     "force_constant": "the log is of a handle, in m and N",
-    "axis": "the file has one axis; name its columns instead: columns={...} or --column x=NAME",
+    "axis": "the file has one axis; name its columns instead: columns={'x': 'NAME'}",
 }
 
 
@@ -226,7 +226,8 @@ def _recording(
     remarks += [f"column {column!r} is left out: it holds text" for column in words]
     if "x" not in chosen:
         raise ValueError(
-            f"{name}: found no position among {listed(list(raw))}; which is it? columns={{'x': ...}} or --column x=NAME"
+            f"{name}: found no position among {listed(list(raw))}; which is it? For example "
+            f"columns={{'x': {_example(list(raw), chosen)!r}}}"
         )
     signals: dict[str, Any]
     signals, rotary, said = in_si(
@@ -235,7 +236,9 @@ def _recording(
     remarks += said
     if len({len(values) for values in signals.values()}) > 1:
         rows = (f"{key} (column {chosen[key]!r}) has {len(v)} rows" for key, v in signals.items())
-        raise ValueError(f"{name}: {', '.join(rows)}; name columns of one trial: --column x=NAME")
+        raise ValueError(
+            f"{name}: {', '.join(rows)}; name columns of one trial: columns={{'x': 'NAME'}}"
+        )
     if rate is not None and "t" in signals:
         signals.pop("t")
         remarks = [text for text in remarks if not text.startswith("t: ")]
@@ -254,6 +257,12 @@ def _recording(
     step = f"{1e3 * found:.4g} {'mrad' if rotary else 'mm'}"
     remarks.append(f"encoder step of {step} found in x" if found else "x shows no encoder step")
     return Recording(name=name, count=found, remarks=tuple(remarks), rotary=rotary, **even)
+
+
+def _example(headings: Sequence[str], chosen: Mapping[str, str]) -> str:
+    """Return the first column that is no other signal, by its name without unit."""
+    left = (h for h in headings if h not in chosen.values())
+    return next((name_and_unit("x", h)[0] for h in left), "NAME")
 
 
 def _evenly(name: str, signals: Columns, remarks: list[str]) -> Columns:

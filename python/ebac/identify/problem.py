@@ -221,8 +221,8 @@ WITHIN_TICK = {"onset": 0.15, "stair": 0.4}
 #: Left as they are, and carried into the intervals; a fit would misuse them to smooth the noise of the force. How the
 #: force bent between two rows, as a share of its second difference (0 for straight, 1/12 for a smooth curve).
 BEND = 1 / 18
-#: When within a tick the force was read [ticks]: with the motor's force in the log its ripple is known, without it is
-#: some hundredths of a tick.
+#: When within a tick the force was read [ticks]: with the motor's force in the log its ripple is known; without it, see
+#: also `unrecorded_motor`.
 DELAY_DRIVEN, DELAY = 0.005, 0.04
 
 

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ebac._core import Hand, Recorded, Step
-from ebac.identify import informativeness, validation
+from ebac.identify import informativeness, unrecorded_motor, validation
 from ebac.identify.intervals import Z95
 from ebac.identify.parameters import BEFORE_LEVELS, OWN, Parameters, kind
 from ebac.identify.problem import Problem, arm_record
@@ -185,6 +185,11 @@ class ArmResult:
         """What the model misses, a sentence each; empty where it changes no result."""
         return validation.misses(self)
 
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What widens the intervals because the log does not contain it, a sentence each."""
+        return unrecorded_motor.notes(self.recordings, self.parameters, self.values)
+
     @cached_property
     def hand(self) -> Hand:
         """The hand, for a `Scenario`: of the first recording, its last level as target.
@@ -281,6 +286,7 @@ class ArmResult:
             "undetermined": list(self.undetermined),
             "impossible": list(self.impossible),
             "misses": list(self.misses),
+            "notes": list(self.notes),
             "force_noise_N": self.force_noise.tolist(),
             "force_drift_N_per_sqrt_s": self.drift,
             "predictions": [vars(p) for p in self.predictions()],
@@ -318,7 +324,7 @@ class ArmResult:
             f"  {a} and {b} cannot be separated in this log (correlation {r:+.3f})"
             for a, b, r in self.inseparable
         ]
-        lines += [f"  {text}" for text in self.misses]
+        lines += [f"  {text}" for text in (*self.misses, *self.notes)]
         if not self.converged:
             lines.append("  the search did not converge")
         return "\n".join(lines)

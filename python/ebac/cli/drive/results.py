@@ -12,8 +12,8 @@ if TYPE_CHECKING:
     from ebac.drives import Change, Drive, Network, Object
 
 
-#: Columns of a terminal below which what an object means finds no room.
-WIDE = 100
+#: Columns of a terminal below which what an object means stands below its name.
+WIDE = 130
 
 
 def changes(found: Sequence[Change], none: str) -> None:
@@ -62,17 +62,19 @@ def found(rows: Sequence[dict[str, Any]]) -> None:
 
 def objects(rows: Sequence[dict[str, Any]]) -> None:
     """Show the objects of drives; their names whole, as these are what one types."""
-    console = output.console()
-    wide = console.width >= WIDE
-    columns = ["node", "object", "", "value", "unit", *(["meaning"] if wide else [])]
-    grid = output.table(columns, numbers=(0, 3))
+    from rich.markup import escape
+
+    wide = output.console().width >= WIDE
+    more = ["unit", "meaning"] if wide else []
+    grid = output.table(["node", "object", "", "value", *more], numbers=(0, 3))
     for row in rows:
-        words = [row["object"], row["name"], row["text"], row["unit"], row["meaning"]]
-        grid.add_row(str(row["node"]), *words[: len(columns) - 1])
-    grid.columns[2].min_width = max((len(row["name"]) for row in rows), default=0)
-    console.print(grid)
-    if not wide:
-        output.say(f"What each one means: in a terminal of {WIDE} columns, or with --json.")
+        node, where, name, unit = (str(row[n]) for n in ("node", "object", "name", "unit"))
+        text, meaning = escape(row["text"]), escape(row["meaning"])
+        if wide:
+            grid.add_row(node, where, name, text, unit, meaning)
+        else:
+            grid.add_row(node, where, f"{name}\n[dim]{meaning}[/]", f"{text} {unit}".rstrip())
+    output.show(grid)
 
 
 def who(drive: Drive) -> dict[str, Any]:
@@ -151,6 +153,7 @@ def _objects(drive: Drive, everything: bool) -> Iterator[Object]:
 
 def _text(obj: Object, value: int | str) -> str:
     """Return a value as people read it, without its unit."""
+    from ebac.drives.faults import BITS
     from ebac.drives.objects import mapped
     from ebac.drives.state import State
 
@@ -160,6 +163,9 @@ def _text(obj: Object, value: int | str) -> str:
             return f"{text} ({State.of(value).value})"
         except ValueError:
             return f"{text} (no state of CiA 402)"
+    decode = BITS.get(obj.name)
+    if decode is not None and isinstance(value, int) and value:
+        return f"{text}: {'; '.join(decode(value))}"
     if "_entry" in obj.name and isinstance(value, int) and value:
         return mapped(value)
     return text

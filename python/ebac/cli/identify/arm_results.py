@@ -22,6 +22,21 @@ def careful(result: ArmResult) -> list[str]:
     return out
 
 
+def names(result: ArmResult) -> list[str]:
+    """Return what the names of a table mean where that does not show, a sentence each."""
+    shown = [e.name for e in result.shown]
+    levels = list(dict.fromkeys(n.split("@")[0] for n in shown if n.startswith("X0/")))
+    out = []
+    if levels:
+        out.append(
+            f"{', '.join(levels)}: where the hand wants to be, a position for each level of its target, in order; "
+            "tapping has two, for the first and the second half of each period."
+        )
+    if any("@" in name for name in shown):
+        out.append("NAME@2: of the second log; without @, of all logs.")
+    return out
+
+
 def show(
     result: ArmResult, profiles: Any, predictions: Any, opinions: Any, remarks: dict[str, list[str]]
 ) -> None:
@@ -35,7 +50,9 @@ def show(
         prof = "-" if e.name not in profiles else "{:.4g} to {:.4g}".format(*profiles[e.name])
         word = "given" if e.fixed else "" if e.determined else "[red]not determined[/]"
         grid.add_row(e.name, f"{e.value:.4g}", wide, prof, e.unit, word)
-    output.show(grid)
+    output.show(output.filled(grid))
+    for text in names(result):
+        output.say(text)
     for p in predictions:
         kind = "held out" if p.held_out else "fitted"
         output.say(
@@ -50,6 +67,8 @@ def show(
         output.say(
             "A log of a closed loop is fitted directly; without a moving target there is no second opinion."
         )
+    for text in result.notes:
+        output.say(text)
     for text in careful(result):
         output.say(text, style="bold red")
 
@@ -67,6 +86,7 @@ def write(
     from ebac.identify.figures import plot_arm
 
     notes = [f"{name}: {text}" for name, lines in remarks.items() for text in lines]
+    notes += [*names(result), *result.notes]
     notes += [
         f"{p.recording}: VAF {100 * p.vaf:.2f} %, NRMSE {100 * p.nrmse:.2f} %{' (held out)' if p.held_out else ''}"
         for p in predictions

@@ -53,7 +53,7 @@ def device(
     for e in result.estimates.values():
         word = "" if e.determined else "[red]not determined[/]"
         grid.add_row(e.name, f"{e.value:.4g}", f"{e.low:.4g} to {e.high:.4g}", e.unit, word)
-    output.show(grid)
+    output.show(output.filled(grid))
     for text in _notes(result):
         output.say(text)
     if to.out is not None:

@@ -136,7 +136,7 @@ def gains(
     grid = output.table([heading, *(row[heading] for row in table)], numbers=(1, 2, 3))
     for name in names:
         grid.add_row(name, *(row[name] for row in table))
-    output.show(grid)
+    output.show(output.filled(grid))
     for text in _notes(result):
         output.say(text)
     output.say("Simulated, not measured.", style="bold")

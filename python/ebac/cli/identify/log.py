@@ -57,6 +57,6 @@ def log(
                     f"{100 * share:.2g} %" if share is not None and share < 10 else "-",
                     row["remedy"],
                 )
-            output.show(grid)
+            output.show(output.filled(grid))
     if not all(row["told"] for row in rows):
         raise typer.Exit(output.FAILED)

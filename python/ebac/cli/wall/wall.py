@@ -25,7 +25,7 @@ TICKS = (10, 2_000_000)
 def wall(
     setup: options.ScenarioOptions,
     to: ResultOptions,
-    law: Annotated[list[str] | None, options.laws("tca, eba, ebac")] = None,
+    law: Annotated[list[str] | None, options.laws(", ".join(DEFAULT_LAWS))] = None,
     through: Annotated[
         str | None,
         options.option(
@@ -57,7 +57,8 @@ def wall(
 
     **Examples**
 
-    * `ebac wall`: the paper's experiment. TCA swings, EBA rests too deep, EBAC does neither.
+    * `ebac wall`: the paper's experiment. TCA swings, damped TCA is not quiet in force, EBA rests
+    too deep, EBAC does none of it.
 
     * `ebac wall --law all --wall-stiffness 20000 --delay 2`: every law
 

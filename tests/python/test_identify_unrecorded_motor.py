@@ -1,0 +1,93 @@
+"""A log without the motor's force: intervals that hold the truth, and a remark."""
+
+import json
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+from ebac import Scenario, identify, simulate
+from ebac._core import Device, ForceSensor, Free, Hand, Mechanics, Step
+from ebac.cli import app
+from ebac.datasets.logs import NOISE, Perturbation
+from ebac.identify import Recording, excitation
+from ebac.identify.unrecorded_motor import late
+
+
+def pushed(
+    seed: int, mass: float, damping: float, stiffness: float, lag: float, handle: float = 0.25
+) -> Recording:
+    """Return a log as that of `ebac demo arm`, of another hand, device and force sensor."""
+    _, force = excitation.multisine(6.0, low=0.3, high=20.0, seconds=10.0, tries=0)
+    scenario = Scenario(
+        device=Device(
+            mechanics=Mechanics(handle_mass=handle), sensor=ForceSensor(noise=NOISE, lag=lag)
+        ),
+        hand=Hand(mass=mass, damping=damping, stiffness=stiffness, path=Step(target=0.0)),
+        environment=Free(),
+        seconds=10.0,
+        seed=seed,
+    )
+    trace = simulate(scenario, Perturbation([*force[137 * seed :], *force[: 137 * seed]]))
+    return Recording.from_trace(trace)
+
+
+@pytest.mark.parametrize(
+    ("seed", "mass", "damping", "stiffness", "lag", "handle"),
+    [
+        (1, 0.35, 6.0, 300.0, 0.0, 0.25),
+        (2, 0.35, 6.0, 300.0, 0.0, 0.25),
+        (3, 0.15, 6.0, 300.0, 0.0, 0.25),
+        (4, 0.8, 15.0, 800.0, 0.0, 0.25),
+        (5, 0.05, 3.0, 100.0, 0.0, 0.25),
+        (6, 0.35, 6.0, 300.0, 0.0, 1.0),
+        (7, 0.35, 6.0, 300.0, 0.0, 0.05),
+        (8, 1.2, 4.0, 1000.0, 0.0, 0.5),
+        (9, 0.2, 20.0, 200.0, 2e-4, 0.25),
+        (10, 0.35, 6.0, 300.0, 8e-4, 0.25),
+    ],
+)
+def test_without_the_motor_the_intervals_hold_the_truth(
+    seed: int, mass: float, damping: float, stiffness: float, lag: float, handle: float
+) -> None:
+    recording = pushed(seed, mass, damping, stiffness, lag, handle)
+    result = identify.fit_arm(replace(recording, motor=None))
+    for name, true in (("M0", mass), ("B0", damping), ("K0", stiffness)):
+        assert result[name].low <= true <= result[name].high, name
+        assert result[name].high - result[name].low < 0.12 * true, name
+
+
+def test_a_remark_says_what_the_missing_motor_costs() -> None:
+    recording = pushed(1, 0.35, 6.0, 300.0, 0.0)
+    assert identify.fit_arm(recording).notes == ()
+    result = identify.fit_arm(replace(recording, motor=None))
+    (text,) = result.notes
+    assert "no motor force" in text
+    assert "late by up to 0.24 ms" in text
+    assert text in repr(result)
+    assert result.to_dict()["notes"] == [text]
+
+
+def test_a_slow_force_sensor_hides_the_steps_of_a_motor() -> None:
+    recording = replace(pushed(1, 0.35, 6.0, 300.0, 8e-4), motor=None)
+    assert identify.fit_arm(recording).notes == ()
+
+
+@pytest.mark.parametrize(("lag", "ticks"), [(0.0, 0.5), (1e-3, 0.082), (3e-3, 0.028), (0.1, 0.0)])
+def test_a_force_is_late_by_what_the_lags_leave_of_a_step(lag: float, ticks: float) -> None:
+    recording = replace(pushed(1, 0.35, 6.0, 300.0, 0.0), motor=None, lag=lag, current_lag=0.0)
+    assert late(recording) == pytest.approx(ticks * recording.dt, abs=1e-6)
+    assert late(replace(recording, motor=recording.x)) == 0
+
+
+def test_the_command_prints_the_note(tmp_path: Path) -> None:
+    recording = pushed(1, 0.35, 6.0, 300.0, 0.0)
+    rows = np.column_stack([recording.t, recording.x, recording.force])
+    np.savetxt(tmp_path / "log.csv", rows, delimiter=",", header="t,x,force", comments="")
+    words = ["identify", "arm", str(tmp_path / "log.csv")]
+    assert "The log has no motor force." in CliRunner().invoke(app, words).output
+    assert json.loads(CliRunner().invoke(app, [*words, "--json"]).output)["notes"]
+    CliRunner().invoke(app, [*words, "--out", str(tmp_path / "report")])
+    assert "The log has no motor force." in (tmp_path / "report" / "arm.html").read_text("utf-8")
