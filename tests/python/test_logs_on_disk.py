@@ -76,7 +76,7 @@ def test_power_goes_off_whatever_the_log_does(
 
     power_off = drive_setup.power_off
     monkeypatch.setattr("ebac.hardware.device.started", refuses)
-    monkeypatch.setattr("ebac.hardware.device._discard", full)
+    monkeypatch.setattr("ebac.hardware.device.discard_log", full)
     monkeypatch.setattr(
         drive_setup, "power_off", lambda *given: (off.append(given), power_off(*given))[1]
     )

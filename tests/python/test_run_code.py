@@ -22,7 +22,7 @@ def setup(monkeypatch: pytest.MonkeyPatch) -> Any:
     """What a loop is made of, for the example."""
     known = Configuration.load(EXAMPLE)
     monkeypatch.setattr(_core, "RunSetup", lambda **parts: SimpleNamespace(**parts))
-    place: Any = SimpleNamespace(sensor=None, aim=None)
+    place: Any = SimpleNamespace(sensor=None, aim=None, signs=lambda known: known.signs)
     return run_setup(known, known.drives.nodes, backend=place, seconds=1.0)
 
 
@@ -78,6 +78,7 @@ def bare_run(**parts: Any) -> tuple[Run, list[bool]]:
     values = {
         "_running": running,
         "_lock": threading.RLock(),
+        "_positions": (),
         "_interrupts": Interrupts(),
         "_parent": None,
         "_grants": [],
