@@ -157,10 +157,12 @@ def open_bus() -> Iterator[Callable[[], "can.BusABC"]]:
 
 
 #: Faults by which a loop ends where nothing but the clock is wrong: a drive, a heartbeat or a force that came too late,
-#: or its own ticks did, or a drive missed the loop's heartbeat, or skipped ticks gave out what the guard had. On
-#: simulated hardware nobody else can be the reason.
+#: or its own ticks did, or a drive missed the loop's heartbeat, or skipped ticks gave out what the guard had, or a
+#: simulated handle made up for time in which its thread stood still. On simulated hardware nobody else can be the
+#: reason.
 _LATE = re.compile(
-    r"fault (?:9 \(drive silent|10 \(drive emergency|11 \(heartbeat lost|16 \(force stale|19 \(overruns)\)"
+    r"fault (?:9 \(drive silent|10 \(drive emergency|11 \(heartbeat lost|14 \(overspeed"
+    r"|16 \(force stale|19 \(overruns)\)"
     r"|error code 0x8130, heartbeat"
     r"|ticks could not be kept and were skipped(?=[\s\S]*fault 21 \(starved)"
 )

@@ -80,7 +80,57 @@ def environment(home: Path) -> dict[str, str]:
     }
 
 
-def follow(found: list[Step], where: str, tmp_path: Path) -> None:
+class PageServer:
+    """The process of which every page is a fork."""
+
+    def __init__(self) -> None:
+        words = [sys.executable, page_process.__file__]
+        package = str(Path(ebac.__file__).parents[1])
+        env = {**os.environ, "MPLBACKEND": "Agg", "PYTHONPATH": package}
+        self._process = subprocess.Popen(
+            words,
+            env=env,
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            text=True,
+            start_new_session=True,
+        )
+
+    def follow(self, steps_file: Path, room: Path, env: dict[str, str]) -> None:
+        """Have a page followed."""
+        answers, printed = steps_file.with_name("input"), steps_file.with_name("output")
+        answers.write_text("y\n" * 10)  # what asks before it writes to a drive
+        printed.touch()
+        request = {
+            "steps": str(steps_file),
+            "room": str(room),
+            "environment": env,
+            "input": str(answers),
+            "output": str(printed),
+        }
+        asked, answer = self._process.stdin, self._process.stdout
+        assert asked is not None
+        assert answer is not None
+        print(json.dumps(request), file=asked, flush=True)
+        in_time = select.select([answer], [], [], TIMEOUT)[0]
+        told = printed.read_text(errors="replace")[-5000:]
+        if not in_time:
+            self.close()
+            pytest.fail(f"not at its end after {TIMEOUT} s\n{told}", pytrace=False)
+        judge(int(answer.readline() or 1), told)
+
+    def close(self) -> None:
+        """End it, and the page that it may still be at."""
+        if self._process.poll() is None:
+            os.killpg(self._process.pid, signal.SIGKILL)
+        self._process.communicate()
+
+    @property
+    def closed(self) -> bool:
+        return self._process.poll() is not None
+
+
+def follow(found: list[Step], where: str, tmp_path: Path, server: PageServer) -> None:
     """Run steps one after the other in an empty folder, in a process of their own."""
     chosen = wanted(found, where)
     if not chosen:
@@ -101,7 +151,7 @@ def follow(found: list[Step], where: str, tmp_path: Path) -> None:
     ]
     file.write_text(json.dumps(data), encoding="utf-8")
     with sensor_port(chosen):
-        forked(file, room, env)
+        server.follow(file, room, env)
 
 
 @contextlib.contextmanager
@@ -122,42 +172,20 @@ def done(words: list[str], room: Path, env: dict[str, str]) -> None:
     judge(run.returncode, f"{run.stdout[-2000:]}\n{run.stderr[-3000:]}")
 
 
-@cache
-def page_server() -> subprocess.Popen[str]:
-    """Return the process of which every page is a fork."""
-    words = [sys.executable, page_process.__file__]
-    env = {**os.environ, "MPLBACKEND": "Agg", "PYTHONPATH": str(Path(ebac.__file__).parents[1])}
-    return subprocess.Popen(
-        words,
-        env=env,
-        stdin=subprocess.PIPE,
-        stdout=subprocess.PIPE,
-        text=True,
-        start_new_session=True,
-    )
+@pytest.fixture(scope="module")
+def servers() -> Iterator[list[PageServer]]:
+    """At most one process for pages; another where a page had to be ended."""
+    made: list[PageServer] = []
+    yield made
+    for one in made:
+        one.close()
 
 
-def forked(steps_file: Path, room: Path, env: dict[str, str]) -> None:
-    """Have a page followed."""
-    answers, printed = steps_file.with_name("input"), steps_file.with_name("output")
-    answers.write_text("y\n" * 10)  # what asks before it writes to a drive
-    request = {
-        "steps": str(steps_file),
-        "room": str(room),
-        "environment": env,
-        "input": str(answers),
-        "output": str(printed),
-    }
-    server = page_server()
-    assert server.stdin is not None
-    assert server.stdout is not None
-    print(json.dumps(request), file=server.stdin, flush=True)
-    if not select.select([server.stdout], [], [], TIMEOUT)[0]:
-        os.killpg(server.pid, signal.SIGKILL)
-        page_server.cache_clear()
-        told = printed.read_text(errors="replace")[-5000:]
-        pytest.fail(f"not at its end after {TIMEOUT} s\n{told}", pytrace=False)
-    judge(int(server.stdout.readline() or 1), printed.read_text(errors="replace")[-5000:])
+@pytest.fixture
+def server(servers: list[PageServer]) -> PageServer:
+    if not servers or servers[-1].closed:
+        servers.append(PageServer())
+    return servers[-1]
 
 
 def judge(code: int, told: str) -> None:
@@ -172,13 +200,13 @@ def judge(code: int, told: str) -> None:
 
 @pytest.mark.real_time  # where a run of a page ends by a stall, the whole page is run again
 @pytest.mark.parametrize("page", [p for p in pages() if steps(p)], ids=name_of)
-def test_a_page_can_be_followed(page: Path, tmp_path: Path) -> None:
-    follow(steps(page), name_of(page), tmp_path)
+def test_a_page_can_be_followed(page: Path, tmp_path: Path, server: PageServer) -> None:
+    follow(steps(page), name_of(page), tmp_path, server)
 
 
 @pytest.mark.real_time
 @pytest.mark.parametrize("group", GROUPS)
-def test_the_examples_of_a_help_text_run(group: str, tmp_path: Path) -> None:
+def test_the_examples_of_a_help_text_run(group: str, tmp_path: Path, server: PageServer) -> None:
     found = [
         s
         for name, c in COMMANDS.items()
@@ -187,7 +215,7 @@ def test_the_examples_of_a_help_text_run(group: str, tmp_path: Path) -> None:
     ]
     if not found:
         pytest.skip("its help has no example")
-    follow(found, f"{group} --help", tmp_path)
+    follow(found, f"{group} --help", tmp_path, server)
 
 
 @pytest.mark.parametrize("page", notebooks(), ids=name_of)

@@ -29,7 +29,7 @@ TEST = """
         (8, "fault 9 (drive silent)"),
         (1, "30 ticks could not be kept and were skipped. Error: fault 21 (starved)"),
         (1, "fault 21 (starved)"),
-        (1, "fault 14 (overspeed)"),
+        (1, "fault 15 (workspace)"),
         (1, "wrong"),
     ])
     def test_marked(room, times, message):
