@@ -27,6 +27,11 @@ def with_bus(known: Configuration, **changes: Any) -> Configuration:
     return known.replace(simulated_bus={**known.simulated_bus, **changes})
 
 
+def test_a_broken_node_must_be_one_of_the_device() -> None:
+    with pytest.raises(ValueError, match=r"TimedBus\.broken = 2: must lie in \[0, 1\]"):
+        ebac.simulate(ebac.Scenario(seconds=0.1), through="can", bus=TimedBus(broken=2))
+
+
 def test_two_drives_at_1_mbit_are_never_late_and_the_wall_is_the_same(known: Configuration) -> None:
     timed, prompt = known.simulate(), known.simulate(bus_time=False)
     assert np.ptp(timed["bus.missing"], axis=0).tolist() == [0, 0]

@@ -46,7 +46,8 @@ void check_through_can(int axes, const Timing& timing, const std::optional<Timed
   const TimedBus bus = timed.value_or(TimedBus{});
   if (bus.broken > axes) {
     throw std::invalid_argument("TimedBus.broken = " + std::to_string(bus.broken) +
-                                ": the bus has " + std::to_string(axes) + " drives");
+                                ": must lie in [0, " + std::to_string(axes) +
+                                "], the nodes of this device; 0 breaks none");
   }
   const BusLoad load = load_of(axes, timing, bus);
   static_cast<void>(check_load(load));

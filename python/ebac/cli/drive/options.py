@@ -47,6 +47,17 @@ SheetFile: TypeAlias = Annotated[
 ]
 
 
+ConfigurationFile: TypeAlias = Annotated[
+    Path,
+    typer.Argument(help="Configuration in TOML, as `ebac demo joystick` writes it."),
+]
+
+
+Simulated: TypeAlias = Annotated[
+    bool, typer.Option("--simulated", help="With simulated drives, device and hand.")
+]
+
+
 @dataclass(frozen=True, kw_only=True)
 class BusOptions:
     """Which bus, and how long an answer may take."""

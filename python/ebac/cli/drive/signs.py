@@ -3,26 +3,20 @@
 from __future__ import annotations
 
 from dataclasses import asdict
-from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from ebac.cli import output
-from ebac.cli.drive.options import Yes, sure, telling
+from ebac.cli.drive.options import ConfigurationFile, Simulated, Yes, sure, telling
 
 if TYPE_CHECKING:
     from ebac.hardware import AxisSigns
 
 
 def signs(
-    configuration: Annotated[
-        Path,
-        typer.Argument(help="Configuration in TOML, as `ebac demo joystick` writes it."),
-    ],
-    simulated: Annotated[
-        bool, typer.Option("--simulated", help="With simulated drives, device and hand.")
-    ] = False,
+    configuration: ConfigurationFile,
+    simulated: Simulated = False,
     current: Annotated[
         float, typer.Option(help="Current of every push [A].", min=0.02, max=0.3)
     ] = 0.1,

@@ -2,27 +2,21 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import Annotated
 
 import typer
 
 from ebac.cli import output
 from ebac.cli.drive import positions
-from ebac.cli.drive.options import Yes, sure, telling
+from ebac.cli.drive.options import ConfigurationFile, Simulated, Yes, sure, telling
 
 #: The handle stands still: no axis goes further while somebody answers [m].
 STILL = 5e-4
 
 
 def zero(
-    configuration: Annotated[
-        Path,
-        typer.Argument(help="Configuration in TOML, as `ebac demo joystick` writes it."),
-    ],
-    simulated: Annotated[
-        bool, typer.Option("--simulated", help="With simulated drives, device and hand.")
-    ] = False,
+    configuration: ConfigurationFile,
+    simulated: Simulated = False,
     write: Annotated[
         bool,
         typer.Option(
