@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include <chrono>
-#include <optional>
+#include <algorithm>
+#include <cmath>
 
 #include "designed_law.hpp"
 #include "ebac/control/per_axis.hpp"
@@ -190,6 +190,27 @@ TEST(Plausibility, FindsAJumpThatIsSmallerThanTheLimitOfAJump) {
 TEST(Plausibility, IsOffWhereTheLimitsSaySo) {
   EXPECT_EQ(fault_of(on_its_way(), {.from = 0.12, .frozen = true}, "ebac", false).fault,
             Fault::kNone);
+}
+
+TEST(Plausibility, FindsAnEncoderThatFreezesUnderAHandleThatGlides) {
+  // Nobody pushes: only that the handle would have stopped dead contradicts, and for 10 ms only.
+  const DeviceModel device;
+  constexpr double kPace = 0.2;  // m/s
+  constexpr int kFrozen = 100;   // tick
+  Plausibility watch(BalanceFacts::of(device, kUnexplained, kDt));
+  Axis axis;
+  axis.port.f_meas = device.mechanics.damping * kPace;
+  for (int i = 1; i < 300; ++i) {
+    const double count = device.count();
+    axis.port.x = std::round(kPace * kDt * std::min(i, kFrozen) / count) * count;
+    const Fault fault = watch.watch({}, {.dt = kDt}, std::span(&axis, 1));
+    if (fault == Fault::kNone) continue;
+    EXPECT_EQ(fault, Fault::kEncoderFrozen);
+    EXPECT_GT(i, kFrozen);
+    EXPECT_LE(i, kFrozen + 10);
+    return;
+  }
+  FAIL() << "not found";
 }
 
 /// Ticks at rest with a force that nothing explains, until something is found; 0 for never.
