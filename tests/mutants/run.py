@@ -2,9 +2,10 @@
 
     python tests/mutants/run.py --build build
 
-By hand or at night: half a minute of a core for each bug in C++. Nothing in the clone is changed. A header with its bug
-lies in a folder before all others, and what includes it, the campaign or a test, is compiled anew beside the library of
-the build, which must be that of this clone. A Python module with its bug replaces the one of the package in a copy.
+By hand or at night: half a minute of a core for each bug in C++. Ctrl-C ends it with the score so far. Nothing in the
+clone is changed. A header with its bug lies in a folder before all others, and what includes it, the campaign or a
+test, is compiled anew beside the library of the build, which must be that of this clone. A Python module with its bug
+replaces the one of the package in a copy.
 """
 
 from __future__ import annotations
@@ -18,8 +19,9 @@ import subprocess
 import sys
 import tempfile
 import tomllib
-from collections.abc import Iterator
+from collections.abc import Generator
 from concurrent.futures import ThreadPoolExecutor, as_completed
+from contextlib import closing
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
@@ -67,6 +69,13 @@ class Found:
     tests: bool | None
     campaign: bool | None
 
+    def verdict(self) -> str:
+        """Return who noticed it and who did not."""
+        words = {True: "noticed by", False: "NOT noticed by"}
+        asked = {"the tests": self.tests, "the campaign": self.campaign}
+        found = [f"{words[one]} {who}" for who, one in asked.items() if one is not None]
+        return ", ".join(found) or "nobody was asked"
+
 
 def mutants() -> list[Mutant]:
     """Return all bugs of the file beside this one."""
@@ -87,18 +96,18 @@ class Machine:
         lines = [f'#include "{ROOT / one}"' for one in CAMPAIGN]
         self.campaign.write_text("\n".join(lines) + "\n", encoding="utf-8")
 
-    def fails(self, source: Path, overlay: Path) -> bool:
-        """Compile a test with the headers of `overlay` first; return whether it fails, or does not compile."""
-        program = overlay / source.stem
+    def fails(self, source: Path, folder: Path, overlay: Path | None = None) -> bool:
+        """Compile a test in `folder`, with the headers of `overlay` first; return whether it fails."""
+        program = folder / source.stem
         thing = program.with_suffix(".o")
-        include = [f"-I{overlay}", f"-I{ROOT}/cpp", f"-I{ROOT}/tests/cpp"]
+        headers = [one for one in (overlay, ROOT / "cpp", ROOT / "tests/cpp") if one is not None]
         flags = [word for flag in self.flags for word in flag.split()]
         options = ["-std=c++20", "-O1", "-fno-math-errno", "-ffp-contract=off", "-w"]
         compiled = [
             *self.ccache,
             "g++",
             *options,
-            *include,
+            *(f"-I{one}" for one in headers),
             *flags,
             "-c",
             str(source),
@@ -110,7 +119,7 @@ class Machine:
         for command in (compiled, linked):
             made = subprocess.run(command, capture_output=True, text=True, check=False)
             if made.returncode != 0:
-                raise RuntimeError(made.stderr[-2000:])
+                raise RuntimeError(f"{source.name} does not compile: {made.stderr[-2000:]}")
         try:
             ran = subprocess.run(
                 [str(program), "--gtest_brief=1"], capture_output=True, check=False, timeout=LONGEST
@@ -119,18 +128,29 @@ class Machine:
             return True
         return ran.returncode != 0
 
-    def judge(
-        self, mutant: Mutant | None, *, tests: list[str], campaign: bool
-    ) -> tuple[bool, bool]:
-        """Return whether tests and campaign fail with a bug, or without one."""
+    def check(self, tests: set[str], *, campaign: bool) -> None:
+        """Raise RuntimeError where a test fails without any bug: it would notice them all."""
+        sources = {f"test {one}": test_source(one) for one in sorted(tests)}
+        if campaign:
+            sources["campaign"] = self.campaign
+        for name, source in sources.items():
+            if self.fails(source, self.folder):
+                raise RuntimeError(f"the {name} fails without any bug")
+
+    def judge(self, mutant: Mutant, *, tests: list[str], campaign: bool) -> tuple[bool, bool]:
+        """Return whether tests and campaign fail with a bug."""
         with tempfile.TemporaryDirectory(dir=self.folder) as name:
             overlay = Path(name)
-            if mutant is not None:
-                made = overlay / mutant.file.removeprefix("cpp/")
-                made.parent.mkdir(parents=True)
-                made.write_text(mutant.text(), encoding="utf-8")
-            by_tests = any(self.fails(ROOT / f"tests/cpp/{one}_test.cpp", overlay) for one in tests)
-            return by_tests, campaign and self.fails(self.campaign, overlay)
+            made = overlay / mutant.file.removeprefix("cpp/")
+            made.parent.mkdir(parents=True)
+            made.write_text(mutant.text(), encoding="utf-8")
+            by_tests = any(self.fails(test_source(one), overlay, overlay) for one in tests)
+            return by_tests, campaign and self.fails(self.campaign, overlay, overlay)
+
+
+def test_source(name: str) -> Path:
+    """Return the file of a test in C++."""
+    return ROOT / f"tests/cpp/{name}_test.cpp"
 
 
 def fails_in_python(mutant: Mutant, folder: Path) -> bool:
@@ -148,51 +168,62 @@ def fails_in_python(mutant: Mutant, folder: Path) -> bool:
         return ran.returncode != 0
 
 
-def judged(chosen: list[Mutant], build: Path, only: str, jobs: int) -> Iterator[Found]:
+def judged(chosen: list[Mutant], build: Path, only: str, jobs: int) -> Generator[Found]:
     """Give what became of each bug, in the order of their ends."""
-    with tempfile.TemporaryDirectory() as name, ThreadPoolExecutor(jobs) as pool:
+    compiled = [one for one in chosen if one.file.endswith("pp")]
+    by_tests, by_campaign = only != "campaign", only != "tests"
+    with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
-        machine = Machine(build, folder) if any(m.file.endswith("pp") for m in chosen) else None
+        machine = Machine(build, folder) if compiled else None
+        if machine is not None:
+            named = {test for one in compiled for test in one.tests if by_tests}
+            machine.check(named, campaign=by_campaign)
 
         def one(mutant: Mutant) -> Found:
             if machine is None or mutant.file.endswith(".py"):
-                found = None if only == "campaign" else fails_in_python(mutant, folder)
+                found = fails_in_python(mutant, folder) if by_tests else None
                 return Found(name=mutant.name, tests=found, campaign=None)
-            tests = [] if only == "campaign" else mutant.tests
-            by_tests, by_campaign = machine.judge(mutant, tests=tests, campaign=only != "tests")
+            tests = mutant.tests if by_tests else []
+            noticed = machine.judge(mutant, tests=tests, campaign=by_campaign)
             return Found(
                 name=mutant.name,
-                tests=None if only == "campaign" else by_tests,
-                campaign=None if only == "tests" else by_campaign,
+                tests=noticed[0] if by_tests else None,
+                campaign=noticed[1] if by_campaign else None,
             )
 
-        asked = machine is not None and only != "tests"
-        if asked and machine is not None and machine.judge(None, tests=[], campaign=True)[1]:
-            raise RuntimeError("the campaign fails without any bug")
-        for future in as_completed([pool.submit(one, mutant) for mutant in chosen]):
-            yield future.result()
+        pool = ThreadPoolExecutor(jobs)
+        try:
+            for future in as_completed([pool.submit(one, mutant) for mutant in chosen]):
+                yield future.result()
+        finally:
+            pool.shutdown(cancel_futures=True)
 
 
 def main() -> int:
-    """Run, print the score, and return 1 where a bug was not noticed by the tests."""
+    """Run, print the score, and return 1 where a bug was not noticed by the tests, 130 after Ctrl-C."""
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
     parser.add_argument("--build", type=Path, default=ROOT / "build", help="build with libebac.a")
     parser.add_argument("--only", choices=["campaign", "tests"], default="", help="who is asked")
-    parser.add_argument("--name", action="append", help="only mutants with this in their name")
+    parser.add_argument("--name", action="append", help="only mutants with this in name or file")
     parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1)
     parser.add_argument("--json", action="store_true")
     given = parser.parse_args()
-    chosen = [m for m in mutants() if not given.name or any(one in m.name for one in given.name)]
-    from rich.progress import track
-
-    results = list(
-        track(
-            judged(chosen, given.build.resolve(), given.only, given.jobs),
-            total=len(chosen),
-            description="mutants",
-            disable=given.json,
-        )
-    )
+    chosen = [
+        one
+        for one in mutants()
+        if not given.name or any(part in f"{one.name} {one.file}" for part in given.name)
+    ]
+    results: list[Found] = []
+    stopped = False
+    try:
+        with closing(judged(chosen, given.build.resolve(), given.only, given.jobs)) as verdicts:
+            for one in verdicts:
+                results.append(one)
+                line = f"{len(results)} of {len(chosen)}: {one.name}: {one.verdict()}"
+                print(line, file=sys.stderr, flush=True)
+    except KeyboardInterrupt:
+        stopped = True
+        print(f"stopped after {len(results)} of {len(chosen)}", file=sys.stderr)
     score = {
         who: [sum(found), len(found)]
         for who in ("tests", "campaign")
@@ -207,6 +238,8 @@ def main() -> int:
                 print(f"not noticed by the {' and the '.join(missed)}: {one.name}")
         for who, (noticed, of) in score.items():
             print(f"{who}: {noticed} of {of} ({100 * noticed / of:.0f} %)")
+    if stopped:
+        return 130
     return 0 if all(one.tests is not False for one in results) else 1
 
 
