@@ -106,6 +106,16 @@ TEST(SafetyLimiter, AGainOfARampScalesTheForce) {
   EXPECT_TRUE(p.because(Limited::kRamp));
 }
 
+TEST(SafetyLimiter, ShutLeavesNoCurrent) {
+  for (const bool on : {true, false}) {
+    Pushed p;
+    if (!on) p.limiter = SafetyLimiter();
+    EXPECT_EQ(p.pass(2), 2);
+    p.limiter.shut(p.axes, kDt);
+    EXPECT_EQ(p.axes[0].joint.current, 0);
+  }
+}
+
 Fault seen(Pushed& p, const Reading& reading = {}, std::int64_t skipped = 0) {
   return p.limiter.watch(reading, {.dt = kDt, .skipped = skipped}, p.axes);
 }
