@@ -15,6 +15,8 @@ struct ContactForce {
   Jacobian frame = Jacobian::Identity();
   Axes velocity = Axes::Zero();  // m/s, of the surface itself, in the axes of the device
   bool turned = false;           // whether the frame is other than the axes of the device
+  double depth = 0;              // m, behind the surface; 0 where a world does not tell
+  double stiffness = 0;          // N/m, of the surface at this depth
 
   static ContactForce straight(const Axes& force) EBAC_RT {
     return {.force = force, .along = force};

@@ -9,6 +9,7 @@
 #include "ebac/core/fields.hpp"
 #include "ebac/model/contact_force.hpp"
 #include "ebac/model/kinematics.hpp"
+#include "ebac/world/world.hpp"
 
 /// The virtual world: maps position and velocity of the handle to a force. A shape is a type with
 /// `contact(x, v)`; a new one is added to the variant.
@@ -151,7 +152,16 @@ struct Disc {
   }
 };
 
-using Environment = std::variant<Free, Wall, Corner, Disc>;
+/// A world of another kind: a scene of bodies, an engine. It is not owned; each signal chain has a copy of its own.
+struct External {
+  World* world = nullptr;
+
+  ContactForce contact(const Axes& x, const Axes& v, double t) const EBAC_RT {
+    return world == nullptr ? ContactForce{} : world->contact(x, v, t);
+  }
+};
+
+using Environment = std::variant<Free, Wall, Corner, Disc, External>;
 
 /// At time `t` [s] of the run.
 inline ContactForce contact(const Environment& environment, const Axes& x, const Axes& v,

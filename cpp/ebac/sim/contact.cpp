@@ -181,6 +181,9 @@ double stored_in(const Corner& corner, const Axes& x) EBAC_RT {
   return stored_in(corner.first, x) + stored_in(corner.second, x);
 }
 
+/// A world of another kind has no closed form: nothing is called stored.
+double stored_in(const External&, const Axes&) EBAC_RT { return 0; }
+
 }  // namespace
 
 double stored_energy(const Environment& environment, const Axes& x) EBAC_RT {

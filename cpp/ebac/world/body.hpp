@@ -1,0 +1,90 @@
+#pragma once
+
+#include <cmath>
+
+#include "ebac/model/contact_force.hpp"
+#include "ebac/world/combined.hpp"
+#include "ebac/world/material.hpp"
+#include "ebac/world/motion.hpp"
+#include "ebac/world/proxy.hpp"
+
+namespace ebac::world {
+
+/// What one body does to the handle, in the axes of the device.
+struct Touch {
+  Axes force = Axes::Zero();     // N, as the handle presses
+  Axes velocity = Axes::Zero();  // m/s, of the surface
+  double depth = 0;              // m
+  double stiffness = 0;          // N/m
+  int normals = 0;
+  std::array<Axes, kMaxAxes> normal{};  // unit vectors into the body
+};
+
+/// A solid of some material, which may move, and whose surface may hold by friction.
+class Body {
+ public:
+  Body(SolidPtr solid, const Material& material, double friction, const Swing& motion)
+      : solid_(std::move(solid)), material_(material), friction_(friction), motion_(motion) {}
+
+  Touch touch(const Axes& x, const Axes& v, double t) EBAC_RT {
+    if (motion_.still()) return touch(x, v, BodyPose{});
+    return touch(x, v, motion_.at(t));
+  }
+
+  void reset() EBAC_RT {
+    proxy_ = {};
+    world::reset(material_);
+    stretch_.setZero();
+  }
+
+ private:
+  Touch touch(const Axes& x, const Axes& v, const BodyPose& pose) EBAC_RT {
+    const Axes own = pose.into(x);
+    const Axes before = last_;
+    last_ = own;
+    proxy_.follow(*solid_, own);
+    if (!proxy_.touching()) {
+      world::reset(material_);
+      stretch_.setZero();
+      return {};
+    }
+    const Axes in = own - proxy_.place();
+    const double depth = in.norm();
+    const Axes normal = depth > 0 ? Axes(in / depth) : Axes(-proxy_.constraint(0).out);
+    const Axes surface = pose.velocity_at(x);
+    const double speed = (pose.turn * normal).dot(v - surface);
+    const Push push = press(material_, depth, speed);
+    Axes force = push.force * normal;
+    if (friction_ > 0) force += hold(own - before, normal, push);
+
+    Touch made{.force = pose.turn * force,
+               .velocity = surface,
+               .depth = depth,
+               .stiffness = push.stiffness,
+               .normals = proxy_.constraints()};
+    for (int i = 0; i < made.normals; ++i)
+      made.normal[static_cast<std::size_t>(i)] = -(pose.turn * proxy_.constraint(i).out);
+    return made;
+  }
+
+  /// Coulomb friction: the surface holds the handle by a spring as stiff as itself, which is stretched by motion along
+  /// the surface, and slips where it would pull with more than the friction coefficient times the push.
+  Axes hold(const Axes& moved, const Axes& normal, const Push& push) EBAC_RT {
+    stretch_ += moved;
+    stretch_ -= normal.dot(stretch_) * normal;
+    const double length = stretch_.norm();
+    const double most = push.stiffness > 0 ? friction_ * push.force / push.stiffness : 0.0;
+    if (length > most) stretch_ *= most / length;
+    return push.stiffness * stretch_;
+  }
+
+  SolidPtr solid_;
+  Material material_;
+  double friction_;  // Coulomb's coefficient
+  Swing motion_;
+  Proxy proxy_;
+  Axes last_ = Axes::Zero();     // m, the handle in the body
+  Axes stretch_ = Axes::Zero();  // m, along the surface
+};
+
+}  // namespace ebac::world

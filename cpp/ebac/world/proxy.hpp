@@ -1,0 +1,197 @@
+#pragma once
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+
+#include "ebac/world/solid.hpp"
+
+namespace ebac::world {
+
+/// The point of a solid's surface that stands for the handle inside it: the god-object of Zilles and
+/// Salisbury (1995), on a signed distance in place of triangles.
+///
+/// Outside it is the handle. Inside it stays on the surface that the handle came through, as near to
+/// the handle as planes tangent to that surface let it: what is thinner than the handle is deep does
+/// not give way, and in a concave corner up to three planes hold it. A plane is replaced by a better
+/// one of nearly the same direction until the surface is met within `kExact`.
+class Proxy {
+ public:
+  static constexpr double kExact = 1e-9;    // m
+  static constexpr double kStride = 0.5e-3;  // m, at a time: parts must be thicker than twice that
+  static constexpr int kMostStrides = 16;
+  static constexpr double kSameSurface = 0.9;  // cosine between the normals of one smooth surface
+
+  /// A plane that the proxy may not pass.
+  struct Constraint {
+    Axes at;   // m, a point of it
+    Axes out;  // unit normal away from the solid
+  };
+
+  bool touching() const EBAC_RT { return count_ > 0; }
+  const Axes& place() const EBAC_RT { return place_; }
+  int constraints() const EBAC_RT { return count_; }
+  const Constraint& constraint(int i) const EBAC_RT { return held_[index(i)]; }
+
+  /// From here on free, at `x`.
+  void put(const Axes& x) EBAC_RT {
+    place_ = x;
+    room_ = 0;
+    count_ = 0;
+    begun_ = true;
+  }
+
+  /// Follows the handle to `x`.
+  void follow(const Solid& solid, const Axes& x) EBAC_RT {
+    if (!begun_) put(x);
+    if (!touching()) {
+      if (travel(solid, x)) return;
+    }
+    slide(solid, x);
+  }
+
+ private:
+  /// Free motion towards `x`; whether it gets there.
+  bool travel(const Solid& solid, const Axes& x) EBAC_RT {
+    const Distance there = solid.distance(x);
+    const Axes way = x - place_;
+    const double length = way.norm();
+    if (there.d > 0 && length <= room_ + there.d) {  // two balls without surface cover the way
+      place_ = x;
+      room_ = there.d;
+      return true;
+    }
+    Distance here = solid.distance(place_);
+    double gone = 0;
+    for (int i = 0; i < kMostSteps && gone < length && here.d > kExact; ++i) {
+      gone = std::min(gone + here.d, length);
+      here = solid.distance(place_ + gone / length * way);
+    }
+    if (length > 0) place_ += gone / length * way;
+    room_ = std::max(here.d, 0.0);
+    if (gone >= length && here.d > 0) return true;
+    hold(here.out);
+    return false;
+  }
+
+  /// Along the surface towards `x`, or away from it.
+  void slide(const Solid& solid, const Axes& x) EBAC_RT {
+    for (int i = 0; i < kMostStrides; ++i) {
+      const Axes goal = nearest(x);
+      const Axes way = goal - place_;
+      const double length = way.norm();
+      const bool arrives = length <= kStride;
+      const Axes next = arrives ? goal : Axes(place_ + kStride / length * way);
+      const Distance at = solid.distance(next);
+      if (at.d < -kExact) {  // another surface, or the same one further on
+        place_ = next - at.d * at.out;
+        hold(at.out);
+        continue;
+      }
+      place_ = next;
+      if (arrives && (next - x).squaredNorm() == 0) {
+        count_ = 0;
+        room_ = std::max(at.d, 0.0);
+        return;
+      }
+      if (at.d > kExact) {  // the surface has fallen away below
+        update(at);
+        continue;
+      }
+      if (arrives) return;
+    }
+  }
+
+  /// The surface has fallen away below a point: another tangent plane of it, or none where it has ended.
+  void update(const Distance& at) EBAC_RT {
+    const int same = most_parallel(at.out);
+    if (same >= 0 && held_[index(same)].out.dot(at.out) > kSameSurface) {
+      held_[index(same)] = {place_ - at.d * at.out, at.out};
+    } else {
+      count_ = 0;
+    }
+  }
+
+  /// A plane at `place_`: in place of one of the same surface, beside those of others.
+  void hold(const Axes& out) EBAC_RT {
+    int which = most_parallel(out);
+    const bool other = which < 0 || held_[index(which)].out.dot(out) <= kSameSurface;
+    if (other && count_ < kMaxAxes) which = count_++;
+    held_[index(which)] = {place_, out};
+  }
+
+  int most_parallel(const Axes& out) const EBAC_RT {
+    int best = -1;
+    for (int i = 0; i < count_; ++i) {
+      if (best < 0 || held_[index(i)].out.dot(out) > held_[index(best)].out.dot(out)) best = i;
+    }
+    return best;
+  }
+
+  /// The point nearest to `x` that lies behind no plane; planes that do not keep it are let go.
+  Axes nearest(const Axes& x) EBAC_RT {
+    for (int planes = 0; planes <= count_; ++planes) {
+      for (unsigned set = 0; set < 1U << static_cast<unsigned>(count_); ++set) {
+        if (std::popcount(set) != planes) continue;
+        Axes goal = x;
+        if (!solve(set, x, goal)) continue;
+        keep(set);
+        return goal;
+      }
+    }
+    return place_;
+  }
+
+  /// The point nearest to `x` on all planes of a set, if these push it there and no other plane is passed.
+  bool solve(unsigned set, const Axes& x, Axes& goal) const EBAC_RT {
+    Jacobian gram = Jacobian::Identity();
+    Axes missing = Axes::Zero();
+    for (int i = 0; i < count_; ++i) {
+      if (!has(set, i)) continue;
+      missing[i] = held_[index(i)].out.dot(held_[index(i)].at - x);
+      for (int j = 0; j < count_; ++j) {
+        if (has(set, j)) gram(i, j) = held_[index(i)].out.dot(held_[index(j)].out);
+      }
+    }
+    if (std::popcount(set) == 1) {
+      // the matrix is the identity
+    } else if (std::abs(gram.determinant()) < kParallel) {
+      return false;
+    } else {
+      missing = gram.inverse() * missing;
+    }
+    for (int i = 0; i < count_; ++i) {
+      if (!has(set, i)) continue;
+      if (missing[i] <= 0) return false;  // it would pull
+      goal += missing[i] * held_[index(i)].out;
+    }
+    for (int i = 0; i < count_; ++i) {
+      if (!has(set, i) && held_[index(i)].out.dot(goal - held_[index(i)].at) < -kExact) return false;
+    }
+    return true;
+  }
+
+  void keep(unsigned set) EBAC_RT {
+    int kept = 0;
+    for (int i = 0; i < count_; ++i) {
+      if (has(set, i)) held_[index(kept++)] = held_[index(i)];
+    }
+    count_ = kept;
+  }
+
+  static bool has(unsigned set, int i) EBAC_RT { return (set >> static_cast<unsigned>(i) & 1U) != 0; }
+  static std::size_t index(int i) EBAC_RT { return static_cast<std::size_t>(i); }
+
+  static constexpr int kMostSteps = 64;
+  static constexpr double kParallel = 1e-3;
+
+  Axes place_ = Axes::Zero();
+  double room_ = 0;  // m, radius of a ball about `place_` without any surface
+  std::array<Constraint, kMaxAxes> held_{};
+  int count_ = 0;
+  bool begun_ = false;
+};
+
+}  // namespace ebac::world
