@@ -69,9 +69,12 @@ class Proxy {
       gone = std::min(gone + here.d, length);
       here = solid.distance(place_ + gone / length * way);
     }
-    if (length > 0) place_ += gone / length * way;
     room_ = std::max(here.d, 0.0);
-    if (gone >= length && here.d > 0) return true;
+    if (gone >= length && here.d > 0) {
+      place_ = x;
+      return true;
+    }
+    place_ += gone / length * way;
     hold(here.out);
     return false;
   }
@@ -98,6 +101,9 @@ class Proxy {
       }
       if (at.d > kExact) {  // the surface has fallen away below
         update(at);
+        if (touching()) continue;
+        room_ = 0;
+        if (travel(solid, x)) return;  // it has ended: free again, until something is met
         continue;
       }
       if (arrives) return;
