@@ -11,6 +11,7 @@
 #include "ebac/loop/state_observer.hpp"
 #include "ebac/model/device.hpp"
 #include "ebac/model/environment.hpp"
+#include "ebac/world/port_space.hpp"
 
 namespace ebac {
 
@@ -69,6 +70,7 @@ class SignalChain {
     port.dt = dt;
     port.f_applied = f_applied;
   }
+  ContactForce meet(const Axes& x, const Axes& v, double t) const EBAC_RT;
   void forward_general(const Reading& reading, double dt, std::span<Axis> axes) EBAC_RT;
   void drive_general(double dt, std::span<Axis> axes) EBAC_RT;
   void send(Joint& joint, double tau) const EBAC_RT;
@@ -168,6 +170,13 @@ inline void SignalChain::forward_general(const Reading& reading, double dt,
   }
 }
 
+inline ContactForce SignalChain::meet(const Axes& x, const Axes& v, double t) const EBAC_RT {
+  const auto* external = std::get_if<External>(&environment_);
+  if (external == nullptr) return ebac::contact(environment_, x, v, t);
+  const world::PortSpace space(kinematics_, x);
+  return space.felt(external->contact(space.at(), space.velocity(v), t));
+}
+
 inline ContactForce SignalChain::contact(double t, std::span<Axis> axes) const EBAC_RT {
   Axes x = of_all(axes, &Axis::port, &Port::x);
   Axes v = of_all(axes, &Axis::port, &Port::v);
@@ -180,7 +189,7 @@ inline ContactForce SignalChain::contact(double t, std::span<Axis> axes) const E
     }
     t += weight * observer_.ahead(dt_);
   }
-  ContactForce contact = ebac::contact(environment_, x, v, t);
+  ContactForce contact = meet(x, v, t);
   for (std::size_t i = 0; i < axes.size(); ++i) {
     const auto e = static_cast<Eigen::Index>(i);
     axes[i].port.f_env = contact.force[e];

@@ -74,7 +74,7 @@ class Proxy {
       place_ = x;
       return true;
     }
-    place_ += gone / length * way;
+    if (length > 0) place_ += gone / length * way;
     hold(here.out);
     return false;
   }
