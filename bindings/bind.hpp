@@ -11,6 +11,7 @@ void bind_realtime(pybind11::module_& m);
 void bind_kinematics(pybind11::module_& m);
 void bind_devices(pybind11::module_& m);
 void bind_hands(pybind11::module_& m);
+void bind_worlds(pybind11::module_& m);
 void bind_environment(pybind11::module_& m);
 void bind_simulation(pybind11::module_& m);
 void bind_replay(pybind11::module_& m);

@@ -8,6 +8,7 @@ PYBIND11_MODULE(_core, m, pybind11::mod_gil_not_used()) {
   ebac::python::bind_kinematics(m);
   ebac::python::bind_devices(m);
   ebac::python::bind_hands(m);
+  ebac::python::bind_worlds(m);
   ebac::python::bind_environment(m);
   ebac::python::bind_simulation(m);
   ebac::python::bind_replay(m);

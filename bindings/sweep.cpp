@@ -44,19 +44,21 @@ void bind_contact(py::module_& m) {
       py::arg("pull") = py::none());
   m.def(
       "_stored_energy",
-      [](const Environment& environment, const Numbers& x) {
-        if (x.ndim() != 2 || x.shape(1) > kMaxAxes) {
-          throw std::invalid_argument("x: must have the shape (rows, axes)");
+      [](const Environment& environment, const Kinematics& kinematics, const Numbers& x,
+         const Numbers& t) {
+        if (x.ndim() != 2 || x.shape(1) > kMaxAxes || t.ndim() != 1 || t.shape(0) != x.shape(0)) {
+          throw std::invalid_argument("x: must have the shape (rows, axes), t (rows,)");
         }
         std::vector<double> stored;
+        StoredEnergy energy(environment, kinematics);
         for (py::ssize_t i = 0; i < x.shape(0); ++i) {
           Axes at = Axes::Zero();
           for (py::ssize_t j = 0; j < x.shape(1); ++j) at[j] = x.at(i, j);
-          stored.push_back(stored_energy(environment, at));
+          stored.push_back(energy.at(at, t.at(i)));
         }
         return column<double>(stored, [](double joule) { return joule; });
       },
-      py::arg("environment"), py::arg("x"));
+      py::arg("environment"), py::arg("kinematics"), py::arg("x"), py::arg("t"));
 }
 
 Values ideal_contacts(const std::vector<const Setup*>& setups, int threads,

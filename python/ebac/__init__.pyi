@@ -73,6 +73,9 @@ from ebac import (
 from ebac import (
     tracking as tracking,
 )
+from ebac import (
+    worlds as worlds,
+)
 from ebac._core import (
     EBA as EBA,
 )

@@ -8,7 +8,25 @@ from math import cos
 from pathlib import Path
 from typing import Any, Final, Literal, Self, TypeAlias
 
-from ebac._core import Corner, Device, Disc, Free, Hand, Observer, Setup, Step, Timing, Wall
+from ebac._core import (
+    Box,
+    Capsule,
+    Corner,
+    Cylinder,
+    Device,
+    Disc,
+    Free,
+    Hand,
+    Observer,
+    Plane,
+    Setup,
+    Sphere,
+    Step,
+    Timing,
+    Torus,
+    Wall,
+    _World,
+)
 from ebac._util import serialisation
 from ebac._util.arguments import keywords_only, refuse_unknown
 from ebac._util.text_file import read_text
@@ -25,11 +43,22 @@ def __dir__() -> list[str]:
     return __all__
 
 
-Environment: TypeAlias = Free | Wall | Corner | Disc
+Environment: TypeAlias = Free | Wall | Corner | Disc | _World
+
+_SOLIDS = (Box, Capsule, Cylinder, Plane, Sphere, Torus)
 
 #: The observer that every law acts on.
 EVERY_LAW: Final = "every-law"
 _PARTS = ("device", "hand", "environment", "timing", "seconds", "jitter", "seed", "observer")
+
+
+def as_environment(given: Any) -> Any:
+    """Return the world of a solid or body of `ebac.worlds`, and anything else as it is."""
+    if not type(given).__module__.startswith("ebac.worlds") and not isinstance(given, _SOLIDS):
+        return given
+    from ebac.worlds import World
+
+    return given if isinstance(given, World) else World(given)
 
 
 def _part_of(name: str) -> str:
@@ -57,8 +86,9 @@ class Scenario:
     hand : Hand
         Who holds it; default: 0.15 kg, 6 N s/m, 300 N/m, pulling to 40 mm. A model of `ebac.hands` alone stands for
         the default hand with this model; an object with `force(t, x, v)` for a hand of your own.
-    environment : Free, Wall, Corner or Disc
-        What it touches; default: a wall of 10 kN/m at 0 m (paper, section IV.C).
+    environment : Free, Wall, Corner, Disc or worlds.World
+        What it touches; default: a wall of 10 kN/m at 0 m (paper, section IV.C). A solid or body of `ebac.worlds`
+        stands for a world of it.
     timing : Timing
         Sample time [s] and transport delay [samples]; default: 1 ms, 1 sample.
     seconds : float
@@ -93,10 +123,11 @@ class Scenario:
     def __post_init__(self) -> None:
         """Check types and ranges."""
         object.__setattr__(self, "hand", as_hand(self.hand))
+        object.__setattr__(self, "environment", as_environment(self.environment))
         parts: dict[str, tuple[type, ...]] = {
             "device": (Device,),
             "hand": (Hand,),
-            "environment": (Free, Wall, Corner, Disc),
+            "environment": (Free, Wall, Corner, Disc, _World),
             "timing": (Timing,),
             "seconds": (float, int),
             "jitter": (float, int),
@@ -106,7 +137,9 @@ class Scenario:
         for name, types in parts.items():
             value = getattr(self, name)
             if not isinstance(value, types) or (isinstance(value, bool) and bool not in types):
-                names = " or ".join(repr(EVERY_LAW) if t is str else t.__name__ for t in types)
+                names = " or ".join(
+                    repr(EVERY_LAW) if t is str else t.__name__.lstrip("_") for t in types
+                )
                 raise TypeError(f"Scenario.{name} = {value!r}: must be {names}")
         if isinstance(self.observer, str) and self.observer != EVERY_LAW:
             raise ValueError(

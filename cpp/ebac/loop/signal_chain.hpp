@@ -2,7 +2,6 @@
 
 #include <Eigen/LU>
 #include <algorithm>
-#include <memory>
 #include <span>
 
 #include "ebac/core/concepts.hpp"
@@ -22,7 +21,8 @@ class SignalChain {
   SignalChain(const DeviceModel& device, const Environment& environment,
               const Observing& observing = {});
 
-  /// Another virtual world, from this tick on. An external one is used as it is, and must outlive the run.
+  /// Another virtual world, from this tick on. An external one is used as it is; the poster keeps it, so that none is
+  /// freed here.
   void change(const Environment& environment) EBAC_RT { environment_ = environment; }
 
   /// Velocity, acceleration and the observer begin anew.
@@ -58,11 +58,6 @@ class SignalChain {
     dt_ = dt;
     account_.set_tick(dt);
   }
-  static std::unique_ptr<World> fresh(const Environment& environment) {
-    const auto* external = std::get_if<External>(&environment);
-    const bool none = external == nullptr || external->world == nullptr;
-    return none ? nullptr : external->world->fresh();
-  }
   static void enter(Port& port, double dt, double x, double v, double f_applied) EBAC_RT {
     port.dx = dt > 0 ? x - port.x : 0.0;
     port.x = x;
@@ -80,7 +75,6 @@ class SignalChain {
   Encoder encoder_;
   Velocity estimator_;
   Compensation compensation_;
-  std::shared_ptr<World> own_;  // of this run, where the environment is external
   Environment environment_;
   StateObserver observer_;
   EnergyAccount account_;
@@ -109,8 +103,7 @@ inline SignalChain::SignalChain(const DeviceModel& device, const Environment& en
       encoder_(device.encoder),
       estimator_(device.velocity),
       compensation_(device.compensation),
-      own_(fresh(environment)),
-      environment_(own_ ? Environment(External{own_.get()}) : environment),
+      environment_(fresh(environment)),
       observer_(device, observing),
       account_(device.facts()),
       rad_per_count_(device.encoder.count() / device.capstan.ratio()),

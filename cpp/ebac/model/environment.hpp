@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
 #include <numbers>
 #include <variant>
 
@@ -152,9 +153,9 @@ struct Disc {
   }
 };
 
-/// A world of another kind: a scene of bodies, an engine. It is not owned; each signal chain has a copy of its own.
+/// A world of another kind: a scene of bodies, an engine. Each signal chain meets a fresh copy of its own.
 struct External {
-  World* world = nullptr;
+  std::shared_ptr<World> world;
 
   ContactForce contact(const Axes& x, const Axes& v, double t) const EBAC_RT {
     return world == nullptr ? ContactForce{} : world->contact(x, v, t);
@@ -162,6 +163,13 @@ struct External {
 };
 
 using Environment = std::variant<Free, Wall, Corner, Disc, External>;
+
+/// The same environment, without memory of another run.
+inline Environment fresh(const Environment& environment) {
+  const auto* external = std::get_if<External>(&environment);
+  if (external == nullptr || external->world == nullptr) return environment;
+  return External{external->world->fresh()};
+}
 
 /// At time `t` [s] of the run.
 inline ContactForce contact(const Environment& environment, const Axes& x, const Axes& v,

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "ebac/sim/perceived_ripple.hpp"
+#include "ebac/world/port_space.hpp"
 
 namespace ebac {
 
@@ -181,13 +182,20 @@ double stored_in(const Corner& corner, const Axes& x) EBAC_RT {
   return stored_in(corner.first, x) + stored_in(corner.second, x);
 }
 
-/// A world of another kind has no closed form: nothing is called stored.
+/// A world of another kind has a memory: see `StoredEnergy`.
 double stored_in(const External&, const Axes&) EBAC_RT { return 0; }
 
 }  // namespace
 
 double stored_energy(const Environment& environment, const Axes& x) EBAC_RT {
   return std::visit([&](const auto& shape) { return stored_in(shape, x); }, environment);
+}
+
+double StoredEnergy::at(const Axes& x, double t) EBAC_RT {
+  const auto* external = std::get_if<External>(&environment_);
+  if (external == nullptr || external->world == nullptr) return stored_energy(environment_, x);
+  external->world->contact(world::PortSpace(kinematics_, x).at(), Axes::Zero(), t);
+  return external->world->stored();
 }
 
 }  // namespace ebac

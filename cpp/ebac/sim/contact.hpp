@@ -118,4 +118,18 @@ WallContact measure_contact(const ContactRecord& record);
 /// Energy that an ideal environment stores at a position: the sum of K depth^2/2.
 double stored_energy(const Environment& environment, const Axes& x) EBAC_RT;
 
+/// The same along a run, for a world that remembers where it was touched.
+class StoredEnergy {
+ public:
+  StoredEnergy(const Environment& environment, const Kinematics& kinematics)
+      : environment_(fresh(environment)), kinematics_(kinematics) {}
+
+  /// In the next row: at position `x` [m] of the ports and time `t` [s]; the result in J.
+  double at(const Axes& x, double t) EBAC_RT;
+
+ private:
+  Environment environment_;
+  Kinematics kinematics_;
+};
+
 }  // namespace ebac

@@ -57,7 +57,8 @@ void for_each_run(std::size_t count, int threads, SweepProgress& progress, const
 /// Adds a row of the first axis; the energies are those of all axes. `clamped` is the law's state of
 /// that name, or nullptr. Returns whether the run is within its limits.
 inline bool keep_row(const Sample& s, const SimulatedDevice& device, const bool* clamped,
-                     const Setup& setup, const RunLimits& limits, ContactRecorder& recorder) {
+                     const Setup& setup, StoredEnergy& stored, const RunLimits& limits,
+                     ContactRecorder& recorder) {
   Axes x = Axes::Zero();
   double energy = 0;
   for (std::size_t i = 0; i < static_cast<std::size_t>(s.axes); ++i) {
@@ -65,7 +66,7 @@ inline bool keep_row(const Sample& s, const SimulatedDevice& device, const bool*
     energy += device.state(i).energy;
   }
   const Port& port = s.axis[0].port;
-  recorder.add(s.t, x[0], port.f_applied, energy, stored_energy(setup.environment, x));
+  recorder.add(s.t, x[0], port.f_applied, energy, stored.at(x, s.t));
   const bool acts = port.f_env != 0 || port.f_cmd != 0 || port.f_applied != 0;
   recorder.add_pull(acts ? setup.hand.pull(0, s.t, x[0]) : 0.0);
   if (clamped != nullptr) recorder.add_clamped(*clamped);
@@ -102,6 +103,7 @@ Outcome measure_run(const Setup& setup, const Scalar& scalar, const RunLimits& l
   SimulatedDevice device(setup);
   VirtualClock clock(setup.timing.dt, setup.jitter, setup.seed);
   SignalChain chain(setup.device, setup.environment, observing(setup.observer, law));
+  StoredEnergy stored(setup.environment, setup.device.kinematics);
   Sample sample{};
   sample.axes = setup.device.axes();
   Outcome outcome;
@@ -110,7 +112,7 @@ Outcome measure_run(const Setup& setup, const Scalar& scalar, const RunLimits& l
   while (outcome.ticks < rows && outcome.fault == Fault::kNone && !outcome.diverged) {
     if (outcome.ticks % kLook == 0 && cancelled.load(std::memory_order_relaxed)) return outcome;
     tick(chain, law, device, clock.wait(), sample);
-    outcome.diverged = !keep_row(sample, device, clamped, setup, limits, recorder);
+    outcome.diverged = !keep_row(sample, device, clamped, setup, stored, limits, recorder);
     watch(sample, device);
     outcome.fault = sample.fault;
     ++sample.tick;

@@ -31,10 +31,12 @@ class Body {
     return touch(x, v, motion_.at(t));
   }
 
+  /// Elastic energy of the last touch [J].
+  double stored() const EBAC_RT { return stored_; }
+
   void reset() EBAC_RT {
     proxy_ = {};
-    world::reset(material_);
-    stretch_.setZero();
+    let_go();
   }
 
  private:
@@ -44,8 +46,7 @@ class Body {
     last_ = own;
     proxy_.follow(*solid_, own);
     if (!proxy_.touching()) {
-      world::reset(material_);
-      stretch_.setZero();
+      let_go();
       return {};
     }
     const Axes in = own - proxy_.place();
@@ -55,7 +56,11 @@ class Body {
     const double speed = (pose.turn * normal).dot(v - surface);
     const Push push = press(material_, depth, speed);
     Axes force = push.force * normal;
-    if (friction_ > 0) force += hold(own - before, normal, push);
+    stored_ = world::stored(material_, depth);
+    if (friction_ > 0) {
+      force += hold(own - before, normal, push);
+      stored_ += 0.5 * push.stiffness * stretch_.squaredNorm();
+    }
 
     Touch made{.force = pose.turn * force,
                .velocity = surface,
@@ -78,6 +83,12 @@ class Body {
     return push.stiffness * stretch_;
   }
 
+  void let_go() EBAC_RT {
+    world::reset(material_);
+    stretch_.setZero();
+    stored_ = 0;
+  }
+
   SolidPtr solid_;
   Material material_;
   double friction_;  // Coulomb's coefficient
@@ -85,6 +96,7 @@ class Body {
   Proxy proxy_;
   Axes last_ = Axes::Zero();     // m, the handle in the body
   Axes stretch_ = Axes::Zero();  // m, along the surface
+  double stored_ = 0;            // J
 };
 
 }  // namespace ebac::world

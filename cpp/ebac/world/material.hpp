@@ -25,6 +25,7 @@ struct Elastic {
   Push press(double depth, double speed) EBAC_RT {
     return {std::max(0.0, stiffness * depth + damping * speed), stiffness};
   }
+  double stored(double depth) const EBAC_RT { return 0.5 * stiffness * depth * depth; }
   void reset() EBAC_RT {}
 
   static constexpr auto fields() {
@@ -47,6 +48,9 @@ struct HuntCrossley {
     const double elastic = stiffness * std::pow(depth, exponent);
     return {std::max(0.0, elastic * (1 + 1.5 * dissipation * speed)),
             depth > 0 ? exponent * elastic / depth : 0.0};
+  }
+  double stored(double depth) const EBAC_RT {
+    return stiffness * std::pow(depth, exponent + 1) / (exponent + 1);
   }
   void reset() EBAC_RT {}
 
@@ -113,6 +117,12 @@ class Layered {
     }
     return {std::max(0.0, friction), 0};
   }
+  double stored(double depth) const EBAC_RT {
+    double top = 0;
+    for (std::size_t i = 0; i < punctured_; ++i) top += layers_[i].thickness;
+    if (punctured_ == count_ || depth <= top) return 0;
+    return Elastic{layers_[punctured_].stiffness}.stored(depth - top);
+  }
   void reset() EBAC_RT { punctured_ = 0; }
 
   std::size_t punctured() const EBAC_RT { return punctured_; }
@@ -129,6 +139,10 @@ using Material = std::variant<Elastic, HuntCrossley, Layered>;
 
 inline Push press(Material& material, double depth, double speed) EBAC_RT {
   return std::visit([&](auto& m) EBAC_RT { return m.press(depth, speed); }, material);
+}
+/// Energy that a material gives back when it is left slowly [J].
+inline double stored(const Material& material, double depth) EBAC_RT {
+  return std::visit([&](const auto& m) EBAC_RT { return m.stored(depth); }, material);
 }
 inline void reset(Material& material) EBAC_RT {
   std::visit([](auto& m) EBAC_RT { m.reset(); }, material);

@@ -81,6 +81,12 @@ class Scene final : public World {
     return all;
   }
 
+  double stored() const EBAC_RT override {
+    double sum = 0;
+    for (const Body& body : bodies_) sum += body.stored();
+    return sum;
+  }
+
   std::unique_ptr<World> fresh() const override {
     auto made = std::make_unique<Scene>(*this);
     for (Body& body : made->bodies_) body.reset();

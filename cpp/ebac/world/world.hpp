@@ -16,6 +16,9 @@ class World {
   /// At position `x` [m], velocity `v` [m/s] and time `t` [s] of the run. Never throws, blocks or allocates.
   virtual ContactForce contact(const Axes& x, const Axes& v, double t) EBAC_RT = 0;
 
+  /// Elastic energy of what the last `contact` met [J]: what it would give back to a hand that leaves slowly.
+  virtual double stored() const EBAC_RT { return 0; }
+
   /// The same world without memory, for another run.
   virtual std::unique_ptr<World> fresh() const = 0;
 

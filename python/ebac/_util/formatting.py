@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from math import degrees, floor, isfinite, log10
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
-from ebac._core import Corner, Device, Disc, Gimbal, Hand, Step, Wall
+from ebac._core import Corner, Device, Disc, Gimbal, Hand, Step, Wall, _World
 
 if TYPE_CHECKING:
     from ebac.metrics import Contact
@@ -136,12 +136,50 @@ def _environment(environment: Environment) -> str:
         centre = f"({1e3 * environment.x:g}, {1e3 * environment.y:g}) mm"
         size = f"{1e3 * environment.radius:g} mm"
         return f"a disc of {_kilo(environment.stiffness, 'N/m')}, radius {size}, at {centre}"
+    if isinstance(environment, _World):
+        return _world(environment)
     if not isinstance(environment, Wall):
         return "free air"
     damping = f" and {environment.damping:g} N s/m" if environment.damping else ""
     angle = f", turned by {degrees(environment.angle):.3g} deg" if environment.angle else ""
     place = f"{1e3 * environment.position:g} mm"
     return f"a wall of {_kilo(environment.stiffness, 'N/m')}{damping} at {place}{angle}"
+
+
+#: Solids that are not called by their type.
+NAMES = {"HeightField": "ground", "Mesh": "mesh"}
+
+
+def _world(world: Any) -> str:
+    names = [_solid(body.solid) for body in world.bodies]
+    shown = ", ".join(names[:3]) + (f" and {len(names) - 3} more" if len(names) > 3 else "")
+    materials = {_material(body.material) for body in world.bodies}
+    frictions = {body.friction for body in world.bodies} - {0.0}
+    held = f", friction {max(frictions):g}" if frictions else ""
+    return f"a world of {shown}, {' and '.join(sorted(materials))}{held}"
+
+
+def _solid(solid: Any) -> str:
+    """Return what a solid is made of: "a sphere", "a cavity of a tube"."""
+    kind = type(solid).__name__
+    if kind == "Placed":
+        return _solid(solid.solid)
+    if kind == "Cavity":
+        return f"the inside of {_solid(solid.solid)}"
+    if kind == "Textured":
+        return f"{_solid(solid.solid)} with a texture"
+    article = "an" if kind[0] in "AEIOU" else "a"
+    return f"{article} {NAMES.get(kind, kind.lower())}"
+
+
+def _material(material: Any) -> str:
+    kind = type(material).__name__
+    if kind == "Elastic":
+        damping = f" and {material.damping:g} N s/m" if material.damping else ""
+        return f"{_kilo(material.stiffness, 'N/m')}{damping}"
+    if kind == "HuntCrossley":
+        return "soft after Hunt and Crossley"
+    return f"{len(material.layers)} layers of tissue"
 
 
 def verdict(contact: Contact) -> str:

@@ -7,16 +7,32 @@ from __future__ import annotations
 
 import difflib
 from collections.abc import Iterable, Mapping
+from importlib import import_module
 from typing import Any
 
 from ebac import _core
 
-#: Types a part may have, by the name of the part; the first is the default.
-CHOICES: dict[str, tuple[type, ...]] = {
+#: Solids of a world.
+SOLIDS: tuple[type | str, ...] = (
+    _core.Box, _core.Capsule, _core.Cylinder, _core.Plane, _core.Sphere, _core.Torus,
+    *(f"ebac.worlds.{name}" for name in (
+        "Placed", "Cavity", "Textured", "Tube", "Union", "Intersection", "Difference", "Mesh", "HeightField",
+    )),
+)  # fmt: skip
+#: Types a part may have, by the name of the part; the first is the default. One that is imported when it is needed
+#: stands there by its name.
+CHOICES: dict[str, tuple[type | str, ...]] = {
     "kinematics": (_core.Linear, _core.Gimbal),
     "velocity": (_core.BackwardDifference, _core.LowPass, _core.AdaptiveWindow),
     "path": (_core.Step, _core.MinimumJerk, _core.Sine, _core.Tapping, _core.Recorded),
-    "environment": (_core.Wall, _core.Free, _core.Corner, _core.Disc),
+    "environment": (_core.Wall, _core.Free, _core.Corner, _core.Disc, "ebac.worlds.World"),
+    "bodies": ("ebac.worlds.Body",),
+    "solid": SOLIDS,
+    "solids": SOLIDS,
+    "material": (_core.Elastic, _core.HuntCrossley, "ebac.worlds.Layered"),
+    "layers": (_core.Layer,),
+    "motion": (_core.Swing,),
+    "texture": (_core.Texture,),
     "device": (_core.Device,),
     "hand": (_core.Hand,),
     "model": (_core.Reflex, _core.FingerPad, _core.NonlinearGrip, _core.LetGo),
@@ -45,8 +61,9 @@ def to_document(value: Any) -> Any:
     if not hasattr(value, "as_dict"):
         return value
     table = {name: to_document(part) for name, part in value.as_dict().items()}
-    several = any(type(value) in types for types in CHOICES.values() if len(types) > 1)
-    return {"type": type(value).__name__, **table} if several else table
+    name = type(value).__name__
+    several = any(name in map(_name_of, types) for types in CHOICES.values() if len(types) > 1)
+    return {"type": name, **table} if several else table
 
 
 def from_document(name: str, item: Any, where: str) -> Any:
@@ -89,11 +106,22 @@ def unknown(where: str, name: str, known: list[str]) -> str:
 
 
 def _chosen(name: str, table: Mapping[str, Any], where: str) -> type:
-    types = {t.__name__: t for t in CHOICES[name]}
+    types = {_name_of(kind): kind for kind in CHOICES[name]}
     wanted = table.get("type", next(iter(types)))
     if not isinstance(wanted, str) or wanted not in types:
         raise ValueError(f"{where}.type = {wanted!r}: must be one of {', '.join(types)}")
-    return types[wanted]
+    kind = types[wanted]
+    return _imported(kind) if isinstance(kind, str) else kind
+
+
+def _name_of(kind: type | str) -> str:
+    return kind.rpartition(".")[2] if isinstance(kind, str) else kind.__name__
+
+
+def _imported(path: str) -> type:
+    module, _, name = path.rpartition(".")
+    kind: type = getattr(import_module(module), name)
+    return kind
 
 
 def _build(cls: type, table: Mapping[str, Any], where: str) -> Any:
@@ -103,6 +131,7 @@ def _build(cls: type, table: Mapping[str, Any], where: str) -> Any:
         if name != "type"
     }
     try:
-        return cls(**given)
+        made: Any = getattr(cls, "from_table", cls)
+        return made(**given)
     except (ValueError, TypeError) as error:
         raise ValueError(f"{where}: {error}") from None

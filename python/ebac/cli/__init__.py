@@ -8,7 +8,7 @@ import typer
 
 from ebac.cli import bus, demo, drive, identify, paper, sensor, track
 from ebac.cli.bench import bench
-from ebac.cli.catalogue import laws, presets, specs
+from ebac.cli.catalogue import laws, presets, specs, worlds
 from ebac.cli.command import Group, add
 from ebac.cli.log import log
 from ebac.cli.machine import doctor, jitter
@@ -63,6 +63,7 @@ add(app, wall.wall, panel=TRY)
 add(app, demo.demo, panel=TRY)
 add(app, laws.laws, panel=TRY)
 add(app, presets.presets, panel=TRY)
+add(app, worlds.worlds, panel=TRY)
 add(app, paper.paper, panel=TRY)
 add(app, study.study, panel=STUDY)
 add(app, conditions.conditions, panel=STUDY)

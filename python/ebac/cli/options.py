@@ -41,6 +41,13 @@ def _hands(incomplete: str) -> list[str]:
     return [name for name in HANDS if name.startswith(incomplete)]
 
 
+def complete_worlds(incomplete: str) -> list[str]:
+    """Return the worlds that begin so."""
+    from ebac.worlds import PRESETS
+
+    return [name for name in (*PRESETS, "mesh:") if name.startswith(incomplete)]
+
+
 def complete_devices(incomplete: str) -> list[str]:
     """Return the devices that begin so."""
     from ebac.presets import DEVICES
@@ -228,6 +235,19 @@ class RunOptions:
 class ScenarioOptions(RunOptions, DeviceOptions, HandOptions, WallOptions):
     """All that sets up one run."""
 
+    world: Annotated[
+        str | None,
+        option(
+            text="A world by name instead of the wall, see `ebac worlds`, or mesh:FILE; its surface has the stiffness, "
+            "damping and position of the wall",
+            default="a flat wall",
+            panel=WALL,
+            autocompletion=complete_worlds,
+        ),
+    ] = None
+    world_friction: Annotated[
+        float | None, option(text="Coulomb friction of its surface [1]", default="0", panel=WALL)
+    ] = None
     delay: Delay = None
     seed: Seed = None
 
@@ -267,8 +287,18 @@ def _observer_of(given: dict[str, Any]) -> Any:
 
 
 def wall_of(environment: Environment, group: Any) -> Environment:
-    """Return the wall with what its options change."""
+    """Return the wall with what its options change, or the world of --world."""
     given = group if isinstance(group, dict) else vars(group)
+    if given.get("world") is not None:
+        return setting.choose_world(
+            given["world"],
+            stiffness=given.get("wall_stiffness"),
+            damping=given.get("wall_damping"),
+            position=given.get("wall_position"),
+            friction=given.get("world_friction"),
+        )
+    if given.get("world_friction") is not None:
+        raise ValueError("--world-friction: a flat wall has none; add --world plane")
     return setting.choose_wall(
         environment, stiffness=given.get("wall_stiffness"),
         damping=given.get("wall_damping"), position=given.get("wall_position"),

@@ -9,6 +9,7 @@ from ebac.metrics.wall_contact import (
     Contact,
     contact,
 )
+from ebac.metrics.world_contact import WorldContact, world_contact
 
 __all__ = [
     "EXACT_COUNTS",
@@ -17,10 +18,12 @@ __all__ = [
     "TAIL_SHARE",
     "Contact",
     "ObserverUse",
+    "WorldContact",
     "allowed_deviation",
     "contact",
     "ideal_rest",
     "observer_use",
+    "world_contact",
 ]
 
 

@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
-from ebac._core import Hand, Linear, MinimumJerk, Recorded, Step, Wall
+from ebac._core import Hand, Linear, MinimumJerk, Recorded, Step, Wall, _World
 from ebac._util.arguments import require
 from ebac.scenario import Scenario
+
+if TYPE_CHECKING:
+    from ebac.metrics.world_rest import Rest
 
 #: Rest within this many encoder counts of the ideal, and the band that friction holds, is exact.
 EXACT_COUNTS = 2
@@ -35,6 +40,8 @@ def allowed_deviation(scenario: Scenario) -> float:
         stiffness = (hand.steady(ideal - SMALL) - hand.steady(ideal + SMALL)) / (2 * SMALL)
     if isinstance(wall, Wall) and ideal > wall.position:
         stiffness += wall.stiffness
+    if isinstance(wall, _World) and (rest := _in_world(scenario)) is not None:
+        stiffness = rest.stiffness
     return counts + friction / stiffness
 
 
@@ -43,9 +50,13 @@ def ideal_rest(scenario: Scenario) -> float | None:
 
     None where there is no such point: no straight wall across the first axis, or a hand without rest. With a
     model of `ebac.hands` it is where the steady force of the model and the wall balance; None for a hand of your own.
+    In a `worlds.World` it is where a slow hand comes to rest; None with friction, motion or puncture.
     """
     require(scenario, Scenario, "ebac.ideal_rest", "a Scenario")
     wall, hand = scenario.environment, scenario.hand
+    if isinstance(wall, _World):
+        rest = _in_world(scenario)
+        return None if rest is None else rest.x
     path = hand.path[0]
     if not isinstance(wall, Wall) or wall.angle != 0 or np.isfinite(hand.release_at):
         return None
@@ -67,6 +78,12 @@ def ideal_rest(scenario: Scenario) -> float | None:
     if hand.stiffness == 0 or pull <= hand.stiffness * wall.position:
         return pull / hand.stiffness if hand.stiffness > 0 else None
     return (pull + wall.stiffness * wall.position) / (hand.stiffness + wall.stiffness)
+
+
+def _in_world(scenario: Scenario) -> Rest | None:
+    from ebac.metrics.world_rest import world_rest
+
+    return world_rest(scenario)
 
 
 def _balance(hand: Hand, wall: Wall, weight: float) -> float | None:

@@ -284,7 +284,8 @@ def contact(trace: Trace, *, axis: int = 0, truth: bool = True) -> Contact:
     energy = _columns(trace, "true.energy").sum(axis=1) if with_energy else None
     stored = None
     if trace.scenario is not None and true:
-        stored = _stored_energy(trace.scenario.environment, _columns(trace, "true.x"))
+        world, kinematics = trace.scenario.environment, trace.scenario.device.kinematics
+        stored = _stored_energy(world, kinematics, _columns(trace, "true.x"), trace["t"])
     clamped = trace.axis("law.clamped", axis) if "law.clamped" in trace else None
     pull = None
     if trace.scenario is not None and true:

@@ -23,6 +23,7 @@ from ebac.plot.style import (
 from ebac.plot.sweep import plot_sweep
 from ebac.plot.tracking import plot_budget, plot_tracking
 from ebac.plot.walls import plot_walls
+from ebac.plot.world import plot_world
 from ebac.plot.worst import plot_worst
 from ebac.plot.zwidth import plot_zwidth
 
@@ -50,6 +51,7 @@ __all__ = [
     "plot_trace",
     "plot_tracking",
     "plot_walls",
+    "plot_world",
     "plot_worst",
     "plot_zwidth",
     "save",

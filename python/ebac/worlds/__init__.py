@@ -1,4 +1,12 @@
-"""Virtual worlds in space: bodies of any shape and material, which may move, with friction."""
+"""Virtual worlds in space: bodies of any shape and material, which may move, with friction.
+
+::
+
+    from ebac import Scenario, simulate, worlds
+
+    ball = worlds.Body(solid=worlds.Placed(worlds.Sphere(radius=0.02), at=(0.02, 0, 0)), friction=0.3)
+    trace = simulate(Scenario(environment=worlds.World(ball)), "ebac")
+"""
 
 from ebac._core import (
     Box,
@@ -10,12 +18,25 @@ from ebac._core import (
     Plane,
     Sphere,
     Swing,
+    Texture,
     Torus,
 )
-from ebac.worlds.solids import Cavity, Difference, Intersection, Placed, Union
-from ebac.worlds.world import Body, Layered, World
+from ebac.worlds.mesh import GridError, HeightField, Mesh
+from ebac.worlds.presets import PRESETS, preset
+from ebac.worlds.solids import (
+    Cavity,
+    Difference,
+    Intersection,
+    Placed,
+    Textured,
+    Tube,
+    Union,
+    distance,
+)
+from ebac.worlds.world import Body, Layered, Touch, World
 
 __all__ = [
+    "PRESETS",
     "Body",
     "Box",
     "Capsule",
@@ -23,15 +44,28 @@ __all__ = [
     "Cylinder",
     "Difference",
     "Elastic",
+    "GridError",
+    "HeightField",
     "HuntCrossley",
     "Intersection",
     "Layer",
     "Layered",
+    "Mesh",
     "Placed",
     "Plane",
     "Sphere",
     "Swing",
+    "Texture",
+    "Textured",
     "Torus",
+    "Touch",
+    "Tube",
     "Union",
     "World",
+    "distance",
+    "preset",
 ]
+
+
+def __dir__() -> list[str]:
+    return __all__

@@ -1,22 +1,24 @@
-"""Solids made of solids: placed elsewhere, united, cut out of one another, turned into a cavity."""
+"""Solids: simple shapes, tubes, and solids made of solids."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import TypeAlias
+from dataclasses import dataclass, field
+from typing import Self, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ebac import _core
-from ebac._core import Box, Capsule, Cylinder, Plane, Sphere, Torus
+from ebac._core import Box, Capsule, Cylinder, Plane, Sphere, Texture, Torus
+from ebac.worlds.mesh import HeightField, Mesh
+from ebac.worlds.part import Part, three
 
 Shape: TypeAlias = Box | Capsule | Cylinder | Plane | Sphere | Torus
 _SHAPES = (Box, Capsule, Cylinder, Plane, Sphere, Torus)
 
 
 @dataclass(frozen=True)
-class Placed:
+class Placed(Part):
     """A solid at another place, turned.
 
     Parameters
@@ -36,18 +38,12 @@ class Placed:
     def __post_init__(self) -> None:
         """Check the place."""
         _check_solid(self.solid, "Placed.solid")
-        for name, unit, most in (("at", "m", 10.0), ("turned", "rad", 6.3)):
-            given = getattr(self, name)
-            numbers = np.asarray(given, float)
-            if numbers.shape != (3,) or not (np.abs(numbers) <= most).all():
-                raise ValueError(
-                    f"Placed.{name} = {given!r} {unit}: must be three numbers in [-{most:g}, {most:g}] {unit}"
-                )
-            object.__setattr__(self, name, tuple(float(one) for one in numbers))
+        object.__setattr__(self, "at", three("Placed.at", self.at, "m", 10.0))
+        object.__setattr__(self, "turned", three("Placed.turned", self.turned, "rad", 6.3))
 
 
 @dataclass(frozen=True)
-class Cavity:
+class Cavity(Part):
     """The space inside a solid is free, and all around it is solid."""
 
     solid: Solid
@@ -57,7 +53,86 @@ class Cavity:
         _check_solid(self.solid, "Cavity.solid")
 
 
-class _Several:
+@dataclass(frozen=True)
+class Textured(Part):
+    """A solid with waves on its surface, (sin kx + sin ky + sin kz) / 3 of the place.
+
+    Parameters
+    ----------
+    solid : solid
+        The smooth one.
+    texture : Texture
+        Amplitude [m] and wavelength [m]; no steeper than 30 degrees: 2 pi amplitude / wavelength at most 1.
+    """
+
+    solid: Solid
+    texture: Texture = field(default_factory=Texture)
+
+    def __post_init__(self) -> None:
+        """Check the waves."""
+        _check_solid(self.solid, "Textured.solid")
+        if not isinstance(self.texture, Texture):
+            raise TypeError(f"Textured.texture = {self.texture!r}: must be a Texture")
+        steep = 2 * np.pi * self.texture.amplitude / self.texture.wavelength
+        if steep > 1:
+            raise ValueError(
+                f"Textured.texture = {self.texture!r}: 2 pi amplitude / wavelength is {steep:.3g}, must be 1 at most; "
+                "give longer or lower waves"
+            )
+
+
+@dataclass(frozen=True)
+class Tube(Part):
+    """All that is near a curve; `Cavity(Tube(...))` is a lumen.
+
+    Parameters
+    ----------
+    points : sequence of (x, y, z)
+        Of the curve [m], 2 to 256, with straight lines between them; `Tube.along` bends them smoothly.
+    radius : float or sequence of float
+        Of the tube [m], (0, 1]: everywhere, or at each point, changing evenly in between.
+    """
+
+    points: tuple[tuple[float, float, float], ...]
+    radius: float | tuple[float, ...] = 0.01
+
+    def __post_init__(self) -> None:
+        """Check points and radius."""
+        points = np.asarray(self.points, float)
+        if points.ndim != 2 or points.shape[1:] != (3,) or not 2 <= len(points) <= 256:
+            raise ValueError(f"Tube.points: shape {points.shape}: must be (n, 3), n from 2 to 256")
+        if not (np.abs(points) <= 10).all():
+            raise ValueError("Tube.points: must lie in [-10, 10] m")
+        radii = np.broadcast_to(np.asarray(self.radius, float), len(points)).copy()
+        if not ((radii > 0) & (radii <= 1)).all():
+            raise ValueError(f"Tube.radius = {self.radius!r} m: must lie in (0, 1] m")
+        ways = np.linalg.norm(np.diff(points, axis=0), axis=1)
+        if not (np.abs(np.diff(radii)) < 0.9 * ways).all():
+            raise ValueError(
+                "Tube: between two points the radius changes by more than 0.9 of the way; "
+                "give points farther apart, or none twice"
+            )
+        object.__setattr__(
+            self, "points", tuple(three("Tube.points", p, "m", 10.0) for p in points)
+        )
+        if np.ndim(self.radius):
+            object.__setattr__(self, "radius", tuple(float(one) for one in radii))
+        else:
+            object.__setattr__(self, "radius", float(self.radius))  # type: ignore[arg-type]
+
+    @classmethod
+    def along(cls, points: ArrayLike, radius: float = 0.01, *, parts: int = 8) -> Self:
+        """Return a tube along a smooth curve (Catmull-Rom) through the points, `parts` pieces between two of them."""
+        given = np.asarray(points, float)
+        slope = np.gradient(given, axis=0)
+        u = np.linspace(0, len(given) - 1, parts * (len(given) - 1) + 1)
+        i = np.minimum(u.astype(int), len(given) - 2)
+        s = (u - i)[:, None]
+        ends = given[i] * (1 + 2 * s) * (1 - s) ** 2 + given[i + 1] * (3 - 2 * s) * s**2
+        return cls(ends + slope[i] * s * (1 - s) ** 2 - slope[i + 1] * (1 - s) * s**2, radius)
+
+
+class _Several(Part):
     solids: tuple[Solid, ...]
 
     def __init__(self, *solids: Solid) -> None:
@@ -67,6 +142,11 @@ class _Several:
         for solid in solids:
             _check_solid(solid, kind)
         object.__setattr__(self, "solids", solids)
+
+    @classmethod
+    def from_table(cls, solids: tuple[Solid, ...]) -> Self:
+        """Return it from its parts by name."""
+        return cls(*solids)
 
 
 @dataclass(frozen=True, init=False)
@@ -90,8 +170,21 @@ class Difference(_Several):
     solids: tuple[Solid, ...]
 
 
-Solid: TypeAlias = Shape | Placed | Cavity | Union | Intersection | Difference
-SOLIDS = (*_SHAPES, Placed, Cavity, Union, Intersection, Difference)
+Solid: TypeAlias = (
+    Shape
+    | Placed
+    | Cavity
+    | Textured
+    | Tube
+    | Union
+    | Intersection
+    | Difference
+    | Mesh
+    | HeightField
+)
+SOLIDS = (
+    *_SHAPES, Placed, Cavity, Textured, Tube, Union, Intersection, Difference, Mesh, HeightField,
+)  # fmt: skip
 
 
 def _check_solid(solid: object, name: str) -> None:
@@ -107,6 +200,13 @@ def made(solid: Solid) -> _core._Solid:
             return _core._placed(made(solid.solid), solid.at, solid.turned)
         case Cavity():
             return _core._inverted(made(solid.solid))
+        case Textured():
+            return _core._textured(made(solid.solid), solid.texture)
+        case Tube():
+            radii = np.broadcast_to(np.asarray(solid.radius, float), len(solid.points))
+            return _core._tube(np.array(solid.points), radii.tolist())
+        case Mesh() | HeightField():
+            return solid.grid().made()
         case Union():
             return _core._union([made(one) for one in solid.solids])
         case Intersection():
@@ -120,9 +220,7 @@ def made(solid: Solid) -> _core._Solid:
             return _core._solid(solid)
 
 
-def distance(
-    solid: Solid, points: ArrayLike
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def distance(solid: Solid, points: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Return how far points are from the surface of a solid, and in which direction it is left.
 
     Parameters

@@ -3,15 +3,28 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from typing import Any, NamedTuple, Self
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from ebac import _core
 from ebac._core import Elastic, HuntCrossley, Layer, Swing
+from ebac.worlds.part import Part
 from ebac.worlds.solids import SOLIDS, Solid, made
+
+#: Layers of a tissue, as the core has them.
+MOST_LAYERS = 6
+#: A scene costs a distance or more of each body in every tick.
+MOST_BODIES = 64
 
 
 @dataclass(frozen=True, init=False)
-class Layered:
+class Layered(Part):
     """Tissue in layers, from the surface inwards; each gives way at its `puncture` force.
+
+    The uppermost layer that is whole carries the force, from its own surface on. A punctured layer resists by `cutting`
+    alone, and is whole again once the handle has left.
 
     Parameters
     ----------
@@ -22,16 +35,21 @@ class Layered:
     layers: tuple[Layer, ...]
 
     def __init__(self, *layers: Layer) -> None:
-        if not 1 <= len(layers) <= 6:
-            raise ValueError(f"Layered: {len(layers)} layers: must be 1 to 6")
+        if not 1 <= len(layers) <= MOST_LAYERS:
+            raise ValueError(f"Layered: {len(layers)} layers: must be 1 to {MOST_LAYERS}")
         for layer in layers:
             if not isinstance(layer, Layer):
                 raise TypeError(f"Layered: {layer!r}: must be a Layer")
         object.__setattr__(self, "layers", layers)
 
+    @classmethod
+    def from_table(cls, layers: tuple[Layer, ...]) -> Self:
+        """Return it from its parts by name."""
+        return cls(*layers)
+
 
 @dataclass(frozen=True, kw_only=True)
-class Body:
+class Body(Part):
     """One body.
 
     Parameters
@@ -39,11 +57,11 @@ class Body:
     solid : solid
         Its shape and place.
     material : Elastic, HuntCrossley or Layered
-        What it answers to being pressed in.
+        What it answers to being pressed in; default: elastic, 10 kN/m.
     friction : float
         Coulomb's coefficient, [0, 2].
     motion : Swing
-        How it moves.
+        How it moves; default: not at all.
     """
 
     solid: Solid
@@ -61,39 +79,132 @@ class Body:
         }
         for name, kinds in parts.items():
             value = getattr(self, name)
-            if not isinstance(value, kinds):
+            if not isinstance(value, kinds) or isinstance(value, bool):
                 names = " or ".join(kind.__name__ for kind in kinds)
                 raise TypeError(f"Body.{name} = {value!r}: must be {names}")
         if not 0 <= self.friction <= 2:
             raise ValueError(f"Body.friction = {self.friction}: must lie in [0, 2]")
 
 
-@dataclass(frozen=True, init=False)
-class World:
+class Touch(NamedTuple):
+    """What a world does to the handle.
+
+    Attributes
+    ----------
+    force : array, shape (3,)
+        With which the handle presses [N].
+    normal : array, shape (3,)
+        Unit vector into the body; without contact that of the last one.
+    depth : float
+        From the surface where the handle came in [m].
+    stiffness : float
+        At this depth, along the normal [N/m].
+    stored : float
+        Elastic energy [J].
+    """
+
+    force: NDArray[np.float64]
+    normal: NDArray[np.float64]
+    depth: float
+    stiffness: float
+    stored: float
+
+
+class World(_core._World):
     """Bodies in space, which the handle meets as a point.
+
+    The handle keeps a point on the surface where it came in (a god-object, Zilles and Salisbury 1995), so that nothing
+    of 1 mm or more gives way however hard it is pressed. A device with one axis moves along x, one with two in the
+    plane z = 0 or, with a gimbal, on its sphere; it feels the share of a force that does work there. The handle at rest
+    in the middle is the origin.
 
     Parameters
     ----------
     *bodies : Body or solid
-        A solid stands for a body of it, elastic with 10 kN/m.
+        1 to 64. A solid stands for a body of it, elastic with 10 kN/m. Their forces add up.
+
+    Raises
+    ------
+    ValueError
+        Without a body, or with too many.
+    TypeError
+        For something that is no body.
     """
 
-    bodies: tuple[Body, ...]
-
     def __init__(self, *bodies: Body | Solid) -> None:
-        if not bodies:
-            raise ValueError("World: 0 bodies: must be one at least; ebac.Free() is empty space")
-        all_of_them = tuple(b if isinstance(b, Body) else Body(solid=b) for b in bodies)
-        object.__setattr__(self, "bodies", all_of_them)
+        if not 1 <= len(bodies) <= MOST_BODIES:
+            raise ValueError(
+                f"World: {len(bodies)} bodies: must be 1 to {MOST_BODIES}; ebac.Free() is empty space"
+            )
+        all_of_them = []
+        for body in bodies:
+            if not isinstance(body, (Body, *SOLIDS)):
+                raise TypeError(f"World: {body!r}: must be a Body or a solid of ebac.worlds")
+            all_of_them.append(body if isinstance(body, Body) else Body(solid=body))
+        super().__init__([_parts(body) for body in all_of_them])
+        self._bodies = tuple(all_of_them)
 
-    def made(self) -> _core._World:
-        """Return the world as the core has it, without memory."""
-        return _core._scene([_made(body) for body in self.bodies])
+    @classmethod
+    def from_table(cls, bodies: tuple[Body, ...]) -> Self:
+        """Return it from its parts by name."""
+        return cls(*bodies)
+
+    @property
+    def bodies(self) -> tuple[Body, ...]:
+        """What it is made of."""
+        return self._bodies
+
+    def as_dict(self) -> dict[str, Any]:
+        """Return the bodies by name."""
+        return {"bodies": self._bodies}
+
+    def walk(
+        self, x: ArrayLike, v: ArrayLike | None = None, t: ArrayLike | None = None
+    ) -> list[Touch]:
+        """Follow a handle along a path, from a world that was not touched before.
+
+        Parameters
+        ----------
+        x : array_like, shape (n, 3)
+            Places, one after the other [m].
+        v : array_like, shape (n, 3), optional
+            Velocities [m/s]; default 0.
+        t : array_like, shape (n,), optional
+            Times [s]; default 0.
+
+        Returns
+        -------
+        list of Touch
+            One for each place.
+        """
+        places = np.asarray(x, float).reshape(-1, 3)
+        speeds = np.zeros_like(places) if v is None else np.asarray(v, float).reshape(-1, 3)
+        times = np.zeros(len(places)) if t is None else np.asarray(t, float).ravel()
+        if not len(places) == len(speeds) == len(times):
+            raise ValueError(
+                f"World.walk: {len(places)} places, {len(speeds)} velocities, {len(times)} times: must be as many"
+            )
+        self.reset()
+        return [Touch(*self.contact(*one)) for one in zip(places, speeds, times, strict=True)]
+
+    def __repr__(self) -> str:
+        """Return the bodies."""
+        return f"World({', '.join(map(repr, self._bodies))})"
+
+    def __eq__(self, other: object) -> bool:
+        """Return whether both have the same bodies."""
+        return isinstance(other, World) and self._bodies == other._bodies
+
+    def __hash__(self) -> int:
+        """Return a number of the bodies."""
+        return hash(self._bodies)
+
+    def __reduce__(self) -> tuple[type[World], tuple[Body, ...]]:
+        """Return what a copy is made from."""
+        return type(self), self._bodies
 
 
-def _made(body: Body) -> tuple[object, object, float, Swing]:
+def _parts(body: Body) -> tuple[_core._Solid, Any, float, Swing]:
     material = body.material
     own = _core._Layered(list(material.layers)) if isinstance(material, Layered) else material
     return made(body.solid), own, float(body.friction), body.motion
-
-

@@ -1,0 +1,116 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "ebac/world/solid.hpp"
+
+namespace ebac::world {
+
+/// A solid as its signed distance at the nodes of a grid, fine near the surface and coarse elsewhere: whatever it was made
+/// from, a contact costs the same.
+///
+/// Each node has distance and direction. Between the eight nodes of a cell their tangent planes are blended, so that plane
+/// surfaces are exact and the direction is continuous. Far from the surface a bound of the distance is enough.
+class DistanceGrid final : public Solid {
+ public:
+  static constexpr int kCells = 8;  // of a brick, along each edge
+  static constexpr int kNodes = kCells + 1;
+  static constexpr std::size_t kBrick = std::size_t{4} * kNodes * kNodes * kNodes;
+  static constexpr std::int32_t kFar = -1;
+
+  struct Layout {
+    Axes origin = Axes::Zero();   // m, of the first node
+    double cell = 1e-3;           // m, edge of a cell
+    std::array<int, 3> bricks{};  // number along each edge
+    double margin = 0;            // m, that surrounds the solid within the grid
+  };
+
+  /// `far`: distance at the corners of the bricks [m], (bricks + 1) along each edge. `index`: of each brick, the number of
+  /// its nodes in `nodes`, or `kFar`. `nodes`: direction and distance of each node. The last coordinate changes first.
+  DistanceGrid(const Layout& layout, std::vector<float> far, std::vector<std::int32_t> index,
+               std::vector<float> nodes)
+      : layout_(layout), far_(std::move(far)), index_(std::move(index)), nodes_(std::move(nodes)) {}
+
+  Distance distance(const Axes& x) const EBAC_RT override {
+    const Axes scaled = (x - layout_.origin) / layout_.cell;
+    std::array<int, 3> brick{};
+    Axes within;  // cells, in its brick
+    for (int i = 0; i < 3; ++i) {
+      const auto k = static_cast<std::size_t>(i);
+      const double place = scaled[i] / kCells;
+      if (!(place >= 0 && place < layout_.bricks[k])) return outside(x);
+      brick[k] = static_cast<int>(place);
+      within[i] = scaled[i] - kCells * brick[k];
+    }
+    const std::int32_t which = index_[cell_number(brick, layout_.bricks)];
+    return which == kFar ? far(brick, within) : near(which, within);
+  }
+
+ private:
+  static std::size_t cell_number(const std::array<int, 3>& at, const std::array<int, 3>& size) EBAC_RT {
+    return static_cast<std::size_t>((at[0] * size[1] + at[1]) * size[2] + at[2]);
+  }
+
+  /// Not in the grid: at least as far as the grid's own edge, and the margin.
+  Distance outside(const Axes& x) const EBAC_RT {
+    Axes beyond;
+    for (int i = 0; i < 3; ++i) {
+      const double size = layout_.cell * kCells * layout_.bricks[static_cast<std::size_t>(i)];
+      const double own = x[i] - layout_.origin[i];
+      beyond[i] = own - std::clamp(own, 0.0, size);
+    }
+    Distance at = from_centre(beyond, Axes::UnitX());
+    at.d += layout_.margin;
+    return at;
+  }
+
+  /// No surface in this brick: no distance changes faster than the place.
+  Distance far(const std::array<int, 3>& brick, const Axes& within) const EBAC_RT {
+    std::array<int, 3> corner = brick;
+    Axes off;  // m, from the nearest corner
+    for (int i = 0; i < 3; ++i) {
+      const bool upper = within[i] > 0.5 * kCells;
+      corner[static_cast<std::size_t>(i)] += upper ? 1 : 0;
+      off[i] = layout_.cell * (within[i] - (upper ? kCells : 0));
+    }
+    const std::array<int, 3> size{layout_.bricks[0] + 1, layout_.bricks[1] + 1, layout_.bricks[2] + 1};
+    const double d = far_[cell_number(corner, size)];
+    const double least = std::max(std::abs(d) - off.norm(), 0.0);
+    return {std::copysign(least, d), Axes::UnitX()};
+  }
+
+  Distance near(std::int32_t which, const Axes& within) const EBAC_RT {
+    using Node = Eigen::Map<const Eigen::Vector4f>;
+    const std::array<int, 3> cell{std::min(static_cast<int>(within[0]), kCells - 1),
+                                  std::min(static_cast<int>(within[1]), kCells - 1),
+                                  std::min(static_cast<int>(within[2]), kCells - 1)};
+    const Axes u = within - Axes(cell[0], cell[1], cell[2]);
+    const float* const first = nodes_.data() + static_cast<std::size_t>(which) * kBrick;
+    double d = 0;
+    Axes out = Axes::Zero();
+    for (int corner = 0; corner < 8; ++corner) {
+      const int i = corner >> 2;
+      const int j = corner >> 1 & 1;
+      const int k = corner & 1;
+      const int at = ((cell[0] + i) * kNodes + cell[1] + j) * kNodes + cell[2] + k;
+      const Eigen::Vector4d node = Node(first + 4 * at).cast<double>();
+      const Axes off = u - Axes(i, j, k);
+      const double weight =
+          (i != 0 ? u[0] : 1 - u[0]) * (j != 0 ? u[1] : 1 - u[1]) * (k != 0 ? u[2] : 1 - u[2]);
+      d += weight * (node[3] + layout_.cell * off.dot(node.head<3>()));
+      out += weight * node.head<3>();
+    }
+    return {d, from_centre(out, Axes::UnitX()).out};
+  }
+
+  Layout layout_;
+  std::vector<float> far_;            // m
+  std::vector<std::int32_t> index_;
+  std::vector<float> nodes_;
+};
+
+}  // namespace ebac::world

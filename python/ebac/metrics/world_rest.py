@@ -1,0 +1,84 @@
+"""Where a hand and an ideal world of bodies balance."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ebac._core import Layer, Linear, MinimumJerk, Step
+from ebac.scenario import Scenario
+from ebac.worlds import Body, Layered, World
+
+#: Places of the hand's target on its way, so that the handle comes in where the hand presses it in.
+STEPS = 60
+#: Most corrections at each of them.
+MOST_CORRECTIONS = 30
+#: Left of the forces that balance [N].
+BALANCED = 1e-7
+#: Half of the way over which a slope is taken [m].
+SMALL = 1e-7
+
+
+class Rest(NamedTuple):
+    """A balance of hand and world on the first axis."""
+
+    x: float  # m
+    stiffness: float  # N/m, of both
+
+
+def world_rest(scenario: Scenario) -> Rest | None:
+    """Return where a slow hand comes to rest on the first axis.
+
+    None where there is no such place or more than one: with friction, motion or puncture, a hand that does not come to
+    a target, or a gimbal.
+    """
+    world, hand, device = scenario.environment, scenario.hand, scenario.device
+    if not isinstance(world, World) or not all(map(_one_rest, world.bodies)):
+        return None
+    if hand.model is not None or np.isfinite(hand.release_at) or hand.stiffness == 0:
+        return None
+    paths = hand.path[: device.axes]
+    if not isinstance(device.kinematics, Linear) or not all(
+        isinstance(path, (Step, MinimumJerk)) for path in paths
+    ):
+        return None
+    goal = np.zeros(device.axes)
+    goal[: len(paths)] = [path.target for path in paths]  # type: ignore[union-attr]
+    mechanics, given = device.mechanics, device.compensation
+    weight = (mechanics.handle_mass - given.gravity_mass) * mechanics.gravity
+    world.reset()
+    x, slope = np.zeros(device.axes), np.eye(device.axes)
+    for share in np.linspace(0, 1, STEPS + 1)[1:]:
+        for _ in range(MOST_CORRECTIONS):
+            missing = hand.stiffness * (share * goal - x) + weight - _force(world, x)
+            slope = hand.stiffness * np.eye(len(x)) + _slope(world, x)
+            if np.abs(missing).max() < BALANCED:
+                break
+            x = x + np.linalg.solve(slope, missing)
+        else:
+            if np.abs(missing).max() > 1e3 * BALANCED:
+                return None
+    return Rest(float(x[0]), float(slope[0, 0]))
+
+
+def _one_rest(body: Body) -> bool:
+    """Return whether a slow motion ends in the same place whatever came before."""
+    material = body.material
+    layers: tuple[Layer, ...] = material.layers if isinstance(material, Layered) else ()
+    return body.friction == 0 and body.motion.still() and not any(one.puncture for one in layers)
+
+
+def _force(world: World, x: NDArray[np.float64]) -> NDArray[np.float64]:
+    force: NDArray[np.float64] = world.contact(np.pad(x, (0, 3 - len(x))), np.zeros(3), 0.0)[0]
+    return force[: len(x)]
+
+
+def _slope(world: World, x: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return how the force changes with the place [N/m], shape (axes, axes)."""
+    columns = [
+        (_force(world, x + SMALL * unit) - _force(world, x - SMALL * unit)) / (2 * SMALL)
+        for unit in np.eye(len(x))
+    ]
+    return np.column_stack(columns)

@@ -1,0 +1,278 @@
+"""Solids from triangles: mesh files and height maps."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import lru_cache
+from pathlib import Path
+from typing import Any, Self
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ebac.worlds.grid import Floats, Grid, Ints, Progress, Surface, cached_grid, needed
+from ebac.worlds.part import Part
+
+#: Cells along the longest side of a mesh, unless told otherwise.
+CELLS = 96
+
+
+@dataclass(frozen=True)
+class GridError:
+    """How far a grid is from the triangles it was made of.
+
+    Attributes
+    ----------
+    cell_m : float
+        Edge of a cell.
+    samples : int
+        Points compared, within a cell of the surface.
+    depth_rms_m, depth_max_m : float
+        Error of the distance.
+    normal_median_deg, normal_p99_deg : float
+        Error of the direction. At an edge of the mesh the true direction jumps, and the grid's turns within a cell.
+    """
+
+    cell_m: float
+    samples: int
+    depth_rms_m: float
+    depth_max_m: float
+    normal_median_deg: float
+    normal_p99_deg: float
+
+
+class _Triangles(Part):
+    """What meshes and height maps share: the grid of their surface."""
+
+    cell: float | None
+
+    def surface(self) -> Surface:
+        """Return the triangles."""
+        raise NotImplementedError
+
+    def grid(self, progress: Progress | None = None) -> Grid:
+        """Return the signed distance on a grid, from the cache if it is there.
+
+        Parameters
+        ----------
+        progress : callable, optional
+            Called with nodes done and all nodes, while a grid is made.
+        """
+        surface = self.surface()
+        return cached_grid(surface, self.cell_m(surface), progress)
+
+    def cell_m(self, surface: Surface | None = None) -> float:
+        """Return the edge of a cell [m]."""
+        if self.cell is not None:
+            return self.cell
+        given = self.surface() if surface is None else surface
+        return float(np.ptp(given.vertices, axis=0).max()) / CELLS
+
+    def error(self, *, samples: int = 4000, seed: int = 1) -> GridError:
+        """Compare the grid with the exact distance to the triangles.
+
+        Parameters
+        ----------
+        samples : int
+            Points at random on the surface, moved off it by a cell at most.
+        seed : int
+            Seed.
+        """
+        surface, grid = self.surface(), self.grid()
+        random = np.random.default_rng(seed)
+        corners = surface.vertices[surface.faces]
+        sides = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+        area = np.linalg.norm(sides, axis=1)
+        which = random.choice(len(corners), samples, p=area / area.sum())
+        weights = random.dirichlet(np.ones(3), samples)
+        points = np.einsum("ni,nij->nj", weights, corners[which])
+        points += random.uniform(-grid.cell, grid.cell, samples)[:, None] * (
+            sides[which] / area[which, None]
+        )
+        exact, direction = surface.distance(points)
+        found, out = grid.made().distances(points)
+        angle = np.degrees(np.arccos(np.clip(np.einsum("ni,ni->n", direction, out), -1, 1)))
+        off = found - exact
+        return GridError(
+            cell_m=grid.cell,
+            samples=samples,
+            depth_rms_m=float(np.sqrt(np.mean(off**2))),
+            depth_max_m=float(np.abs(off).max()),
+            normal_median_deg=float(np.median(angle)),
+            normal_p99_deg=float(np.quantile(angle, 0.99)),
+        )
+
+
+def _check_cell(name: str, cell: float | None) -> None:
+    if cell is not None and not 1e-5 <= cell <= 0.1:
+        raise ValueError(f"{name}.cell = {cell!r} m: must lie in [1e-05, 0.1] m")
+
+
+@dataclass(frozen=True)
+class Mesh(_Triangles):
+    """A solid bounded by triangles, from any file that trimesh reads (STL, OBJ, PLY, OFF, GLB, ...).
+
+    It becomes signed distance on a grid, so that a contact costs the same with a thousand triangles and with a million.
+    The grid is made once and kept in the user's cache (`EBAC_CACHE` names another folder). Needs `ebac[worlds]`.
+
+    Parameters
+    ----------
+    file : str
+        Path of the file.
+    scale : float
+        Metres in a unit of the file, [1e-6, 1e3]: 0.001 for millimetres.
+    size : float or None
+        Longest side [m], instead of `scale`.
+    cell : float or None
+        Edge of a cell of the grid [m], [1e-5, 0.1]; None: 1/96 of the longest side.
+    thickness : float
+        0: a closed surface around a solid. Above: a shell of this thickness [m], (0, 0.1]; a surface that is open must
+        be one.
+
+    Raises
+    ------
+    FileNotFoundError
+        When there is no such file.
+    ValueError
+        When it holds no triangles, is open without a `thickness`, or a number is out of range.
+    ImportError
+        Without the extra.
+    """
+
+    file: str
+    scale: float = 1.0
+    size: float | None = None
+    cell: float | None = None
+    thickness: float = 0.0
+
+    def __post_init__(self) -> None:
+        """Check numbers and file."""
+        object.__setattr__(self, "file", str(self.file))
+        if not 1e-6 <= self.scale <= 1e3:
+            raise ValueError(f"Mesh.scale = {self.scale!r} m: must lie in [1e-06, 1000] m")
+        if self.size is not None and not 1e-3 <= self.size <= 10:
+            raise ValueError(f"Mesh.size = {self.size!r} m: must lie in [0.001, 10] m")
+        _check_cell("Mesh", self.cell)
+        if self.thickness != 0 and not 1e-4 <= self.thickness <= 0.1:
+            raise ValueError(
+                f"Mesh.thickness = {self.thickness!r} m: must be 0 or lie in [0.0001, 0.1] m"
+            )
+        self.surface()
+
+    def surface(self) -> Surface:
+        """Return the triangles in metres."""
+        vertices, faces, open_edges = _read(self.file, Path(self.file).stat().st_mtime_ns)
+        if open_edges and not self.thickness:
+            raise ValueError(
+                f"{self.file}: the surface is open, {open_edges} edges belong to one triangle: it has no inside; "
+                "close it, or give it a thickness"
+            )
+        longest = float(np.ptp(vertices, axis=0).max())
+        scale = self.scale if self.size is None else self.size / longest
+        return Surface(vertices * scale, faces, self.thickness)
+
+    def replace(self, **changes: Any) -> Self:
+        """Return a copy with some parameters changed."""
+        return replace(self, **changes)
+
+
+@lru_cache(maxsize=4)
+def _read(file: str, changed: int) -> tuple[Floats, Ints, int]:
+    """Return vertices, triangles and the number of open edges of a file."""
+    del changed  # a file that was written anew is read anew
+    trimesh = needed("trimesh", "trimesh")
+    try:
+        mesh = trimesh.load_mesh(file)
+        vertices, faces = np.array(mesh.vertices, float), np.array(mesh.faces, np.int64)
+    except Exception as error:
+        raise ValueError(f"{file}: cannot be read as a mesh ({error})") from error
+    if len(faces) == 0 or not np.isfinite(vertices).all():
+        raise ValueError(f"{file}: holds no triangles with finite corners")
+    corners = vertices[faces]
+    area = np.linalg.norm(
+        np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1
+    )
+    faces = faces[area > 0]
+    edges = np.sort(faces[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2), axis=1)
+    _, count = np.unique(edges, axis=0, return_counts=True)
+    return vertices, faces, int((count == 1).sum())
+
+
+@dataclass(frozen=True)
+class HeightField(_Triangles):
+    """Ground of given heights: solid from `-base` up to them.
+
+    Parameters
+    ----------
+    heights : array_like, shape (n, m)
+        Height along z [m] at n places along x and m along y, 2 at least; the middle lies at the origin.
+    spacing : float
+        Between two places [m], [1e-4, 1].
+    base : float or None
+        How far below z = 0 it reaches [m]; None: 10 mm below the lowest place.
+    cell : float or None
+        Edge of a cell of the grid [m]; None: 1/96 of the longest side.
+
+    Raises
+    ------
+    ValueError
+        When a number is out of range.
+    ImportError
+        Without the extra `worlds`.
+    """
+
+    heights: tuple[tuple[float, ...], ...]
+    spacing: float = 2e-3
+    base: float | None = None
+    cell: float | None = None
+
+    def __post_init__(self) -> None:
+        """Check the heights."""
+        heights = np.asarray(self.heights, float)
+        if heights.ndim != 2 or min(heights.shape) < 2 or not (np.abs(heights) <= 1).all():
+            raise ValueError(
+                f"HeightField.heights: shape {heights.shape}: must be (n, m), 2 at least each, within [-1, 1] m"
+            )
+        if not 1e-4 <= self.spacing <= 1:
+            raise ValueError(f"HeightField.spacing = {self.spacing!r} m: must lie in [0.0001, 1] m")
+        if self.base is not None and not -heights.min() < self.base <= 10:
+            raise ValueError(
+                f"HeightField.base = {self.base!r} m: must lie in ({-heights.min():g}, 10] m, below the lowest place"
+            )
+        _check_cell("HeightField", self.cell)
+        object.__setattr__(self, "heights", tuple(tuple(map(float, row)) for row in heights))
+
+    @classmethod
+    def of(cls, heights: ArrayLike, **more: Any) -> Self:
+        """Return it from an array."""
+        return cls(tuple(map(tuple, np.asarray(heights, float))), **more)
+
+    def surface(self) -> Surface:
+        """Return the triangles: the ground, four sides and the floor."""
+        heights = np.asarray(self.heights)
+        n, m = heights.shape
+        x, y = np.meshgrid(
+            self.spacing * (np.arange(n) - (n - 1) / 2),
+            self.spacing * (np.arange(m) - (m - 1) / 2),
+            indexing="ij",
+        )
+        base = 0.01 - heights.min() if self.base is None else self.base
+        upper = np.stack([x, y, heights], axis=-1).reshape(-1, 3)
+        lower = upper * [1, 1, 0] - [0, 0, base]
+        number = np.arange(n * m).reshape(n, m)
+        a, b, c, d = (
+            one.ravel()
+            for one in (number[:-1, :-1], number[1:, :-1], number[1:, 1:], number[:-1, 1:])
+        )
+        ground = np.concatenate([np.column_stack([a, b, c]), np.column_stack([a, c, d])])
+        rim = np.concatenate([number[:-1, 0], number[-1, :-1], number[:0:-1, -1], number[0, :0:-1]])
+        after = np.roll(rim, -1)
+        below = n * m
+        sides = np.concatenate(
+            [
+                np.column_stack([rim, rim + below, after + below]),
+                np.column_stack([rim, after + below, after]),
+            ]
+        )
+        faces = np.concatenate([ground, ground[:, ::-1] + below, sides])
+        return Surface(np.concatenate([upper, lower]), faces)

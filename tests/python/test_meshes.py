@@ -1,0 +1,137 @@
+"""Meshes and height maps as worlds: grids of signed distance against exact distances."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import ebac
+from ebac.metrics import world_contact
+from ebac.worlds import Body, Elastic, HeightField, Mesh, Placed, World, distance, preset
+
+trimesh = pytest.importorskip("trimesh")
+pytest.importorskip("igl")
+
+
+@pytest.fixture(autouse=True)
+def _own_cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("EBAC_CACHE", str(tmp_path / "cache"))
+
+
+@pytest.fixture
+def ball(tmp_path: Path) -> Path:
+    """A ball of 20 mm radius, in millimetres, 1280 triangles."""
+    file = tmp_path / "ball.stl"
+    trimesh.creation.icosphere(subdivisions=3, radius=20).export(file)
+    return file
+
+
+@pytest.fixture
+def cube(tmp_path: Path) -> Path:
+    """A cube of 40 mm, in metres."""
+    file = tmp_path / "cube.ply"
+    trimesh.creation.box((0.04, 0.04, 0.04)).export(file)
+    return file
+
+
+def test_a_grid_is_near_the_triangles(ball: Path) -> None:
+    error = Mesh(str(ball), scale=1e-3).error()
+    assert error.depth_rms_m < 1e-6
+    assert error.depth_max_m < 2e-5
+    assert error.normal_median_deg < 3  # facets are 4 degrees apart
+
+
+def test_a_plane_face_is_exact(cube: Path) -> None:
+    mesh = Mesh(str(cube), cell=1e-3)
+    points = np.array([[0.0203, 0.003, 0.004], [0.0197, 0.003, -0.004], [-0.0201, 0.001, 0.0]])
+    d, out = distance(mesh, points)
+    assert d == pytest.approx([0.3e-3, -0.3e-3, 0.1e-3], abs=1e-8)
+    assert out == pytest.approx(np.array([[1, 0, 0], [1, 0, 0], [-1, 0, 0]]), abs=1e-6)
+
+
+def test_far_away_a_distance_is_never_too_long(ball: Path) -> None:
+    mesh = Mesh(str(ball), scale=1e-3)
+    points = np.random.default_rng(3).uniform(-0.1, 0.1, (5000, 3))
+    d, _ = distance(mesh, points)
+    exact = np.linalg.norm(points, axis=1) - 0.0198  # the facets lie a little inside the ball
+    outside = exact > 0
+    assert (d[outside] <= exact[outside] + 0.5e-3).all()
+    assert (d[exact < -1e-3] < 0).all()
+
+
+def test_a_grid_is_kept_and_a_damaged_one_is_made_anew(cube: Path, tmp_path: Path) -> None:
+    mesh = Mesh(str(cube), cell=2e-3)
+    made = []
+    first = mesh.grid(lambda done, all_of_them: made.append((done, all_of_them)))
+    assert made[-1][0] == made[-1][1]
+    (file,) = (tmp_path / "cache").glob("*.npz")
+    assert np.array_equal(mesh.grid(lambda *_: pytest.fail("made anew")).nodes, first.nodes)
+    file.write_bytes(file.read_bytes()[:1000])
+    assert np.array_equal(mesh.grid().nodes, first.nodes)
+
+
+def test_ebac_is_exact_and_quiet_on_a_mesh(ball: Path) -> None:
+    world = preset(f"mesh:{ball}")
+    for axes in (1, 2, 3):
+        device = ebac.Device(kinematics=ebac.Linear(axes=axes))
+        trace = ebac.simulate(ebac.Scenario(device=device, environment=world, seconds=4), "ebac")
+        assert ebac.contact(trace).verdict == "exact and quiet"
+        assert world_contact(trace).came_through == 0
+
+
+def test_a_mesh_goes_to_toml_and_back(cube: Path) -> None:
+    scenario = ebac.Scenario(environment=World(Body(solid=Mesh(str(cube)))), seconds=0.1)
+    assert ebac.Scenario.from_toml(scenario.to_toml()) == scenario
+
+
+def test_an_open_surface_needs_a_thickness(tmp_path: Path) -> None:
+    file = tmp_path / "sheet.obj"
+    file.write_text("v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3\nf 1 3 4\n", encoding="utf-8")
+    with pytest.raises(ValueError, match="open, 4 edges"):
+        Mesh(str(file), size=0.1)
+    sheet = Mesh(str(file), size=0.1, thickness=2e-3)
+    d, out = distance(sheet, [[0, 0, 3e-3], [0, 0, 0.5e-3], [0, 0, -3e-3]])
+    assert d == pytest.approx([2e-3, -0.5e-3, 2e-3], abs=1e-6)
+    assert out[0] == pytest.approx([0, 0, 1], abs=1e-5)
+    path = np.column_stack([np.zeros((300, 2)), np.linspace(5e-3, -20e-3, 300)])
+    touch = World(Body(solid=sheet, material=Elastic(stiffness=500))).walk(path)[-1]
+    assert touch.force == pytest.approx([0, 0, -500 * 21e-3], abs=0.05)  # a thin sheet holds
+
+
+def test_what_is_no_mesh_is_refused(tmp_path: Path) -> None:
+    text = tmp_path / "text.stl"
+    text.write_text("hello", encoding="utf-8")
+    with pytest.raises(ValueError, match="text.stl"):
+        Mesh(str(text))
+    with pytest.raises(FileNotFoundError, match="gone.stl"):
+        Mesh(str(tmp_path / "gone.stl"))
+    with pytest.raises(ValueError, match=r"Mesh.cell = 1.0 m: must lie in"):
+        Mesh(str(text), cell=1.0)
+
+
+def test_hills_are_where_the_heights_say() -> None:
+    u = np.linspace(-1, 1, 31)
+    heights = 3e-3 * np.cos(np.pi * u)[:, None] * np.cos(np.pi * u)
+    ground = HeightField.of(heights, spacing=2e-3)
+    x, y = 2e-3 * 4, -2e-3 * 7
+    top = heights[15 + 4, 15 - 7]
+    d, out = distance(ground, [[x, y, top + 1e-3], [x, y, top - 1e-3], [0, 0, 1.0]])
+    assert d[0] == pytest.approx(1e-3 * out[0][2], abs=5e-5)
+    assert d[1] < 0 < d[2]
+    with pytest.raises(ValueError, match=r"HeightField.heights: shape \(3,\)"):
+        HeightField((1.0, 2.0, 3.0))  # type: ignore[arg-type]
+
+
+def test_a_million_triangles_cost_the_same(tmp_path: Path) -> None:
+    """Only that the grids agree: times are measured by `ebac bench --worlds`, not asserted."""
+    fine = tmp_path / "fine.ply"
+    trimesh.creation.icosphere(subdivisions=6, radius=0.02).export(fine)
+    coarse = tmp_path / "coarse.ply"
+    trimesh.creation.icosphere(subdivisions=5, radius=0.02).export(coarse)
+    points = np.random.default_rng(1).normal(size=(500, 3))
+    points *= 0.02 / np.linalg.norm(points, axis=1, keepdims=True)
+    one, other = (distance(Mesh(str(file), cell=0.5e-3), points)[0] for file in (fine, coarse))
+    assert np.abs(one - other).max() < 2e-5
+    assert Placed(Mesh(str(coarse)), (0.02, 0, 0)).at == (0.02, 0, 0)
