@@ -131,8 +131,9 @@ void add_runs(const LawClass& law) {
         return replay_on(log, any, device, environment);
       },
       "(self: LAW, log: ebac._core.ReplayLog, device: ebac._core.Device, environment: "
-      "ebac._core.Free | ebac._core.Wall | ebac._core.Corner | ebac._core.Disc) -> "
-      "ebac._core.Rows",
+      "ebac._core.Free | ebac._core.Wall | ebac._core.Corner | ebac._core.Disc | "
+      "ebac._core._World) "
+      "-> ebac._core.Rows",
       "", py::arg("log"), py::arg("device"), py::arg("environment"));
   add_sweep(law);
   if (has_force_loop(*law.type)) add_press(law);

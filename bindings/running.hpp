@@ -75,6 +75,11 @@ class Running {
     const std::scoped_lock one_writer(writers_);
     return updates_->post(value);
   }
+  /// Another virtual world, without memory. It is kept until the end of the run: the loop never frees one.
+  std::uint64_t post(const Environment& world) {
+    const std::scoped_lock one_writer(writers_);
+    return updates_->post(worlds_.emplace_back(fresh(world)));
+  }
 
  private:
   Hardware hardware(const RunSetup& setup);
@@ -82,6 +87,7 @@ class Running {
   can::AnyBus bus_;
   AnyLaw newest_;
   std::mutex writers_;
+  std::vector<Environment> worlds_;
   std::shared_ptr<ParameterUpdates<All>> updates_;
   std::shared_ptr<Trace> trace_;
   std::unique_ptr<Thread> thread_;  // last: it stops before the others go

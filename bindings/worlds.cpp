@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <memory>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "bind.hpp"
@@ -28,7 +29,7 @@ template <class T>
 using Array = py::array_t<T, py::array::c_style | py::array::forcecast>;
 
 /// Distance and normal at each row of `points`, shape (n, 3).
-py::tuple distances(const HeldSolid& held, const Points& points) {
+std::pair<Eigen::VectorXd, Points> distances(const HeldSolid& held, const Points& points) {
   Eigen::VectorXd d(points.rows());
   Points out(points.rows(), 3);
   for (Eigen::Index i = 0; i < points.rows(); ++i) {
@@ -36,7 +37,7 @@ py::tuple distances(const HeldSolid& held, const Points& points) {
     d[i] = at.d;
     out.row(i) = at.out;
   }
-  return py::make_tuple(d, out);
+  return {d, out};
 }
 
 std::vector<SolidPtr> solids_of(const std::vector<HeldSolid>& held) {
@@ -59,7 +60,8 @@ HeldSolid grid_of(const Axes& origin, double cell, double margin, const Array<fl
     layout.bricks[i] = static_cast<int>(index.shape(axis));
     fits = far.shape(axis) == index.shape(axis) + 1;
   }
-  const auto bricks = static_cast<py::ssize_t>(nodes.size()) / static_cast<py::ssize_t>(DistanceGrid::kBrick);
+  const auto bricks =
+      static_cast<py::ssize_t>(nodes.size()) / static_cast<py::ssize_t>(DistanceGrid::kBrick);
   for (py::ssize_t i = 0; fits && i < index.size(); ++i)
     fits = index.data()[i] >= DistanceGrid::kFar && index.data()[i] < bricks;
   if (!fits) throw std::invalid_argument("_grid: the arrays do not belong together");
@@ -87,7 +89,8 @@ void bind_solids(py::module_& m) {
   m.def("_grid", &grid_of, py::kw_only(), py::arg("origin"), py::arg("cell"), py::arg("margin"),
         py::arg("far"), py::arg("index"), py::arg("nodes"));
   m.def("_inverted", [](const HeldSolid& held) { return HeldSolid{inverted(held.solid)}; });
-  m.def("_union", [](const std::vector<HeldSolid>& all) { return HeldSolid{unite(solids_of(all))}; });
+  m.def("_union",
+        [](const std::vector<HeldSolid>& all) { return HeldSolid{unite(solids_of(all))}; });
   m.def("_intersection",
         [](const std::vector<HeldSolid>& all) { return HeldSolid{intersect(solids_of(all))}; });
   m.def("_placed", [](const HeldSolid& held, const Axes& at, const Axes& turned) {
@@ -104,7 +107,8 @@ void bind_materials(py::module_& m) {
   bind_fields<Elastic>(m, "Elastic", "A spring and damper, eq. (12); a Kelvin-Voigt body.");
   bind_fields<HuntCrossley>(m, "HuntCrossley", "Soft tissue after Hunt and Crossley (1975).");
   bind_fields<Layer>(m, "Layer", "One layer of tissue.");
-  bind_fields<Swing>(m, "Swing", "A body's motion: to and fro along a direction, turning about another.")
+  bind_fields<Swing>(m, "Swing",
+                     "A body's motion: to and fro along a direction, turning about another.")
       .def("still", &Swing::still, "Return whether it does not move at all.");
   py::class_<Layered>(m, "_Layered").def(py::init([](const std::vector<Layer>& layers) {
     if (layers.empty() || layers.size() > Layered::kMost)

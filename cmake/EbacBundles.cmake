@@ -15,14 +15,14 @@ ebac_bundle(ebac machine cpp/ebac can/raw_socket can/socketcan can/wake_event
             simulated_drives/simulated_drive simulated_drives/simulated_drive_errors
             simulated_drives/simulated_drive_motion simulated_drives/simulated_drive_objects)
 ebac_bundle(ebac model cpp/ebac model/device model/exact_axis model/exact_plant model/hand model/hand_model model/joint_dynamics
-            model/limits model/linear_flow model/stepped_plant)
+            model/limits model/linear_flow model/stepped_plant world/make)
 ebac_bundle(ebac run cpp/ebac control/virtual_coupling core/check core/fields faults/campaign faults/case
             faults/test_bench identify/arm_drive identify/arm_jacobian identify/arm_record identify/arm_step loop/retune loop/trace sim/contact sim/ideal_wall
             sim/linear_loop sim/perceived_ripple sim/rest_power sim/sweep)
 
 if(EBAC_PYTHON)
   ebac_bundle(_core_values device bindings core device environment fields hand identify kinematics limits linear_loop
-              module values)
+              module values worlds)
   ebac_bundle(_core_values run bindings controllers python_hand python_law realtime replay simulation sweep)
   ebac_bundle(_core_values bus bindings can can_plan faults running)
   ebac_bundle(_core_values machine bindings drive node_server sensor sensor_emulator)

@@ -26,14 +26,17 @@ __all__: list[str] = [
     "ArmRecord",
     "AxisTruth",
     "BackwardDifference",
+    "Box",
     "BusCounts",
     "BusLoad",
     "BusState",
     "CanFrame",
     "Capstan",
+    "Capsule",
     "Column",
     "Compensation",
     "Corner",
+    "Cylinder",
     "Device",
     "DeviceFacts",
     "Direct",
@@ -43,6 +46,7 @@ __all__: list[str] = [
     "DriveState",
     "EBAAccount",
     "EBACPrinted",
+    "Elastic",
     "EmulatorCounts",
     "EmulatorOptions",
     "EmulatorTrouble",
@@ -60,8 +64,10 @@ __all__: list[str] = [
     "Gimbal",
     "Grant",
     "Hand",
+    "HuntCrossley",
     "Joystick",
     "LagCompensator",
+    "Layer",
     "LetGo",
     "Limited",
     "Limits",
@@ -79,6 +85,7 @@ __all__: list[str] = [
     "NonlinearGrip",
     "Observer",
     "PassivityControl",
+    "Plane",
     "PlannedFrame",
     "Port",
     "RdtClient",
@@ -104,13 +111,17 @@ __all__: list[str] = [
     "Sine",
     "SocketCan",
     "SocketCanJoystick",
+    "Sphere",
     "Step",
     "SteppedPlant",
     "SweepProgress",
+    "Swing",
     "TCADamped",
     "Tapping",
+    "Texture",
     "TimedBus",
     "Timing",
+    "Torus",
     "VirtualCoupling",
     "Wall",
     "copley_current",
@@ -552,7 +563,7 @@ class DeviceFacts:
     peak_force : float
         largest force the motor can give [N], 0.001 to 10000.
     resonance : float
-        first resonance of the structure, handle held; 0 where none is known [Hz], 0 to 1e+05.
+        first resonance of the structure, handle held; 0 where none is known [Hz], 0 to 10000.
     """
 
     @staticmethod
@@ -610,7 +621,7 @@ class DeviceFacts:
     @property
     def resonance(self) -> float:
         """
-        first resonance of the structure, handle held; 0 where none is known [Hz], 0 to 1e+05
+        first resonance of the structure, handle held; 0 where none is known [Hz], 0 to 10000
         """
 
 class RealTimeMode(enum.IntEnum):
@@ -2300,6 +2311,574 @@ class Hand:
         frequency of the tremor [Hz], 0 to 500
         """
 
+class Plane:
+    """
+    All that lies behind the plane x = 0.
+    """
+
+    @staticmethod
+    def fields() -> list[Field]:
+        """
+        Return name, unit, meaning, default and range of every parameter.
+        """
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __init__(self) -> None: ...
+    def __reduce__(self) -> tuple[typing.Any, ...]: ...
+    def __repr__(self) -> str: ...
+    def as_dict(self) -> dict[str, typing.Any]:
+        """
+        Return the parameters by name.
+        """
+    def replace(self, **changes: typing.Any) -> typing.Self:
+        """
+        Return a copy with some parameters changed, checked as at construction.
+        """
+
+class Sphere:
+    """
+    A ball about the origin.
+
+    Parameters
+    ----------
+    radius : float
+        radius [m], 1e-04 to 10.
+    """
+
+    @staticmethod
+    def fields() -> list[Field]:
+        """
+        Return name, unit, meaning, default and range of every parameter.
+        """
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __init__(self, *, radius: float = 0.02) -> None: ...
+    def __reduce__(self) -> tuple[typing.Any, ...]: ...
+    def __repr__(self) -> str: ...
+    def as_dict(self) -> dict[str, typing.Any]:
+        """
+        Return the parameters by name.
+        """
+    def replace(self, **changes: typing.Any) -> typing.Self:
+        """
+        Return a copy with some parameters changed, checked as at construction.
+        """
+    @property
+    def radius(self) -> float:
+        """
+        radius [m], 1e-04 to 10
+        """
+
+class Box:
+    """
+    A box about the origin, along the axes.
+
+    Parameters
+    ----------
+    width : float
+        size along x [m], 1e-04 to 10.
+    depth : float
+        size along y [m], 1e-04 to 10.
+    height : float
+        size along z [m], 1e-04 to 10.
+    """
+
+    @staticmethod
+    def fields() -> list[Field]:
+        """
+        Return name, unit, meaning, default and range of every parameter.
+        """
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __init__(
+        self, *, width: float = 0.04, depth: float = 0.04, height: float = 0.04
+    ) -> None: ...
+    def __reduce__(self) -> tuple[typing.Any, ...]: ...
+    def __repr__(self) -> str: ...
+    def as_dict(self) -> dict[str, typing.Any]:
+        """
+        Return the parameters by name.
+        """
+    def replace(self, **changes: typing.Any) -> typing.Self:
+        """
+        Return a copy with some parameters changed, checked as at construction.
+        """
+    @property
+    def depth(self) -> float:
+        """
+        size along y [m], 1e-04 to 10
+        """
+    @property
+    def height(self) -> float:
+        """
+        size along z [m], 1e-04 to 10
+        """
+    @property
+    def width(self) -> float:
+        """
+        size along x [m], 1e-04 to 10
+        """
+
+class Cylinder:
+    """
+    A cylinder about the z axis.
+
+    Parameters
+    ----------
+    radius : float
+        radius [m], 1e-04 to 10.
+    length : float
+        length along z [m], 1e-04 to 100.
+    """
+
+    @staticmethod
+    def fields() -> list[Field]:
+        """
+        Return name, unit, meaning, default and range of every parameter.
+        """
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __init__(self, *, radius: float = 0.02, length: float = 0.1) -> None: ...
+    def __reduce__(self) -> tuple[typing.Any, ...]: ...
+    def __repr__(self) -> str: ...
+    def as_dict(self) -> dict[str, typing.Any]:
+        """
+        Return the parameters by name.
+        """
+    def replace(self, **changes: typing.Any) -> typing.Self:
+        """
+        Return a copy with some parameters changed, checked as at construction.
+        """
+    @property
+    def length(self) -> float:
+        """
+        length along z [m], 1e-04 to 100
+        """
+    @property
+    def radius(self) -> float:
+        """
+        radius [m], 1e-04 to 10
+        """
+
+class Capsule:
+    """
+    A cylinder about the z axis with half a sphere on each end.
+
+    Parameters
+    ----------
+    radius : float
+        radius [m], 1e-04 to 10.
+    length : float
+        between the centres of its ends [m], 0 to 100.
+    """
+
+    @staticmethod
+    def fields() -> list[Field]:
+        """
+        Return name, unit, meaning, default and range of every parameter.
+        """
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __init__(self, *, radius: float = 0.02, length: float = 0.1) -> None: ...
+    def __reduce__(self) -> tuple[typing.Any, ...]: ...
+    def __repr__(self) -> str: ...
+    def as_dict(self) -> dict[str, typing.Any]:
+        """
+        Return the parameters by name.
+        """
+    def replace(self, **changes: typing.Any) -> typing.Self:
+        """
+        Return a copy with some parameters changed, checked as at construction.
+        """
+    @property
+    def length(self) -> float:
+        """
+        between the centres of its ends [m], 0 to 100
+        """
+    @property
+    def radius(self) -> float:
+        """
+        radius [m], 1e-04 to 10
+        """
+
+class Torus:
+    """
+    A ring about the z axis.
+
+    Parameters
+    ----------
+    radius : float
+        radius of the ring's centre line [m], 1e-04 to 10.
+    tube : float
+        radius of the tube [m], 1e-04 to 10.
+    """
+
+    @staticmethod
+    def fields() -> list[Field]:
+        """
+        Return name, unit, meaning, default and range of every parameter.
+        """
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __init__(self, *, radius: float = 0.03, tube: float = 0.01) -> None: ...
+    def __reduce__(self) -> tuple[typing.Any, ...]: ...
+    def __repr__(self) -> str: ...
+    def as_dict(self) -> dict[str, typing.Any]:
+        """
+        Return the parameters by name.
+        """
+    def replace(self, **changes: typing.Any) -> typing.Self:
+        """
+        Return a copy with some parameters changed, checked as at construction.
+        """
+    @property
+    def radius(self) -> float:
+        """
+        radius of the ring's centre line [m], 1e-04 to 10
+        """
+    @property
+    def tube(self) -> float:
+        """
+        radius of the tube [m], 1e-04 to 10
+        """
+
+class Texture:
+    """
+    Waves on a surface, the same in all directions.
+
+    Parameters
+    ----------
+    amplitude : float
+        of the waves, above and below the smooth surface [m], 0 to 0.1.
+    wavelength : float
+        along each axis [m], 1e-04 to 1.
+    """
+
+    @staticmethod
+    def fields() -> list[Field]:
+        """
+        Return name, unit, meaning, default and range of every parameter.
+        """
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __init__(self, *, amplitude: float = 0.0002, wavelength: float = 0.005) -> None: ...
+    def __reduce__(self) -> tuple[typing.Any, ...]: ...
+    def __repr__(self) -> str: ...
+    def as_dict(self) -> dict[str, typing.Any]:
+        """
+        Return the parameters by name.
+        """
+    def replace(self, **changes: typing.Any) -> typing.Self:
+        """
+        Return a copy with some parameters changed, checked as at construction.
+        """
+    @property
+    def amplitude(self) -> float:
+        """
+        of the waves, above and below the smooth surface [m], 0 to 0.1
+        """
+    @property
+    def wavelength(self) -> float:
+        """
+        along each axis [m], 1e-04 to 1
+        """
+
+class _Solid:
+    def distances(
+        self, points: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, 3]"]
+    ) -> tuple[
+        typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"],
+        typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 3]"],
+    ]: ...
+
+class Elastic:
+    """
+    A spring and damper, eq. (12); a Kelvin-Voigt body.
+
+    Parameters
+    ----------
+    stiffness : float
+        K of eq. (12) [N/m], 0 to 1e+07.
+    damping : float
+        B of eq. (12) [N s/m], 0 to 10000.
+    """
+
+    @staticmethod
+    def fields() -> list[Field]:
+        """
+        Return name, unit, meaning, default and range of every parameter.
+        """
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __init__(self, *, stiffness: float = 10000.0, damping: float = 0.0) -> None: ...
+    def __reduce__(self) -> tuple[typing.Any, ...]: ...
+    def __repr__(self) -> str: ...
+    def as_dict(self) -> dict[str, typing.Any]:
+        """
+        Return the parameters by name.
+        """
+    def replace(self, **changes: typing.Any) -> typing.Self:
+        """
+        Return a copy with some parameters changed, checked as at construction.
+        """
+    @property
+    def damping(self) -> float:
+        """
+        B of eq. (12) [N s/m], 0 to 10000
+        """
+    @property
+    def stiffness(self) -> float:
+        """
+        K of eq. (12) [N/m], 0 to 1e+07
+        """
+
+class HuntCrossley:
+    """
+    Soft tissue after Hunt and Crossley (1975).
+
+    Parameters
+    ----------
+    stiffness : float
+        k [N/m^n], 0 to 1e+09.
+    exponent : float
+        n, 1 to 3.
+    dissipation : float
+        a: loss at a speed, as a share [s/m], 0 to 100.
+    """
+
+    @staticmethod
+    def fields() -> list[Field]:
+        """
+        Return name, unit, meaning, default and range of every parameter.
+        """
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __init__(
+        self, *, stiffness: float = 20000.0, exponent: float = 1.5, dissipation: float = 0.5
+    ) -> None: ...
+    def __reduce__(self) -> tuple[typing.Any, ...]: ...
+    def __repr__(self) -> str: ...
+    def as_dict(self) -> dict[str, typing.Any]:
+        """
+        Return the parameters by name.
+        """
+    def replace(self, **changes: typing.Any) -> typing.Self:
+        """
+        Return a copy with some parameters changed, checked as at construction.
+        """
+    @property
+    def dissipation(self) -> float:
+        """
+        a: loss at a speed, as a share [s/m], 0 to 100
+        """
+    @property
+    def exponent(self) -> float:
+        """
+        n, 1 to 3
+        """
+    @property
+    def stiffness(self) -> float:
+        """
+        k [N/m^n], 0 to 1e+09
+        """
+
+class Layer:
+    """
+    One layer of tissue.
+
+    Parameters
+    ----------
+    thickness : float
+        of the layer at rest [m], 1e-05 to 1.
+    stiffness : float
+        until it is punctured [N/m], 0 to 1e+07.
+    damping : float
+        until it is punctured [N s/m], 0 to 10000.
+    puncture : float
+        force at which it gives way, 0: never [N], 0 to 1000.
+    cutting : float
+        against motion through it, once it is punctured [N], 0 to 100.
+    """
+
+    @staticmethod
+    def fields() -> list[Field]:
+        """
+        Return name, unit, meaning, default and range of every parameter.
+        """
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __init__(
+        self,
+        *,
+        thickness: float = 0.005,
+        stiffness: float = 500.0,
+        damping: float = 0.0,
+        puncture: float = 0.0,
+        cutting: float = 0.0,
+    ) -> None: ...
+    def __reduce__(self) -> tuple[typing.Any, ...]: ...
+    def __repr__(self) -> str: ...
+    def as_dict(self) -> dict[str, typing.Any]:
+        """
+        Return the parameters by name.
+        """
+    def replace(self, **changes: typing.Any) -> typing.Self:
+        """
+        Return a copy with some parameters changed, checked as at construction.
+        """
+    @property
+    def cutting(self) -> float:
+        """
+        against motion through it, once it is punctured [N], 0 to 100
+        """
+    @property
+    def damping(self) -> float:
+        """
+        until it is punctured [N s/m], 0 to 10000
+        """
+    @property
+    def puncture(self) -> float:
+        """
+        force at which it gives way, 0: never [N], 0 to 1000
+        """
+    @property
+    def stiffness(self) -> float:
+        """
+        until it is punctured [N/m], 0 to 1e+07
+        """
+    @property
+    def thickness(self) -> float:
+        """
+        of the layer at rest [m], 1e-05 to 1
+        """
+
+class Swing:
+    """
+    A body's motion: to and fro along a direction, turning about another.
+
+    Parameters
+    ----------
+    amplitude_x : float
+        of the swing along x [m], -1 to 1.
+    amplitude_y : float
+        of the swing along y [m], -1 to 1.
+    amplitude_z : float
+        of the swing along z [m], -1 to 1.
+    frequency : float
+        of the swing [Hz], 0 to 100.
+    phase : float
+        of the swing at the beginning [rad], -6.3 to 6.3.
+    turn_x : float
+        turning about x [rad/s], -100 to 100.
+    turn_y : float
+        turning about y [rad/s], -100 to 100.
+    turn_z : float
+        turning about z [rad/s], -100 to 100.
+    """
+
+    @staticmethod
+    def fields() -> list[Field]:
+        """
+        Return name, unit, meaning, default and range of every parameter.
+        """
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __init__(
+        self,
+        *,
+        amplitude_x: float = 0.0,
+        amplitude_y: float = 0.0,
+        amplitude_z: float = 0.0,
+        frequency: float = 0.5,
+        phase: float = 0.0,
+        turn_x: float = 0.0,
+        turn_y: float = 0.0,
+        turn_z: float = 0.0,
+    ) -> None: ...
+    def __reduce__(self) -> tuple[typing.Any, ...]: ...
+    def __repr__(self) -> str: ...
+    def as_dict(self) -> dict[str, typing.Any]:
+        """
+        Return the parameters by name.
+        """
+    def replace(self, **changes: typing.Any) -> typing.Self:
+        """
+        Return a copy with some parameters changed, checked as at construction.
+        """
+    def still(self) -> bool:
+        """
+        Return whether it does not move at all.
+        """
+    @property
+    def amplitude_x(self) -> float:
+        """
+        of the swing along x [m], -1 to 1
+        """
+    @property
+    def amplitude_y(self) -> float:
+        """
+        of the swing along y [m], -1 to 1
+        """
+    @property
+    def amplitude_z(self) -> float:
+        """
+        of the swing along z [m], -1 to 1
+        """
+    @property
+    def frequency(self) -> float:
+        """
+        of the swing [Hz], 0 to 100
+        """
+    @property
+    def phase(self) -> float:
+        """
+        of the swing at the beginning [rad], -6.3 to 6.3
+        """
+    @property
+    def turn_x(self) -> float:
+        """
+        turning about x [rad/s], -100 to 100
+        """
+    @property
+    def turn_y(self) -> float:
+        """
+        turning about y [rad/s], -100 to 100
+        """
+    @property
+    def turn_z(self) -> float:
+        """
+        turning about z [rad/s], -100 to 100
+        """
+
+class _Layered:
+    def __init__(self, arg0: collections.abc.Sequence[Layer]) -> None: ...
+
+class _World:
+    def __init__(
+        self,
+        arg0: collections.abc.Sequence[
+            tuple[
+                _Solid,
+                Elastic | HuntCrossley | _Layered,
+                typing.SupportsFloat | typing.SupportsIndex,
+                Swing,
+            ]
+        ],
+    ) -> None: ...
+    def contact(
+        self,
+        x: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"],
+        v: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"],
+        t: typing.SupportsFloat | typing.SupportsIndex,
+    ) -> tuple[
+        typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"],
+        typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"],
+        float,
+        float,
+        float,
+    ]: ...
+    def reset(self) -> None: ...
+
 class Free:
     """
     Free space: no force.
@@ -2645,7 +3224,7 @@ class Setup:
         *,
         device: Device,
         hand: Hand,
-        environment: Free | Wall | Corner | Disc,
+        environment: Free | Wall | Corner | Disc | _World,
         timing: Timing,
         seconds: typing.SupportsFloat | typing.SupportsIndex,
         jitter: typing.SupportsFloat | typing.SupportsIndex,
@@ -3705,7 +4284,7 @@ class Direct:
     def __repr__(self) -> str: ...
     def _check_retune(self, next: Direct) -> None: ...
     def _replay(
-        self, log: ReplayLog, device: Device, environment: Free | Wall | Corner | Disc
+        self, log: ReplayLog, device: Device, environment: Free | Wall | Corner | Disc | _World
     ) -> Rows: ...
     def _simulate(
         self, setup: Setup, through_can: bool = False, bus: TimedBus | None = None
@@ -3833,7 +4412,7 @@ class TCA:
     def __repr__(self) -> str: ...
     def _check_retune(self, next: TCA) -> None: ...
     def _replay(
-        self, log: ReplayLog, device: Device, environment: Free | Wall | Corner | Disc
+        self, log: ReplayLog, device: Device, environment: Free | Wall | Corner | Disc | _World
     ) -> Rows: ...
     def _simulate(
         self, setup: Setup, through_can: bool = False, bus: TimedBus | None = None
@@ -3984,7 +4563,7 @@ class TCADamped:
     def __repr__(self) -> str: ...
     def _check_retune(self, next: TCADamped) -> None: ...
     def _replay(
-        self, log: ReplayLog, device: Device, environment: Free | Wall | Corner | Disc
+        self, log: ReplayLog, device: Device, environment: Free | Wall | Corner | Disc | _World
     ) -> Rows: ...
     def _simulate(
         self, setup: Setup, through_can: bool = False, bus: TimedBus | None = None
@@ -4140,7 +4719,7 @@ class LagCompensator:
     def __repr__(self) -> str: ...
     def _check_retune(self, next: LagCompensator) -> None: ...
     def _replay(
-        self, log: ReplayLog, device: Device, environment: Free | Wall | Corner | Disc
+        self, log: ReplayLog, device: Device, environment: Free | Wall | Corner | Disc | _World
     ) -> Rows: ...
     def _simulate(
         self, setup: Setup, through_can: bool = False, bus: TimedBus | None = None
@@ -4299,7 +4878,7 @@ class PassivityControl:
     def __repr__(self) -> str: ...
     def _check_retune(self, next: PassivityControl) -> None: ...
     def _replay(
-        self, log: ReplayLog, device: Device, environment: Free | Wall | Corner | Disc
+        self, log: ReplayLog, device: Device, environment: Free | Wall | Corner | Disc | _World
     ) -> Rows: ...
     def _simulate(
         self, setup: Setup, through_can: bool = False, bus: TimedBus | None = None
@@ -4455,7 +5034,7 @@ class ISS:
     def __repr__(self) -> str: ...
     def _check_retune(self, next: ISS) -> None: ...
     def _replay(
-        self, log: ReplayLog, device: Device, environment: Free | Wall | Corner | Disc
+        self, log: ReplayLog, device: Device, environment: Free | Wall | Corner | Disc | _World
     ) -> Rows: ...
     def _simulate(
         self, setup: Setup, through_can: bool = False, bus: TimedBus | None = None
@@ -4601,7 +5180,7 @@ class VirtualCoupling:
     def __repr__(self) -> str: ...
     def _check_retune(self, next: VirtualCoupling) -> None: ...
     def _replay(
-        self, log: ReplayLog, device: Device, environment: Free | Wall | Corner | Disc
+        self, log: ReplayLog, device: Device, environment: Free | Wall | Corner | Disc | _World
     ) -> Rows: ...
     def _simulate(
         self, setup: Setup, through_can: bool = False, bus: TimedBus | None = None
@@ -4745,7 +5324,7 @@ class SFA:
     def __repr__(self) -> str: ...
     def _check_retune(self, next: SFA) -> None: ...
     def _replay(
-        self, log: ReplayLog, device: Device, environment: Free | Wall | Corner | Disc
+        self, log: ReplayLog, device: Device, environment: Free | Wall | Corner | Disc | _World
     ) -> Rows: ...
     def _simulate(
         self, setup: Setup, through_can: bool = False, bus: TimedBus | None = None
@@ -4889,7 +5468,7 @@ class ForceBounding:
     def __repr__(self) -> str: ...
     def _check_retune(self, next: ForceBounding) -> None: ...
     def _replay(
-        self, log: ReplayLog, device: Device, environment: Free | Wall | Corner | Disc
+        self, log: ReplayLog, device: Device, environment: Free | Wall | Corner | Disc | _World
     ) -> Rows: ...
     def _simulate(
         self, setup: Setup, through_can: bool = False, bus: TimedBus | None = None
@@ -5035,7 +5614,7 @@ class EBA:
     def __repr__(self) -> str: ...
     def _check_retune(self, next: EBA) -> None: ...
     def _replay(
-        self, log: ReplayLog, device: Device, environment: Free | Wall | Corner | Disc
+        self, log: ReplayLog, device: Device, environment: Free | Wall | Corner | Disc | _World
     ) -> Rows: ...
     def _simulate(
         self, setup: Setup, through_can: bool = False, bus: TimedBus | None = None
@@ -5187,7 +5766,7 @@ class EBAAccount:
     def __repr__(self) -> str: ...
     def _check_retune(self, next: EBAAccount) -> None: ...
     def _replay(
-        self, log: ReplayLog, device: Device, environment: Free | Wall | Corner | Disc
+        self, log: ReplayLog, device: Device, environment: Free | Wall | Corner | Disc | _World
     ) -> Rows: ...
     def _simulate(
         self, setup: Setup, through_can: bool = False, bus: TimedBus | None = None
@@ -5367,7 +5946,7 @@ class EBACPrinted:
     def __repr__(self) -> str: ...
     def _check_retune(self, next: EBACPrinted) -> None: ...
     def _replay(
-        self, log: ReplayLog, device: Device, environment: Free | Wall | Corner | Disc
+        self, log: ReplayLog, device: Device, environment: Free | Wall | Corner | Disc | _World
     ) -> Rows: ...
     def _simulate(
         self, setup: Setup, through_can: bool = False, bus: TimedBus | None = None
@@ -5467,7 +6046,7 @@ class EBAC:
     peak_force : float
         largest command [N], 0.001 to 10000.
     resonance : float
-        first resonance of the structure, which bounds the virtual damper; 0 where none is known [Hz], 0 to 1e+05.
+        first resonance of the structure, which bounds the virtual damper; 0 where none is known [Hz], 0 to 10000.
     growth : float
         c1 of eq. (10), 1 to 1.2.
     decay : float
@@ -5630,7 +6209,7 @@ class EBAC:
     def __repr__(self) -> str: ...
     def _check_retune(self, next: EBAC) -> None: ...
     def _replay(
-        self, log: ReplayLog, device: Device, environment: Free | Wall | Corner | Disc
+        self, log: ReplayLog, device: Device, environment: Free | Wall | Corner | Disc | _World
     ) -> Rows: ...
     def _simulate(
         self, setup: Setup, through_can: bool = False, bus: TimedBus | None = None
@@ -5770,7 +6349,7 @@ class EBAC:
     @property
     def resonance(self) -> float:
         """
-        first resonance of the structure, which bounds the virtual damper; 0 where none is known [Hz], 0 to 1e+05
+        first resonance of the structure, which bounds the virtual damper; 0 where none is known [Hz], 0 to 10000
         """
     @property
     def state(self) -> EBAC.State:
@@ -6689,7 +7268,7 @@ class RunSetup:
         self,
         *,
         device: Device,
-        environment: Free | Wall | Corner | Disc,
+        environment: Free | Wall | Corner | Disc | _World,
         dt: typing.SupportsFloat | typing.SupportsIndex,
         nodes: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex],
         answer_time: typing.SupportsFloat | typing.SupportsIndex,
@@ -6724,7 +7303,7 @@ class Running:
         """
         Set the target of a simulated hand [m]; NaN leaves an axis unchanged.
         """
-    def change_world(self, environment: Free | Wall | Corner | Disc) -> int:
+    def change_world(self, environment: Free | Wall | Corner | Disc | _World) -> int:
         """
         Apply another environment from the next tick on; return the serial number of the update.
         """
@@ -6880,11 +7459,22 @@ def _fault_kinds() -> list[tuple[str, str]]:
     Name and meaning of every kind of fault; case i is of kind i modulo their number.
     """
 
+def _grid(
+    *,
+    origin: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"],
+    cell: typing.SupportsFloat | typing.SupportsIndex,
+    margin: typing.SupportsFloat | typing.SupportsIndex,
+    far: typing.Annotated[numpy.typing.ArrayLike, numpy.float32],
+    index: typing.Annotated[numpy.typing.ArrayLike, numpy.int32],
+    nodes: typing.Annotated[numpy.typing.ArrayLike, numpy.float32],
+) -> _Solid: ...
 def _ideal_contacts(
     setups: collections.abc.Sequence[Setup],
     threads: typing.SupportsInt | typing.SupportsIndex,
     progress: SweepProgress,
 ) -> dict[str, typing.Any]: ...
+def _intersection(arg0: collections.abc.Sequence[_Solid]) -> _Solid: ...
+def _inverted(arg0: _Solid) -> _Solid: ...
 def _measure_contact(
     *,
     t: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
@@ -6905,17 +7495,29 @@ def _measure_jitter(
     Measure the lateness of every wake-up [s]; return it with skipped ticks and grants.
     """
 
+def _placed(
+    arg0: _Solid,
+    arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"],
+    arg2: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"],
+) -> _Solid: ...
 def _rebuild(arg0: typing.Any, arg1: dict[str, typing.Any]) -> typing.Any: ...
 def _replay_python(
-    log: ReplayLog, law: typing.Any, device: Device, environment: Free | Wall | Corner | Disc
+    log: ReplayLog,
+    law: typing.Any,
+    device: Device,
+    environment: Free | Wall | Corner | Disc | _World,
 ) -> Rows: ...
 def _simulate_python(
     setup: Setup, law: typing.Any, through_can: bool = False, bus: TimedBus | None = None
 ) -> Rows: ...
+def _solid(arg0: Plane | Sphere | Box | Cylinder | Capsule | Torus) -> _Solid: ...
 def _stored_energy(
-    environment: Free | Wall | Corner | Disc,
+    environment: Free | Wall | Corner | Disc | _World,
+    kinematics: Linear | Gimbal,
     x: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
+    t: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
 ) -> numpy.typing.NDArray[numpy.float64]: ...
+def _textured(arg0: _Solid, arg1: Texture) -> _Solid: ...
 def _time_bus(
     frames: typing.SupportsInt | typing.SupportsIndex,
     repeats: typing.SupportsInt | typing.SupportsIndex,
@@ -6932,6 +7534,11 @@ def _time_own_exchange(
     ticks: typing.SupportsInt | typing.SupportsIndex,
     repeats: typing.SupportsInt | typing.SupportsIndex,
 ) -> float: ...
+def _tube(
+    arg0: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, 3]"],
+    arg1: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex],
+) -> _Solid: ...
+def _union(arg0: collections.abc.Sequence[_Solid]) -> _Solid: ...
 def _with_loop(
     setup: Setup, *, soft_start: typing.SupportsFloat | typing.SupportsIndex, limits: Limits | None
 ) -> Setup:

@@ -24,6 +24,7 @@ from ebac._core import (
     TimedBus,
     Timing,
     Wall,
+    _World,
 )
 from ebac._util.arguments import unknown_name
 from ebac._util.wrong_calls import plain_constructor
@@ -79,7 +80,7 @@ class CoreLaw(Protocol):
     ) -> Rows: ...
 
     def _replay(
-        self, log: ReplayLog, device: Device, environment: Free | Wall | Corner | Disc
+        self, log: ReplayLog, device: Device, environment: Free | Wall | Corner | Disc | _World
     ) -> Rows: ...
 
 

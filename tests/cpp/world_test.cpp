@@ -203,8 +203,9 @@ Scene scene_of(const SolidPtr& made, double friction = 0, const Swing& motion = 
 }
 
 TEST(Scene, ABoxIsTheWall) {
-  Scene scene = scene_of(std::make_shared<Placed>(solid(Box{.width = 1, .depth = 1, .height = 1}),
-                                                  Axes{0.51, 0, 0}, Eigen::Quaterniond::Identity()));
+  Scene scene =
+      scene_of(std::make_shared<Placed>(solid(Box{.width = 1, .depth = 1, .height = 1}),
+                                        Axes{0.51, 0, 0}, Eigen::Quaterniond::Identity()));
   scene.contact(Axes::Zero(), Axes::Zero(), 0);
   for (const double x : {0.0, 0.009, 0.011, 0.013}) {
     const ContactForce touch = scene.contact({x, 0, 0}, Axes::Zero(), 0);

@@ -37,9 +37,9 @@ def cube(tmp_path: Path) -> Path:
 
 
 def test_a_grid_is_near_the_triangles(ball: Path) -> None:
-    error = Mesh(str(ball), scale=1e-3).error()
-    assert error.depth_rms_m < 1e-6
-    assert error.depth_max_m < 2e-5
+    error = Mesh(str(ball), scale=1e-3, cell=1e-3).error()
+    assert error.depth_rms_m < 2e-5
+    assert error.depth_max_m < 1e-4
     assert error.normal_median_deg < 3  # facets are 4 degrees apart
 
 
@@ -52,7 +52,7 @@ def test_a_plane_face_is_exact(cube: Path) -> None:
 
 
 def test_far_away_a_distance_is_never_too_long(ball: Path) -> None:
-    mesh = Mesh(str(ball), scale=1e-3)
+    mesh = Mesh(str(ball), scale=1e-3, cell=1e-3)
     points = np.random.default_rng(3).uniform(-0.1, 0.1, (5000, 3))
     d, _ = distance(mesh, points)
     exact = np.linalg.norm(points, axis=1) - 0.0198  # the facets lie a little inside the ball
@@ -82,7 +82,7 @@ def test_ebac_is_exact_and_quiet_on_a_mesh(ball: Path) -> None:
 
 
 def test_a_mesh_goes_to_toml_and_back(cube: Path) -> None:
-    scenario = ebac.Scenario(environment=World(Body(solid=Mesh(str(cube)))), seconds=0.1)
+    scenario = ebac.Scenario(environment=World(Body(solid=Mesh(str(cube), cell=2e-3))), seconds=0.1)
     assert ebac.Scenario.from_toml(scenario.to_toml()) == scenario
 
 
@@ -90,8 +90,8 @@ def test_an_open_surface_needs_a_thickness(tmp_path: Path) -> None:
     file = tmp_path / "sheet.obj"
     file.write_text("v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3\nf 1 3 4\n", encoding="utf-8")
     with pytest.raises(ValueError, match="open, 4 edges"):
-        Mesh(str(file), size=0.1)
-    sheet = Mesh(str(file), size=0.1, thickness=2e-3)
+        Mesh(str(file), size=0.05)
+    sheet = Mesh(str(file), size=0.05, cell=1e-3, thickness=2e-3)
     d, out = distance(sheet, [[0, 0, 3e-3], [0, 0, 0.5e-3], [0, 0, -3e-3]])
     assert d == pytest.approx([2e-3, -0.5e-3, 2e-3], abs=1e-6)
     assert out[0] == pytest.approx([0, 0, 1], abs=1e-5)
@@ -103,9 +103,9 @@ def test_an_open_surface_needs_a_thickness(tmp_path: Path) -> None:
 def test_what_is_no_mesh_is_refused(tmp_path: Path) -> None:
     text = tmp_path / "text.stl"
     text.write_text("hello", encoding="utf-8")
-    with pytest.raises(ValueError, match="text.stl"):
+    with pytest.raises(ValueError, match=r"text\.stl"):
         Mesh(str(text))
-    with pytest.raises(FileNotFoundError, match="gone.stl"):
+    with pytest.raises(FileNotFoundError, match=r"gone\.stl"):
         Mesh(str(tmp_path / "gone.stl"))
     with pytest.raises(ValueError, match=r"Mesh.cell = 1.0 m: must lie in"):
         Mesh(str(text), cell=1.0)
@@ -114,7 +114,7 @@ def test_what_is_no_mesh_is_refused(tmp_path: Path) -> None:
 def test_hills_are_where_the_heights_say() -> None:
     u = np.linspace(-1, 1, 31)
     heights = 3e-3 * np.cos(np.pi * u)[:, None] * np.cos(np.pi * u)
-    ground = HeightField.of(heights, spacing=2e-3)
+    ground = HeightField.of(heights, spacing=2e-3, cell=1e-3)
     x, y = 2e-3 * 4, -2e-3 * 7
     top = heights[15 + 4, 15 - 7]
     d, out = distance(ground, [[x, y, top + 1e-3], [x, y, top - 1e-3], [0, 0, 1.0]])
@@ -124,14 +124,13 @@ def test_hills_are_where_the_heights_say() -> None:
         HeightField((1.0, 2.0, 3.0))  # type: ignore[arg-type]
 
 
-def test_a_million_triangles_cost_the_same(tmp_path: Path) -> None:
-    """Only that the grids agree: times are measured by `ebac bench --worlds`, not asserted."""
+def test_more_triangles_make_the_same_grid(tmp_path: Path) -> None:
     fine = tmp_path / "fine.ply"
-    trimesh.creation.icosphere(subdivisions=6, radius=0.02).export(fine)
+    trimesh.creation.icosphere(subdivisions=5, radius=0.02).export(fine)
     coarse = tmp_path / "coarse.ply"
-    trimesh.creation.icosphere(subdivisions=5, radius=0.02).export(coarse)
+    trimesh.creation.icosphere(subdivisions=4, radius=0.02).export(coarse)
     points = np.random.default_rng(1).normal(size=(500, 3))
     points *= 0.02 / np.linalg.norm(points, axis=1, keepdims=True)
-    one, other = (distance(Mesh(str(file), cell=0.5e-3), points)[0] for file in (fine, coarse))
-    assert np.abs(one - other).max() < 2e-5
+    one, other = (distance(Mesh(str(file), cell=1e-3), points)[0] for file in (fine, coarse))
+    assert np.abs(one - other).max() < 6e-5
     assert Placed(Mesh(str(coarse)), (0.02, 0, 0)).at == (0.02, 0, 0)

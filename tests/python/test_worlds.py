@@ -72,7 +72,9 @@ def solids(draw: st.DrawFn) -> worlds.solids.Solid:
 
 
 @given(solids(), PLACES)
-def test_a_distance_never_changes_faster_than_the_place(solid: worlds.solids.Solid, at: list) -> None:
+def test_a_distance_never_changes_faster_than_the_place(
+    solid: worlds.solids.Solid, at: list
+) -> None:
     points = np.array(at)
     d, out = distance(solid, points)
     ways = np.linalg.norm(points[:, None] - points[None], axis=-1)
@@ -88,7 +90,7 @@ def test_the_direction_is_the_slope_of_the_distance(solid: worlds.solids.Solid) 
     points = random.uniform(-0.05, 0.05, (2000, 3))
     d, out = distance(solid, points)
     textured = isinstance(solid, Textured)
-    points = points[np.abs(d) < 1e-5] if textured else points
+    points = points[np.abs(d) < 5e-4] if textured else points
     h = 1e-7
     slope = np.stack(
         [(distance(solid, points + h * e)[0] - distance(solid, points - h * e)[0]) / (2 * h) for e in np.eye(3)],
@@ -96,16 +98,18 @@ def test_the_direction_is_the_slope_of_the_distance(solid: worlds.solids.Solid) 
     )  # fmt: skip
     out = distance(solid, points)[1]
     off = np.linalg.norm(slope - out, axis=1)
-    assert np.quantile(off, 0.98) < 1e-5 + 0.1 * textured  # but where it jumps: edges, middle planes
+    assert (
+        np.quantile(off, 0.98) < 1e-5 + 0.1 * textured
+    )  # but where it jumps: edges, middle planes
 
 
 @given(solids(), PLACES)
-@settings(max_examples=60)
+@settings(max_examples=40)
 def test_a_world_never_pulls_and_keeps_no_more_than_it_was_given(
     solid: worlds.solids.Solid, at: list
 ) -> None:
     corners = np.array([[-0.2, 0, 0], *at, [-0.2, 0, 0]])
-    u = np.linspace(0, len(corners) - 1, 3000)
+    u = np.linspace(0, len(corners) - 1, 1000)
     path = np.stack([np.interp(u, np.arange(len(corners)), c) for c in corners.T], axis=1)
     touches = World(Body(solid=solid, material=Elastic(stiffness=1000))).walk(path)
     for touch in touches:
@@ -157,7 +161,8 @@ def test_force_over_depth_of_tissue() -> None:
 
 def test_a_moving_body_pushes_a_handle_that_rests() -> None:
     ball = Body(
-        solid=Placed(Sphere(radius=0.02), (0.022, 0, 0)), motion=Swing(amplitude_x=4e-3, frequency=1)
+        solid=Placed(Sphere(radius=0.02), (0.022, 0, 0)),
+        motion=Swing(amplitude_x=4e-3, frequency=1),
     )
     t = np.linspace(0, 1, 1001)
     touches = World(ball).walk(np.zeros((1001, 3)), None, t)
@@ -180,7 +185,7 @@ def test_a_world_goes_to_toml_and_back(name: str, tmp_path: Path) -> None:
     scenario.save(tmp_path / "s.toml")
     again = Scenario.load(tmp_path / "s.toml")
     assert again == scenario
-    assert pickle.loads(pickle.dumps(scenario)) == scenario  # noqa: S301
+    assert pickle.loads(pickle.dumps(scenario)) == scenario
     first, second = (ebac.simulate(one, "ebac") for one in (scenario, again))
     assert np.array_equal(first["true.x"], second["true.x"])
     assert first.scenario == scenario

@@ -1,6 +1,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <utility>
@@ -51,7 +54,8 @@ class DistanceGrid final : public Solid {
   }
 
  private:
-  static std::size_t cell_number(const std::array<int, 3>& at, const std::array<int, 3>& size) EBAC_RT {
+  static std::size_t cell_number(const std::array<int, 3>& at,
+                                 const std::array<int, 3>& size) EBAC_RT {
     return static_cast<std::size_t>((at[0] * size[1] + at[1]) * size[2] + at[2]);
   }
 
@@ -68,7 +72,7 @@ class DistanceGrid final : public Solid {
     return at;
   }
 
-  /// No surface in this brick: no distance changes faster than the place.
+  /// No surface within a cell of this brick, and no distance changes faster than the place.
   Distance far(const std::array<int, 3>& brick, const Axes& within) const EBAC_RT {
     std::array<int, 3> corner = brick;
     Axes off;  // m, from the nearest corner
@@ -77,9 +81,10 @@ class DistanceGrid final : public Solid {
       corner[static_cast<std::size_t>(i)] += upper ? 1 : 0;
       off[i] = layout_.cell * (within[i] - (upper ? kCells : 0));
     }
-    const std::array<int, 3> size{layout_.bricks[0] + 1, layout_.bricks[1] + 1, layout_.bricks[2] + 1};
+    const std::array<int, 3> size{layout_.bricks[0] + 1, layout_.bricks[1] + 1,
+                                  layout_.bricks[2] + 1};
     const double d = far_[cell_number(corner, size)];
-    const double least = std::max(std::abs(d) - off.norm(), 0.0);
+    const double least = std::max(std::abs(d) - off.norm(), layout_.cell);
     return {std::copysign(least, d), Axes::UnitX()};
   }
 
@@ -108,7 +113,7 @@ class DistanceGrid final : public Solid {
   }
 
   Layout layout_;
-  std::vector<float> far_;            // m
+  std::vector<float> far_;  // m
   std::vector<std::int32_t> index_;
   std::vector<float> nodes_;
 };

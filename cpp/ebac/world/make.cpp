@@ -14,7 +14,9 @@ SolidPtr make_solid(const AnyShape& shape) {
       shape);
 }
 
-SolidPtr make_tube(std::vector<Tube::Point> points) { return std::make_shared<Tube>(std::move(points)); }
+SolidPtr make_tube(std::vector<Tube::Point> points) {
+  return std::make_shared<Tube>(std::move(points));
+}
 
 SolidPtr make_grid(const DistanceGrid::Layout& layout, std::vector<float> far,
                    std::vector<std::int32_t> index, std::vector<float> nodes) {

@@ -96,7 +96,8 @@ class Layered {
   static constexpr double kCreep = 2e-3;
 
   Layered() = default;
-  Layered(const std::array<Layer, kMost>& layers, std::size_t count) : layers_(layers), count_(count) {}
+  Layered(const std::array<Layer, kMost>& layers, std::size_t count)
+      : layers_(layers), count_(count) {}
 
   Push press(double depth, double speed) EBAC_RT {
     double friction = 0;

@@ -11,10 +11,10 @@ namespace ebac::world {
 
 /// Where a body is at an instant, and how fast.
 struct BodyPose {
-  Axes at = Axes::Zero();            // m
+  Axes at = Axes::Zero();  // m
   Jacobian turn = Jacobian::Identity();
-  Axes velocity = Axes::Zero();      // m/s, of its origin
-  Axes rate = Axes::Zero();          // rad/s
+  Axes velocity = Axes::Zero();  // m/s, of its origin
+  Axes rate = Axes::Zero();      // rad/s
 
   Axes into(const Axes& x) const EBAC_RT { return turn.transpose() * (x - at); }
   Axes out_of(const Axes& own) const EBAC_RT { return at + turn * own; }

@@ -14,7 +14,8 @@ namespace ebac::world {
 /// there. The origin is the handle at rest in the middle.
 class PortSpace {
  public:
-  PortSpace(const Kinematics& kinematics, const Axes& x) EBAC_RT : axes_(ebac::axes(kinematics)), at_(x) {
+  PortSpace(const Kinematics& kinematics, const Axes& x) EBAC_RT : axes_(ebac::axes(kinematics)),
+                                                                   at_(x) {
     for (int i = 0; i < axes_; ++i) reach_(i, i) = 1;
     if (const auto* gimbal = std::get_if<Gimbal>(&kinematics)) {
       const double below = gimbal->radius * gimbal->radius - x[0] * x[0] - x[1] * x[1];
@@ -40,7 +41,8 @@ class PortSpace {
     for (int i = 0; i < kMaxAxes && rows < axes_; ++i) {
       const Axes direction = contact.frame.row(i);
       Axes rest = reach_.transpose() * direction;
-      for (int k = 0; k < rows; ++k) rest -= made.frame.row(k).dot(rest) * made.frame.row(k).transpose();
+      for (int k = 0; k < rows; ++k)
+        rest -= made.frame.row(k).dot(rest) * made.frame.row(k).transpose();
       const double length = rest.norm();
       if (length < kAcross) continue;
       made.frame.row(rows) = rest / length;

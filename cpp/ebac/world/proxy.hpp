@@ -19,7 +19,7 @@ namespace ebac::world {
 /// one of nearly the same direction until the surface is met within `kExact`.
 class Proxy {
  public:
-  static constexpr double kExact = 1e-9;    // m
+  static constexpr double kExact = 1e-9;     // m
   static constexpr double kStride = 0.5e-3;  // m, at a time: parts must be thicker than twice that
   static constexpr int kMostStrides = 16;
   static constexpr double kSameSurface = 0.9;  // cosine between the normals of one smooth surface
@@ -174,7 +174,8 @@ class Proxy {
       goal += missing[i] * held_[index(i)].out;
     }
     for (int i = 0; i < count_; ++i) {
-      if (!has(set, i) && held_[index(i)].out.dot(goal - held_[index(i)].at) < -kExact) return false;
+      if (!has(set, i) && held_[index(i)].out.dot(goal - held_[index(i)].at) < -kExact)
+        return false;
     }
     return true;
   }
@@ -187,7 +188,9 @@ class Proxy {
     count_ = kept;
   }
 
-  static bool has(unsigned set, int i) EBAC_RT { return (set >> static_cast<unsigned>(i) & 1U) != 0; }
+  static bool has(unsigned set, int i) EBAC_RT {
+    return (set >> static_cast<unsigned>(i) & 1U) != 0;
+  }
   static std::size_t index(int i) EBAC_RT { return static_cast<std::size_t>(i); }
 
   static constexpr int kMostSteps = 64;

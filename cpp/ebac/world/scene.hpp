@@ -25,7 +25,8 @@ class TransportedFrame {
   }
 
  private:
-  static constexpr double kParallel = 0.4;  // sine of the angle below which a direction is none of its own
+  static constexpr double kParallel =
+      0.4;  // sine of the angle below which a direction is none of its own
 
   /// Puts what of a direction is orthogonal to the rows before into the next one; the number of rows then.
   int add(const Axes& direction, int row) EBAC_RT {

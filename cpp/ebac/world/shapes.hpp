@@ -67,8 +67,7 @@ struct Cylinder {
     const Axes up = std::copysign(1.0, x[2]) * Axes::UnitZ();
     const double side = axis.d - radius;
     const double end = std::abs(x[2]) - 0.5 * length;
-    if (side <= 0 || end <= 0)
-      return side > end ? Distance{side, axis.out} : Distance{end, up};
+    if (side <= 0 || end <= 0) return side > end ? Distance{side, axis.out} : Distance{end, up};
     const double corner = std::hypot(side, end);
     return {corner, (side * axis.out + end * up) / corner};
   }

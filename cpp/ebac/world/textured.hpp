@@ -30,7 +30,8 @@ struct Texture {
   static constexpr auto fields() {
     using F = Field<Texture>;
     return std::array{
-        F{"amplitude", &Texture::amplitude, "m", "of the waves, above and below the smooth surface", 0, 0.1},
+        F{"amplitude", &Texture::amplitude, "m", "of the waves, above and below the smooth surface",
+          0, 0.1},
         F{"wavelength", &Texture::wavelength, "m", "along each axis", 1e-4, 1},
     };
   }

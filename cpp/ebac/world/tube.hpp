@@ -40,7 +40,8 @@ class Tube final : public Solid {
     const double slope = (a.radius - b.radius) / length;
     const double foot = along.dot(x - a.at);
     const double aside = (x - a.at - foot * along).norm();
-    const double best = std::clamp(foot - aside * slope / std::sqrt(1 - slope * slope), 0.0, length);
+    const double best =
+        std::clamp(foot - aside * slope / std::sqrt(1 - slope * slope), 0.0, length);
     Distance at = from_centre(x - a.at - best * along, along.unitOrthogonal());
     at.d -= a.radius - slope * best;
     return at;

@@ -137,7 +137,7 @@ def _environment(environment: Environment) -> str:
         size = f"{1e3 * environment.radius:g} mm"
         return f"a disc of {_kilo(environment.stiffness, 'N/m')}, radius {size}, at {centre}"
     if isinstance(environment, _World):
-        return _world(environment)
+        return world(environment)
     if not isinstance(environment, Wall):
         return "free air"
     damping = f" and {environment.damping:g} N s/m" if environment.damping else ""
@@ -150,11 +150,12 @@ def _environment(environment: Environment) -> str:
 NAMES = {"HeightField": "ground", "Mesh": "mesh"}
 
 
-def _world(world: Any) -> str:
-    names = [_solid(body.solid) for body in world.bodies]
+def world(given: Any) -> str:
+    """Return what a world is made of: "a world of a sphere, 10 kN/m"."""
+    names = [_solid(body.solid) for body in given.bodies]
     shown = ", ".join(names[:3]) + (f" and {len(names) - 3} more" if len(names) > 3 else "")
-    materials = {_material(body.material) for body in world.bodies}
-    frictions = {body.friction for body in world.bodies} - {0.0}
+    materials = {_material(body.material) for body in given.bodies}
+    frictions = {body.friction for body in given.bodies} - {0.0}
     held = f", friction {max(frictions):g}" if frictions else ""
     return f"a world of {shown}, {' and '.join(sorted(materials))}{held}"
 
@@ -166,6 +167,10 @@ def _solid(solid: Any) -> str:
         return _solid(solid.solid)
     if kind == "Cavity":
         return f"the inside of {_solid(solid.solid)}"
+    if kind in ("Union", "Intersection", "Difference"):
+        first, *others = map(_solid, solid.solids)
+        word = {"Union": "and", "Intersection": "within", "Difference": "less"}[kind]
+        return f"{first} {word} {others[0] if len(others) == 1 else f'{len(others)} more'}"
     if kind == "Textured":
         return f"{_solid(solid.solid)} with a texture"
     article = "an" if kind[0] in "AEIOU" else "a"

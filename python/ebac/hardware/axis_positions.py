@@ -7,7 +7,9 @@ from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 from typing import TYPE_CHECKING, Any
 
-from ebac._core import Corner, Disc, Wall
+import numpy as np
+
+from ebac._core import Corner, Disc, Wall, _World
 from ebac.drives.errors import DriveError
 from ebac.drives.state import State
 from ebac.hardware.backends import hardware, simulated
@@ -142,7 +144,7 @@ def distances(
         The device.
     positions : sequence of AxisPosition
         Of all its axes.
-    environment : Free, Wall, Corner or Disc, optional
+    environment : Free, Wall, Corner, Disc or worlds.World, optional
         The virtual world; that of the configuration, if not given.
     """
     at = [*known.device.kinematics.forward([one.angle_rad for one in positions]), 0.0, 0.0]
@@ -158,5 +160,16 @@ def distances(
             return {"first wall": before(first), "second wall": before(second)}
         case Disc() as disc:
             return {"disc": math.hypot(x - disc.x, y - disc.y) - disc.radius}
+        case _World() as world:
+            return _to_bodies(world, at[:3])
         case _:
             return {}
+
+
+def _to_bodies(world: Any, at: Sequence[float]) -> dict[str, float]:
+    """Return the distance to each body at rest; of a gimbal's handle in its plane, which is a little less or more."""
+    from ebac.worlds import distance
+
+    place = np.array([at], float)
+    named = {f"body {i + 1}": body for i, body in enumerate(world.bodies)}
+    return {name: float(distance(body.solid, place)[0][0]) for name, body in named.items()}

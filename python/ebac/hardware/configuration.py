@@ -61,7 +61,7 @@ class Configuration:
         The haptic device.
     timing : Timing
         Sample time and delay.
-    environment : Free, Wall, Corner or Disc
+    environment : Free, Wall, Corner, Disc or worlds.World
         The virtual world.
     law : str
         Name of the law.

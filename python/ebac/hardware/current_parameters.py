@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import nan
 from typing import TYPE_CHECKING, Any
 
-from ebac._core import Recorded, Step
+from ebac._core import Recorded, Step, _World
 from ebac.hardware.parameter_updates import Note, ParameterUpdates
 
 if TYPE_CHECKING:
@@ -53,7 +53,12 @@ class CurrentParameters:
     def change(self, environment: Environment | None, **changes: Any) -> Environment:
         """Send another world, or the present one with other numbers."""
         world = self.world if environment is None else environment
-        world = world.replace(**changes) if changes else world
+        if changes:
+            if isinstance(world, _World):
+                raise ValueError(
+                    f"change({', '.join(changes)}=...): a world of bodies is changed as a whole; give environment=..."
+                )
+            world = world.replace(**changes)
         note = Note(
             message=f"environment {world!r}",
             values={f"environment.{name}": value for name, value in changes.items()},

@@ -193,7 +193,7 @@ class OpenDevice:
         ----------
         law : str, law class, Variant or law, optional
             One of the core; that of the configuration, if not given.
-        environment : Free, Wall, Corner or Disc, optional
+        environment : Free, Wall, Corner, Disc or worlds.World, optional
             The virtual world; that of the configuration, if not given.
         seconds : float, optional
             How long the law acts [s]; that of the configuration, if not given.

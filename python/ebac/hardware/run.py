@@ -101,7 +101,7 @@ class Run(LiveStatus):
 
         Parameters
         ----------
-        environment : Free, Wall, Corner or Disc, optional
+        environment : Free, Wall, Corner, Disc or worlds.World, optional
             The new one; the present one, if not given.
         **changes
             Numbers of it, in SI units: `stiffness=5e3`.

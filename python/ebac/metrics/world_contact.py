@@ -34,7 +34,7 @@ class WorldContact:
     friction_share : float or None
         Largest tangential over normal force of the world; at most the friction coefficient.
     came_through : int
-        Ticks in which the handle was inside a body that did not push it.
+        Ticks in which the handle was inside a body whose surface did not hold it.
     stored_J : float
         Most elastic energy of the world.
     """
@@ -74,7 +74,7 @@ def world_contact(trace: Trace) -> WorldContact:
     x[:, : trace.axes] = trace["true.x" if "true.x" in trace else "x"].reshape(n, -1)
     touches = world.walk(x, None, trace["t"])
     depth = np.array([touch.depth for touch in touches])
-    in_contact = np.array([bool(touch.force.any()) for touch in touches])
+    in_contact = depth > 0
     tail = np.arange(n) >= 0.7 * n
     friction = any(body.friction for body in world.bodies)
     return WorldContact(
@@ -111,7 +111,7 @@ def _friction(touches: list[Touch], where: np.ndarray) -> float | None:
 
 
 def _through(world: World, x: np.ndarray, in_contact: np.ndarray) -> int:
-    """Count places inside a body at rest, deeper than `THROUGH`, at which nothing pushes."""
+    """Count places inside a body at rest, deeper than `THROUGH`, that no surface holds."""
     inside = np.zeros(len(x), bool)
     for body in world.bodies:
         if body.motion.still():

@@ -13,8 +13,8 @@ from ebac.worlds import Body, Layered, World
 
 #: Places of the hand's target on its way, so that the handle comes in where the hand presses it in.
 STEPS = 60
-#: Most corrections at each of them.
-MOST_CORRECTIONS = 30
+#: Corrections at each of them, and most at the last.
+CORRECTIONS, MOST_CORRECTIONS = 20, 5000
 #: Left of the forces that balance [N].
 BALANCED = 1e-7
 #: Half of the way over which a slope is taken [m].
@@ -49,18 +49,21 @@ def world_rest(scenario: Scenario) -> Rest | None:
     mechanics, given = device.mechanics, device.compensation
     weight = (mechanics.handle_mass - given.gravity_mass) * mechanics.gravity
     world.reset()
-    x, slope = np.zeros(device.axes), np.eye(device.axes)
+    x, missing = np.zeros(device.axes), np.zeros(device.axes)
     for share in np.linspace(0, 1, STEPS + 1)[1:]:
-        for _ in range(MOST_CORRECTIONS):
-            missing = hand.stiffness * (share * goal - x) + weight - _force(world, x)
-            slope = hand.stiffness * np.eye(len(x)) + _slope(world, x)
+        for _ in range(MOST_CORRECTIONS if share == 1 else CORRECTIONS):
+            force, stiffness = _contact(world, x)
+            missing = hand.stiffness * (share * goal - x) + weight - force
             if np.abs(missing).max() < BALANCED:
                 break
-            x = x + np.linalg.solve(slope, missing)
-        else:
-            if np.abs(missing).max() > 1e3 * BALANCED:
-                return None
-    return Rest(float(x[0]), float(slope[0, 0]))
+            x = x + missing / (
+                hand.stiffness + stiffness
+            )  # as through honey, so that it slides off where a hand does
+    if np.abs(missing).max() > 1e3 * BALANCED:
+        return None
+    beside = SMALL * np.eye(len(x))[0]
+    slope = (_contact(world, x + beside)[0][0] - _contact(world, x - beside)[0][0]) / (2 * SMALL)
+    return Rest(float(x[0]), hand.stiffness + float(slope))
 
 
 def _one_rest(body: Body) -> bool:
@@ -70,15 +73,7 @@ def _one_rest(body: Body) -> bool:
     return body.friction == 0 and body.motion.still() and not any(one.puncture for one in layers)
 
 
-def _force(world: World, x: NDArray[np.float64]) -> NDArray[np.float64]:
-    force: NDArray[np.float64] = world.contact(np.pad(x, (0, 3 - len(x))), np.zeros(3), 0.0)[0]
-    return force[: len(x)]
-
-
-def _slope(world: World, x: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return how the force changes with the place [N/m], shape (axes, axes)."""
-    columns = [
-        (_force(world, x + SMALL * unit) - _force(world, x - SMALL * unit)) / (2 * SMALL)
-        for unit in np.eye(len(x))
-    ]
-    return np.column_stack(columns)
+def _contact(world: World, x: NDArray[np.float64]) -> tuple[NDArray[np.float64], float]:
+    """Return force [N] along the axes, and stiffness [N/m]."""
+    force, _, _, stiffness, _ = world.contact(np.pad(x, (0, 3 - len(x))), np.zeros(3), 0.0)
+    return force[: len(x)], stiffness

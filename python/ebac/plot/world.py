@@ -6,20 +6,24 @@ from collections.abc import Sequence
 
 import numpy as np
 from matplotlib.axes import Axes
+from numpy.typing import NDArray
 
+from ebac._util import formatting
 from ebac.plot.style import Numbers, Picture, colour, dress, legend, new_figure
 from ebac.trace import Trace
 from ebac.worlds import World, distance
 
 #: Half of the side of what is shown [m].
 HALF = 0.05
+#: Half of the side of the view [m].
+WIDEST = 0.06
 #: Points along each side of a picture.
-PIXELS = 320
+PIXELS = 480
 #: From where it is seen: to the left of, before and above the handle.
 EYE = np.array([-0.75, -0.55, 0.45])
 #: Most steps of a ray, and how near to a surface it ends [m].
 STEPS, NEAR = 120, 2e-5
-BODY, INSIDE = np.array([0.72, 0.77, 0.83]), "#c9d3df"
+BODY, SAWN, INSIDE = np.array([0.72, 0.77, 0.83]), np.array([0.6, 0.64, 0.69]), "#c9d3df"
 
 
 def plot_world(world: World, traces: Sequence[Trace] = ()) -> Picture:
@@ -40,9 +44,8 @@ def plot_world(world: World, traces: Sequence[Trace] = ()) -> Picture:
     view, cut = figure.subplots(1, 2)
     _view(view, world)
     _cut(cut, world, traces)
-    figure.suptitle(
-        "; ".join(type(body.solid).__name__ for body in world.bodies), fontsize="medium"
-    )
+    source = "simulated: " if traces else ""
+    figure.suptitle(source + formatting.world(world), fontsize="medium")
     return figure
 
 
@@ -58,32 +61,27 @@ def nearest(world: World, points: Numbers) -> tuple[Numbers, Numbers]:
 
 
 def _view(ax: Axes, world: World) -> None:
-    """Follow parallel rays until they meet a surface; what is nearer than the cut of a cavity is left out."""
+    """Draw what parallel rays meet; what hides the handle is cut open at z = 0."""
     forward = -EYE / np.linalg.norm(EYE)
     right = np.cross(forward, [0.0, 0.0, 1.0])
     right /= np.linalg.norm(right)
     up = np.cross(right, forward)
-    u = np.linspace(-1.35 * HALF, 1.35 * HALF, PIXELS)
+    u = np.linspace(-WIDEST, WIDEST, PIXELS)
     across, along = (one.ravel() for one in np.meshgrid(u, u))
     start = across[:, None] * right + along[:, None] * up - 3 * HALF * forward
-    depth, shown = _cube_entry(start, forward)
-    end = depth + 4 * HALF
-    alive = shown.copy()
-    for _ in range(STEPS):
-        d, _out = nearest(world, start[alive] + depth[alive, None] * forward)
-        depth[alive] += np.maximum(d, 0)
-        going = np.flatnonzero(alive)
-        alive[going] = (d > NEAR) & (depth[going] < end[going])
-        if not alive.any():
-            break
-    places = start + depth[:, None] * forward
+    low, high = np.full(3, -HALF), np.full(3, HALF)
+    if _hidden(world, forward):
+        high = np.array([HALF, HALF, 0.0])  # cut open
+    depth, shown = _entry(start, forward, low, high)
+    places = _met(world, start, depth, shown, forward)
     d, out = nearest(world, places)
-    met = shown & (d <= 4 * NEAR) & (np.abs(places) <= HALF + 1e-6).all(axis=1)
+    inside = ((places >= low - 1e-6) & (places <= high + 1e-6)).all(axis=1)
+    met = shown & (d <= 4 * NEAR) & inside
     light = np.clip(out @ -forward, 0, 1)
-    sawn = met & (d < -NEAR)  # the edge of what is shown runs through a body
+    sawn = met & (d < -NEAR)
     image = np.ones((len(places), 3))
     image[met] = BODY * (0.35 + 0.65 * light[met, None])
-    image[sawn] = 0.55 * BODY
+    image[sawn] = SAWN
     size = 1e3 * np.array([u[0], u[-1], u[0], u[-1]])
     ax.imshow(
         image.reshape(PIXELS, PIXELS, 3),
@@ -91,23 +89,45 @@ def _view(ax: Axes, world: World) -> None:
         extent=tuple(size),
         interpolation="bilinear",
     )
-    tip, tail = (
-        [1e3 * p @ right, 1e3 * p @ up] for p in (np.zeros(3), np.array([-0.025, 0.0, 0.0]))
-    )
-    ax.annotate("", tip, tail, arrowprops={"arrowstyle": "-|>", "color": "black", "lw": 1.6})
-    ax.text(tail[0], tail[1] + 2, "handle, +x", fontsize="small", ha="center")
+    tail = float(-25 * right[0]), float(-25 * up[0])  # 25 mm before the origin, where it comes in
+    ax.annotate("", (0, 0), tail, arrowprops={"arrowstyle": "-|>", "color": "black", "lw": 1.6})
+    ax.text(tail[0], tail[1] - 2, "x", ha="right", va="top")
     ax.set_title("from the left, in front and above", fontsize="medium")
     dress(ax, "[mm]")
     ax.set_xlabel("[mm]")
     ax.grid(visible=False)
 
 
-def _cube_entry(start: Numbers, forward: Numbers) -> tuple[Numbers, np.ndarray]:
-    """Return where rays enter the cube that is shown, and whether they do."""
-    sides = np.stack([(-HALF - start) / forward, (HALF - start) / forward])
+def _hidden(world: World, forward: Numbers) -> bool:
+    """Return whether a body stands between the eye and the place where the handle comes in."""
+    way = np.linspace(-3 * HALF, -1e-3, 300)[:, None] * forward
+    way = way[(np.abs(way) <= HALF).all(axis=1)]
+    return bool((nearest(world, way)[0] < -1e-4).any())
+
+
+def _entry(
+    start: Numbers, forward: Numbers, low: Numbers, high: Numbers
+) -> tuple[Numbers, NDArray[np.bool_]]:
+    """Return how far parallel rays go to the block that is shown, and whether they meet it."""
+    sides = np.stack([(low - start) / forward, (high - start) / forward])
     first = sides.min(axis=0).max(axis=1)
     last = sides.max(axis=0).min(axis=1)
     return np.maximum(first, 0), first < last
+
+
+def _met(
+    world: World, start: Numbers, depth: Numbers, shown: NDArray[np.bool_], forward: Numbers
+) -> Numbers:
+    """Return where rays meet a surface, by steps of the distance to it, or where they have left."""
+    depth, going = depth.copy(), np.flatnonzero(shown)
+    last = depth + 4 * HALF
+    for _ in range(STEPS):
+        d = nearest(world, start[going] + depth[going, None] * forward)[0]
+        depth[going] += np.maximum(d, 0)
+        going = going[(d > NEAR) & (depth[going] < last[going])]
+        if len(going) == 0:
+            break
+    return start + depth[:, None] * forward
 
 
 def _cut(ax: Axes, world: World, traces: Sequence[Trace]) -> None:

@@ -22,7 +22,7 @@ from ebac._core import (
     Torus,
 )
 from ebac.worlds.mesh import GridError, HeightField, Mesh
-from ebac.worlds.presets import PRESETS, preset
+from ebac.worlds.presets import PRESETS, WorldPreset, preset
 from ebac.worlds.solids import (
     Cavity,
     Difference,
@@ -62,6 +62,7 @@ __all__ = [
     "Tube",
     "Union",
     "World",
+    "WorldPreset",
     "distance",
     "preset",
 ]

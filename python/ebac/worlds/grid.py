@@ -10,6 +10,7 @@ from dataclasses import dataclass, fields
 from pathlib import Path
 from types import ModuleType
 from typing import Any
+from zipfile import BadZipFile
 
 import numpy as np
 from numpy.typing import NDArray
@@ -193,10 +194,10 @@ def cached_grid(surface: Surface, cell: float, progress: Progress | None = None)
         code.update(np.ascontiguousarray(part).tobytes())
     path = cache_folder() / f"{code.hexdigest()[:32]}.npz"
     try:
-        with np.load(path) as kept:
+        with path.open("rb") as file, np.load(file) as kept:
             values: dict[str, Any] = {name: kept[name] for name in kept.files}
         return Grid(**values | {name: float(values[name]) for name in ("cell", "margin")})
-    except (OSError, ValueError, KeyError, TypeError):
+    except (OSError, ValueError, KeyError, TypeError, BadZipFile):
         pass  # not there, or damaged: made anew
     grid = grid_of(surface, cell, progress)
     _keep(grid, path)

@@ -12,8 +12,9 @@ class Part:
     """Something of a world that is written to TOML by its fields."""
 
     def as_dict(self) -> dict[str, Any]:
-        """Return the parameters by name."""
-        return {one.name: getattr(self, one.name) for one in fields(self)}  # type: ignore[arg-type]
+        """Return the parameters by name, without those that are None."""
+        values = {one.name: getattr(self, one.name) for one in fields(self)}  # type: ignore[arg-type]
+        return {name: value for name, value in values.items() if value is not None}
 
 
 def three(name: str, given: Any, unit: str, most: float) -> tuple[float, float, float]:

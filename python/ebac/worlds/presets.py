@@ -53,7 +53,8 @@ def _corner() -> Union:
         normal = np.array([-1.0, sqrt(2) * np.cos(around), sqrt(2) * np.sin(around)]) / sqrt(3)
         axis = np.cross([-1.0, 0.0, 0.0], normal)
         turned = axis / np.linalg.norm(axis) * np.arccos(-normal[0])
-        planes.append(Placed(Plane(), (0.0, 0.0, 0.0), tuple(float(one) for one in turned)))
+        about_x, about_y, about_z = map(float, turned)
+        planes.append(Placed(Plane(), (0.0, 0.0, 0.0), (about_x, about_y, about_z)))
     return Union(*planes)
 
 

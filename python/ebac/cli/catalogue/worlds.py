@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Annotated, Any
 
 import typer
+from rich.markup import escape
 
 from ebac.cli import options, output
 
@@ -48,7 +49,7 @@ def worlds(
             return
         grid = output.table(["world", "what", "needs"])
         for row in rows:
-            grid.add_row(row["name"], row["what"], row["needs"] or "-")
+            grid.add_row(row["name"], row["what"], escape(row["needs"] or "-"))
         output.show(grid)
         return
     with output.refusing():

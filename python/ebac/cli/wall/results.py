@@ -49,11 +49,11 @@ def write(
 ) -> list[str]:
     """Write table, scenario, figure and logs into a folder; return their names."""
     step("drawing")
-    from ebac._core import _World
     from ebac.plot import plot_walls, plot_world
+    from ebac.worlds import World
 
     files = to.save(plot_walls(traces), folder, "wall")
-    if isinstance(scenario.environment, _World):
+    if isinstance(scenario.environment, World):
         files += to.save(plot_world(scenario.environment, traces), folder, "world")
     (folder / "wall.json").write_text(text + "\n", encoding="utf-8")
     scenario.save(folder / "scenario.toml")
