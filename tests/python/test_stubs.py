@@ -85,7 +85,7 @@ def stub_members(body: list[ast.stmt], prefix: str = "") -> Description:
     found: Description = {}
     for node in body:
         match node:
-            case ast.ClassDef():
+            case ast.ClassDef() if public(node.name):
                 found[prefix + node.name] = "class"
                 found |= stub_members(node.body, f"{prefix}{node.name}.")
             case ast.FunctionDef() if public(node.name):

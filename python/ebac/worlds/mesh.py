@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 from ebac.worlds.grid import Floats, Grid, Ints, Progress, Surface, cached_grid, needed
 from ebac.worlds.part import Part
 
-#: Cells along the longest side of a mesh, unless told otherwise.
+#: Cells along the longest side of a mesh, unless given.
 CELLS = 96
 
 
