@@ -13,7 +13,8 @@ ebac_bundle(ebac machine cpp/ebac can/raw_socket can/socketcan can/wake_event
             rt/awake_cpus rt/grants rt/jitter rt/shared_memory rt/thread
             sensor/emulator_server sensor/rdt_client sensor/udp
             simulated_drives/simulated_drive simulated_drives/simulated_drive_errors
-            simulated_drives/simulated_drive_motion simulated_drives/simulated_drive_objects)
+            simulated_drives/simulated_drive_motion simulated_drives/simulated_drive_objects
+            simulated_drives/simulated_wire simulated_drives/through_can)
 ebac_bundle(ebac model cpp/ebac model/device model/exact_axis model/exact_plant model/hand model/hand_model model/joint_dynamics
             model/limits model/linear_flow model/stepped_plant world/make)
 ebac_bundle(ebac run cpp/ebac control/virtual_coupling core/check core/fields faults/campaign faults/case
@@ -25,6 +26,6 @@ if(EBAC_PYTHON)
               module values worlds)
   ebac_bundle(_core_values run bindings controllers python_hand python_law realtime replay simulation sweep)
   ebac_bundle(_core_values bus bindings can can_plan faults running)
-  ebac_bundle(_core_values machine bindings drive node_server sensor sensor_emulator)
+  ebac_bundle(_core_values machine bindings drive node_server others_run sensor sensor_emulator)
   ebac_bundle(_core loop bindings law_runs running_laws)
 endif()
