@@ -1,8 +1,9 @@
 #include "ebac/control/virtual_coupling.hpp"
 
-#include <algorithm>
+#include <array>
 #include <cmath>
 #include <complex>
+#include <cstddef>
 #include <numbers>
 
 namespace ebac {
@@ -17,32 +18,50 @@ namespace {
 /// a sample, the delay and the current loop: H = z^-(1 + d)/(1 + s lag). The device takes at least b
 /// times the square of that mean, Re Z_d = b. Without delay and lag the condition is Colgate's,
 /// b >= K_c T/2 + B_c.
-bool unconditionally_stable(double stiffness, double damping, const DeviceFacts& facts,
-                            const Timing& timing) {
-  constexpr int kPoints = 400;
-  const std::complex<double> i(0, 1);
-  for (int n = 1; n <= kPoints; ++n) {
-    const double w = std::numbers::pi / timing.dt * n / kPoints;  // rad/s, to Nyquist
-    const std::complex<double> step = 1.0 - std::exp(-i * w * timing.dt);
-    const std::complex<double> hold =
-        std::exp(-i * w * ((1 + timing.delay) * timing.dt)) / (1.0 + i * w * facts.current_lag);
-    const double admittance = (1.0 / (damping + stiffness * timing.dt / step)).real();
-    if (admittance < 0) return false;
-    if (std::cos(std::arg(hold)) + 2 * facts.damping * admittance / std::abs(hold) < 1)
-      return false;
+class Llewellyn {
+ public:
+  Llewellyn(const DeviceFacts& facts, const Timing& timing)
+      : damping_(facts.damping), dt_(timing.dt) {
+    const std::complex<double> i(0, 1);
+    for (int n = 1; n <= kPoints; ++n) {
+      const double w = std::numbers::pi / dt_ * n / kPoints;  // rad/s, to Nyquist
+      const std::complex<double> hold =
+          std::exp(-i * w * ((1 + timing.delay) * dt_)) / (1.0 + i * w * facts.current_lag);
+      points_[static_cast<std::size_t>(n - 1)] = {.step = 1.0 - std::exp(-i * w * dt_),
+                                                  .cosine = std::cos(std::arg(hold)),
+                                                  .gain = std::abs(hold)};
+    }
   }
-  return true;
-}
+
+  bool holds(double stiffness, double damping) const {
+    for (const Point& at : points_) {
+      const double admittance = (1.0 / (damping + stiffness * dt_ / at.step)).real();
+      if (admittance < 0) return false;
+      if (at.cosine + 2 * damping_ * admittance / at.gain < 1) return false;
+    }
+    return true;
+  }
+
+ private:
+  static constexpr int kPoints = 400;
+  struct Point {
+    std::complex<double> step;    // 1 - 1/z
+    double cosine = 0, gain = 0;  // of H
+  };
+
+  double damping_, dt_;
+  std::array<Point, kPoints> points_;
+};
 
 /// The stiffest coupling of a given damping, by bisection on a logarithmic scale; 0 if there is
 /// none.
-double stiffest(double damping, const DeviceFacts& facts, const Timing& timing) {
+double stiffest(double damping, const Llewellyn& stable) {
   double low = 1e-3;
   double high = 1e7;
-  if (!unconditionally_stable(low, damping, facts, timing)) return 0;
+  if (!stable.holds(low, damping)) return 0;
   for (int n = 0; n < 40; ++n) {
     const double middle = std::sqrt(low * high);
-    (unconditionally_stable(middle, damping, facts, timing) ? low : high) = middle;
+    (stable.holds(middle, damping) ? low : high) = middle;
   }
   return low;
 }
@@ -54,11 +73,12 @@ VirtualCoupling::Params VirtualCoupling::Params::design(const DeviceFacts& facts
               .coupling_damping = 0,
               .count = facts.count,
               .peak_force = facts.peak_force};
+  const Llewellyn stable(facts, timing);
   constexpr int kSteps = 60;
   for (int n = 0; n <= kSteps; ++n) {
     const double damping =
         0.01 * std::pow(1e4, static_cast<double>(n) / kSteps);  // 0.01 to 100 N s/m
-    const double stiffness = stiffest(damping, facts, timing);
+    const double stiffness = stiffest(damping, stable);
     if (stiffness > best.coupling_stiffness) {
       best.coupling_stiffness = stiffness;
       best.coupling_damping = damping;
