@@ -11,7 +11,7 @@ ebac_bundle(ebac_tick tick cpp/ebac control/laws sim/any_law sim/ebac_loop sim/s
 ebac_bundle(ebac machine cpp/ebac can/raw_socket can/socketcan can/wake_event
             canopen/canopen_setup canopen/eds canopen/pdo canopen/pdo_plan
             rt/awake_cpus rt/grants rt/jitter rt/shared_memory rt/thread
-            sensor/emulator_server sensor/rdt_client sensor/udp
+            sensor/emulator_server sensor/rdt_client sensor/udp sim/linear_loop
             simulated_drives/simulated_drive simulated_drives/simulated_drive_errors
             simulated_drives/simulated_drive_motion simulated_drives/simulated_drive_objects
             simulated_drives/simulated_wire simulated_drives/through_can)
@@ -19,7 +19,7 @@ ebac_bundle(ebac model cpp/ebac model/device model/exact_axis model/exact_plant 
             model/limits model/linear_flow model/stepped_plant world/make)
 ebac_bundle(ebac run cpp/ebac control/virtual_coupling core/check core/fields faults/campaign faults/case
             faults/test_bench identify/arm_drive identify/arm_jacobian identify/arm_record identify/arm_step loop/retune loop/trace sim/contact sim/ideal_wall
-            sim/linear_loop sim/perceived_ripple sim/rest_power sim/sweep)
+            sim/perceived_ripple sim/rest_power sim/sweep)
 
 if(EBAC_PYTHON)
   ebac_bundle(_core_values device bindings core device environment fields hand identify kinematics limits linear_loop
