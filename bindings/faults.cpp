@@ -1,3 +1,4 @@
+#include <sstream>
 #include <tuple>
 
 #include "bind.hpp"
@@ -12,8 +13,20 @@ namespace {
 
 using faults::Result;
 
-constexpr std::array kVerdicts{"passed",   "missed",       "false_alarm", "wrong_name",  "not_zero",
-                               "still_on", "beyond_limit", "restarted",   "not_recorded"};
+constexpr std::array kVerdicts{"passed",       "missed",   "false_alarm",  "wrong_name",
+                               "not_zero",     "still_on", "beyond_limit", "restarted",
+                               "not_recorded", "not_off",  "endless"};
+
+/// The first rule of the referee that a case broke, with its numbers; empty where it broke none.
+std::string text_of(const faults::Breach& breach) {
+  const faults::RuleFacts& rule = faults::kRuleFacts[static_cast<std::size_t>(breach.rule)];
+  if (breach.rule == faults::Rule::kNone) return {};
+  const std::string unit = rule.unit == "1" ? "" : " " + std::string(rule.unit);
+  std::ostringstream text;
+  text << rule.name << ": " << breach.value << unit << " against " << breach.bound << unit
+       << " on axis " << breach.axis << " in tick " << breach.tick;
+  return text.str();
+}
 
 std::tuple<Values, std::vector<std::string>> run(std::size_t cases, std::uint64_t seed, int threads,
                                                  SweepProgress& progress) {
@@ -46,11 +59,15 @@ void bind_faults(py::module_& m) {
       [](std::uint64_t seed, std::uint64_t index) {
         const faults::InjectedFault injected = faults::injected_fault_of(seed, index);
         std::shared_ptr<Trace> trace;
-        faults::run_case(injected, &trace);
-        return std::make_tuple(trace, injected.at, injected.ticks, injected.axis);
+        const Result result = faults::run_case(injected, &trace);
+        return std::make_tuple(trace, injected.at, injected.ticks, injected.axis,
+                               kVerdicts[static_cast<std::size_t>(result.verdict)],
+                               text_of(result.breach));
       },
       py::arg("seed"), py::arg("index"),
-      "Run one case; return its rows, and first tick, ticks and axis of the fault.");
+      "Run one case; return its rows, first tick, ticks and axis of the fault, its verdict, and "
+      "the "
+      "rule that it broke.");
   m.def(
       "_fault_kinds",
       [] {

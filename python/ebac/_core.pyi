@@ -7449,9 +7449,9 @@ def _fault_campaign(
 def _fault_case(
     seed: typing.SupportsInt | typing.SupportsIndex,
     index: typing.SupportsInt | typing.SupportsIndex,
-) -> tuple[Rows, int, int, int]:
+) -> tuple[Rows, int, int, int, str, str]:
     """
-    Run one case; return its rows, and first tick, ticks and axis of the fault.
+    Run one case; return its rows, first tick, ticks and axis of the fault, its verdict, and the rule that it broke.
     """
 
 def _fault_kinds() -> list[tuple[str, str]]:

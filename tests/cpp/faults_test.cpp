@@ -17,7 +17,10 @@ TEST_P(EveryKind, EndsAsItShould) {
         << facts_of(injected.kind).name << " for " << injected.ticks << " ticks from "
         << injected.at << " on axis " << injected.axis << ", chance " << injected.chance
         << ": fault " << static_cast<unsigned>(result.fault) << ", detected after "
-        << result.detected << ", zero after " << result.to_zero << ", off after " << result.to_off;
+        << result.detected << ", zero after " << result.to_zero << ", off after " << result.to_off
+        << ", " << kRuleFacts[static_cast<std::size_t>(result.breach.rule)].name << " "
+        << result.breach.value << " against " << result.breach.bound << " on axis "
+        << result.breach.axis << " in tick " << result.breach.tick;
   }
 }
 

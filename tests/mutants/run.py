@@ -30,6 +30,8 @@ ROOT = Path(__file__).parents[2]
 CAMPAIGN = (
     "cpp/ebac/faults/campaign.cpp",
     "cpp/ebac/faults/case.cpp",
+    "cpp/ebac/faults/case_setup.cpp",
+    "cpp/ebac/faults/referee.cpp",
     "cpp/ebac/faults/test_bench.cpp",
     "tests/cpp/faults_test.cpp",
 )

@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "ebac/faults/breach.hpp"
 #include "ebac/faults/injected_fault.hpp"
 #include "ebac/loop/trace.hpp"
 
@@ -15,9 +16,11 @@ enum class Verdict : std::uint8_t {
   kWrongName,    // it was found under another name
   kNotZero,      // the command was not zero within 2 ticks
   kStillOn,      // a drive was not disabled at the end
-  kBeyondLimit,  // a limit was exceeded at some tick
+  kBeyondLimit,  // a rule of the referee was broken at some tick
   kRestarted,    // the loop or a drive started again without a reset
   kNotRecorded,  // a row or a change is missing
+  kNotOff,       // a motor had current for too long
+  kEndless,      // the loop did not end by itself
 };
 
 struct Result {
@@ -26,6 +29,7 @@ struct Result {
   std::int64_t detected = 0;  // ticks from the beginning to the fault in the row
   std::int64_t to_zero = 0;   // ticks from that row to zero torque on the bus
   std::int64_t to_off = 0;    // ticks from that row to no current in any simulated motor
+  Breach breach{};            // first rule of the referee that was broken, if any
 };
 
 /// The fault injected in case `index` of a campaign.

@@ -7,17 +7,22 @@ namespace ebac::faults {
 
 namespace {
 
-constexpr can::Watches kWatches{.drive_heartbeat = 10, .loop_silence = 50, .torque_silence = 5};
+constexpr double kPress = 2;  // A
 constexpr can::LoopTimes kTimes{.dt = 1e-3, .answer = 0.7e-3, .response = 50e-6};
 
 /// The loop watches the drives, and they watch the loop.
-can::CanopenSetup can_setup(const DeviceModel& device) {
-  return {.axes = device.axes(),
-          .motor = device.motor,
-          .drive = device.drive,
-          .heartbeat_timeout = 1e-3 * static_cast<double>(kWatches.loop_silence),
-          .own_node = can::kLoopNode,
-          .heartbeat_period = 1e-3 * static_cast<double>(kWatches.drive_heartbeat)};
+can::CanopenSetup can_setup(const CaseSetup& made) {
+  const bool guarded = made.watching.guarded > 0;
+  return {.axes = made.setup.device.axes(),
+          .motor_sign = made.wiring.motor_sign,
+          .encoder_sign = made.wiring.encoder_sign,
+          .encoder_zero = made.wiring.encoder_zero,
+          .motor = made.setup.device.motor,
+          .drive = made.setup.device.drive,
+          .heartbeat_timeout = made.watching.timeout,
+          .own_node = guarded ? 0 : can::kLoopNode,
+          .heartbeat_period = made.watching.beat,
+          .guard_period = guarded ? made.watching.beat : 0};
 }
 
 SimulatedDevice plant_of(Setup setup) {
@@ -26,8 +31,12 @@ SimulatedDevice plant_of(Setup setup) {
   return SimulatedDevice(setup);
 }
 
-constexpr int kBefore =
-    2 * kWatches.drive_heartbeat;  // ticks of 1 ms, until every drive is operational
+/// Node guarding: a fifth of the time for each request.
+void guard(can::SimulatedDrive& drive, std::int64_t silence) {
+  constexpr int kRequests = 5;
+  drive.write(0x100C, 0, silence / kRequests);
+  drive.write(0x100D, 0, kRequests);
+}
 
 /// The bus takes its time where the fault is one of the wire.
 can::VirtualBus bus_of(const Setup& setup, const InjectedFault& injected) {
@@ -39,27 +48,46 @@ can::VirtualBus bus_of(const Setup& setup, const InjectedFault& injected) {
 
 }  // namespace
 
-TestBench::TestBench(const Setup& setup, InjectedFault& injected)
+TestBench::TestBench(const CaseSetup& made, InjectedFault& injected, Referee& referee)
     : injected_(&injected),
-      bus_(bus_of(setup, injected)),
-      other_(FaultyPlant(plant_of(setup), injected), setup.device, bus_, kTimes),
-      near_(bus_, injected),
-      can_(near_, can::OnOtherSide(other_), can_setup(setup.device)) {
+      referee_(&referee),
+      wiring_(made.wiring),
+      bus_(bus_of(made.setup, injected)),
+      other_(FaultyPlant(plant_of(made.setup), made.wiring, injected), made.setup.device, bus_,
+             kTimes),
+      near_(bus_, injected, referee),
+      can_(near_, can::OnOtherSide(other_), can_setup(made)) {
   const auto most =
-      static_cast<int>(can::TorqueScale::of(setup.device.motor, setup.device.drive).most);
-  for (std::size_t i = 0; i < axes(); ++i) can::set_up(drive(i), most, kWatches);
+      static_cast<int>(can::TorqueScale::of(made.setup.device.motor, made.setup.device.drive).most);
+  for (std::size_t i = 0; i < axes(); ++i) {
+    can::set_up(drive(i), most, made.watching.drives);
+    if (made.watching.guarded > 0) guard(drive(i), made.watching.guarded);
+  }
   near_.send(can::frame(can::kNmt, {static_cast<std::uint8_t>(can::NmtCommand::kStart), 0}));
-  for (int i = 0; i < kBefore; ++i) static_cast<void>(can_.exchange({.elapsed = 1e-3}));
+  const int before = made.watching.before();
+  for (int i = 0; i < before; ++i) static_cast<void>(can_.exchange({.elapsed = kTimes.dt}));
+  can::SimulatedDrive& late = drive(injected.axis);
+  if (injected.kind == Kind::kLateDrive) late.set_condition(can::Condition::kEnableMissing, true);
+  if (injected.kind == Kind::kFaultAtStart) {
+    late.set_condition(can::Condition::kOverVoltage, true);
+    late.set_condition(can::Condition::kOverVoltage, false);
+  }
 }
 
 void TestBench::spoil_drive() EBAC_RT {
   can::SimulatedDrive& drive = this->drive(injected_->axis);
   if (injected_->begins(Kind::kSilentNode)) drive.set_condition(can::Condition::kSilent, true);
-  if (injected_->begins(Kind::kDriveFault)) {
-    constexpr std::array kAll{can::Condition::kOverVoltage, can::Condition::kEncoderLost,
-                              can::Condition::kOverTemperature};
-    drive.set_condition(kAll[injected_->chance % kAll.size()], true);
-  }
+  if (injected_->ends(Kind::kLateDrive)) drive.set_condition(can::Condition::kEnableMissing, false);
+  const auto input =
+      injected_->chance % 2 == 0 ? can::Condition::kTorqueOff : can::Condition::kEnableMissing;
+  if (injected_->begins(Kind::kTorqueOff)) drive.set_condition(input, true);
+  if (injected_->ends(Kind::kTorqueOff)) drive.set_condition(input, false);
+  if (!injected_->begins(Kind::kDriveFault) && !injected_->begins(Kind::kUnheededFault)) return;
+  constexpr std::array kAll{can::Condition::kOverVoltage, can::Condition::kOverTemperature,
+                            can::Condition::kEncoderLost};
+  // A lost encoder stops the counts, which the loop itself notices.
+  const std::size_t some = injected_->kind == Kind::kDriveFault ? kAll.size() : 2;
+  drive.set_condition(kAll[injected_->chance % some], true);
 }
 
 /// Answers late by as many milliseconds as the fault lasts, and frames that are destroyed.
@@ -83,7 +111,9 @@ void TestBench::intrude() EBAC_RT {
   can::SimulatedDrive& drive = this->drive(injected_->axis);
   const auto size = static_cast<std::int16_t>(500 + injected_->chance % 1001);
   const int asked = can_.state(injected_->axis).target_permille;
-  const auto torque = static_cast<std::int16_t>(asked < 0 ? -size : size);
+  const int way =
+      asked != 0 ? asked : wiring_.motor_sign[injected_->axis];  // resists where none is
+  const auto torque = static_cast<std::int16_t>(way < 0 ? -size : size);
   if (injected_->on(Kind::kSecondMaster)) {
     can::Frame frame{.id = can::rpdo(1, drive.node()), .size = can::kRpdoSize};
     can::put(frame.data, 0, can::word_of(can::DriveCommand::kEnableOperation));
@@ -123,12 +153,32 @@ Reading TestBench::exchange(const Command& command) EBAC_RT {
   reading.force_status = seen.force_status;
   force_age_ = injected_->on(Kind::kForceStale) ? force_age_ + command.elapsed : 0;
   spoil_sensor(reading);
+  watch(command.elapsed);
+  return reading;
+}
+
+/// Shows the referee the drives and the handle.
+void TestBench::watch(double elapsed) EBAC_RT {
+  std::array<Seen, kMaxAxes> seen{};
   for (std::size_t i = 0; i < axes(); ++i) {
-    const double current = std::abs(drive(i).current());
-    injected_->most_current = std::max(injected_->most_current, current);
-    if (current > 0) injected_->last_current = injected_->tick;
-    if (can_.state(i).target_permille != 0) injected_->last_command = injected_->tick;
+    const AxisTruth& truth = plant().state(i);
+    seen[i] = {.current = wiring_.motor_sign[i] * drive(i).current(),
+               .enabled = drive(i).state() == can::DriveState::kOperationEnabled,
+               .x = truth.x,
+               .v = truth.v};
+    if (seen[i].current != 0) injected_->last_current = injected_->tick;
   }
+  referee_->watch(elapsed, std::span(seen).first(axes()));
+}
+
+Command TestBench::pressed(const Command& command) const EBAC_RT {
+  Command more = command;
+  if (injected_->kind == Kind::kLateDrive && !can_.running()) more.current.fill(kPress);
+  return more;
+}
+
+Reading TestBench::heeded(Reading reading) const EBAC_RT {
+  if (injected_->kind == Kind::kUnheededFault) reading.fault = Fault::kNone;
   return reading;
 }
 

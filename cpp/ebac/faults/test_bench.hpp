@@ -17,7 +17,7 @@ class TestBench {
   using Other = can::JoystickOnBus<FaultyPlant>;
   using Can = can::CanopenDevice<FaultyBus, can::OnOtherSide<Other>>;
 
-  TestBench(const Setup& setup, InjectedFault& injected);
+  TestBench(const CaseSetup& made, InjectedFault& injected, Referee& referee);
   TestBench(const TestBench&) = delete;
   TestBench& operator=(const TestBench&) = delete;
   TestBench(TestBench&&) = delete;
@@ -33,14 +33,21 @@ class TestBench {
   const SimulatedDevice& plant() const EBAC_RT { return other_.plant().simulated(); }
   /// No motor has current, and none may get any.
   bool off() EBAC_RT;
+  /// Asks for current, if the fault is one of a loop that does so before its drives are enabled.
+  Command pressed(const Command& command) const EBAC_RT;
+  /// What a loop hears that does not heed its device.
+  Reading heeded(Reading reading) const EBAC_RT;
 
  private:
   void spoil_drive() EBAC_RT;
   void spoil_wire() EBAC_RT;
   void intrude() EBAC_RT;
   void spoil_sensor(Reading& reading) EBAC_RT;
+  void watch(double elapsed) EBAC_RT;
 
   InjectedFault* injected_;
+  Referee* referee_;
+  Wiring wiring_;
   can::VirtualBus bus_;
   Other other_;
   FaultyBus near_;
@@ -53,7 +60,9 @@ class FaultyDevice {
  public:
   explicit FaultyDevice(TestBench& bench) EBAC_RT : bench_(&bench) {}
 
-  Reading exchange(const Command& command) EBAC_RT { return bench_->exchange(command); }
+  Reading exchange(const Command& command) EBAC_RT {
+    return bench_->heeded(bench_->exchange(bench_->pressed(command)));
+  }
   void enable() EBAC_RT { bench_->can().enable(); }
   void disable() EBAC_RT { bench_->can().disable(); }
   void stop() EBAC_RT { bench_->can().stop(); }

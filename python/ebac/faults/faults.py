@@ -29,11 +29,14 @@ class FaultRow:
         From the row with the fault to zero torque on the bus [ticks of 1 ms].
     worst_ticks_to_off : int
         From that row to no current in any simulated motor; a drive that receives nothing keeps its last
-        torque until it misses its torques (5 ms) or the heartbeat of the loop (50 ms).
+        torque until it misses its torques (5 ms), or the heartbeat or requests of the loop (100 ms), by profile.
     reasons : dict
         Failures by their verdict.
     first_failure : int or None
         Number of the first case that failed.
+    first_breach : str or None
+        The rule that this case broke, with value, bound, unit, axis and tick: of the referee, which holds the
+        simulated drives' own currents and the handle against a model of its own.
     """
 
     kind: str
@@ -45,6 +48,7 @@ class FaultRow:
     worst_ticks_to_off: int
     reasons: dict[str, int]
     first_failure: int | None
+    first_breach: str | None
 
     def row(self) -> dict[str, Any]:
         """Return it as a row of `--json`."""
@@ -58,6 +62,7 @@ class FaultRow:
             "failures": self.failures,
             "reasons": self.reasons,
             "first_failure": self.first_failure,
+            "first_breach": self.first_breach,
         }
 
 
@@ -93,6 +98,10 @@ class FaultCase:
         First tick of the injected fault, and how many ticks it lasts.
     axis : int
         Where.
+    verdict : str
+        `passed`, or why not.
+    breach : str or None
+        The rule of the referee that it broke, with value, bound, unit, axis and tick.
     """
 
     kind: str
@@ -100,6 +109,8 @@ class FaultCase:
     at: int
     ticks: int
     axis: int
+    verdict: str
+    breach: str | None
 
 
 def kinds() -> dict[str, str]:
@@ -117,8 +128,11 @@ def run_campaign(
     """Run cases in virtual time: two simulated drives on a CAN bus, hand, wall, law, limits, states.
 
     In every case the command must be zero within 2 ticks of the fault in the row, every drive disabled at
-    the end, no limit exceeded at any tick, the fault named rightly, and nothing may start again by itself. A
-    a fault too short to matter must not stop the loop.
+    the end, the fault named rightly, and nothing may start again by itself. A fault too short to matter must not
+    stop the loop. A referee that knows device and limits, and sees only frames, drives and handle, holds every tick
+    against peak, slew, heat, soft start, soft wall, speed and workspace: no current before all drives are enabled,
+    none while one of them is off. Drives are watched as the shipped profiles set it, motors and encoders wired
+    either way, zeros anywhere.
 
     Parameters
     ----------
@@ -146,7 +160,7 @@ def run_campaign(
     columns, verdicts = _run(cases, seed, threads, step)
     names = list(kinds().items())
     rows = [
-        _row(name, what, columns, verdicts, np.arange(cases) % len(names) == i)
+        _row(name, what, columns, verdicts, np.arange(cases) % len(names) == i, seed)
         for i, (name, what) in enumerate(names)
         if i < cases
     ]
@@ -176,7 +190,12 @@ def _run(
 
 
 def _row(
-    kind: str, what: str, columns: dict[str, NDArray[Any]], verdicts: list[str], mine: NDArray[Any]
+    kind: str,
+    what: str,
+    columns: dict[str, NDArray[Any]],
+    verdicts: list[str],
+    mine: NDArray[Any],
+    seed: int,
 ) -> FaultRow:
     verdict = columns["verdict"][mine]
     failed = np.flatnonzero(mine)[verdict != 0]
@@ -190,6 +209,7 @@ def _row(
         worst_ticks_to_off=int(columns["to_off"][mine].max()),
         reasons={verdicts[v]: int((verdict == v).sum()) for v in np.unique(verdict) if v != 0},
         first_failure=int(failed[0]) if len(failed) else None,
+        first_breach=run_case(int(failed[0]), seed=seed).breach if len(failed) else None,
     )
 
 
@@ -197,7 +217,15 @@ def run_case(index: int, *, seed: int = 1) -> FaultCase:
     """Run one case of a campaign again and keep its rows."""
     if index < 0:
         raise ValueError(f"index = {index}: must be at least 0")
-    rows, at, ticks, axis = _core._fault_case(seed, index)
+    rows, at, ticks, axis, verdict, breach = _core._fault_case(seed, index)
     names = list(kinds())
     trace = Trace.from_rows(rows, scenario=None, law="ebac", law_repr="")
-    return FaultCase(kind=names[index % len(names)], trace=trace, at=at, ticks=ticks, axis=axis)
+    return FaultCase(
+        kind=names[index % len(names)],
+        trace=trace,
+        at=at,
+        ticks=ticks,
+        axis=axis,
+        verdict=verdict,
+        breach=breach or None,
+    )

@@ -33,8 +33,8 @@ def faults(
 
     A simulation. Two simulated CANopen drives, a hand at a wall, EBAC, limits and states, in virtual time. In every
     case: zero torque on the bus within 2 ticks of the fault, every drive disabled at the end, no limit exceeded at
-    any tick, the right fault reported, no restart without a reset; and no false alarm. Exit code 1 when a case
-    fails.
+    any tick by the drives' own currents, the right fault reported, no restart without a reset; and no false alarm.
+    Exit code 1 when a case fails.
 
     **Examples**
 
@@ -111,4 +111,5 @@ def _worst(row: FaultRow) -> tuple[int, int]:
 
 
 def _failures(row: FaultRow) -> str:
-    return ", ".join(f"{n} {name}" for name, n in row.reasons.items()) or "0"
+    counts = ", ".join(f"{n} {name}" for name, n in row.reasons.items()) or "0"
+    return counts if row.first_breach is None else f"{counts}: {row.first_breach}"
