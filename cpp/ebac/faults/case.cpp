@@ -48,6 +48,8 @@ Verdict judge_fault(const InjectedFault& injected, const CaseSetup& made, const 
 Verdict judge_end(FaultyLoop& loop, TestBench& bench, InjectedFault& injected, Trace& trace,
                   Fault fault) {
   const std::size_t rows = trace.size();
+  // Nobody commands the drives from here on but this bench.
+  if (!injected.strains() && !bench.off()) return Verdict::kStillOn;
   if (fault != Fault::kNone && loop.run(trace)) return Verdict::kRestarted;
   bool went_off = false;
   for (int i = 0; i < kAfter; ++i) {

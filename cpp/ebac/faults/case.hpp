@@ -15,7 +15,7 @@ enum class Verdict : std::uint8_t {
   kFalseAlarm,   // one was found that was none
   kWrongName,    // it was found under another name
   kNotZero,      // the command was not zero within 2 ticks
-  kStillOn,      // a drive was not disabled at the end
+  kStillOn,      // a drive was not disabled at the end of the loop
   kBeyondLimit,  // a rule of the referee was broken at some tick
   kRestarted,    // the loop or a drive started again without a reset
   kNotRecorded,  // a row or a change is missing
