@@ -39,6 +39,7 @@ def test_a_case_tells_its_story(kind: str) -> None:
     cases = [faults.run_case(i, seed=2) for i in indices]
     stopped = [case for case in cases if case.trace["fault"].any()]
     assert stopped
+    assert {(case.verdict, case.breach) for case in cases} == {("passed", None)}
     for case in stopped:
         trace = case.trace
         row = int((trace["fault"] != 0).argmax())
