@@ -15,7 +15,7 @@ using faults::Result;
 
 constexpr std::array kVerdicts{"passed",       "missed",   "false_alarm",  "wrong_name",
                                "not_zero",     "still_on", "beyond_limit", "restarted",
-                               "not_recorded", "not_off",  "endless"};
+                               "not_recorded", "not_off",  "endless",      "late"};
 
 /// The first rule of the referee that a case broke, with its numbers; empty where it broke none.
 std::string text_of(const faults::Breach& breach) {

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
 #include <optional>
 
 #include "ebac/canopen/cob_id.hpp"
@@ -15,7 +16,8 @@ constexpr double kDt = 1e-3;  // s
 /// Two drives that are enabled from tick 5 on, with a soft start of 20 ms.
 class Made {
  public:
-  explicit Made(Kind kind = Kind::kStop) : injected_{.kind = kind, .at = 1000} {
+  explicit Made(Kind kind = Kind::kStop, double angle = 0) : injected_{.kind = kind, .at = 1000} {
+    made_.setup.environment = Wall{.angle = angle};
     made_.setup.device.kinematics = Linear{.axes = 2};
     made_.limits = Limits::of(made_.setup.device);
     made_.limits.peak_current = 2;
@@ -128,6 +130,14 @@ TEST(Referee, NamesASoftWallThatIsNotThereOrPullsOutwards) {
   EXPECT_EQ(Made().ticks(40, 0).ticks(5, 0, over).rule(), Rule::kSoftWall);
   EXPECT_EQ(Made().ticks(40, 0).ticks(5, 0.19, -over).rule(), Rule::kSoftWall);
   EXPECT_EQ(Made().ticks(40, 0).ticks(5, 0, over, -0.1).rule(), Rule::kNone) << "on its way back";
+}
+
+TEST(Referee, NamesAWallThatPulls) {
+  const double behind = 0.03;  // of a wall at 0
+  EXPECT_EQ(Made().ticks(40, 0).ticks(20, 0.3, behind).rule(), Rule::kNone);
+  EXPECT_EQ(Made().ticks(40, 0).ticks(20, -0.3, behind).rule(), Rule::kNone) << "it is beside it";
+  EXPECT_EQ(Made(Kind::kStop, std::numbers::pi / 2).ticks(40, 0).ticks(20, -0.3, behind).rule(),
+            Rule::kDirection);
 }
 
 TEST(Referee, NamesSpeedAndPlaceWithoutAStop) {

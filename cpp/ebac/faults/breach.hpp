@@ -18,12 +18,13 @@ enum class Rule : std::uint8_t {
   kEarlyLaw,
   kOthersOff,
   kSoftWall,
+  kDirection,
   kSpeed,
   kWorkspace,
   kHeartbeat,
   kWithheld,
 };
-inline constexpr std::size_t kRules = 13;
+inline constexpr std::size_t kRules = 14;
 
 struct RuleFacts {
   std::string_view name, unit;
@@ -39,6 +40,7 @@ inline constexpr std::array<RuleFacts, kRules> kRuleFacts{{
     {"law asked before all drives were enabled", "ticks"},
     {"current while another drive is off", "A"},
     {"current inwards over the edge of the workspace, too small", "A"},
+    {"current into the virtual wall", "A"},
     {"speed without a stop", "m/s"},
     {"position without a stop", "m"},
     {"time without a heartbeat of the loop, or a request", "s"},

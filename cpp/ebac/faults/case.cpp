@@ -38,6 +38,7 @@ Verdict judge_fault(const InjectedFault& injected, const CaseSetup& made, const 
   if (result.fault == Fault::kNone) return injected.fatal() ? Verdict::kMissed : Verdict::kPassed;
   if (injected.harmless()) return Verdict::kFalseAlarm;
   if (!named(injected, result.fault)) return Verdict::kWrongName;
+  if (result.detected > facts_of(injected.kind).within) return Verdict::kLate;
   if (result.to_zero > kMostToZero) return Verdict::kNotZero;
   const bool strained = facts_of(injected.kind).strained;
   const std::int64_t let_go = strained ? made.watching.longest() : 0;

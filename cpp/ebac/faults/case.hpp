@@ -21,6 +21,7 @@ enum class Verdict : std::uint8_t {
   kNotRecorded,  // a row or a change is missing
   kNotOff,       // a motor had current for too long
   kEndless,      // the loop did not end by itself
+  kLate,         // the fault was found too late
 };
 
 struct Result {

@@ -49,7 +49,7 @@ class FaultyPlant {
 
 /// What a law without measure asks for [N]: half as much again as the device has, one way, or to and fro.
 inline double all_force(const InjectedFault& injected, double peak) EBAC_RT {
-  const double size = (injected.chance >> 20U & 1U) != 0 ? 1.5 * peak : -1.5 * peak;
+  const double size = injected.asks_against() ? 1.5 * peak : -1.5 * peak;
   const bool swings = injected.kind == Kind::kForceSwings || injected.kind == Kind::kNanJoint;
   const auto half = static_cast<std::int64_t>(3 + (injected.chance >> 21U) % 18);  // ticks
   return swings && (injected.tick - injected.at) / half % 2 != 0 ? -size : size;

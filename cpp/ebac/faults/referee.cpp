@@ -14,6 +14,8 @@ constexpr double kRoom = 1.01;     // of a limit
 constexpr double kPause = 0.0105;  // s, from which on the force must come in anew
 constexpr double kStill = 0.02;    // m/s, outwards or slower inwards
 constexpr double kDeep = 1e-3;     // m, over the edge
+constexpr double kPull = 0.1;      // of the continuous current: noise of a law
+constexpr int kTicksPressed = 5;   // until a law has seen the wall
 constexpr int kTicksToOff = 3;     // from one drive that is off to no current in any
 constexpr int kTicksToStop = 8;    // from a speed or a place that is a fault to drives that are off
 constexpr double kFastOrFar = 1.1;  // of a limit: no doubt
@@ -31,6 +33,7 @@ Referee::Referee(const CaseSetup& made, const InjectedFault& injected)
   const Motor& motor = made.setup.device.motor;
   full_ = std::min(made.setup.device.drive.peak_ratio * motor.rated_torque / motor.torque_constant,
                    motor.stall_current);
+  if (const auto* wall = std::get_if<Wall>(&made.setup.environment)) wall_ = *wall;
   grain_ = motor.rated_torque / motor.torque_constant / 1000;
 }
 
@@ -63,7 +66,7 @@ void Referee::power(std::span<const Seen> axes) EBAC_RT {
 void Referee::currents(double elapsed, const Seen& seen, std::size_t i) EBAC_RT {
   Axis& axis = axis_[i];
   const double size = std::abs(seen.current);
-  axis.most = std::max(axis.most, size);
+  axis.most = std::max(axis.most, injected_->asks_against() ? seen.current : -seen.current);
   note(Rule::kNotEnabled, !were_ && size > 0, size, 0, i);
   const double share = axis.before / limits_.continuous_current;
   const double decay = std::exp(-elapsed / limits_.thermal_time);
@@ -111,6 +114,19 @@ void Referee::soft_wall(const Seen& seen, std::size_t i) EBAC_RT {
   note(Rule::kSoftWall, running && deep && inwards < must, inwards, must, i);
 }
 
+/// Until something goes wrong, a virtual wall never pulls the handle that is in it.
+void Referee::direction(std::span<const Seen> axes) EBAC_RT {
+  if (!wall_ || axes.size() != 2 || injected_->tick >= injected_->at) return;
+  const double depth = wall_->depth({axes[0].x, axes[1].x, 0});
+  const double passed = static_cast<double>(injected_->tick - let_in_) * dt_;
+  pressed_ = all_ && passed > soft_start_ && depth > kDeep ? pressed_ + 1 : 0;
+  const double most = kPull * limits_.continuous_current;
+  for (std::size_t i = 0; i < axes.size(); ++i) {
+    const double into = -axes[i].current;
+    note(Rule::kDirection, pressed_ > kTicksPressed && into > most, into, most, i);
+  }
+}
+
 void Referee::watch(double elapsed, std::span<const Seen> axes) EBAC_RT {
   power(axes);
   // A pause ends in this tick, whose command is zero: it comes to the drives in the next one.
@@ -122,6 +138,7 @@ void Referee::watch(double elapsed, std::span<const Seen> axes) EBAC_RT {
     if (!asks_all(injected_->kind)) soft_wall(axes[i], i);
   }
   gap_ = std::exchange(heard_, false) ? 0 : gap_ + elapsed;
+  direction(axes);
   note(Rule::kHeartbeat, gap_ > longest_gap_, gap_, longest_gap_, 0);
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <span>
 
 #include "ebac/can/frame.hpp"
@@ -37,7 +38,7 @@ class Referee {
     double before = 0;  // A
     double heat = 0;    // of the continuous current's
     double depth = 0;   // m, over the edge, in the last tick
-    double most = 0;    // A
+    double most = 0;    // A, in the direction that the law asks for
     int fast = 0;       // ticks in a row above the limit of the speed
     int out = 0;        // ticks since it was first too fast, or too far
   };
@@ -47,6 +48,7 @@ class Referee {
   void currents(double elapsed, const Seen& seen, std::size_t i) EBAC_RT;
   void motion(const Seen& seen, std::size_t i) EBAC_RT;
   void soft_wall(const Seen& seen, std::size_t i) EBAC_RT;
+  void direction(std::span<const Seen> axes) EBAC_RT;
 
   const InjectedFault* injected_;
   Limits limits_;
@@ -56,6 +58,8 @@ class Referee {
   double full_;                // A, that the device can have
   double grain_;               // A, to which a drive rounds
   double newton_per_amp_;      // N/A
+  std::optional<Wall> wall_;   // the virtual world
+  int pressed_ = 0;            // ticks in a row that the handle is in it
   double longest_gap_;         // s, between two heartbeats or requests of the loop
   double gap_ = 0;             // s, since the last one
   bool heard_ = false;         // a heartbeat or a request, in this tick
