@@ -22,8 +22,8 @@ ebac_bundle(ebac run cpp/ebac control/virtual_coupling core/check core/fields fa
             sim/perceived_ripple sim/rest_power sim/sweep)
 
 if(EBAC_PYTHON)
-  ebac_bundle(_core_values device bindings core device environment fields hand identify kinematics limits linear_loop
-              module values worlds)
+  ebac_bundle(_core_values device bindings core device fields hand kinematics limits module values)
+  ebac_bundle(_core_values world bindings environment identify linear_loop worlds)
   ebac_bundle(_core_values run bindings controllers python_hand python_law realtime replay simulation sweep)
   ebac_bundle(_core_values bus bindings can can_plan faults running)
   ebac_bundle(_core_values machine bindings drive node_server others_run sensor sensor_emulator)
