@@ -42,6 +42,7 @@ std::pair<Eigen::VectorXd, Points> distances(const HeldSolid& held, const Points
 
 std::vector<SolidPtr> solids_of(const std::vector<HeldSolid>& held) {
   std::vector<SolidPtr> solids;
+  solids.reserve(held.size());
   for (const HeldSolid& one : held) solids.push_back(one.solid);
   return solids;
 }
@@ -82,6 +83,7 @@ void bind_solids(py::module_& m) {
     if (at.rows() < 2 || static_cast<std::size_t>(at.rows()) != radius.size())
       throw std::invalid_argument("_tube: the arrays do not belong together");
     std::vector<Tube::Point> points;
+    points.reserve(radius.size());
     for (Eigen::Index i = 0; i < at.rows(); ++i)
       points.push_back({at.row(i), radius[static_cast<std::size_t>(i)]});
     return HeldSolid{make_tube(std::move(points))};
@@ -129,6 +131,7 @@ void bind_worlds(py::module_& m) {
   py::class_<External>(m, "_World")
       .def(py::init([](const std::vector<Parts>& bodies) {
         std::vector<BodyParts> parts;
+        parts.reserve(bodies.size());
         for (const auto& [held, material, friction, motion] : bodies)
           parts.push_back({held.solid, material, friction, motion});
         return External{make_scene(parts)};

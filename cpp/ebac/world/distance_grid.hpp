@@ -45,7 +45,8 @@ class DistanceGrid final : public Solid {
     for (int i = 0; i < 3; ++i) {
       const auto k = static_cast<std::size_t>(i);
       const double place = scaled[i] / kCells;
-      if (!(place >= 0 && place < layout_.bricks[k])) return outside(x);
+      const bool within_grid = place >= 0 && place < layout_.bricks[k];
+      if (!within_grid) return outside(x);
       brick[k] = static_cast<int>(place);
       within[i] = scaled[i] - kCells * brick[k];
     }
@@ -56,7 +57,8 @@ class DistanceGrid final : public Solid {
  private:
   static std::size_t cell_number(const std::array<int, 3>& at,
                                  const std::array<int, 3>& size) EBAC_RT {
-    return static_cast<std::size_t>((at[0] * size[1] + at[1]) * size[2] + at[2]);
+    const auto place = [](int one) { return static_cast<std::size_t>(one); };
+    return (place(at[0]) * place(size[1]) + place(at[1])) * place(size[2]) + place(at[2]);
   }
 
   /// Not in the grid: at least as far as the grid's own edge, and the margin.
@@ -101,7 +103,7 @@ class DistanceGrid final : public Solid {
       const int i = corner >> 2;
       const int j = corner >> 1 & 1;
       const int k = corner & 1;
-      const int at = ((cell[0] + i) * kNodes + cell[1] + j) * kNodes + cell[2] + k;
+      const std::ptrdiff_t at = ((cell[0] + i) * kNodes + cell[1] + j) * kNodes + cell[2] + k;
       const Eigen::Vector4d node = Node(first + 4 * at).cast<double>();
       const Axes off = u - Axes(i, j, k);
       const double weight =

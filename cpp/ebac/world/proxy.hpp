@@ -46,9 +46,7 @@ class Proxy {
   /// Follows the handle to `x`.
   void follow(const Solid& solid, const Axes& x) EBAC_RT {
     if (!begun_) put(x);
-    if (!touching()) {
-      if (travel(solid, x)) return;
-    }
+    if (!touching() && travel(solid, x)) return;
     slide(solid, x);
   }
 
