@@ -1,7 +1,7 @@
 """Who may include whom.
 
 core <- model <- control <- loop <- { sim | rt <- sensor | rt <- can <- canopen <- simulated_drives }
-    <- bindings <- python
+    <- bindings <- python, and world <- bindings: the loop knows its interface, which is the model's
 """
 
 import ast
@@ -23,6 +23,7 @@ PACKAGE = Path(ebac.__file__).parent
 MAY_SEE = {
     "core": set(),
     "model": {"core"},
+    "world": {"core", "model"},
     "control": {"core", "model"},
     "identify": {"core", "model"},
     "loop": {"core", "model", "control"},
@@ -48,6 +49,9 @@ EXCEPTIONS = {
     # A law of any type lies on the heap: it is made and copied before the loop.
     "control/any_law.hpp": {"memory"},
     "control/law_type.hpp": {"memory"},
+    # So does a world of any kind, of which each run has a copy.
+    "model/environment.hpp": {"memory"},
+    "model/world.hpp": {"memory"},
 }
 
 sources = pytest.mark.parametrize(
@@ -170,6 +174,7 @@ ROOMS = [
         "specs",
         "hands",
         "operators",
+        "worlds",
         "scenario",
         "trace",
         "simulation",

@@ -10,7 +10,7 @@
 #include "ebac/loop/state_observer.hpp"
 #include "ebac/model/device.hpp"
 #include "ebac/model/environment.hpp"
-#include "ebac/world/port_space.hpp"
+#include "ebac/model/port_space.hpp"
 
 namespace ebac {
 
@@ -166,7 +166,7 @@ inline void SignalChain::forward_general(const Reading& reading, double dt,
 inline ContactForce SignalChain::meet(const Axes& x, const Axes& v, double t) const EBAC_RT {
   const auto* external = std::get_if<External>(&environment_);
   if (external == nullptr) return ebac::contact(environment_, x, v, t);
-  const world::PortSpace space(kinematics_, x);
+  const PortSpace space(kinematics_, x);
   return space.felt(external->contact(space.at(), space.velocity(v), t));
 }
 

@@ -10,7 +10,7 @@
 #include "ebac/core/fields.hpp"
 #include "ebac/model/contact_force.hpp"
 #include "ebac/model/kinematics.hpp"
-#include "ebac/world/world.hpp"
+#include "ebac/model/world.hpp"
 
 /// The virtual world: maps position and velocity of the handle to a force. A shape is a type with
 /// `contact(x, v)`; a new one is added to the variant.

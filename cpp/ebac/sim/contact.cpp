@@ -5,8 +5,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "ebac/model/port_space.hpp"
 #include "ebac/sim/perceived_ripple.hpp"
-#include "ebac/world/port_space.hpp"
 
 namespace ebac {
 
@@ -194,7 +194,7 @@ double stored_energy(const Environment& environment, const Axes& x) EBAC_RT {
 double StoredEnergy::at(const Axes& x, double t) EBAC_RT {
   const auto* external = std::get_if<External>(&environment_);
   if (external == nullptr || external->world == nullptr) return stored_energy(environment_, x);
-  external->world->contact(world::PortSpace(kinematics_, x).at(), Axes::Zero(), t);
+  external->world->contact(PortSpace(kinematics_, x).at(), Axes::Zero(), t);
   return external->world->stored();
 }
 

@@ -5,13 +5,13 @@
 #include <variant>
 #include <vector>
 
+#include "ebac/model/world.hpp"
 #include "ebac/world/distance_grid.hpp"
 #include "ebac/world/material.hpp"
 #include "ebac/world/motion.hpp"
 #include "ebac/world/shapes.hpp"
 #include "ebac/world/textured.hpp"
 #include "ebac/world/tube.hpp"
-#include "ebac/world/world.hpp"
 
 /// Solids and worlds from their parts.
 namespace ebac::world {

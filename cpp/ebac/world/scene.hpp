@@ -3,8 +3,8 @@
 #include <utility>
 #include <vector>
 
+#include "ebac/model/world.hpp"
 #include "ebac/world/body.hpp"
-#include "ebac/world/world.hpp"
 
 namespace ebac::world {
 

@@ -6,7 +6,7 @@
 #include "ebac/model/contact_force.hpp"
 #include "ebac/model/kinematics.hpp"
 
-namespace ebac::world {
+namespace ebac {
 
 /// The handle in space, seen from the ports of a device: what a world meets, and what of its force the ports feel.
 ///
@@ -64,4 +64,4 @@ class PortSpace {
   Jacobian reach_ = Jacobian::Zero();
 };
 
-}  // namespace ebac::world
+}  // namespace ebac
