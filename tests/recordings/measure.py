@@ -1,4 +1,7 @@
-"""How honest are the intervals on logs of `recorded_arm`? `python tests/recordings/measure.py [logs a level]`."""
+"""How honest are the intervals on logs of `recorded_arm`?
+
+python tests/recordings/measure.py [logs a level] [--held]
+"""
 
 from __future__ import annotations
 
@@ -62,12 +65,15 @@ def judged(log: RecordedArm, folder: Path) -> list[Judged]:
     ]
 
 
-def every(logs: int, levels: tuple[str, ...] = LEVELS, seed: int = 1) -> Iterator[Judged]:
+def every(
+    logs: int, levels: tuple[str, ...] = LEVELS, seed: int = 1, *, held: bool = False
+) -> Iterator[Judged]:
     """Judge so many logs of each level, the tasks in turn."""
     with tempfile.TemporaryDirectory() as folder:
         for level in levels:
             for number in range(logs):
-                log = recorded(number, level=level, task=TASKS[number % len(TASKS)], seed=seed)
+                task = TASKS[number % len(TASKS)]
+                log = recorded(number, level=level, task=task, seed=seed, held=held)
                 yield from judged(log, Path(folder))
 
 
@@ -87,9 +93,9 @@ def line(name: str, found: list[Judged]) -> str:
     )
 
 
-def main(logs: int) -> None:
+def main(logs: int, *, held: bool) -> None:
     """Print one line a level, a task and a parameter."""
-    found = list(every(logs))
+    found = list(every(logs, held=held))
     for level in LEVELS:
         mine = [j for j in found if j.level == level]
         print(line(level, mine))
@@ -100,4 +106,5 @@ def main(logs: int) -> None:
 
 
 if __name__ == "__main__":
-    main(int(sys.argv[1]) if len(sys.argv) > 1 else 80)
+    numbers = [word for word in sys.argv[1:] if word != "--held"]
+    main(int(numbers[0]) if numbers else 80, held="--held" in sys.argv)

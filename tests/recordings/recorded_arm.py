@@ -46,9 +46,9 @@ class RecordedArm:
 
 
 def recorded(
-    number: int, *, level: str, task: str, seconds: float = 10.0, seed: int = 1
+    number: int, *, level: str, task: str, seconds: float = 10.0, seed: int = 1, held: bool = False
 ) -> RecordedArm:
-    """Return one log of a random hand."""
+    """Return one log of a random hand; `held`: the motor's force stands from row to row, from some instant between."""
     draw = np.random.default_rng([seed, number])
     mass, natural, ratio = draw.uniform(0.2, 2), draw.uniform(2, 6), draw.uniform(0.2, 0.9)
     stiffness = mass * (2 * np.pi * natural) ** 2
@@ -56,6 +56,8 @@ def recorded(
     device = draw.uniform(0.2, 1.0), draw.uniform(0.5, 5)  # kg, N s/m
     t = np.arange(0, seconds + 0.1, FINE)
     motor = _motor(task, t, draw, stiffness)
+    if held and motor.any():
+        motor = _held(motor, draw)
     switches, segments, place = _target(task, seconds, draw)
     if task == "path":
         target = _reaches(t, draw)
@@ -99,6 +101,14 @@ def _motor(task: str, t: Values, draw: np.random.Generator, stiffness: float) ->
     if task == "sine":
         return np.asarray(size * np.sin(2 * np.pi * draw.uniform(1, 6) * t))
     return np.zeros(len(t))
+
+
+def _held(motor: Values, draw: np.random.Generator) -> Values:
+    """Return a motor's force that a loop at `RATE` commands, its ticks anywhere between two rows."""
+    period = round(1 / (RATE * FINE))
+    phase = int(draw.integers(0, period))
+    last = (np.arange(len(motor)) - phase) // period * period + phase
+    return np.asarray(motor[np.maximum(last, 0)])
 
 
 def _target(
