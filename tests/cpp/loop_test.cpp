@@ -10,7 +10,7 @@
 #include <cmath>
 #include <vector>
 
-#include "ebac/loop/clock.hpp"
+#include "ebac/core/concepts.hpp"
 
 namespace ebac::loop_test {
 namespace {
@@ -64,6 +64,20 @@ struct FakeLaw {
   void reset() EBAC_RT {}
 };
 
+/// On time, but for one pause.
+struct FakeClock {
+  std::int64_t pause_at = -1;
+  std::int64_t tick = 0;
+  double t = 0;
+
+  Instant wait() EBAC_RT {
+    const std::int64_t skipped = tick == pause_at ? 50 : 0;
+    const double dt = tick++ > 0 ? kDt * static_cast<double>(1 + skipped) : 0.0;
+    t += dt;
+    return {.t = t, .dt = dt, .lateness = 0, .skipped = skipped};
+  }
+};
+
 /// A loop on a fake device, run to its end.
 struct LoopRun {
   Asked asked{};
@@ -71,10 +85,10 @@ struct LoopRun {
   bool again = false;  // whether it starts once more
   std::vector<Sample> rows{};
 
-  LoopRun(FakeDevice device, double force, const LoopOptions& options) {
+  LoopRun(FakeDevice device, double force, const LoopOptions& options, FakeClock clock = {}) {
     device.asked = &asked;
-    Loop loop(device, VirtualClock(kDt, 0, 1), FakeLaw{force, &asked},
-              SignalChain(kDevice, Environment{Free{}}), 1, options);
+    Loop loop(device, clock, FakeLaw{force, &asked}, SignalChain(kDevice, Environment{Free{}}), 1,
+              options);
     const auto trace = loop.make_trace(2000);
     EXPECT_TRUE(loop.run(*trace));
     end = loop.state();
@@ -159,6 +173,19 @@ TEST(Loop, GivesTheDeviceNoCurrentBeyondTheLimit) {
     }
     run.expect_given_as_recorded();
   }
+}
+
+TEST(Loop, APauseLeavesNoCurrentAndTheForceComesInAnew) {
+  Limits limits = Limits::of(kDevice);
+  limits.slew = 20;  // A/s: by the slew alone it would take 23 ticks to zero
+  limits.pause = 0.1;
+  const LoopRun run(
+      {}, 5, {.plan = {.soft_start = 0.05, .arm = true, .ticks = 300}, .limiter = limiter(limits)},
+      {.pause_at = 200});
+  EXPECT_GT(run.current(199), 0.4);
+  EXPECT_EQ(run.current(200), 0);
+  EXPECT_GT(run.current(210), 0);
+  EXPECT_LT(run.current(210), 0.5 * run.current(199));
 }
 
 TEST(Loop, EndsWhereAnAxisLeavesTheWorkspace) {

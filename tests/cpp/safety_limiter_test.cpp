@@ -50,6 +50,16 @@ TEST(SafetyLimiter, HoldsThePeakOfEitherSign) {
   EXPECT_TRUE(p.because(Limited::kNotFinite));
 }
 
+TEST(SafetyLimiter, LimitsEveryAxis) {
+  Pushed p;
+  std::array<Axis, kMaxAxes> axes{};
+  for (int k = 0; k < 3; ++k) {
+    for (Axis& axis : axes) axis.joint.current = 100;
+    p.limiter.limit(axes, 1, kDt);
+  }
+  for (const Axis& axis : axes) EXPECT_EQ(axis.joint.current, p.limits.peak_current);
+}
+
 TEST(SafetyLimiter, HoldsTheSlew) {
   Pushed p;
   p.limits.slew = 1000;

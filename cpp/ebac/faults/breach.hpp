@@ -23,8 +23,9 @@ enum class Rule : std::uint8_t {
   kWorkspace,
   kHeartbeat,
   kWithheld,
+  kStopped,
 };
-inline constexpr std::size_t kRules = 14;
+inline constexpr std::size_t kRules = 15;
 
 struct RuleFacts {
   std::string_view name, unit;
@@ -45,6 +46,7 @@ inline constexpr std::array<RuleFacts, kRules> kRuleFacts{{
     {"position without a stop", "m"},
     {"time without a heartbeat of the loop, or a request", "s"},
     {"largest current of a law that asks for all force, too small", "A"},
+    {"current after the ramp of a stop", "A"},
 }};
 
 /// The first rule that a run broke, and by how much.

@@ -115,7 +115,7 @@ class FaultyClock {
       injected_->endless = true;
       updates_->stop(/*at_once=*/true);
     }
-    if (injected_->begins(Kind::kStop)) updates_->stop();
+    if (injected_->begins(Kind::kStop)) updates_->stop(injected_->at_once());
     if (injected_->begins(Kind::kNanWorld))
       updates_->post(Environment(Wall{.position = kNoNumber}));
     if (!injected_->on(Kind::kParameterWrites)) return;

@@ -34,6 +34,8 @@ struct InjectedFault {
   bool strains() const EBAC_RT { return facts_of(kind).strained && tick >= at; }
   /// Whether it asks for force against +x first.
   bool asks_against() const EBAC_RT { return (chance >> 20U & 1U) != 0; }
+  /// Whether a stop is asked for without its ramp.
+  bool at_once() const EBAC_RT { return (chance >> 21U & 1U) != 0; }
   bool asks_now() const EBAC_RT { return asks_all(kind) && (tick >= at || kind == Kind::kPause); }
   /// Whether the loop must detect it.
   bool fatal() const EBAC_RT {

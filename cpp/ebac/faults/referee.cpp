@@ -27,6 +27,7 @@ Referee::Referee(const CaseSetup& made, const InjectedFault& injected)
       limits_(made.limits),
       dt_(made.setup.timing.dt),
       soft_start_(made.plan.soft_start),
+      ramp_down_(injected.at_once() ? 0 : made.plan.ramp_down),
       law_ticks_(made.plan.ticks),
       newton_per_amp_(made.setup.device.force(1)),
       longest_gap_(2 * made.watching.beat) {
@@ -86,6 +87,14 @@ void Referee::currents(double elapsed, const Seen& seen, std::size_t i) EBAC_RT 
   axis.before = seen.current;
 }
 
+/// A stop that somebody asked for leaves no current behind its ramp.
+void Referee::stopped(const Seen& seen, std::size_t i) EBAC_RT {
+  if (injected_->kind != Kind::kStop || injected_->tick < injected_->at) return;
+  const double since = static_cast<double>(injected_->tick - injected_->at - kTicksToOff) * dt_;
+  const double size = std::abs(seen.current);
+  note(Rule::kStopped, since > ramp_down_ && size > grain_, size, grain_, i);
+}
+
 /// Too fast for three ticks, or too far: the drives must be off soon.
 void Referee::motion(const Seen& seen, std::size_t i) EBAC_RT {
   Axis& axis = axis_[i];
@@ -134,6 +143,7 @@ void Referee::watch(double elapsed, std::span<const Seen> axes) EBAC_RT {
   lets_in_next_ = were_ && elapsed > kPause;
   for (std::size_t i = 0; i < axes.size(); ++i) {
     currents(elapsed, axes[i], i);
+    stopped(axes[i], i);
     motion(axes[i], i);
     if (!asks_all(injected_->kind)) soft_wall(axes[i], i);
   }

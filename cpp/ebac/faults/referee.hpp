@@ -46,6 +46,7 @@ class Referee {
   void note(Rule rule, bool broken, double value, double bound, std::size_t axis) EBAC_RT;
   void power(std::span<const Seen> axes) EBAC_RT;
   void currents(double elapsed, const Seen& seen, std::size_t i) EBAC_RT;
+  void stopped(const Seen& seen, std::size_t i) EBAC_RT;
   void motion(const Seen& seen, std::size_t i) EBAC_RT;
   void soft_wall(const Seen& seen, std::size_t i) EBAC_RT;
   void direction(std::span<const Seen> axes) EBAC_RT;
@@ -54,6 +55,7 @@ class Referee {
   Limits limits_;
   double dt_;                  // s
   double soft_start_;          // s
+  double ramp_down_;           // s
   std::int64_t law_ticks_;     // without a fault
   double full_;                // A, that the device can have
   double grain_;               // A, to which a drive rounds
