@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import warnings
 from dataclasses import dataclass, field
 from math import cos
 from pathlib import Path
@@ -272,3 +273,17 @@ class Scenario:
             seed=self.seed,
             observer=self.designed_observer(),
         )
+
+
+def scenario_of_log(text: str) -> Scenario | None:
+    """Return the scenario that a log was written with; None without one.
+
+    None with a warning, too, where a file or a package that it needs is missing: the rows are worth more than that.
+    """
+    if not text:
+        return None
+    try:
+        return Scenario.from_toml(text)
+    except (OSError, ImportError) as error:
+        warnings.warn(f"the scenario in the log is not used: {error}", stacklevel=2)
+        return None

@@ -86,6 +86,19 @@ def test_a_mesh_goes_to_toml_and_back(cube: Path) -> None:
     assert ebac.Scenario.from_toml(scenario.to_toml()) == scenario
 
 
+def test_a_log_is_read_without_the_mesh_of_its_run(cube: Path, tmp_path: Path) -> None:
+    scenario = ebac.Scenario(environment=World(Mesh(str(cube), cell=2e-3)), seconds=0.1)
+    trace = ebac.simulate(scenario, "ebac")
+    for name in ("run.npz", "run.mcap"):
+        trace.save(tmp_path / name)
+    cube.unlink()
+    with pytest.warns(UserWarning, match=r"the scenario in the log is not used: .*cube\.ply"):
+        assert np.array_equal(ebac.load(tmp_path / "run.npz")["x"], trace["x"])
+    log = ebac.logs.read(tmp_path / "run.mcap")
+    assert np.array_equal(log.trace["x"], trace["x"])
+    assert any("cube.ply" in remark for remark in log.condition.remarks)
+
+
 def test_an_open_surface_needs_a_thickness(tmp_path: Path) -> None:
     file = tmp_path / "sheet.obj"
     file.write_text("v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3\nf 1 3 4\n", encoding="utf-8")

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from ebac.logs.csv_file import gathered
 from ebac.logs.export import needs
-from ebac.scenario import Scenario
+from ebac.scenario import scenario_of_log
 from ebac.trace import Trace
 from ebac.trace.columns import ColumnInfo
 
@@ -95,7 +95,7 @@ def _trace(
         data=data,
         columns=columns,
         axes=axes,
-        scenario=Scenario.from_toml(text) if text else None,
+        scenario=scenario_of_log(text),
         law=about.get("law", ""),
         law_repr=about.get("law_repr", ""),
         origin=about.get("origin", ""),

@@ -279,7 +279,7 @@ def _about(found: _Found, condition: Condition, axes: int) -> About:
         try:
             scenario = Scenario.from_toml(files[SCENARIO_FILE])
             del files[SCENARIO_FILE]
-        except ValueError as error:
+        except (ValueError, OSError, ImportError) as error:  # a mesh that is gone, too
             condition.remarks.append(f"the scenario in it is not used: {error}")
     return About(
         axes=axes,

@@ -11,7 +11,7 @@ from zipfile import BadZipFile
 import numpy as np
 from numpy.typing import NDArray
 
-from ebac.scenario import Scenario
+from ebac.scenario import scenario_of_log
 from ebac.trace.columns import ColumnInfo
 
 if TYPE_CHECKING:
@@ -89,7 +89,7 @@ def npz_parts(path: str | Path) -> dict[str, Any]:
             for name, (unit, meaning) in about["columns"].items()
         },
         "axes": about["axes"],
-        "scenario": Scenario.from_toml(about["scenario"]) if about["scenario"] else None,
+        "scenario": scenario_of_log(about["scenario"]),
         "law": about["law"],
         "law_repr": about["law_repr"],
         "origin": about.get("origin", ""),
