@@ -14,10 +14,12 @@
 #include "ebac/sim/simulate.hpp"
 #include "ebac/simulated_drives/joystick.hpp"
 #include "ebac/simulated_drives/through_can.hpp"
+#include "ebac/world/make.hpp"
 #include "through_udp.hpp"
 
 namespace {
 std::size_t allocations = 0;  // the tests have one thread
+std::size_t frees = 0;
 
 void* counted(std::size_t size, std::size_t alignment) {
   ++allocations;
@@ -32,10 +34,12 @@ void* operator new(std::size_t size) { return counted(size, alignof(std::max_ali
 void* operator new(std::size_t size, std::align_val_t alignment) {
   return counted(size, static_cast<std::size_t>(alignment));
 }
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
-void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
+void operator delete(void* memory) noexcept { ++frees, std::free(memory); }
+void operator delete(void* memory, std::size_t) noexcept { ++frees, std::free(memory); }
+void operator delete(void* memory, std::align_val_t) noexcept { ++frees, std::free(memory); }
+void operator delete(void* memory, std::size_t, std::align_val_t) noexcept {
+  ++frees, std::free(memory);
+}
 
 namespace ebac::realtime_test {
 namespace {
@@ -186,6 +190,36 @@ TEST(Realtime, SimulatedDrivesDoNotAllocate) {
     }
   }
   EXPECT_EQ(allocations, before);
+}
+
+/// A body of each kind of solid, some with friction, one that moves.
+Environment bodies() {
+  using namespace world;
+  const SolidPtr ball = make_solid(Sphere{});
+  const SolidPtr box = placed(make_solid(Box{}), {0.02, 0, 0}, Eigen::Quaterniond::Identity());
+  const SolidPtr tube = inverted(make_tube({{{-0.1, 0, 0}, 0.05}, {{0.1, 0, 0}, 0.06}}));
+  const Layered tissue({Layer{.puncture = 1}, Layer{}}, 2);
+  return External{make_scene(
+      {{.solid = unite({box, textured(ball, Texture{})}), .material = Elastic{}},
+       {.solid = tube, .material = HuntCrossley{}, .friction = 0.3},
+       {.solid = make_solid(Torus{}), .material = tissue, .motion = {.amplitude_x = 0.01}}})};
+}
+
+TEST(Realtime, AWorldOfBodiesDoesNotAllocate) {
+  ebac::Setup setup = busy();
+  setup.device.kinematics = Linear{.axes = 3};
+  setup.environment = bodies();
+  EXPECT_EQ(allocations_of_loop<Ebac>(setup), 0);
+}
+
+TEST(Realtime, AnotherWorldFreesNothing) {
+  SignalChain chain(DeviceModel{}, bodies());
+  const Environment next = fresh(bodies());
+  const std::size_t before = frees;
+  chain.change(next);
+  chain.change(Wall{});
+  chain.change(next);
+  EXPECT_EQ(frees, before);
 }
 
 }  // namespace

@@ -75,6 +75,7 @@ class SignalChain {
   Encoder encoder_;
   Velocity estimator_;
   Compensation compensation_;
+  Environment first_;  // kept to the end: another world frees nothing in a tick
   Environment environment_;
   StateObserver observer_;
   EnergyAccount account_;
@@ -103,7 +104,8 @@ inline SignalChain::SignalChain(const DeviceModel& device, const Environment& en
       encoder_(device.encoder),
       estimator_(device.velocity),
       compensation_(device.compensation),
-      environment_(fresh(environment)),
+      first_(fresh(environment)),
+      environment_(first_),
       observer_(device, observing),
       account_(device.facts()),
       rad_per_count_(device.encoder.count() / device.capstan.ratio()),

@@ -47,7 +47,7 @@ class Textured final : public Solid {
     if (smooth.d > 2 * texture_.amplitude) return {smooth.d - texture_.amplitude, smooth.out};
     const Texture::Height wave = texture_.at(x);
     const Axes uphill = smooth.out - wave.slope;
-    const double steepness = uphill.norm();  // the waves are flatter than 45 degrees
+    const double steepness = uphill.norm();  // the waves are flatter than 30 degrees
     return {(smooth.d - wave.h) / steepness, uphill / steepness};
   }
 

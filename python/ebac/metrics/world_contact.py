@@ -58,7 +58,7 @@ def world_contact(trace: Trace) -> WorldContact:
     TypeError
         When it is no trace.
     """
-    require(trace, Trace, "ebac.worlds.contact", "a trace, as ebac.simulate returns it")
+    require(trace, Trace, "ebac.metrics.world_contact", "a trace, as ebac.simulate returns it")
     scenario = trace.scenario
     world = None if scenario is None else scenario.environment
     if scenario is None or not isinstance(world, World):
