@@ -195,15 +195,15 @@ def choose_wall(environment: Environment, **options: float | None) -> Environmen
     return environment.replace(**changes)
 
 
-def choose_world(name: str, **options: float | None) -> Environment:
+def choose_world(name: str, option: str = "--world", **options: float | None) -> Environment:
     """Return the world of a name, in any case, with `stiffness`, `damping`, `friction`, `position` as given."""
     from ebac.worlds import preset
 
     kind, colon, file = name.partition(":")
     try:
         return preset(kind.lower() + colon + file, **given(**options))
-    except (ValueError, FileNotFoundError) as error:
-        raise ValueError(f"--world {name}: {error}") from error
+    except (ValueError, FileNotFoundError, ImportError) as error:
+        raise ValueError(f"{option} {name}: {error}") from error
 
 
 def choose_hand(

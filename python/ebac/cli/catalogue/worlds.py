@@ -7,7 +7,7 @@ from typing import Annotated, Any
 import typer
 from rich.markup import escape
 
-from ebac.cli import options, output
+from ebac.cli import options, output, setting
 
 
 def worlds(
@@ -61,6 +61,5 @@ def _toml(name: str) -> str:
     import tomli_w
 
     from ebac._util.serialisation import to_document
-    from ebac.worlds import preset
 
-    return tomli_w.dumps({"environment": to_document(preset(name))})
+    return tomli_w.dumps({"environment": to_document(setting.choose_world(name, "NAME"))})
