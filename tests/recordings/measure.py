@@ -1,11 +1,11 @@
 """How honest are the intervals on logs of `recorded_arm`?
 
-python tests/recordings/measure.py [logs a level] [--held]
+python tests/recordings/measure.py [logs a level] [--held] [--seed N]
 """
 
 from __future__ import annotations
 
-import sys
+import argparse
 import tempfile
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -93,9 +93,14 @@ def line(name: str, found: list[Judged]) -> str:
     )
 
 
-def main(logs: int, *, held: bool) -> None:
+def main() -> None:
     """Print one line a level, a task and a parameter."""
-    found = list(every(logs, held=held))
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("logs", nargs="?", type=int, default=80, help="logs of each level")
+    parser.add_argument("--held", action="store_true", help="the motor moves in steps")
+    parser.add_argument("--seed", type=int, default=1, help="of the logs")
+    asked = parser.parse_args()
+    found = list(every(asked.logs, seed=asked.seed, held=asked.held))
     for level in LEVELS:
         mine = [j for j in found if j.level == level]
         print(line(level, mine))
@@ -106,5 +111,4 @@ def main(logs: int, *, held: bool) -> None:
 
 
 if __name__ == "__main__":
-    numbers = [word for word in sys.argv[1:] if word != "--held"]
-    main(int(numbers[0]) if numbers else 80, held="--held" in sys.argv)
+    main()

@@ -10,7 +10,7 @@ namespace ebac {
 
 namespace {
 
-constexpr std::size_t kLanes = 4;  // columns that are computed side by side
+constexpr std::size_t kLanes = 6;  // columns that are computed side by side
 using Lanes = Eigen::Array<double, static_cast<int>(kLanes), 1>;
 
 /// What a change of some parameters does to a tick, one lane each.
@@ -98,6 +98,7 @@ void ArmRecord::columns(const ArmGuess& guess, const Drive& drive, const ArmGain
   if (slope.force.empty()) slope.force.assign(n, 0.0);
 
   const double ahead = log_.lag + late_by(guess);
+  const double later = late_by(guess) - gains.late;
   Eigen::Vector2d z = Eigen::Vector2d::Zero();
   double before = 0;
   double off = 0;
@@ -114,10 +115,11 @@ void ArmRecord::columns(const ArmGuess& guess, const Drive& drive, const ArmGain
     }
     if (i + 1 == n) break;
     off += gain.drift * e;
-    z[0] += gain.x * e;
+    const double gain_x = gain.x - later * gain.v;
+    z[0] += gain_x * e;
     z[1] += gain.v * e;
     doff += gain.drift * de;
-    dx += gain.x * de;
+    dx += gain_x * de - slope.ahead * (gain.v * e);
     dv += gain.v * de;
     before = z[1];
     dbefore = dv;

@@ -151,6 +151,7 @@ ArmGains ArmRecord::gains(const ArmGuess& guess, double force_noise, double drif
   const std::vector<double> jumps = this->jumps(guess);
   const double late = late_by(guess);
   ArmGains out;
+  out.late = late;
   out.rows.reserve(rows());
   Spread spread;
   LogSum log_sum;
@@ -173,6 +174,7 @@ void ArmRecord::innovations(const ArmGuess& guess, const ArmGains& gains, std::s
   const ArmStep step(guess, log_.dt);
   const Drive drive = this->drive(guess);
   const double ahead = log_.lag + late_by(guess);
+  const double later = late_by(guess) - gains.late;  // s
   Eigen::Vector2d z = Eigen::Vector2d::Zero();
   double before = 0;  // m/s, velocity a tick ago
   double off = 0;     // N, by which the force reads too high
@@ -185,7 +187,7 @@ void ArmRecord::innovations(const ArmGuess& guess, const ArmGains& gains, std::s
     off += gain.drift * e;
     if (!drifts.empty()) drifts[i] = off;
     if (i + 1 == rows()) break;
-    z[0] += gain.x * e;
+    z[0] += (gain.x - later * gain.v) * e;
     z[1] += gain.v * e;
     before = z[1];
     const double beyond = drive.beyond[i] - off;

@@ -29,6 +29,10 @@ struct ArmGuess {
 
 /// Gains of a Kalman filter, made for one guess and kept during a search, so that its errors are
 /// those of a plain least-squares problem.
+///
+/// They correct the motion at the instant of the reading. Where a guess has that at another instant
+/// than the one they were made for, the position is corrected by as much less as the correction of
+/// the velocity moves it: an unknown initial state stays free.
 struct ArmGains {
   struct Row {
     double x = 0;       // 1
@@ -38,6 +42,7 @@ struct ArmGains {
   };
   std::vector<Row> rows;
   double log_sum = 0;  // of the logarithms of the variances
+  double late = 0;     // s, `ArmRecord::late_by` of the guess they were made for
 };
 
 /// A log of one hand, and how well eq. (4) foretells it.

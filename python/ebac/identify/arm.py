@@ -105,7 +105,7 @@ def fit_arm(
         if again is not fit:
             result = _result(again, robust, began)
     if result.explained < POOR:
-        turned = replace(problem, recordings=tuple(r.flipped() for r in recordings))
+        turned = replace(problem, recordings=tuple(r.flipped() for r in problem.recordings))
         guesses = [better_guess(turned)]
         other = _result(
             fitted(turned, guesses, starts=starts, robust=robust, seed=seed), robust, began

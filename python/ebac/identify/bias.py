@@ -62,8 +62,8 @@ def likely_noise(
     return np.array(found)
 
 
-#: Drifts of a force that are tried, in deviations of the force over one second; one beyond the last is no drift but a
-#: wrong model, such as a force of the wrong sign.
+#: Drifts of a force that are tried, in deviations of the force over one second; a fit that ends beyond the last has no
+#: drift but a wrong model, such as a force of the wrong sign.
 DRIFTS, LARGEST_DRIFT = (0.003, 0.03, 0.3), 0.4
 #: By how much -2 log of the likelihood must fall for a drift to be believed.
 BELIEVED = 10.0
@@ -76,11 +76,14 @@ def likely_drift(
 ) -> float:
     """Return the drift of the forces [N/sqrt(s)] that makes the errors likeliest; 0 where none is clearly likelier.
 
+    At most `largest_drift`.
+
     A random walk is the slow part of a reading that a hand does not follow: the sensor warms, or the place the hand
     wants to be wanders. Fitted without it, the noise is too large; so each drift is tried with the noise shown, too.
     """
     held = problem.held(values)
-    scale = max(float(np.std(r.force)) for r in problem.recordings if r.force is not None)
+    largest = largest_drift(problem)
+    scale = largest / LARGEST_DRIFT
 
     def unlikely(drift: float, noise: Values) -> float:
         parts = zip(problem.records, problem.parameters.places, noise, strict=True)
@@ -97,10 +100,16 @@ def likely_drift(
         if cost > unlikely(0.0, noise) - BELIEVED:
             return 0.0
         start, noise = share * scale, noises[which]
-    low, high = np.log(0.1 * DRIFTS[0] * scale), np.log(LARGEST_DRIFT * scale)
+    low, high = np.log(0.1 * DRIFTS[0] * scale), np.log(largest)
     at = float(np.clip(np.log(start), low, high))
     found = lowest(lambda z: unlikely(float(np.exp(z)), noise), at, STEP, low, high)
-    return 0.0 if found > high - 2 * NEAR else float(np.exp(found))
+    return float(np.exp(found))
+
+
+def largest_drift(problem: Problem) -> float:
+    """Return beyond which a drift is none, but a wrong model [N/sqrt(s)]."""
+    forces = [float(np.std(r.force)) for r in problem.recordings if r.force is not None]
+    return LARGEST_DRIFT * max(forces)
 
 
 def lowest(

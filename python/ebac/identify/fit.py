@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ebac.identify import unrecorded_motor
-from ebac.identify.bias import likely_drift, likely_noise, without_noise
+from ebac.identify.bias import largest_drift, likely_drift, likely_noise, without_noise
 from ebac.identify.intervals import covariance, loose_inverse
 from ebac.identify.level_forces import LevelForces
 from ebac.identify.parameters import Parameters, kind
@@ -85,14 +85,14 @@ def fitted(
     if not problem.drift:
         values = corrected
     errors = problem.errors(values, gains)
-    spread = _spread(problem, values, noise, errors, pretended, robust)
+    spread = _spread(problem, values, noise, errors, pretended, robust, doubted)
     return Fitted(
         problem=problem,
-        values=values,
+        values=problem.parameters_within(unrecorded_motor.corrected(problem, values)),
         optimum=best.values,
         force_noise=noise,
         errors=errors,
-        covariance=spread if doubted is None else spread + np.outer(doubted, doubted),
+        covariance=spread,
         found=best,
     )
 
@@ -117,6 +117,8 @@ def _with_drift(
 
 #: Rounds of: values, then drift; settled when it changes by less than this share.
 DRIFT_ROUNDS, SAME_DRIFT = 4, 0.05
+#: So near the largest drift it is none.
+NOT_A_DRIFT = 0.95
 #: A drift is known to about this share: so many times larger, it moves the values by what the intervals hold.
 DOUBTED_DRIFT = 1.25
 #: Least fall of the cost that a step must promise [deviations squared].
@@ -161,13 +163,15 @@ def _beside_drift(
         if abs(problem.drift / before - 1) < SAME_DRIFT:
             break
         noise = likely_noise(problem, values, noise, robust)
+    if problem.drift > NOT_A_DRIFT * largest_drift(problem):
+        return None
     wider = problem.drifting(DOUBTED_DRIFT * problem.drift)
     e, J = wider.renewed(values, noise)
     scale = np.sqrt(np.einsum("ik,ik->i", J, J))
     scale[scale == 0] = 1.0  # without influence
     inverse = loose_inverse(np.einsum("ik,jk->ij", J, J) / np.outer(scale, scale))
     moves = -inverse @ (np.einsum("ik,k->i", J, e) / scale) / scale
-    return problem, values, noise, moves[: len(p.free)]
+    return problem, values, noise, moves
 
 
 def _spread(
@@ -177,8 +181,9 @@ def _spread(
     errors: Values,
     pretended: Values,
     robust: float | None,
+    doubted: Values | None = None,
 ) -> NDArray[np.float64]:
-    """Return the covariance of the free parameters at some values."""
+    """Return the covariance of the free parameters at some values; what moved may be off by `doubted`, too."""
     gains = problem.gains(values, noise)
     if problem.drift:
         jacobian = problem.renewed(values, noise)[1][:, : len(errors)]
@@ -186,10 +191,12 @@ def _spread(
         jacobian = problem.jacobian(values, gains, problem.moved)
     unseen = problem.jacobian(values, gains, problem.unseen.which)
     unseen *= problem.unseen.deviation[:, None]
-    unseen = np.vstack([unseen, unrecorded_motor.unseen(problem, values, gains)])
     lengths = [len(r.t) for r in problem.recordings]
     sure = problem.doubt.deviation
-    return covariance(jacobian, errors, lengths, robust, sure, pretended, unseen, problem.folds)
+    found = covariance(jacobian, errors, lengths, robust, sure, pretended, unseen, problem.folds)
+    if doubted is not None:
+        found = found + np.outer(doubted, doubted)
+    return unrecorded_motor.with_any_share(problem, values, found)
 
 
 def spread_at(problem: Problem, values: Values) -> NDArray[np.float64]:

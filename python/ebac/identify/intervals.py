@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from ebac.identify import unrecorded_motor
 from ebac.identify.search import least_squares, squares, weights
 from ebac.identify.signals import Fold, folded
 
@@ -31,9 +32,9 @@ def covariance(
     unseen: NDArray[np.float64] | None = None,
     folds: Sequence[Fold | None] | None = None,
 ) -> NDArray[np.float64]:
-    """Return the covariance of the free parameters, shape (free, free).
+    """Return the covariance of the parameters of the Jacobian, shape (parameters, parameters).
 
-    The last rows of the Jacobian may be nuisances: held, but known only to the standard deviations `sure`.
+    Its last rows may be nuisances: held, but known only to the standard deviations `sure`.
     `pretended` is the
     Jacobian that noise alone gives; `unseen` that of what is held in doubt, by one deviation each.
 
@@ -70,15 +71,13 @@ def covariance(
         sandwich = np.diag(inverse @ middle @ inverse)
         times = sandwich / np.maximum(np.diag(plain), 1e-300)
         wider = np.maximum(wider, np.sqrt(np.maximum(times, 1.0)))
-    free = len(H) - (0 if sure is None else sure.size)
     every = plain * np.outer(wider, wider)
     if (
         unseen is not None and unseen.size
     ):  # held where they are: what they may be off by is carried over
         carried = inverse @ np.einsum("ik,jk->ij", jacobian * w / scale[:, None], unseen)
         every = every + carried @ carried.T
-    every = every / np.outer(scale, scale)
-    return np.asarray(every[:free, :free])
+    return np.asarray(every / np.outer(scale, scale))
 
 
 def loose_inverse(H: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -88,14 +87,17 @@ def loose_inverse(H: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def newey_west(scores: NDArray[np.float64], reach: int | None = None) -> NDArray[np.float64]:
-    """Return the long-run covariance of scores, shape (parameters, rows), by Bartlett's window of some reach [rows]."""
-    n = scores.shape[1]
+    """Return the long-run covariance of scores, shape (parameters, rows), by Bartlett's window of some reach [rows].
+
+    That window is the mean product of sums over `reach` + 1 rows, so no lag is computed on its own.
+    """
+    parameters, n = scores.shape
     reach = min(int(4 * (n / 100) ** (2 / 9)) + 12 if reach is None else reach, n - 1)
-    out = np.einsum("ik,jk->ij", scores, scores)
-    for lag in range(1, reach + 1):
-        part = np.einsum("ik,jk->ij", scores[:, lag:], scores[:, :-lag])
-        out += (1 - lag / (reach + 1)) * (part + part.T)
-    return np.asarray(out)
+    sums = np.zeros((parameters, n + 2 * reach + 1))
+    np.cumsum(scores, axis=1, out=sums[:, reach + 1 : reach + 1 + n])
+    sums[:, reach + 1 + n :] = sums[:, [reach + n]]
+    sums = sums[:, reach + 1 :] - sums[:, : -reach - 1]
+    return np.asarray(np.einsum("ik,jk->ij", sums, sums) / (reach + 1))
 
 
 def normal_tail(z: float) -> float:
@@ -147,9 +149,11 @@ def profile(result: ArmResult, name: str, level: float) -> tuple[float, float]:
         )
         return found.cost, spread(found.values)
 
-    best, _ = refit(float(result.values[index]), result.values)
+    began = unrecorded_motor.corrected(result.problem, result.values, back=True)
+    best, _ = refit(float(began[index]), began)
     rise = level * _inflation(result, index, gains)
-    ends = [_end(refit, result, index, sign, best, rise) for sign in (-1, 1)]
+    off = float(result.values[index] - began[index])
+    ends = [off + _end(refit, result, began, index, sign, best, rise) for sign in (-1, 1)]
     return ends[0], ends[1]
 
 
@@ -163,11 +167,11 @@ def _inflation(result: ArmResult, index: int, gains: list) -> float:  # type: ig
     return float(result.deviation[index]) ** 2 / white if white > 0 else 1.0
 
 
-def _end(refit, result, index: int, sign: int, best: float, rise: float) -> float:  # type: ignore[no-untyped-def]
-    p, centre = result.parameters, float(result.values[index])
+def _end(refit, result, began, index: int, sign: int, best: float, rise: float) -> float:  # type: ignore[no-untyped-def]
+    p, centre = result.parameters, float(began[index])
     bound = float(p.low[index] if sign < 0 else p.high[index])
     width = max(1.96 * float(result.deviation[index]), 1e-9 * max(abs(centre), 1.0))
-    inner, outer, at = 0.0, None, result.values
+    inner, outer, at = 0.0, None, began
     step = min(width, abs(bound - centre))
     for _ in range(14):
         cost, found = refit(centre + sign * step, at)

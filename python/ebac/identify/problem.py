@@ -5,12 +5,14 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from copy import copy
 from dataclasses import dataclass, field, replace
+from math import sqrt
 from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ebac._core import ArmGains, ArmRecord
+from ebac.identify import unrecorded_motor
 from ebac.identify.parameters import INPUTS, STEPS, Parameters, kind
 from ebac.identify.recording import Recording
 from ebac.identify.signals import Fold, by_target, readings, ripple, rough, unknown_force
@@ -47,10 +49,25 @@ class Problem:
         if self.folds is None:
             pairs = zip(self.recordings, self.targets, strict=True)
             object.__setattr__(self, "folds", tuple(by_target(r, target) for r, target in pairs))
-        object.__setattr__(self, "doubt", doubt_of(self, WITHIN_TICK))
-        driven = all(r.motor is not None for r in self.recordings)
-        unseen = {"bend": BEND, "delay": DELAY_DRIVEN if driven else DELAY}
+        unseen, moving = {"bend": BEND}, dict(WITHIN_TICK)
+        if all(r.motor is not None for r in self.recordings):
+            unseen["delay"] = DELAY_DRIVEN
+        else:
+            moving["delay"] = unrecorded_motor.deviation(self.recordings)
+        object.__setattr__(self, "doubt", doubt_of(self, moving))
         object.__setattr__(self, "unseen", doubt_of(self, unseen))
+        object.__setattr__(self, "parameters", self._within_reach())
+
+    def _within_reach(self) -> Parameters:
+        """Return the parameters, a delay in doubt bounded by as far off as it may be, in a uniform distribution."""
+        p, reach = self.parameters, np.full(len(self.parameters.names), np.inf)
+        for i, deviation in zip(self.doubt.which, self.doubt.deviation, strict=True):
+            if kind(p.names[i]) == "delay":
+                reach[i] = sqrt(3) * deviation
+        held = np.nan_to_num(p.fixed)
+        return replace(
+            p, low=np.maximum(p.low, held - reach), high=np.minimum(p.high, held + reach)
+        )
 
     def drifting(self, drift: float) -> Problem:
         """Return the same with another drift of the force [N/sqrt(s)]."""
@@ -221,9 +238,9 @@ WITHIN_TICK = {"onset": 0.15, "stair": 0.4}
 #: Left as they are, and carried into the intervals; a fit would misuse them to smooth the noise of the force. How the
 #: force bent between two rows, as a share of its second difference (0 for straight, 1/12 for a smooth curve).
 BEND = 1 / 18
-#: When within a tick the force was read [ticks]: with the motor's force in the log its ripple is known; without it, see
-#: also `unrecorded_motor`.
-DELAY_DRIVEN, DELAY = 0.005, 0.04
+#: When within a tick the force was read [ticks], where the log has the motor's force, so that its ripple is known;
+#: without it, see `unrecorded_motor`.
+DELAY_DRIVEN = 0.005
 
 
 def doubt_of(problem: Problem, deviations: Mapping[str, float]) -> Doubt:

@@ -16,6 +16,8 @@ Matrix = NDArray[np.float64]
 FLATTEST = 1e-12
 #: Evaluations after which the coordinates are made anew: they are those of a parabola, and far away it is another one.
 ONE_ROUND = 6
+#: So much of the fall that the parabola promises ends a round.
+ENOUGH = 0.5
 #: So near a bound is on it [deviations].
 ROUNDING = 1e-9
 
@@ -168,6 +170,7 @@ def _round(
     if room.size:
         optimiser.add_inequality_mconstraint(beyond, np.zeros(room.size))
     optimiser.set_ftol_abs(0.5 * tolerance)
+    optimiser.set_stopval(0.5 * (start.cost - ENOUGH * start.depth(low, high)))
     optimiser.set_maxeval(ONE_ROUND)
     optimiser.optimize(np.zeros(len(start.x)))
     carried.settle()

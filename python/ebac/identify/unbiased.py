@@ -16,6 +16,7 @@ from ebac.identify.recording import Recording
 from ebac.identify.result import HAND
 from ebac.identify.signals import by_target, every, kernels, ripple, smoothed
 from ebac.identify.target import Target, indicators
+from ebac.identify.unrecorded_motor import found_late
 
 if TYPE_CHECKING:
     from ebac.identify.result import ArmResult
@@ -69,7 +70,13 @@ def second_opinion(result: ArmResult) -> tuple[Opinion, ...]:
         )
     ]
     values, covariance = _two_stages(pairs)
-    late = [(replace(r, lag=r.lag + WITHIN_TICK * r.dt), target) for r, target in pairs]
+    known = [
+        found_late(problem, result.values, int(place[3])) for place in result.parameters.places
+    ]
+    late = [
+        (replace(r, lag=r.lag + float(np.hypot(WITHIN_TICK * r.dt, delay))), target)
+        for (r, target), delay in zip(pairs, known, strict=True)
+    ]
     apart = _two_stages(late)[0] - values
     covariance = covariance + np.outer(apart, apart)
     return tuple(
