@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Annotated, Any, TypeAlias
 
 import typer
 
-from ebac.cli import setting
+from ebac.cli import output, setting
 
 if TYPE_CHECKING:
     from ebac._core import Hand
@@ -253,10 +253,18 @@ class ScenarioOptions(RunOptions, DeviceOptions, HandOptions, WallOptions):
 
 
 def scenario_of(*groups: Any, seconds: float | None = None) -> Scenario:
-    """Return the scenario that groups of options describe; `seconds` is its length where nothing gives one [s]."""
+    """Return the scenario that groups of options describe; `seconds` is its length where nothing gives one [s].
+
+    A mesh that is met for the first time shows a bar.
+    """
     given: dict[str, Any] = {}
     for group in groups:
         given |= vars(group)
+    with output.counting_meshes():
+        return _scenario_of(given, seconds)
+
+
+def _scenario_of(given: dict[str, Any], seconds: float | None) -> Scenario:
     file = given.get("scenario")
     base = setting.base_scenario(file)
     length = given.get("seconds")

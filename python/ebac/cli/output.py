@@ -5,7 +5,7 @@ from __future__ import annotations
 import errno
 import json
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from math import isfinite
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, NoReturn, TypeAlias
@@ -256,3 +256,21 @@ def counting(what: str, *, quiet: bool) -> Iterator[Callable[[int, int], None]]:
             bar.update(task, description=what if done else None, completed=done, total=total)
 
         yield count
+
+
+@contextmanager
+def counting_meshes() -> Iterator[None]:
+    """Show a bar for each grid of a mesh that is made meanwhile."""
+    from ebac.worlds.grid import watching
+
+    with ExitStack() as bars:
+        count: Callable[[int, int], None] | None = None
+
+        def counted(done: int, total: int) -> None:
+            nonlocal count
+            if count is None:  # most commands make none
+                count = bars.enter_context(counting("measuring the mesh", quiet=False))
+            count(done, total)
+
+        with watching(counted):
+            yield

@@ -203,7 +203,7 @@ def choose_world(name: str, option: str = "--world", **options: float | None) ->
     try:
         return preset(kind.lower() + colon + file, **given(**options))
     except (ValueError, FileNotFoundError, ImportError) as error:
-        raise ValueError(f"{option} {name}: {error}") from error
+        raise ValueError(f"{option} {name}: {error}" if option else str(error)) from error
 
 
 def choose_hand(

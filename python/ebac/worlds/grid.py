@@ -5,7 +5,9 @@ from __future__ import annotations
 import hashlib
 import os
 import tempfile
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from contextvars import ContextVar
 from dataclasses import dataclass, fields
 from pathlib import Path
 from types import ModuleType
@@ -29,6 +31,19 @@ MANY = 100_000
 MOST_NODES = 40_000_000
 #: Changes when the numbers of a grid would.
 VERSION = 1
+
+
+_watching: ContextVar[Progress | None] = ContextVar("watching", default=None)
+
+
+@contextmanager
+def watching(progress: Progress) -> Iterator[None]:
+    """Call `progress` with nodes done and all nodes while any grid is made, wherever that happens."""
+    token = _watching.set(progress)
+    try:
+        yield
+    finally:
+        _watching.reset(token)
 
 
 @dataclass(frozen=True)
@@ -120,15 +135,13 @@ def needed(module: str, project: str) -> ModuleType:
 
 
 def grid_of(surface: Surface, cell: float, progress: Progress | None = None) -> Grid:
-    """Return the grid of a surface; `progress` is called with nodes done and all."""
+    """Return the grid of a surface; `progress`, or that of `watching`, is called with nodes done and all."""
     low = surface.vertices.min(axis=0) - 0.5 * surface.thickness
     high = surface.vertices.max(axis=0) + 0.5 * surface.thickness
     edge = BRICK * cell
     bricks = np.ceil((high - low) / edge + 2).astype(int)
     origin = 0.5 * (low + high - bricks * edge)
-    corners, far = _asked(surface, origin, edge, _cells(bricks + 1))
-    far = far.reshape(bricks + 1)
-    del corners
+    far = surface.distance(origin + edge * _cells(bricks + 1))[0].reshape(bricks + 1)
     centres = origin + edge * (_cells(bricks) + 0.5)
     nearby = np.abs(surface.distance(centres)[0]) <= 0.5 * np.sqrt(3) * edge + cell
     near = _cells(bricks)[nearby]
@@ -145,7 +158,7 @@ def grid_of(surface: Surface, cell: float, progress: Progress | None = None) -> 
     size = BRICK * bricks + 1
     number = (places[:, 0] * size[1] + places[:, 1]) * size[2] + places[:, 2]
     _, first, which = np.unique(number, return_index=True, return_inverse=True)
-    out, d = _asked(surface, origin, cell, places[first], progress)
+    out, d = _asked(surface, origin, cell, places[first], progress or _watching.get())
     nodes = np.column_stack([out, d]).astype(np.float32)[which.ravel()]
     shape = (len(near), *(BRICK + 1,) * 3, 4)
     return Grid(

@@ -62,4 +62,4 @@ def _toml(name: str) -> str:
 
     from ebac._util.serialisation import to_document
 
-    return tomli_w.dumps({"environment": to_document(setting.choose_world(name, "NAME"))})
+    return tomli_w.dumps({"environment": to_document(setting.choose_world(name, option=""))})

@@ -5,16 +5,20 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, NoReturn
+from typing import TYPE_CHECKING, NoReturn, TypeAlias
 
 from ebac.cli import output
 from ebac.cli.files import ResultOptions, new_file
 
 if TYPE_CHECKING:
-    from ebac.metrics import Contact
+    from rich.table import Table
+
+    from ebac.metrics import Contact, WorldContact
     from ebac.scenario import Scenario
     from ebac.simulation import LoopFault
     from ebac.trace import Trace
+
+Lines: TypeAlias = tuple[tuple[str, str, str, str], ...]
 
 #: The lines of the table: label, attribute of a contact, its unit, what to say where there is none.
 LINES = (
@@ -32,6 +36,15 @@ LINES = (
     ("limit cycle", "limit_cycle_Hz", "Hz", "none"),
     ("least energy", "least_energy_J", "J", "-"),
     ("force limited", "clamped_share", "share", "-"),
+)
+#: The same of a contact with bodies.
+BODY_LINES = (
+    ("depth", "depth_m", "m", "-"),
+    ("normal error", "normal_error_deg", "deg", "-"),
+    ("friction share", "friction_share", "1", "-"),
+    ("in contact", "touched_share", "share", "-"),
+    ("stored at most", "stored_J", "J", "-"),
+    ("ticks come through", "came_through", "1", "-"),
 )
 
 
@@ -96,11 +109,33 @@ def write_logs(logs: list[Path], traces: list[Trace], step: Callable[[str], None
             output.fail(f"--log {path}: cannot be written ({error.strerror})")
 
 
-def document(scenario: Scenario, contacts: list[Contact], through: str | None = None) -> str:
-    """Return the JSON document."""
+def in_world(traces: list[Trace]) -> list[WorldContact]:
+    """Return how each law met the bodies of a world; nothing for a wall, or a handle on a sphere."""
+    from ebac._core import Gimbal
+    from ebac.metrics import world_contact
+    from ebac.worlds import World
+
+    scenario = traces[0].scenario
+    if scenario is None or not isinstance(scenario.environment, World):
+        return []
+    if isinstance(scenario.device.kinematics, Gimbal):
+        return []
+    return [world_contact(trace) for trace in traces]
+
+
+def document(
+    scenario: Scenario,
+    contacts: list[Contact],
+    through: str | None = None,
+    bodies: list[WorldContact] | None = None,
+) -> str:
+    """Return the JSON document; what concerns the bodies of a world is under `world`."""
     import tomllib
+    from dataclasses import asdict
 
     rows = [contact.row() for contact in contacts]
+    for row, met in zip(rows, bodies or [], strict=False):
+        row["world"] = asdict(met)
     settings = tomllib.loads(scenario.to_toml())
     return output.document("wall", rows, scenario=settings, through=through)
 
@@ -117,11 +152,20 @@ def report_fault(error: LoopFault, out: Path | None) -> NoReturn:
     output.fail(f"{error.trace.law}: {what}; its log is {out / name}", code=output.FAILED)
 
 
-def show(scenario: Scenario, contacts: list[Contact], through: str | None = None) -> None:
-    """Print the table, a few laws at a time, and what was simulated."""
+def show(
+    scenario: Scenario,
+    contacts: list[Contact],
+    through: str | None = None,
+    bodies: list[WorldContact] | None = None,
+) -> None:
+    """Print the table, a few laws at a time, that of the bodies, and what was simulated."""
     from ebac._util import formatting
 
     show_contacts(contacts)
+    for first in range(0, len(bodies or []), LAWS_ABREAST):
+        part = slice(first, first + LAWS_ABREAST)
+        laws = [contact.law for contact in contacts[part]]
+        show_lines(BODY_LINES, dict(zip(laws, (bodies or [])[part], strict=True)))
     output.say("Simulated, not measured:", style="bold")
     output.indented(formatting.describe(scenario).replace("; ", "\n"))
     if through is not None:
@@ -140,20 +184,29 @@ def show_contacts(contacts: list[Contact]) -> None:
 
 def show_table(columns: Mapping[str, Contact], *, verdict: bool = True) -> None:
     """Print contacts side by side, each under its heading, and their verdict."""
+    grid = _lines(LINES, columns)
+    if verdict:
+        grid.add_section()
+        grid.add_row("verdict", *(_verdict(contact) for contact in columns.values()))
+    output.show(grid)
+
+
+def show_lines(lines: Lines, columns: Mapping[str, object]) -> None:
+    """Print numbers of several things side by side, each under its heading."""
+    output.show(_lines(lines, columns))
+
+
+def _lines(lines: Lines, columns: Mapping[str, object]) -> Table:
     from ebac._util import formatting
 
-    contacts = list(columns.values())
     grid = output.table(["", *columns], numbers=range(1, 99))
-    for label, name, unit, none in LINES:
-        cells = (getattr(contact, name) for contact in contacts)
+    for label, name, unit, none in lines:
+        cells = (getattr(one, name) for one in columns.values())
         signed = name == "deviation_m"
         grid.add_row(
             label, *(formatting.quantity(c, unit, signed=signed, none=none) for c in cells)
         )
-    if verdict:
-        grid.add_section()
-        grid.add_row("verdict", *(_verdict(contact) for contact in contacts))
-    output.show(grid)
+    return grid
 
 
 def _verdict(contact: Contact) -> str:

@@ -131,7 +131,8 @@ def _run(
             with output.refusing():
                 traces = _simulate(scenario, names, through, step)
                 contacts = [contact(trace) for trace in traces]
-            text = wall_results.document(scenario, contacts, through)
+                bodies = wall_results.in_world(traces)
+            text = wall_results.document(scenario, contacts, through, bodies)
             if draft is not None:
                 files = wall_results.write(draft, scenario, traces, text, to, step)
             wall_results.write_logs(logs, traces, step)
@@ -140,7 +141,7 @@ def _run(
     if as_json:
         typer.echo(text)
         return
-    wall_results.show(scenario, contacts, through)
+    wall_results.show(scenario, contacts, through, bodies)
     if out is not None:
         output.list_files(out, files)
     for path in logs:

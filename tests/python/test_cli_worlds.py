@@ -1,0 +1,70 @@
+"""Worlds on the command line: `ebac wall --world` and `ebac worlds`."""
+
+from __future__ import annotations
+
+import json
+import sys
+from pathlib import Path
+from typing import Any
+
+import pytest
+from typer.testing import CliRunner
+
+from ebac.cli import app
+from ebac.worlds import PRESETS, HeightField
+from ebac.worlds.grid import watching
+
+
+def ran(words: str, code: int = 0) -> str:
+    result = CliRunner().invoke(app, words.split())
+    assert result.exit_code == code, result.output
+    return result.output
+
+
+def row(words: str) -> dict[str, Any]:
+    found: dict[str, Any] = json.loads(ran(f"{words} --json"))["rows"][0]
+    return found
+
+
+def test_a_table_says_how_the_bodies_were_met() -> None:
+    table = ran("wall --world sphere --law ebac --no-files")
+    for line in ("depth", "normal error", "stored at most", "ticks come through"):
+        assert line in table
+    assert "normal error" not in ran("wall --law ebac --no-files")
+
+
+def test_numbers_of_the_bodies_are_those_of_the_port() -> None:
+    found = row("wall --world sphere --law ebac --no-files")
+    assert found["world"]["depth_m"] == pytest.approx(found["rest_m"], rel=1e-3)
+    assert found["world"]["stored_J"] == pytest.approx(0.5 * 1e4 * found["peak_m"] ** 2, rel=1e-6)
+    assert found["world"]["came_through"] == 0
+
+
+def test_a_name_that_is_none_is_said_once() -> None:
+    assert "Error: world 'grond': no such name, did you mean 'ground'" in ran("worlds grond", 2)
+    assert "Error: --world grond: world 'grond'" in ran("wall --world grond --no-files", 2)
+
+
+def test_every_world_is_listed_with_what_it_needs() -> None:
+    rows = json.loads(ran("worlds --json"))["rows"]
+    assert [one["name"] for one in rows] == [*PRESETS, "mesh:FILE"]
+
+
+def test_a_grid_in_the_making_tells_whoever_watches(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    pytest.importorskip("igl")
+    monkeypatch.setenv("EBAC_CACHE", str(tmp_path))
+    hills = HeightField(heights=((0.0, 0.001), (0.0, 0.002)), spacing=0.02, cell=1e-3)
+    seen: list[tuple[int, int]] = []
+    with watching(lambda done, total: seen.append((done, total))):
+        hills.grid()
+        hills.grid()  # from the cache
+    done, total = zip(*seen, strict=True)
+    assert list(done) == sorted(set(done))
+    assert done[-1] == total[-1] > 0
+
+
+def test_without_the_extra_a_sentence_names_it(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "igl", None)
+    assert "pip install 'ebac[worlds]'" in ran("wall --world ground --no-files", 2)
