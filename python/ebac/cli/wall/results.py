@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, NoReturn, TypeAlias
+from typing import TYPE_CHECKING, Any, NoReturn, TypeAlias
 
 from ebac.cli import output
 from ebac.cli.files import ResultOptions, new_file
@@ -133,7 +133,7 @@ def document(
     import tomllib
     from dataclasses import asdict
 
-    rows = [contact.row() for contact in contacts]
+    rows: list[dict[str, Any]] = [dict(contact.row()) for contact in contacts]
     for row, met in zip(rows, bodies or [], strict=False):
         row["world"] = asdict(met)
     settings = tomllib.loads(scenario.to_toml())
