@@ -31,8 +31,8 @@ double ArmRecord::whole_ticks(const ArmGuess& guess) const {
   return std::round(guess.delay / log_.dt);
 }
 
-double ArmRecord::late_by(const ArmGuess& guess) const {
-  return guess.delay - whole_ticks(guess) * log_.dt;
+double ArmRecord::late_by(const ArmGuess& guess, double ticks) const {
+  return guess.delay - ticks * log_.dt;
 }
 
 /// The level of the target, averaged over the tick that ends at row `tick`.
@@ -51,11 +51,11 @@ double ArmRecord::mean_target(std::size_t tick, double onset, std::span<const do
   return (sum + (end - from) * level()) / log_.dt;
 }
 
-ArmRecord::Drive ArmRecord::drive(const ArmGuess& guess) const {
+ArmRecord::Drive ArmRecord::drive(const ArmGuess& guess, double ticks) const {
   const std::size_t n = rows();
   Drive out{std::vector<double>(n), std::vector<double>(n), std::vector<double>(n)};
-  const Shifted raw{log_.force, whole_ticks(guess)};
-  const double late = late_by(guess);
+  const Shifted raw{log_.force, ticks};
+  const double late = late_by(guess, ticks);
   const double sharpen = kSharpen + guess.bend;
   for (std::size_t i = 0; i < n; ++i) {
     const auto row = static_cast<std::ptrdiff_t>(i);
@@ -88,10 +88,11 @@ void ArmRecord::put_behind_lag(std::span<double> wanted) const {
   }
 }
 
-std::vector<double> ArmRecord::target_slope(const ArmGuess& guess, std::size_t index) const {
+std::vector<double> ArmRecord::target_slope(const ArmGuess& guess, double ticks,
+                                            std::size_t index) const {
   std::vector<double> out(rows(), 0.0);
   std::size_t segment = 0;
-  const double onset = guess.onset + late_by(guess);
+  const double onset = guess.onset + late_by(guess, ticks);
   const std::size_t first_level = ArmGuess::kBeforeInputs + inputs();
   if (index >= first_level) {
     std::vector<double> one(levels_, 0.0);
@@ -119,8 +120,8 @@ std::vector<double> ArmRecord::target_slope(const ArmGuess& guess, std::size_t i
   return out;
 }
 
-std::vector<double> ArmRecord::bend_slope(const ArmGuess& guess) const {
-  const Shifted raw{log_.force, whole_ticks(guess)};
+std::vector<double> ArmRecord::bend_slope(double ticks) const {
+  const Shifted raw{log_.force, ticks};
   std::vector<double> out(rows());
   for (std::size_t i = 0; i < rows(); ++i) out[i] = -raw.curvature(static_cast<std::ptrdiff_t>(i));
   return out;

@@ -53,7 +53,7 @@ void ArmRecord::linearised(std::span<const double> theta, const ArmGains& gains,
                            std::span<const std::size_t> which, std::span<double> errors,
                            std::span<double> out) const {
   const ArmGuess guess = ArmGuess::from(theta, inputs());
-  const Drive drive = this->drive(guess);
+  const Drive drive = this->drive(guess, gains.ticks);
   std::size_t done = 0;
   do {
     const std::size_t many = std::min(kLanes, which.size() - done);
@@ -80,7 +80,7 @@ void ArmRecord::columns(const ArmGuess& guess, const Drive& drive, const ArmGain
     }
     if (index == ArmGuess::kBend) {
       slope.bends[lane] = -step.per_mass;
-      slope.force = bend_slope(guess);
+      slope.force = bend_slope(gains.ticks);
       continue;
     }
     if (index == ArmGuess::kDelay) slope.ahead[lane] = 1;
@@ -90,15 +90,15 @@ void ArmRecord::columns(const ArmGuess& guess, const Drive& drive, const ArmGain
         slope.held[i][lane] = -step.per_mass * log_.inputs[input][i];
       continue;
     }
-    const std::vector<double> target = target_slope(guess, index);
+    const std::vector<double> target = target_slope(guess, gains.ticks, index);
     for (std::size_t i = 0; i + 1 < n; ++i) {
       slope.held[i][lane] = step.per_mass * step.stiffness * target[i + 1];
     }
   }
   if (slope.force.empty()) slope.force.assign(n, 0.0);
 
-  const double ahead = log_.lag + late_by(guess);
-  const double later = late_by(guess) - gains.late;
+  const double late = late_by(guess, gains.ticks);
+  const double ahead = log_.lag + late, later = late - gains.late;
   Eigen::Vector2d z = Eigen::Vector2d::Zero();
   double before = 0;
   double off = 0;

@@ -133,7 +133,7 @@ std::vector<double> ArmRecord::jumps(const ArmGuess& guess) const {
   };
   for (std::size_t k = 0; k < log_.switches.size(); ++k) {
     const double size = guess.stiffness * std::abs(level(k + 1) - level(k));
-    const double at = log_.switches[k] + guess.onset + late_by(guess);
+    const double at = log_.switches[k] + guess.onset + late_by(guess, whole_ticks(guess));
     const auto row = static_cast<std::ptrdiff_t>(at / log_.dt);
     for (std::ptrdiff_t i = row - 2; i <= row + 3; ++i) {
       if (i >= 0 && i < static_cast<std::ptrdiff_t>(rows()))
@@ -149,16 +149,16 @@ ArmGains ArmRecord::gains(const ArmGuess& guess, double force_noise, double drif
   const Eigen::Vector2d kick = step.start * step.per_mass;
   const Eigen::Vector3d q(kick[0] * kick[0], kick[0] * kick[1], kick[1] * kick[1]);
   const std::vector<double> jumps = this->jumps(guess);
-  const double late = late_by(guess);
   ArmGains out;
-  out.late = late;
+  out.ticks = whole_ticks(guess);
+  out.late = late_by(guess, out.ticks);
   out.rows.reserve(rows());
   Spread spread;
   LogSum log_sum;
   spread.p22 = offset * offset;
   const double wander = drift * drift * log_.dt;
   for (std::size_t i = 0; i < rows(); ++i) {
-    const double forward = log_.lag + late - log_.early[i];
+    const double forward = log_.lag + out.late - log_.early[i];
     out.rows.push_back(spread.weigh(log_.variance[i], forward, log_sum));
     const double doubt = kJumpDoubt * jumps[i];
     const double other = log_.doubt[i];
@@ -172,9 +172,9 @@ ArmGains ArmRecord::gains(const ArmGuess& guess, double force_noise, double drif
 void ArmRecord::innovations(const ArmGuess& guess, const ArmGains& gains, std::span<double> out,
                             std::span<double> drifts) const {
   const ArmStep step(guess, log_.dt);
-  const Drive drive = this->drive(guess);
-  const double ahead = log_.lag + late_by(guess);
-  const double later = late_by(guess) - gains.late;  // s
+  const Drive drive = this->drive(guess, gains.ticks);
+  const double late = late_by(guess, gains.ticks);
+  const double ahead = log_.lag + late, later = late - gains.late;  // s
   Eigen::Vector2d z = Eigen::Vector2d::Zero();
   double before = 0;  // m/s, velocity a tick ago
   double off = 0;     // N, by which the force reads too high
@@ -199,10 +199,11 @@ void ArmRecord::innovations(const ArmGuess& guess, const ArmGains& gains, std::s
 
 void ArmRecord::simulate(const ArmGuess& guess, double x, double v, std::span<double> out) const {
   const ArmStep step(guess, log_.dt);
-  const Drive drive = this->drive(guess);
+  const double ticks = whole_ticks(guess), ahead = log_.lag + late_by(guess, ticks);
+  const Drive drive = this->drive(guess, ticks);
   Eigen::Vector2d z(x, v);
   for (std::size_t i = 0; i < rows(); ++i) {
-    out[i] = z[0] + (log_.lag + late_by(guess)) * z[1];
+    out[i] = z[0] + ahead * z[1];
     if (i + 1 == rows()) break;
     const double beyond = drive.beyond[i];
     const double now = step.push(drive.force[i] + beyond, drive.target[i + 1]);

@@ -42,7 +42,8 @@ struct ArmGains {
   };
   std::vector<Row> rows;
   double log_sum = 0;  // of the logarithms of the variances
-  double late = 0;     // s, `ArmRecord::late_by` of the guess they were made for
+  double ticks = 0;    // of the delay they were made for, in whole: by these a force is shifted
+  double late = 0;     // s, the rest of it
 };
 
 /// A log of one hand, and how well eq. (4) foretells it.
@@ -116,10 +117,11 @@ class ArmRecord {
     std::vector<double> target;  // m, mean over the tick before, behind the lag
   };
 
-  Drive drive(const ArmGuess& guess) const;
+  /// The delay is put on the motion but for some whole ticks, by which the force is shifted.
+  Drive drive(const ArmGuess& guess, double ticks) const;
   /// d target / d theta[index] [m per unit], and d force / d bend [N].
-  std::vector<double> target_slope(const ArmGuess& guess, std::size_t index) const;
-  std::vector<double> bend_slope(const ArmGuess& guess) const;
+  std::vector<double> target_slope(const ArmGuess& guess, double ticks, std::size_t index) const;
+  std::vector<double> bend_slope(double ticks) const;
   void put_behind_lag(std::span<double> wanted) const;
   /// `linearised` for a few parameters that are computed side by side.
   void columns(const ArmGuess& guess, const Drive& drive, const ArmGains& gains,
@@ -127,10 +129,11 @@ class ArmRecord {
                std::span<double> out) const;
   /// The delay in whole ticks, by which the force is shifted; and the rest of it, which is put on
   /// the motion as the lag is: a force between two rows would be an average, and less noisy than
-  /// one at a row, which a fit takes for a reason to prefer it.
+  /// one at a row, which a fit takes for a reason to prefer it. In a search the ticks stay those of
+  /// the gains, so that nothing jumps.
   double whole_ticks(const ArmGuess& guess) const;
-  double late_by(const ArmGuess& guess) const;             // s
-  std::vector<double> jumps(const ArmGuess& guess) const;  // N
+  double late_by(const ArmGuess& guess, double ticks) const;  // s
+  std::vector<double> jumps(const ArmGuess& guess) const;     // N
   double mean_target(std::size_t tick, double onset, std::span<const double> levels,
                      std::size_t& segment) const;
 
