@@ -11,6 +11,7 @@
 #include "bind.hpp"
 #include "ebac/model/environment.hpp"
 #include "ebac/world/make.hpp"
+#include "engines.hpp"
 #include "fields.hpp"
 
 namespace ebac::python {
@@ -136,6 +137,7 @@ void bind_worlds(py::module_& m) {
           parts.push_back({held.solid, material, friction, motion});
         return External{make_scene(parts)};
       }))
+      .def(py::init([](const External& other) { return other; }), py::arg("other"))
       .def(
           "contact",
           [](const External& world, const Axes& x, const Axes& v, double t) {
@@ -145,6 +147,7 @@ void bind_worlds(py::module_& m) {
           },
           py::arg("x"), py::arg("v"), py::arg("t"))
       .def("reset", [](External& world) { world.world = world.world->fresh(); });
+  bind_engines(m);
 }
 
 }  // namespace ebac::python

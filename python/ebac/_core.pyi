@@ -27,6 +27,7 @@ __all__: list[str] = [
     "AxisTruth",
     "BackwardDifference",
     "Box",
+    "BridgeParams",
     "BusCounts",
     "BusLoad",
     "BusState",
@@ -51,6 +52,7 @@ __all__: list[str] = [
     "EmulatorOptions",
     "EmulatorTrouble",
     "Encoder",
+    "EngineTiming",
     "Estimate",
     "ExactPlant",
     "Fallback",
@@ -239,6 +241,63 @@ class Fallback(enum.IntEnum):
     MODEL = ...
     NONE = ...
     OFF = ...
+
+class EngineTiming:
+    """
+    When an engine is called, and when it answers.
+
+    Parameters
+    ----------
+    rate : float
+        calls of the engine [Hz], 1 to 1000.
+    compute : float
+        from a call to its answer, at least [s], 0 to 1.
+    jitter : float
+        more than that, by up to so much at random [s], 0 to 1.
+    seed : int
+        of the jitter, 0 to 9e+15.
+    """
+
+    @staticmethod
+    def fields() -> list[Field]:
+        """
+        Return name, unit, meaning, default and range of every parameter.
+        """
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __init__(
+        self, *, rate: float = 60.0, compute: float = 0.0, jitter: float = 0.0, seed: int = 1
+    ) -> None: ...
+    def __reduce__(self) -> tuple[typing.Any, ...]: ...
+    def __repr__(self) -> str: ...
+    def as_dict(self) -> dict[str, typing.Any]:
+        """
+        Return the parameters by name.
+        """
+    def replace(self, **changes: typing.Any) -> typing.Self:
+        """
+        Return a copy with some parameters changed, checked as at construction.
+        """
+    @property
+    def compute(self) -> float:
+        """
+        from a call to its answer, at least [s], 0 to 1
+        """
+    @property
+    def jitter(self) -> float:
+        """
+        more than that, by up to so much at random [s], 0 to 1
+        """
+    @property
+    def rate(self) -> float:
+        """
+        calls of the engine [Hz], 1 to 1000
+        """
+    @property
+    def seed(self) -> int:
+        """
+        of the jitter, 0 to 9e+15
+        """
 
 class Estimate:
     """
@@ -2853,7 +2912,34 @@ class Swing:
 class _Layered:
     def __init__(self, arg0: collections.abc.Sequence[Layer]) -> None: ...
 
+class _EngineEnd:
+    def __init__(self) -> None: ...
+    def pose(
+        self,
+    ) -> (
+        tuple[
+            typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"],
+            typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"],
+            float,
+        ]
+        | None
+    ): ...
+    def post(
+        self,
+        model: tuple[
+            typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"],
+            typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"],
+            typing.SupportsFloat | typing.SupportsIndex,
+            typing.SupportsFloat | typing.SupportsIndex,
+            typing.SupportsFloat | typing.SupportsIndex,
+            typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"],
+        ]
+        | None,
+    ) -> None: ...
+    def world(self, params: BridgeParams) -> _World: ...
+
 class _World:
+    @typing.overload
     def __init__(
         self,
         arg0: collections.abc.Sequence[
@@ -2865,6 +2951,8 @@ class _World:
             ]
         ],
     ) -> None: ...
+    @typing.overload
+    def __init__(self, other: _World) -> None: ...
     def contact(
         self,
         x: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"],
@@ -6395,6 +6483,76 @@ class PlannedFrame:
         Sender and content.
         """
 
+class BridgeParams:
+    """
+    How models of an engine are rendered.
+
+    Parameters
+    ----------
+    blend : float
+        time constant with which a new model takes over from the one before [s], 0.001 to 10.
+    slew : float
+        most speed of the surface while it does [m/s], 1e-04 to 10.
+    stale : float
+        age of a model from which on its force fades [s], 0.001 to 100.
+    fade : float
+        time in which that force fades to zero, and back [s], 0.001 to 100.
+    fastest : float
+        most speed of a surface that is believed [m/s], 0 to 10.
+    """
+
+    @staticmethod
+    def fields() -> list[Field]:
+        """
+        Return name, unit, meaning, default and range of every parameter.
+        """
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __init__(
+        self,
+        *,
+        blend: float = 0.02,
+        slew: float = 0.1,
+        stale: float = 0.15,
+        fade: float = 0.1,
+        fastest: float = 0.5,
+    ) -> None: ...
+    def __reduce__(self) -> tuple[typing.Any, ...]: ...
+    def __repr__(self) -> str: ...
+    def as_dict(self) -> dict[str, typing.Any]:
+        """
+        Return the parameters by name.
+        """
+    def replace(self, **changes: typing.Any) -> typing.Self:
+        """
+        Return a copy with some parameters changed, checked as at construction.
+        """
+    @property
+    def blend(self) -> float:
+        """
+        time constant with which a new model takes over from the one before [s], 0.001 to 10
+        """
+    @property
+    def fade(self) -> float:
+        """
+        time in which that force fades to zero, and back [s], 0.001 to 100
+        """
+    @property
+    def fastest(self) -> float:
+        """
+        most speed of a surface that is believed [m/s], 0 to 10
+        """
+    @property
+    def slew(self) -> float:
+        """
+        most speed of the surface while it does [m/s], 1e-04 to 10
+        """
+    @property
+    def stale(self) -> float:
+        """
+        age of a model from which on its force fades [s], 0.001 to 100
+        """
+
 class BusLoad:
     """
     Worst-case load of a bus by frames sent in every period.
@@ -7579,3 +7737,12 @@ def worst_bits(size: typing.SupportsInt | typing.SupportsIndex) -> int: ...
 
 REFUSED_LOAD: float = 0.9
 WARNED_LOAD: float = 0.7
+
+def _function_world(function: typing.Any) -> _World: ...
+def _scheduled_function(
+    function: typing.Any, timing: EngineTiming, params: BridgeParams, held: bool
+) -> _World: ...
+def _scheduled_world(
+    world: _World, timing: EngineTiming, params: BridgeParams, held: bool
+) -> _World: ...
+def _bridge_report(world: _World) -> dict[str, typing.Any] | None: ...

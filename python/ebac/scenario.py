@@ -7,7 +7,7 @@ import warnings
 from dataclasses import dataclass, field
 from math import cos
 from pathlib import Path
-from typing import Any, Final, Literal, Self, TypeAlias
+from typing import TYPE_CHECKING, Any, Final, Literal, Self, TypeAlias
 
 from ebac._core import (
     Box,
@@ -34,6 +34,9 @@ from ebac._util.text_file import read_text
 from ebac._util.toml import parsed
 from ebac.hands import as_hand, is_own
 
+if TYPE_CHECKING:
+    from ebac.worlds.engines import ForeignWorld
+
 __all__ = [
     "Environment",
     "Scenario",
@@ -59,7 +62,16 @@ def as_environment(given: Any) -> Any:
         return given
     from ebac.worlds import World
 
-    return given if isinstance(given, World) else World(given)
+    return given if isinstance(given, _World) else World(given)
+
+
+def foreign(environment: Any) -> ForeignWorld | None:
+    """Return a world of `ebac.worlds` that is no `World` of bodies, as such; None for anything else."""
+    if not isinstance(environment, _World):
+        return None
+    from ebac.worlds.engines import ForeignWorld
+
+    return environment if isinstance(environment, ForeignWorld) else None
 
 
 def _part_of(name: str) -> str:
@@ -87,7 +99,7 @@ class Scenario:
     hand : Hand
         Who holds it; default: 0.15 kg, 6 N s/m, 300 N/m, pulling to 40 mm. A model of `ebac.hands` alone stands for
         the default hand with this model; an object with `force(t, x, v)` for a hand of your own.
-    environment : Free, Wall, Corner, Disc or worlds.World
+    environment : Free, Wall, Corner, Disc, worlds.World, worlds.Bridge or worlds.FunctionWorld
         What it touches; default: a wall of 10 kN/m at 0 m (paper, section IV.C). A solid or body of `ebac.worlds`
         stands for a world of it.
     timing : Timing
@@ -192,7 +204,7 @@ class Scenario:
         Raises
         ------
         ValueError
-            When its hand is one of your own: code is not written to a file.
+            When its hand or world is one of your own: code is not written to a file.
         """
         import tomli_w
 
@@ -202,6 +214,11 @@ class Scenario:
                 "write the scenario with a model of ebac.hands, or none"
             )
 
+        if foreign(self.environment) is not None and not hasattr(self.environment, "as_dict"):
+            raise ValueError(
+                f"Scenario.environment = {self.environment!r}: a function cannot be written to TOML; write the "
+                "scenario with a World, a wall, or a Bridge to a World"
+            )
         values = {f.name: getattr(self, f.name) for f in dataclasses.fields(self)}
         numbers = {k: v for k, v in values.items() if isinstance(v, (int, float, str))}
         parts = {k: serialisation.to_document(v) for k, v in values.items() if k not in numbers}

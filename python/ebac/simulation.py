@@ -9,7 +9,7 @@ from ebac import _core
 from ebac._util.arguments import require
 from ebac._util.fault_remedies import REMEDIES
 from ebac.laws import AnyLaw, CoreLaw, design, law_name
-from ebac.scenario import Scenario
+from ebac.scenario import Scenario, foreign
 from ebac.trace import Trace
 
 __all__ = [
@@ -32,20 +32,29 @@ class LoopFault(RuntimeError):
     trace : Trace
         Every row up to the stop; the last ones are the evidence.
     remedy : str
-        What to do first; empty where a hand of your own raised an error.
+        What to do first; empty where a hand or world of your own raised an error.
 
-    Where a hand of your own raised an error, that is its `__cause__`.
+    Where a hand or world of your own raised an error, that is its `__cause__`.
     """
 
-    def __init__(self, fault: _core.Fault, trace: Trace, hand: BaseException | None = None) -> None:
+    def __init__(
+        self,
+        fault: _core.Fault,
+        trace: Trace,
+        hand: BaseException | None = None,
+        world: BaseException | None = None,
+    ) -> None:
         self.fault = fault
         self.trace = trace
-        self.remedy = "" if hand is not None else REMEDIES[fault]
+        self.remedy = "" if hand is not None or world is not None else REMEDIES[fault]
         row = int((trace["fault"] != 0).argmax())
         cause = fault.name.lower().replace("_", " ")
         if hand is not None:
             model = type(trace.scenario.hand.model).__name__ if trace.scenario else "the hand"
             cause = f"the hand {model} raised {type(hand).__name__}: {hand}"
+        elif world is not None:
+            what = getattr(trace.scenario and trace.scenario.environment, "what", "the world")
+            cause = f"{what} raised {type(world).__name__}: {world}"
         super().__init__(
             f"fault {int(fault)} ({cause}) in tick {trace['tick'][row]}, t = {trace['t'][row]:.6g} s: "
             "the command was set to zero and the loop stopped; see .trace for the rows before it"
@@ -96,7 +105,8 @@ def simulate(
     Warns
     -----
     UserWarning
-        When the process data would take over 70 % of the bus: 1 Mbit/s, or that of `bus`.
+        When the process data would take over 70 % of the bus: 1 Mbit/s, or that of `bus`; when an engine's models
+        were so old that their force faded.
 
     Raises
     ------
@@ -116,7 +126,9 @@ def simulate(
     if through is not None:
         scenario = on_bus(scenario, through, bus)
     finished = design(law, scenario.device, scenario.known_timing, **changes)
-    setup = scenario.setup()
+    world = foreign(scenario.environment)
+    mine = None if world is None else world.for_run()
+    setup = (scenario if mine is None else scenario.replace(environment=mine)).setup()
     if limits is not False or soft_start != 0:
         allowed = limits if isinstance(limits, _core.Limits) else None
         if limits is True:
@@ -129,9 +141,14 @@ def simulate(
     name = law if isinstance(law, str) else law_name(finished)
     trace = Trace.from_rows(rows, scenario=scenario, law=name, law_repr=repr(finished))
     fault = _core.Fault(int(trace["fault"][-1]))
+    own = None if mine is None else mine.error
+    if own is not None and not isinstance(own, Exception):
+        raise own
     if fault is not _core.Fault.NONE:
         error = _hand_error(setup)
-        raise LoopFault(fault, trace, error) from error
+        raise LoopFault(fault, trace, error, own) from error or own
+    if mine is not None and (remark := mine.remark()):
+        warnings.warn(remark, stacklevel=2)
     return trace
 
 

@@ -23,7 +23,7 @@ PACKAGE = Path(ebac.__file__).parent
 MAY_SEE = {
     "core": set(),
     "model": {"core"},
-    "world": {"core", "model"},
+    "world": {"core", "model", "loop"},  # of the loop, the mailbox
     "control": {"core", "model"},
     "identify": {"core", "model"},
     "loop": {"core", "model", "control"},

@@ -20,6 +20,14 @@ struct Touch {
   std::array<Axes, kMaxAxes> normal{};  // unit vectors into the body
 };
 
+/// The surface of one body near a handle outside, in the axes of the device.
+struct Near {
+  double distance = HUGE_VAL;    // m
+  Axes out = Axes::UnitX();      // unit vector away from the body
+  double stiffness = 0;          // N/m, pressed lightly
+  Axes velocity = Axes::Zero();  // m/s
+};
+
 /// A solid of some material, which may move, and whose surface may hold by friction.
 class Body {
  public:
@@ -29,6 +37,16 @@ class Body {
   Touch touch(const Axes& x, const Axes& v, double t) EBAC_RT {
     if (motion_.still()) return touch(x, v, BodyPose{});
     return touch(x, v, motion_.at(t));
+  }
+
+  Near near(const Axes& x, double t) const EBAC_RT {
+    const BodyPose pose = motion_.still() ? BodyPose{} : motion_.at(t);
+    const Distance at = solid_->distance(pose.into(x));
+    Material material = material_;
+    return {.distance = at.d,
+            .out = pose.turn * at.out,
+            .stiffness = press(material, kLightly, 0).stiffness,
+            .velocity = pose.velocity_at(x)};
   }
 
   /// Elastic energy of the last touch [J].
@@ -88,6 +106,8 @@ class Body {
     stretch_.setZero();
     stored_ = 0;
   }
+
+  static constexpr double kLightly = 5e-4;  // m
 
   SolidPtr solid_;
   Material material_;

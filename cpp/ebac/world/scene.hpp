@@ -5,52 +5,9 @@
 
 #include "ebac/model/world.hpp"
 #include "ebac/world/body.hpp"
+#include "ebac/world/transported_frame.hpp"
 
 namespace ebac::world {
-
-/// Directions that turn with the contact: the first is its normal, the others turn as little as they can.
-class TransportedFrame {
- public:
-  /// Rows: `count` directions made orthogonal, one after the other, then what is left.
-  const Jacobian& along(const Axes* directions, int count) EBAC_RT {
-    int row = 0;
-    for (int i = 0; i < count && row < kMaxAxes; ++i) row = add(directions[i], row);
-    for (int i = row; i < kMaxAxes;) {
-      const Axes before = frame_.row(i);
-      const int added = add(before, i);
-      if (added == i) frame_.row(i) = missing(i).transpose();
-      ++i;
-    }
-    return frame_;
-  }
-
- private:
-  static constexpr double kParallel =
-      0.4;  // sine of the angle below which a direction is none of its own
-
-  /// Puts what of a direction is orthogonal to the rows before into the next one; the number of rows then.
-  int add(const Axes& direction, int row) EBAC_RT {
-    Axes rest = direction;
-    for (int i = 0; i < row; ++i) rest -= frame_.row(i).dot(rest) * frame_.row(i).transpose();
-    const double length = rest.norm();
-    if (length < kParallel) return row;
-    frame_.row(row) = rest / length;
-    return row + 1;
-  }
-
-  /// Some unit vector orthogonal to the rows before.
-  Axes missing(int row) const EBAC_RT {
-    Axes best = Axes::Zero();
-    for (int i = 0; i < kMaxAxes; ++i) {
-      Axes rest = Axes::Unit(i);
-      for (int k = 0; k < row; ++k) rest -= frame_.row(k).dot(rest) * frame_.row(k).transpose();
-      if (rest.squaredNorm() > best.squaredNorm()) best = rest;
-    }
-    return best.normalized();
-  }
-
-  Jacobian frame_ = Jacobian::Identity();
-};
 
 /// Bodies in space: each has its own proxy, and their forces add up.
 class Scene final : public World {
@@ -80,6 +37,15 @@ class Scene final : public World {
     all.along = all.frame * all.force;
     all.turned = !all.frame.isIdentity(0);
     return all;
+  }
+
+  /// The nearest surface of all, for a handle outside.
+  Near near(const Axes& x, double t) const EBAC_RT {
+    Near nearest;
+    for (const Body& body : bodies_) {
+      if (const Near one = body.near(x, t); one.distance < nearest.distance) nearest = one;
+    }
+    return nearest;
   }
 
   double stored() const EBAC_RT override {

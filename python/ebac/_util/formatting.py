@@ -152,12 +152,27 @@ NAMES = {"HeightField": "ground", "Mesh": "mesh"}
 
 def world(given: Any) -> str:
     """Return what a world is made of: "a world of a sphere, 10 kN/m"."""
+    if not hasattr(given, "bodies"):
+        return _foreign(given)
     names = [_solid(body.solid) for body in given.bodies]
     shown = ", ".join(names[:3]) + (f" and {len(names) - 3} more" if len(names) > 3 else "")
     materials = {_material(body.material) for body in given.bodies}
     frictions = {body.friction for body in given.bodies} - {0.0}
     held = f", friction {max(frictions):g}" if frictions else ""
     return f"a world of {shown}, {' and '.join(sorted(materials))}{held}"
+
+
+def _foreign(given: Any) -> str:
+    """Return what an engine computes, and how often: "a world of a plane, 10 kN/m, by an engine at 60 Hz"."""
+    ideal = given.ideal()
+    what = given.what if ideal is None else f"{world(ideal)}, by an engine"
+    timing = getattr(given, "timing", None)
+    if timing is None:
+        return str(what)
+    late = [f"{1e3 * timing.compute:g} ms late"] if timing.compute else []
+    late += [f"{1e3 * timing.jitter:g} ms of jitter"] if timing.jitter else []
+    held = ", its force held" if given.held else ""
+    return f"{what} at {timing.rate:g} Hz{''.join(f', {one}' for one in late)}{held}"
 
 
 def _solid(solid: Any) -> str:

@@ -170,6 +170,8 @@ def _to_bodies(world: Any, at: Sequence[float]) -> dict[str, float]:
     """Return the distance to each body at rest; of a gimbal's handle in its plane, which is a little less or more."""
     from ebac.worlds import distance
 
+    if not hasattr(world, "bodies"):
+        return {}  # an engine's surface is not known before it answers
     place = np.array([at], float)
     named = {f"body {i + 1}": body for i, body in enumerate(world.bodies)}
     return {name: float(distance(body.solid, place)[0][0]) for name, body in named.items()}

@@ -6,9 +6,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ebac._core import Hand, Linear, MinimumJerk, Recorded, Step, Wall, _World
+from ebac._core import Free, Hand, Linear, MinimumJerk, Recorded, Step, Wall, _World
 from ebac._util.arguments import require
-from ebac.scenario import Scenario
+from ebac.scenario import Scenario, foreign
 
 if TYPE_CHECKING:
     from ebac.metrics.world_rest import Rest
@@ -21,6 +21,12 @@ LARGEST_REST = 10.0
 SMALL = 1e-6
 
 
+def without_engine(scenario: Scenario) -> Scenario:
+    """Return the scenario with the bodies that an engine computes, or with nothing where that is not known."""
+    world = foreign(scenario.environment)
+    return scenario if world is None else scenario.replace(environment=world.ideal() or Free())
+
+
 def allowed_deviation(scenario: Scenario) -> float:
     """Return how far from the ideal a rest still is exact: 2 counts + f_c / (K0 + K) [m].
 
@@ -28,6 +34,7 @@ def allowed_deviation(scenario: Scenario) -> float:
     within that band is no fault of a law. f_c is the friction at standstill; K counts only where the ideal rest
     lies inside the wall.
     """
+    scenario = without_engine(scenario)
     mechanics, wall = scenario.device.mechanics, scenario.environment
     counts = EXACT_COUNTS * scenario.device.count
     friction = max(mechanics.coulomb, mechanics.breakaway)
@@ -50,9 +57,14 @@ def ideal_rest(scenario: Scenario) -> float | None:
 
     None where there is no such point: no straight wall across the first axis, or a hand without rest. With a
     model of `ebac.hands` it is where the steady force of the model and the wall balance; None for a hand of your own.
-    In a `worlds.World` it is where a slow hand comes to rest; None with friction, motion or puncture.
+    In a `worlds.World` it is where a slow hand comes to rest; None with friction, motion or puncture. Behind a
+    `worlds.Bridge` it is that of the world the engine computes; None for a function.
     """
     require(scenario, Scenario, "ebac.ideal_rest", "a Scenario")
+    world = foreign(scenario.environment)
+    if world is not None and world.ideal() is None:
+        return None
+    scenario = without_engine(scenario)
     wall, hand = scenario.environment, scenario.hand
     if isinstance(wall, _World):
         rest = _in_world(scenario)

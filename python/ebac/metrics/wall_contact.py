@@ -13,7 +13,7 @@ from ebac._core import _measure_contact, _stored_energy
 from ebac._util import formatting
 from ebac._util.arguments import require
 from ebac.hands import is_own
-from ebac.metrics.ideal import allowed_deviation, ideal_rest
+from ebac.metrics.ideal import allowed_deviation, ideal_rest, without_engine
 from ebac.trace import Trace
 
 #: The end of a run over which rest and swing are taken.
@@ -284,7 +284,8 @@ def contact(trace: Trace, *, axis: int = 0, truth: bool = True) -> Contact:
     energy = _columns(trace, "true.energy").sum(axis=1) if with_energy else None
     stored = None
     if trace.scenario is not None and true:
-        world, kinematics = trace.scenario.environment, trace.scenario.device.kinematics
+        world = without_engine(trace.scenario).environment
+        kinematics = trace.scenario.device.kinematics
         stored = _stored_energy(world, kinematics, _columns(trace, "true.x"), trace["t"])
     clamped = trace.axis("law.clamped", axis) if "law.clamped" in trace else None
     pull = None

@@ -10,9 +10,11 @@
 
 from ebac._core import (
     Box,
+    BridgeParams,
     Capsule,
     Cylinder,
     Elastic,
+    EngineTiming,
     HuntCrossley,
     Layer,
     Plane,
@@ -21,6 +23,9 @@ from ebac._core import (
     Texture,
     Torus,
 )
+from ebac.worlds.answers import LocalModel
+from ebac.worlds.engine_thread import EngineThread
+from ebac.worlds.engines import Bridge, BridgeReport, FunctionWorld
 from ebac.worlds.mesh import GridError, HeightField, Mesh
 from ebac.worlds.presets import PRESETS, WorldPreset, preset
 from ebac.worlds.solids import (
@@ -39,17 +44,24 @@ __all__ = [
     "PRESETS",
     "Body",
     "Box",
+    "Bridge",
+    "BridgeParams",
+    "BridgeReport",
     "Capsule",
     "Cavity",
     "Cylinder",
     "Difference",
     "Elastic",
+    "EngineThread",
+    "EngineTiming",
+    "FunctionWorld",
     "GridError",
     "HeightField",
     "HuntCrossley",
     "Intersection",
     "Layer",
     "Layered",
+    "LocalModel",
     "Mesh",
     "Placed",
     "Plane",

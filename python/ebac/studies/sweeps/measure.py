@@ -15,7 +15,7 @@ from ebac.hands import is_own
 from ebac.laws import CoreLaw, PythonLaw
 from ebac.metrics import FEWEST_ROWS, allowed_deviation, contact, ideal_rest
 from ebac.metrics.wall_contact import COLUMNS, FLAGS
-from ebac.scenario import Scenario
+from ebac.scenario import Scenario, foreign
 from ebac.simulation import LoopFault, simulate
 from ebac.trace import Trace
 
@@ -76,6 +76,7 @@ def measure(runs: Sequence[Run], *, threads: int, limits: RunLimits, watch: Watc
     kinds: dict[tuple[Any, bool], list[int]] = {}
     for i, (scenario, law) in enumerate(runs):
         fast = hasattr(law, "_sweep") and not is_own(scenario.hand.model)
+        fast = fast and foreign(scenario.environment) is None
         kinds.setdefault((type(law), fast), []).append(i)
     for (kind, fast), places in kinds.items():
         if fast:

@@ -1,0 +1,118 @@
+"""An engine in a thread of its own, for runs in real time."""
+
+from __future__ import annotations
+
+import threading
+import time
+from types import TracebackType
+from typing import Any, Self
+
+from ebac import _core
+from ebac._core import BridgeParams
+from ebac.worlds.answers import model_numbers
+from ebac.worlds.engines import BridgeReport, Engine, ForeignWorld, report_of, warning_of
+
+#: Rates of an engine [Hz].
+RATES = (1.0, 1000.0)
+
+
+class PostedWorld(ForeignWorld):
+    """The world of an `EngineThread`: what the thread posted last, rendered in every tick."""
+
+    def __init__(self, end: _core._EngineEnd, rendering: BridgeParams) -> None:
+        super().__init__(end.world(rendering))
+        self._end, self.rendering = end, rendering
+
+    def for_run(self) -> PostedWorld:
+        """Return itself: one run at a time has the thread."""
+        return self
+
+    @property
+    def what(self) -> str:
+        """Name for messages."""
+        return "the engine's thread"
+
+    def remark(self) -> str:
+        """Return what the run must say, empty if nothing."""
+        return warning_of(self.report, self.rendering)
+
+    @property
+    def report(self) -> BridgeReport:
+        """How the engine served the runs so far."""
+        return report_of(self)
+
+    def __repr__(self) -> str:
+        """Return what it is."""
+        return f"PostedWorld(rendering={self.rendering!r})"
+
+
+class EngineThread:
+    """Calls an engine at a rate, in a thread of its own, beside a loop in real time.
+
+    The loop never waits for it: poses go to the thread and models come back through mailboxes that hold the newest
+    value. An engine that raises ends the thread; its force fades within `stale + fade`, and leaving the `with` block
+    raises the error. For an engine in another process, give a function that asks that process.
+
+    ::
+
+        with EngineThread(engine, rate=60) as thread:
+            device.run("ebac", thread.world, seconds=10)
+
+    Parameters
+    ----------
+    engine : callable
+        `engine(position, velocity)`, [m] and [m/s], returns a `LocalModel`, or None where no surface is near.
+    rate : float
+        Calls per second [Hz], [1, 1000]. A call that takes longer delays the next one.
+    rendering : BridgeParams
+        How models take over from each other and fade.
+    """
+
+    def __init__(
+        self, engine: Engine, *, rate: float = 60.0, rendering: BridgeParams | None = None
+    ) -> None:
+        if isinstance(engine, type) or not callable(engine):
+            raise TypeError(f"EngineThread.engine = {engine!r}: must be callable")
+        if not RATES[0] <= rate <= RATES[1]:
+            raise ValueError(
+                f"EngineThread.rate = {rate} Hz: must lie in [{RATES[0]:g}, {RATES[1]:g}] Hz"
+            )
+        self._end = _core._EngineEnd()
+        self._engine, self._period = engine, 1 / rate
+        self._stop = threading.Event()
+        self._thread: threading.Thread | None = None
+        self.error: BaseException | None = None
+        self.world = PostedWorld(self._end, BridgeParams() if rendering is None else rendering)
+
+    def __enter__(self) -> Self:
+        """Start the thread."""
+        if self._thread is not None:
+            raise RuntimeError("EngineThread: was started before; make a new one")
+        self._thread = threading.Thread(target=self._serve, name="ebac-engine", daemon=True)
+        self._thread.start()
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        """Stop the thread; raise what the engine raised, unless something else was raised already."""
+        self._stop.set()
+        if self._thread is not None:
+            self._thread.join()
+        if self.error is not None and error is None:
+            raise self.error
+
+    def _serve(self) -> None:
+        due = time.monotonic()
+        try:
+            while not self._stop.wait(max(0.0, due - time.monotonic())):
+                due = max(due + self._period, time.monotonic())
+                pose: Any = self._end.pose()
+                if pose is not None:
+                    x, v, _ = pose
+                    self._end.post(model_numbers(self._engine(x, v)))
+        except BaseException as failed:
+            self.error = failed

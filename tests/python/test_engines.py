@@ -1,0 +1,243 @@
+"""Engines of others: a Python function as a world, the bridge in simulated time and in a thread."""
+
+from __future__ import annotations
+
+import pickle
+import time
+import warnings
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import ebac
+from ebac import Scenario, worlds
+from ebac.worlds import (
+    Bridge,
+    BridgeParams,
+    EngineThread,
+    EngineTiming,
+    FunctionWorld,
+    LocalModel,
+    Touch,
+    preset,
+)
+
+WALL = preset("plane", stiffness=5e3, position=0.01)
+SHORT = Scenario(environment=WALL, seconds=1.0)
+
+
+def spring(x: np.ndarray, v: np.ndarray) -> list[float] | None:
+    """A wall at 10 mm."""
+    return [5e3 * (x[0] - 0.01), 0.0, 0.0] if x[0] > 0.01 else None
+
+
+def plane(x: np.ndarray, v: np.ndarray) -> LocalModel:
+    """The same wall as an engine tells it."""
+    return LocalModel(at=(0.01, 0, 0), normal=(1, 0, 0), stiffness=5e3)
+
+
+@pytest.mark.parametrize(
+    "world", [FunctionWorld(spring), Bridge(plane, timing=EngineTiming(rate=1000))]
+)
+def test_a_function_is_the_wall_that_it_computes(world: worlds.FunctionWorld | Bridge) -> None:
+    wall = ebac.Wall(stiffness=5e3, position=0.01)
+    expected = ebac.simulate(SHORT.replace(environment=wall), "ebac")
+    trace = ebac.simulate(SHORT.replace(environment=world), "ebac")
+    assert np.allclose(trace["x"], expected["x"], atol=1e-12)
+    assert np.allclose(trace["f_env"], expected["f_env"], atol=1e-9)
+    assert ebac.contact(trace).swing_m == pytest.approx(ebac.contact(expected).swing_m, abs=1e-12)
+
+
+def test_a_touch_has_a_normal_of_its_own() -> None:
+    def rough(x: np.ndarray, v: np.ndarray) -> Touch | None:
+        depth = x[0] - 0.01
+        if depth <= 0:
+            return None
+        return Touch(np.array([1e3 * depth, 0.1, 0]), np.array([2.0, 0, 0]), depth, 1e3, 0.0)
+
+    trace = ebac.simulate(SHORT.replace(environment=FunctionWorld(rough)), "direct")
+    assert trace["f_env"].max() > 1
+
+
+@pytest.mark.parametrize(
+    ("make", "says"),
+    [
+        (lambda bad: FunctionWorld(bad), "the world test_an_error"),
+        (lambda bad: Bridge(bad), "the engine test_an_error"),
+    ],
+)
+def test_an_error_ends_the_run_and_is_named(make, says: str) -> None:
+    def bad(x: np.ndarray, v: np.ndarray) -> None:
+        raise KeyError("no such tissue")
+
+    with pytest.raises(ebac.LoopFault, match="raised KeyError: 'no such tissue'") as caught:
+        ebac.simulate(SHORT.replace(environment=make(bad)), "ebac")
+    assert isinstance(caught.value.__cause__, KeyError)
+    assert says in str(caught.value)
+    assert caught.value.fault == ebac.Fault.ENVIRONMENT_NOT_FINITE
+    assert caught.value.trace["f_cmd"][-1] == 0
+
+
+@pytest.mark.parametrize(
+    ("answer", "says"),
+    [("much", "could not convert|must return the force"), ([1.0, 2.0], "three finite"), ([np.nan, 0, 0], "finite")],
+)  # fmt: skip
+def test_a_world_that_answers_nonsense_says_what_it_should(answer: object, says: str) -> None:
+    world = FunctionWorld(lambda x, v: answer)
+    with pytest.raises(ebac.LoopFault, match=says):
+        ebac.simulate(SHORT.replace(environment=world), "direct")
+
+
+def test_an_engine_that_answers_no_model_says_what_it_should() -> None:
+    with pytest.raises(ebac.LoopFault, match="must return a LocalModel, or None"):
+        ebac.simulate(SHORT.replace(environment=Bridge(lambda x, v: 3.0)), "direct")
+
+
+def test_what_is_given_wrongly_is_refused() -> None:
+    with pytest.raises(TypeError, match="must be a function of position and velocity"):
+        Bridge(3)  # type: ignore[arg-type]
+    with pytest.raises(TypeError, match="function of position and velocity"):
+        FunctionWorld(None)  # type: ignore[arg-type]
+    with pytest.raises(ValueError, match="62 answers"):
+        Bridge(WALL, timing=EngineTiming(rate=1000, jitter=1))
+    with pytest.raises(ValueError, match=r"stiffness = -1 N/m: must lie in \[0, 1e\+07\] N/m"):
+        LocalModel(at=(0, 0, 0), normal=(1, 0, 0), stiffness=-1)
+    with pytest.raises(ValueError, match="must have a length"):
+        LocalModel(at=(0, 0, 0), normal=(0, 0, 0), stiffness=1)
+    with pytest.raises(ValueError, match="radius"):
+        LocalModel(at=(0, 0, 0), normal=(1, 0, 0), stiffness=1, radius=0)
+    with pytest.raises(ValueError, match="rate"):
+        EngineThread(plane, rate=5000)
+
+
+def test_a_model_of_a_force_gives_that_force() -> None:
+    assert LocalModel.of_force((0, 0, 0), (0, 0, 0), 100) is None
+    model = LocalModel.of_force((0.02, 0, 0), (3, 0, 4), 1000)
+    assert model is not None
+    assert model.normal == pytest.approx((0.6, 0, 0.8))
+    depth = np.dot(np.array([0.02, 0, 0]) - model.at, model.normal)
+    assert 1000 * depth == pytest.approx(5)
+
+
+def test_a_bridge_to_bodies_goes_through_toml_and_pickle() -> None:
+    bridge = Bridge(
+        WALL, timing=EngineTiming(rate=30, jitter=0.01), rendering=BridgeParams(blend=0.05)
+    )
+    scenario = SHORT.replace(environment=bridge)
+    assert Scenario.from_toml(scenario.to_toml()) == scenario
+    assert pickle.loads(pickle.dumps(bridge)) == bridge
+    for own in (Bridge(plane), FunctionWorld(spring)):
+        with pytest.raises(ValueError, match="cannot be written to TOML"):
+            SHORT.replace(environment=own).to_toml()
+
+
+def test_an_engine_that_falls_silent_fades_and_the_run_says_so() -> None:
+    class Dies:
+        def __init__(self) -> None:
+            self.calls = 0
+
+        def __call__(self, x: np.ndarray, v: np.ndarray) -> LocalModel:
+            self.calls += 1
+            return plane(x, v)
+
+    bridge = Bridge(
+        Dies(), timing=EngineTiming(rate=1), rendering=BridgeParams(stale=0.1, fade=0.05)
+    )
+    with pytest.warns(UserWarning, match=r"older than 100 ms .*its force was faded or zero"):
+        trace = ebac.simulate(SHORT.replace(environment=bridge), "direct")
+    asked = trace["f_env"][(trace["t"] > 0.16) & (trace["t"] < 0.99)]
+    assert (asked == 0).all()
+    assert bridge.report.faded_at_s == pytest.approx(0.101, abs=2e-3)
+    assert bridge.engine.calls == 0  # type: ignore[union-attr]  # each run has a copy
+
+
+def test_the_same_seed_gives_the_same_bits() -> None:
+    bridge = Bridge(preset("sphere"), timing=EngineTiming(rate=60, jitter=0.01))
+    one, other = (ebac.simulate(SHORT.replace(environment=bridge), "ebac") for _ in range(2))
+    assert (one["x"] == other["x"]).all()
+    later = Bridge(preset("sphere"), timing=EngineTiming(rate=60, jitter=0.01, seed=2))
+    moved = ebac.simulate(SHORT.replace(environment=later), "ebac")
+    assert (moved["x"] != one["x"]).any()
+
+
+@given(
+    seed=st.integers(0, 2**31),
+    rate=st.floats(30, 1000),
+    jitter=st.floats(0, 0.03),
+    blend=st.floats(2e-3, 0.2),
+    slew=st.floats(0.01, 1),
+)
+@settings(max_examples=25, deadline=None)
+def test_a_bridge_gives_no_more_than_it_counts(
+    seed: int, rate: float, jitter: float, blend: float, slew: float
+) -> None:
+    random = np.random.default_rng(seed)
+
+    def restless(x: np.ndarray, v: np.ndarray) -> LocalModel | None:
+        if random.random() < 0.1:
+            return None
+        a, b, c = random.normal(size=3)
+        return LocalModel(
+            at=(2e-3 * a, 0, 0), normal=(1, 0.4 * b, 0.4 * c), stiffness=random.uniform(100, 3000)
+        )
+
+    bridge = Bridge(
+        restless,
+        timing=EngineTiming(rate=rate, jitter=jitter, seed=seed),
+        rendering=BridgeParams(blend=blend, slew=slew),
+    )
+    phase = np.cumsum(random.uniform(0, 0.06, 1500))
+    path = np.column_stack([4e-3 * np.sin(phase), 2e-3 * np.sin(0.7 * phase), 0 * phase])
+    work, leak, force = 0.0, 0.0, np.zeros(3)
+    for i, x in enumerate(path):
+        way = x - path[i - 1] if i else np.zeros(3)
+        work += float(force @ way)
+        leak += 0.5 * 3000 * float(way @ way)
+        force = bridge.contact(x, np.zeros(3), 1e-3 * i)[0]
+        assert work >= -bridge.report.given_J - leak - 1e-12
+
+
+def test_an_engine_in_a_thread_serves_a_loop_that_never_waits() -> None:
+    with EngineThread(plane, rate=500) as thread:
+        start = time.monotonic()
+        forces = []
+        while (now := time.monotonic() - start) < 0.3:
+            forces.append(thread.world.contact(np.array([0.011, 0, 0]), np.zeros(3), now)[0][0])
+            time.sleep(1e-3)
+    assert forces[-1] == pytest.approx(5.0)
+    assert thread.world.report.models > 20
+    assert thread.error is None
+
+
+def test_an_engine_that_raises_in_its_thread_says_so_in_the_end() -> None:
+    def bad(x: np.ndarray, v: np.ndarray) -> None:
+        raise RuntimeError("engine down")
+
+    thread = EngineThread(bad, rate=1000)
+
+    def until_it_fails() -> None:
+        with thread:
+            while thread.error is None:
+                thread.world.contact(np.zeros(3), np.zeros(3), time.monotonic())
+                time.sleep(1e-3)
+
+    with pytest.raises(RuntimeError, match="engine down"):
+        until_it_fails()
+
+
+def test_held_forces_shake_where_models_do_not() -> None:
+    wall = preset("plane", stiffness=10e3, position=0.01)
+    timing = EngineTiming(rate=60, jitter=0.01, compute=1 / 60)
+    found = {}
+    for held in (True, False):
+        world = Bridge(wall, timing=timing, held=held)
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            trace = ebac.simulate(Scenario(environment=world, seconds=3), "ebac")
+        found[held] = ebac.contact(trace)
+    assert found[False].quiet
+    assert found[False].exact
+    assert found[False].least_energy_J > -1e-6
+    assert not found[True].quiet
