@@ -169,7 +169,7 @@ def _foreign(given: Any) -> str:
     timing = getattr(given, "timing", None)
     if timing is None:
         return str(what)
-    late = [f"{1e3 * timing.compute:g} ms late"] if timing.compute else []
+    late = [f"{1e3 * timing.compute:.3g} ms late"] if timing.compute else []
     late += [f"{1e3 * timing.jitter:g} ms of jitter"] if timing.jitter else []
     held = ", its force held" if given.held else ""
     return f"{what} at {timing.rate:g} Hz{''.join(f', {one}' for one in late)}{held}"

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from ebac._core import Hand
     from ebac.scenario import Environment, Scenario
 
-WALL, HAND, DEVICE, RUN = "Wall", "Hand", "Device", "Run"
+WALL, HAND, DEVICE, RUN, ENGINE = "Wall", "Hand", "Device", "Run", "Engine"
 
 
 def option(*names: str, text: str, default: str | bool = False, panel: str, **more: Any) -> Any:
@@ -124,6 +124,18 @@ Delay: TypeAlias = Annotated[
 Jitter: TypeAlias = Annotated[
     float | None,
     option(text="Largest deviation of a tick, as a share of it", default="0", panel=RUN),
+]
+EngineJitter: TypeAlias = Annotated[
+    float | None,
+    option(
+        text="Its answers come later by up to so much at random [s]", default="0.01", panel=ENGINE
+    ),
+]
+EngineCompute: TypeAlias = Annotated[
+    float | None,
+    option(
+        text="From a call to its answer, at least [s]", default="one period of it", panel=ENGINE
+    ),
 ]
 Seed: TypeAlias = Annotated[
     int | None,
@@ -252,6 +264,35 @@ class ScenarioOptions(RunOptions, DeviceOptions, HandOptions, WallOptions):
     seed: Seed = None
 
 
+@dataclass(frozen=True, kw_only=True)
+class EngineOptions:
+    """An engine that computes the world, slower than the loop runs."""
+
+    engine_rate: Annotated[
+        float | None,
+        option(
+            text="Let an engine compute the world so many times a second [Hz]; the loop renders its local model",
+            default="every tick",
+            panel=ENGINE,
+        ),
+    ] = None
+    engine_jitter: Annotated[
+        float | None,
+        option(
+            text="Its answers come later by up to so much at random [s]", default="0", panel=ENGINE
+        ),
+    ] = None
+    engine_compute: EngineCompute = None
+    engine_held: Annotated[
+        bool,
+        typer.Option(
+            "--engine-held",
+            help="Hold its force until the next answer instead, as a bridge is not to do.",
+            rich_help_panel=ENGINE,
+        ),
+    ] = False
+
+
 def scenario_of(*groups: Any, seconds: float | None = None) -> Scenario:
     """Return the scenario that groups of options describe; `seconds` is its length where nothing gives one [s].
 
@@ -276,7 +317,7 @@ def _scenario_of(given: dict[str, Any], seconds: float | None) -> Scenario:
             noise=given.get("device_noise"), permille=given.get("device_permille"),
         ),
         hand=hand_of(base.hand, given),
-        environment=wall_of(base.environment, given),
+        environment=setting.choose_engine(wall_of(base.environment, given), given),
         timing=setting.choose_timing(base.timing, given.get("rate"), given.get("delay")),
         **setting.given(
             jitter=given.get("jitter"), seconds=length, seed=given.get("seed"), observer=_observer_of(given)

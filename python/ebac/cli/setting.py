@@ -31,6 +31,9 @@ OPTIONS = {
     "Scenario.seconds": "--seconds",
     "Scenario.seed": "--seed",
     "approach_m": "--approach",
+    "EngineTiming.rate": "--engine-rate",
+    "EngineTiming.jitter": "--engine-jitter",
+    "EngineTiming.compute": "--engine-compute",
     "SensorConfig.counts_per_force": "--sensor-counts",
     "SensorConfig.counts_per_torque": "--sensor-counts",
 }
@@ -204,6 +207,26 @@ def choose_world(name: str, option: str = "--world", **options: float | None) ->
         return preset(kind.lower() + colon + file, **given(**options))
     except (ValueError, FileNotFoundError, ImportError) as error:
         raise ValueError(f"{option} {name}: {error}" if option else str(error)) from error
+
+
+def choose_engine(environment: Environment, options: dict[str, Any]) -> Environment:
+    """Return the world behind an engine, if one is asked for by `engine_rate` [Hz]."""
+    rate = options.get("engine_rate")
+    if not isinstance(rate, float):  # `ebac engines` has several, and puts them in itself
+        others = [name for name in ("jitter", "compute", "held") if options.get(f"engine_{name}")]
+        if others:
+            raise ValueError(f"--engine-{others[0]}: needs an engine; add --engine-rate 60")
+        return environment
+    from ebac.studies.engines import behind_engine
+
+    compute = options.get("engine_compute")
+    return behind_engine(
+        environment,
+        rate=rate,
+        jitter=options.get("engine_jitter") or 0.0,
+        compute=compute,
+        held=bool(options.get("engine_held")),
+    )
 
 
 def choose_hand(

@@ -2,6 +2,7 @@
 
 from ebac.plot.ablation import plot_ablation
 from ebac.plot.columns import plot_columns
+from ebac.plot.engines import plot_engines
 from ebac.plot.faults import plot_fault
 from ebac.plot.jitter import plot_jitter
 from ebac.plot.maps import plot_map
@@ -42,6 +43,7 @@ __all__ = [
     "plot_ablation",
     "plot_budget",
     "plot_columns",
+    "plot_engines",
     "plot_fault",
     "plot_jitter",
     "plot_map",

@@ -2,6 +2,7 @@
 
 from ebac.studies.ablation import Ablation, AblationRow, Piece, ablation, pieces
 from ebac.studies.conditions import CONDITIONS, GROUPS, Condition, conditions
+from ebac.studies.engines import EngineRow, Engines, engines
 from ebac.studies.hand_search import WorstHand
 from ebac.studies.measures import MEASURES, Measure
 from ebac.studies.result import Failure, Study, StudyRow
@@ -16,6 +17,8 @@ __all__ = [
     "Ablation",
     "AblationRow",
     "Condition",
+    "EngineRow",
+    "Engines",
     "Failure",
     "Measure",
     "Piece",
@@ -28,6 +31,7 @@ __all__ = [
     "WorstHand",
     "ablation",
     "conditions",
+    "engines",
     "pieces",
     "study",
     "tune",

@@ -24,6 +24,7 @@ TICKS = (10, 2_000_000)
 
 def wall(
     setup: options.ScenarioOptions,
+    engine: options.EngineOptions,
     to: ResultOptions,
     law: Annotated[list[str] | None, options.laws(", ".join(DEFAULT_LAWS))] = None,
     through: Annotated[
@@ -66,6 +67,8 @@ def wall(
 
     * `ebac wall --law ebac --log ebac.mcap`: a log for PlotJuggler or Foxglove
 
+    * `ebac wall --world sphere --engine-rate 60 --engine-jitter 0.01`: a world that is computed 60 times a second
+
     * `ebac wall --through can`: over a CAN bus, with simulated drives
 
     * `ebac wall --format pdf --width single`: a figure for a journal's column
@@ -77,7 +80,7 @@ def wall(
     with output.refusing():
         names = setting.law_names(law or DEFAULT_LAWS)
         logs = wall_results.log_names(log, names, force=to.force)
-        chosen = options.scenario_of(setup)
+        chosen = options.scenario_of(setup, engine)
         _check_length(chosen)
         warning = ""
         if through is not None:
@@ -155,9 +158,14 @@ def _simulate(
     from ebac.simulation import simulate
 
     traces = []
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", UserWarning)  # the load of the bus has been reported
-        for name in names:
-            step(f"simulating {name}")
+    for name in names:
+        step(f"simulating {name}")
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always", UserWarning)
             traces.append(simulate(scenario, name, through=through))
+        for one in caught:
+            if "engine" in str(one.message):  # the load of the bus has been reported
+                output.console(stderr=True).print(
+                    f"Warning: {name}: {one.message}.", style="yellow"
+                )
     return traces
