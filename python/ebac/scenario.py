@@ -74,6 +74,22 @@ def foreign(environment: Any) -> ForeignWorld | None:
     return environment if isinstance(environment, ForeignWorld) else None
 
 
+def refuse_python(environment: Any) -> None:
+    """Refuse a world that calls Python in a tick, where ticks are in real time.
+
+    Raises
+    ------
+    ValueError
+        For a function; an engine has a thread of its own instead.
+    """
+    world = foreign(environment)
+    if world is not None and not world.in_real_time:
+        raise ValueError(
+            f"environment = {world!r}: calls Python in a tick, which cannot wait for it; give the world of a "
+            "worlds.EngineThread, which calls the function beside the loop"
+        )
+
+
 def _part_of(name: str) -> str:
     """Return where a parameter belongs that people look for in a scenario."""
     if name == "law":
@@ -198,6 +214,12 @@ class Scenario:
         refuse_unknown("Scenario", changes, _PARTS, _part_of)
         return dataclasses.replace(self, **changes)
 
+    @property
+    def has_text(self) -> bool:
+        """Whether it can be written to TOML: no hand, world or engine of your own."""
+        world = foreign(self.environment)
+        return not is_own(self.hand.model) and (world is None or world.has_text)
+
     def to_toml(self) -> str:
         """Return the scenario as TOML text, SI units throughout.
 
@@ -214,7 +236,8 @@ class Scenario:
                 "write the scenario with a model of ebac.hands, or none"
             )
 
-        if foreign(self.environment) is not None and not hasattr(self.environment, "as_dict"):
+        world = foreign(self.environment)
+        if world is not None and not world.has_text:
             raise ValueError(
                 f"Scenario.environment = {self.environment!r}: a function cannot be written to TOML; write the "
                 "scenario with a World, a wall, or a Bridge to a World"

@@ -5,6 +5,8 @@ from __future__ import annotations
 import pickle
 import time
 import warnings
+from collections.abc import Callable
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -13,6 +15,7 @@ from hypothesis import strategies as st
 
 import ebac
 from ebac import Scenario, worlds
+from ebac.hardware import Configuration, Run
 from ebac.worlds import (
     Bridge,
     BridgeParams,
@@ -241,3 +244,27 @@ def test_held_forces_shake_where_models_do_not() -> None:
     assert found[False].exact
     assert found[False].least_energy_J > -1e-6
     assert not found[True].quiet
+
+
+@pytest.mark.real_time
+def test_a_loop_in_real_time_takes_an_engine_in_a_thread_and_no_function(
+    until: Callable[[Run, Callable[[], bool]], None], tmp_path: Path
+) -> None:
+    known = Configuration.load(Path(__file__).parents[2] / "examples" / "joystick.toml")
+    patient = known.limits.replace(overruns=100_000, pause=100, force_age=10, jump=1.0, speed=100.0)
+    known = known.replace(silent=1000, limits=patient)
+    for slow in (FunctionWorld(spring), Bridge(plane)):
+        with pytest.raises(ValueError, match=r"calls Python in a tick.*EngineThread"):
+            known.replace(environment=slow)
+    gentle = BridgeParams(stale=10.0)
+    with (
+        EngineThread(plane, rate=60, rendering=gentle) as thread,
+        ebac.Device.open(known, simulate=True) as device,
+        device.start("ebac", thread.world, seconds=30, log=tmp_path / "run.mcap") as run,
+    ):
+        until(run, lambda: run.state is ebac.LoopState.RUN)
+        until(run, lambda: bool((run.trace()["f_env"] != 0).any()))
+        run.stop()
+    assert thread.world.report.models > 0
+    assert np.isfinite(run.finish()["f_env"]).all()
+    assert len(ebac.load(tmp_path / "run.mcap")) > 0

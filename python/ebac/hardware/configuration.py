@@ -20,7 +20,7 @@ from ebac.hardware.signs import Signs
 from ebac.hardware.tables import ConfigurationError
 from ebac.hardware.zero import Zero
 from ebac.laws import CoreLaw
-from ebac.scenario import Environment, Scenario
+from ebac.scenario import Environment, Scenario, refuse_python
 
 if TYPE_CHECKING:
     from ebac._core import TimedBus
@@ -126,9 +126,10 @@ class Configuration:
     simulated_bus: Mapping[str, Any] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
-        """Refuse an observer without a force."""
+        """Refuse an observer without a force, and a world that a tick cannot wait for."""
         if self.observer:
             needs_force(self.sensor)
+        refuse_python(self.environment)
 
     @classmethod
     def load(cls, path: str | Path) -> Self:

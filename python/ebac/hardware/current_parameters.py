@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from ebac._core import Recorded, Step, _World
 from ebac.hardware.parameter_updates import Note, ParameterUpdates
+from ebac.scenario import refuse_python
 
 if TYPE_CHECKING:
     from ebac import _core
@@ -53,6 +54,7 @@ class CurrentParameters:
     def change(self, environment: Environment | None, **changes: Any) -> Environment:
         """Send another world, or the present one with other numbers."""
         world = self.world if environment is None else environment
+        refuse_python(world)
         if changes:
             if isinstance(world, _World):
                 raise ValueError(

@@ -20,6 +20,7 @@ from ebac.hardware.interrupts import Interrupts, OfParent
 from ebac.hardware.live_status import LiveStatus
 from ebac.hardware.report import Report, lateness_of, remedy
 from ebac.logs.about import SIMULATED_DRIVES
+from ebac.scenario import foreign
 from ebac.trace import Trace
 
 if TYPE_CHECKING:
@@ -231,6 +232,9 @@ class Run(LiveStatus):
             if late := lateness_of(fault, trace):
                 error.add_note(f"the loop {late}; {remedy(fault)}")
             raise error
+        world = foreign(self._parameters.world)
+        if world is not None and (remark := world.remark()):
+            warnings.warn(remark, stacklevel=2)
         return trace
 
     def end(self) -> None:

@@ -101,7 +101,8 @@ class About:
     @property
     def attachments(self) -> dict[str, str]:
         """Text files inside the log by their names."""
-        own = {} if self.scenario is None else {SCENARIO_FILE: self.scenario.to_toml()}
+        scenario = self.scenario if self.scenario is None or self.scenario.has_text else None
+        own = {} if scenario is None else {SCENARIO_FILE: scenario.to_toml()}
         return {**own, **self.files}
 
     def __repr__(self) -> str:

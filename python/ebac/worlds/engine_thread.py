@@ -19,6 +19,8 @@ RATES = (1.0, 1000.0)
 class PostedWorld(ForeignWorld):
     """The world of an `EngineThread`: what the thread posted last, rendered in every tick."""
 
+    in_real_time = True
+
     def __init__(self, end: _core._EngineEnd, rendering: BridgeParams) -> None:
         super().__init__(end.world(rendering))
         self._end, self.rendering = end, rendering

@@ -18,6 +18,9 @@ Engine = Callable[[Floats, Floats], LocalModel | None]
 class ForeignWorld(_core._World):
     """A world that is not made of bodies: it is called in simulated time, and may fail."""
 
+    #: Whether a tick in real time may call it.
+    in_real_time = False
+
     def for_run(self) -> ForeignWorld:
         """Return the same world for one run, with errors and report of its own."""
         raise NotImplementedError
@@ -30,6 +33,11 @@ class ForeignWorld(_core._World):
     def error(self) -> BaseException | None:
         """The first error of the run, or None."""
         return None
+
+    @property
+    def has_text(self) -> bool:
+        """Whether it can be written to TOML."""
+        return self.ideal() is not None
 
     def remark(self) -> str:
         """Return what the run must say, empty if nothing."""
@@ -184,6 +192,7 @@ class Bridge(ForeignWorld):
         for name, kind in (("timing", EngineTiming), ("rendering", BridgeParams)):
             if not isinstance(value := getattr(self, name), kind):
                 raise TypeError(f"Bridge.{name} = {value!r}: must be {kind.__name__}(...)")
+        self.in_real_time = isinstance(engine, World)
         self._errors: list[BaseException] = []
         self._last: Bridge | None = None
         how = (self.timing, self.rendering, self.held)

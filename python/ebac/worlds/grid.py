@@ -122,15 +122,15 @@ class Surface:
         return d - 0.5 * self.thickness, out
 
 
-def needed(module: str, project: str) -> ModuleType:
-    """Import a module of the extra `worlds`."""
+def needed(module: str, project: str, *, what: str = "meshes", extra: str = "worlds") -> ModuleType:
+    """Import a module of an extra."""
     from importlib import import_module
 
     try:
         return import_module(module)
     except ImportError as error:
         raise ImportError(
-            f"meshes need {project}: pip install 'ebac[worlds]'", name=module
+            f"{what} need {project}: pip install 'ebac[{extra}]'", name=module
         ) from error
 
 
