@@ -20,11 +20,12 @@ TRUST = 0.3
 
 
 class MujocoEngine:
-    """An engine for `worlds.Bridge` or `worlds.EngineThread`: a mocap body follows the handle through a MuJoCo model.
+    """An engine for `Bridge` or `EngineThread`: a mocap body follows the handle through a MuJoCo model.
 
-    Each call moves the tip to the handle, simulates `period` and answers with a plane: across the force on the tip while
-    there is one, before that at the nearest rigid surface within `reach`; a soft one is not seen before it is touched. How stiff it is, is found by pressing a copy of the
-    simulation further by 0.2 mm. Friction is felt as a tilt of the plane.
+    Each call moves the tip to the handle, simulates `period` and answers with a plane: across the force on the tip
+    while there is one, before that at the nearest rigid surface within `reach`; a soft one is not seen before it is
+    touched. How stiff it is, is found by pressing a copy of the simulation further by 0.2 mm. Friction is felt as a
+    tilt of the plane.
 
     Parameters
     ----------
