@@ -14,6 +14,7 @@
 #include "ebac/sim/simulate.hpp"
 #include "ebac/simulated_drives/joystick.hpp"
 #include "ebac/simulated_drives/through_can.hpp"
+#include "ebac/world/engine/bridge.hpp"
 #include "ebac/world/make.hpp"
 #include "through_udp.hpp"
 
@@ -209,6 +210,18 @@ TEST(Realtime, AWorldOfBodiesDoesNotAllocate) {
   ebac::Setup setup = busy();
   setup.device.kinematics = Linear{.axes = 3};
   setup.environment = bodies();
+  EXPECT_EQ(allocations_of_loop<Ebac>(setup), 0);
+}
+
+TEST(Realtime, ABridgeToAnEngineDoesNotAllocate) {
+  const world::EngineTiming timing{.rate = 60, .compute = 0.01, .jitter = 0.01};
+  auto scene = std::get<External>(bodies()).world;
+  auto engine = std::make_unique<world::SceneEngine>(dynamic_cast<world::Scene&>(*scene));
+  ebac::Setup setup = busy();
+  setup.device.kinematics = Linear{.axes = 3};
+  setup.environment = External{make_scheduled(std::move(engine), timing, {}, false)};
+  EXPECT_EQ(allocations_of_loop<Ebac>(setup), 0);
+  setup.environment = External{make_posted(std::make_shared<world::EngineChannel>(), {})};
   EXPECT_EQ(allocations_of_loop<Ebac>(setup), 0);
 }
 
