@@ -6,8 +6,7 @@ Needs pip install 'ebac[mujoco]'.
 import numpy as np
 
 import ebac
-from ebac.worlds import Bridge, EngineTiming
-from ebac.worlds.mujoco import MujocoEngine
+from ebac.worlds import Bridge, EngineTiming, MujocoEngine
 
 RATE = 60.0  # Hz
 # A block of 6 x 6 x 6 cm, held at its back, and a ball of 3 cm that follows the handle.

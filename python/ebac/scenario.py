@@ -7,7 +7,7 @@ import warnings
 from dataclasses import dataclass, field
 from math import cos
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Final, Literal, Self, TypeAlias
+from typing import Any, Final, Literal, Self, TypeAlias
 
 from ebac._core import (
     Box,
@@ -30,12 +30,10 @@ from ebac._core import (
 )
 from ebac._util import serialisation
 from ebac._util.arguments import keywords_only, refuse_unknown
+from ebac._util.foreign_worlds import foreign
 from ebac._util.text_file import read_text
 from ebac._util.toml import parsed
 from ebac.hands import as_hand, is_own
-
-if TYPE_CHECKING:
-    from ebac.worlds.engines import ForeignWorld
 
 __all__ = [
     "Environment",
@@ -63,31 +61,6 @@ def as_environment(given: Any) -> Any:
     from ebac.worlds import World
 
     return given if isinstance(given, _World) else World(given)
-
-
-def foreign(environment: Any) -> ForeignWorld | None:
-    """Return a world of `ebac.worlds` that is no `World` of bodies, as such; None for anything else."""
-    if not isinstance(environment, _World):
-        return None
-    from ebac.worlds.engines import ForeignWorld
-
-    return environment if isinstance(environment, ForeignWorld) else None
-
-
-def refuse_python(environment: Any) -> None:
-    """Refuse a world that calls Python in a tick, where ticks are in real time.
-
-    Raises
-    ------
-    ValueError
-        For a function; an engine has a thread of its own instead.
-    """
-    world = foreign(environment)
-    if world is not None and not world.in_real_time:
-        raise ValueError(
-            f"environment = {world!r}: calls Python in a tick, which cannot wait for it; give the world of a "
-            "worlds.EngineThread, which calls the function beside the loop"
-        )
 
 
 def _part_of(name: str) -> str:
@@ -213,12 +186,6 @@ class Scenario:
         """Return a copy with some parts changed."""
         refuse_unknown("Scenario", changes, _PARTS, _part_of)
         return dataclasses.replace(self, **changes)
-
-    @property
-    def has_text(self) -> bool:
-        """Whether it can be written to TOML: no hand, world or engine of your own."""
-        world = foreign(self.environment)
-        return not is_own(self.hand.model) and (world is None or world.has_text)
 
     def to_toml(self) -> str:
         """Return the scenario as TOML text, SI units throughout.

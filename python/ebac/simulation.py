@@ -8,8 +8,9 @@ from typing import Any
 from ebac import _core
 from ebac._util.arguments import require
 from ebac._util.fault_remedies import REMEDIES
+from ebac._util.foreign_worlds import foreign
 from ebac.laws import AnyLaw, CoreLaw, design, law_name
-from ebac.scenario import Scenario, foreign
+from ebac.scenario import Scenario
 from ebac.trace import Trace
 
 __all__ = [

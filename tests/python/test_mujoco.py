@@ -8,11 +8,9 @@ import numpy as np
 import pytest
 
 import ebac
-from ebac.worlds import Bridge, EngineTiming
+from ebac.worlds import Bridge, EngineTiming, MujocoEngine
 
-mujoco = pytest.importorskip("mujoco")
-
-from ebac.worlds.mujoco import MujocoEngine  # noqa: E402
+pytest.importorskip("mujoco")
 
 #: A plate whose face lies 10 mm before a ball of 5 mm, on a spring.
 PLATE = """

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from ebac._core import Hand
     from ebac.scenario import Environment, Scenario
 
-WALL, HAND, DEVICE, RUN, ENGINE = "Wall", "Hand", "Device", "Run", "Engine"
+WALL, HAND, DEVICE, RUN = "Wall", "Hand", "Device", "Run"
 
 
 def option(*names: str, text: str, default: str | bool = False, panel: str, **more: Any) -> Any:
@@ -124,18 +124,6 @@ Delay: TypeAlias = Annotated[
 Jitter: TypeAlias = Annotated[
     float | None,
     option(text="Largest deviation of a tick, as a share of it", default="0", panel=RUN),
-]
-EngineJitter: TypeAlias = Annotated[
-    float | None,
-    option(
-        text="Its answers come later by up to so much at random [s]", default="0.01", panel=ENGINE
-    ),
-]
-EngineCompute: TypeAlias = Annotated[
-    float | None,
-    option(
-        text="From a call to its answer, at least [s]", default="one period of it", panel=ENGINE
-    ),
 ]
 Seed: TypeAlias = Annotated[
     int | None,
@@ -262,35 +250,6 @@ class ScenarioOptions(RunOptions, DeviceOptions, HandOptions, WallOptions):
     ] = None
     delay: Delay = None
     seed: Seed = None
-
-
-@dataclass(frozen=True, kw_only=True)
-class EngineOptions:
-    """An engine that computes the world, slower than the loop runs."""
-
-    engine_rate: Annotated[
-        float | None,
-        option(
-            text="Let an engine compute the world so many times a second [Hz]; the loop renders its local model",
-            default="every tick",
-            panel=ENGINE,
-        ),
-    ] = None
-    engine_jitter: Annotated[
-        float | None,
-        option(
-            text="Its answers come later by up to so much at random [s]", default="0", panel=ENGINE
-        ),
-    ] = None
-    engine_compute: EngineCompute = None
-    engine_held: Annotated[
-        bool,
-        typer.Option(
-            "--engine-held",
-            help="Hold its force until the next answer instead, as a bridge is not to do.",
-            rich_help_panel=ENGINE,
-        ),
-    ] = False
 
 
 def scenario_of(*groups: Any, seconds: float | None = None) -> Scenario:

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, Self
 
 from ebac._core import Device, Hand, Limits, Observer, RealTime, Timing, Wall
+from ebac._util.foreign_worlds import refuse_python
 from ebac._util.text_file import read_text
 from ebac._util.wrong_calls import plain_constructor
 from ebac.drives.errors import ProfileError
@@ -20,7 +21,7 @@ from ebac.hardware.signs import Signs
 from ebac.hardware.tables import ConfigurationError
 from ebac.hardware.zero import Zero
 from ebac.laws import CoreLaw
-from ebac.scenario import Environment, Scenario, refuse_python
+from ebac.scenario import Environment, Scenario
 
 if TYPE_CHECKING:
     from ebac._core import TimedBus

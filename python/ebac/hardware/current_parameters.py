@@ -6,8 +6,8 @@ from math import nan
 from typing import TYPE_CHECKING, Any
 
 from ebac._core import Recorded, Step, _World
+from ebac._util.foreign_worlds import refuse_python
 from ebac.hardware.parameter_updates import Note, ParameterUpdates
-from ebac.scenario import refuse_python
 
 if TYPE_CHECKING:
     from ebac import _core

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 from ebac import _core
 from ebac._util.exception_notes import noted_on
+from ebac._util.foreign_worlds import foreign
 from ebac._util.wrong_calls import plain_constructor
 from ebac.drives.errors import DriveError
 from ebac.hardware.current_parameters import CurrentParameters
@@ -20,7 +21,6 @@ from ebac.hardware.interrupts import Interrupts, OfParent
 from ebac.hardware.live_status import LiveStatus
 from ebac.hardware.report import Report, lateness_of, remedy
 from ebac.logs.about import SIMULATED_DRIVES
-from ebac.scenario import foreign
 from ebac.trace import Trace
 
 if TYPE_CHECKING:

@@ -10,6 +10,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from ebac._util.foreign_worlds import foreign
 from ebac._util.wrong_calls import plain_constructor
 from ebac.scenario import Scenario
 
@@ -101,8 +102,9 @@ class About:
     @property
     def attachments(self) -> dict[str, str]:
         """Text files inside the log by their names."""
-        scenario = self.scenario if self.scenario is None or self.scenario.has_text else None
-        own = {} if scenario is None else {SCENARIO_FILE: scenario.to_toml()}
+        world = None if self.scenario is None else foreign(self.scenario.environment)
+        no_text = self.scenario is None or (world is not None and not world.has_text)
+        own = {} if self.scenario is None or no_text else {SCENARIO_FILE: self.scenario.to_toml()}
         return {**own, **self.files}
 
     def __repr__(self) -> str:

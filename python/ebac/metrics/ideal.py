@@ -8,7 +8,8 @@ import numpy as np
 
 from ebac._core import Free, Hand, Linear, MinimumJerk, Recorded, Step, Wall, _World
 from ebac._util.arguments import require
-from ebac.scenario import Scenario, foreign
+from ebac._util.foreign_worlds import foreign
+from ebac.scenario import Scenario
 
 if TYPE_CHECKING:
     from ebac.metrics.world_rest import Rest

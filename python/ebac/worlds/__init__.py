@@ -27,6 +27,7 @@ from ebac.worlds.answers import LocalModel
 from ebac.worlds.engine_thread import EngineThread
 from ebac.worlds.engines import Bridge, BridgeReport, FunctionWorld
 from ebac.worlds.mesh import GridError, HeightField, Mesh
+from ebac.worlds.mujoco import MujocoEngine
 from ebac.worlds.presets import PRESETS, WorldPreset, preset
 from ebac.worlds.solids import (
     Cavity,
@@ -63,6 +64,7 @@ __all__ = [
     "Layered",
     "LocalModel",
     "Mesh",
+    "MujocoEngine",
     "Placed",
     "Plane",
     "Sphere",

@@ -24,7 +24,7 @@ class MujocoEngine:
 
     Each call moves the tip to the handle, simulates `period` and answers with a plane: across the force on the tip
     while there is one, before that at the nearest rigid surface within `reach`; a soft one is not seen before it is
-    touched. How stiff it is, is found by pressing a copy of the simulation further by 0.2 mm. Friction is felt as a
+    touched. How stiff it is, is found by pressing a copy of the simulation further by 0.2 mm. Friction acts as a
     tilt of the plane.
 
     Parameters

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ebac.cli import options, output, setting
+from ebac.cli import engine_options, options, output, setting
 from ebac.cli.files import ResultOptions
 
 if TYPE_CHECKING:
@@ -26,11 +26,11 @@ def engines(
         options.option(
             text="Calls of the engine per second [Hz]; repeat it for several",
             default="60, 500",
-            panel=options.ENGINE,
+            panel=engine_options.ENGINE,
         ),
     ] = None,
-    engine_jitter: options.EngineJitter = None,
-    engine_compute: options.EngineCompute = None,
+    engine_jitter: engine_options.EngineJitter = None,
+    engine_compute: engine_options.EngineCompute = None,
     as_json: output.AsJson = False,
 ) -> None:
     """Compare laws before an engine that is slower than the loop.

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ebac.cli import options, output, setting
+from ebac.cli import engine_options, options, output, setting
 from ebac.cli.files import PANEL, ResultOptions
 from ebac.cli.wall import results as wall_results
 
@@ -24,7 +24,7 @@ TICKS = (10, 2_000_000)
 
 def wall(
     setup: options.ScenarioOptions,
-    engine: options.EngineOptions,
+    engine: engine_options.EngineOptions,
     to: ResultOptions,
     law: Annotated[list[str] | None, options.laws(", ".join(DEFAULT_LAWS))] = None,
     through: Annotated[

@@ -11,11 +11,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ebac._core import Fault, RunLimits, SweepProgress
+from ebac._util.foreign_worlds import foreign
 from ebac.hands import is_own
 from ebac.laws import CoreLaw, PythonLaw
 from ebac.metrics import FEWEST_ROWS, allowed_deviation, contact, ideal_rest
 from ebac.metrics.wall_contact import COLUMNS, FLAGS
-from ebac.scenario import Scenario, foreign
+from ebac.scenario import Scenario
 from ebac.simulation import LoopFault, simulate
 from ebac.trace import Trace
 
