@@ -291,6 +291,9 @@ from ebac.studies import (
     Condition as Condition,
 )
 from ebac.studies import (
+    Engines as Engines,
+)
+from ebac.studies import (
     Study as Study,
 )
 from ebac.studies import (
@@ -307,6 +310,9 @@ from ebac.studies import (
 )
 from ebac.studies import (
     ablation as ablation,
+)
+from ebac.studies import (
+    engines as engines,
 )
 from ebac.studies import (
     study as study,
