@@ -78,7 +78,7 @@ RULES = (
         "takes half a minute",
     ),
     # What takes more than some seconds of one core: with fewer hands, points or cases it does all that a page shows.
-    Rule(r"^ebac (study|ablation)\b", SLOW, "takes seconds", fewer="--population random --hands 3"),
+    Rule(r"^ebac (study|ablation)\b", SLOW, "takes seconds", fewer="--population random --hands 2"),
     Rule(r"^ebac tune\b", SLOW, "takes seconds", fewer="--hands 3 --evaluations 4"),
     Rule(
         r"^ebac worst (?=.*--device-noise)(?!.*--family)",
@@ -87,18 +87,23 @@ RULES = (
         fewer="--evaluations 40 --family swinging",
     ),
     Rule(r"^ebac worst\b", SLOW, "takes seconds", fewer="--evaluations 40"),
-    Rule(r"^ebac zwidth\b", SLOW, "takes seconds", fewer="--points 2"),
+    Rule(r"^ebac zwidth\b", SLOW, "takes seconds", fewer="--points 2 --seconds 1"),
     Rule(r"^ebac map\b", SLOW, "takes seconds", fewer="--side 8"),
     Rule(r"^ebac faults\b", SLOW, "takes seconds", fewer="--cases 5"),
     Rule(r"^ebac track --simulated", SLOW, "takes seconds", fewer="--runs 4"),
     Rule(r"^ebac jitter\b", SLOW, "takes seconds", fewer="--seconds 1"),
+    Rule(r"^ebac run\b(?!.*--at)", SLOW, "takes its time", fewer="--seconds 3"),
     Rule(r"^ebac (paper|doctor|run)\b", SLOW, "takes seconds"),
     Rule(
-        r"^ebac wall.*(--law all|--format)|^ebac identify gains|--through can",
+        r"^ebac wall.*(--law all|--format)|--through can",
         SLOW,
         "takes seconds",
+        fewer="--seconds 2",
     ),
+    Rule(r"^ebac identify gains", SLOW, "takes seconds"),
 )
+#: A block of Python is run with three hands of the 60.
+FEWER_HANDS = ("Operators.grid()", "Operators.grid()[::20]")
 
 
 def rule(command: str) -> Rule | None:
@@ -110,6 +115,6 @@ def as_run(command: str) -> str:
     """Return a command as a test runs it."""
     known = rule(command)
     if known is None or not known.fewer:
-        return command
+        return command.replace(*FEWER_HANDS)
     words, rest = re.fullmatch(r"([^|&;<>]*)(.*)", command, re.S).groups()  # type: ignore[union-attr]
     return f"{words.rstrip()} {known.fewer} {rest}".rstrip()

@@ -30,12 +30,11 @@ def test_a_program_that_leaves_its_bus_open_ends_in_silence(reader: str) -> None
             "bus = can.Bus(interface='ebac', channel='joystick')\n"
             f"{_READERS[reader]}\ntime.sleep(0.02)\n{end}\n"
         )
-        for _ in range(2):
-            ended = subprocess.run(
-                [sys.executable, "-c", program], capture_output=True, text=True, timeout=60
-            )
-            assert (ended.returncode, ended.stdout) == (code, "")
-            assert ended.stderr.strip() == ("over" if code == 1 else "")
+        ended = subprocess.run(
+            [sys.executable, "-c", program], capture_output=True, text=True, timeout=60
+        )
+        assert (ended.returncode, ended.stdout) == (code, "")
+        assert ended.stderr.strip() == ("over" if code == 1 else "")
 
 
 def test_a_bus_can_be_shut_down_after_all_was_left() -> None:

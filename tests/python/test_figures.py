@@ -35,7 +35,7 @@ from ebac.plot import (
 )
 from ebac.plot.save import balanced, fitted, millimetres
 from ebac.plot.style import BETTER, QUANTITIES, SAME, WORSE
-from ebac.studies import ablation, study, worst
+from ebac.studies import MEASURES, ablation, study, worst
 from ebac.studies.maps import stability_map
 from ebac.studies.zwidth import zwidth
 from ebac.tracking import RecordedPath, error_budget, evaluate
@@ -233,7 +233,7 @@ def test_every_study_has_a_title_that_says_simulated() -> None:
     base = ebac.Scenario(seconds=1.0)
     found = [
         *(figure for _, figure in plot_study(study(few, ["tca", "ebac"], ["d1K10"], base=base))),
-        plot_ablation(ablation(few, base=base)),
+        plot_ablation(ablation(few, base=base, measures=MEASURES[:2])),
         plot_sweep(ebac.sweep([base], ["tca", "ebac"])),
         plot_map(stability_map("ebac", base=base, xs=[0, 5, 9], ys=[1e3, 2e3, 1e4])),
         plot_zwidth(zwidth(base, ["tca", "ebac"], delays=[1], dampings=[0.0, 5.0])),

@@ -99,7 +99,7 @@ def test_a_circle_without_noise_is_found_exactly(
 
 @pytest.mark.parametrize("shape", FITS)
 @pytest.mark.parametrize("robust", [False, True])
-@settings(max_examples=15)
+@settings(max_examples=8)
 @given(seed=seeds, angle=angles, place=places, scale=scales)
 def test_a_fit_moves_turns_and_grows_with_its_points(
     shape: str, robust: bool, seed: int, angle: float, place: tuple[float, float], scale: float

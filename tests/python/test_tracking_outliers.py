@@ -94,7 +94,7 @@ def test_outliers_that_once_counted_are_left_out(seed: int) -> None:
 
 
 @by_shape
-@settings(max_examples=20)
+@settings(max_examples=10)
 @given(seed=seeds, share=st.floats(0.02, 0.45))
 def test_a_robust_fit_leaves_outliers_out(shape: str, seed: int, share: float) -> None:
     random = np.random.default_rng(seed)
@@ -106,7 +106,7 @@ def test_a_robust_fit_leaves_outliers_out(shape: str, seed: int, share: float) -
         assert FITS[shape](points).deviation.sd_m > 20 * SD
 
 
-@settings(max_examples=15)
+@settings(max_examples=8)
 @given(seed=seeds, share=st.floats(0.02, 0.45), arc=st.floats(math.pi / 3, 2 * math.pi))
 def test_an_arc_of_60_degrees_is_enough(seed: int, share: float, arc: float) -> None:
     random = np.random.default_rng(seed)
@@ -117,7 +117,7 @@ def test_an_arc_of_60_degrees_is_enough(seed: int, share: float, arc: float) -> 
 
 
 @by_shape
-@settings(max_examples=15)
+@settings(max_examples=8)
 @given(seed=seeds, share=st.floats(0.1, 0.45), place=st.floats(5e-3, 0.02))
 def test_outliers_may_lie_together(shape: str, seed: int, share: float, place: float) -> None:
     random = np.random.default_rng(seed)
@@ -129,7 +129,7 @@ def test_outliers_may_lie_together(shape: str, seed: int, share: float, place: f
 
 
 @by_shape
-@settings(max_examples=15)
+@settings(max_examples=8)
 @given(seed=seeds, share=st.floats(0.02, 0.15))
 def test_outliers_may_lie_near(shape: str, seed: int, share: float) -> None:
     """Five to ten standard deviations away, on both sides; with 25 % of them 2 circles in 100 are missed."""
@@ -141,7 +141,7 @@ def test_outliers_may_lie_near(shape: str, seed: int, share: float) -> None:
 
 
 @by_shape
-@settings(max_examples=15)
+@settings(max_examples=8)
 @given(seed=seeds, share=st.floats(0, 0.35))
 def test_twelve_points_are_enough(shape: str, seed: int, share: float) -> None:
     """Four outliers of twelve leave five degrees of freedom."""
@@ -155,7 +155,7 @@ def test_twelve_points_are_enough(shape: str, seed: int, share: float) -> None:
 
 
 @by_shape
-@settings(max_examples=20)
+@settings(max_examples=10)
 @given(seed=seeds, n=st.integers(60, 300))
 def test_without_outliers_a_robust_fit_is_the_plain_one(shape: str, seed: int, n: int) -> None:
     """To the bit where it counts all points; otherwise few are missing."""
@@ -169,7 +169,7 @@ def test_without_outliers_a_robust_fit_is_the_plain_one(shape: str, seed: int, n
     assert robust.residuals == pytest.approx(plain.residuals, abs=SD)
 
 
-@settings(max_examples=15)
+@settings(max_examples=8)
 @given(seed=seeds, share=st.floats(0.02, 0.45))
 def test_in_space_outliers_may_lie_off_the_plane(seed: int, share: float) -> None:
     random = np.random.default_rng(seed)
@@ -224,7 +224,7 @@ def test_the_cut_is_a_quantile_of_students_t(freedom: int) -> None:
 
 
 @by_shape
-@settings(max_examples=15)
+@settings(max_examples=8)
 @given(seed=seeds, share=st.floats(0.02, 0.35))
 def test_a_rest_is_one_place(shape: str, seed: int, share: float) -> None:
     """A recording that starts long before the motion: two thirds of its rows are the same."""
