@@ -92,7 +92,7 @@ DeviceModel make_device(const py::args& args, const py::kwargs& keywords) {
   const auto take = [&](const char* name, auto& part, const char* kind) {
     take_part(given, "Device", name, part, kind);
   };
-  take("kinematics", device.kinematics, "Linear or Gimbal");
+  take("kinematics", device.kinematics, "Linear, Gimbal or SlidingGimbal");
   take("motor", device.motor, "a Motor");
   take("drive", device.drive, "a Drive");
   take("encoder", device.encoder, "an Encoder");
@@ -112,6 +112,12 @@ Values device_dict(const DeviceModel& d) {
                   "encoder"_a = d.encoder, "capstan"_a = d.capstan, "mechanics"_a = d.mechanics,
                   "sensor"_a = d.sensor, "velocity"_a = d.velocity,
                   "compensation"_a = d.compensation);
+}
+
+/// A property of its first axis.
+template <double (DeviceModel::*Of)(int) const EBAC_RT>
+double first_axis(const DeviceModel& device) {
+  return (device.*Of)(0);
 }
 
 /// The way from the model of a device to the device itself, which Python opens.
@@ -134,7 +140,8 @@ void bind_device(py::module_& m) {
       "One haptic device, part by part. The default is the reference device: one straight axis of "
       "0.25 kg and\n2 N s/m, built from the paper's motor, encoder and capstan.");
   def_init(cls, &make_device,
-           "__init__(self, *, kinematics: Linear | Gimbal = ..., motor: Motor = ..., drive: Drive "
+           "__init__(self, *, kinematics: Linear | Gimbal | SlidingGimbal = ..., motor: Motor = "
+           "..., drive: Drive "
            "= ..., encoder: Encoder = ..., capstan: Capstan = ..., mechanics: Mechanics = ..., "
            "sensor: ForceSensor = ..., velocity: BackwardDifference | LowPass | AdaptiveWindow = "
            "..., compensation: Compensation = ...) -> None");
@@ -149,16 +156,21 @@ void bind_device(py::module_& m) {
       .def_readonly("compensation", &DeviceModel::compensation, "Static compensation of eq. (2).")
       .def_property_readonly("axes", &DeviceModel::axes, "Number of axes.")
       .def_property_readonly("radius", &DeviceModel::radius, "Lever radius [m].")
-      .def_property_readonly("count", &DeviceModel::count, "One encoder count at the handle [m].")
-      .def_property_readonly("mass", &DeviceModel::mass, "Mass at the handle, M_h [kg].")
-      .def_property_readonly("reflected_mass", &DeviceModel::reflected_mass,
+      .def_property_readonly("count", first_axis<&DeviceModel::count>,
+                             "One encoder count at the handle [m]; this and the next four: in the "
+                             "middle, on the first axis.")
+      .def_property_readonly("mass", first_axis<&DeviceModel::mass>,
+                             "Mass at the handle, M_h [kg].")
+      .def_property_readonly("reflected_mass", first_axis<&DeviceModel::reflected_mass>,
                              "Rotor's part of the mass [kg].")
-      .def_property_readonly("continuous_force", &DeviceModel::continuous_force,
+      .def_property_readonly("continuous_force", first_axis<&DeviceModel::continuous_force>,
                              "Force at rated torque [N].")
-      .def_property_readonly("peak_force", &DeviceModel::peak_force, "Largest force [N].")
+      .def_property_readonly("peak_force", first_axis<&DeviceModel::peak_force>,
+                             "Largest force [N].")
       .def_property_readonly("facts", &DeviceModel::facts, "Facts from which laws are designed.")
-      .def("force", &DeviceModel::force, py::arg("current"),
-           "Return the handle force [N] of a current [A].")
+      .def(
+          "force", [](const DeviceModel& d, double current) { return d.force(current); },
+          py::arg("current"), "Return the handle force [N] of a current [A].")
       .def("as_dict", &device_dict, "Return the parts by name.");
   add_value_methods(cls);
   std::vector<std::pair<std::string, py::object>> parts;

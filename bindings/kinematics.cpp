@@ -13,6 +13,12 @@ template <class K>
 void add_kinematics(py::class_<K>& cls) {
   cls.def_property_readonly(
          "axes", [](const K& k) { return ebac::axes(k); }, "Number of axes.")
+      .def_property_readonly(
+          "travel", [](const K& k) -> Eigen::VectorXd { return k.travel().head(ebac::axes(k)); },
+          "Way of the handle per angle of each joint, in the middle [m], shape (axes,).")
+      .def_property_readonly(
+          "stops", [](const K& k) -> Eigen::VectorXd { return k.stops().head(ebac::axes(k)); },
+          "Largest angle of each joint either way [rad], shape (axes,).")
       .def(
           "forward",
           [](const K& k, const std::vector<double>& q) -> Eigen::VectorXd {
@@ -61,6 +67,14 @@ void bind_kinematics(py::module_& m) {
                           "The paper's joystick: a lever of radius R on two crossed axes.\n\nx = R "
                           "sin q1 cos q2, y = R sin q2, z = R cos q1 cos q2.");
   add_kinematics(gimbal);
+  auto sliding = bind_fields<SlidingGimbal>(
+      m, "SlidingGimbal",
+      "Three axes: the gimbal, whose lever slides through its joints.\n\nThe drum of the slide is "
+      "the "
+      "third joint: the lever is R + slide_radius q3 long. x and y as of a Gimbal; z is "
+      "the\nheight "
+      "of the handle above where it rests, R' cos q1 cos q2 - R with that length R'.");
+  add_kinematics(sliding);
   gimbal.def(
       "height",
       [](const Gimbal& k, const std::vector<double>& q) {

@@ -203,6 +203,9 @@ from ebac._core import (
     Sine as Sine,
 )
 from ebac._core import (
+    SlidingGimbal as SlidingGimbal,
+)
+from ebac._core import (
     Step as Step,
 )
 from ebac._core import (

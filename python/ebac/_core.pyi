@@ -111,6 +111,7 @@ __all__: list[str] = [
     "SimulatedDrive",
     "SimulatedWire",
     "Sine",
+    "SlidingGimbal",
     "SocketCan",
     "SocketCanJoystick",
     "Sphere",
@@ -896,6 +897,16 @@ class Linear:
         """
         lever radius: travel per joint angle [m], 1e-04 to 10
         """
+    @property
+    def stops(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
+        """
+        Largest angle of each joint either way [rad], shape (axes,).
+        """
+    @property
+    def travel(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
+        """
+        Way of the handle per angle of each joint, in the middle [m], shape (axes,).
+        """
 
 class Gimbal:
     """
@@ -980,6 +991,16 @@ class Gimbal:
     def radius(self) -> float:
         """
         lever radius (paper, IV.A) [m], 1e-04 to 10
+        """
+    @property
+    def stops(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
+        """
+        Largest angle of each joint either way [rad], shape (axes,).
+        """
+    @property
+    def travel(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
+        """
+        Way of the handle per angle of each joint, in the middle [m], shape (axes,).
         """
 
 class Motor:
@@ -1623,7 +1644,7 @@ class Device:
     def __init__(
         self,
         *,
-        kinematics: Linear | Gimbal = ...,
+        kinematics: Linear | Gimbal | SlidingGimbal = ...,
         motor: Motor = ...,
         drive: Drive = ...,
         encoder: Encoder = ...,
@@ -1670,7 +1691,7 @@ class Device:
     @property
     def count(self) -> float:
         """
-        One encoder count at the handle [m].
+        One encoder count at the handle [m]; this and the next four: in the middle, on the first axis.
         """
     @property
     def drive(self) -> Drive:
@@ -1688,7 +1709,7 @@ class Device:
         Facts from which laws are designed.
         """
     @property
-    def kinematics(self) -> Linear | Gimbal:
+    def kinematics(self) -> Linear | Gimbal | SlidingGimbal:
         """
         Joints to handle.
         """
@@ -1879,6 +1900,117 @@ class Sine:
     def phase(self) -> float:
         """
         angle at time zero [rad], -10 to 10
+        """
+
+class SlidingGimbal:
+    """
+    Three axes: the gimbal, whose lever slides through its joints.
+
+    The drum of the slide is the third joint: the lever is R + slide_radius q3 long. x and y as of a Gimbal; z is the
+    height of the handle above where it rests, R' cos q1 cos q2 - R with that length R'.
+
+    Parameters
+    ----------
+    radius : float
+        lever radius with the slide in its middle [m], 1e-04 to 10.
+    limit : float
+        largest angle of the first two joints either way [rad], 0.001 to 1.5.
+    slide_radius : float
+        way of the slide per angle of its joint, the third; half to twice the lever radius [m], 1e-04 to 10.
+    slide_limit : float
+        largest way of the slide either way, at most half of the lever radius [m], 1e-04 to 5.
+    """
+    @staticmethod
+    def fields() -> list[Field]:
+        """
+        Return name, unit, meaning, default and range of every parameter.
+        """
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __init__(
+        self,
+        *,
+        radius: float = 0.1,
+        limit: float = 0.5235987755982988,
+        slide_radius: float = 0.1,
+        slide_limit: float = 0.04,
+    ) -> None: ...
+    def __reduce__(self) -> tuple[typing.Any, ...]: ...
+    def __repr__(self) -> str: ...
+    def as_dict(self) -> dict[str, typing.Any]:
+        """
+        Return the parameters by name.
+        """
+    def forward(
+        self, q: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex]
+    ) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
+        """
+        Return the handle position [m] at joint angles q [rad], shape (axes,).
+        """
+    def inverse(
+        self, x: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex]
+    ) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
+        """
+        Return the joint angles [rad] at handle position x [m], shape (axes,).
+        """
+    def jacobian(
+        self, q: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex]
+    ) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]:
+        """
+        Return the Jacobian dx/dq [m/rad] at q [rad], shape (axes, axes).
+        """
+    def replace(self, **changes: typing.Any) -> typing.Self:
+        """
+        Return a copy with some parameters changed, checked as at construction.
+        """
+    def transpose(
+        self,
+        q: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex],
+        f: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex],
+    ) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
+        """
+        Return the joint torques J^T f [N m] of a handle force f [N].
+        """
+    def within_limits(
+        self, q: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex]
+    ) -> bool:
+        """
+        Return whether every joint is within its limit.
+        """
+    @property
+    def axes(self) -> int:
+        """
+        Number of axes.
+        """
+    @property
+    def limit(self) -> float:
+        """
+        largest angle of the first two joints either way [rad], 0.001 to 1.5
+        """
+    @property
+    def radius(self) -> float:
+        """
+        lever radius with the slide in its middle [m], 1e-04 to 10
+        """
+    @property
+    def slide_limit(self) -> float:
+        """
+        largest way of the slide either way, at most half of the lever radius [m], 1e-04 to 5
+        """
+    @property
+    def slide_radius(self) -> float:
+        """
+        way of the slide per angle of its joint, the third; half to twice the lever radius [m], 1e-04 to 10
+        """
+    @property
+    def stops(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
+        """
+        Largest angle of each joint either way [rad], shape (axes,).
+        """
+    @property
+    def travel(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
+        """
+        Way of the handle per angle of each joint, in the middle [m], shape (axes,).
         """
 
 class Tapping:
@@ -7189,13 +7321,13 @@ class Limits:
     jump : float
         a longer way in one tick is an encoder's fault [m], 1e-06 to 1.
     edge : float
-        way from the middle at which a soft wall begins [m], 0.001 to 10.
+        way from the middle at which a soft wall begins; on a slide less by the way that its stops are closer [m], 0.001 to 10.
     edge_stiffness : float
         stiffness of that wall [N/m], 0 to 1e+05.
     edge_damping : float
         damping of that wall [N s/m], 0 to 500.
     end : float
-        way from the middle that is a fault [m], 0.001 to 10.
+        way from the middle that is a fault; on a slide as edge [m], 0.001 to 10.
     force_age : float
         an older force is a fault [s], 1e-04 to 10.
     watch_force : bool
@@ -7263,7 +7395,7 @@ class Limits:
     @property
     def edge(self) -> float:
         """
-        way from the middle at which a soft wall begins [m], 0.001 to 10
+        way from the middle at which a soft wall begins; on a slide less by the way that its stops are closer [m], 0.001 to 10
         """
     @property
     def edge_damping(self) -> float:
@@ -7278,7 +7410,7 @@ class Limits:
     @property
     def end(self) -> float:
         """
-        way from the middle that is a fault [m], 0.001 to 10
+        way from the middle that is a fault; on a slide as edge [m], 0.001 to 10
         """
     @property
     def force_age(self) -> float:
@@ -7671,7 +7803,7 @@ def _simulate_python(
 def _solid(arg0: Plane | Sphere | Box | Cylinder | Capsule | Torus) -> _Solid: ...
 def _stored_energy(
     environment: Free | Wall | Corner | Disc | _World,
-    kinematics: Linear | Gimbal,
+    kinematics: Linear | Gimbal | SlidingGimbal,
     x: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
     t: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
 ) -> numpy.typing.NDArray[numpy.float64]: ...

@@ -14,6 +14,7 @@ from ebac._core import (
     Mechanics,
     NonlinearGrip,
     Reflex,
+    SlidingGimbal,
     Step,
 )
 from ebac._util.arguments import unknown_name
@@ -120,6 +121,14 @@ DEVICES: dict[str, DevicePreset] = {
             mechanics=Mechanics(handle_mass=0.114, damping=2.0, gravity=9.81),
         ),
         source="the paper's 2-DOF joystick: R = 100 mm, +-30 deg, eq. (11); masses as the reference",
+    ),
+    "joystick-3": DevicePreset(
+        device=Device(
+            kinematics=SlidingGimbal(radius=0.1, limit=pi / 6, slide_radius=0.1, slide_limit=0.04),
+            mechanics=Mechanics(handle_mass=0.114, damping=2.0),
+        ),
+        source="the paper's joystick with a lever that slides +-40 mm, its outlook to three axes: this project's "
+        "design, nothing like it was built; the third drive is as the first two, springs carry the weight",
     ),
 }
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import asdict, dataclass
 from math import pi, sin
 
-from ebac._core import Device
+from ebac._core import Device, SlidingGimbal
 from ebac._util.arguments import require
 
 __all__ = [
@@ -83,4 +83,29 @@ def spec_sheet(device: Device) -> list[Spec]:
              how="B_h of eq. (6)"),
         Spec(name="Coulomb friction", value=device.mechanics.coulomb, unit="N", paper=None,
              how="not given in the paper"),
+        *_of_the_slide(device),
     ]  # fmt: skip
+
+
+def _of_the_slide(device: Device) -> list[Spec]:
+    """Compute what is other on a third axis; none of it is in the paper."""
+    lever = device.kinematics
+    if not isinstance(lever, SlidingGimbal):
+        return []
+    ratio = lever.slide_radius / lever.radius
+    facts, handle = device.facts, device.mechanics.handle_mass
+
+    def spec(name: str, value: float, unit: str, how: str) -> Spec:
+        return Spec(name=name, value=value, unit=unit, paper=None, how=how)
+
+    return [
+        spec("slide, travel", 2 * lever.slide_limit, "m", "2 slide_limit"),
+        spec("slide, resolution", device.count * ratio, "m", "the drum's count times slide_radius"),
+        spec(
+            "slide, continuous force", device.continuous_force / ratio, "N", "through slide_radius"
+        ),
+        spec("slide, peak force", device.peak_force / ratio, "N", "through slide_radius"),
+        spec("slide, mass", handle + device.reflected_mass / ratio**2, "kg", "handle plus rotor"),
+        spec("worst resolution", facts.count, "m", "of all axes, with the longest lever"),
+        spec("least peak force", facts.peak_force, "N", "of all axes, with the longest lever"),
+    ]

@@ -115,6 +115,25 @@ TEST(SteppedPlant, FreeGimbalRunsAlongAGreatCircle) {
   EXPECT_GT(joints(device, plant).head(2).cwiseAbs().minCoeff(), 0.25);
 }
 
+/// A free point in space runs along a straight line at constant speed, whatever the joints do.
+TEST(SteppedPlant, FreeSlidingGimbalRunsStraight) {
+  DeviceModel device = frictionless_gimbal();
+  device.kinematics = SlidingGimbal{.slide_radius = 0.06};
+  device.motor.rotor_inertia = 0;
+  SteppedPlant plant(device, {.mass = 0, .damping = 0, .stiffness = 0}, kTick);
+  for (int k = 0; k < 10; ++k) plant.advance({-0.3, 0.2, 0.15}, k * kTick, kQuanta);
+  const auto all = [&](double AxisTruth::* member) {
+    return Axes{plant.truth(0).*member, plant.truth(1).*member, plant.truth(2).*member};
+  };
+  const Axes from = all(&AxisTruth::x), v = all(&AxisTruth::v);
+  EXPECT_GT(v.cwiseAbs().minCoeff(), 0.05);
+  for (int k = 0; k < 100; ++k) {
+    plant.advance(Axes::Zero(), (10 + k) * kTick, kQuanta);
+    const Axes expected = from + (k + 1) * kTick * v;
+    ASSERT_LT((all(&AxisTruth::x) - expected).norm(), 1e-9) << "tick " << k;
+  }
+}
+
 TEST(SteppedPlant, GimbalIsLinearForSmallAngles) {
   DeviceModel straight;
   straight.kinematics = Linear{.axes = 2};

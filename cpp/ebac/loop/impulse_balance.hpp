@@ -20,18 +20,20 @@ struct BalanceFacts {
   double dt = 1e-3;        // s
 
   /// `unexplained` [N] is what the model of the device does not know; `dt` is the sample time [s].
-  static BalanceFacts of(const DeviceModel& device, double unexplained, double dt) {
+  static BalanceFacts of(const DeviceModel& device, double unexplained, double dt, int axis = 0) {
     const Mechanics& mechanics = device.mechanics;
     const double known = std::max(mechanics.coulomb, mechanics.breakaway) +
-                         device.mass() * std::abs(mechanics.gravity);
-    return {.mass = device.mass(),
+                         device.mass(axis) * std::abs(mechanics.gravity);
+    return {.mass = device.mass(axis),
             .damping = mechanics.damping,
-            .count = device.count(),
+            .count = device.facts().count,
             .lag = device.sensor.lag + device.drive.current_lag,
             .unexplained = unexplained + known,
             .dt = dt};
   }
 };
+
+using AllBalanceFacts = std::array<BalanceFacts, kMaxAxes>;
 
 /// Newton's law over the last `2 ticks`: the second difference of the position over n ticks, times
 /// the mass, against the forces under the triangle that belongs to it,

@@ -28,7 +28,7 @@ struct ObserverParams {
   static ObserverParams of(const DeviceModel& device, const Timing& timing) EBAC_RT {
     return {.mass = device.mass(),
             .damping = device.mechanics.damping,
-            .count = device.count(),
+            .count = device.facts().count,
             .current_lag = device.drive.current_lag,
             .force_lag = device.sensor.lag,
             .force_noise = std::max(kLeastNoise, device.sensor.noise),

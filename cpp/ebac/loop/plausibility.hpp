@@ -19,13 +19,18 @@ namespace ebac {
 class Plausibility {
  public:
   Plausibility() = default;
-  explicit Plausibility(const BalanceFacts& facts) : dt_(facts.dt) {
-    const auto over = [&facts](double seconds) {
-      const int ticks = static_cast<int>(std::lround(seconds / facts.dt));
-      return ImpulseBalance(facts, std::clamp(ticks, 4, ImpulseBalance::kMostTicks));
-    };
-    axis_.fill({.slow = over(kSlow), .quick = over(kQuick)});
+  explicit Plausibility(const AllBalanceFacts& facts) : dt_(facts[0].dt) {
+    for (std::size_t i = 0; i < facts.size(); ++i) {
+      const auto over = [this, &of = facts[i]](double seconds) {
+        const int ticks = static_cast<int>(std::lround(seconds / dt_));
+        return ImpulseBalance(of, std::clamp(ticks, 4, ImpulseBalance::kMostTicks));
+      };
+      axis_[i] = {.slow = over(kSlow), .quick = over(kQuick)};
+    }
   }
+  /// Of axes that are all alike.
+  explicit Plausibility(const BalanceFacts& facts)
+      : Plausibility(AllBalanceFacts{facts, facts, facts}) {}
 
   /// The contradiction found in this tick, if any. A tick that came too early or too late, a position
   /// that is not this tick's, and a force that is old or not good begin the balances anew.

@@ -40,18 +40,22 @@ class SafetyLimiter {
       : on_(true),
         limits_(limits),
         dt_(dt),
-        radius_(device.radius()),
-        count_(device.facts().count),
-        amp_per_newton_(1 / device.force(1)),
-        balance_(BalanceFacts::of(device, limits.unexplained, dt)) {
+        travel_(travel(device.kinematics)),
+        shorter_(shorter_ways(device.kinematics)),
+        count_(device.facts().count) {
     check_limits(limits);
+    check_ways(limits, device);
+    for (int i = 0; i < device.axes(); ++i) {
+      amp_per_newton_[i] = 1 / device.force(1, i);
+      balance_[static_cast<std::size_t>(i)] = BalanceFacts::of(device, limits.unexplained, dt, i);
+    }
     thermal_.fill(Thermal(limits.continuous_current, limits.thermal_time));
   }
 
   bool on() const EBAC_RT { return on_; }
 
   /// What encoder, force sensor and motor are held against, if they are.
-  std::optional<BalanceFacts> watches_motion() const {
+  std::optional<AllBalanceFacts> watches_motion() const {
     return on_ && limits_.watch_motion ? std::optional(balance_) : std::nullopt;
   }
 
@@ -84,7 +88,7 @@ class SafetyLimiter {
       if (on_) {
         const double before = last_[i];
         thermal_[i].heat(before, elapsed);
-        joint.current = held(i, gain * (joint.current + edge(axes[i], limited)), before, limited);
+        joint.current = held(i, gain * (joint.current + edge(i, joint, limited)), before, limited);
         last_[i] = joint.current;
       } else if (gain != 1) {
         joint.current *= gain;
@@ -123,11 +127,12 @@ class SafetyLimiter {
     };
     for (std::size_t i = 0; i < axes.size(); ++i) {
       const Joint& joint = axes[i].joint;
+      const auto e = static_cast<Eigen::Index>(i);
       const double since = elapsed + counts_age_[i] - reading.counts_age[i];  // s, for this way
       const double way = limits_.jump * std::max(1.0, since / dt_);
-      note(moved_ && std::abs(radius_ * (joint.q - q_[i])) > way, Fault::kEncoderJump);
+      note(moved_ && std::abs(travel_[e] * (joint.q - q_[i])) > way, Fault::kEncoderJump);
       note(fast(i, joint.q, since), Fault::kOverspeed);
-      note(std::abs(radius_ * joint.q) > limits_.end, Fault::kWorkspace);
+      note(std::abs(travel_[e] * joint.q) > limits_.end - shorter_[e], Fault::kWorkspace);
       q_[i] = joint.q;
       counts_age_[i] = reading.counts_age[i];
     }
@@ -139,7 +144,7 @@ class SafetyLimiter {
   bool fast(std::size_t i, double q, double since) EBAC_RT {
     span_[i] += since;
     if (moved_ && span_[i] < kSpan) return false;
-    const double way = std::abs(radius_ * (q - from_[i]));
+    const double way = std::abs(travel_[static_cast<Eigen::Index>(i)] * (q - from_[i]));
     const bool found = moved_ && way > limits_.speed * span_[i] + count_;
     from_[i] = q;
     span_[i] = 0;
@@ -154,15 +159,16 @@ class SafetyLimiter {
   }
 
   /// Current of the soft wall at the edge of the workspace [A]; it pushes inwards only.
-  double edge(const Axis& axis, int& limited) const EBAC_RT {
-    const double x = radius_ * axis.joint.q;
-    const double depth = std::abs(x) - limits_.edge;
+  double edge(std::size_t axis, const Joint& joint, int& limited) const EBAC_RT {
+    const auto i = static_cast<Eigen::Index>(axis);
+    const double x = travel_[i] * joint.q;
+    const double depth = std::abs(x) - (limits_.edge - shorter_[i]);
     if (!(depth > 0)) return 0;
     const double side = x > 0 ? 1 : -1;
-    const double v = side * radius_ * axis.joint.dq;
+    const double v = side * travel_[i] * joint.dq;
     const double push = limits_.edge_stiffness * depth + limits_.edge_damping * v;
     limited |= bit(Limited::kEdge);
-    return side * std::max(push, 0.0) * amp_per_newton_;
+    return side * std::max(push, 0.0) * amp_per_newton_[i];
   }
 
   double held(std::size_t i, double wanted, double before, int& limited) EBAC_RT {
@@ -190,10 +196,11 @@ class SafetyLimiter {
 
   bool on_ = false;
   Limits limits_{};
-  double dt_ = 1e-3;           // s
-  double radius_ = 1;          // m
-  double count_ = 0;           // m, of the encoder
-  double amp_per_newton_ = 1;  // A/N
+  double dt_ = 1e-3;                    // s
+  Axes travel_ = Axes::Ones();          // m, way of each axis per joint angle
+  Axes shorter_ = Axes::Zero();         // m, by which its stops lie before those of the first
+  double count_ = 0;                    // m, of the encoder
+  Axes amp_per_newton_ = Axes::Ones();  // A/N
   std::array<Thermal, kMaxAxes> thermal_{};
   std::array<double, kMaxAxes> last_{};        // A, of the last tick
   std::array<double, kMaxAxes> q_{};           // rad, of the last tick
@@ -201,7 +208,7 @@ class SafetyLimiter {
   std::array<double, kMaxAxes> from_{};        // rad, where the span began
   std::array<double, kMaxAxes> span_{};        // s
   std::array<State, kMaxAxes> state_{};
-  BalanceFacts balance_{};
+  AllBalanceFacts balance_{};
   bool moved_ = false;
   int overruns_ = 0;  // samples in a row
   double lost_ = 0;   // s, by late ticks

@@ -81,6 +81,7 @@ class SignalChain {
   EnergyAccount account_;
   double rad_per_count_;   // joint
   double radius_;          // m
+  Axes travel_;            // m, of each axis per joint angle
   double torque_per_amp_;  // N m/A, at the joint
   double amp_per_torque_;  // A/(N m)
   double force_per_amp_;   // N/A, at the handle of a linear device
@@ -110,6 +111,7 @@ inline SignalChain::SignalChain(const DeviceModel& device, const Environment& en
       account_(device.facts()),
       rad_per_count_(device.encoder.count() / device.capstan.ratio()),
       radius_(device.radius()),
+      travel_(travel(device.kinematics)),
       torque_per_amp_(device.motor.torque_constant * device.capstan.ratio()),
       amp_per_torque_(1 / torque_per_amp_),
       force_per_amp_(torque_per_amp_ / radius_),
@@ -197,13 +199,14 @@ inline Axes SignalChain::compensate(double dt, std::span<const Axis> axes) EBAC_
   Axes tau = weight(kinematics_, of_all(axes, &Axis::joint, &Joint::q),
                     compensation_.gravity_mass * gravity_);
   for (std::size_t i = 0; i < axes.size(); ++i) {
-    const double v = radius_ * axes[i].joint.dq;
+    const auto e = static_cast<Eigen::Index>(i);
+    const double v = travel_[e] * axes[i].joint.dq;
     if (dt > 0) {
       acceleration_[i] +=
           ((v - speed_[i]) / dt - acceleration_[i]) * dt / (compensation_.inertia_lag + dt);
     }
     speed_[i] = v;
-    tau[static_cast<Eigen::Index>(i)] += radius_ * compensation_.force(v, acceleration_[i]);
+    tau[e] += travel_[e] * compensation_.force(v, acceleration_[i]);
   }
   return tau;
 }

@@ -24,8 +24,9 @@ class StateObserver {
   StateObserver(const DeviceModel& device, const Observing& observing)
       : kinematics_(device.kinematics),
         linear_(std::holds_alternative<Linear>(device.kinematics)),
-        radius_(device.radius()),
-        force_per_amp_(device.motor.torque_constant * device.capstan.ratio() / radius_),
+        travel_(travel(device.kinematics)),
+        force_per_amp_(device.motor.torque_constant * device.capstan.ratio() / travel_.array()),
+        mass_share_(1, 1, device.mass(device.axes() - 1) / device.mass()),
         observing_(observing),
         observer_{AxisObserver(observing.params), AxisObserver(observing.params),
                   AxisObserver(observing.params)} {}
@@ -71,16 +72,17 @@ class StateObserver {
   void step_general(const Reading& reading, const std::array<bool, kMaxAxes>& counted, double dt,
                     std::span<Axis> axes) EBAC_RT;
 
-  /// One axis in its joint: s = R q, and `force` along it.
+  /// One axis in its joint: s = R q (of a slide its own R), and `force` along it.
   const AxisObserver& follow(std::size_t axis, const Joint& joint, double force,
                              const Reading& reading, bool counted, double dt) EBAC_RT {
     AxisObserver& observer = observer_[axis];
-    const double s = radius_ * joint.q;
+    const auto e = static_cast<Eigen::Index>(axis);
+    const double s = travel_[e] * joint.q;
     if (dt > 0) {
       const Aged encoder{s, reading.counts_age[axis]};
-      observer.give(force_per_amp_ * joint.current);
+      observer.give(force_per_amp_[e] * joint.current);
       observer.step(counted ? std::optional(encoder) : std::nullopt, {force, reading.force_age},
-                    force_per_amp_ * joint.current_applied, dt);
+                    force_per_amp_[e] * joint.current_applied, dt);
     } else {
       observer.start(s);
     }
@@ -97,8 +99,9 @@ class StateObserver {
 
   Kinematics kinematics_;
   bool linear_;
-  double radius_;         // m
-  double force_per_amp_;  // N/A, at the handle of a linear device
+  Axes travel_;         // m, way at the handle per joint angle
+  Axes force_per_amp_;  // N/A, at the handle
+  Axes mass_share_;     // of the mass of the first axis, in the middle
   Observing observing_;
   std::array<AxisObserver, kMaxAxes> observer_;
   bool forgot_ = false;  // begins in this tick
@@ -135,17 +138,18 @@ inline void StateObserver::step_general(const Reading& reading,
                                         std::span<Axis> axes) EBAC_RT {
   const Axes q = of_all(axes, &Axis::joint, &Joint::q);
   const Pose here = pose(kinematics_, q, Axes::Zero());
-  const Axes along = here.j.transpose() * of_all(axes, &Axis::port, &Port::f_meas) / radius_;
+  const Axes along = here.j.transpose() * of_all(axes, &Axis::port, &Port::f_meas);
   Axes now = Axes::Zero(), speed = Axes::Zero(), then = Axes::Zero(), speed_then = Axes::Zero();
   for (std::size_t i = 0; i < axes.size(); ++i) {
     const auto e = static_cast<Eigen::Index>(i);
-    observer_[i].set_mass_share(here.inertia[e] / (radius_ * radius_));
-    const AxisObserver& observer = follow(i, axes[i].joint, along[e], reading, counted[i], dt);
-    now[e] = observer.x() / radius_;
-    speed[e] = observer.v() / radius_;
+    observer_[i].set_mass_share(here.inertia[e] / (travel_[e] * travel_[e]) * mass_share_[e]);
+    const AxisObserver& observer =
+        follow(i, axes[i].joint, along[e] / travel_[e], reading, counted[i], dt);
+    now[e] = observer.x() / travel_[e];
+    speed[e] = observer.v() / travel_[e];
     observer.predict(then[e], speed_then[e]);
-    then[e] /= radius_;
-    speed_then[e] /= radius_;
+    then[e] /= travel_[e];
+    speed_then[e] /= travel_[e];
   }
   const Axes x = forward(kinematics_, now);
   const Axes v = jacobian(kinematics_, now) * speed;

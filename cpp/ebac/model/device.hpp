@@ -16,7 +16,7 @@
 
 namespace ebac {
 
-/// One haptic device, part by part. The default is the reference device: one straight axis of 0.25
+/// One haptic device, part by part; motor, drive, encoder and capstan of every axis are alike. The default is the reference device: one straight axis of 0.25
 /// kg and 2 N s/m, built from the paper's motor, encoder and capstan.
 struct DeviceModel {
   Kinematics kinematics{};
@@ -32,20 +32,30 @@ struct DeviceModel {
   int axes() const EBAC_RT { return ebac::axes(kinematics); }
   double radius() const EBAC_RT { return ebac::radius(kinematics); }
 
-  /// Handle force per motor torque, at rest in the middle [1/m].
-  double force_per_torque() const EBAC_RT { return capstan.ratio() / radius(); }
-  double force(double current) const EBAC_RT { return motor.torque(current) * force_per_torque(); }
-  double continuous_force() const EBAC_RT { return motor.rated_torque * force_per_torque(); }
-  double peak_force() const EBAC_RT { return force(drive.peak_current(motor)); }
+  // Of one axis at rest in the middle, the first if not told otherwise.
+
+  /// Way of the handle per joint angle [m].
+  double travel(int axis = 0) const EBAC_RT { return ebac::travel(kinematics)[axis]; }
+  /// Handle force per motor torque [1/m].
+  double force_per_torque(int axis = 0) const EBAC_RT { return capstan.ratio() / travel(axis); }
+  double force(double current, int axis = 0) const EBAC_RT {
+    return motor.torque(current) * force_per_torque(axis);
+  }
+  double continuous_force(int axis = 0) const EBAC_RT {
+    return motor.rated_torque * force_per_torque(axis);
+  }
+  double peak_force(int axis = 0) const EBAC_RT { return force(drive.peak_current(motor), axis); }
 
   /// One encoder count at the handle [m].
-  double count() const EBAC_RT { return encoder.count() / capstan.ratio() * radius(); }
+  double count(int axis = 0) const EBAC_RT {
+    return encoder.count() / capstan.ratio() * travel(axis);
+  }
 
   /// Rotor inertia as mass at the handle [kg]; the square of force_per_torque times the inertia.
-  double reflected_mass() const EBAC_RT {
-    return motor.rotor_inertia * force_per_torque() * force_per_torque();
+  double reflected_mass(int axis = 0) const EBAC_RT {
+    return motor.rotor_inertia * force_per_torque(axis) * force_per_torque(axis);
   }
-  double mass() const EBAC_RT { return mechanics.handle_mass + reflected_mass(); }
+  double mass(int axis = 0) const EBAC_RT { return mechanics.handle_mass + reflected_mass(axis); }
 
   /// First resonance of a cable that gives: the rotor against a handle that is held [Hz]; 0 without.
   double resonance() const EBAC_RT {
@@ -54,12 +64,18 @@ struct DeviceModel {
     return w / (2 * std::numbers::pi);
   }
 
+  /// What holds on every axis and at every length of the lever: a longer one moves the handle farther for a
+  /// count and feels less of what is in the joints, their damping by the square.
   DeviceFacts facts() const EBAC_RT {
-    return {.damping = compensation.damping_left(mechanics.damping, mechanics.coulomb),
-            .mass = compensation.mass_left(mass()),
-            .count = count(),
+    const double longest = stretch(kinematics);
+    const int last = axes() - 1;
+    const double rotor = std::min(reflected_mass() / (longest * longest), reflected_mass(last));
+    return {.damping = compensation.damping_left(mechanics.damping / (longest * longest),
+                                                 mechanics.coulomb / longest),
+            .mass = compensation.mass_left(mechanics.handle_mass + rotor),
+            .count = std::max(count() * longest, count(last)),
             .current_lag = drive.current_lag,
-            .peak_force = peak_force(),
+            .peak_force = std::min(peak_force() / longest, peak_force(last)),
             .resonance = resonance()};
   }
 };

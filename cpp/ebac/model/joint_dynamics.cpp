@@ -22,6 +22,13 @@ Axes accelerate(Jacobian mass, Axes torque, Held held) EBAC_RT {
   return mass.inverse() * torque;
 }
 
+/// At the handle, where it weighs least.
+double least_rotor_mass(const DeviceModel& device) {
+  const double longest = stretch(device.kinematics);
+  return std::min(device.reflected_mass() / (longest * longest),
+                  device.reflected_mass(device.axes() - 1));
+}
+
 double sign(double value) EBAC_RT { return value == 0 ? 0.0 : std::copysign(1.0, value); }
 
 }  // namespace
@@ -31,17 +38,21 @@ JointDynamics::JointDynamics(const DeviceModel& device, const Hand& hand)
       friction_(device.mechanics),
       cable_(device.mechanics),
       axes_(device.axes()),
-      radius_(device.radius()),
+      travel_(travel(device.kinematics)),
       handle_mass_(device.mechanics.handle_mass),
-      rotor_mass_(device.reflected_mass()),
+      rotor_mass_(least_rotor_mass(device)),
       damping_(device.mechanics.damping),
       gravity_(device.mechanics.gravity),
       hand_mass_(hand.mass),
       hand_damping_(hand.damping),
       hand_stiffness_(hand.stiffness),
-      square_(radius_ * radius_),
       compliant_(device.mechanics.compliant()),
       speed_(compliant_ ? kDrotor : kDq) {
+  for (int i = 0; i < kMaxAxes; ++i) {
+    const double square = travel_[i] * travel_[i];
+    rotor_inertia_[i] = square * device.reflected_mass(i);
+    joint_damping_[i] = square * damping_;
+  }
   if (compliant_ && !(rotor_mass_ > 0)) {
     throw std::invalid_argument(
         "Motor.rotor_inertia = 0 kg m^2: must be positive behind a cable that gives; set "
@@ -64,7 +75,7 @@ Motion JointDynamics::motion(const JointState& z, const Load& load,
   if (load.hand != nullptr) pull = model_force(load, m) - hand_mass_ * at.drift;
   const Axes lever = at.j.transpose() * pull + handle_mass_ * (gravity_ * at.weight - at.coriolis);
   const Axes motor =
-      load.torque + square_ * damping_ * speed + sliding_torque(speed, contact.slide);
+      load.torque + joint_damping_.cwiseProduct(speed) + sliding_torque(speed, contact.slide);
   Jacobian mass = hand_mass_ * at.j.transpose() * at.j;
   mass.diagonal() += handle_mass_ * at.inertia;
 
@@ -76,11 +87,11 @@ Motion JointDynamics::motion(const JointState& z, const Load& load,
     m.held = cable - motor;
     m.rate.col(kRotor) = speed;
     for (int i = 0; i < axes_; ++i) {
-      m.rate(i, kDrotor) = at_rest(i) ? 0.0 : m.held[i] / (square_ * rotor_mass_);
+      m.rate(i, kDrotor) = at_rest(i) ? 0.0 : m.held[i] / rotor_inertia_[i];
     }
     m.rate.col(kEnergy) += cable_loss(z, contact.flank);
   } else {
-    mass.diagonal().array() += square_ * rotor_mass_;
+    mass.diagonal() += rotor_inertia_;
     m.rate.col(kDq) = accelerate(mass, lever - motor, at_rest);
     m.held = lever - motor - mass * m.rate.col(kDq);
   }
@@ -105,14 +116,14 @@ Axes JointDynamics::sliding_torque(const Axes& dq, const Axes& slide) const EBAC
   Axes torque = Axes::Zero();
   if (!friction_.present()) return torque;
   for (int i = 0; i < axes_; ++i)
-    torque[i] = slide[i] * radius_ * friction_.sliding(radius_ * dq[i]);
+    torque[i] = slide[i] * travel_[i] * friction_.sliding(travel_[i] * dq[i]);
   return torque;
 }
 
 Axes JointDynamics::cable_torque(const JointState& z, const Axes& flank) const EBAC_RT {
   Axes torque = Axes::Zero();
   for (int i = 0; i < axes_; ++i) {
-    if (flank[i] != 0) torque[i] = radius_ * cable_.force(gap(z, i), gap_rate(z, i), flank[i]);
+    if (flank[i] != 0) torque[i] = travel_[i] * cable_.force(gap(z, i), gap_rate(z, i), flank[i]);
   }
   return torque;
 }
@@ -130,7 +141,7 @@ double JointDynamics::margin(const JointState& z, const Motion& at,
   double least = 1;
   for (int i = 0; i < axes_; ++i) {
     if (stuck(contact, i)) {
-      least = std::min(least, radius_ * friction_.breakaway - std::abs(at.held[i]));
+      least = std::min(least, travel_[i] * friction_.breakaway - std::abs(at.held[i]));
     } else if (friction_.present()) {
       least = std::min(least, contact.slide[i] * z(i, speed_));
     }
@@ -154,7 +165,7 @@ Contact JointDynamics::settle(JointState& z, const Load& load, const Contact& be
     double excess = 0;
     for (int i = 0; i < axes_; ++i) {
       if (!stuck(contact, i)) continue;
-      const double beyond = std::abs(after.held[i]) - radius_ * friction_.breakaway;
+      const double beyond = std::abs(after.held[i]) - travel_[i] * friction_.breakaway;
       if (beyond <= excess) continue;  // not so for NaN, which must not hide behind friction
       excess = beyond;
       weakest = i;
@@ -175,7 +186,7 @@ Axes JointDynamics::mean_hand_force(const Motion& from, const Motion& to, const 
 
 double JointDynamics::fastest_rate() const {
   const double lever = handle_mass_ + hand_mass_;
-  const double stiffness = hand_stiffness_ + handle_mass_ * std::abs(gravity_) / radius_;
+  const double stiffness = hand_stiffness_ + handle_mass_ * std::abs(gravity_) / travel_[0];
   if (!compliant_) {
     return std::max((damping_ + hand_damping_) / mass(), std::sqrt(stiffness / mass()));
   }

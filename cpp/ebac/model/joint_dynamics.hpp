@@ -84,10 +84,10 @@ class JointDynamics {
     return friction_.present() && c.slide[i] == 0;
   }
   double gap(const JointState& z, int i) const EBAC_RT {
-    return radius_ * (z(i, kQ) - z(i, kRotor));
+    return travel_[i] * (z(i, kQ) - z(i, kRotor));
   }
   double gap_rate(const JointState& z, int i) const EBAC_RT {
-    return radius_ * (z(i, kDq) - z(i, kDrotor));
+    return travel_[i] * (z(i, kDq) - z(i, kDrotor));
   }
   double mass() const { return handle_mass_ + hand_mass_ + rotor_mass_; }
 
@@ -95,15 +95,16 @@ class JointDynamics {
   Friction friction_;
   Cable cable_;
   int axes_;
-  double radius_;          // m
+  Axes travel_;            // m, way at the handle per joint angle
   double handle_mass_;     // kg
-  double rotor_mass_;      // kg, felt at the handle
+  double rotor_mass_;      // kg, felt at the handle; the least of all axes
   double damping_;         // N s/m
   double gravity_;         // m/s^2
   double hand_mass_;       // kg
   double hand_damping_;    // N s/m
   double hand_stiffness_;  // N/m
-  double square_;          // m^2, radius squared: from values at the handle to values at a joint
+  Axes rotor_inertia_;     // kg m^2, at the joint
+  Axes joint_damping_;     // N m s/rad
   bool compliant_;
   JointColumn speed_;  // of the motor
 };

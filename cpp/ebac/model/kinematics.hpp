@@ -10,8 +10,8 @@
 #include "ebac/core/fields.hpp"
 #include "ebac/core/realtime.hpp"
 
-/// The map between joints [rad, N m] and the handle [m, N]. A kinematics gives `axes`, `radius`,
-/// `limit`, `forward`, `inverse`, `jacobian`; the free functions below derive the rest.
+/// The map between joints [rad, N m] and the handle [m, N]. A kinematics gives `axes`, `travel`, `stops`,
+/// `forward`, `inverse`, `jacobian`, `weight`; the free functions below derive the rest.
 namespace ebac {
 
 /// Joints or ports of one device; entries beyond the axes in use are zero.
@@ -30,6 +30,8 @@ struct Linear {
   Axes inverse(const Axes& x) const EBAC_RT { return x / radius; }
   Jacobian jacobian(const Axes&) const EBAC_RT { return radius * Jacobian::Identity(); }
   Axes weight(const Axes&, double newton) const EBAC_RT { return Axes::Constant(newton * radius); }
+  Axes travel() const EBAC_RT { return Axes::Constant(radius); }
+  Axes stops() const EBAC_RT { return Axes::Constant(limit); }
 
   static constexpr auto fields() {
     using F = Field<Linear>;
@@ -76,6 +78,8 @@ struct Gimbal {
     return newton * radius *
            Axes{std::sin(q[0]) * std::cos(q[1]), std::cos(q[0]) * std::sin(q[1]), 0};
   }
+  Axes travel() const EBAC_RT { return Axes::Constant(radius); }
+  Axes stops() const EBAC_RT { return Axes::Constant(limit); }
 
   static constexpr auto fields() {
     using F = Field<Gimbal>;
@@ -87,16 +91,98 @@ struct Gimbal {
   }
 };
 
-using Kinematics = std::variant<Linear, Gimbal>;
+/// A gimbal whose lever slides through its joints: the third joint is the drum that pulls it, outwards for
+/// +q3. The lever is R + slide_radius q3 long, the rest is the gimbal's; the handle moves in space, and the
+/// third port is its height above where it rests.
+struct SlidingGimbal {
+  static constexpr int kAxes = 3;
+  double radius = 0.1;                  // m, with the slide in its middle
+  double limit = std::numbers::pi / 6;  // rad, of the first two joints
+  double slide_radius = 0.1;            // m
+  double slide_limit = 0.04;            // m
+
+  Gimbal gimbal(const Axes& q) const EBAC_RT { return {radius + slide_radius * q[2], limit}; }
+
+  Axes forward(const Axes& q) const EBAC_RT {
+    const Gimbal now = gimbal(q);
+    Axes x = now.forward(q);
+    x[2] = now.height(q) - radius;
+    return x;
+  }
+
+  /// Unique above the joints, where every pose within the limits is.
+  Axes inverse(const Axes& x) const EBAC_RT {
+    const double aside = std::hypot(x[0], x[2] + radius);
+    return {std::atan2(x[0], x[2] + radius), std::atan2(x[1], aside),
+            (std::hypot(x[1], aside) - radius) / slide_radius};
+  }
+
+  Jacobian jacobian(const Axes& q) const EBAC_RT {
+    const Gimbal now = gimbal(q);
+    Jacobian j = now.jacobian(q);
+    j.row(2) = -now.weight(q, 1);  // the height falls as the weight turns
+    j.col(2) = slide_radius * outwards(q);
+    return j;
+  }
+
+  Axes weight(const Axes& q, double newton) const EBAC_RT {
+    Axes tau = gimbal(q).weight(q, newton);
+    tau[2] = -newton * slide_radius * std::cos(q[0]) * std::cos(q[1]);
+    return tau;
+  }
+  Axes travel() const EBAC_RT { return {radius, radius, slide_radius}; }
+  Axes stops() const EBAC_RT { return {limit, limit, slide_limit / slide_radius}; }
+  /// Longest lever over that in the middle.
+  double stretch() const EBAC_RT { return 1 + slide_limit / radius; }
+
+  /// Direction of the lever.
+  static Axes outwards(const Axes& q) EBAC_RT {
+    const Gimbal unit{.radius = 1};
+    Axes out = unit.forward(q);
+    out[2] = unit.height(q);
+    return out;
+  }
+
+  static constexpr auto fields() {
+    using F = Field<SlidingGimbal>;
+    return std::array{
+        F{"radius", &SlidingGimbal::radius, "m", "lever radius with the slide in its middle", 1e-4,
+          10},
+        F{"limit", &SlidingGimbal::limit, "rad", "largest angle of the first two joints either way",
+          1e-3, 1.5},
+        F{"slide_radius", &SlidingGimbal::slide_radius, "m",
+          "way of the slide per angle of its joint, the third; half to twice the lever radius",
+          1e-4, 10},
+        F{"slide_limit", &SlidingGimbal::slide_limit, "m",
+          "largest way of the slide either way, at most half of the lever radius", 1e-4, 5},
+    };
+  }
+};
+
+using Kinematics = std::variant<Linear, Gimbal, SlidingGimbal>;
 
 inline int axes(const Linear& linear) EBAC_RT { return linear.axes; }
 inline int axes(const Gimbal&) EBAC_RT { return Gimbal::kAxes; }
+inline int axes(const SlidingGimbal&) EBAC_RT { return SlidingGimbal::kAxes; }
 
 inline int axes(const Kinematics& kinematics) EBAC_RT {
   return std::visit([](const auto& k) { return axes(k); }, kinematics);
 }
 inline double radius(const Kinematics& kinematics) EBAC_RT {
   return std::visit([](const auto& k) { return k.radius; }, kinematics);
+}
+/// Way of the handle per angle of each joint, at rest in the middle [m].
+inline Axes travel(const Kinematics& kinematics) EBAC_RT {
+  return std::visit([](const auto& k) { return k.travel(); }, kinematics);
+}
+/// Largest angle of each joint either way [rad].
+inline Axes stops(const Kinematics& kinematics) EBAC_RT {
+  return std::visit([](const auto& k) { return k.stops(); }, kinematics);
+}
+/// Longest lever over that in the middle.
+inline double stretch(const Kinematics& kinematics) EBAC_RT {
+  const auto* slide = std::get_if<SlidingGimbal>(&kinematics);
+  return slide == nullptr ? 1 : slide->stretch();
 }
 inline Axes forward(const Kinematics& kinematics, const Axes& q) EBAC_RT {
   return std::visit([&](const auto& k) { return k.forward(q); }, kinematics);
@@ -111,7 +197,7 @@ inline Jacobian jacobian(const Kinematics& kinematics, const Axes& q) EBAC_RT {
 inline Axes transpose(const Kinematics& kinematics, const Axes& q, const Axes& f) EBAC_RT {
   return jacobian(kinematics, q).transpose() * f;
 }
-/// Joint torque along +q of a weight [N] at the handle: along +x for Linear, down for Gimbal.
+/// Joint torque along +q of a weight [N] at the handle: along +x for Linear, down for a gimbal.
 inline Axes weight(const Kinematics& kinematics, const Axes& q, double newton) EBAC_RT {
   return std::visit([&](const auto& k) { return k.weight(q, newton); }, kinematics);
 }
@@ -119,8 +205,9 @@ inline Axes weight(const Kinematics& kinematics, const Axes& q, double newton) E
 inline bool within_limits(const Kinematics& kinematics, const Axes& q) EBAC_RT {
   return std::visit(
       [&](const auto& k) {
+        const Axes most = k.stops();
         for (int i = 0; i < axes(k); ++i) {
-          if (!(std::abs(q[i]) <= k.limit)) return false;
+          if (!(std::abs(q[i]) <= most[i])) return false;
         }
         return true;
       },

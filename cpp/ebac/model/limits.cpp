@@ -20,4 +20,14 @@ void check_limits(const Limits& limits) {
   }
 }
 
+void check_ways(const Limits& limits, const DeviceModel& device) {
+  const double shorter = shorter_ways(device.kinematics).head(device.axes()).maxCoeff();
+  if (limits.edge > shorter) return;
+  throw std::invalid_argument(
+      range_message("Limits", "edge", limits.edge, "m", shorter, limits.end) +
+      ": it lies as far before the stops of every axis, which leaves the slide no way; raise edge "
+      "or "
+      "SlidingGimbal.slide_limit");
+}
+
 }  // namespace ebac

@@ -55,10 +55,14 @@ struct Limits {
         F{"speed", &Limits::speed, "m/s",
           "faster, over 0.9 ms and by more than an encoder count, is a fault", 1e-3, 100},
         F{"jump", &Limits::jump, "m", "a longer way in one tick is an encoder's fault", 1e-6, 1},
-        F{"edge", &Limits::edge, "m", "way from the middle at which a soft wall begins", 1e-3, 10},
+        F{"edge", &Limits::edge, "m",
+          "way from the middle at which a soft wall begins; on a slide less by the way that its "
+          "stops are closer",
+          1e-3, 10},
         F{"edge_stiffness", &Limits::edge_stiffness, "N/m", "stiffness of that wall", 0, 1e5},
         F{"edge_damping", &Limits::edge_damping, "N s/m", "damping of that wall", 0, 500},
-        F{"end", &Limits::end, "m", "way from the middle that is a fault", 1e-3, 10},
+        F{"end", &Limits::end, "m", "way from the middle that is a fault; on a slide as edge", 1e-3,
+          10},
         F{"force_age", &Limits::force_age, "s", "an older force is a fault", 1e-4, 10},
         F{"watch_force", &Limits::watch_force, "1",
           "whether a force sensor that is stale, saturated or gone is a fault", 0, 1},
@@ -83,7 +87,15 @@ struct Limits {
   }
 };
 
+/// By how much the stops of each axis lie before those of the first [m]: so do its edge and its end.
+inline Axes shorter_ways(const Kinematics& kinematics) EBAC_RT {
+  const Axes ways = stops(kinematics).cwiseProduct(travel(kinematics));
+  return Axes::Constant(ways[0]) - ways;
+}
+
 /// Throws std::invalid_argument where two limits contradict each other.
 void check_limits(const Limits& limits);
+/// The same where they leave an axis of a device no way.
+void check_ways(const Limits& limits, const DeviceModel& device);
 
 }  // namespace ebac

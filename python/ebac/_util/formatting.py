@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import degrees, floor, isfinite, log10
 from typing import TYPE_CHECKING, Any
 
-from ebac._core import Corner, Device, Disc, Gimbal, Hand, Step, Wall, _World
+from ebac._core import Corner, Device, Disc, Gimbal, Hand, SlidingGimbal, Step, Wall, _World
 
 if TYPE_CHECKING:
     from ebac.metrics import Contact
@@ -102,9 +102,15 @@ def _kilo(value: float, unit: str) -> str:
 def _device(device: Device) -> str:
     from ebac import presets
 
-    kind = "joystick" if isinstance(device.kinematics, Gimbal) else "device"
+    kind = "joystick" if isinstance(device.kinematics, (Gimbal, SlidingGimbal)) else "device"
     known = [f"the {n} {kind}" for n, p in presets.DEVICES.items() if p.device == device]
-    name = known[0].replace("joystick joystick", "joystick") if known else f"a {kind}"
+    name = (
+        known[0]
+        .replace("joystick joystick", "joystick")
+        .replace("joystick-3 joystick", "3-axis joystick")
+        if known
+        else f"a {kind}"
+    )
     noise = f", sensor noise {device.sensor.noise:g} N" if device.sensor.noise else ""
     permille = ", torque in per mille" if device.drive.permille else ""
     return f"{name} ({device.mass:.4g} kg, {device.mechanics.damping:g} N s/m{noise}{permille})"

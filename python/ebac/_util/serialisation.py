@@ -22,7 +22,7 @@ SOLIDS: tuple[type | str, ...] = (
 #: Types a part may have, by the name of the part; the first is the default. One that is imported when it is needed
 #: stands there by its name.
 CHOICES: dict[str, tuple[type | str, ...]] = {
-    "kinematics": (_core.Linear, _core.Gimbal),
+    "kinematics": (_core.Linear, _core.Gimbal, _core.SlidingGimbal),
     "velocity": (_core.BackwardDifference, _core.LowPass, _core.AdaptiveWindow),
     "path": (_core.Step, _core.MinimumJerk, _core.Sine, _core.Tapping, _core.Recorded),
     "environment": (

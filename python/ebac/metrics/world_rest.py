@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ebac._core import Layer, Linear, MinimumJerk, Step
+from ebac._core import Gimbal, Layer, MinimumJerk, SlidingGimbal, Step
 from ebac.scenario import Scenario
 from ebac.worlds import Body, Layered, World
 
@@ -40,14 +40,16 @@ def world_rest(scenario: Scenario) -> Rest | None:
     if hand.model is not None or np.isfinite(hand.release_at) or hand.stiffness == 0:
         return None
     paths = hand.path[: device.axes]
-    if not isinstance(device.kinematics, Linear) or not all(
+    if isinstance(device.kinematics, Gimbal) or not all(
         isinstance(path, (Step, MinimumJerk)) for path in paths
     ):
         return None
     goal = np.zeros(device.axes)
     goal[: len(paths)] = [path.target for path in paths]  # type: ignore[union-attr]
     mechanics, given = device.mechanics, device.compensation
-    weight = (mechanics.handle_mass - given.gravity_mass) * mechanics.gravity
+    heavy = (mechanics.handle_mass - given.gravity_mass) * mechanics.gravity
+    down = isinstance(device.kinematics, SlidingGimbal)
+    weight = heavy * (np.array([0.0, 0.0, -1.0]) if down else np.ones(device.axes))
     world.reset()
     x, missing = np.zeros(device.axes), np.zeros(device.axes)
     for share in np.linspace(0, 1, STEPS + 1)[1:]:

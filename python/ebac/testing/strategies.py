@@ -21,6 +21,7 @@ from ebac._core import (
     Linear,
     Mechanics,
     Port,
+    SlidingGimbal,
     Step,
     Timing,
     Wall,
@@ -94,7 +95,7 @@ def devices(
     Parameters
     ----------
     axes : int or None
-        Straight axes, 1 to 3; None draws one or two straight axes, or the paper's gimbal.
+        Straight axes, 1 to 3; None draws one or two straight axes, or the paper's gimbal without and with a slide.
     mass : (low, high)
         Of lever and handle, without the rotor [kg].
     damping, friction : (low, high)
@@ -103,9 +104,11 @@ def devices(
         Standard deviation of the force sensor [N].
     """
     straight = st.just(axes) if axes is not None else st.integers(1, 2)
-    kinematics: st.SearchStrategy[Linear | Gimbal] = straight.map(lambda n: Linear(axes=n))
+    kinematics: st.SearchStrategy[Linear | Gimbal | SlidingGimbal] = straight.map(
+        lambda n: Linear(axes=n)
+    )
     if axes is None:
-        kinematics = kinematics | st.just(Gimbal())
+        kinematics = kinematics | st.sampled_from([Gimbal(), SlidingGimbal()])
     return st.builds(
         Device,
         kinematics=kinematics,
