@@ -128,7 +128,7 @@ def _hands(path: Path, note: str) -> None:
 
 
 def _joystick(path: Path, note: str) -> None:
-    path.write_text(others.joystick_text(), encoding="utf-8")
+    path.write_text(others.joystick_text(path.stem), encoding="utf-8")
 
 
 _HAND = {"t": "t [s]", "x": "x [m]", "f_meas": "force [N]", "f_applied": "motor [N]"}
@@ -201,6 +201,14 @@ DATASETS: dict[str, Dataset] = {
             about="The configuration of the paper's joystick, for hardware and for simulated drives.",
             data=False,
             commands=("ebac run joystick.toml --simulated",),
+            _write=_joystick,
+        ),
+        Dataset(
+            name="joystick-3",
+            file="joystick-3.toml",
+            about="The same for three axes: its lever slides, three drives, a ball to feel.",
+            data=False,
+            commands=("ebac run joystick-3.toml --simulated",),
             _write=_joystick,
         ),
     )

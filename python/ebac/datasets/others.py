@@ -58,6 +58,6 @@ def joystick() -> Configuration:
     return Configuration.from_toml(joystick_text(), name="joystick.toml")
 
 
-def joystick_text() -> str:
-    """Return the configuration of the joystick as TOML text, with comments."""
-    return (files("ebac.datasets") / "joystick.toml").read_text(encoding="utf-8")
+def joystick_text(name: str = "joystick") -> str:
+    """Return the configuration "joystick", or "joystick-3" with three axes, as TOML text with comments."""
+    return (files("ebac.datasets") / f"{name}.toml").read_text(encoding="utf-8")

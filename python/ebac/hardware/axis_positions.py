@@ -100,20 +100,21 @@ def positions_of(
     axes = zip(
         known.drives.nodes,
         counts,
+        device.kinematics.travel,
         known.zero.of_all(device.axes),
         backend.signs(known).of_all(device.axes).encoder,
         strict=True,
     )
     found = []
-    for axis, (node, shown, zero, sign) in enumerate(axes):
-        position = sign * from_zero(shown, zero) * device.count
+    for axis, (node, shown, travel, zero, sign) in enumerate(axes):
+        position = sign * from_zero(shown, zero) * device.count * (float(travel) / device.radius)
         found.append(
             AxisPosition(
                 axis=axis,
                 node=node.id,
                 counts=shown,
                 zero_counts=zero,
-                angle_rad=position / device.radius,
+                angle_rad=position / float(travel),
                 position_m=position,
             )
         )
@@ -122,11 +123,14 @@ def positions_of(
 
 def check_workspace(known: Configuration, positions: Sequence[AxisPosition]) -> None:
     """Raise PositionError for an axis that stands outside the workspace, where a run would end at once."""
-    end = known.limits.end
-    for one in positions:
+    lever = known.device.kinematics
+    ways = lever.travel * lever.stops
+    ends = known.limits.end - (ways[0] - ways)  # as the loop holds them
+    for one, end in zip(positions, ends.tolist(), strict=True):
         if abs(one.position_m) > end:
             raise PositionError(
-                f"{one}: must lie within {1e3 * end:g} mm of its zero (limits.end = {end:g} m). Nothing has power. "
+                f"{one}: must lie within {1e3 * end:g} mm of its zero (limits.end = {known.limits.end:g} m). "
+                "Nothing has power. "
                 "Move the handle back by hand; where it is there already, put it at its zero and read that by "
                 "`ebac drive zero FILE --write`",
                 node=one.node,

@@ -24,6 +24,7 @@ from ebac.plot.style import (
 from ebac.plot.sweep import plot_sweep
 from ebac.plot.tracking import plot_budget, plot_tracking
 from ebac.plot.walls import plot_walls
+from ebac.plot.workspace import plot_workspace
 from ebac.plot.world import plot_world
 from ebac.plot.worst import plot_worst
 from ebac.plot.zwidth import plot_zwidth
@@ -53,6 +54,7 @@ __all__ = [
     "plot_trace",
     "plot_tracking",
     "plot_walls",
+    "plot_workspace",
     "plot_world",
     "plot_worst",
     "plot_zwidth",

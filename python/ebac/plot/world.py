@@ -27,23 +27,25 @@ BODY, SAWN, INSIDE = np.array([0.72, 0.77, 0.83]), np.array([0.6, 0.64, 0.69]), 
 
 
 def plot_world(world: World, traces: Sequence[Trace] = ()) -> Picture:
-    """Draw a world: its surface as seen from the left, and a cut through the plane z = 0.
+    """Draw a world: its surface as seen from the left, and a cut through z = 0; for three axes also one through y = 0.
 
     Parameters
     ----------
     world : World
         At the time 0; what moves is drawn where it begins.
     traces : sequence of Trace
-        Runs whose paths are drawn into the cut, one colour per law.
+        Runs whose paths are drawn into the cuts, one colour per law.
 
     Returns
     -------
     Figure
     """
-    figure = new_figure(11, 4.9)
-    view, cut = figure.subplots(1, 2)
+    directions = (1, 2) if any(trace.axes > 2 for trace in traces) else (1,)
+    figure = new_figure(5.5 + 5.5 * len(directions), 4.9)
+    view, *cuts = figure.subplots(1, 1 + len(directions))
     _view(view, world)
-    _cut(cut, world, traces)
+    for cut, across in zip(cuts, directions, strict=True):
+        _cut(cut, world, traces, across)
     source = "simulated: " if traces else ""
     figure.suptitle(source + formatting.world(world), fontsize="medium")
     return figure
@@ -130,24 +132,26 @@ def _met(
     return start + depth[:, None] * forward
 
 
-def _cut(ax: Axes, world: World, traces: Sequence[Trace]) -> None:
+def _cut(ax: Axes, world: World, traces: Sequence[Trace], up: int) -> None:
+    """Draw the plane of x and y (`up` 1) or z (2)."""
     u = np.linspace(-HALF, HALF, PIXELS)
     x, y = np.meshgrid(u, u)
-    d, _ = nearest(world, np.stack([x.ravel(), y.ravel(), np.zeros(x.size)], axis=1))
-    field = 1e3 * d.reshape(x.shape)
+    points = np.zeros((x.size, 3))
+    points[:, 0], points[:, up] = x.ravel(), y.ravel()
+    field = 1e3 * nearest(world, points)[0].reshape(x.shape)
     ax.contourf(1e3 * u, 1e3 * u, field, levels=[-1e6, 0], colors=[INSIDE])
     ax.contour(1e3 * u, 1e3 * u, field, levels=[0], colors="black", linewidths=1.0)
     for trace in traces:
         places = trace["true.x" if "true.x" in trace else "x"].reshape(len(trace), -1)
-        across = places[:, 1] if trace.axes > 1 else np.zeros(len(trace))
+        across = places[:, up] if trace.axes > up else np.zeros(len(trace))
         ax.plot(1e3 * places[:, 0], 1e3 * across, color=colour(trace.law), lw=1.2, label=trace.law)
     if not traces:
         ax.annotate(
             "", (0, 0), (-25, 0), arrowprops={"arrowstyle": "-|>", "color": "black", "lw": 1.6}
         )
     ax.set_aspect("equal")
-    ax.set_title("cut at z = 0", fontsize="medium")
-    dress(ax, "y [mm]")
+    ax.set_title(f"cut at {'zy'[up - 1]} = 0", fontsize="medium")
+    dress(ax, f"{'yz'[up - 1]} [mm]")
     ax.set_xlabel("x [mm]")
     if traces:
         legend(ax)

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Annotated
 
 import typer
 
-from ebac.cli import options, output, setting
+from ebac.cli import files, options, output, setting
 
 
 def specs(
@@ -16,6 +17,12 @@ def specs(
             help="A device by name, see `ebac presets`.", autocompletion=options.complete_devices
         ),
     ] = "joystick",
+    figure: Annotated[
+        Path | None,
+        typer.Option(
+            help="Draw its workspace into this file: png, pdf or svg.", show_default=False
+        ),
+    ] = None,
     as_json: output.AsJson = False,
 ) -> None:
     """Print the data sheet of a device, beside the paper's numbers.
@@ -25,6 +32,8 @@ def specs(
     * `ebac specs`: resolution, forces and workspace of the paper's joystick
 
     * `ebac specs --device reference`: one straight axis
+
+    * `ebac specs --device joystick-3 --figure workspace.png`: three axes, and where its handle can be
     """
     from ebac import presets
     from ebac._util import formatting
@@ -32,8 +41,10 @@ def specs(
 
     with output.refusing():
         sheet = spec_sheet(setting.known_device(device))
+        drawn = _draw(device, figure)
     if as_json:
-        typer.echo(output.document("specs", [spec.row() for spec in sheet], device=device))
+        rows = [spec.row() for spec in sheet]
+        typer.echo(output.document("specs", rows, device=device, written=drawn))
         return
     grid = output.table(["", "here", "paper", "how"], numbers=(1, 2))
     for spec in sheet:
@@ -42,3 +53,17 @@ def specs(
         grid.add_row(spec.name, value, paper, how)
     output.show(grid)
     output.say(f"Device: {device}, {presets.DEVICES[device.lower()].source}.")
+    for file in drawn:
+        output.say(f"Its workspace: {file}.")
+
+
+def _draw(device: str, figure: Path | None) -> list[str]:
+    """Draw the workspace, if asked to; return the names of the files."""
+    if figure is None:
+        return []
+    from ebac.plot import plot_workspace, save
+
+    drawn = plot_workspace(setting.known_device(device))
+    file = files.free_file(figure)
+    save(drawn, file)
+    return [str(file)]
