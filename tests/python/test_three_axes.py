@@ -211,6 +211,19 @@ def test_a_ball_is_felt_along_its_radius() -> None:
     assert ebac.contact(trace).ideal_m == pytest.approx(end["true.x"][:, 0].mean(), abs=EXACT)
 
 
+def test_the_observer_knows_the_slide() -> None:
+    device = STICK.replace(
+        kinematics=ebac.SlidingGimbal(slide_radius=0.06), sensor=ebac.ForceSensor(noise=0.03)
+    )
+    scenario = ebac.Scenario(
+        device=device, hand=HAND, environment=ebac.Free(), observer=True, seconds=1
+    )
+    trace = ebac.simulate(scenario, "ebac")
+    assert (trace["est.fallback"] == 0).all()
+    away = np.abs(trace["est.x"] - trace["true.x"]).max(axis=0)
+    assert (away < 1.5 * device.facts.count).all()
+
+
 def test_the_bus_with_three_drives_changes_no_bit() -> None:
     scenario = ebac.Scenario(
         device=STICK,

@@ -26,7 +26,9 @@ class StateObserver {
         linear_(std::holds_alternative<Linear>(device.kinematics)),
         travel_(travel(device.kinematics)),
         force_per_amp_(device.motor.torque_constant * device.capstan.ratio() / travel_.array()),
-        mass_share_(1, 1, device.mass(device.axes() - 1) / device.mass()),
+        slides_(std::holds_alternative<SlidingGimbal>(device.kinematics)),
+        handle_mass_(device.mechanics.handle_mass),
+        slide_mass_(device.mass(device.axes() - 1)),
         observing_(observing),
         observer_{AxisObserver(observing.params), AxisObserver(observing.params),
                   AxisObserver(observing.params)} {}
@@ -69,6 +71,7 @@ class StateObserver {
 
  private:
   void trust(const Reading& reading, double dt, std::size_t axes) EBAC_RT;
+  double mass_share(const Pose& at, Eigen::Index axis) const EBAC_RT;
   void step_general(const Reading& reading, const std::array<bool, kMaxAxes>& counted, double dt,
                     std::span<Axis> axes) EBAC_RT;
 
@@ -101,7 +104,9 @@ class StateObserver {
   bool linear_;
   Axes travel_;         // m, way at the handle per joint angle
   Axes force_per_amp_;  // N/A, at the handle
-  Axes mass_share_;     // of the mass of the first axis, in the middle
+  bool slides_;         // the lever
+  double handle_mass_;  // kg
+  double slide_mass_;   // kg, on the last axis, in the middle
   Observing observing_;
   std::array<AxisObserver, kMaxAxes> observer_;
   bool forgot_ = false;  // begins in this tick
@@ -132,17 +137,27 @@ inline void StateObserver::trust(const Reading& reading, double dt, std::size_t 
   }
 }
 
-/// With the inertia of the pose.
+/// The mass of an axis over that of the first in the middle. A lever that slides changes the handle's part of it.
+inline double StateObserver::mass_share(const Pose& at, Eigen::Index axis) const EBAC_RT {
+  const double share = at.inertia[axis] / (travel_[axis] * travel_[axis]);
+  if (!slides_) return share;
+  const double middle = axis == 2 ? slide_mass_ : observing_.params.mass;
+  return (middle + handle_mass_ * (share - 1)) / observing_.params.mass;
+}
+
+/// With the inertia of the pose; of a lever that slides also with what its turning and sliding do to each other.
 inline void StateObserver::step_general(const Reading& reading,
                                         const std::array<bool, kMaxAxes>& counted, double dt,
                                         std::span<Axis> axes) EBAC_RT {
   const Axes q = of_all(axes, &Axis::joint, &Joint::q);
-  const Pose here = pose(kinematics_, q, Axes::Zero());
-  const Axes along = here.j.transpose() * of_all(axes, &Axis::port, &Port::f_meas);
+  const Axes dq = slides_ ? of_all(axes, &Axis::joint, &Joint::dq) : Axes::Zero();
+  const Pose here = pose(kinematics_, q, dq);
+  Axes along = here.j.transpose() * of_all(axes, &Axis::port, &Port::f_meas);
+  if (slides_) along -= handle_mass_ * here.coriolis;
   Axes now = Axes::Zero(), speed = Axes::Zero(), then = Axes::Zero(), speed_then = Axes::Zero();
   for (std::size_t i = 0; i < axes.size(); ++i) {
     const auto e = static_cast<Eigen::Index>(i);
-    observer_[i].set_mass_share(here.inertia[e] / (travel_[e] * travel_[e]) * mass_share_[e]);
+    observer_[i].set_mass_share(mass_share(here, e));
     const AxisObserver& observer =
         follow(i, axes[i].joint, along[e] / travel_[e], reading, counted[i], dt);
     now[e] = observer.x() / travel_[e];
