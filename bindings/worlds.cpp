@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "bind.hpp"
+#include "ebac/core/best_time.hpp"
 #include "ebac/model/environment.hpp"
 #include "ebac/world/make.hpp"
 #include "engines.hpp"
@@ -39,6 +40,40 @@ std::pair<Eigen::VectorXd, Points> distances(const HeldSolid& held, const Points
     out.row(i) = at.out;
   }
   return {d, out};
+}
+
+std::vector<Axes> rows_of(const Points& points) {
+  std::vector<Axes> rows;
+  rows.reserve(static_cast<std::size_t>(points.rows()));
+  for (Eigen::Index i = 0; i < points.rows(); ++i) rows.emplace_back(points.row(i));
+  return rows;
+}
+
+/// Of one distance, at each row of `points` in turn [ns].
+double time_distances(const HeldSolid& held, const Points& points, int repeats) {
+  const std::vector<Axes> places = rows_of(points);
+  [[maybe_unused]] volatile double sink = 0;  // so that the work is not optimised away
+  return best_nanoseconds(repeats, places.size(), [&] {
+    double sum = 0;
+    for (const Axes& x : places) {
+      const Distance at = held.solid->distance(x);
+      sum += at.d + at.out[0];
+    }
+    sink = sum;
+  });
+}
+
+/// Of one contact, along a closed path below the surface, which the handle reaches by way of `start` [ns].
+double time_contacts(const External& held, const Axes& start, const Points& path, int repeats) {
+  const std::vector<Axes> places = rows_of(path);
+  const std::unique_ptr<World> world = held.world->fresh();
+  world->contact(start, Axes::Zero(), 0);
+  [[maybe_unused]] volatile double sink = 0;
+  return best_nanoseconds(repeats, places.size(), [&] {
+    double sum = 0;
+    for (const Axes& x : places) sum += world->contact(x, Axes::Zero(), 0).force[0];
+    sink = sum;
+  });
 }
 
 std::vector<SolidPtr> solids_of(const std::vector<HeldSolid>& held) {
@@ -78,7 +113,9 @@ void bind_solids(py::module_& m) {
   bind_fields<Capsule>(m, "Capsule", "A cylinder about the z axis with half a sphere on each end.");
   bind_fields<Torus>(m, "Torus", "A ring about the z axis.");
   bind_fields<Texture>(m, "Texture", "Waves on a surface, the same in all directions.");
-  py::class_<HeldSolid>(m, "_Solid").def("distances", &distances, py::arg("points"));
+  py::class_<HeldSolid>(m, "_Solid")
+      .def("distances", &distances, py::arg("points"))
+      .def("_time", &time_distances, py::arg("points"), py::arg("repeats"));
   m.def("_solid", [](const AnyShape& shape) { return HeldSolid{make_solid(shape)}; });
   m.def("_tube", [](const Points& at, const std::vector<double>& radius) {
     if (at.rows() < 2 || static_cast<std::size_t>(at.rows()) != radius.size())
@@ -146,6 +183,7 @@ void bind_worlds(py::module_& m) {
                               world.world->stored());
           },
           py::arg("x"), py::arg("v"), py::arg("t"))
+      .def("_time", &time_contacts, py::arg("start"), py::arg("path"), py::arg("repeats"))
       .def("reset", [](External& world) { world.world = world.world->fresh(); });
   bind_engines(m);
 }

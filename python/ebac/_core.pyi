@@ -2775,6 +2775,11 @@ class Texture:
         """
 
 class _Solid:
+    def _time(
+        self,
+        points: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, 3]"],
+        repeats: typing.SupportsInt | typing.SupportsIndex,
+    ) -> float: ...
     def distances(
         self, points: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, 3]"]
     ) -> tuple[
@@ -3085,6 +3090,12 @@ class _World:
     ) -> None: ...
     @typing.overload
     def __init__(self, other: _World) -> None: ...
+    def _time(
+        self,
+        start: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"],
+        path: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, 3]"],
+        repeats: typing.SupportsInt | typing.SupportsIndex,
+    ) -> float: ...
     def contact(
         self,
         x: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"],

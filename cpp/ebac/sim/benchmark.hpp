@@ -1,26 +1,15 @@
 #pragma once
 
 #include <algorithm>
-#include <chrono>
+#include <limits>
 #include <vector>
 
+#include "ebac/core/best_time.hpp"
 #include "ebac/sim/simulate.hpp"
 
 /// Times without Python inside: nanoseconds per step, the best of several runs, since noise only
 /// adds.
 namespace ebac {
-
-template <class Work>
-double best_nanoseconds(int repeats, std::size_t steps, Work work) {
-  double best = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < repeats; ++i) {
-    const auto start = std::chrono::steady_clock::now();
-    work();
-    const std::chrono::duration<double, std::nano> taken = std::chrono::steady_clock::now() - start;
-    best = std::min(best, taken.count() / static_cast<double>(steps));
-  }
-  return best;
-}
 
 /// One law on the ports it met in a run of `setup`.
 template <ScalarLaw Law>

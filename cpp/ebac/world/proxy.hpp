@@ -82,9 +82,8 @@ class Proxy {
     for (int i = 0; i < kMostStrides; ++i) {
       const Axes goal = nearest(x);
       const Axes way = goal - place_;
-      const double length = way.norm();
-      const bool arrives = length <= kStride;
-      const Axes next = arrives ? goal : Axes(place_ + kStride / length * way);
+      const bool arrives = way.squaredNorm() <= kStride * kStride;
+      const Axes next = arrives ? goal : Axes(place_ + kStride / way.norm() * way);
       const Distance at = solid.distance(next);
       if (at.d < -kExact) {  // another surface, or the same one further on
         place_ = next - at.d * at.out;
@@ -136,6 +135,7 @@ class Proxy {
 
   /// The point nearest to `x` that lies behind no plane; planes that do not keep it are let go.
   Axes nearest(const Axes& x) EBAC_RT {
+    if (count_ == 1) return nearest_on(held_[0], x);
     for (int planes = 0; planes <= count_; ++planes) {
       for (unsigned set = 0; set < 1U << static_cast<unsigned>(count_); ++set) {
         if (std::popcount(set) != planes) continue;
@@ -146,6 +146,16 @@ class Proxy {
       }
     }
     return place_;
+  }
+
+  /// The same for a single plane, the usual case.
+  Axes nearest_on(const Constraint& plane, const Axes& x) EBAC_RT {
+    const double behind = plane.out.dot(plane.at - x);
+    if (behind <= kExact) {
+      count_ = 0;
+      return x;
+    }
+    return x + behind * plane.out;
   }
 
   /// The point nearest to `x` on all planes of a set, if these push it there and no other plane is passed.

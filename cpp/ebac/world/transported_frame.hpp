@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cmath>
+
 #include "ebac/model/kinematics.hpp"
 
 namespace ebac::world {
@@ -9,6 +11,7 @@ class TransportedFrame {
  public:
   /// Rows: `count` directions made orthogonal, one after the other, then what is left.
   const Jacobian& along(const Axes* directions, int count) EBAC_RT {
+    if (count == 1 && turn_to(directions[0])) return frame_;
     int row = 0;
     for (int i = 0; i < count && row < kMaxAxes; ++i) row = add(directions[i], row);
     for (int i = row; i < kMaxAxes;) {
@@ -23,6 +26,22 @@ class TransportedFrame {
  private:
   static constexpr double kParallel =
       0.4;  // sine of the angle below which a direction is none of its own
+
+  /// The usual case, a single unit normal: the second direction turns with it and the third follows from both. False where
+  /// the second has become parallel to it.
+  bool turn_to(const Axes& normal) EBAC_RT {
+    const Axes before = frame_.row(1);
+    const Axes rest = before - normal.dot(before) * normal;
+    const double square = rest.squaredNorm();
+    if (square < kParallel * kParallel) return false;
+    const Axes second = (1 / std::sqrt(square)) * rest;
+    const Axes third = normal.cross(second);
+    const double side = third.dot(frame_.row(2)) < 0 ? -1.0 : 1.0;
+    frame_.row(0) = normal;
+    frame_.row(1) = second;
+    frame_.row(2) = side * third;
+    return true;
+  }
 
   /// Puts what of a direction is orthogonal to the rows before into the next one; the number of rows then.
   int add(const Axes& direction, int row) EBAC_RT {

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import partial
+from pathlib import Path
 from time import perf_counter
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from ebac.cli import options, output
-from ebac.cli.bench import can, logs, peers
+from ebac.cli.bench import can, logs, peers, worlds
 
 if TYPE_CHECKING:
     from ebac.scenario import Scenario
@@ -49,6 +50,19 @@ def bench(
     with_logs: Annotated[
         bool, typer.Option("--logs", help="Time writing and reading of logs instead.")
     ] = False,
+    with_worlds: Annotated[
+        bool,
+        typer.Option(
+            "--worlds",
+            help="Time contacts with meshes of a thousand and a million triangles instead; needs 'ebac[worlds]'.",
+        ),
+    ] = False,
+    chai3d: Annotated[
+        Path | None,
+        typer.Option(
+            help="Compare --worlds with CHAI3D, too: the program chai3d_contacts of examples/chai3d.",
+        ),
+    ] = None,
     side: Annotated[
         int,
         typer.Option(help="Side of the map that --peers times, side x side runs.", min=2, max=5000),
@@ -69,12 +83,27 @@ def bench(
     * `ebac bench --logs`: a log of a million rows, written and read
 
     * `ebac bench --can --repeats 5`: ticks and frames on a simulated CAN bus
+
+    * `ebac bench --worlds --repeats 5`: contacts with meshes (the first time a minute longer, for the grids)
     """
-    if with_peers + with_can + with_logs > 1:
-        output.fail("--peers, --can and --logs are comparisons of their own: give one of them")
-    if (with_peers or with_can or with_logs) and any(v is not None for v in vars(setup).values()):
-        output.fail("--peers, --can and --logs have scenarios of their own: leave its options out")
+    others = with_peers + with_can + with_logs + with_worlds
+    if others > 1:
+        output.fail(
+            "--peers, --can, --logs and --worlds are comparisons of their own: give one of them"
+        )
+    if others and any(v is not None for v in vars(setup).values()):
+        output.fail(
+            "--peers, --can, --logs and --worlds have scenarios of their own: leave its options out"
+        )
+    if chai3d is not None and not chai3d.is_file():
+        reason = "it is a folder" if chai3d.is_dir() else "no such file"
+        output.fail(f"--chai3d {chai3d}: {reason}")
+    if chai3d is not None and not with_worlds:
+        output.fail("--chai3d is a part of --worlds: give that, too")
     output.keeping("nothing was written; fewer --repeats take less time")
+    if with_worlds:
+        worlds.run(repeats, chai3d, as_json=as_json)
+        return
     if with_logs:
         logs.run(as_json=as_json)
         return
