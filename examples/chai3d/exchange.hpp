@@ -2,10 +2,10 @@
 
 #include <atomic>
 #include <chrono>
-#include <cstdint>
+#include <condition_variable>
 #include <ebac/loop/mailbox.hpp>
 #include <ebac/model/kinematics.hpp>
-#include <semaphore>
+#include <mutex>
 
 namespace chai {
 
@@ -21,6 +21,33 @@ struct Asked {
   ebac::Axes x = ebac::Axes::Zero();      // m
 };
 
+/// One of two threads that go in turns gives it, the other takes it.
+class Turn {
+ public:
+  explicit Turn(bool given) : given_(given) {}
+  void give() noexcept {
+    {
+      const std::lock_guard lock(mutex_);
+      given_ = true;
+    }
+    changed_.notify_one();
+  }
+  /// Waits for it as long as `alive()`.
+  template <class Alive>
+  void take(Alive alive) noexcept {
+    std::unique_lock lock(mutex_);
+    while (!given_ && alive()) changed_.wait_for(lock, kLook);
+    given_ = false;
+  }
+
+ private:
+  static constexpr std::chrono::milliseconds kLook{5};  // for whether there is still somebody
+
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  bool given_;
+};
+
 /// Between the loop and a haptic thread: two mailboxes, in which the newest value replaces an older one. The loop never
 /// waits, unless it is a simulation that goes step by step with the other side.
 class Exchange {
@@ -30,20 +57,20 @@ class Exchange {
   // The loop's side.
   void moved(const Motion& motion) EBAC_RT {
     motions_.post(motion);
-    if (in_step_.load(std::memory_order_relaxed)) motion_there_.release();
+    if (in_step()) motion_there_.give();
   }
   const Asked* asked() EBAC_RT { return forces_.take(); }
   /// In step: until the force of the last motion is there.
   void wait_for_force() noexcept {
-    wait(force_there_, [] { return true; });
+    if (in_step()) force_there_.take([this] { return in_step(); });
   }
 
   // The other side's.
-  /// The newest; in step that of the next tick, unless the loop has ended. Who did not ask for a force asks for none.
+  /// The newest; in step that of the next tick, unless the loop has ended. Without a new force the last one stands.
   template <class Running>
   Motion motion(Running running) {
-    if (!answered_) ask({});
-    wait(motion_there_, running);
+    if (!answered_ && in_step()) force_there_.give();
+    if (in_step()) motion_there_.take([&] { return in_step() && running(); });
     if (const Motion* newest = motions_.take()) last_ = *newest;
     answered_ = false;
     return last_;
@@ -52,30 +79,22 @@ class Exchange {
     forces_.post(asked);
     if (answered_) return;
     answered_ = true;
-    if (in_step_.load(std::memory_order_relaxed)) force_there_.release();
+    if (in_step()) force_there_.give();
   }
 
   /// From now on nobody waits.
   void part() { in_step_.store(false, std::memory_order_relaxed); }
 
  private:
-  using Semaphore = std::counting_semaphore<1 << 20>;
-  static constexpr std::chrono::milliseconds kLook{5};  // for whether there is still somebody
-
-  template <class Alive>
-  void wait(Semaphore& semaphore, Alive alive) noexcept {
-    while (in_step_.load(std::memory_order_relaxed) && alive() &&
-           !semaphore.try_acquire_for(kLook)) {
-    }
-  }
+  bool in_step() const noexcept { return in_step_.load(std::memory_order_relaxed); }
 
   ebac::Mailbox<Motion> motions_;
   ebac::Mailbox<Asked> forces_;
   std::atomic<bool> in_step_;
-  Semaphore motion_there_{0};
-  Semaphore force_there_{1};  // the first tick has nothing to wait for
-  Motion last_;               // the other side's
-  bool answered_ = true;      // the other side's: the motion it saw last
+  Turn motion_there_{false};
+  Turn force_there_{true};  // the first tick has nothing to wait for
+  Motion last_;             // the other side's
+  bool answered_ = true;    // the other side's: the motion it saw last
 };
 
 }  // namespace chai

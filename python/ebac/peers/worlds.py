@@ -22,7 +22,7 @@ CELL = 2 * (RING + TUBE) / 96
 #: Places that are timed, how far from the surface they lie at most [m], and runs.
 PLACES, OFF, REPEATS = 20_000, 1e-3, 100
 #: Those that a slower program gets.
-FEW, FEW_REPEATS = 2_000, 5
+FEW, FEW_REPEATS = 500, 30
 AIM = "at most 60 ns"
 #: How often `compare_worlds` calls `step`.
 STEPS = 4 * len(MESHES)
