@@ -1,6 +1,6 @@
 """What the tests share: cached runs of scenarios, hypothesis profiles, a bus, a device with its sensor.
 
-More examples than usual, and others each time: `pytest --hypothesis-profile=explore`.
+More examples than usual: `pytest --hypothesis-profile=explore`.
 
 A test marked `real_time` runs a loop against the clock. Where a loop in it ended because this machine kept it or what
 answers it waiting, the test is repeated while no other worker runs one, seven times at most. The summary says so. Any
@@ -33,8 +33,7 @@ if TYPE_CHECKING:
     from ebac.hardware import Configuration, OpenDevice, Run
     from ebac.sensor import SensorConfig, SharedForce, SimulatedSensor
 
-# The same examples every time, so more of them find no more the second time: that is what `explore` is for.
-settings.register_profile("ebac", deadline=None, derandomize=True, database=None, max_examples=50)
+settings.register_profile("ebac", deadline=None, derandomize=True, database=None)
 settings.register_profile("explore", deadline=None, max_examples=5000, database=None)
 settings.load_profile("ebac")
 
