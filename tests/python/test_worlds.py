@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 import ebac
@@ -71,6 +71,10 @@ def solids(draw: st.DrawFn) -> worlds.solids.Solid:
     return Cavity(one()) if kind is Cavity else kind(one(), one())
 
 
+@example(
+    worlds.Textured(worlds.Sphere(radius=0.02), worlds.Texture(amplitude=2e-4, wavelength=8e-3)),
+    [(0.0, 0.0, 0.0), (0.0, 0.0, 0.00390625)],
+)
 @given(solids(), PLACES)
 def test_a_distance_never_changes_faster_than_the_place(
     solid: worlds.solids.Solid, at: list

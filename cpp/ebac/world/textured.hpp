@@ -48,7 +48,9 @@ class Textured final : public Solid {
     const Texture::Height wave = texture_.at(x);
     const Axes uphill = smooth.out - wave.slope;
     const double steepness = uphill.norm();  // the waves are flatter than 30 degrees
-    return {(smooth.d - wave.h) / steepness, uphill / steepness};
+    // Height over steepness is the distance near the surface; deep inside it would stretch the depth.
+    const double near = std::max(0.0, 1 - std::abs(smooth.d) / (2 * texture_.amplitude));
+    return {(smooth.d - wave.h) / (1 + near * (steepness - 1)), uphill / steepness};
   }
 
  private:
