@@ -45,6 +45,12 @@ def test_a_name_that_is_none_is_said_once() -> None:
     assert "Error: --world grond: world 'grond'" in ran("wall --world grond --no-files", 2)
 
 
+@pytest.mark.parametrize("world", ["soft", "tissue"])
+def test_a_material_of_its_own_takes_no_stiffness(world: str) -> None:
+    said = ran(f"wall --world {world} --wall-stiffness 100 --no-files", 2)
+    assert "has a material of its own: give no stiffness" in said
+
+
 def test_every_world_is_listed_with_what_it_needs() -> None:
     rows = json.loads(ran("worlds --json"))["rows"]
     assert [one["name"] for one in rows] == [*PRESETS, "mesh:FILE"]

@@ -74,8 +74,11 @@ class LevelForces:
     ) -> tuple[Values, NDArray[np.float64]]:
         """Return objective, and d objective / d moved, shape (moved, rows + doubts)."""
         errors, out = self.problem.linearised(values, gains)
-        for x, row, k in self.levels:
-            by = max(float(values[k]), SOFTEST)
-            out[row] -= out[x] * values[self.which[x]] / by
-            out[x] /= by
+        with np.errstate(
+            over="ignore", invalid="ignore"
+        ):  # a search refuses a model that runs away
+            for x, row, k in self.levels:
+                by = max(float(values[k]), SOFTEST)
+                out[row] -= out[x] * values[self.which[x]] / by
+                out[x] /= by
         return errors, out

@@ -167,7 +167,7 @@ def flip_advice(sentence: str, explained: float, other_sign: float, turned: str 
     return (
         f"{sentence.format(f'{100 * explained:.3g} %')}, with {other} of the other sign "
         f"{100 * other_sign:.3g} %: the log seems to hold {', and '.join(TURNED[n] for n in names)}. {options} "
-        f"{'turns the sign' if len(names) == 1 else 'turn the signs'}, "
+        f"{'turns the sign, and is to be left out where it was given' if len(names) == 1 else 'turn the signs'}, "
         f"in Python load(..., {', '.join(f'flip_{n}=True' for n in names)})."
     )
 

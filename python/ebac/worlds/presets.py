@@ -116,8 +116,8 @@ PRESETS: dict[str, WorldPreset] = {
 def preset(
     name: str,
     *,
-    stiffness: float = 10e3,
-    damping: float = 0.0,
+    stiffness: float | None = None,
+    damping: float | None = None,
     friction: float = 0.0,
     position: float = 0.0,
 ) -> World:
@@ -128,10 +128,10 @@ def preset(
     name : str
         One of `ebac worlds`, or `mesh:FILE` for a mesh with its longest side made 40 mm and its leftmost place at the
         origin.
-    stiffness : float
-        Of its surface [N/m], [0, 1e7]; tissues have their own.
-    damping : float
-        Of its surface [N s/m], [0, 1e4]; tissues have their own.
+    stiffness : float, optional
+        Of its surface [N/m], [0, 1e7], 10 kN/m by default; `soft` and `tissue` have their own.
+    damping : float, optional
+        Of its surface [N s/m], [0, 1e4], none by default; `soft` and `tissue` have their own.
     friction : float
         Coulomb's coefficient, [0, 2].
     position : float
@@ -140,11 +140,13 @@ def preset(
     Raises
     ------
     ValueError
-        For an unknown name; the message suggests the nearest.
+        For an unknown name; the message suggests the nearest. For a stiffness or damping of a world that has its own.
     """
     kind, colon, file = name.partition(":")
     solid: Solid
-    material: Any = Elastic(stiffness=stiffness, damping=damping)
+    surface = {"stiffness": stiffness, "damping": damping}
+    given = {name: value for name, value in surface.items() if value is not None}
+    material: Any = Elastic(**{"stiffness": 10e3, "damping": 0.0} | given)
     if kind == "mesh" and colon:
         solid = _leftmost_at_origin(Mesh(file, size=MESH_SIZE))
     else:
@@ -153,6 +155,11 @@ def preset(
         chosen = PRESETS[kind]
         solid = chosen.solid()
         if chosen.material is not None:
+            if given:
+                raise ValueError(
+                    f"world {name!r} has a material of its own: give no {' and no '.join(given)}, or build the world "
+                    "in Python or TOML"
+                )
             material = chosen.material()
     if position:
         solid = Placed(solid, (position, 0.0, 0.0))

@@ -50,7 +50,7 @@ class EngineChannel {
 class PostedModels {
  public:
   explicit PostedModels(std::shared_ptr<EngineChannel> channel) : channel_(std::move(channel)) {}
-  PostedModels(const PostedModels& other) : channel_(other.channel_) {}
+  PostedModels(const PostedModels&) = default;
   PostedModels& operator=(const PostedModels&) = delete;
   ~PostedModels() { channel_->release(this); }
 

@@ -91,6 +91,7 @@ def export(
     """
     from ebac.logs.files import FORMATS, check_profile, extension
 
+    _check_times(start, stop)
     with output.refusing():
         extension(out, tuple(FORMATS))
         check_profile(out, profile)
@@ -197,6 +198,7 @@ def plot(
     * `ebac log plot run.mcap -c x,v,f_env --from 1 --to 2 --format pdf`: columns of one unit together
     """
     style.check()
+    _check_times(start, stop)
     if out is not None and out.suffix not in (".png", ".pdf", ".svg"):
         output.fail(f"--out {out}: must end in .png, .pdf or .svg")
     if out is not None and style.figure_format is not None:
@@ -225,6 +227,12 @@ add(log, info)
 add(log, export)
 add(log, repair)
 add(log, plot)
+
+
+def _check_times(start: float | None, stop: float | None) -> None:
+    """Refuse a part that ends before it begins."""
+    if start is not None and stop is not None and stop <= start:
+        output.fail(f"--from {start:g} s, --to {stop:g} s: must be the larger one")
 
 
 def _read(file: Path, start: float | None = None, stop: float | None = None, *, quiet: bool) -> Log:
