@@ -139,6 +139,17 @@ def test_a_drift_is_found_where_a_fit_without_it_is_far_off() -> None:
     assert all(j.determined and abs(j.error) < 0.01 for j in found)
 
 
+def test_noise_does_not_undo_what_a_log_shows(tmp_path: Path) -> None:
+    """What noise alone tells about the delay was subtracted from what is known, and nothing was determined."""
+    log = recorded(18, level="clean", task="tapping", held=True)
+    noise = 0.3 * np.random.default_rng(18).standard_normal(len(log.t))
+    r = load(written(tmp_path, t=log.t, x=log.x, force=log.force + noise))
+    found = fit_arm(r, Target(switches=log.switches, segments=log.segments))
+    for name, true in log.truth.items():
+        assert found[name].determined
+        assert abs(found[name].value / true - 1) < 0.05
+
+
 def test_a_log_with_pauses_is_tried_with_the_other_sign(tmp_path: Path) -> None:
     log = recorded(0, level="rough", task="multisine")
     r = load(written(tmp_path, t=log.t, x=log.x, force=-log.force))

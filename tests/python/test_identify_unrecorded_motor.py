@@ -110,3 +110,29 @@ def test_the_command_prints_the_note(tmp_path: Path) -> None:
     assert json.loads(CliRunner().invoke(app, [*words, "--json"]).output)["notes"]
     CliRunner().invoke(app, [*words, "--out", str(tmp_path / "report")])
     assert "The log has no motor force." in (tmp_path / "report" / "arm.html").read_text("utf-8")
+
+
+def test_delays_of_several_recordings_correct_a_shared_hand_once() -> None:
+    recordings = [replace(pushed(seed, 0.35, 6.0, 300.0, 0.0), motor=None) for seed in (1, 2, 3)]
+    one = identify.fit_arm(recordings)
+    each = identify.fit_arm(recordings, own=["delay"])
+    for name, true in (("M0", 0.35), ("B0", 6.0), ("K0", 300.0)):
+        half = 0.5 * (each[name].high - each[name].low)
+        assert each[name].value == pytest.approx(true, abs=1.5 * half, rel=5e-4), name
+        assert each[name].value == pytest.approx(one[name].value, abs=0.5 * half), name
+
+
+def test_a_recording_with_its_motor_keeps_its_delay() -> None:
+    driven = pushed(1, 0.35, 6.0, 300.0, 0.0)
+    blind = replace(pushed(2, 0.35, 6.0, 300.0, 0.0), motor=None)
+    result = identify.fit_arm([driven, blind], own=["delay"])
+    found = dict(zip(result.parameters.names, result.values.tolist(), strict=True))
+    assert found["delay@1"] == 0
+    assert found["delay@2"] == pytest.approx(2.4e-4, abs=2e-5)
+
+
+def test_a_delay_that_was_given_is_shown_as_given() -> None:
+    recording = replace(pushed(1, 0.35, 6.0, 300.0, 0.0), motor=None)
+    result = identify.fit_arm(recording, fixed={"delay": 1e-4})
+    assert result["delay"].value == 1e-4
+    assert result["delay"].fixed

@@ -58,6 +58,7 @@ def fit_arm(
         One for each recording; default: held in one place.
     fixed : mapping, optional
         Values that are not fitted, by name: `{"M0": 0.2}` [kg], B0 [N s/m], K0 [N/m], X0, X0/2 [m], delay, onset [s].
+        Where a log lacks the motor's force, what its steps add to the delay is still fitted, see `ArmResult.notes`.
         A name of one recording carries its number: `X0@2`.
     bounds : mapping, optional
         (low, high) by name.

@@ -49,25 +49,23 @@ class Problem:
         if self.folds is None:
             pairs = zip(self.recordings, self.targets, strict=True)
             object.__setattr__(self, "folds", tuple(by_target(r, target) for r, target in pairs))
-        unseen, moving = {"bend": BEND}, dict(WITHIN_TICK)
-        if all(r.motor is not None for r in self.recordings):
-            unseen["delay"] = DELAY_DRIVEN
-        else:
-            moving["delay"] = unrecorded_motor.deviation(self.recordings)
+        late = unrecorded_motor.deviations(self.recordings, self.parameters)
+        moving = WITHIN_TICK | {name: deviation for name, deviation in late.items() if deviation}
+        driven = {name: DELAY_DRIVEN for name, deviation in late.items() if not deviation}
+        if not late:  # a device
+            known = all(r.motor is not None for r in self.recordings)
+            driven = {"delay": DELAY_DRIVEN if known else DELAY}
         object.__setattr__(self, "doubt", doubt_of(self, moving))
-        object.__setattr__(self, "unseen", doubt_of(self, unseen))
+        object.__setattr__(self, "unseen", doubt_of(self, {"bend": BEND} | driven))
         object.__setattr__(self, "parameters", self._within_reach())
 
     def _within_reach(self) -> Parameters:
         """Return the parameters, a delay in doubt bounded by as far off as it may be, in a uniform distribution."""
-        p, reach = self.parameters, np.full(len(self.parameters.names), np.inf)
+        p, low, high = self.parameters, self.parameters.low.copy(), self.parameters.high.copy()
         for i, deviation in zip(self.doubt.which, self.doubt.deviation, strict=True):
             if kind(p.names[i]) == "delay":
-                reach[i] = sqrt(3) * deviation
-        held = np.nan_to_num(p.fixed)
-        return replace(
-            p, low=np.maximum(p.low, held - reach), high=np.minimum(p.high, held + reach)
-        )
+                low[i], high[i] = p.fixed[i] + sqrt(3) * deviation * np.array([-1, 1])
+        return replace(p, low=low, high=high)
 
     def drifting(self, drift: float) -> Problem:
         """Return the same with another drift of the force [N/sqrt(s)]."""
@@ -192,7 +190,10 @@ class Problem:
             for r, t, n in zip(self.recordings, self.targets, force_noise, strict=True)
         )
         noiseless = ("X0", "onset", *INPUTS)  # a target is known without noise
-        places = [kind(self.parameters.names[i]) not in noiseless for i in wanted]
+        doubtful = set(self.doubt.which.tolist())  # nor does a delay change how noise moves a hand
+        places = [
+            kind(self.parameters.names[i]) not in noiseless and i not in doubtful for i in wanted
+        ]
         out = np.zeros((len(wanted), sum(len(r.t) for r in self.recordings)))
         out[places], errors = self._linearised(records, still, gains, wanted[places])
         return out, errors
@@ -238,9 +239,9 @@ WITHIN_TICK = {"onset": 0.15, "stair": 0.4}
 #: Left as they are, and carried into the intervals; a fit would misuse them to smooth the noise of the force. How the
 #: force bent between two rows, as a share of its second difference (0 for straight, 1/12 for a smooth curve).
 BEND = 1 / 18
-#: When within a tick the force was read [ticks], where the log has the motor's force, so that its ripple is known;
-#: without it, see `unrecorded_motor`.
-DELAY_DRIVEN = 0.005
+#: When within a tick the force was read [ticks], where the log has the motor's force, so that its ripple is known; and
+#: where a device has none. Of a hand without it, see `unrecorded_motor`.
+DELAY_DRIVEN, DELAY = 0.005, 0.04
 
 
 def doubt_of(problem: Problem, deviations: Mapping[str, float]) -> Doubt:
@@ -252,12 +253,13 @@ def doubt_of(problem: Problem, deviations: Mapping[str, float]) -> Doubt:
     found, sure = [], []
     for i, name in enumerate(p.names):
         what = kind(name)
-        if what not in deviations or np.isnan(p.fixed[i]):
+        given = deviations.get(name, deviations.get(what))
+        if given is None or np.isnan(p.fixed[i]):
             continue
         if (what == "onset" and not moving) or (what == "stair" and not driven):
             continue
         found.append(i)
-        sure.append(deviations[what] * (dt if what in ("delay", "onset") else 1.0))
+        sure.append(given * (dt if what in ("delay", "onset") else 1.0))
     return Doubt(which=np.array(found, dtype=np.intp), deviation=np.array(sure))
 
 

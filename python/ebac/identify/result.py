@@ -145,7 +145,9 @@ class ArmResult:
         out = {}
         free = set(self.parameters.free.tolist())
         for i, name in enumerate(self.parameters.names):
-            value, half = float(self.values[i]), Z95 * float(self.deviation[i])
+            given = i not in free and kind(name) == "delay"  # what a motor adds to it is in `notes`
+            value = float((self.parameters.fixed if given else self.values)[i])
+            half = Z95 * float(self.deviation[i])
             out[name] = Estimate(
                 name=name,
                 value=value,

@@ -153,7 +153,7 @@ def _round(
 
     def inside(x: Values) -> Values:  # on a bound that a rounding error keeps it from
         x = np.where(x - low < ROUNDING * size, low, x)
-        return np.where(high - x < ROUNDING * size, high, x)
+        return np.clip(np.where(high - x < ROUNDING * size, high, x), low, high)
 
     optimiser.set_min_objective(carried.with_gradient(half_cost, instead=np.inf))
     above, below = np.isfinite(high), np.isfinite(low)
