@@ -1,6 +1,9 @@
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 
+#include <algorithm>
+#include <array>
+
 #include "bind.hpp"
 #include "ebac/identify/arm_record.hpp"
 #include "others_run.hpp"
@@ -32,14 +35,19 @@ py::array_t<double> rows_of(const ArmRecord& record) {
   return py::array_t<double>(static_cast<py::ssize_t>(record.rows()));
 }
 
+ArmRecord::Noise noise_of(const std::array<double, 3>& noise) {
+  if (std::all_of(noise.begin(), noise.end(), [](double size) { return size >= 0; })) {
+    return {noise[0], noise[1], noise[2]};
+  }
+  throw std::invalid_argument("ArmRecord: force_noise, drift or offset is negative");
+}
+
 ArmGains gains(const ArmRecord& record, const Numbers& theta, double force_noise, double drift,
                double offset) {
   const auto view = theta_of(record, theta);
-  if (!(force_noise >= 0) || !(drift >= 0) || !(offset >= 0)) {
-    throw std::invalid_argument("ArmRecord: force_noise, drift or offset is negative");
-  }
+  const ArmRecord::Noise noise = noise_of({force_noise, drift, offset});
   const OthersRun release;
-  return record.gains(ArmGuess::from(view, record.inputs()), force_noise, drift, offset);
+  return record.gains(ArmGuess::from(view, record.inputs()), noise);
 }
 
 void require_same(const ArmRecord& record, const ArmGains& gains) {
@@ -58,6 +66,22 @@ py::array_t<double> innovations(const ArmRecord& record, const Numbers& theta,
     record.innovations(ArmGuess::from(view, record.inputs()), gains, errors);
   }
   return out;
+}
+
+std::pair<py::array_t<double>, double> filtered(const ArmRecord& record, const Numbers& theta,
+                                                const Numbers& held, std::array<double, 3> noise) {
+  const auto view = theta_of(record, theta);
+  const auto made = theta_of(record, held);
+  const ArmRecord::Noise size = noise_of(noise);
+  auto out = rows_of(record);
+  const std::span<double> errors(out.mutable_data(), record.rows());
+  double log_sum = 0;
+  {
+    const OthersRun release;
+    log_sum = record.filtered(ArmGuess::from(view, record.inputs()),
+                              ArmGuess::from(made, record.inputs()), size, errors);
+  }
+  return {out, log_sum};
 }
 
 py::array_t<double> drifts(const ArmRecord& record, const Numbers& theta, const ArmGains& gains) {
@@ -110,11 +134,12 @@ py::array_t<double> renewed_jacobian(const ArmRecord& record, const Numbers& the
   const auto made = theta_of(record, held);
   require_known(view.size(), which);
   require_steps(which, steps);
+  const ArmRecord::Noise size = noise_of(noise);
   py::array_t<double> out({which.size(), record.rows()});
   const std::span<double> columns(out.mutable_data(), which.size() * record.rows());
   {
     const OthersRun release;
-    record.renewed_jacobian(view, made, {noise[0], noise[1], noise[2]}, which, steps, columns);
+    record.renewed_jacobian(view, made, size, which, steps, columns);
   }
   return out;
 }
@@ -165,6 +190,10 @@ void bind_identify(py::module_& m) {
            "Return by how much the force reads too high at each row [N], shape (rows,).")
       .def("innovations", &innovations, py::arg("theta"), py::arg("gains"),
            "Return the one-step prediction errors, each divided by its standard deviation.")
+      .def("filtered", &filtered, py::arg("theta"), py::arg("held"), py::arg("noise"),
+           "Return the innovations with the gains made for `held`, shape (rows,), and the sum of "
+           "the "
+           "logarithms of their variances; `noise` as of `gains`.")
       .def("linearised", &linearised, py::arg("theta"), py::arg("gains"), py::arg("which"),
            "Return the innovations, shape (rows,), and d innovations / d theta[which], shape "
            "(which, "

@@ -4420,6 +4420,17 @@ class ArmRecord:
         """
         Return the gains for theta and force readings of standard deviation `force_noise` [N] that drift by a random walk of `drift` [N/sqrt(s)] from within `offset` [N].
         """
+    def filtered(
+        self,
+        theta: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
+        held: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
+        noise: typing.Annotated[
+            collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(3)"
+        ],
+    ) -> tuple[numpy.typing.NDArray[numpy.float64], float]:
+        """
+        Return the innovations with the gains made for `held`, shape (rows,), and the sum of the logarithms of their variances; `noise` as of `gains`.
+        """
     def innovations(
         self, theta: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], gains: ArmGains
     ) -> numpy.typing.NDArray[numpy.float64]:

@@ -52,7 +52,7 @@ std::vector<double> simulated(const ArmRecord& record, const std::vector<double>
 double worst(const ArmRecord& record, const std::vector<double>& theta, std::size_t skip = 50) {
   const ArmGuess guess = ArmGuess::from(theta, record.inputs());
   std::vector<double> e(kRows);
-  record.innovations(guess, record.gains(guess, 0.01), e);
+  record.innovations(guess, record.gains(guess, {.force = 0.01}), e);
   double most = 0;
   for (std::size_t i = skip; i < kRows; ++i) most = std::max(most, std::abs(e[i]));
   return most;
@@ -155,13 +155,43 @@ TEST(ArmRecord, DoubtLetsTheHandGo) {
   EXPECT_LT(worst(ArmRecord(log), kHand), 2.0);
 }
 
+TEST(ArmRecord, OnePassGivesWhatGainsAndPredictionGive) {
+  ArmRecord::Log log = log_of(wave());
+  log.x = simulated(ArmRecord(log), kHand);
+  const ArmRecord record(log);
+  std::vector<double> other = kHand;
+  other[ArmGuess::kMass] *= 1.1;
+  other[ArmGuess::kDelay] = 3e-4;
+  const ArmGuess guess = ArmGuess::from(other, 1);
+  const ArmGuess held = ArmGuess::from(kHand, 1);
+  const ArmRecord::Noise noise{.force = 0.01, .drift = 0.1, .offset = 0.3};
+  const ArmGains gains = record.gains(held, noise);
+  std::vector<double> two(kRows), one(kRows);
+  record.innovations(guess, gains, two);
+  EXPECT_EQ(record.filtered(guess, held, noise, one), gains.log_sum);
+  EXPECT_EQ(one, two);
+}
+
+TEST(ArmRecord, TheInitialStateIsFreeWhateverTheDelay) {
+  ArmRecord::Log log = log_of(wave());
+  for (std::size_t i = 0; i < kRows; ++i) log.x[i] = 0.1 * kDt * static_cast<double>(i);
+  const ArmRecord record(log);
+  const ArmGains gains = record.gains(ArmGuess::from(kHand, 1), {.force = 0.01});
+  std::vector<double> late = kHand;
+  late[ArmGuess::kDelay] = 4e-4;
+  std::vector<double> as_held(kRows), later(kRows);
+  record.innovations(ArmGuess::from(kHand, 1), gains, as_held);
+  record.innovations(ArmGuess::from(late, 1), gains, later);
+  for (std::size_t i = 2; i < 10; ++i) EXPECT_NEAR(as_held[i], later[i], 0.5);
+}
+
 TEST(ArmRecord, TheJacobianIsTheSlopeOfTheErrors) {
   ArmRecord::Log log = log_of(wave());
   log.x = simulated(ArmRecord(log), kHand);
   const ArmRecord record(log);
-  const ArmGains gains = record.gains(ArmGuess::from(kHand, 1), 0.01);
-  const std::vector<std::size_t> which{0, 1, 2, 7};
-  const std::vector<double> steps{1e-7, 1e-5, 1e-3, 1e-7};
+  const ArmGains gains = record.gains(ArmGuess::from(kHand, 1), {.force = 0.01});
+  const std::vector<std::size_t> which{0, 1, 2, 7, ArmGuess::kDelay};
+  const std::vector<double> steps{1e-7, 1e-5, 1e-3, 1e-7, 1e-7};
   std::vector<double> J(which.size() * kRows);
   std::vector<double> errors(kRows);
   record.linearised(kHand, gains, which, errors, J);

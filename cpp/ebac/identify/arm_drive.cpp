@@ -60,9 +60,10 @@ ArmRecord::Drive ArmRecord::drive(const ArmGuess& guess, double ticks) const {
   for (std::size_t i = 0; i < n; ++i) {
     const auto row = static_cast<std::ptrdiff_t>(i);
     out.force[i] = raw(row) - sharpen * raw.curvature(row);
-    for (std::size_t k = 0; k < guess.shares.size(); ++k) {
-      out.beyond[i] += guess.shares[k] * log_.inputs[k][i];
-    }
+  }
+  for (std::size_t k = 0; k < guess.shares.size(); ++k) {
+    if (guess.shares[k] == 0) continue;
+    for (std::size_t i = 0; i < n; ++i) out.beyond[i] += guess.shares[k] * log_.inputs[k][i];
   }
   std::size_t segment = 0;
   const double onset = guess.onset + late;
@@ -78,9 +79,10 @@ ArmRecord::Drive ArmRecord::drive(const ArmGuess& guess, double ticks) const {
 
 /// Replaces the mean over each tick by that behind the sensor's lag.
 void ArmRecord::put_behind_lag(std::span<double> wanted) const {
-  const double lagging = log_.lag > 0 ? log_.lag / log_.dt * (1 - keep_) : 0.0;
   double y = wanted[0];
   wanted[0] = 0;
+  if (log_.lag == 0) return;
+  const double lagging = log_.lag / log_.dt * (1 - keep_);
   for (double& mean : wanted.subspan(1)) {
     const double now = mean;
     mean = now + (y - now) * lagging;

@@ -148,9 +148,7 @@ void ArmRecord::renewed_jacobian(std::span<const double> theta, std::span<const 
   std::vector<double> made(held.begin(), held.end());
   std::vector<double> here(n);
   const auto errors = [&](std::span<double> into) {
-    const ArmGains gains =
-        this->gains(ArmGuess::from(made, inputs()), noise.force, noise.drift, noise.offset);
-    innovations(ArmGuess::from(at, inputs()), gains, into);
+    filtered(ArmGuess::from(at, inputs()), ArmGuess::from(made, inputs()), noise, into);
   };
   errors(here);
   for (std::size_t i = 0; i < which.size(); ++i) {

@@ -143,58 +143,115 @@ std::vector<double> ArmRecord::jumps(const ArmGuess& guess) const {
   return out;
 }
 
-ArmGains ArmRecord::gains(const ArmGuess& guess, double force_noise, double drift,
-                          double offset) const {
-  const ArmStep step(guess, log_.dt);
-  const Eigen::Vector2d kick = step.start * step.per_mass;
-  const Eigen::Vector3d q(kick[0] * kick[0], kick[0] * kick[1], kick[1] * kick[1]);
-  const std::vector<double> jumps = this->jumps(guess);
-  ArmGains out;
-  out.ticks = whole_ticks(guess);
-  out.late = late_by(guess, out.ticks);
-  out.rows.reserve(rows());
-  Spread spread;
-  LogSum log_sum;
-  spread.p22 = offset * offset;
-  const double wander = drift * drift * log_.dt;
-  for (std::size_t i = 0; i < rows(); ++i) {
-    const double forward = log_.lag + out.late - log_.early[i];
-    out.rows.push_back(spread.weigh(log_.variance[i], forward, log_sum));
-    const double doubt = kJumpDoubt * jumps[i];
-    const double other = log_.doubt[i];
-    spread.move(step.phi, kick, q * (force_noise * force_noise + doubt * doubt + other * other),
-                wander);
+/// Makes the gains of a filter, one row after the other.
+class ArmRecord::Maker {
+ public:
+  Maker(const ArmRecord& record, const ArmGuess& guess, const Noise& noise)
+      : log_(record.log_),
+        step_(guess, log_.dt),
+        kick_(step_.start * step_.per_mass),
+        q_(kick_[0] * kick_[0], kick_[0] * kick_[1], kick_[1] * kick_[1]),
+        jumps_(record.jumps(guess)),
+        ticks_(record.whole_ticks(guess)),
+        late_(record.late_by(guess, ticks_)),
+        variance_(noise.force * noise.force),
+        wander_(noise.drift * noise.drift * log_.dt) {
+    spread_.p22 = noise.offset * noise.offset;
   }
-  out.log_sum = log_sum.sum();
+
+  ArmGains::Row next(std::size_t i) EBAC_RT {
+    const double forward = log_.lag + late_ - log_.early[i];
+    const ArmGains::Row row = spread_.weigh(log_.variance[i], forward, log_sum_);
+    const double doubt = kJumpDoubt * jumps_[i];
+    const double other = log_.doubt[i];
+    spread_.move(step_.phi, kick_, q_ * (variance_ + doubt * doubt + other * other), wander_);
+    return row;
+  }
+
+  double ticks() const { return ticks_; }
+  double late() const { return late_; }
+  double log_sum() const { return log_sum_.sum(); }
+
+ private:
+  const Log& log_;
+  ArmStep step_;
+  Eigen::Vector2d kick_;
+  Eigen::Vector3d q_;
+  std::vector<double> jumps_;  // N
+  double ticks_, late_;
+  double variance_, wander_;  // N^2
+  Spread spread_;
+  LogSum log_sum_;
+};
+
+/// The motion of a guess one tick ahead, corrected by each reading.
+class ArmRecord::Prediction {
+ public:
+  /// With gains that were made for some whole ticks of delay and the rest of it [s].
+  Prediction(const ArmRecord& record, const ArmGuess& guess, double ticks, double made_for)
+      : log_(record.log_),
+        step_(guess, log_.dt),
+        drive_(record.drive(guess, ticks)),
+        ahead_(log_.lag + record.late_by(guess, ticks)),
+        later_(record.late_by(guess, ticks) - made_for) {}
+
+  /// The error of a row over its standard deviation.
+  double next(std::size_t i, const ArmGains::Row& gain) EBAC_RT {
+    const double early = log_.early[i];  // half a tick: the mean over the tick, with its bend
+    const double bend = early * early / log_.dt * (2.0 / 3.0) * (z_[1] - before_);
+    const double e = log_.x[i] - z_[0] - (ahead_ - early) * z_[1] - bend;
+    off_ += gain.drift * e;
+    if (i + 1 < log_.x.size()) {
+      z_[0] += (gain.x - later_ * gain.v) * e;
+      z_[1] += gain.v * e;
+      before_ = z_[1];
+      const double beyond = drive_.beyond[i] - off_;
+      const double now = step_.push(drive_.force[i] + beyond, drive_.target[i + 1]);
+      const double then = step_.push(drive_.force[i + 1] + beyond, drive_.target[i + 1]);
+      z_ = step_.phi * z_ + step_.start * now + step_.change * (then - now);
+    }
+    return e * gain.weight;
+  }
+
+  /// By how much the force reads too high [N].
+  double off() const EBAC_RT { return off_; }
+
+ private:
+  const Log& log_;
+  ArmStep step_;
+  Drive drive_;
+  double ahead_, later_;                         // s
+  Eigen::Vector2d z_ = Eigen::Vector2d::Zero();  // m, m/s
+  double before_ = 0;                            // m/s, velocity a tick ago
+  double off_ = 0;                               // N
+};
+
+ArmGains ArmRecord::gains(const ArmGuess& guess, const Noise& noise) const {
+  Maker maker(*this, guess, noise);
+  ArmGains out;
+  out.ticks = maker.ticks();
+  out.late = maker.late();
+  out.rows.reserve(rows());
+  for (std::size_t i = 0; i < rows(); ++i) out.rows.push_back(maker.next(i));
+  out.log_sum = maker.log_sum();
   return out;
 }
 
 void ArmRecord::innovations(const ArmGuess& guess, const ArmGains& gains, std::span<double> out,
                             std::span<double> drifts) const {
-  const ArmStep step(guess, log_.dt);
-  const Drive drive = this->drive(guess, gains.ticks);
-  const double late = late_by(guess, gains.ticks);
-  const double ahead = log_.lag + late, later = late - gains.late;  // s
-  Eigen::Vector2d z = Eigen::Vector2d::Zero();
-  double before = 0;  // m/s, velocity a tick ago
-  double off = 0;     // N, by which the force reads too high
+  Prediction prediction(*this, guess, gains.ticks, gains.late);
   for (std::size_t i = 0; i < rows(); ++i) {
-    const ArmGains::Row& gain = gains.rows[i];
-    const double early = log_.early[i];  // half a tick: the mean over the tick, with its bend
-    const double bend = early * early / log_.dt * (2.0 / 3.0) * (z[1] - before);
-    const double e = log_.x[i] - z[0] - (ahead - early) * z[1] - bend;
-    out[i] = e * gain.weight;
-    off += gain.drift * e;
-    if (!drifts.empty()) drifts[i] = off;
-    if (i + 1 == rows()) break;
-    z[0] += (gain.x - later * gain.v) * e;
-    z[1] += gain.v * e;
-    before = z[1];
-    const double beyond = drive.beyond[i] - off;
-    const double now = step.push(drive.force[i] + beyond, drive.target[i + 1]);
-    const double next = step.push(drive.force[i + 1] + beyond, drive.target[i + 1]);
-    z = step.phi * z + step.start * now + step.change * (next - now);
+    out[i] = prediction.next(i, gains.rows[i]);
+    if (!drifts.empty()) drifts[i] = prediction.off();
   }
+}
+
+double ArmRecord::filtered(const ArmGuess& guess, const ArmGuess& held, const Noise& noise,
+                           std::span<double> out) const {
+  Maker maker(*this, held, noise);
+  Prediction prediction(*this, guess, maker.ticks(), maker.late());
+  for (std::size_t i = 0; i < rows(); ++i) out[i] = prediction.next(i, maker.next(i));
+  return maker.log_sum();
 }
 
 void ArmRecord::simulate(const ArmGuess& guess, double x, double v, std::span<double> out) const {

@@ -80,10 +80,12 @@ class ArmRecord {
   std::size_t inputs() const { return log_.inputs.size(); }
   std::size_t parameters() const { return ArmGuess::kBeforeInputs + inputs() + levels_; }
 
-  /// The gains for a guess, when a force reading has the standard deviation `force_noise` [N], and
-  /// reads too high by a random walk of `drift` [N/sqrt(s)] that begins within `offset` [N].
-  ArmGains gains(const ArmGuess& guess, double force_noise, double drift = 0,
-                 double offset = 0) const;
+  struct Noise {
+    double force = 0;   // N, standard deviation of a reading
+    double drift = 0;   // N/sqrt(s), of a random walk by which it reads too high
+    double offset = 0;  // N, within which that begins
+  };
+  ArmGains gains(const ArmGuess& guess, const Noise& noise) const;
 
   /// Writes the errors of one tick ahead, each over its standard deviation, and where asked for by
   /// how much the force reads too high [N].
@@ -96,11 +98,10 @@ class ArmRecord {
                   std::span<const std::size_t> which, std::span<double> errors,
                   std::span<double> out) const;
 
-  struct Noise {
-    double force = 0;   // N, standard deviation of a reading
-    double drift = 0;   // N/sqrt(s), of its random walk
-    double offset = 0;  // N, within which that begins
-  };
+  /// The innovations of a guess with the gains made for `held`, and the logarithms of their variances, in one pass.
+  double filtered(const ArmGuess& guess, const ArmGuess& held, const Noise& noise,
+                  std::span<double> out) const;
+
   /// The same derivatives, with the gains made anew for each change, from `held` changed alike; by
   /// differences of `steps`.
   void renewed_jacobian(std::span<const double> theta, std::span<const double> held,
@@ -111,6 +112,8 @@ class ArmRecord {
   void simulate(const ArmGuess& guess, double x, double v, std::span<double> out) const;
 
  private:
+  class Maker;
+  class Prediction;
   struct Drive {
     std::vector<double> force;   // N, at each tick
     std::vector<double> beyond;  // N, what its mean over the tick from there lies above that

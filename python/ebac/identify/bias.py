@@ -32,9 +32,8 @@ def minus_two_log(
 
     `held` is what the filter is made for, see `Problem.held`, `wander` the drift of the force, see `Problem.wander`.
     """
-    gains = record.gains(held, force_noise, *wander)
-    e = record.innovations(theta, gains)
-    return loss(e, robust) + gains.log_sum
+    e, log_sum = record.filtered(theta, held, (force_noise, *wander))
+    return loss(e, robust) + log_sum
 
 
 def likely_noise(
