@@ -101,8 +101,9 @@ def likely_drift(
         start, noise = share * scale, noises[which]
     low, high = np.log(0.1 * DRIFTS[0] * scale), np.log(largest)
     at = float(np.clip(np.log(start), low, high))
-    found = lowest(lambda z: unlikely(float(np.exp(z)), noise), at, STEP, low, high)
-    return float(np.exp(found))
+    found = float(np.exp(lowest(lambda z: unlikely(float(np.exp(z)), noise), at, STEP, low, high)))
+    believed = not problem.drift or unlikely(found, noise) < unlikely(0.0, noise) - BELIEVED
+    return found if believed else 0.0
 
 
 def largest_drift(problem: Problem) -> float:

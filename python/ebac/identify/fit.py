@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -66,18 +67,20 @@ def fitted(
     drifts : bool
         Whether the forces may drift, as those of a sensor do.
     """
-    parameters = problem.parameters
-    found = (_search(problem, guess, robust) for guess in guesses)
-    best = before.found if before else min(found, key=lambda point: point.likelihood)
-    draw = np.random.Generator(np.random.PCG64(seed))
+    best, beside = before.found if before else None, None
+    if best is None:
+        best, beside = _from_guesses(problem, guesses, robust, drifts=drifts)
+    within = before.problem if before else beside[0] if beside else problem
+    draw, first = np.random.Generator(np.random.PCG64(seed)), best
     for _ in range(starts - 1):
-        other = _search(problem, _elsewhere(best.values, parameters, draw), robust)
+        other = _search(within, _elsewhere(best.values, problem.parameters, draw), robust)
         if other.likelihood < best.likelihood - 1e-3:
             best = other
-    if before is not None and best is before.found:
+    if before is not None and best is first:
         return before
+    if within.drift and best is not first:
+        beside = _beside_drift(within, best.values, best.force_noise, robust)
     values, noise, doubted = best.values, best.force_noise, None
-    beside = _with_drift(problem, best, guesses, robust) if drifts else None
     if beside is not None:
         problem, values, noise, doubted = beside
     gains = problem.gains(values, noise)
@@ -97,12 +100,24 @@ def fitted(
     )
 
 
+def _from_guesses(
+    problem: Problem, guesses: Sequence[Values], robust: float | None, *, drifts: bool
+) -> tuple[Point, BesideDrift | None]:
+    """Return the likeliest point; with a drift where a first round of any search shows one that lasts."""
+    steady = [_unless_drifting(problem, guess, robust, drifts=drifts) for guess in guesses]
+    found = [point for point in steady if point is not None]
+    if len(found) < len(guesses):
+        point, beside = _with_drift(problem, guesses, robust)
+        if point is not None:
+            return point, beside
+        found = [_search(problem, guess, robust) for guess in guesses]
+    return min(found, key=lambda point: point.likelihood), None
+
+
 def _with_drift(
-    problem: Problem, best: Point, guesses: Sequence[Values], robust: float | None
-) -> tuple[Problem, Values, Values, Values] | None:
-    """Fit a drift of the forces along where the errors ask for one, from the guesses, since it misleads a fit."""
-    if not likely_drift(problem, best.values, best.force_noise, robust):
-        return None
+    problem: Problem, guesses: Sequence[Values], robust: float | None
+) -> tuple[Point, BesideDrift] | tuple[None, None]:
+    """Fit a drift of the forces along where the errors at a guess ask for one, since it misleads a fit without."""
     found = []
     for start in guesses:
         drift = likely_drift(problem, start, problem.shown, robust)
@@ -110,9 +125,10 @@ def _with_drift(
             at = problem.drifting(drift)
             found.append((at, _search(at, start, robust)))
     if not found:
-        return None
+        return None, None
     at, point = min(found, key=lambda pair: pair[1].likelihood)
-    return _beside_drift(at, point.values, point.force_noise, robust)
+    beside = _beside_drift(at, point.values, point.force_noise, robust)
+    return (None, None) if beside is None else (point, beside)
 
 
 #: Rounds of: values, then drift; settled when it changes by less than this share.
@@ -125,9 +141,13 @@ DOUBTED_DRIFT = 1.25
 SMALL_FALL = 1e-2
 
 
+#: Problem, values and noise without what a drift does to them, and how far they are off by its doubt.
+BesideDrift: TypeAlias = tuple[Problem, Values, Values, Values]
+
+
 def _beside_drift(
     problem: Problem, values: Values, noise: Values, robust: float | None
-) -> tuple[Problem, Values, Values, Values] | None:
+) -> BesideDrift | None:
     """Return problem, values and noise without what a drift does to them, and how far they are off by its doubt.
 
     None where the errors ask for more than a drift.
@@ -219,7 +239,16 @@ class Point:
 
 
 def _search(problem: Problem, start: Values, robust: float | None) -> Point:
-    """Make the filter for the guess, search with it, until the two agree.
+    """Make the filter for the guess, search with it, until the two agree."""
+    point = _unless_drifting(problem, start, robust, drifts=False)
+    assert point is not None
+    return point
+
+
+def _unless_drifting(
+    problem: Problem, start: Values, robust: float | None, *, drifts: bool
+) -> Point | None:
+    """Do the same; None where forces may drift and the first round shows that they do, which no further one would find.
 
     The first filter is made for the noise that the force shows: at a bad guess a far larger one is likelier, and with
     it anything fits.
@@ -233,6 +262,8 @@ def _search(problem: Problem, start: Values, robust: float | None) -> Point:
         found = _with_filter(problem, values, noise, forces, robust)
         evaluations += found.evaluations
         values = forces.full(found.values, values)
+        if i == 0 and drifts and likely_drift(problem, values, noise, robust):
+            return None
         step = found.values - began
         if i > 0 and float(step @ found.information @ step) < SETTLED:
             break
