@@ -109,3 +109,10 @@ def test_a_world_that_no_engine_computes_is_refused() -> None:
     thread = EngineThread(lambda x, v: LocalModel(at=(0, 0, 0), normal=(1, 0, 0), stiffness=1))
     with pytest.raises(ValueError, match="an engine computes"):
         engines(ebac.Scenario(environment=thread.world))
+
+
+def test_a_damping_that_the_model_would_leave_out_is_refused() -> None:
+    words = "wall --wall-damping 10 --engine-rate 60 --law ebac --no-files"
+    result = CliRunner().invoke(app, words.split())
+    assert result.exit_code == 2
+    assert "damping = 10 N s/m: must be 0 N s/m behind an engine" in result.output
