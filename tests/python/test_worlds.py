@@ -126,9 +126,11 @@ def test_a_world_pushes_with_what_it_keeps(solid: worlds.solids.Solid, at: list)
         assert touch.stored == pytest.approx(touch.force @ touch.force / 2000, abs=1e-9)
 
 
-@given(st.sampled_from(SHAPES), PLACES)
+@given(st.sampled_from([solid for solid in SHAPES if not isinstance(solid, Tube)]), PLACES)
+@example(Sphere(), [(0, 0, 0)] * 6 + [(0.05, 0, 0), (0, 0, 0.047)] + [(0, 0, 0)] * 3)
 @settings(max_examples=40)
 def test_a_world_never_pulls(solid: worlds.solids.Solid, at: list) -> None:
+    """One that has no creases (there the normal is that of one face), with a handle faster than the proxy."""
     corners = np.array([[-0.2, 0, 0], *at, [-0.2, 0, 0]])
     u = np.linspace(0, len(corners) - 1, 1000)
     path = np.stack([np.interp(u, np.arange(len(corners)), c) for c in corners.T], axis=1)

@@ -105,6 +105,7 @@ class Proxy {
       }
       if (arrives) return;
     }
+    nearest(x);  // the rest of the way in the next tick, without planes that the handle has left behind
   }
 
   /// The surface has fallen away below a point: another tangent plane of it, or none where it has ended.
