@@ -122,6 +122,9 @@ def test_plan_apply_verify_restore(drive: Run, tmp_path: Path) -> None:
     table = drive("plan").stdout
     for words in ("sync_period", "us", "the loop's SYNC", "position (32 bit)", "Bus load 52 %"):
         assert words in table
+    assert all(
+        "1, 2" in line for line in table.splitlines() if "sync_period" in line
+    )  # a line for both
     assert "Not verified" in drive("verify", code=1).stdout
 
     applied = drive("apply", "--yes", "--json")

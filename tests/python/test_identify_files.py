@@ -154,6 +154,18 @@ def test_columns_of_text_are_left_out_with_a_note(tmp_path: Path, kind: str) -> 
         load(path, columns={"force": "comment"})
 
 
+def test_a_unit_that_its_heading_contradicts_is_told(tmp_path: Path) -> None:
+    signals = zip(T, X, F, strict=True)
+    path = tmp_path / "log.csv"
+    path.write_text(
+        "\n".join(["t,x [m],force", *(f"{t:.6g},{1e3 * x:.6g},{f:.6g}" for t, x, f in signals)])
+    )
+    told = "x: taken as mm as asked, column 'x [m]' says m"
+    assert told in load(path, units={"x": "mm"}).remarks
+    path.write_text(path.read_text().replace("x [m]", "x [mm]"))
+    assert not any("as asked" in remark for remark in load(path, units={"x": "mm"}).remarks)
+
+
 @pytest.mark.parametrize("by_row", [False, True])
 def test_a_struct_of_matlab_is_a_table(tmp_path: Path, by_row: bool) -> None:
     scipy_io = pytest.importorskip("scipy.io")

@@ -108,6 +108,12 @@ def test_ebac_drive_scans_it() -> None:
     ]
 
 
+def test_a_scan_that_finds_nobody_fails() -> None:
+    where = ["--interface", "ebac", "--channel", "nobody"]
+    for more in ([], ["--json"]):
+        assert CliRunner().invoke(app, ["drive", "scan", *where, *more]).exit_code == 1
+
+
 def test_the_logger_of_python_can_logs_it(tmp_path: Path) -> None:
     text = logged("joystick", tmp_path / "log.asc", seconds=0.3)
     assert re.findall(r" (70[12]) ", text) == ["701", "702"]

@@ -50,6 +50,11 @@ def test_a_wrong_value_is_told_and_the_picture_stays() -> None:
     assert "must lie in [0, 8] samples" in made.error
     assert made.picture == before
     assert made.serial == serial + 1  # the page may go on
+    made.values = {**made.values, "delay_samples": 1, "stiffness": 500.0}
+    assert "there is no slider 'stiffness'; there are law, stiffness_N_per_m" in made.error
+    assert made.picture == before
+    made.values = {name: value for name, value in made.values.items() if name != "stiffness"}
+    assert made.error == ""
     made.values = {**made.values, "delay_samples": 1}
     assert made.error == ""
 

@@ -64,7 +64,16 @@ def values_of(scenario: Scenario, law: str) -> dict[str, Any]:
 
 
 def moved(scenario: Scenario, values: dict[str, Any]) -> Scenario:
-    """Return a scenario with what the sliders say."""
+    """Return a scenario with what the sliders say.
+
+    Raises
+    ------
+    KeyError, ValueError
+        For a slider that is missing or that there is not, or a value out of range.
+    """
+    known = values_of(scenario, "")
+    if strange := [name for name in values if name not in known]:
+        raise ValueError(f"there is no slider {strange[0]!r}; there are {', '.join(known)}")
     wall = scenario.environment
     assert isinstance(wall, Wall)
     return scenario.replace(

@@ -85,8 +85,12 @@ def in_si(
     """
     found, remarks = {}, []
     for key, column in chosen.items():
-        unit = units.get(key, name_and_unit(key, column)[1])
-        found[key] = quantity_of(file, key, column, unit)
+        says = name_and_unit(key, column)[1]
+        found[key] = quantity_of(file, key, column, units.get(key, says))
+        if says is not None and found[key] != quantity_of(file, key, column, says):
+            remarks.append(
+                f"{key}: taken as {found[key][1]} as asked, column {column!r} says {says}"
+            )
     for key, (quantity, unit) in found.items():
         if unit is not None:
             continue

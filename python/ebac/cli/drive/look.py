@@ -33,6 +33,8 @@ def scan(
 ) -> None:
     """List the nodes that answer on a bus. Nothing is changed.
 
+    Exit code 1 when nobody answers.
+
     **Examples**
 
     * `ebac drive scan --interface ebac --channel joystick`: a simulated joystick
@@ -47,6 +49,8 @@ def scan(
         results.found(rows)
     else:
         output.say("Nobody answers: check power, bit rate, termination, and that the cable is in.")
+    if not rows:
+        raise typer.Exit(output.FAILED)
 
 
 def show(

@@ -21,12 +21,16 @@ def changes(found: Sequence[Change], none: str) -> None:
     if not found:
         output.say(none)
         return
-    grid = output.table(["node", "object", "", "now", "wanted", "unit", "why"], numbers=(0, 3, 4))
+    alike: dict[tuple[str, ...], list[str]] = {}
     for one in found:
         unit = "" if one.object.hexadecimal else one.object.unit
         now, wanted = one.show(one.now), one.show(one.wanted)
-        grid.add_row(str(one.node), one.object.where, one.object.name, now, wanted, unit, one.why)
-    grid.columns[2].min_width = max(len(one.object.name) for one in found)
+        row = (one.object.where, one.object.name, now, wanted, unit, one.why)
+        alike.setdefault(row, []).append(str(one.node))
+    grid = output.table(["object", "", "node", "now", "wanted", "unit", "why"], numbers=(3, 4))
+    for (where, name, *values), nodes in alike.items():
+        grid.add_row(where, name, ", ".join(nodes), *values)
+    grid.columns[1].min_width = max(len(one.object.name) for one in found)
     output.show(grid)
 
 
