@@ -73,15 +73,15 @@ def _rate(trace: Trace) -> float | None:
     return 1 / step if step > 0 else None
 
 
-def show(read: Log) -> None:
-    """Print it."""
+def show(read: Log, *, meanings: bool = False) -> None:
+    """Print it; with the meaning of each column where asked."""
     from ebac.logs.events import fault_name
 
     grid = output.table(["", read.path.name])
     for name, text in _lines(read):
         grid.add_row(name, _escaped(text))
     output.show(grid)
-    output.console().print(_columns(read.trace))
+    output.console().print(_columns(read.trace, meanings=meanings))
     _list("Gaps", [f"{g.rows} rows after tick {g.after_tick}, {g.t:.3f} s" for g in read.gaps])
     _list(
         "Faults",
@@ -127,14 +127,15 @@ def _lines(read: Log) -> list[tuple[str, str]]:
     return lines
 
 
-def _columns(trace: Trace) -> Any:
+def _columns(trace: Trace, *, meanings: bool) -> Any:
     import numpy as np
 
-    grid = output.table(["column", "unit", "least", "most", "meaning"], numbers=(2, 3))
+    more = ["meaning"] if meanings else []
+    grid = output.table(["column", "unit", "least", "most", *more], numbers=(2, 3))
     for name, info, values in trace.flat():
         known = values[np.isfinite(values)].astype(float) if len(values) else values
         least, most = (f"{known.min():.4g}", f"{known.max():.4g}") if len(known) else ("-", "-")
-        grid.add_row(name, info.unit, least, most, _escaped(info.meaning))
+        grid.add_row(name, info.unit, least, most, *([_escaped(info.meaning)] if meanings else []))
     return grid
 
 

@@ -40,7 +40,13 @@ class Profile(StrEnum):
     ROS2 = "ros2"
 
 
-def info(file: LogFile, as_json: output.AsJson = False) -> None:
+def info(
+    file: LogFile,
+    meanings: Annotated[
+        bool, typer.Option("--meanings", help="Say what each column means.")
+    ] = False,
+    as_json: output.AsJson = False,
+) -> None:
     """Print what a log holds: rows, time, columns with units, gaps, faults, versions.
 
     Also reads logs that a crash cut short. Exit code 3 when parts are damaged.
@@ -49,13 +55,15 @@ def info(file: LogFile, as_json: output.AsJson = False) -> None:
 
     * `ebac wall --law ebac --log run.mcap`, then `ebac log info run.mcap`
 
+    * `ebac log info run.mcap --meanings`: what each column means
+
     * `ebac log info run.mcap --json`: as JSON
     """
     read = _read(file, quiet=as_json)
     if as_json:
         typer.echo(log_info.document(read))
     else:
-        log_info.show(read)
+        log_info.show(read, meanings=meanings)
     _report(read, quiet=True)
 
 
