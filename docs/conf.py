@@ -26,6 +26,7 @@ extensions = [
     "whole_properties",  # no types in docstrings of properties
     "commands",  # `{commands}`: the command line, from the program
     "drawn",  # `{drawn}`: pictures of the gallery
+    "live_page",  # live/index.html, the loop in a browser
     "mathml",  # equations without a script
     "sphinx_copybutton",
 ]

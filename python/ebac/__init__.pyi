@@ -26,6 +26,9 @@ from ebac import (
     laws as laws,
 )
 from ebac import (
+    live as live,
+)
+from ebac import (
     logs as logs,
 )
 from ebac import (

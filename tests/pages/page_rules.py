@@ -48,6 +48,11 @@ RULES = (
         "needs a CAN interface; .ci/socketcan tests it",
     ),
     Rule(r"logs\.Recorder\(rows", NEVER, "needs a running loop; tests of the recorder have one"),
+    Rule(
+        r"^python bindings/wasm|ebac live --page|ebac\.live\.widget",
+        NEVER,
+        "needs the core as WebAssembly; test_live.py has it",
+    ),
     Rule(r"^ebac drive restore", NEVER, "needs the backup of a device"),
     Rule(r"192\.168\.", NEVER, "needs a force sensor"),
     Rule(r"\bmy-[a-z]+\.toml", NEVER, "needs a file of the reader's own"),

@@ -8,6 +8,7 @@ other failure is one at once.
 """
 
 import fcntl
+import importlib.util
 import os
 import re
 import shutil
@@ -239,3 +240,27 @@ def browser() -> Iterator[Any]:
         opened = playwright.chromium.launch(executable_path=chromium, args=["--no-sandbox"])
         yield opened
         opened.close()
+
+
+@pytest.fixture(scope="session")
+def wasm() -> bytes:
+    """The module of these sources: made before, by the build of the site, or now where ziglang is."""
+    root = Path(__file__).parents[2]
+    found = importlib.util.spec_from_file_location("build", root / "bindings" / "wasm" / "build.py")
+    assert found is not None
+    assert found.loader is not None
+    build: Any = importlib.util.module_from_spec(found)
+    found.loader.exec_module(build)
+    place = root / "build" / "wasm" / "ebac.wasm"
+    if not build.fresh(place) and importlib.util.find_spec("ziglang") is None:
+        pytest.skip("no ziglang to compile the core to WebAssembly")
+    made: bytes = build.built(place).read_bytes()
+    return made
+
+
+@pytest.fixture
+def placed(wasm: bytes, monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> bytes:
+    """The module where the package looks for it."""
+    monkeypatch.setattr("ebac.live.wasm_module.PLACE", tmp_path / "ebac.wasm")
+    (tmp_path / "ebac.wasm").write_bytes(wasm)
+    return wasm

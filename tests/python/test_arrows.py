@@ -186,6 +186,7 @@ ROOMS = [
         "tracking",
         "plot",
         "explore",
+        "live",
         "identify",
         "testing",
         "peers",

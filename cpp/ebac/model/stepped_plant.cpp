@@ -3,9 +3,10 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 #include <stdexcept>
+#include <string>
 
+#include "ebac/core/six_digits.hpp"
 #include "ebac/model/lag.hpp"
 
 namespace ebac {
@@ -26,11 +27,12 @@ constexpr int kMostEvents =
 double longest_step(double rate, double soft_rate, double tick) {
   const double stable = rate * tick / kStable;
   if (!(stable <= kMostSteps)) {
-    std::ostringstream text;
-    text << "SteppedPlant: a time constant of " << 1 / rate << " s would need " << stable
-         << " steps in a tick of " << tick << " s (at most " << kMostSteps
-         << "); lower Mechanics.cable_stiffness or cable_damping, or raise Mechanics.handle_mass";
-    throw std::invalid_argument(text.str());
+    const std::string text =
+        "SteppedPlant: a time constant of " + six_digits(1 / rate) + " s would need " +
+        six_digits(stable) + " steps in a tick of " + six_digits(tick) + " s (at most " +
+        six_digits(kMostSteps) +
+        "); lower Mechanics.cable_stiffness or cable_damping, or raise Mechanics.handle_mass";
+    throw std::invalid_argument(text);
   }
   const double accurate = std::min(rate * tick / kAccurate, kUsualSteps);
   const double soft = std::min(soft_rate * tick, kSteps);

@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from ebac.cli import bus, demo, drive, identify, paper, sensor, track
+from ebac.cli import bus, demo, drive, identify, live, paper, sensor, track
 from ebac.cli.bench import bench
 from ebac.cli.catalogue import laws, presets, specs, worlds
 from ebac.cli.command import Group, add
@@ -64,6 +64,7 @@ add(app, demo.demo, panel=TRY)
 add(app, laws.laws, panel=TRY)
 add(app, presets.presets, panel=TRY)
 add(app, worlds.worlds, panel=TRY)
+add(app, live.live, panel=TRY)
 add(app, paper.paper, panel=TRY)
 add(app, study.study, panel=STUDY)
 add(app, conditions.conditions, panel=STUDY)
