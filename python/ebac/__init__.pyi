@@ -324,6 +324,9 @@ from ebac.studies import (
     study as study,
 )
 from ebac.studies import (
+    tissue as tissue,
+)
+from ebac.studies import (
     tune as tune,
 )
 from ebac.studies import (

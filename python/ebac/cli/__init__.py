@@ -13,7 +13,18 @@ from ebac.cli.command import Group, add
 from ebac.cli.log import log
 from ebac.cli.machine import doctor, jitter
 from ebac.cli.run import run
-from ebac.cli.studies import ablation, conditions, engines, faults, maps, study, tune, worst, zwidth
+from ebac.cli.studies import (
+    ablation,
+    conditions,
+    engines,
+    faults,
+    maps,
+    study,
+    tissue,
+    tune,
+    worst,
+    zwidth,
+)
 from ebac.cli.wall import wall
 
 TRY, STUDY, DATA, HARDWARE, MACHINE = (
@@ -74,6 +85,7 @@ add(app, zwidth.zwidth, panel=STUDY)
 add(app, tune.tune, panel=STUDY)
 add(app, maps.map_, "map", panel=STUDY)
 add(app, engines.engines, panel=STUDY)
+add(app, tissue.tissue, panel=STUDY)
 add(app, faults.faults, panel=STUDY)
 app.add_typer(identify.app, name="identify", rich_help_panel=DATA)
 add(app, track.track, panel=DATA)

@@ -22,6 +22,7 @@ from ebac.plot.style import (
     new_figure,
 )
 from ebac.plot.sweep import plot_sweep
+from ebac.plot.tissue import plot_tissue
 from ebac.plot.tracking import plot_budget, plot_tracking
 from ebac.plot.walls import plot_walls
 from ebac.plot.workspace import plot_workspace
@@ -51,6 +52,7 @@ __all__ = [
     "plot_overlay",
     "plot_study",
     "plot_sweep",
+    "plot_tissue",
     "plot_trace",
     "plot_tracking",
     "plot_walls",

@@ -7,6 +7,7 @@ from ebac.studies.hand_search import WorstHand
 from ebac.studies.measures import MEASURES, Measure
 from ebac.studies.result import Failure, Study, StudyRow
 from ebac.studies.study import study
+from ebac.studies.tissue import Tissue, TissueRow, tissue
 from ebac.studies.tuning import Tuned, TunedRow, TuningInterrupted, tune
 from ebac.studies.worst import Worst, worst
 
@@ -24,6 +25,8 @@ __all__ = [
     "Piece",
     "Study",
     "StudyRow",
+    "Tissue",
+    "TissueRow",
     "Tuned",
     "TunedRow",
     "TuningInterrupted",
@@ -34,6 +37,7 @@ __all__ = [
     "engines",
     "pieces",
     "study",
+    "tissue",
     "tune",
     "worst",
 ]

@@ -24,8 +24,10 @@ from ebac._core import (
     Torus,
 )
 from ebac.worlds.answers import LocalModel
+from ebac.worlds.closed_forms import Puncture
 from ebac.worlds.engine_thread import EngineThread
 from ebac.worlds.engines import Bridge, BridgeReport, FunctionWorld
+from ebac.worlds.force_depth import ForceDepth, force_depth
 from ebac.worlds.mesh import GridError, HeightField, Mesh
 from ebac.worlds.mujoco import MujocoEngine
 from ebac.worlds.presets import PRESETS, WorldPreset, preset
@@ -55,6 +57,7 @@ __all__ = [
     "Elastic",
     "EngineThread",
     "EngineTiming",
+    "ForceDepth",
     "FunctionWorld",
     "GridError",
     "HeightField",
@@ -67,6 +70,7 @@ __all__ = [
     "MujocoEngine",
     "Placed",
     "Plane",
+    "Puncture",
     "Sphere",
     "Swing",
     "Texture",
@@ -78,6 +82,7 @@ __all__ = [
     "World",
     "WorldPreset",
     "distance",
+    "force_depth",
     "preset",
 ]
 

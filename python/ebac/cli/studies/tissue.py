@@ -1,0 +1,127 @@
+"""`ebac tissue`: soft materials against their closed forms, and under laws."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from ebac.cli import options, output, setting
+from ebac.cli.files import ResultOptions
+
+if TYPE_CHECKING:
+    from ebac.studies.tissue import Tissue
+
+
+def tissue(
+    to: ResultOptions,
+    law: Annotated[
+        list[str] | None, options.laws("direct, tca-damped, force-bounding, ebac")
+    ] = None,
+    depth: Annotated[
+        float,
+        typer.Option(help="Deepest place of the curves [m].", rich_help_panel=options.WALL),
+    ] = 0.012,
+    speed: Annotated[
+        float,
+        typer.Option(help="Of the curves, in and out [m/s].", rich_help_panel=options.WALL),
+    ] = 0.02,
+    as_json: output.AsJson = False,
+) -> None:
+    """Compare soft materials with their closed forms, and laws that meet them.
+
+    A simulation. An elastic, a Kelvin-Voigt, a Hunt-Crossley and a layered body are pressed and let out at one speed:
+    force over depth, punctures, energy taken and given back, each beside its closed form. Then a hand of 300 N/m
+    presses each under every law and lets go.
+
+    **Examples**
+
+    * `ebac tissue`
+
+    * `ebac tissue --speed 0.1 --law ebac`: five times as fast
+
+    * `ebac tissue --depth 0.02 --json`
+    """
+    from ebac.studies.tissue import LAWS
+    from ebac.studies.tissue import tissue as compare
+
+    with output.refusing():
+        names = setting.law_names(law or LAWS)
+        folder = to.folder("tissue", as_json=as_json)
+        with output.counting("simulating", quiet=as_json) as progress:
+            found = compare(names, depth=depth, speed=speed, progress=progress)
+    files = _write(folder, found, to) if folder else []
+    if as_json:
+        typer.echo(_document(found))
+        return
+    _show_curves(found)
+    _show_laws(found)
+    if folder is not None:
+        output.list_files(folder, files)
+
+
+def _document(found: Tissue) -> str:
+    return output.document("tissue", found.table(), laws=found.law_table())
+
+
+def _write(folder: Path, found: Tissue, to: ResultOptions) -> list[str]:
+    from ebac.plot import plot_tissue
+
+    with output.results(folder) as draft:
+        if draft is None:
+            return []
+        figures = to.save(plot_tissue(found), draft, "tissue")
+        (draft / "tissue.json").write_text(_document(found) + "\n", encoding="utf-8")
+        output.csv_table(draft / "tissue.csv", found.law_table())
+    return [*figures, "tissue.json", "tissue.csv"]
+
+
+def _show_curves(found: Tissue) -> None:
+    from ebac._util import formatting
+
+    columns = ["material", "force error", "energy in", "exact", "given back", "exact"]
+    grid = output.table(columns, numbers=(1, 2, 3, 4, 5))
+    for name, curve in found.curves.items():
+        energies = (curve.taken, curve.taken_exact, curve.back, curve.back_exact)
+        grid.add_row(
+            name,
+            formatting.quantity(curve.error, "N"),
+            *(formatting.quantity(one, "J") for one in energies),
+        )
+    output.show(grid)
+    for name, curve in found.curves.items():
+        for one, exact in zip(curve.punctures, curve.punctures_exact, strict=False):
+            output.say(
+                f"{name}: gives way at {1e3 * one.depth:.3f} mm, exact {1e3 * exact.depth:.3f} mm; "
+                f"from {one.before:.2f} to {one.after:.2f} N, exact {exact.before:.2f} to {exact.after:.2f} N"
+            )
+    curve = next(iter(found.curves.values()))
+    output.say(
+        f"Pressed {1e3 * curve.depth.max():g} mm deep at {1e3 * curve.speed:g} mm/s and let out again; "
+        "exact: the closed form."
+    )
+
+
+def _show_laws(found: Tissue) -> None:
+    from ebac._util import formatting
+
+    columns = ["material", "law", "least energy", "kept", "own loss", "force error"]
+    grid = output.table(columns, numbers=(2, 3, 4, 5))
+    before = None
+    for row in found.rows:
+        if before not in (None, row.material):
+            grid.add_section()
+        energies = (row.least_energy_J, row.kept_J, row.own_loss_J)
+        grid.add_row(
+            row.material if row.material != before else "",
+            row.law,
+            *(formatting.quantity(one, "J") for one in energies),
+            formatting.quantity(row.force_error_N, "N"),
+        )
+        before = row.material
+    output.show(grid)
+    output.say(
+        "A hand of 300 N/m presses and lets go, simulated. Kept: energy that law and material took; own loss: what the "
+        "material takes of the same motion."
+    )

@@ -1,0 +1,73 @@
+"""Soft materials: force over depth beside the closed form, and what the handle feels of them under each law."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from matplotlib.axes import Axes
+
+from ebac.plot.style import Picture, colour, dress, figure_legend, line, new_figure
+
+if TYPE_CHECKING:
+    from ebac.studies.tissue import Tissue
+    from ebac.trace import Trace
+    from ebac.worlds.force_depth import ForceDepth
+
+IN, OUT, EXACT = "#0072b2", "#d55e00", "0.7"
+
+
+def plot_tissue(found: Tissue) -> Picture:
+    """Draw a column for each material: its curves above, the force under each law below.
+
+    Parameters
+    ----------
+    found : Tissue
+        What `ebac.studies.tissue` returned.
+
+    Returns
+    -------
+    Figure
+        The lower row is left out where no law was run.
+    """
+    names, rows = list(found.curves), 2 if found.rows else 1
+    figure = new_figure(1.0 + 3.1 * len(names), 1.2 + 2.7 * rows)
+    grid = figure.subplots(rows, len(names), squeeze=False)
+    for name, ax in zip(names, grid[0], strict=True):
+        _curve(ax, found.curves[name])
+        ax.set_title(name, fontsize="medium")
+    for row, trace in zip(found.rows, found.traces, strict=True):
+        _felt(grid[1, names.index(row.material)], trace, row.law)
+    for ax in grid.flat:
+        dress(ax, "")
+        ax.set_xlabel("depth [mm]")
+    grid[0, 0].set_ylabel("material\nforce [N]")
+    if found.rows:
+        grid[1, 0].set_ylabel("under a law\nmotor force [N]")
+    handles, labels = grid[0, 0].get_legend_handles_labels()
+    if found.rows:
+        more, texts = grid[1, 0].get_legend_handles_labels()
+        handles, labels = [*handles, *more], [*labels, *texts]
+    figure_legend(figure, handles, labels, columns=len(labels))
+    speed = next(iter(found.curves.values())).speed
+    title = f"Soft materials, pressed and let out at {1e3 * speed:g} mm/s"
+    if found.rows:
+        title += "; below, simulated: a hand of 300 N/m presses and lets go"
+    figure.suptitle(title, fontsize="medium")
+    return figure
+
+
+def _curve(ax: Axes, curve: ForceDepth) -> None:
+    depth, half = 1e3 * curve.depth, len(curve.depth) // 2
+    line(ax, depth, curve.force_exact, color=EXACT, lw=4.5, label="closed form")
+    line(ax, depth[:half], curve.force[:half], color=IN, lw=1.2, label="in")
+    line(ax, depth[half:], curve.force[half:], color=OUT, lw=1.2, label="out")
+    text = f"{1e3 * curve.taken:.1f} mJ in\n{1e3 * curve.back:.1f} mJ back"
+    ax.text(0.05, 0.95, text, transform=ax.transAxes, va="top", fontsize="small")
+
+
+def _felt(ax: Axes, trace: Trace, law: str) -> None:
+    from ebac.studies.tissue import SURFACE
+
+    depth = 1e3 * (trace["true.x"] - SURFACE)
+    shown = depth > -1
+    line(ax, depth[shown], trace["true.f_motor"][shown], color=colour(law), lw=0.9, label=law)
