@@ -232,17 +232,6 @@ def test_ebac_is_exact_and_quiet_on_every_shape(name: str, stiffness: float, axe
         assert there.normal_error_deg is None or there.normal_error_deg < 2
 
 
-@pytest.mark.parametrize("name", PRESETS)
-@pytest.mark.parametrize("law", ["direct", "tca", "tca-damped", "eba", "ebac"])
-def test_every_law_meets_every_world(name: str, law: str) -> None:
-    device = ebac.Device(kinematics=ebac.Linear(axes=3))
-    trace = ebac.simulate(Scenario(device=device, environment=preset(name), seconds=0.6), law)
-    assert not trace["fault"].any()
-    there = world_contact(trace)
-    assert there.touched_share > 0
-    assert there.came_through == 0
-
-
 def test_a_gimbal_feels_what_does_work_on_its_sphere() -> None:
     device = ebac.presets.device("joystick")
     scenario = Scenario(device=device, environment=preset("sphere"), seconds=3)
