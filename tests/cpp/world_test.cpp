@@ -4,7 +4,9 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <numbers>
 #include <string>
+#include <utility>
 
 #include "ebac/model/noise.hpp"
 #include "ebac/world/scene.hpp"
@@ -163,6 +165,36 @@ TEST(Proxy, FollowsASphereAtItsNearestPoint) {
     ASSERT_TRUE(proxy.touching());
     ASSERT_NEAR((proxy.place() - 0.02 * way).norm(), 0, 1e-6);
   }
+}
+
+/// A solid that counts how often it is asked.
+class Counted final : public Solid {
+ public:
+  explicit Counted(SolidPtr solid) : solid_(std::move(solid)) {}
+  Distance distance(const Axes& x) const EBAC_RT override {
+    ++asked;
+    return solid_->distance(x);
+  }
+  mutable int asked = 0;
+
+ private:
+  SolidPtr solid_;
+};
+
+TEST(Proxy, SlidesOverABallByOneDistanceATick) {
+  constexpr double kRadius = 0.012, kDepth = 1e-3;
+  const Counted ball(solid(Sphere{.radius = kRadius}));
+  Proxy proxy;
+  proxy.put({kRadius + kDepth, 0, 0});
+  const int ticks = 20'000;
+  for (int i = 0; i < ticks; ++i) {
+    const double t = 2 * std::numbers::pi * i / ticks;  // up to 70 um a tick
+    const Axes way{std::cos(3 * t) * std::cos(5 * t), std::sin(3 * t) * std::cos(5 * t),
+                   std::sin(5 * t)};
+    proxy.follow(ball, (kRadius - kDepth * (1 + 0.5 * std::sin(9 * t))) * way);
+    if (i > 5) ASSERT_NEAR((proxy.place() - kRadius * way).norm(), 0, 10e-9) << i;
+  }
+  EXPECT_LT(ball.asked, 1.1 * ticks);
 }
 
 TEST(Proxy, LetsGoOverAnEdge) {

@@ -32,15 +32,28 @@ struct Near {
 class Body {
  public:
   Body(SolidPtr solid, const Material& material, double friction, const Swing& motion)
-      : solid_(std::move(solid)), material_(material), friction_(friction), motion_(motion) {}
+      : solid_(std::move(solid)),
+        material_(material),
+        friction_(friction),
+        motion_(motion),
+        still_(motion.still()) {}
 
   Touch touch(const Axes& x, const Axes& v, double t) EBAC_RT {
-    if (motion_.still()) return touch(x, v, BodyPose{});
-    return touch(x, v, motion_.at(t));
+    if (still_) return touch(x, v);
+    const BodyPose pose = motion_.at(t);
+    const Axes surface = pose.velocity_at(x);
+    Touch made = touch(pose.into(x), pose.turn.transpose() * (v - surface));
+    made.force = pose.turn * made.force;
+    made.velocity = surface;
+    for (int i = 0; i < made.normals; ++i) {
+      Axes& normal = made.normal[static_cast<std::size_t>(i)];
+      normal = pose.turn * normal;
+    }
+    return made;
   }
 
   Near near(const Axes& x, double t) const EBAC_RT {
-    const BodyPose pose = motion_.still() ? BodyPose{} : motion_.at(t);
+    const BodyPose pose = still_ ? BodyPose{} : motion_.at(t);
     const Distance at = solid_->distance(pose.into(x));
     Material material = material_;
     return {.distance = at.d,
@@ -58,35 +71,30 @@ class Body {
   }
 
  private:
-  Touch touch(const Axes& x, const Axes& v, const BodyPose& pose) EBAC_RT {
-    const Axes own = pose.into(x);
+  /// In the body's own axes; `v` against its surface.
+  Touch touch(const Axes& x, const Axes& v) EBAC_RT {
     const Axes before = last_;
-    last_ = own;
-    proxy_.follow(*solid_, own);
+    last_ = x;
+    proxy_.follow(*solid_, x);
     if (!proxy_.touching()) {
       let_go();
       return {};
     }
-    const Axes in = own - proxy_.place();
+    const Axes in = x - proxy_.place();
     const double depth = in.norm();
-    const Axes normal = depth > 0 ? Axes(in / depth) : Axes(-proxy_.constraint(0).out);
-    const Axes surface = pose.velocity_at(x);
-    const double speed = (pose.turn * normal).dot(v - surface);
-    const Push push = press(material_, depth, speed);
-    Axes force = push.force * normal;
-    stored_ = world::stored(material_, depth);
-    if (friction_ > 0) {
-      force += hold(own - before, normal, push);
-      stored_ += 0.5 * push.stiffness * stretch_.squaredNorm();
-    }
-
-    Touch made{.force = pose.turn * force,
-               .velocity = surface,
+    const Axes normal = depth > 0 ? Axes((1 / depth) * in) : Axes(-proxy_.constraint(0).out);
+    const Push push = press(material_, depth, normal.dot(v));
+    Touch made{.force = push.force * normal,
                .depth = depth,
                .stiffness = push.stiffness,
                .normals = proxy_.constraints()};
+    stored_ = world::stored(material_, depth);
+    if (friction_ > 0) {
+      made.force += hold(x - before, normal, push);
+      stored_ += 0.5 * push.stiffness * stretch_.squaredNorm();
+    }
     for (int i = 0; i < made.normals; ++i)
-      made.normal[static_cast<std::size_t>(i)] = -(pose.turn * proxy_.constraint(i).out);
+      made.normal[static_cast<std::size_t>(i)] = -proxy_.constraint(i).out;
     return made;
   }
 
@@ -113,6 +121,7 @@ class Body {
   Material material_;
   double friction_;  // Coulomb's coefficient
   Swing motion_;
+  bool still_;
   Proxy proxy_;
   Axes last_ = Axes::Zero();     // m, the handle in the body
   Axes stretch_ = Axes::Zero();  // m, along the surface

@@ -16,7 +16,8 @@ namespace ebac::world {
 /// Outside it is the handle. Inside it stays on the surface that the handle came through, as near to
 /// the handle as planes tangent to that surface let it: what is thinner than the handle is deep does
 /// not give way, and in a concave corner up to three planes hold it. A plane is replaced by a better
-/// one of nearly the same direction until the surface is met within `kExact`.
+/// one of nearly the same direction until the surface is met within `kExact`. Where it is smooth, the proxy is at the
+/// point nearest to the handle within `kFlat` along the surface, which is the usual case and takes one distance.
 class Proxy {
  public:
   static constexpr double kExact = 1e-9;     // m
@@ -46,8 +47,12 @@ class Proxy {
   /// Follows the handle to `x`.
   void follow(const Solid& solid, const Axes& x) EBAC_RT {
     if (!begun_) put(x);
-    if (!touching() && travel(solid, x)) return;
-    slide(solid, x);
+    if (!touching() && travel(solid, x)) {
+      learnt_ = false;
+      return;
+    }
+    if (!glide(solid, x)) slide(solid, x);
+    learn(x);
   }
 
  private:
@@ -75,6 +80,47 @@ class Proxy {
     if (length > 0) place_ += gone / length * way;
     hold(here.out);
     return false;
+  }
+
+  /// The usual case, a smooth surface and a handle that has moved little: the plane tangent to the surface where it is
+  /// expected to hold the handle, and again where that was not near enough. False where this is no such case.
+  bool glide(const Solid& solid, const Axes& x) EBAC_RT {
+    if (count_ != 1 || !learnt_) return false;
+    Axes expected = x + offset_ + turning_ * (x - before_);
+    for (int i = 0; i < kMostTries; ++i) {
+      if ((expected - place_).squaredNorm() > kStride * kStride) return false;
+      const Distance at = solid.distance(expected);
+      if (std::abs(at.d) > kSurface || held_[0].out.dot(at.out) < kSameSurface) return false;
+      const double behind = at.out.dot(expected - x) - at.d;
+      if (behind <= kExact) return false;
+      const Axes goal = x + behind * at.out;
+      if ((goal - expected).squaredNorm() <= kFlat * kFlat) {
+        held_[0] = {goal, at.out};
+        place_ = goal;
+        return true;
+      }
+      expected = goal;
+    }
+    return false;
+  }
+
+  /// How the way from handle to proxy changes with the handle, after Broyden (1965); at first that of a plane.
+  void learn(const Axes& x) EBAC_RT {
+    if (count_ != 1) {
+      learnt_ = false;
+      return;
+    }
+    const Axes offset = place_ - x;
+    const Axes moved = x - before_;
+    const double square = moved.squaredNorm();
+    if (!learnt_) {
+      turning_ = -held_[0].out * held_[0].out.transpose();
+    } else if (square > kLearns * kLearns) {
+      turning_ += (offset - offset_ - turning_ * moved) * (moved / square).transpose();
+    }
+    learnt_ = true;
+    offset_ = offset;
+    before_ = x;
   }
 
   /// Along the surface towards `x`, or away from it.
@@ -105,7 +151,8 @@ class Proxy {
       }
       if (arrives) return;
     }
-    nearest(x);  // the rest of the way in the next tick, without planes that the handle has left behind
+    nearest(
+        x);  // the rest of the way in the next tick, without planes that the handle has left behind
   }
 
   /// The surface has fallen away below a point: another tangent plane of it, or none where it has ended.
@@ -204,9 +251,17 @@ class Proxy {
 
   static constexpr int kMostSteps = 64;
   static constexpr double kParallel = 1e-3;
+  static constexpr int kMostTries = 4;
+  static constexpr double kSurface = 1e-6;  // m, off the surface
+  static constexpr double kFlat = 1e-7;     // m, over which a surface is its tangent plane
+  static constexpr double kLearns = 1e-6;   // m
 
   Axes place_ = Axes::Zero();
   double room_ = 0;  // m, radius of a ball about `place_` without any surface
+  bool learnt_ = false;
+  Axes before_ = Axes::Zero();           // m, the handle at the tick before
+  Axes offset_ = Axes::Zero();           // m, from there to `place_`
+  Jacobian turning_ = Jacobian::Zero();  // of `offset_` by the handle
   std::array<Constraint, kMaxAxes> held_{};
   int count_ = 0;
   bool begun_ = false;
