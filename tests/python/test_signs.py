@@ -12,13 +12,14 @@ from ebac.cli import app
 from ebac.hardware import Configuration, Signs, find_signs
 from ebac.hardware.find_signs import judged
 
-EXAMPLE = Path(__file__).parents[2] / "examples" / "joystick.toml"
+EXAMPLES = Path(__file__).parents[2] / "examples"
 #: A busy machine is no wrong sign.
 PATIENT = {"force_age": 10.0, "overruns": 100000, "pause": 100.0, "jump": 1.0}
 
 
 def wired(tmp_path: Path, motor: list[int], encoder: list[int], *, sensor: bool = True) -> Path:
-    text = EXAMPLE.read_text(encoding="utf-8").replace("silent = 10", "silent = 1000")
+    example = EXAMPLES / ("joystick.toml" if len(motor) == 2 else "joystick-3.toml")
+    text = example.read_text(encoding="utf-8").replace("silent = 10 ", "silent = 1000 ")
     if not sensor:
         text = text[: text.index("[sensor]")] + text[text.index("# [observer]") :]
     patient = "".join(f"{key} = {value}\n" for key, value in PATIENT.items())
@@ -37,7 +38,10 @@ def signs(path: Path, *more: str) -> tuple[int, list[dict[str, object]]]:
 
 
 @pytest.mark.real_time
-@pytest.mark.parametrize(("motor", "encoder"), [([-1, 1], [1, -1]), ([1, -1], [1, -1])])
+@pytest.mark.parametrize(
+    ("motor", "encoder"),
+    [([-1, 1], [1, -1]), ([1, -1], [1, -1]), ([1, -1, -1], [1, 1, -1])],
+)
 def test_each_wrong_sign_is_found_and_repaired(
     tmp_path: Path, motor: list[int], encoder: list[int]
 ) -> None:
@@ -110,7 +114,7 @@ def test_signs_in_another_form_are_left_alone() -> None:
 
 
 def test_a_device_wired_as_configured_runs_as_any() -> None:
-    text = EXAMPLE.read_text(encoding="utf-8") + "\n[signs]\nmotor = [-1, 1]\n"
+    text = (EXAMPLES / "joystick.toml").read_text(encoding="utf-8") + "\n[signs]\nmotor = [-1, 1]\n"
     known = Configuration.from_toml(text)
     assert known.signs.against(known.simulated_signs) == Signs()
     assert known.signs.against(Signs(motor=(1, 1))) == Signs(motor=(-1, 1))

@@ -11,11 +11,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ebac._core import Free, LoopState, Step, Wall
+from ebac._core import Elastic, Free, LoopState, Plane, Step, Wall
 from ebac.hardware.configuration import Configuration
 from ebac.hardware.device import OpenDevice
 from ebac.hardware.run import Run
 from ebac.hardware.signs import Signs
+from ebac.worlds import Body, Placed, World
 
 #: Longest push, and pause after each [s].
 PUSH, PAUSE = 0.5, 0.4
@@ -111,7 +112,7 @@ def find_signs(
     Raises
     ------
     ValueError
-        For a current out of range, and for a device of three axes.
+        For a current out of range.
     RuntimeError
         When the test was stopped before its end.
     LoopFault, DriveError
@@ -120,10 +121,6 @@ def find_signs(
     if not 0.02 <= current <= 0.3:
         raise ValueError(f"current = {current:g} A: must lie in [0.02, 0.3] A")
     axes = known.device.axes
-    if axes > 2:
-        raise ValueError(
-            f"device: {axes} axes; the test knows devices of 1 or 2, set [signs] by hand"
-        )
     tested = gentle(known, current)
     signs = known.signs.of_all(axes)
     seconds = 2.0 + axes * 2 * (PUSH + PAUSE) * 3
@@ -163,15 +160,25 @@ def _wait(run: Run, look: Callable[[Run], None], there: Callable[[], bool], seco
 def _push(run: Run, look: Callable[[Run], None], axis: int, force: float) -> tuple[float, float]:
     """Push one axis; return its way [m] and the change of the measured force [N], both for a positive force."""
     before = _mean(run, axis, 50)
-    angle = axis * math.pi / 2 + (0.0 if force > 0 else math.pi)
-    angle -= 2 * math.pi if angle > math.pi + 0.05 else 0.0
-    run.change(Wall(stiffness=abs(force) / -_BEHIND, position=_BEHIND, angle=angle))
+    run.change(_wall(axis, force))
     _wait(run, look, lambda: bool(abs(_mean(run, axis, 1)[0] - before[0]) > FAR), PUSH)
     after = _mean(run, axis, 20)
     run.change(Free())
     _wait(run, look, lambda: False, PAUSE)
     way, reaction = (after - before) * math.copysign(1.0, force)
     return float(way), float(reaction)
+
+
+def _wall(axis: int, force: float) -> Wall | World:
+    """Return a surface far behind the handle, which pushes along the axis with a force that hardly changes."""
+    stiffness = abs(force) / -_BEHIND
+    if axis == 2:  # a wall has an angle in the plane of the first two
+        way = math.copysign(1.0, force)
+        plane = Placed(Plane(), (0.0, 0.0, way * _BEHIND), (0.0, -way * math.pi / 2, 0.0))
+        return World(Body(solid=plane, material=Elastic(stiffness=stiffness)))
+    angle = axis * math.pi / 2 + (0.0 if force > 0 else math.pi)
+    angle -= 2 * math.pi if angle > math.pi + 0.05 else 0.0
+    return Wall(stiffness=stiffness, position=_BEHIND, angle=angle)
 
 
 def _mean(run: Run, axis: int, rows: int) -> NDArray[np.float64]:
