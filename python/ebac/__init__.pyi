@@ -303,6 +303,9 @@ from ebac.studies import (
     Study as Study,
 )
 from ebac.studies import (
+    Tissue as Tissue,
+)
+from ebac.studies import (
     Tuned as Tuned,
 )
 from ebac.studies import (
