@@ -42,7 +42,7 @@ BUS = ["--interface", "ebac", "--channel", "joystick"]
 #: Options whose text may be anything, or is looked up outside this program.
 FREE = {"--host", "--interface", "--channel", "--columns"}
 #: Files that are written, not read.
-WRITTEN = {"--out", "--log", "--backup", "--figure", "OUT"}
+WRITTEN = {"--out", "--log", "--backup", "--figure", "--page", "OUT"}
 #: Numbers that may be as large, or as far below zero, as one likes.
 BOUNDLESS = {"--seed", "--axis", "--switch", "--from", "--to"}
 

@@ -240,4 +240,7 @@ def test_the_command_writes_the_page(placed: bytes, tmp_path: Path) -> None:
     assert "import " not in html.split("<script", 1)[1].split("export_name")[0][:4000]
     nowhere = typer.testing.CliRunner().invoke(app, ["live", "--page", str(tmp_path / "no" / "a")])
     assert nowhere.exit_code == 2
-    assert "cannot be written" in nowhere.output
+    assert "there is no folder" in nowhere.output
+    again = typer.testing.CliRunner().invoke(app, ["live", "--page", str(page)])
+    assert again.exit_code == 2
+    assert "--force" in again.output

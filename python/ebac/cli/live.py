@@ -8,6 +8,7 @@ from typing import Annotated
 import typer
 
 from ebac.cli import output
+from ebac.cli.files import new_file
 
 
 def live(
@@ -17,6 +18,9 @@ def live(
             "--page", metavar="FILE", help="Write the page without a server to this file."
         ),
     ],
+    force: Annotated[
+        bool, typer.Option("--force", help="Replace a file of the same name.")
+    ] = False,
     as_json: output.AsJson = False,
 ) -> None:
     """Write a page on which you shake a virtual wall and calm it: the loop, compiled to WebAssembly.
@@ -30,6 +34,7 @@ def live(
     from ebac.live import module
     from ebac.live import page as written
 
+    new_file("--page", page, force=force)
     try:
         wasm = module()
     except FileNotFoundError as error:

@@ -15,7 +15,7 @@ from ebac.plot.style import COLOURS
 SCRIPTS = ("core", "words", "strips", "scene", "sound", "controls", "page")
 #: Hands to choose from, as the page calls them.
 HANDS = {
-    "reference": "as in the paper, 0.15 kg",
+    "reference": "paper, 0.15 kg",
     "finger": "finger, 0.006 kg",
     "arm-hapticmaster": "relaxed arm, 0.55 kg",
     "arm-hogan": "stiff arm, 0.8 kg",

@@ -204,8 +204,8 @@ export class Page {
       this.due -= ticks;
       this.advance(ticks);
     }
-    const colour = this.facts.colours[this.law] ?? "#555555";
     const theme = this.theme();
+    const colour = lit(this.facts.colours[this.law] ?? "#555555", theme.lit);
     scene(this.sceneAt, {
       wall: WALL, x: this.now("x"), ...this.frame, target: this.target, force: this.now("f_applied"), colour,
       pulled: this.dragging, theme,
@@ -217,7 +217,7 @@ export class Page {
   theme() {
     const style = getComputedStyle(document.documentElement);
     const of = (name) => style.getPropertyValue(`--${name}`).trim();
-    return { ink: of("ink"), soft: of("soft"), grid: of("grid"), axis: of("axis"), wall: of("wall"), hatch: of("hatch"), hand: of("hand"), bad: of("bad") };
+    return { ink: of("ink"), soft: of("soft"), grid: of("grid"), axis: of("axis"), wall: of("wall"), hatch: of("hatch"), hand: of("hand"), bad: of("bad"), lit: Number(of("lit")) };
   }
 
   curves(colour, theme) {
@@ -253,6 +253,12 @@ export class Page {
     if (this.now("energy") < -0.02) more += ` The wall has given ${energy(-this.now("energy"))} to the hand.`;
     this.verdictAt.lastElementChild.textContent = more;
   }
+}
+
+/** A colour on its way to white by `share`: those of the figures are made for paper. */
+function lit(colour, share) {
+  const parts = [1, 3, 5].map((at) => parseInt(colour.slice(at, at + 2), 16));
+  return `#${parts.map((one) => Math.round(one + share * (255 - one)).toString(16).padStart(2, "0")).join("")}`;
 }
 
 /** Begin with the module and the facts that stand in the page. */

@@ -144,13 +144,14 @@ function legend(g, panel, top, width, theme) {
   g.font = "11px system-ui, sans-serif";
   let right = width - RIGHT;
   const named = [...(panel.marks ?? []).map((m) => ({ colour: theme.axis, ...m, dashed: true })), ...panel.lines];
+  if (panel.below && width > 500) named.push({ name: "given by the wall", colour: panel.below });
   for (const one of named.filter(({ name }) => name && (name !== "surface" || width > 500)).reverse()) {
     g.textAlign = "right";
     g.fillStyle = theme.soft;
     g.fillText(one.name, right, top - 7);
     right -= g.measureText(one.name).width + 6;
     g.strokeStyle = one.colour;
-    g.lineWidth = one.dashed ? 1 : 2.5;
+    g.lineWidth = one.dashed ? 1 : one.colour === panel.below ? 9 : 2.5;
     g.setLineDash(one.dashed ? [4, 3] : []);
     stroke(g, [[right - 16, top - 11], [right, top - 11]]);
     g.setLineDash([]);

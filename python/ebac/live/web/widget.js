@@ -47,7 +47,6 @@ async function render({ model, el }) {
   const change = (changes) => {
     model.set(changes.law ? "law" : "values", changes.law ?? { ...model.get("values"), ...changes });
     show();
-    model.save_changes();
   };
   law.addEventListener("change", () => change({ law: law.value }));
   const place = sliders(side, SLIDERS, (name, value) => change({ [name]: value }));
@@ -71,6 +70,7 @@ async function render({ model, el }) {
       said.textContent = error.message;
       model.set("error", error.message);
     }
+    model.save_changes();
   }
 
   const settle = () => {

@@ -33,11 +33,12 @@ export function verdict(measured, ideal) {
   }
   const away = rest - ideal;
   const where = Math.abs(away) < EXACT
-    ? `Rests where an ideal wall would hold it, within ${quantity(Math.max(Math.abs(away), 1e-5), "mm", 2)}.`
+    ? `Rests within ${quantity(Math.max(Math.abs(away), 1e-5), "mm", 2)} of an ideal wall.`
     : `Rests ${quantity(Math.abs(away), "mm", 2)} too ${away > 0 ? "deep" : "far out"}.`;
   if (!(perceived < PERCEIVED)) {
-    const felt = `its force vibrates ${perceived >= 10 ? perceived.toFixed(0) : perceived.toFixed(1)} times stronger than a hand can just feel`;
-    return { kind: "fair", head: "Buzzes", more: `Stands still, but ${felt}. ${where}` };
+    const times = perceived >= 10 ? perceived.toFixed(0) : perceived.toFixed(1);
+    const felt = `its force vibrates ${times} times the threshold of touch`;
+    return { kind: "fair", head: "Buzzes", more: `Still, but ${felt}. ${where}` };
   }
   const exact = Math.abs(away) < EXACT;
   return { kind: exact ? "good" : "fair", head: exact ? "Quiet and exact" : "Quiet, but soft", more: where };
