@@ -4,7 +4,6 @@ Needs the `ziglang` wheel, a C++ compiler with the libraries of wasm32-wasi, and
 `pip install '.[wasm]'`. Without OUT the module goes where the installed package looks for it.
 """
 
-import fcntl
 import subprocess
 import sys
 import tempfile
@@ -72,6 +71,8 @@ def fresh(out: Path) -> bool:
 
 def built(out: Path) -> Path:
     """Return `out`, compiled again where a source is newer; of several processes one compiles."""
+    import fcntl
+
     out.parent.mkdir(parents=True, exist_ok=True)
     with out.with_suffix(".lock").open("w") as lock:
         fcntl.flock(lock, fcntl.LOCK_EX)

@@ -29,7 +29,7 @@ export function verdict(measured, ideal) {
   const { swing, rest, perceived, limit_cycle: frequency } = measured;
   if (!(swing < STILL)) {
     const at = Number.isFinite(frequency) ? ` at ${quantity(frequency, "Hz", 2)}` : "";
-    return { kind: "bad", head: `Shakes by ${quantity(swing, "mm", 2)}`, more: `The wall swings to and fro${at}.` };
+    return { kind: "bad", head: `Shakes by ${quantity(swing, "mm", 2)}`, more: `The handle swings to and fro${at}.` };
   }
   const away = rest - ideal;
   const where = Math.abs(away) < EXACT
