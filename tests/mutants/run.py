@@ -162,7 +162,7 @@ def fails_in_python(mutant: Mutant, folder: Path) -> bool:
         shutil.copytree(ROOT / "python", copy, ignore=shutil.ignore_patterns("__pycache__"))
         (copy.parent / mutant.file).write_text(mutant.text(), encoding="utf-8")
         files = [str(ROOT / f"tests/python/{one}.py") for one in mutant.tests]
-        command = [sys.executable, "-m", "pytest", "-q", "-x", "-p", "no:cacheprovider", *files]
+        command = [sys.executable, "-m", "pytest", "-qx", "-m", "", "-pno:cacheprovider", *files]
         environment = {**os.environ, "PYTHONPATH": str(copy)}
         ran = subprocess.run(
             command, cwd=ROOT, env=environment, capture_output=True, check=False, timeout=600

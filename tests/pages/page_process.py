@@ -112,7 +112,9 @@ def begin(request: dict[str, Any]) -> None:
 
 
 if __name__ == "__main__":
-    import ebac.cli
-    import ebac.plot  # noqa: F401
+    import plain_pictures
 
+    import ebac.cli  # noqa: F401
+
+    plain_pictures.SAVE.write_png = plain_pictures.draw_plain
     serve()

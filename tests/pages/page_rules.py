@@ -87,7 +87,7 @@ RULES = (
         "takes half a minute",
     ),
     # What takes more than some seconds of one core: with fewer hands, points or cases it does all that a page shows.
-    Rule(r"^ebac (study|ablation)\b", SLOW, "takes seconds", fewer="--population random --hands 2"),
+    Rule(r"^ebac (study|ablation)\b", SLOW, "takes seconds", fewer="--population random --hands 1"),
     Rule(r"^ebac tune\b", SLOW, "takes seconds", fewer="--hands 3 --evaluations 4"),
     Rule(
         r"^ebac worst (?=.*--device-noise)(?!.*--family)",

@@ -21,10 +21,12 @@ from itertools import count
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+import plain_pictures
 import pytest
 import typer.testing
 from _pytest.runner import runtestprotocol
 from hypothesis import settings
+from hypothesis.internal.conjecture import providers
 
 import ebac
 
@@ -34,9 +36,15 @@ if TYPE_CHECKING:
     from ebac.hardware import Configuration, OpenDevice, Run
     from ebac.sensor import SensorConfig, SharedForce, SimulatedSensor
 
-settings.register_profile("ebac", deadline=None, derandomize=True, database=None)
-settings.register_profile("explore", deadline=None, max_examples=5000, database=None)
+settings.register_profile("ebac", deadline=None, max_examples=25, derandomize=True, database=None)
+# Where CI is set, hypothesis is not random unless told so.
+settings.register_profile(
+    "explore", deadline=None, max_examples=5000, derandomize=False, database=None, print_blob=True
+)
 settings.load_profile("ebac")
+# Hypothesis tries numbers that stand in the modules imported so far, unless these are installed: a failure in CI would
+# not show in a clone, nor in a worker that had imported others. No setting turns that off.
+providers.is_local_module_file = lambda path: False  # type: ignore[attr-defined]
 
 # A runner builds all commands of a program at every call: 40 ms, most of what a test of a wrong option takes.
 typer.testing._get_command = cache(typer.testing._get_command)
@@ -56,6 +64,15 @@ def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> Any:
     from xdist.scheduler import WorkStealingScheduling
 
     return WorkStealingScheduling(config, log) if config.getoption("dist") == "load" else None
+
+
+@pytest.fixture(scope="module", autouse=True)
+def pictures(request: pytest.FixtureRequest) -> Iterator[None]:
+    """Draw pictures without laying them out, but in tests of pictures."""
+    with pytest.MonkeyPatch.context() as patch:
+        if request.path.stem not in ("test_figures", "test_plot"):
+            patch.setattr(plain_pictures.SAVE, "write_png", plain_pictures.draw_plain)
+        yield
 
 
 @cache
@@ -172,10 +189,11 @@ _TRIES = 8
 
 
 def pytest_configure(config: pytest.Config) -> None:
-    """Know the marker."""
+    """Know the markers."""
     config.addinivalue_line(
         "markers", "real_time: runs a loop against the clock; repeated where the machine stalled it"
     )
+    config.addinivalue_line("markers", 'slow: takes seconds; left out unless asked for by -m ""')
 
 
 @contextmanager

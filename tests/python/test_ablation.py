@@ -221,6 +221,7 @@ def hands_csv(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return tmp_path / "hands.csv"
 
 
+@pytest.mark.slow
 def test_the_command_writes_tables_and_a_figure(hands_csv: Path) -> None:
     words = (
         "--population",

@@ -30,7 +30,7 @@ LONG = {
     "tune tca --evaluations 100000": "the best so far was printed",
 }
 #: Processor time after which a command is at its work [s].
-BUSY = 2.0
+BUSY = 1.5
 
 
 def start(words: str, folder: Path) -> subprocess.Popen[str]:
@@ -78,6 +78,7 @@ def interrupted(words: str, folder: Path, kept: str = "") -> tuple[int, str, flo
 
 
 @pytest.mark.parametrize("words", list(LONG))
+@pytest.mark.slow
 def test_ctrl_c_says_what_is_kept_and_how_to_go_on(words: str, tmp_path: Path) -> None:
     for name in ("press", "joystick"):
         datasets.write(name, tmp_path)
@@ -121,8 +122,9 @@ def test_an_interruption_after_a_run_names_its_log(
     assert f"`ebac log plot ebac-run/{log.name}`" in " ".join(result.output.split())
 
 
+@pytest.mark.slow
 def test_what_was_interrupted_is_resumed(tmp_path: Path) -> None:
-    words = "map --side 30 --seconds 10"  # long enough to be interrupted after its first points
+    words = "map --side 30 --seconds 5"  # long enough to be interrupted after its first points
     code, said, _ = interrupted(words, tmp_path, kept="ebac-map/sweep-ebac/*.npz")
     assert code == 130, said
     kept = {file: file.stat().st_mtime_ns for file in (tmp_path / "ebac-map").rglob("*.npz")}

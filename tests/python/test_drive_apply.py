@@ -223,6 +223,7 @@ def cut_apply(open_bus: Open, at: int, loud: bool, shelf: drives.Backups, node: 
 
 
 @pytest.mark.parametrize("loud", [True, False], ids=["gone", "silent"])
+@pytest.mark.slow
 def test_cut_at_any_write_a_second_run_repairs_and_restore_takes_all_back(
     open_bus: Open, bus: drives.DriveBus, shelf: drives.Backups, node: drives.Node, loud: bool
 ) -> None:
@@ -247,6 +248,7 @@ def test_cut_at_any_write_a_second_run_repairs_and_restore_takes_all_back(
 
 
 @pytest.mark.parametrize("loud", [True, False], ids=["gone", "silent"])
+@pytest.mark.slow
 def test_restore_cut_at_any_write_is_finished_by_the_next(
     open_bus: Open, bus: drives.DriveBus, shelf: drives.Backups, node: drives.Node, loud: bool
 ) -> None:

@@ -23,8 +23,11 @@ _ENDS = {"": 0, "sys.exit(3)": 3, "raise SystemExit('over')": 1}
 
 
 @pytest.mark.parametrize("reader", _READERS)
+@pytest.mark.slow
 def test_a_program_that_leaves_its_bus_open_ends_in_silence(reader: str) -> None:
-    for end, code in _ENDS.items():
+    # Every reader with one end, the first with each.
+    turn = list(_READERS).index(reader)
+    for end, code in list(_ENDS.items())[turn % 3 : turn % 3 + 1] if turn else _ENDS.items():
         program = (
             "import sys, threading, time, can, ebac\nfrom ebac import drives\n"
             "bus = can.Bus(interface='ebac', channel='joystick')\n"

@@ -128,6 +128,7 @@ SHOWN = """() => {
 }"""
 
 
+@pytest.mark.slow
 def test_in_a_browser_a_zoom_draws_the_window_anew_and_keeps_its_peaks(
     browser: Any, minute: ebac.Trace, tmp_path: Path
 ) -> None:

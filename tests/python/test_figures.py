@@ -76,9 +76,14 @@ def ended_by_fault(trace: ebac.Trace) -> ebac.Trace:
     return trace.with_column("fault", fault).with_column("state", state)
 
 
-@pytest.mark.parametrize("width", [None, "single", "double"])
 @pytest.mark.parametrize(
-    "laws", [("ebac",), ("tca", "eba", "ebac"), ("direct", "tca", "eba", "ebac")]
+    ("laws", "width"),
+    [
+        (("ebac",), "single"),
+        (("tca", "eba", "ebac"), None),
+        (("tca", "eba", "ebac"), "double"),
+        (("direct", "tca", "eba", "ebac"), "single"),
+    ],
 )
 def test_walls_fit_any_column(laws: tuple[str, ...], width: str | None, run: Run) -> None:
     figure = plot_walls([run(law, seconds=1.0) for law in laws])
@@ -133,7 +138,7 @@ def test_a_run_without_fault_has_no_mark(run: Run) -> None:
 
 @pytest.mark.parametrize("kind", ["png", "pdf", "svg"])
 def test_formats(kind: str, run: Run, tmp_path: Path) -> None:
-    figure = plot_trace(run("eba", seconds=1.0))
+    figure = plot_columns(run("eba", seconds=1.0), ["x"])
     file = save(figure, tmp_path / "run.png", file_format=kind, width="single")
     assert file == tmp_path / f"run.{kind}"
     begin = {"png": b"\x89PNG", "pdf": b"%PDF", "svg": b"<?xml"}[kind]
@@ -228,6 +233,7 @@ def test_pages_have_the_colours_of_the_figures(run: Run) -> None:
 # --- every other figure ---
 
 
+@pytest.mark.slow
 def test_every_study_has_a_title_that_says_simulated() -> None:
     few = Operators.sample(3, seed=1)
     base = ebac.Scenario(seconds=1.0)

@@ -132,7 +132,8 @@ def given_out(
 
 @pytest.mark.parametrize("lag", [0.0, 3e-4])
 @given(data=st.data(), hostile=adversaries, pieces=pieces, reserve=st.sampled_from([0, 1e-3, 0.01]))
-@settings(max_examples=300)
+@settings(max_examples=4 * settings.default.max_examples)
+@pytest.mark.slow
 def test_no_environment_takes_out_more_than_the_reserve(
     lag: float, data: Any, hostile: dict[str, Any], pieces: Any, reserve: float
 ) -> None:
@@ -177,7 +178,7 @@ walls = st.builds(
 
 
 @given(data=st.data(), wall=walls, pieces=pieces)
-@settings(max_examples=100)
+@settings(max_examples=2 * settings.default.max_examples)
 def test_no_wall_takes_out_more_than_the_reserve(data: Any, wall: ebac.Wall, pieces: Any) -> None:
     scenario = data.draw(scenarios(3e-4)).replace(environment=wall)
     law = ebac.design("ebac", scenario.device, scenario.known_timing, pull=PULL, **pieces)

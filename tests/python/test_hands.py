@@ -55,6 +55,7 @@ class Failing(Spring):
 
 
 @MODELS
+@pytest.mark.slow
 def test_the_second_plant_agrees_under_ebac(model: object) -> None:
     trace = ebac.simulate(pressing(model), "ebac")
     x, force = follow(trace)

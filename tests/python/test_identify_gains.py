@@ -79,6 +79,7 @@ def test_the_choice_keeps_all_and_costs_less(chosen) -> None:
 
 
 @pytest.mark.parametrize("law", ["ebac", "tca-damped"])
+@pytest.mark.slow
 def test_nothing_of_a_sound_default_is_given_back(loop, law: str) -> None:
     """Of defaults that keep all constraints: settling, swing and noise are each no worse."""
     found = fit_gains(loop, law, limits=Limits(energy=0.2), evaluations=6)
@@ -262,6 +263,7 @@ def test_the_rule_and_its_step_response() -> None:
 # --- on hands that were not in the log ---
 
 
+@pytest.mark.slow
 def test_chosen_gains_beat_the_default_on_held_out_hands() -> None:
     rows = gains_rows(check_gains(2, seed=1, laws=("tca",), evaluations=6))
     default, chosen = (row for row in rows if row["over"] == "all")
@@ -313,6 +315,7 @@ def test_the_command_refuses_a_law_without_force_loop(tmp_path: Path, trace: eba
     assert "has no force loop" in " ".join(run.stderr.split())
 
 
+@pytest.mark.slow
 def test_the_check_shows_units_and_gives_plain_numbers(monkeypatch: pytest.MonkeyPatch) -> None:
     cases = check_gains(1, seed=4, evaluations=3)
     monkeypatch.setattr("ebac.identify.gains.check.check_gains", lambda *_, **__: cases)

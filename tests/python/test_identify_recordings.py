@@ -122,6 +122,7 @@ def test_no_option_is_left_out_in_silence(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("level", ["drift", "rough"])
+@pytest.mark.slow
 def test_intervals_hold_the_truth(level: str) -> None:
     """On ten logs; `python tests/recordings/measure.py` takes 240 of three levels."""
     found = [j for j in every(10, (level,)) if j.determined]

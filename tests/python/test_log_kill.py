@@ -62,6 +62,7 @@ def killed(folder: Path, after: float) -> tuple[int, float]:
 
 
 @pytest.mark.parametrize("case", range(KILLS))
+@pytest.mark.slow
 def test_a_kill_loses_50_ms_of_rows_at_most(case: int, tmp_path: Path) -> None:
     appended, late = killed(tmp_path, random.Random(case).uniform(0.02, 0.35))
     log = read(tmp_path / "run.mcap")

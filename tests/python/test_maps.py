@@ -87,6 +87,7 @@ def test_the_map_does_not_depend_on_where_it_is_computed(tmp_path: Path) -> None
 
 
 @pytest.mark.filterwarnings("ignore")
+@pytest.mark.slow
 def test_a_map_through_dask_has_the_same_bits() -> None:
     distributed = pytest.importorskip("distributed")
     here = small("ebac")
@@ -110,6 +111,7 @@ stability_map(
 """
 
 
+@pytest.mark.slow
 def test_a_map_that_was_killed_half_way_continues_and_has_the_same_bits(tmp_path: Path) -> None:
     out = tmp_path / "kept"
     worker = subprocess.Popen([sys.executable, "-c", KILLED, str(out)])
@@ -153,6 +155,7 @@ def test_a_logarithmic_axis_starts_above_zero() -> None:
 
 
 @pytest.mark.parametrize("kind", PRESETS)
+@pytest.mark.slow
 def test_the_figure_has_four_panels(kind: str, tmp_path: Path) -> None:
     x, y = PRESETS[kind]
     xs, ys = AXES[x].values(6), AXES[y].values(6)

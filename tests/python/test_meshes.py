@@ -72,6 +72,7 @@ def test_a_grid_is_kept_and_a_damaged_one_is_made_anew(cube: Path, tmp_path: Pat
     assert np.array_equal(mesh.grid().nodes, first.nodes)
 
 
+@pytest.mark.slow
 def test_ebac_is_exact_and_quiet_on_a_mesh(ball: Path) -> None:
     world = preset(f"mesh:{ball}")
     for axes in (1, 2, 3):

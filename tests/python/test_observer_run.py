@@ -112,6 +112,7 @@ def test_the_command_turns_it_on_tells_of_it_and_logs_it(tmp_path: Path) -> None
 
 
 @pytest.mark.real_time
+@pytest.mark.slow
 def test_the_same_press_has_the_same_verdict_on_either_clock_and_as_a_scenario(
     open_with_sensor: Opened,
 ) -> None:

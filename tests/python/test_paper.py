@@ -205,6 +205,7 @@ def test_difference_needs_both_numbers() -> None:
     assert row("x", None, "m", 1.0)["difference"] is None
 
 
+@pytest.mark.slow
 def test_report_writes_all(tmp_path: Path) -> None:
     findings = [find(name) for name in paper.ITEMS]
     files = paper.report(tmp_path / "report", findings)

@@ -5,6 +5,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
+import plain_pictures
 import pytest
 from matplotlib.figure import Figure
 from matplotlib.image import imread
@@ -28,7 +29,7 @@ def test_every_law_has_a_colour_and_a_figure(law: str, run: Run, tmp_path: Path)
     units = ("position [mm]", "force [N]", "energy [")
     assert all(any(unit in label for label in labels(figure)) for unit in units)
     assert any("beta" in label for label in labels(figure)) == ("law.beta" in run(law))
-    figure.savefig(tmp_path / "figure.png")
+    plain_pictures.draw_plain(figure, tmp_path / "figure.png", 100)
     assert (tmp_path / "figure.png").read_bytes().startswith(b"\x89PNG")
 
 
@@ -115,6 +116,7 @@ def test_notebooks_get_a_picture(run: Run) -> None:
     assert plot_trace(run("eba"))._repr_png_().startswith(b"\x89PNG")
 
 
+@pytest.mark.slow
 def test_threads_may_draw_at_once(run: Run) -> None:
     trace = run("eba", seconds=1.0)
     sizes: list[int] = []

@@ -125,6 +125,7 @@ def test_a_signal_ends_it_with_a_whole_log_and_drives_without_power(
     assert int(found.trace["state"][-1]) == ebac.LoopState.STOP
 
 
+@pytest.mark.slow
 def test_the_death_of_the_parent_ends_it(config: Path, tmp_path: Path) -> None:
     out = tmp_path / "out"
     command = [*RUN, str(config), "--simulated", "--out", str(out), "--no-live"]
@@ -168,6 +169,7 @@ class Lateness:
 
 
 @pytest.mark.parametrize("case", range(KILLS))
+@pytest.mark.slow
 def test_a_kill_loses_50_ms_of_rows_at_most(case: int, config: Path, tmp_path: Path) -> None:
     out = tmp_path / "out"
     process = started(config, out, "--seconds", "600")

@@ -42,6 +42,7 @@ def signs(path: Path, *more: str) -> tuple[int, list[dict[str, object]]]:
     ("motor", "encoder"),
     [([-1, 1], [1, -1]), ([1, -1], [1, -1]), ([1, -1, -1], [1, 1, -1])],
 )
+@pytest.mark.slow
 def test_each_wrong_sign_is_found_and_repaired(
     tmp_path: Path, motor: list[int], encoder: list[int]
 ) -> None:

@@ -106,6 +106,7 @@ MODEL = """async ({source, state}) => {
 }"""
 
 
+@pytest.mark.slow
 def test_in_a_browser_a_moved_slider_shows_another_simulation(browser: Any, tmp_path: Path) -> None:
     pytest.importorskip("anywidget")
     made = sliders(ebac.Scenario(seconds=1.0), "tca")

@@ -20,6 +20,7 @@ def test_every_table_has_one_place_and_every_place_a_table() -> None:
     assert sorted(places) == sorted(tables.TABLES)
 
 
+@pytest.mark.slow
 def test_what_stands_in_the_pages_of_60_hands_is_what_the_study_gives(tmp_path: Path) -> None:
     source = printed.Printed(folder=tmp_path / "kept")
     source.folder.mkdir()

@@ -253,6 +253,7 @@ def test_the_configuration_of_three_axes_runs_on_a_virtual_clock() -> None:
 
 
 @pytest.mark.real_time
+@pytest.mark.slow
 def test_the_command_runs_three_simulated_drives_in_a_mesh(tmp_path: Any) -> None:
     trimesh = pytest.importorskip("trimesh")
     pytest.importorskip("igl")

@@ -78,7 +78,7 @@ class Passivity:
     timing_of_law: ClassVar[ebac.Timing] = ebac.Timing()
 
     @of_passive
-    @settings(inherited, max_examples=400)
+    @settings(inherited, max_examples=4 * inherited.max_examples)
     @given(
         world=even,
         delay=st.integers(0, 2),

@@ -1,0 +1,26 @@
+"""Draws the PNG of a command without laying it out, two thirds of its time, where a test is not about pictures.
+
+`test_figures.py` and `test_plot.py` lay out every kind of figure, the building of the site those of its pages.
+"""
+
+from importlib import import_module
+from pathlib import Path
+from typing import Any, BinaryIO
+
+from matplotlib.figure import Figure
+
+#: The module; the package has a function of the same name.
+SAVE: Any = import_module("ebac.plot.save")
+write_png = SAVE.write_png
+#: Enough to be a picture.
+DPI = 40.0
+
+
+def draw_plain(figure: Figure, file: Path | BinaryIO, _dpi: float) -> None:
+    """Stand in for `ebac.plot.save.write_png`."""
+    layout = figure.get_layout_engine()
+    figure.set_layout_engine("none")
+    try:
+        write_png(figure, file, DPI)
+    finally:
+        figure.set_layout_engine(layout)
