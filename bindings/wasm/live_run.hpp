@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "ebac/control/beta.hpp"
 #include "ebac/control/law_types.hpp"
 #include "ebac/control/per_axis.hpp"
 #include "ebac/loop/clock.hpp"
