@@ -12,6 +12,9 @@ import pytest
 import ebac
 from ebac.live.wasm_module import script
 
+#: A browser draws sixty frames a second by the processor.
+pytestmark = pytest.mark.slow
+
 SETTLED = "() => ebacLive.ticks - ebacLive.since > 1600"
 #: The edges of the picture of a wide window [m], as web/scene.js has them.
 LEFT, RIGHT = -0.045, 0.075
