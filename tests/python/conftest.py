@@ -189,11 +189,10 @@ _TRIES = 8
 
 
 def pytest_configure(config: pytest.Config) -> None:
-    """Know the markers."""
+    """Know the marker."""
     config.addinivalue_line(
         "markers", "real_time: runs a loop against the clock; repeated where the machine stalled it"
     )
-    config.addinivalue_line("markers", 'slow: takes seconds; left out unless asked for by -m ""')
 
 
 @contextmanager
