@@ -35,6 +35,25 @@ py::array_t<double> rows_of(const ArmRecord& record) {
   return py::array_t<double>(static_cast<py::ssize_t>(record.rows()));
 }
 
+/// Errors and their derivatives along some parameters, with room for some rows behind them: zeros.
+struct Derivatives {
+  Derivatives(const ArmRecord& record, std::size_t parameters, std::size_t more)
+      : stride(record.rows() + more),
+        errors(static_cast<py::ssize_t>(stride)),
+        columns({parameters, stride}),
+        errors_view(errors.mutable_data(), stride),
+        columns_view(columns.mutable_data(), parameters * stride) {
+    std::fill(errors_view.end() - static_cast<std::ptrdiff_t>(more), errors_view.end(), 0.0);
+    for (std::size_t k = 1; k <= parameters; ++k) {
+      std::fill_n(columns_view.begin() + static_cast<std::ptrdiff_t>(k * stride - more), more, 0.0);
+    }
+  }
+
+  std::size_t stride;
+  py::array_t<double> errors, columns;
+  std::span<double> errors_view, columns_view;
+};
+
 ArmRecord::Noise noise_of(const std::array<double, 3>& noise) {
   if (std::all_of(noise.begin(), noise.end(), [](double size) { return size >= 0; })) {
     return {noise[0], noise[1], noise[2]};
@@ -68,20 +87,39 @@ py::array_t<double> innovations(const ArmRecord& record, const Numbers& theta,
   return out;
 }
 
-std::pair<py::array_t<double>, double> filtered(const ArmRecord& record, const Numbers& theta,
-                                                const Numbers& held, std::array<double, 3> noise) {
-  const auto view = theta_of(record, theta);
-  const auto made = theta_of(record, held);
-  const ArmRecord::Noise size = noise_of(noise);
-  auto out = rows_of(record);
-  const std::span<double> errors(out.mutable_data(), record.rows());
-  double log_sum = 0;
+/// Rows of a matrix, one vector of parameters each.
+std::vector<std::span<const double>> thetas_of(const ArmRecord& record, const Numbers& thetas) {
+  if (thetas.ndim() != 2 || static_cast<std::size_t>(thetas.shape(1)) != record.parameters()) {
+    throw std::invalid_argument("ArmRecord: needs the shape (trials, " +
+                                std::to_string(record.parameters()) + ")");
+  }
+  std::vector<std::span<const double>> out;
+  for (py::ssize_t i = 0; i < thetas.shape(0); ++i) {
+    out.emplace_back(thetas.data(i, 0), record.parameters());
+    if (!(out.back()[0] > 0)) throw std::invalid_argument("ArmRecord: the mass must be positive");
+  }
+  return out;
+}
+
+py::array_t<double> judge(const ArmRecord& record, const Numbers& thetas, const Numbers& helds,
+                          const std::vector<std::array<double, 3>>& noises, double robust) {
+  const auto views = thetas_of(record, thetas);
+  const auto made = thetas_of(record, helds);
+  if (views.size() != made.size() || views.size() != noises.size()) {
+    throw std::invalid_argument("ArmRecord: needs a theta, a held and a noise for each trial");
+  }
+  std::vector<ArmRecord::Trial> trials;
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    trials.push_back({ArmGuess::from(views[i], record.inputs()),
+                      ArmGuess::from(made[i], record.inputs()), noise_of(noises[i])});
+  }
+  py::array_t<double> out(static_cast<py::ssize_t>(trials.size()));
+  const std::span<double> costs(out.mutable_data(), trials.size());
   {
     const OthersRun release;
-    log_sum = record.filtered(ArmGuess::from(view, record.inputs()),
-                              ArmGuess::from(made, record.inputs()), size, errors);
+    record.judge(trials, robust, costs);
   }
-  return {out, log_sum};
+  return out;
 }
 
 py::array_t<double> drifts(const ArmRecord& record, const Numbers& theta, const ArmGains& gains) {
@@ -111,37 +149,34 @@ void require_steps(const std::vector<std::size_t>& which, const std::vector<doub
 
 std::pair<py::array_t<double>, py::array_t<double>> linearised(
     const ArmRecord& record, const Numbers& theta, const ArmGains& gains,
-    const std::vector<std::size_t>& which) {
+    const std::vector<std::size_t>& which, std::size_t more) {
   const auto view = theta_of(record, theta);
   require_same(record, gains);
   require_known(view.size(), which);
-  auto errors = rows_of(record);
-  py::array_t<double> out({which.size(), record.rows()});
-  const std::span<double> rows(errors.mutable_data(), record.rows());
-  const std::span<double> columns(out.mutable_data(), which.size() * record.rows());
+  Derivatives out(record, which.size(), more);
   {
     const OthersRun release;
-    record.linearised(view, gains, which, rows, columns);
+    record.linearised(view, gains, which, out.errors_view, out.columns_view, out.stride);
   }
-  return {errors, out};
+  return {out.errors, out.columns};
 }
 
-py::array_t<double> renewed_jacobian(const ArmRecord& record, const Numbers& theta,
-                                     const Numbers& held, std::array<double, 3> noise,
-                                     const std::vector<std::size_t>& which,
-                                     const std::vector<double>& steps) {
+std::pair<py::array_t<double>, py::array_t<double>> renewed(
+    const ArmRecord& record, const Numbers& theta, const Numbers& held, std::array<double, 3> noise,
+    const std::vector<std::size_t>& which, std::size_t kept, const std::vector<double>& steps,
+    std::size_t more) {
   const auto view = theta_of(record, theta);
   const auto made = theta_of(record, held);
   require_known(view.size(), which);
   require_steps(which, steps);
   const ArmRecord::Noise size = noise_of(noise);
-  py::array_t<double> out({which.size(), record.rows()});
-  const std::span<double> columns(out.mutable_data(), which.size() * record.rows());
+  Derivatives out(record, which.size(), more);
   {
     const OthersRun release;
-    record.renewed_jacobian(view, made, size, which, steps, columns);
+    record.renewed(view, made, size, which, kept, steps, out.errors_view, out.columns_view,
+                   out.stride);
   }
-  return out;
+  return {out.errors, out.columns};
 }
 
 py::array_t<double> simulate(const ArmRecord& record, const Numbers& theta, double x, double v) {
@@ -182,6 +217,15 @@ void bind_identify(py::module_& m) {
            py::arg("known"), py::arg("doubt"), py::arg("inputs"), py::arg("switches"),
            py::arg("segments"), py::arg("dt"), py::arg("lag"))
       .def_property_readonly("parameters", &ArmRecord::parameters, "Length of theta.")
+      .def(
+          "resting",
+          [](const ArmRecord& record, const Numbers& noise) {
+            return record.resting(list_of(noise));
+          },
+          py::arg("noise"),
+          "Return the same log of a hand at rest in its place, whose force is but `noise` [N], "
+          "shape "
+          "(rows,).")
       .def("gains", &gains, py::arg("theta"), py::arg("force_noise"), py::arg("drift") = 0.0,
            py::arg("offset") = 0.0,
            "Return the gains for theta and force readings of standard deviation `force_noise` [N] "
@@ -190,18 +234,21 @@ void bind_identify(py::module_& m) {
            "Return by how much the force reads too high at each row [N], shape (rows,).")
       .def("innovations", &innovations, py::arg("theta"), py::arg("gains"),
            "Return the one-step prediction errors, each divided by its standard deviation.")
-      .def("filtered", &filtered, py::arg("theta"), py::arg("held"), py::arg("noise"),
-           "Return the innovations with the gains made for `held`, shape (rows,), and the sum of "
-           "the "
-           "logarithms of their variances; `noise` as of `gains`.")
+      .def("judge", &judge, py::arg("theta"), py::arg("held"), py::arg("noise"),
+           py::arg("robust") = 0.0,
+           "Return -2 log of the likelihood of each of some trials, but for a constant, shape "
+           "(trials,): of theta, shape (trials, parameters), with the gains made for `held`, of "
+           "the same shape, and `noise` as of `gains`, one of three each. Errors beyond `robust` "
+           "deviations count linearly, 0 for none.")
       .def("linearised", &linearised, py::arg("theta"), py::arg("gains"), py::arg("which"),
+           py::arg("more") = 0,
            "Return the innovations, shape (rows,), and d innovations / d theta[which], shape "
-           "(which, "
-           "rows); exact.")
-      .def("renewed_jacobian", &renewed_jacobian, py::arg("theta"), py::arg("held"),
-           py::arg("noise"), py::arg("which"), py::arg("steps"),
-           "Return d innovations / d theta[which] with the gains made anew for each change, by "
-           "differences of `steps`; `noise` as of `gains`.")
+           "(which, rows), exact; with `more` rows of zeros behind them.")
+      .def("renewed", &renewed, py::arg("theta"), py::arg("held"), py::arg("noise"),
+           py::arg("which"), py::arg("kept"), py::arg("steps"), py::arg("more") = 0,
+           "Return the same as `linearised`, with the gains made anew for each change, of theta "
+           "and but for the last `kept` of `held`, by differences of `steps`; `noise` as of "
+           "`gains`.")
       .def(
           "simulate", &simulate, py::arg("theta"), py::arg("x"), py::arg("v"),
           "Return the position [m] simulated from a state [m, m/s] with the recorded force alone.");

@@ -4420,33 +4420,38 @@ class ArmRecord:
         """
         Return the gains for theta and force readings of standard deviation `force_noise` [N] that drift by a random walk of `drift` [N/sqrt(s)] from within `offset` [N].
         """
-    def filtered(
-        self,
-        theta: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
-        held: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
-        noise: typing.Annotated[
-            collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(3)"
-        ],
-    ) -> tuple[numpy.typing.NDArray[numpy.float64], float]:
-        """
-        Return the innovations with the gains made for `held`, shape (rows,), and the sum of the logarithms of their variances; `noise` as of `gains`.
-        """
     def innovations(
         self, theta: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], gains: ArmGains
     ) -> numpy.typing.NDArray[numpy.float64]:
         """
         Return the one-step prediction errors, each divided by its standard deviation.
         """
+    def judge(
+        self,
+        theta: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
+        held: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
+        noise: collections.abc.Sequence[
+            typing.Annotated[
+                collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex],
+                "FixedSize(3)",
+            ]
+        ],
+        robust: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+    ) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Return -2 log of the likelihood of each of some trials, but for a constant, shape (trials,): of theta, shape (trials, parameters), with the gains made for `held`, of the same shape, and `noise` as of `gains`, one of three each. Errors beyond `robust` deviations count linearly, 0 for none.
+        """
     def linearised(
         self,
         theta: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
         gains: ArmGains,
         which: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex],
+        more: typing.SupportsInt | typing.SupportsIndex = 0,
     ) -> tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64]]:
         """
-        Return the innovations, shape (rows,), and d innovations / d theta[which], shape (which, rows); exact.
+        Return the innovations, shape (rows,), and d innovations / d theta[which], shape (which, rows), exact; with `more` rows of zeros behind them.
         """
-    def renewed_jacobian(
+    def renewed(
         self,
         theta: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
         held: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
@@ -4454,10 +4459,16 @@ class ArmRecord:
             collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(3)"
         ],
         which: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex],
+        kept: typing.SupportsInt | typing.SupportsIndex,
         steps: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex],
-    ) -> numpy.typing.NDArray[numpy.float64]:
+        more: typing.SupportsInt | typing.SupportsIndex = 0,
+    ) -> tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64]]:
         """
-        Return d innovations / d theta[which] with the gains made anew for each change, by differences of `steps`; `noise` as of `gains`.
+        Return the same as `linearised`, with the gains made anew for each change, of theta and but for the last `kept` of `held`, by differences of `steps`; `noise` as of `gains`.
+        """
+    def resting(self, noise: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> ArmRecord:
+        """
+        Return the same log of a hand at rest in its place, whose force is but `noise` [N], shape (rows,).
         """
     def simulate(
         self,

@@ -155,21 +155,104 @@ TEST(ArmRecord, DoubtLetsTheHandGo) {
   EXPECT_LT(worst(ArmRecord(log), kHand), 2.0);
 }
 
-TEST(ArmRecord, OnePassGivesWhatGainsAndPredictionGive) {
+/// Trials that differ in all that may differ, with readings left out and a target that jumps.
+TEST(ArmRecord, TrialsSideBySideGiveWhatGainsAndPredictionGive) {
+  ArmRecord::Log log = log_of(wave());
+  log.x = simulated(ArmRecord(log), kHand);
+  log.switches = {0.2, 0.4};
+  log.segments = {0, 1, 0};
+  for (std::size_t i = 0; i < kRows; i += 3) {
+    log.variance[i] = std::numeric_limits<double>::infinity();
+    log.early[i + 1] = 0.3 * kDt;
+  }
+  for (std::size_t i = 0; i < kRows; ++i) log.inputs[0][i] = 0.01 * static_cast<double>(i % 7);
+  const ArmRecord record(log);
+  std::vector<std::vector<double>> thetas(7, {0.2, 5, 300, 0, 0, 0, 0.5, 0.03, 0.01});
+  thetas[1][ArmGuess::kMass] *= 1.1;
+  thetas[2][ArmGuess::kDelay] = 3e-4;
+  thetas[3][ArmGuess::kOnset] = 2e-4;
+  thetas[4][ArmGuess::kBend] = 0.01;
+  thetas[5][kShare] = 0.3;
+  thetas[6].back() = 0.02;
+  const ArmGuess held = ArmGuess::from(thetas[0], 1);
+  for (const double drift : {0.0, 0.1}) {
+    std::vector<ArmRecord::Trial> trials;
+    for (std::size_t k = 0; k < thetas.size(); ++k) {
+      trials.push_back({ArmGuess::from(thetas[k], 1),
+                        k == 6 ? ArmGuess::from(thetas[k], 1) : held,
+                        {.force = 0.01 + 0.01 * static_cast<double>(k), .drift = drift}});
+    }
+    std::vector<double> costs(trials.size()), errors(trials.size() * kRows), alone(kRows);
+    record.judge(trials, 0, costs, errors);
+    for (std::size_t k = 0; k < trials.size(); ++k) {
+      const ArmGains gains = record.gains(trials[k].held, trials[k].noise);
+      record.innovations(trials[k].guess, gains, alone);
+      double cost = gains.log_sum;
+      for (std::size_t i = 0; i < kRows; ++i) {
+        cost += alone[i] * alone[i];
+        EXPECT_NEAR(errors[k * kRows + i], alone[i], 1e-6 * (1 + std::abs(alone[i])));
+      }
+      EXPECT_NEAR(costs[k], cost, 1e-9 * std::abs(cost));
+    }
+    std::vector<double> quick(trials.size());
+    record.judge(trials, 0, quick);
+    for (std::size_t k = 0; k < trials.size(); ++k) EXPECT_NEAR(quick[k], costs[k], 1e-6);
+  }
+}
+
+TEST(ArmRecord, ErrorsBeyondHubersBoundCountLinearly) {
+  ArmRecord::Log log = log_of(wave());
+  log.x = simulated(ArmRecord(log), kHand);
+  log.x[300] += 1e-3;
+  const ArmRecord record(log);
+  const ArmGuess guess = ArmGuess::from(kHand, 1);
+  const std::vector<ArmRecord::Trial> trials{{guess, guess, {.force = 0.01}}};
+  std::vector<double> plain(1), robust(1), errors(kRows);
+  record.judge(trials, 0, plain, errors);
+  record.judge(trials, 1.345, robust);
+  double expected = plain[0];
+  for (const double e : errors) {
+    const double a = std::abs(e);
+    if (a > 1.345) expected += 2 * 1.345 * a - 1.345 * 1.345 - a * a;
+  }
+  EXPECT_LT(robust[0], plain[0]);
+  EXPECT_NEAR(robust[0], expected, 1e-9 * std::abs(expected));
+}
+
+TEST(ArmRecord, RenewedDerivativesAreDifferencesOfErrorsWithFiltersOfTheirOwn) {
   ArmRecord::Log log = log_of(wave());
   log.x = simulated(ArmRecord(log), kHand);
   const ArmRecord record(log);
-  std::vector<double> other = kHand;
-  other[ArmGuess::kMass] *= 1.1;
-  other[ArmGuess::kDelay] = 3e-4;
-  const ArmGuess guess = ArmGuess::from(other, 1);
-  const ArmGuess held = ArmGuess::from(kHand, 1);
   const ArmRecord::Noise noise{.force = 0.01, .drift = 0.1, .offset = 0.3};
-  const ArmGains gains = record.gains(held, noise);
-  std::vector<double> two(kRows), one(kRows);
-  record.innovations(guess, gains, two);
-  EXPECT_EQ(record.filtered(guess, held, noise, one), gains.log_sum);
-  EXPECT_EQ(one, two);
+  const std::vector<std::size_t> which{ArmGuess::kMass, ArmGuess::kStiffness, ArmGuess::kDelay};
+  const std::vector<double> steps{1e-5, 1e-2, 1e-5};
+  constexpr std::size_t kMore = 2;  // rows that stay as they are
+  std::vector<double> errors(kRows), J(which.size() * (kRows + kMore), 7.0), moved(kRows);
+  record.renewed(kHand, kHand, noise, which, 1, steps, errors, J, kRows + kMore);
+  for (std::size_t k = 0; k < which.size(); ++k) {
+    std::vector<double> at = kHand;
+    at[which[k]] += steps[k];
+    const ArmGuess guess = ArmGuess::from(at, 1);
+    const ArmGuess held = which[k] == ArmGuess::kDelay ? ArmGuess::from(kHand, 1) : guess;
+    record.innovations(guess, record.gains(held, noise), moved);
+    for (std::size_t i = 0; i < kRows; ++i) {
+      const double slope = (moved[i] - errors[i]) / steps[k];
+      EXPECT_NEAR(J[k * (kRows + kMore) + i], slope, 1e-4 * (1 + std::abs(slope)));
+    }
+    EXPECT_EQ(J[k * (kRows + kMore) + kRows], 7.0);
+  }
+}
+
+TEST(ArmRecord, AHandAtRestIsMovedByNoiseAlone) {
+  ArmRecord::Log log = log_of(wave());
+  log.x = simulated(ArmRecord(log), kHand);
+  log.inputs[0].assign(kRows, 1.0);
+  const ArmRecord still = ArmRecord(log).resting(std::vector<double>(kRows, 0.0));
+  std::vector<double> theta = kHand;
+  theta.back() = 0;
+  theta[kShare] = 0.5;
+  EXPECT_EQ(worst(still, theta, 0), 0.0);
+  EXPECT_THROW((void)still.resting({1.0}), std::invalid_argument);
 }
 
 TEST(ArmRecord, TheInitialStateIsFreeWhateverTheDelay) {

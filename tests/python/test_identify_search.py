@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from numpy.typing import NDArray
 
 import ebac
 from ebac.identify import Recording, Target, fit_arm
@@ -43,21 +44,22 @@ def problem() -> Problem:
 def test_the_lowest_point_of_a_valley_is_found(
     bottom: float, start: float, step: float, skew: float, low: float
 ) -> None:
-    def valley(z: float) -> float:
+    def valley(z: NDArray[np.float64]) -> NDArray[np.float64]:
+        assert 0 < len(z) <= 4  # what a filter computes side by side
         d = z - bottom
-        return float(d**2 * (1 + skew / (1 + np.exp(-d))))
+        return np.asarray(d**2 * (1 + skew / (1 + np.exp(-d))))
 
     found = lowest(valley, start, step, low, 4.0)
     assert low <= found <= 4.0
     assert abs(found - bottom) < 5 * NEAR
-    assert valley(found) < 0.02
+    assert valley(np.array([found])) < 0.02
 
 
 @given(start=st.floats(0.5, 2), low=st.floats(0, 0.4), high=st.floats(2.1, 9))
 def test_what_only_falls_ends_at_the_bound(start: float, low: float, high: float) -> None:
     assert lowest(lambda z: -z, start, 0.1, low, high) == high
     assert lowest(lambda z: z, start, 0.1, low, high) == low
-    assert low <= lowest(lambda z: 1.0, start, 0.1, low, high) <= high
+    assert low <= lowest(np.ones_like, start, 0.1, low, high) <= high
 
 
 @settings(max_examples=30)

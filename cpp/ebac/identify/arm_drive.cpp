@@ -20,6 +20,12 @@ struct Shifted {
     const auto at = row + static_cast<std::ptrdiff_t>(ticks);
     return force[static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(at, 0, last))];
   }
+  std::vector<double> column() const {
+    std::vector<double> out(force.size());
+    const auto rows = static_cast<std::ptrdiff_t>(force.size());
+    for (std::ptrdiff_t i = 0; i < rows; ++i) out[static_cast<std::size_t>(i)] = (*this)(i);
+    return out;
+  }
   double curvature(std::ptrdiff_t row) const {
     return (*this)(row + 1) - 2 * (*this)(row) + (*this)(row - 1);
   }
@@ -52,28 +58,44 @@ double ArmRecord::mean_target(std::size_t tick, double onset, std::span<const do
 }
 
 ArmRecord::Drive ArmRecord::drive(const ArmGuess& guess, double ticks) const {
-  const std::size_t n = rows();
-  Drive out{std::vector<double>(n), std::vector<double>(n), std::vector<double>(n)};
-  const Shifted raw{log_.force, ticks};
-  const double late = late_by(guess, ticks);
+  return {driving_force(guess, ticks), driving_inputs(guess), driving_target(guess, ticks)};
+}
+
+std::vector<double> ArmRecord::driving_force(const ArmGuess& guess, double ticks) const {
+  std::vector<double> out = Shifted{log_.force, ticks}.column();
   const double sharpen = kSharpen + guess.bend;
-  for (std::size_t i = 0; i < n; ++i) {
-    const auto row = static_cast<std::ptrdiff_t>(i);
-    out.force[i] = raw(row) - sharpen * raw.curvature(row);
+  double before = Shifted{log_.force, ticks}(-1), here = out[0];
+  const double last = Shifted{log_.force, ticks}(static_cast<std::ptrdiff_t>(rows()));
+  for (std::size_t i = 0; i < rows(); ++i) {
+    const double after = i + 1 < rows() ? out[i + 1] : last;
+    out[i] = here - sharpen * (after - 2 * here + before);
+    before = here;
+    here = after;
   }
+  return out;
+}
+
+std::vector<double> ArmRecord::driving_inputs(const ArmGuess& guess) const {
+  std::vector<double> out(rows());
   for (std::size_t k = 0; k < guess.shares.size(); ++k) {
     if (guess.shares[k] == 0) continue;
-    for (std::size_t i = 0; i < n; ++i) out.beyond[i] += guess.shares[k] * log_.inputs[k][i];
+    for (std::size_t i = 0; i < rows(); ++i) out[i] += guess.shares[k] * log_.inputs[k][i];
   }
+  return out;
+}
+
+std::vector<double> ArmRecord::driving_target(const ArmGuess& guess, double ticks) const {
+  std::vector<double> out(rows());
+  const double late = late_by(guess, ticks);
+  const double share = 0.5 + late / log_.dt;
   std::size_t segment = 0;
   const double onset = guess.onset + late;
-  out.target[0] = mean_target(0, onset, guess.levels, segment) + log_.known[0];
-  for (std::size_t i = 1; i < n; ++i) {
+  out[0] = mean_target(0, onset, guess.levels, segment) + log_.known[0];
+  for (std::size_t i = 1; i < rows(); ++i) {
     const double moves = log_.known[i] - log_.known[i - 1];
-    out.target[i] = mean_target(i, onset, guess.levels, segment) + log_.known[i] -
-                    (0.5 + late / log_.dt) * moves;
+    out[i] = mean_target(i, onset, guess.levels, segment) + log_.known[i] - share * moves;
   }
-  put_behind_lag(out.target);
+  put_behind_lag(out);
   return out;
 }
 

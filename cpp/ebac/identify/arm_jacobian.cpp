@@ -10,17 +10,14 @@ namespace ebac {
 
 namespace {
 
-constexpr std::size_t kLanes = 6;  // columns that are computed side by side
-using Lanes = Eigen::Array<double, static_cast<int>(kLanes), 1>;
-
 /// What a change of some parameters does to a tick, one lane each.
+template <class Lanes>
 struct TickSlope {
-  std::array<Lanes, 8> flow{};      // of x from x, v, push, its change; of v from them
+  std::array<Lanes, 8> flow;        // of x from x, v, push, its change; of v from them
   Lanes of_target = Lanes::Zero();  // of the push, 1/s^2
-  Lanes of_push = Lanes::Zero();    // of the push, for each of its own
   Lanes ahead = Lanes::Zero();      // of how far ahead of the hand it is read, s
   std::vector<double> force;        // of the force at each row, along `bend`
-  Lanes bends = Lanes::Zero();      // 1 for `bend`
+  Lanes bends = Lanes::Zero();      // of the push, for each of that
   std::vector<Lanes> held;          // of the push, over the tick from each row on
 
   explicit TickSlope(std::size_t rows) : held(rows, Lanes::Zero()) { flow.fill(Lanes::Zero()); }
@@ -51,30 +48,45 @@ Eigen::Matrix<double, 2, 4> flow_slope(const ArmGuess& guess, double dt, std::si
 
 void ArmRecord::linearised(std::span<const double> theta, const ArmGains& gains,
                            std::span<const std::size_t> which, std::span<double> errors,
-                           std::span<double> out) const {
+                           std::span<double> out, std::size_t stride) const {
+  if (stride == 0) stride = rows();
   const ArmGuess guess = ArmGuess::from(theta, inputs());
   const Drive drive = this->drive(guess, gains.ticks);
+  constexpr std::size_t kMost = 8;
   std::size_t done = 0;
   do {
-    const std::size_t many = std::min(kLanes, which.size() - done);
-    columns(guess, drive, gains, which.subspan(done, many), errors, out.subspan(done * rows()));
+    const std::size_t many = std::min(kMost, which.size() - done);
+    const auto some = which.subspan(done, many);
+    const auto into = out.subspan(done * stride);
+    if (many > 6) {
+      columns<8>(guess, drive, gains, some, errors, into, stride);
+    } else if (many > 4) {
+      columns<6>(guess, drive, gains, some, errors, into, stride);
+    } else {
+      columns<4>(guess, drive, gains, some, errors, into, stride);
+    }
     done += many;
   } while (done < which.size());
 }
 
+template <int kLanes>
 void ArmRecord::columns(const ArmGuess& guess, const Drive& drive, const ArmGains& gains,
                         std::span<const std::size_t> which, std::span<double> errors,
-                        std::span<double> out) const {
+                        std::span<double> out, std::size_t stride) const {
+  using Lanes = Eigen::Array<double, kLanes, 1>;
   const std::size_t n = rows();
   const ArmStep step(guess, log_.dt);
-  TickSlope slope(n);
+  TickSlope<Lanes> slope(n);
   for (std::size_t k = 0; k < which.size(); ++k) {
     const auto lane = static_cast<Eigen::Index>(k);
     const std::size_t index = which[k];
     if (index <= ArmGuess::kStiffness) {
-      const Eigen::Matrix<double, 2, 4> d = flow_slope(guess, log_.dt, index);
+      Eigen::Matrix<double, 2, 4> d = flow_slope(guess, log_.dt, index);
+      if (index == ArmGuess::kMass) {  // which weakens the push, too
+        d.col(2) -= step.per_mass * step.start;
+        d.col(3) -= step.per_mass * step.change;
+      }
       for (int j = 0; j < 8; ++j) slope.flow[static_cast<std::size_t>(j)][lane] = d(j / 4, j % 4);
-      if (index == ArmGuess::kMass) slope.of_push[lane] = -step.per_mass;
       if (index == ArmGuess::kStiffness) slope.of_target[lane] = step.per_mass;
       continue;
     }
@@ -95,71 +107,57 @@ void ArmRecord::columns(const ArmGuess& guess, const Drive& drive, const ArmGain
       slope.held[i][lane] = step.per_mass * step.stiffness * target[i + 1];
     }
   }
-  if (slope.force.empty()) slope.force.assign(n, 0.0);
 
   const double late = late_by(guess, gains.ticks);
   const double ahead = log_.lag + late, later = late - gains.late;
+  const bool bending = !slope.force.empty();
   Eigen::Vector2d z = Eigen::Vector2d::Zero();
   double before = 0;
   double off = 0;
   Lanes dx = Lanes::Zero(), dv = dx, dbefore = dx, doff = dx;  // of the same
   for (std::size_t i = 0; i < n; ++i) {
     const ArmGains::Row& gain = gains.rows[i];
-    const double early = log_.early[i];
-    const double bend = early * early / log_.dt * (2.0 / 3.0);
-    const double e = log_.x[i] - z[0] - (ahead - early) * z[1] - bend * (z[1] - before);
-    errors[i] = e * gain.weight;
-    const Lanes de = -dx - (ahead - early) * dv - slope.ahead * z[1] - bend * (dv - dbefore);
-    for (std::size_t k = 0; k < which.size(); ++k) {
-      out[k * n + i] = de[static_cast<Eigen::Index>(k)] * gain.weight;
+    if (gain.weight == 0) {  // left out: no reading
+      errors[i] = 0;
+      for (std::size_t k = 0; k < which.size(); ++k) out[k * stride + i] = 0;
+    } else {
+      const double early = log_.early[i];
+      const double bend = early * early / log_.dt * (2.0 / 3.0);
+      const double e = log_.x[i] - z[0] - (ahead - early) * z[1] - bend * (z[1] - before);
+      errors[i] = e * gain.weight;
+      const Lanes de = -dx - (ahead - early) * dv - slope.ahead * z[1] - bend * (dv - dbefore);
+      const Lanes shown = de * gain.weight;
+      for (std::size_t k = 0; k < which.size(); ++k) {
+        out[k * stride + i] = shown[static_cast<Eigen::Index>(k)];
+      }
+      off += gain.drift * e;
+      const double gain_x = gain.x - later * gain.v;
+      z[0] += gain_x * e;
+      z[1] += gain.v * e;
+      if (gain.drift != 0) doff += gain.drift * de;
+      dx += gain_x * de - slope.ahead * (gain.v * e);
+      dv += gain.v * de;
     }
     if (i + 1 == n) break;
-    off += gain.drift * e;
-    const double gain_x = gain.x - later * gain.v;
-    z[0] += gain_x * e;
-    z[1] += gain.v * e;
-    doff += gain.drift * de;
-    dx += gain_x * de - slope.ahead * (gain.v * e);
-    dv += gain.v * de;
     before = z[1];
     dbefore = dv;
     const double beyond = drive.beyond[i] - off;
     const double now = step.push(drive.force[i] + beyond, drive.target[i + 1]);
     const double turn = step.push(drive.force[i + 1] + beyond, drive.target[i + 1]) - now;
     const auto& f = slope.flow;
-    const Lanes dnow = slope.held[i] + step.per_mass * doff +
-                       slope.of_target * drive.target[i + 1] + slope.of_push * now +
-                       slope.bends * slope.force[i];
-    const Lanes dturn = slope.of_push * turn + slope.bends * (slope.force[i + 1] - slope.force[i]);
-    const Lanes x = step.phi(0, 0) * dx + step.phi(0, 1) * dv + step.start[0] * dnow +
-                    step.change[0] * dturn + f[0] * z[0] + f[1] * z[1] + f[2] * now + f[3] * turn;
-    dv = step.phi(1, 0) * dx + step.phi(1, 1) * dv + step.start[1] * dnow + step.change[1] * dturn +
-         f[4] * z[0] + f[5] * z[1] + f[6] * now + f[7] * turn;
+    Lanes dnow = slope.held[i] + step.per_mass * doff + slope.of_target * drive.target[i + 1];
+    if (bending) dnow += slope.bends * slope.force[i];
+    Lanes x = step.phi(0, 0) * dx + step.phi(0, 1) * dv + step.start[0] * dnow + f[0] * z[0] +
+              f[1] * z[1] + f[2] * now + f[3] * turn;
+    dv = step.phi(1, 0) * dx + step.phi(1, 1) * dv + step.start[1] * dnow + f[4] * z[0] +
+         f[5] * z[1] + f[6] * now + f[7] * turn;
+    if (bending) {
+      const Lanes dturn = slope.bends * (slope.force[i + 1] - slope.force[i]);
+      x += step.change[0] * dturn;
+      dv += step.change[1] * dturn;
+    }
     dx = x;
     z = step.phi * z + step.start * now + step.change * turn;
-  }
-}
-
-void ArmRecord::renewed_jacobian(std::span<const double> theta, std::span<const double> held,
-                                 const Noise& noise, std::span<const std::size_t> which,
-                                 std::span<const double> steps, std::span<double> out) const {
-  const std::size_t n = rows();
-  std::vector<double> at(theta.begin(), theta.end());
-  std::vector<double> made(held.begin(), held.end());
-  std::vector<double> here(n);
-  const auto errors = [&](std::span<double> into) {
-    filtered(ArmGuess::from(at, inputs()), ArmGuess::from(made, inputs()), noise, into);
-  };
-  errors(here);
-  for (std::size_t i = 0; i < which.size(); ++i) {
-    const std::span<double> column = out.subspan(i * n, n);
-    const std::size_t k = which[i];
-    at[k] = theta[k] + steps[i];
-    made[k] = held[k] + steps[i];
-    errors(column);
-    at[k] = theta[k];
-    made[k] = held[k];
-    for (std::size_t row = 0; row < n; ++row) column[row] = (column[row] - here[row]) / steps[i];
   }
 }
 

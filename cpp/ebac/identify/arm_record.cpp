@@ -24,9 +24,6 @@ void require_numbers(const std::vector<double>& values, const std::string& name)
          name + " has no finite number in row " + std::to_string(wrong - values.begin()));
 }
 
-/// How much of a jump a tick may miss.
-constexpr double kJumpDoubt = 0.3;
-
 }  // namespace
 
 ArmGuess ArmGuess::from(std::span<const double> theta, std::size_t inputs) {
@@ -63,6 +60,17 @@ ArmRecord::ArmRecord(Log log) : log_(std::move(log)) {
     levels_ = std::max(levels_, static_cast<std::size_t>(level) + 1);
   }
   keep_ = log_.lag > 0 ? std::exp(-log_.dt / log_.lag) : 0.0;
+}
+
+ArmRecord ArmRecord::resting(std::vector<double> noise) const {
+  refuse(noise.size() != rows(), "the noise must be as long as x");
+  require_numbers(noise, "the noise");
+  ArmRecord out(*this);
+  out.log_.force = std::move(noise);
+  std::ranges::fill(out.log_.x, 0.0);
+  std::ranges::fill(out.log_.known, 0.0);
+  for (auto& input : out.log_.inputs) std::ranges::fill(input, 0.0);
+  return out;
 }
 
 /// Where the target jumps, the force jumps within a tick, which its samples do not resolve: the
@@ -185,14 +193,6 @@ void ArmRecord::innovations(const ArmGuess& guess, const ArmGains& gains, std::s
     out[i] = prediction.next(i, gains.rows[i]);
     if (!drifts.empty()) drifts[i] = prediction.off();
   }
-}
-
-double ArmRecord::filtered(const ArmGuess& guess, const ArmGuess& held, const Noise& noise,
-                           std::span<double> out) const {
-  Maker maker(*this, held, noise);
-  Prediction prediction(*this, guess, maker.ticks(), maker.late());
-  for (std::size_t i = 0; i < rows(); ++i) out[i] = prediction.next(i, maker.next(i));
-  return maker.log_sum();
 }
 
 void ArmRecord::simulate(const ArmGuess& guess, double x, double v, std::span<double> out) const {

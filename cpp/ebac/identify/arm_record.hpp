@@ -76,6 +76,9 @@ class ArmRecord {
   /// Throws std::invalid_argument when the lists do not fit each other or hold no number.
   explicit ArmRecord(Log log);
 
+  /// The same log of a hand at rest in its place, whose force is but noise [N].
+  ArmRecord resting(std::vector<double> noise) const;
+
   std::size_t rows() const { return log_.x.size(); }
   std::size_t inputs() const { return log_.inputs.size(); }
   std::size_t parameters() const { return ArmGuess::kBeforeInputs + inputs() + levels_; }
@@ -93,20 +96,28 @@ class ArmRecord {
                    std::span<double> drifts = {}) const;
 
   /// Writes the innovations, and d innovations / d theta[which[i]], one column after the other:
-  /// exact, by forward sensitivities. Along `onset`, where a switch falls on a row, towards later.
+  /// exact, by forward sensitivities. Columns lie `stride` apart, by default the rows. Along `onset`, where a switch falls on a row, towards later.
   void linearised(std::span<const double> theta, const ArmGains& gains,
                   std::span<const std::size_t> which, std::span<double> errors,
-                  std::span<double> out) const;
+                  std::span<double> out, std::size_t stride = 0) const;
 
-  /// The innovations of a guess with the gains made for `held`, and the logarithms of their variances, in one pass.
-  double filtered(const ArmGuess& guess, const ArmGuess& held, const Noise& noise,
-                  std::span<double> out) const;
+  /// A guess, what its filter is made for, and the noise that is made for.
+  struct Trial {
+    ArmGuess guess, held;
+    Noise noise;
+  };
+  /// Writes -2 log of the likelihood of each trial, but for a constant, and where asked for its
+  /// innovations, one column after the other. Errors beyond `robust` deviations count linearly
+  /// (Huber), 0 for none. Several trials take little longer than one: each row waits for the one
+  /// before, and they do so side by side.
+  void judge(std::span<const Trial> trials, double robust, std::span<double> costs,
+             std::span<double> errors = {}) const;
 
-  /// The same derivatives, with the gains made anew for each change, from `held` changed alike; by
-  /// differences of `steps`.
-  void renewed_jacobian(std::span<const double> theta, std::span<const double> held,
-                        const Noise& noise, std::span<const std::size_t> which,
-                        std::span<const double> steps, std::span<double> out) const;
+  /// Writes the innovations and their derivatives as `linearised` does, with the gains made anew
+  /// for each change, from `held` changed alike but for the last `kept`; by differences of `steps`.
+  void renewed(std::span<const double> theta, std::span<const double> held, const Noise& noise,
+               std::span<const std::size_t> which, std::size_t kept, std::span<const double> steps,
+               std::span<double> errors, std::span<double> out, std::size_t stride = 0) const;
 
   /// Writes the position at each row that the recorded force alone gives from a state [m, m/s] on.
   void simulate(const ArmGuess& guess, double x, double v, std::span<double> out) const;
@@ -122,14 +133,21 @@ class ArmRecord {
 
   /// The delay is put on the motion but for some whole ticks, by which the force is shifted.
   Drive drive(const ArmGuess& guess, double ticks) const;
+  std::vector<double> driving_force(const ArmGuess& guess, double ticks) const;
+  std::vector<double> driving_inputs(const ArmGuess& guess) const;
+  std::vector<double> driving_target(const ArmGuess& guess, double ticks) const;
+  template <int kLanes, bool kDrift>
+  void side_by_side(std::span<const Trial> trials, double robust, std::span<double> costs,
+                    std::span<double> errors) const;
   /// d target / d theta[index] [m per unit], and d force / d bend [N].
   std::vector<double> target_slope(const ArmGuess& guess, double ticks, std::size_t index) const;
   std::vector<double> bend_slope(double ticks) const;
   void put_behind_lag(std::span<double> wanted) const;
   /// `linearised` for a few parameters that are computed side by side.
+  template <int kLanes>
   void columns(const ArmGuess& guess, const Drive& drive, const ArmGains& gains,
-               std::span<const std::size_t> which, std::span<double> errors,
-               std::span<double> out) const;
+               std::span<const std::size_t> which, std::span<double> errors, std::span<double> out,
+               std::size_t stride) const;
   /// The delay in whole ticks, by which the force is shifted; and the rest of it, which is put on
   /// the motion as the lag is: a force between two rows would be an average, and less noisy than
   /// one at a row, which a fit takes for a reason to prefer it. In a search the ticks stay those of
@@ -139,6 +157,9 @@ class ArmRecord {
   std::vector<double> jumps(const ArmGuess& guess) const;     // N
   double mean_target(std::size_t tick, double onset, std::span<const double> levels,
                      std::size_t& segment) const;
+
+  /// How much of a jump a tick may miss.
+  static constexpr double kJumpDoubt = 0.3;
 
   Log log_;
   std::size_t levels_ = 0;

@@ -10,7 +10,6 @@ from time import perf_counter
 import numpy as np
 from numpy.typing import NDArray
 
-from ebac.identify.bias import minus_two_log
 from ebac.identify.fit import Fitted, fitted
 from ebac.identify.guess import regression, solve
 from ebac.identify.informativeness import FASTEST
@@ -221,7 +220,8 @@ def better_guess(problem: Problem) -> Values:
     other[place[:3]] = found
     other = problem.parameters.clip(other)
     noise, record = float(problem.shown[first]), problem.records[first]
-    costs = [minus_two_log(record, g[place], g[place], noise) for g in (by_time, other)]
+    both = np.array([by_time[place], other[place]])
+    costs = record.judge(both, both, [(noise, 0.0, 0.0)] * 2)
     return other if costs[1] < costs[0] else by_time
 
 

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ebac._core import ArmGains, ArmRecord
 from ebac.identify.problem import Problem
-from ebac.identify.search import loss
 from ebac.identify.signals import rough
 
 #: The noise that moves a hand is at least what the force signal itself shows, and so many times that at most.
@@ -21,19 +20,25 @@ Values = NDArray[np.float64]
 
 
 def minus_two_log(
-    record: ArmRecord,
-    theta: Values,
-    held: Values,
-    force_noise: float,
+    problem: Problem,
+    values: Values,
+    noises: Values,
+    drifts: Sequence[float],
     robust: float | None = None,
-    wander: tuple[float, float] = (0.0, 0.0),
-) -> float:
-    """Return -2 log of the likelihood, but for a constant; with Huber's loss beyond `robust` deviations.
+) -> Values:
+    """Return -2 log of the likelihood of each of some trials, but for a constant.
 
-    `held` is what the filter is made for, see `Problem.held`, `wander` the drift of the force, see `Problem.wander`.
+    A trial is a row of `noises`, one for each recording [N], and a drift [N/sqrt(s)]; Huber's loss counts beyond
+    `robust` deviations. Several trials at once cost little more than one.
     """
-    e, log_sum = record.filtered(theta, held, (force_noise, *wander))
-    return loss(e, robust) + log_sum
+    held, out = problem.held(values), np.zeros(len(drifts))
+    wander = [problem.wander(float(drift)) for drift in drifts]
+    parts = zip(problem.records, problem.parameters.places, noises.T, strict=True)
+    for record, place, mine in parts:
+        theta, made = (np.tile(v[place], (len(drifts), 1)) for v in (values, held))
+        noise = [(float(n), *w) for n, w in zip(mine, wander, strict=True)]
+        out += record.judge(theta, made, noise, robust or 0.0)
+    return out
 
 
 def likely_noise(
@@ -44,17 +49,16 @@ def likely_noise(
     It stands for all that moves a hand beside eq. (4), tremor too, as far as that is white.
     """
     found = []
-    quiet, wander = problem.held(values), problem.wander(problem.drift)
+    held, wander = problem.held(values), problem.wander(problem.drift)
     parts = zip(problem.records, problem.parameters.places, np.log(problem.shown), strict=True)
     for i, (record, place, shown) in enumerate(parts):
 
         def unlikely(
-            z: float,
-            record: ArmRecord = record,
-            theta: Values = values[place],
-            held: Values = quiet[place],
-        ) -> float:
-            return minus_two_log(record, theta, held, float(np.exp(z)), robust, wander)
+            z: Values, record: ArmRecord = record, place: NDArray[np.intp] = place
+        ) -> Values:
+            theta, made = (np.tile(v[place], (len(z), 1)) for v in (values, held))
+            noise = [(n, *wander) for n in np.exp(z).tolist()]
+            return record.judge(theta, made, noise, robust or 0.0)
 
         limits = float(shown), float(shown + np.log(WIDEST))
         found.append(float(np.exp(lowest(unlikely, float(np.log(before[i])), STEP, *limits))))
@@ -70,40 +74,52 @@ BELIEVED = 10.0
 LOUD = 1.2
 
 
+def drifting(
+    problem: Problem, values: Values, noise: Values, robust: float | None = None
+) -> tuple[float, Values] | None:
+    """Return a drift of the forces [N/sqrt(s)] and a noise for it, of those in `DRIFTS`; None without.
+
+    It is believed where it is clearly likelier than none. A random walk is the slow part of a reading that a hand does
+    not follow: the sensor warms, or the place the hand wants to be wanders. Fitted without it, the noise is too large;
+    so each drift is tried with the noise shown, too.
+    """
+    scale = largest_drift(problem) / LARGEST_DRIFT
+    noises = [noise] if (noise < LOUD * problem.shown).all() else [noise, problem.shown]
+    tried = [(0.0, noise), *((d * scale, n) for n in noises for d in DRIFTS)]
+    cost = minus_two_log(
+        problem, values, np.array([n for _, n in tried]), [d for d, _ in tried], robust
+    )
+    best = int(np.argmin(cost))
+    return tried[best] if cost[best] <= cost[0] - BELIEVED else None
+
+
 def likely_drift(
     problem: Problem, values: Values, noise: Values, robust: float | None = None
 ) -> float:
     """Return the drift of the forces [N/sqrt(s)] that makes the errors likeliest; 0 where none is clearly likelier.
 
     At most `largest_drift`.
-
-    A random walk is the slow part of a reading that a hand does not follow: the sensor warms, or the place the hand
-    wants to be wanders. Fitted without it, the noise is too large; so each drift is tried with the noise shown, too.
     """
-    held = problem.held(values)
     largest = largest_drift(problem)
-    scale = largest / LARGEST_DRIFT
-
-    def unlikely(drift: float, noise: Values) -> float:
-        parts = zip(problem.records, problem.parameters.places, noise, strict=True)
-        wander = problem.wander(drift)
-        return sum(
-            minus_two_log(r, values[p], held[p], float(n), robust, wander) for r, p, n in parts
-        )
-
-    noises = [noise] if (noise < LOUD * problem.shown).all() else [noise, problem.shown]
     start = problem.drift
     if not start:
-        tried = [(unlikely(d * scale, n), d, i) for d in DRIFTS for i, n in enumerate(noises)]
-        cost, share, which = min(tried)
-        if cost > unlikely(0.0, noise) - BELIEVED:
+        found = drifting(problem, values, noise, robust)
+        if found is None:
             return 0.0
-        start, noise = share * scale, noises[which]
-    low, high = np.log(0.1 * DRIFTS[0] * scale), np.log(largest)
+        start, noise = found
+
+    def unlikely(drifts: Values) -> Values:
+        return minus_two_log(
+            problem, values, np.tile(noise, (len(drifts), 1)), drifts.tolist(), robust
+        )
+
+    low, high = np.log(0.1 * DRIFTS[0] * largest / LARGEST_DRIFT), np.log(largest)
     at = float(np.clip(np.log(start), low, high))
-    found = float(np.exp(lowest(lambda z: unlikely(float(np.exp(z)), noise), at, STEP, low, high)))
-    believed = not problem.drift or unlikely(found, noise) < unlikely(0.0, noise) - BELIEVED
-    return found if believed else 0.0
+    drift = float(np.exp(lowest(lambda z: unlikely(np.exp(z)), at, STEP, low, high)))
+    if problem.drift:
+        with_it, without = unlikely(np.array([drift, 0.0]))
+        return drift if with_it < without - BELIEVED else 0.0
+    return drift
 
 
 def largest_drift(problem: Problem) -> float:
@@ -112,53 +128,57 @@ def largest_drift(problem: Problem) -> float:
     return LARGEST_DRIFT * max(forces)
 
 
+#: Where a search along a line begins, and how it goes on beyond what was tried, in steps.
+BEGIN, BEYOND = (-1, 0, 1, 4, 16), (1, 3, 9, 27)
+#: Of three places no farther apart, a parabola is near enough.
+CLOSE = 5.5 * NEAR
+#: Calls after which it stays where it is.
+MOST_CALLS = 12
+
+
 def lowest(
-    f: Callable[[float], float], start: float, step: float, low: float, high: float
+    f: Callable[[Values], Values], start: float, step: float, low: float, high: float
 ) -> float:
     """Return where f is least between two bounds: downhill in growing steps, then by parabolas, to `NEAR`.
 
-    f has one valley. Every call costs a filter over the whole log, which is why it is not golden section.
+    f has one valley, and takes up to four places at once: every call costs a filter over the whole log, for four
+    hardly more than for one.
     """
-    a, b = start, min(start + step, high)
-    fa, fb = f(a), f(b)
-    if fb > fa:
-        a, b, fa, fb = b, a, fb, fa
-    while True:  # b is below a; c is beyond b
-        c = min(max(b + 2 * (b - a), low), high)
-        if c == b:  # a bound: is it the lowest, or something before it?
-            while abs(b - a) > NEAR:
-                middle = 0.5 * (a + b)
-                fm = f(middle)
-                if fm < fb:
-                    c, fc, b, fb = b, fb, middle, fm
-                    break
-                a, fa = middle, fm
-            else:
+    at, height = np.zeros(0), np.zeros(0)
+    new = np.unique(np.clip([start + step * k for k in BEGIN], low, high))[:4]
+    for _ in range(MOST_CALLS):
+        at, height = np.append(at, new), np.append(height, f(new))
+        order = np.argsort(at)
+        at, height = at[order], height[order]
+        best = int(np.argmin(height))
+        b, last = float(at[best]), len(at) - 1
+        if best in (0, last):
+            bound, to = (low, 1) if best == 0 else (high, -1)
+            if b != bound:
+                width = abs(b - float(at[best + to]))
+                new = np.unique(np.clip([b - to * width * k for k in BEYOND], low, high))
+            elif abs(float(at[best + to]) - b) < 1.01 * NEAR:
                 return b
-            break
-        fc = f(c)
-        if fc >= fb:
-            break
-        a, b, fa, fb = b, c, fb, fc
-    for _ in range(12):
-        left, right = (b - a) * (fb - fc), (b - c) * (fb - fa)
+            else:  # is it the bound, or something before it?
+                room = float(at[best + to]) - b
+                new = b + np.array([to * NEAR, 0.25 * room, 0.5 * room, 0.75 * room])
+                new = new[np.abs(new - b) < 0.99 * abs(room)]
+            continue
+        a, c = float(at[best - 1]), float(at[best + 1])
+        left, right = (
+            (b - a) * (height[best] - height[best + 1]),
+            (b - c) * (height[best] - height[best - 1]),
+        )
         if left == right:  # flat
             return b
-        bottom = b - 0.5 * ((b - a) * left - (b - c) * right) / (left - right)
-        if abs(bottom - b) < NEAR:
-            far = a if abs(a - b) > abs(c - b) else c
-            if abs(far - b) < 5 * NEAR:
-                return bottom
-            bottom = b + float(np.copysign(2 * NEAR, far - b))  # a parabola creeps from the side
-        fn = f(bottom)
-        if fn < fb:  # the lowest of three, and its neighbours
-            a, fa = (b, fb) if (bottom - b) * (a - b) < 0 else (a, fa)
-            c, fc = (b, fb) if (bottom - b) * (c - b) < 0 else (c, fc)
-            b, fb = bottom, fn
-        elif (bottom - b) * (a - b) > 0:
-            a, fa = bottom, fn
-        else:
-            c, fc = bottom, fn
+        bottom = b - 0.5 * float(((b - a) * left - (b - c) * right) / (left - right))
+        if max(b - a, c - b) < CLOSE:
+            return bottom
+        middle = 0.5 * (b + (a if b - a > c - b else c))
+        new = np.array([bottom - 2 * NEAR, bottom, bottom + 2 * NEAR, middle])
+        new = new[(np.abs(new - b) > 0.1 * NEAR) & (new > a) & (new < c)]
+        if not new.size:
+            return bottom
     return b
 
 
@@ -178,19 +198,25 @@ def without_noise(
     The force reading drives the model, noise and all: noise is taken for force that moved nothing, so the hand comes
     out too heavy (errors in variables, attenuation). The score that noise alone gives is known, it is that of a log
     of noise; taken off, the score has mean zero at the truth (Nakamura 1990). One Newton step from the optimum does it.
+    A fit with a drift has no such bias: its values stay as they are.
 
     Only what the sensor itself shows counts, not what else disturbs a hand.
     """
-    noise = []
-    for r, found in zip(problem.recordings, force_noise.tolist(), strict=True):
-        assert r.force is not None
-        noise.append(min(found, rough(r.force)))
+    noise = np.array(
+        [
+            min(found, rough(r.force))
+            for r, found in zip(problem.recordings, force_noise.tolist(), strict=True)
+            if r.force is not None
+        ]
+    )
     moved = problem.moved
+    if problem.drift:
+        return values, problem.of_noise(values, gains, noise, moved)[0]
     score = np.zeros(len(moved))
     information = np.zeros((len(moved), len(moved)))
     pretended = np.zeros((len(moved), 0))
     for seed in range(DRAWS):
-        J, e = problem.of_noise(values, gains, np.array(noise), moved, seed)
+        J, e = problem.of_noise(values, gains, noise, moved, seed)
         score += np.einsum("ik,k->i", J, e) / DRAWS
         information += np.einsum("ik,jk->ij", J, J) / DRAWS
         pretended = J

@@ -190,8 +190,8 @@ def device_problem(drive: Drive, speed: float | None) -> tuple[Problem, tuple[st
         before_levels=len(names) - 1,
     )
 
-    def make(r: Recording, _: Target, noise: Values | None) -> ArmRecord:
-        return _record(drive, speed, r, noise)
+    def make(r: Recording, _: Target) -> ArmRecord:
+        return _record(drive, speed, r)
 
     r = drive.recording
     as_force = replace(r, force=drive.force)
@@ -221,7 +221,7 @@ def jumps(r: Recording) -> Values:
     return out
 
 
-def _record(drive: Drive, speed: float | None, r: Recording, noise: Values | None) -> ArmRecord:
+def _record(drive: Drive, speed: float | None, r: Recording) -> ArmRecord:
     assert r.force is not None
     n = len(r.t)
     read = readings(r)
@@ -231,16 +231,15 @@ def _record(drive: Drive, speed: float | None, r: Recording, noise: Values | Non
     if speed is not None:
         inputs.append(ahead * falls)
     largest = float(np.abs(r.force).max()) + 1e-9
-    still = np.zeros(n)
     missed = np.maximum(jumps(drive.recording), unknown_force(r))
     return ArmRecord(
-        x=(read.x if noise is None else still),
-        force=(r.force if noise is None else noise),
+        x=read.x,
+        force=r.force,
         variance=np.where(drive.slides, read.variance, np.inf),
         early=read.early,
-        known=still,
+        known=np.zeros(n),
         doubt=np.where(drive.slides, missed, WHATEVER * largest),
-        inputs=[(values if noise is None else still) for values in inputs],
+        inputs=inputs,
         switches=[],
         segments=[0],
         dt=r.dt,

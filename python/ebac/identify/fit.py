@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TypeAlias
+from typing import Any, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ebac.identify import unrecorded_motor
-from ebac.identify.bias import largest_drift, likely_drift, likely_noise, without_noise
+from ebac.identify.bias import drifting, largest_drift, likely_drift, likely_noise, without_noise
 from ebac.identify.intervals import covariance, loose_inverse
 from ebac.identify.level_forces import LevelForces
 from ebac.identify.parameters import Parameters, kind
@@ -21,6 +21,13 @@ Values = NDArray[np.float64]
 
 #: Rounds of: filter for the guess, search with that filter.
 MOST_ROUNDS = 6
+#: Rounds with a drift, which are refined beside it anyway.
+ROUNDS_BESIDE = 1
+#: Rounds of a search without a drift, from values found with one, after which it is near where nothing drifts.
+ROUNDS_TO_TELL = 2
+ROUGHLY, EXACTLY = 0.1, 1e-4
+#: Falls of -2 log of the likelihood by less are rounding.
+LIKELIER = 1e-3
 #: Settled when the last round moved by less than this, in deviations squared.
 SETTLED = 1e-2
 
@@ -74,7 +81,7 @@ def fitted(
     draw, first = np.random.Generator(np.random.PCG64(seed)), best
     for _ in range(starts - 1):
         other = _search(within, _elsewhere(best.values, problem.parameters, draw), robust)
-        if other.likelihood < best.likelihood - 1e-3:
+        if other.likelihood < best.likelihood - (ROUGHLY if within.drift else LIKELIER):
             best = other
     if before is not None and best is first:
         return before
@@ -84,9 +91,7 @@ def fitted(
     if beside is not None:
         problem, values, noise, doubted = beside
     gains = problem.gains(values, noise)
-    corrected, pretended = without_noise(problem, values, noise, gains)
-    if not problem.drift:
-        values = corrected
+    values, pretended = without_noise(problem, values, noise, gains)
     errors = problem.errors(values, gains)
     spread = _spread(problem, values, noise, errors, pretended, robust, doubted)
     return Fitted(
@@ -103,32 +108,30 @@ def fitted(
 def _from_guesses(
     problem: Problem, guesses: Sequence[Values], robust: float | None, *, drifts: bool
 ) -> tuple[Point, BesideDrift | None]:
-    """Return the likeliest point; with a drift where a first round of any search shows one that lasts."""
-    steady = [_unless_drifting(problem, guess, robust, drifts=drifts) for guess in guesses]
-    found = [point for point in steady if point is not None]
-    if len(found) < len(guesses):
-        point, beside = _with_drift(problem, guesses, robust)
-        if point is not None:
-            return point, beside
-        found = [_search(problem, guess, robust) for guess in guesses]
-    return min(found, key=lambda point: point.likelihood), None
+    """Return the likeliest point; with a drift of the forces where the errors ask for one, since it misleads a fit.
 
-
-def _with_drift(
-    problem: Problem, guesses: Sequence[Values], robust: float | None
-) -> tuple[Point, BesideDrift] | tuple[None, None]:
-    """Fit a drift of the forces along where the errors at a guess ask for one, since it misleads a fit without."""
-    found = []
-    for start in guesses:
-        drift = likely_drift(problem, start, problem.shown, robust)
-        if drift:
+    The errors at a guess may ask for one because the guess is bad. So a drift is fitted along, roughly, and is
+    believed where a search without it, from there on, asks for it still. Where they ask for the largest, the model is
+    wrong, as with a force of the other sign: such a drift would explain anything.
+    """
+    along: list[tuple[Problem, Point]] = []
+    steady: list[Point | None] = []
+    for guess in guesses:
+        start, drift = guess, likely_drift(problem, guess, problem.shown, robust) if drifts else 0.0
+        lasting = 0 < drift < NOT_A_DRIFT * largest_drift(problem)
+        if lasting:
             at = problem.drifting(drift)
-            found.append((at, _search(at, start, robust)))
-    if not found:
-        return None, None
-    at, point = min(found, key=lambda pair: pair[1].likelihood)
-    beside = _beside_drift(at, point.values, point.force_noise, robust)
-    return (None, None) if beside is None else (point, beside)
+            along.append((at, _search(at, guess, robust)))
+            start = along[-1][1].values
+        steady.append(_unless_drifting(problem, start, robust, drifts=lasting))
+    if None in steady:
+        at, point = min(along, key=lambda pair: pair[1].likelihood)
+        beside = _beside_drift(at, point.values, point.force_noise, robust)
+        if beside is not None:
+            return point, beside
+        steady = [_search(problem, guess, robust) for guess in guesses]
+    found = [point for point in steady if point is not None]
+    return min(found, key=lambda point: point.likelihood), None
 
 
 #: Rounds of: values, then drift; settled when it changes by less than this share.
@@ -205,15 +208,17 @@ def _spread(
 ) -> NDArray[np.float64]:
     """Return the covariance of the free parameters at some values; what moved may be off by `doubted`, too."""
     gains = problem.gains(values, noise)
+    moved, unseen = problem.moved, problem.unseen
     if problem.drift:
         jacobian = problem.renewed(values, noise)[1][:, : len(errors)]
+        beside = problem.jacobian(values, gains, unseen.which)
     else:
-        jacobian = problem.jacobian(values, gains, problem.moved)
-    unseen = problem.jacobian(values, gains, problem.unseen.which)
-    unseen *= problem.unseen.deviation[:, None]
+        both = problem.jacobian(values, gains, np.concatenate([moved, unseen.which]))
+        jacobian, beside = both[: len(moved)], both[len(moved) :]
+    beside *= unseen.deviation[:, None]
     lengths = [len(r.t) for r in problem.recordings]
     sure = problem.doubt.deviation
-    found = covariance(jacobian, errors, lengths, robust, sure, pretended, unseen, problem.folds)
+    found = covariance(jacobian, errors, lengths, robust, sure, pretended, beside, problem.folds)
     if doubted is not None:
         found = found + np.outer(doubted, doubted)
     return unrecorded_motor.with_any_share(problem, values, found)
@@ -255,14 +260,17 @@ def _unless_drifting(
     """
     values, noise, evaluations = start, problem.shown, 0
     forces = LevelForces.of(problem)
-    for i in range(MOST_ROUNDS):
+    for i in range(ROUNDS_BESIDE if problem.drift else MOST_ROUNDS):
         if i > 0:
             noise = likely_noise(problem, values, noise, robust)
         began = forces.moved(values)
-        found = _with_filter(problem, values, noise, forces, robust)
+        how = {"tolerance": EXACTLY if i > 0 and not problem.drift else ROUGHLY}
+        if i == 0 and drifts:
+            how["most"] = ROUNDS_TO_TELL
+        found = _with_filter(problem, values, noise, forces, robust, **how)
         evaluations += found.evaluations
         values = forces.full(found.values, values)
-        if i == 0 and drifts and likely_drift(problem, values, noise, robust):
+        if i == 0 and drifts and drifting(problem, values, noise, robust):
             return None
         step = found.values - began
         if i > 0 and float(step @ found.information @ step) < SETTLED:
@@ -279,7 +287,12 @@ def _unless_drifting(
 
 
 def _with_filter(
-    problem: Problem, values: Values, noise: Values, forces: LevelForces, robust: float | None
+    problem: Problem,
+    values: Values,
+    noise: Values,
+    forces: LevelForces,
+    robust: float | None,
+    **how: Any,
 ) -> Found:
     """Search from some values with the filter made for them."""
     gains = problem.gains(values, noise)
@@ -290,6 +303,7 @@ def _with_filter(
         low,
         high,
         robust=robust,
+        **how,
     )
 
 

@@ -41,16 +41,15 @@ def regression(recording: Recording, target: Target) -> Regression:
     """
     if recording.force is None:
         raise ValueError(f"{recording.name}: has no force of the hand; name its column")
-    h = kernels(recording.dt)
+    h, step = kernels(recording.dt), every(recording.dt)
     x = lagged(recording.x, recording.dt, recording.lag)
-    moved = [smoothed(x, h[2]), smoothed(x, h[1]), smoothed(x, h[0])]
+    moved = [smoothed(x, h[i], step) for i in (2, 1, 0)]
     if target.path is not None:
-        moved[2] = moved[2] - smoothed(lagged(target.path, recording.dt, recording.lag), h[0])
-    levels = [smoothed(row, h[0]) for row in indicators(recording, target)]
-    step = every(recording.dt)
+        moved[2] -= smoothed(lagged(target.path, recording.dt, recording.lag), h[0], step)
+    levels = [smoothed(row, h[0], step) for row in indicators(recording, target)]
     return Regression(
-        force=smoothed(recording.force, h[0])[::step],
-        columns=np.array([each[::step] for each in (*moved, *levels)]).T,
+        force=smoothed(recording.force, h[0], step),
+        columns=np.array([*moved, *levels]).T,
         taps=h.shape[1],
         step=step,
     )

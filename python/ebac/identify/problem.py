@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from copy import copy
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from math import sqrt
 from typing import TypeAlias
 
@@ -21,8 +22,8 @@ from ebac.identify.target import Target
 #: Steps of the differences, as a share of a value.
 STEP_SHARE = 1e-5
 
-#: Hands a recording to the core; with noise [N] instead of its force, a log in which nothing else moves.
-Make: TypeAlias = Callable[[Recording, Target, NDArray[np.float64] | None], ArmRecord]
+#: Hands a recording to the core.
+Make: TypeAlias = Callable[[Recording, Target], ArmRecord]
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -42,8 +43,7 @@ class Problem:
     def __post_init__(self) -> None:
         """Hand the recordings to the core."""
         made = [
-            self.make(r, target, None)
-            for r, target in zip(self.recordings, self.targets, strict=True)
+            self.make(r, target) for r, target in zip(self.recordings, self.targets, strict=True)
         ]
         object.__setattr__(self, "records", tuple(made))
         if self.folds is None:
@@ -78,7 +78,7 @@ class Problem:
         start, end = (f(r.t[i] for r in self.recordings) for f, i in ((min, 0), (max, -1)))
         return drift, drift * float(np.sqrt(end - start))
 
-    @property
+    @cached_property
     def shown(self) -> NDArray[np.float64]:
         """Return the least noise of each force that is believed [N]: what its signal shows, never none."""
         forces = [r.force for r in self.recordings if r.force is not None]
@@ -129,8 +129,16 @@ class Problem:
         self, values: NDArray[np.float64], gains: list[ArmGains]
     ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Return objective, and d objective / d moved, shape (moved, rows + doubts)."""
-        doubt, moved, free = self.doubt, self.moved, len(self.parameters.free)
-        inner, errors = self._linearised(self.records, values, gains, moved, len(doubt.which))
+        doubts = len(self.doubt.which)
+        return self._with_doubts(
+            values, *self._linearised(self.records, values, gains, self.moved, doubts)
+        )
+
+    def _with_doubts(
+        self, values: NDArray[np.float64], errors: NDArray[np.float64], inner: NDArray[np.float64]
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Put in how far each parameter in doubt lies from where it is held."""
+        doubt, free = self.doubt, len(self.parameters.free)
         rows = len(errors) - len(doubt.which)
         errors[rows:] = (values[doubt.which] - self.parameters.fixed[doubt.which]) / doubt.deviation
         inner[free:, rows:] = np.diag(1 / doubt.deviation)
@@ -144,20 +152,19 @@ class Problem:
         self, values: NDArray[np.float64], force_noise: NDArray[np.float64]
     ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Return the same as `linearised`, with the filters made anew for each change of a free parameter."""
-        errors, out = self.linearised(values, self.gains(values, force_noise))
-        held, free, start = self.held(values), self.parameters.free, 0
-        parts = zip(self.records, self.parameters.places, force_noise.tolist(), strict=True)
-        for r, (record, place, noise) in zip(self.recordings, parts, strict=True):
-            rows = [i for i, f in enumerate(free) if f in place]
-            which = [int(np.flatnonzero(place == free[i])[0]) for i in rows]
+        doubt, held = self.doubt, self.held(values)
+
+        def look(
+            i: int, which: list[int], more: int
+        ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+            place, known = self.parameters.places[i], [force_noise[i], *self.wander(self.drift)]
             steps = [self._step(int(place[w]), values) for w in which]
-            known = [noise, *self.wander(self.drift)]
-            end = start + len(r.t)
-            out[rows, start:end] = record.renewed_jacobian(
-                values[place], held[place], known, which, steps
+            kept = sum(int(place[w]) in doubt.which for w in which)
+            return self.records[i].renewed(
+                values[place], held[place], known, which, kept, steps, more
             )
-            start = end
-        return errors, out
+
+        return self._with_doubts(values, *self._gathered(look, self.moved, len(doubt.which)))
 
     def jacobian(
         self,
@@ -167,7 +174,7 @@ class Problem:
     ) -> NDArray[np.float64]:
         """Return d errors / d parameters, shape (parameters, rows); by default of the free ones."""
         chosen = self.parameters.free if wanted is None else wanted
-        return self._linearised(self.records, values, gains, chosen)[0]
+        return self._linearised(self.records, values, gains, chosen)[1]
 
     def of_noise(
         self,
@@ -186,8 +193,10 @@ class Problem:
         for place in self.parameters.places:
             still[place[self.parameters.before_levels :]] = 0.0
         records = tuple(
-            self.make(r, replace(t, path=None), float(n) * draw.standard_normal(len(r.t)))
-            for r, t, n in zip(self.recordings, self.targets, force_noise, strict=True)
+            record.resting(noise * draw.standard_normal(len(r.t)))
+            for record, r, noise in zip(
+                self.records, self.recordings, force_noise.tolist(), strict=True
+            )
         )
         noiseless = ("X0", "onset", *INPUTS)  # a target is known without noise
         doubtful = set(self.doubt.which.tolist())  # nor does a delay change how noise moves a hand
@@ -195,7 +204,7 @@ class Problem:
             kind(self.parameters.names[i]) not in noiseless and i not in doubtful for i in wanted
         ]
         out = np.zeros((len(wanted), sum(len(r.t) for r in self.recordings)))
-        out[places], errors = self._linearised(records, still, gains, wanted[places])
+        errors, out[places] = self._linearised(records, still, gains, wanted[places])
         return out, errors
 
     def _linearised(
@@ -206,19 +215,38 @@ class Problem:
         chosen: NDArray[np.intp],
         more: int = 0,
     ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Return Jacobian and errors of all recordings, one after the other, and `more` zeros behind them."""
+        """Return errors and Jacobian of all recordings, one after the other, and `more` zeros behind them."""
+
+        def look(
+            i: int, which: list[int], more: int
+        ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+            theta = values[self.parameters.places[i]]
+            return records[i].linearised(theta, gains[i], which, more)
+
+        return self._gathered(look, chosen, more)
+
+    def _gathered(
+        self,
+        look: Callable[[int, list[int], int], tuple[NDArray[np.float64], NDArray[np.float64]]],
+        chosen: NDArray[np.intp],
+        more: int,
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Return errors and Jacobian by `chosen`; `look` gives those of a recording by what of its own is wanted."""
+        if len(self.recordings) == 1:
+            index = {f: w for w, f in enumerate(self.parameters.places[0].tolist())}
+            return look(0, [index[f] for f in chosen.tolist()], more)
         rows = sum(len(r.t) for r in self.recordings) + more
         out, errors = np.zeros((len(chosen), rows)), np.zeros(rows)
         start = 0
-        parts = zip(records, self.parameters.places, gains, self.recordings, strict=True)
-        for record, place, gain, r in parts:
-            index = {int(f): w for w, f in enumerate(place)}
+        for k, (place, r) in enumerate(zip(self.parameters.places, self.recordings, strict=True)):
+            index = {f: w for w, f in enumerate(place.tolist())}
             mine = [(i, index[f]) for i, f in enumerate(chosen.tolist()) if f in index]
             part = slice(start, start + len(r.t))
-            errors[part], columns = record.linearised(values[place], gain, [w for _, w in mine])
-            out[[i for i, _ in mine], part] = columns
+            errors[part], columns = look(k, [w for _, w in mine], 0)
+            for (i, _), column in zip(mine, columns, strict=True):
+                out[i, part] = column
             start = part.stop
-        return out, errors
+        return errors, out
 
     def _step(self, index: int, values: NDArray[np.float64]) -> float:
         least = STEPS[kind(self.parameters.names[index])]
@@ -263,10 +291,8 @@ def doubt_of(problem: Problem, deviations: Mapping[str, float]) -> Doubt:
     return Doubt(which=np.array(found, dtype=np.intp), deviation=np.array(sure))
 
 
-def arm_record(
-    recording: Recording, target: Target, noise: NDArray[np.float64] | None = None
-) -> ArmRecord:
-    """Hand a recording to the core; with `noise` [N] instead of its force, a hand at rest in its place.
+def arm_record(recording: Recording, target: Target) -> ArmRecord:
+    """Hand a recording to the core.
 
     Raises
     ------
@@ -280,16 +306,15 @@ def arm_record(
         )
     _check_switches(recording, target)
     t0 = float(recording.t[0])
-    known = target.path if target.path is not None else np.zeros(len(recording.t))
     read = readings(recording)
     return ArmRecord(
-        x=(read.x if noise is None else np.zeros(len(read.x))),
-        force=(recording.force if noise is None else noise),
+        x=read.x,
+        force=recording.force,
         variance=read.variance,
         early=read.early,
-        known=known,
+        known=np.zeros(len(recording.t)) if target.path is None else target.path,
         doubt=unknown_force(recording),
-        inputs=[(ripple(recording) if noise is None else np.zeros(len(read.x)))],
+        inputs=[ripple(recording)],
         switches=[s - t0 for s in target.switches],
         segments=list(target.segments),
         dt=recording.dt,

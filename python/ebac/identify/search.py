@@ -68,15 +68,16 @@ def least_squares(
 
     point, before, done = at(np.clip(start, low, high)), np.inf, False
     for _ in range(most):
-        if not (np.isfinite(point.cost) and np.isfinite(point.jacobian).all()):
+        if not (np.isfinite(point.cost) and np.isfinite(point.information).all()):
             raise ValueError(
                 "no fit: the model runs away from what was recorded; is a force of the wrong sign, or the wrong column?"
             )
-        done = before - point.cost < tolerance or point.depth(low, high) < tolerance
+        depth = point.depth(low, high)
+        done = before - point.cost < tolerance or depth < tolerance
         if done:
             break
         before = point.cost
-        point = _round(at, point, low, high, tolerance)
+        point = _round(at, point, low, high, depth, tolerance)
     return Found(
         values=point.x,
         cost=point.cost,
@@ -97,23 +98,33 @@ class _Point:
     @cached_property
     def slope(self) -> Values:
         """Half the slope of the cost."""
-        weighted = weights(self.errors, self.robust) * self.errors
+        weighted = self.errors
+        if self.robust is not None:
+            weighted = weights(self.errors, self.robust) * self.errors
         return np.asarray(np.einsum("ik,k->i", self.jacobian, weighted))
 
     @cached_property
     def information(self) -> Matrix:
         """Half the second derivative of the cost, as of a parabola (Gauss-Newton)."""
-        weighted = self.jacobian * weights(self.errors, self.robust)
+        weighted = self.jacobian
+        if self.robust is not None:
+            weighted = self.jacobian * weights(self.errors, self.robust)
         return np.asarray(
             np.einsum("ik,jk->ij", weighted, self.jacobian)
         )  # not by BLAS, see `squares`
+
+    @cached_property
+    def axes(self) -> Matrix:
+        """Steps of one deviation each: the columns."""
+        return axes(self.information)
 
     def depth(self, low: Values, high: Values) -> float:
         """By how much the bottom of the parabola lies below, as far as bounds let one go there."""
         stuck = ((self.x <= low) & (self.slope > 0)) | ((self.x >= high) & (self.slope < 0))
         if stuck.all():
             return 0.0
-        along = axes(self.information[np.ix_(~stuck, ~stuck)]).T @ self.slope[~stuck]
+        across = axes(self.information[np.ix_(~stuck, ~stuck)]) if stuck.any() else self.axes
+        along = across.T @ self.slope[~stuck]
         return float(along @ along)
 
 
@@ -127,14 +138,19 @@ def axes(H: Matrix) -> Matrix:
 
 
 def _round(
-    at: Callable[[Values], _Point], start: _Point, low: Values, high: Values, tolerance: float
+    at: Callable[[Values], _Point],
+    start: _Point,
+    low: Values,
+    high: Values,
+    depth: float,
+    tolerance: float,
 ) -> _Point:
-    """Return the best point that NLopt meets in one round."""
+    """Return the best point that NLopt meets in one round, on a parabola that is `depth` deep."""
     import nlopt
 
     from ebac._util.nlopt_callbacks import Carried
 
-    across, best = axes(start.information), start
+    across, best = start.axes, start
     optimiser = nlopt.opt(nlopt.LD_SLSQP, len(start.x))
     carried = Carried(optimiser)
 
@@ -146,7 +162,8 @@ def _round(
         if point.cost < best.cost:
             best = point
         if gradient.size:
-            gradient[:] = across.T @ point.slope
+            with np.errstate(invalid="ignore"):  # of a model that begins to run away
+                gradient[:] = across.T @ point.slope
         return 0.5 * point.cost
 
     size = np.sqrt(np.einsum("ij,ij->i", across, across))
@@ -170,7 +187,7 @@ def _round(
     if room.size:
         optimiser.add_inequality_mconstraint(beyond, np.zeros(room.size))
     optimiser.set_ftol_abs(0.5 * tolerance)
-    optimiser.set_stopval(0.5 * (start.cost - ENOUGH * start.depth(low, high)))
+    optimiser.set_stopval(0.5 * (start.cost - ENOUGH * depth))
     optimiser.set_maxeval(ONE_ROUND)
     optimiser.optimize(np.zeros(len(start.x)))
     carried.settle()

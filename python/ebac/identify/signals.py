@@ -110,14 +110,22 @@ def unknown_force(recording: Recording) -> NDArray[np.float64]:
         return out
     force = recording.force
     steps = np.diff(np.concatenate([[0], ~recording.known, [0]]).astype(int))
+    missed: dict[int, float] = {}  # by how many rows are lost
     for first, last in zip(np.flatnonzero(steps > 0), np.flatnonzero(steps < 0), strict=True):
         lost = int(last - first)
-        middle = (lost + 1) // 2
-        share = middle / (lost + 1)
-        line = (1 - share) * force[: -lost - 1] + share * force[lost + 1 :]
-        missed = force[middle : middle + len(line)] - line
-        out[first - 1 : last] = np.sqrt(np.mean(missed**2) * lost)
+        if lost not in missed:
+            missed[lost] = _missed(force, lost)
+        out[first - 1 : last] = missed[lost]
     return out
+
+
+def _missed(force: NDArray[np.float64], lost: int) -> float:
+    """Return what a straight line over so many rows misses, all of them the same way [N]."""
+    middle = (lost + 1) // 2
+    share = middle / (lost + 1)
+    line = (1 - share) * force[: -lost - 1] + share * force[lost + 1 :]
+    missed = force[middle : middle + len(line)] - line
+    return float(np.sqrt(np.mean(missed**2) * lost))
 
 
 def speed(x: NDArray[np.float64], dt: float) -> NDArray[np.float64]:
@@ -156,9 +164,18 @@ def every(dt: float) -> int:
     return max(1, round(0.5 * WIDTH / dt))
 
 
-def smoothed(values: NDArray[np.float64], kernel: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return the part of a convolution that sees no edge, shorter by taps - 1."""
-    return np.convolve(values, kernel, mode="valid")
+def smoothed(
+    values: NDArray[np.float64], kernel: NDArray[np.float64], step: int = 1
+) -> NDArray[np.float64]:
+    """Return the part of a convolution that sees no edge, shorter by taps - 1; of it, one of `step` rows."""
+    if step == 1 or len(values) < len(kernel):
+        return np.convolve(values, kernel, mode="valid")[::step]
+    rows = (len(values) - len(kernel)) // step + 1
+    mirrored, out = kernel[::-1], np.zeros(rows)
+    for phase in range(min(step, len(kernel))):
+        taps = mirrored[phase::step]
+        out += np.convolve(values[phase::step][: rows + len(taps) - 1], taps[::-1], mode="valid")
+    return out
 
 
 Fold = NDArray[np.intp]
