@@ -4,14 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, TypeAlias
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ebac.identify import unrecorded_motor
+from ebac.identify.beside_drift import NOT_A_DRIFT, BesideDrift, beside_drift
 from ebac.identify.bias import drifting, largest_drift, likely_drift, likely_noise, without_noise
-from ebac.identify.intervals import covariance, loose_inverse
+from ebac.identify.intervals import covariance
 from ebac.identify.level_forces import LevelForces
 from ebac.identify.parameters import Parameters, kind
 from ebac.identify.problem import Problem
@@ -86,7 +87,7 @@ def fitted(
     if before is not None and best is first:
         return before
     if within.drift and best is not first:
-        beside = _beside_drift(within, best.values, best.force_noise, robust)
+        beside = beside_drift(within, best.values, best.force_noise, robust)
     values, noise, doubted = best.values, best.force_noise, None
     if beside is not None:
         problem, values, noise, doubted = beside
@@ -126,75 +127,12 @@ def _from_guesses(
         steady.append(_unless_drifting(problem, start, robust, drifts=lasting))
     if None in steady:
         at, point = min(along, key=lambda pair: pair[1].likelihood)
-        beside = _beside_drift(at, point.values, point.force_noise, robust)
+        beside = beside_drift(at, point.values, point.force_noise, robust)
         if beside is not None:
             return point, beside
         steady = [_search(problem, guess, robust) for guess in guesses]
     found = [point for point in steady if point is not None]
     return min(found, key=lambda point: point.likelihood), None
-
-
-#: Rounds of: values, then drift; settled when it changes by less than this share.
-DRIFT_ROUNDS, SAME_DRIFT = 4, 0.05
-#: So near the largest drift it is none.
-NOT_A_DRIFT = 0.95
-#: A drift is known to about this share: so many times larger, it moves the values by what the intervals hold.
-DOUBTED_DRIFT = 1.25
-#: Least fall of the cost that a step must promise [deviations squared].
-SMALL_FALL = 1e-2
-
-
-#: Problem, values and noise without what a drift does to them, and how far they are off by its doubt.
-BesideDrift: TypeAlias = tuple[Problem, Values, Values, Values]
-
-
-def _beside_drift(
-    problem: Problem, values: Values, noise: Values, robust: float | None
-) -> BesideDrift | None:
-    """Return problem, values and noise without what a drift does to them, and how far they are off by its doubt.
-
-    None where the errors ask for more than a drift.
-
-    A drift is noise of the input, and strong where a hand hardly moves. With the filters held, it is taken for force
-    that moved nothing. With filters made anew for each change, the sum of squared errors is least at the truth: it is
-    that of the smallest noise of both signals that explains them (total least squares).
-    """
-    p, which = problem.parameters, problem.moved
-
-    def full(part: Values) -> Values:
-        out = values.copy()
-        out[which] = part
-        return out
-
-    def model(part: Values) -> tuple[Values, NDArray[np.float64]]:
-        return problem.renewed(full(part), noise)
-
-    for _ in range(DRIFT_ROUNDS):
-        found = least_squares(
-            model,
-            values[which],
-            p.low[which],
-            p.high[which],
-            robust=robust,
-            tolerance=SMALL_FALL,
-        )
-        values = full(found.values)
-        before, drift = problem.drift, likely_drift(problem, values, noise, robust)
-        if not drift:
-            return None
-        problem = problem.drifting(drift)
-        if abs(problem.drift / before - 1) < SAME_DRIFT:
-            break
-        noise = likely_noise(problem, values, noise, robust)
-    if problem.drift > NOT_A_DRIFT * largest_drift(problem):
-        return None
-    wider = problem.drifting(DOUBTED_DRIFT * problem.drift)
-    e, J = wider.renewed(values, noise)
-    scale = np.sqrt(np.einsum("ik,ik->i", J, J))
-    scale[scale == 0] = 1.0  # without influence
-    inverse = loose_inverse(np.einsum("ik,jk->ij", J, J) / np.outer(scale, scale))
-    moves = -inverse @ (np.einsum("ik,k->i", J, e) / scale) / scale
-    return problem, values, noise, moves
 
 
 def _spread(
