@@ -109,6 +109,7 @@ py::array_t<double> judge(const ArmRecord& record, const Numbers& thetas, const 
     throw std::invalid_argument("ArmRecord: needs a theta, a held and a noise for each trial");
   }
   std::vector<ArmRecord::Trial> trials;
+  trials.reserve(views.size());
   for (std::size_t i = 0; i < views.size(); ++i) {
     trials.push_back({ArmGuess::from(views[i], record.inputs()),
                       ArmGuess::from(made[i], record.inputs()), noise_of(noises[i])});
