@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+import numpy as np
 from matplotlib.axes import Axes
 
 from ebac.plot.style import Picture, colour, dress, figure_legend, line, new_figure
@@ -70,4 +71,6 @@ def _felt(ax: Axes, trace: Trace, law: str) -> None:
 
     depth = 1e3 * (trace["true.x"] - SURFACE)
     shown = depth > -1
-    line(ax, depth[shown], trace["true.f_motor"][shown], color=colour(law), lw=0.9, label=law)
+    force = trace["true.f_motor"][shown]
+    way = float(np.abs(np.diff(force)).sum())  # N; a force that buzzes would hide the others
+    line(ax, depth[shown], force, color=colour(law), lw=0.9, label=law, zorder=2 + 1 / (1 + way))

@@ -38,11 +38,12 @@ class TissueRow:
     deepest_m : float
         Of the true handle below the surface.
     least_energy_J : float
-        Of the physical port.
+        Of the physical port, the device's damping counted.
     passive : bool
         The port gave out at most 1 mJ.
     kept_J : float
-        Energy that the virtual side took from the handle.
+        Energy that the motor's force took from the handle; with `direct` it can fall below zero by less than the
+        device's damping takes.
     own_loss_J : float
         What the material itself takes along the same motion.
     force_error_N : float

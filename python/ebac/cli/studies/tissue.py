@@ -122,6 +122,6 @@ def _show_laws(found: Tissue) -> None:
         before = row.material
     output.show(grid)
     output.say(
-        "A hand of 300 N/m presses and lets go, simulated. Kept: energy that law and material took; own loss: what the "
-        "material takes of the same motion."
+        "A hand of 300 N/m presses and lets go, simulated. Least energy: at the physical port, the device's damping "
+        "counted. Kept: what the motor's force took; own loss: what the material takes of the same motion."
     )
