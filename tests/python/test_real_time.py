@@ -45,6 +45,7 @@ def test_only_a_stall_is_repeated(pytester: pytest.Pytester, more: tuple[str, ..
     if more:
         pytest.importorskip("xdist")
     pytester.makeconftest(CONFTEST.read_text(encoding="utf-8"))
+    pytester.makeini(f"[pytest]\npythonpath = {CONFTEST.parents[1] / 'pages'}\n")
     pytester.makepyfile(test_mine=TEST)
     result = pytester.runpytest_subprocess("-p", "no:cacheprovider", *more)
     result.assert_outcomes(passed=4, failed=5)
@@ -84,6 +85,7 @@ ALONE = """
 def test_what_is_repeated_is_repeated_alone(pytester: pytest.Pytester) -> None:
     pytest.importorskip("xdist")
     pytester.makeconftest(CONFTEST.read_text(encoding="utf-8"))
+    pytester.makeini(f"[pytest]\npythonpath = {CONFTEST.parents[1] / 'pages'}\n")
     pytester.makepyfile(test_mine=ALONE)
     result = pytester.runpytest_subprocess("-p", "no:cacheprovider", "-n", "3")
     result.assert_outcomes(passed=21)
