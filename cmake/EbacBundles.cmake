@@ -18,7 +18,7 @@ ebac_bundle(ebac machine cpp/ebac can/raw_socket can/socketcan can/wake_event
 ebac_bundle(ebac model cpp/ebac model/device model/exact_axis model/exact_plant model/hand model/hand_model model/joint_dynamics
             model/limits model/linear_flow model/stepped_plant world/engine/make_bridge world/make)
 ebac_bundle(ebac run cpp/ebac control/virtual_coupling core/check core/fields faults/campaign faults/case
-            faults/case_setup faults/referee faults/test_bench identify/arm_drive identify/arm_jacobian identify/arm_record identify/arm_step loop/retune loop/trace sim/contact sim/ideal_wall
+            faults/case_setup faults/referee faults/test_bench identify/arm_drive identify/arm_jacobian identify/arm_record identify/arm_step identify/arm_trials loop/retune loop/trace sim/contact sim/ideal_wall
             sim/perceived_ripple sim/rest_power sim/sweep)
 
 if(EBAC_PYTHON)

@@ -214,7 +214,7 @@ void ArmRecord::judge(std::span<const Trial> trials, double robust, std::span<do
     const bool drift = std::any_of(some.begin(), some.end(), [](const Trial& trial) {
       return trial.noise.drift > 0 || trial.noise.offset > 0;
     });
-    const auto run = [&]<int kLanes>() {
+    const auto run = [&]<int kLanes> {
       return drift ? side_by_side<kLanes, true>(some, robust, each, rows)
                    : side_by_side<kLanes, false>(some, robust, each, rows);
     };
