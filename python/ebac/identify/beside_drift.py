@@ -15,13 +15,13 @@ from ebac.identify.search import least_squares
 Values = NDArray[np.float64]
 
 #: Rounds of: values, then drift; settled when it changes by less than this share.
-DRIFT_ROUNDS, SAME_DRIFT = 4, 0.05
+DRIFT_ROUNDS, SAME_DRIFT = 4, 0.1
 #: So near the largest drift it is none.
 NOT_A_DRIFT = 0.95
 #: A drift is known to about this share: so many times larger, it moves the values by what the intervals hold.
 DOUBTED_DRIFT = 1.25
 #: Least fall of the cost that a step must promise [deviations squared].
-SMALL_FALL = 1e-2
+SMALL_FALL = 5e-2
 
 
 #: Problem, values and noise without what a drift does to them, and how far they are off by its doubt.
