@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 from typer.testing import CliRunner, Result
 
@@ -153,6 +153,8 @@ def test_it_is_written_line_by_line(text: str) -> None:
 
 
 @given(zero=INT32, way=INT32)
+@example(zero=MOST, way=1)
+@example(zero=LEAST, way=-1)
 def test_the_way_from_the_zero_survives_the_wrap_around(zero: int, way: int) -> None:
     shown = (zero + way - LEAST) % 2**32 + LEAST
     assert LEAST <= shown <= MOST
@@ -160,6 +162,7 @@ def test_the_way_from_the_zero_survives_the_wrap_around(zero: int, way: int) -> 
 
 
 @given(zero=INT32, way=st.integers(-1000, 1000), sign=st.sampled_from([1, -1]))
+@example(zero=MOST, way=1, sign=-1)
 def test_where_an_axis_stands_is_the_same_for_every_zero(zero: int, way: int, sign: int) -> None:
     signs = Signs(motor=(1, 1), encoder=(sign, 1))
     known = KNOWN.replace(zero=Zero(counts=(zero, 0)), signs=signs)
