@@ -151,8 +151,8 @@ class Proxy {
       }
       if (arrives) return;
     }
-    nearest(
-        x);  // the rest of the way in the next tick, without planes that the handle has left behind
+    // The rest of the way in the next tick, without planes that the handle has left behind.
+    nearest(x);
   }
 
   /// The surface has fallen away below a point: another tangent plane of it, or none where it has ended.

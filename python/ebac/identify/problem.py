@@ -294,8 +294,9 @@ def _check_switches(recording: Recording, target: Target) -> None:
                 f"{recording.name}: the target changes at {at:g} s: "
                 f"must lie in ({start:g}, {end:g}) s, the time of the log"
             )
-    if len(target.switches) > 1 and min(np.diff(target.switches)) < 10 * recording.dt:
+    shortest = min(np.diff(target.switches), default=np.inf)
+    if shortest < 10 * recording.dt:
         raise ValueError(
-            f"{recording.name}: the target changes again within {min(np.diff(target.switches)):.3g} s: "
+            f"{recording.name}: the target changes again within {shortest:.3g} s: "
             f"must hold for 10 rows, {10 * recording.dt:g} s"
         )
