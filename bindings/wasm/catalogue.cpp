@@ -62,11 +62,17 @@ std::string fields_of() {
   return list;
 }
 
+/// What the core makes of the measures, 1 for yes.
+std::string verdicts() {
+  return ",\n{\"name\":\"still\",\"unit\":\"1\",\"meaning\":\"swings little enough\"}"
+         ",\n{\"name\":\"force_quiet\",\"unit\":\"1\",\"meaning\":\"vibrates little enough\"}";
+}
+
 }  // namespace
 
 std::string catalogue() {
   return "{\"laws\":[" + laws() + "],\n\"settings\":[" + settings() + "],\n\"columns\":[" +
-         fields_of<Shown>() + "],\n\"measures\":[" + fields_of<WallContact>() + "]}";
+         fields_of<Shown>() + "],\n\"measures\":[" + fields_of<WallContact>() + verdicts() + "]}";
 }
 
 }  // namespace ebac::wasm

@@ -2,7 +2,7 @@
 /// `columns`: both lie in the module's memory, where JavaScript reads them without a copy.
 #include <algorithm>
 #include <cstdint>
-#include <optional>
+#include <memory>
 
 #include "catalogue.hpp"
 #include "ebac/model/device.hpp"
@@ -19,10 +19,10 @@ constexpr int kText = 256;   // bytes, of a name
 
 std::array<char, kText> name_in{};
 std::array<std::array<double, kRows>, Shown::fields().size()> columns{};
-std::array<double, WallContact::fields().size()> measured{};
+std::array<double, WallContact::fields().size() + 2> measured{};
 
 Setup setup;
-std::optional<LiveRun> run;
+std::unique_ptr<LiveRun> run;
 std::vector<Shown> record;
 std::size_t keep = 0;  // rows, at least
 
@@ -76,10 +76,10 @@ EBAC_EXPORT("chance") void chance(double seed, double jitter) {
   setup.jitter = jitter;
 }
 
-/// A new run under the law of that name, from rest at zero.
+/// A new run under the law of that name, from rest at zero. Where it is refused the old one goes on.
 EBAC_EXPORT("start") void start(int length) {
   check_device(setup.device);
-  run.emplace(setup, law_named(name(length)));
+  run = std::make_unique<LiveRun>(setup, law_named(name(length)));
   record.clear();
 }
 
@@ -128,6 +128,8 @@ EBAC_EXPORT("measure") const double* measure() {
   for (std::size_t i = 0; i < fields.size(); ++i) {
     measured[i] = contact.*(*std::get_if<0>(&fields[i].member));
   }
+  measured[fields.size()] = contact.still() ? 1 : 0;
+  measured[fields.size() + 1] = contact.force_quiet() ? 1 : 0;
   return measured.data();
 }
 

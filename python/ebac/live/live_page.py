@@ -32,7 +32,7 @@ ABOUTS = {
 def page(
     path: str | Path | None = None,
     *,
-    home: str = "https://pypi.org/project/ebac/",
+    home: str | None = None,
     wasm: bytes | None = None,
 ) -> str:
     """Return the page on which a visitor shakes a virtual wall and calms it, and write it to `path`.
@@ -43,8 +43,8 @@ def page(
     ----------
     path : path, optional
         Where to write it.
-    home : str
-        The address of the documentation, to which it links.
+    home : str, optional
+        The address of the documentation; without one the page has no link to it.
     wasm : bytes, optional
         The WebAssembly module; default: `module()`.
 
@@ -67,7 +67,7 @@ def page(
         "{script}": script(*SCRIPTS),
         "{module}": base64.b64encode(module() if wasm is None else wasm).decode(),
         "{facts}": json.dumps({"colours": COLOURS, "hands": hands, "abouts": ABOUTS}),
-        "{home}": home,
+        "{home}": f' <a href="{home}" target="_top">Documentation</a>' if home else "",
     }
     html = (WEB / "page.html").read_text(encoding="utf-8")
     for mark, text in parts.items():

@@ -1,5 +1,6 @@
 // The compiled core in JavaScript: device, hand and wall, simulated tick by tick. See bindings/wasm/exports.cpp.
 
+const LONGEST_NAME = 256; // bytes, as in exports.cpp
 const NO_SUCH_CALL = 52; // of WASI: the core opens no file, reads no clock and no environment
 
 /** Compile the module and return a `Core`. */
@@ -42,6 +43,7 @@ export class Core {
   /** Write a name where the core reads it; returns its length. */
   name(text) {
     const bytes = new TextEncoder().encode(text);
+    if (bytes.length > LONGEST_NAME) throw new RangeError(`${text.slice(0, 40)}...: is no name, at most ${LONGEST_NAME} bytes`);
     new Uint8Array(this.wasm.memory.buffer, this.wasm.name_at(), bytes.length).set(bytes);
     return bytes.length;
   }

@@ -1,7 +1,5 @@
-// Numbers as people read them, and a contact in words. Limits as in cpp/ebac/sim/contact.hpp.
+// Numbers as people read them, and a contact in words.
 
-const STILL = 0.25e-3; // m, peak to peak
-const PERCEIVED = 3; // detection thresholds
 const EXACT = 0.06e-3; // m, two encoder counts
 
 /** A number with its unit: `quantity(0.0082, "mm")` of metres is "8.2 mm". */
@@ -27,7 +25,7 @@ export function idealRest({ stiffness, position, hand, target }) {
 export function verdict(measured, ideal) {
   if (ideal === null) return { kind: "free", head: "Free air", more: "Drag the hand into the wall." };
   const { swing, rest, perceived, limit_cycle: frequency } = measured;
-  if (!(swing < STILL)) {
+  if (!measured.still) {
     const at = Number.isFinite(frequency) ? ` at ${quantity(frequency, "Hz", 2)}` : "";
     return { kind: "bad", head: `Shakes by ${quantity(swing, "mm", 2)}`, more: `The handle swings to and fro${at}.` };
   }
@@ -35,9 +33,9 @@ export function verdict(measured, ideal) {
   const where = Math.abs(away) < EXACT
     ? `Rests within ${quantity(Math.max(Math.abs(away), 1e-5), "mm", 2)} of an ideal wall.`
     : `Rests ${quantity(Math.abs(away), "mm", 2)} too ${away > 0 ? "deep" : "far out"}.`;
-  if (!(perceived < PERCEIVED)) {
+  if (!measured.force_quiet) {
     const times = perceived >= 10 ? perceived.toFixed(0) : perceived.toFixed(1);
-    const felt = `its force vibrates ${times} times the threshold of touch`;
+    const felt = perceived > 1 ? `its force vibrates ${times} times the threshold of touch` : "its force does not settle";
     return { kind: "fair", head: "Buzzes", more: `Still, but ${felt}. ${where}` };
   }
   const exact = Math.abs(away) < EXACT;
