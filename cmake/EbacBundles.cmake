@@ -15,7 +15,7 @@ ebac_bundle(ebac machine cpp/ebac can/raw_socket can/socketcan can/wake_event
             simulated_drives/simulated_drive simulated_drives/simulated_drive_errors
             simulated_drives/simulated_drive_motion simulated_drives/simulated_drive_objects
             simulated_drives/simulated_wire simulated_drives/through_can)
-ebac_bundle(ebac model cpp/ebac model/device model/exact_axis model/exact_plant model/hand model/hand_model model/joint_dynamics
+ebac_bundle(ebac model cpp/ebac core/matrix_exponential model/device model/exact_axis model/exact_plant model/hand model/hand_model model/joint_dynamics
             model/limits model/linear_flow model/stepped_plant world/engine/make_bridge world/make)
 ebac_bundle(ebac run cpp/ebac control/virtual_coupling core/check core/fields faults/campaign faults/case
             faults/case_setup faults/referee faults/test_bench identify/arm_drive identify/arm_jacobian identify/arm_record identify/arm_step identify/arm_trials loop/retune loop/trace sim/contact sim/ideal_wall

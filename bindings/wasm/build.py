@@ -15,7 +15,8 @@ CPP = HERE.parents[1] / "cpp"
 #: What a simulated tick and the measures of a contact need of the core. One translation unit: the headers, Eigen's
 #: among them, are most of the work.
 CORE = (
-    *("core/check", "core/fields", "control/laws", "control/virtual_coupling"),
+    *("core/check", "core/fields", "core/matrix_exponential"),
+    *("control/laws", "control/virtual_coupling"),
     *("model/device", "model/exact_axis", "model/exact_plant", "model/hand", "model/hand_model"),
     *("model/joint_dynamics", "model/limits", "model/linear_flow", "model/stepped_plant"),
     *("sim/simulated_device", "sim/contact", "sim/perceived_ripple"),

@@ -1,8 +1,8 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <array>
-#include <unsupported/Eigen/MatrixFunctions>
 
+#include "ebac/core/matrix_exponential.hpp"
 #include "ebac/identify/arm_record.hpp"
 #include "ebac/identify/arm_step.hpp"
 
@@ -40,7 +40,7 @@ Eigen::Matrix<double, 2, 4> flow_slope(const ArmGuess& guess, double dt, std::si
   } else {
     a(1, index == ArmGuess::kStiffness ? 4 : 5) = -per_mass * dt;
   }
-  const Eigen::Matrix<double, 8, 8> flow = a.exp();
+  const Eigen::Matrix<double, 8, 8> flow = matrix_exponential(a);
   return flow.block<2, 4>(0, 4);
 }
 

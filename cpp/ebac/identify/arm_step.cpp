@@ -1,6 +1,6 @@
 #include "ebac/identify/arm_step.hpp"
 
-#include <unsupported/Eigen/MatrixFunctions>
+#include "ebac/core/matrix_exponential.hpp"
 
 namespace ebac {
 
@@ -12,7 +12,7 @@ ArmStep::ArmStep(const ArmGuess& guess, double dt)
   a(1, 1) = -guess.damping * per_mass * dt;
   a(1, 2) = dt;
   a(2, 3) = 1;
-  const Eigen::Matrix4d flow = a.exp();
+  const Eigen::Matrix4d flow = matrix_exponential(a);
   phi = flow.topLeftCorner<2, 2>();
   start = flow.topRows<2>().col(2);
   change = flow.topRows<2>().col(3);

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <unsupported/Eigen/MatrixFunctions>
 
+#include "ebac/core/matrix_exponential.hpp"
+
 namespace ebac {
 
 LinearFlow::LinearFlow(const Matrix& a, const Vector& row, double tick) {
@@ -14,7 +16,7 @@ LinearFlow::LinearFlow(const Matrix& a, const Vector& row, double tick) {
   block.topRightCorner<kSize, kSize>() = row * row.transpose();
   block.bottomRightCorner<kSize, kSize>() = a;
   const Eigen::Matrix<double, 2 * kSize, 2 * kSize> tiny =
-      (block * std::ldexp(tick, -kQuantaBits)).exp();
+      matrix_exponential(block * std::ldexp(tick, -kQuantaBits));
 
   Matrix square =
       tiny.bottomRightCorner<kSize, kSize>().transpose() * tiny.topRightCorner<kSize, kSize>();
