@@ -82,7 +82,8 @@ class Body {
     }
     const Axes in = x - proxy_.place();
     const double depth = in.norm();
-    const Axes normal = depth > 0 ? Axes((1 / depth) * in) : Axes(-proxy_.constraint(0).out);
+    Axes normal = -proxy_.constraint(0).out;
+    if (depth > 0) normal = (1 / depth) * in;
     const Push push = press(material_, depth, normal.dot(v));
     Touch made{.force = push.force * normal,
                .depth = depth,

@@ -44,25 +44,32 @@ class DistanceGrid final : public Solid {
 
   Distance distance(const Axes& x) const EBAC_RT override {
     const Axes scaled = per_cell_ * (x - layout_.origin);
-    std::array<int, 3> brick{};
-    Axes within;  // cells, in its brick
-    for (int i = 0; i < 3; ++i) {
-      const auto k = static_cast<std::size_t>(i);
-      const double place = scaled[i] * (1.0 / kCells);
-      const bool within_grid = place >= 0 && place < layout_.bricks[k];
+    Place at;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double place = scaled[static_cast<int>(i)];
+      const bool within_grid = place >= 0 && place < kCells * layout_.bricks[i];
       if (!within_grid) return outside(x);
-      brick[k] = static_cast<int>(place);
-      within[i] = scaled[i] - kCells * brick[k];
+      const int cell = static_cast<int>(place);
+      at.brick[i] = static_cast<unsigned>(cell) / kCells;
+      at.cell[i] = static_cast<unsigned>(cell) % kCells;
+      at.u[i] = place - cell;
     }
-    const std::int32_t which = index_[cell_number(brick, layout_.bricks)];
-    return which == kFar ? far(brick, within) : near(which, within);
+    const auto& size = layout_.bricks;
+    const std::int32_t which = index_[number(at.brick, size[1], size[2])];
+    return which == kFar ? far(at) : near(which, at);
   }
 
  private:
-  static std::size_t cell_number(const std::array<int, 3>& at,
-                                 const std::array<int, 3>& size) EBAC_RT {
-    const auto place = [](int one) { return static_cast<std::size_t>(one); };
-    return (place(at[0]) * place(size[1]) + place(at[1])) * place(size[2]) + place(at[2]);
+  /// Where in the grid a point is.
+  struct Place {
+    std::array<std::size_t, 3> brick{};
+    std::array<std::size_t, 3> cell{};  // of the brick
+    std::array<double, 3> u{};          // in the cell, 0 to 1
+  };
+
+  /// Of one of a block of things that has `y` and `z` of them along the second and third edge.
+  static std::size_t number(const std::array<std::size_t, 3>& at, int y, int z) EBAC_RT {
+    return (at[0] * static_cast<std::size_t>(y) + at[1]) * static_cast<std::size_t>(z) + at[2];
   }
 
   /// Not in the grid: at least as far as the grid's own edge, and the margin.
@@ -79,17 +86,17 @@ class DistanceGrid final : public Solid {
   }
 
   /// No surface within a cell of this brick, and no distance changes faster than the place.
-  Distance far(const std::array<int, 3>& brick, const Axes& within) const EBAC_RT {
-    std::array<int, 3> corner = brick;
+  Distance far(const Place& at) const EBAC_RT {
+    std::array<std::size_t, 3> corner = at.brick;
     Axes off;  // m, from the nearest corner
-    for (int i = 0; i < 3; ++i) {
-      const bool upper = within[i] > 0.5 * kCells;
-      corner[static_cast<std::size_t>(i)] += upper ? 1 : 0;
-      off[i] = layout_.cell * (within[i] - (upper ? kCells : 0));
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto axis = static_cast<int>(i);
+      const double within = static_cast<double>(at.cell[i]) + at.u[i];
+      const bool upper = within > 0.5 * kCells;
+      corner[i] += upper ? 1 : 0;
+      off[axis] = layout_.cell * (within - (upper ? kCells : 0));
     }
-    const std::array<int, 3> size{layout_.bricks[0] + 1, layout_.bricks[1] + 1,
-                                  layout_.bricks[2] + 1};
-    const double d = far_[cell_number(corner, size)];
+    const double d = far_[number(corner, layout_.bricks[1] + 1, layout_.bricks[2] + 1)];
     const double least = std::max(std::abs(d) - off.norm(), layout_.cell);
     return {std::copysign(least, d), Axes::UnitX()};
   }
@@ -97,26 +104,18 @@ class DistanceGrid final : public Solid {
   /// Sum over the eight nodes of weight times (distance + direction . way from the node): as
   /// u . sum(w n) less the share of the nodes at 1 along each coordinate, so that all is done four
   /// numbers at a time.
-  Distance near(std::int32_t which, const Axes& within) const EBAC_RT {
-    std::array<std::ptrdiff_t, 3> cell{};
-    Axes u;
-    for (int i = 0; i < 3; ++i) {
-      const int k = std::min(static_cast<int>(within[i]), kCells - 1);
-      cell[static_cast<std::size_t>(i)] = k;
-      u[i] = within[i] - k;
-    }
+  Distance near(std::int32_t which, const Place& at) const EBAC_RT {
+    const auto [x, y, z] = at.u;
     const float* const first = nodes_.data() + static_cast<std::size_t>(which) * kBrick +
-                               4 * ((cell[0] * kNodes + cell[1]) * kNodes + cell[2]);
-    const Axes rest = Axes::Ones() - u;
-    const double low = rest[0] * rest[1], across = rest[0] * u[1];
-    const double along = u[0] * rest[1], high = u[0] * u[1];
+                               4 * number(at.cell, kNodes, kNodes);
+    const double low = (1 - x) * (1 - y), across = (1 - x) * y, along = x * (1 - y), high = x * y;
     constexpr std::ptrdiff_t kY = std::ptrdiff_t{4} * kNodes, kX = kY * kNodes;
-    const Row a(first, low, rest[2], u[2]), b(first + kY, across, rest[2], u[2]);
-    const Row c(first + kX, along, rest[2], u[2]), e(first + kX + kY, high, rest[2], u[2]);
+    const Row a(first, low, 1 - z, z), b(first + kY, across, 1 - z, z);
+    const Row c(first + kX, along, 1 - z, z), e(first + kX + kY, high, 1 - z, z);
     const Eigen::Array4d upper_x = c.sum + e.sum;
     const Eigen::Array4d all = a.sum + b.sum + upper_x;
-    const double moved = u[0] * all[0] - upper_x[0] + u[1] * all[1] - (b.sum[1] + e.sum[1]) +
-                         u[2] * all[2] - (a.upper + b.upper + c.upper + e.upper);
+    const double moved = x * all[0] - upper_x[0] + y * all[1] - (b.sum[1] + e.sum[1]) + z * all[2] -
+                         (a.upper + b.upper + c.upper + e.upper);
     const double length = std::sqrt(all[0] * all[0] + all[1] * all[1] + all[2] * all[2]);
     const double d = all[3] + layout_.cell * moved;
     if (!(length > 0)) return {d, Axes::UnitX()};

@@ -116,7 +116,8 @@ class Proxy {
     if (!learnt_) {
       turning_ = -held_[0].out * held_[0].out.transpose();
     } else if (square > kLearns * kLearns) {
-      turning_ += (offset - offset_ - turning_ * moved) * (moved / square).transpose();
+      const Axes missed = offset - offset_ - turning_ * moved;
+      for (int i = 0; i < kMaxAxes; ++i) turning_.col(i) += (moved[i] / square) * missed;
     }
     learnt_ = true;
     offset_ = offset;

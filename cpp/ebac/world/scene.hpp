@@ -36,7 +36,7 @@ class Scene final : public World {
     if (count == 0) return all;
     all.frame = frame_.along(normals.data(), count);
     all.along = all.frame * all.force;
-    all.turned = !all.frame.isIdentity(0);
+    all.turned = all.frame(0, 0) != 1 || !all.frame.isIdentity(0);
     return all;
   }
 

@@ -29,17 +29,23 @@ class TransportedFrame {
 
   /// The usual case, a single unit normal: the second direction turns with it and the third follows from both. False where
   /// the second has become parallel to it.
+  /// Number by number, since vectors that are stored in parts and read as a whole would stall.
   bool turn_to(const Axes& normal) EBAC_RT {
-    const Axes before = frame_.row(1);
-    const Axes rest = before - normal.dot(before) * normal;
-    const double square = rest.squaredNorm();
+    const double x = normal[0], y = normal[1], z = normal[2];
+    double u = frame_(1, 0), v = frame_(1, 1), w = frame_(1, 2);
+    const double common = x * u + y * v + z * w;
+    u -= common * x;
+    v -= common * y;
+    w -= common * z;
+    const double square = u * u + v * v + w * w;
     if (square < kParallel * kParallel) return false;
-    const Axes second = (1 / std::sqrt(square)) * rest;
-    const Axes third = normal.cross(second);
+    const double scale = 1 / std::sqrt(square);
+    u *= scale;
+    v *= scale;
+    w *= scale;
+    const Axes third{y * w - z * v, z * u - x * w, x * v - y * u};
     const double side = third.dot(frame_.row(2)) < 0 ? -1.0 : 1.0;
-    frame_.row(0) = normal;
-    frame_.row(1) = second;
-    frame_.row(2) = side * third;
+    frame_ << x, y, z, u, v, w, side * third[0], side * third[1], side * third[2];
     return true;
   }
 
