@@ -41,9 +41,6 @@ RULES = (
         NEVER,
         "a test of its own opens every notebook, the building of the site executes it",
     ),
-    Rule(
-        r"mesh:pebble\.stl", NEVER, "needs the file of a notebook, which these tests do not execute"
-    ),
     Rule(r"docs/figures/|tests/recordings/", NEVER, "takes minutes, and needs a clone"),
     Rule(
         r"\bv?can\d\b|=socketcan|--interface socketcan",

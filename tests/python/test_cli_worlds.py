@@ -74,3 +74,27 @@ def test_a_grid_in_the_making_tells_whoever_watches(
 def test_without_the_extra_a_sentence_names_it(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "igl", None)
     assert "pip install 'ebac[worlds]'" in ran("wall --world ground --no-files", 2)
+
+
+def test_what_a_handle_meets_at_places() -> None:
+    inside, outside = json.loads(ran("worlds sphere --at 0.001,0,0 --at -0.01,0,0 --json"))["rows"]
+    assert inside["force_N"] == pytest.approx([10, 0, 0], abs=1e-9)
+    assert inside["normal"] == pytest.approx([1, 0, 0])
+    assert (inside["depth_m"], inside["stiffness_N_per_m"]) == pytest.approx((1e-3, 1e4))
+    assert inside["distance_m"] == pytest.approx(-1e-3)
+    assert outside["distance_m"] == pytest.approx(0.01)
+    assert outside["force_N"] == [0, 0, 0]
+    assert outside["normal"] is None
+    assert "10 0 0" in ran("worlds sphere --at 0.001,0,0")
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        ("worlds sphere --at 1,2", "--at 1,2: must be three numbers [m]"),
+        ("worlds sphere --at nan,0,0", "--at nan,0,0: each must lie in [-1, 1] m"),
+        ("worlds --at 0,0,0", "in which world?"),
+    ],
+)
+def test_places_that_are_none(words: str, said: str) -> None:
+    assert said in ran(words, 2)

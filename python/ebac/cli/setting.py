@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from ebac._core import Device, Hand, Timing
     from ebac.operators import Operators
     from ebac.scenario import Environment, Scenario
+    from ebac.worlds import World
 
 #: What the library calls the numbers that options give.
 OPTIONS = {
@@ -198,7 +199,7 @@ def choose_wall(environment: Environment, **options: float | None) -> Environmen
     return environment.replace(**changes)
 
 
-def choose_world(name: str, option: str = "--world", **options: float | None) -> Environment:
+def choose_world(name: str, option: str = "--world", **options: float | None) -> World:
     """Return the world of a name, in any case, with `stiffness`, `damping`, `friction`, `position` as given."""
     from ebac.worlds import preset
 

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 from rich.markup import escape
 
 from ebac.cli import options, output, setting
+from ebac.cli.catalogue import place
+
+if TYPE_CHECKING:
+    from ebac.worlds import World
 
 
 def worlds(
@@ -19,9 +23,17 @@ def worlds(
             autocompletion=options.complete_worlds,
         ),
     ] = None,
+    at: Annotated[
+        list[str] | None,
+        typer.Option(
+            metavar="X,Y,Z",
+            help="A place [m]: show force, normal, depth and stiffness there instead. May be given several times.",
+            show_default=False,
+        ),
+    ] = None,
     as_json: output.AsJson = False,
 ) -> None:
-    """List the virtual worlds known by name, or show the bodies of one.
+    """List the virtual worlds known by name, or show the bodies of one, or what it does at a place.
 
     Each lies with its surface at the origin and is met by a motion along +x. `mesh:FILE` is a mesh of your own, its
     longest side made 40 mm.
@@ -32,11 +44,17 @@ def worlds(
 
     * `ebac worlds sphere`: its bodies, to begin a scenario file with
 
+    * `ebac worlds sphere --at 0.001,0,0`: force, normal, depth and stiffness 1 mm inside
+
     * `ebac wall --world sphere --law tca,ebac`: press a hand against it
     """
     from ebac.worlds import PRESETS
 
     if name is None:
+        if at:
+            output.fail(
+                f"--at {at[0]}: in which world? give its name, as in `ebac worlds sphere --at {at[0]}`"
+            )
         rows: list[dict[str, Any]] = [
             {"name": key, "what": known.what, "needs": "ebac[worlds]" if known.extra else None}
             for key, known in PRESETS.items()
@@ -52,14 +70,18 @@ def worlds(
             grid.add_row(row["name"], row["what"], escape(row["needs"] or "-"))
         output.show(grid)
         return
-    with output.refusing():
-        text = _toml(name)
+    with output.refusing(), output.counting_meshes():
+        world = setting.choose_world(name, option="")
+        if at:
+            place.show(name, world, at, as_json=as_json)
+            return
+        text = _toml(world)
     typer.echo(output.document("worlds", [{"name": name, "toml": text}]) if as_json else text)
 
 
-def _toml(name: str) -> str:
+def _toml(world: World) -> str:
     import tomli_w
 
     from ebac._util.serialisation import to_document
 
-    return tomli_w.dumps({"environment": to_document(setting.choose_world(name, option=""))})
+    return tomli_w.dumps({"environment": to_document(world)})
