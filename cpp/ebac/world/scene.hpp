@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -17,6 +18,9 @@ class Scene final : public World {
 
   ContactForce contact(const Axes& x, const Axes& v, double t) EBAC_RT override {
     ContactForce all;
+    // No body is told of such a place, whose proxy would never leave it; the loop ends by what it reads here.
+    if (!std::isfinite(x.sum()))
+      return ContactForce::straight(Axes::Constant(std::numeric_limits<double>::quiet_NaN()));
     std::array<Axes, kMaxAxes> normals;
     int count = 0;
     double strongest = 0;

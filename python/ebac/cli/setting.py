@@ -207,7 +207,9 @@ def choose_world(name: str, option: str = "--world", **options: float | None) ->
     try:
         return preset(kind.lower() + colon + file, **given(**options))
     except (ValueError, FileNotFoundError, ImportError) as error:
-        raise ValueError(f"{option} {name}: {error}" if option else str(error)) from error
+        missing = isinstance(error, FileNotFoundError)
+        said = f"{file}: there is no such file" if missing else str(error)
+        raise ValueError(f"{option} {name}: {said}" if option else said) from error
 
 
 def choose_engine(environment: Environment, options: dict[str, Any]) -> Environment:

@@ -29,6 +29,8 @@ BRICK = 8
 MANY = 100_000
 #: Most nodes of a grid: 16 bytes each.
 MOST_NODES = 40_000_000
+#: Most bricks, also of those without a surface.
+MOST_BRICKS = 1_000_000
 #: Changes when the numbers of a grid would.
 VERSION = 1
 
@@ -98,9 +100,13 @@ class Surface:
     """
 
     def __init__(self, vertices: Floats, faces: Ints, thickness: float = 0.0) -> None:
+        corners = vertices[faces]
+        volume = np.einsum("ni,ni->", corners[:, 0], np.cross(corners[:, 1], corners[:, 2]))
+        if volume < 0 and not thickness:  # a solid turned inside out
+            faces = np.ascontiguousarray(faces[:, ::-1])
+            corners = vertices[faces]
         self.vertices, self.faces, self.thickness = vertices, faces, thickness
         self._igl = needed("igl", "libigl")
-        corners = vertices[faces]
         normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
         self._normals = normals / np.linalg.norm(normals, axis=1, keepdims=True)
 
@@ -140,6 +146,11 @@ def grid_of(surface: Surface, cell: float, progress: Progress | None = None) -> 
     high = surface.vertices.max(axis=0) + 0.5 * surface.thickness
     edge = BRICK * cell
     bricks = np.ceil((high - low) / edge + 2).astype(int)
+    if (count := np.prod(bricks.astype(float))) > MOST_BRICKS:
+        raise ValueError(
+            f"Mesh.cell = {cell:g} m: the grid would have {count:,.0f} bricks of {BRICK} cells a side, "
+            f"{MOST_BRICKS:,} at most; give a larger cell"
+        )
     origin = 0.5 * (low + high - bricks * edge)
     far = surface.distance(origin + edge * _cells(bricks + 1))[0].reshape(bricks + 1)
     centres = origin + edge * (_cells(bricks) + 0.5)

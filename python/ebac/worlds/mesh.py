@@ -15,6 +15,8 @@ from ebac.worlds.part import Part
 
 #: Cells along the longest side of a mesh, unless given.
 CELLS = 96
+#: Fewest cells along it, of which one may be set: with fewer a body has another shape.
+COARSEST = 4
 
 
 @dataclass(frozen=True)
@@ -59,7 +61,12 @@ class _Triangles(Part):
             Called with nodes done and all nodes, while a grid is made.
         """
         surface = self.surface()
-        return cached_grid(surface, self.cell_m(surface), progress)
+        cell, coarsest = self.cell_m(surface), _longest(surface) / COARSEST
+        if cell > coarsest:
+            raise ValueError(
+                f"{type(self).__name__}.cell = {cell:g} m: must be {coarsest:g} m at most, a quarter of its size"
+            )
+        return cached_grid(surface, cell, progress)
 
     def cell_m(self, surface: Surface | None = None) -> float:
         """Return the edge of a cell [m]."""
@@ -101,6 +108,11 @@ class _Triangles(Part):
             normal_median_deg=float(np.median(angle)),
             normal_p99_deg=float(np.quantile(angle, 0.99)),
         )
+
+
+def _longest(surface: Surface) -> float:
+    """Return the longest side [m], with that of a shell."""
+    return float(np.ptp(surface.vertices, axis=0).max()) + surface.thickness
 
 
 def _check_cell(name: str, cell: float | None) -> None:
@@ -193,6 +205,8 @@ def _read(file: str, changed: int) -> tuple[Floats, Ints, int]:
         np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1
     )
     faces = faces[area > 0]
+    if len(faces) == 0:
+        raise ValueError(f"{file}: holds no triangles with an area")
     edges = np.sort(faces[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2), axis=1)
     _, count = np.unique(edges, axis=0, return_counts=True)
     return vertices, faces, int((count == 1).sum())

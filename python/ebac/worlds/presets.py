@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from math import pi, sqrt
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -167,8 +166,6 @@ def preset(
 
 
 def _leftmost_at_origin(mesh: Mesh) -> Placed:
-    if not Path(mesh.file).exists():
-        raise FileNotFoundError(f"{mesh.file}: no such file")
     vertices = mesh.surface().vertices
     x, y, z = vertices[vertices[:, 0].argmin()]
     return Placed(mesh, (-float(x), -float(y), -float(z)))
