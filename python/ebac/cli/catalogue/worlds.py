@@ -8,7 +8,7 @@ import typer
 from rich.markup import escape
 
 from ebac.cli import options, output, setting
-from ebac.cli.catalogue import place
+from ebac.cli.catalogue import contact_at_place
 
 if TYPE_CHECKING:
     from ebac.worlds import World
@@ -73,7 +73,7 @@ def worlds(
     with output.refusing(), output.counting_meshes():
         world = setting.choose_world(name, option="")
         if at:
-            place.show(name, world, at, as_json=as_json)
+            contact_at_place.show(name, world, at, as_json=as_json)
             return
         text = _toml(world)
     typer.echo(output.document("worlds", [{"name": name, "toml": text}]) if as_json else text)
