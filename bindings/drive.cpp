@@ -125,7 +125,8 @@ void bind_joystick(py::module_& m) {
   cls.def(py::init(&make_joystick), py::arg("setup"), py::kw_only(), py::arg("first") = 1,
           py::arg("peak_time") = 2.0, py::arg("force") = py::none(),
           py::arg("wait_for_power") = false, py::arg("aim") = py::none(),
-          py::arg("sheet") = std::vector<SheetRow>{}, py::arg("zero") = std::vector<std::int64_t>{})
+          py::arg("sheet") = std::vector<SheetRow>{}, py::arg("zero") = std::vector<std::int64_t>{},
+          py::arg("longest_step") = std::numeric_limits<double>::infinity())
       .def_property_readonly("axes", &PlantOfDrives::axes, "Number of axes.")
       .def(
           "drive",
@@ -144,7 +145,7 @@ void bind_joystick(py::module_& m) {
               throw py::index_error("axis " + std::to_string(axis) + ": the joystick has " +
                                     std::to_string(joystick.axes()));
             }
-            return joystick.plant().device().device().state(axis);
+            return joystick.plant().device().device().device().state(axis);
           },
           py::arg("axis") = 0, "Return the true state of one axis.");
   def_frames<PlantOfDrives>(

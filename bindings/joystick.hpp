@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -11,12 +12,14 @@
 #include "ebac/sim/setup.hpp"
 #include "ebac/sim/simulated_device.hpp"
 #include "ebac/simulated_drives/joystick.hpp"
+#include "ebac/simulated_drives/patient_plant.hpp"
 #include "fields.hpp"
 #include "zero.hpp"
 
 namespace ebac::python {
 
-using PlantOfDrives = can::Joystick<sensor::ForcePublisher<rt::TargetSubscriber<SimulatedDevice>>>;
+using PlantOfDrives =
+    can::Joystick<sensor::ForcePublisher<can::PatientPlant<rt::TargetSubscriber<SimulatedDevice>>>>;
 
 /// Node ids of drives on `axes` axes, from `node` on.
 inline can::NodeId checked_node(int node, int axes) {
@@ -70,20 +73,22 @@ inline PlantOfDrives make_joystick(Setup setup, int first, double peak_time,
                                    const Shared<sensor::SharedForce>& force, bool wait_for_power,
                                    const Shared<rt::SharedHandTarget>& aim,
                                    const std::vector<SheetRow>& sheet = {},
-                                   const std::vector<std::int64_t>& zero = {}) {
+                                   const std::vector<std::int64_t>& zero = {},
+                                   double longest_step = std::numeric_limits<double>::infinity()) {
   const can::NodeId node = checked_node(first, setup.device.axes());
   setup.device.drive.permille = true;  // what a drive is told in
   setup.timing.delay = 0;              // its delay is that of the bus
   const std::vector<can::SheetEntry> entries = checked_sheet(sheet);
-  return {
-      sensor::ForcePublisher(rt::TargetSubscriber(SimulatedDevice(setup), aim.value_or(nullptr)),
-                             force.value_or(nullptr)),
-      setup.device,
-      node,
-      checked_peak_time(peak_time),
-      wait_for_power,
-      entries,
-      zero_of("drive", "zero", zero, setup.device.axes())};
+  return {sensor::ForcePublisher(
+              can::PatientPlant(rt::TargetSubscriber(SimulatedDevice(setup), aim.value_or(nullptr)),
+                                longest_step),
+              force.value_or(nullptr)),
+          setup.device,
+          node,
+          checked_peak_time(peak_time),
+          wait_for_power,
+          entries,
+          zero_of("drive", "zero", zero, setup.device.axes())};
 }
 
 }  // namespace ebac::python

@@ -2,6 +2,7 @@
 
 #include <pybind11/stl.h>
 
+#include <limits>
 #include <memory>
 #include <string>
 
@@ -70,19 +71,23 @@ void bind_node_server(py::module_& m) {
   py::class_<OnLoopback> inside(
       m, "LoopbackJoystick",
       "Simulated drives of a joystick on a bus inside this process, in real time, in a thread of\n"
-      "its own that never waits for Python. A context manager.");
+      "its own that never waits for Python; their plant moves for `longest_step` [s] at most "
+      "between\n"
+      "two SYNCs. A context manager.");
   inside.def(
       py::init([](can::LoopbackHub& hub, const Setup& setup, int first, double peak_time,
                   const OptionalForce& force, bool wait_for_power, const OptionalTarget& aim,
-                  const std::vector<SheetRow>& sheet, const std::vector<std::int64_t>& zero) {
-        PlantOfDrives joystick =
-            make_joystick(setup, first, peak_time, force, wait_for_power, aim, sheet, zero);
+                  const std::vector<SheetRow>& sheet, const std::vector<std::int64_t>& zero,
+                  double longest_step) {
+        PlantOfDrives joystick = make_joystick(setup, first, peak_time, force, wait_for_power, aim,
+                                               sheet, zero, longest_step);
         return std::make_unique<OnLoopback>(hub.open({.frames = kFrames}), std::move(joystick));
       }),
       py::arg("hub"), py::arg("setup"), py::kw_only(), py::arg("first") = 1,
       py::arg("peak_time") = 2.0, py::arg("force") = py::none(), py::arg("wait_for_power") = false,
       py::arg("aim") = py::none(), py::arg("sheet") = std::vector<SheetRow>{},
-      py::arg("zero") = std::vector<std::int64_t>{});
+      py::arg("zero") = std::vector<std::int64_t>{},
+      py::arg("longest_step") = std::numeric_limits<double>::infinity());
   add_work(inside);
   py::class_<OnSocketCan> outside(
       m, "SocketCanJoystick",

@@ -107,6 +107,8 @@ std::vector<Told> changes_from(const Running& run, std::size_t start) {
         return "environment";
       case UpdateOf::kTarget:
         return "target";
+      case UpdateOf::kDelay:
+        return "delay";
     }
     return "";
   };
@@ -169,6 +171,25 @@ void bind_running_class(py::module_& m) {
       .def(
           "retune", [](Running& run, const AnyLaw& law) { return run.retune(law); }, py::arg("law"),
           "Apply the gains of `law` from the next tick on; return the serial number of the update.")
+      .def(
+          "replace_law", [](Running& run, const AnyLaw& law) { return run.replace(law); },
+          py::arg("law"),
+          "Let another law take over from the next tick on, its force blended in over 50 ms; "
+          "return "
+          "the serial number of the update.")
+      .def(
+          "hold_back",
+          [](Running& run, std::size_t ticks) {
+            if (ticks > Hardware::kMost) {
+              throw std::invalid_argument(range_message("Running.hold_back", "ticks",
+                                                        static_cast<double>(ticks), "samples", 0,
+                                                        static_cast<double>(Hardware::kMost)));
+            }
+            return run.post(CommandDelay{.ticks = ticks});
+          },
+          py::arg("ticks"),
+          "Hold each command back by so many more ticks, 0 to 7; for simulated drives. Return the "
+          "serial number of the update.")
       .def(
           "change_world", [](Running& run, const Environment& world) { return run.post(world); },
           py::arg("environment"),

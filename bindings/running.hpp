@@ -11,6 +11,7 @@
 #include "ebac/can/any_bus.hpp"
 #include "ebac/can/wait.hpp"
 #include "ebac/canopen/canopen_device.hpp"
+#include "ebac/loop/held_back_commands.hpp"
 #include "ebac/loop/observer_params.hpp"
 #include "ebac/loop/retune.hpp"
 #include "ebac/rt/loop_thread.hpp"
@@ -26,8 +27,8 @@ namespace ebac::python {
 
 using Drives = can::CanopenDevice<can::AnyBus, can::WaitOn<can::AnyBus>>;
 /// Drives, with a force sensor if there is one, and the target of the hand if it is simulated.
-using Hardware =
-    rt::Timed<rt::TargetPublisher<sensor::WithForceSensor<Drives, sensor::OptionalSensor>>>;
+using Hardware = HeldBackCommands<
+    rt::Timed<rt::TargetPublisher<sensor::WithForceSensor<Drives, sensor::OptionalSensor>>>>;
 
 /// All that a run is but its bus and its law.
 struct RunSetup {
@@ -70,6 +71,8 @@ class Running {
   can::BusCounts bus() const { return bus_.counts(); }
 
   std::uint64_t retune(const AnyLaw& next);
+  /// Another law, whose force is blended in. Throws std::invalid_argument for one that no loop may run.
+  std::uint64_t replace(const AnyLaw& next);
   template <class Value>
   std::uint64_t post(const Value& value) {
     const std::scoped_lock one_writer(writers_);

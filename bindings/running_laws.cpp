@@ -26,19 +26,30 @@ Hardware Running::hardware(const RunSetup& setup) {
     client.start();
     sensor = sensor::OptionalSensor(std::move(client));
   }
-  return Hardware(
-      rt::TargetPublisher(sensor::WithForceSensor(drives, std::move(sensor)), setup.aim));
+  return Hardware(rt::Timed(
+      rt::TargetPublisher(sensor::WithForceSensor(drives, std::move(sensor)), setup.aim)));
 }
 
 void Running::join() const {
   thread_->join();
-  auto& sensor = thread_->loop().device().device().device().sensor();
+  auto& sensor = thread_->loop().device().device().device().device().sensor();
   if (sensor.client() != nullptr) sensor.client()->stop();
 }
 
 std::uint64_t Running::retune(const AnyLaw& next) {
   const std::scoped_lock one_writer(writers_);
   check_retune(newest_, next);
+  newest_ = next;
+  return updates_->post(next);
+}
+
+std::uint64_t Running::replace(const AnyLaw& next) {
+  if (!next.type().tunable) {
+    throw std::invalid_argument(
+        std::string(next.type().name) +
+        ": cannot replace the law of a running loop, as it is not one of the library's");
+  }
+  const std::scoped_lock one_writer(writers_);
   newest_ = next;
   return updates_->post(next);
 }

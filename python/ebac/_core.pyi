@@ -4249,6 +4249,7 @@ class Joystick:
             tuple[int, int, str, bool, int, int, int, int | None, str]
         ] = [],
         zero: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex] = [],
+        longest_step: typing.SupportsFloat | typing.SupportsIndex = ...,
     ) -> None: ...
     def drive(self, axis: typing.SupportsInt | typing.SupportsIndex = 0) -> SimulatedDrive:
         """
@@ -7135,7 +7136,8 @@ class SocketCan:
 class LoopbackJoystick:
     """
     Simulated drives of a joystick on a bus inside this process, in real time, in a thread of
-    its own that never waits for Python. A context manager.
+    its own that never waits for Python; their plant moves for `longest_step` [s] at most between
+    two SYNCs. A context manager.
     """
     def __enter__(self) -> typing.Any: ...
     def __exit__(
@@ -7155,6 +7157,7 @@ class LoopbackJoystick:
             tuple[int, int, str, bool, int, int, int, int | None, str]
         ] = [],
         zero: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex] = [],
+        longest_step: typing.SupportsFloat | typing.SupportsIndex = ...,
     ) -> None: ...
     def start(self, mode: RealTimeMode = ..., realtime: RealTime = ...) -> typing.Any:
         """
@@ -7636,9 +7639,17 @@ class Running:
         """
         Return the applied updates: (tick, serial number, parameter).
         """
+    def hold_back(self, ticks: typing.SupportsInt | typing.SupportsIndex) -> int:
+        """
+        Hold each command back by so many more ticks, 0 to 7; for simulated drives. Return the serial number of the update.
+        """
     def join(self) -> None:
         """
         Wait until the loop has ended.
+        """
+    def replace_law(self, law: typing.Any) -> int:
+        """
+        Let another law take over from the next tick on, its force blended in over 50 ms; return the serial number of the update.
         """
     def retune(self, law: typing.Any) -> int:
         """

@@ -82,6 +82,10 @@ class AnyLaw {
   double step(const Port& port) EBAC_RT { return law_->step(port); }
   void reset() EBAC_RT { law_->reset(); }
   void retune(const AnyLaw& next) EBAC_RT { law_->retune(*next.law_); }
+  /// Whether `next` differs in its gains only, so that this one may take them and keep its memory.
+  bool same_but_gains(const AnyLaw& next) const EBAC_RT {
+    return &type() == &next.type() && timing() == next.timing();
+  }
 
   double starved() const EBAC_RT { return law_->starved(); }
   bool observed() const EBAC_RT { return law_->observed(); }

@@ -4,8 +4,11 @@
 #include <array>
 #include <concepts>
 #include <span>
+#include <type_traits>
+#include <utility>
 
 #include "ebac/control/any_law.hpp"
+#include "ebac/control/force_blend.hpp"
 #include "ebac/control/turned_ports.hpp"
 #include "ebac/core/concepts.hpp"
 
@@ -19,9 +22,19 @@ concept AxesController = requires(L law, std::span<Axis> axes, const ContactForc
   { law.reset() } noexcept;
 };
 
+/// What `ParameterUpdates` sends of a law whose type is known at run time only: one for each axis.
+template <class Law>
+struct Replaceable {};
+template <>
+struct Replaceable<AnyLaw> {
+  using Replacement = std::array<AnyLaw, kMaxAxes>;
+};
+
 /// A scalar law on every direction the world acts in.
 template <ScalarLaw Law>
-class PerAxis {
+class PerAxis : public Replaceable<Law> {
+  struct Nothing {};
+
  public:
   using State = Law::State;
   using Scalar = Law;
@@ -35,16 +48,32 @@ class PerAxis {
   void step(std::span<Axis, N> axes, const ContactForce& contact) EBAC_RT {
     turned_.step(axes, contact,
                  [this](std::size_t i, const Port& port) EBAC_RT { return laws_[i].step(port); });
+    if constexpr (std::same_as<Law, AnyLaw>) blend_.step(axes);
   }
   void reset() EBAC_RT {
     for (Law& law : laws_) law.reset();
     turned_ = {};
+    blend_ = {};
   }
   /// Takes the gains of `next`; the memory and the device parameters of the law stay.
   void retune(const Law& next) EBAC_RT
     requires requires(Law law) { law.retune(next); }
   {
     for (Law& law : laws_) law.retune(next);
+  }
+  /// Takes the gains of `next`, where it differs in nothing else; otherwise `next` takes over, without memory, and its
+  /// force is blended in. The laws that go are left in `next`: none is freed here.
+  void adopt(std::array<Law, kMaxAxes>& next) EBAC_RT
+    requires std::same_as<Law, AnyLaw>
+  {
+    if (laws_[0].same_but_gains(next[0])) return retune(next[0]);
+    std::swap(laws_, next);
+    blend_.begin();
+  }
+  static std::array<Law, kMaxAxes> replacement(const Law& law)
+    requires std::same_as<Law, AnyLaw>
+  {
+    return {law, law, law};
   }
   /// Whether it is made for the observer's estimate.
   bool observed() const EBAC_RT { return observed_of(laws_[0]); }
@@ -64,6 +93,7 @@ class PerAxis {
  private:
   std::array<Law, kMaxAxes> laws_;
   TurnedPorts turned_{};
+  [[no_unique_address]] std::conditional_t<std::same_as<Law, AnyLaw>, ForceBlend, Nothing> blend_{};
 };
 
 }  // namespace ebac

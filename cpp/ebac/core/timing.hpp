@@ -13,6 +13,8 @@ struct Timing {
   int delay = 1;      // samples
   double jitter = 0;  // of a sample
 
+  bool operator==(const Timing&) const = default;
+
   /// The longest interval a command may act for: both of its ticks off by `jitter`.
   double longest() const EBAC_RT { return dt * (1 + 2 * jitter); }
 

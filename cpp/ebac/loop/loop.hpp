@@ -49,6 +49,7 @@ class Loop {
     auto trace = std::make_shared<Trace>(static_cast<int>(sample_.axes));
     law_at_ = trace->add_block("law.", law_table());
     law_bytes_ = law_table().rows.empty() ? 0 : law_table().size;
+    law_fields_ = &law_table();
     std::apply(
         [&](const auto&... part) {
           [[maybe_unused]] std::size_t i = 0;
@@ -218,7 +219,10 @@ class Loop {
   void append(std::byte* row, std::size_t axes) const EBAC_RT {
     std::memcpy(row, &sample_, offsetof(Sample, axis) + axes * sizeof(Axis));
     if constexpr (kAnyLaw) {
-      for (std::size_t i = 0; i < axes; ++i) {
+      if (&law_.state_table() != law_fields_) {  // another law has no columns in this trace
+        std::memset(row + law_at_, 0, axes * law_bytes_);
+      }
+      for (std::size_t i = 0; i < axes && &law_.state_table() == law_fields_; ++i) {
         std::memcpy(row + law_at_ + i * law_bytes_, law_.state(i), law_bytes_);
       }
     } else {
@@ -256,7 +260,8 @@ class Loop {
   std::size_t clock_at_ = 0;
   std::atomic<std::int64_t> unrecorded_{0};  // ticks
   std::size_t law_at_ = 0;
-  std::size_t law_bytes_ = 0;  // of its state, on one axis
+  std::size_t law_bytes_ = 0;               // of its state, on one axis
+  const FieldTable* law_fields_ = nullptr;  // of the law that the trace was made for
   std::array<std::size_t, kRowParts<D>> device_at_{};
 };
 

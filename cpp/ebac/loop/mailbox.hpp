@@ -24,8 +24,9 @@ class Mailbox {
     writers_ = shared_.exchange(writers_ | kNew, std::memory_order_acq_rel) & kPlace;
   }
 
-  /// Reader: the newest value not taken yet, or nullptr. It stays as it is until the next call.
-  const T* take() EBAC_RT {
+  /// Reader: the newest value not taken yet, or nullptr. It is the reader's until the next call; what the reader leaves
+  /// in it is freed by the writer.
+  T* take() EBAC_RT {
     if ((shared_.load(std::memory_order_relaxed) & kNew) == 0) return nullptr;
     readers_ = shared_.exchange(readers_, std::memory_order_acq_rel) & kPlace;
     return &places_[readers_];

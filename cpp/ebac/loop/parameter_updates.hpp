@@ -12,7 +12,7 @@
 
 namespace ebac {
 
-enum class UpdateOf : std::uint32_t { kLaw, kEnvironment, kTarget };
+enum class UpdateOf : std::uint32_t { kLaw, kEnvironment, kTarget, kDelay };
 
 /// A parameter update that a running loop applied.
 struct AppliedUpdate {
@@ -58,6 +58,22 @@ struct ScalarOf<Law> {
   using Type = Law::Scalar;
 };
 
+/// What is sent of a law: one that can be exchanged for another is sent whole.
+template <class Law>
+struct SentOf {
+  using Type = ScalarOf<Law>::Type;
+};
+template <class Law>
+  requires requires { typename Law::Replacement; }
+struct SentOf<Law> {
+  using Type = Law::Replacement;
+};
+
+/// Ticks for which the commands of a loop are held back, on top of what its bus takes.
+struct CommandDelay {
+  std::size_t ticks = 0;
+};
+
 /// Target position of a simulated hand, per axis.
 struct HandTarget {
   std::array<double, kMaxAxes> target{};  // m
@@ -69,15 +85,17 @@ template <class Law>
 class ParameterUpdates {
  public:
   using Scalar = ScalarOf<Law>::Type;
+  using Sent = SentOf<Law>::Type;
 
   /// `law` only fills the memory; it is not sent.
-  explicit ParameterUpdates(const Scalar& law) : law_({0, law}) {}
+  explicit ParameterUpdates(const Scalar& law) : law_({0, sent(law)}) {}
 
-  /// Sends new gains of the law (its memory stays), a new environment or a new hand target. Returns
-  /// the serial number of the update.
-  std::uint64_t post(const Scalar& law) EBAC_RT { return send(law_, law); }
+  /// Sends new gains of the law (its memory stays) or another law, a new environment, a new hand target or delay.
+  /// Returns the serial number of the update.
+  std::uint64_t post(const Scalar& law) EBAC_RT { return send(law_, sent(law)); }
   std::uint64_t post(const Environment& world) EBAC_RT { return send(world_, world); }
   std::uint64_t post(const HandTarget& aim) EBAC_RT { return send(aim_, aim); }
+  std::uint64_t post(const CommandDelay& delay) EBAC_RT { return send(delay_, delay); }
   /// `at_once`: without the ramp of the force.
   void stop(bool at_once = false) EBAC_RT {
     if (at_once) at_once_.store(true, std::memory_order_release);
@@ -91,7 +109,13 @@ class ParameterUpdates {
   /// Called by the loop: passes every new value to `law`, `chain` or `device`.
   template <class AnyLaw, class Chain, class Device>
   void apply(std::int64_t tick, AnyLaw& law, Chain& chain, Device& device) EBAC_RT {
-    if constexpr (requires(const Scalar& s) { law.retune(s); }) {
+    if constexpr (requires(Sent& s) { law.adopt(s); }) {
+      if (auto* message = law_.take()) {
+        law.adopt(message->value);
+        chain.act(law.observed());
+        applied_.add({tick, message->serial, UpdateOf::kLaw});
+      }
+    } else if constexpr (requires(const Scalar& s) { law.retune(s); }) {
       if (const auto* message = law_.take()) {
         law.retune(message->value);
         applied_.add({tick, message->serial, UpdateOf::kLaw});
@@ -105,6 +129,12 @@ class ParameterUpdates {
       if (const auto* message = aim_.take()) {
         for (std::size_t i = 0; i < kMaxAxes; ++i) device.aim(i, message->value.target[i]);
         applied_.add({tick, message->serial, UpdateOf::kTarget});
+      }
+    }
+    if constexpr (requires { device.hold_back(std::size_t{}); }) {
+      if (const auto* message = delay_.take()) {
+        device.hold_back(message->value.ticks);
+        applied_.add({tick, message->serial, UpdateOf::kDelay});
       }
     }
   }
@@ -121,9 +151,18 @@ class ParameterUpdates {
     return serial_;
   }
 
-  Mailbox<Message<Scalar>> law_;
+  static Sent sent(const Scalar& law) {
+    if constexpr (std::same_as<Sent, Scalar>) {
+      return law;
+    } else {
+      return Law::replacement(law);
+    }
+  }
+
+  Mailbox<Message<Sent>> law_;
   Mailbox<Message<Environment>> world_{{0, Free{}}};
   Mailbox<Message<HandTarget>> aim_{{0, HandTarget{}}};
+  Mailbox<Message<CommandDelay>> delay_{{0, CommandDelay{}}};
   std::uint64_t serial_ = 0;  // the writer's
   AppliedUpdates applied_;
   std::atomic<bool> stop_{false};

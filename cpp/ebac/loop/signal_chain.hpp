@@ -25,6 +25,9 @@ class SignalChain {
   /// freed here.
   void change(const Environment& environment) EBAC_RT { environment_ = environment; }
 
+  /// Whether the law of now on uses the observer's estimate.
+  void act(bool observed) EBAC_RT { observer_.act(observed); }
+
   /// Velocity, acceleration and the observer begin anew.
   void forget() EBAC_RT {
     velocity_ = {};

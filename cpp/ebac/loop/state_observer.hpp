@@ -43,6 +43,13 @@ class StateObserver {
     return (observing_.params.delay + 0.5) * dt + observing_.params.current_lag;
   }
 
+  /// Whether the law uses the estimate; where it begins to, the estimate fades in.
+  void act(bool observed) EBAC_RT {
+    const bool acts = on() && (observing_.params.every_law || observed);
+    if (acts && !observing_.acts) weight_ = 0;
+    observing_.acts = acts;
+  }
+
   /// Begins anew in the next tick.
   void forget() EBAC_RT { forgot_ = true; }
 

@@ -2,35 +2,188 @@
 
 from __future__ import annotations
 
+import json
+import sys
+import time
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ebac.cli import output
+from ebac.cli import options, output
+from ebac.cli.drive.options import Yes, telling
 from ebac.cli.files import new_file
+
+if TYPE_CHECKING:
+    from ebac.hardware import Configuration
+    from ebac.live.server import Server
 
 
 def live(
-    page: Annotated[
-        Path,
-        typer.Option(
-            "--page", metavar="FILE", help="Write the page without a server to this file."
+    configuration: Annotated[
+        Path | None,
+        typer.Argument(
+            help="The device and the run, in TOML: see `ebac demo joystick`. Without it all is simulated."
         ),
-    ],
-    force: Annotated[
-        bool, typer.Option("--force", help="Replace a file of the same name.")
+    ] = None,
+    simulated: Annotated[
+        bool,
+        typer.Option(
+            "--simulated", help="On simulated drives, device and hand, whatever the file says."
+        ),
     ] = False,
+    law: Annotated[str | None, options.one_law(default="as configured")] = None,
+    allow_control: Annotated[
+        bool,
+        typer.Option(
+            "--allow-control",
+            help="Let the page give real motors power, while its dead-man key is held.",
+        ),
+    ] = False,
+    host: Annotated[
+        str, typer.Option(help="Address to listen on; only this machine reaches 127.0.0.1.")
+    ] = "127.0.0.1",
+    port: Annotated[int, typer.Option(help="Port; 0 for a free one.", min=0, max=65535)] = 0,
+    out: Annotated[
+        Path,
+        typer.Option("--out", "-o", help="Folder for logs and scenarios that the page writes."),
+    ] = Path("ebac-live"),
+    no_browser: Annotated[bool, typer.Option("--no-browser", help="Open no browser.")] = False,
+    page: Annotated[
+        Path | None,
+        typer.Option(
+            "--page", metavar="FILE", help="Write the page without a server to this file, and end."
+        ),
+    ] = None,
+    force: Annotated[
+        bool, typer.Option("--force", help="With --page: replace a file of the same name.")
+    ] = False,
+    yes: Yes = False,
     as_json: output.AsJson = False,
 ) -> None:
-    """Write a page on which you shake a virtual wall and calm it: the loop, compiled to WebAssembly.
+    """See a loop in a browser, move its hand, change its law.
 
-    Any browser opens the file, on a phone, too, without a server and without a network. Everything on it is simulated.
+    A loop runs in real time; the page shows handle, world and force, and strips of the last ten seconds. Drag the hand
+    with the mouse. Law, world, stiffness, damping and delay change while the loop runs; observer, hand and device
+    restart it. The page records to MCAP and saves the scenario as TOML, into the folder of `--out`. Ctrl-C ends it.
+
+    Without a file, or with `--simulated`, drives, device and hand are simulated, on the real clock.
+
+    With a file **real motors may get power**: only with `--allow-control`, and only while somebody holds the dead-man
+    key of the page. Released, or when the page is silent for 0.3 s, the force fades and the drives are left
+    without power. Limits are those of the file; no page can change them.
+
+    The printed address carries a secret; whoever has it controls the loop if nobody else does. The second address only
+    watches. Nothing is encrypted: to see it from another machine, use an SSH tunnel rather than `--host`.
+
+    With `--page` the command writes a page that needs no server, with the loop compiled to WebAssembly.
 
     **Examples**
 
-    * `ebac live --page live.html`: write the page.
+    * `ebac live`: a wall of 10 kN/m, in your browser.
+
+    * `ebac live --law tca`: plain torque control; raise the stiffness until it shakes.
+
+    * `ebac live joystick.toml --allow-control`: your device, with the dead-man key.
+
+    * `ebac live --page live.html`: the page without a server.
     """
+    if page is not None:
+        write_page(page, force=force, as_json=as_json)
+        return
+    if force:
+        output.fail("--force belongs to --page FILE")
+    with telling():
+        _serve(
+            configuration, simulated, law, allow_control, host, port, out, no_browser, yes, as_json
+        )
+
+
+def _serve(
+    file: Path | None,
+    simulated: bool,
+    law: str | None,
+    allow_control: bool,
+    host: str,
+    port: int,
+    out: Path,
+    no_browser: bool,
+    yes: bool,
+    as_json: bool,
+) -> None:
+    from contextlib import ExitStack
+
+    from ebac.cli import setting
+    from ebac.hardware import Configuration, OpenDevice
+    from ebac.hardware.interrupts import Interrupts, Terminated
+    from ebac.live.serving import serve
+
+    known: Configuration | None = None
+    with output.refusing():
+        known = None if file is None else Configuration.load(file)
+        name = None if law is None else setting.one_law(law)
+    real = known is not None and not simulated
+    with ExitStack() as stack:
+        interrupts = stack.enter_context(Interrupts())
+        interrupts.moving()
+        device = None
+        if real and known is not None:
+            from ebac.cli.run.confirm import can_ask, confirm
+
+            if allow_control:
+                can_ask(known, yes)
+            device = stack.enter_context(OpenDevice.open(known))
+            if allow_control:
+                confirm(device, yes, stderr=as_json)
+        try:
+            server = stack.enter_context(
+                serve(
+                    known, device=device, law=name, host=host, port=port,
+                    allow_control=allow_control, folder=out,
+                )
+            )  # fmt: skip
+        except ImportError as error:
+            output.fail(str(error))
+        except OSError as error:
+            output.fail(f"--host {host} --port {port}: {error.strerror or error}; give another one")
+        _show(server, as_json=as_json)
+        if not no_browser:
+            import webbrowser
+
+            webbrowser.open(server.gate.url())
+        try:
+            while True:
+                time.sleep(0.5)
+        except (KeyboardInterrupt, Terminated):
+            interrupts.ending()
+        kept = list(server.session.kept)
+    console = output.console(stderr=True)
+    files = ", ".join(map(str, kept)) if kept else "no files"
+    console.print(f"Ended; drives without power. Kept: {files}.", soft_wrap=True, markup=False)
+
+
+def _show(server: Server, *, as_json: bool) -> None:
+    gate = server.gate
+    if not gate.loopback:
+        output.console(stderr=True).print(
+            f"{gate.host}: other machines reach this page, and nothing is encrypted; "
+            "an SSH tunnel to 127.0.0.1 is safer",
+            markup=False,
+        )
+    if as_json:
+        row = {"url": gate.url(), "watch_url": gate.url("watch"), "port": gate.port}
+        typer.echo(
+            json.dumps(json.loads(output.document("live", [], **row)))
+        )  # one line: it goes on
+    else:
+        output.say(f"Open  {gate.url()}")
+        output.say(f"Watch {gate.url('watch')}")
+        output.say("Ctrl-C ends it.")
+    sys.stdout.flush()
+
+
+def write_page(page: Path, *, force: bool, as_json: bool) -> None:
+    """Write the page without a server."""
     from ebac.live import module
     from ebac.live import page as written
 

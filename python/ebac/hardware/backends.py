@@ -7,6 +7,7 @@ import os
 from collections.abc import Iterator, Sequence
 from contextlib import AbstractContextManager, contextmanager
 from dataclasses import dataclass
+from math import inf
 from pathlib import Path
 from typing import TYPE_CHECKING, Self
 
@@ -102,11 +103,16 @@ def hardware(configuration: Configuration) -> Iterator[Backend]:
 
 
 @contextmanager
-def simulated(configuration: Configuration) -> Iterator[Backend]:
+def simulated(
+    configuration: Configuration, *, longest_step: float | None = None
+) -> Iterator[Backend]:
     """Put simulated drives with a device and a hand on a bus until the end of the block.
 
     On a virtual CAN interface, where there is one that is up, they are in another process; else in a thread of C++ on a
     bus inside this process. The hand holds still until the motors first have power.
+
+    With `longest_step` [s] they are always in this process, and time stands still for them while their loop is held up:
+    the device moves for so long at most from one tick to the next.
 
     Raises
     ------
@@ -117,7 +123,8 @@ def simulated(configuration: Configuration) -> Iterator[Backend]:
     first = min(node.id for node in configuration.drives.nodes)
     from ebac._core import LoopbackJoystick, SharedForce, SharedHandTarget
 
-    channel, aim = virtual_can(), SharedHandTarget()
+    aim = SharedHandTarget()
+    channel = virtual_can() if longest_step is None else None
     if channel is not None:
         with in_a_process(channel, configuration, scenario, first, aim) as (sensor, grants):
             yield Backend(
@@ -146,6 +153,7 @@ def simulated(configuration: Configuration) -> Iterator[Backend]:
             wait_for_power=True,
             aim=aim,
             zero=configuration.counts_of_simulated_drives,
+            longest_step=inf if longest_step is None else longest_step,
         )
         return at_work(served, request, "the simulated drives", grants)
 

@@ -17,6 +17,8 @@ if TYPE_CHECKING:
 
 #: What a mailbox has room for.
 _MOST_AXES = 3
+#: Samples, as cpp/ebac/loop/held_back_commands.hpp has it.
+MOST_HELD_BACK = 7
 
 
 class CurrentParameters:
@@ -50,6 +52,30 @@ class CurrentParameters:
         self.updates.send(lambda: self._running.retune(after), note)
         self.law = after
         return after
+
+    def replace_law(self, law: CoreLaw) -> CoreLaw:
+        """Send another law."""
+        if not hasattr(law, "_start"):
+            raise TypeError(f"{law!r}: must be one of the library's laws compiled in C++")
+        note = Note(message=f"law {self.law.name} -> {law!r}", values={"law": law.name})
+        self.updates.send(lambda: self._running.replace_law(law), note)
+        self.law = law
+        return law
+
+    def hold_back(self, ticks: int) -> int:
+        """Send how many ticks every command is held back."""
+        if self._hand is None:
+            raise ValueError(
+                "hold_back: the drives are real, and a command to rest must not come late; open them with "
+                "simulate=True (ebac run --simulated)"
+            )
+        if isinstance(ticks, bool) or not 0 <= ticks <= MOST_HELD_BACK:
+            raise ValueError(
+                f"hold_back = {ticks} samples: must lie in [0, {MOST_HELD_BACK}] samples"
+            )
+        note = Note(message=f"commands held back by {ticks} samples", values={"delay_ticks": ticks})
+        self.updates.send(lambda: self._running.hold_back(ticks), note)
+        return ticks
 
     def change(self, environment: Environment | None, **changes: Any) -> Environment:
         """Send another world, or the present one with other numbers."""

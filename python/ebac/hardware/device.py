@@ -64,6 +64,9 @@ class OpenDevice:
         Whether a run goes on when the program that started this one has died.
     beyond_rating : bool
         Whether limits may exceed the data sheet of the motor.
+    longest_step : float, optional
+        Of simulated drives: how long the device moves at most from one tick to the next [s], however late the loop is;
+        default: as long as it takes, as a real one.
 
     Attributes
     ----------
@@ -96,6 +99,7 @@ class OpenDevice:
         simulate: bool = False,
         detached: bool = False,
         beyond_rating: bool = False,
+        longest_step: float | None = None,
     ) -> None:
         if not beyond_rating:
             check_rating(configuration.limits, configuration.device)
@@ -113,7 +117,9 @@ class OpenDevice:
         with ExitStack() as stack:
             self.interrupts = stack.enter_context(Interrupts())
             self.backend: Backend = stack.enter_context(
-                simulated(configuration) if simulate else hardware(configuration)
+                simulated(configuration, longest_step=longest_step)
+                if simulate
+                else hardware(configuration)
             )
             backups = None
             if simulate:

@@ -97,6 +97,48 @@ class Run(LiveStatus):
             self._check()
             return self._parameters.retune(**changes)
 
+    def replace_law(self, law: CoreLaw) -> CoreLaw:
+        """Let another law take over from the next tick on, and return it.
+
+        It begins without memory, and the step between the two forces fades out within 50 ms. A law that differs in its
+        gains only takes over their memory, too, as in `retune`. The columns `law.*` are those of the law of the start,
+        and 0 under another one.
+
+        Parameters
+        ----------
+        law : law of the core
+            Designed for the device, as by `ebac.design`.
+
+        Raises
+        ------
+        TypeError
+            For one that is not compiled in C++.
+        RuntimeError
+            When the loop has ended.
+        """
+        with self._lock:
+            self._check()
+            return self._parameters.replace_law(law)
+
+    def hold_back(self, ticks: int) -> int:
+        """Hold every command back by some ticks more from the next tick on, and return how many; simulated drives only.
+
+        Parameters
+        ----------
+        ticks : int
+            On top of what drives and bus take [samples], 0 to 7.
+
+        Raises
+        ------
+        ValueError
+            For a number out of range, and on hardware.
+        RuntimeError
+            When the loop has ended.
+        """
+        with self._lock:
+            self._check()
+            return self._parameters.hold_back(ticks)
+
     def change(self, environment: Environment | None = None, **changes: Any) -> Environment:
         """Change the virtual world from the next tick on: another one, or numbers of the present one. Return it.
 

@@ -1,11 +1,5 @@
-"""The loop in a browser: a page without a server, and sliders in a notebook, over the core in WebAssembly."""
+"""The loop in a browser: a live server, a page without a server, and sliders in a notebook."""
 
-from ebac.live.live_page import page
-from ebac.live.notebook_widget import widget
-from ebac.live.wasm_module import module
+from ebac._util.lazy import from_stub
 
-__all__ = ["module", "page", "widget"]
-
-
-def __dir__() -> list[str]:
-    return __all__
+__getattr__, __dir__, __all__ = from_stub(__name__, __file__)

@@ -38,4 +38,9 @@ def module() -> bytes:
 def script(*names: str) -> str:
     """Return scripts of the folder `web` as one, in this order: what they import of each other stands before it."""
     text = "\n".join((WEB / f"{name}.js").read_text(encoding="utf-8") for name in names)
+    return joined(text)
+
+
+def joined(text: str) -> str:
+    """Return modules that were put one behind the other as one script."""
     return _EXPORT.sub("", _IMPORT.sub("", text))

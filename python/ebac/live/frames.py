@@ -1,0 +1,182 @@
+"""What the page of `ebac live` shows of a loop: its newest row, strips of the last seconds, a verdict in words."""
+
+from __future__ import annotations
+
+import time
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ebac._core import Fault, LoopState, _measure_contact
+from ebac._util.fault_remedies import REMEDIES
+from ebac.hardware import Run
+from ebac.hardware.report import BY_MOTION
+from ebac.live.session import Session
+from ebac.metrics.wall_contact import STILL_SWING
+from ebac.trace.columns import row_views
+
+#: Time between two points of a strip, and how far the strips look back [s].
+STEP, BACK = 8e-3, 10.0
+#: Columns of the strips.
+STRIPS = ("t", "x", "f_env", "f_cmd", "f_meas", "beta", "energy")
+#: A verdict looks back so far [s], and is given so often [s].
+JUDGED, OFTEN = 1.5, 0.4
+#: A vibration below so many detection thresholds is not perceived.
+PERCEIVED = 3.0
+
+
+class Frames:
+    """Reads the rows of a session's loop; one thread."""
+
+    def __init__(self, session: Session) -> None:
+        self._session = session
+        self._run: Run | None = None
+        self._seen = 0
+        self._judged = -1e9
+        self._verdict: dict[str, str] = {}
+        self._late: NDArray[np.float64] = np.empty(0)
+        self._skipped = 0
+
+    def frame(self) -> dict[str, Any]:
+        """Return what is new since the last call. SI units."""
+        session = self._session
+        run = session.run
+        found: dict[str, Any] = {
+            "kind": "frame",
+            "run": session.starts,
+            "target": session.hand.place,
+        }
+        if run is not self._run:
+            self._run, self._seen, self._skipped = run, 0, 0
+            self._late = np.empty(0)
+        if run is None:
+            return found | {"state": "rest", "verdict": self._words(None)}
+        rows = run._running.rows
+        stop = rows.count
+        first, raw = rows.copy(max(rows.first, self._seen, stop - round(BACK / _dt(run))), stop)
+        self._seen = stop
+        if len(raw):
+            view = row_views(rows, raw)
+            self._skipped += int(view["skipped"].sum())
+            self._late = np.concatenate([self._late, view["lateness"]])[-2000:]
+            found |= {
+                "tick": stop - 1,
+                "t": float(view["t"][-1]),
+                "x": _last(view["x"]),
+                "force": _last(view["f_cmd"]),
+                "state": LoopState(int(view["state"][-1])).name.lower(),
+                "fault": int(view["fault"][-1]),
+                "strips": strips(view, first, _dt(run)),
+            }
+        if run.done:
+            found["state"] = "fault" if found.get("fault") else "rest"
+        now = time.monotonic()
+        if now - self._judged > OFTEN:
+            self._judged = now
+            self._verdict = self._words(run)
+            found["verdict"] = self._verdict
+            found["late_us"] = (
+                float(1e6 * np.percentile(self._late, 99.9)) if len(self._late) else 0.0
+            )
+            found["skipped"] = self._skipped
+            found["recorded"] = None if run.recorder is None else run.recorder.written
+        return found
+
+    def history(self) -> dict[str, Any]:
+        """Return the strips of the last seconds, for who comes later."""
+        run = self._session.run
+        if run is None:
+            return {}
+        rows = run._running.rows
+        first, raw = rows.copy(max(rows.first, rows.count - round(BACK / _dt(run))), rows.count)
+        return strips(row_views(rows, raw), first, _dt(run)) if len(raw) else {}
+
+    def _words(self, run: Run | None) -> dict[str, str]:
+        if run is None:
+            return {"kind": "free", "head": "At rest", "more": "Press Start."}
+        fault = self._session.fault
+        if fault is not Fault.NONE:
+            name = fault.name.lower().replace("_", " ")
+            return {
+                "kind": "bad",
+                "head": f"Fault {int(fault)}: {name}",
+                "more": self._remedy(fault),
+            }
+        if run.done:
+            by = "" if run.report is None else f" Ended by: {run.report.ended_by}."
+            return {"kind": "free", "head": "At rest", "more": f"The drives have no power.{by}"}
+        return verdict(run)
+
+    def _remedy(self, fault: Fault) -> str:
+        if fault in BY_MOTION and not self._session.real:
+            return "The law shook the handle, or the hand flung it. Choose a softer world or another law, then Start."
+        return REMEDIES[fault]
+
+
+def _dt(run: Run) -> float:
+    return run._scenario.timing.dt
+
+
+def _last(column: NDArray[Any]) -> list[float]:
+    return [round(float(one), 7) for one in np.atleast_1d(column[-1])]
+
+
+def strips(view: Any, first: int, dt: float) -> dict[str, Any]:
+    """Return every eighth row, in the ticks that are multiples of it, along the first axis; forces as they were."""
+    every = max(1, round(STEP / dt))
+    rows = slice((-first) % every, None, every)
+
+    def axis(name: str) -> NDArray[Any]:
+        column: NDArray[Any] = view[name]
+        return column[:, 0] if column.ndim > 1 else column
+
+    def plain(values: NDArray[Any]) -> list[float]:
+        return [float(one) for one in np.round(np.nan_to_num(values[rows].astype(float)), 6)]
+
+    work = view["work"]
+    found = {name: plain(axis(name)) for name in ("t", "x", "f_env", "f_cmd", "f_meas")}
+    found["energy"] = plain(work.sum(axis=1) if work.ndim > 1 else work)
+    if "law.beta" in view:
+        found["beta"] = plain(axis("law.beta"))
+    return found
+
+
+def verdict(run: Run) -> dict[str, str]:
+    """Return what the last seconds were like: `kind` good, fair, bad or free, a headline, a sentence behind it."""
+    tail = run.tail(round(JUDGED / _dt(run)))
+    acts = tail["state"] == LoopState.RUN
+    if acts.sum() * _dt(run) < 0.5:
+        return {"kind": "free", "head": "Starting", "more": "The force comes in."}
+    touched = [k for k in range(tail.axes) if np.abs(tail.axis("f_env", k)[acts]).max() > 0]
+    if not touched:
+        return {"kind": "free", "head": "Free air", "more": "Drag the hand into the world."}
+    worst = max((_measured(tail, k, acts) for k in touched), key=lambda one: one["swing"])
+    if not worst["swing"] < STILL_SWING:
+        at = worst["limit_cycle"]
+        often = f" at {at:.0f} Hz" if np.isfinite(at) else ""
+        return {
+            "kind": "bad",
+            "head": f"Swings by {1e3 * worst['swing']:.2g} mm",
+            "more": f"The handle goes to and fro{often}.",
+        }
+    times = worst["perceived"]
+    if not times < PERCEIVED:
+        return {
+            "kind": "fair",
+            "head": "Buzzes",
+            "more": f"Still, but its force vibrates at {times:.2g} times the threshold of touch.",
+        }
+    return {
+        "kind": "good",
+        "head": "Still and quiet",
+        "more": "Its force vibrates below the threshold of touch.",
+    }
+
+
+def _measured(tail: Any, axis: int, acts: NDArray[np.bool_]) -> dict[str, float]:
+    found: dict[str, float] = _measure_contact(
+        t=tail["t"][acts], x=tail.axis("x", axis)[acts], force=tail.axis("f_applied", axis)[acts],
+        energy=None, stored=None, clamped=None, pull=None,
+    )  # fmt: skip
+    return found

@@ -1,0 +1,330 @@
+"""The server of `ebac live`: one page, one socket, in a thread beside the loop."""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import json
+import threading
+from concurrent.futures import ThreadPoolExecutor
+from http import HTTPStatus
+from types import TracebackType
+from typing import TYPE_CHECKING, Any, Self
+
+from ebac.live.choices import RANGES, options
+from ebac.live.frames import Frames
+from ebac.live.gate import Gate
+from ebac.live.messages import LONGEST, MalformedError, read
+from ebac.live.orders import carry_out
+from ebac.live.served_page import answer, served_page
+from ebac.live.session import Session
+from ebac.live.surface import surface
+
+if TYPE_CHECKING:
+    from websockets.asyncio.server import Server as Socket
+    from websockets.asyncio.server import ServerConnection
+    from websockets.http11 import Request, Response
+
+#: Time between two frames [s], and the shortest after a drag.
+FRAME, SOON = 1 / 30, 1 / 60
+#: Malformed messages after which a page is cut off; messages a second that a page may send.
+MOST_MALFORMED, MOST_MESSAGES = 100, 400
+#: Messages that are done before the next one is read.
+AT_ONCE = ("hold", "release", "drag", "drop", "mode")
+#: What a page that cannot keep up may leave unread before frames are left out [bytes].
+MOST_WAITING = 200_000
+
+
+class Server:
+    """Serves a session to browsers, one of which controls it. A context manager.
+
+    Parameters
+    ----------
+    session : Session
+        What is shown; the caller closes it.
+    host : str
+        Where it listens; other machines see it under an address that is not loopback.
+    port : int
+        0 for a free one.
+    control : bool
+        Whether any page may control it.
+
+    Attributes
+    ----------
+    gate : Gate
+        Tokens and addresses: `server.gate.url()`.
+
+    Raises
+    ------
+    ImportError
+        Without websockets.
+    OSError
+        When the address cannot be had.
+    """
+
+    def __init__(
+        self,
+        session: Session,
+        *,
+        host: str = "127.0.0.1",
+        port: int = 0,
+        control: bool = True,
+    ) -> None:
+        try:
+            import websockets.asyncio.server
+        except ImportError as error:
+            raise ImportError(
+                "the live server needs websockets: pip install 'ebac[live]'"
+            ) from error
+        del websockets
+        self.session = session
+        self.frames_sent = 0
+        self.malformed = 0
+        self._control = control
+        self._frames = Frames(session)
+        self._pages: dict[ServerConnection, str] = {}
+        self._controller: ServerConnection | None = None
+        self._work = ThreadPoolExecutor(1, thread_name_prefix="ebac-live-work")
+        self._shape: tuple[Any, str] = (None, "")
+        self._tasks: set[asyncio.Task[None]] = set()
+        self._drawn: dict[ServerConnection, str] = {}
+        self._notice = ""
+        self._ready = threading.Event()
+        self._failed: BaseException | None = None
+        self._thread = threading.Thread(
+            target=self._run, args=(host, port), name="ebac-live-server", daemon=True
+        )
+        self._thread.start()
+        self._ready.wait()
+        if self._failed is not None:
+            raise self._failed
+
+    def close(self) -> None:
+        """End it; the session goes on."""
+        if self._thread.is_alive():
+            self._loop.call_soon_threadsafe(self._end.set)
+            self._thread.join()
+        self._work.shutdown()
+
+    @property
+    def pages(self) -> int:
+        """How many browsers are attached."""
+        return len(self._pages)
+
+    # --- its thread ---
+
+    def _run(self, host: str, port: int) -> None:
+        try:
+            asyncio.run(self._serve(host, port))
+        except BaseException as error:  # for the caller
+            self._failed = error
+            self._ready.set()
+
+    async def _serve(self, host: str, port: int) -> None:
+        from websockets.asyncio.server import serve
+
+        self._loop, self._end = asyncio.get_running_loop(), asyncio.Event()
+        self._dragged = asyncio.Event()
+        listener: Socket
+        async with serve(
+            self._page,
+            host,
+            port,
+            process_request=self._request,
+            max_size=LONGEST * 4,
+            max_queue=64,
+            compression=None,
+            ping_interval=10,
+            ping_timeout=10,
+            close_timeout=1,
+            server_header=None,
+        ) as listener:
+            self.gate = Gate(host=host, port=next(iter(listener.sockets)).getsockname()[1])
+            self._html = self._loop.run_in_executor(None, served_page)
+            frames = asyncio.create_task(self._send_frames())
+            self._ready.set()
+            await self._end.wait()
+            frames.cancel()
+
+    async def _request(self, connection: ServerConnection, request: Request) -> Response | None:
+        headers = request.headers
+        socket = "websocket" in (headers.get("Upgrade") or "").lower()
+        host, origin = headers.get("Host"), headers.get("Origin")
+        refused = self.gate.refuses(request.path, host=host, origin=origin, socket=socket)
+        if refused is not None:
+            return connection.respond(refused[0], f"{refused[1]}\n")
+        path = request.path.partition("?")[0]
+        if socket:
+            return None if path == "/socket" else connection.respond(HTTPStatus.NOT_FOUND, "")
+        if path != "/":
+            return connection.respond(HTTPStatus.NOT_FOUND, "there is one page: /\n")
+        return answer(connection, (await self._html).encode())
+
+    async def _page(self, page: ServerConnection) -> None:
+        """Serve a browser until it goes."""
+        from websockets.exceptions import ConnectionClosed
+
+        assert page.request is not None
+        role = self.gate.role(page.request.path) or "watch"
+        self._pages[page] = role
+        if self._controller is None and self._may_control(page):
+            self._controller = page
+        begun, count, bad = self._loop.time(), 0, 0
+        try:
+            await self._send_state()
+            await page.send(json.dumps({"kind": "history", "strips": self._frames.history()}))
+            async for raw in page:
+                count += 1
+                if self._loop.time() - begun > 1:
+                    begun, count = self._loop.time(), 0
+                if count > MOST_MESSAGES:
+                    continue
+                try:
+                    await self._take(page, read(raw))
+                except MalformedError as error:
+                    bad, self.malformed = bad + 1, self.malformed + 1
+                    if bad > MOST_MALFORMED:
+                        await page.close(1008, "too many malformed messages")
+                        break
+                    await page.send(json.dumps({"kind": "error", "text": f"message {error}"}))
+        except ConnectionClosed:
+            pass  # without a farewell
+        finally:
+            del self._pages[page]
+            self._drawn.pop(page, None)
+            if self._controller is page:
+                self._controller = None
+                self.session.let_go()
+                self.session.hand.leave()
+            await self._send_state()
+
+    def _may_control(self, page: ServerConnection) -> bool:
+        return self._control and self._pages.get(page) == "control"
+
+    async def _take(self, page: ServerConnection, message: dict[str, Any]) -> None:
+        """Do what a page asks, if it may."""
+        kind = message["kind"]
+        if kind == "take":
+            if self._controller is None and self._may_control(page):
+                self._controller = page
+            await self._send_state()
+            return
+        if page is not self._controller:
+            await page.send(json.dumps({"kind": "error", "text": "this page only watches"}))
+            return
+        if kind in AT_ONCE:
+            await self._do(page, message)
+            return
+        # Beside the reading: whoever starts goes on holding the dead-man key.
+        task = asyncio.create_task(self._do(page, message))
+        self._tasks.add(task)
+        task.add_done_callback(self._tasks.discard)
+
+    async def _do(self, page: ServerConnection, message: dict[str, Any]) -> None:
+        """Do it, and report what came of it."""
+        try:
+            await self._done(message)
+        except (ValueError, KeyError, RuntimeError, OSError) as error:
+            text = str(error.args[0] if isinstance(error, KeyError) else error)
+            await _send(page, json.dumps({"kind": "error", "text": text}))
+            await self._send_state()
+
+    async def _done(self, message: dict[str, Any]) -> None:
+        session, kind = self.session, message["kind"]
+        if kind == "hold":
+            session.hold()
+        elif kind == "release":
+            session.let_go()
+        elif kind == "drag":
+            session.hand.drag(message["place"])
+            self._dragged.set()
+        elif kind == "drop":
+            pass  # the hand stays where it was dragged to
+        elif kind == "mode":
+            session.hand.set_mode(message["mode"])
+        else:
+            self._notice = await self._loop.run_in_executor(
+                self._work, carry_out, self.session, message
+            )
+            await self._send_state()
+
+    # --- what it sends ---
+
+    async def _send_state(self) -> None:
+        """Send every page what is chosen, and whether it controls."""
+        state = json.dumps(await self._loop.run_in_executor(self._work, self._state))[:-1]
+        shape = self._shape[1]
+        for page in list(self._pages):
+            if self._drawn.get(page) is not shape:
+                self._drawn[page] = shape
+                await _send(page, shape)
+            role = "control" if page is self._controller else "watch"
+            free = self._controller is None and self._may_control(page)
+            await _send(page, f'{state}, "role": "{role}", "free": {json.dumps(free)}}}')
+
+    def _state(self) -> dict[str, Any]:
+        session = self.session
+        world = session.scenario.environment
+        if self._shape[0] != world:
+            vertices, triangles = surface(world)
+            places = (1e5 * vertices).round().astype(int)
+            shape = [places.ravel().tolist(), triangles.ravel().tolist()]
+            self._shape = world, json.dumps({"kind": "shape", "shape": shape})
+        return {
+            "kind": "state",
+            "choices": session.choices.row(),
+            "options": options(),
+            "ranges": RANGES,
+            "axes": session.hand.axes,
+            "mode": session.hand.mode,
+            "real": session.real,
+            "dead_man": session.dead_man,
+            "running": session.running,
+            "recording": session.run is not None and session.run.recorder is not None,
+            "notice": self._notice,
+            "pages": len(self._pages),
+        }
+
+    async def _send_frames(self) -> None:
+        ran = self.session.running
+        last, due = -1.0, self._loop.time()
+        while True:
+            due = max(due + FRAME, self._loop.time())
+            try:
+                async with asyncio.timeout_at(due):
+                    await self._dragged.wait()
+                self._dragged.clear()
+                await asyncio.sleep(max(0.0, SOON - (self._loop.time() - last)))
+            except TimeoutError:
+                pass
+            last = self._loop.time()
+            if not self._pages:
+                continue
+            if ran != self.session.running:  # ended by itself
+                ran = not ran
+                await self._send_state()
+            text = json.dumps(self._frames.frame())
+            self.frames_sent += 1
+            for page in list(self._pages):
+                if page.transport.get_write_buffer_size() < MOST_WAITING:
+                    await _send(page, text)
+
+    def __enter__(self) -> Self:
+        """Return the server."""
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        traceback: TracebackType | None,
+    ) -> None:
+        """End it."""
+        self.close()
+
+
+async def _send(page: ServerConnection, text: str) -> None:
+    from websockets.exceptions import ConnectionClosed
+
+    with contextlib.suppress(ConnectionClosed):
+        await page.send(text)

@@ -1,0 +1,75 @@
+"""`ebac.live.serve()`: the live page of a loop in real time, from Python."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from ebac.hardware import Configuration, OpenDevice
+from ebac.live.server import Server
+from ebac.live.session import Session
+from ebac.scenario import Scenario
+
+
+@contextmanager
+def serve(
+    given: Scenario | Configuration | None = None,
+    *,
+    device: OpenDevice | None = None,
+    law: str | None = None,
+    host: str = "127.0.0.1",
+    port: int = 0,
+    allow_control: bool = False,
+    dead_man: bool = False,
+    folder: str | Path = ".",
+) -> Iterator[Server]:
+    """Run a loop in real time and serve the page on which it is seen, moved and changed, until the end of the block.
+
+    Without a device all is simulated, and the loop starts at once. A device that is given must be open, with its zero
+    confirmed; nothing moves until somebody with `allow_control` holds the page's dead-man key.
+
+    Parameters
+    ----------
+    given : Scenario or Configuration, optional
+        What to begin with; default: the paper's joystick at a wall of 10 kN/m.
+    device : OpenDevice, optional
+        Hardware; it stays open.
+    law : str, optional
+        The law to begin with; default: that of the configuration, or "ebac".
+    host : str
+        Where to listen; another than 127.0.0.1 lets other machines in that know the token, unencrypted.
+    port : int
+        0 for a free one.
+    allow_control : bool
+        Whether a page may control hardware; a simulation always.
+    dead_man : bool
+        Whether a simulation needs the dead-man key, too.
+    folder : path
+        Where logs and scenarios go.
+
+    Yields
+    ------
+    Server
+        `server.gate.url()` is the address to open, `server.session` the loop.
+
+    Raises
+    ------
+    ImportError
+        Without websockets (`pip install 'ebac[live]'`).
+    OSError
+        When host and port cannot be had.
+
+    Examples
+    --------
+    >>> with ebac.live.serve(ebac.Scenario(), law="tca") as server:  # doctest: +SKIP
+    ...     print(server.gate.url())
+    ...     server.session.change(law="ebac", stiffness=2e4)
+    ...     input("Enter ends it")
+    """
+    with Session(given, device=device, dead_man=dead_man, law=law, folder=folder) as session:
+        control = allow_control or not session.real
+        with Server(session, host=host, port=port, control=control) as server:
+            if not session.dead_man:
+                session.start()
+            yield server

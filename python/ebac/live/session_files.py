@@ -1,0 +1,63 @@
+"""Files that a session writes: logs of its rows, its scenario."""
+
+from __future__ import annotations
+
+import threading
+from datetime import datetime
+from pathlib import Path
+
+from ebac.hardware import Run
+from ebac.live.choices import Choices
+from ebac.scenario import Scenario
+
+
+class SessionFiles:
+    """Logs and scenarios of a session, named by the time."""
+
+    choices: Choices
+    run: Run | None
+    folder: Path
+    kept: list[Path]
+    _lock: threading.RLock
+
+    @property
+    def scenario(self) -> Scenario:
+        """What runs."""
+        raise NotImplementedError
+
+    def record(self) -> Path:
+        """Write the rows to a log from here on, named by the time; return its path."""
+        with self._lock:
+            run = self.run
+            if run is None or run.done:
+                raise RuntimeError("nothing runs: start first, then record")
+            if run.recorder is not None:
+                return run.recorder.path
+            path = self._new(".mcap")
+            run.record(path, files={"choices.txt": repr(self.choices)})
+            self.kept.append(path)
+            return path
+
+    def stop_recording(self) -> int:
+        """Close the log; return its rows."""
+        with self._lock:
+            if self.run is None or self.run.recorder is None:
+                return 0
+            recorder, self.run.recorder = self.run.recorder, None
+            recorder.close()
+            return recorder.written
+
+    def save(self) -> Path:
+        """Write the scenario to a TOML file, named by the time; return its path."""
+        with self._lock:
+            path = self._new(".toml")
+            with path.open("x", encoding="utf-8") as file:
+                file.write(f"# law: {self.choices.law}\n{self.scenario.to_toml()}")
+            self.kept.append(path)
+            return path
+
+    def _new(self, suffix: str) -> Path:
+        self.folder.mkdir(parents=True, exist_ok=True)
+        stem = f"live-{datetime.now():%Y%m%d-%H%M%S}"
+        names = (f"{stem}{n}{suffix}" for n in ("", *(f"-{k}" for k in range(1, 1000))))
+        return next(self.folder / name for name in names if not (self.folder / name).exists())

@@ -1,0 +1,235 @@
+"""Who may see and control the live server; what no page can do to the loop."""
+
+import asyncio
+import contextlib
+import json
+import time
+import urllib.error
+import urllib.request
+from collections.abc import Awaitable, Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from ebac.live.gate import Gate
+from ebac.live.messages import MalformedError, read
+from ebac.live.serving import serve
+
+websockets = pytest.importorskip("websockets.asyncio.client")
+from websockets.exceptions import ConnectionClosed, InvalidStatus  # noqa: E402
+
+
+@pytest.fixture
+def server(tmp_path: Path) -> Iterator[Any]:
+    with serve(folder=tmp_path) as one:
+        yield one
+
+
+def socket(server: Any, role: str = "control", origin: str | None = None, **more: Any) -> Any:
+    gate = server.gate
+    secret = {"control": gate.control, "watch": gate.watch}.get(role, role)
+    own = f"http://127.0.0.1:{gate.port}"
+    url = f"ws://127.0.0.1:{gate.port}/socket?token={secret}"
+    return websockets.connect(url, origin=own if origin is None else origin, max_queue=None, **more)
+
+
+def ask(what: Callable[[], Awaitable[None]]) -> None:
+    asyncio.run(asyncio.wait_for(what(), 30))
+
+
+async def until(page: Any, kind: str, **wanted: Any) -> dict[str, Any]:
+    while True:
+        message = json.loads(await page.recv())
+        if message["kind"] == kind and all(message.get(k) == v for k, v in wanted.items()):
+            return message
+
+
+def status(url: str, **headers: str) -> int:
+    request = urllib.request.Request(url, headers=headers)
+    try:
+        with urllib.request.urlopen(request, timeout=5) as answer:
+            return int(answer.status)
+    except urllib.error.HTTPError as error:
+        return error.code
+
+
+def test_the_page_needs_its_token_and_its_own_name(server: Any) -> None:
+    base = f"http://127.0.0.1:{server.gate.port}/"
+    with urllib.request.urlopen(server.gate.url(), timeout=5) as answer:
+        assert b"ebac live" in answer.read()
+        assert "default-src 'none'" in answer.headers["Content-Security-Policy"]
+    assert status(base) == 403
+    assert status(f"{base}?token=wrong") == 403
+    assert status(server.gate.url("watch")) == 200
+    assert status(server.gate.url(), Host="evil.example") == 403
+    assert status(f"{base}other?token={server.gate.control}") == 404
+
+
+@pytest.mark.parametrize(
+    ("role", "origin"),
+    [
+        ("control", "http://evil.example"),
+        ("control", "http://localhost:1"),
+        ("control", "null"),
+        ("wrong", None),
+        ("", None),
+    ],
+)
+def test_the_socket_needs_its_token_and_origin(server: Any, role: str, origin: str | None) -> None:
+    async def opened() -> None:
+        with pytest.raises(InvalidStatus) as caught:
+            async with socket(server, role, origin):
+                pass
+        assert caught.value.response.status_code == 403
+
+    ask(opened)
+
+
+def test_an_origin_must_be_given(server: Any) -> None:
+    gate = Gate(host="127.0.0.1", port=80, control="c", watch="w")
+    assert gate.refuses("/socket?token=c", host="127.0.0.1:80", origin=None, socket=True)
+    assert gate.refuses("/?token=c", host=None, origin=None, socket=False)
+    assert gate.refuses("/?token=c", host="127.0.0.1:80", origin=None, socket=False) is None
+
+
+def test_one_controls_and_many_watch(server: Any) -> None:
+    async def opened() -> None:
+        async with (
+            socket(server) as first,
+            socket(server) as second,
+            socket(server, "watch") as third,
+        ):
+            await until(first, "state", role="control")
+            for other in (second, third):
+                await until(other, "state", role="watch")
+                for message in (
+                    {"kind": "change", "name": "law", "value": "tca"},
+                    {"kind": "pause"},
+                ):
+                    await other.send(json.dumps(message))
+                    assert "only watches" in (await until(other, "error"))["text"]
+            assert server.session.choices.law == "ebac"
+            await first.send(json.dumps({"kind": "change", "name": "law", "value": "tca-damped"}))
+            await until(second, "state", notice="law = tca-damped: changed while it runs")
+            await first.close()
+            await until(third, "state", free=False)
+            await until(second, "state", free=True)
+            await third.send(json.dumps({"kind": "take"}))
+            await second.send(json.dumps({"kind": "take"}))
+            await until(second, "state", role="control")
+
+    ask(opened)
+    assert server.session.choices.law == "tca-damped"
+    assert server.session.starts == 1
+
+
+WRONG = [
+    "", "{", "[]", "null", "{}", '{"kind": 1}', '{"kind": "limits"}', '{"kind": "drag"}',
+    '{"kind": "drag", "place": [NaN]}', '{"kind": "drag", "place": ["a"]}', '{"kind": "drag", "place": [true]}',
+    '{"kind": "change", "name": "law", "value": {}}', '{"kind": "start", "force": true}', "[" * 2000, "x" * 5000,
+    b"\x00\xff",
+]  # fmt: skip
+
+
+@pytest.mark.parametrize("raw", WRONG)
+def test_a_malformed_message_is_refused(raw: str | bytes) -> None:
+    with pytest.raises(MalformedError):
+        read(raw)
+
+
+def test_malformed_messages_by_the_thousand_do_not_reach_the_loop(server: Any) -> None:
+    async def flood(seed: int) -> None:
+        random = np.random.default_rng(seed)
+        async with socket(server) as page:
+            with contextlib.suppress(ConnectionClosed):
+                for k in range(1000):
+                    raw = WRONG[k % len(WRONG)] if k % 2 else random.bytes(60).decode("latin-1")
+                    await page.send(raw)
+                await page.wait_closed()
+            assert page.close_code in (1008, 1009)
+
+    run = server.session.run
+    for seed in range(3):
+        ask(lambda seed=seed: flood(seed))
+    assert server.malformed > 200
+    assert server.session.run is run
+    assert server.session.running
+    assert not server.session.fault
+
+
+def test_values_out_of_range_are_answered_and_change_nothing(server: Any) -> None:
+    before = server.session.choices
+
+    async def opened() -> None:
+        async with socket(server) as page:
+            for message, text in (
+                ({"kind": "drag", "place": [1e9, 0]}, "must be 2 numbers in"),
+                ({"kind": "drag", "place": [0.0]}, "must be 2 numbers in"),
+                ({"kind": "change", "name": "stiffness", "value": 1e9}, "must lie in [100, 50000]"),
+                ({"kind": "change", "name": "limits", "value": 9}, "no setting is called 'limits'"),
+                ({"kind": "mode", "mode": "fly"}, "must be one of press, tap, rest"),
+            ):
+                await page.send(json.dumps(message))
+                assert text in (await until(page, "error"))["text"]
+
+    ask(opened)
+    assert server.session.choices == before
+
+
+def test_a_page_that_goes_while_it_drags_leaves_a_hand_that_lets_go(server: Any) -> None:
+    async def opened() -> None:
+        async with socket(server) as page:
+            await until(page, "state", role="control")
+            await page.send(json.dumps({"kind": "drag", "place": [0.03, 0.0]}))
+            await asyncio.sleep(1.5)
+            page.transport.abort()
+
+    def pressed() -> float:
+        return abs(float(server.session.run.tail(50).axis("f_meas", 0).mean()))
+
+    ask(opened)
+    held = pressed()
+    assert held > 4
+    time.sleep(0.3)
+    assert pressed() == pytest.approx(held, abs=0.5)  # it holds
+    time.sleep(1.5)
+    assert pressed() < 0.1 * held  # it let go
+    assert server.session.running
+
+
+def test_without_allow_control_nobody_controls_and_the_dead_man_key_ends_with_its_page(
+    tmp_path: Path,
+) -> None:
+    with serve(dead_man=True, folder=tmp_path) as server:
+
+        async def opened() -> None:
+            async with socket(server) as page:
+                await until(page, "state", running=False)
+                await page.send(json.dumps({"kind": "start"}))
+                assert "nobody holds the dead-man key" in (await until(page, "error"))["text"]
+                await page.send(json.dumps({"kind": "hold"}))
+                await page.send(json.dumps({"kind": "start"}))
+                for _ in range(15):
+                    await page.send(json.dumps({"kind": "hold"}))
+                    await asyncio.sleep(0.1)
+                assert server.session.running
+                page.transport.abort()
+
+        ask(opened)
+        gone = time.monotonic()
+        while server.session.running:
+            assert time.monotonic() - gone < 1.5
+            time.sleep(0.01)
+        server._control = False  # as hardware without --allow-control
+
+        async def refused() -> None:
+            async with socket(server) as page:
+                assert (await until(page, "state"))["role"] == "watch"
+                await page.send(json.dumps({"kind": "take"}))
+                await page.send(json.dumps({"kind": "hold"}))
+                assert "only watches" in (await until(page, "error"))["text"]
+
+        ask(refused)
+        assert not server.session.running

@@ -1,0 +1,163 @@
+"""A loop that is changed while it runs, as the page of `ebac live` does."""
+
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import ebac
+from ebac.live.choices import Choices, options
+from ebac.live.frames import Frames
+from ebac.live.session import Session
+
+
+@pytest.fixture
+def session(tmp_path: Path) -> Iterator[Session]:
+    with Session(folder=tmp_path) as one:
+        yield one
+
+
+def until(true: Callable[[], bool], seconds: float = 10.0) -> None:
+    end = time.monotonic() + seconds
+    while not true():
+        assert time.monotonic() < end, "it did not come"
+        time.sleep(0.02)
+
+
+def in_contact(session: Session) -> bool:
+    assert session.run is not None
+    tail = session.run.tail(300)
+    return len(tail) == 300 and bool(np.abs(tail.axis("f_env", 0)).min() > 5)
+
+
+def test_law_world_and_delay_change_while_the_loop_runs(session: Session) -> None:
+    session.change(observer=False)
+    session.start()
+    until(lambda: in_contact(session))
+    run = session.run
+    assert run is not None
+    for change in (
+        {"law": "eba"},
+        {"delay": 3},
+        {"delay": 1},
+        {"stiffness": 5e3},
+        {"world": "sphere"},
+    ):
+        assert session.change(**change) is False
+        time.sleep(0.15)
+    assert session.run is run
+    assert session.starts == 1
+    assert run.law.name == "eba"
+    kinds = [what for _, _, what in run._running.changes(0)]
+    assert kinds == ["law", "law", "delay", "law", "delay", "environment", "environment"]
+    log = session.record()
+    session.change(law="ebac")
+    time.sleep(0.1)
+    assert session.stop_recording() > 50
+    events = ebac.logs.read(log).events
+    assert any("eba -> EBAC" in one.message for one in events)
+
+
+def test_a_law_that_takes_over_makes_no_step(session: Session) -> None:
+    session.start()
+    until(lambda: in_contact(session))
+    assert session.run is not None
+    time.sleep(0.5)
+    session.change(law="direct")
+    time.sleep(0.2)
+    tail = session.run.tail(400)
+    tick = session.run._running.changes(0)[0][0]
+    at = int(np.searchsorted(tail["tick"], tick))
+    force = tail.axis("f_cmd", 0)
+    assert abs(force[at] - force[at - 1]) < 1e-6
+    assert np.all(tail["law.energy"][at:] == 0)  # columns of the first law
+
+
+def test_what_needs_a_restart_is_restarted(session: Session) -> None:
+    session.start()
+    assert session.choices.observer
+    assert session.change(delay=2) is True
+    assert session.starts == 2
+    session.change(observer=False, hand="finger")
+    assert session.change(delay=1) is False
+    session.change(device="joystick-3")
+    assert session.run is not None
+    until(lambda: session.run.ticks > 200)  # type: ignore[union-attr]
+    assert session.run.tail(1).axes == 3
+    assert not session.fault
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ({"law": "magic"}, "magic"),
+        ({"stiffness": 1e9}, r"must lie in \[100, 50000\]"),
+        ({"stiffness": float("nan")}, "must lie in"),
+        ({"delay": 1.5}, "must lie in"),
+        ({"observer": 1}, "true or false"),
+        ({"limits": 3}, "limits"),
+    ],
+)
+def test_what_cannot_be_is_refused_by_name(change: dict[str, object], message: str) -> None:
+    with pytest.raises((ValueError, KeyError), match=message):
+        Choices().with_changes(change)
+
+
+def test_every_name_can_be_chosen() -> None:
+    for name, values in options().items():
+        for value in values:
+            assert Choices().with_changes({name: value}).row()[name] == value
+
+
+def test_dragging_moves_the_handle_and_leaving_lets_the_force_fade(session: Session) -> None:
+    session.start()
+    until(lambda: session.run is not None and session.run.ticks > 400)
+    session.hand.drag([0.03, 0.0])
+    until(lambda: session.hand.place == [0.03, 0.0] and in_contact(session))
+    assert session.run is not None
+    time.sleep(0.5)
+    held = abs(float(session.run.tail(50).axis("f_meas", 0).mean()))
+    assert held == pytest.approx(300 * (0.03 - 0.0106), abs=0.4)
+    session.hand.leave()
+    time.sleep(0.3)
+    assert abs(float(session.run.tail(50).axis("f_meas", 0).mean())) == pytest.approx(held, abs=0.3)
+    time.sleep(1.2)
+    assert abs(float(session.run.tail(50).axis("f_meas", 0).mean())) < 0.1 * held
+    assert session.running
+
+
+def test_a_dead_man_key_starts_and_stops_it(tmp_path: Path) -> None:
+    with Session(dead_man=True, folder=tmp_path) as session:
+        with pytest.raises(PermissionError, match="dead-man key"):
+            session.start()
+        session.hold()
+        session.start()
+        for _ in range(20):
+            session.hold()
+            time.sleep(0.05)
+        assert session.running
+        released = time.monotonic()
+        until(lambda: not session.running, 3)
+        assert time.monotonic() - released < 1.5
+        until(lambda: session.run is not None and session.run.report is not None)
+        report = session.run.report  # type: ignore[union-attr]
+        assert report is not None
+        assert report.ended_by == "dead-man key"
+        assert all(state == "switch on disabled" for state in report.drives), report.drives
+
+
+def test_frames_have_rows_words_and_history(session: Session) -> None:
+    frames = Frames(session)
+    assert frames.frame()["verdict"]["head"] == "At rest"
+    session.start()
+    until(lambda: in_contact(session))
+    time.sleep(2)
+    frame = frames.frame()
+    assert frame["state"] == "run"
+    assert frame["verdict"]["kind"] in ("good", "fair")
+    assert len(frame["strips"]["t"]) == len(frame["strips"]["energy"]) > 100
+    assert 0.0104 < frame["x"][0] < 0.02
+    saved = session.save()
+    assert ebac.Scenario.load(saved).hand.path[0].target == pytest.approx(0.04)
