@@ -116,7 +116,7 @@ class Session(SessionFiles):
         Raises
         ------
         PermissionError
-            With a dead-man key that nobody holds.
+            With a dead-man key that nobody holds; on hardware after a fault.
         """
         with self._lock:
             if self.running:
@@ -132,10 +132,12 @@ class Session(SessionFiles):
                     known, simulate=True, longest_step=LONGEST_STEP * known.timing.dt
                 )
             if self._device.report is not None and self._device.report.ended_by == "fault":
-                confirmed = self._device.confirmed
+                if self.real:
+                    raise PermissionError(
+                        "the last run ended by a fault: look at the device, end `ebac live`, start it again; it asks "
+                        "for the zero anew"
+                    )
                 self._device.reset()
-                if confirmed:
-                    self._device.confirm_zero()
             base = self._device.configuration
             if not self._lent:
                 self.hand = IntendedHand(base, goal=self.hand.goal, mode=self.hand.mode)
