@@ -21,6 +21,7 @@ void bind_sensor(pybind11::module_& m);
 void bind_sensor_emulator(pybind11::module_& m);
 void bind_drives(pybind11::module_& m);
 void bind_node_server(pybind11::module_& m);
+void bind_gastroscope(pybind11::module_& m);
 void bind_linear_loop(pybind11::module_& m);
 void bind_identify(pybind11::module_& m);
 void bind_can_plan(pybind11::module_& m);

@@ -14,17 +14,13 @@
 #include "ebac/world/make.hpp"
 #include "engines.hpp"
 #include "fields.hpp"
+#include "held_solid.hpp"
 
 namespace ebac::python {
 
 namespace {
 
 using namespace ebac::world;
-
-/// A solid as Python holds it.
-struct HeldSolid {
-  SolidPtr solid;
-};
 
 using Points = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
 template <class T>

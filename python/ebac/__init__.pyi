@@ -14,6 +14,9 @@ from ebac import (
     faults as faults,
 )
 from ebac import (
+    gastroscope as gastroscope,
+)
+from ebac import (
     hands as hands,
 )
 from ebac import (

@@ -81,14 +81,18 @@ __all__: list[str] = [
     "LoopbackHub",
     "LoopbackJoystick",
     "LowPass",
+    "Master",
     "Mechanics",
     "MinimumJerk",
     "Motor",
     "NonlinearGrip",
     "Observer",
     "PassivityControl",
+    "Patient",
+    "Physician",
     "Plane",
     "PlannedFrame",
+    "Polyp",
     "Port",
     "RdtClient",
     "RdtEmulator",
@@ -103,6 +107,7 @@ __all__: list[str] = [
     "RunPlan",
     "RunSetup",
     "Running",
+    "Scope",
     "SensorModel",
     "SensorStatus",
     "Setup",
@@ -7704,6 +7709,814 @@ class Running:
         Ticks not recorded because the trace was full.
         """
 
+class Scope:
+    """
+    A gastroscope whose four axes are driven by motors.
+
+    Parameters
+    ----------
+    diameter : float
+        outer diameter [m], 0.001 to 0.02.
+    section : float
+        length of the bending section [m], 0.01 to 0.2.
+    tip : float
+        length of the stiff tip ahead of it [m], 0 to 0.05.
+    most_bend : float
+        largest bend [rad], 0.1 to 4.
+    bend_speed : float
+        largest speed of a bending motor [rad/s], 0.01 to 50.
+    insertion_speed : float
+        largest speed of the insertion motor [m/s], 0.001 to 1.
+    rotation_speed : float
+        largest speed of the rotation motor [rad/s], 0.01 to 50.
+    lag : float
+        time constant of every motor's position loop [s], 0.001 to 1.
+    most_torque : float
+        load at which a bending motor stands still [N m], 0.01 to 10.
+    most_push : float
+        load at which the insertion motor stands still [N], 0.1 to 100.
+    backlash : float
+        slack of the tendons, from end to end, at the tip [rad], 0 to 1.
+    hysteresis : float
+        share of the bend that follows through friction in the sheaths, 0 to 0.9.
+    hysteresis_width : float
+        width of that friction, from end to end, at the tip [rad], 0 to 2.
+    bend_stiffness : float
+        of the section under a load, motors held [N m/rad], 0.05 to 50.
+    bend_damping : float
+        of the same [N m s/rad], 0.001 to 10.
+    flexural_rigidity : float
+        E I of the insertion tube [N m^2], 1e-04 to 1.
+    axial_stiffness : float
+        of the insertion tube between motor and tip [N/m], 50 to 1e+05.
+    axial_damping : float
+        of the same [N s/m], 0.1 to 1000.
+    friction : float
+        Coulomb's coefficient between tube and wall, 0 to 1.
+    """
+
+    @staticmethod
+    def fields() -> list[Field]:
+        """
+        Return name, unit, meaning, default and range of every parameter.
+        """
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __init__(
+        self,
+        *,
+        diameter: float = 0.0092,
+        section: float = 0.07,
+        tip: float = 0.012,
+        most_bend: float = 2.9,
+        bend_speed: float = 2.0,
+        insertion_speed: float = 0.08,
+        rotation_speed: float = 3.0,
+        lag: float = 0.03,
+        most_torque: float = 0.6,
+        most_push: float = 15.0,
+        backlash: float = 0.1,
+        hysteresis: float = 0.15,
+        hysteresis_width: float = 0.2,
+        bend_stiffness: float = 1.0,
+        bend_damping: float = 0.05,
+        flexural_rigidity: float = 0.015,
+        axial_stiffness: float = 1500.0,
+        axial_damping: float = 20.0,
+        friction: float = 0.1,
+    ) -> None: ...
+    def __reduce__(self) -> tuple[typing.Any, ...]: ...
+    def __repr__(self) -> str: ...
+    def as_dict(self) -> dict[str, typing.Any]:
+        """
+        Return the parameters by name.
+        """
+    def replace(self, **changes: typing.Any) -> typing.Self:
+        """
+        Return a copy with some parameters changed, checked as at construction.
+        """
+    @property
+    def axial_damping(self) -> float:
+        """
+        of the same [N s/m], 0.1 to 1000
+        """
+    @property
+    def axial_stiffness(self) -> float:
+        """
+        of the insertion tube between motor and tip [N/m], 50 to 1e+05
+        """
+    @property
+    def backlash(self) -> float:
+        """
+        slack of the tendons, from end to end, at the tip [rad], 0 to 1
+        """
+    @property
+    def bend_damping(self) -> float:
+        """
+        of the same [N m s/rad], 0.001 to 10
+        """
+    @property
+    def bend_speed(self) -> float:
+        """
+        largest speed of a bending motor [rad/s], 0.01 to 50
+        """
+    @property
+    def bend_stiffness(self) -> float:
+        """
+        of the section under a load, motors held [N m/rad], 0.05 to 50
+        """
+    @property
+    def diameter(self) -> float:
+        """
+        outer diameter [m], 0.001 to 0.02
+        """
+    @property
+    def flexural_rigidity(self) -> float:
+        """
+        E I of the insertion tube [N m^2], 1e-04 to 1
+        """
+    @property
+    def friction(self) -> float:
+        """
+        Coulomb's coefficient between tube and wall, 0 to 1
+        """
+    @property
+    def hysteresis(self) -> float:
+        """
+        share of the bend that follows through friction in the sheaths, 0 to 0.9
+        """
+    @property
+    def hysteresis_width(self) -> float:
+        """
+        width of that friction, from end to end, at the tip [rad], 0 to 2
+        """
+    @property
+    def insertion_speed(self) -> float:
+        """
+        largest speed of the insertion motor [m/s], 0.001 to 1
+        """
+    @property
+    def lag(self) -> float:
+        """
+        time constant of every motor's position loop [s], 0.001 to 1
+        """
+    @property
+    def most_bend(self) -> float:
+        """
+        largest bend [rad], 0.1 to 4
+        """
+    @property
+    def most_push(self) -> float:
+        """
+        load at which the insertion motor stands still [N], 0.1 to 100
+        """
+    @property
+    def most_torque(self) -> float:
+        """
+        load at which a bending motor stands still [N m], 0.01 to 10
+        """
+    @property
+    def rotation_speed(self) -> float:
+        """
+        largest speed of the rotation motor [rad/s], 0.01 to 50
+        """
+    @property
+    def section(self) -> float:
+        """
+        length of the bending section [m], 0.01 to 0.2
+        """
+    @property
+    def tip(self) -> float:
+        """
+        length of the stiff tip ahead of it [m], 0 to 0.05
+        """
+
+class Patient:
+    """
+    The way from the teeth to behind the pylorus.
+
+    Parameters
+    ----------
+    mouth : float
+        straight way from the teeth to the pharynx [m], 0.01 to 0.15.
+    pharynx : float
+        way from there to the oesophagus [m], 0.05 to 0.3.
+    oesophagus : float
+        length of the oesophagus [m], 0.1 to 0.4.
+    cardia : float
+        length of the cardia [m], 0.01 to 0.1.
+    stomach : float
+        length of the stomach along its middle [m], 0.1 to 0.4.
+    pylorus : float
+        length of the pylorus [m], 0.01 to 0.06.
+    bulb : float
+        what is seen of the duodenum [m], 0.02 to 0.1.
+    pharynx_radius : float
+        radius of the pharynx [m], 0.006 to 0.04.
+    oesophagus_radius : float
+        radius of the oesophagus, insufflated [m], 0.006 to 0.03.
+    cardia_radius : float
+        radius of the open cardia [m], 0.005 to 0.03.
+    stomach_radius : float
+        largest radius of the stomach, insufflated [m], 0.015 to 0.08.
+    pylorus_radius : float
+        radius of the open pylorus [m], 0.005 to 0.02.
+    throat_turn : float
+        turn of the pharynx [rad], 0 to 2.5.
+    cardia_turn : float
+        turn of the cardia to the patient's left [rad], 0 to 1.5.
+    stomach_turn : float
+        turn of the stomach to the right [rad], 0 to 3.
+    stiffness : float
+        of the wall below the instrument [N/m], 10 to 10000.
+    damping : float
+        of the wall [N s/m], 0 to 100.
+    bag_stiffness : float
+        of the stomach as a whole against its place [N/m], 10 to 1e+05.
+    bag_damping : float
+        of the same [N s/m], 0.1 to 1000.
+    peristalsis : float
+        share of the radius that a wave of the oesophagus takes, 0 to 0.5.
+    peristalsis_speed : float
+        of that wave [m/s], 0.001 to 0.2.
+    peristalsis_period : float
+        from wave to wave [s], 1 to 600.
+    antral_depth : float
+        share of the radius that a wave of the antrum takes, 0 to 0.5.
+    antral_speed : float
+        of that wave [m/s], 1e-04 to 0.1.
+    antral_period : float
+        from wave to wave [s], 1 to 600.
+    breathing : float
+        way of the diaphragm up and down, half of it, with all below it [m], 0 to 0.05.
+    breathing_rate : float
+        breaths a second [Hz], 0 to 2.
+    force_limit : float
+        largest force that is called safe [N], 0.1 to 100.
+    perforation : float
+        force that counts as a perforation [N], 0.1 to 200.
+    """
+
+    @staticmethod
+    def fields() -> list[Field]:
+        """
+        Return name, unit, meaning, default and range of every parameter.
+        """
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __init__(
+        self,
+        *,
+        mouth: float = 0.07,
+        pharynx: float = 0.1,
+        oesophagus: float = 0.22,
+        cardia: float = 0.03,
+        stomach: float = 0.24,
+        pylorus: float = 0.02,
+        bulb: float = 0.04,
+        pharynx_radius: float = 0.014,
+        oesophagus_radius: float = 0.01,
+        cardia_radius: float = 0.009,
+        stomach_radius: float = 0.038,
+        pylorus_radius: float = 0.007,
+        throat_turn: float = 1.2,
+        cardia_turn: float = 0.6,
+        stomach_turn: float = 1.7,
+        stiffness: float = 800.0,
+        damping: float = 2.0,
+        bag_stiffness: float = 400.0,
+        bag_damping: float = 20.0,
+        peristalsis: float = 0.15,
+        peristalsis_speed: float = 0.03,
+        peristalsis_period: float = 10.0,
+        antral_depth: float = 0.25,
+        antral_speed: float = 0.0025,
+        antral_period: float = 20.0,
+        breathing: float = 0.01,
+        breathing_rate: float = 0.25,
+        force_limit: float = 6.0,
+        perforation: float = 14.1,
+    ) -> None: ...
+    def __reduce__(self) -> tuple[typing.Any, ...]: ...
+    def __repr__(self) -> str: ...
+    def as_dict(self) -> dict[str, typing.Any]:
+        """
+        Return the parameters by name.
+        """
+    def replace(self, **changes: typing.Any) -> typing.Self:
+        """
+        Return a copy with some parameters changed, checked as at construction.
+        """
+    @property
+    def antral_depth(self) -> float:
+        """
+        share of the radius that a wave of the antrum takes, 0 to 0.5
+        """
+    @property
+    def antral_period(self) -> float:
+        """
+        from wave to wave [s], 1 to 600
+        """
+    @property
+    def antral_speed(self) -> float:
+        """
+        of that wave [m/s], 1e-04 to 0.1
+        """
+    @property
+    def bag_damping(self) -> float:
+        """
+        of the same [N s/m], 0.1 to 1000
+        """
+    @property
+    def bag_stiffness(self) -> float:
+        """
+        of the stomach as a whole against its place [N/m], 10 to 1e+05
+        """
+    @property
+    def breathing(self) -> float:
+        """
+        way of the diaphragm up and down, half of it, with all below it [m], 0 to 0.05
+        """
+    @property
+    def breathing_rate(self) -> float:
+        """
+        breaths a second [Hz], 0 to 2
+        """
+    @property
+    def bulb(self) -> float:
+        """
+        what is seen of the duodenum [m], 0.02 to 0.1
+        """
+    @property
+    def cardia(self) -> float:
+        """
+        length of the cardia [m], 0.01 to 0.1
+        """
+    @property
+    def cardia_radius(self) -> float:
+        """
+        radius of the open cardia [m], 0.005 to 0.03
+        """
+    @property
+    def cardia_turn(self) -> float:
+        """
+        turn of the cardia to the patient's left [rad], 0 to 1.5
+        """
+    @property
+    def damping(self) -> float:
+        """
+        of the wall [N s/m], 0 to 100
+        """
+    @property
+    def force_limit(self) -> float:
+        """
+        largest force that is called safe [N], 0.1 to 100
+        """
+    @property
+    def mouth(self) -> float:
+        """
+        straight way from the teeth to the pharynx [m], 0.01 to 0.15
+        """
+    @property
+    def oesophagus(self) -> float:
+        """
+        length of the oesophagus [m], 0.1 to 0.4
+        """
+    @property
+    def oesophagus_radius(self) -> float:
+        """
+        radius of the oesophagus, insufflated [m], 0.006 to 0.03
+        """
+    @property
+    def perforation(self) -> float:
+        """
+        force that counts as a perforation [N], 0.1 to 200
+        """
+    @property
+    def peristalsis(self) -> float:
+        """
+        share of the radius that a wave of the oesophagus takes, 0 to 0.5
+        """
+    @property
+    def peristalsis_period(self) -> float:
+        """
+        from wave to wave [s], 1 to 600
+        """
+    @property
+    def peristalsis_speed(self) -> float:
+        """
+        of that wave [m/s], 0.001 to 0.2
+        """
+    @property
+    def pharynx(self) -> float:
+        """
+        way from there to the oesophagus [m], 0.05 to 0.3
+        """
+    @property
+    def pharynx_radius(self) -> float:
+        """
+        radius of the pharynx [m], 0.006 to 0.04
+        """
+    @property
+    def pylorus(self) -> float:
+        """
+        length of the pylorus [m], 0.01 to 0.06
+        """
+    @property
+    def pylorus_radius(self) -> float:
+        """
+        radius of the open pylorus [m], 0.005 to 0.02
+        """
+    @property
+    def stiffness(self) -> float:
+        """
+        of the wall below the instrument [N/m], 10 to 10000
+        """
+    @property
+    def stomach(self) -> float:
+        """
+        length of the stomach along its middle [m], 0.1 to 0.4
+        """
+    @property
+    def stomach_radius(self) -> float:
+        """
+        largest radius of the stomach, insufflated [m], 0.015 to 0.08
+        """
+    @property
+    def stomach_turn(self) -> float:
+        """
+        turn of the stomach to the right [rad], 0 to 3
+        """
+    @property
+    def throat_turn(self) -> float:
+        """
+        turn of the pharynx [rad], 0 to 2.5
+        """
+
+class Master:
+    """
+    How the joystick commands the gastroscope and is pushed back.
+
+    Parameters
+    ----------
+    bend_by_rate : bool
+        whether the handle's place is a rate of bending instead of a bend.
+    insertion : int
+        0 pedals, 1 third axis as a rate, 2 third axis as a place, with a clutch, 0 to 2.
+    bend_scale : float
+        bend per way of the handle [rad/m], 1 to 500.
+    bend_rate : float
+        rate of bending per way of the handle [rad/(s m)], 0.1 to 1000.
+    insertion_rate : float
+        speed of insertion per way of the handle [1/s], 0.01 to 100.
+    insertion_scale : float
+        insertion per way of the handle, 0.01 to 100.
+    dead_zone : float
+        way of the handle that is no rate [m], 0 to 0.02.
+    feedback : float
+        share of the slave's force that the handle gets; 0 none, 0 to 10.
+    push_scale : float
+        force at the third axis per force of insertion, 0 to 10.
+    most_force : float
+        largest force asked of an axis of the handle [N], 0 to 100.
+    delay : float
+        of the line each way, picture and force alike [s], 0 to 2.
+    """
+
+    @staticmethod
+    def fields() -> list[Field]:
+        """
+        Return name, unit, meaning, default and range of every parameter.
+        """
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __init__(
+        self,
+        *,
+        bend_by_rate: bool = False,
+        insertion: int = 1,
+        bend_scale: float = 50.0,
+        bend_rate: float = 40.0,
+        insertion_rate: float = 1.5,
+        insertion_scale: float = 1.0,
+        dead_zone: float = 0.001,
+        feedback: float = 1.0,
+        push_scale: float = 1.0,
+        most_force: float = 20.0,
+        delay: float = 0.0,
+    ) -> None: ...
+    def __reduce__(self) -> tuple[typing.Any, ...]: ...
+    def __repr__(self) -> str: ...
+    def as_dict(self) -> dict[str, typing.Any]:
+        """
+        Return the parameters by name.
+        """
+    def replace(self, **changes: typing.Any) -> typing.Self:
+        """
+        Return a copy with some parameters changed, checked as at construction.
+        """
+    @property
+    def bend_by_rate(self) -> bool:
+        """
+        whether the handle's place is a rate of bending instead of a bend
+        """
+    @property
+    def bend_rate(self) -> float:
+        """
+        rate of bending per way of the handle [rad/(s m)], 0.1 to 1000
+        """
+    @property
+    def bend_scale(self) -> float:
+        """
+        bend per way of the handle [rad/m], 1 to 500
+        """
+    @property
+    def dead_zone(self) -> float:
+        """
+        way of the handle that is no rate [m], 0 to 0.02
+        """
+    @property
+    def delay(self) -> float:
+        """
+        of the line each way, picture and force alike [s], 0 to 2
+        """
+    @property
+    def feedback(self) -> float:
+        """
+        share of the slave's force that the handle gets; 0 none, 0 to 10
+        """
+    @property
+    def insertion(self) -> int:
+        """
+        0 pedals, 1 third axis as a rate, 2 third axis as a place, with a clutch, 0 to 2
+        """
+    @property
+    def insertion_rate(self) -> float:
+        """
+        speed of insertion per way of the handle [1/s], 0.01 to 100
+        """
+    @property
+    def insertion_scale(self) -> float:
+        """
+        insertion per way of the handle, 0.01 to 100
+        """
+    @property
+    def most_force(self) -> float:
+        """
+        largest force asked of an axis of the handle [N], 0 to 100
+        """
+    @property
+    def push_scale(self) -> float:
+        """
+        force at the third axis per force of insertion, 0 to 10
+        """
+
+class Physician:
+    """
+    A simulated physician, who steers by the picture.
+
+    Parameters
+    ----------
+    reaction : float
+        from picture to hand [s], 0.02 to 2.
+    crossover : float
+        speed with which a bearing is corrected, times all delay: below 0.5 it does not swing, 0.01 to 1.5.
+    noise : float
+        standard deviation of a bearing, in each picture [rad], 0 to 1.
+    hand_speed : float
+        fastest motion of the hand [m/s], 0.001 to 2.
+    advance : float
+        speed of insertion along a clear lumen [m/s], 0.001 to 0.5.
+    approach : float
+        speed of insertion towards a target [m/s], 0.001 to 0.5.
+    retreat : float
+        speed of withdrawal [m/s], 0.001 to 0.5.
+    look_ahead : float
+        how far along the lumen it looks [m], 0.005 to 0.2.
+    field_of_view : float
+        of the camera [rad], 0.5 to 3.1.
+    heed : float
+        felt force at which it stops to advance; 0 heeds none [N], 0 to 100.
+    patience : float
+        after which it leaves a target [s], 1 to 600.
+    """
+
+    @staticmethod
+    def fields() -> list[Field]:
+        """
+        Return name, unit, meaning, default and range of every parameter.
+        """
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __init__(
+        self,
+        *,
+        reaction: float = 0.25,
+        crossover: float = 0.35,
+        noise: float = 0.03,
+        hand_speed: float = 0.06,
+        advance: float = 0.03,
+        approach: float = 0.012,
+        retreat: float = 0.02,
+        look_ahead: float = 0.045,
+        field_of_view: float = 2.44,
+        heed: float = 0.0,
+        patience: float = 15.0,
+    ) -> None: ...
+    def __reduce__(self) -> tuple[typing.Any, ...]: ...
+    def __repr__(self) -> str: ...
+    def as_dict(self) -> dict[str, typing.Any]:
+        """
+        Return the parameters by name.
+        """
+    def replace(self, **changes: typing.Any) -> typing.Self:
+        """
+        Return a copy with some parameters changed, checked as at construction.
+        """
+    @property
+    def advance(self) -> float:
+        """
+        speed of insertion along a clear lumen [m/s], 0.001 to 0.5
+        """
+    @property
+    def approach(self) -> float:
+        """
+        speed of insertion towards a target [m/s], 0.001 to 0.5
+        """
+    @property
+    def crossover(self) -> float:
+        """
+        speed with which a bearing is corrected, times all delay: below 0.5 it does not swing, 0.01 to 1.5
+        """
+    @property
+    def field_of_view(self) -> float:
+        """
+        of the camera [rad], 0.5 to 3.1
+        """
+    @property
+    def hand_speed(self) -> float:
+        """
+        fastest motion of the hand [m/s], 0.001 to 2
+        """
+    @property
+    def heed(self) -> float:
+        """
+        felt force at which it stops to advance; 0 heeds none [N], 0 to 100
+        """
+    @property
+    def look_ahead(self) -> float:
+        """
+        how far along the lumen it looks [m], 0.005 to 0.2
+        """
+    @property
+    def noise(self) -> float:
+        """
+        standard deviation of a bearing, in each picture [rad], 0 to 1
+        """
+    @property
+    def patience(self) -> float:
+        """
+        after which it leaves a target [s], 1 to 600
+        """
+    @property
+    def reaction(self) -> float:
+        """
+        from picture to hand [s], 0.02 to 2
+        """
+    @property
+    def retreat(self) -> float:
+        """
+        speed of withdrawal [m/s], 0.001 to 0.5
+        """
+
+class Polyp:
+    """
+    A target on the wall.
+
+    Parameters
+    ----------
+    place : float
+        along the lumen, from the teeth [m], 0 to 1.2.
+    angle : float
+        around it, from the camera's right to its down [rad], -6.3 to 6.3.
+    """
+
+    @staticmethod
+    def fields() -> list[Field]:
+        """
+        Return name, unit, meaning, default and range of every parameter.
+        """
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __init__(self, *, place: float = 0.5, angle: float = 0.0) -> None: ...
+    def __reduce__(self) -> tuple[typing.Any, ...]: ...
+    def __repr__(self) -> str: ...
+    def as_dict(self) -> dict[str, typing.Any]:
+        """
+        Return the parameters by name.
+        """
+    def replace(self, **changes: typing.Any) -> typing.Self:
+        """
+        Return a copy with some parameters changed, checked as at construction.
+        """
+    @property
+    def angle(self) -> float:
+        """
+        around it, from the camera's right to its down [rad], -6.3 to 6.3
+        """
+    @property
+    def place(self) -> float:
+        """
+        along the lumen, from the teeth [m], 0 to 1.2
+        """
+
+class _Lumen:
+    def __init__(
+        self,
+        patient: Patient,
+        points: collections.abc.Sequence[
+            typing.Annotated[
+                collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex],
+                "FixedSize(3)",
+            ]
+        ],
+        radii: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex],
+        wall: _Solid | None,
+    ) -> None: ...
+    def at(
+        self,
+        s: typing.SupportsFloat | typing.SupportsIndex,
+        t: typing.SupportsFloat | typing.SupportsIndex,
+    ) -> tuple[
+        typing.Annotated[list[float], "FixedSize(3)"],
+        typing.Annotated[list[float], "FixedSize(3)"],
+        typing.Annotated[list[float], "FixedSize(3)"],
+        typing.Annotated[list[float], "FixedSize(3)"],
+        float,
+    ]: ...
+    def landmarks(self) -> dict[str, typing.Any]: ...
+    def near(
+        self,
+        x: typing.Annotated[
+            collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(3)"
+        ],
+        radius: typing.SupportsFloat | typing.SupportsIndex,
+        t: typing.SupportsFloat | typing.SupportsIndex,
+        hint: typing.SupportsInt | typing.SupportsIndex,
+    ) -> tuple[float, float, typing.Annotated[list[float], "FixedSize(3)"]]: ...
+
+class _Slave:
+    def __init__(
+        self, scope: Scope, lumen: _Lumen, start: typing.SupportsFloat | typing.SupportsIndex
+    ) -> None: ...
+    def state(self) -> dict[str, typing.Any]: ...
+    def step(
+        self,
+        command: typing.Annotated[
+            collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(3)"
+        ],
+        rotation: typing.SupportsFloat | typing.SupportsIndex,
+        dt: typing.SupportsFloat | typing.SupportsIndex,
+    ) -> typing.Annotated[list[float], "FixedSize(3)"]: ...
+
+class _Procedure:
+    def __init__(
+        self,
+        *,
+        scope: Scope,
+        lumen: _Lumen,
+        master: Master,
+        physician: Physician,
+        targets: collections.abc.Sequence[Polyp],
+        start: typing.SupportsFloat | typing.SupportsIndex,
+    ) -> None: ...
+
+def _camera(
+    bend_x: typing.SupportsFloat | typing.SupportsIndex,
+    bend_y: typing.SupportsFloat | typing.SupportsIndex,
+    section: typing.SupportsFloat | typing.SupportsIndex,
+    tip: typing.SupportsFloat | typing.SupportsIndex,
+) -> tuple[
+    typing.Annotated[list[float], "FixedSize(3)"],
+    typing.Annotated[list[float], "FixedSize(3)"],
+    typing.Annotated[list[float], "FixedSize(3)"],
+    typing.Annotated[list[float], "FixedSize(3)"],
+    typing.Annotated[list[typing.Annotated[list[float], "FixedSize(3)"]], "FixedSize(4)"],
+]: ...
+def _procedure_fields() -> list[tuple[str, str, str]]: ...
+def _run_procedure(
+    procedure: _Procedure,
+    setup: Setup,
+    law: typing.Any,
+    every: typing.SupportsInt | typing.SupportsIndex,
+) -> tuple[dict[str, typing.Any], dict[str, typing.Any]]: ...
+def _run_procedures(
+    procedures: collections.abc.Sequence[_Procedure],
+    setups: collections.abc.Sequence[Setup],
+    laws: collections.abc.Sequence[typing.Any],
+    threads: typing.SupportsInt | typing.SupportsIndex,
+    progress: SweepProgress,
+) -> dict[str, typing.Any]: ...
 def _ask_realtime(options: RealTime) -> list[Grant]:
     """
     Return the grants for a thread of this process.

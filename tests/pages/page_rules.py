@@ -94,6 +94,8 @@ RULES = (
     ),
     Rule(r"^ebac worst\b", SLOW, "takes seconds", fewer="--evaluations 40"),
     Rule(r"^ebac zwidth\b", SLOW, "takes seconds", fewer="--points 2 --seconds 1"),
+    Rule(r"^ebac gastroscopy study\b", SLOW, "takes minutes", fewer="--physicians 2 --seconds 2"),
+    Rule(r"^ebac gastroscopy\b", SLOW, "takes seconds", fewer="--seconds 2"),
     Rule(r"^ebac map\b", SLOW, "takes seconds", fewer="--side 8"),
     Rule(r"^ebac faults\b", SLOW, "takes seconds", fewer="--cases 5"),
     Rule(r"^ebac track --simulated", SLOW, "takes seconds", fewer="--runs 4"),

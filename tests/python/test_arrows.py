@@ -29,6 +29,7 @@ MAY_SEE = {
     "identify": {"core", "model"},
     "loop": {"core", "model", "control"},
     "sim": {"core", "model", "control", "loop"},
+    "gastroscope": {"core", "model", "world", "control", "loop", "sim"},
     "rt": {"core", "model", "control", "loop"},
     "can": {"core", "rt"},
     "canopen": {"core", "model", "loop", "can"},
@@ -192,6 +193,7 @@ ROOMS = [
         "trace",
         "simulation",
         "metrics",
+        "gastroscope",
     ),
     *("drives", "can", "sensor", "realtime", "logs", "hardware", "faults"),
     *(

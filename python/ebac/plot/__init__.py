@@ -4,6 +4,7 @@ from ebac.plot.ablation import plot_ablation
 from ebac.plot.columns import plot_columns
 from ebac.plot.engines import plot_engines
 from ebac.plot.faults import plot_fault
+from ebac.plot.gastroscope import plot_gastroscopy, plot_gastroscopy_study
 from ebac.plot.jitter import plot_jitter
 from ebac.plot.maps import plot_map
 from ebac.plot.overlay import plot_overlay
@@ -47,6 +48,8 @@ __all__ = [
     "plot_columns",
     "plot_engines",
     "plot_fault",
+    "plot_gastroscopy",
+    "plot_gastroscopy_study",
     "plot_jitter",
     "plot_map",
     "plot_overlay",

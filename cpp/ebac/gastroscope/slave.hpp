@@ -1,0 +1,76 @@
+#pragma once
+
+#include <array>
+
+#include "ebac/gastroscope/bending.hpp"
+#include "ebac/gastroscope/drive.hpp"
+#include "ebac/gastroscope/lumen.hpp"
+#include "ebac/gastroscope/messages.hpp"
+#include "ebac/gastroscope/tube.hpp"
+
+namespace ebac::gastroscope {
+
+/// The gastroscope in the patient.
+class Slave {
+ public:
+  static constexpr std::size_t kPoints =
+      3;  // where the bending section meets the wall; the tip last
+
+  /// The camera `start` [m] behind the teeth. Keeps a pointer to the lumen.
+  Slave(const ScopeParams& params, const Lumen& lumen, double start);
+
+  /// One tick of `dt` [s] until time `t` [s].
+  Answer step(const Command& command, double t, double dt) EBAC_RT;
+
+  /// Where the camera is, and its axes: right, down, ahead.
+  const SectionPoint& camera() const EBAC_RT { return camera_; }
+  /// The camera's place along the lumen [m].
+  double place() const EBAC_RT { return place_; }
+  /// Length of the scope behind the teeth, to the camera [m].
+  double inserted() const EBAC_RT { return base_ + params_.section + params_.tip; }
+  const Bend& bend() const EBAC_RT { return bend_; }
+  const LumenMotion& motion() const EBAC_RT { return motion_; }
+  const InsertionTube& tube() const EBAC_RT { return tube_; }
+  const InsertionTube::Base& base() const EBAC_RT { return at_; }
+
+  /// Force of the wall on the camera, on any point of the section at most, on any place of the tube
+  /// at most [N].
+  double tip_force() const EBAC_RT { return tip_force_; }
+  double section_force() const EBAC_RT { return section_force_; }
+  double tube_force() const EBAC_RT { return tube_.most_force(); }
+  /// Gap between the camera's edge and the wall [m]; negative in it.
+  double gap() const EBAC_RT { return -depth_.back(); }
+  /// Energy the patient's wall stores where the section presses it [J].
+  double stored() const EBAC_RT;
+
+ private:
+  struct Load {
+    double axial = 0, x = 0, y = 0, stiffness = 0;
+    Vec force{}, moment{}, on_bag{};
+    double size = 0;
+  };
+  Load meet(double dt) EBAC_RT;
+  void drive(const Command& command, double dt) EBAC_RT;
+  void advance(const Load& load, double dt) EBAC_RT;
+
+  static constexpr int kTubeEvery = 10;  // ticks from one look at the tube to the next
+
+  ScopeParams params_;
+  const Lumen* lumen_;
+  InsertionTube tube_;
+  InsertionTube::Base at_{};
+  MotorAxis insert_, rotate_, motor_x_, motor_y_;
+  Tendon tendon_x_, tendon_y_;
+  Bend pulled_{}, bend_{};
+  double base_;  // m, of the section behind the teeth
+  LumenMotion motion_{};
+  SectionPoint camera_{};
+  double place_ = 0;
+  std::array<int, kPoints> hint_{};
+  std::array<double, kPoints> depth_{};
+  double tip_force_ = 0, section_force_ = 0;
+  Vec tube_on_bag_{};
+  int until_tube_ = 0;
+};
+
+}  // namespace ebac::gastroscope

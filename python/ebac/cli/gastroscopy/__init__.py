@@ -1,0 +1,27 @@
+"""`ebac gastroscopy`: a navigation, and the study of feedback."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import typer
+
+from ebac.cli import output, setting, wrong_input
+from ebac.cli.command import Group, add, expanded
+from ebac.cli.gastroscopy import navigate, study
+
+
+class OwnAndStudy(Group):
+    """A command of its own that has another below it."""
+
+    def invoke(self, ctx: Any) -> Any:
+        """Run the navigation, or the study."""
+        setting.current.clear()
+        setting.current.update({p.name: wrong_input.option_name(p) for p in self.params})
+        with output.interruptible():
+            return super().invoke(ctx)
+
+
+app = typer.Typer(cls=OwnAndStudy)
+app.callback(invoke_without_command=True)(expanded(navigate.gastroscopy, "gastroscopy"))
+add(app, study.study)

@@ -1,0 +1,167 @@
+"""`ebac gastroscopy`: from the teeth to the pylorus with three targets."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from ebac.cli import options, output, setting
+from ebac.cli.files import ResultOptions
+
+if TYPE_CHECKING:
+    from ebac._core import Master
+    from ebac.gastroscope import Gastroscopy
+
+MASTER = "Master"
+INSERTION = ("pedals", "rate", "clutch")
+
+
+@dataclass(frozen=True, kw_only=True)
+class MasterOptions:
+    """Mapping of the joystick, and the line."""
+
+    insertion: Annotated[
+        str,
+        typer.Option(
+            help="pedals, or the third axis as a rate or as a place with a clutch.",
+            rich_help_panel=MASTER,
+        ),
+    ] = "rate"
+    bending: Annotated[
+        str,
+        typer.Option(help="The handle's place is a position or a rate.", rich_help_panel=MASTER),
+    ] = "position"
+    feedback: Annotated[
+        float,
+        typer.Option(
+            min=0,
+            max=10,
+            help="Share of the force that is fed back; 0 none.",
+            rich_help_panel=MASTER,
+        ),
+    ] = 1.0
+
+    def master(self, delay: float) -> Master:
+        """Return the mapping."""
+        from ebac._core import Master
+
+        if self.insertion not in INSERTION:
+            output.fail(f"--insertion {self.insertion}: must be pedals, rate or clutch")
+        if self.bending not in ("position", "rate"):
+            output.fail(f"--bending {self.bending}: must be position or rate")
+        return Master(
+            insertion=INSERTION.index(self.insertion),
+            bend_by_rate=self.bending == "rate",
+            feedback=self.feedback,
+            delay=delay,
+        )
+
+
+def gastroscopy(
+    ctx: typer.Context,
+    to: ResultOptions,
+    how: MasterOptions,
+    law: Annotated[str, options.one_law()] = "ebac",
+    delay: Annotated[
+        float,
+        typer.Option(min=0, max=2, help="Of the line each way [s].", rich_help_panel=MASTER),
+    ] = 0.0,
+    heed: Annotated[
+        float,
+        typer.Option(
+            min=0,
+            max=100,
+            help="Force on the hand at which the physician stops to advance [N]; 0: none.",
+        ),
+    ] = 3.0,
+    seconds: Annotated[float, typer.Option(help="Longest time [s].")] = 120.0,
+    seed: Annotated[int, typer.Option(min=0, help="Of the physician.")] = 1,
+    as_json: output.AsJson = False,
+) -> None:
+    """Run a gastroscopy: from the teeth to the pylorus, touching three targets.
+
+    A simulation: joystick, hand and law as everywhere in `ebac`, a line with a delay, a gastroscope with its motors
+    and tendons, a patient, and a physician who steers by the camera. It says nothing about patients.
+
+    **Examples**
+
+    * `ebac gastroscopy --seconds 5`: the first five seconds
+
+    * `ebac gastroscopy --delay 0.1 --law direct --seconds 5 --json`
+    """
+    if ctx.invoked_subcommand is not None:
+        return
+    from ebac.gastroscope import Physician, Procedure
+    from ebac.gastroscope import gastroscopy as run
+
+    with output.refusing():
+        name = setting.one_law(law)
+        procedure = Procedure(
+            master=how.master(delay), physician=Physician(heed=heed), seconds=seconds, seed=seed
+        )
+        folder = to.folder("gastroscopy", as_json=as_json)
+        found = run(name, procedure)
+    files = _write(folder, found, to) if folder else []
+    if as_json:
+        typer.echo(_document(found))
+        return
+    _show(found)
+    if folder is not None:
+        output.list_files(folder, files)
+
+
+#: Findings with the unit that stands in their key.
+UNITS = {
+    "seconds": "s",
+    "path": "m",
+    "most_tip": "N",
+    "most_section": "N",
+    "most_tube": "N",
+    "impulse": "N_s",
+    "over_limit": "s",
+    "most_felt": "N",
+    "least_energy": "J",
+    "hand_work": "J",
+    "deepest": "m",
+}
+
+
+def _document(found: Gastroscopy) -> str:
+    row = {f"{k}_{UNITS[k]}" if k in UNITS else k: v for k, v in found.findings.items()}
+    return output.document("gastroscopy", [{"law": found.law, **row}])
+
+
+def _write(folder: Path, found: Gastroscopy, to: ResultOptions) -> list[str]:
+    from ebac.plot import plot_gastroscopy
+
+    with output.results(folder) as draft:
+        if draft is None:
+            return []
+        figures = to.save(plot_gastroscopy(found), draft, "gastroscopy")
+        (draft / "gastroscopy.json").write_text(_document(found) + "\n", encoding="utf-8")
+        found.save(draft / "gastroscopy.csv")
+    return [*figures, "gastroscopy.json", "gastroscopy.csv"]
+
+
+def _show(found: Gastroscopy) -> None:
+    f, patient = found.findings, found.procedure.lumen.patient
+    grid = output.table(["quantity", "value"], numbers=(1,))
+    for name, value in (
+        ("time", f"{f['seconds']:.1f} s"),
+        ("pylorus", "passed" if f["reached"] else "not passed"),
+        ("targets touched", f"{f['touched']:g} of {len(found.procedure.polyps())}"),
+        ("way of the camera", f"{f['path']:.2f} m"),
+        ("largest force, tip and bending section", f"{f['most_section']:.2f} N"),
+        ("largest force, tube", f"{f['most_tube']:.2f} N"),
+        ("force integrated", f"{f['impulse']:.1f} N s"),
+        (f"time above {patient.force_limit:g} N", f"{f['over_limit']:.2f} s"),
+        (f"times above {patient.perforation:g} N", f"{f['perforations']:g}"),
+        ("largest force on the hand", f"{f['most_felt']:.2f} N"),
+        ("least energy of the joystick's port", f"{1e3 * f['least_energy']:.1f} mJ"),
+    ):
+        grid.add_row(name, value)
+    output.show(grid)
+    output.say("Simulated, with measures and assumptions that the documentation names.")

@@ -1,0 +1,128 @@
+"""`ebac gastroscopy study`: feedback, laws and delays over simulated physicians."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from ebac.cli import options, output, setting
+from ebac.cli.files import ResultOptions
+from ebac.cli.gastroscopy.navigate import MasterOptions
+
+if TYPE_CHECKING:
+    from ebac.gastroscope import GastroscopyStudy
+
+
+def study(
+    to: ResultOptions,
+    how: MasterOptions,
+    law: Annotated[list[str] | None, options.laws("direct, ebac")] = None,
+    delay: Annotated[
+        list[float] | None,
+        typer.Option(help="Of the line each way [s]; several.", show_default="0, 0.05, 0.1"),
+    ] = None,
+    physicians: Annotated[
+        int, typer.Option(min=2, max=10000, help="Physicians in each cell.")
+    ] = 100,
+    heed: Annotated[
+        float,
+        typer.Option(
+            min=0,
+            max=100,
+            help="Force on the hand at which a physician stops to advance [N]; 0: none.",
+        ),
+    ] = 3.0,
+    seconds: Annotated[float, typer.Option(help="Longest time of a run [s].")] = 120.0,
+    seed: Annotated[int, typer.Option(min=0, help="Of the population.")] = 1,
+    threads: Annotated[int, typer.Option(min=0, help="0: one per core.")] = 0,
+    as_json: output.AsJson = False,
+) -> None:
+    """Compare gastroscopies with and without force feedback over simulated physicians.
+
+    Each physician runs every law at every delay without and with feedback: time, way, largest and integrated force
+    on the tissue, perforations, energy; the effect of feedback with its confidence interval and its power. The joystick
+    has three straight axes here.
+
+    **Examples**
+
+    * `ebac gastroscopy study --physicians 2 --delay 0 --law ebac --seconds 3`: a quick look
+
+    * `ebac gastroscopy study --physicians 2 --delay 0.1 --law ebac --seconds 2 --json`
+    """
+    from ebac.gastroscope import Physician, Procedure, gastroscopy_study
+    from ebac.gastroscope.study import STRAIGHT
+
+    with output.refusing():
+        names = setting.law_names(law or ["direct", "ebac"])
+        delays = delay or [0.0, 0.05, 0.1]
+        base = Procedure(
+            master=how.master(0.0),
+            physician=Physician(heed=heed),
+            device=STRAIGHT,
+            seconds=seconds,
+            seed=seed,
+        )
+        folder = to.folder("gastroscopy-study", as_json=as_json)
+        with output.counting("simulating", quiet=as_json) as progress:
+            found = gastroscopy_study(
+                names,
+                delays=delays,
+                count=physicians,
+                seed=seed,
+                procedure=base,
+                threads=threads,
+                progress=progress,
+            )
+    files = _write(folder, found, to) if folder else []
+    if as_json:
+        typer.echo(_document(found))
+        return
+    _show(found)
+    if folder is not None:
+        output.list_files(folder, files)
+
+
+def _document(found: GastroscopyStudy) -> str:
+    return output.document("gastroscopy study", found.table(), effects=found.effect_table())
+
+
+def _write(folder: Path, found: GastroscopyStudy, to: ResultOptions) -> list[str]:
+    from ebac.plot import plot_gastroscopy_study
+
+    with output.results(folder) as draft:
+        if draft is None:
+            return []
+        figures = to.save(plot_gastroscopy_study(found), draft, "gastroscopy-study")
+        (draft / "gastroscopy-study.json").write_text(_document(found) + "\n", encoding="utf-8")
+        output.csv_table(draft / "gastroscopy-study.csv", found.table())
+    return [*figures, "gastroscopy-study.json", "gastroscopy-study.csv"]
+
+
+def _show(found: GastroscopyStudy) -> None:
+    columns = ["law", "delay", "feedback", "reached", "touched", "time", "force", "90 %", "impulse"]
+    grid = output.table([*columns, "over limit", "perforated", "energy"], numbers=range(1, 12))
+    for row in found.rows:
+        grid.add_row(
+            row.law,
+            f"{1e3 * row.delay_s:g} ms",
+            "yes" if row.feedback else "no",
+            f"{row.reached_share:.0%}",
+            f"{row.touched_mean:.2f}",
+            f"{row.seconds:.1f} s",
+            f"{row.most_force_N:.2f} N",
+            f"{row.most_force_90_N:.2f} N",
+            f"{row.impulse_N_s:.1f} N s",
+            f"{row.over_limit_share:.0%}",
+            f"{row.perforated_share:.0%}",
+            f"{1e3 * row.least_energy_J:.0f} mJ",
+        )
+    output.show(grid)
+    for one in found.effects:
+        output.say(
+            f"{one.law}, {1e3 * one.delay_s:g} ms: feedback changes the largest force by {one.difference_N:+.2f} N "
+            f"(95 %: {one.low_N:+.2f} to {one.high_N:+.2f} N); power for 1 N: {one.power:.0%}, "
+            f"80 % for {one.detectable_N:.2f} N."
+        )
+    output.say("Simulated physicians, patients and devices; medians, least energy of all runs.")

@@ -1,0 +1,43 @@
+"""Gastroscopy in simulation: joystick, line, gastroscope, patient and physician in one loop.
+
+::
+
+    from ebac import gastroscope
+
+    run = gastroscope.gastroscopy("ebac")
+    print(run.findings["most_section"])  # N, largest force on the tissue
+
+Everything here is a simulation with measures from the literature and assumptions that are named; it says nothing about
+patients.
+"""
+
+from ebac._core import Master, Patient, Physician, Polyp, Scope
+from ebac.gastroscope.lumen import Lumen, Wall
+from ebac.gastroscope.procedure import Gastroscopy, Procedure, gastroscopy
+from ebac.gastroscope.slave import Camera, Slave, SlaveState, camera
+from ebac.gastroscope.study import Effect, GastroscopyStudy, StudyRow, gastroscopy_study
+
+__all__ = [
+    "Camera",
+    "Effect",
+    "Gastroscopy",
+    "GastroscopyStudy",
+    "Lumen",
+    "Master",
+    "Patient",
+    "Physician",
+    "Polyp",
+    "Procedure",
+    "Scope",
+    "Slave",
+    "SlaveState",
+    "StudyRow",
+    "Wall",
+    "camera",
+    "gastroscopy",
+    "gastroscopy_study",
+]
+
+
+def __dir__() -> list[str]:
+    return __all__

@@ -1,0 +1,208 @@
+"""A gastroscopy: a physician steers from the teeth to the pylorus and touches targets on the way."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ebac import _core
+from ebac._core import Device, Free, Hand, Master, Patient, Physician, Polyp, Scope, Step
+from ebac.gastroscope.lumen import Lumen
+from ebac.laws import AnyLaw, CoreLaw, design, law_name
+from ebac.presets import DEVICES
+from ebac.scenario import Scenario
+
+
+def default_targets(patient: Patient) -> tuple[Polyp, ...]:
+    """Return three targets: in the oesophagus, in the body of the stomach and in the antrum."""
+    oesophagus = patient.mouth + patient.pharynx
+    stomach = oesophagus + patient.oesophagus + patient.cardia
+    return (
+        Polyp(place=oesophagus + 0.68 * patient.oesophagus, angle=0.5),
+        Polyp(place=stomach + 0.375 * patient.stomach, angle=2.0),
+        Polyp(place=stomach + 0.75 * patient.stomach, angle=-1.0),
+    )
+
+
+@dataclass(frozen=True, kw_only=True)
+class Procedure:
+    """Everything of a gastroscopy but the law.
+
+    Parameters
+    ----------
+    scope : Scope
+        The gastroscope and its motors.
+    lumen : Lumen
+        The patient.
+    master : Master
+        Mapping of the joystick, feedback and delay.
+    physician : Physician
+        Who steers.
+    hand : Hand
+        The hand on the joystick; its paths are the physician's.
+    device : Device, optional
+        The joystick; default: `joystick-3` of the presets, and `joystick`, of two axes, with pedals.
+    targets : sequence of Polyp, optional
+        On the wall; default: three.
+    start : float
+        Place of the camera at the start [m], [0.08, 0.5].
+    seconds : float
+        After which a run ends [s], (0, 3600].
+    seed : int
+        Of the physician's and the force sensor's noise.
+
+    Raises
+    ------
+    ValueError
+        For a start or a length out of its range, or a device with too few axes.
+    """
+
+    scope: Scope = field(default_factory=Scope)
+    lumen: Lumen = field(default_factory=Lumen)
+    master: Master = field(default_factory=Master)
+    physician: Physician = field(default_factory=Physician)
+    hand: Hand = field(default_factory=Hand)
+    device: Device | None = None
+    targets: Sequence[Polyp] | None = None
+    start: float = 0.09
+    seconds: float = 120.0
+    seed: int = 1
+
+    def __post_init__(self) -> None:
+        """Check the ranges."""
+        if not 0.08 <= self.start <= 0.5:
+            raise ValueError(f"Procedure.start = {self.start} m: must lie in [0.08, 0.5] m")
+        if not 0 < self.seconds <= 3600:
+            raise ValueError(f"Procedure.seconds = {self.seconds} s: must lie in (0, 3600] s")
+        needed = 2 if self.master.insertion == 0 else 3
+        if self.device is not None and self.device.axes < needed:
+            raise ValueError(
+                f"Procedure.device: has {self.device.axes} axes, the mapping needs {needed}; "
+                "give another device, or Master(insertion=0) with pedals"
+            )
+
+    def scenario(self) -> Scenario:
+        """Return joystick and hand: two axes with pedals, three without."""
+        pedals = self.master.insertion == 0
+        device = self.device or DEVICES["joystick" if pedals else "joystick-3"].device
+        rest = [Step(target=0)] * device.axes
+        return Scenario(
+            device=device,
+            hand=self.hand.replace(path=rest),
+            environment=Free(),
+            seconds=self.seconds,
+            seed=self.seed,
+        )
+
+    def polyps(self) -> tuple[Polyp, ...]:
+        """Return the targets, the default ones where none are given."""
+        given = default_targets(self.lumen.patient) if self.targets is None else self.targets
+        return tuple(sorted(given, key=lambda one: one.place))
+
+    def core(self) -> _core._Procedure:
+        """Return what the core runs."""
+        return _core._Procedure(
+            scope=self.scope,
+            lumen=self.lumen.core,
+            master=self.master,
+            physician=self.physician,
+            targets=self.polyps(),
+            start=self.start,
+        )
+
+
+@dataclass(frozen=True, kw_only=True)
+class Gastroscopy:
+    """A run of a procedure.
+
+    Attributes
+    ----------
+    procedure : Procedure
+        What was run.
+    law : str
+        The joystick's law.
+    findings : dict of str to float
+        Time, way, forces, energies: SI units, as `units` says.
+    rows : dict of str to ndarray
+        The record, shape (rows,) each: `t` [s], camera, forces, handle.
+    """
+
+    procedure: Procedure
+    law: str
+    findings: dict[str, float]
+    rows: dict[str, NDArray[np.float64]]
+
+    @property
+    def within_limit(self) -> bool:
+        """Whether no force of the bending section passed the patient's limit."""
+        return bool(self.findings["most_section"] <= self.procedure.lumen.patient.force_limit)
+
+    def save(self, path: str | Path) -> None:
+        """Write the record as CSV, a column for each quantity, its unit in the heading.
+
+        Parameters
+        ----------
+        path : path
+            The file; it is replaced.
+        """
+        units = {name: unit for name, unit, _ in _core._procedure_fields()}
+        heading = ",".join(f"{name} [{units[name]}]" for name in self.rows)
+        table = np.column_stack(list(self.rows.values()))
+        np.savetxt(path, table, fmt="%.9g", delimiter=",", header=heading, comments="")
+
+
+def core_law(law: AnyLaw, scenario: Scenario) -> CoreLaw:
+    """Return the law for a scenario's device.
+
+    Raises
+    ------
+    TypeError
+        For a law that is written in Python.
+    """
+    made = design(law, scenario.device, scenario.timing)
+    if not isinstance(made, CoreLaw):
+        raise TypeError(f"law = {law!r}: a gastroscopy takes the laws of the core, see ebac laws")
+    return made
+
+
+def gastroscopy(
+    law: AnyLaw = "ebac", procedure: Procedure | None = None, *, every: int = 10, **changes: Any
+) -> Gastroscopy:
+    """Run a gastroscopy; the same procedure gives the same bits.
+
+    Parameters
+    ----------
+    law : law
+        Of the joystick, as `simulate` takes it; not one written in Python.
+    procedure : Procedure, optional
+        Default: `Procedure()`.
+    every : int
+        A row of the record each so many ticks, [1, 10000].
+    **changes
+        Parameters of the law on top of its design.
+
+    Raises
+    ------
+    ValueError
+        For a number out of its range.
+    TypeError
+        For a law written in Python.
+    """
+    if not 1 <= every <= 10000:
+        raise ValueError(f"every = {every}: must lie in [1, 10000]")
+    given = Procedure() if procedure is None else procedure
+    scenario = given.scenario()
+    made: Any = core_law(law, scenario)
+    made = made.replace(**changes) if changes else made
+    findings, rows = _core._run_procedure(given.core(), scenario.setup(), made, every)
+    return Gastroscopy(
+        procedure=given,
+        law=law if isinstance(law, str) else law_name(made),
+        findings={str(k): float(v) for k, v in findings.items()},
+        rows={str(k): np.asarray(v) for k, v in rows.items()},
+    )

@@ -1,0 +1,179 @@
+"""The gastroscope, the patient and the physician, and `ebac gastroscopy`."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from typer.testing import CliRunner
+
+from ebac import gastroscope
+from ebac.cli import app
+from ebac.gastroscope import Lumen, Master, Patient, Procedure, Scope, Slave, camera
+from ebac.worlds import Cavity, Tube
+
+bends = st.floats(-2.5, 2.5)
+STILL = Patient(breathing=0, peristalsis=0, antral_depth=0)
+
+
+@given(bends, bends)
+def test_the_jacobian_is_that_of_the_kinematics(x: float, y: float) -> None:
+    h = 1e-6
+    found = camera(x, y)
+    for column, (dx, dy) in enumerate(((h, 0), (0, h)), start=2):
+        slope = (camera(x + dx, y + dy).at - camera(x - dx, y - dy).at) / (2 * h)
+        np.testing.assert_allclose(found.jacobian[:, column], slope, atol=2e-8)
+    turned = np.cross([0, 0, 1], found.at)
+    np.testing.assert_allclose(found.jacobian[:, 1], turned, atol=1e-12)
+    np.testing.assert_allclose(found.jacobian[:, 0], [0, 0, 1])
+
+
+@given(bends, bends)
+def test_the_camera_has_axes_and_is_within_reach(x: float, y: float) -> None:
+    found, scope = camera(x, y), Scope()
+    np.testing.assert_allclose(found.axes @ found.axes.T, np.eye(3), atol=1e-12)
+    assert np.linalg.det(found.axes) == pytest.approx(1)
+    assert found.axes[2, 2] == pytest.approx(np.cos(np.hypot(x, y)))
+    assert np.linalg.norm(found.at) <= scope.section + scope.tip + 1e-12
+
+
+@given(st.floats(0.02, 0.7), st.floats(0, 6.3), st.floats(-5e-3, 5e-3))
+def test_the_depth_of_a_ball_is_what_its_gradient_says(
+    place: float, angle: float, off: float
+) -> None:
+    lumen = Lumen(STILL)
+    at = lumen.target(place, angle)
+    middle = lumen.line([place])[0][0]
+    out = (at - middle) / np.linalg.norm(at - middle)
+    x = at + off * out
+    wall = lumen.near(x, 0.0, place=place)
+    assert abs(wall.depth - off) < 3e-3
+    step = 1e-6 * out
+    more = lumen.near(x + step, 0.0, place=wall.place)
+    assert (more.depth - wall.depth) / 1e-6 == pytest.approx(float(wall.way @ out), abs=2e-2)
+
+
+@settings(max_examples=8, deadline=None)
+@given(st.floats(0.1, 0.66), st.floats(0, 6.3), st.floats(-1, 1), st.floats(-1, 1))
+def test_a_wall_at_rest_gives_back_what_it_took(
+    place: float, angle: float, tilt: float, phase: float
+) -> None:
+    """Along a closed way through the wall: what comes back may differ by the steps of the centre line."""
+    lumen = Lumen(STILL)
+    points, axes, _ = lumen.line([place])
+    at = lumen.target(place, angle)
+    out = (at - points[0]) / np.linalg.norm(at - points[0])
+    turn = np.linspace(0, 2 * np.pi, 600) + phase
+    other = axes[0, 2] + tilt * np.cross(out, axes[0, 2])
+    way = at + 4e-3 * (np.outer(np.sin(turn), out) + np.outer(np.cos(turn), other))
+    walls = [lumen.near(x, 2e-3, place=place) for x in way]
+    depth = np.array([max(wall.depth, 0.0) for wall in walls])
+    force = depth[:, None] * np.array([wall.way for wall in walls])
+    work = float((0.5 * (force[1:] + force[:-1]) * np.diff(way, axis=0)).sum())
+    assert abs(work) < 0.1 * max(float((0.5 * depth**2).max()), 1e-7)
+
+
+def test_a_motor_pushes_no_harder_than_it_can() -> None:
+    slave = Slave(Scope(most_push=2.0), Lumen(STILL), 0.2)
+    pushes = [slave.step(0.5)[0] for _ in range(3000)]
+    np.testing.assert_allclose(pushes[-500:], 2.0, atol=1e-6)  # of half a metre that it cannot go
+
+
+def test_tendons_have_slack_that_a_bend_crosses_first() -> None:
+    slave = Slave(Scope(backlash=0.3, hysteresis=0), Lumen(STILL), 0.2)
+    base = slave.state.inserted - 0.082
+    for _ in range(600):
+        slave.step(base, 0.14)
+    assert abs(slave.state.bend[0]) < 0.01
+    for _ in range(600):
+        slave.step(base, 0.4)
+    assert slave.state.bend[0] == pytest.approx(0.25, abs=0.05)
+
+
+def test_a_wall_of_ones_own_is_met() -> None:
+    points = [(-0.02 * i, 0.0, 0.0) for i in range(12)]
+    tube = Tube(points=points, radius=[0.012] * 12)
+    own = Lumen(STILL, points=points, radii=[0.012] * 12, wall=Cavity(tube))
+    plain = Lumen(STILL, points=points, radii=[0.012] * 12)
+    for x in ((-0.1, 0.005, 0.0), (-0.1, 0.011, 0.004)):
+        assert own.near(x, 4e-3, place=0.1).depth == pytest.approx(
+            plain.near(x, 4e-3, place=0.1).depth, abs=1e-6
+        )
+    with pytest.raises(ValueError, match="two points or more"):
+        Lumen(wall=Cavity(tube))
+    with pytest.raises(ValueError, match="must be \\(n, 3\\)"):
+        Lumen(points=[[1.0, 2.0]])
+
+
+SHORT = Procedure(seconds=4)
+
+
+def test_a_run_is_the_same_bits_and_another_seed_is_another_run() -> None:
+    one, other = (gastroscope.gastroscopy("ebac", SHORT) for _ in range(2))
+    assert one.findings == other.findings
+    for name, column in one.rows.items():
+        np.testing.assert_array_equal(column, other.rows[name])
+    assert gastroscope.gastroscopy("ebac", replace(SHORT, seed=2)).findings != one.findings
+
+
+def test_without_feedback_nothing_is_felt() -> None:
+    none = gastroscope.gastroscopy("direct", replace(SHORT, master=Master(feedback=0)))
+    assert none.findings["most_felt"] == 0
+    felt = gastroscope.gastroscopy("direct", SHORT)
+    assert felt.findings["most_felt"] > 0
+
+
+@pytest.mark.parametrize("insertion", [0, 1, 2])
+@pytest.mark.parametrize("by_rate", [False, True])
+def test_every_mapping_advances(insertion: int, by_rate: bool) -> None:
+    master = Master(insertion=insertion, bend_by_rate=by_rate, bend_rate=40.0)
+    run = gastroscope.gastroscopy("direct", replace(SHORT, master=master))
+    assert run.findings["fault"] == 0
+    assert run.rows["inserted"][-1] > run.rows["inserted"][0] + 0.01
+
+
+def test_a_study_pairs_physicians_and_does_not_depend_on_threads() -> None:
+    base = Procedure(seconds=1.5)
+    one, two = (
+        gastroscope.gastroscopy_study(
+            ["direct"], delays=[0.05], count=3, procedure=base, threads=threads
+        )
+        for threads in (1, 2)
+    )
+    assert one.table() == two.table()
+    effect = one.effects[0]
+    assert effect.low_N <= effect.difference_N <= effect.high_N
+    assert 0 <= effect.power <= 1
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["--insertion", "feet"], "must be pedals, rate or clutch"),
+        (["--bending", "none"], "must be position or rate"),
+        (["--seconds", "0"], "must lie in"),
+        (["--law", "ebax"], "ebac"),
+        (["--delay", "3"], "--delay"),
+        (["study", "--physicians", "1"], "--physicians"),
+    ],
+)
+def test_wrong_input_is_refused(words: list[str], said: str) -> None:
+    result = CliRunner().invoke(app, ["gastroscopy", *words, "--json"])
+    assert result.exit_code == 2
+    assert said in result.output
+
+
+def test_the_command_writes_figure_record_and_json(tmp_path: Path) -> None:
+    out = tmp_path / "out"
+    words = ["gastroscopy", "--seconds", "2", "--law", "direct", "--out", str(out), "--json"]
+    result = CliRunner().invoke(app, words)
+    assert result.exit_code == 0, result.output
+    row = json.loads(result.stdout)["rows"][0]
+    assert row["most_section_N"] >= row["most_tip_N"] >= 0
+    assert {path.name for path in out.iterdir()} >= {"gastroscopy.csv", "gastroscopy.json"}
+    assert (out / "gastroscopy.csv").read_text(encoding="utf-8").startswith("t [s],place [m]")
