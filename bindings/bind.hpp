@@ -30,5 +30,6 @@ void bind_can(pybind11::module_& m);
 void bind_limits(pybind11::module_& m);
 void bind_faults(pybind11::module_& m);
 void bind_running(pybind11::module_& m);
+void bind_teleop(pybind11::module_& m);
 
 }  // namespace ebac::python

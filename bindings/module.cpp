@@ -27,6 +27,7 @@ PYBIND11_MODULE(_core, m, pybind11::mod_gil_not_used()) {
   ebac::python::bind_controllers(m);
   ebac::python::bind_gastroscope(m);
   ebac::python::bind_running(m);
+  ebac::python::bind_teleop(m);
   // A wrong call is refused by pybind11 before any code of ours runs; the words for it are Python's.
   pybind11::module_::import("ebac._util.wrong_calls").attr("wrap_members")(m);
 }

@@ -71,6 +71,9 @@ from ebac import (
     studies as studies,
 )
 from ebac import (
+    teleop as teleop,
+)
+from ebac import (
     testing as testing,
 )
 from ebac import (

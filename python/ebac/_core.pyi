@@ -37,6 +37,7 @@ __all__: list[str] = [
     "Column",
     "Compensation",
     "Corner",
+    "Coupling",
     "Cylinder",
     "Device",
     "DeviceFacts",
@@ -75,6 +76,7 @@ __all__: list[str] = [
     "Limits",
     "Linear",
     "LinearLoop",
+    "Link",
     "LinkState",
     "LoopState",
     "LoopbackBus",
@@ -116,6 +118,7 @@ __all__: list[str] = [
     "SimulatedDrive",
     "SimulatedWire",
     "Sine",
+    "SlaveModel",
     "SlidingGimbal",
     "SocketCan",
     "SocketCanJoystick",
@@ -126,6 +129,7 @@ __all__: list[str] = [
     "Swing",
     "TCADamped",
     "Tapping",
+    "TeleopPacket",
     "Texture",
     "TimedBus",
     "Timing",
@@ -7708,6 +7712,455 @@ class Running:
         """
         Ticks not recorded because the trace was full.
         """
+
+class Coupling:
+    """
+    How master and slave are coupled; the same on both sides.
+
+    Parameters
+    ----------
+    scheme : int
+        0 position and force, 1 passivity control, 2 waves, 0 to 2.
+    impedance : float
+        wave impedance b; damping of the slave's controller with waves [N s/m], 0.1 to 1000.
+    injection : float
+        largest damping of the master's passivity controller [N s/m], 0 to 1000.
+    follow : bool
+        compensate position drift, with energy that is left over; 0 leaves it, 0 to 1.
+    reserve : float
+        energy that each port may give out before any has come in: without it nothing begins to move [J], 0 to 1.
+    measured : bool
+        1 sends the force of the environment back, 0 that of the slave's controller, 0 to 1.
+    stiffness : float
+        of the slave's position controller [N/m], 1 to 1e+05.
+    damping : float
+        of the slave's position controller; with waves it is their impedance [N s/m], 0 to 1000.
+    catch_up : float
+        largest speed at which drift is compensated, on top of the motion [m/s], 0 to 10.
+    buffer : float
+        play-out buffer of both receivers, against jitter and loss; it adds to the delay [s], 0 to 0.3.
+    timeout : float
+        silence after which the link counts as lost [s], 0.01 to 10.
+    fade : float
+        in which the master's force goes to zero and comes back [s], 0.001 to 10.
+    peak_force : float
+        largest force of the slave [N], 0.1 to 10000.
+    """
+
+    @staticmethod
+    def fields() -> list[Field]:
+        """
+        Return name, unit, meaning, default and range of every parameter.
+        """
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __init__(
+        self,
+        *,
+        scheme: int = 0,
+        impedance: float = 20.0,
+        injection: float = 20.0,
+        follow: bool = True,
+        reserve: float = 0.005,
+        measured: bool = False,
+        stiffness: float = 4000.0,
+        damping: float = 40.0,
+        catch_up: float = 0.1,
+        buffer: float = 0.0,
+        timeout: float = 0.5,
+        fade: float = 0.2,
+        peak_force: float = 30.0,
+    ) -> None: ...
+    def __reduce__(self) -> tuple[typing.Any, ...]: ...
+    def __repr__(self) -> str: ...
+    def as_dict(self) -> dict[str, typing.Any]:
+        """
+        Return the parameters by name.
+        """
+    def replace(self, **changes: typing.Any) -> typing.Self:
+        """
+        Return a copy with some parameters changed, checked as at construction.
+        """
+    @property
+    def buffer(self) -> float:
+        """
+        play-out buffer of both receivers, against jitter and loss; it adds to the delay [s], 0 to 0.3
+        """
+    @property
+    def catch_up(self) -> float:
+        """
+        largest speed at which drift is compensated, on top of the motion [m/s], 0 to 10
+        """
+    @property
+    def damping(self) -> float:
+        """
+        of the slave's position controller; with waves it is their impedance [N s/m], 0 to 1000
+        """
+    @property
+    def fade(self) -> float:
+        """
+        in which the master's force goes to zero and comes back [s], 0.001 to 10
+        """
+    @property
+    def follow(self) -> bool:
+        """
+        compensate position drift, with energy that is left over; 0 leaves it, 0 to 1
+        """
+    @property
+    def impedance(self) -> float:
+        """
+        wave impedance b; damping of the slave's controller with waves [N s/m], 0.1 to 1000
+        """
+    @property
+    def injection(self) -> float:
+        """
+        largest damping of the master's passivity controller [N s/m], 0 to 1000
+        """
+    @property
+    def measured(self) -> bool:
+        """
+        1 sends the force of the environment back, 0 that of the slave's controller, 0 to 1
+        """
+    @property
+    def peak_force(self) -> float:
+        """
+        largest force of the slave [N], 0.1 to 10000
+        """
+    @property
+    def reserve(self) -> float:
+        """
+        energy that each port may give out before any has come in: without it nothing begins to move [J], 0 to 1
+        """
+    @property
+    def scheme(self) -> int:
+        """
+        0 position and force, 1 passivity control, 2 waves, 0 to 2
+        """
+    @property
+    def stiffness(self) -> float:
+        """
+        of the slave's position controller [N/m], 1 to 1e+05
+        """
+    @property
+    def timeout(self) -> float:
+        """
+        silence after which the link counts as lost [s], 0.01 to 10
+        """
+
+class Link:
+    """
+    One direction of a network, simulated.
+
+    Parameters
+    ----------
+    delay : float
+        least time a packet takes, one way [s], 0 to 0.5.
+    jitter : float
+        largest time it takes longer; uniform [s], 0 to 0.2.
+    loss : float
+        share of packets that never arrive, 0 to 1.
+    reorder : float
+        share of packets that are held back by 5 ms more, so that later ones overtake them, 0 to 1.
+    corrupt : float
+        share of datagrams with a flipped bit; in the process `network` only, a simulation drops them as the CRC would, 0 to 1.
+    cut_every : float
+        period of the cuts of the link; 0 for none [s], 0 to 1e+06.
+    cut_length : float
+        how long each lasts, at the end of its period [s], 0 to 1e+06.
+    """
+
+    @staticmethod
+    def fields() -> list[Field]:
+        """
+        Return name, unit, meaning, default and range of every parameter.
+        """
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __init__(
+        self,
+        *,
+        delay: float = 0.05,
+        jitter: float = 0.0,
+        loss: float = 0.0,
+        reorder: float = 0.0,
+        corrupt: float = 0.0,
+        cut_every: float = 0.0,
+        cut_length: float = 0.0,
+    ) -> None: ...
+    def __reduce__(self) -> tuple[typing.Any, ...]: ...
+    def __repr__(self) -> str: ...
+    def as_dict(self) -> dict[str, typing.Any]:
+        """
+        Return the parameters by name.
+        """
+    def replace(self, **changes: typing.Any) -> typing.Self:
+        """
+        Return a copy with some parameters changed, checked as at construction.
+        """
+    @property
+    def corrupt(self) -> float:
+        """
+        share of datagrams with a flipped bit; in the process `network` only, a simulation drops them as the CRC would, 0 to 1
+        """
+    @property
+    def cut_every(self) -> float:
+        """
+        period of the cuts of the link; 0 for none [s], 0 to 1e+06
+        """
+    @property
+    def cut_length(self) -> float:
+        """
+        how long each lasts, at the end of its period [s], 0 to 1e+06
+        """
+    @property
+    def delay(self) -> float:
+        """
+        least time a packet takes, one way [s], 0 to 0.5
+        """
+    @property
+    def jitter(self) -> float:
+        """
+        largest time it takes longer; uniform [s], 0 to 0.2
+        """
+    @property
+    def loss(self) -> float:
+        """
+        share of packets that never arrive, 0 to 1
+        """
+    @property
+    def reorder(self) -> float:
+        """
+        share of packets that are held back by 5 ms more, so that later ones overtake them, 0 to 1
+        """
+
+class SlaveModel:
+    """
+    The slave's one axis, and the spring it meets.
+
+    Parameters
+    ----------
+    mass : float
+        of the slave [kg], 0.001 to 100.
+    damping : float
+        of its bearing [N s/m], 0 to 1000.
+    contact : float
+        where it meets the environment [m], -1 to 1.
+    contact_stiffness : float
+        of the environment; 0 for free motion [N/m], 0 to 1e+05.
+    contact_damping : float
+        of the environment, on the way in [N s/m], 0 to 1000.
+    """
+
+    @staticmethod
+    def fields() -> list[Field]:
+        """
+        Return name, unit, meaning, default and range of every parameter.
+        """
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __init__(
+        self,
+        *,
+        mass: float = 0.5,
+        damping: float = 2.0,
+        contact: float = 0.02,
+        contact_stiffness: float = 500.0,
+        contact_damping: float = 4.0,
+    ) -> None: ...
+    def __reduce__(self) -> tuple[typing.Any, ...]: ...
+    def __repr__(self) -> str: ...
+    def as_dict(self) -> dict[str, typing.Any]:
+        """
+        Return the parameters by name.
+        """
+    def replace(self, **changes: typing.Any) -> typing.Self:
+        """
+        Return a copy with some parameters changed, checked as at construction.
+        """
+    @property
+    def contact(self) -> float:
+        """
+        where it meets the environment [m], -1 to 1
+        """
+    @property
+    def contact_damping(self) -> float:
+        """
+        of the environment, on the way in [N s/m], 0 to 1000
+        """
+    @property
+    def contact_stiffness(self) -> float:
+        """
+        of the environment; 0 for free motion [N/m], 0 to 1e+05
+        """
+    @property
+    def damping(self) -> float:
+        """
+        of its bearing [N s/m], 0 to 1000
+        """
+    @property
+    def mass(self) -> float:
+        """
+        of the slave [kg], 0.001 to 100
+        """
+
+class TeleopPacket:
+    """
+    A datagram between master and slave; see `ebac.teleop` for the layout.
+    """
+
+    __hash__: typing.ClassVar[None] = None  # type: ignore[assignment]
+    @staticmethod
+    def decode(datagram: str) -> TeleopPacket | None:
+        """
+        Return the packet, or None for a datagram that is damaged or not of this version.
+        """
+    def __eq__(self, arg0: object) -> bool: ...
+    def __init__(
+        self,
+        *,
+        from_slave: bool = False,
+        lost: bool = False,
+        session: typing.SupportsInt | typing.SupportsIndex = 1,
+        sequence: typing.SupportsInt | typing.SupportsIndex = 0,
+        echo: typing.SupportsInt | typing.SupportsIndex = 0,
+        stamp: typing.SupportsInt | typing.SupportsIndex = 0,
+        value: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+        energy: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+        wave: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+    ) -> None: ...
+    def encode(self) -> bytes:
+        """
+        Return its 52 bytes.
+        """
+    @property
+    def echo(self) -> int:
+        """
+        Newest number its sender has received.
+        """
+    @property
+    def energy(self) -> float:
+        """
+        Energy into the network [J].
+        """
+    @property
+    def from_slave(self) -> bool:
+        """
+        Whether the slave sent it.
+        """
+    @property
+    def lost(self) -> bool:
+        """
+        Whether its sender has lost the link.
+        """
+    @property
+    def sequence(self) -> int:
+        """
+        Number within the session, from 1.
+        """
+    @property
+    def session(self) -> int:
+        """
+        The hand's consents so far.
+        """
+    @property
+    def stamp(self) -> int:
+        """
+        The sender's clock [ns].
+        """
+    @property
+    def value(self) -> float:
+        """
+        Position of the master [m], or force [N].
+        """
+    @property
+    def wave(self) -> float:
+        """
+        Integral of the wave variable [sqrt(W) s].
+        """
+
+class _UdpMaster:
+    def __init__(
+        self,
+        *,
+        setup: Setup,
+        law: typing.Any,
+        coupling: Coupling,
+        host: str,
+        port: typing.SupportsInt | typing.SupportsIndex,
+        peer: str,
+        peer_port: typing.SupportsInt | typing.SupportsIndex,
+        consent_after: typing.SupportsFloat | typing.SupportsIndex,
+    ) -> None: ...
+    def consent(self) -> bool:
+        """
+        Agree to go on; False where the link is not back.
+        """
+    def run(self, seconds: typing.SupportsFloat | typing.SupportsIndex) -> dict[str, typing.Any]:
+        """
+        Run for a time [s]; return what it has met since it was made.
+        """
+    @property
+    def port(self) -> int:
+        """
+        The UDP port it is bound to.
+        """
+
+class _UdpNetwork:
+    def __init__(
+        self,
+        *,
+        there: Link,
+        back: Link,
+        seed: typing.SupportsInt | typing.SupportsIndex,
+        host: str,
+        port: typing.SupportsInt | typing.SupportsIndex,
+        slave: str,
+        slave_port: typing.SupportsInt | typing.SupportsIndex,
+    ) -> None: ...
+    def cut(self, on: bool) -> None:
+        """
+        Cut both ways, or mend them.
+        """
+    def run(self, seconds: typing.SupportsFloat | typing.SupportsIndex) -> dict[str, typing.Any]:
+        """
+        Run for a time [s]; return what it has met since it was made.
+        """
+    @property
+    def port(self) -> int:
+        """
+        The UDP port it is bound to.
+        """
+
+class _UdpSlave:
+    def __init__(
+        self,
+        *,
+        model: SlaveModel,
+        coupling: Coupling,
+        host: str,
+        port: typing.SupportsInt | typing.SupportsIndex,
+    ) -> None: ...
+    def run(self, seconds: typing.SupportsFloat | typing.SupportsIndex) -> dict[str, typing.Any]:
+        """
+        Run for a time [s]; return what it has met since it was made.
+        """
+    @property
+    def port(self) -> int:
+        """
+        The UDP port it is bound to.
+        """
+
+def _simulate_teleop(
+    law: typing.Any,
+    setup: Setup,
+    *,
+    coupling: Coupling,
+    slave: SlaveModel,
+    there: Link,
+    back: Link,
+    consent_after: typing.SupportsFloat | typing.SupportsIndex,
+) -> dict[str, typing.Any]: ...
+def _teleop_fields() -> dict[str, typing.Any]: ...
 
 class Scope:
     """

@@ -59,6 +59,8 @@ RULES = (
     Rule(r"^ebac run .*--law tca\b", NEVER, "shakes; a loaded machine or a limit may end it"),
     # What runs until Ctrl-C: the steps that follow meet it.
     Rule(r"^ebac (drive|sensor) simulate", BESIDE, "runs until Ctrl-C"),
+    Rule(r"^ebac teleop (master|network|slave)(?!.*--seconds)", BESIDE, "runs until Ctrl-C"),
+    Rule(r"^ebac teleop study", SLOW, "takes seconds", fewer="--scheme waves --delay 0.05"),
     Rule(r"^ebac sensor read(?!.*--seconds)", BESIDE, "runs until Ctrl-C"),
     Rule(r"^python -m can\.logger", BESIDE, "runs until Ctrl-C"),
     Rule(r"^ebac drive verify --interface ebac", FAILS, "new simulated drives hold no profile"),

@@ -36,6 +36,7 @@ MAY_SEE = {
     "simulated_drives": {"core", "model", "control", "loop", "rt", "can", "canopen"},
     "sensor": {"core", "model", "control", "loop", "rt"},
     "portable": {"core", "can", "rt", "sensor"},
+    "teleop": {"core", "model", "control", "loop", "sim", "sensor"},
     "faults": {"core", "model", "control", "loop", "sim", "can", "canopen", "simulated_drives"},
 }
 
@@ -198,6 +199,7 @@ ROOMS = [
     *("drives", "can", "sensor", "realtime", "logs", "hardware", "faults"),
     *(
         "studies",
+        "teleop",
         "tracking",
         "plot",
         "explore",

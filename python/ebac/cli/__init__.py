@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from ebac.cli import bus, demo, drive, gastroscopy, identify, live, paper, sensor, track
+from ebac.cli import bus, demo, drive, gastroscopy, identify, live, paper, sensor, teleop, track
 from ebac.cli.bench import bench
 from ebac.cli.catalogue import laws, presets, specs, worlds
 from ebac.cli.command import Group, add
@@ -88,6 +88,7 @@ add(app, engines.engines, panel=STUDY)
 add(app, tissue.tissue, panel=STUDY)
 add(app, faults.faults, panel=STUDY)
 app.add_typer(gastroscopy.app, name="gastroscopy", rich_help_panel=STUDY)
+app.add_typer(teleop.app, name="teleop", rich_help_panel=STUDY)
 app.add_typer(identify.app, name="identify", rich_help_panel=DATA)
 add(app, track.track, panel=DATA)
 app.add_typer(log.log, name="log", rich_help_panel=DATA)

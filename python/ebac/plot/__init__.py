@@ -23,6 +23,7 @@ from ebac.plot.style import (
     new_figure,
 )
 from ebac.plot.sweep import plot_sweep
+from ebac.plot.teleop import plot_teleop, plot_teleop_runs
 from ebac.plot.tissue import plot_tissue
 from ebac.plot.tracking import plot_budget, plot_tracking
 from ebac.plot.walls import plot_walls
@@ -55,6 +56,8 @@ __all__ = [
     "plot_overlay",
     "plot_study",
     "plot_sweep",
+    "plot_teleop",
+    "plot_teleop_runs",
     "plot_tissue",
     "plot_trace",
     "plot_tracking",

@@ -1,0 +1,98 @@
+#include <pybind11/numpy.h>
+#include <pybind11/stl.h>
+
+#include <string>
+
+#include "bind.hpp"
+#include "ebac/teleop/packet.hpp"
+#include "ebac/teleop/simulate.hpp"
+#include "others_run.hpp"
+#include "sweep.hpp"
+
+namespace ebac::python {
+
+void bind_teleop_udp(py::module_& m);  // teleop_udp.cpp
+
+namespace {
+
+using teleop::Coupling;
+using teleop::Link;
+using teleop::Packet;
+using teleop::SlaveModel;
+using teleop::Teleop;
+
+Values simulated(const AnyLaw& law, const Setup& setup, const Coupling& coupling,
+                 const SlaveModel& slave, const Link& there, const Link& back,
+                 double consent_after) {
+  teleop::Outcome outcome;
+  {
+    const OthersRun release;
+    outcome = teleop::simulate({setup, coupling, slave, there, back, consent_after}, law);
+  }
+  Values columns;
+  add_columns<teleop::Row>(columns, outcome.rows,
+                           [](const teleop::Row& row) -> const teleop::Row& { return row; });
+  columns["at_master"] = values_of(outcome.at_master);
+  columns["at_slave"] = values_of(outcome.at_slave);
+  return columns;
+}
+
+py::bytes encoded(const Packet& packet) {
+  const Packet::Wire wire = teleop::encode(packet);
+  return {reinterpret_cast<const char*>(wire.data()), wire.size()};
+}
+
+std::optional<Packet> decoded(const std::string& bytes) {
+  return teleop::decode({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
+}
+
+void bind_packet(py::module_& m) {
+  py::class_<Packet>(m, "TeleopPacket",
+                     "A datagram between master and slave; see `ebac.teleop` for the layout.")
+      .def(py::init([](bool from_slave, bool lost, std::uint32_t session, std::uint32_t sequence,
+                       std::uint32_t echo, std::int64_t stamp, double value, double energy,
+                       double wave) {
+             return Packet{from_slave, lost, session, sequence, echo, stamp, value, energy, wave};
+           }),
+           py::kw_only(), py::arg("from_slave") = false, py::arg("lost") = false,
+           py::arg("session") = 1, py::arg("sequence") = 0, py::arg("echo") = 0,
+           py::arg("stamp") = 0, py::arg("value") = 0.0, py::arg("energy") = 0.0,
+           py::arg("wave") = 0.0)
+      .def_readonly("from_slave", &Packet::from_slave, "Whether the slave sent it.")
+      .def_readonly("lost", &Packet::lost, "Whether its sender has lost the link.")
+      .def_readonly("session", &Packet::session, "The hand's consents so far.")
+      .def_readonly("sequence", &Packet::sequence, "Number within the session, from 1.")
+      .def_readonly("echo", &Packet::echo, "Newest number its sender has received.")
+      .def_readonly("stamp", &Packet::stamp, "The sender's clock [ns].")
+      .def_readonly("value", &Packet::value, "Position of the master [m], or force [N].")
+      .def_readonly("energy", &Packet::energy, "Energy into the network [J].")
+      .def_readonly("wave", &Packet::wave, "Integral of the wave variable [sqrt(W) s].")
+      .def("encode", &encoded, "Return its 52 bytes.")
+      .def_static(
+          "decode", &decoded, py::arg("datagram"),
+          "Return the packet, or None for a datagram that is damaged or not of this version.")
+      .def("__eq__", [](const Packet& a, const Packet& b) { return a == b; });
+}
+
+}  // namespace
+
+void bind_teleop(py::module_& m) {
+  bind_fields<Link>(m, "Link", "One direction of a network, simulated.");
+  bind_fields<Coupling>(m, "Coupling", "How master and slave are coupled; the same on both sides.");
+  bind_fields<SlaveModel>(m, "SlaveModel", "The slave's one axis, and the spring it meets.");
+  bind_packet(m);
+  bind_teleop_udp(m);
+  m.def("_simulate_teleop", &simulated, py::arg("law"), py::arg("setup"), py::kw_only(),
+        py::arg("coupling"), py::arg("slave"), py::arg("there"), py::arg("back"),
+        py::arg("consent_after"));
+  m.def("_teleop_fields", [] {
+    py::dict units;
+    for (const FieldRow& field : field_table<teleop::Row>().rows) {
+      units[py::str(std::string(field.name))] =
+          py::make_tuple(std::string(field.unit), std::string(field.meaning));
+    }
+    return units;
+  });
+}
+
+}  // namespace ebac::python

@@ -1,0 +1,160 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+
+#include "ebac/control/any_law.hpp"
+#include "ebac/loop/tick.hpp"
+#include "ebac/sim/simulated_device.hpp"
+#include "ebac/teleop/coupling.hpp"
+#include "ebac/teleop/link_watch.hpp"
+#include "ebac/teleop/packet.hpp"
+#include "ebac/teleop/receiver.hpp"
+
+namespace ebac::teleop {
+
+/// The master: a simulated device of one axis with its hand, the usual chain of a tick, and a law. The force the
+/// law is asked for is that of the network. Its energy is counted with the force that was asked for when the
+/// command of the last interval was computed; what the law or the passivity controller adds, and what the device's own damping takes at
+/// least, is `dissipated`.
+class MasterSide {
+ public:
+  MasterSide(const Setup& setup, const AnyLaw& law, const Coupling& coupling)
+      : coupling_(checked(coupling, "Coupling")),
+        dt_(setup.timing.dt),
+        lag_(static_cast<std::uint32_t>(setup.timing.delay) + 1),
+        device_(setup),
+        chain_(setup.device, Free{}),
+        law_(law),
+        watch_(coupling, dt_),
+        receiver_(static_cast<int>(std::lround(coupling.buffer / dt_))) {
+    sample_.axes = 1;
+    law_.reset();
+  }
+
+  void take(const Packet& packet) EBAC_RT {
+    if (!packet.from_slave || packet.session != session_) return receiver_.refuse();
+    other_lost_ = packet.lost;
+    watch_.heard();
+    receiver_.take(packet);
+  }
+
+  /// The hand agrees to go on after the link was lost: a new session, from where both sides are now.
+  bool consent() EBAC_RT {
+    if (watch_.state() != LinkState::kBack) return false;
+    ++session_;
+    sequence_ = 0;
+    receiver_.reset();
+    watch_.begin();
+    other_lost_ = false;
+    port_ = {};
+    wave_sum_ = used_wave_ = used_energy_ = smooth_ = last_ = 0;
+    law_.reset();
+    return true;
+  }
+
+  Packet step(std::int64_t stamp) EBAC_RT {
+    const auto axes = only_axis(sample_);
+    const Instant now{.t = static_cast<double>(tick_) * dt_, .dt = tick_ > 0 ? dt_ : 0.0};
+    const Reading reading = sense(chain_, device_, now, sample_, axes);
+    chain_.account(axes);
+    Port& port = axes[0].port;
+    observe(port);
+    watch_.tick(other_lost_);
+    if (watch_.state() == LinkState::kWaiting) origin_ = port.x;
+    const double net = watch_.share() * asked(port, receiver_.play());
+    net_[tick_ % net_.size()] = net;
+    port.f_env = net + inject(port);
+    port.f_cmd = law_.step(port);
+    chain_.drive(now.dt, axes);
+    if (sample_.fault == Fault::kNone) sample_.fault = judge(reading, axes);
+    if (sample_.fault != Fault::kNone) rest(axes);
+    ++tick_;
+    return {.from_slave = false,
+            .lost = watch_.state() == LinkState::kLost || watch_.state() == LinkState::kBack,
+            .session = session_,
+            .sequence = ++sequence_,
+            .echo = receiver_.newest(),
+            .stamp = stamp,
+            .value = port.x - origin_,
+            .energy = waves() ? port_.in - port_.out + port_.dissipated + used_energy_ : port_.in,
+            .wave = wave_sum_};
+  }
+
+  /// Another place for the hand [m].
+  void aim(double target) EBAC_RT { device_.aim(0, target); }
+
+  const Sample& sample() const EBAC_RT { return sample_; }
+  const Port& device_port() const EBAC_RT { return sample_.axis[0].port; }
+  const AxisTruth& truth() const EBAC_RT { return device_.state(0); }
+  const PortEnergy& port() const EBAC_RT { return port_; }
+  const LinkWatch& watch() const EBAC_RT { return watch_; }
+  const Receiver& receiver() const EBAC_RT { return receiver_; }
+  std::uint32_t session() const EBAC_RT { return session_; }
+  double asked_now() const EBAC_RT { return net_[(tick_ + net_.size() - 1) % net_.size()]; }
+
+ private:
+  bool waves() const EBAC_RT { return coupling_.scheme == static_cast<int>(Scheme::kWaves); }
+
+  /// The energy of the interval that ended now, and the wave that went out over it.
+  void observe(const Port& port) EBAC_RT {
+    if (!(port.dt > 0)) return;
+    const double net = tick_ >= lag_ ? net_[(tick_ - lag_) % net_.size()] : 0.0;
+    port_.add(net * port.dx);
+    port_.dissipated += (port.f_applied - net) * port.dx + port.damped - damped_;
+    damped_ = port.damped;
+    const double b = coupling_.impedance;
+    wave_sum_ += (b * port.dx + net * port.dt) / std::sqrt(2 * b);
+  }
+
+  /// The force that comes through the network, before anything holds it back.
+  double asked(const Port& port, const Packet& in) EBAC_RT {
+    port_.allowed = std::max(port_.allowed, in.energy);
+    if (!waves()) return in.value;
+    const double b = coupling_.impedance;
+    const double most =
+        std::sqrt(2 * std::max(0.0, in.energy + coupling_.reserve - used_energy_) / dt_);
+    smooth_ += (in.wave - last_ - smooth_ * dt_) / kSmooth;
+    last_ = in.wave;
+    const double wanted = coupling_.follow ? (in.wave - used_wave_) / kSmooth : smooth_;
+    const double w = std::clamp(wanted, -most, most);
+    used_wave_ += w * dt_;
+    used_energy_ += 0.5 * w * w * dt_;
+    return b * port.v - std::sqrt(2 * b) * w;
+  }
+
+  /// The passivity controller: a damper that takes what is missing in the account within a tick.
+  double inject(const Port& port) EBAC_RT {
+    if (coupling_.scheme != static_cast<int>(Scheme::kPassivity) || port.v == 0) return 0;
+    const double missing = -(port_.left() + coupling_.reserve);
+    if (!(missing > 0)) return 0;
+    return std::min(coupling_.injection, missing / (port.v * port.v * dt_)) * port.v;
+  }
+
+  Coupling coupling_;
+  double dt_;          // s
+  std::uint32_t lag_;  // ticks from a command to the row that shows its force
+  SimulatedDevice device_;
+  SignalChain chain_;
+  AnyLaw law_;
+  LinkWatch watch_;
+  Receiver receiver_;
+  Sample sample_{};
+  PortEnergy port_{};
+  std::array<double, 16> net_{};  // N
+  std::uint32_t tick_ = 0;
+  std::uint32_t session_ = 1;
+  std::uint32_t sequence_ = 0;
+  bool other_lost_ = false;
+  double origin_ = 0;       // m
+  double damped_ = 0;       // J
+  double wave_sum_ = 0;     // sqrt(W) s
+  double used_wave_ = 0;    // sqrt(W) s
+  double used_energy_ = 0;  // J
+  double smooth_ = 0;       // sqrt(W)
+  double last_ = 0;         // sqrt(W) s
+};
+
+}  // namespace ebac::teleop

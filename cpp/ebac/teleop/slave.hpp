@@ -1,0 +1,196 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+
+#include "ebac/core/check.hpp"
+#include "ebac/core/fields.hpp"
+#include "ebac/core/realtime.hpp"
+#include "ebac/teleop/coupling.hpp"
+#include "ebac/teleop/link_watch.hpp"
+#include "ebac/teleop/packet.hpp"
+#include "ebac/teleop/receiver.hpp"
+
+namespace ebac::teleop {
+
+/// The slave's one axis, and the spring it meets.
+struct SlaveModel {
+  double mass = 0.5;               // kg
+  double damping = 2;              // N s/m
+  double contact = 0.02;           // m
+  double contact_stiffness = 500;  // N/m
+  double contact_damping = 4;      // N s/m
+
+  static constexpr auto fields() {
+    using F = Field<SlaveModel>;
+    return std::array{
+        F{"mass", &SlaveModel::mass, "kg", "of the slave", 1e-3, 100},
+        F{"damping", &SlaveModel::damping, "N s/m", "of its bearing", 0, 1e3},
+        F{"contact", &SlaveModel::contact, "m", "where it meets the environment", -1, 1},
+        F{"contact_stiffness", &SlaveModel::contact_stiffness, "N/m",
+          "of the environment; 0 for free motion", 0, 1e5},
+        F{"contact_damping", &SlaveModel::contact_damping, "N s/m",
+          "of the environment, on the way in", 0, 1e3},
+    };
+  }
+
+  double push(double x, double v) const EBAC_RT {
+    const double depth = x - contact;
+    return depth > 0 ? contact_stiffness * depth +
+                           contact_damping * std::max(0.0, v) * (contact_stiffness > 0 ? 1.0 : 0.0)
+                     : 0.0;
+  }
+};
+
+/// The slave: where it wants to be by what comes from the master, and its position controller, a spring and a
+/// damper between that place and the axis. Its port is (force of that spring, speed of that place).
+class SlaveSide {
+ public:
+  struct State {
+    double x = 0;       // m
+    double v = 0;       // m/s
+    double target = 0;  // m
+    double force = 0;   // N
+    double met = 0;     // N
+    double drift = 0;   // m
+  };
+
+  SlaveSide(const SlaveModel& model, const Coupling& coupling, double dt)
+      : model_(checked(model, "SlaveModel")),
+        coupling_(checked(coupling, "Coupling")),
+        dt_(dt),
+        watch_(coupling, dt),
+        receiver_(static_cast<int>(std::lround(coupling.buffer / dt))) {
+    if (scheme() == Scheme::kWaves) coupling_.damping = coupling_.impedance;  // matched
+  }
+
+  void take(const Packet& packet) EBAC_RT {
+    if (packet.from_slave || packet.session < session_) return receiver_.refuse();
+    if (packet.session > session_) begin(packet.session);
+    other_lost_ = packet.lost;
+    watch_.heard();
+    receiver_.take(packet);
+  }
+
+  /// One tick; returns what to send.
+  Packet step(std::int64_t stamp) EBAC_RT {
+    watch_.tick(other_lost_);
+    const Packet in = receiver_.play();
+    const double v = watch_.state() == LinkState::kRunning ? follow(in) : 0.0;
+    move(v);
+    return {.from_slave = true,
+            .lost = watch_.state() == LinkState::kLost || watch_.state() == LinkState::kBack,
+            .session = session_,
+            .sequence = ++sequence_,
+            .echo = receiver_.newest(),
+            .stamp = stamp,
+            .value = coupling_.measured ? state_.met : state_.force,
+            .energy = scheme() == Scheme::kWaves ? wave_energy_ : port_.in,
+            .wave = wave_sum_};
+  }
+
+  const State& state() const EBAC_RT { return state_; }
+  const PortEnergy& port() const EBAC_RT { return port_; }
+  const LinkWatch& watch() const EBAC_RT { return watch_; }
+  const Receiver& receiver() const EBAC_RT { return receiver_; }
+  std::uint32_t session() const EBAC_RT { return session_; }
+  /// Energy given to the controller since the start, sum of force times speed of its target [J].
+  double given() const EBAC_RT { return given_; }
+
+ private:
+  static constexpr int kSubsteps = 10;
+
+  Scheme scheme() const EBAC_RT { return static_cast<Scheme>(coupling_.scheme); }
+
+  void begin(std::uint32_t session) EBAC_RT {
+    session_ = session;
+    sequence_ = 0;
+    receiver_.reset();
+    watch_.begin();
+    port_ = {};
+    origin_ = state_.target;  // from here on relative: nothing jumps
+    last_ = scheme() == Scheme::kWaves ? 0.0 : origin_;
+    smooth_ = 0;
+    used_wave_ = used_energy_ = wave_sum_ = wave_energy_ = 0;
+  }
+
+  // The controller's force at target speed v is f0 + slope v: implicit, exact at the end of the tick.
+  double slope() const EBAC_RT { return coupling_.stiffness * dt_ + coupling_.damping; }
+  double f0() const EBAC_RT {
+    return coupling_.stiffness * (state_.target - state_.x) - coupling_.damping * state_.v;
+  }
+
+  /// The speed of the target.
+  double follow(const Packet& in) EBAC_RT {
+    if (scheme() == Scheme::kWaves) return by_waves(in);
+    const double place = origin_ + in.value;
+    smooth_ += (place - last_ - smooth_ * dt_) / kSmooth;
+    last_ = place;
+    const double behind = (place - state_.target) / kSmooth;
+    state_.drift = place - state_.target;
+    if (scheme() == Scheme::kPositionForce) return behind;
+    double v = smooth_;
+    if (coupling_.follow) {
+      v += std::clamp(behind - smooth_, -coupling_.catch_up, coupling_.catch_up);
+    }
+    port_.allowed = std::max(port_.allowed, in.energy);
+    return held_to((port_.left() + coupling_.reserve) / dt_, f0(), slope(), v);
+  }
+
+  /// v = sqrt(2/b) u - f/b with f = f0 + slope v; u no more than has come in.
+  double by_waves(const Packet& in) EBAC_RT {
+    const double b = coupling_.impedance;
+    const double most =
+        std::sqrt(2 * std::max(0.0, in.energy + coupling_.reserve - used_energy_) / dt_);
+    smooth_ += (in.wave - last_ - smooth_ * dt_) / kSmooth;
+    last_ = in.wave;
+    const double wanted = coupling_.follow ? (in.wave - used_wave_) / kSmooth : smooth_;
+    const double u = std::clamp(wanted, -most, most);
+    used_wave_ += u * dt_;
+    used_energy_ += 0.5 * u * u * dt_;
+    const double v = (std::sqrt(2 * b) * u - f0()) / (b + slope());
+    const double w = u - std::sqrt(2 / b) * (f0() + slope() * v);
+    wave_sum_ += w * dt_;
+    wave_energy_ += 0.5 * w * w * dt_;
+    state_.drift = (in.wave - used_wave_) / std::sqrt(2 * b);
+    return v;
+  }
+
+  void move(double v) EBAC_RT {
+    const double force = f0() + slope() * v;
+    state_.force = std::clamp(force, -coupling_.peak_force, coupling_.peak_force);
+    const double given = state_.force * v * dt_;
+    given_ += given;
+    port_.add(-given);
+    state_.target += v * dt_;
+    const double h = dt_ / kSubsteps;
+    for (int i = 0; i < kSubsteps; ++i) {
+      state_.met = model_.push(state_.x, state_.v);
+      state_.v += h * (state_.force - state_.met - model_.damping * state_.v) / model_.mass;
+      state_.x += h * state_.v;
+    }
+  }
+
+  SlaveModel model_;
+  Coupling coupling_;
+  double dt_;  // s
+  LinkWatch watch_;
+  Receiver receiver_;
+  State state_{};
+  PortEnergy port_{};
+  std::uint32_t session_ = 1;
+  std::uint32_t sequence_ = 0;
+  bool other_lost_ = false;
+  double origin_ = 0;       // m, of the session
+  double last_ = 0;         // m, or sqrt(W) s
+  double smooth_ = 0;       // m/s, or sqrt(W)
+  double used_wave_ = 0;    // sqrt(W) s
+  double used_energy_ = 0;  // J
+  double wave_sum_ = 0;     // sqrt(W) s
+  double wave_energy_ = 0;  // J
+  double given_ = 0;        // J
+};
+
+}  // namespace ebac::teleop

@@ -1,0 +1,60 @@
+"""Options that the commands of `ebac teleop` share."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+if TYPE_CHECKING:
+    from ebac._core import Link
+
+PANEL = "Network"
+
+
+@dataclass(frozen=True, kw_only=True)
+class LinkOptions:
+    """The network, the same both ways."""
+
+    delay: Annotated[
+        float, typer.Option(help="Delay each way [s].", min=0, max=0.5, rich_help_panel=PANEL)
+    ] = 0.05
+    jitter: Annotated[
+        float,
+        typer.Option(help="Largest further delay [s].", min=0, max=0.2, rich_help_panel=PANEL),
+    ] = 0.0
+    loss: Annotated[
+        float, typer.Option(help="Share of packets lost.", min=0, max=1, rich_help_panel=PANEL)
+    ] = 0.0
+    reorder: Annotated[
+        float,
+        typer.Option(
+            help="Share of packets held back by 5 ms.", min=0, max=1, rich_help_panel=PANEL
+        ),
+    ] = 0.0
+    corrupt: Annotated[
+        float,
+        typer.Option(help="Share of datagrams damaged.", min=0, max=1, rich_help_panel=PANEL),
+    ] = 0.0
+    cut_every: Annotated[
+        float,
+        typer.Option(help="Cut the link so often [s]; 0 never.", min=0, rich_help_panel=PANEL),
+    ] = 0.0
+    cut_length: Annotated[
+        float, typer.Option(help="For so long [s].", min=0, rich_help_panel=PANEL)
+    ] = 0.0
+
+    def link(self) -> Link:
+        """Return the link."""
+        from ebac._core import Link
+
+        return Link(
+            delay=self.delay,
+            jitter=self.jitter,
+            loss=self.loss,
+            reorder=self.reorder,
+            corrupt=self.corrupt,
+            cut_every=self.cut_every,
+            cut_length=self.cut_length,
+        )

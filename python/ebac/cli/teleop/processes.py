@@ -1,0 +1,189 @@
+"""`ebac teleop master`, `network` and `slave`: three processes that talk over UDP."""
+
+from __future__ import annotations
+
+import json
+import select
+import sys
+import time
+from math import inf
+from typing import Annotated, Any
+
+import typer
+
+from ebac.cli import options, output, simulated
+from ebac.cli.teleop.options import LinkOptions
+
+PORT = typer.Option(help="UDP port to listen on; 0 takes any free one.", min=0, max=65535)
+HOST = typer.Option(help="Address of this machine to take.")
+SCHEME = typer.Option(help="Scheme; the same on both sides. See `ebac teleop run`.")
+CUT = 0.2
+REPORT = 5.0
+LOST = 2
+
+
+def _peer(text: str, option: str) -> tuple[str, int]:
+    host, colon, port = text.rpartition(":")
+    if not colon or not host or not port.isdecimal() or not 0 < int(port) < 65536:
+        output.fail(f"{option} {text}: must be an address and a port, as 127.0.0.1:49200")
+    return host, int(port)
+
+
+def master(
+    peer: Annotated[
+        str, typer.Option(help="Network or slave, as 127.0.0.1:49200.")
+    ] = "127.0.0.1:49201",
+    scheme: Annotated[str, SCHEME] = "ebac",
+    host: Annotated[str, HOST] = "127.0.0.1",
+    port: Annotated[int, PORT] = 0,
+    consent_after: Annotated[
+        float | None,
+        typer.Option(
+            help="A simulated hand agrees so long after the link is back [s].",
+            show_default="press Enter",
+            min=0,
+            max=1e7,
+        ),
+    ] = None,
+    seconds: simulated.Seconds = None,
+    seed: options.Seed = None,
+    as_json: output.AsJson = False,
+) -> None:
+    """Run a simulated stick with its hand and law at 1 kHz, joined to a slave over UDP.
+
+    The hand swings the stick between 5 and 35 mm. Where the link is lost, the force fades to zero; once it is back, the
+    hand has to agree (Enter) before the slave moves again. Say the same scheme to the slave.
+
+    **Examples**
+
+    * `ebac teleop slave --port 49211`, then `ebac teleop master --peer 127.0.0.1:49211`
+
+    * `ebac teleop master --peer 127.0.0.1:49200 --consent-after 1 --seconds 5 --json`
+    """
+    from ebac import Free, Hand, Scenario, Sine
+    from ebac.laws import design
+    from ebac.teleop import processes
+    from ebac.teleop import scheme as scheme_of
+
+    with output.refusing():
+        where = _peer(peer, "--peer")
+        chosen = scheme_of(scheme)
+        path = Sine(centre=0.02, amplitude=0.015, frequency=0.2, phase=-1.5708)
+        scenario = Scenario(environment=Free(), hand=Hand(path=[path]), seed=seed or 1)
+        law = design(chosen.law, scenario.device, scenario.known_timing)
+        side = processes.Master(
+            scenario, law, chosen, host=host, port=port, peer=where, consent_after=consent_after
+        )
+    _run("master", side, seconds, as_json, by_hand=consent_after is None)
+
+
+def slave(
+    scheme: Annotated[str, SCHEME] = "ebac",
+    contact_stiffness: Annotated[
+        float, typer.Option(help="Of what it meets at 20 mm [N/m].", min=0, max=1e5)
+    ] = 500.0,
+    host: Annotated[str, HOST] = "127.0.0.1",
+    port: Annotated[int, PORT] = 49201,
+    seconds: simulated.Seconds = None,
+    as_json: output.AsJson = False,
+) -> None:
+    """Run a simulated slave that answers whoever sends it good packets; without them it holds where it is.
+
+    **Examples**
+
+    * `ebac teleop slave --port 49221`
+
+    * `ebac teleop slave --contact-stiffness 2000 --port 49301 --scheme waves`
+    """
+    from ebac.teleop import SlaveModel, processes
+    from ebac.teleop import scheme as scheme_of
+
+    with output.refusing():
+        model = SlaveModel(contact_stiffness=contact_stiffness)
+        side = processes.Slave(model, scheme_of(scheme), host=host, port=port)
+    _run("slave", side, seconds, as_json)
+
+
+def network(
+    over: LinkOptions,
+    slave: Annotated[str, typer.Option(help="The slave, as 127.0.0.1:49201.")] = "127.0.0.1:49201",
+    host: Annotated[str, HOST] = "127.0.0.1",
+    port: Annotated[int, PORT] = 49200,
+    seconds: simulated.Seconds = None,
+    seed: options.Seed = None,
+    as_json: output.AsJson = False,
+) -> None:
+    """Stand between master and slave: delay, drop, reorder, damage and cut what they send.
+
+    **Examples**
+
+    * `ebac teleop network --delay 0.1 --jitter 0.01 --loss 0.1`
+
+    * `ebac teleop network --port 49210 --delay 0.05 --corrupt 0.01 --cut-every 20 --cut-length 2`
+    """
+    from ebac.teleop import processes
+
+    with output.refusing():
+        where = _peer(slave, "--slave")
+        link = over.link()
+        side = processes.Network(link, link, host=host, port=port, slave=where, seed=seed or 1)
+    _run("network", side, seconds, as_json)
+
+
+def _run(name: str, side: Any, seconds: float | None, as_json: bool, by_hand: bool = False) -> None:
+    from ebac.teleop.processes import STATES
+
+    if not as_json:
+        output.say(f"{name} on UDP port {side.port}. Ctrl-C stops it.")
+        sys.stdout.flush()
+    state, reported, report = None, time.monotonic(), side.run(0)
+    losses = 0
+    end = time.monotonic() + (inf if seconds is None else seconds)
+    with simulated.signalled() as over:
+        while time.monotonic() < end and not over.is_set():
+            report = side.run(CUT)
+            if report["losses"] > losses and report["state"] != LOST:  # within one report
+                _tell(f"{report['seconds']:8.1f} s  {name}: {STATES[LOST]}", as_json)
+            losses = report["losses"]
+            if name != "network" and report["state"] != state:
+                state = report["state"]
+                _tell(f"{report['seconds']:8.1f} s  {name}: {STATES[state]}", as_json)
+                if state == 3 and by_hand:
+                    _tell("            press Enter to go on", as_json)
+            if by_hand and state == 3 and _entered():
+                side.consent()
+            if time.monotonic() - reported > REPORT and not as_json:
+                reported = time.monotonic()
+                output.say(_line(report))
+    if as_json:
+        # One line, so that a program may read it while others write.
+        typer.echo(json.dumps({"command": f"teleop {name}", **_named(report)}))
+    else:
+        output.say(f"Stopped: {_line(report).strip()}")
+
+
+def _named(report: dict[str, Any]) -> dict[str, Any]:
+    from ebac.teleop.processes import UNITS
+
+    return {
+        f"{key}_{UNITS[key]}" if key in UNITS else key: int(value) if key == "fault" else value
+        for key, value in report.items()
+    }
+
+
+def _tell(text: str, as_json: bool) -> None:
+    typer.echo(text, err=as_json)
+
+
+def _entered() -> bool:
+    ready, _, _ = select.select([sys.stdin], [], [], 0)
+    return bool(ready) and bool(sys.stdin.readline())
+
+
+def _line(report: dict[str, Any]) -> str:
+    came = report["arrivals"]
+    return (
+        f"{report['seconds']:8.1f} s  {report['sent']:,} sent, {came['received']:,} received, {came['missing']:,} "
+        f"missing, {report['refused']:,} damaged, link lost {report['losses']} times, round trip "
+        f"{1e3 * report['round_trip']:.0f} ms, largest force {report['most_force']:.1f} N"
+    )

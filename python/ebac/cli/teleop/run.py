@@ -1,0 +1,140 @@
+"""`ebac teleop run`: every scheme over one network."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from ebac.cli import options, output
+from ebac.cli.files import ResultOptions
+from ebac.cli.teleop.options import LinkOptions
+
+if TYPE_CHECKING:
+    from ebac.teleop import Run
+
+
+def run(
+    to: ResultOptions,
+    over: LinkOptions,
+    scheme: Annotated[
+        list[str] | None,
+        typer.Option(help="Schemes, with commas between.", show_default="all"),
+    ] = None,
+    law: Annotated[
+        str | None,
+        typer.Option(help="Law of the master; see `ebac laws`.", show_default="that of the scheme"),
+    ] = None,
+    contact_stiffness: Annotated[
+        float,
+        typer.Option(help="Of what the slave meets at 20 mm [N/m]; 0 for nothing.", min=0, max=1e5),
+    ] = 500.0,
+    seconds: Annotated[float, typer.Option(help="Length of the run [s].", min=3, max=600)] = 10.0,
+    seed: options.Seed = None,
+    as_json: output.AsJson = False,
+) -> None:
+    """Simulate a master, a network and a slave in contact, under each scheme.
+
+    A hand moves the stick to 45 mm; the slave follows through the network and meets a spring at 20 mm. Shown: how far
+    the stick swings at rest, energies of the master's port and of both, stiffness at the stick over that at the slave.
+
+    **Examples**
+
+    * `ebac teleop run`
+
+    * `ebac teleop run --delay 0.2 --jitter 0.01 --loss 0.1 --scheme waves,ebac`
+
+    * `ebac teleop run --contact-stiffness 2000 --law eba --scheme position-force --json`
+    """
+    from ebac.teleop import SCHEMES, SlaveModel, simulate
+
+    with output.refusing():
+        names = [one for text in scheme or SCHEMES for one in output.words(text)]
+        folder = to.folder("teleop-run", as_json=as_json)
+        runs = [
+            simulate(
+                name,
+                law=law,
+                there=over.link(),
+                slave=SlaveModel(contact_stiffness=contact_stiffness),
+                seconds=seconds,
+                seed=seed or 1,
+            )
+            for name in names
+        ]
+    rows = [_row(one) for one in runs]
+    files = _write(folder, runs, rows, to) if folder else []
+    if as_json:
+        typer.echo(output.document("teleop run", rows))
+        return
+    _show(rows)
+    if folder is not None:
+        output.list_files(folder, files)
+
+
+def _row(one: Run) -> dict[str, Any]:
+    return {
+        "scheme": one.scheme.name,
+        "still": one.still,
+        "swing_m": one.swing_m,
+        "least_master_J": one.least_master_J,
+        "least_network_J": one.least_network_J,
+        "transparency": one.transparency,
+        "drift_m": one.drift_m,
+        "rest_N": one.rest_N,
+        "most_N": one.most_N,
+        "whole": one.whole,
+        "at_master": one.at_master,
+        "at_slave": one.at_slave,
+    }
+
+
+def _write(
+    folder: Path, runs: list[Run], rows: list[dict[str, Any]], to: ResultOptions
+) -> list[str]:
+    import numpy as np
+
+    from ebac.plot import plot_teleop_runs
+
+    with output.results(folder) as draft:
+        if draft is None:
+            return []
+        figures = to.save(plot_teleop_runs(runs), draft, "runs")
+        document = output.document("teleop run", rows)
+        (draft / "runs.json").write_text(document + "\n", encoding="utf-8")
+        for one in runs:
+            columns: dict[str, Any] = dict(one.columns)
+            np.savez_compressed(draft / f"{one.scheme.name}.npz", **columns)
+    return [*figures, "runs.json", *(f"{one.scheme.name}.npz" for one in runs)]
+
+
+def _show(rows: list[dict[str, Any]]) -> None:
+    from ebac._util import formatting
+
+    columns = [
+        "scheme",
+        "swing",
+        "master, least",
+        "both ports, least",
+        "transparency",
+        "drift",
+        "at rest",
+    ]
+    grid = output.table(columns, numbers=(1, 2, 3, 4, 5, 6))
+    for row in rows:
+        ratio = row["transparency"]
+        grid.add_row(
+            row["scheme"],
+            formatting.quantity(row["swing_m"], "m") if row["whole"] else "left",
+            formatting.quantity(row["least_master_J"], "J"),
+            formatting.quantity(row["least_network_J"], "J"),
+            "" if ratio != ratio else f"{ratio:.2f}",
+            formatting.quantity(row["drift_m"], "m"),
+            formatting.quantity(row["rest_N"], "N"),
+        )
+    output.show(grid)
+    output.say(
+        "Simulated. Swing: of the stick over the last 30 %; energies: the lowest, the master's own damping counted; "
+        "drift: master less slave; at rest: force on the environment."
+    )

@@ -1,0 +1,126 @@
+"""Teleoperation over networks: shaking, energy and transparency over the delay."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ebac.plot.style import Picture, dress, figure_legend, line, new_figure
+
+if TYPE_CHECKING:
+    from ebac.teleop.run import Run
+    from ebac.teleop.study import Study, StudyRow
+
+#: Okabe and Ito's colours; a marker of its own for each scheme as well.
+LOOKS = {
+    "position-force": ("#999999", "o"),
+    "master-passivity": ("#cc79a7", "v"),
+    "two-port-passivity": ("#e69f00", "s"),
+    "waves": ("#0072b2", "D"),
+    "ebac": ("#009e73", "^"),
+    "two-port-ebac": ("#d55e00", "P"),
+}
+#: Below, a swing is drawn as this [mm].
+LEAST = 0.005
+
+
+def plot_teleop(found: Study, network: str = "rough") -> Picture:
+    """Draw a column for each contact: shaking, energy of both ports and transparency over the delay.
+
+    Parameters
+    ----------
+    found : Study
+        What `ebac.teleop.study` returned.
+    network : str
+        Which of its networks.
+    """
+    rows = [row for row in found.rows if row.network == network]
+    contacts = list(dict.fromkeys(row.contact for row in rows))
+    figure = new_figure(1.2 + 3.0 * len(contacts), 8.0)
+    grid = figure.subplots(3, len(contacts), squeeze=False, sharex=True, sharey="row")
+    for column, contact in enumerate(contacts):
+        for number, one in enumerate(found.schemes):
+            mine = [row for row in rows if row.contact == contact and row.scheme == one.name]
+            colour, marker = LOOKS.get(one.name, (f"C{number}", "x"))
+            look = {"color": colour, "marker": marker, "label": one.name, "ms": 4, "lw": 1.2}
+            # A little aside, so that equal ones do not cover each other.
+            delay = [1e3 * row.delay_s + 2.5 * (number - 2.5) for row in mine]
+            for ax, values in zip(grid[:, column], _values(mine), strict=True):
+                ax.plot(delay, values, **look)
+        stiffness = next(row.stiffness_N_per_m for row in rows if row.contact == contact)
+        met = f"{contact}, {stiffness:,.0f} N/m" if stiffness else contact
+        grid[0, column].set_title(met, fontsize="medium")
+        grid[0, column].axhline(0.25, color="0.6", lw=0.8, ls="--")
+        grid[2, column].axhline(1, color="0.6", lw=0.8, ls="--")
+        grid[2, column].set_xlabel("delay each way [ms]")
+    for ax in grid.flat:
+        dress(ax, "")
+    for ax in grid[0]:
+        ax.set_yscale("log")
+    for ax in grid[1]:
+        ax.set_yscale("symlog", linthresh=1)
+        ax.set_ylim(top=1)
+    for ax, text in zip(
+        grid[:, 0],
+        (
+            "shaking of the stick [mm]\ndashed: still below",
+            "least energy of\nboth ports [mJ]",
+            "transparency",
+        ),
+        strict=True,
+    ):
+        ax.set_ylabel(text)
+    handles, labels = grid[0, 0].get_legend_handles_labels()
+    figure_legend(figure, handles, labels, columns=3)
+    figure.suptitle(
+        f"Teleoperation over a {network} network, simulated; worst of the hands", fontsize="medium"
+    )
+    return figure
+
+
+def _values(rows: list[StudyRow]) -> tuple[list[float], list[float], list[float]]:
+    shaking = [1e3 * row.shaking_m if np.isfinite(row.shaking_m) else np.nan for row in rows]
+    return (
+        [max(LEAST, one) for one in shaking],
+        [1e3 * row.least_network_J for row in rows],
+        [row.transparency for row in rows],
+    )
+
+
+def plot_teleop_runs(runs: Sequence[Run]) -> Picture:
+    """Draw a column for each run: positions, forces and energies of both ports over time.
+
+    Parameters
+    ----------
+    runs : sequence of Run
+        What `ebac.teleop.simulate` returned.
+    """
+    figure = new_figure(1.2 + 2.4 * len(runs), 7.0)
+    grid = figure.subplots(3, len(runs), squeeze=False, sharex=True, sharey="row")
+    for column, run in enumerate(runs):
+        t = run["t"]
+        above, middle, below = grid[:, column]
+        line(above, t, 1e3 * run["true_x"], color="#0072b2", label="master")
+        line(above, t, 1e3 * run["slave_x"], color="#d55e00", label="slave")
+        line(middle, t, run["force"], color="#0072b2")
+        line(middle, t, run["met"], color="#d55e00")
+        line(below, t, 1e3 * run["energy"], color="#0072b2", label="master's port")
+        line(below, t, 1e3 * run["network"], color="#009e73", label="both ports")
+        above.set_title(run.scheme.name, fontsize="medium")
+        below.set_xlabel("time [s]")
+    for ax in grid.flat:
+        dress(ax, "")
+    # One that shakes would hide the others.
+    grid[0, 0].set_ylim(-10, 70)
+    grid[1, 0].set_ylim(-5, 25)
+    grid[2, 0].set_yscale("symlog", linthresh=10)
+    for ax, text in zip(
+        grid[:, 0], ("position [mm]", "force at both ends [N]", "energy taken in [mJ]"), strict=True
+    ):
+        ax.set_ylabel(text)
+    handles, labels = grid[0, 0].get_legend_handles_labels()
+    more, texts = grid[2, 0].get_legend_handles_labels()
+    figure_legend(figure, [*handles, *more], [*labels, *texts], columns=4)
+    return figure

@@ -1,0 +1,307 @@
+"""One run of a master and a slave through a simulated network."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from ebac import _core
+from ebac._core import Coupling, Free, Hand, Link, MinimumJerk, SlaveModel
+from ebac._util.arguments import unknown_name
+from ebac.laws import AnyLaw, CoreLaw, design
+from ebac.scenario import Scenario
+
+#: Swing below which the stick is still, peak to peak [m], as everywhere in `ebac`.
+STILL = 0.25e-3
+#: A stick that swings farther does not rest [m].
+NO_REST = 5e-3
+#: Energy that a passive port may have given out for errors of the measurement, as in `ebac zwidth` [J].
+SPARE = 1e-3
+#: Share of a run at its end over which rest and swing are taken.
+TAIL = 0.3
+POSITION_FORCE, PASSIVITY, WAVES = 0, 1, 2
+
+
+@dataclass(frozen=True, kw_only=True)
+class Scheme:
+    """How master and slave are coupled, and the law of the master.
+
+    Attributes
+    ----------
+    name : str
+        Its name.
+    law : str
+        Of the master, by name.
+    coupling : Coupling
+        What goes over the network, and its parameters.
+    summary : str
+        One line.
+    """
+
+    name: str
+    law: str
+    coupling: Coupling
+    summary: str
+
+    def changed(self, **changes: Any) -> Scheme:
+        """Return the same with parameters of the coupling changed."""
+        return Scheme(
+            name=self.name,
+            law=self.law,
+            coupling=self.coupling.replace(**changes),
+            summary=self.summary,
+        )
+
+
+#: The schemes by name, with the parameters that `ebac teleop study --tune` finds for a rough network.
+SCHEMES: Mapping[str, Scheme] = {
+    name: Scheme(name=name, law=law, coupling=coupling, summary=summary)
+    for name, law, coupling, summary in (
+        (
+            "position-force",
+            "direct",
+            Coupling(scheme=POSITION_FORCE, measured=True),
+            "position there, measured force back, nothing that keeps it passive",
+        ),
+        (
+            "master-passivity",
+            "passivity-control",
+            Coupling(scheme=POSITION_FORCE, measured=True),
+            "the same, with passivity control at the master alone",
+        ),
+        (
+            "two-port-passivity",
+            "direct",
+            Coupling(
+                scheme=PASSIVITY,
+                injection=10,
+                catch_up=0.005,
+                stiffness=500,
+                reserve=1e-3,
+                buffer=0.015,
+            ),
+            "passivity observers and controllers at both ports (Ryu, Artigas, Preusche 2010)",
+        ),
+        (
+            "waves",
+            "direct",
+            Coupling(scheme=WAVES, impedance=20, buffer=0.015),
+            "wave variables, matched impedance (Niemeyer, Slotine 1991, 2004)",
+        ),
+        (
+            "ebac",
+            "ebac",
+            Coupling(scheme=POSITION_FORCE, buffer=0.015),
+            "position there, the controller's force back, EBAC at the master",
+        ),
+        (
+            "two-port-ebac",
+            "ebac",
+            Coupling(scheme=PASSIVITY, buffer=0.015),
+            "EBAC at the master, an energy bound at the slave's port",
+        ),
+    )
+}
+
+
+def scheme(name: str) -> Scheme:
+    """Return a scheme by its name; KeyError names the nearest."""
+    if name not in SCHEMES:
+        raise unknown_name("scheme", name, SCHEMES)
+    return SCHEMES[name]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Run:
+    """A run of both sides.
+
+    Attributes
+    ----------
+    scheme : Scheme
+        What ran.
+    columns : dict of str to ndarray
+        Each of shape (ticks,); names, units and meanings by `Run.fields`.
+    slave : SlaveModel
+        With the environment it met.
+    at_master, at_slave : dict of str to int
+        Packets received, missing, late, doubled, foreign.
+    whole : bool
+        False where the stick left 1 m, or the master stopped on a fault.
+    """
+
+    scheme: Scheme
+    columns: dict[str, npt.NDArray[np.float64]] = field(repr=False)
+    slave: SlaveModel
+    at_master: dict[str, int]
+    at_slave: dict[str, int]
+    whole: bool
+
+    def __getitem__(self, name: str) -> npt.NDArray[np.float64]:
+        """Return a column; shape (ticks,)."""
+        if name not in self.columns:
+            raise unknown_name("column", name, self.columns)
+        return self.columns[name]
+
+    @staticmethod
+    def fields() -> dict[str, tuple[str, str]]:
+        """Return unit and meaning of every column."""
+        return dict(_core._teleop_fields())
+
+    def tail(self, name: str) -> npt.NDArray[np.float64]:
+        """Return a column over the last 30 % of the run."""
+        values = self[name]
+        return values[int((1 - TAIL) * len(values)) :]
+
+    @property
+    def swing_m(self) -> float:
+        """Movement of the stick over the tail, peak to peak [m]; inf where the run did not end."""
+        return float(np.ptp(self.tail("true_x"))) if self.whole else np.inf
+
+    @property
+    def still(self) -> bool:
+        """The stick swings by less than 0.25 mm."""
+        return self.swing_m < STILL
+
+    @property
+    def least_master_J(self) -> float:  # noqa: N802
+        """Lowest energy of the master's port, its own damping counted [J]."""
+        return float(self["energy"].min())
+
+    @property
+    def least_network_J(self) -> float:  # noqa: N802
+        """Lowest energy that both ports together had put into the network [J]."""
+        return float(self["network"].min())
+
+    @property
+    def passive(self) -> bool:
+        """The master's port gave out at most 1 mJ."""
+        return self.least_master_J >= -SPARE
+
+    @property
+    def two_port_passive(self) -> bool:
+        """Both ports together gave out at most 1 mJ."""
+        return self.least_network_J >= -SPARE
+
+    @property
+    def transparency(self) -> float:
+        """Stiffness at the stick over that at the slave, at rest; nan without contact, and for swings of over 5 mm.
+
+        At the stick: mean force over its depth beyond the contact. At the slave: mean force of the environment over the
+        slave's depth. 1 is ideal.
+        """
+        contact = self.slave.contact
+        stick_depth = float(self.tail("true_x").mean()) - contact
+        met_depth = float(self.tail("slave_x").mean()) - contact
+        met = float(self.tail("met").mean())
+        if not self.swing_m < NO_REST or min(stick_depth, met_depth, met) <= 1e-6:
+            return float("nan")
+        return float(self.tail("force").mean()) / stick_depth / (met / met_depth)
+
+    @property
+    def drift_m(self) -> float:
+        """Mean distance of slave and master at rest [m]."""
+        return float((self.tail("true_x") - self.tail("slave_x")).mean())
+
+    @property
+    def rest_N(self) -> float:  # noqa: N802
+        """Mean force on the environment at rest [N]."""
+        return float(self.tail("met").mean())
+
+    @property
+    def most_N(self) -> float:  # noqa: N802
+        """Largest force on the environment [N]."""
+        return float(self["met"].max())
+
+
+def simulate(
+    scheme: str | Scheme = "ebac",
+    *,
+    law: AnyLaw | None = None,
+    there: Link | None = None,
+    back: Link | None = None,
+    slave: SlaveModel | None = None,
+    hand: Hand | None = None,
+    seconds: float = 10.0,
+    seed: int = 1,
+    consent_after: float = 0.5,
+    scenario: Scenario | None = None,
+    **changes: Any,
+) -> Run:
+    """Simulate a master, a network and a slave.
+
+    The master is the device of the scenario with its hand and law at 1 kHz; it feels the force of the slave's
+    position controller. Each session begins where both sides are.
+
+    Parameters
+    ----------
+    scheme : str or Scheme
+        A name of `SCHEMES`, or one of your own.
+    law : law, optional
+        Of the master, in place of the scheme's.
+    there, back : Link, optional
+        To the slave, default 50 ms; to the master, default as there.
+    slave : SlaveModel, optional
+        With its environment; default 500 N/m at 20 mm.
+    hand : Hand, optional
+        Default: 300 N/m, from 1.2 s on in 0.8 s to 45 mm.
+    seconds : float
+        Length of the run [s], 0.1 to 600.
+    seed : int
+        Of device and network; the same gives the same bits.
+    consent_after : float
+        After a lost link came back, the simulated hand consents in this time [s]; inf for never.
+    scenario : Scenario, optional
+        For a device or a timing of your own; its world is not used.
+    **changes
+        Parameters of the coupling, as `impedance=30`.
+
+    Raises
+    ------
+    KeyError, ValueError
+        For a scheme, a law or a parameter that does not exist or is out of its range.
+    """
+    chosen = _chosen(scheme)
+    if changes:
+        chosen = chosen.changed(**changes)
+    if not 0.1 <= seconds <= 600:
+        raise ValueError(f"seconds = {seconds:g} s: must lie in [0.1, 600] s")
+    if not consent_after >= 0:
+        raise ValueError(f"consent_after = {consent_after:g} s: must be at least 0 s")
+    given = Scenario() if scenario is None else scenario
+    if given.device.axes != 1:
+        raise ValueError(f"device: has {given.device.axes} axes; teleoperation has 1 so far")
+    path = hand or Hand(path=[MinimumJerk(target=0.045, at=1.2, duration=0.8)])
+    setup = given.replace(environment=Free(), hand=path, seconds=seconds, seed=seed).setup()
+    made = design(law or chosen.law, given.device, given.known_timing)
+    if not isinstance(made, CoreLaw):
+        raise TypeError(f"law = {made!r}: must be a law of the core, not one written in Python")
+    one_way = there or Link()
+    model = slave or SlaveModel()
+    columns = _core._simulate_teleop(
+        made,
+        setup,
+        coupling=chosen.coupling,
+        slave=model,
+        there=one_way,
+        back=back or one_way,
+        consent_after=consent_after,
+    )
+    at_master, at_slave = columns.pop("at_master"), columns.pop("at_slave")
+    ticks = round(seconds / given.timing.dt) + 1
+    return Run(
+        scheme=chosen,
+        columns=columns,
+        slave=model,
+        at_master=at_master,
+        at_slave=at_slave,
+        whole=len(columns["t"]) == ticks and not columns["fault"].any(),
+    )
+
+
+def _chosen(given: str | Scheme) -> Scheme:
+    """Return the scheme itself, or that of the name."""
+    return given if isinstance(given, Scheme) else scheme(given)

@@ -1,0 +1,241 @@
+"""Every scheme in free motion, on soft tissue and on something hard, over networks with delay, jitter and loss."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import asdict, dataclass
+from itertools import product
+from typing import Any
+
+import numpy as np
+
+from ebac._core import Hand, Link, MinimumJerk, SlaveModel
+from ebac.teleop.run import SCHEMES, SPARE, STILL, Run, Scheme, _chosen, simulate
+
+#: What the slave meets [N/m].
+CONTACTS: Mapping[str, float] = {"free": 0.0, "soft": 500.0, "hard": 20e3}
+#: Delays of the study, each way [s].
+DELAYS = (0.0, 0.05, 0.2, 0.3)
+#: The study's network besides the delay, and one without faults.
+NETWORKS: Mapping[str, Mapping[str, float]] = {
+    "rough": {"jitter": 0.01, "loss": 0.1, "reorder": 0.02},
+    "clean": {},
+}
+#: Stiffness of the hands that are simulated [N/m], each with a seed of its own.
+HANDS = (150.0, 300.0, 600.0)
+#: A stick that stays within it [m] is bounded: the hand's target is at 45 mm.
+BOUND = 0.1
+#: The training set, which the study does not use: contacts [N/m], delays [s], hands [N/m].
+TRAINING = ((0.0, 300.0, 1000.0, 5000.0), (0.03, 0.12), (200.0, 500.0))
+#: What is tried on it for each scheme.
+GRIDS: Mapping[str, Mapping[str, Sequence[Any]]] = {
+    "position-force": {"measured": (False, True), "buffer": (0.0, 0.015)},
+    "master-passivity": {"measured": (False, True), "buffer": (0.0, 0.015)},
+    "two-port-passivity": {
+        "injection": (5, 10, 20, 40),
+        "catch_up": (0.005, 0.02, 0.1),
+        "buffer": (0.0, 0.015),
+        "stiffness": (500, 1000, 4000),
+        "reserve": (1e-3, 5e-3),
+    },
+    "waves": {"impedance": (5, 10, 20, 30, 40), "buffer": (0.0, 0.015), "stiffness": (1000, 4000)},
+    "ebac": {"measured": (False, True), "buffer": (0.0, 0.015)},
+    "two-port-ebac": {"catch_up": (0.02, 0.1), "buffer": (0.0, 0.015), "stiffness": (1000, 4000)},
+}
+
+
+@dataclass(frozen=True, kw_only=True)
+class StudyRow:
+    """A scheme in one contact over one network; the worst of all hands, if nothing else is said.
+
+    Attributes
+    ----------
+    scheme, contact, network : str
+        Names.
+    stiffness_N_per_m, delay_s : float
+        Of the contact; one way.
+    runs, still, bounded, passive, two_port_passive : int
+        Runs, and how many of them: swing about a line by less than 0.25 mm at the end; stay within 0.1 m; give out at
+        most 1 mJ at the master's port; at both ports together, beyond the reserve of the scheme.
+    shaking_m, swing_m : float
+        Of the stick over the last 30 %, peak to peak, about a line and as it is; null where a run ended early.
+    least_master_J, least_network_J : float
+        Lowest energies.
+    transparency : float
+        Median of stiffness at the stick over stiffness at the slave; null without contact.
+    drift_m, rest_N, most_N : float
+        Master less slave at rest, force on the environment at rest, medians; largest force on the environment.
+    """
+
+    scheme: str
+    contact: str
+    network: str
+    stiffness_N_per_m: float
+    delay_s: float
+    runs: int
+    still: int
+    bounded: int
+    passive: int
+    two_port_passive: int
+    shaking_m: float
+    swing_m: float
+    least_master_J: float
+    least_network_J: float
+    transparency: float
+    drift_m: float
+    rest_N: float
+    most_N: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class Study:
+    """What `study` found.
+
+    Attributes
+    ----------
+    rows : tuple of StudyRow
+        Each scheme in each contact over each network.
+    schemes : tuple of Scheme
+        With their parameters.
+    """
+
+    rows: tuple[StudyRow, ...]
+    schemes: tuple[Scheme, ...]
+
+    def table(self) -> list[dict[str, Any]]:
+        """Return the rows as dictionaries, units in the keys."""
+        return [asdict(row) for row in self.rows]
+
+    def parameters(self) -> dict[str, dict[str, Any]]:
+        """Return law and coupling of each scheme."""
+        return {one.name: {"law": one.law, **one.coupling.as_dict()} for one in self.schemes}
+
+
+def shaking(run: Run) -> float:
+    """Return the swing of the stick about a straight line over the tail [m]; inf where the run did not end."""
+    if not run.whole:
+        return float("inf")
+    x, t = run.tail("true_x"), run.tail("t")
+    return float(np.ptp(x - np.polyval(np.polyfit(t, x, 1), t)))
+
+
+def study(
+    schemes: Sequence[str | Scheme] = tuple(SCHEMES),
+    *,
+    contacts: Mapping[str, float] = CONTACTS,
+    delays: Sequence[float] = DELAYS,
+    networks: Sequence[str] = ("rough",),
+    hands: Sequence[float] = HANDS,
+    progress: Callable[[int, int], None] | None = None,
+) -> Study:
+    """Simulate every scheme in every contact over every network.
+
+    Parameters
+    ----------
+    schemes : sequence of str or Scheme
+        Default: all.
+    contacts : mapping of str to float
+        Stiffness by name [N/m]; 0 is free motion.
+    delays : sequence of float
+        One way [s], 0 to 0.5.
+    networks : sequence of str
+        Of `NETWORKS`: "rough" has up to 10 ms of jitter, 10 % loss and 2 % reordering, "clean" none of it.
+    hands : sequence of float
+        Stiffness of the hands [N/m].
+    progress : callable, optional
+        Called with rows done and all.
+
+    Raises
+    ------
+    KeyError, ValueError
+        For a scheme or network that does not exist, a value out of its range.
+    """
+    for name in networks:
+        if name not in NETWORKS:
+            raise KeyError(f"no network is called {name!r}; there are: {', '.join(NETWORKS)}")
+    chosen = tuple(_chosen(one) for one in schemes)
+    cells = list(product(chosen, contacts.items(), networks, delays))
+    rows = []
+    for one, (contact, stiffness), network, delay in cells:
+        runs = [_run(one, stiffness, network, delay, k, seed) for seed, k in enumerate(hands, 1)]
+        rows.append(_row(runs, contact, network, delay))
+        if progress is not None:
+            progress(len(rows), len(cells))
+    return Study(rows=tuple(rows), schemes=chosen)
+
+
+def _run(one: Scheme, stiffness: float, network: str, delay: float, hand: float, seed: int) -> Run:
+    return simulate(
+        one,
+        there=Link(delay=delay, **NETWORKS[network]),
+        slave=SlaveModel(contact_stiffness=stiffness),
+        hand=Hand(stiffness=hand, path=[MinimumJerk(target=0.045, at=1.2, duration=0.8)]),
+        seconds=12.0,
+        seed=seed,
+    )
+
+
+def _row(runs: Sequence[Run], contact: str, network: str, delay: float) -> StudyRow:
+    one, stiffness = runs[0].scheme, runs[0].slave.contact_stiffness
+    shakes = [shaking(run) for run in runs]
+    ratios = [run.transparency for run in runs if np.isfinite(run.transparency)]
+    spare = SPARE + (2 * one.coupling.reserve if one.coupling.scheme else 0.0)
+    return StudyRow(
+        scheme=one.name,
+        contact=contact,
+        network=network,
+        stiffness_N_per_m=stiffness,
+        delay_s=delay,
+        runs=len(runs),
+        still=sum(shake < STILL for shake in shakes),
+        bounded=sum(bool(np.abs(run["true_x"]).max() < BOUND) for run in runs),
+        passive=sum(run.passive for run in runs),
+        two_port_passive=sum(run.least_network_J >= -spare for run in runs),
+        shaking_m=max(shakes),
+        swing_m=max(run.swing_m for run in runs),
+        least_master_J=min(run.least_master_J for run in runs),
+        least_network_J=min(run.least_network_J for run in runs),
+        transparency=float(np.median(ratios)) if ratios else float("nan"),
+        drift_m=float(np.median([run.drift_m for run in runs])),
+        rest_N=float(np.median([run.rest_N for run in runs])),
+        most_N=max(run.most_N for run in runs),
+    )
+
+
+def tuned(name: str, *, progress: Callable[[int, int], None] | None = None) -> Scheme:
+    """Return a scheme with the parameters that are best on the training set, over a rough network.
+
+    Best: most runs that are still and passive at the master; among those the highest mean transparency, which counts
+    0 where a run is not still.
+
+    Parameters
+    ----------
+    name : str
+        Of `SCHEMES`.
+    progress : callable, optional
+        Called with sets of parameters done and all.
+    """
+    from ebac.teleop.run import scheme
+
+    base, grid = scheme(name), GRIDS[name]
+    tries = [dict(zip(grid, values, strict=True)) for values in product(*grid.values())]
+    best, best_score = base, (-1, -1.0)
+    for number, values in enumerate(tries, 1):
+        one = base.changed(**values)
+        score = _score(one)
+        if score > best_score:
+            best, best_score = one, score
+        if progress is not None:
+            progress(number, len(tries))
+    return best
+
+
+def _score(one: Scheme) -> tuple[int, float]:
+    good, ratios = 0, []
+    for seed, (contact, delay, hand) in enumerate(product(*TRAINING), 100):
+        run = _run(one, contact, "rough", delay, hand, seed)
+        fine = shaking(run) < STILL and run.passive
+        good += fine
+        if contact > 0:
+            ratios.append(run.transparency if fine and np.isfinite(run.transparency) else 0.0)
+    return good, float(np.mean(ratios))

@@ -1,0 +1,257 @@
+"""Teleoperation: schemes, network, protocol, lost links, three processes."""
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import example, given, settings
+from hypothesis import strategies as st
+
+from ebac import teleop
+from ebac.plot import plot_teleop, plot_teleop_runs
+from ebac.teleop import Link, Packet, SlaveModel
+
+GOLDEN = Path(__file__).parents[1] / "golden" / "teleop.npz"
+ROUGH = Link(delay=0.05, jitter=0.01, loss=0.1, reorder=0.02)
+FINITE = st.floats(-1e6, 1e6)
+
+
+def packet(value: float = 0.01, energy: float = 2.0, wave: float = -3.0) -> Packet:
+    return Packet(
+        from_slave=True,
+        session=3,
+        sequence=70000,
+        echo=5,
+        stamp=-1,
+        value=value,
+        energy=energy,
+        wave=wave,
+    )
+
+
+@given(FINITE, FINITE, FINITE)
+def test_a_packet_comes_back_as_it_was(value: float, energy: float, wave: float) -> None:
+    sent = packet(value, energy, wave)
+    assert len(sent.encode()) == 52
+    assert Packet.decode(sent.encode()) == sent
+
+
+def test_the_layout_is_the_one_that_is_documented() -> None:
+    import struct
+    import zlib
+
+    wire = packet().encode()
+    assert struct.unpack("<2sBBIIIqdddI", wire) == (
+        *(b"ET", 1, 1, 3, 70000, 5, -1, 0.01, 2.0, -3.0),
+        zlib.crc32(wire[:48]),
+    )
+
+
+def test_every_flipped_bit_and_every_other_length_is_refused() -> None:
+    wire = packet().encode()
+    for bit in range(8 * len(wire)):
+        broken = bytearray(wire)
+        broken[bit // 8] ^= 1 << bit % 8
+        assert Packet.decode(bytes(broken)) is None
+    assert all(Packet.decode(wire[:n]) is None for n in range(len(wire)))
+    assert Packet.decode(wire + b"\0") is None
+
+
+@given(st.binary(max_size=64), st.floats(allow_nan=True))
+def test_noise_and_numbers_that_are_not_finite_are_refused(noise: bytes, value: float) -> None:
+    assert Packet.decode(noise) is None
+    whole = Packet.decode(Packet(value=value).encode())
+    assert (whole is not None) == np.isfinite(value)
+
+
+@given(
+    st.floats(0, 0.3), st.sampled_from([0.0, 300.0, 5e3, 2e4]), st.sampled_from([5.0, 20.0, 40.0])
+)
+@example(0.3, 2e4, 40.0)
+@settings(max_examples=12, deadline=None)
+def test_waves_are_passive_for_every_constant_delay(delay: float, met: float, b: float) -> None:
+    run = teleop.simulate(
+        "waves",
+        there=Link(delay=delay),
+        slave=SlaveModel(contact_stiffness=met),
+        seconds=6,
+        impedance=b,
+    )
+    assert run.two_port_passive
+    assert run.passive
+
+
+@given(st.floats(0, 0.2), st.floats(0, 0.03), st.floats(0, 0.5), st.integers(1, 1000))
+@settings(max_examples=10, deadline=None)
+def test_waves_are_passive_with_jitter_loss_and_reordering(
+    delay: float, jitter: float, loss: float, seed: int
+) -> None:
+    link = Link(delay=delay, jitter=jitter, loss=loss, reorder=0.05)
+    run = teleop.simulate("waves", there=link, seconds=6, seed=seed)
+    assert run.least_network_J >= -2 * run.scheme.coupling.reserve - 1e-3
+
+
+@pytest.mark.parametrize("name", ["two-port-passivity", "two-port-ebac"])
+@given(st.floats(0, 0.3), st.sampled_from([0.0, 300.0, 2e4]), st.integers(1, 1000))
+@settings(max_examples=8, deadline=None)
+def test_the_slaves_port_never_gives_out_more_than_is_allowed(
+    name: str, delay: float, met: float, seed: int
+) -> None:
+    link = Link(delay=delay, jitter=0.01, loss=0.1)
+    slave = SlaveModel(contact_stiffness=met)
+    run = teleop.simulate(name, there=link, slave=slave, seconds=5, seed=seed)
+    spare = run["slave_allowed"] + run.scheme.coupling.reserve - run["slave_out"]
+    assert spare.min() >= -1e-9
+
+
+def test_what_is_known_of_delay() -> None:
+    """Position and force shake (Anderson, Spong 1989; Lawrence 1993); waves do not (Niemeyer, Slotine 1991)."""
+    there = Link(delay=0.05)
+    shakes = teleop.simulate("position-force", there=there)
+    assert shakes.swing_m > 10e-3
+    assert shakes.least_master_J < -1
+    waves = teleop.simulate("waves", there=there)
+    assert waves.still
+    assert waves.two_port_passive
+    # The channel is a spring of b/T: master and slave stand F T / b apart, the spring of the controller on top.
+    delay = 0.05 + 5e-3 + waves.scheme.coupling.buffer  # and the lag with which waves are followed
+    coupling = waves.scheme.coupling
+    expected = waves.rest_N * (delay / coupling.impedance + 1 / coupling.stiffness)
+    assert waves.drift_m == pytest.approx(expected, rel=0.3)
+    ebac = teleop.simulate("ebac", there=there)
+    assert ebac.still
+    assert ebac.transparency > 0.8 > waves.transparency
+
+
+def test_without_delay_every_scheme_is_transparent() -> None:
+    for name in ("position-force", "waves", "ebac"):
+        run = teleop.simulate(name, there=Link(delay=0), buffer=0, seconds=6)
+        assert run.still
+        assert run.transparency > 0.7
+
+
+def test_a_tenth_of_the_packets_is_missing() -> None:
+    run = teleop.simulate("ebac", there=ROUGH, seconds=6)
+    for side in (run.at_slave, run.at_master):
+        assert side["missing"] / (side["missing"] + side["received"]) == pytest.approx(
+            0.1, abs=0.02
+        )
+        assert side["late"] > 100
+        assert side["doubled"] == 0
+
+
+def test_the_same_seed_gives_the_same_bits_as_ever() -> None:
+    run = teleop.simulate("waves", there=ROUGH, seconds=3, seed=7)
+    rows = np.array([run[name][::100] for name in ("true_x", "slave_x", "force", "network")])
+    np.testing.assert_array_equal(rows, np.load(GOLDEN)["rows"])
+    again = teleop.simulate("waves", there=ROUGH, seconds=3, seed=8)
+    assert not np.array_equal(run["slave_x"], again["slave_x"])
+
+
+@pytest.mark.parametrize("name", list(teleop.SCHEMES))
+def test_a_lost_link_is_held_faded_and_told(name: str) -> None:
+    link = Link(delay=0.02, cut_every=4, cut_length=1)
+    run = teleop.simulate(name, there=link, seconds=6, slave=SlaveModel(contact_stiffness=100))
+    lost = run["master_state"] >= 2
+    assert lost.any()
+    assert (run["slave_state"] >= 2).any()
+    held = run["target"][run["slave_state"] >= 2]
+    assert np.ptp(held) == 0
+    after = np.flatnonzero(lost)[0] + 250  # fade and lag are over
+    assert np.abs(run["force"][after : np.flatnonzero(lost)[-1]]).max() < 1e-9
+    assert run["session"][-1] == 2
+    assert run["master_state"][-1] == 1
+    step = np.abs(np.diff(run["target"])).max()
+    assert step < 1e-3  # nothing jumps when it goes on
+
+
+def test_without_consent_nothing_goes_on() -> None:
+    link = Link(delay=0.02, cut_every=4, cut_length=1)
+    run = teleop.simulate("ebac", there=link, seconds=7, consent_after=np.inf)
+    assert run["session"][-1] == 1
+    assert run["master_state"][-1] == 3
+    assert np.abs(run["force"][-1000:]).max() < 1e-9
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ({"seconds": 0.0}, r"seconds = 0 s: must lie in \[0.1, 600\] s"),
+        ({"scheme": "wave"}, "no scheme is called 'wave', did you mean 'waves'"),
+        ({"impedance": 0.0}, r"Coupling.impedance = 0 N s/m: must lie in \[0.1, 1000\] N s/m"),
+        ({"consent_after": -1.0}, "consent_after = -1 s: must be at least 0 s"),
+    ],
+)
+def test_wrong_input(change: dict, message: str) -> None:
+    with pytest.raises((ValueError, KeyError), match=message):
+        teleop.simulate(**change)
+    with pytest.raises(ValueError, match=r"Link.delay = 2 s: must lie in \[0, 0.5\] s"):
+        Link(delay=2)
+
+
+def test_study_and_its_figures() -> None:
+    found = teleop.study(
+        ["waves", "ebac"], contacts={"free": 0.0, "soft": 500.0}, delays=(0.05,), hands=(300.0,)
+    )
+    assert [row.contact for row in found.rows] == ["free", "soft"] * 2
+    assert all(row.bounded == row.runs == 1 for row in found.rows)
+    assert len(plot_teleop(found).axes) == 6
+    runs = [teleop.simulate("ebac", seconds=3)]
+    assert len(plot_teleop_runs(runs).axes) == 3
+
+
+def ebac(*words: str) -> subprocess.Popen:
+    command = [sys.executable, "-m", "ebac.cli", "teleop", *words]
+    return subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="UDP of the library is Linux's")
+def test_three_processes_with_cuts() -> None:
+    slave = ebac("slave", "--port", "49411", "--seconds", "9", "--json")
+    network = ebac(
+        *("network", "--slave", "127.0.0.1:49411", "--port", "49410", "--seconds", "9"),
+        *("--delay", "0.02", "--jitter", "0.005", "--loss", "0.05", "--corrupt", "0.02"),
+        *("--cut-every", "3.5", "--cut-length", "1", "--json"),
+    )
+    master = ebac(
+        *("master", "--peer", "127.0.0.1:49410", "--seconds", "8"),
+        *("--consent-after", "0.2", "--json"),
+    )
+    ends = {}
+    for name, process in (("master", master), ("network", network), ("slave", slave)):
+        out, told = process.communicate(timeout=60)
+        assert process.returncode == 0, told
+        ends[name] = json.loads(out)
+        if name != "network":
+            assert "LINK LOST" in told
+            assert told.count("running") >= 2
+    for side in (ends["master"], ends["slave"]):
+        assert side["session"] >= 2
+        assert side["losses"] >= 1
+        assert side["refused"] > 20
+        assert side["arrivals"]["received"] > 2000
+    assert ends["master"]["fault"] == 0
+    assert ends["master"]["force_when_lost_N"] < 0.1
+    assert ends["master"]["most_force_N"] < 42.4
+    assert ends["slave"]["most_force_N"] <= 30
+    assert ends["slave"]["moved_when_lost_m"] == 0
+    assert 0.04 < ends["master"]["longest_round_trip_s"] < 2
+
+
+def test_command_line(tmp_path: Path) -> None:
+    from typer.testing import CliRunner
+
+    from ebac.cli import app
+
+    out = str(tmp_path / "t")
+    words = ["teleop", "run", "--scheme", "waves,ebac", "--seconds", "3", "--json", "--out", out]
+    done = CliRunner().invoke(app, words)
+    assert done.exit_code == 0, done.output
+    assert [row["scheme"] for row in json.loads(done.stdout)["rows"]] == ["waves", "ebac"]
+    assert (tmp_path / "t" / "runs.png").exists()
+    wrong = CliRunner().invoke(app, ["teleop", "master", "--peer", "nowhere"])
+    assert wrong.exit_code == 2
+    assert "must be an address and a port" in wrong.output
