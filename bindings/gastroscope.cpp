@@ -41,8 +41,8 @@ Values landmarks_of(const Lumen& lumen) {
 
 /// The slave with its own lumen, for a look at it tick by tick.
 struct OwnSlave {
-  OwnSlave(const ScopeParams& scope, LumenPtr lumen_, double start)
-      : lumen(std::move(lumen_)), slave(scope, *lumen, start) {}
+  OwnSlave(const ScopeParams& scope, LumenPtr way, double start)
+      : lumen(std::move(way)), slave(scope, *lumen, start) {}
   LumenPtr lumen;
   Slave slave;
   double t = 0;
@@ -63,7 +63,8 @@ Values state_of(const OwnSlave& own) {
 
 Triple step_of(OwnSlave& own, const Triple& command, double rotation, double dt) {
   own.t += dt;
-  const Answer answer = own.slave.step({command[0], rotation, command[1], command[2]}, own.t, dt);
+  const ebac::gastroscope::Answer answer =
+      own.slave.step({command[0], rotation, command[1], command[2]}, own.t, dt);
   return {answer.push, answer.torque_x, answer.torque_y};
 }
 

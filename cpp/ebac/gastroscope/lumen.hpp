@@ -61,11 +61,11 @@ class Lumen {
   struct Station {
     Vec at;
     Frame frame;
-    Vec ahead;        // of the segment to the next one
-    double length;    // m, of that segment
-    double radius;    // m
-    double breathes;  // share of the diaphragm's motion
-    double s = 0;     // m
+    Vec ahead;            // of the segment to the next one
+    double length = 0;    // m, of that segment
+    double radius = 0;    // m
+    double breathes = 0;  // share of the diaphragm's motion
+    double s = 0;         // m
   };
 
   struct Spot {

@@ -13,11 +13,13 @@ Slave::Slave(const ScopeParams& params, const Lumen& lumen, double start)
       base_(std::max(0.0, start - params.section - params.tip)) {
   insert_.at = base_;
   // It lies in the lumen as in one that pushes it nowhere: the tube comes to rest before the start.
-  for (double s = 0; s <= base_; s += 0.5 * InsertionTube::kStep) {
+  double s = 0;
+  while (s <= base_) {
     tube_.reach(s);
     for (int i = 0; i < 40; ++i) {
       tube_.relax(params_.flexural_rigidity, 0.5 * params_.diameter, 0, {}, {}, motion_, 0.01);
     }
+    s += 0.5 * InsertionTube::kStep;
   }
   at_ = tube_.reach(base_);
   for (int& hint : hint_) hint = static_cast<int>(base_ / 5e-3);
