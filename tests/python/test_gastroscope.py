@@ -177,3 +177,10 @@ def test_the_command_writes_figure_record_and_json(tmp_path: Path) -> None:
     assert row["most_section_N"] >= row["most_tip_N"] >= 0
     assert {path.name for path in out.iterdir()} >= {"gastroscopy.csv", "gastroscopy.json"}
     assert (out / "gastroscopy.csv").read_text(encoding="utf-8").startswith("t [s],place [m]")
+
+
+def test_no_spike_of_the_force_lies_between_two_rows() -> None:
+    done = gastroscope.gastroscopy("direct", Procedure(seconds=4), every=50)
+    for column, most in (("section_force", "most_section"), ("tube_force", "most_tube")):
+        assert done.rows[column].max() == done.findings[most]
+    assert done.rows["t"][-1] == done.findings["seconds"]

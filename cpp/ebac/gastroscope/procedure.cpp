@@ -26,15 +26,18 @@ class Watch {
  public:
   Watch(const PatientParams& patient, double dt) : patient_(patient), dt_(dt) {}
 
-  void row(const Slave& slave, const Sample& s, const SimulatedDevice& device) EBAC_RT {
+  void tick(const Slave& slave, const Sample& s, const SimulatedDevice& device) EBAC_RT {
     Findings& f = found;
     f.seconds = s.t;
     f.path += s.tick > 0 ? norm(slave.camera().at - before_) : 0.0;
     before_ = slave.camera().at;
     const double force = slave.section_force();
-    f.most_tip = std::max(f.most_tip, slave.tip_force());
-    f.most_section = std::max(f.most_section, force);
-    f.most_tube = std::max(f.most_tube, slave.tube_force());
+    since_row_.tip_force = std::max(since_row_.tip_force, slave.tip_force());
+    since_row_.section_force = std::max(since_row_.section_force, force);
+    since_row_.tube_force = std::max(since_row_.tube_force, slave.tube_force());
+    f.most_tip = std::max(f.most_tip, since_row_.tip_force);
+    f.most_section = std::max(f.most_section, since_row_.section_force);
+    f.most_tube = std::max(f.most_tube, since_row_.tube_force);
     f.deepest = std::max(f.deepest, slave.place());
     f.impulse += dt_ * force;
     f.over_limit += force > patient_.force_limit ? dt_ : 0.0;
@@ -51,11 +54,24 @@ class Watch {
     f.least_energy = std::min(f.least_energy, energy);
   }
 
+  /// The wall's forces of a row: the largest since the row before, so that no spike lies between two.
+  ProcedureRow with_forces(ProcedureRow row) EBAC_RT {
+    row.tip_force = since_row_.tip_force;
+    row.section_force = since_row_.section_force;
+    row.tube_force = since_row_.tube_force;
+    since_row_ = {};
+    return row;
+  }
+
   Findings found;
 
  private:
+  struct Forces {
+    double tip_force = 0, section_force = 0, tube_force = 0;  // N
+  };
   PatientParams patient_;
   double dt_;
+  Forces since_row_;
   Vec before_{};
   bool through_ = false;
 };
@@ -87,9 +103,6 @@ ProcedureRow row_of(double t, const Slave& slave, const Command& command, const 
           .command_x = command.bend_x,
           .command_y = command.bend_y,
           .command_insertion = command.insertion,
-          .tip_force = slave.tip_force(),
-          .section_force = slave.section_force(),
-          .tube_force = slave.tube_force(),
           .push = answer.push,
           .handle_x = x[0],
           .handle_y = x[1],
@@ -144,12 +157,15 @@ Findings run_procedure(const Procedure& procedure, const Setup& setup, const Any
     const Command& asked = master.command(x, wish.pedal, clutched, dt);
     const Answer answer = slave.step(there.pass(asked), sample.t, dt);
     felt->force = master.felt(back.pass(answer), clutched);
-    watch.row(slave, sample, device);
-    if (rows != nullptr && i % static_cast<std::size_t>(every) == 0) {
-      rows->push_back(row_of(sample.t, slave, asked, answer, physician, device, axes));
+    watch.tick(slave, sample, device);
+    const bool done = physician.phase() == Physician::Phase::kDone;
+    const bool last = done || i + 1 == count || sample.fault != Fault::kNone;
+    if (rows != nullptr && (last || i % static_cast<std::size_t>(every) == 0)) {
+      rows->push_back(
+          watch.with_forces(row_of(sample.t, slave, asked, answer, physician, device, axes)));
     }
     ++sample.tick;
-    if (physician.phase() == Physician::Phase::kDone) {
+    if (done) {
       watch.found.reached = 1;
       break;
     }

@@ -102,9 +102,12 @@ struct ProcedureRow {
         F{"command_y", &P::command_y, "rad", "bend asked for"},
         F{"command_insertion", &P::command_insertion, "m",
           "insertion of the section's base asked for"},
-        F{"tip_force", &P::tip_force, "N", "of the wall on the camera"},
-        F{"section_force", &P::section_force, "N", "of the wall on the section, largest"},
-        F{"tube_force", &P::tube_force, "N", "of the wall on the tube, largest"},
+        F{"tip_force", &P::tip_force, "N",
+          "of the wall on the camera, largest since the row before"},
+        F{"section_force", &P::section_force, "N",
+          "of the wall on a point of the section, largest since the row before"},
+        F{"tube_force", &P::tube_force, "N",
+          "of the wall on a place of the tube, largest since the row before"},
         F{"push", &P::push, "N", "of the insertion motor"},
         F{"handle_x", &P::handle_x, "m", "handle"},
         F{"handle_y", &P::handle_y, "m", "handle"},
@@ -121,7 +124,7 @@ struct ProcedureRow {
 };
 
 /// Runs a procedure: the joystick's loop under the law, the line, slave and patient, the physician.
-/// A row is added to `rows`, where given, every `every` ticks.
+/// A row is added to `rows`, where given, every `every` ticks and after the last one.
 Findings run_procedure(const Procedure& procedure, const Setup& setup, const AnyLaw& law, int every,
                        std::vector<ProcedureRow>* rows);
 

@@ -157,7 +157,7 @@ def _show(found: Gastroscopy) -> None:
         ("largest force, tip and bending section", f"{f['most_section']:.2f} N"),
         ("largest force, tube", f"{f['most_tube']:.2f} N"),
         ("force integrated", f"{f['impulse']:.1f} N s"),
-        (f"time above {patient.force_limit:g} N", f"{f['over_limit']:.2f} s"),
+        (f"time above {patient.force_limit:g} N", f"{f['over_limit']:.3f} s"),
         (f"times above {patient.perforation:g} N", f"{f['perforations']:g}"),
         ("largest force on the hand", f"{f['most_felt']:.2f} N"),
         ("least energy of the joystick's port", f"{1e3 * f['least_energy']:.1f} mJ"),
