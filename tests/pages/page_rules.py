@@ -53,6 +53,8 @@ RULES = (
         NEVER,
         "needs the core as WebAssembly; test_live.py has it",
     ),
+    Rule(r"^ssh ", NEVER, "needs another machine"),
+    Rule(r"^ebac live", NEVER, "opens a browser; test_live_server.py starts it without one"),
     Rule(r"^ebac drive restore", NEVER, "needs the backup of a device"),
     Rule(r"192\.168\.", NEVER, "needs a force sensor"),
     Rule(r"\bmy-[a-z]+\.toml", NEVER, "needs a file of the reader's own"),

@@ -3,6 +3,9 @@
 import asyncio
 import contextlib
 import json
+import signal
+import subprocess
+import sys
 import time
 import urllib.error
 import urllib.request
@@ -233,3 +236,23 @@ def test_without_allow_control_nobody_controls_and_the_dead_man_key_ends_with_it
 
         ask(refused)
         assert not server.session.running
+
+
+def test_the_command_prints_its_address_and_ends_with_ctrl_c(tmp_path: Path) -> None:
+    words = [sys.executable, "-m", "ebac.cli", "live", "--no-browser", "--json"]
+    with subprocess.Popen(
+        words,
+        cwd=tmp_path,
+        text=True,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+    ) as run:
+        assert run.stdout is not None
+        told = json.loads(run.stdout.readline())
+        assert status(told["url"]) == 200
+        assert status(told["watch_url"]) == 200
+        run.send_signal(signal.SIGINT)
+        _, said = run.communicate(timeout=30)
+    assert run.returncode == 0, said
+    assert "drives without power. Kept: no files" in said
+    assert not list(tmp_path.iterdir())
