@@ -23,6 +23,8 @@ from ebac.live.serving import serve
 websockets = pytest.importorskip("websockets.asyncio.client")
 from websockets.exceptions import ConnectionClosed, InvalidStatus  # noqa: E402
 
+pytestmark = pytest.mark.real_time(seconds=True)
+
 
 @pytest.fixture
 def server(tmp_path: Path) -> Iterator[Any]:

@@ -12,6 +12,8 @@ from ebac.live.choices import Choices, options
 from ebac.live.frames import Frames
 from ebac.live.session import Session
 
+pytestmark = pytest.mark.real_time(seconds=True)
+
 
 @pytest.fixture
 def session(tmp_path: Path) -> Iterator[Session]:
