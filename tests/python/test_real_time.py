@@ -35,6 +35,11 @@ TEST = """
     def test_marked(room, times, message):
         fail(message, room, times, message)
 
+    @pytest.mark.real_time(seconds=True)
+    @pytest.mark.parametrize("times", [2, 3])
+    def test_seconds(room, times):
+        fail(f"seconds {times}", room, times, "wrong")
+
     def test_bare(room):
         fail("bare", room, 1, "fault 16 (force stale)")
 """
@@ -48,9 +53,9 @@ def test_only_a_stall_is_repeated(pytester: pytest.Pytester, more: tuple[str, ..
     pytester.makeini(f"[pytest]\npythonpath = {CONFTEST.parents[1] / 'pages'}\n")
     pytester.makepyfile(test_mine=TEST)
     result = pytester.runpytest_subprocess("-p", "no:cacheprovider", *more)
-    result.assert_outcomes(passed=4, failed=5)
-    said = [line for line in result.outlines if line.startswith("repeated, this machine stalled")]
-    assert [line.count("fault ", line.index("]")) for line in sorted(said)] == [0, 1, 2, 7]
+    result.assert_outcomes(passed=5, failed=6)
+    said = [line for line in result.outlines if line.startswith("repeated alone, ")]
+    assert [line.count("fault ", line.index("]")) for line in sorted(said)] == [0, 1, 2, 7, 0, 0]
 
 
 ALONE = """
