@@ -2,6 +2,7 @@
 #include <pybind11/stl.h>
 
 #include <string>
+#include <string_view>
 
 #include "bind.hpp"
 #include "ebac/teleop/packet.hpp"
@@ -42,7 +43,8 @@ py::bytes encoded(const Packet& packet) {
   return {reinterpret_cast<const char*>(wire.data()), wire.size()};
 }
 
-std::optional<Packet> decoded(const std::string& bytes) {
+std::optional<Packet> decoded(const py::bytes& datagram) {
+  const std::string_view bytes = datagram;
   return teleop::decode({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
 }
 

@@ -8010,7 +8010,7 @@ class TeleopPacket:
 
     __hash__: typing.ClassVar[None] = None  # type: ignore[assignment]
     @staticmethod
-    def decode(datagram: str) -> TeleopPacket | None:
+    def decode(datagram: bytes) -> TeleopPacket | None:
         """
         Return the packet, or None for a datagram that is damaged or not of this version.
         """
