@@ -39,8 +39,8 @@ def allowed_deviation(scenario: Scenario) -> float:
     mechanics, wall = scenario.device.mechanics, scenario.environment
     counts = EXACT_COUNTS * scenario.device.count
     friction = max(mechanics.coulomb, mechanics.breakaway)
-    ideal = ideal_rest(scenario)
-    if friction == 0 or ideal is None:
+    ideal = ideal_rest(scenario) if friction > 0 else None
+    if ideal is None:
         return counts
     hand = scenario.hand
     stiffness = hand.stiffness

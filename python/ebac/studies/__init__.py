@@ -6,6 +6,7 @@ from ebac.studies.engines import EngineRow, Engines, engines
 from ebac.studies.hand_search import WorstHand
 from ebac.studies.measures import MEASURES, Measure
 from ebac.studies.result import Failure, Study, StudyRow
+from ebac.studies.shapes import ShapeRow, Shapes, shapes
 from ebac.studies.study import study
 from ebac.studies.tissue import Tissue, TissueRow, tissue
 from ebac.studies.tuning import Tuned, TunedRow, TuningInterrupted, tune
@@ -23,6 +24,8 @@ __all__ = [
     "Failure",
     "Measure",
     "Piece",
+    "ShapeRow",
+    "Shapes",
     "Study",
     "StudyRow",
     "Tissue",
@@ -36,6 +39,7 @@ __all__ = [
     "conditions",
     "engines",
     "pieces",
+    "shapes",
     "study",
     "tissue",
     "tune",

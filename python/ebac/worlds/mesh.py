@@ -143,10 +143,12 @@ class Mesh(_Triangles):
 
     Raises
     ------
+    TypeError
+        When it is no path.
     FileNotFoundError
         When there is no such file.
     ValueError
-        When it holds no triangles, is open without a `thickness`, or a number is out of range.
+        When it is a folder, holds no triangles, is open without a `thickness`, or a number is out of range.
     ImportError
         Without the extra.
     """
@@ -159,7 +161,11 @@ class Mesh(_Triangles):
 
     def __post_init__(self) -> None:
         """Check numbers and file."""
+        if not isinstance(self.file, (str, Path)):
+            raise TypeError(f"Mesh.file = {self.file!r}: must be the path of a file")
         object.__setattr__(self, "file", str(self.file))
+        if Path(self.file).is_dir():  # the empty path, too
+            raise ValueError(f"Mesh.file = {self.file!r}: is a folder, must be the path of a file")
         if not 1e-6 <= self.scale <= 1e3:
             raise ValueError(f"Mesh.scale = {self.scale!r} m: must lie in [1e-06, 1000] m")
         if self.size is not None and not 1e-3 <= self.size <= 10:

@@ -15,6 +15,8 @@ from ebac.worlds.part import Part, three
 
 Shape: TypeAlias = Box | Capsule | Cylinder | Plane | Sphere | Torus
 _SHAPES = (Box, Capsule, Cylinder, Plane, Sphere, Torus)
+#: Solids within each other: each costs a call of its own in every tick.
+DEEPEST = 64
 
 
 @dataclass(frozen=True)
@@ -37,7 +39,7 @@ class Placed(Part):
 
     def __post_init__(self) -> None:
         """Check the place."""
-        _check_solid(self.solid, "Placed.solid")
+        _check_solids(self, "Placed.solid", self.solid)
         object.__setattr__(self, "at", three("Placed.at", self.at, "m", 10.0))
         object.__setattr__(self, "turned", three("Placed.turned", self.turned, "rad", 6.3))
 
@@ -50,7 +52,7 @@ class Cavity(Part):
 
     def __post_init__(self) -> None:
         """Check the solid."""
-        _check_solid(self.solid, "Cavity.solid")
+        _check_solids(self, "Cavity.solid", self.solid)
 
 
 @dataclass(frozen=True)
@@ -70,7 +72,7 @@ class Textured(Part):
 
     def __post_init__(self) -> None:
         """Check the waves."""
-        _check_solid(self.solid, "Textured.solid")
+        _check_solids(self, "Textured.solid", self.solid)
         if not isinstance(self.texture, Texture):
             raise TypeError(f"Textured.texture = {self.texture!r}: must be a Texture")
         steep = 2 * np.pi * self.texture.amplitude / self.texture.wavelength
@@ -139,8 +141,7 @@ class _Several(Part):
         kind = type(self).__name__
         if len(solids) < 2:
             raise ValueError(f"{kind}: {len(solids)} solids: must be two at least")
-        for solid in solids:
-            _check_solid(solid, kind)
+        _check_solids(self, kind, *solids)
         object.__setattr__(self, "solids", solids)
 
     @classmethod
@@ -187,10 +188,17 @@ SOLIDS = (
 )  # fmt: skip
 
 
-def _check_solid(solid: object, name: str) -> None:
-    if not isinstance(solid, SOLIDS):
-        names = ", ".join(kind.__name__ for kind in SOLIDS)
-        raise TypeError(f"{name} = {solid!r}: must be a solid: {names}")
+def _check_solids(whole: Part, name: str, *solids: object) -> None:
+    for solid in solids:
+        if not isinstance(solid, SOLIDS):
+            names = ", ".join(kind.__name__ for kind in SOLIDS)
+            raise TypeError(f"{name} = {solid!r}: must be a solid: {names}")
+    depth = 1 + max(getattr(solid, "_depth", 0) for solid in solids)
+    if depth > DEEPEST:
+        raise ValueError(
+            f"{name}: {depth} solids within each other: must be {DEEPEST} at most; put them side by side in one Union"
+        )
+    object.__setattr__(whole, "_depth", depth)
 
 
 def made(solid: Solid) -> _core._Solid:

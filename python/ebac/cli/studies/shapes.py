@@ -1,0 +1,155 @@
+"""`ebac shapes`: laws at worlds of several shapes, on one to three axes."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from ebac.cli import options, output, setting
+from ebac.cli.files import ResultOptions
+
+if TYPE_CHECKING:
+    from ebac.studies.shapes import ShapeRow, Shapes
+
+
+def shapes(
+    to: ResultOptions,
+    law: Annotated[
+        list[str] | None,
+        options.laws("direct, tca, tca-damped, eba, passivity-control, ebac"),
+    ] = None,
+    world: Annotated[
+        list[str] | None,
+        options.option(
+            text="A world by name, see `ebac worlds`; mesh:FILE; or mesh, a ball of 1,280 triangles; repeat it for "
+            "several",
+            default="plane, sphere, box, edge, inside, corner, lumen, mesh",
+            panel=options.WALL,
+            autocompletion=options.complete_worlds,
+        ),
+    ] = None,
+    stiffness: Annotated[
+        list[float] | None,
+        options.option(
+            text="Of the surface [N/m]; repeat it for several",
+            default="2000, 10000",
+            panel=options.WALL,
+        ),
+    ] = None,
+    device: Annotated[
+        list[str] | None,
+        options.option(
+            text="A device by name, see `ebac presets`; repeat it for several",
+            default="reference, joystick, joystick-3",
+            panel=options.DEVICE,
+            autocompletion=options.complete_devices,
+        ),
+    ] = None,
+    rate: options.Rate = None,
+    delay: options.Delay = None,
+    as_json: output.AsJson = False,
+) -> None:
+    """Compare laws at worlds of several shapes and stiffnesses, on devices of one to three axes.
+
+    A simulation. A hand of 300 N/m with its target 18 mm inside and a little aside presses for 4 s. *good*: quiet and
+    exact on every axis, and the port gave out no more than 1 mJ.
+
+    **Examples**
+
+    * `ebac shapes`: six laws, eight worlds, 2 and 10 kN/m, one to three axes; half a minute
+
+    * `ebac shapes --world corner --device joystick-3 --law direct,ebac`
+
+    * `ebac shapes --world texture --stiffness 20000 --delay 2 --json`: waves of 0.2 mm, two samples of delay
+    """
+    from ebac._core import Timing
+    from ebac.studies.shapes import DEVICES, LAWS, STIFFNESSES, WORLDS
+    from ebac.studies.shapes import shapes as compare
+
+    with output.refusing():
+        names = setting.law_names(law or LAWS)
+        devices = list(dict.fromkeys(device or DEVICES))
+        for name in devices:
+            setting.known_device(name)
+        timing = setting.choose_timing(Timing(), rate, delay)
+        folder = to.folder("shapes", as_json=as_json)
+        with (
+            output.counting_meshes(),
+            output.counting("simulating", quiet=as_json) as progress,
+        ):
+            found = compare(
+                names,
+                worlds=list(dict.fromkeys(world)) if world else WORLDS,
+                stiffnesses=list(dict.fromkeys(stiffness)) if stiffness else STIFFNESSES,
+                devices=[name.lower() for name in devices],
+                timing=timing,
+                progress=progress,
+            )
+    files = _write(folder, found, to) if folder else []
+    if as_json:
+        typer.echo(_document(found))
+        return
+    _show(found)
+    if folder is not None:
+        output.list_files(folder, files)
+
+
+def _document(found: Shapes) -> str:
+    return output.document("shapes", found.table(), missing=found.missing)
+
+
+def _write(folder: Path, found: Shapes, to: ResultOptions) -> list[str]:
+    from ebac.plot import plot_shapes
+
+    with output.results(folder) as draft:
+        if draft is None:
+            return []
+        figures = to.save(plot_shapes(found), draft, "shapes")
+        (draft / "shapes.json").write_text(_document(found) + "\n", encoding="utf-8")
+        output.csv_table(draft / "shapes.csv", found.table())
+    return [*figures, "shapes.json", "shapes.csv"]
+
+
+def _show(found: Shapes) -> None:
+    """Print a line for each world, stiffness and device, a column for each law."""
+    laws = list(dict.fromkeys(row.law for row in found.rows))
+    grid = output.table(["world", "kN/m", "axes", *laws], numbers=(1, 2))
+    before = None
+    for i in range(0, len(found.rows), len(laws)):
+        row = found.rows[i]
+        if before not in (None, row.world):
+            grid.add_section()
+        stiffness = row.stiffness_N_per_m
+        grid.add_row(
+            row.world if row.world != before else "",
+            "-" if stiffness is None else f"{1e-3 * stiffness:g}",
+            str(row.axes),
+            *(_came_to(one) for one in found.rows[i : i + len(laws)]),
+        )
+        before = row.world
+    output.show(grid)
+    output.say(
+        "Simulated. good: quiet and exact on every axis, at most 1 mJ given out. Otherwise the worst of: swing peak to "
+        "peak; vibration in detection thresholds; how far from a balance of hand and world; energy given out."
+    )
+    for sentence in found.missing:
+        output.say(sentence, style="bold")
+
+
+def _came_to(row: ShapeRow) -> str:
+    """Return what a run came to in a word or a number."""
+    from ebac._util import formatting
+
+    if row.swing_m is None:
+        return "[red]fault[/]"
+    if not row.still:
+        return f"[red]swings {formatting.quantity(row.swing_m, 'm')}[/]"
+    if not row.quiet:
+        return f"[yellow]vibrates {row.perceived:.2g}[/]"
+    if row.exact is False:
+        return f"[yellow]off {formatting.quantity(row.deviation_m, 'm')}[/]"
+    if not row.passive:
+        return f"[yellow]gives {formatting.quantity(-(row.least_energy_J or 0.0), 'J')}[/]"
+    return "[green]good[/]"
