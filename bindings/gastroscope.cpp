@@ -48,8 +48,7 @@ struct OwnSlave {
   double t = 0;
 };
 
-Values state_of(const OwnSlave& own) {
-  const Slave& s = own.slave;
+Values state_of(const Slave& s) {
   using namespace py::literals;
   std::vector<Triple> tube;
   for (std::size_t i = 0; i + 1 < s.tube().nodes(); ++i) tube.push_back(triple(s.tube().node(i)));
@@ -93,25 +92,44 @@ void bind_parts(py::module_& m) {
       .def("landmarks", &landmarks_of)
       .def(
           "at",
-          [](const Lumen& lumen, double s, double t) {
+          [](const Lumen& lumen, double s, double t, const Triple& bag) {
             const Frame f = lumen.frame(s);
-            return std::tuple(triple(lumen.middle(s, {t, {}})), triple(f.x), triple(f.y),
+            return std::tuple(triple(lumen.middle(s, {t, vec(bag)})), triple(f.x), triple(f.y),
                               triple(f.z), lumen.radius(s, t));
           },
-          py::arg("s"), py::arg("t"))
+          py::arg("s"), py::arg("t"), py::arg("bag") = Triple{})
       .def(
           "near",
-          [](const Lumen& lumen, const Triple& x, double radius, double t, int hint) {
+          [](const Lumen& lumen, const Triple& x, double radius, double t, int station) {
+            Along hint{.station = station};
             const WallNear near = lumen.near(vec(x), radius, {t, {}}, hint);
             return std::tuple(near.s, near.depth, triple(near.way));
           },
-          py::arg("x"), py::arg("radius"), py::arg("t"), py::arg("hint"));
+          py::arg("x"), py::arg("radius"), py::arg("t"), py::arg("station"));
   py::class_<OwnSlave>(m, "_Slave")
       .def(py::init([](const ScopeParams& scope, const std::shared_ptr<Lumen>& lumen,
                        double start) { return OwnSlave(scope, lumen, start); }),
            py::arg("scope"), py::arg("lumen"), py::arg("start"))
       .def("step", &step_of, py::arg("command"), py::arg("rotation"), py::arg("dt"))
-      .def("state", &state_of);
+      .def("state", [](const OwnSlave& own) { return state_of(own.slave); });
+}
+
+void bind_navigation(py::module_& m) {
+  py::class_<Navigation>(m, "_Navigation")
+      .def(py::init<const Procedure&, const Setup&, const AnyLaw&>(), py::arg("procedure"),
+           py::arg("setup"), py::arg("law"))
+      .def(
+          "advance",
+          [](Navigation& run, int ticks) {
+            const OthersRun release;
+            for (int i = 0; i < ticks && run.step(); ++i) {
+            }
+          },
+          py::arg("ticks"))
+      .def_property_readonly("ended", &Navigation::ended)
+      .def("row", [](Navigation& run) { return values_of(run.row()); })
+      .def("findings", [](const Navigation& run) { return values_of(run.findings()); })
+      .def("state", [](const Navigation& run) { return state_of(run.slave()); });
 }
 
 }  // namespace
@@ -126,6 +144,7 @@ void bind_gastroscope(py::module_& m) {
            }),
            py::kw_only(), py::arg("scope"), py::arg("lumen"), py::arg("master"),
            py::arg("physician"), py::arg("targets"), py::arg("start"));
+  bind_navigation(m);
   m.def(
       "_run_procedure",
       [](const Procedure& procedure, const Setup& setup, const AnyLaw& law, int every) {

@@ -53,13 +53,14 @@ void bind_packet(py::module_& m) {
                      "A datagram between master and slave; see `ebac.teleop` for the layout.")
       .def(py::init([](bool from_slave, bool lost, std::uint32_t session, std::uint32_t sequence,
                        std::uint32_t echo, std::int64_t stamp, double value, double energy,
-                       double wave) {
-             return Packet{from_slave, lost, session, sequence, echo, stamp, value, energy, wave};
+                       double wave, std::uint32_t run) {
+             return Packet{from_slave, lost,  session, sequence, echo,
+                           stamp,      value, energy,  wave,     run};
            }),
            py::kw_only(), py::arg("from_slave") = false, py::arg("lost") = false,
            py::arg("session") = 1, py::arg("sequence") = 0, py::arg("echo") = 0,
            py::arg("stamp") = 0, py::arg("value") = 0.0, py::arg("energy") = 0.0,
-           py::arg("wave") = 0.0)
+           py::arg("wave") = 0.0, py::arg("run") = 0)
       .def_readonly("from_slave", &Packet::from_slave, "Whether the slave sent it.")
       .def_readonly("lost", &Packet::lost, "Whether its sender has lost the link.")
       .def_readonly("session", &Packet::session, "The hand's consents so far.")
@@ -69,7 +70,8 @@ void bind_packet(py::module_& m) {
       .def_readonly("value", &Packet::value, "Position of the master [m], or force [N].")
       .def_readonly("energy", &Packet::energy, "Energy into the network [J].")
       .def_readonly("wave", &Packet::wave, "Integral of the wave variable [sqrt(W) s].")
-      .def("encode", &encoded, "Return its 52 bytes.")
+      .def_readonly("run", &Packet::run, "Number of the master's run.")
+      .def("encode", &encoded, "Return its 56 bytes.")
       .def_static(
           "decode", &decoded, py::arg("datagram"),
           "Return the packet, or None for a datagram that is damaged or not of this version.")

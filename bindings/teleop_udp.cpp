@@ -19,8 +19,8 @@ using teleop::UdpMaster;
 using teleop::UdpNetwork;
 using teleop::UdpSlave;
 
-Endpoint endpoint(const std::string& host, int port) {
-  return sensor::resolve(host, static_cast<std::uint16_t>(port));
+Endpoint endpoint(const char* what, const std::string& host, int port) {
+  return sensor::resolve(host, static_cast<std::uint16_t>(port), what);
 }
 
 template <class Side>
@@ -52,8 +52,9 @@ void bind_teleop_udp(py::module_& m) {
                        const std::string& host, int port, const std::string& peer, int peer_port,
                        double consent_after) {
              return from_system([&] {
-               return std::make_unique<UdpMaster>(setup, law, coupling, endpoint(host, port),
-                                                  endpoint(peer, peer_port), consent_after);
+               return std::make_unique<UdpMaster>(
+                   setup, law, coupling, endpoint("master", host, port),
+                   endpoint("peer of the master", peer, peer_port), consent_after);
              });
            }),
            py::kw_only(), py::arg("setup"), py::arg("law"), py::arg("coupling"), py::arg("host"),
@@ -64,7 +65,7 @@ void bind_teleop_udp(py::module_& m) {
   slave.def(py::init([](const teleop::SlaveModel& model, const teleop::Coupling& coupling,
                         const std::string& host, int port) {
               return from_system([&] {
-                return std::make_unique<UdpSlave>(model, coupling, endpoint(host, port));
+                return std::make_unique<UdpSlave>(model, coupling, endpoint("slave", host, port));
               });
             }),
             py::kw_only(), py::arg("model"), py::arg("coupling"), py::arg("host"), py::arg("port"));
@@ -75,8 +76,9 @@ void bind_teleop_udp(py::module_& m) {
           py::init([](const teleop::Link& there, const teleop::Link& back, std::uint64_t seed,
                       const std::string& host, int port, const std::string& slave, int slave_port) {
             return from_system([&] {
-              return std::make_unique<UdpNetwork>(there, back, seed, endpoint(host, port),
-                                                  endpoint(slave, slave_port));
+              return std::make_unique<UdpNetwork>(there, back, seed,
+                                                  endpoint("network", host, port),
+                                                  endpoint("slave", slave, slave_port));
             });
           }),
           py::kw_only(), py::arg("there"), py::arg("back"), py::arg("seed"), py::arg("host"),

@@ -12,7 +12,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from typer.testing import CliRunner
 
-from ebac import gastroscope
+from ebac import Trace, gastroscope, logs
 from ebac.cli import app
 from ebac.gastroscope import Lumen, Master, Patient, Procedure, Scope, Slave, camera
 from ebac.worlds import Cavity, Tube
@@ -160,6 +160,9 @@ def test_a_study_pairs_physicians_and_does_not_depend_on_threads() -> None:
         (["--law", "ebax"], "ebac"),
         (["--delay", "3"], "--delay"),
         (["study", "--physicians", "1"], "--physicians"),
+        (["--log", "run.txt"], "must end in"),
+        (["--live", "--log", "run.mcap"], "writes no files"),
+        (["--no-browser"], "belong to --live"),
     ],
 )
 def test_wrong_input_is_refused(words: list[str], said: str) -> None:
@@ -177,6 +180,60 @@ def test_the_command_writes_figure_record_and_json(tmp_path: Path) -> None:
     assert row["most_section_N"] >= row["most_tip_N"] >= 0
     assert {path.name for path in out.iterdir()} >= {"gastroscopy.csv", "gastroscopy.json"}
     assert (out / "gastroscopy.csv").read_text(encoding="utf-8").startswith("t [s],place [m]")
+
+
+def test_a_log_is_read_back_with_units_touches_and_parameters(tmp_path: Path) -> None:
+    log = tmp_path / "run.mcap"
+    words = ["gastroscopy", "--seconds", "2", "--law", "direct", "--log", str(log), "--json"]
+    result = CliRunner().invoke(app, words)
+    assert result.exit_code == 0, result.output
+    run = gastroscope.gastroscopy(
+        "direct", Procedure(seconds=2, physician=gastroscope.Physician(heed=3)), every=1
+    )
+    read = logs.read(log)
+    assert (read.condition.complete, read.lost, read.about.law) == (True, 0, "direct")
+    for name, column in run.rows.items():
+        np.testing.assert_array_equal(read.trace[name], column)
+    assert read.trace.columns["section_force"].unit == "N"
+    assert "handle" not in read.trace.summary()
+    beside = json.loads(read.about.files["gastroscopy.json"])
+    assert beside["physician"]["heed"] == 3
+    assert beside["findings"] == run.findings
+    again = CliRunner().invoke(app, ["log", "info", str(log), "--json"])
+    assert again.exit_code == 0, again.output
+    assert json.loads(again.stdout)["lost_rows"] == 0
+    for suffix in (".npz", ".csv"):
+        run.save(tmp_path / f"run{suffix}")
+        assert len(Trace.load(tmp_path / f"run{suffix}")) == len(read.trace)
+
+
+def test_a_log_has_an_event_for_each_touch_and_each_time_above_the_limit(tmp_path: Path) -> None:
+    polyp = gastroscope.Polyp(place=0.2, angle=0.5)
+    tender = Lumen(Patient(force_limit=0.5))
+    run = gastroscope.gastroscopy("direct", Procedure(lumen=tender, targets=[polyp], seconds=25))
+    run.save(tmp_path / "run.mcap")
+    events = logs.read(tmp_path / "run.mcap").events
+    kinds = [event.kind for event in events]
+    assert run.findings["touched"] == kinds.count("touch") == 1
+    assert kinds.count("limit") >= 1
+    assert [event.tick for event in events] == sorted(event.tick for event in events)
+
+
+def test_a_thinned_record_keeps_the_largest_forces() -> None:
+    full, coarse = (gastroscope.gastroscopy("direct", SHORT, every=n) for n in (1, 10))
+    thin = full.thinned(10)
+    for name, column in coarse.rows.items():
+        np.testing.assert_array_equal(thin.rows[name], column)
+    with pytest.raises(ValueError, match="must be 1 or more"):
+        full.thinned(0)
+
+
+def test_the_default_physician_stays_below_the_limit_and_touches_all_targets() -> None:
+    """The wall in steps pushed with 6.6 N for one tick."""
+    run = gastroscope.gastroscopy("ebac", Procedure(physician=gastroscope.Physician(heed=3)))
+    assert run.within_limit
+    assert (run.findings["reached"], run.findings["touched"]) == (1, 3)
+    assert run.findings["over_limit"] == 0
 
 
 def test_no_spike_of_the_force_lies_between_two_rows() -> None:

@@ -3,6 +3,7 @@
 import json
 import subprocess
 import sys
+import threading
 from pathlib import Path
 
 import numpy as np
@@ -10,7 +11,7 @@ import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
-from ebac import teleop
+from ebac import Hand, MinimumJerk, Sine, teleop
 from ebac.plot import plot_teleop, plot_teleop_runs
 from ebac.teleop import Link, Packet, SlaveModel
 
@@ -29,13 +30,14 @@ def packet(value: float = 0.01, energy: float = 2.0, wave: float = -3.0) -> Pack
         value=value,
         energy=energy,
         wave=wave,
+        run=4,
     )
 
 
 @given(FINITE, FINITE, FINITE)
 def test_a_packet_comes_back_as_it_was(value: float, energy: float, wave: float) -> None:
     sent = packet(value, energy, wave)
-    assert len(sent.encode()) == 52
+    assert len(sent.encode()) == 56
     assert Packet.decode(sent.encode()) == sent
 
 
@@ -44,9 +46,9 @@ def test_the_layout_is_the_one_that_is_documented() -> None:
     import zlib
 
     wire = packet().encode()
-    assert struct.unpack("<2sBBIIIqdddI", wire) == (
-        *(b"ET", 1, 1, 3, 70000, 5, -1, 0.01, 2.0, -3.0),
-        zlib.crc32(wire[:48]),
+    assert struct.unpack("<2sBBIIIqdddII", wire) == (
+        *(b"ET", 2, 1, 3, 70000, 5, -1, 0.01, 2.0, -3.0, 4),
+        zlib.crc32(wire[:52]),
     )
 
 
@@ -168,6 +170,39 @@ def test_a_lost_link_is_held_faded_and_told(name: str) -> None:
     assert step < 1e-3  # nothing jumps when it goes on
 
 
+@pytest.mark.parametrize("name", ["ebac", "waves", "two-port-passivity", "two-port-ebac"])
+def test_cuts_do_not_let_the_slave_walk_away(name: str) -> None:
+    """Each session began where both were: 60 s with cuts led to 26 mm behind the stick's range."""
+    run = teleop.simulate(
+        name,
+        there=Link(delay=0.02, cut_every=7, cut_length=1),
+        seconds=60,
+        hand=Hand(path=[Sine(centre=0.02, amplitude=0.015, frequency=0.2, phase=-1.5708)]),
+    )
+    assert run["session"][-1] >= 8
+    assert run["slave_x"].min() > -1e-3
+    assert run["slave_x"].max() < run["true_x"].max() + 1e-3
+    assert np.abs(np.diff(run["target"])).max() < 2e-4
+
+
+def test_without_realignment_the_slave_goes_on_from_where_it_is() -> None:
+    link = Link(delay=0.02, cut_every=2, cut_length=1)
+    path = [MinimumJerk(target=0.02, at=1.2, duration=0.5)]  # while the link is cut
+    free = SlaveModel(contact_stiffness=0)
+    for realign, place in ((0.0, 0.0), (0.05, 0.02)):
+        run = teleop.simulate(
+            "ebac", there=link, seconds=3.9, hand=Hand(path=path), slave=free, realign=realign
+        )
+        assert run["slave_x"][-1] == pytest.approx(place, abs=1e-3)
+
+
+def test_a_bad_host_is_named_for_what_it_is() -> None:
+    from ebac.teleop import processes
+
+    with pytest.raises(ValueError, match=r"slave at 'no\.such\.invalid': no such host"):
+        processes.Slave(SlaveModel(), teleop.scheme("ebac"), host="no.such.invalid", port=0)
+
+
 def test_without_consent_nothing_goes_on() -> None:
     link = Link(delay=0.02, cut_every=4, cut_length=1)
     run = teleop.simulate("ebac", there=link, seconds=7, consent_after=np.inf)
@@ -239,6 +274,64 @@ def test_three_processes_with_cuts() -> None:
     assert ends["slave"]["most_force_N"] <= 30
     assert ends["slave"]["moved_when_lost_m"] == 0
     assert 0.04 < ends["master"]["longest_round_trip_s"] < 2
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="UDP of the library is Linux's")
+def test_a_restarted_master_waits_for_consent() -> None:
+    from ebac import Free, Scenario
+    from ebac.laws import design
+    from ebac.teleop import processes
+
+    scheme = teleop.scheme("ebac")
+    still = Hand(path=[MinimumJerk(target=0.0, at=0.1, duration=0.1)])
+    scenario = Scenario(environment=Free(), hand=still)
+    law = design(scheme.law, scenario.device, scenario.known_timing)
+    slave = processes.Slave(SlaveModel(), scheme, host="127.0.0.1", port=0)
+    over = threading.Event()
+    seen = []
+
+    def serve() -> None:
+        while not over.is_set():
+            seen.append(slave.run(0.05))
+
+    def master() -> processes.Master:
+        peer = ("127.0.0.1", slave.port)
+        return processes.Master(scenario, law, scheme, host="127.0.0.1", port=0, peer=peer)
+
+    thread = threading.Thread(target=serve)
+    thread.start()
+    try:
+        assert master().run(0.3)["state"] == 1
+        restarted = master()
+        assert restarted.run(1.5)["state"] == 3
+        assert seen[-1]["state"] == 3
+        assert seen[-1]["moved_when_lost"] == 0
+        assert restarted.consent()
+        report = restarted.run(0.5)
+        assert (report["state"], report["session"]) == (1, 2)
+        assert report["most_force"] < 1
+    finally:
+        over.set()
+        thread.join()
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="UDP of the library is Linux's")
+def test_endurance_finds_what_is_beyond_a_limit(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(sys.modules["ebac.teleop.endurance"], "MASTER_LIMIT", -1.0)
+    link = Link(delay=0.02, cut_every=3, cut_length=1)
+    found = teleop.endurance(5, link=link, consent_after=0.2)
+    assert [fault.split(" = ")[0] for fault in found.faults] == ["largest force of the master"]
+    assert found.reported["master"] >= found.reports["master"]["losses"] >= 1
+    assert all(len(values) > 3 for values in found.memory.values())
+
+
+def test_memory_is_judged_after_the_start() -> None:
+    def growth(values: list[int]) -> int:
+        memory = {"master": values}
+        return teleop.Endurance(reports={}, reported={}, memory=memory, faults=[]).growth("master")
+
+    assert growth([30, 60, 60, 60, 60]) == growth([]) == 0
+    assert growth([1] * 20 + [5] * 20) == 4
 
 
 def test_command_line(tmp_path: Path) -> None:

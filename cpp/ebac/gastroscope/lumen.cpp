@@ -14,7 +14,8 @@ namespace ebac::gastroscope {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kWave = 0.02;  // m, half of the length of a peristaltic wave
+constexpr double kWave = 0.02;        // m, half of the length of a peristaltic wave
+constexpr double kLeastTurned = 0.2;  // of a length along the centre line, at the inside of a turn
 
 /// A part of the lumen that turns evenly in a plane: 0 towards the camera's right, pi/2 down.
 struct Part {
@@ -79,13 +80,13 @@ Lumen::Lumen(const PatientParams& params)
     const double c = std::cos(part.plane), s = std::sin(part.plane);
     for (long i = 0; i < steps; ++i) {
       const double u = (static_cast<double>(i) + 0.5) / static_cast<double>(steps);
-      stations_.push_back({at, frame, {}, 0, radius_in(part, u), 0});
+      stations_.push_back({.at = at, .frame = frame, .radius = radius_in(part, u)});
       at += length * frame.z;
       const Vec side = c * frame.x + s * frame.y;
       frame = look_along(frame, std::cos(angle) * frame.z + std::sin(angle) * side);
     }
   }
-  stations_.push_back({at, frame, {}, 0, stations_.back().radius, 0});
+  stations_.push_back({.at = at, .frame = frame, .radius = stations_.back().radius});
   for (int pass = 0; pass < 4; ++pass) {  // so that no radius changes in a step
     double before = stations_.front().radius;
     for (std::size_t i = 1; i + 1 < stations_.size(); ++i) {
@@ -118,7 +119,7 @@ Lumen::Lumen(const PatientParams& params, const std::vector<Vec>& points,
       }
       frame = look_along(frame, unit(way, frame.z));
     }
-    stations_.push_back({points[i], frame, {}, 0, radii[i], 0});
+    stations_.push_back({.at = points[i], .frame = frame, .radius = radii[i]});
   }
   finish();
 }
@@ -142,6 +143,16 @@ void Lumen::finish() {
   last.length = before.length;
   last.breathes = before.breathes;
   landmarks_.end = s;
+  stations_.front().along = stations_.front().ahead;
+  last.along = last.ahead;
+  for (std::size_t i = 1; i + 1 < stations_.size(); ++i) {
+    const Station &back = stations_[i - 1], &next = stations_[i + 1];
+    Station& here = stations_[i];
+    here.along = unit(back.ahead + here.ahead, here.ahead);
+    const double from = (here.radius - back.radius) / back.length;
+    const double to = (next.radius - here.radius) / here.length;
+    here.widens = from * to > 0 ? 2 * from * to / (from + to) : 0;  // so that nothing overshoots
+  }
 }
 
 Lumen::Spot Lumen::spot(double s) const EBAC_RT {
@@ -196,49 +207,85 @@ Frame Lumen::frame(double s) const EBAC_RT {
   return look_along(here.frame, here.ahead);
 }
 
-double Lumen::radius(double s, double t) const EBAC_RT {
-  const Spot at = spot(s);
-  const double here = stations_[at.station].radius, next = stations_[at.station + 1].radius;
-  return (here + at.share * (next - here)) * wave(s, t);
+/// A cubic from station to station: a wall in steps would push in steps.
+Lumen::Width Lumen::width(const Spot& at) const EBAC_RT {
+  const Station &here = stations_[at.station], &next = stations_[at.station + 1];
+  const double u = at.share, step = next.radius - here.radius;
+  const double from = here.length * here.widens, to = here.length * next.widens;
+  const double bow = (from - step) * (1 - u) + (step - to) * u;
+  return {here.radius + u * step + u * (1 - u) * bow,
+          (step + (1 - 2 * u) * bow + u * (1 - u) * (2 * step - from - to)) / here.length};
 }
 
-WallNear Lumen::near(const Vec& x, double radius, const LumenMotion& motion,
-                     int& hint) const EBAC_RT {
+double Lumen::radius(double s, double t) const EBAC_RT {
+  return width(spot(s)).radius * wave(s, t);
+}
+
+/// The segment between whose ends `x` lies, from the segment `i` on.
+int Lumen::segment(const Vec& x, int i) const EBAC_RT {
   const auto last = static_cast<int>(stations_.size()) - 2;
-  int i = std::clamp(hint, 0, last);
-  const auto at = [&](int k)
-                      EBAC_RT -> const Station& { return stations_[static_cast<std::size_t>(k)]; };
-  // The displacement is that of the last place: it changes slowly along the lumen.
-  const double own_moves = moves(at(i).s);
-  const Vec own = x - shift(at(i).breathes, own_moves, motion);
-  double along = 0;
-  for (int look = 0; look < 2 * last; ++look) {
-    along = dot(own - at(i).at, at(i).ahead);
-    const int next = along < 0 ? i - 1 : along > at(i).length ? i + 1 : i;
-    if (next == i || next < 0 || next > last) break;
-    const bool back = next < i && dot(own - at(next).at, at(next).ahead) > at(next).length;
-    i = next;
-    if (back) {  // between two segments, outside of their corner
-      along = at(i).length;
-      break;
+  const auto behind = [&](int k) EBAC_RT {
+    const Station& station = stations_[static_cast<std::size_t>(k)];
+    return dot(x - station.at, station.along) < 0;
+  };
+  i = std::clamp(i, 0, last);
+  if (behind(i)) {
+    while (i > 0 && behind(i)) --i;
+  } else {
+    while (i < last && !behind(i + 1)) ++i;
+  }
+  return i;
+}
+
+/// Its place is where a section of the lumen passes through `x`; sections turn evenly from station
+/// to station, so that neither the place nor the depth jumps between two segments.
+WallNear Lumen::near(const Vec& x, double radius, const LumenMotion& motion,
+                     Along& hint) const EBAC_RT {
+  const auto at =
+      static_cast<std::size_t>(std::clamp(hint.station, 0, static_cast<int>(stations_.size()) - 2));
+  const Station &before = stations_[at], &behind = stations_[at + 1];
+  // The displacement is that of the last place, which changes slowly.
+  const double own_moves = moves(before.s + hint.share * before.length);
+  const double breathes = before.breathes + hint.share * (behind.breathes - before.breathes);
+  const Vec own = x - shift(breathes, own_moves, motion);
+  hint.station = segment(own, hint.station);
+  const auto i = static_cast<std::size_t>(hint.station);
+  const Station &here = stations_[i], &next = stations_[i + 1];
+
+  const Vec off = own - here.at, turns = next.along - here.along;
+  const double begins = dot(off, here.along), ends = dot(own - next.at, next.along);
+  const bool between = begins >= 0 && ends <= 0;  // not so beyond the two ends of the lumen
+  double u = begins < 0 ? 0.0 : 1.0;
+  if (between) {
+    u = begins > ends ? begins / (begins - ends) : 0.0;
+    // off - u length ahead is square to along + u turns: a parabola that is nearly straight.
+    const double bow = -here.length * dot(here.ahead, turns);
+    const double slope = dot(off, turns) - here.length * dot(here.ahead, here.along);
+    for (int look = 0; look < 2; ++look) {
+      const double rate = slope + 2 * bow * u;
+      if (rate < 0) u = std::clamp(u - (begins + u * (slope + bow * u)) / rate, 0.0, 1.0);
     }
   }
-  hint = i;
-  const Station& here = at(i);
-  along = std::clamp(along, 0.0, here.length);
-  WallNear near{.s = here.s + along, .moves = own_moves};
+  hint.share = u;
+  WallNear near{.s = here.s + u * here.length, .moves = own_moves};
   if (wall_ != nullptr) {
     const world::Distance wall = wall_at(*wall_, own);
     near.depth = radius - wall.d;
     near.way = {-wall.out[0], -wall.out[1], -wall.out[2]};
     return near;
   }
-  const Vec aside = own - here.at - along * here.ahead;
-  const double slope = (at(i + 1).radius - here.radius) / here.length;
+  const Vec aside = off - u * here.length * here.ahead;
   const double waved = wave(near.s, motion.t);
+  const Width width = this->width({i, u});
   const double from = norm(aside);
-  near.depth = from + radius - (here.radius + slope * along) * waved;
-  near.way = (from > 0 ? (1 / from) * aside : Vec{}) - slope * waved * here.ahead;
+  near.depth = from + radius - width.radius * waved;
+  near.way = from > 0 ? (1 / from) * aside : Vec{};
+  if (between) {  // the place moves along, too, the faster the nearer to the centre of the turn
+    const Vec along = here.along + u * turns;
+    const double turned = here.length * dot(here.ahead, along) - dot(aside, turns);
+    const double rate = here.length / std::max(turned, kLeastTurned * here.length);
+    near.way -= rate * (dot(near.way, here.ahead) + width.slope * waved) * along;
+  }
   return near;
 }
 

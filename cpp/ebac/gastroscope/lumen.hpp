@@ -23,6 +23,13 @@ struct LumenMotion {
   Vec bag{};     // m, of the stomach, pushed by the instrument
 };
 
+/// Where along the centre line a point was last: between two stations, 5 mm apart where the lumen
+/// is made from measures.
+struct Along {
+  int station = 0;
+  double share = 0;  // of the way to the next one
+};
+
 /// The wall near a point.
 struct WallNear {
   double s = 0;      // m, along the centre line
@@ -45,7 +52,7 @@ class Lumen {
         const std::vector<double>& radii, std::shared_ptr<const world::Solid> wall);
 
   /// The wall near a ball of `radius` [m] about `x`; `hint` is the place of the last answer.
-  WallNear near(const Vec& x, double radius, const LumenMotion& motion, int& hint) const EBAC_RT;
+  WallNear near(const Vec& x, double radius, const LumenMotion& motion, Along& hint) const EBAC_RT;
 
   /// Centre line at `s` [m], displaced by the motion.
   Vec middle(double s, const LumenMotion& motion) const EBAC_RT;
@@ -59,11 +66,13 @@ class Lumen {
   static constexpr double kStep = 5e-3;  // m, from station to station
 
   struct Station {
-    Vec at;
-    Frame frame;
-    Vec ahead;            // of the segment to the next one
+    Vec at{};
+    Frame frame{};
+    Vec ahead{};          // of the segment to the next one
+    Vec along{};          // square to the section of the lumen here, between both segments
     double length = 0;    // m, of that segment
     double radius = 0;    // m
+    double widens = 0;    // of the radius along the centre line
     double breathes = 0;  // share of the diaphragm's motion
     double s = 0;         // m
   };
@@ -72,7 +81,13 @@ class Lumen {
     std::size_t station;
     double share;
   };
+  /// Radius at rest and how it widens over a segment.
+  struct Width {
+    double radius, slope;
+  };
   Spot spot(double s) const EBAC_RT;
+  Width width(const Spot& at) const EBAC_RT;
+  int segment(const Vec& x, int first) const EBAC_RT;
   void finish();
   Vec shift(double breathes, double moves, const LumenMotion& motion) const EBAC_RT;
   double moves(double s) const EBAC_RT;

@@ -118,61 +118,106 @@ ProcedureRow row_of(double t, const Slave& slave, const Command& command, const 
 
 }  // namespace
 
-Findings run_procedure(const Procedure& procedure, const Setup& setup, const AnyLaw& any, int every,
-                       std::vector<ProcedureRow>* rows) {
-  const double dt = setup.timing.dt;
-  const auto late = static_cast<std::size_t>(std::lround(procedure.master.delay / dt));
-  const Lumen& lumen = *procedure.lumen;
-  Slave slave(procedure.scope, lumen, procedure.start);
-  Physician physician(procedure.physician, procedure.master, lumen, procedure.targets, setup.seed,
-                      dt);
-  const double base = slave.inserted() - procedure.scope.section - procedure.scope.tip;
-  Master master(procedure.master, base);
-  DelayLine<Command> there(late, {.insertion = base});
-  DelayLine<Answer> back(late, {});
+/// All that moves.
+struct Navigation::Parts {
+  Parts(const Procedure& given, const Setup& setup, const AnyLaw& any)
+      : procedure(given),
+        slave(given.scope, *procedure.lumen, given.start),
+        physician(given.physician, given.master, *procedure.lumen, given.targets, setup.seed,
+                  setup.timing.dt),
+        master(given.master, base()),
+        there(late(setup), {.insertion = base()}),
+        back(late(setup), {}),
+        law(any),
+        device(setup),
+        clock(setup.timing.dt, setup.jitter, setup.seed),
+        chain(setup.device, setup.environment, observing(setup.observer, law)),
+        watch(procedure.lumen->params(), setup.timing.dt),
+        dt(setup.timing.dt),
+        count(row_count(setup)) {
+    chain.change(External{felt});
+    sample.axes = setup.device.axes();
+  }
 
-  PerAxis<AnyLaw> law(any);
-  SimulatedDevice device(setup);
-  VirtualClock clock(dt, setup.jitter, setup.seed);
-  SignalChain chain(setup.device, setup.environment, observing(setup.observer, law));
-  const auto felt = std::make_shared<FromSlave>();
-  chain.change(External{felt});
+  double base() const { return slave.inserted() - procedure.scope.section - procedure.scope.tip; }
+  std::size_t late(const Setup& setup) const {
+    return static_cast<std::size_t>(std::lround(procedure.master.delay / setup.timing.dt));
+  }
+
+  Procedure procedure;
+  Slave slave;
+  Physician physician;
+  Master master;
+  DelayLine<Command> there;
+  DelayLine<Answer> back;
+  PerAxis<AnyLaw> law;
+  SimulatedDevice device;
+  VirtualClock clock;
+  SignalChain chain;
+  std::shared_ptr<FromSlave> felt = std::make_shared<FromSlave>();
+  Watch watch;
   Sample sample{};
-  sample.axes = setup.device.axes();
-  const auto axes = static_cast<std::size_t>(sample.axes);
-
-  Watch watch(lumen.params(), dt);
-  const std::size_t count = row_count(setup);
+  Command asked{};
+  Answer answer{};
+  double dt;
+  std::size_t count, done = 0;
   bool clutched = true;
-  for (std::size_t i = 0; i < count && sample.fault == Fault::kNone; ++i) {
-    tick(chain, law, device, clock.wait(), sample);
-    Handle x{}, force{};
-    for (std::size_t k = 0; k < axes; ++k) {
-      x[k] = sample.axis[k].port.x;
-      force[k] = device.state(k).f_motor;
-    }
-    const Wish wish = physician.step(slave, x, force, sample.t);
-    for (std::size_t k = 0; k < axes; ++k) device.aim(k, wish.aim[k]);
-    clutched = wish.clutched;
-    const Command& asked = master.command(x, wish.pedal, clutched, dt);
-    const Answer answer = slave.step(there.pass(asked), sample.t, dt);
-    felt->force = master.felt(back.pass(answer), clutched);
-    watch.tick(slave, sample, device);
-    const bool done = physician.phase() == Physician::Phase::kDone;
-    const bool last = done || i + 1 == count || sample.fault != Fault::kNone;
-    if (rows != nullptr && (last || i % static_cast<std::size_t>(every) == 0)) {
-      rows->push_back(
-          watch.with_forces(row_of(sample.t, slave, asked, answer, physician, device, axes)));
-    }
-    ++sample.tick;
-    if (done) {
-      watch.found.reached = 1;
-      break;
+};
+
+Navigation::Navigation(const Procedure& procedure, const Setup& setup, const AnyLaw& law)
+    : parts_(std::make_unique<Parts>(procedure, setup, law)) {}
+Navigation::~Navigation() = default;
+Navigation::Navigation(Navigation&&) noexcept = default;
+
+bool Navigation::ended() const {
+  const Parts& p = *parts_;
+  return p.done == p.count || p.sample.fault != Fault::kNone || p.watch.found.reached > 0;
+}
+
+bool Navigation::step() {
+  Parts& p = *parts_;
+  if (ended()) return false;
+  tick(p.chain, p.law, p.device, p.clock.wait(), p.sample);
+  const auto axes = static_cast<std::size_t>(p.sample.axes);
+  Handle x{}, force{};
+  for (std::size_t k = 0; k < axes; ++k) {
+    x[k] = p.sample.axis[k].port.x;
+    force[k] = p.device.state(k).f_motor;
+  }
+  const Wish wish = p.physician.step(p.slave, x, force, p.sample.t);
+  for (std::size_t k = 0; k < axes; ++k) p.device.aim(k, wish.aim[k]);
+  p.clutched = wish.clutched;
+  p.asked = p.master.command(x, wish.pedal, p.clutched, p.dt);
+  p.answer = p.slave.step(p.there.pass(p.asked), p.sample.t, p.dt);
+  p.felt->force = p.master.felt(p.back.pass(p.answer), p.clutched);
+  p.watch.tick(p.slave, p.sample, p.device);
+  ++p.sample.tick;
+  ++p.done;
+  p.watch.found.touched = static_cast<double>(p.physician.touched());
+  p.watch.found.fault = static_cast<double>(p.sample.fault);
+  p.watch.found.reached = p.physician.phase() == Physician::Phase::kDone ? 1 : 0;
+  return true;
+}
+
+ProcedureRow Navigation::row() {
+  Parts& p = *parts_;
+  const auto axes = static_cast<std::size_t>(p.sample.axes);
+  return p.watch.with_forces(
+      row_of(p.sample.t, p.slave, p.asked, p.answer, p.physician, p.device, axes));
+}
+
+const Findings& Navigation::findings() const { return parts_->watch.found; }
+const Slave& Navigation::slave() const { return parts_->slave; }
+
+Findings run_procedure(const Procedure& procedure, const Setup& setup, const AnyLaw& law, int every,
+                       std::vector<ProcedureRow>* rows) {
+  Navigation run(procedure, setup, law);
+  for (std::size_t i = 0; run.step(); ++i) {
+    if (rows != nullptr && (run.ended() || i % static_cast<std::size_t>(every) == 0)) {
+      rows->push_back(run.row());
     }
   }
-  watch.found.touched = static_cast<double>(physician.touched());
-  watch.found.fault = static_cast<double>(sample.fault);
-  return watch.found;
+  return run.findings();
 }
 
 std::vector<Findings> run_procedures(const std::vector<const Procedure*>& procedures,

@@ -123,6 +123,30 @@ struct ProcedureRow {
   }
 };
 
+class Slave;
+
+/// A procedure tick by tick: the joystick's loop under the law, the line, slave and patient, the
+/// physician.
+class Navigation {
+ public:
+  Navigation(const Procedure& procedure, const Setup& setup, const AnyLaw& law);
+  ~Navigation();
+  Navigation(Navigation&&) noexcept;
+
+  /// One tick; false where it had ended.
+  bool step();
+  /// Whether the pylorus was passed, the time is over or the loop stopped.
+  bool ended() const;
+  /// The newest row, with the largest forces since this was last asked.
+  ProcedureRow row();
+  const Findings& findings() const;
+  const Slave& slave() const;
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
 /// Runs a procedure: the joystick's loop under the law, the line, slave and patient, the physician.
 /// A row is added to `rows`, where given, every `every` ticks and after the last one.
 Findings run_procedure(const Procedure& procedure, const Setup& setup, const AnyLaw& law, int every,

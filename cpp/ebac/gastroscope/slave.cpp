@@ -22,7 +22,7 @@ Slave::Slave(const ScopeParams& params, const Lumen& lumen, double start)
     s += 0.5 * InsertionTube::kStep;
   }
   at_ = tube_.reach(base_);
-  for (int& hint : hint_) hint = static_cast<int>(base_ / 5e-3);
+  for (Along& hint : hint_) hint.station = static_cast<int>(base_ / 5e-3);
   meet(0);
 }
 

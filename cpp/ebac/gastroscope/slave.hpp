@@ -66,7 +66,7 @@ class Slave {
   LumenMotion motion_{};
   SectionPoint camera_{};
   double place_ = 0;
-  std::array<int, kPoints> hint_{};
+  std::array<Along, kPoints> hint_{};
   std::array<double, kPoints> depth_{};
   double tip_force_ = 0, section_force_ = 0;
   Vec tube_on_bag_{};

@@ -63,7 +63,7 @@ struct PhysicianParams {
   double look_ahead = 0.045;    // m
   double field_of_view = 2.44;  // rad
   double heed = 0;              // N
-  double patience = 15;         // s
+  double patience = 30;         // s
 
   static constexpr auto fields() {
     using F = Field<PhysicianParams>;

@@ -50,7 +50,7 @@ class InsertionTube {
   std::array<Vec, kMost> node_{}, before_{}, force_{};
   std::array<double, kMost> wall_{};  // N/m, of a wall that is touched
   std::array<Frame, kMost> frame_{};
-  std::array<int, kMost> hint_{};
+  std::array<Along, kMost> hint_{};
   double most_ = 0, all_ = 0;
   Vec on_bag_{};
 };

@@ -7,8 +7,8 @@
 
 namespace ebac::sensor {
 
-Endpoint resolve(const std::string& host, std::uint16_t) {
-  need_linux("a force sensor at " + host);
+Endpoint resolve(const std::string& host, std::uint16_t, const std::string& what) {
+  need_linux(what + " at " + host);
 }
 
 UdpSocket::UdpSocket(const Endpoint& at) { need_linux("a force sensor at " + to_string(at)); }

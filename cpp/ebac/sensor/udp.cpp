@@ -62,7 +62,7 @@ std::int64_t stamp_of(msghdr& message) noexcept {
 
 }  // namespace
 
-Endpoint resolve(const std::string& host, std::uint16_t port) {
+Endpoint resolve(const std::string& host, std::uint16_t port, const std::string& what) {
   addrinfo hints{};
   hints.ai_family = AF_INET;
   hints.ai_socktype = SOCK_DGRAM;
@@ -70,7 +70,7 @@ Endpoint resolve(const std::string& host, std::uint16_t port) {
   const int error = ::getaddrinfo(host.c_str(), nullptr, &hints, &found);
   if (error != 0 || found == nullptr) {
     throw std::invalid_argument(
-        "sensor at '" + host + "': no such host (" + ::gai_strerror(error) +
+        what + " at '" + host + "': no such host (" + ::gai_strerror(error) +
         "); give its IPv4 address, as 192.168.1.1, or a name that resolves");
   }
   sockaddr_in wire{};

@@ -28,7 +28,7 @@ inline std::string to_string(const Endpoint& at) {
 
 /// The endpoint of a host by name or address. Throws std::invalid_argument where there is none; may
 /// wait for a name server.
-Endpoint resolve(const std::string& host, std::uint16_t port);
+Endpoint resolve(const std::string& host, std::uint16_t port, const std::string& what = "sensor");
 
 /// A received packet: its first bytes. A packet of the protocol is shorter than the room here, so
 /// one that fills it was too long.

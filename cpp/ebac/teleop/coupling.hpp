@@ -27,6 +27,7 @@ struct Coupling {
   double stiffness = 4000;  // N/m
   double damping = 40;      // N s/m
   double catch_up = 0.1;    // m/s
+  double realign = 0.02;    // m/s
   double buffer = 0;        // s
   double timeout = 0.5;     // s
   double fade = 0.2;        // s
@@ -54,6 +55,11 @@ struct Coupling {
           "of the slave's position controller; with waves it is their impedance", 0, 1e3},
         F{"catch_up", &Coupling::catch_up, "m/s",
           "largest speed at which drift is compensated, on top of the motion", 0, 10},
+        F{"realign", &Coupling::realign, "m/s",
+          "largest speed at which the slave goes back to the master's place after consent to go "
+          "on; "
+          "0 goes on from where both are",
+          0, 1},
         F{"buffer", &Coupling::buffer, "s",
           "play-out buffer of both receivers, against jitter and loss; it adds to the delay", 0,
           0.3},

@@ -34,6 +34,14 @@ class LinkWatch {
     share_ = std::clamp(share_ + (state_ == LinkState::kRunning ? step_ : -step_), 0.0, 1.0);
     if (state_ != LinkState::kRunning) away_ += dt_;
   }
+  /// The other side cannot go on in this session: it takes a hand's consent.
+  void lose() EBAC_RT {
+    if (state_ != LinkState::kWaiting && state_ != LinkState::kRunning) return;
+    state_ = LinkState::kLost;
+    heard_ = 0;
+    ++losses_;
+  }
+  bool lost() const EBAC_RT { return state_ == LinkState::kLost || state_ == LinkState::kBack; }
   /// A new session: runs from the first packet on.
   void begin() EBAC_RT {
     state_ = LinkState::kWaiting;

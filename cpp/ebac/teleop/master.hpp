@@ -21,7 +21,7 @@ namespace ebac::teleop {
 /// least, is `dissipated`.
 class MasterSide {
  public:
-  MasterSide(const Setup& setup, const AnyLaw& law, const Coupling& coupling)
+  MasterSide(const Setup& setup, const AnyLaw& law, const Coupling& coupling, std::uint32_t run = 0)
       : coupling_(checked(coupling, "Coupling")),
         dt_(setup.timing.dt),
         lag_(static_cast<std::uint32_t>(setup.timing.delay) + 1),
@@ -29,22 +29,30 @@ class MasterSide {
         chain_(setup.device, Free{}),
         law_(law),
         watch_(coupling, dt_),
-        receiver_(static_cast<int>(std::lround(coupling.buffer / dt_))) {
+        receiver_(static_cast<int>(std::lround(coupling.buffer / dt_))),
+        run_(run) {
     sample_.axes = 1;
     law_.reset();
   }
 
   void take(const Packet& packet) EBAC_RT {
-    if (!packet.from_slave || packet.session != session_) return receiver_.refuse();
+    if (packet.from_slave && packet.run != run_ && packet.lost && packet.session >= session_) {
+      slave_session_ = packet.session;  // a slave that an earlier run has left behind
+      watch_.lose();
+      watch_.heard();
+    }
+    if (!packet.from_slave || packet.run != run_ || packet.session != session_) {
+      return receiver_.refuse();
+    }
     other_lost_ = packet.lost;
     watch_.heard();
     receiver_.take(packet);
   }
 
-  /// The hand agrees to go on after the link was lost: a new session, from where both sides are now.
+  /// The hand agrees to go on after the link was lost: a new session, whose accounts begin at zero.
   bool consent() EBAC_RT {
     if (watch_.state() != LinkState::kBack) return false;
-    ++session_;
+    session_ = std::max(session_, slave_session_) + 1;
     sequence_ = 0;
     receiver_.reset();
     watch_.begin();
@@ -63,7 +71,8 @@ class MasterSide {
     Port& port = axes[0].port;
     observe(port);
     watch_.tick(other_lost_);
-    if (watch_.state() == LinkState::kWaiting) origin_ = port.x;
+    if (watch_.state() == LinkState::kRunning) begun_ = true;
+    if (!begun_) origin_ = port.x;
     const double net = watch_.share() * asked(port, receiver_.play());
     net_[tick_ % net_.size()] = net;
     port.f_env = net + inject(port);
@@ -73,14 +82,15 @@ class MasterSide {
     if (sample_.fault != Fault::kNone) rest(axes);
     ++tick_;
     return {.from_slave = false,
-            .lost = watch_.state() == LinkState::kLost || watch_.state() == LinkState::kBack,
+            .lost = watch_.lost(),
             .session = session_,
             .sequence = ++sequence_,
             .echo = receiver_.newest(),
             .stamp = stamp,
             .value = port.x - origin_,
             .energy = waves() ? port_.in - port_.out + port_.dissipated + used_energy_ : port_.in,
-            .wave = wave_sum_};
+            .wave = wave_sum_,
+            .run = run_};
   }
 
   /// Another place for the hand [m].
@@ -147,6 +157,9 @@ class MasterSide {
   std::uint32_t tick_ = 0;
   std::uint32_t session_ = 1;
   std::uint32_t sequence_ = 0;
+  std::uint32_t run_;
+  std::uint32_t slave_session_ = 0;  // of a slave that belongs to another run
+  bool begun_ = false;
   bool other_lost_ = false;
   double origin_ = 0;       // m
   double damped_ = 0;       // J

@@ -59,6 +59,7 @@ Packet::Wire encode(const Packet& packet) EBAC_RT {
   put<8>(wire, 24, std::bit_cast<std::uint64_t>(packet.value));
   put<8>(wire, 32, std::bit_cast<std::uint64_t>(packet.energy));
   put<8>(wire, 40, std::bit_cast<std::uint64_t>(packet.wave));
+  put<4>(wire, 48, packet.run);
   put<4>(wire, kCrcAt, crc32(std::span(wire).first(kCrcAt)));
   return wire;
 }
@@ -75,7 +76,8 @@ std::optional<Packet> decode(std::span<const std::uint8_t> bytes) EBAC_RT {
                       .stamp = static_cast<std::int64_t>(get<8>(bytes, 16)),
                       .value = number(bytes, 24),
                       .energy = number(bytes, 32),
-                      .wave = number(bytes, 40)};
+                      .wave = number(bytes, 40),
+                      .run = static_cast<std::uint32_t>(get<4>(bytes, 48))};
   if (!std::isfinite(packet.value + packet.energy + packet.wave)) return std::nullopt;
   return packet;
 }

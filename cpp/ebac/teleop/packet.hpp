@@ -11,23 +11,24 @@
 /// Bilateral teleoperation: a master and a slave, joined by packets.
 namespace ebac::teleop {
 
-/// What one side tells the other, once a tick. On the wire 52 bytes, little-endian:
+/// What one side tells the other, once a tick. On the wire 56 bytes, little-endian:
 ///
 ///     offset  type    content
 ///      0      u8[2]   'E' 'T'
-///      2      u8      version, 1
+///      2      u8      version, 2
 ///      3      u8      flags: 1 from the slave, 2 this side has lost the link
 ///      4      u32     session: the hand's consents so far
 ///      8      u32     sequence number, from 1 in each session
 ///     12      u32     echo: newest sequence number this side has received, 0 for none
 ///     16      i64     time stamp of the sender's own clock [ns]
-///     24      f64     value: position of the master [m], or force of the slave [N]
+///     24      f64     value: position of the master since it began [m], or force of the slave [N]
 ///     32      f64     energy that went into the network at this port since the session began [J]
 ///     40      f64     integral of the wave variable since the session began [sqrt(W) s]
-///     48      u32     CRC-32 (IEEE 802.3) of the bytes before
+///     48      u32     run: number of the master's run; from the slave, of the master it belongs to
+///     52      u32     CRC-32 (IEEE 802.3) of the bytes before
 struct Packet {
-  static constexpr std::size_t kSize = 52;
-  static constexpr std::uint8_t kVersion = 1;
+  static constexpr std::size_t kSize = 56;
+  static constexpr std::uint8_t kVersion = 2;
   using Wire = std::array<std::uint8_t, kSize>;
 
   bool from_slave = false;
@@ -39,6 +40,7 @@ struct Packet {
   double value = 0;        // m or N
   double energy = 0;       // J
   double wave = 0;         // sqrt(W) s
+  std::uint32_t run = 0;
 
   bool operator==(const Packet&) const = default;
 };

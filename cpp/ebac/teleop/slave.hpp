@@ -66,12 +66,29 @@ class SlaveSide {
     if (scheme() == Scheme::kWaves) coupling_.damping = coupling_.impedance;  // matched
   }
 
-  void take(const Packet& packet) EBAC_RT {
-    if (packet.from_slave || packet.session < session_) return receiver_.refuse();
+  /// Whether its sender is to be answered. A master of another run, one that was restarted, is heard only after this
+  /// one's link is lost, and obeyed only from a session on that a hand has consented to.
+  bool take(const Packet& packet) EBAC_RT {
+    const bool other = bound_ && packet.run != run_;
+    if (packet.from_slave || (other ? !watch_.lost() : packet.session < session_)) {
+      receiver_.refuse();
+      return false;
+    }
+    if (other && packet.session <= session_) {
+      receiver_.refuse();
+      watch_.heard();
+      return true;
+    }
     if (packet.session > session_) begin(packet.session);
+    if (other) known_ = false;
+    bound_ = true;
+    run_ = packet.run;
+    // It has heard what this slave never sent: the slave was restarted.
+    if (packet.echo > sequence_) watch_.lose();
     other_lost_ = packet.lost;
     watch_.heard();
     receiver_.take(packet);
+    return true;
   }
 
   /// One tick; returns what to send.
@@ -81,14 +98,15 @@ class SlaveSide {
     const double v = watch_.state() == LinkState::kRunning ? follow(in) : 0.0;
     move(v);
     return {.from_slave = true,
-            .lost = watch_.state() == LinkState::kLost || watch_.state() == LinkState::kBack,
+            .lost = watch_.lost(),
             .session = session_,
             .sequence = ++sequence_,
             .echo = receiver_.newest(),
             .stamp = stamp,
             .value = coupling_.measured ? state_.met : state_.force,
             .energy = scheme() == Scheme::kWaves ? wave_energy_ : port_.in,
-            .wave = wave_sum_};
+            .wave = wave_sum_,
+            .run = run_};
   }
 
   const State& state() const EBAC_RT { return state_; }
@@ -101,6 +119,7 @@ class SlaveSide {
 
  private:
   static constexpr int kSubsteps = 10;
+  static constexpr double kAligned = 5e-4;  // m
 
   Scheme scheme() const EBAC_RT { return static_cast<Scheme>(coupling_.scheme); }
 
@@ -110,8 +129,9 @@ class SlaveSide {
     receiver_.reset();
     watch_.begin();
     port_ = {};
-    origin_ = state_.target;  // from here on relative: nothing jumps
-    last_ = scheme() == Scheme::kWaves ? 0.0 : origin_;
+    aligned_ = false;
+    if (!(coupling_.realign > 0)) known_ = false;
+    last_ = scheme() == Scheme::kWaves ? 0.0 : state_.target;
     smooth_ = 0;
     used_wave_ = used_energy_ = wave_sum_ = wave_energy_ = 0;
   }
@@ -124,8 +144,14 @@ class SlaveSide {
 
   /// The speed of the target.
   double follow(const Packet& in) EBAC_RT {
+    if (in.sequence > 0 && !known_) {
+      zero_ = state_.target - in.value;
+      known_ = true;
+    }
+    const double place = in.sequence > 0 ? zero_ + in.value : state_.target;
+    if (!aligned_ && in.sequence > 0) aligned_ = std::abs(place - state_.target) < kAligned;
+    if (!aligned_) return align(in, place);
     if (scheme() == Scheme::kWaves) return by_waves(in);
-    const double place = origin_ + in.value;
     smooth_ += (place - last_ - smooth_ * dt_) / kSmooth;
     last_ = place;
     const double behind = (place - state_.target) / kSmooth;
@@ -139,14 +165,35 @@ class SlaveSide {
     return held_to((port_.left() + coupling_.reserve) / dt_, f0(), slope(), v);
   }
 
+  /// Back to the master's place, never beyond it, no faster than `realign` and with no more energy than is allowed.
+  double align(const Packet& in, double place) EBAC_RT {
+    state_.drift = place - state_.target;
+    const double v = std::clamp(state_.drift / kSmooth, -coupling_.realign, coupling_.realign);
+    last_ = scheme() == Scheme::kWaves ? in.wave : place;
+    if (scheme() == Scheme::kPositionForce) return v;
+    if (scheme() == Scheme::kWaves) {
+      used_wave_ = in.wave;
+      return reflect(
+          (f0() + (coupling_.impedance + slope()) * v) / std::sqrt(2 * coupling_.impedance), in);
+    }
+    port_.allowed = std::max(port_.allowed, in.energy);
+    return held_to((port_.left() + coupling_.reserve) / dt_, f0(), slope(), v);
+  }
+
   /// v = sqrt(2/b) u - f/b with f = f0 + slope v; u no more than has come in.
   double by_waves(const Packet& in) EBAC_RT {
-    const double b = coupling_.impedance;
-    const double most =
-        std::sqrt(2 * std::max(0.0, in.energy + coupling_.reserve - used_energy_) / dt_);
     smooth_ += (in.wave - last_ - smooth_ * dt_) / kSmooth;
     last_ = in.wave;
     const double wanted = coupling_.follow ? (in.wave - used_wave_) / kSmooth : smooth_;
+    const double v = reflect(wanted, in);
+    state_.drift = (in.wave - used_wave_) / std::sqrt(2 * coupling_.impedance);
+    return v;
+  }
+
+  double reflect(double wanted, const Packet& in) EBAC_RT {
+    const double b = coupling_.impedance;
+    const double most =
+        std::sqrt(2 * std::max(0.0, in.energy + coupling_.reserve - used_energy_) / dt_);
     const double u = std::clamp(wanted, -most, most);
     used_wave_ += u * dt_;
     used_energy_ += 0.5 * u * u * dt_;
@@ -154,7 +201,6 @@ class SlaveSide {
     const double w = u - std::sqrt(2 / b) * (f0() + slope() * v);
     wave_sum_ += w * dt_;
     wave_energy_ += 0.5 * w * w * dt_;
-    state_.drift = (in.wave - used_wave_) / std::sqrt(2 * b);
     return v;
   }
 
@@ -183,7 +229,11 @@ class SlaveSide {
   std::uint32_t session_ = 1;
   std::uint32_t sequence_ = 0;
   bool other_lost_ = false;
-  double origin_ = 0;       // m, of the session
+  std::uint32_t run_ = 0;  // of the master
+  bool bound_ = false;     // to that run
+  bool known_ = true;      // zero_
+  bool aligned_ = true;
+  double zero_ = 0;         // m, where the master's zero lies
   double last_ = 0;         // m, or sqrt(W) s
   double smooth_ = 0;       // m/s, or sqrt(W)
   double used_wave_ = 0;    // sqrt(W) s

@@ -4,6 +4,7 @@
 #include <cerrno>
 #include <chrono>
 #include <cmath>
+#include <random>
 #include <thread>
 
 namespace ebac::teleop {
@@ -67,7 +68,10 @@ double Pace::wait() noexcept {
 
 UdpMaster::UdpMaster(const Setup& setup, const AnyLaw& law, const Coupling& coupling,
                      const sensor::Endpoint& at, const sensor::Endpoint& peer, double consent_after)
-    : side_(setup, law, coupling), socket_(at), peer_(peer), consent_after_(consent_after) {}
+    : side_(setup, law, coupling, std::random_device{}()),
+      socket_(at),
+      peer_(peer),
+      consent_after_(consent_after) {}
 
 Report UdpMaster::run(double seconds) noexcept {
   run_for(seconds, pace_, report_, [this] { tick(); });
@@ -99,6 +103,7 @@ void UdpMaster::tick() EBAC_RT {
   socket_.send(encode(out), peer_);
   ++report_.sent;
   report_.position = side_.device_port().x;
+  report_.farthest = std::max(report_.farthest, std::abs(report_.position));
   report_.force = side_.device_port().f_applied;
   report_.most_force = std::max(report_.most_force, std::abs(report_.force));
   calm_ = side_.watch().share() == 0 ? calm_ + kSecond : 0.0;
@@ -124,8 +129,7 @@ void UdpSlave::tick() EBAC_RT {
       ++report_.refused;
       return;
     }
-    peer_ = in.from;
-    side_.take(*packet);
+    if (side_.take(*packet)) peer_ = in.from;
   });
   const Packet out = side_.step(now());
   const SlaveSide::State& state = side_.state();
@@ -136,6 +140,7 @@ void UdpSlave::tick() EBAC_RT {
     report_.moved_when_lost = std::max(report_.moved_when_lost, std::abs(state.target - held_));
   }
   report_.position = state.x;
+  report_.farthest = std::max(report_.farthest, std::abs(report_.position));
   report_.force = state.force;
   report_.most_force = std::max(report_.most_force, std::abs(state.force));
   if (!peer_) return;

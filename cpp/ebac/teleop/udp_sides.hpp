@@ -27,6 +27,7 @@ struct Report {
   double round_trip = 0;
   double longest_round_trip = 0;
   double position = 0;
+  double farthest = 0;
   double force = 0;
   double most_force = 0;
   double force_when_lost = 0;
@@ -48,6 +49,7 @@ struct Report {
         F{"round_trip", &Report::round_trip, "s", "of the last packet that came back"},
         F{"longest_round_trip", &Report::longest_round_trip, "s", "of all"},
         F{"position", &Report::position, "m", "of this side now"},
+        F{"farthest", &Report::farthest, "m", "largest distance of this side from where it began"},
         F{"force", &Report::force, "N", "of this side now"},
         F{"most_force", &Report::most_force, "N", "largest force of this side"},
         F{"force_when_lost", &Report::force_when_lost, "N",

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,6 +16,12 @@ from ebac.gastroscope.lumen import Lumen
 from ebac.laws import AnyLaw, CoreLaw, design, law_name
 from ebac.presets import DEVICES
 from ebac.scenario import Scenario
+
+if TYPE_CHECKING:
+    from ebac.trace import Trace
+
+#: Columns that hold the largest force since the row before.
+FORCES = ("tip_force", "section_force", "tube_force")
 
 
 def default_targets(patient: Patient) -> tuple[Polyp, ...]:
@@ -142,14 +148,67 @@ class Gastroscopy:
         """Whether no force of the bending section passed the patient's limit."""
         return bool(self.findings["most_section"] <= self.procedure.lumen.patient.force_limit)
 
+    @property
+    def trace(self) -> Trace:
+        """The record as a trace, with `tick` and `fault`: what `ebac log` reads."""
+        from ebac.gastroscope.log import trace_of
+
+        return trace_of(self)
+
+    def thinned(self, every: int) -> Gastroscopy:
+        """Return the run with only each so many rows of its record, and the last; forces are the largest in between.
+
+        Parameters
+        ----------
+        every : int
+            1 or more.
+
+        Raises
+        ------
+        ValueError
+            For less.
+        """
+        if every < 1:
+            raise ValueError(f"every = {every}: must be 1 or more")
+        count = len(self.rows["t"])
+        kept = np.unique(np.append(np.arange(0, count, every), count - 1))
+        begins = np.append(0, kept[:-1] + 1)
+        rows = {
+            name: np.maximum.reduceat(column, begins) if name in FORCES else column[kept]
+            for name, column in self.rows.items()
+        }
+        return replace(self, rows=rows)
+
     def save(self, path: str | Path) -> None:
-        """Write the record as CSV, a column for each quantity, its unit in the heading.
+        """Write the record, the format by the extension.
+
+        A log, .mcap, also has the touches, the times above the limit, and all parameters; `ebac log` reads it.
 
         Parameters
         ----------
         path : path
-            The file; it is replaced.
+            .mcap, .csv (units in the headings), .npz, .parquet, .mat or .h5; the file is replaced.
+
+        Raises
+        ------
+        ValueError
+            For another extension.
+        ModuleNotFoundError
+            When the library a format needs is not installed.
+        OSError
+            When the file cannot be written.
         """
+        from ebac.gastroscope.log import write_log
+
+        path = Path(path)
+        if path.suffix.lower() == ".mcap":
+            write_log(self, path)
+        elif path.suffix.lower() == ".csv":
+            self._save_csv(path)
+        else:
+            self.trace.save(path)
+
+    def _save_csv(self, path: Path) -> None:
         units = {name: unit for name, unit, _ in _core._procedure_fields()}
         heading = ",".join(f"{name} [{units[name]}]" for name in self.rows)
         table = np.column_stack(list(self.rows.values()))

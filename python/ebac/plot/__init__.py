@@ -10,6 +10,7 @@ from ebac.plot.maps import plot_map
 from ebac.plot.overlay import plot_overlay
 from ebac.plot.run import plot_trace
 from ebac.plot.save import FORMATS, WIDTHS, save
+from ebac.plot.shapes import plot_shapes
 from ebac.plot.study import plot_study
 from ebac.plot.style import (
     COLOURS,
@@ -54,6 +55,7 @@ __all__ = [
     "plot_jitter",
     "plot_map",
     "plot_overlay",
+    "plot_shapes",
     "plot_study",
     "plot_sweep",
     "plot_teleop",

@@ -79,7 +79,7 @@ def _outside(ax: Any, run: Gastroscopy) -> None:
         axis.set_major_locator(MaxNLocator(3))
     ax.set_xlabel("front [cm]")
     ax.set_ylabel("left [cm]")
-    ax.set_zlabel("head [cm]")
+    ax.set_zlabel("head [cm]", labelpad=12)
     ax.view_init(elev=12, azim=25)
     ax.legend(loc="upper left", fontsize="small")
     ax.set_title("from outside", fontsize="medium")

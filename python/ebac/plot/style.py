@@ -12,26 +12,11 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from ebac._core import Wall
+from ebac._util.law_colours import COLOURS
 from ebac.metrics import ideal_rest
 from ebac.plot.legends import figure_legend, legend
 from ebac.trace import Trace
 
-#: One colour per law, mostly of Okabe and Ito's palette; a test keeps them apart for colour-blind eyes.
-COLOURS = {
-    "direct": "#444444",
-    "tca": "#d55e00",
-    "tca-damped": "#661100",
-    "lag-compensator": "#a65335",
-    "passivity-control": "#88ccee",
-    "iss": "#641f63",
-    "virtual-coupling": "#e6ab02",
-    "sfa": "#c0a363",
-    "force-bounding": "#332288",
-    "eba": "#0072b2",
-    "eba-account": "#8f97f0",
-    "ebac-printed": "#cc79a7",
-    "ebac": "#009e73",
-}
 OTHER_LAW = "#000000"
 #: One colour per quantity that is not the law's own, in figures and on pages alike.
 QUANTITIES = {

@@ -10,6 +10,7 @@
 
 from ebac._core import Coupling, Link, SlaveModel
 from ebac._core import TeleopPacket as Packet
+from ebac.teleop.endurance import Endurance, endurance
 from ebac.teleop.run import SCHEMES, Run, Scheme, scheme, simulate
 from ebac.teleop.study import CONTACTS, DELAYS, NETWORKS, Study, StudyRow, study, tuned
 
@@ -19,6 +20,7 @@ __all__ = [
     "NETWORKS",
     "SCHEMES",
     "Coupling",
+    "Endurance",
     "Link",
     "Packet",
     "Run",
@@ -26,6 +28,7 @@ __all__ = [
     "SlaveModel",
     "Study",
     "StudyRow",
+    "endurance",
     "scheme",
     "simulate",
     "study",

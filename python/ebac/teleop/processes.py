@@ -26,6 +26,7 @@ UNITS = {
     "longest_round_trip": "s",
     "latest": "s",
     "position": "m",
+    "farthest": "m",
     "moved_when_lost": "m",
     "force": "N",
     "most_force": "N",

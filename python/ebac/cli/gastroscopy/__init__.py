@@ -22,6 +22,6 @@ class OwnAndStudy(Group):
             return super().invoke(ctx)
 
 
-app = typer.Typer(cls=OwnAndStudy)
+app = typer.Typer(name="gastroscopy", cls=OwnAndStudy)
 app.callback(invoke_without_command=True)(expanded(navigate.gastroscopy, "gastroscopy"))
 add(app, study.study)

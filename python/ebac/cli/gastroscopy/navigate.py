@@ -9,14 +9,19 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from ebac.cli import options, output, setting
-from ebac.cli.files import ResultOptions
+from ebac.cli.files import PANEL, ResultOptions
+from ebac.cli.gastroscopy.watch import watch
+from ebac.cli.wall.results import log_names
 
 if TYPE_CHECKING:
     from ebac._core import Master
     from ebac.gastroscope import Gastroscopy
 
 MASTER = "Master"
+LIVE = "Live"
 INSERTION = ("pedals", "rate", "clutch")
+#: Ticks from row to row of the record that lies in the folder.
+EVERY = 10
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -79,6 +84,34 @@ def gastroscopy(
     ] = 3.0,
     seconds: Annotated[float, typer.Option(help="Longest time [s].")] = 120.0,
     seed: Annotated[int, typer.Option(min=0, help="Of the physician.")] = 1,
+    log: Annotated[
+        Path | None,
+        typer.Option(
+            "--log",
+            help="Also write a row for each tick to this file: .mcap (PlotJuggler, Foxglove, `ebac log`), .npz, .csv, "
+            ".parquet, .mat or .h5.",
+            show_default=False,
+            rich_help_panel=PANEL,
+        ),
+    ] = None,
+    live: Annotated[
+        bool,
+        typer.Option(
+            "--live",
+            help="See it in a browser, in real time: outside, the camera's view, forces. Writes no files.",
+            rich_help_panel=LIVE,
+        ),
+    ] = False,
+    port: Annotated[
+        int,
+        typer.Option(
+            min=0, max=65535, help="With --live: port; 0 for a free one.", rich_help_panel=LIVE
+        ),
+    ] = 0,
+    no_browser: Annotated[
+        bool,
+        typer.Option("--no-browser", help="With --live: open no browser.", rich_help_panel=LIVE),
+    ] = False,
     as_json: output.AsJson = False,
 ) -> None:
     """Run a gastroscopy: from the teeth to the pylorus, touching three targets.
@@ -90,7 +123,11 @@ def gastroscopy(
 
     * `ebac gastroscopy --seconds 5`: the first five seconds
 
+    * `ebac gastroscopy --live`: see it in your browser
+
     * `ebac gastroscopy --delay 0.1 --law direct --seconds 5 --json`
+
+    * `ebac gastroscopy --seconds 5 --log run.mcap`, then `ebac log info run.mcap`
     """
     if ctx.invoked_subcommand is not None:
         return
@@ -102,13 +139,27 @@ def gastroscopy(
         procedure = Procedure(
             master=how.master(delay), physician=Physician(heed=heed), seconds=seconds, seed=seed
         )
+        if live:
+            if log is not None or to.out is not None:
+                output.fail("--live: writes no files; leave --log and --out out")
+            watch(name, procedure, port, no_browser=no_browser, as_json=as_json)
+            return
+        if port or no_browser:
+            output.fail("--port and --no-browser belong to --live")
         folder = to.folder("gastroscopy", as_json=as_json)
-        found = run(name, procedure)
+        if log is not None:
+            log_names(log, [name], force=to.force)
+        full = run(name, procedure, every=EVERY if log is None else 1)
+    if log is not None:
+        _write_log(full, log)
+    found = full if log is None else full.thinned(EVERY)
     files = _write(folder, found, to) if folder else []
     if as_json:
         typer.echo(_document(found))
         return
     _show(found)
+    if log is not None:
+        output.path(log)
     if folder is not None:
         output.list_files(folder, files)
 
@@ -144,6 +195,15 @@ def _write(folder: Path, found: Gastroscopy, to: ResultOptions) -> list[str]:
         (draft / "gastroscopy.json").write_text(_document(found) + "\n", encoding="utf-8")
         found.save(draft / "gastroscopy.csv")
     return [*figures, "gastroscopy.json", "gastroscopy.csv"]
+
+
+def _write_log(found: Gastroscopy, log: Path) -> None:
+    try:
+        found.save(log)
+    except ModuleNotFoundError as error:
+        output.fail(f"--log {log}: {error}")
+    except OSError as error:
+        output.fail(f"--log {log}: cannot be written ({error.strerror})")
 
 
 def _show(found: Gastroscopy) -> None:

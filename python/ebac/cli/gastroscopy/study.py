@@ -101,8 +101,9 @@ def _write(folder: Path, found: GastroscopyStudy, to: ResultOptions) -> list[str
 
 
 def _show(found: GastroscopyStudy) -> None:
-    columns = ["law", "delay", "feedback", "reached", "touched", "time", "force", "90 %", "impulse"]
-    grid = output.table([*columns, "over limit", "perforated", "energy"], numbers=range(1, 12))
+    columns = ["law", "delay", "feedback", "reached", "touched", "time", "force 50 %", "force 90 %"]
+    more = ["impulse", "over limit", "perforated", "least energy"]
+    grid = output.table([*columns, *more], numbers=range(3, 12))
     for row in found.rows:
         grid.add_row(
             row.law,
@@ -116,7 +117,7 @@ def _show(found: GastroscopyStudy) -> None:
             f"{row.impulse_N_s:.1f} N s",
             f"{row.over_limit_share:.0%}",
             f"{row.perforated_share:.0%}",
-            f"{1e3 * row.least_energy_J:.0f} mJ",
+            f"{1e3 * row.least_energy_J:z.0f} mJ",
         )
     output.show(grid)
     for one in found.effects:
@@ -125,4 +126,7 @@ def _show(found: GastroscopyStudy) -> None:
             f"(95 %: {one.low_N:+.2f} to {one.high_N:+.2f} N); power for 1 N: {one.power:.0%}, "
             f"80 % for {one.detectable_N:.2f} N."
         )
-    output.say("Simulated physicians, patients and devices; medians, least energy of all runs.")
+    output.say(
+        "Simulated physicians, patients and devices. Force: the largest of a run, of half and of 90 % of the "
+        "runs; time and impulse: medians; least energy: at the master's port, of all runs."
+    )

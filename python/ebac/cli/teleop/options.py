@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from ebac.cli import output
+
 if TYPE_CHECKING:
     from ebac._core import Link
 
@@ -49,6 +51,9 @@ class LinkOptions:
         """Return the link."""
         from ebac._core import Link
 
+        if self.loss == 1 or self.corrupt == 1:
+            name = "--loss" if self.loss == 1 else "--corrupt"
+            output.fail(f"{name} 1: no packet would arrive; give less than 1")
         return Link(
             delay=self.delay,
             jitter=self.jitter,

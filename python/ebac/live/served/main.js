@@ -38,7 +38,7 @@ const taken = {
     showForm(state);
     const controls = state.role === "control";
     const others = state.pages > 1 ? ` ${state.pages} pages are open.` : "";
-    const drives = state.real ? "Real drives." : "Simulated drives.";
+    const drives = state.real ? "Real drives." : state.virtual ? "Simulated drives, virtual clock." : "Simulated drives.";
     $("link").textContent = `${drives} ${controls ? "This page controls." : "This page only watches."}${others}`;
     $("run").textContent = state.running ? "Pause" : "Start";
     $("record").textContent = state.recording ? "Stop recording" : "Record";

@@ -1,0 +1,40 @@
+"""`ebac gastroscopy --live`: serves its page until Ctrl-C."""
+
+from __future__ import annotations
+
+import time
+from typing import TYPE_CHECKING
+
+from ebac.cli import output
+
+if TYPE_CHECKING:
+    from ebac.gastroscope import Procedure
+
+
+def watch(law: str, procedure: Procedure, port: int, *, no_browser: bool, as_json: bool) -> None:
+    """Run it in real time and serve the page until it is interrupted."""
+    from contextlib import ExitStack
+
+    from ebac.cli.live import show
+    from ebac.hardware.interrupts import Interrupts, Terminated
+    from ebac.live.gastroscopy import serve_gastroscopy
+
+    with ExitStack() as stack:
+        interrupts = stack.enter_context(Interrupts())
+        interrupts.moving()
+        try:
+            server = stack.enter_context(serve_gastroscopy(law, procedure, port=port))
+        except ImportError as error:
+            output.fail(str(error))
+        except OSError as error:
+            output.fail(f"--port {port}: {error.strerror or error}; give another one")
+        show(server, as_json=as_json)
+        if not no_browser:
+            import webbrowser
+
+            webbrowser.open(server.gate.url())
+        try:
+            while True:
+                time.sleep(0.5)
+        except (KeyboardInterrupt, Terminated):
+            interrupts.ending()

@@ -1,0 +1,89 @@
+"""`ebac teleop endurance`: three processes, a link that is cut again and again, memory."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from ebac.cli import options, output
+
+if TYPE_CHECKING:
+    from ebac.teleop import Endurance
+
+
+def endurance(
+    seconds: Annotated[float, typer.Option(help="Length [s].", min=5, max=86400)] = 600.0,
+    scheme: Annotated[str, typer.Option(help="Scheme; see `ebac teleop run`.")] = "ebac",
+    delay: Annotated[float, typer.Option(help="Delay each way [s].", min=0, max=0.3)] = 0.05,
+    loss: Annotated[float, typer.Option(help="Share of packets lost.", min=0, max=1)] = 0.05,
+    cut_every: Annotated[
+        float, typer.Option(help="Cut the link so often [s]; 0 never.", min=0, max=1e6)
+    ] = 20.0,
+    cut_length: Annotated[float, typer.Option(help="For so long [s].", min=0, max=1e6)] = 2.0,
+    seed: options.Seed = None,
+    as_json: output.AsJson = False,
+) -> None:
+    """Run master, network and slave as three processes with link cuts; check forces, places, messages and memory.
+
+    The hand swings the stick and consents 1 s after the link is back. Ends with 1 where a lost link was not reported, a
+    force or a place was beyond its limit, or memory of master or slave grew by more than 1 MB over the last two thirds
+    of the run (of the network, whose queues fill, by 10 MB); the first 10 s do not count.
+
+    **Examples**
+
+    * `ebac teleop endurance`
+
+    * `ebac teleop endurance --seconds 6 --cut-every 4 --cut-length 1 --json`
+    """
+    from ebac import teleop
+
+    with output.refusing():
+        link = teleop.Link(
+            delay=delay,
+            jitter=0.01,
+            loss=loss,
+            corrupt=0.01,
+            cut_every=cut_every,
+            cut_length=cut_length,
+        )
+        found = teleop.endurance(seconds, scheme=scheme, link=link, seed=seed or 1)
+    rows = [_row(found, name) for name in found.reports]
+    if as_json:
+        typer.echo(output.document("teleop endurance", rows, faults=found.faults))
+    else:
+        _show(rows, found.faults)
+    if found.faults:
+        raise typer.Exit(1)
+
+
+def _row(found: Endurance, name: str) -> dict[str, Any]:
+    report = {key: value for key, value in found.reports[name].items() if key != "command"}
+    return {
+        "process": name,
+        **report,
+        "reported": found.reported[name],
+        "memory_B": max(found.memory[name], default=0),
+        "growth_B": found.growth(name),
+    }
+
+
+def _show(rows: list[dict[str, Any]], faults: list[str]) -> None:
+    columns = ["process", "lost", "reported", "largest force", "farthest", "memory", "growth"]
+    grid = output.table(columns, numbers=(1, 2, 3, 4, 5, 6))
+    for row in rows:
+        grid.add_row(
+            row["process"],
+            str(row["losses"]),
+            str(row["reported"]),
+            f"{row['most_force_N']:.1f} N",
+            f"{1e3 * row['farthest_m']:.1f} mm",
+            f"{row['memory_B'] / 1e6:.1f} MB",
+            f"{row['growth_B'] / 1e3:.0f} kB",
+        )
+    output.show(grid)
+    for fault in faults:
+        output.say(f"Fault: {fault}")
+    output.say(
+        f"{output.plural(len(faults), 'fault')}. Simulated stick, hand and slave; UDP of this machine."
+    )

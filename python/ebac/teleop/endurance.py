@@ -1,0 +1,235 @@
+"""Master, network and slave in three processes with link cuts: messages, forces, places and memory."""
+
+from __future__ import annotations
+
+import json
+import socket
+import subprocess
+import sys
+import time
+from collections.abc import Callable
+from contextlib import ExitStack
+from dataclasses import dataclass, field
+from pathlib import Path
+from tempfile import TemporaryFile
+from typing import IO, Any
+
+from ebac._core import Link
+from ebac.teleop.run import scheme as scheme_of
+
+#: Values of memory that are not judged: a process starts.
+STARTED = 10
+#: Rows of memory are written so often [s].
+EVERY = 1.0
+#: By how much memory may be larger at the end than after a third of the run [bytes].
+GROWTH = 1_000_000
+#: The same of the network, whose queues grow to what they may hold.
+QUEUES = 10_000_000
+#: Largest force of the master while the link is lost, after the fade [N].
+CALM = 0.1
+#: Largest force of the joystick's motor at the handle [N].
+MASTER_LIMIT = 42.4
+#: How far the hand swings the stick [m], and what a stick and a slave may go beyond.
+FARTHEST = 0.05
+#: The slave and the network live longer than the master by this [s].
+BEFORE, AFTER = 1.0, 2.0
+NAMES = ("slave", "network", "master")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Endurance:
+    """What three processes have met.
+
+    Attributes
+    ----------
+    reports : dict of str to dict
+        What `ebac teleop slave`, `network` and `master --json` print at their end.
+    reported : dict of str to int
+        How often each process said that its link was lost.
+    memory : dict of str to list of int
+        Resident memory of each process [bytes], one value a second.
+    faults : list of str
+        What was not as it has to be; empty for a good run.
+    """
+
+    reports: dict[str, dict[str, Any]]
+    reported: dict[str, int]
+    memory: dict[str, list[int]] = field(repr=False)
+    faults: list[str]
+
+    def growth(self, name: str) -> int:
+        """Return by how much the memory of a process grew over the last two thirds, without the first 10 s [bytes]."""
+        values = self.memory[name]
+        first = max(STARTED, len(values) // 3)
+        return values[-1] - values[first] if first < len(values) else 0
+
+
+def endurance(
+    seconds: float = 600.0,
+    *,
+    scheme: str = "ebac",
+    link: Link | None = None,
+    seed: int = 1,
+    consent_after: float = 1.0,
+    progress: Callable[[float], None] | None = None,
+) -> Endurance:
+    """Run master, network and slave as three processes while the link is cut again and again.
+
+    Parameters
+    ----------
+    seconds : float
+        Length [s], 5 to 86400.
+    scheme : str
+        A name of `SCHEMES`.
+    link : Link, optional
+        Default: 50 ms, 10 ms of jitter, 5 % loss, 1 % damaged, 2 s of every 20 s cut.
+    seed : int
+        Of device and network.
+    consent_after : float
+        The simulated hand consents so long after the link is back [s].
+    progress : callable, optional
+        Called once a second with the time that has passed [s].
+
+    Raises
+    ------
+    KeyError, ValueError
+        For a scheme that does not exist, a time out of its range.
+    """
+    if not 5 <= seconds <= 86400:
+        raise ValueError(f"seconds = {seconds:g} s: must lie in [5, 86400] s")
+    chosen = scheme_of(scheme).name
+    over = link or Link(
+        delay=0.05, jitter=0.01, loss=0.05, corrupt=0.01, cut_every=20, cut_length=2
+    )
+    at_slave, at_network = _free_ports(2)
+    words = {
+        "slave": ["--port", str(at_slave), "--scheme", chosen],
+        "network": [
+            *("--port", str(at_network), "--slave", f"127.0.0.1:{at_slave}", "--seed", str(seed)),
+            *_options(over),
+        ],
+        "master": [
+            *("--peer", f"127.0.0.1:{at_network}", "--scheme", chosen, "--seed", str(seed)),
+            *("--consent-after", str(consent_after)),
+        ],
+    }
+    lasts = {"slave": seconds + BEFORE + AFTER, "network": seconds + BEFORE + AFTER}
+    memory: dict[str, list[int]] = {name: [] for name in NAMES}
+    with ExitStack() as stack:
+        running: dict[str, tuple[subprocess.Popen[bytes], IO[bytes], IO[bytes]]] = {}
+        for name in NAMES:
+            out, err = stack.enter_context(TemporaryFile()), stack.enter_context(TemporaryFile())
+            last = str(lasts.get(name, seconds))
+            command = [sys.executable, "-m", "ebac.cli", "teleop", name, *words[name]]
+            process = subprocess.Popen(
+                [*command, "--seconds", last, "--json"], stdout=out, stderr=err
+            )
+            stack.callback(_end, process)
+            running[name] = process, out, err
+            if name == "network":
+                time.sleep(BEFORE)
+        _watch({name: one[0] for name, one in running.items()}, memory, seconds, progress)
+        for process, _, _ in running.values():
+            process.wait(timeout=60)
+        texts = {name: (_text(out), _text(err)) for name, (_, out, err) in running.items()}
+        codes = {name: process.returncode for name, (process, _, _) in running.items()}
+    failed = [f"{name} ended with {codes[name]}: {texts[name][1]}" for name in NAMES if codes[name]]
+    if failed:
+        return Endurance(reports={}, reported={}, memory=memory, faults=failed)
+    reports = {name: json.loads(texts[name][0]) for name in NAMES}
+    reported = {name: texts[name][1].count("LINK LOST") for name in NAMES}
+    found = Endurance(reports=reports, reported=reported, memory=memory, faults=[])
+    return Endurance(reports=reports, reported=reported, memory=memory, faults=_faults(found, over))
+
+
+def _faults(found: Endurance, over: Link) -> list[str]:
+    """Return a sentence for each thing that is not as it has to be."""
+    master, slave = found.reports["master"], found.reports["slave"]
+    checks = [
+        ("largest force of the master", master["most_force_N"], MASTER_LIMIT, "N"),
+        ("force of the master with the link lost", master["force_when_lost_N"], CALM, "N"),
+        ("largest force of the slave", slave["most_force_N"], 30.0, "N"),
+        ("way of the slave with the link lost", slave["moved_when_lost_m"], 0.0, "m"),
+        ("way of the stick", master["farthest_m"], FARTHEST, "m"),
+        ("way of the slave", slave["farthest_m"], FARTHEST, "m"),
+        ("faults of the master", master["fault"], 0, ""),
+        *(
+            (
+                f"growth of the {name}",
+                found.growth(name),
+                QUEUES if name == "network" else GROWTH,
+                "B",
+            )
+            for name in NAMES
+        ),
+    ]
+    faults = [
+        f"{what} = {value:g} {unit}: must be at most {limit:g} {unit}".replace(" :", ":").strip()
+        for what, value, limit, unit in checks
+        if not value <= limit
+    ]
+    for name in ("master", "slave"):
+        losses = found.reports[name]["losses"]
+        if found.reported[name] < losses:
+            faults.append(f"{name}: reported {found.reported[name]} of {losses} lost links")
+        if not losses and 0 < over.cut_every < found.reports["master"]["seconds_s"]:
+            faults.append(f"{name}: the link was cut, but no loss was found")
+    return faults
+
+
+def _watch(
+    processes: dict[str, subprocess.Popen[bytes]],
+    memory: dict[str, list[int]],
+    seconds: float,
+    progress: Callable[[float], None] | None,
+) -> None:
+    begun = time.monotonic()
+    while all(process.poll() is None for process in processes.values()):
+        passed = time.monotonic() - begun
+        if passed > seconds + 60:
+            return
+        for name, process in processes.items():
+            value = _resident(process.pid)
+            if value:
+                memory[name].append(value)
+        if progress is not None:
+            progress(min(passed, seconds))
+        time.sleep(EVERY)
+
+
+def _resident(pid: int) -> int:
+    """Return the resident memory of a process [bytes]; 0 where it is not known."""
+    try:
+        lines = Path(f"/proc/{pid}/status").read_text(encoding="ascii").splitlines()
+    except OSError:
+        return 0
+    return next((1024 * int(one.split()[1]) for one in lines if one.startswith("VmRSS:")), 0)
+
+
+def _free_ports(count: int) -> list[int]:
+    with ExitStack() as stack:
+        sockets = [
+            stack.enter_context(socket.socket(socket.AF_INET, socket.SOCK_DGRAM))
+            for _ in range(count)
+        ]
+        for one in sockets:
+            one.bind(("127.0.0.1", 0))
+        return [int(one.getsockname()[1]) for one in sockets]
+
+
+def _options(link: Link) -> list[str]:
+    names = ("delay", "jitter", "loss", "reorder", "corrupt", "cut_every", "cut_length")
+    return [
+        word for name in names for word in ("--" + name.replace("_", "-"), str(getattr(link, name)))
+    ]
+
+
+def _text(file: IO[bytes]) -> str:
+    file.seek(0)
+    return file.read().decode()
+
+
+def _end(process: subprocess.Popen[bytes]) -> None:
+    if process.poll() is None:
+        process.terminate()
+        process.wait(timeout=10)
