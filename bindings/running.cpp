@@ -10,6 +10,7 @@
 #include "bind.hpp"
 #include "open_socketcan.hpp"
 #include "others_run.hpp"
+#include "stepped_run.hpp"
 #include "zero.hpp"
 
 namespace ebac::python {
@@ -120,22 +121,30 @@ std::vector<Told> changes_from(const Running& run, std::size_t start) {
   return told;
 }
 
-/// Whether it ended within `seconds`; other threads of Python run meanwhile.
-bool wait_for(const Running& run, double seconds) {
-  const OthersRun others_run;
-  const auto most = std::chrono::duration<double>(std::clamp(seconds, 0.0, 1e6));
-  const auto end = std::chrono::steady_clock::now() + most;
-  while (!run.done() && std::chrono::steady_clock::now() < end) std::this_thread::sleep_for(kLook);
-  return run.done();
-}
-
 void require_done(const Running& run) {
   if (!run.done()) throw std::logic_error("the loop still runs: join it first");
 }
 
+void bind_stepped_run(py::module_& m) {
+  py::class_<SteppedRun, Running, std::shared_ptr<SteppedRun>>(
+      m, "SteppedRun", "A loop on a virtual clock that takes its ticks when it is told to.")
+      .def(
+          "advance",
+          [](SteppedRun& run, std::int64_t ticks) {
+            const OthersRun others_run;
+            return run.advance(ticks);
+          },
+          py::arg("ticks"), "Take so many ticks, fewer where the run ends; return how many.")
+      .def("aim_now", &SteppedRun::aim, py::arg("target"),
+           "Set the target of the hand [m] before the next tick, without a note; NaN leaves an "
+           "axis unchanged.")
+      .def("switch_off", &SteppedRun::switch_off,
+           "Disable the drives. Raises RuntimeError when one stays on.");
+}
+
 void bind_running_class(py::module_& m) {
-  py::class_<Running, std::shared_ptr<Running>>(
-      m, "Running", "A loop running in a thread that never touches Python.")
+  py::class_<Running, std::shared_ptr<Running>>(m, "Running",
+                                                "A running loop that never touches Python.")
       .def_property_readonly(
           "rows", [](const Running& run) { return run.trace(); },
           "Rows of the trace; they grow while the loop runs.")
@@ -147,13 +156,18 @@ void bind_running_class(py::module_& m) {
           py::arg("at_once") = false, "Request a stop; at once: without the ramp of the force.")
       .def(
           "join",
-          [](const Running& run) {
+          [](Running& run) {
             const OthersRun others_run;
             run.join();
           },
           "Wait until the loop has ended.")
-      .def("wait", &wait_for, py::arg("seconds"),
-           "Wait up to `seconds` [s]; return whether the loop has ended.")
+      .def(
+          "wait",
+          [](Running& run, double seconds) {
+            const OthersRun others_run;
+            return run.wait(seconds);
+          },
+          py::arg("seconds"), "Wait up to `seconds` [s]; return whether the loop has ended.")
       .def_property_readonly(
           "done", [](const Running& run) { return run.done(); }, "Whether the loop has ended.")
       .def_property_readonly(
@@ -211,6 +225,13 @@ void bind_running_class(py::module_& m) {
 
 }  // namespace
 
+bool Running::wait(double seconds) {
+  const auto most = std::chrono::duration<double>(std::clamp(seconds, 0.0, 1e6));
+  const auto end = std::chrono::steady_clock::now() + most;
+  while (!done() && std::chrono::steady_clock::now() < end) std::this_thread::sleep_for(kLook);
+  return done();
+}
+
 can::AnyBus take_bus(const py::object& bus) {
   if (py::isinstance<py::str>(bus)) {
     return can::AnyBus(open_socketcan(bus.cast<std::string>(), {}));
@@ -230,6 +251,7 @@ void bind_running(py::module_& m) {
            py::arg("encoder_zero") = std::vector<std::int64_t>{},
            "`drives` are the fields of CanopenSetup by name.");
   bind_running_class(m);
+  bind_stepped_run(m);
 }
 
 }  // namespace ebac::python

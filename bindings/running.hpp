@@ -48,27 +48,30 @@ struct RunSetup {
   rt::Options realtime;
 };
 
-/// A loop at work in its thread, over its bus. Its end stops the loop and waits for it.
+/// A loop at work, which Python watches, changes and ends.
 class Running {
  public:
   using All = PerAxis<AnyLaw>;
-  using Work = Loop<Hardware, rt::MonotonicClock, All>;
-  using Thread = rt::LoopThread<Hardware, rt::MonotonicClock, All>;
 
-  /// Starts; throws what `rt::Thread` and the parts of the loop throw.
-  Running(can::AnyBus bus, const AnyLaw& law, const RunSetup& setup);
+  Running(const Running&) = delete;
+  Running& operator=(const Running&) = delete;
+  Running(Running&&) = delete;
+  Running& operator=(Running&&) = delete;
+  virtual ~Running() = default;
 
-  void stop(bool at_once) const { thread_->stop(at_once); }
-  /// Waits for the end of the loop, then stops the stream of the sensor.
-  void join() const;
-  bool done() const { return thread_->done(); }
-  bool at_rest() const { return thread_->loop().device().at_rest(); }  // once it is done
-  LoopState state() const { return thread_->loop().state(); }          // once it is done
-  std::int64_t unrecorded() const { return thread_->unrecorded(); }
+  void stop(bool at_once) const { updates_->stop(at_once); }
+  /// Waits up to so long [s]; returns whether it has ended.
+  virtual bool wait(double seconds);
+  /// Waits for its end.
+  virtual void join() = 0;
+  virtual bool done() const = 0;
+  virtual bool at_rest() const = 0;     // once it is done
+  virtual LoopState state() const = 0;  // once it is done
+  virtual std::int64_t unrecorded() const = 0;
+  virtual std::vector<rt::Grant> grants() const { return {}; }
+  virtual can::BusCounts bus() const { return {}; }
   const std::shared_ptr<Trace>& trace() const { return trace_; }
   const AppliedUpdates& changes() const { return updates_->applied(); }
-  const std::vector<rt::Grant>& grants() const { return thread_->report().grants; }
-  can::BusCounts bus() const { return bus_.counts(); }
 
   std::uint64_t retune(const AnyLaw& next);
   /// Another law, whose force is blended in. Throws std::invalid_argument for one that no loop may run.
@@ -84,15 +87,41 @@ class Running {
     return updates_->post(worlds_.emplace_back(fresh(world)));
   }
 
+ protected:
+  explicit Running(const AnyLaw& law)
+      : updates_(std::make_shared<ParameterUpdates<All>>(law)), newest_(law) {}
+
+  std::shared_ptr<ParameterUpdates<All>> updates_;
+  std::shared_ptr<Trace> trace_;
+
+ private:
+  AnyLaw newest_;
+  std::mutex writers_;
+  std::vector<Environment> worlds_;
+};
+
+/// A loop in real time in its thread, over its bus. Its end stops the loop and waits for it.
+class RealTimeRun final : public Running {
+ public:
+  using Work = Loop<Hardware, rt::MonotonicClock, All>;
+  using Thread = rt::LoopThread<Hardware, rt::MonotonicClock, All>;
+
+  /// Starts; throws what `rt::Thread` and the parts of the loop throw.
+  RealTimeRun(can::AnyBus bus, const AnyLaw& law, const RunSetup& setup);
+
+  /// Waits for the end of the loop, then stops the stream of the sensor.
+  void join() override;
+  bool done() const override { return thread_->done(); }
+  bool at_rest() const override { return thread_->loop().device().at_rest(); }
+  LoopState state() const override { return thread_->loop().state(); }
+  std::int64_t unrecorded() const override { return thread_->unrecorded(); }
+  std::vector<rt::Grant> grants() const override { return thread_->report().grants; }
+  can::BusCounts bus() const override { return bus_.counts(); }
+
  private:
   Hardware hardware(const RunSetup& setup);
 
   can::AnyBus bus_;
-  AnyLaw newest_;
-  std::mutex writers_;
-  std::vector<Environment> worlds_;
-  std::shared_ptr<ParameterUpdates<All>> updates_;
-  std::shared_ptr<Trace> trace_;
   std::unique_ptr<Thread> thread_;  // last: it stops before the others go
 };
 

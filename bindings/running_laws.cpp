@@ -1,11 +1,14 @@
+#include <pybind11/stl.h>
+
 #include "ebac/loop/retune.hpp"
 #include "law_class.hpp"
 #include "running.hpp"
+#include "stepped_run.hpp"
 
 namespace ebac::python {
 
-Running::Running(can::AnyBus bus, const AnyLaw& law, const RunSetup& setup)
-    : bus_(std::move(bus)), newest_(law), updates_(std::make_shared<ParameterUpdates<All>>(law)) {
+RealTimeRun::RealTimeRun(can::AnyBus bus, const AnyLaw& law, const RunSetup& setup)
+    : Running(law), bus_(std::move(bus)) {
   LoopOptions options{.plan = setup.plan};
   if (setup.limits) options.limiter = SafetyLimiter(*setup.limits, setup.device, setup.dt);
   All laws(law);
@@ -16,7 +19,7 @@ Running::Running(can::AnyBus bus, const AnyLaw& law, const RunSetup& setup)
   thread_ = std::make_unique<Thread>(std::move(loop), trace_, updates_, setup.mode, setup.realtime);
 }
 
-Hardware Running::hardware(const RunSetup& setup) {
+Hardware RealTimeRun::hardware(const RunSetup& setup) {
   const std::chrono::duration<double> budget(setup.answer_time);
   Drives drives(bus_, {bus_, std::chrono::duration_cast<std::chrono::nanoseconds>(budget)},
                 setup.drives);
@@ -30,7 +33,7 @@ Hardware Running::hardware(const RunSetup& setup) {
       rt::TargetPublisher(sensor::WithForceSensor(drives, std::move(sensor)), setup.aim)));
 }
 
-void Running::join() const {
+void RealTimeRun::join() {
   thread_->join();
   auto& sensor = thread_->loop().device().device().device().device().sensor();
   if (sensor.client() != nullptr) sensor.client()->stop();
@@ -59,10 +62,20 @@ void add_start(const LawClass& law) {
   law.def(
       "_start",
       [](const AnyLaw& any, const py::object& bus, const RunSetup& setup) {
-        return std::make_shared<Running>(take_bus(bus), any, setup);
+        return std::shared_ptr<Running>(std::make_shared<RealTimeRun>(take_bus(bus), any, setup));
       },
       "(self: LAW, bus: object, setup: ebac._core.RunSetup) -> ebac._core.Running", "",
       py::arg("bus"), py::arg("setup"));
+  law.def(
+      "_stepped",
+      [](const AnyLaw& any, const Setup& setup, const std::optional<can::TimedBus>& bus,
+         double ramp_down, std::size_t rows) {
+        return std::make_shared<SteppedRun>(any, setup, bus, ramp_down, rows);
+      },
+      "(self: LAW, setup: ebac._core.Setup, bus: ebac._core.TimedBus | None, ramp_down: "
+      "typing.SupportsFloat | typing.SupportsIndex, rows: typing.SupportsInt | "
+      "typing.SupportsIndex) -> ebac._core.SteppedRun",
+      "", py::arg("setup"), py::arg("bus"), py::arg("ramp_down"), py::arg("rows"));
   law.def(
       "_check_retune", [](const AnyLaw& any, const AnyLaw& next) { check_retune(any, next); },
       "(self: LAW, next: LAW) -> None", "", py::arg("next"));

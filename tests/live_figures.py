@@ -1,5 +1,6 @@
-"""Print the figures of `ebac live` on this machine: python tests/live_figures.py [--json]."""
+"""Print the figures of `ebac live` on this machine: python tests/live_figures.py [--pairs 6] [--window 20]."""
 
+import argparse
 import json
 import os
 import subprocess
@@ -70,9 +71,9 @@ def first_frame(browser: Any) -> tuple[float, float]:
     return address, shown
 
 
-def measured() -> dict[str, Any]:
-    """Return all figures, units in the keys."""
-    found: dict[str, Any] = {}
+def measured(pairs: int, window: float) -> dict[str, Any]:
+    """Return all figures, units in the keys; windows [s] without a browser and with one take turns, in one run."""
+    found: dict[str, Any] = {"load_before": os.getloadavg()[0]}
     with sync_playwright() as playwright:
         start = lambda: playwright.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox"])  # noqa: E731
         browser = start()
@@ -80,9 +81,9 @@ def measured() -> dict[str, Any]:
         browser.close()
         with serve(folder="/tmp/ebac-live-figures") as server:
             without, attached, drags, frames, loads = [], [], [], [], []
-            for _ in range(3):
+            for _ in range(pairs):
                 time.sleep(1)
-                without.append(lateness(server, 6))
+                without.append(lateness(server, window))
                 browser = start()
                 page = browser.new_page(viewport={"width": 1280, "height": 800}, bypass_csp=True)
                 page.goto(server.gate.url())
@@ -93,7 +94,7 @@ def measured() -> dict[str, Any]:
                     cpu(server),
                     time.monotonic(),
                 )
-                attached.append(lateness(server, 6))
+                attached.append(lateness(server, window))
                 took = time.monotonic() - begun
                 frames.append((page.evaluate("ebacServed.drawn") - drawn) / took)
                 loads.append(100 * (cpu(server) - spent) / took)
@@ -108,6 +109,8 @@ def measured() -> dict[str, Any]:
         found[f"late_p99_9_{name}_us"] = [round(one[0]) for one in rows]
         found[f"skipped_{name}_ticks"] = [one[1] for one in rows]
         found[f"ticks_{name}"] = [one[2] for one in rows]
+    found["pairs_later_attached"] = sum(a[0] > b[0] for a, b in zip(attached, without, strict=True))
+    found["load_after"] = os.getloadavg()[0]  # both beside all that is measured
     found["drags_missed"] = int(np.isnan(drags).sum())
     p50, p99 = np.nanpercentile(drags, [50, 99])
     return found | {
@@ -120,8 +123,13 @@ def measured() -> dict[str, Any]:
 
 
 if __name__ == "__main__":
-    figures = measured()
-    if "--json" in sys.argv:
+    words = argparse.ArgumentParser(description=__doc__)
+    words.add_argument("--json", action="store_true")
+    words.add_argument("--pairs", type=int, default=6)
+    words.add_argument("--window", type=float, default=20.0, help="s")
+    given = words.parse_args()
+    figures = measured(given.pairs, given.window)
+    if given.json:
         print(json.dumps(figures))
     else:
         for name, value in figures.items():

@@ -6,6 +6,7 @@
 #include "ebac/control/per_axis.hpp"
 #include "ebac/control/tca.hpp"
 #include "ebac/loop/held_back_commands.hpp"
+#include "ebac/loop/parameter_updates.hpp"
 
 namespace ebac::live_changes_test {
 namespace {
@@ -41,6 +42,33 @@ TEST(PerAxis, GainsAloneActAtOnceAndKeepTheMemory) {
   law.adopt(next);
   law.step(std::span(axes), ContactForce{});
   EXPECT_DOUBLE_EQ(axes[0].port.f_cmd, 2);
+}
+
+/// Notes that its world was changed.
+struct Chain {
+  int changed = 0;
+  void change(const Environment&) EBAC_RT { ++changed; }
+  void act(bool) EBAC_RT {}
+};
+
+TEST(ParameterUpdates, AnotherWorldMakesNoStepOfTheForce) {
+  const AnyLaw tca = any_law(Tca(Tca::Params{.kp = 0}));
+  All law(tca);
+  ParameterUpdates<All> updates(tca);
+  Chain chain;
+  int device = 0;
+  std::array<Axis, 1> axes{pressing(5)};
+  law.step(std::span(axes), ContactForce{});
+  updates.post(Environment(Free{}));
+  updates.apply(1, law, chain, device);
+  EXPECT_EQ(chain.changed, 1);
+  axes[0] = pressing(0);
+  law.step(std::span(axes), ContactForce{});
+  EXPECT_DOUBLE_EQ(axes[0].port.f_cmd, 5);
+  for (int i = 0; i < 25; ++i) law.step(std::span(axes), ContactForce{});
+  EXPECT_NEAR(axes[0].port.f_cmd, 2.5, 1e-9);
+  for (int i = 0; i < 25; ++i) law.step(std::span(axes), ContactForce{});
+  EXPECT_NEAR(axes[0].port.f_cmd, 0, 1e-12);
 }
 
 /// Remembers the last current it was given.

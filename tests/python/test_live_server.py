@@ -92,6 +92,27 @@ def test_the_socket_needs_its_token_and_origin(server: Any, role: str, origin: s
     ask(opened)
 
 
+def test_what_strangers_send_is_no_news_and_pages_have_an_end(
+    server: Any, capfd: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    posted = urllib.request.Request(server.gate.url(), data=b"x", method="POST")
+    with pytest.raises((urllib.error.URLError, ConnectionError)):
+        urllib.request.urlopen(posted, timeout=5)
+    monkeypatch.setattr("ebac.live.server.MOST_PAGES", 2)
+
+    async def opened() -> None:
+        async with socket(server, "watch") as first, socket(server, "watch") as second:
+            await until(first, "state")
+            await until(second, "state")
+            with pytest.raises(InvalidStatus) as caught:
+                async with socket(server, "watch"):
+                    pass
+            assert caught.value.response.status_code == 503
+
+    ask(opened)
+    assert capfd.readouterr().err == ""
+
+
 def test_an_origin_must_be_given(server: Any) -> None:
     gate = Gate(host="127.0.0.1", port=80, control="c", watch="w")
     assert gate.refuses("/socket?token=c", host="127.0.0.1:80", origin=None, socket=True)

@@ -160,6 +160,7 @@ def test_frames_have_rows_words_and_history(session: Session) -> None:
     assert frame["state"] == "run"
     assert frame["verdict"]["kind"] in ("good", "fair")
     assert len(frame["strips"]["t"]) == len(frame["strips"]["energy"]) > 100
-    assert 0.0104 < frame["x"][0] < 0.02
+    rest = ebac.contact(ebac.simulate(session.scenario, "ebac")).rest_m  # 10.9 mm
+    assert frame["x"][0] == pytest.approx(rest, abs=3e-4)
     saved = session.save()
     assert ebac.Scenario.load(saved).hand.path[0].target == pytest.approx(0.04)

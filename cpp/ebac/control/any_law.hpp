@@ -39,6 +39,8 @@ class LawObject {
   virtual void reset() EBAC_RT = 0;
   /// The gains of `next`, a law of the same type.
   virtual void retune(const LawObject& next) EBAC_RT = 0;
+  /// Its energy account, if it has one, gets what the contact it is in stores.
+  virtual void begin_account() EBAC_RT {}
   /// How long its energy account has held its force back [s]; 0 for a law without one.
   virtual double starved() const EBAC_RT = 0;
   /// Whether it uses the observer's estimate where a run has one.
@@ -87,6 +89,7 @@ class AnyLaw {
     return &type() == &next.type() && timing() == next.timing();
   }
 
+  void begin_account() EBAC_RT { law_->begin_account(); }
   double starved() const EBAC_RT { return law_->starved(); }
   bool observed() const EBAC_RT { return law_->observed(); }
   const LawType& type() const EBAC_RT { return law_->type(); }

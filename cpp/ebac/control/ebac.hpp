@@ -48,6 +48,7 @@ class Ebac {
     if (!(port.dt > 0)) return begin(port);
     if (port.dt != dt_) set_tick(port.dt);
     if (port.est.weight != weight_) shift(port);
+    if (shared_.ledger.owed() > 0) pay(port);
     shared_.state.clamped = false;
     shared_.state.admitted = 1;
     double command = 0;
@@ -58,10 +59,13 @@ class Ebac {
     } else {
       command = observer_.guarded(observer_.step(port, shared_), port, shared_);
     }
-    shared_.give(command, port, weight_ < 1 ? encoder_.stored_at() : observer_.stored_at());
+    shared_.give(command, port, stored_at());
     return command;
   }
 
+  /// After the contact was changed from outside, by another law or world, which no motion has paid for: the account
+  /// begins anew and is raised to what this contact stores, while it lasts.
+  void begin_account() EBAC_RT { shared_.ledger.begin(shared_.f_env, stored_at()); }
   void retune(const Ebac& next) EBAC_RT {
     shared_.params = next.params();
     encoder_.retune(next.params(), next.encoder_);
@@ -84,6 +88,16 @@ class Ebac {
   const Timing& timing() const EBAC_RT { return shared_.timing; }
 
  private:
+  void pay(const Port& port) EBAC_RT {
+    if (port.f_env == 0) return shared_.ledger.forgive();
+    shared_.ledger.pay();
+    shared_.state.starved = 0;
+  }
+
+  double stored_at() const EBAC_RT {
+    return weight_ < 1 ? encoder_.stored_at() : observer_.stored_at();
+  }
+
   double begin(const Port& port) EBAC_RT {
     encoder_.begin(port);
     observer_.begin(port);

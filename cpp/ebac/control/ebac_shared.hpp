@@ -23,6 +23,7 @@ struct EbacShared {
   CommandsInFlight asked;  // N, of the world: for the commands in flight and the one that acts
   double command = 0;      // N, of the last tick
   double world_v = 0;      // m/s, of the last tick
+  double f_env = 0;        // N, of the last tick
 
   EbacShared(const EbacParams& given, const Timing& tick) EBAC_RT
       : params(given),
@@ -62,6 +63,7 @@ struct EbacShared {
   /// The command is given; `stored_at` is the stiffness at which contact can have stored energy.
   void give(double given, const Port& port, double stored_at) EBAC_RT {
     command = given;
+    f_env = port.f_env;
     in_flight.push(given);
     if (port.world_v != 0) asked.push(port.f_env);
     ledger.leak(given, stored_at);

@@ -67,6 +67,20 @@ class EnergyLedger {
     reserve_ += change;
   }
 
+  /// Begins anew, and owes what is missing to what a contact of `force` on `stiffness` stores.
+  void begin(double force, double stiffness) EBAC_RT {
+    energy_ = std::max(energy_, reserve_);
+    owed_ = std::max(0.0, reserve_ + force * force / (2 * stiffness) - energy_);
+  }
+  double owed() const EBAC_RT { return owed_; }  // J
+  /// Pays a part of what it owes: so slowly that nothing is thrown.
+  void pay() EBAC_RT {
+    const double part = std::min(owed_, kPay * dt_);
+    energy_ += part;
+    owed_ -= part;
+  }
+  void forgive() EBAC_RT { owed_ = 0; }
+
   /// Charges a force that changes while no motion is seen, one count of it: past the edge crossed
   /// last the device may have gone that far before it turns. What is not given after all is taken
   /// back by a `size` below zero.
@@ -86,6 +100,7 @@ class EnergyLedger {
   }
 
   static constexpr double kLeakTime = 1.0;  // s
+  static constexpr double kPay = 0.1;       // W
 
   double damping_;
   double count_;
@@ -93,6 +108,7 @@ class EnergyLedger {
   double reserve_;
   double energy_;
   LaggedForce lagged_;
+  double owed_ = 0;  // J
   double peak_ = 0;  // N
   double dt_ = 1;    // s
   double b_ = 0;     // N/m, B = b/T

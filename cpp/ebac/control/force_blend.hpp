@@ -8,8 +8,8 @@
 
 namespace ebac {
 
-/// Takes the step out of the force where one law follows another: the difference in the first tick fades out. The
-/// energy accounts see it as any other force, in what acted.
+/// Takes the step out of the force where one law or world follows another: the difference in the first tick fades out.
+/// The energy account of a law sees it as any other force, in what acted, and begins anew when it has faded out.
 class ForceBlend {
  public:
   static constexpr double kFade = 0.05;  // s
@@ -17,11 +17,13 @@ class ForceBlend {
   /// From the next tick on. What is left of an earlier one is part of the force that acts, and so of the difference.
   void begin() EBAC_RT { share_ = kStart; }
 
-  /// After the law's step, with the force of the tick before in `f_cmd` of the last one.
+  /// After the law's step, with the force of the tick before in `f_cmd` of the last one. Returns whether it ended now.
   template <std::size_t N>
-  void step(std::span<Axis, N> axes) EBAC_RT {
-    if (share_ > 0) fade(axes);
+  bool step(std::span<Axis, N> axes) EBAC_RT {
+    const bool fading = share_ > 0;
+    if (fading) fade(axes);
     for (std::size_t i = 0; i < axes.size(); ++i) before_[i] = axes[i].port.f_cmd;
+    return fading && share_ == 0;
   }
 
  private:

@@ -24,6 +24,9 @@ class LawOf final : public LawObject {
   void retune(const LawObject& next) EBAC_RT override {
     if constexpr (kTunable) law_.retune(static_cast<const LawOf&>(next).law_);
   }
+  void begin_account() EBAC_RT override {
+    if constexpr (requires { law_.begin_account(); }) law_.begin_account();
+  }
   double starved() const EBAC_RT override { return starved_of(law_); }
   bool observed() const EBAC_RT override { return observed_of(law_); }
   std::unique_ptr<LawObject> clone() const override { return std::make_unique<LawOf>(law_); }

@@ -48,7 +48,11 @@ class PerAxis : public Replaceable<Law> {
   void step(std::span<Axis, N> axes, const ContactForce& contact) EBAC_RT {
     turned_.step(axes, contact,
                  [this](std::size_t i, const Port& port) EBAC_RT { return laws_[i].step(port); });
-    if constexpr (std::same_as<Law, AnyLaw>) blend_.step(axes);
+    if constexpr (std::same_as<Law, AnyLaw>) {
+      if (blend_.step(axes)) {
+        for (Law& law : laws_) law.begin_account();
+      }
+    }
   }
   void reset() EBAC_RT {
     for (Law& law : laws_) law.reset();
@@ -68,6 +72,12 @@ class PerAxis : public Replaceable<Law> {
   {
     if (laws_[0].same_but_gains(next[0])) return retune(next[0]);
     std::swap(laws_, next);
+    blend();
+  }
+  /// The force goes on from that of the last tick, and the difference fades out: another law, another world.
+  void blend() EBAC_RT
+    requires std::same_as<Law, AnyLaw>
+  {
     blend_.begin();
   }
   static std::array<Law, kMaxAxes> replacement(const Law& law)

@@ -31,11 +31,31 @@ class HeldBackCommands {
   void hold_back(std::size_t ticks) EBAC_RT { ticks_ = std::min(ticks, kMost); }
 
   void aim(std::size_t axis, double target) EBAC_RT { device_.aim(axis, target); }
-  void enable() EBAC_RT { device_.enable(); }
-  void disable() EBAC_RT { device_.disable(); }
+  void enable() EBAC_RT
+    requires requires(D& d) {
+      { d.enable() } noexcept;
+    }
+  {
+    device_.enable();
+  }
+  void disable() EBAC_RT
+    requires requires(D& d) {
+      { d.disable() } noexcept;
+    }
+  {
+    device_.disable();
+  }
   void stop() EBAC_RT { device_.stop(); }
-  bool running() const EBAC_RT { return device_.running(); }
-  bool at_rest() const EBAC_RT { return device_.at_rest(); }
+  bool running() const EBAC_RT
+    requires requires(const D& d) { d.running(); }
+  {
+    return device_.running();
+  }
+  bool at_rest() const EBAC_RT
+    requires requires(const D& d) { d.at_rest(); }
+  {
+    return device_.at_rest();
+  }
 
   D& device() EBAC_RT { return device_; }
   auto parts() const EBAC_RT { return row_parts(device_); }

@@ -66,6 +66,14 @@ class Loop {
   /// latched. A full trace ends a simulation, and stops a run that armed its device: ticks without
   /// a row are counted.
   bool run(Trace& trace, ParameterUpdates<Law>* updates = nullptr) EBAC_RT {
+    if (!start()) return false;
+    while (advance(trace, updates)) {
+    }
+    return true;
+  }
+
+  /// Begins a run whose ticks `advance` takes; false if a fault is latched.
+  bool start() EBAC_RT {
     if (!run_state_.start()) return false;
     if (run_state_.plan().arm) {
       if constexpr (requires {
@@ -73,21 +81,22 @@ class Loop {
                     })
         device_.enable();
     }
-    for (bool over = false; !over;) {
-      std::byte* row = trace.next();
-      if (row == nullptr && !run_state_.plan().arm) return run_state_.leave(), true;
-      if (row == nullptr) run_state_.end();
-      step(updates, row);
-      if (row == nullptr) {
-        unrecorded_.store(unrecorded_.load(std::memory_order_relaxed) + 1,
-                          std::memory_order_relaxed);
-      } else {
-        trace.commit();
-      }
-      ++sample_.tick;
-      over = run_state_.finish(at_rest());
-    }
     return true;
+  }
+
+  /// Takes a tick; false when the run has ended.
+  bool advance(Trace& trace, ParameterUpdates<Law>* updates = nullptr) EBAC_RT {
+    std::byte* row = trace.next();
+    if (row == nullptr && !run_state_.plan().arm) return run_state_.leave(), false;
+    if (row == nullptr) run_state_.end();
+    step(updates, row);
+    if (row == nullptr) {
+      unrecorded_.store(unrecorded_.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
+    } else {
+      trace.commit();
+    }
+    ++sample_.tick;
+    return !run_state_.finish(at_rest());
   }
 
   /// Lets a loop that ended by a fault start again.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <utility>
 
@@ -24,6 +25,12 @@ class Still {
     return reading_;
   }
   void hold(bool on) EBAC_RT { held_ = on; }
+  /// From now on its hand wants to be at `target` [m].
+  void aim(std::size_t axis, double target) EBAC_RT
+    requires requires(D& d) { d.aim(axis, target); }
+  {
+    plant_.aim(axis, target);
+  }
   const D& plant() const EBAC_RT { return plant_; }
 
  private:

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <array>
+#include <cmath>
+#include <cstddef>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -32,6 +34,12 @@ class ThroughCan {
 
   Reading exchange(const Command& command) EBAC_RT { return bench_->exchange(hold(command)); }
   void stop() EBAC_RT { bench_->can().stop(); }
+  /// From now on the hand wants to be at `target` [m]; one that is not finite changes nothing.
+  void aim(std::size_t axis, double target) EBAC_RT
+    requires requires(D& d) { d.aim(axis, target); }
+  {
+    if (std::isfinite(target)) bench_->joystick().plant().aim(axis, target);
+  }
 
   auto parts() const EBAC_RT { return std::tie(bench_->plant(), std::as_const(*bench_).can()); }
   CanTestBench<D>& bench() EBAC_RT { return *bench_; }

@@ -6,7 +6,7 @@ import json
 import sys
 import time
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
@@ -32,6 +32,13 @@ def live(
             "--simulated", help="On simulated drives, device and hand, whatever the file says."
         ),
     ] = False,
+    virtual: Annotated[
+        bool,
+        typer.Option(
+            "--virtual",
+            help="The same on a virtual clock: no tick is late, however busy the machine is.",
+        ),
+    ] = False,
     law: Annotated[str | None, options.one_law(default="as configured")] = None,
     allow_control: Annotated[
         bool,
@@ -40,6 +47,22 @@ def live(
             help="Let the page give real motors power, while its dead-man key is held.",
         ),
     ] = False,
+    max_stiffness: Annotated[
+        float | None,
+        typer.Option(
+            help="Stiffest surface that a page may choose on hardware [N/m].",
+            show_default="that of the file's world",
+            min=0,
+        ),
+    ] = None,
+    max_damping: Annotated[
+        float | None,
+        typer.Option(
+            help="Most damping of a surface that a page may choose on hardware [N s/m].",
+            show_default="that of the file's world",
+            min=0,
+        ),
+    ] = None,
     host: Annotated[
         str, typer.Option(help="Address to listen on; only this machine reaches 127.0.0.1.")
     ] = "127.0.0.1",
@@ -63,15 +86,19 @@ def live(
 ) -> None:
     """See a loop in a browser, move its hand, change its law.
 
-    A loop runs in real time; the page shows handle, world and force, and strips of the last ten seconds. Drag the hand
-    with the mouse. Law, world, stiffness, damping and delay change while the loop runs; observer, hand and device
-    restart it. The page records to MCAP and saves the scenario as TOML, into the folder of `--out`. Ctrl-C ends it.
+    A loop runs, in real time but for `--virtual`; the page shows handle, world and force, and strips of the last ten
+    seconds. Drag the hand with the mouse. Law, world, stiffness, damping and delay change while the loop runs;
+    observer, hand and device restart it. The page records to MCAP and saves the scenario as TOML, into the folder of
+    `--out`. Ctrl-C ends it.
 
-    Without a file, or with `--simulated`, drives, device and hand are simulated, on the real clock.
+    Without a file, or with `--simulated`, drives, device and hand are simulated, on the real clock. With `--virtual`
+    the clock is simulated too: time goes on in steps of 8 ms, stands still while the machine is late, and no tick is
+    skipped.
 
     With a file **real motors may get power**: only with `--allow-control`, and only while somebody holds the dead-man
     key of the page. Released, or when the page is silent for 0.3 s, the force fades and the drives are left
-    without power. Limits are those of the file; no page can change them.
+    without power. Limits are those of the file; no page can change them. A page chooses no surface stiffer than the
+    file's, or than `--max-stiffness`.
 
     The printed address carries a secret; whoever has it controls the loop if nobody else does. The second address only
     watches. Nothing is encrypted: to see it from another machine, use an SSH tunnel rather than `--host`.
@@ -84,6 +111,8 @@ def live(
 
     * `ebac live --law tca`: plain torque control; raise the stiffness until it shakes.
 
+    * `ebac live --virtual`: on a virtual clock, where no tick is late.
+
     * `ebac live joystick.toml --allow-control`: your device, with the dead-man key.
 
     * `ebac live --page live.html`: the page without a server.
@@ -93,20 +122,29 @@ def live(
         return
     if force:
         output.fail("--force belongs to --page FILE")
-    with telling():
-        _serve(
-            configuration, simulated, law, allow_control, host, port, out, no_browser, yes, as_json
+    real = configuration is not None and not (simulated or virtual)
+    if virtual and simulated:
+        output.fail(
+            "--virtual excludes --simulated: the one has a virtual clock, the other a real one"
         )
+    if not real and (allow_control or max_stiffness is not None or max_damping is not None):
+        output.fail(
+            "--allow-control, --max-stiffness and --max-damping are for hardware: give its file, without --simulated "
+            "and --virtual; a page controls what is simulated anyway"
+        )
+    settings = {
+        "allow_control": allow_control, "virtual": virtual, "max_stiffness": max_stiffness,
+        "max_damping": max_damping, "host": host, "port": port, "folder": out,
+    }  # fmt: skip
+    with telling():
+        _serve(configuration, real, law, settings, no_browser, yes, as_json)
 
 
 def _serve(
     file: Path | None,
-    simulated: bool,
+    real: bool,
     law: str | None,
-    allow_control: bool,
-    host: str,
-    port: int,
-    out: Path,
+    settings: dict[str, Any],
     no_browser: bool,
     yes: bool,
     as_json: bool,
@@ -122,7 +160,6 @@ def _serve(
     with output.refusing():
         known = None if file is None else Configuration.load(file)
         name = None if law is None else setting.one_law(law)
-    real = known is not None and not simulated
     with ExitStack() as stack:
         interrupts = stack.enter_context(Interrupts())
         interrupts.moving()
@@ -130,23 +167,19 @@ def _serve(
         if real and known is not None:
             from ebac.cli.run.confirm import can_ask, confirm
 
-            if allow_control:
+            if settings["allow_control"]:
                 can_ask(known, yes)
             device = stack.enter_context(OpenDevice.open(known))
-            if allow_control:
+            if settings["allow_control"]:
                 confirm(device, yes, stderr=as_json)
         try:
-            server = stack.enter_context(
-                serve(
-                    known, device=device, law=name, host=host, port=port,
-                    allow_control=allow_control, folder=out,
-                )
-            )  # fmt: skip
+            server = stack.enter_context(serve(known, device=device, law=name, **settings))
         except ImportError as error:
             output.fail(str(error))
         except OSError as error:
-            output.fail(f"--host {host} --port {port}: {error.strerror or error}; give another one")
-        _show(server, as_json=as_json)
+            where = f"--host {settings['host']} --port {settings['port']}"
+            output.fail(f"{where}: {error.strerror or error}; give another one")
+        show(server, as_json=as_json)
         if not no_browser:
             import webbrowser
 
@@ -162,7 +195,8 @@ def _serve(
     console.print(f"Ended; drives without power. Kept: {files}.", soft_wrap=True, markup=False)
 
 
-def _show(server: Server, *, as_json: bool) -> None:
+def show(server: Server, *, as_json: bool) -> None:
+    """Print the addresses of a server that listens."""
     gate = server.gate
     if not gate.loopback:
         output.console(stderr=True).print(

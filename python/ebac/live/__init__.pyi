@@ -1,3 +1,4 @@
+from ebac.live.gastroscopy import serve_gastroscopy as serve_gastroscopy
 from ebac.live.live_page import page as page
 from ebac.live.notebook_widget import widget as widget
 from ebac.live.serving import serve as serve

@@ -95,6 +95,8 @@ class Frames:
     def _words(self, run: Run | None) -> dict[str, str]:
         if run is None:
             return {"kind": "free", "head": "At rest", "more": "Press Start."}
+        if self._session.trouble:
+            return {"kind": "bad", "head": "Look at the device", "more": self._session.trouble}
         fault = self._session.fault
         if fault is not Fault.NONE:
             name = fault.name.lower().replace("_", " ")

@@ -9,7 +9,7 @@ from math import cos, isfinite, nan, pi
 from typing import Any
 
 from ebac._core import Hand, Step
-from ebac.hardware import Configuration
+from ebac.hardware import Configuration, Run
 
 #: What it does when nobody drags it.
 MODES = ("press", "tap", "rest")
@@ -33,7 +33,12 @@ class IntendedHand:
     """
 
     def __init__(
-        self, known: Configuration, *, goal: Sequence[float] | None = None, mode: str = "press"
+        self,
+        known: Configuration,
+        *,
+        goal: Sequence[float] | None = None,
+        mode: str = "press",
+        clock: Callable[[], float] = time.monotonic,
     ) -> None:
         self.axes = known.device.axes
         pressed = [getattr(path, "target", 0.0) for path in known.hand.path]
@@ -46,7 +51,8 @@ class IntendedHand:
         self.handle: list[float] | None = None
         self._left: float | None = None
         self._left_at: list[float] = []
-        self._begun = self._last = time.monotonic()
+        self._clock = clock
+        self._begun = self._last = clock()
         self._lock = threading.Lock()
 
     def drag(self, place: Sequence[float]) -> None:
@@ -74,22 +80,28 @@ class IntendedHand:
         """
         if mode not in MODES:
             raise ValueError(f"hand mode {mode[:40]!r}: must be one of {', '.join(MODES)}")
-        self._begun, self._left, self.mode = time.monotonic(), None, mode
+        self._begun, self._left, self.mode = self._clock(), None, mode
 
     def leave(self) -> None:
         """Nobody is there any more: hold, then let the force fade; nothing for a hand that moves by itself."""
         if self.mode == "mouse" and self._left is None:
-            self._left, self._left_at = time.monotonic(), list(self.place)
+            self._left, self._left_at = self._clock(), list(self.place)
 
     @property
     def fades(self) -> bool:
         """Whether it was left alone."""
         return self._left is not None
 
+    def go_on(self, run: Run) -> None:
+        """Go on by the time since the last call, with a look at the handle where it was left alone."""
+        if self.fades and len(last := run.tail(1)):
+            self.handle = [float(one) for one in last["x"].reshape(-1)]
+        self.move()
+
     def move(self) -> None:
         """Go on by the time since the last call."""
         with self._lock:
-            now = time.monotonic()
+            now = self._clock()
             passed, self._last = min(0.1, now - self._last), now
             if self._left is not None:
                 share = min(1.0, max(0.0, (now - self._left - HOLD) / FADE))
@@ -121,5 +133,5 @@ class IntendedHand:
 
     def as_hand(self, hand: Hand) -> Hand:
         """Return a hand that steps to where this one wants to be."""
-        path: list[Any] = [Step(target=one) for one in self._wanted(time.monotonic())]
+        path: list[Any] = [Step(target=one) for one in self._wanted(self._clock())]
         return hand.replace(path=path)

@@ -8,8 +8,8 @@ from pathlib import Path
 
 from ebac import presets
 from ebac._core import Hand
+from ebac._util.law_colours import COLOURS
 from ebac.live.wasm_module import WEB, module, script
-from ebac.plot.style import COLOURS
 
 #: In the order in which one needs the other.
 SCRIPTS = ("core", "words", "strips", "scene", "sound", "controls", "page")

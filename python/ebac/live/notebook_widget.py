@@ -6,10 +6,10 @@ from typing import TYPE_CHECKING, Any
 
 from ebac._util import serialisation
 from ebac._util.arguments import require, unknown_name
+from ebac._util.law_colours import COLOURS
 from ebac.laws import LAWS
 from ebac.live.settings import options, settings
 from ebac.live.wasm_module import module, script
-from ebac.plot.style import COLOURS
 from ebac.scenario import Scenario
 from ebac.simulation import simulate
 

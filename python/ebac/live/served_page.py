@@ -7,6 +7,7 @@ from http import HTTPStatus
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from ebac._util.law_colours import COLOURS
 from ebac.live.gate import HEADERS
 from ebac.live.wasm_module import joined, script
 
@@ -19,14 +20,14 @@ SERVED = Path(__file__).with_name("served")
 SCRIPTS = ("vectors", "solid", "scene3d", "drag", "form", "main")
 
 
-def served_page() -> str:
-    """Return the page as HTML."""
-    from ebac.plot.style import COLOURS  # slow: it brings Matplotlib
-
-    html = (SERVED / "page.html").read_text(encoding="utf-8")
-    own = joined("\n".join((SERVED / f"{name}.js").read_text(encoding="utf-8") for name in SCRIPTS))
+def served_page(page: str = "page", scripts: tuple[str, ...] = SCRIPTS) -> str:
+    """Return a page as HTML: that of the loop, or another with its own scripts and style."""
+    html = (SERVED / f"{page}.html").read_text(encoding="utf-8")
+    own = joined("\n".join((SERVED / f"{name}.js").read_text(encoding="utf-8") for name in scripts))
+    style = SERVED / f"{page}.css"
+    own_style = "" if page == "page" else style.read_text(encoding="utf-8")
     parts = {
-        "{style}": (SERVED / "page.css").read_text(encoding="utf-8"),
+        "{style}": (SERVED / "page.css").read_text(encoding="utf-8") + own_style,
         "{colours}": json.dumps(COLOURS),
         "{script}": f"{script('strips')}\n{own}",
     }

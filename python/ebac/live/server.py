@@ -5,13 +5,15 @@ from __future__ import annotations
 import asyncio
 import contextlib
 import json
+import logging
 import threading
 from concurrent.futures import ThreadPoolExecutor
 from http import HTTPStatus
 from types import TracebackType
 from typing import TYPE_CHECKING, Any, Self
 
-from ebac.live.choices import RANGES, options
+from ebac.drives.errors import DriveError
+from ebac.live.choices import options
 from ebac.live.frames import Frames
 from ebac.live.gate import Gate
 from ebac.live.messages import LONGEST, MalformedError, read
@@ -29,10 +31,19 @@ if TYPE_CHECKING:
 FRAME, SOON = 1 / 30, 1 / 60
 #: Malformed messages after which a page is cut off; messages a second that a page may send.
 MOST_MALFORMED, MOST_MESSAGES = 100, 400
+#: Pages at a time.
+MOST_PAGES = 32
 #: Messages that are done before the next one is read.
 AT_ONCE = ("hold", "release", "drag", "drop", "mode")
 #: What a page that cannot keep up may leave unread before frames are left out [bytes].
 MOST_WAITING = 200_000
+
+
+def _silent() -> logging.Logger:
+    """Return a logger that says nothing: what strangers send is no news for the terminal."""
+    logger = logging.getLogger("ebac.live.socket")
+    logger.setLevel(logging.CRITICAL + 1)
+    return logger
 
 
 class Server:
@@ -81,7 +92,7 @@ class Server:
         self.frames_sent = 0
         self.malformed = 0
         self._control = control
-        self._frames = Frames(session)
+        self._frames = self._reader()
         self._pages: dict[ServerConnection, str] = {}
         self._controller: ServerConnection | None = None
         self._work = ThreadPoolExecutor(1, thread_name_prefix="ebac-live-work")
@@ -98,6 +109,14 @@ class Server:
         self._ready.wait()
         if self._failed is not None:
             raise self._failed
+
+    def _reader(self) -> Any:
+        """Return what makes frames of the session."""
+        return Frames(self.session)
+
+    def _whole_page(self) -> str:
+        """Return the page."""
+        return served_page()
 
     def close(self) -> None:
         """End it; the session goes on."""
@@ -138,9 +157,10 @@ class Server:
             ping_timeout=10,
             close_timeout=1,
             server_header=None,
+            logger=_silent(),
         ) as listener:
             self.gate = Gate(host=host, port=next(iter(listener.sockets)).getsockname()[1])
-            self._html = self._loop.run_in_executor(None, served_page)
+            self._html = self._loop.run_in_executor(None, self._whole_page)
             frames = asyncio.create_task(self._send_frames())
             self._ready.set()
             await self._end.wait()
@@ -154,6 +174,10 @@ class Server:
         if refused is not None:
             return connection.respond(refused[0], f"{refused[1]}\n")
         path = request.path.partition("?")[0]
+        if socket and len(self._pages) >= MOST_PAGES:
+            return connection.respond(
+                HTTPStatus.SERVICE_UNAVAILABLE, f"{MOST_PAGES} pages are open already; close one\n"
+            )
         if socket:
             return None if path == "/socket" else connection.respond(HTTPStatus.NOT_FOUND, "")
         if path != "/":
@@ -224,7 +248,7 @@ class Server:
         """Do it, and report what came of it."""
         try:
             await self._done(message)
-        except (ValueError, KeyError, RuntimeError, OSError) as error:
+        except (ValueError, KeyError, RuntimeError, OSError, DriveError) as error:
             text = str(error.args[0] if isinstance(error, KeyError) else error)
             await _send(page, json.dumps({"kind": "error", "text": text}))
             await self._send_state()
@@ -274,10 +298,11 @@ class Server:
             "kind": "state",
             "choices": session.choices.row(),
             "options": options(),
-            "ranges": RANGES,
+            "ranges": session.ranges,
             "axes": session.hand.axes,
             "mode": session.hand.mode,
             "real": session.real,
+            "virtual": session.virtual,
             "dead_man": session.dead_man,
             "running": session.running,
             "recording": session.run is not None and session.run.recorder is not None,

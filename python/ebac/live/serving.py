@@ -22,9 +22,14 @@ def serve(
     port: int = 0,
     allow_control: bool = False,
     dead_man: bool = False,
+    virtual: bool = False,
+    max_stiffness: float | None = None,
+    max_damping: float | None = None,
     folder: str | Path = ".",
 ) -> Iterator[Server]:
-    """Run a loop in real time and serve the page on which it is seen, moved and changed, until the end of the block.
+    """Run a loop and serve the page on which it is seen, moved and changed, until the end of the block.
+
+    The loop runs in real time, or on a virtual clock.
 
     Without a device all is simulated, and the loop starts at once. A device that is given must be open, with its zero
     confirmed; nothing moves until somebody with `allow_control` holds the page's dead-man key.
@@ -45,6 +50,10 @@ def serve(
         Whether a page may control hardware; a simulation always.
     dead_man : bool
         Whether a simulation needs the dead-man key, too.
+    virtual : bool
+        Whether a simulation's clock is virtual: no tick is late, however busy the machine is.
+    max_stiffness, max_damping : float, optional
+        Of a surface that a page may choose on hardware [N/m, N s/m]; default: those of the configuration's world.
     folder : path
         Where logs and scenarios go.
 
@@ -59,6 +68,8 @@ def serve(
         Without websockets (`pip install 'ebac[live]'`).
     OSError
         When host and port cannot be had.
+    ValueError
+        For an unknown law, a limit that is none, a device on a virtual clock.
 
     Examples
     --------
@@ -67,7 +78,10 @@ def serve(
     ...     server.session.change(law="ebac", stiffness=2e4)
     ...     input("Enter ends it")
     """
-    with Session(given, device=device, dead_man=dead_man, law=law, folder=folder) as session:
+    with Session(
+        given, device=device, dead_man=dead_man, law=law, virtual=virtual,
+        max_stiffness=max_stiffness, max_damping=max_damping, folder=folder,
+    ) as session:  # fmt: skip
         control = allow_control or not session.real
         with Server(session, host=host, port=port, control=control) as server:
             if not session.dead_man:

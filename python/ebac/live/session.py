@@ -4,37 +4,31 @@ from __future__ import annotations
 
 import threading
 import time
+from math import ceil
 from pathlib import Path
 from types import TracebackType
 from typing import Any, Self
 
-from ebac._core import Fault
 from ebac._util.wrong_calls import plain_constructor
+from ebac.drives.errors import DriveError
 from ebac.hardware import Configuration, OpenDevice, Run
-from ebac.hardware.law import designed
-from ebac.live.choices import CONFIGURED, Choices, base_of, world_of
+from ebac.hardware.virtual_device import VirtualDevice, VirtualRun
+from ebac.live.choices import CONFIGURED, RANGES, Choices, base_of
+from ebac.live.device_limits import DeviceLimits
 from ebac.live.intended_hand import IntendedHand
-from ebac.live.session_files import SessionFiles
+from ebac.live.session_changes import SessionChanges
+from ebac.live.virtual_time import STEP, VirtualTime
 from ebac.scenario import Scenario
 
 #: How often the hand moves and somebody looks after the loop [s].
 LOOK = 1 / 60
 #: Longest silence of who holds the dead-man key [s].
 DEAD_MAN = 0.3
-#: A simulated device moves for so many ticks at most from one tick to the next: on a machine that is late its time
-#: stands still.
-LONGEST_STEP = 2
-#: Ticks without an answer that are a fault of simulated drives.
-PATIENCE = 200
-#: Longest run [s].
-LONGEST = 1e5
-#: Changes of these act in the running loop; all others restart it.
-WHILE_IT_RUNS = ("law", "world", "stiffness", "damping", "delay")
 
 
 @plain_constructor
-class Session(SessionFiles):
-    """A loop in real time that can be changed while it runs. A context manager; from any thread.
+class Session(SessionChanges):
+    """A loop that can be changed while it runs, in real time or on a virtual clock. A context manager; any thread.
 
     Parameters
     ----------
@@ -46,6 +40,13 @@ class Session(SessionFiles):
         Whether the loop has power only while `hold` is called again within 0.3 s; on hardware always.
     law : str, optional
         The law to begin with.
+    virtual : bool, optional
+        Whether the clock is virtual, as of `ebac run --virtual`: no tick is late, and what runs depends on orders and
+        their ticks alone.
+    paced : bool, optional
+        Whether a virtual clock follows the one on the wall; without it `advance` alone moves it.
+    max_stiffness, max_damping : float, optional
+        Of a surface that may be chosen on a device that was given [N/m, N s/m]; default: those of its own world.
     folder : path
         Where logs and scenarios go.
 
@@ -59,11 +60,15 @@ class Session(SessionFiles):
         The loop, once there is one.
     kept : list of Path
         Files written.
+    trouble : str
+        Why a drive could not be seen to be without power, or a log not be written, after a run; empty if all is well.
+    ranges : dict
+        From where to where stiffness, damping and delay may be chosen.
 
     Raises
     ------
     ValueError
-        For an unknown law.
+        For an unknown law, a limit that is none, a device on a virtual clock.
     """
 
     def __init__(
@@ -73,18 +78,29 @@ class Session(SessionFiles):
         device: OpenDevice | None = None,
         dead_man: bool = False,
         law: str | None = None,
+        virtual: bool = False,
+        paced: bool = True,
+        max_stiffness: float | None = None,
+        max_damping: float | None = None,
         folder: str | Path = ".",
     ) -> None:
         self._given = device.configuration if device is not None else given
-        self._device, self._lent = device, device is not None
+        if device is not None and virtual:
+            raise ValueError("virtual=True: a device that is open has a clock of its own")
+        self._device: OpenDevice | VirtualDevice | None = device
+        self._lent, self.virtual, self._paced = device is not None, virtual, paced
+        self._time = VirtualTime()
         self.real = device is not None and device.backend.aim is None
         self.dead_man = dead_man or self.real
         self.base = base_of(self._given, CONFIGURED)
         world = self.base.environment
+        limits = DeviceLimits.of(world, max_stiffness, max_damping)
+        self._limits = limits if self._lent else None
+        self.ranges = limits.ranges if self._lent else RANGES
         own: dict[str, Any] = {
-            name: float(getattr(world, name))
+            name: float(getattr(world, name, self.ranges[name][1]))
             for name in ("stiffness", "damping")
-            if hasattr(world, name)
+            if hasattr(world, name) or self._lent
         }
         first = Choices(
             observer=(given is None and device is None) or bool(self.base.observer),
@@ -92,11 +108,13 @@ class Session(SessionFiles):
             **own,
         )
         self.choices = first.with_changes({"law": law or self.base.law})
-        self.hand = IntendedHand(self.base)
+        self._clock = (lambda: self._time.now) if virtual else time.monotonic
+        self.hand = IntendedHand(self.base, clock=self._clock)
         self.run: Run | None = None
         self.folder = Path(folder)
         self.kept = []
         self.starts = 0
+        self.trouble = ""
         self._held = -1e9
         self._lock = threading.RLock()
         self._over = threading.Event()
@@ -104,11 +122,6 @@ class Session(SessionFiles):
         self._watch.start()
 
     # --- start and stop ---
-
-    @property
-    def running(self) -> bool:
-        """Whether the loop acts."""
-        return self.run is not None and not self.run.done
 
     def start(self) -> None:
         """Begin a run under what is chosen; nothing if there is one.
@@ -126,27 +139,10 @@ class Session(SessionFiles):
             self._settle()
             if not self._lent:
                 self._close_device()  # a handle without power was pulled on: all begins at zero
-            if self._device is None:
-                known = self._chosen()
-                self._device = OpenDevice(
-                    known, simulate=True, longest_step=LONGEST_STEP * known.timing.dt
-                )
-            if self._device.report is not None and self._device.report.ended_by == "fault":
-                if self.real:
-                    raise PermissionError(
-                        "the last run ended by a fault: look at the device, end `ebac live`, start it again; it asks "
-                        "for the zero anew"
-                    )
-                self._device.reset()
-            base = self._device.configuration
-            if not self._lent:
-                self.hand = IntendedHand(base, goal=self.hand.goal, mode=self.hand.mode)
-                aim = self._device.backend.aim
-                self.hand.post = None if aim is None else aim.post
-            run = self._device.start(self._law(), self._world(), seconds=LONGEST)
+            run = self._begin_virtual() if self.virtual else self._begin()
             if self.choices.delay != self._least_delay():
                 run.hold_back(self.choices.delay - self._least_delay())
-            self.run = run
+            self.run, self.trouble = run, ""
             self.starts += 1
 
     def pause(self, *, by: str = "stop") -> None:
@@ -179,146 +175,48 @@ class Session(SessionFiles):
         with self._lock:
             self._close_device()
 
-    # --- changes ---
-
-    def change(self, **changes: Any) -> bool:
-        """Change what is chosen, in the running loop where that is possible; else it begins anew.
-
-        Parameters
-        ----------
-        **changes
-            Of `Choices`: `law="tca"`, `stiffness=2e4` [N/m], `damping` [N s/m], `delay` [samples], `world`, `observer`,
-            `hand`, `device`.
-
-        Returns
-        -------
-        bool
-            Whether the loop was restarted.
-
-        Raises
-        ------
-        KeyError
-            For an unknown name.
-        ValueError
-            For what cannot be, and for what only a restart could change on hardware.
-        """
-        with self._lock:
-            after = self.choices.with_changes(changes)
-            before, self.choices = self.choices, after
-            try:
-                return self._apply(
-                    before, [n for n, v in after.row().items() if v != before.row()[n]]
-                )
-            except BaseException:
-                self.choices = before
-                raise
-
-    def _apply(self, before: Choices, names: list[str]) -> bool:
-        observed = self.choices.observer or before.observer
-        live = all(name in WHILE_IT_RUNS for name in names)
-        if "delay" in names and observed:  # it is designed for its delay
-            live = False
-        if self._lent and (not live or "delay" in names):
-            raise ValueError(
-                f"{', '.join(names)}: cannot change on this device while it is open; change the file and start again"
-            )
-        law, world = self._law(), self._world()
-        self._chosen().scenario()._check_axes()
-        if live:
-            run = self.run
-            if run is None or run.done:
-                return False
-            if "law" in names or "delay" in names:
-                run.replace_law(law)
-            if "delay" in names:
-                run.hold_back(self.choices.delay - self._least_delay())
-            if set(names) & {"world", "stiffness", "damping"}:
-                run.change(world)
-            return False
-        again = self.running
-        self.pause()
-        self._close_device()
-        if again:
-            self.start()
-        return True
-
-    def _least_delay(self) -> int:
-        """Return the delay of the bus [samples]: the rest is held back."""
-        return base_of(self._given, self.choices.device).timing.delay
-
-    def _chosen(self) -> Configuration:
-        """Return the configuration of what is chosen."""
-        from ebac import presets
-
-        known = base_of(self._given, self.choices.device)
-        if self.choices.hand != CONFIGURED:
-            held = presets.HANDS[self.choices.hand].hand
-            known = known.replace(hand=held.replace(path=list(known.hand.path)))
-        observer: Any = self.choices.observer
-        if self.choices.delay < known.timing.delay:
-            raise ValueError(
-                f"delay = {self.choices.delay} samples: drives and bus take {known.timing.delay}"
-            )
-        return known.replace(
-            timing=known.timing.replace(delay=self.choices.delay),
-            silent=known.silent if self._lent else PATIENCE,
-            limits=known.limits
-            if self._lent
-            else known.limits.replace(
-                watch_motion=False, overruns=PATIENCE, pause=0.5, force_age=0.2
-            ),
-            observer=known.observer if bool(known.observer) == observer else observer,
-            law=self.choices.law,
-            changes=known.changes if self.choices.law == known.law else {},
-        )
-
-    def _law(self) -> Any:
-        known = self._chosen()
-        return designed(
-            known.law,
-            known.changes,
-            known.device,
-            known.timing,
-            sensor=known.sensor is not None,
-        )
-
-    def _world(self) -> Any:
-        return world_of(self.choices, base_of(self._given, self.choices.device).environment)
-
-    @property
-    def scenario(self) -> Scenario:
-        """What runs, as a scenario: device, hand with its target, world, timing."""
-        known = self._chosen()
-        return known.scenario(seconds=6).replace(
-            environment=self._world(),
-            hand=self.hand.as_hand(known.hand),
-        )
-
     # --- its end ---
-
-    @property
-    def fault(self) -> Fault:
-        """What ended the run, `Fault.NONE` while it runs."""
-        last = None if self.run is None else self.run.tail(1)
-        return Fault(int(last["fault"][-1])) if last is not None and len(last) else Fault.NONE
 
     def _is_held(self) -> bool:
         return time.monotonic() - self._held < DEAD_MAN
 
+    def advance(self, seconds: float) -> None:
+        """Let a virtual clock go on, in whole steps of 8 ms: in each the hand moves first, then the loop.
+
+        Raises
+        ------
+        RuntimeError
+            Where the clock is not virtual.
+        """
+        with self._lock:
+            if not self.virtual:
+                raise RuntimeError(
+                    "advance: this session has a real clock; make it with virtual=True"
+                )
+            if isinstance(self.run, VirtualRun):
+                self._time.advance(self.run, self.hand, ceil(seconds / STEP - 1e-6))
+
     def _look_after(self) -> None:
         while not self._over.wait(LOOK):
             run = self.run
-            if self.hand.fades and run is not None and len(last := run.tail(1)):
-                self.hand.handle = [float(one) for one in last["x"].reshape(-1)]
             if run is None:
                 continue
-            if not run.done and run.ticks > 0:
-                self.hand.move()
+            if self.virtual:
+                steps = self._time.due() if self._paced else 0
+                if steps:
+                    self.advance(steps * STEP)
+            elif not run.done and run.ticks > 0:
+                self.hand.go_on(run)
             if self.dead_man and not run.done and not self._is_held():
                 run.stop(by="dead-man key")
             if run.done and run.report is None and self._lock.acquire(blocking=False):
                 try:
                     self._settle()
+                except (
+                    DriveError,
+                    OSError,
+                ) as error:  # this thread watches the dead-man key: it goes on
+                    self.trouble = str(error)
                 finally:
                     self._lock.release()
 

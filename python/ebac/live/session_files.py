@@ -6,24 +6,15 @@ import threading
 from datetime import datetime
 from pathlib import Path
 
-from ebac.hardware import Run
-from ebac.live.choices import Choices
-from ebac.scenario import Scenario
+from ebac.live.session_parts import SessionParts
 
 
-class SessionFiles:
+class SessionFiles(SessionParts):
     """Logs and scenarios of a session, named by the time."""
 
-    choices: Choices
-    run: Run | None
     folder: Path
     kept: list[Path]
     _lock: threading.RLock
-
-    @property
-    def scenario(self) -> Scenario:
-        """What runs."""
-        raise NotImplementedError
 
     def record(self) -> Path:
         """Write the rows to a log from here on, named by the time; return its path."""

@@ -30,8 +30,9 @@ def module() -> bytes:
         return PLACE.read_bytes()
     except FileNotFoundError:
         raise FileNotFoundError(
-            f"{PLACE}: the WebAssembly module is missing; in a clone: pip install '.[wasm]', "
-            "then python bindings/wasm/build.py"
+            f"{PLACE}: this installation has no WebAssembly module, which the Linux wheels of a release bring; in a "
+            "clone: pip install '.[wasm]', then python bindings/wasm/build.py. Without it `ebac live` shows the same "
+            "in the browser, ebac.explore.sliders() in a notebook"
         ) from None
 
 

@@ -1,0 +1,68 @@
+#include "stepped_run.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace ebac::python {
+
+namespace {
+
+Setup with_ramp(Setup setup, double ramp_down) {
+  setup.loop.plan.ramp_down = ramp_down;
+  return setup;
+}
+
+}  // namespace
+
+SteppedRun::SteppedRun(const AnyLaw& law, Setup setup, const std::optional<can::TimedBus>& bus,
+                       double ramp_down, std::size_t rows)
+    : Running(law),
+      dt_(setup.timing.dt),
+      loop_(loop(law, with_ramp(std::move(setup), ramp_down), bus)) {
+  loop_.device().device().enable();
+  trace_ = loop_.make_trace(rows, /*ring=*/true);
+  loop_.start();
+}
+
+SteppedRun::Work SteppedRun::loop(const AnyLaw& law, const Setup& setup,
+                                  const std::optional<can::TimedBus>& bus) {
+  All laws(law);
+  const SignalChain chain(setup.device, setup.environment, observing(setup.observer, laws));
+  return {Drives(can::device_through_can<SimulatedDevice>(setup, bus)),
+          VirtualClock(setup.timing.dt, setup.jitter, setup.seed),
+          std::move(laws),
+          chain,
+          setup.device.axes(),
+          setup.loop};
+}
+
+std::int64_t SteppedRun::advance(std::int64_t ticks) {
+  const std::scoped_lock one_by_one(stepping_);
+  std::int64_t taken = 0;
+  while (taken < ticks && !done()) {
+    ++taken;
+    if (!loop_.advance(*trace_, updates_.get())) done_.store(true, std::memory_order_release);
+  }
+  return taken;
+}
+
+void SteppedRun::aim(const std::array<double, kMaxAxes>& target) {
+  const std::scoped_lock one_by_one(stepping_);
+  for (std::size_t i = 0; i < kMaxAxes; ++i) loop_.device().aim(i, target[i]);
+}
+
+void SteppedRun::switch_off() {
+  const std::scoped_lock one_by_one(stepping_);
+  loop_.device().device().disable();
+}
+
+bool SteppedRun::wait(double seconds) {
+  advance(std::llround(std::clamp(seconds / dt_, 1.0, 1e12)));
+  return done();
+}
+
+void SteppedRun::join() { advance(std::numeric_limits<std::int64_t>::max()); }
+
+}  // namespace ebac::python

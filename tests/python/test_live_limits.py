@@ -1,0 +1,98 @@
+"""What `ebac live` allows a page on hardware, and what its command refuses."""
+
+import json
+import signal
+import subprocess
+import sys
+import urllib.request
+from pathlib import Path
+
+import pytest
+from typer.testing import CliRunner
+
+from ebac import datasets, worlds
+from ebac._core import Disc, Free, Wall
+from ebac.cli import app
+from ebac.live.device_limits import DeviceLimits, surface_of
+
+
+def test_a_world_that_the_handle_stands_in_is_refused() -> None:
+    limits = DeviceLimits.of(Wall(stiffness=5e3), None, None)
+    limits.check_place(Wall(position=0.01, stiffness=5e3), [0.0105])
+    with pytest.raises(ValueError, match="stands 10 mm inside that world: move it out"):
+        limits.check_place(Wall(position=0.01, stiffness=5e3), [0.02, 0.0])
+    limits.check_place(Free(), [0.02])
+
+
+def test_limits_of_a_file_hold_for_every_kind_of_world() -> None:
+    from ebac.worlds.presets import preset
+
+    assert surface_of(Free()) == (0, 0)
+    assert surface_of(Disc(stiffness=3e3, damping=2)) == (3e3, 2)
+    assert surface_of(preset("box", stiffness=4e3, damping=1)) == (4e3, 1)
+    assert surface_of(preset("tissue")) == (1500, 4)
+    own = preset("soft")
+    limits = DeviceLimits.of(own, None, None)
+    limits.check(own)  # that of the file itself
+    with pytest.raises(ValueError, match="stiffness = 100 N/m: this device allows 0 N/m"):
+        limits.check(Wall(stiffness=100))
+    declared = DeviceLimits.of(own, 2e3, 5.0)
+    declared.check(preset("tissue"))
+    assert declared.ranges["stiffness"] == (100, 2e3)
+    with pytest.raises(ValueError, match="no number of N/m"):
+        declared.check(worlds.World(*own.bodies, *preset("soft").bodies))
+    with pytest.raises(ValueError, match="max_stiffness = nan N/m"):
+        DeviceLimits.of(own, float("nan"), None)
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (["--virtual", "--simulated"], "--virtual excludes --simulated"),
+        (["--allow-control"], "are for hardware: give its file"),
+        (["--virtual", "--max-stiffness", "1e4"], "are for hardware: give its file"),
+    ],
+)
+def test_options_that_do_not_belong_together_are_refused(words: list[str], message: str) -> None:
+    found = CliRunner().invoke(app, ["live", "--no-browser", *words])
+    assert found.exit_code == 2
+    assert message in " ".join(found.output.split())
+
+
+def own_bus(folder: Path) -> Path:
+    """Write a file of hardware whose bus, with drives and a hand at rest, is inside the process that opens it."""
+    text = datasets.joystick_text("joystick")
+    text = text.replace('interface = "socketcan"', 'interface = "ebac"')
+    text = text.replace('channel = "can0"', 'channel = "joystick-live"')
+    text = text.replace('setup = "verify"', 'setup = "apply"').replace(
+        "silent = 10 ", "silent = 200 "
+    )
+    before, _, rest = text.partition("[sensor]")
+    file = folder / "joystick.toml"
+    file.write_text(before + rest[rest.index("[recording]") :])
+    return file
+
+
+@pytest.mark.real_time(seconds=True)
+@pytest.mark.parametrize("words", [[], ["--allow-control"], ["--virtual"]])
+def test_the_command_opens_a_file_and_gives_no_power_by_itself(
+    tmp_path: Path, words: list[str]
+) -> None:
+    pytest.importorskip("websockets")
+    command = [sys.executable, "-m", "ebac.cli", "live", str(own_bus(tmp_path)), *words]
+    with subprocess.Popen(
+        [*command, "--no-browser", "--json"],
+        cwd=tmp_path,
+        text=True,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+    ) as run:
+        assert run.stdout is not None
+        url = json.loads(run.stdout.readline())["url"]
+        with urllib.request.urlopen(url, timeout=5) as answer:
+            assert answer.status == 200
+        run.send_signal(signal.SIGINT)
+        _, said = run.communicate(timeout=30)
+    assert run.returncode == 0, said
+    assert "drives without power. Kept: no files" in said
+    assert "Traceback" not in said

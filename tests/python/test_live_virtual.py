@@ -1,0 +1,139 @@
+"""A session on a virtual clock: what it gives depends on orders and their ticks, not on the machine."""
+
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import ebac
+from ebac import datasets
+from ebac.hardware import Configuration
+from ebac.hardware.virtual_device import VirtualDevice
+from ebac.live import serve
+from ebac.live.session import Session
+
+KNOWN = Configuration.from_toml(datasets.joystick_text("joystick"), name="joystick")
+
+
+@pytest.fixture
+def session(tmp_path: Path) -> Session:
+    return Session(virtual=True, paced=False, folder=tmp_path)
+
+
+def rows(session: Session) -> dict[str, bytes]:
+    assert session.run is not None
+    tail = session.run.tail(10_000)
+    assert len(tail) == session.run.ticks
+    return {
+        one: np.nan_to_num(tail[one]).tobytes()
+        for one in ("tick", "x", "f_cmd", "f_meas", "true.x")
+    }
+
+
+def test_in_steps_it_is_the_run_of_ebac_run_virtual_to_the_bit() -> None:
+    device = VirtualDevice(KNOWN, delay=KNOWN.timing.delay)
+    run = device.start(KNOWN.design(), KNOWN.environment)
+    for ticks in (1, 7, 500, 493):
+        assert run.advance(ticks) == ticks
+    whole = KNOWN.simulate(seconds=1.0)
+    steps = run.tail(1001)
+    assert len(steps) == 1001
+    for name in ("x", "f_env", "f_cmd", "f_applied", "f_meas", "law.beta", "bus.missing"):
+        assert np.array_equal(steps[name], whole[name], equal_nan=True), name
+    run.stop()
+    device.close()
+    assert run.done
+    assert run.report is not None
+    assert run.report.ended_by == "stop"
+    assert float(np.abs(run.tail(5)["f_applied"]).max()) == 0
+
+
+def test_the_same_orders_give_the_same_bits_however_time_is_cut(tmp_path: Path) -> None:
+    def played(cut: float, wait: float) -> dict[str, bytes]:
+        with Session(virtual=True, paced=False, folder=tmp_path) as session:
+            session.start()
+            for orders in (
+                {"law": "eba"}, {"stiffness": 2e4}, {"world": "sphere"}, {"law": "ebac"},
+            ):  # fmt: skip
+                for _ in range(round(0.24 / cut)):
+                    session.advance(cut)
+                session.change(**orders)
+                time.sleep(wait)
+            session.hand.drag([0.025, 0.003])
+            session.advance(0.48)
+            return rows(session)
+
+    first, second = played(0.24, 0.0), played(0.008, 0.02)
+    assert len(first["tick"]) == 8 * 1440
+    assert first == second
+
+
+def test_no_order_makes_a_step_of_the_force_and_each_is_noted(session: Session) -> None:
+    with session:
+        session.change(observer=False)
+        session.start()
+        session.advance(2.0)
+        run = session.run
+        assert run is not None
+        orders = (
+            {"stiffness": 2e4}, {"world": "disc"}, {"world": "sphere"}, {"damping": 20.0},
+            {"world": "free"}, {"world": "wall"}, {"law": "eba"}, {"world": "as configured"},
+        )  # fmt: skip
+        for order in orders:
+            before = run.ticks
+            assert session.change(**order) is False
+            session.advance(0.16)
+            force = run.tail(run.ticks - before + 1).axis("f_cmd", 0)
+            assert abs(force[1] - force[0]) < 1e-9, order
+        assert session.run is run
+        ticks = [tick for tick, _, _ in run._running.changes(0)]
+        assert ticks == [2000 + 160 * k for k in range(len(orders))]
+        assert not session.fault
+
+
+def test_a_recording_has_every_order_with_its_tick(session: Session) -> None:
+    with session:
+        session.start()
+        log = session.record()
+        session.advance(0.5)
+        session.change(world="sphere")
+        session.advance(0.5)
+        time.sleep(0.2)
+        assert session.stop_recording() > 900
+    found = ebac.logs.read(log)
+    (event,) = [one for one in found.events if one.kind == "parameter"]
+    assert event.tick == 504
+    assert "Sphere" in event.message
+
+
+def test_delay_and_observer_begin_anew(session: Session) -> None:
+    with session:
+        session.start()
+        session.advance(0.4)
+        assert session.change(delay=3) is True  # the observer is designed for it
+        session.change(observer=False)
+        assert session.change(delay=2) is False
+        session.advance(2.0)
+        assert not session.fault
+        assert session.starts == 3
+
+
+def test_time_goes_on_with_the_clock_on_the_wall_and_nothing_is_late(tmp_path: Path) -> None:
+    with serve(virtual=True, folder=tmp_path) as server:
+        run = server.session.run
+        assert run is not None
+        begun = time.monotonic()
+        while run.ticks < 400:
+            assert time.monotonic() - begun < 20
+            time.sleep(0.01)
+        tail = run.tail(400)
+        assert not tail["lateness"].any()
+        assert not tail["skipped"].any()
+        assert run.ticks <= 1000 * (time.monotonic() - begun) + 200
+        assert server._state()["virtual"] is True
+
+
+def test_only_a_virtual_clock_is_told_to_go_on(tmp_path: Path) -> None:
+    with Session(folder=tmp_path) as session, pytest.raises(RuntimeError, match="virtual=True"):
+        session.advance(1.0)
