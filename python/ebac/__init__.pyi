@@ -306,6 +306,9 @@ from ebac.studies import (
     Engines as Engines,
 )
 from ebac.studies import (
+    Shapes as Shapes,
+)
+from ebac.studies import (
     Study as Study,
 )
 from ebac.studies import (
@@ -328,6 +331,9 @@ from ebac.studies import (
 )
 from ebac.studies import (
     engines as engines,
+)
+from ebac.studies import (
+    shapes as shapes,
 )
 from ebac.studies import (
     study as study,

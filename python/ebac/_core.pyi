@@ -125,6 +125,7 @@ __all__: list[str] = [
     "Sphere",
     "Step",
     "SteppedPlant",
+    "SteppedRun",
     "SweepProgress",
     "Swing",
     "TCADamped",
@@ -1801,6 +1802,28 @@ class Step:
     def target(self) -> float:
         """
         where the hand wants to be [m], -10 to 10
+        """
+
+class SteppedRun(Running):
+    """
+    A loop on a virtual clock that takes its ticks when it is told to.
+    """
+    def advance(self, ticks: typing.SupportsInt | typing.SupportsIndex) -> int:
+        """
+        Take so many ticks, fewer where the run ends; return how many.
+        """
+    def aim_now(
+        self,
+        target: typing.Annotated[
+            collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(3)"
+        ],
+    ) -> None:
+        """
+        Set the target of the hand [m] before the next tick, without a note; NaN leaves an axis unchanged.
+        """
+    def switch_off(self) -> None:
+        """
+        Disable the drives. Raises RuntimeError when one stays on.
         """
 
 class MinimumJerk:
@@ -4553,6 +4576,13 @@ class Direct:
         self, setup: Setup, through_can: bool = False, bus: TimedBus | None = None
     ) -> Rows: ...
     def _start(self, bus: typing.Any, setup: RunSetup) -> Running: ...
+    def _stepped(
+        self,
+        setup: Setup,
+        bus: TimedBus | None,
+        ramp_down: typing.SupportsFloat | typing.SupportsIndex,
+        rows: typing.SupportsInt | typing.SupportsIndex,
+    ) -> SteppedRun: ...
     def _time_step(
         self, setup: Setup, repeats: typing.SupportsInt | typing.SupportsIndex
     ) -> float: ...
@@ -4681,6 +4711,13 @@ class TCA:
         self, setup: Setup, through_can: bool = False, bus: TimedBus | None = None
     ) -> Rows: ...
     def _start(self, bus: typing.Any, setup: RunSetup) -> Running: ...
+    def _stepped(
+        self,
+        setup: Setup,
+        bus: TimedBus | None,
+        ramp_down: typing.SupportsFloat | typing.SupportsIndex,
+        rows: typing.SupportsInt | typing.SupportsIndex,
+    ) -> SteppedRun: ...
     def _time_step(
         self, setup: Setup, repeats: typing.SupportsInt | typing.SupportsIndex
     ) -> float: ...
@@ -4832,6 +4869,13 @@ class TCADamped:
         self, setup: Setup, through_can: bool = False, bus: TimedBus | None = None
     ) -> Rows: ...
     def _start(self, bus: typing.Any, setup: RunSetup) -> Running: ...
+    def _stepped(
+        self,
+        setup: Setup,
+        bus: TimedBus | None,
+        ramp_down: typing.SupportsFloat | typing.SupportsIndex,
+        rows: typing.SupportsInt | typing.SupportsIndex,
+    ) -> SteppedRun: ...
     def _time_step(
         self, setup: Setup, repeats: typing.SupportsInt | typing.SupportsIndex
     ) -> float: ...
@@ -4988,6 +5032,13 @@ class LagCompensator:
         self, setup: Setup, through_can: bool = False, bus: TimedBus | None = None
     ) -> Rows: ...
     def _start(self, bus: typing.Any, setup: RunSetup) -> Running: ...
+    def _stepped(
+        self,
+        setup: Setup,
+        bus: TimedBus | None,
+        ramp_down: typing.SupportsFloat | typing.SupportsIndex,
+        rows: typing.SupportsInt | typing.SupportsIndex,
+    ) -> SteppedRun: ...
     def _time_step(
         self, setup: Setup, repeats: typing.SupportsInt | typing.SupportsIndex
     ) -> float: ...
@@ -5147,6 +5198,13 @@ class PassivityControl:
         self, setup: Setup, through_can: bool = False, bus: TimedBus | None = None
     ) -> Rows: ...
     def _start(self, bus: typing.Any, setup: RunSetup) -> Running: ...
+    def _stepped(
+        self,
+        setup: Setup,
+        bus: TimedBus | None,
+        ramp_down: typing.SupportsFloat | typing.SupportsIndex,
+        rows: typing.SupportsInt | typing.SupportsIndex,
+    ) -> SteppedRun: ...
     def _time_step(
         self, setup: Setup, repeats: typing.SupportsInt | typing.SupportsIndex
     ) -> float: ...
@@ -5303,6 +5361,13 @@ class ISS:
         self, setup: Setup, through_can: bool = False, bus: TimedBus | None = None
     ) -> Rows: ...
     def _start(self, bus: typing.Any, setup: RunSetup) -> Running: ...
+    def _stepped(
+        self,
+        setup: Setup,
+        bus: TimedBus | None,
+        ramp_down: typing.SupportsFloat | typing.SupportsIndex,
+        rows: typing.SupportsInt | typing.SupportsIndex,
+    ) -> SteppedRun: ...
     def _time_step(
         self, setup: Setup, repeats: typing.SupportsInt | typing.SupportsIndex
     ) -> float: ...
@@ -5449,6 +5514,13 @@ class VirtualCoupling:
         self, setup: Setup, through_can: bool = False, bus: TimedBus | None = None
     ) -> Rows: ...
     def _start(self, bus: typing.Any, setup: RunSetup) -> Running: ...
+    def _stepped(
+        self,
+        setup: Setup,
+        bus: TimedBus | None,
+        ramp_down: typing.SupportsFloat | typing.SupportsIndex,
+        rows: typing.SupportsInt | typing.SupportsIndex,
+    ) -> SteppedRun: ...
     def _time_step(
         self, setup: Setup, repeats: typing.SupportsInt | typing.SupportsIndex
     ) -> float: ...
@@ -5593,6 +5665,13 @@ class SFA:
         self, setup: Setup, through_can: bool = False, bus: TimedBus | None = None
     ) -> Rows: ...
     def _start(self, bus: typing.Any, setup: RunSetup) -> Running: ...
+    def _stepped(
+        self,
+        setup: Setup,
+        bus: TimedBus | None,
+        ramp_down: typing.SupportsFloat | typing.SupportsIndex,
+        rows: typing.SupportsInt | typing.SupportsIndex,
+    ) -> SteppedRun: ...
     def _time_step(
         self, setup: Setup, repeats: typing.SupportsInt | typing.SupportsIndex
     ) -> float: ...
@@ -5737,6 +5816,13 @@ class ForceBounding:
         self, setup: Setup, through_can: bool = False, bus: TimedBus | None = None
     ) -> Rows: ...
     def _start(self, bus: typing.Any, setup: RunSetup) -> Running: ...
+    def _stepped(
+        self,
+        setup: Setup,
+        bus: TimedBus | None,
+        ramp_down: typing.SupportsFloat | typing.SupportsIndex,
+        rows: typing.SupportsInt | typing.SupportsIndex,
+    ) -> SteppedRun: ...
     def _time_step(
         self, setup: Setup, repeats: typing.SupportsInt | typing.SupportsIndex
     ) -> float: ...
@@ -5883,6 +5969,13 @@ class EBA:
         self, setup: Setup, through_can: bool = False, bus: TimedBus | None = None
     ) -> Rows: ...
     def _start(self, bus: typing.Any, setup: RunSetup) -> Running: ...
+    def _stepped(
+        self,
+        setup: Setup,
+        bus: TimedBus | None,
+        ramp_down: typing.SupportsFloat | typing.SupportsIndex,
+        rows: typing.SupportsInt | typing.SupportsIndex,
+    ) -> SteppedRun: ...
     def _time_step(
         self, setup: Setup, repeats: typing.SupportsInt | typing.SupportsIndex
     ) -> float: ...
@@ -6035,6 +6128,13 @@ class EBAAccount:
         self, setup: Setup, through_can: bool = False, bus: TimedBus | None = None
     ) -> Rows: ...
     def _start(self, bus: typing.Any, setup: RunSetup) -> Running: ...
+    def _stepped(
+        self,
+        setup: Setup,
+        bus: TimedBus | None,
+        ramp_down: typing.SupportsFloat | typing.SupportsIndex,
+        rows: typing.SupportsInt | typing.SupportsIndex,
+    ) -> SteppedRun: ...
     def _time_step(
         self, setup: Setup, repeats: typing.SupportsInt | typing.SupportsIndex
     ) -> float: ...
@@ -6215,6 +6315,13 @@ class EBACPrinted:
         self, setup: Setup, through_can: bool = False, bus: TimedBus | None = None
     ) -> Rows: ...
     def _start(self, bus: typing.Any, setup: RunSetup) -> Running: ...
+    def _stepped(
+        self,
+        setup: Setup,
+        bus: TimedBus | None,
+        ramp_down: typing.SupportsFloat | typing.SupportsIndex,
+        rows: typing.SupportsInt | typing.SupportsIndex,
+    ) -> SteppedRun: ...
     def _time_step(
         self, setup: Setup, repeats: typing.SupportsInt | typing.SupportsIndex
     ) -> float: ...
@@ -6478,6 +6585,13 @@ class EBAC:
         self, setup: Setup, through_can: bool = False, bus: TimedBus | None = None
     ) -> Rows: ...
     def _start(self, bus: typing.Any, setup: RunSetup) -> Running: ...
+    def _stepped(
+        self,
+        setup: Setup,
+        bus: TimedBus | None,
+        ramp_down: typing.SupportsFloat | typing.SupportsIndex,
+        rows: typing.SupportsInt | typing.SupportsIndex,
+    ) -> SteppedRun: ...
     def _time_step(
         self, setup: Setup, repeats: typing.SupportsInt | typing.SupportsIndex
     ) -> float: ...
@@ -7627,7 +7741,7 @@ class RunSetup:
 
 class Running:
     """
-    A loop running in a thread that never touches Python.
+    A running loop that never touches Python.
     """
     def aim(
         self,
@@ -7737,6 +7851,8 @@ class Coupling:
         of the slave's position controller; with waves it is their impedance [N s/m], 0 to 1000.
     catch_up : float
         largest speed at which drift is compensated, on top of the motion [m/s], 0 to 10.
+    realign : float
+        largest speed at which the slave goes back to the master's place after consent to go on; 0 goes on from where both are [m/s], 0 to 1.
     buffer : float
         play-out buffer of both receivers, against jitter and loss; it adds to the delay [s], 0 to 0.3.
     timeout : float
@@ -7766,6 +7882,7 @@ class Coupling:
         stiffness: float = 4000.0,
         damping: float = 40.0,
         catch_up: float = 0.1,
+        realign: float = 0.02,
         buffer: float = 0.0,
         timeout: float = 0.5,
         fade: float = 0.2,
@@ -7825,6 +7942,11 @@ class Coupling:
     def peak_force(self) -> float:
         """
         largest force of the slave [N], 0.1 to 10000
+        """
+    @property
+    def realign(self) -> float:
+        """
+        largest speed at which the slave goes back to the master's place after consent to go on; 0 goes on from where both are [m/s], 0 to 1
         """
     @property
     def reserve(self) -> float:
@@ -8027,10 +8149,11 @@ class TeleopPacket:
         value: typing.SupportsFloat | typing.SupportsIndex = 0.0,
         energy: typing.SupportsFloat | typing.SupportsIndex = 0.0,
         wave: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+        run: typing.SupportsInt | typing.SupportsIndex = 0,
     ) -> None: ...
     def encode(self) -> bytes:
         """
-        Return its 52 bytes.
+        Return its 56 bytes.
         """
     @property
     def echo(self) -> int:
@@ -8051,6 +8174,11 @@ class TeleopPacket:
     def lost(self) -> bool:
         """
         Whether its sender has lost the link.
+        """
+    @property
+    def run(self) -> int:
+        """
+        Number of the master's run.
         """
     @property
     def sequence(self) -> int:
@@ -8774,7 +8902,7 @@ class Physician:
         look_ahead: float = 0.045,
         field_of_view: float = 2.44,
         heed: float = 0.0,
-        patience: float = 15.0,
+        patience: float = 30.0,
     ) -> None: ...
     def __reduce__(self) -> tuple[typing.Any, ...]: ...
     def __repr__(self) -> str: ...
@@ -8900,6 +9028,9 @@ class _Lumen:
         self,
         s: typing.SupportsFloat | typing.SupportsIndex,
         t: typing.SupportsFloat | typing.SupportsIndex,
+        bag: typing.Annotated[
+            collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(3)"
+        ] = [0.0, 0.0, 0.0],
     ) -> tuple[
         typing.Annotated[list[float], "FixedSize(3)"],
         typing.Annotated[list[float], "FixedSize(3)"],
@@ -8915,7 +9046,7 @@ class _Lumen:
         ],
         radius: typing.SupportsFloat | typing.SupportsIndex,
         t: typing.SupportsFloat | typing.SupportsIndex,
-        hint: typing.SupportsInt | typing.SupportsIndex,
+        station: typing.SupportsInt | typing.SupportsIndex,
     ) -> tuple[float, float, typing.Annotated[list[float], "FixedSize(3)"]]: ...
 
 class _Slave:
@@ -8943,6 +9074,15 @@ class _Procedure:
         targets: collections.abc.Sequence[Polyp],
         start: typing.SupportsFloat | typing.SupportsIndex,
     ) -> None: ...
+
+class _Navigation:
+    def __init__(self, procedure: _Procedure, setup: Setup, law: typing.Any) -> None: ...
+    def advance(self, ticks: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def findings(self) -> dict[str, typing.Any]: ...
+    def row(self) -> dict[str, typing.Any]: ...
+    def state(self) -> dict[str, typing.Any]: ...
+    @property
+    def ended(self) -> bool: ...
 
 def _camera(
     bend_x: typing.SupportsFloat | typing.SupportsIndex,

@@ -19,6 +19,7 @@ from ebac.cli.studies import (
     engines,
     faults,
     maps,
+    shapes,
     study,
     tissue,
     tune,
@@ -84,6 +85,7 @@ add(app, worst.worst, panel=STUDY)
 add(app, zwidth.zwidth, panel=STUDY)
 add(app, tune.tune, panel=STUDY)
 add(app, maps.map_, "map", panel=STUDY)
+add(app, shapes.shapes, panel=STUDY)
 add(app, engines.engines, panel=STUDY)
 add(app, tissue.tissue, panel=STUDY)
 add(app, faults.faults, panel=STUDY)

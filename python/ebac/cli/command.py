@@ -120,7 +120,8 @@ def add(
         What the help says is the default of the options of a scenario, where it is not that of the reference scenario.
     """
     called = name or function.__name__.replace("_", "-")
-    whole = expanded(function, called, defaults)
+    grouped = isinstance(app.info.name, str) and app.info.name != "ebac"
+    whole = expanded(function, f"{app.info.name}-{called}" if grouped else called, defaults)
     app.command(called, cls=Command, rich_help_panel=panel)(whole)
 
 

@@ -60,7 +60,7 @@ def summary(trace: Trace) -> Text:
     if trace.scenario is not None:
         device, *parts = formatting.describe(trace.scenario).split("; ")
         lines += [f"  {trace.origin}: {device}", *(f"    {part}" for part in parts)]
-    if len(trace) >= FEWEST_ROWS:
+    if len(trace) >= FEWEST_ROWS and "f_applied" in trace:
         lines.append(f"  {contact(trace)!r}".replace("<Contact of", "contact of").removesuffix(">"))
     if "fault" in trace and trace["fault"].any():
         lines.append(f"  ended by fault {int(trace['fault'][trace['fault'].nonzero()[0][0]])}")
