@@ -96,6 +96,13 @@ class GastroscopySession:
             self._begin()
             self.running = True
 
+    def advance(self, seconds: float) -> None:
+        """Let so much time pass at once, in steps of 20 ms, whatever the clock says."""
+        with self._lock:
+            dt = self._scenario.timing.dt
+            for _ in range(round(seconds / LOOK)):
+                self._take(round(LOOK / dt))
+
     def let_go(self) -> None:
         """Nothing is held here."""
 
@@ -117,10 +124,13 @@ class GastroscopySession:
                 self._due = max(self._due, now - LATEST)
                 ticks = int((now - self._due) / dt)
                 self._due += ticks * dt
-                self._run.advance(ticks)
-                self.recent.append(self._run.row())
-                self._rows += 1
+                self._take(ticks)
                 self.running = not self._run.ended
+
+    def _take(self, ticks: int) -> None:
+        self._run.advance(ticks)
+        self.recent.append(self._run.row())
+        self._rows += 1
 
     def snapshot(
         self,
