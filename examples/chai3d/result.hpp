@@ -46,12 +46,13 @@ inline ebac::AnyLaw law_of(std::string_view name, const ebac::Setup& setup) {
 
 inline void measure(const ebac::Trace& trace, Result& result) {
   result.ticks = trace.size();
-  const auto tail =
-      static_cast<std::size_t>((1 - ebac::kTailShare) * static_cast<double>(trace.size()));
+  const std::size_t first = trace.first();
+  const auto tail = first + static_cast<std::size_t>((1 - ebac::kTailShare) *
+                                                     static_cast<double>(trace.size() - first));
   ebac::Axes low = ebac::Axes::Constant(1e9);
   ebac::Axes high = -low;
   double sum = 0;
-  for (std::size_t row = trace.first(); row < trace.size(); ++row) {
+  for (std::size_t row = first; row < trace.size(); ++row) {
     const ebac::Sample sample = trace.sample(row);
     double energy = 0;
     for (std::size_t i = 0; i < static_cast<std::size_t>(trace.axes()); ++i) {

@@ -54,6 +54,7 @@ struct RunOptions {
   ebac::LoopOptions loop;
   double stiffness = 0;      // N/m, of the plane that stands for a late force; 0: the force is held
   std::size_t rows = 10000;  // of the recording
+  bool ring = false;         // whether these are the last ones, of a run without end
 };
 
 /// The clock that a loop gets when it starts.
@@ -85,7 +86,7 @@ class LoopRunner final : public Runner {
                                        Law(law_), ebac::SignalChain(options_.device, world),
                                        options_.device.axes(), options_.loop);
     device_.reset();
-    trace_ = loop->make_trace(options_.rows);
+    trace_ = loop->make_trace(options_.rows, options_.ring);
     const auto mode =
         std::is_same_v<C, SteppedClock> ? ebac::rt::Mode::kOff : ebac::rt::Mode::kAuto;
     thread_.emplace(std::move(loop), trace_, std::make_shared<ebac::ParameterUpdates<Law>>(law_),
