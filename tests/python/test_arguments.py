@@ -6,9 +6,12 @@ from enum import Enum
 from typing import Any
 
 import pytest
+from typer.testing import CliRunner
 
 import ebac
 from ebac import _core
+from ebac._util.arguments import LISTED_BY, near, unknown
+from ebac.cli import app
 
 S: Any = ebac.Scenario
 has = "; it has: device, hand, environment, timing, seconds, jitter, seed, observer"
@@ -54,7 +57,7 @@ has = "; it has: device, hand, environment, timing, seconds, jitter, seed, obser
         ),
         (
             lambda: S(secnds=1),
-            f"Scenario has no parameter 'secnds', did you mean 'seconds'{has}",
+            f"Scenario has no parameter 'secnds', did you mean 'seconds' or 'seed'{has}",
         ),
         (lambda: S(colour=1), f"Scenario has no parameter 'colour'{has}"),
         (
@@ -175,7 +178,7 @@ def test_no_function_of_the_core_answers_in_the_words_of_pybind11(
 @pytest.mark.parametrize("name", ["EBAC", "Ebac"])
 def test_a_law_that_does_not_exist_is_refused_with_the_nearest(name: str) -> None:
     with pytest.raises(
-        KeyError, match=f"no law is called '{name}', did you mean 'ebac'; there are"
+        KeyError, match=f"no law is called '{name}', did you mean 'ebac'; `ebac laws` lists all"
     ):
         ebac.simulate(S(), name)
 
@@ -184,3 +187,24 @@ def test_a_scenario_still_shows_its_signature() -> None:
     assert list(inspect.signature(ebac.Scenario).parameters) == [
         *("device", "hand", "environment", "timing", "seconds", "jitter", "seed", "observer")
     ]
+
+
+def test_a_name_that_is_none_is_answered_with_the_nearest_and_with_what_lists_all() -> None:
+    few, many = ["press", "tap", "rest"], [f"law-{i}" for i in range(30)]
+    assert unknown("--hand tip", "tip", few) == (
+        "--hand tip: no such name, did you mean 'tap'; there are: press, tap, rest"
+    )
+    assert unknown("--law x", "x", many, "law") == (
+        "--law x: no such name; `ebac laws` lists all 30"
+    )
+    assert near("PRESS", few) == ["press"]
+    assert len(near("law-1x", many)) == 3
+    assert near("virt", ["tca", "virtual-coupling"]) == ["virtual-coupling"]
+    assert near("zzz", few) == []
+
+
+@pytest.mark.parametrize("kind", LISTED_BY)
+def test_what_lists_the_names_of_a_kind_is_a_command(kind: str) -> None:
+    words = LISTED_BY[kind].removeprefix("ebac ").split()
+    done = CliRunner().invoke(app, words)
+    assert done.exit_code == 0, done.output

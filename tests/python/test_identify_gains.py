@@ -254,7 +254,7 @@ def test_the_rule_and_its_step_response() -> None:
     assert 0 < kd < 1e-3
     slower = by_rule("step-response", device, ebac.Timing(delay=3))
     assert slower[0] < kp  # more dead time, less gain
-    with pytest.raises(ValueError, match="rule 'magic': must be one of step-response"):
+    with pytest.raises(ValueError, match="rule 'magic': no such name; there are: step-response"):
         by_rule("magic", device, timing)
     with pytest.raises(ValueError, match="does not rise"):
         by_tangent(t, -y)

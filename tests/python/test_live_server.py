@@ -195,7 +195,7 @@ def test_values_out_of_range_are_answered_and_change_nothing(server: Any) -> Non
                 ({"kind": "drag", "place": [0.0]}, "must be 2 numbers in"),
                 ({"kind": "change", "name": "stiffness", "value": 1e9}, "must lie in [100, 50000]"),
                 ({"kind": "change", "name": "limits", "value": 9}, "no setting is called 'limits'"),
-                ({"kind": "mode", "mode": "fly"}, "must be one of press, tap, rest"),
+                ({"kind": "mode", "mode": "fly"}, "there are: press, tap, rest"),
             ):
                 await page.send(json.dumps(message))
                 assert text in (await until(page, "error"))["text"]

@@ -103,7 +103,7 @@ def test_a_folder_of_all_golden_traces_can_be_named(project: pytest.Pytester) ->
 @pytest.mark.parametrize(
     ("how", "message"),
     [
-        ("columns=['x', 'nonsense']", "no column 'nonsense'; there are: "),
+        ("columns=['x', 'nonsense']", "no column is called 'nonsense'; there are: "),
         ("every=0", "every = 0: must be at least 1"),
         ("metric_tolerances={'swing': 1}", "metric 'swing': there are rest_m, "),
         ("tolerances={'v': Tolerance(absolute=-1)}", "Tolerance.absolute = -1: must be finite"),

@@ -148,7 +148,7 @@ def test_a_number_of_numpy_survives_toml_or_is_refused(number: Any) -> None:
     [
         (
             "secnds = 1",
-            "scenario.secnds: no such name, did you mean 'seconds'; there are: device, hand",
+            "scenario.secnds: no such name, did you mean 'seconds' or 'seed'; there are: device, hand",
         ),
         ("[hnd]\nmass = 1", "scenario.hnd: no such name, did you mean 'hand'"),
         (
@@ -171,7 +171,7 @@ def test_a_number_of_numpy_survives_toml_or_is_refused(number: Any) -> None:
         ),
         (
             "[environment]\ntype = 'Fog'",
-            "scenario.environment.type = 'Fog': must be one of Wall, Free, Corner",
+            "scenario.environment.type = 'Fog': no such name; there are: Wall, Free, Corner",
         ),
         (
             "[environment]\ntype = 'Free'\nstiffness = 1",

@@ -195,7 +195,7 @@ def test_bias_inside_leaves_nothing(simulated: SimulatedSensor) -> None:
     ("words", "code", "message"),
     [
         (["read", "--host", "no.such.host.invalid"], 2, "no such host"),
-        (["read", "--model", "mini45"], 2, "must be one of net-ft, axia, other"),
+        (["read", "--model", "mini45"], 2, "there are: net-ft, axia, other"),
         (["read", "--config", "nowhere.toml"], 2, "nowhere.toml: there is no such file"),
         (["simulate", "--force", "1", "0", "0", "--hand", "open"], 2, "--force: stands for"),
         (["simulate", "--host", "192.0.2.1", "--force", "1", "0", "0"], 1, "no such address"),

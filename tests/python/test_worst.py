@@ -257,7 +257,7 @@ def test_a_law_that_is_told_otherwise_is_not_replayed_by_a_scenario() -> None:
     ("words", "message"),
     [
         (("--family", "impct"), "did you mean 'impact'"),
-        (("--evaluations", "3"), "--evaluations = 3: must be 40 to"),
+        (("--evaluations", "3"), "--evaluations = 3: must lie in [40, "),
         (("--law", "ebc"), "--law ebc: no such name"),
         (("--change", "kp"), "--change kp: must be NAME=VALUE"),
         (("--condition", "five"), "give one"),

@@ -244,5 +244,5 @@ def test_the_command_writes_a_folder(tmp_path: Path) -> None:
 
 def test_the_command_refuses() -> None:
     assert "did you mean 'direct'" in " ".join(command("--law", "dirct", code=2).split())
-    assert "--least = 100 N/m: must be above 0 and below --top" in command("--top", "1", code=2)
+    assert "--least = 100 N/m: must lie in (0, 1) N/m, below --top" in command("--top", "1", code=2)
     assert "--top = -1 N/m" in command("--top", "-1", code=2)

@@ -9,6 +9,19 @@ from typing import Any, TypeVar
 
 Class = TypeVar("Class", bound=type)
 
+#: What lists all names of a kind, where they are too many for a message.
+LISTED_BY = {
+    "law": "ebac laws",
+    "hand": "ebac presets",
+    "device": "ebac presets",
+    "world": "ebac worlds",
+    "condition": "ebac conditions",
+    "data set": "ebac demo",
+    "item of the paper": "ebac paper --help",
+}
+#: As many names stand in a message all the same.
+FEW = 8
+
 
 def require(value: Any, types: type | tuple[type, ...], function: str, wanted: str) -> None:
     """Raise TypeError unless a value is of one of the types; `wanted` names it for people."""
@@ -48,13 +61,52 @@ def keywords_only(
     return decorate
 
 
-def unknown_name(what: str, name: str, known: Iterable[str]) -> KeyError:
-    """Return the error for a name that does not exist, with the nearest that does."""
+def near(name: str, known: Iterable[str]) -> list[str]:
+    """Return up to three known names like one that is not known, the nearest first."""
+    lower = {other.lower(): other for other in known}
+    given = str(name).lower()
+    if given in lower:
+        return [lower[given]]
+    close = difflib.get_close_matches(given, lower, 3)
+    begun = [other for other in lower if len(given) > 2 and other.startswith(given)]
+    return [lower[other] for other in dict.fromkeys([*close, *begun])][:3]
+
+
+def did_you_mean(name: str, known: Iterable[str]) -> str:
+    """Return the nearest names as the next words of a message; nothing where none is near."""
+    quoted = [repr(other) for other in near(name, known)]
+    before, last = ", ".join(quoted[:-1]), "".join(quoted[-1:])
+    return f", did you mean {f'{before} or {last}' if before else last}" if quoted else ""
+
+
+def unknown(where: str, name: str, known: Iterable[str], kind: str = "") -> str:
+    """Return the message for a name that does not exist: the nearest that do, and where all are listed.
+
+    Parameters
+    ----------
+    where : str
+        What was given: an option with its value, a place in a file.
+    name : str
+        The name.
+    known : iterable of str
+        All that could have been given.
+    kind : str
+        What has names of this kind, as in `LISTED_BY`.
+    """
     names = list(known)
-    lower = {other.lower(): other for other in names}
-    near = difflib.get_close_matches(str(name).lower(), lower, 1)
-    better = f", did you mean {lower[near[0]]!r}" if near else ""
-    return KeyError(f"no {what} is called {name!r}{better}; there are: {', '.join(names)}")
+    return f"{where}: no such name{did_you_mean(name, names)}; {_all(names, kind)}"
+
+
+def unknown_name(kind: str, name: str, known: Iterable[str]) -> KeyError:
+    """Return the error for a name that does not exist, worded as by `unknown`."""
+    names = list(known)
+    return KeyError(f"no {kind} is called {name!r}{did_you_mean(name, names)}; {_all(names, kind)}")
+
+
+def _all(names: list[str], kind: str) -> str:
+    if kind in LISTED_BY and len(names) > FEW:
+        return f"`{LISTED_BY[kind]}` lists all {len(names)}"
+    return f"there are: {', '.join(names)}"
 
 
 def refuse_unknown(
@@ -67,9 +119,8 @@ def refuse_unknown(
     for name in given:
         if name in names:
             continue
-        near = difflib.get_close_matches(name, names, 1)
-        better = hint(name) or (f"did you mean {near[0]!r}" if near else "")
-        more = f", {better}" if better.startswith("did") else f": {better}" if better else ""
+        better = hint(name)
+        more = f": {better}" if better else did_you_mean(name, names)
         raise TypeError(f"{what} has no parameter {name!r}{more}; it has: {', '.join(names)}")
 
 

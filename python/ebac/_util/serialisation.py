@@ -5,12 +5,12 @@ A part that may be of several types carries its type's name under `type`.
 
 from __future__ import annotations
 
-import difflib
 from collections.abc import Iterable, Mapping
 from importlib import import_module
 from typing import Any
 
 from ebac import _core
+from ebac._util.arguments import unknown
 
 #: Solids of a world.
 SOLIDS: tuple[type | str, ...] = (
@@ -108,18 +108,11 @@ def read_table(table: Mapping[str, Any], fields: Iterable[Any], where: str) -> d
     return {name: from_document(name, item, f"{where}.{name}") for name, item in table.items()}
 
 
-def unknown(where: str, name: str, known: list[str]) -> str:
-    """Return the message for a name nobody knows."""
-    near = difflib.get_close_matches(name, known, 1)
-    hint = f", did you mean {near[0]!r}" if near else ""
-    return f"{where}: no such name{hint}; there are: {', '.join(known)}"
-
-
 def _chosen(name: str, table: Mapping[str, Any], where: str) -> type:
     types = {_name_of(kind): kind for kind in CHOICES[name]}
     wanted = table.get("type", next(iter(types)))
     if not isinstance(wanted, str) or wanted not in types:
-        raise ValueError(f"{where}.type = {wanted!r}: must be one of {', '.join(types)}")
+        raise ValueError(unknown(f"{where}.type = {wanted!r}", str(wanted), types))
     kind = types[wanted]
     return _imported(kind) if isinstance(kind, str) else kind
 

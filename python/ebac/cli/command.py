@@ -11,6 +11,7 @@ from typing import Any, get_type_hints
 import typer
 from typer.core import TyperCommand, TyperGroup
 
+from ebac._util.arguments import did_you_mean
 from ebac.cli import options, output, setting, wrong_input
 
 #: Panels of the options of a scenario.
@@ -79,11 +80,9 @@ class Group(TyperGroup):
             if ctx.resilient_parsing:
                 raise
             known = [name for name, one in self.commands.items() if not one.hidden]
-            hint = wrong_input.nearest(args[0], known)
+            near = did_you_mean(args[0], known)
             path = ctx.command_path
-            output.fail(
-                f"{path} {args[0]}: there is no such command{hint or ','} see {path} --help"
-            )
+            output.fail(f"{path} {args[0]}: there is no such command{near}; see {path} --help")
 
 
 def _renamed(word: str, command: Any) -> str:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from ebac._util.arguments import unknown
 from ebac.cli import output
 
 if TYPE_CHECKING:
@@ -58,7 +59,7 @@ class FigureOptions:
             output.fail(f"--format: is empty; must be {', '.join(FORMATS[:-1])} or {FORMATS[-1]}")
         for name in names:
             if name not in FORMATS:
-                output.fail(f"--format {name}: must be {', '.join(FORMATS[:-1])} or {FORMATS[-1]}")
+                output.fail(unknown(f"--format {name}", name, FORMATS))
         return list(dict.fromkeys(names))
 
     def save(self, figure: Figure, folder: Path, name: str) -> list[str]:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from ebac._util.arguments import unknown
 from ebac.cli import output
 from ebac.cli.files import ResultOptions
 
@@ -80,14 +81,13 @@ def paper(
 
 
 def _names(given: list[str]) -> list[str]:
-    from ebac._util.serialisation import unknown
     from ebac.paper import ITEMS
 
     names: list[str] = []
     for word in given:
         name = word.lower()
         if name not in ITEMS and name != "all":
-            raise ValueError(unknown(f"ITEM {word}", name, [*ITEMS, "all"]))
+            raise ValueError(unknown(f"ITEM {word}", name, [*ITEMS, "all"], "item of the paper"))
         names += ITEMS if name == "all" else [name]
     return list(dict.fromkeys(names))
 

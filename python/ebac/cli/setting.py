@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ebac import presets
+from ebac._util.arguments import unknown
 
 if TYPE_CHECKING:
     from ebac._core import Device, Hand, Timing
@@ -61,7 +62,6 @@ def one_law(name: str, option: str = "--law") -> str:
 
 def law_names(given: Sequence[str], option: str = "--law") -> list[str]:
     """Return the laws of names in any case, with commas between, each once, in the order given; `all` is every law."""
-    from ebac._util.serialisation import unknown
     from ebac.laws import LAWS, tuned_laws
 
     known = (*LAWS, *tuned_laws())
@@ -69,7 +69,7 @@ def law_names(given: Sequence[str], option: str = "--law") -> list[str]:
     for word in _words(given, option):
         name = word.lower().replace("_", "-")
         if name not in known and name != "all":
-            raise ValueError(unknown(f"{option} {word}", name, [*known, "all"]))
+            raise ValueError(unknown(f"{option} {word}", name, [*known, "all"], "law"))
         names += LAWS if name == "all" else [name]
     return list(dict.fromkeys(names))
 
@@ -87,18 +87,14 @@ def _words(given: Sequence[str], option: str) -> list[str]:
 
 def condition_names(given: Sequence[str]) -> list[str]:
     """Return the conditions and groups of lists with commas."""
-    from ebac._util.serialisation import unknown
     from ebac.studies import CONDITIONS, GROUPS
     from ebac.studies.conditions import ALIASES
 
     names = _words(given, "--condition")
     for name in names:
         if name not in CONDITIONS and name not in GROUPS and name not in ALIASES:
-            groups = ", ".join(GROUPS)
-            near = unknown("", name, [*GROUPS, *CONDITIONS]).partition(";")[0].removeprefix(": ")
-            raise ValueError(
-                f"--condition {name}: {near}; groups are {groups}, and `ebac conditions` lists all"
-            )
+            every = [*GROUPS, *CONDITIONS]
+            raise ValueError(unknown(f"--condition {name}", name, every, "condition"))
     return names
 
 
@@ -167,19 +163,17 @@ def given(**options: Any) -> dict[str, Any]:
 
 def known_hand(name: str, option: str = "--hand") -> Hand:
     """Return the hand of a name, in any case."""
-    return presets.hand(_known(option, name, list(presets.HANDS)))
+    return presets.hand(_known("hand", option, name, list(presets.HANDS)))
 
 
 def known_device(name: str, option: str = "--device") -> Device:
     """Return the device of a name, in any case."""
-    return presets.device(_known(option, name, list(presets.DEVICES)))
+    return presets.device(_known("device", option, name, list(presets.DEVICES)))
 
 
-def _known(option: str, name: str, names: list[str]) -> str:
-    from ebac._util.serialisation import unknown
-
+def _known(kind: str, option: str, name: str, names: list[str]) -> str:
     if name.lower() not in names:
-        raise ValueError(unknown(f"{option} {name}", name.lower(), names))
+        raise ValueError(unknown(f"{option} {name}", name.lower(), names, kind))
     return name.lower()
 
 

@@ -8,6 +8,8 @@ from difflib import get_close_matches
 from math import isfinite
 from typing import Any
 
+from ebac._util.arguments import unknown
+
 #: Options of a scenario, and the options that set the same where a command varies it.
 VARIED = {
     r"--hand(-\w+)?": ("--population", "--family"),
@@ -58,14 +60,14 @@ def _wrong_value(param: Any, name: str, message: str, words: Sequence[str]) -> s
         kind = "a whole number" if whole else "a number"
         text = next((v for v in given if _is_text(v, whole=whole)), None)
         if text is not None:
-            within = f", {_span(low, high)}{unit}" if (low, high) != (None, None) else ""
+            within = f"; {_must(low, high, unit)}" if (low, high) != (None, None) else ""
             return f"{name} = {text}: must be {kind}{_in(unit)}{within}"
         value = next((v for v in given if not _inside(v, low, high)), given[0] if given else "")
-        return f"{name} = {value}{unit}: must be {_span(low, high)}{unit}"
+        return f"{name} = {value}{unit}: {_must(low, high, unit)}"
     choices = _choices(param)
     if choices:
         value = given[0] if given else ""
-        return f"{name} {value}: must be {_or(choices)}{nearest(value, choices)}"
+        return unknown(f"{name} {value}", value, choices)
     value = f" {given[0]}" if given else ""
     return f"{name}{value}: {message[0].lower()}{message[1:]}"
 
@@ -108,12 +110,6 @@ def _plain(message: str, wrong: str | None) -> str:
     return f"{message[0].lower()}{message[1:]}"
 
 
-def nearest(name: str, known: Sequence[str]) -> str:
-    """Return a hint at the name that was meant, where one is near."""
-    near = get_close_matches(name.lower(), known, 1)
-    return f", did you mean {near[0]!r}?" if near else ""
-
-
 def _or(words: Sequence[str]) -> str:
     return " or ".join([", ".join(words[:-1]), words[-1]] if len(words) > 1 else words)
 
@@ -151,10 +147,15 @@ def _whole(param: Any) -> bool:
     return "int" in str(getattr(kind, "name", "")) or "int" in str(annotation)
 
 
-def _span(low: float | None, high: float | None) -> str:
+def _must(low: float | None, high: float | None, unit: str) -> str:
+    """Return a range in the words of the library."""
     if high is None:
-        return f"{low:g} or more"
-    return f"{high:g} or less" if low is None else f"{low:g} to {high:g}"
+        return f"must be at least {low:g}{unit}"
+    return (
+        f"must be at most {high:g}{unit}"
+        if low is None
+        else f"must lie in [{low:g}, {high:g}]{unit}"
+    )
 
 
 def _is_text(text: str, *, whole: bool) -> bool:

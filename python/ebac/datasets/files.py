@@ -8,6 +8,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING
 
+from ebac._util.arguments import unknown_name
 from ebac.datasets import logs, others
 
 if TYPE_CHECKING:
@@ -76,10 +77,8 @@ def write(name: str, folder: str | Path = ".", *, force: bool = False) -> Path:
     FileExistsError
         When another file of that name exists and `force` is false.
     """
-    from ebac._util.serialisation import unknown
-
     if name not in DATASETS:
-        raise KeyError(unknown(f"data set {name}", name, list(DATASETS)))
+        raise unknown_name("data set", name, DATASETS)
     known = DATASETS[name]
     target = Path(folder) / known.file
     target.parent.mkdir(parents=True, exist_ok=True)

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from ebac._util.arguments import unknown
 from ebac._util.wrong_calls import plain_constructor
 from ebac.drives.eds import Sheet
 from ebac.drives.errors import ProfileError, lacks, says_absent
@@ -170,8 +171,6 @@ def _only(network: Network, nodes: Sequence[int]) -> Network:
 
 
 def _network(source: Source) -> Network:
-    from ebac._util.serialisation import unknown
-
     known = ["about", "bus", "node"]
     for title in source.table:
         if title not in known:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from ebac._util.arguments import unknown
 from ebac.drives.eds import Sheet, read_eds
 from ebac.drives.errors import BusError, DriveError, Refused, WrongAnswer
 from ebac.drives.objects import Object, find
@@ -133,7 +134,7 @@ class Node:
         import can
 
         if command not in NMT:
-            raise ValueError(f"NMT command {command!r}: must be one of {', '.join(NMT)}")
+            raise ValueError(unknown(f"NMT command {command!r}", command, NMT))
         try:
             self.bus.network.send_message(0, bytes([NMT[command], self.node]))
         except (can.CanError, OSError, RuntimeError) as error:

@@ -5,12 +5,12 @@ Sources: CiA 301 (0x1000 to 0x1FFF), CiA 402-2 (0x6000 on), Copley's object dict
 
 from __future__ import annotations
 
-import difflib
 import struct
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cache
 
+from ebac._util.arguments import did_you_mean
 from ebac._util.wrong_calls import plain_constructor
 
 #: Type of CiA 301: its struct code. The length is that of the type.
@@ -218,11 +218,9 @@ def find(what: str | int | tuple[int, int] | Object) -> Object:
         return what
     if isinstance(what, str):
         if what not in known():
-            near = difflib.get_close_matches(what, known(), 1)
-            hint = f", did you mean {near[0]!r}" if near else ""
             raise KeyError(
-                f"object {what!r}: no such name{hint}; `ebac drive show --all` lists them, and any "
-                "object goes by its index, 0x6041 or (0x2383, 12)"
+                f"object {what!r}: no such name{did_you_mean(what, known())}; `ebac drive show --all` lists them, "
+                "and any object goes by its index, 0x6041 or (0x2383, 12)"
             )
         return known()[what]
     key = (what, 0) if isinstance(what, int) else what

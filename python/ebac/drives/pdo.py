@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from ebac._util.arguments import unknown
 from ebac.drives.load import Traffic
 from ebac.drives.objects import ENTRIES, PDOS, find
 from ebac.drives.profile_fields import BY_NAME
@@ -92,8 +93,6 @@ def read_pdo(source: Source, name: str, table: Any) -> Pdo:
     ProfileError
         For what cannot be; the message names line, value, range and remedy.
     """
-    from ebac._util.serialisation import unknown
-
     path = ("pdo", name)
     if name not in NAMES:
         raise source.refuse(path, unknown(f"pdo.{name}", name, [*NAMES, "others"]))

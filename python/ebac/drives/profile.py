@@ -10,6 +10,7 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import Any, Self
 
+from ebac._util.arguments import unknown
 from ebac._util.text_file import read_text
 from ebac._util.wrong_calls import plain_constructor
 from ebac.drives.errors import ProfileError
@@ -68,8 +69,6 @@ class Profile:
         for name, value in self.values.items():
             key = BY_NAME.get(name)
             if key is None:
-                from ebac._util.serialisation import unknown
-
                 raise ProfileError(f"{self.name}: {unknown(name, name, list(BY_NAME))}")
             if (wrong := key.check(value)) is not None:
                 raise ProfileError(f"{self.name}: {wrong}")
@@ -225,8 +224,6 @@ def _without(source: Source, table: Mapping[str, Any], at: Where) -> tuple[str, 
 
 def _not_without(name: str) -> str | None:
     """Return why a drive must have the object of a key; None where it may lack it."""
-    from ebac._util.serialisation import unknown
-
     may = [key.name for key in KEYS if key.sets and key.name != "torque.mode"]
     if name in BY_NAME and name not in may:
         return f"without: {name}: every drive needs it, or it sets no object; leave it out of the profile instead"
@@ -234,8 +231,6 @@ def _not_without(name: str) -> str | None:
 
 
 def _values(source: Source, table: Mapping[str, Any], at: Where) -> Iterator[tuple[str, Value]]:
-    from ebac._util.serialisation import unknown
-
     own = ("objects", "without")
     apart = ("about", "pdo", *own) if not at else ("id", "name", "profile", *own)
     for title, item in table.items():

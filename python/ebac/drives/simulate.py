@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from types import TracebackType
 from typing import TYPE_CHECKING, Protocol, Self
 
+from ebac._util.arguments import unknown
 from ebac.drives.errors import BusError, DriveError
 from ebac.drives.objects import Object
 
@@ -58,8 +59,6 @@ def inject(drive: Drive, names: Sequence[str]) -> None:
     DriveError
         When the drive is not a simulated one with its own dictionary.
     """
-    from ebac._util.serialisation import unknown
-
     for name in names:
         if name not in CONDITIONS:
             raise ValueError(unknown(f"fault {name}", name, list(CONDITIONS)))

@@ -12,7 +12,7 @@ import numpy as np
 
 from ebac._core import Wall
 from ebac._util import formatting
-from ebac._util.arguments import require
+from ebac._util.arguments import require, unknown
 from ebac.metrics import contact
 from ebac.scenario import Scenario
 from ebac.simulation import LoopFault, simulate
@@ -73,7 +73,7 @@ def moved(scenario: Scenario, values: dict[str, Any]) -> Scenario:
     """
     known = values_of(scenario, "")
     if strange := [name for name in values if name not in known]:
-        raise ValueError(f"there is no slider {strange[0]!r}; there are {', '.join(known)}")
+        raise ValueError(unknown(f"slider {strange[0]!r}", strange[0], known))
     wall = scenario.environment
     assert isinstance(wall, Wall)
     return scenario.replace(
@@ -164,7 +164,7 @@ def sliders(
         kind = type(start.environment).__name__
         raise TypeError(f"ebac.explore.sliders: the environment is a {kind}: must be a Wall")
     if law not in laws:
-        raise ValueError(f"ebac.explore.sliders: law = {law!r}: must be one of {', '.join(laws)}")
+        raise ValueError(unknown(f"ebac.explore.sliders: law = {law!r}", law, laws))
 
     class Sliders(AnyWidget):
         """Sliders over a simulated press."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
+from ebac._util.arguments import unknown
 from ebac.drives.profile_fields import Key
 from ebac.drives.toml_positions import Path, Source, dotted
 from ebac.hardware.tables import table
@@ -63,8 +64,6 @@ def word(source: Source, path: Path, value: Any, choices: Sequence[str] = ()) ->
     ProfileError
         When it is none.
     """
-    from ebac._util.serialisation import unknown
-
     if not isinstance(value, str) or not value:
         raise source.refuse(path, f"{dotted(path)} = {value!r}: must be text")
     if choices and value not in choices:

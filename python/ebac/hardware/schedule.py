@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, Self
 import numpy as np
 
 from ebac._core import LoopState
-from ebac._util.serialisation import unknown
+from ebac._util.arguments import unknown
 from ebac.hardware.current_parameters import targets_after
 
 if TYPE_CHECKING:

@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from typing import Any, TypeVar
 
 from ebac._util import serialisation
+from ebac._util.arguments import unknown
 from ebac.drives.errors import ProfileError
 from ebac.drives.toml_positions import Path, Source, dotted
 
@@ -47,8 +48,6 @@ def known(source: Source, path: Path, names: list[str]) -> Mapping[str, Any]:
     ProfileError
         For a key nobody knows; the message suggests the nearest.
     """
-    from ebac._util.serialisation import unknown
-
     found = table(source, path)
     for name in found:
         if name not in names:

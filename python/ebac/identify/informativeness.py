@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ebac._util.serialisation import unknown
+from ebac._util.arguments import unknown
 from ebac.identify.guess import regression, solve
 from ebac.identify.intervals import Z95
 from ebac.identify.parameters import Parameters, kind

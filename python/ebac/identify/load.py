@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from ebac._util.serialisation import unknown
+from ebac._util.arguments import unknown
 from ebac._util.text_file import says_simulated
 from ebac.identify.columns import QUANTITIES, assign, listed, name_and_unit
 from ebac.identify.files import Columns, Table, archive_of, read_columns

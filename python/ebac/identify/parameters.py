@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ebac._util.serialisation import unknown
+from ebac._util.arguments import unknown
 
 SHARED = ("M0", "B0", "K0", "delay")
 #: Of a recording beside the shared ones and the levels.

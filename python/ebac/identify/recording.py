@@ -10,8 +10,7 @@ from typing import TYPE_CHECKING, Any, Self
 import numpy as np
 from numpy.typing import NDArray
 
-from ebac._util.arguments import require
-from ebac._util.serialisation import unknown
+from ebac._util.arguments import require, unknown
 from ebac._util.wrong_calls import plain_constructor
 from ebac.identify.of_trace import signals_of, trace_facts
 

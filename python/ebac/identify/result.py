@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ebac._core import Hand, Recorded, Step
+from ebac._util.arguments import unknown_name
 from ebac.identify import informativeness, unrecorded_motor, validation
 from ebac.identify.intervals import Z95
 from ebac.identify.parameters import BEFORE_LEVELS, OWN, Parameters, kind
@@ -167,7 +168,7 @@ class ArmResult:
     def __getitem__(self, name: str) -> Estimate:
         """Return one parameter."""
         if name not in self.estimates:
-            raise KeyError(f"no parameter {name!r}; there are: {', '.join(self.estimates)}")
+            raise unknown_name("parameter", name, self.estimates)
         return self.estimates[name]
 
     @cached_property

@@ -9,6 +9,7 @@ from math import cos, isfinite, nan, pi
 from typing import Any
 
 from ebac._core import Hand, Step
+from ebac._util.arguments import unknown
 from ebac.hardware import Configuration, Run
 
 #: What it does when nobody drags it.
@@ -79,7 +80,7 @@ class IntendedHand:
             For another word.
         """
         if mode not in MODES:
-            raise ValueError(f"hand mode {mode[:40]!r}: must be one of {', '.join(MODES)}")
+            raise ValueError(unknown(f"hand mode {mode[:40]!r}", mode, MODES))
         self._begun, self._left, self.mode = self._clock(), None, mode
 
     def leave(self) -> None:

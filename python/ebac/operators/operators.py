@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ebac._core import Hand, Step, Wall
-from ebac._util import serialisation
+from ebac._util.arguments import unknown
 from ebac._util.wrong_calls import plain_constructor
 from ebac.operators.columns import APPROACH, OPERATOR_COLUMNS, check, in_si, numbers, read_csv
 
@@ -161,7 +161,7 @@ class Operators:
         known, table = list(OPERATOR_COLUMNS), in_si(table)
         for name in table:
             if name not in OPERATOR_COLUMNS:
-                raise ValueError(serialisation.unknown(f"column {name}", str(name), known))
+                raise ValueError(unknown(f"column {name}", str(name), known))
         missing = [c.name for c in OPERATOR_COLUMNS.values() if c.required and c.name not in table]
         if missing:
             raise ValueError(

@@ -10,6 +10,7 @@ from math import isfinite
 from typing import Any, Self, TypeAlias
 
 from ebac import _core
+from ebac._util.arguments import unknown
 from ebac._util.wrong_calls import plain_constructor
 from ebac.sensor.status import BITS
 
@@ -95,7 +96,7 @@ class SensorConfig:
         if not 0 <= self.http_port <= 65535:
             raise ValueError(f"sensor.http_port = {self.http_port}: must lie in [0, 65535]")
         if self.model not in MODELS:
-            raise ValueError(f"sensor.model = {self.model!r}: must be one of {', '.join(MODELS)}")
+            raise ValueError(unknown(f"sensor.model = {self.model!r}", self.model, MODELS))
         rows = numbers("rotation", self.rotation, 3, inner=3)
         object.__setattr__(self, "rotation", rows)
         object.__setattr__(self, "bias", numbers("bias", self.bias, 6))

@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from ebac._util import serialisation
+from ebac._util.arguments import unknown
 from ebac.hands import FingerPad, LetGo, NonlinearGrip, Reflex
 from ebac.studies import scenario_changes as to
 from ebac.studies.scenario_changes import Belief, Change
@@ -242,7 +242,7 @@ def conditions(names: Iterable[str | Condition]) -> list[Condition]:
             continue
         if name not in CONDITIONS and name not in GROUPS and name not in ALIASES:
             raise ValueError(
-                serialisation.unknown(f"condition {name}", name, [*GROUPS, *CONDITIONS])
+                unknown(f"condition {name}", name, [*GROUPS, *CONDITIONS], "condition")
             )
         for one in GROUPS.get(name, (ALIASES.get(name, name),)):
             found[one] = CONDITIONS[one]

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ebac._core import Hand, MinimumJerk, Recorded, Sine, Step, Tapping, Wall
-from ebac._util.serialisation import unknown
+from ebac._util.arguments import unknown
 
 if TYPE_CHECKING:
     from ebac.scenario import Scenario

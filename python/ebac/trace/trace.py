@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ebac import _core
+from ebac._util.arguments import unknown_name
 from ebac.scenario import Scenario
 from ebac.trace.columns import ColumnInfo, column_infos, row_views
 
@@ -102,7 +103,7 @@ class Trace:
                 raise TypeError(
                     f"trace[{key!r}]: must be the name of a column, or two times [s] as in trace[1.0:2.5]"
                 )
-            raise KeyError(f"no column {key!r}; there are: {', '.join(self._data)}")
+            raise unknown_name("column", key, self._data)
         return self._data[key]
 
     def axis(self, name: str, axis: int = 0) -> NDArray[Any]:

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from ebac._util.arguments import unknown
 from ebac.tracking.circle import CircleFit, fit_circle
 from ebac.tracking.line import LineFit, fit_line
 from ebac.tracking.read import RecordedPath
@@ -100,7 +101,7 @@ def evaluate(path: RecordedPath, *, shape: str = "auto", robust: bool = False) -
         When the path cannot be fitted; with the name of its file.
     """
     if shape not in SHAPES:
-        raise ValueError(f"shape = {shape!r}: must be one of {', '.join(SHAPES)}")
+        raise ValueError(unknown(f"shape = {shape!r}", shape, SHAPES))
     try:
         fit = _fit(path, shape, robust)
     except ValueError as error:

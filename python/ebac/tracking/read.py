@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
+from ebac._util.arguments import unknown
 from ebac._util.headings import FACTORS, split_heading
 from ebac._util.wrong_calls import plain_constructor
 from ebac.operators.columns import read_csv
@@ -76,7 +77,7 @@ def read_path(
     """
     path = Path(file)
     if unit is not None and unit not in UNITS:
-        raise ValueError(f"unit = {unit!r}: must be one of {', '.join(UNITS)}")
+        raise ValueError(unknown(f"unit = {unit!r}", unit, UNITS))
     if columns is not None and len(columns) not in (2, 3):
         raise ValueError(f"columns = {','.join(columns)}: must be two or three, like x,y")
     try:
@@ -151,7 +152,7 @@ def _guess(names: list[str], bare: dict[str, str]) -> list[str]:
 def _known(chosen: Sequence[str], names: list[str]) -> None:
     for column in chosen:
         if column not in names:
-            raise ValueError(f"no column {column!r}; there are: {', '.join(names)}")
+            raise ValueError(unknown(f"column {column!r}", column, names))
 
 
 def _numbers(column: str, cells: list[str]) -> Numbers:

@@ -21,7 +21,7 @@ from ebac._core import (
     Texture,
     Torus,
 )
-from ebac._util.serialisation import unknown
+from ebac._util.arguments import unknown
 from ebac.worlds.mesh import HeightField, Mesh
 from ebac.worlds.solids import Cavity, Difference, Placed, Solid, Textured, Tube, Union
 from ebac.worlds.world import Body, Layered, World
@@ -150,7 +150,7 @@ def preset(
         solid = _leftmost_at_origin(Mesh(file, size=MESH_SIZE))
     else:
         if kind not in PRESETS or colon:
-            raise ValueError(unknown(f"world {name!r}", name, [*PRESETS, "mesh:FILE"]))
+            raise ValueError(unknown(f"world {name!r}", name, [*PRESETS, "mesh:FILE"], "world"))
         chosen = PRESETS[kind]
         solid = chosen.solid()
         if chosen.material is not None:

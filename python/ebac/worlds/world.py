@@ -36,7 +36,7 @@ class Layered(Part):
 
     def __init__(self, *layers: Layer) -> None:
         if not 1 <= len(layers) <= MOST_LAYERS:
-            raise ValueError(f"Layered: {len(layers)} layers: must be 1 to {MOST_LAYERS}")
+            raise ValueError(f"Layered: {len(layers)} layers: must lie in [1, {MOST_LAYERS}]")
         for layer in layers:
             if not isinstance(layer, Layer):
                 raise TypeError(f"Layered: {layer!r}: must be a Layer")
@@ -134,7 +134,7 @@ class World(_core._World):
     def __init__(self, *bodies: Body | Solid) -> None:
         if not 1 <= len(bodies) <= MOST_BODIES:
             raise ValueError(
-                f"World: {len(bodies)} bodies: must be 1 to {MOST_BODIES}; ebac.Free() is empty space"
+                f"World: {len(bodies)} bodies: must lie in [1, {MOST_BODIES}]; ebac.Free() is empty space"
             )
         all_of_them = []
         for body in bodies:

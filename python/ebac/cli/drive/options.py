@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Annotated, Any, TypeAlias
 
 import typer
 
+from ebac._util.arguments import unknown
 from ebac.cli import output
 
 if TYPE_CHECKING:
@@ -171,8 +172,6 @@ def _silent(name: str) -> Iterator[None]:
 def known_interface(name: str | None) -> None:
     """Raise ValueError for an interface that python-can does not have."""
     from can import VALID_INTERFACES
-
-    from ebac._util.serialisation import unknown
 
     if name is not None and name not in VALID_INTERFACES:
         raise ValueError(unknown(f"--interface {name}", name, sorted(VALID_INTERFACES)))

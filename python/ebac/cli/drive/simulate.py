@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from ebac._util.arguments import unknown
 from ebac.cli import options, output, simulated
 from ebac.cli.drive.options import (
     Bitrate,
@@ -143,7 +144,7 @@ def simulate(
         given = " ".join(f"{counts:g}" for counts in sensor_counts)
         output.fail(f"--sensor-counts = {given}: each must lie in [1, {MOST_COUNTS:g}]")
     if realtime not in MODES:
-        output.fail(f"--realtime {realtime}: must be one of {', '.join(MODES)}")
+        output.fail(unknown(f"--realtime {realtime}", realtime, MODES))
     grants: list[Grant] = []
     with output.refusing():
         plant = simulated.plant_of(scenario, device, hand, seed)

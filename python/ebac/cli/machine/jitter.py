@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from ebac._util.arguments import unknown
 from ebac.cli import output
 from ebac.cli.files import ResultOptions
 from ebac.cli.machine.grants import show_refused
@@ -54,7 +55,7 @@ def jitter(
 
     folder = to.folder("jitter", as_json=as_json)
     if realtime not in MODES:
-        output.fail(f"--realtime {realtime}: must be {', '.join(MODES[:-1])} or {MODES[-1]}")
+        output.fail(unknown(f"--realtime {realtime}", realtime, MODES))
     output.keeping("nothing was written; a shorter measurement: --seconds")
     with output.refusing():
         asked = RealTime(priority=priority, cpu=cpu, stay_awake=stay_awake)

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from ebac._util.arguments import unknown
 from ebac.cli import options, output, setting
 from ebac.cli.files import ResultOptions
 
@@ -105,7 +106,6 @@ def _values(
 
 
 def _quantities(kind: str) -> tuple[str, str]:
-    from ebac._util.serialisation import unknown
     from ebac.studies.maps import AXES, PRESETS
 
     if kind in PRESETS:

@@ -116,14 +116,14 @@ def _check(most_damping: float, least: float, top: float, epsilon: float) -> Non
     """Refuse numbers by the names of their options."""
     if not 0 < most_damping <= DAMPING:
         raise ValueError(
-            f"--most-damping = {most_damping:g} N s/m: must be above 0 and at most {DAMPING:g} N s/m"
+            f"--most-damping = {most_damping:g} N s/m: must lie in (0, {DAMPING:g}] N s/m"
         )
     if not 0 < top <= STIFFNESS:
-        raise ValueError(f"--top = {top:g} N/m: must be above 0 and at most {STIFFNESS:g} N/m")
+        raise ValueError(f"--top = {top:g} N/m: must lie in (0, {STIFFNESS:g}] N/m")
     if not 0 < least < top:
-        raise ValueError(f"--least = {least:g} N/m: must be above 0 and below --top, {top:g} N/m")
+        raise ValueError(f"--least = {least:g} N/m: must lie in (0, {top:g}) N/m, below --top")
     if not 0 < epsilon <= ENERGY:
-        raise ValueError(f"--epsilon = {epsilon:g} J: must be above 0 and at most {ENERGY:g} J")
+        raise ValueError(f"--epsilon = {epsilon:g} J: must lie in (0, {ENERGY:g}] J")
 
 
 def _document(found: ZWidth) -> str:

@@ -108,7 +108,7 @@ def _check_length(scenario: Scenario) -> None:
     if not TICKS[0] <= ticks <= TICKS[1]:
         raise ValueError(
             f"{scenario.seconds:g} s at {1 / scenario.timing.dt:g} Hz are {ticks:.0f} ticks: must "
-            f"be {TICKS[0]} to {TICKS[1]}; change --seconds or --rate"
+            f"lie in [{TICKS[0]}, {TICKS[1]}]; change --seconds or --rate"
         )
 
 

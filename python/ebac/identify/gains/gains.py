@@ -151,7 +151,7 @@ def fit_gains(
     known = force_loop_laws()
     if law not in known:
         raise ValueError(
-            f"law {law!r}: has no force loop of eq. (2); must be one of {', '.join(known)}"
+            f"law {law!r}: has no force loop of eq. (2); those that have: {', '.join(known)}"
         )
     if not 0 <= vary <= 3:
         raise ValueError(f"vary = {vary:g}: must lie in [0, 3]")

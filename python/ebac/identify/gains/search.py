@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ebac._core import Device, Timing
+from ebac._util.arguments import unknown
 from ebac._util.nlopt_callbacks import Carried
 from ebac.identify.gains.press_trials import Presses, noise_gain
 from ebac.identify.gains.trial import Candidate, Limits, Trial, spare
@@ -233,7 +234,7 @@ def by_rule(name: str, device: Device, timing: Timing) -> tuple[float, float]:
         For a rule that does not exist.
     """
     if name not in RULES:
-        raise ValueError(f"rule {name!r}: must be one of {', '.join(RULES)}")
+        raise ValueError(unknown(f"rule {name!r}", name, RULES))
     read = by_tangent(*blocked_step(device, timing))
     dead = max(read.dead_time, 0.5 * timing.dt)  # a sampled loop is never quicker
     kp = 0.3 * read.rise_time / (read.gain * dead)

@@ -8,8 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from ebac._util.arguments import require
-from ebac._util.serialisation import unknown
+from ebac._util.arguments import require, unknown
 from ebac.laws import AnyLaw
 from ebac.scenario import Scenario
 from ebac.studies.maps.axes import AXES, MapAxis

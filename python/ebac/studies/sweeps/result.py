@@ -11,6 +11,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ebac._util.arguments import unknown_name
+
 if TYPE_CHECKING:
     import pandas as pd
 
@@ -44,7 +46,7 @@ class SweepResult:
     def __getitem__(self, name: str) -> NDArray[Any]:
         """Return a column by name."""
         if name not in self.columns:
-            raise KeyError(f"no column {name!r}; there are: {', '.join(self.columns)}")
+            raise unknown_name("column", name, self.columns)
         return self.columns[name]
 
     def __iter__(self) -> Iterator[str]:
