@@ -6,6 +6,7 @@
 #include <span>
 
 #include "ebac/can/frame.hpp"
+#include "ebac/canopen/crc16.hpp"
 #include "ebac/canopen/sdo_abort.hpp"
 
 namespace ebac::can {
@@ -175,18 +176,6 @@ class SdoServer {
     return true;
   }
 
-  /// CRC-16-CCITT as CiA 301 has it: polynomial 0x1021, from 0.
-  static std::uint16_t checksum(std::span<const std::uint8_t> bytes) EBAC_RT {
-    unsigned crc = 0;
-    for (const std::uint8_t byte : bytes) {
-      crc ^= static_cast<unsigned>(byte) << 8U;
-      for (int bit = 0; bit < 8; ++bit) {
-        crc = ((crc << 1U) ^ ((crc & 0x8000U) != 0 ? 0x1021U : 0U)) & 0xFFFFU;
-      }
-    }
-    return static_cast<std::uint16_t>(crc);
-  }
-
   template <SdoObjects O>
   bool block_upload(std::span<const std::uint8_t> request, O& objects, Frame& reply) EBAC_RT {
     switch (request[0] & 0x03U) {
@@ -231,7 +220,7 @@ class SdoServer {
     const std::size_t rest = size_ % 7;
     const std::size_t unused = size_ == 0 ? 7 : (rest == 0 ? 0 : 7 - rest);
     reply.data[0] = static_cast<std::uint8_t>(0xC1U | unused << 2U);
-    if (checked_) put<std::uint16_t>(reply.data, 1, checksum(std::span(buffer_).first(size_)));
+    if (checked_) put<std::uint16_t>(reply.data, 1, crc16(std::span(buffer_).first(size_)));
     return true;
   }
 
@@ -256,7 +245,7 @@ class SdoServer {
     size_ -= unused;
     if (size_ > kRoom) return abort(reply, Abort::kTooLong);
     const auto bytes = std::span(buffer_).first(size_);
-    if (checked_ && get<std::uint16_t>(request, 1) != checksum(bytes)) {
+    if (checked_ && get<std::uint16_t>(request, 1) != crc16(bytes)) {
       return abort(reply, Abort::kChecksum);
     }
     if (announced_ >= 0 && static_cast<std::size_t>(announced_) != size_) {

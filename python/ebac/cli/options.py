@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Annotated, Any, TypeAlias
 
 import typer
 
-from ebac.cli import output, setting
+from ebac.cli import completion, output, setting
 
 if TYPE_CHECKING:
     from ebac._core import Hand
@@ -28,39 +28,6 @@ def option(*names: str, text: str, default: str | bool = False, panel: str, **mo
     )
 
 
-def complete_laws(incomplete: str) -> list[str]:
-    """Return the laws that begin so."""
-    from ebac.laws import LAWS, tuned_laws
-
-    return [name for name in (*LAWS, *tuned_laws(), "all") if name.startswith(incomplete.lower())]
-
-
-def _hands(incomplete: str) -> list[str]:
-    from ebac.presets import HANDS
-
-    return [name for name in HANDS if name.startswith(incomplete)]
-
-
-def complete_worlds(incomplete: str) -> list[str]:
-    """Return the worlds that begin so."""
-    from ebac.worlds import PRESETS
-
-    return [name for name in (*PRESETS, "mesh:") if name.startswith(incomplete)]
-
-
-def complete_devices(incomplete: str) -> list[str]:
-    """Return the devices that begin so."""
-    from ebac.presets import DEVICES
-
-    return [name for name in DEVICES if name.startswith(incomplete)]
-
-
-def _conditions(incomplete: str) -> list[str]:
-    from ebac.studies import CONDITIONS, GROUPS
-
-    return [name for name in (*GROUPS, *CONDITIONS) if name.startswith(incomplete)]
-
-
 def laws(default: str, *, panel: str = RUN) -> Any:
     """Return the option for several laws."""
     return typer.Option(
@@ -69,7 +36,7 @@ def laws(default: str, *, panel: str = RUN) -> Any:
         help="A law by name, see `ebac laws`; several with commas between, `all` for every law.",
         show_default=default,
         rich_help_panel=panel,
-        autocompletion=complete_laws,
+        autocompletion=completion.laws,
     )
 
 
@@ -81,7 +48,7 @@ def one_law(*, panel: str = RUN, default: str | bool = True) -> Any:
         help="A law by name, see `ebac laws`.",
         show_default=default,
         rich_help_panel=panel,
-        autocompletion=complete_laws,
+        autocompletion=completion.laws,
     )
 
 
@@ -93,7 +60,7 @@ def conditions(text: str, *, panel: str, default: str | bool = True) -> Any:
         help=text,
         show_default=default,
         rich_help_panel=panel,
-        autocompletion=_conditions,
+        autocompletion=completion.conditions,
     )
 
 
@@ -103,7 +70,7 @@ HandName: TypeAlias = Annotated[
         text="A hand by name, see `ebac presets`",
         default="reference",
         panel=HAND,
-        autocompletion=_hands,
+        autocompletion=completion.hands,
     ),
 ]
 DeviceName: TypeAlias = Annotated[
@@ -112,7 +79,7 @@ DeviceName: TypeAlias = Annotated[
         text="A device by name, see `ebac presets`",
         default="reference",
         panel=DEVICE,
-        autocompletion=complete_devices,
+        autocompletion=completion.devices,
     ),
 ]
 Rate: TypeAlias = Annotated[
@@ -242,7 +209,7 @@ class ScenarioOptions(RunOptions, DeviceOptions, HandOptions, WallOptions):
             "damping and position of the wall",
             default="a flat wall",
             panel=WALL,
-            autocompletion=complete_worlds,
+            autocompletion=completion.worlds,
         ),
     ] = None
     world_friction: Annotated[

@@ -13,6 +13,7 @@ A first look::
 from ebac.identify import excitation
 from ebac.identify.arm import fit_arm
 from ebac.identify.device import DeviceResult, fit_device
+from ebac.identify.estimate import Estimate
 from ebac.identify.gains.gains import GainsResult, fit_gains
 from ebac.identify.gains.trial import Limits
 from ebac.identify.informativeness import LogCheck, check_log
@@ -20,7 +21,7 @@ from ebac.identify.load import load
 from ebac.identify.loop import LoopModel, fit_loop
 from ebac.identify.recording import Recording
 from ebac.identify.response import Response, frequency_response
-from ebac.identify.result import ArmResult, Estimate
+from ebac.identify.result import ArmResult
 from ebac.identify.target import Target
 
 __all__ = [

@@ -14,7 +14,7 @@ from ebac.identify.fit import Fitted, fitted
 from ebac.identify.guess import regression, solve
 from ebac.identify.informativeness import FASTEST
 from ebac.identify.intervals import Z95
-from ebac.identify.parameters import BEFORE_LEVELS, Parameters, kind, lay_out
+from ebac.identify.parameters import BEFORE_LEVELS, HAND, Parameters, kind, lay_out
 from ebac.identify.problem import Problem
 from ebac.identify.recording import Recording, require_recordings
 from ebac.identify.response import guess_by_response
@@ -174,7 +174,7 @@ def _widened(result: ArmResult) -> ArmResult:
 def _partly_determined(result: ArmResult) -> bool:
     """Return whether some of M0, B0, K0 are determined and others not: often an optimum beside the true one."""
     p = result.parameters
-    hand = {p.names[i] for i in p.free if kind(p.names[i]) in ("M0", "B0", "K0")}
+    hand = {p.names[i] for i in p.free if kind(p.names[i]) in HAND}
     return 0 < len(hand.intersection(result.undetermined)) < len(hand)
 
 

@@ -13,7 +13,6 @@ from ebac.scenario import Scenario
 #: What the hand does, and its share of the arms: `free` never touches a wall and does not determine the arm.
 TASKS = {"tapping": 0.4, "tracking": 0.3, "press": 0.2, "free": 0.1}
 LAWS = ("ebac", "eba", "tca-damped")
-HAND = ("M0", "B0", "K0")
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -18,15 +18,15 @@ import numpy as np
 from ebac.identify.arm import first_guess, fit_arm
 from ebac.identify.cases import Case, draw, draw_device
 from ebac.identify.device import fit_device
+from ebac.identify.estimate import Estimate
 from ebac.identify.fit import spread_at
+from ebac.identify.parameters import HAND
 from ebac.identify.recording import Recording
-from ebac.identify.result import ArmResult, Estimate
+from ebac.identify.result import ArmResult
 from ebac.identify.target import Target
 
 if TYPE_CHECKING:
     from ebac.identify.result import ArmResult
-
-HAND = ("M0", "B0", "K0")
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -20,12 +20,12 @@ from ebac.identify.device_problem import (
     driven,
     first_guess,
 )
+from ebac.identify.estimate import Estimate
 from ebac.identify.fit import Fitted, fitted
 from ebac.identify.intervals import Z95
 from ebac.identify.joint import usual_lever
 from ebac.identify.parameters import BOUNDS
 from ebac.identify.recording import Recording, require_recordings
-from ebac.identify.result import Estimate
 from ebac.identify.validation import POOR, flip_advice, seems_flipped
 
 #: Standard gravity [m/s^2].

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from ebac._util.arguments import unknown
 from ebac.identify.guess import regression, solve
 from ebac.identify.intervals import Z95
-from ebac.identify.parameters import Parameters, kind
+from ebac.identify.parameters import HAND, Parameters, kind
 from ebac.identify.plausible import without_place
 from ebac.identify.recording import Recording, require_recordings
 from ebac.identify.response import Densities, densities
@@ -20,7 +20,7 @@ from ebac.identify.target import Target, longest
 
 Values = NDArray[np.float64]
 
-ASKED = ("M0", "B0", "K0")
+ASKED = HAND
 #: What to do where a log does not determine a parameter.
 REMEDIES = {
     "M0": "move faster: tap, or follow a multisine that goes beyond 3 Hz",

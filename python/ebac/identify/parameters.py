@@ -10,7 +10,9 @@ from numpy.typing import NDArray
 
 from ebac._util.arguments import unknown
 
-SHARED = ("M0", "B0", "K0", "delay")
+#: What a hand is made of in eq. (4).
+HAND = ("M0", "B0", "K0")
+SHARED = (*HAND, "delay")
 #: Of a recording beside the shared ones and the levels.
 OWN = ("onset", "bend", "stair")
 #: Forces that are known but for a share: the motor's ripple, friction and weight of a device.

@@ -13,8 +13,9 @@ from numpy.typing import NDArray
 from ebac._core import Hand, Recorded, Step
 from ebac._util.arguments import unknown_name
 from ebac.identify import informativeness, unrecorded_motor, validation
+from ebac.identify.estimate import Estimate
 from ebac.identify.intervals import Z95
-from ebac.identify.parameters import BEFORE_LEVELS, OWN, Parameters, kind
+from ebac.identify.parameters import BEFORE_LEVELS, HAND, OWN, Parameters, kind
 from ebac.identify.problem import Problem, arm_record
 from ebac.identify.recording import Recording
 from ebac.identify.target import Target, longest
@@ -30,41 +31,6 @@ from ebac.identify.validation import (
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
-
-HAND = ("M0", "B0", "K0")
-
-
-@dataclass(frozen=True, kw_only=True)
-class Estimate:
-    """One number of a fit with its 95 % interval, all in `unit`."""
-
-    name: str
-    value: float
-    unit: str
-    low: float
-    high: float
-    fixed: bool
-    determined: bool
-
-    def row(self) -> dict[str, str]:
-        """Return it in words, for a table."""
-        bounds = "" if self.fixed else f"{self.low:.4g} to {self.high:.4g}"
-        said = "given" if self.fixed else "yes" if self.determined else "NO"
-        return {
-            "parameter": self.name,
-            "value": f"{self.value:.4g} {self.unit}",
-            "95 % interval": bounds,
-            "determined": said,
-        }
-
-    def __str__(self) -> str:
-        """Return "K0 = 301.2 N/m (298.1 to 304.3)"."""
-        if self.fixed:
-            return f"{self.name} = {self.value:.4g} {self.unit} (given)"
-        loose = "" if self.determined else ", NOT DETERMINED by this log"
-        return (
-            f"{self.name} = {self.value:.4g} {self.unit} ({self.low:.4g} to {self.high:.4g}{loose})"
-        )
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -202,7 +168,7 @@ class ArmResult:
         ValueError
             When mass, damping or stiffness is not determined by the log.
         """
-        lost = [n for n in self.undetermined if n[:2] in ("M0", "B0", "K0")]
+        lost = [n for n in self.undetermined if kind(n) in HAND]
         if lost:
             remedy = "; record one with more excitation, or fix some of the values"
             if validation.seems_flipped(self.explained, self.other_sign):

@@ -11,9 +11,8 @@ from numpy.typing import NDArray
 
 from ebac.identify.guess import instruments, regression, solve
 from ebac.identify.intervals import Z95
-from ebac.identify.parameters import BEFORE_LEVELS, OWN
+from ebac.identify.parameters import BEFORE_LEVELS, HAND, OWN
 from ebac.identify.recording import Recording
-from ebac.identify.result import HAND
 from ebac.identify.signals import by_target, every, kernels, ripple, smoothed
 from ebac.identify.target import Target, indicators
 from ebac.identify.unrecorded_motor import found_late

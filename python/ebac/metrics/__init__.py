@@ -1,14 +1,9 @@
 """Measure a contact with a wall, and the use of the observer, from a trace alone."""
 
+from ebac.metrics.contact_result import Contact
 from ebac.metrics.ideal import EXACT_COUNTS, allowed_deviation, ideal_rest
 from ebac.metrics.observer import ObserverUse, observer_use
-from ebac.metrics.wall_contact import (
-    FEWEST_ROWS,
-    STILL_SWING,
-    TAIL_SHARE,
-    Contact,
-    contact,
-)
+from ebac.metrics.wall_contact import FEWEST_ROWS, STILL_SWING, TAIL_SHARE, contact
 from ebac.metrics.world_contact import WorldContact, world_contact
 
 __all__ = [

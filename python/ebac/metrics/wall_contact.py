@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass
 from math import isnan
 from typing import Any
 
@@ -10,9 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ebac._core import _measure_contact, _stored_energy
-from ebac._util import formatting
 from ebac._util.arguments import require
 from ebac.hands import is_own
+from ebac.metrics.contact_result import Contact
 from ebac.metrics.ideal import allowed_deviation, ideal_rest, without_engine
 from ebac.trace import Trace
 
@@ -46,211 +45,6 @@ COLUMNS = {
 }
 #: What a contact is, as the core judges it.
 FLAGS = ("still", "force_quiet", "quiet")
-#: Numbers of a contact that are no keys of `ebac wall --json`.
-MORE = (
-    "count_m", "allowed_m", "most_drawn_J", "force_step_N", "most_pull_N", "rest_power_W", "seconds", "touched",
-)  # fmt: skip
-#: What a printed contact shows: label, attribute, unit, what to print where there is none.
-LINES = (
-    ("rest", "rest_m", "m", "-"),
-    ("ideal rest", "ideal_m", "m", "-"),
-    ("deviation", "deviation_m", "m", "-"),
-    ("allowed deviation", "allowed_m", "m", "-"),
-    ("swing, peak to peak", "swing_m", "m", "-"),
-    ("settled", "settled_s", "s", "never"),
-    ("force at rest", "force_rest_N", "N", "-"),
-    ("force swing", "force_swing_N", "N", "-"),
-    ("force settled", "force_settled_s", "s", "never"),
-    ("ripple", "ripple_N", "N", "-"),
-    ("ripple, rms", "ripple_rms_N", "N", "-"),
-    ("above 20 Hz, rms", "ripple_high_N", "N", "-"),
-    ("force jumps", "jumps", "1", "-"),
-    ("vibration/threshold", "perceived", "1", "-"),
-    ("deepest", "peak_m", "m", "-"),
-    ("limit cycle", "limit_cycle_Hz", "Hz", "none"),
-    ("least port energy", "least_energy_J", "J", "-"),
-    ("most energy drawn", "most_drawn_J", "J", "-"),
-    ("force limited", "clamped_share", "share", "-"),
-)
-
-
-@dataclass(frozen=True, kw_only=True, repr=False)
-class Contact:
-    """A wall contact in numbers, SI units, the unit in the name; None where a thing does not exist.
-
-    Attributes
-    ----------
-    law : str
-        Name of the law.
-    rest_m : float
-        Mean position over the last 30 % of the run.
-    ideal_m : float or None
-        Where an ideal wall would rest; None where the scenario has no such point.
-    swing_m, force_swing_N : float
-        Position and applied force, peak to peak, over the last 30 %.
-    settled_s : float or None
-        From when on the position stays within 0.125 mm of its rest; None when it never does.
-    peak_m : float
-        Deepest position of the whole run.
-    limit_cycle_Hz : float or None
-        Frequency of the swing; None when it is still or drifts without swinging back.
-    least_energy_J : float or None
-        Lowest physical port energy, integral of (f v + b v^2 + friction); None without a simulation.
-    most_drawn_J : float or None
-        Most energy taken out of the port in any window beyond what an ideal wall stores at the window's start, max
-        over t1 < t2 of W(t1) - W(t2) - K depth(t1)^2 / 2; 0 for an ideal wall, None without a simulation.
-    clamped_share : float or None
-        Share of ticks in which the law held its force back; None for a law that never does.
-    force_step_N : float
-        Largest change of the applied force from one tick to the next.
-    most_pull_N : float or None
-        Hardest pull of the hand, |K0 (X0 - x)|, while the virtual world acts; None without a simulation and for a hand
-        of your own.
-    rest_power_W : float or None
-        Mean rate of the port energy over the last 30 %, dW/dt at rest; negative where the port gives out energy for
-        as long as it is held. None without a simulation.
-    force_rest_N : float
-        Mean applied force over the last 30 % of the run.
-    force_settled_s : float or None
-        From when on the applied force stays within 5 % of its rest, or 0.2 N where that is more; None where that comes
-        after the last 30 % have begun.
-    ripple_N, ripple_rms_N : float
-        Applied force after position and force have settled, or over the last 30 % where one does not: peak to peak, and
-        root mean square around its mean.
-    ripple_high_N : float or None
-        Root mean square of the same behind a Butterworth high-pass of second order at 20 Hz (bilinear transform); the
-        filter starts with the run, as after a long rest on its first value. None below 80 rows a second.
-    jumps : int
-        Changes of the applied force by more than 0.2 N from one tick to the next after the position has settled, or
-        over the last 30 % where it does not.
-    perceived : float or None
-        Largest vibration of the applied force in detection thresholds [1], >= 0, see Notes: from twice the time
-        in which the position settles, and half a second after it has settled at least; over the last 30 % where that
-        is later or the position does not settle. None below 80 rows a second.
-    still : bool
-        Whether the position swings by less than 0.25 mm over the last 30 %.
-    force_quiet : bool
-        Whether the force settles and `perceived` is below 3.
-    quiet : bool
-        The verdict behind every table, study, map and figure: `still` and `force_quiet`.
-    count_m : float or None
-        One encoder count.
-    allowed_m : float or None
-        How far from the ideal a rest still is `exact`, see `allowed_deviation`.
-    seconds : float or None
-        Length of the run [s].
-    touched : bool or None
-        Whether the virtual world ever acted; None where that is not known.
-
-    Notes
-    -----
-    `perceived` weighs vibration by how well a hand detects it: the force above 20 Hz (the high-pass of
-    `ripple_high_N`), behind a low-pass of second order (200 Hz, damping 0.5), its square averaged over 0.2 s with
-    exponential weight; of that power the amplitude of a sine, over 25 mN. A sine of 25 mN between 40 and 160 Hz comes
-    to 1. Until twice the settling time the handle may ring down on the wall: that is no fault of a law, an ideal
-    wall rings too.
-
-    25 mN is made from the displacements of a held stylus that are just detected, and from the impedance of the hand
-    that holds it [1]_: 8.5 um at 20 Hz, 13 dB less with each octave to 160 Hz, 0.06 um at 320 Hz; 14 N s/m below 40 Hz,
-    7 dB less at 80 Hz, 23 dB less from 160 to 320 Hz. The force is assumed to move a handle of 0.25 kg, the reference
-    device, in that hand. Both impedances make 37, 27, 21, 16 and 61 mN at 20, 40, 80, 160 and 320 Hz, and the filters
-    keep within 4 dB of that. Vibration sums up over about 0.2 s [2]_.
-
-    It puts laws on one scale. It does not predict what a person feels on another handle: a light one moves more by the
-    same force, and a hand that moves or presses detects less than one at rest in a laboratory. Below 20 Hz, where a
-    hand feels force and motion, it says nothing. The values of [1]_ are as a digest of it quotes them.
-
-    .. [1] A. Israr, S. Choi, H. Z. Tan, "Detection threshold and mechanical impedance of the hand in a pen-hold
-       posture", IEEE/RSJ IROS 2006, 472-477.
-    .. [2] R. T. Verrillo, "Temporal summation in vibrotactile sensitivity", J. Acoust. Soc. Am. 37, 1965, 843-846.
-    """
-
-    law: str
-    rest_m: float
-    ideal_m: float | None
-    swing_m: float
-    force_swing_N: float
-    settled_s: float | None
-    peak_m: float
-    limit_cycle_Hz: float | None
-    least_energy_J: float | None
-    clamped_share: float | None
-    force_rest_N: float
-    force_settled_s: float | None
-    ripple_N: float
-    ripple_rms_N: float
-    ripple_high_N: float | None
-    jumps: int
-    perceived: float | None
-    still: bool
-    force_quiet: bool
-    quiet: bool
-    count_m: float | None = None
-    most_drawn_J: float | None = None
-    force_step_N: float | None = None
-    most_pull_N: float | None = None
-    rest_power_W: float | None = None
-    allowed_m: float | None = None
-    seconds: float | None = None
-    touched: bool | None = None
-
-    @property
-    def verdict(self) -> str:
-        """What the contact came to in words: "exact and quiet", "swings", "no contact", "too short to judge"."""
-        return formatting.verdict(self)
-
-    @property
-    def force_verdict(self) -> str:
-        """What its force came to in words: "not quiet: settled 2.994 s, 338 jumps, vibration 19.8 thresholds"."""
-        return formatting.force_verdict(
-            self.force_quiet, self.force_settled_s, self.jumps, self.perceived
-        )
-
-    def __repr__(self) -> str:
-        """Return the verdict and the main numbers in one line."""
-        settled = formatting.quantity(self.settled_s, "s", none="never")
-        return (
-            f"<Contact of {self.law or 'a run'}: {self.verdict}; rest {formatting.quantity(self.rest_m, 'm')}, "
-            f"swing {formatting.quantity(self.swing_m, 'm')}, settled {settled}; "
-            f"force {self.force_verdict}>"
-        )
-
-    def __str__(self) -> str:
-        """Return the verdict and every number with its unit, one a line."""
-        signed = {"deviation_m"}
-        lines = [
-            f"Contact of {self.law or 'a run'}: {self.verdict}",
-            f"  force {self.force_verdict}",
-        ]
-        for label, name, unit, none in LINES:
-            value = getattr(self, name)
-            shown = formatting.quantity(value, unit, signed=name in signed, none=none)
-            lines.append(f"  {label:<20}{shown}")
-        return "\n".join(lines)
-
-    def _repr_html_(self) -> str:
-        """Return a table for a notebook."""
-        from dataclasses import asdict
-
-        from ebac._util.notebook import table
-
-        return table([asdict(self)])
-
-    @property
-    def deviation_m(self) -> float | None:
-        """Rest minus ideal [m]; positive is too deep."""
-        return None if self.ideal_m is None else self.rest_m - self.ideal_m
-
-    @property
-    def exact(self) -> bool | None:
-        """Whether it rests within two counts of the ideal, and what friction holds."""
-        if self.deviation_m is None or self.allowed_m is None:
-            return None
-        return abs(self.deviation_m) <= self.allowed_m
-
-    def row(self) -> dict[str, str | float | None]:
-        """Return the documented row of `ebac wall --json`."""
-        return {name: value for name, value in asdict(self).items() if name not in MORE}
 
 
 def contact(trace: Trace, *, axis: int = 0, truth: bool = True) -> Contact:

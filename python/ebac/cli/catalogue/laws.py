@@ -6,14 +6,14 @@ from typing import Annotated, Any
 
 import typer
 
-from ebac.cli import options, output, setting
+from ebac.cli import completion, options, output, setting
 
 
 def laws(
     name: Annotated[
         str | None,
         typer.Argument(
-            help="One law, in detail.", show_default=False, autocompletion=options.complete_laws
+            help="One law, in detail.", show_default=False, autocompletion=completion.laws
         ),
     ] = None,
     device: options.DeviceName = None,

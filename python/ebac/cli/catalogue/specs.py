@@ -7,14 +7,14 @@ from typing import Annotated
 
 import typer
 
-from ebac.cli import files, options, output, setting
+from ebac.cli import completion, files, output, setting
 
 
 def specs(
     device: Annotated[
         str,
         typer.Option(
-            help="A device by name, see `ebac presets`.", autocompletion=options.complete_devices
+            help="A device by name, see `ebac presets`.", autocompletion=completion.devices
         ),
     ] = "joystick",
     figure: Annotated[

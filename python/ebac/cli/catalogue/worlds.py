@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 from rich.markup import escape
 
-from ebac.cli import options, output, setting
+from ebac.cli import completion, output, setting
 from ebac.cli.catalogue import contact_at_place
 
 if TYPE_CHECKING:
@@ -20,7 +20,7 @@ def worlds(
         typer.Argument(
             help="One world: its bodies as TOML, for the table `environment` of a scenario.",
             show_default=False,
-            autocompletion=options.complete_worlds,
+            autocompletion=completion.worlds,
         ),
     ] = None,
     at: Annotated[

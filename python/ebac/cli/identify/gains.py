@@ -6,9 +6,8 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ebac.cli import output
+from ebac.cli import completion, output
 from ebac.cli.identify import options as given
-from ebac.cli.options import complete_laws
 from ebac.cli.setting import one_law
 
 if TYPE_CHECKING:
@@ -29,7 +28,7 @@ def gains(
             "-l",
             help="A law with the force loop of eq. (2), see `ebac laws`.",
             rich_help_panel=given.FIT,
-            autocompletion=complete_laws,
+            autocompletion=completion.laws,
         ),
     ] = "ebac",
     fix: given.Fix = None,

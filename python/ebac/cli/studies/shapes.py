@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ebac.cli import options, output, setting
+from ebac.cli import completion, options, output, setting
 from ebac.cli.files import ResultOptions
 
 if TYPE_CHECKING:
@@ -27,7 +27,7 @@ def shapes(
             "several",
             default="plane, sphere, box, edge, inside, corner, lumen, mesh",
             panel=options.WALL,
-            autocompletion=options.complete_worlds,
+            autocompletion=completion.worlds,
         ),
     ] = None,
     stiffness: Annotated[
@@ -44,7 +44,7 @@ def shapes(
             text="A device by name, see `ebac presets`; repeat it for several",
             default="reference, joystick, joystick-3",
             panel=options.DEVICE,
-            autocompletion=options.complete_devices,
+            autocompletion=completion.devices,
         ),
     ] = None,
     rate: options.Rate = None,

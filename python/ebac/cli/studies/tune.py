@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ebac.cli import options, output, setting
+from ebac.cli import completion, options, output, setting
 
 if TYPE_CHECKING:
     from ebac.studies import Tuned
@@ -21,7 +21,7 @@ def tune(
         str,
         typer.Argument(
             help="A law, see `ebac laws`; several with commas between, `all` for every law that has something to tune.",
-            autocompletion=options.complete_laws,
+            autocompletion=completion.laws,
         ),
     ],
     condition: Annotated[

@@ -15,6 +15,7 @@ from ebac.identify.gains.gains import GainsResult, fit_gains
 from ebac.identify.gains.press_trials import Presses, run_presses
 from ebac.identify.gains.trial import Candidate, broken
 from ebac.identify.loop import LoopModel, fit_loop
+from ebac.identify.parameters import HAND
 from ebac.identify.recording import Recording
 from ebac.identify.target import Target
 from ebac.scenario import Scenario
@@ -133,7 +134,7 @@ def check_gains(
             simulate(case.scenario, case.law), name=f"case {case.number}"
         )
         loop = fit_loop(recording, Target.of(case.scenario.hand, recording.t))
-        if any(n in loop.arm.undetermined for n in ("M0", "B0", "K0")):
+        if any(n in loop.arm.undetermined for n in HAND):
             continue
         done += 1
         others = held_out(case, loop, seed)

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from ebac._core import Hand, RunLimits, SweepProgress
 from ebac.identify.intervals import Z95
+from ebac.identify.parameters import HAND
 from ebac.identify.result import ArmResult
 from ebac.laws import LAWS, design
 from ebac.metrics import ideal_rest
@@ -44,8 +45,8 @@ def arms_around(result: ArmResult, vary: float) -> list[Hand]:
     hand = result.hand
     best = np.array([hand.mass, hand.damping, hand.stiffness])
     free = [result.parameters.names[i] for i in result.parameters.free]
-    which = [free.index(n) for n in ("M0", "B0", "K0") if n in free]
-    rows = [i for i, n in enumerate(("M0", "B0", "K0")) if n in free]
+    which = [free.index(n) for n in HAND if n in free]
+    rows = [i for i, n in enumerate(HAND) if n in free]
     points = [best]
     if which:
         part = result.covariance[np.ix_(which, which)] / np.outer(best[rows], best[rows])

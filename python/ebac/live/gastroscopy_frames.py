@@ -1,0 +1,80 @@
+"""What the page of a gastroscopy shows: outside, camera, forces."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from ebac.live.gastroscopy_session import GastroscopySession
+
+PHASES = ("along the lumen", "at a target", "back from a target", "behind the pylorus")
+
+
+class GastroscopyFrames:
+    """What the page shows of a gastroscopy. SI units; places in tenths of a millimetre."""
+
+    def __init__(self, session: GastroscopySession) -> None:
+        self._session = session
+        lumen = session.procedure.lumen
+        self._places = np.arange(0.0, lumen.landmarks()["end"] - 1e-3, 6e-3)
+
+    def frame(self) -> dict[str, Any]:
+        """Return what is new since the last call."""
+        row, slave, found, new, run = self._session.snapshot()
+        lumen, t, bag = self._session.procedure.lumen.core, row["t"], slave["bag"]
+        wall = [lumen.at(float(s), t, bag) for s in self._places]
+        targets = []
+        for polyp in self._session.procedure.polyps():
+            middle, right, down, _, radius = lumen.at(polyp.place, t, bag)
+            out = np.cos(polyp.angle) * np.array(right) + np.sin(polyp.angle) * np.array(down)
+            targets.append(_tenths(np.array(middle) + radius * out))
+        return {
+            "kind": "frame",
+            "run": run,
+            "t": t,
+            "place": row["place"],
+            "force": row["section_force"],
+            "most": found["most_section"],
+            "tube_force": row["tube_force"],
+            "touched": int(found["touched"]),
+            "reached": bool(found["reached"]),
+            "fault": int(found["fault"]),
+            "over": found["over_limit"],
+            "phase": PHASES[int(row["phase"])],
+            "on_hand": float(np.linalg.norm([row[f"felt_{axis}"] for axis in "xyz"])),
+            "energy": found["least_energy"],
+            "at": _tenths(np.array(slave["at"])),
+            "ahead": np.round(slave["ahead"], 4).tolist(),
+            "right": np.round(slave["right"], 4).tolist(),
+            "tube": _tenths(np.array(slave["tube"])),
+            "wall": _tenths(np.array([one[0] for one in wall])),
+            "radius": _tenths(np.array([one[4] for one in wall])),
+            "targets": targets,
+            "strips": _strips(new),
+        }
+
+    def history(self) -> dict[str, Any]:
+        """Return the strips of the last seconds."""
+        return _strips(list(self._session.recent))
+
+    def shape(self) -> dict[str, Any]:
+        """Return what does not change: axes of the rings of the wall."""
+        lumen = self._session.procedure.lumen.core
+        rows = [lumen.at(float(s), 0.0, (0.0, 0.0, 0.0)) for s in self._places]
+        axes = np.array([[row[1], row[2]] for row in rows])
+        right, down = np.round(axes, 4).transpose(1, 0, 2)
+        return {"right": right.ravel().tolist(), "down": down.ravel().tolist()}
+
+
+def _tenths(metres: NDArray[np.float64]) -> list[int]:
+    found: list[int] = np.rint(1e4 * metres).astype(int).ravel().tolist()
+    return found
+
+
+def _strips(rows: list[dict[str, float]]) -> dict[str, list[float]]:
+    names = {"t": "t", "force": "section_force", "tube": "tube_force", "place": "place"}
+    return {own: [round(row[name], 4) for row in rows] for own, name in names.items()}
