@@ -248,7 +248,7 @@ def test_without_allow_control_nobody_controls_and_the_dead_man_key_ends_with_it
         while server.session.running:
             assert time.monotonic() - gone < 1.5
             time.sleep(0.01)
-        server._control = False  # as hardware without --allow-control
+        server._pages.control = False  # as hardware without --allow-control
 
         async def refused() -> None:
             async with socket(server) as page:

@@ -15,7 +15,7 @@ from ebac.cli import app
 from ebac.cli.files import FigureOptions
 from ebac.cli.run import names
 from ebac.hardware import Configuration, Run
-from ebac.hardware.report import lateness, lateness_of
+from ebac.hardware.lateness import lateness, lateness_of
 from ebac.simulation import LoopFault
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "joystick.toml"

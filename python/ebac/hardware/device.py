@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import atexit
-import json
 import tempfile
 import warnings
 import weakref
@@ -21,8 +20,6 @@ from ebac.hardware import drive_setup
 from ebac.hardware.axis_positions import (
     AxisPosition,
     PositionError,
-    check_workspace,
-    positions_of,
     read_positions,
 )
 from ebac.hardware.backends import hardware, simulated
@@ -30,13 +27,12 @@ from ebac.hardware.configuration import Configuration
 from ebac.hardware.held import Held
 from ebac.hardware.interrupts import Interrupts
 from ebac.hardware.law import designed
+from ebac.hardware.power_up import power_up
 from ebac.hardware.rating import check_rating
 from ebac.hardware.report import Report
 from ebac.hardware.run import Run
-from ebac.hardware.run_log import discard_log, free_log
-from ebac.hardware.run_setup import run_setup, started
-from ebac.logs.about import POSITIONS_FILE, SIMULATED_FILE
-from ebac.logs.writer import new_log
+from ebac.hardware.run_log import free_log
+from ebac.hardware.run_setup import run_setup
 
 if TYPE_CHECKING:
     from ebac.hardware.backends import Backend
@@ -270,50 +266,10 @@ class OpenDevice:
         scenario = chosen.scenario(seconds=length)
         setup = run_setup(chosen, self._nodes, backend=self.backend, seconds=length)
         path = None if log is None else free_log(Path(log))
-        backend, nodes = self.backend, self._nodes
-
-        positions: list[AxisPosition] = []
-
-        def check(counts: list[int]) -> None:
-            positions[:] = positions_of(known, backend, counts)
-            check_workspace(known, positions)
-
-        def power_off() -> list[str]:
-            return drive_setup.power_off(backend, nodes)
-
-        file = None if path is None else new_log(path)  # before there is power
-        with ExitStack() as undo:  # from the last to the first, each whatever the others raise
-            undo.callback(discard_log, file, path)
-            drive_setup.start(backend, nodes, check)
-            undo.callback(self.interrupts.forget)
-            undo.callback(power_off)
-            undo.callback(self.interrupts.ending)
-            self.interrupts.moving()
-            running = started(finished, backend, setup)
-            run = self._held.run = Run(
-                running,
-                law=finished,
-                scenario=scenario,
-                interrupts=self.interrupts,
-                power_off=power_off,
-                grants=backend.grants,
-                hand=backend.aim is not None,
-                detached=self._detached,
-                positions=positions,
-            )
-            undo.pop_all()
-        try:
-            if path is not None:
-                rows = [one.row() for one in positions]
-                files = {"configuration.toml": known.text, POSITIONS_FILE: json.dumps(rows)}
-                if backend.aim is not None:  # a simulated hand: drives and device are simulated too
-                    files[SIMULATED_FILE] = f"{backend.about}\n"
-                run.record(path, files=files, sync=known.sync, file=file)
-            self._held.last_to_register()
-        except BaseException:
-            run.end()
-            raise
-        return run
+        return power_up(
+            known, self.backend, self._nodes, self.interrupts, self._held,
+            law=finished, scenario=scenario, setup=setup, log=path, detached=self._detached,
+        )  # fmt: skip
 
     def reset(self) -> None:
         """Allow another run after one that ended by a fault. A drive in fault is reset by `ebac drive reset-fault`.

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
 
-from ebac._core import Fault, Grant, LoopState, Running
+from ebac._core import Grant, LoopState, Running
 from ebac.trace import Trace
 
 if TYPE_CHECKING:
@@ -179,58 +179,6 @@ def times(trace: Trace) -> Times:
         late_most_s=float(late.max()),
         skipped=int(trace["skipped"].sum()),
     )
-
-
-#: Faults that a machine brings about which is too late or too busy.
-BY_TIME = frozenset(
-    {
-        Fault.DRIVE_SILENT,
-        Fault.HEARTBEAT_LOST,
-        Fault.ENCODER_JUMP,
-        Fault.OVERSPEED,
-        Fault.FORCE_STALE,
-        Fault.OVERRUNS,
-    }
-)
-
-
-#: Keys of a configuration that make a loop patient with a machine without real time.
-PATIENT = {
-    Fault.DRIVE_SILENT: "bus.silent = 50",
-    Fault.FORCE_STALE: "limits.force_age = 0.2",
-    Fault.OVERRUNS: "limits.overruns = 100 and limits.pause = 0.5",
-}
-
-
-#: Those of motion, which a late loop sees only where it skips ticks.
-BY_MOTION = frozenset({Fault.ENCODER_JUMP, Fault.OVERSPEED})
-
-
-def lateness_of(fault: Fault, trace: Trace) -> str:
-    """Return how late the loop was, where that may have led to a fault; else nothing."""
-    if fault not in BY_TIME or (fault in BY_MOTION and not trace["skipped"].any()):
-        return ""
-    return lateness(trace)
-
-
-def lateness(trace: Trace) -> str:
-    """Return how late the loop was: "woke up to 12.3 ms late and skipped 14 ticks"; empty on a virtual clock."""
-    most = 1e3 * float(trace["lateness"].max(initial=0.0))
-    skipped = int(trace["skipped"].sum())
-    if most == 0 and skipped == 0:
-        return ""
-    return (
-        f"woke up to {most:.3g} ms late and skipped {skipped:,} tick{'' if skipped == 1 else 's'}"
-    )
-
-
-def remedy(fault: Fault) -> str:
-    """Return what to do first about a fault of a loop that was late."""
-    first = "`ebac doctor` says what this machine lacks for real time"
-    patient = PATIENT.get(fault)
-    more = f"; a machine without it needs patience, such as {patient}" if patient else ""
-    last = "; only then look at cables and termination" if fault is Fault.DRIVE_SILENT else ""
-    return f"{first}{more}{last}"
 
 
 def under_the_law(trace: Trace) -> Trace:

@@ -18,8 +18,9 @@ from ebac._util.wrong_calls import plain_constructor
 from ebac.drives.errors import DriveError
 from ebac.hardware.current_parameters import CurrentParameters
 from ebac.hardware.interrupts import Interrupts, OfParent
+from ebac.hardware.lateness import loop_fault
 from ebac.hardware.live_status import LiveStatus
-from ebac.hardware.report import Report, lateness_of, remedy
+from ebac.hardware.report import Report
 from ebac.logs.about import SIMULATED_DRIVES
 from ebac.trace import Trace
 
@@ -268,12 +269,7 @@ class Run(LiveStatus):
         trace = self.trace()
         fault = _core.Fault(int(trace["fault"][-1])) if len(trace) else _core.Fault.NONE
         if fault is not _core.Fault.NONE:
-            from ebac.simulation import LoopFault
-
-            error = LoopFault(fault, trace)
-            if late := lateness_of(fault, trace):
-                error.add_note(f"the loop {late}; {remedy(fault)}")
-            raise error
+            raise loop_fault(fault, trace)
         world = foreign(self._parameters.world)
         if world is not None and (remark := world.remark()):
             warnings.warn(remark, stacklevel=2)

@@ -1,7 +1,8 @@
-"""What the page of `ebac live` shows of a loop: its newest row, strips of the last seconds, a verdict in words."""
+"""What the page of `ebac live` shows of a loop: world, choices, newest row, strips, a verdict in words."""
 
 from __future__ import annotations
 
+import json
 import time
 from typing import Any
 
@@ -11,9 +12,12 @@ from numpy.typing import NDArray
 from ebac._core import Fault, LoopState, _measure_contact
 from ebac._util.fault_remedies import REMEDIES
 from ebac.hardware import Run
-from ebac.hardware.report import BY_MOTION
+from ebac.hardware.lateness import BY_MOTION
+from ebac.live.choices import options
 from ebac.live.session import Session
+from ebac.live.surface import surface
 from ebac.metrics.wall_contact import STILL_SWING
+from ebac.scenario import Environment
 from ebac.trace.columns import row_views
 
 #: Time between two points of a strip, and how far the strips look back [s].
@@ -27,7 +31,7 @@ PERCEIVED = 3.0
 
 
 class Frames:
-    """Reads the rows of a session's loop; one thread."""
+    """Reads the rows of a session's loop; one thread. `shape` and `state` may be called from another."""
 
     def __init__(self, session: Session) -> None:
         self._session = session
@@ -37,6 +41,34 @@ class Frames:
         self._verdict: dict[str, str] = {}
         self._late: NDArray[np.float64] = np.empty(0)
         self._skipped = 0
+        self._world: Environment | None = None
+        self._shape = ""
+
+    def shape(self) -> str:
+        """Return the surface of the world as a message, the same object until the world is another."""
+        world = self._session.scenario.environment
+        if self._world != world:
+            vertices, triangles = surface(world)
+            places = (1e5 * vertices).round().astype(int)
+            shape = [places.ravel().tolist(), triangles.ravel().tolist()]
+            self._world, self._shape = world, json.dumps({"kind": "shape", "shape": shape})
+        return self._shape
+
+    def state(self) -> dict[str, Any]:
+        """Return what is chosen, and what can be."""
+        session = self._session
+        return {
+            "choices": session.choices.row(),
+            "options": options(),
+            "ranges": session.ranges,
+            "axes": session.hand.axes,
+            "mode": session.hand.mode,
+            "real": session.real,
+            "virtual": session.virtual,
+            "dead_man": session.dead_man,
+            "running": session.running,
+            "recording": session.run is not None and session.run.recorder is not None,
+        }
 
     def frame(self) -> dict[str, Any]:
         """Return what is new since the last call. SI units."""

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any
@@ -40,25 +39,6 @@ class GastroscopyServer(Server):
             raise ValueError(f"{kind}: the physician steers; a page can start, pause and reset")
         getattr(self._run_shown, kind)()
         await self._send_state()
-
-    def _state(self) -> dict[str, Any]:
-        session, patient = self._run_shown, self._run_shown.procedure.lumen.patient
-        if self._shape[0] is None:
-            self._shape = True, json.dumps({"kind": "shape", "shape": self._frames.shape()})
-        return {
-            "kind": "state",
-            "law": session.law,
-            "delay_s": session.procedure.master.delay,
-            "feedback": session.procedure.master.feedback,
-            "heed_N": session.procedure.physician.heed,
-            "limit_N": patient.force_limit,
-            "targets": len(session.procedure.polyps()),
-            "field_rad": session.procedure.physician.field_of_view,
-            "tip_m": session.procedure.scope.tip,
-            "diameter_m": session.procedure.scope.diameter,
-            "running": session.running,
-            "pages": self.pages,
-        }
 
 
 @contextmanager

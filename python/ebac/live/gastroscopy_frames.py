@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -21,6 +22,7 @@ class GastroscopyFrames:
         self._session = session
         lumen = session.procedure.lumen
         self._places = np.arange(0.0, lumen.landmarks()["end"] - 1e-3, 6e-3)
+        self._shape = json.dumps({"kind": "shape", "shape": self._rings()})
 
     def frame(self) -> dict[str, Any]:
         """Return what is new since the last call."""
@@ -61,8 +63,27 @@ class GastroscopyFrames:
         """Return the strips of the last seconds."""
         return _strips(list(self._session.recent))
 
-    def shape(self) -> dict[str, Any]:
-        """Return what does not change: axes of the rings of the wall."""
+    def state(self) -> dict[str, Any]:
+        """Return what is run, and what is drawn of it."""
+        session, procedure = self._session, self._session.procedure
+        return {
+            "law": session.law,
+            "delay_s": procedure.master.delay,
+            "feedback": procedure.master.feedback,
+            "heed_N": procedure.physician.heed,
+            "limit_N": procedure.lumen.patient.force_limit,
+            "targets": len(procedure.polyps()),
+            "field_rad": procedure.physician.field_of_view,
+            "tip_m": procedure.scope.tip,
+            "diameter_m": procedure.scope.diameter,
+            "running": session.running,
+        }
+
+    def shape(self) -> str:
+        """Return the axes of the rings of the wall as a message, always the same object."""
+        return self._shape
+
+    def _rings(self) -> dict[str, Any]:
         lumen = self._session.procedure.lumen.core
         rows = [lumen.at(float(s), 0.0, (0.0, 0.0, 0.0)) for s in self._places]
         axes = np.array([[row[1], row[2]] for row in rows])

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import asyncio
-import contextlib
 import json
 import logging
 import threading
@@ -13,14 +12,13 @@ from types import TracebackType
 from typing import TYPE_CHECKING, Any, Self
 
 from ebac.drives.errors import DriveError
-from ebac.live.choices import options
 from ebac.live.frames import Frames
 from ebac.live.gate import Gate
 from ebac.live.messages import LONGEST, MalformedError, read
 from ebac.live.orders import carry_out
+from ebac.live.pages import Pages, send
 from ebac.live.served_page import answer, served_page
 from ebac.live.session import Session
-from ebac.live.surface import surface
 
 if TYPE_CHECKING:
     from websockets.asyncio.server import Server as Socket
@@ -35,8 +33,6 @@ MOST_MALFORMED, MOST_MESSAGES = 100, 400
 MOST_PAGES = 32
 #: Messages that are done before the next one is read.
 AT_ONCE = ("hold", "release", "drag", "drop", "mode")
-#: What a page that cannot keep up may leave unread before frames are left out [bytes].
-MOST_WAITING = 200_000
 
 
 def _silent() -> logging.Logger:
@@ -91,14 +87,11 @@ class Server:
         self.session = session
         self.frames_sent = 0
         self.malformed = 0
-        self._control = control
         self._frames = self._reader()
-        self._pages: dict[ServerConnection, str] = {}
-        self._controller: ServerConnection | None = None
+        self._pages = Pages(control=control)
         self._work = ThreadPoolExecutor(1, thread_name_prefix="ebac-live-work")
-        self._shape: tuple[Any, str] = (None, "")
+        self._shape = ""
         self._tasks: set[asyncio.Task[None]] = set()
-        self._drawn: dict[ServerConnection, str] = {}
         self._notice = ""
         self._ready = threading.Event()
         self._failed: BaseException | None = None
@@ -190,9 +183,7 @@ class Server:
 
         assert page.request is not None
         role = self.gate.role(page.request.path) or "watch"
-        self._pages[page] = role
-        if self._controller is None and self._may_control(page):
-            self._controller = page
+        self._pages.add(page, role)
         begun, count, bad = self._loop.time(), 0, 0
         try:
             await self._send_state()
@@ -214,26 +205,19 @@ class Server:
         except ConnectionClosed:
             pass  # without a farewell
         finally:
-            del self._pages[page]
-            self._drawn.pop(page, None)
-            if self._controller is page:
-                self._controller = None
+            if self._pages.remove(page):
                 self.session.let_go()
                 self.session.hand.leave()
             await self._send_state()
-
-    def _may_control(self, page: ServerConnection) -> bool:
-        return self._control and self._pages.get(page) == "control"
 
     async def _take(self, page: ServerConnection, message: dict[str, Any]) -> None:
         """Do what a page asks, if it may."""
         kind = message["kind"]
         if kind == "take":
-            if self._controller is None and self._may_control(page):
-                self._controller = page
+            self._pages.take(page)
             await self._send_state()
             return
-        if page is not self._controller:
+        if not self._pages.controls(page):
             await page.send(json.dumps({"kind": "error", "text": "this page only watches"}))
             return
         if kind in AT_ONCE:
@@ -250,7 +234,7 @@ class Server:
             await self._done(message)
         except (ValueError, KeyError, RuntimeError, OSError, DriveError) as error:
             text = str(error.args[0] if isinstance(error, KeyError) else error)
-            await _send(page, json.dumps({"kind": "error", "text": text}))
+            await send(page, json.dumps({"kind": "error", "text": text}))
             await self._send_state()
 
     async def _done(self, message: dict[str, Any]) -> None:
@@ -276,36 +260,14 @@ class Server:
 
     async def _send_state(self) -> None:
         """Send every page what is chosen, and whether it controls."""
-        state = json.dumps(await self._loop.run_in_executor(self._work, self._state))[:-1]
-        shape = self._shape[1]
-        for page in list(self._pages):
-            if self._drawn.get(page) is not shape:
-                self._drawn[page] = shape
-                await _send(page, shape)
-            role = "control" if page is self._controller else "watch"
-            free = self._controller is None and self._may_control(page)
-            await _send(page, f'{state}, "role": "{role}", "free": {json.dumps(free)}}}')
+        state = json.dumps(await self._loop.run_in_executor(self._work, self._state))
+        await self._pages.send_state(state, self._shape)
 
     def _state(self) -> dict[str, Any]:
-        session = self.session
-        world = session.scenario.environment
-        if self._shape[0] != world:
-            vertices, triangles = surface(world)
-            places = (1e5 * vertices).round().astype(int)
-            shape = [places.ravel().tolist(), triangles.ravel().tolist()]
-            self._shape = world, json.dumps({"kind": "shape", "shape": shape})
+        self._shape = self._frames.shape()
         return {
             "kind": "state",
-            "choices": session.choices.row(),
-            "options": options(),
-            "ranges": session.ranges,
-            "axes": session.hand.axes,
-            "mode": session.hand.mode,
-            "real": session.real,
-            "virtual": session.virtual,
-            "dead_man": session.dead_man,
-            "running": session.running,
-            "recording": session.run is not None and session.run.recorder is not None,
+            **self._frames.state(),
             "notice": self._notice,
             "pages": len(self._pages),
         }
@@ -330,9 +292,7 @@ class Server:
                 await self._send_state()
             text = json.dumps(self._frames.frame())
             self.frames_sent += 1
-            for page in list(self._pages):
-                if page.transport.get_write_buffer_size() < MOST_WAITING:
-                    await _send(page, text)
+            await self._pages.send_frame(text)
 
     def __enter__(self) -> Self:
         """Return the server."""
@@ -346,10 +306,3 @@ class Server:
     ) -> None:
         """End it."""
         self.close()
-
-
-async def _send(page: ServerConnection, text: str) -> None:
-    from websockets.exceptions import ConnectionClosed
-
-    with contextlib.suppress(ConnectionClosed):
-        await page.send(text)

@@ -3,18 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
+from copy import copy
 from html import escape
-from numbers import Real
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Self, overload
 
-import numpy as np
 from numpy.typing import NDArray
 
 from ebac import _core
 from ebac._util.arguments import unknown_name
 from ebac.scenario import Scenario
 from ebac.trace.columns import ColumnInfo, column_infos, row_views
+from ebac.trace.time_slice import rows_between
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -131,21 +131,7 @@ class Trace:
         TypeError
             For what is no time.
         """
-        if step is not None:
-            raise ValueError("a trace is sliced by time [s]: trace[start:stop], without a step")
-        times: list[Any] = [one for one in (start, stop) if one is not None]
-        if not all(isinstance(time, (Real, np.number)) for time in times):
-            raise TypeError(f"trace[{start!r}:{stop!r}]: must be times [s], as in trace[1.0:2.5]")
-        t = self._data["t"]
-        first = 0 if start is None else int(np.searchsorted(t, start))
-        last = len(t) if stop is None else int(np.searchsorted(t, stop))
-        if len(t) and ((start or 0.0) > t[-1] or (stop is not None and stop < t[0])):
-            begin = "" if start is None else f"{start:g}"
-            end = "" if stop is None else f"{stop:g}"
-            raise ValueError(
-                f"trace[{begin}:{end}]: outside the run, which spans {t[0]:.6g} to {t[-1]:.6g} s"
-            )
-        return self.rows(first, last)
+        return self.rows(*rows_between(self._data["t"], start, stop, step))
 
     def rows(self, first: int, last: int) -> Self:
         """Return the rows first, ..., last - 1, as views."""
@@ -167,15 +153,9 @@ class Trace:
         return self._with({**self._data, name: values})
 
     def _with(self, data: dict[str, NDArray[Any]]) -> Self:
-        return type(self)(
-            data=data,
-            columns=self.columns,
-            axes=self.axes,
-            scenario=self.scenario,
-            law=self.law,
-            law_repr=self.law_repr,
-            origin=self._origin,
-        )
+        other = copy(self)
+        other._data = data
+        return other
 
     def head(self, rows: int = 5, *columns: str) -> Text:
         """Return the first rows as text, units in the headings.

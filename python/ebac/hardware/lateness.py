@@ -1,0 +1,62 @@
+"""How late a loop was, and the faults that come of it."""
+
+from __future__ import annotations
+
+from ebac._core import Fault
+from ebac.simulation import LoopFault
+from ebac.trace import Trace
+
+#: Faults that a machine brings about which is too late or too busy.
+BY_TIME = frozenset(
+    {
+        Fault.DRIVE_SILENT,
+        Fault.HEARTBEAT_LOST,
+        Fault.ENCODER_JUMP,
+        Fault.OVERSPEED,
+        Fault.FORCE_STALE,
+        Fault.OVERRUNS,
+    }
+)
+#: Keys of a configuration that make a loop patient with a machine without real time.
+PATIENT = {
+    Fault.DRIVE_SILENT: "bus.silent = 50",
+    Fault.FORCE_STALE: "limits.force_age = 0.2",
+    Fault.OVERRUNS: "limits.overruns = 100 and limits.pause = 0.5",
+}
+#: Those of motion, which a late loop sees only where it skips ticks.
+BY_MOTION = frozenset({Fault.ENCODER_JUMP, Fault.OVERSPEED})
+
+
+def loop_fault(fault: Fault, trace: Trace) -> LoopFault:
+    """Return the error of a loop that ended by a fault, with a note where it was late."""
+    error = LoopFault(fault, trace)
+    if late := lateness_of(fault, trace):
+        error.add_note(f"the loop {late}; {remedy(fault)}")
+    return error
+
+
+def lateness_of(fault: Fault, trace: Trace) -> str:
+    """Return how late the loop was, where that may have led to a fault; else nothing."""
+    if fault not in BY_TIME or (fault in BY_MOTION and not trace["skipped"].any()):
+        return ""
+    return lateness(trace)
+
+
+def lateness(trace: Trace) -> str:
+    """Return how late the loop was: "woke up to 12.3 ms late and skipped 14 ticks"; empty on a virtual clock."""
+    most = 1e3 * float(trace["lateness"].max(initial=0.0))
+    skipped = int(trace["skipped"].sum())
+    if most == 0 and skipped == 0:
+        return ""
+    return (
+        f"woke up to {most:.3g} ms late and skipped {skipped:,} tick{'' if skipped == 1 else 's'}"
+    )
+
+
+def remedy(fault: Fault) -> str:
+    """Return what to do first about a fault of a loop that was late."""
+    first = "`ebac doctor` says what this machine lacks for real time"
+    patient = PATIENT.get(fault)
+    more = f"; a machine without it needs patience, such as {patient}" if patient else ""
+    last = "; only then look at cables and termination" if fault is Fault.DRIVE_SILENT else ""
+    return f"{first}{more}{last}"

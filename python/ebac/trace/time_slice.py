@@ -1,0 +1,29 @@
+"""The rows between two times."""
+
+from __future__ import annotations
+
+from numbers import Real
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+
+def rows_between(
+    t: NDArray[np.float64], start: float | None, stop: float | None, step: object = None
+) -> tuple[int, int]:
+    """Return the first row of start <= t < stop [s], and the row behind the last; as `Trace.between`."""
+    if step is not None:
+        raise ValueError("a trace is sliced by time [s]: trace[start:stop], without a step")
+    times: list[Any] = [one for one in (start, stop) if one is not None]
+    if not all(isinstance(time, (Real, np.number)) for time in times):
+        raise TypeError(f"trace[{start!r}:{stop!r}]: must be times [s], as in trace[1.0:2.5]")
+    first = 0 if start is None else int(np.searchsorted(t, start))
+    last = len(t) if stop is None else int(np.searchsorted(t, stop))
+    if len(t) and ((start or 0.0) > t[-1] or (stop is not None and stop < t[0])):
+        begin = "" if start is None else f"{start:g}"
+        end = "" if stop is None else f"{stop:g}"
+        raise ValueError(
+            f"trace[{begin}:{end}]: outside the run, which spans {t[0]:.6g} to {t[-1]:.6g} s"
+        )
+    return first, last
