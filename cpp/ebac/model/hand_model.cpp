@@ -66,12 +66,13 @@ class BodyBehind : public HandForce {
   }
 
  protected:
-  enum Index { kY, kW, kOwn };
+  static constexpr Eigen::Index kPlace = 0, kSpeed = 1,
+                                kOwn = 2;  // of the states; kOwn: the first of the contact
 
   /// Its motion under the contact's `force` and the spring's target.
   void move(const HandState& z, double target, double force, HandState& change) const EBAC_RT {
-    change[kY] = z[kW];
-    change[kW] = (stiffness_ * (target - z[kY]) - damping_ * z[kW] - force) / mass_;
+    change[kPlace] = z[kSpeed];
+    change[kSpeed] = (stiffness_ * (target - z[kPlace]) - damping_ * z[kSpeed] - force) / mass_;
   }
   HandBounds bounds_with(double stiffness, double damping, double rate) const {
     return {.mass = 0,
@@ -96,7 +97,7 @@ class FingerPadForce final : public BodyBehind {
         share_{p.fast, p.medium, p.slow} {}
 
   double force(const HandMotion& at, const HandState& z) const EBAC_RT override {
-    double force = spring_.force(z[kY] - at.x);
+    double force = spring_.force(z[kPlace] - at.x);
     for (std::size_t i = 0; i < share_.size(); ++i)
       force -= share_[i] * z[kOwn + static_cast<Eigen::Index>(i)];
     return force;
@@ -104,7 +105,7 @@ class FingerPadForce final : public BodyBehind {
   HandState rate(const HandMotion& at, const HandState& z) const EBAC_RT override {
     HandState change;
     move(z, at.target, force(at, z), change);
-    const double elastic = spring_.force(z[kY] - at.x);
+    const double elastic = spring_.force(z[kPlace] - at.x);
     for (std::size_t i = 0; i < share_.size(); ++i) {
       const auto own = kOwn + static_cast<Eigen::Index>(i);
       change[own] = (elastic - z[own]) / FingerPad::kTau[i];
@@ -181,7 +182,7 @@ class LetGoForce final : public BodyBehind {
   }
 
   double force(const HandMotion& at, const HandState& z) const EBAC_RT override {
-    return closed(at.t) * (p_.stiffness * (z[kY] - at.x) + p_.damping * (z[kW] - at.v));
+    return closed(at.t) * (p_.stiffness * (z[kPlace] - at.x) + p_.damping * (z[kSpeed] - at.v));
   }
   HandState rate(const HandMotion& at, const HandState& z) const EBAC_RT override {
     const double share = closed(at.t);

@@ -20,7 +20,7 @@ class AwakeCpus {
   Grant ask();
 
  private:
-  int file_ = -1;
+  [[maybe_unused]] int file_ = -1;  // nothing where the system has no such file
 };
 
 }  // namespace ebac::rt
