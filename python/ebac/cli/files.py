@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -118,6 +119,46 @@ class ResultOptions(FigureOptions):
         if resume and not self.force:
             return _resumed(self.out, command, resume)
         return free_folder(self.out, force=self.force)
+
+    def report(
+        self,
+        folder: Path | None,
+        command: str,
+        document: str,
+        *,
+        fill: Callable[[Path], object],
+        show: Callable[[], object],
+        as_json: bool,
+    ) -> None:
+        """Write the results of a command, then print them.
+
+        Parameters
+        ----------
+        folder : Path or None
+            As `folder` returned it.
+        command : str
+            Name of the command, and of the file with its document.
+        document : str
+            What --json prints.
+        fill : callable
+            Writes all other files to a draft of the folder.
+        show : callable
+            Prints tables, without --json.
+        as_json : bool
+            Whether the document is printed.
+        """
+        files: list[str] = []
+        with output.results(folder) as draft:
+            if draft is not None:
+                (draft / f"{command}.json").write_text(document + "\n", encoding="utf-8")
+                fill(draft)
+                files = sorted(file.name for file in draft.iterdir())
+        if as_json:
+            typer.echo(document)
+            return
+        show()
+        if folder is not None:
+            output.list_files(folder, files)
 
 
 def free_folder(out: Path, *, force: bool) -> Path:

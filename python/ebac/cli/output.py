@@ -165,12 +165,12 @@ def _finite(value: Any) -> Any:
     return None if isinstance(value, float) and not isfinite(value) else value
 
 
-def csv_table(path: Path, rows: Sequence[Mapping[str, Any]]) -> None:
-    """Write rows of the same names as CSV."""
+def csv_table(path: Path, rows: Sequence[Mapping[str, Any]], headings: Sequence[str] = ()) -> None:
+    """Write rows of the same names as CSV; `headings` are the names, needed where there may be no row."""
     import csv
 
     with path.open("w", encoding="utf-8", newline="") as file:
-        writer = csv.DictWriter(file, list(rows[0]), lineterminator="\n")
+        writer = csv.DictWriter(file, list(headings or rows[0]), lineterminator="\n")
         writer.writeheader()
         writer.writerows(rows)
 

@@ -92,13 +92,10 @@ def ablation(
         }
         people = setting.population(population, hands, seed)
     found = _run(people, given, folder, quiet=as_json)
-    files = _write(folder, found, to) if folder else []
-    if as_json:
-        typer.echo(_document(found))
-        return
-    _show(found)
-    if folder is not None:
-        output.list_files(folder, files)
+    to.report(
+        folder, "ablation", _document(found), as_json=as_json,
+        fill=lambda draft: _fill(draft, found, to), show=lambda: _show(found),
+    )  # fmt: skip
 
 
 def _run(people: Any, given: dict[str, Any], folder: Path | None, *, quiet: bool) -> Ablation:
@@ -116,24 +113,19 @@ def _document(found: Ablation) -> str:
     return output.document("ablation", [row.row() for row in found.rows])
 
 
-def _write(folder: Path, found: Ablation, to: ResultOptions) -> list[str]:
+def _fill(draft: Path, found: Ablation, to: ResultOptions) -> None:
     from ebac.plot import plot_ablation
 
-    with output.results(folder) as draft:
-        if draft is None:
-            return []
-        to.save(plot_ablation(found), draft, "ablation")
-        (draft / "ablation.json").write_text(_document(found) + "\n", encoding="utf-8")
-        rows = [
-            {**row.row(), "changes": row.label if row.piece else ""} | {
-                name: " ".join(getattr(row, name)) for name in ("worse", "better")
-            }
-            for row in found.rows
-        ]  # fmt: skip
-        output.csv_table(draft / "ablation.csv", rows)
-        found.study.operators.to_csv(draft / "population.csv")
-        found.study.result().to_csv(draft / "runs.csv")
-        return sorted(file.name for file in draft.iterdir())
+    to.save(plot_ablation(found), draft, "ablation")
+    rows = [
+        {**row.row(), "changes": row.label if row.piece else ""} | {
+            name: " ".join(getattr(row, name)) for name in ("worse", "better")
+        }
+        for row in found.rows
+    ]  # fmt: skip
+    output.csv_table(draft / "ablation.csv", rows)
+    found.study.operators.to_csv(draft / "population.csv")
+    found.study.result().to_csv(draft / "runs.csv")
 
 
 def _show(found: Ablation) -> None:

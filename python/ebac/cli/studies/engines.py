@@ -5,8 +5,6 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
-import typer
-
 from ebac.cli import engine_options, options, output, setting
 from ebac.cli.files import ResultOptions
 
@@ -63,13 +61,10 @@ def engines(
                 compute=engine_compute,
                 progress=progress,
             )
-    files = _write(folder, found, to) if folder else []
-    if as_json:
-        typer.echo(_document(found))
-        return
-    _show(found)
-    if folder is not None:
-        output.list_files(folder, files)
+    to.report(
+        folder, "engines", _document(found), as_json=as_json,
+        fill=lambda draft: _fill(draft, found, to), show=lambda: _show(found),
+    )  # fmt: skip
 
 
 def _scenario(setup: options.ScenarioOptions) -> Scenario:
@@ -85,17 +80,12 @@ def _document(found: Engines) -> str:
     return output.document("engines", found.table())
 
 
-def _write(folder: Path, found: Engines, to: ResultOptions) -> list[str]:
+def _fill(draft: Path, found: Engines, to: ResultOptions) -> None:
     from ebac.plot import plot_engines
 
-    with output.results(folder) as draft:
-        if draft is None:
-            return []
-        figures = to.save(plot_engines(found), draft, "engines")
-        (draft / "engines.json").write_text(_document(found) + "\n", encoding="utf-8")
-        output.csv_table(draft / "engines.csv", found.table())
-        found.base.save(draft / "scenario.toml")
-    return [*figures, "engines.json", "engines.csv", "scenario.toml"]
+    to.save(plot_engines(found), draft, "engines")
+    output.csv_table(draft / "engines.csv", found.table())
+    found.base.save(draft / "scenario.toml")
 
 
 def _show(found: Engines) -> None:

@@ -76,13 +76,10 @@ def map_(
     folder = to.folder("map", as_json=as_json, resume=BUNDLES.format(names[0]) * resume)
     given = {"base": base, "x": x, "y": y, "xs": xs, "ys": ys, "threads": threads}
     maps = [_run(name, given, folder, resume, quiet=as_json) for name in names]
-    files = _write(folder, maps, to, quiet=as_json) if folder else []
-    if as_json:
-        typer.echo(_document(maps))
-        return
-    _show(maps)
-    if folder is not None:
-        output.list_files(folder, files)
+    to.report(
+        folder, "map", _document(maps), as_json=as_json,
+        fill=lambda draft: _fill(draft, maps, to, quiet=as_json), show=lambda: _show(maps),
+    )  # fmt: skip
 
 
 def _values(
@@ -150,19 +147,15 @@ def _document(maps: list[StabilityMap]) -> str:
     return output.document("map", _rows(maps))
 
 
-def _write(folder: Path, maps: list[StabilityMap], to: ResultOptions, *, quiet: bool) -> list[str]:
+def _fill(draft: Path, maps: list[StabilityMap], to: ResultOptions, *, quiet: bool) -> None:
     from ebac.plot import plot_map
 
-    with output.results(folder) as draft, output.progress(len(maps), quiet=quiet) as step:
-        if draft is None:
-            return []
-        (draft / "map.json").write_text(_document(maps) + "\n", encoding="utf-8")
+    with output.progress(len(maps), quiet=quiet) as step:
         maps[0].base.save(draft / "scenario.toml")
         for found in maps:
             step(f"drawing {found.law}")
             to.save(plot_map(found), draft, f"map-{found.law}")
             found.to_npz(draft / f"map-{found.law}.npz")
-        return sorted(file.name for file in draft.iterdir())
 
 
 def _show(maps: list[StabilityMap]) -> None:

@@ -5,8 +5,6 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
-import typer
-
 from ebac.cli import completion, options, output, setting
 from ebac.cli.files import ResultOptions
 
@@ -87,29 +85,21 @@ def shapes(
                 timing=timing,
                 progress=progress,
             )
-    files = _write(folder, found, to) if folder else []
-    if as_json:
-        typer.echo(_document(found))
-        return
-    _show(found)
-    if folder is not None:
-        output.list_files(folder, files)
+    to.report(
+        folder, "shapes", _document(found), as_json=as_json,
+        fill=lambda draft: _fill(draft, found, to), show=lambda: _show(found),
+    )  # fmt: skip
 
 
 def _document(found: Shapes) -> str:
     return output.document("shapes", found.table(), missing=found.missing)
 
 
-def _write(folder: Path, found: Shapes, to: ResultOptions) -> list[str]:
+def _fill(draft: Path, found: Shapes, to: ResultOptions) -> None:
     from ebac.plot import plot_shapes
 
-    with output.results(folder) as draft:
-        if draft is None:
-            return []
-        figures = to.save(plot_shapes(found), draft, "shapes")
-        (draft / "shapes.json").write_text(_document(found) + "\n", encoding="utf-8")
-        output.csv_table(draft / "shapes.csv", found.table())
-    return [*figures, "shapes.json", "shapes.csv"]
+    to.save(plot_shapes(found), draft, "shapes")
+    output.csv_table(draft / "shapes.csv", found.table())
 
 
 def _show(found: Shapes) -> None:

@@ -99,13 +99,11 @@ def study(
         }
     folder = to.folder("study", as_json=as_json, resume=study_results.BUNDLES * resume)
     found = _run(people, names, given, folder, resume, quiet=as_json)
-    files = study_results.write(folder, found, traces, to, quiet=as_json) if folder else []
-    if as_json:
-        typer.echo(study_results.document(found))
-        return
-    study_results.show(found)
-    if folder is not None:
-        output.list_files(folder, files)
+    to.report(
+        folder, "study", study_results.document(found), as_json=as_json,
+        fill=lambda draft: study_results.fill(draft, found, traces, to, quiet=as_json),
+        show=lambda: study_results.show(found),
+    )  # fmt: skip
 
 
 def _run(

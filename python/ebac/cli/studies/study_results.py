@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 from collections import defaultdict
 from itertools import chain, zip_longest
 from pathlib import Path
@@ -18,6 +17,8 @@ if TYPE_CHECKING:
 BUNDLES = "sweep"
 #: Failures named on the screen; the files name all.
 SHOWN = 12
+#: Columns of failures.csv.
+FAILURES = ("law", "condition", "operator", "hand", "why")
 
 
 def document(study: Study) -> str:
@@ -25,23 +26,21 @@ def document(study: Study) -> str:
     return output.document("study", [row.row() for row in study.rows])
 
 
-def write(folder: Path, study: Study, traces: int, to: ResultOptions, *, quiet: bool) -> list[str]:
-    """Write tables, figures and traces of failures into a folder; return their names."""
+def fill(draft: Path, study: Study, traces: int, to: ResultOptions, *, quiet: bool) -> None:
+    """Write tables, figures and traces of failures into a draft of the results."""
     from ebac.plot import plot_study
 
     kept = spread(study.failures, traces)
-    with output.results(folder) as draft, output.progress(3 + len(kept), quiet=quiet) as step:
-        if draft is None:
-            return []
+    with output.progress(3 + len(kept), quiet=quiet) as step:
         step("writing tables")
-        (draft / "study.json").write_text(document(study) + "\n", encoding="utf-8")
-        _table(draft / "study.csv", [row.row() for row in study.rows])
+        output.csv_table(draft / "study.csv", [row.row() for row in study.rows])
         study.operators.to_csv(draft / "population.csv")
         study.result().to_csv(draft / "runs.csv")
-        _table(draft / "failures.csv", [
+        failures = [
             {"law": f.law, "condition": f.condition, "operator": f.operator, "hand": f.name, "why": f.why}
             for f in study.failures
-        ])  # fmt: skip
+        ]  # fmt: skip
+        output.csv_table(draft / "failures.csv", failures, FAILURES)
         step("drawing")
         for name, figure in plot_study(study):
             to.save(figure, draft, f"study-{name}")
@@ -49,7 +48,6 @@ def write(folder: Path, study: Study, traces: int, to: ResultOptions, *, quiet: 
             step("keeping traces of failures")
             name = f"failure-{failure.law}-{failure.condition}-{failure.operator}.npz"
             study.trace(failure.run).to_npz(draft / name)
-        return sorted(file.name for file in draft.iterdir())
 
 
 def spread(failures: list[Failure], most: int) -> list[Failure]:
@@ -59,13 +57,6 @@ def spread(failures: list[Failure], most: int) -> list[Failure]:
         groups[failure.law, failure.condition].append(failure)
     turns = chain.from_iterable(zip_longest(*sorted(groups.values(), key=len)))
     return [failure for failure in turns if failure is not None][:most]
-
-
-def _table(path: Path, rows: list[dict[str, object]]) -> None:
-    with path.open("w", encoding="utf-8", newline="") as file:
-        writer = csv.DictWriter(file, list(rows[0]) if rows else ["law"], lineterminator="\n")
-        writer.writeheader()
-        writer.writerows(rows)
 
 
 def show(study: Study) -> None:

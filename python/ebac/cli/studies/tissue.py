@@ -51,30 +51,26 @@ def tissue(
         folder = to.folder("tissue", as_json=as_json)
         with output.counting("simulating", quiet=as_json) as progress:
             found = compare(names, depth=depth, speed=speed, progress=progress)
-    files = _write(folder, found, to) if folder else []
-    if as_json:
-        typer.echo(_document(found))
-        return
-    _show_curves(found)
-    _show_laws(found)
-    if folder is not None:
-        output.list_files(folder, files)
+    to.report(
+        folder, "tissue", _document(found), as_json=as_json,
+        fill=lambda draft: _fill(draft, found, to), show=lambda: _show(found),
+    )  # fmt: skip
 
 
 def _document(found: Tissue) -> str:
     return output.document("tissue", found.table(), laws=found.law_table())
 
 
-def _write(folder: Path, found: Tissue, to: ResultOptions) -> list[str]:
+def _fill(draft: Path, found: Tissue, to: ResultOptions) -> None:
     from ebac.plot import plot_tissue
 
-    with output.results(folder) as draft:
-        if draft is None:
-            return []
-        figures = to.save(plot_tissue(found), draft, "tissue")
-        (draft / "tissue.json").write_text(_document(found) + "\n", encoding="utf-8")
-        output.csv_table(draft / "tissue.csv", found.law_table())
-    return [*figures, "tissue.json", "tissue.csv"]
+    to.save(plot_tissue(found), draft, "tissue")
+    output.csv_table(draft / "tissue.csv", found.law_table())
+
+
+def _show(found: Tissue) -> None:
+    _show_curves(found)
+    _show_laws(found)
 
 
 def _show_curves(found: Tissue) -> None:

@@ -92,14 +92,16 @@ def worst(
                 chosen, wanted, family=families or None, evaluations=evaluations, seed=seed, pull=pull,
                 base=base, threads=threads, progress=progress,
             )  # fmt: skip
-    files = _write(folder, found, evaluations, seed, to) if folder else []
-    if as_json:
-        typer.echo(_document(found, evaluations, seed))
-        return
-    _show(found)
-    if folder is not None:
-        _tell_replay(found, folder, name, changed=bool(change))
-        output.list_files(folder, files)
+
+    def show() -> None:
+        _show(found)
+        if folder is not None:
+            _tell_replay(found, folder, name, changed=bool(change))
+
+    to.report(
+        folder, "worst", _document(found, evaluations, seed), as_json=as_json,
+        fill=lambda draft: _fill(draft, found, to), show=show,
+    )  # fmt: skip
 
 
 def _document(found: Worst, evaluations: int, seed: int) -> str:
@@ -109,26 +111,20 @@ def _document(found: Worst, evaluations: int, seed: int) -> str:
     )  # fmt: skip
 
 
-def _write(folder: Path, found: Worst, evaluations: int, seed: int, to: ResultOptions) -> list[str]:
+def _fill(draft: Path, found: Worst, to: ResultOptions) -> None:
     from ebac.plot import plot_worst
 
-    with output.results(folder) as draft:
-        if draft is None:
-            return []
-        document = _document(found, evaluations, seed)
-        (draft / "worst.json").write_text(document + "\n", encoding="utf-8")
-        for hand in found.hands:
-            hand.scenario.save(draft / f"{_file(hand)}.toml")
-            to.save(plot_worst(found, hand), draft, _file(hand))
-        rows = [
-            {
-                **row,
-                "parameters": " ".join(f"{p['name']}={p['value']!r}" for p in row["parameters"]),
-            }
-            for row in found.rows()
-        ]
-        output.csv_table(draft / "worst.csv", rows)
-        return sorted(file.name for file in draft.iterdir())
+    for hand in found.hands:
+        hand.scenario.save(draft / f"{_file(hand)}.toml")
+        to.save(plot_worst(found, hand), draft, _file(hand))
+    rows = [
+        {
+            **row,
+            "parameters": " ".join(f"{p['name']}={p['value']!r}" for p in row["parameters"]),
+        }
+        for row in found.rows()
+    ]
+    output.csv_table(draft / "worst.csv", rows)
 
 
 def _file(hand: WorstHand) -> str:

@@ -103,13 +103,10 @@ def zwidth(
                 base, names, delays=delay or (0, 1, 2), dampings=np.linspace(0, most_damping, points),
                 least=least, top=top, epsilon=epsilon, threads=threads, progress=progress,
             )  # fmt: skip
-    files = _write(folder, found, to) if folder else []
-    if as_json:
-        typer.echo(_document(found))
-        return
-    _show(found)
-    if folder is not None:
-        output.list_files(folder, files)
+    to.report(
+        folder, "zwidth", _document(found), as_json=as_json,
+        fill=lambda draft: _fill(draft, found, to), show=lambda: _show(found),
+    )  # fmt: skip
 
 
 def _check(most_damping: float, least: float, top: float, epsilon: float) -> None:
@@ -132,18 +129,13 @@ def _document(found: ZWidth) -> str:
     )  # fmt: skip
 
 
-def _write(folder: Path, found: ZWidth, to: ResultOptions) -> list[str]:
+def _fill(draft: Path, found: ZWidth, to: ResultOptions) -> None:
     from ebac.plot import plot_zwidth
 
-    with output.results(folder) as draft:
-        if draft is None:
-            return []
-        figures = to.save(plot_zwidth(found), draft, "zwidth")
-        (draft / "zwidth.json").write_text(_document(found) + "\n", encoding="utf-8")
-        output.csv_table(draft / "zwidth.csv", found.rows())
-        output.csv_table(draft / "scores.csv", found.scores())
-        found.base.save(draft / "scenario.toml")
-    return [*figures, "zwidth.json", "zwidth.csv", "scores.csv", "scenario.toml"]
+    to.save(plot_zwidth(found), draft, "zwidth")
+    output.csv_table(draft / "zwidth.csv", found.rows())
+    output.csv_table(draft / "scores.csv", found.scores())
+    found.base.save(draft / "scenario.toml")
 
 
 def _show(found: ZWidth) -> None:
