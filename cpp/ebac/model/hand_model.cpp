@@ -66,8 +66,9 @@ class BodyBehind : public HandForce {
   }
 
  protected:
-  static constexpr Eigen::Index kPlace = 0, kSpeed = 1,
-                                kOwn = 2;  // of the states; kOwn: the first of the contact
+  static constexpr Eigen::Index kPlace = 0;
+  static constexpr Eigen::Index kSpeed = 1;
+  static constexpr Eigen::Index kOwn = 2;  // first state of the contact
 
   /// Its motion under the contact's `force` and the spring's target.
   void move(const HandState& z, double target, double force, HandState& change) const EBAC_RT {

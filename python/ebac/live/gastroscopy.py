@@ -14,7 +14,7 @@ from ebac.live.served_page import served_page
 from ebac.live.server import Server
 
 #: Scripts of the page, in the order in which one needs the other.
-SCRIPTS = ("vectors", "solid", "lumen", "endoscope", "outside", "gastroscopy")
+SCRIPTS = ("vectors", "link", "solid", "lumen", "endoscope", "outside", "gastroscopy")
 
 
 class GastroscopyServer(Server):

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 SERVED = Path(__file__).with_name("served")
 #: In the order in which one needs the other.
-SCRIPTS = ("vectors", "solid", "scene3d", "drag", "form", "main")
+SCRIPTS = ("vectors", "link", "solid", "scene3d", "drag", "form", "main")
 
 
 def served_page(page: str = "page", scripts: tuple[str, ...] = SCRIPTS) -> str:

@@ -26,20 +26,7 @@ export class Endoscope {
     this.canvas = canvas;
     const gl = (this.gl = canvas.getContext("webgl", { antialias: true, alpha: true }));
     if (!gl) throw new Error("this browser has no WebGL");
-    const program = gl.createProgram();
-    for (const [kind, text] of [[gl.VERTEX_SHADER, LENS], [gl.FRAGMENT_SHADER, LAMP]]) {
-      const shader = gl.createShader(kind);
-      gl.shaderSource(shader, text);
-      gl.compileShader(shader);
-      gl.attachShader(program, shader);
-    }
-    ["place", "normal"].forEach((name, i) => gl.bindAttribLocation(program, i, name));
-    gl.linkProgram(program);
-    gl.useProgram(program);
-    this.at = Object.fromEntries(["at", "right", "down", "ahead", "halfAngle", "fit", "model", "colour"].map((name) => [name, gl.getUniformLocation(program, name)]));
-    gl.enable(gl.DEPTH_TEST);
-    gl.enableVertexAttribArray(0);
-    gl.enableVertexAttribArray(1);
+    this.at = used(gl, LENS, LAMP, ["at", "right", "down", "ahead", "halfAngle", "fit", "model", "colour"]);
     const ball = turned(Array.from({ length: 11 }, (_, i) => [Math.sin((Math.PI * i) / 10), -Math.cos((Math.PI * i) / 10)]));
     this.ball = this.mesh(new Float32Array(ball[0]), new Float32Array(ball[0]), ball[1]);
   }

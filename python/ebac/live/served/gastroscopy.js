@@ -5,26 +5,11 @@ const NAMES = ["t", "force", "tube", "place"];
 const $ = (id) => document.getElementById(id);
 const columns = Object.fromEntries(NAMES.map((name) => [name, []]));
 const live = (window.ebacServed = { frames: 0, drawn: 0, state: null, frame: null });
-let socket = null, run = -1, dirty = true, stripsAt = 0, leaving = false, lumen = null;
+let run = -1, dirty = true, stripsAt = 0, lumen = null;
 
 const outside = new Outside($("outside"));
 const endoscope = new Endoscope($("camera"));
-const send = (kind) => socket?.readyState === WebSocket.OPEN && socket.send(JSON.stringify({ kind }));
-
-function connect() {
-  const token = new URLSearchParams(location.search).get("token") ?? "";
-  socket = new WebSocket(`ws://${location.host}/socket?token=${encodeURIComponent(token)}`);
-  socket.onmessage = ({ data }) => {
-    const message = JSON.parse(data);
-    taken[message.kind]?.(message);
-  };
-  socket.onclose = () => {
-    $("link").textContent = "Not connected. It is where `ebac gastroscopy --live` runs; trying again …";
-    live.state = null;
-    if (!leaving) setTimeout(connect, 1000);
-  };
-}
-window.addEventListener("pagehide", () => (leaving = true));
+const send = (kind) => link.send({ kind });
 
 const taken = {
   state(state) {
@@ -59,6 +44,11 @@ const taken = {
     dirty = true;
   },
 };
+
+const link = new Link(taken, () => {
+  $("link").textContent = "Not connected. It is where `ebac gastroscopy --live` runs; trying again …";
+  live.state = null;
+});
 
 function append(more) {
   if (!more?.t?.length) return;
@@ -140,5 +130,5 @@ $("run").addEventListener("click", () => send(live.state?.running ? "pause" : "s
 $("reset").addEventListener("click", () => send("reset"));
 $("take").addEventListener("click", () => send("take"));
 window.addEventListener("resize", () => (dirty = true));
-connect();
+link.open();
 requestAnimationFrame(paint);

@@ -6,10 +6,10 @@ const BEAT = 100; // ms, while the dead-man key is held
 const $ = (id) => document.getElementById(id);
 const columns = Object.fromEntries(NAMES.map((name) => [name, []]));
 const live = (window.ebacServed = { frames: 0, drawn: 0, state: null, frame: null, drawnX: null, opened: performance.now() });
-let socket = null, run = -1, dirty = true, stripsAt = 0, beat = 0, leaving = false;
+let run = -1, dirty = true, stripsAt = 0, beat = 0;
 
 const scene = new Scene($("scene"));
-const send = (message) => socket?.readyState === WebSocket.OPEN && socket.send(JSON.stringify(message));
+const send = (message) => link.send(message);
 const showForm = form($("form"), (name, value) => ($("error").textContent = "", send({ kind: "change", name, value })));
 live.dragTo = (place) => send({ kind: "drag", place });
 
@@ -19,18 +19,6 @@ dragging($("scene"), scene, {
   drop: () => send({ kind: "drop" }),
   changed: () => (dirty = true),
 });
-
-function connect() {
-  const token = new URLSearchParams(location.search).get("token") ?? "";
-  socket = new WebSocket(`ws://${location.host}/socket?token=${encodeURIComponent(token)}`);
-  socket.onmessage = ({ data }) => taken[JSON.parse(data).kind]?.(JSON.parse(data));
-  socket.onclose = () => {
-    $("link").textContent = "Not connected. The loop is where `ebac live` runs; trying again …";
-    live.state = null;
-    if (!leaving) setTimeout(connect, 1000);
-  };
-}
-window.addEventListener("pagehide", () => (leaving = true));
 
 const taken = {
   state(state) {
@@ -69,6 +57,11 @@ const taken = {
     dirty = true;
   },
 };
+
+const link = new Link(taken, () => {
+  $("link").textContent = "Not connected. The loop is where `ebac live` runs; trying again …";
+  live.state = null;
+});
 
 function append(more) {
   if (!more?.t?.length) return;
@@ -155,5 +148,5 @@ $("save").addEventListener("click", () => send({ kind: "save" }));
 $("take").addEventListener("click", () => send({ kind: "take" }));
 $("modes").addEventListener("click", ({ target }) => target.dataset.mode && send({ kind: "mode", mode: target.dataset.mode }));
 window.addEventListener("resize", () => (dirty = true));
-connect();
+link.open();
 requestAnimationFrame(paint);

@@ -10,25 +10,30 @@ void main() {
   gl_FragColor = vec4(colour.rgb * lit, 1.0) * colour.a;
 }`;
 
+/** Compiles and uses a program with the attributes place and normal; returns where its uniforms are. */
+export function used(gl, vertex, fragment, uniforms) {
+  const program = gl.createProgram();
+  for (const [kind, text] of [[gl.VERTEX_SHADER, vertex], [gl.FRAGMENT_SHADER, fragment]]) {
+    const shader = gl.createShader(kind);
+    gl.shaderSource(shader, text);
+    gl.compileShader(shader);
+    gl.attachShader(program, shader);
+  }
+  ["place", "normal"].forEach((name, i) => gl.bindAttribLocation(program, i, name));
+  gl.linkProgram(program);
+  gl.useProgram(program);
+  gl.enable(gl.DEPTH_TEST);
+  gl.enableVertexAttribArray(0);
+  gl.enableVertexAttribArray(1);
+  return Object.fromEntries(uniforms.map((name) => [name, gl.getUniformLocation(program, name)]));
+}
+
 export class Screen {
   constructor(canvas) {
     this.canvas = canvas;
     const gl = (this.gl = canvas.getContext("webgl", { antialias: false, alpha: true }));
     if (!gl) throw new Error("this browser has no WebGL");
-    this.program = gl.createProgram();
-    for (const [kind, text] of [[gl.VERTEX_SHADER, VERTEX], [gl.FRAGMENT_SHADER, FRAGMENT]]) {
-      const shader = gl.createShader(kind);
-      gl.shaderSource(shader, text);
-      gl.compileShader(shader);
-      gl.attachShader(this.program, shader);
-    }
-    ["place", "normal"].forEach((name, i) => gl.bindAttribLocation(this.program, i, name));
-    gl.linkProgram(this.program);
-    gl.useProgram(this.program);
-    this.at = Object.fromEntries(["view", "model", "colour", "light"].map((name) => [name, gl.getUniformLocation(this.program, name)]));
-    gl.enable(gl.DEPTH_TEST);
-    gl.enableVertexAttribArray(0);
-    gl.enableVertexAttribArray(1);
+    this.at = used(gl, VERTEX, FRAGMENT, ["view", "model", "colour", "light"]);
     gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
   }
 
