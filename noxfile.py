@@ -59,6 +59,28 @@ def repair_native_enums(stub: str) -> str:
     )
 
 
+#: Types of Python that the docstrings of the compiled module cannot name, by what the generator writes.
+TYPES = {
+    r"^class _Law:\n(?:(?:    .*)?\n)+": "",
+    r"\(_Law\)": "",
+    r"\b_Law\b": "ebac.laws.CoreLaw",
+    r"(def _(?:replay|simulate)_python\((?:.*\n)*?.*?law: )typing\.Any": r"\1ebac.laws.PythonLaw",
+    r"(configuration: )typing\.Any": r"\1ebac.hardware.Configuration | str | os.PathLike[str]",
+    r"(model: )typing\.Any( = None)": r"\1ebac.hands.AnyModel\2",
+    r"(def model\(self\) -> )typing\.Any": r"\1ebac.hands.AnyModel",
+    r"(def __enter__\(self\) -> )typing\.Any": r"\1typing.Self",
+    r"(def start\(self, .*\) -> )typing\.Any": r"\1typing.Self",
+    r"^import ebac\.hardware$": "import os\nimport ebac.hands\nimport ebac.hardware\nimport ebac.laws",
+}
+
+
+def name_types(stub: str) -> str:
+    """Write the types in that `TYPES` has."""
+    for found, wanted in TYPES.items():
+        stub = re.sub(found, wanted, stub, flags=re.M)
+    return stub
+
+
 def member(line: re.Match[str]) -> str:
     return f"    {line[1]} = ...\n" if line[1] else ""
 
@@ -72,6 +94,7 @@ def stubs(session: nox.Session) -> None:
     generate = f"{bare}; from pybind11_stubgen import main; main()"
     session.run("python", "-c", generate, "ebac._core", "--output-dir", str(out), "--exit-code")
     stub = Path("python/ebac/_core.pyi")
-    stub.write_text(repair_native_enums((out / "ebac" / "_core.pyi").read_text()))
+    generated = (out / "ebac" / "_core.pyi").read_text()
+    stub.write_text(name_types(repair_native_enums(generated)))
     session.run("ruff", "check", "--fix-only", "--quiet", str(stub))
     session.run("ruff", "format", str(stub))

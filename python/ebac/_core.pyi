@@ -6,12 +6,15 @@ from __future__ import annotations
 
 import collections.abc
 import enum
+import os
 import typing
 
 import numpy
 import numpy.typing
 
+import ebac.hands
 import ebac.hardware
+import ebac.laws
 
 __all__: list[str] = [
     "EBA",
@@ -1644,7 +1647,10 @@ class Device:
     """
     @staticmethod
     def open(
-        configuration: typing.Any, *, simulate: bool = False, detached: bool = False
+        configuration: ebac.hardware.Configuration | str | os.PathLike[str],
+        *,
+        simulate: bool = False,
+        detached: bool = False,
     ) -> ebac.hardware.OpenDevice:
         """
         Opens the drives of a configuration, or of its TOML file: `with Device.open(file) as device`.
@@ -2454,7 +2460,7 @@ class Hand:
         | Recorded
         | typing.Sequence[Step | MinimumJerk | Sine | Tapping | Recorded] = ...,
         target: float | typing.Sequence[float] | None = None,
-        model: typing.Any = None,
+        model: ebac.hands.AnyModel = None,
     ) -> None: ...
     def __reduce__(self) -> tuple[typing.Any, ...]: ...
     def __repr__(self) -> str: ...
@@ -2498,7 +2504,7 @@ class Hand:
         M0 of eq. (4) [kg], 0 to 10
         """
     @property
-    def model(self) -> typing.Any:
+    def model(self) -> ebac.hands.AnyModel:
         """
         What makes its force: Reflex, FingerPad, NonlinearGrip, LetGo, a hand of your own, or None for eq. (4).
         """
@@ -7262,7 +7268,7 @@ class LoopbackJoystick:
     its own that never waits for Python; their plant moves for `longest_step` [s] at most between
     two SYNCs. A context manager.
     """
-    def __enter__(self) -> typing.Any: ...
+    def __enter__(self) -> typing.Self: ...
     def __exit__(
         self, kind: typing.Any = None, error: typing.Any = None, traceback: typing.Any = None
     ) -> None: ...
@@ -7282,7 +7288,7 @@ class LoopbackJoystick:
         zero: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex] = [],
         longest_step: typing.SupportsFloat | typing.SupportsIndex = ...,
     ) -> None: ...
-    def start(self, mode: RealTimeMode = ..., realtime: RealTime = ...) -> typing.Any:
+    def start(self, mode: RealTimeMode = ..., realtime: RealTime = ...) -> typing.Self:
         """
         Start the drives on the bus; possible once.
         """
@@ -7311,7 +7317,7 @@ class SocketCanJoystick:
     Simulated drives of a joystick on a CAN interface of the Linux kernel, in real time, in a
     thread of its own that never waits for Python. A context manager.
     """
-    def __enter__(self) -> typing.Any: ...
+    def __enter__(self) -> typing.Self: ...
     def __exit__(
         self, kind: typing.Any = None, error: typing.Any = None, traceback: typing.Any = None
     ) -> None: ...
@@ -7330,7 +7336,7 @@ class SocketCanJoystick:
         ] = [],
         zero: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex] = [],
     ) -> None: ...
-    def start(self, mode: RealTimeMode = ..., realtime: RealTime = ...) -> typing.Any:
+    def start(self, mode: RealTimeMode = ..., realtime: RealTime = ...) -> typing.Self:
         """
         Start the drives on the bus; possible once.
         """
@@ -7770,11 +7776,11 @@ class Running:
         """
         Wait until the loop has ended.
         """
-    def replace_law(self, law: typing.Any) -> int:
+    def replace_law(self, law: ebac.laws.CoreLaw) -> int:
         """
         Let another law take over from the next tick on, its force blended in over 50 ms; return the serial number of the update.
         """
-    def retune(self, law: typing.Any) -> int:
+    def retune(self, law: ebac.laws.CoreLaw) -> int:
         """
         Apply the gains of `law` from the next tick on; return the serial number of the update.
         """
@@ -8211,7 +8217,7 @@ class _UdpMaster:
         self,
         *,
         setup: Setup,
-        law: typing.Any,
+        law: ebac.laws.CoreLaw,
         coupling: Coupling,
         host: str,
         port: typing.SupportsInt | typing.SupportsIndex,
@@ -8279,7 +8285,7 @@ class _UdpSlave:
         """
 
 def _simulate_teleop(
-    law: typing.Any,
+    law: ebac.laws.CoreLaw,
     setup: Setup,
     *,
     coupling: Coupling,
@@ -9076,7 +9082,7 @@ class _Procedure:
     ) -> None: ...
 
 class _Navigation:
-    def __init__(self, procedure: _Procedure, setup: Setup, law: typing.Any) -> None: ...
+    def __init__(self, procedure: _Procedure, setup: Setup, law: ebac.laws.CoreLaw) -> None: ...
     def advance(self, ticks: typing.SupportsInt | typing.SupportsIndex) -> None: ...
     def findings(self) -> dict[str, typing.Any]: ...
     def row(self) -> dict[str, typing.Any]: ...
@@ -9100,13 +9106,13 @@ def _procedure_fields() -> list[tuple[str, str, str]]: ...
 def _run_procedure(
     procedure: _Procedure,
     setup: Setup,
-    law: typing.Any,
+    law: ebac.laws.CoreLaw,
     every: typing.SupportsInt | typing.SupportsIndex,
 ) -> tuple[dict[str, typing.Any], dict[str, typing.Any]]: ...
 def _run_procedures(
     procedures: collections.abc.Sequence[_Procedure],
     setups: collections.abc.Sequence[Setup],
-    laws: collections.abc.Sequence[typing.Any],
+    laws: collections.abc.Sequence[ebac.laws.CoreLaw],
     threads: typing.SupportsInt | typing.SupportsIndex,
     progress: SweepProgress,
 ) -> dict[str, typing.Any]: ...
@@ -9243,12 +9249,12 @@ def _placed(
 def _rebuild(arg0: typing.Any, arg1: dict[str, typing.Any]) -> typing.Any: ...
 def _replay_python(
     log: ReplayLog,
-    law: typing.Any,
+    law: ebac.laws.PythonLaw,
     device: Device,
     environment: Free | Wall | Corner | Disc | _World,
 ) -> Rows: ...
 def _simulate_python(
-    setup: Setup, law: typing.Any, through_can: bool = False, bus: TimedBus | None = None
+    setup: Setup, law: ebac.laws.PythonLaw, through_can: bool = False, bus: TimedBus | None = None
 ) -> Rows: ...
 def _solid(arg0: Plane | Sphere | Box | Cylinder | Capsule | Torus) -> _Solid: ...
 def _stored_energy(

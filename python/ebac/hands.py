@@ -10,7 +10,7 @@ A hand of your own is an object with `force(t, x, v)`, see `OwnHand`.
 from __future__ import annotations
 
 from abc import abstractmethod
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Protocol, TypeAlias
 
 from ebac._core import FingerPad, Hand, LetGo, NonlinearGrip, Reflex
 
@@ -69,7 +69,19 @@ class OwnHand:
         """Prepare for a run on an axis, 0 to 2."""
 
 
-def is_own(model: Any) -> TypeGuard[OwnHand]:
+class HandForce(Protocol):
+    """What a hand of your own must have."""
+
+    def force(self, t: float, x: float, v: float, /) -> float:
+        """Return the force on the handle [N]."""
+        ...
+
+
+#: What a `Hand` may have as its model.
+AnyModel: TypeAlias = Reflex | FingerPad | NonlinearGrip | LetGo | HandForce | None
+
+
+def is_own(model: AnyModel) -> TypeGuard[OwnHand]:
     """Return whether a model is a hand of the user's own."""
     return model is not None and not isinstance(model, PRESETS)
 

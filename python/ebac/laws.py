@@ -247,11 +247,11 @@ def _tuned_rows(ending: str) -> list[dict[str, Any]]:
     return rows
 
 
-def law_name(law: Any) -> str:
+def law_name(law: AnyLaw) -> str:
     """Return the name a law goes by in tables and plots."""
     return law if isinstance(law, str) else str(getattr(law, "name", type(law).__name__))
 
 
-def shown_value(value: Any) -> str:
+def shown_value(value: bool | float) -> str:
     """Return a parameter's value as people read it: on, off or a number."""
     return ("on" if value else "off") if isinstance(value, bool) else f"{value:g}"

@@ -6,14 +6,14 @@ from collections.abc import Mapping
 from typing import Any
 
 from ebac._core import Device, Timing
-from ebac.laws import LAWS, CoreLaw, design
+from ebac.laws import LAWS, AnyLaw, CoreLaw, design
 
 #: The gains of the force loop, eq. (2): they need a measured force.
 FORCE_GAINS = ("kp", "kd")
 
 
 def designed(
-    law: Any, changes: Mapping[str, Any], device: Device, timing: Timing, *, sensor: bool
+    law: AnyLaw, changes: Mapping[str, Any], device: Device, timing: Timing, *, sensor: bool
 ) -> CoreLaw:
     """Return a law of the core for a device; without a sensor, the gains of its force loop are 0.
 

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ebac._core import RunLimits
 from ebac._util.nlopt_callbacks import Carried
+from ebac.laws import CoreLaw, PythonLaw
 from ebac.scenario import Scenario
 from ebac.simulation import LoopFault, simulate
 from ebac.studies.families import Family
@@ -68,7 +68,7 @@ class HandSearch:
         self,
         family: Family,
         base: Scenario,
-        law: Any,
+        law: CoreLaw | PythonLaw,
         pull: float,
         threads: int,
         report: Callable[[int], None],
@@ -178,7 +178,7 @@ class HandSearch:
         )
 
 
-def every_row(scenario: Scenario, law: Any) -> Trace:
+def every_row(scenario: Scenario, law: CoreLaw | PythonLaw) -> Trace:
     """Simulate, and keep what there is after a fault."""
     try:
         return simulate(scenario, law)

@@ -71,6 +71,8 @@ class Master(_Side):
     ------
     OSError
         Where the port cannot be had.
+    TypeError
+        For a law that is written in Python.
     """
 
     def __init__(
@@ -84,6 +86,8 @@ class Master(_Side):
         peer: tuple[str, int],
         consent_after: float | None = None,
     ) -> None:
+        if not isinstance(law, CoreLaw):
+            raise TypeError(f"law = {law!r}: must be a law of the core, not one written in Python")
         self._core = _core._UdpMaster(
             setup=scenario.setup(),
             law=law,
