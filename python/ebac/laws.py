@@ -26,7 +26,7 @@ from ebac._core import (
     Wall,
     _World,
 )
-from ebac._util.arguments import unknown_name
+from ebac._util.arguments import require, unknown_name
 from ebac._util.wrong_calls import plain_constructor
 
 __all__ = [
@@ -124,6 +124,10 @@ class Variant:
 
     law: str | type[CoreLaw]
     changes: Mapping[str, Any]
+
+    def __post_init__(self) -> None:
+        """Check the changes."""
+        require(self.changes, Mapping, "Variant", "changes by name, as in {'kp': 0.2}")
 
     @property
     def name(self) -> str:

@@ -17,7 +17,7 @@ from ebac._core import (
     SlidingGimbal,
     Step,
 )
-from ebac._util.arguments import unknown_name
+from ebac._util.arguments import named
 
 __all__ = [
     "DEVICES",
@@ -141,9 +141,7 @@ def hand(name: str) -> Hand:
     KeyError
         When there is none; the message lists the names.
     """
-    if name not in HANDS:
-        raise unknown_name("hand", name, HANDS)
-    return HANDS[name].hand
+    return named("hand", name, HANDS).hand
 
 
 def device(name: str) -> Device:
@@ -154,6 +152,4 @@ def device(name: str) -> Device:
     KeyError
         When there is none; the message lists the names.
     """
-    if name not in DEVICES:
-        raise unknown_name("device", name, DEVICES)
-    return DEVICES[name].device
+    return named("device", name, DEVICES).device

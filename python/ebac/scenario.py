@@ -29,7 +29,7 @@ from ebac._core import (
     _World,
 )
 from ebac._util import serialisation
-from ebac._util.arguments import keywords_only, refuse_unknown
+from ebac._util.arguments import keywords_only, refuse_unknown, require, require_path
 from ebac._util.foreign_worlds import foreign
 from ebac._util.text_file import read_text
 from ebac._util.toml import parsed
@@ -223,6 +223,7 @@ class Scenario:
         ValueError
             For a number out of range, an unknown name or a syntax error; the message names the place.
         """
+        require(text, str, "Scenario.from_toml", "text")
         try:
             table = parsed(text)
         except ValueError as error:
@@ -247,6 +248,7 @@ class Scenario:
         ValueError
             As `from_toml`, with the file's name.
         """
+        require_path(path, "Scenario.load")
         try:
             return cls.from_toml(read_text(path))
         except ValueError as error:

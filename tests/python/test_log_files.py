@@ -278,7 +278,7 @@ def test_plot_draws_the_figure_or_columns(recorded: Path) -> None:
         out,
     )
     assert "<svg" in out.read_text()
-    assert "no column 'speed'" in invoke("plot", recorded, "-c", "speed", code=2)
+    assert "no column is called 'speed'" in invoke("plot", recorded, "-c", "speed", code=2)
     assert "must end in .png" in invoke("plot", recorded, "--out", "a.txt", code=2)
     assert "at least 2" in invoke("plot", recorded, "--from", 0.1995, code=2)
 

@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import difflib
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import wraps
+from operator import index
+from os import PathLike
 from typing import Any, TypeVar
 
 Class = TypeVar("Class", bound=type)
+Value = TypeVar("Value")
 
 #: What lists all names of a kind, where they are too many for a message.
 LISTED_BY = {
@@ -27,6 +30,25 @@ def require(value: Any, types: type | tuple[type, ...], function: str, wanted: s
     """Raise TypeError unless a value is of one of the types; `wanted` names it for people."""
     if not isinstance(value, types):
         raise TypeError(f"{function} takes {wanted}, not {shown(value)}")
+
+
+def require_path(value: Any, function: str, wanted: str = "the path of a file") -> None:
+    """Raise TypeError unless a value can be the path of a file."""
+    require(value, (str, PathLike), function, wanted)
+
+
+def whole(name: str, value: Any) -> int:
+    """Return a whole number.
+
+    Raises
+    ------
+    TypeError
+        For anything else; the message names it.
+    """
+    try:
+        return index(value)
+    except TypeError:
+        raise TypeError(f"{name} = {value!r}: must be a whole number") from None
 
 
 def keywords_only(
@@ -61,7 +83,7 @@ def keywords_only(
     return decorate
 
 
-def near(name: str, known: Iterable[str]) -> list[str]:
+def near(name: object, known: Iterable[str]) -> list[str]:
     """Return up to three known names like one that is not known, the nearest first."""
     lower = {other.lower(): other for other in known}
     given = str(name).lower()
@@ -72,7 +94,7 @@ def near(name: str, known: Iterable[str]) -> list[str]:
     return [lower[other] for other in dict.fromkeys([*close, *begun])][:3]
 
 
-def did_you_mean(name: str, known: Iterable[str]) -> str:
+def did_you_mean(name: object, known: Iterable[str]) -> str:
     """Return the nearest names as the next words of a message; nothing where none is near."""
     quoted = [repr(other) for other in near(name, known)]
     before, last = ", ".join(quoted[:-1]), "".join(quoted[-1:])
@@ -97,7 +119,20 @@ def unknown(where: str, name: str, known: Iterable[str], kind: str = "") -> str:
     return f"{where}: no such name{did_you_mean(name, names)}; {_all(names, kind)}"
 
 
-def unknown_name(kind: str, name: str, known: Iterable[str]) -> KeyError:
+def named(kind: str, name: object, known: Mapping[str, Value]) -> Value:
+    """Return what has a name.
+
+    Raises
+    ------
+    KeyError
+        For a name that does not exist, worded as by `unknown`.
+    """
+    if not isinstance(name, str) or name not in known:
+        raise unknown_name(kind, name, known)
+    return known[name]
+
+
+def unknown_name(kind: str, name: object, known: Iterable[str]) -> KeyError:
     """Return the error for a name that does not exist, worded as by `unknown`."""
     names = list(known)
     return KeyError(f"no {kind} is called {name!r}{did_you_mean(name, names)}; {_all(names, kind)}")
@@ -105,7 +140,7 @@ def unknown_name(kind: str, name: str, known: Iterable[str]) -> KeyError:
 
 def _all(names: list[str], kind: str) -> str:
     if kind in LISTED_BY and len(names) > FEW:
-        return f"`{LISTED_BY[kind]}` lists all {len(names)}"
+        return f"`{LISTED_BY[kind]}` lists all"
     return f"there are: {', '.join(names)}"
 
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from ebac._util.arguments import unknown
+from ebac._util.arguments import require_path, unknown
 from ebac._util.wrong_calls import plain_constructor
 from ebac.drives.eds import Sheet
 from ebac.drives.errors import ProfileError, lacks, says_absent
@@ -135,6 +135,7 @@ def load(name: str | Path, *, nodes: Sequence[int] = (), bitrate: int | None = N
     ProfileError
         For what cannot be; the message names file, line, key, value, unit, range and remedy.
     """
+    require_path(name, "ebac.drives.load", "the path of a file or the name of a profile")
     source = read_source(name)
     for node in nodes:
         if not 1 <= node <= 127:

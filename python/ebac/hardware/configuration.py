@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, Self
 
 from ebac._core import Device, Hand, Limits, Observer, RealTime, Timing, Wall
+from ebac._util.arguments import require, require_path
 from ebac._util.foreign_worlds import refuse_python
 from ebac._util.text_file import read_text
 from ebac._util.wrong_calls import plain_constructor
@@ -143,6 +144,7 @@ class Configuration:
         ConfigurationError
             For what cannot be; the message names file, line, key, value, unit, range and remedy.
         """
+        require_path(path, "Configuration.load")
         try:
             text = read_text(path)
         except ValueError as error:
@@ -152,6 +154,7 @@ class Configuration:
     @classmethod
     def from_toml(cls, text: str, *, name: str = "configuration") -> Self:
         """Read a configuration from TOML text. Raises as `load`."""
+        require(text, str, "Configuration.from_toml", "text")
         try:
             return cls(**read(Source(name=name, text=text)))
         except ConfigurationError:

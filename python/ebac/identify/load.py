@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from ebac._util.arguments import unknown
+from ebac._util.arguments import require_path, unknown
 from ebac._util.text_file import says_simulated
 from ebac.identify.columns import QUANTITIES, assign, listed, name_and_unit
 from ebac.identify.files import Columns, Table, archive_of, read_columns
@@ -88,6 +88,7 @@ def load(
         When it cannot be read, a column is missing, is no number, or a unit is unknown; for an option that this file
         has no use for.
     """
+    require_path(path, "ebac.identify.load")
     path = Path(path)
     if not path.exists():
         raise FileNotFoundError(2, "there is no such file", str(path))

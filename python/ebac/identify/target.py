@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from numbers import Real
 from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ebac._core import Hand, MinimumJerk, Recorded, Sine, Step, Tapping
+from ebac._util.arguments import require
 from ebac._util.wrong_calls import plain_constructor
 from ebac.identify.recording import Recording
 
@@ -74,6 +76,8 @@ class Target:
     @classmethod
     def steps(cls, *at: float) -> Target:
         """Return a target with a new place from each time [s] on."""
+        for time in at:
+            require(time, (Real, np.number), "Target.steps", "times [s]")
         return cls(switches=tuple(at), segments=tuple(range(len(at) + 1)))
 
     @classmethod

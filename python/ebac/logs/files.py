@@ -10,6 +10,7 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from ebac._util.arguments import require_path
 from ebac.logs.about import SIMULATED_DRIVES, SIMULATED_FILE, About
 from ebac.logs.layout import Layout
 
@@ -65,6 +66,7 @@ def save(
     """
     from ebac.logs import export, ros2
 
+    require_path(path, "Trace.save")
     path = Path(path)
     known = extension(path, tuple(FORMATS))
     check_profile(path, profile)
@@ -160,6 +162,7 @@ def load(
     from ebac.logs.reader import check_part, read
     from ebac.trace import Trace
 
+    require_path(path, "ebac.load")
     path = Path(path)
     kind = extension(path, READABLE)
     if path.is_dir():

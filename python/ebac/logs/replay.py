@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ebac import _core
+from ebac._util.arguments import require
 from ebac.laws import AnyLaw, CoreLaw, design, law_name
 from ebac.logs.log import Log
 
@@ -100,10 +101,12 @@ def replay(
 
 def _trace_of(log: Trace | Log | str | Path) -> Trace:
     from ebac.logs.files import load
+    from ebac.trace import Trace
 
     if isinstance(log, Log):
         return log.trace
-    return load(log) if isinstance(log, (str, Path)) else log
+    require(log, (Trace, str, Path), "ebac.replay", "a Trace, a Log or the path of one")
+    return log if isinstance(log, Trace) else load(log)
 
 
 def _ran(recorded: Trace) -> Trace:

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ebac._core import Hand, Step, Wall
-from ebac._util.arguments import unknown
+from ebac._util.arguments import require, unknown, whole
 from ebac._util.wrong_calls import plain_constructor
 from ebac.operators.columns import APPROACH, OPERATOR_COLUMNS, check, in_si, numbers, read_csv
 
@@ -131,6 +131,7 @@ class Operators:
         **columns
             The same for all: `approach_m`, `tremor_m`, `tremor_Hz`.
         """
+        n, seed = whole("Operators.sample: n", n), whole("Operators.sample: seed", seed)
         for name, value, least in (("n", n, 1), ("seed", seed, 0), ("most_pull", most_pull, 0.5)):
             if not value >= least:
                 raise ValueError(f"Operators.sample: {name} = {value}: must be at least {least}")
@@ -158,6 +159,7 @@ class Operators:
         ValueError
             For a column that is missing or unknown, or a value that is no number or out of its range.
         """
+        require(table, Mapping, "Operators.from_columns", "columns by name")
         known, table = list(OPERATOR_COLUMNS), in_si(table)
         for name in table:
             if name not in OPERATOR_COLUMNS:

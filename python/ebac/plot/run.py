@@ -9,6 +9,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.ticker import FuncFormatter
 
+from ebac._util.arguments import require
 from ebac.plot.columns import plot_columns
 from ebac.plot.marks import mark_end, title, used_axes
 from ebac.plot.style import (
@@ -49,6 +50,7 @@ def plot_trace(trace: Trace) -> Picture:
     ValueError
         When the trace is too short.
     """
+    require(trace, Trace, "ebac.plot.plot_trace", "a Trace")
     if len(trace) < 2:
         raise ValueError(f"the trace has {len(trace)} rows: a figure needs at least 2")
     if not all(name in trace for name in LOOP):

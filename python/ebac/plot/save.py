@@ -19,6 +19,7 @@ from matplotlib.lines import Line2D
 from matplotlib.spines import Spine
 from matplotlib.text import Text
 
+from ebac._util.arguments import require
 from ebac.plot.legends import LETTERS, fit_legends
 
 #: Formats of a figure's file.
@@ -71,6 +72,7 @@ def save(
     ValueError
         For an unknown format or width.
     """
+    require(figure, Figure, "ebac.plot.save", "a Figure")
     file = Path(path)
     if file_format is not None:
         file = file.with_name(f"{file.name.removesuffix('.png')}.{file_format}")

@@ -9,6 +9,7 @@ from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
 from ebac._util import formatting
+from ebac._util.arguments import require
 from ebac.plot.style import Numbers, Picture, colour, dress, legend, new_figure
 from ebac.trace import Trace
 from ebac.worlds import World, distance
@@ -40,6 +41,7 @@ def plot_world(world: World, traces: Sequence[Trace] = ()) -> Picture:
     -------
     Figure
     """
+    require(world, World, "ebac.plot.plot_world", "a World")
     directions = (1, 2) if any(trace.axes > 2 for trace in traces) else (1,)
     figure = new_figure(5.5 + 5.5 * len(directions), 4.9)
     view, *cuts = figure.subplots(1, 1 + len(directions))

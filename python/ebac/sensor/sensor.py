@@ -7,6 +7,7 @@ from types import TracebackType
 from typing import Any, Self
 
 from ebac._core import LinkState, RdtClient, SensorStatus
+from ebac._util.arguments import require
 from ebac._util.wrong_calls import plain_constructor
 from ebac.sensor.configuration import SensorConfig, Wrench
 from ebac.sensor.errors import SensorError, silence
@@ -25,6 +26,7 @@ class Sensor:
     """
 
     def __init__(self, config: SensorConfig) -> None:
+        require(config, SensorConfig, "ebac.sensor.Sensor", "a SensorConfig")
         self.config = config
         self._client = RdtClient(config.core())
 

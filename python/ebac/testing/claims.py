@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ebac._util.arguments import require
 from ebac.metrics import FEWEST_ROWS, STILL_SWING, TAIL_SHARE
 from ebac.trace import Trace
 
@@ -39,6 +40,7 @@ def assert_passive(
         When the trace lacks a column, or a number is out of range.
     """
     __tracebackhide__ = True
+    require(trace, Trace, "ebac.testing.assert_passive", "a Trace")
     _not_negative(reserve=reserve, tolerance=tolerance)
     energy, how = _energy(trace, damping)
     _finite("energy", energy, trace)
@@ -73,6 +75,7 @@ def assert_settles(
         When the trace is too short or has no such axis.
     """
     __tracebackhide__ = True
+    require(trace, Trace, "ebac.testing.assert_settles", "a Trace")
     _not_negative(within=within, band=band)
     if len(trace) < FEWEST_ROWS:
         raise ValueError(f"the trace has {len(trace)} rows: needs at least {FEWEST_ROWS}")
@@ -118,6 +121,7 @@ def assert_force_continuous(
         When it jumps by more.
     """
     __tracebackhide__ = True
+    require(trace, Trace, "ebac.testing.assert_force_continuous", "a Trace")
     _not_negative(step=step)
     for i in range(trace.axes) if axis is None else [axis]:
         force = trace.axis(column, i)
@@ -164,6 +168,7 @@ def assert_within_limits(
         When neither a limit nor a scenario is given.
     """
     __tracebackhide__ = True
+    require(trace, Trace, "ebac.testing.assert_within_limits", "a Trace")
     if trace.scenario is not None:
         device = trace.scenario.device
         force = device.peak_force if force is None else force

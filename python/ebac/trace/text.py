@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ebac._util import formatting
+from ebac._util.arguments import whole
 from ebac._util.report import aligned
 
 if TYPE_CHECKING:
@@ -41,6 +42,8 @@ class Text(str):
 
 def head(trace: Trace, rows: int, columns: tuple[str, ...]) -> Text:
     """Return the first rows of some columns, units in the headings."""
+    if whole("rows", rows) < 0:
+        raise ValueError(f"rows = {rows}: must be at least 0")
     part = trace.rows(0, rows)
     lines = []
     for name in columns or tuple(name for name in SHOWN if name in trace):

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, Self, overload
 from numpy.typing import NDArray
 
 from ebac import _core
-from ebac._util.arguments import unknown_name
+from ebac._util.arguments import unknown_name, whole
 from ebac.scenario import Scenario
 from ebac.trace.columns import ColumnInfo, column_infos, row_views
 from ebac.trace.time_slice import rows_between
@@ -114,7 +114,7 @@ class Trace:
         ValueError
             When the trace has no such axis.
         """
-        if not 0 <= axis < self.axes:
+        if not 0 <= whole("axis", axis) < self.axes:
             raise ValueError(f"axis = {axis}: must lie in [0, {self.axes - 1}]")
         values = self[name]
         return values if values.ndim == 1 else values[:, axis]

@@ -21,7 +21,7 @@ from ebac._core import (
     Texture,
     Torus,
 )
-from ebac._util.arguments import unknown
+from ebac._util.arguments import require, unknown
 from ebac.worlds.mesh import HeightField, Mesh
 from ebac.worlds.solids import Cavity, Difference, Placed, Solid, Textured, Tube, Union
 from ebac.worlds.world import Body, Layered, World
@@ -141,6 +141,7 @@ def preset(
     ValueError
         For an unknown name; the message suggests the nearest. For a stiffness or damping of a world that has its own.
     """
+    require(name, str, "ebac.worlds.preset", "the name of a world")
     kind, colon, file = name.partition(":")
     solid: Solid
     surface = {"stiffness": stiffness, "damping": damping}

@@ -126,6 +126,10 @@ class Tube(Part):
     def along(cls, points: ArrayLike, radius: float = 0.01, *, parts: int = 8) -> Self:
         """Return a tube along a smooth curve (Catmull-Rom) through the points, `parts` pieces between two of them."""
         given = np.asarray(points, float)
+        if given.ndim != 2 or given.shape[1:] != (3,) or len(given) < 2:
+            raise ValueError(
+                f"Tube.along: points: shape {given.shape}: must be (n, 3), n at least 2"
+            )
         slope = np.gradient(given, axis=0)
         u = np.linspace(0, len(given) - 1, parts * (len(given) - 1) + 1)
         i = np.minimum(u.astype(int), len(given) - 2)

@@ -75,12 +75,15 @@ def _row(law: Any) -> dict[str, Any]:
 
 
 def _show_all(rows: list[dict[str, Any]]) -> None:
+    from ebac.laws import tuned_laws
+
     grid = output.table(["law", "what", "passive", "parameters"])
     for row in rows:
         names = ", ".join(parameter["name"] for parameter in row["parameters"])
         grid.add_row(row["law"], row["what"], "yes" if row["passive"] else "no", names)
     output.show(grid)
     output.say("passive: proven for every hand and wall, given true damping, delay, lag and count.")
+    output.say(f"With parameters tuned for the reference device: {', '.join(tuned_laws())}.")
     output.say("`ebac laws NAME` shows one in detail.")
 
 

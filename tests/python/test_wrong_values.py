@@ -1,0 +1,123 @@
+"""Wrong values of public functions: a sentence that names function or parameter, never an error from deep inside."""
+
+from collections.abc import Callable
+from typing import Any
+
+import pytest
+
+import ebac
+from ebac import drives, identify, worlds
+
+E: Any = ebac
+W: Any = worlds
+
+
+@pytest.fixture(scope="module")
+def trace() -> Any:
+    return ebac.simulate(ebac.Scenario(seconds=0.05), "direct")
+
+
+@pytest.mark.parametrize(
+    ("call", "message"),
+    [
+        (lambda t: E.load(3), "ebac.load takes the path of a file, not 3 (int)"),
+        (lambda t: E.load(None), "ebac.load takes the path of a file, not None (NoneType)"),
+        (lambda t: t.save(3), "Trace.save takes the path of a file, not 3 (int)"),
+        (lambda t: E.Scenario.load(3), "Scenario.load takes the path of a file, not 3 (int)"),
+        (lambda t: E.Scenario.from_toml(3), "Scenario.from_toml takes text, not 3 (int)"),
+        (
+            lambda t: E.hardware.Configuration.load(3),
+            "Configuration.load takes the path of a file, not 3 (int)",
+        ),
+        (
+            lambda t: E.hardware.Configuration.from_toml(3),
+            "Configuration.from_toml takes text, not 3 (int)",
+        ),
+        (lambda t: E.Device.open(3), "Configuration.load takes the path of a file, not 3 (int)"),
+        (
+            lambda t: E.identify.load(3),
+            "ebac.identify.load takes the path of a file, not 3 (int)",
+        ),
+        (
+            lambda t: E.drives.load(3),
+            "ebac.drives.load takes the path of a file or the name of a profile, not 3 (int)",
+        ),
+        (
+            lambda t: E.replay(3, "ebac"),
+            "ebac.replay takes a Trace, a Log or the path of one, not 3 (int)",
+        ),
+        (
+            lambda t: E.sensor.Sensor.open(3),
+            "ebac.sensor.Sensor takes a SensorConfig, not 3 (int)",
+        ),
+        (lambda t: t.axis("x", "y"), "axis = 'y': must be a whole number"),
+        (lambda t: E.contact(t, axis="y"), "axis = 'y': must be a whole number"),
+        (lambda t: t.head("a"), "rows = 'a': must be a whole number"),
+        (lambda t: E.Operators.sample("x", 1), "Operators.sample: n = 'x': must be a whole number"),
+        (
+            lambda t: E.Operators.sample(3, "x"),
+            "Operators.sample: seed = 'x': must be a whole number",
+        ),
+        (
+            lambda t: E.Operators.from_columns(None),
+            "Operators.from_columns takes columns by name, not None (NoneType)",
+        ),
+        (lambda t: W.preset(3), "ebac.worlds.preset takes the name of a world, not 3 (int)"),
+        (
+            lambda t: E.Variant("ebac", [1]),
+            "Variant takes changes by name, as in {'kp': 0.2}, not [1] (list)",
+        ),
+        (
+            lambda t: E.identify.Target.steps("a"),
+            "Target.steps takes times [s], not 'a' (str)",
+        ),
+        (lambda t: E.plot.plot_trace(3), "ebac.plot.plot_trace takes a Trace, not 3 (int)"),
+        (lambda t: E.plot.plot_world(3), "ebac.plot.plot_world takes a World, not 3 (int)"),
+        (lambda t: E.plot.save(3, "x.png"), "ebac.plot.save takes a Figure, not 3 (int)"),
+        (
+            lambda t: E.testing.assert_passive(3),
+            "ebac.testing.assert_passive takes a Trace, not 3 (int)",
+        ),
+        (
+            lambda t: E.testing.assert_within_limits(3),
+            "ebac.testing.assert_within_limits takes a Trace, not 3 (int)",
+        ),
+    ],
+)
+def test_a_value_of_another_type_is_refused_by_name(
+    call: Callable[[Any], object], message: str, trace: Any
+) -> None:
+    with pytest.raises(TypeError) as refused:
+        call(trace)
+    assert str(refused.value) == message
+
+
+@pytest.mark.parametrize(
+    ("call", "kind", "message"),
+    [
+        (
+            lambda t: W.Tube.along([(0, 0, 0)], 1),
+            ValueError,
+            "Tube.along: points: shape (1, 3): must be (n, 3), n at least 2",
+        ),
+        (lambda t: t.head(-3), ValueError, "rows = -3: must be at least 0"),
+        (
+            lambda t: E.presets.hand([1]),
+            KeyError,
+            "no hand is called [1]; `ebac presets` lists all",
+        ),
+    ],
+)
+def test_a_value_that_cannot_be_is_refused_by_name(
+    call: Callable[[Any], object], kind: type[Exception], message: str, trace: Any
+) -> None:
+    with pytest.raises(kind) as refused:
+        call(trace)
+    assert refused.value.args[0] == message
+
+
+def test_what_is_right_is_taken() -> None:
+    assert identify.Target.steps(0.5, 1).switches == (0.5, 1)
+    assert len(ebac.Operators.sample(2, 1)) == 2
+    assert drives.load("joystick").nodes
+    assert ebac.Variant("ebac", {"kp": 0.2}).name == "ebac, kp = 0.2"
