@@ -121,3 +121,9 @@ def test_what_is_right_is_taken() -> None:
     assert len(ebac.Operators.sample(2, 1)) == 2
     assert drives.load("joystick").nodes
     assert ebac.Variant("ebac", {"kp": 0.2}).name == "ebac, kp = 0.2"
+
+
+def test_no_time_is_no_default_time() -> None:
+    known = E.hardware.Configuration.from_toml("")
+    with pytest.raises(ValueError, match=r"seconds = 0 s: must lie in \[0.01, 100000\] s"):
+        known.simulate(seconds=0)

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from ebac._util.arguments import unknown
 from ebac.cli import output
 
 if TYPE_CHECKING:
@@ -45,6 +46,9 @@ def demo(
     from ebac.datasets import DATASETS
 
     chosen = list(DATASETS) if names == ["all"] else names or []
+    for name in chosen:
+        if name not in DATASETS:
+            output.fail(unknown(f"NAME {name}", name, [*DATASETS, "all"], "data set"))
     paths = [_write(name, out, force) for name in chosen]
     shown = [DATASETS[name] for name in chosen] or list(DATASETS.values())
     if as_json:
@@ -66,8 +70,6 @@ def _write(name: str, folder: Path, force: bool) -> str:
         output.fail(f"--out {folder}: is a file; give the name of a folder")
     try:
         return str(write(name, folder, force=force))
-    except KeyError as error:
-        output.fail(str(error.args[0]))
     except FileExistsError as error:
         output.fail(f"{error.filename} exists; --force replaces it, --out writes elsewhere")
     except OSError as error:

@@ -21,6 +21,9 @@ OPTIONS = {
     "Wall.stiffness": "--wall-stiffness",
     "Wall.damping": "--wall-damping",
     "Wall.position": "--wall-position",
+    "Elastic.stiffness": "--wall-stiffness",
+    "Elastic.damping": "--wall-damping",
+    "Body.friction": "--world-friction",
     "Hand.mass": "--hand-mass",
     "Hand.damping": "--hand-damping",
     "Hand.stiffness": "--hand-stiffness",
@@ -201,6 +204,9 @@ def choose_world(name: str, option: str = "--world", **options: float | None) ->
     try:
         return preset(kind.lower() + colon + file, **given(**options))
     except (ValueError, FileNotFoundError, ImportError) as error:
+        by_option = in_options(str(error))
+        if option and by_option.startswith("--"):
+            raise ValueError(by_option) from error
         missing = isinstance(error, FileNotFoundError)
         said = f"{file}: there is no such file" if missing else str(error)
         raise ValueError(f"{option} {name}: {said}" if option else said) from error

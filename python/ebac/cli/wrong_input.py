@@ -94,10 +94,13 @@ def _unknown_option(wrong: str, command: Any) -> str:
         other = next((name for name in others if name in known), None)
         if other is not None and re.fullmatch(pattern, wrong):
             return f"{wrong}: there is no such option here, {other} sets it; see --help"
-    tails = {f"--{name.split('-', 3)[-1]}": name for name in known if name.count("-") > 2}
-    close = get_close_matches(wrong, known, 2) or get_close_matches(wrong, list(tails), 2)
-    near: list[str] = [str(tails.get(name, name)) for name in close]
-    hint = f", did you mean {_or(near)}" if near else ""
+    bare = {name[2:]: name for name in known}  # two dashes are no likeness
+    tails = {name.partition("-")[2]: name for name in bare if "-" in name}
+    word = wrong.lstrip("-")
+    close = get_close_matches(word, bare, 2) or [
+        tails[tail] for tail in get_close_matches(word, tails, 2)
+    ]
+    hint = f", did you mean {_or([bare[name] for name in close])}" if close else ""
     return f"{wrong}: there is no such option{hint}; see --help"
 
 

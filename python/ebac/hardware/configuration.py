@@ -16,6 +16,7 @@ from ebac._util.wrong_calls import plain_constructor
 from ebac.drives.errors import ProfileError
 from ebac.drives.network import Network
 from ebac.drives.toml_positions import Source
+from ebac.hardware.configuration_fields import check_seconds
 from ebac.hardware.law import designed
 from ebac.hardware.reading import needs_force, read
 from ebac.hardware.signs import Signs
@@ -177,13 +178,26 @@ class Configuration:
         return (self.simulated_zero or self.zero).counts
 
     def scenario(self, *, seconds: float | None = None) -> Scenario:
-        """Return device, hand, virtual world and time as a scenario, for simulations and logs."""
+        """Return device, hand, virtual world and time as a scenario, for simulations and logs.
+
+        Parameters
+        ----------
+        seconds : float, optional
+            Length [s], [0.01, 1e5]; that of the configuration, if not given.
+
+        Raises
+        ------
+        ValueError
+            For a length out of range.
+        """
+        if seconds is not None:
+            check_seconds(seconds)
         return Scenario(
             device=self.device,
             hand=self.hand,
             environment=self.environment,
             timing=self.timing,
-            seconds=seconds or self.seconds,
+            seconds=self.seconds if seconds is None else seconds,
             observer=self.observer,
         )
 

@@ -39,6 +39,18 @@ RECORDING = (
 )
 
 
+def check_seconds(seconds: float) -> None:
+    """Refuse a length of a run that no configuration may have.
+
+    Raises
+    ------
+    ValueError
+        Then.
+    """
+    if (wrong := RUN[0].check(float(seconds))) is not None:
+        raise ValueError(wrong)
+
+
 def number(source: Source, path: Path, key: Key) -> Any:
     """Return a number of the table at `path`, its default where it is not given.
 

@@ -7,6 +7,7 @@ from math import ceil
 from typing import TYPE_CHECKING, Any
 
 from ebac import _core
+from ebac.hardware.configuration_fields import check_seconds
 
 if TYPE_CHECKING:
     from ebac.drives import Node
@@ -35,8 +36,7 @@ def run_setup(
     ValueError
         For a time out of range.
     """
-    if not 0.01 <= seconds <= 1e5:
-        raise ValueError(f"seconds = {seconds:g} s: must lie in [0.01, 100000] s")
+    check_seconds(seconds)
     dt = known.timing.dt
     signs = backend.signs(known)
     ticks = max(1, round(seconds / dt))

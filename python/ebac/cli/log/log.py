@@ -240,7 +240,7 @@ add(log, plot)
 def _check_times(start: float | None, stop: float | None) -> None:
     """Refuse a part that ends before it begins."""
     if start is not None and stop is not None and stop <= start:
-        output.fail(f"--from {start:g} s, --to {stop:g} s: must be the larger one")
+        output.fail(f"--to = {stop:g} s: must be larger than --from, {start:g} s")
 
 
 def _read(file: Path, start: float | None = None, stop: float | None = None, *, quiet: bool) -> Log:
