@@ -4,6 +4,12 @@
 namespace ebac::can::sdo_server_test {
 namespace {
 
+TEST(Crc16, IsThatOfCia301) {
+  const std::array<std::uint8_t, 9> digits{'1', '2', '3', '4', '5', '6', '7', '8', '9'};
+  EXPECT_EQ(crc16(digits), 0x31C3);  // CRC-16/XMODEM, the check value of its catalogue
+  EXPECT_EQ(crc16({}), 0);
+}
+
 TEST(Sdo, ExpeditedUploadOfEveryLength) {
   SimulatedDrive drive = ready_drive();
   expect_dialogue(
