@@ -16,6 +16,7 @@ from ebac.cli.files import new_file
 
 if TYPE_CHECKING:
     from ebac.hardware import Configuration
+    from ebac.hardware.interrupts import Interrupts
     from ebac.live.server import Server
 
 
@@ -153,7 +154,7 @@ def _serve(
 
     from ebac.cli import setting
     from ebac.hardware import Configuration, OpenDevice
-    from ebac.hardware.interrupts import Interrupts, Terminated
+    from ebac.hardware.interrupts import Interrupts
     from ebac.live.serving import serve
 
     known: Configuration | None = None
@@ -179,20 +180,27 @@ def _serve(
         except OSError as error:
             where = f"--host {settings['host']} --port {settings['port']}"
             output.fail(f"{where}: {error.strerror or error}; give another one")
-        show(server, as_json=as_json)
-        if not no_browser:
-            import webbrowser
-
-            webbrowser.open(server.gate.url())
-        try:
-            while True:
-                time.sleep(0.5)
-        except (KeyboardInterrupt, Terminated):
-            interrupts.ending()
+        watch(server, interrupts, no_browser=no_browser, as_json=as_json)
         kept = list(server.session.kept)
     console = output.console(stderr=True)
     files = ", ".join(map(str, kept)) if kept else "no files"
     console.print(f"Ended; drives without power. Kept: {files}.", soft_wrap=True, markup=False)
+
+
+def watch(server: Server, interrupts: Interrupts, *, no_browser: bool, as_json: bool) -> None:
+    """Print the addresses of a server, open its page, and wait until it is interrupted."""
+    from ebac.hardware.interrupts import Terminated
+
+    show(server, as_json=as_json)
+    if not no_browser:
+        import webbrowser
+
+        webbrowser.open(server.gate.url())
+    try:
+        while True:
+            time.sleep(0.5)
+    except (KeyboardInterrupt, Terminated):
+        interrupts.ending()
 
 
 def show(server: Server, *, as_json: bool) -> None:

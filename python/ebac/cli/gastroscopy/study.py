@@ -75,29 +75,21 @@ def study(
                 threads=threads,
                 progress=progress,
             )
-    files = _write(folder, found, to) if folder else []
-    if as_json:
-        typer.echo(_document(found))
-        return
-    _show(found)
-    if folder is not None:
-        output.list_files(folder, files)
+    to.report(
+        folder, "gastroscopy-study", _document(found), as_json=as_json,
+        fill=lambda draft: _fill(draft, found, to), show=lambda: _show(found),
+    )  # fmt: skip
 
 
 def _document(found: GastroscopyStudy) -> str:
     return output.document("gastroscopy study", found.table(), effects=found.effect_table())
 
 
-def _write(folder: Path, found: GastroscopyStudy, to: ResultOptions) -> list[str]:
+def _fill(draft: Path, found: GastroscopyStudy, to: ResultOptions) -> None:
     from ebac.plot import plot_gastroscopy_study
 
-    with output.results(folder) as draft:
-        if draft is None:
-            return []
-        figures = to.save(plot_gastroscopy_study(found), draft, "gastroscopy-study")
-        (draft / "gastroscopy-study.json").write_text(_document(found) + "\n", encoding="utf-8")
-        output.csv_table(draft / "gastroscopy-study.csv", found.table())
-    return [*figures, "gastroscopy-study.json", "gastroscopy-study.csv"]
+    to.save(plot_gastroscopy_study(found), draft, "gastroscopy-study")
+    output.csv_table(draft / "gastroscopy-study.csv", found.table())
 
 
 def _show(found: GastroscopyStudy) -> None:

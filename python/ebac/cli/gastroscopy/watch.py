@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time
 from typing import TYPE_CHECKING
 
 from ebac.cli import output
@@ -15,8 +14,8 @@ def watch(law: str, procedure: Procedure, port: int, *, no_browser: bool, as_jso
     """Run it in real time and serve the page until it is interrupted."""
     from contextlib import ExitStack
 
-    from ebac.cli.live import show
-    from ebac.hardware.interrupts import Interrupts, Terminated
+    from ebac.cli.live import watch as wait
+    from ebac.hardware.interrupts import Interrupts
     from ebac.live.gastroscopy import serve_gastroscopy
 
     with ExitStack() as stack:
@@ -28,13 +27,4 @@ def watch(law: str, procedure: Procedure, port: int, *, no_browser: bool, as_jso
             output.fail(str(error))
         except OSError as error:
             output.fail(f"--port {port}: {error.strerror or error}; give another one")
-        show(server, as_json=as_json)
-        if not no_browser:
-            import webbrowser
-
-            webbrowser.open(server.gate.url())
-        try:
-            while True:
-                time.sleep(0.5)
-        except (KeyboardInterrupt, Terminated):
-            interrupts.ending()
+        wait(server, interrupts, no_browser=no_browser, as_json=as_json)

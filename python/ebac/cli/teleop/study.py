@@ -75,29 +75,21 @@ def study(
                 networks=(network,),
                 progress=progress,
             )
-    files = _write(folder, found, network, to) if folder else []
-    if as_json:
-        typer.echo(_document(found))
-        return
-    _show(found)
-    if folder is not None:
-        output.list_files(folder, files)
+    to.report(
+        folder, "study", _document(found), as_json=as_json,
+        fill=lambda draft: _fill(draft, found, network, to), show=lambda: _show(found),
+    )  # fmt: skip
 
 
 def _document(found: Study) -> str:
     return output.document("teleop study", found.table(), schemes=found.parameters())
 
 
-def _write(folder: Path, found: Study, network: str, to: ResultOptions) -> list[str]:
+def _fill(draft: Path, found: Study, network: str, to: ResultOptions) -> None:
     from ebac.plot import plot_teleop
 
-    with output.results(folder) as draft:
-        if draft is None:
-            return []
-        figures = to.save(plot_teleop(found, network), draft, "study")
-        (draft / "study.json").write_text(_document(found) + "\n", encoding="utf-8")
-        output.csv_table(draft / "study.csv", found.table())
-    return [*figures, "study.json", "study.csv"]
+    to.save(plot_teleop(found, network), draft, "study")
+    output.csv_table(draft / "study.csv", found.table())
 
 
 def _show(found: Study) -> None:
