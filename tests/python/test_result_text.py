@@ -78,7 +78,7 @@ def test_head_names_what_is_asked_for(run: Run) -> None:
     lines = run("eba").head(3, "t", "x").splitlines()
     assert len(lines) == 1 + 1 + 3
     assert lines[1].split() == ["t", "[s]", "x", "[mm]"]
-    with pytest.raises(KeyError, match="no column 'y'"):
+    with pytest.raises(KeyError, match="no column is called 'y'"):
         run("eba").head(3, "y")
 
 
