@@ -122,10 +122,17 @@ void bind_simulated_drive(py::module_& m) {
 void bind_joystick(py::module_& m) {
   py::class_<PlantOfDrives> cls(m, "Joystick",
                                 "Simulated drives on the axes of one simulated device and hand.");
-  cls.def(py::init(&make_joystick), py::arg("setup"), py::kw_only(), py::arg("first") = 1,
-          py::arg("peak_time") = 2.0, py::arg("force") = py::none(),
-          py::arg("wait_for_power") = false, py::arg("aim") = py::none(),
-          py::arg("sheet") = std::vector<SheetRow>{}, py::arg("zero") = std::vector<std::int64_t>{},
+  cls.def(py::init([](const Setup& setup, int first, double peak_time,
+                      const Shared<sensor::SharedForce>& force, bool wait_for_power,
+                      const Shared<rt::SharedHandTarget>& aim, const std::vector<SheetRow>& sheet,
+                      const std::vector<std::int64_t>& zero, double longest_step) {
+            return make_joystick(setup, first, peak_time, force, wait_for_power, aim, sheet, zero,
+                                 longest_step);
+          }),
+          py::arg("setup"), py::kw_only(), py::arg("first") = 1, py::arg("peak_time") = 2.0,
+          py::arg("force") = py::none(), py::arg("wait_for_power") = false,
+          py::arg("aim") = py::none(), py::arg("sheet") = std::vector<SheetRow>{},
+          py::arg("zero") = std::vector<std::int64_t>{},
           py::arg("longest_step") = std::numeric_limits<double>::infinity())
       .def_property_readonly("axes", &PlantOfDrives::axes, "Number of axes.")
       .def(

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -11,6 +12,7 @@
 #include "ebac/sensor/shared_force.hpp"
 #include "ebac/sim/setup.hpp"
 #include "ebac/sim/simulated_device.hpp"
+#include "ebac/sim/with_machine.hpp"
 #include "ebac/simulated_drives/joystick.hpp"
 #include "ebac/simulated_drives/patient_plant.hpp"
 #include "fields.hpp"
@@ -18,8 +20,8 @@
 
 namespace ebac::python {
 
-using PlantOfDrives =
-    can::Joystick<sensor::ForcePublisher<can::PatientPlant<rt::TargetSubscriber<SimulatedDevice>>>>;
+using PlantOfDrives = can::Joystick<
+    sensor::ForcePublisher<can::PatientPlant<rt::TargetSubscriber<WithMachine<SimulatedDevice>>>>>;
 
 /// Node ids of drives on `axes` axes, from `node` on.
 inline can::NodeId checked_node(int node, int axes) {
@@ -68,27 +70,31 @@ template <class Cell>
 using Shared = std::optional<std::shared_ptr<Cell>>;
 
 /// The device and hand of a setup behind drives; publishes the force at the handle to `force`, and
-/// the hand follows the target in `aim`. `zero`: counts of each drive at the device's zero.
+/// the hand follows the target in `aim`, or a load takes its place. `zero`: counts of each drive at the device's zero.
 inline PlantOfDrives make_joystick(Setup setup, int first, double peak_time,
                                    const Shared<sensor::SharedForce>& force, bool wait_for_power,
                                    const Shared<rt::SharedHandTarget>& aim,
                                    const std::vector<SheetRow>& sheet = {},
                                    const std::vector<std::int64_t>& zero = {},
-                                   double longest_step = std::numeric_limits<double>::infinity()) {
+                                   double longest_step = std::numeric_limits<double>::infinity(),
+                                   const std::shared_ptr<DrivenMachine>& load = nullptr) {
   const can::NodeId node = checked_node(first, setup.device.axes());
   setup.device.drive.permille = true;  // what a drive is told in
   setup.timing.delay = 0;              // its delay is that of the bus
   const std::vector<can::SheetEntry> entries = checked_sheet(sheet);
-  return {sensor::ForcePublisher(
-              can::PatientPlant(rt::TargetSubscriber(SimulatedDevice(setup), aim.value_or(nullptr)),
-                                longest_step),
-              force.value_or(nullptr)),
-          setup.device,
-          node,
-          checked_peak_time(peak_time),
-          wait_for_power,
-          entries,
-          zero_of("drive", "zero", zero, setup.device.axes())};
+  return {
+      sensor::ForcePublisher(
+          can::PatientPlant(rt::TargetSubscriber(WithMachine(SimulatedDevice(setup), load,
+                                                             std::max(1.0, setup.hand.stiffness)),
+                                                 aim.value_or(nullptr)),
+                            longest_step),
+          force.value_or(nullptr)),
+      setup.device,
+      node,
+      checked_peak_time(peak_time),
+      wait_for_power,
+      entries,
+      zero_of("drive", "zero", zero, setup.device.axes())};
 }
 
 }  // namespace ebac::python

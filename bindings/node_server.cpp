@@ -66,6 +66,7 @@ void add_work(py::class_<JoystickServer<Bus>>& cls) {
 }  // namespace
 
 void bind_node_server(py::module_& m) {
+  py::class_<DrivenMachine, std::shared_ptr<DrivenMachine>>(m, "_DrivenMachine");
   using OnLoopback = JoystickServer<can::LoopbackBus>;
   using OnSocketCan = JoystickServer<can::SocketCan>;
   py::class_<OnLoopback> inside(
@@ -78,16 +79,17 @@ void bind_node_server(py::module_& m) {
       py::init([](can::LoopbackHub& hub, const Setup& setup, int first, double peak_time,
                   const OptionalForce& force, bool wait_for_power, const OptionalTarget& aim,
                   const std::vector<SheetRow>& sheet, const std::vector<std::int64_t>& zero,
-                  double longest_step) {
+                  double longest_step, const std::optional<std::shared_ptr<DrivenMachine>>& load) {
         PlantOfDrives joystick = make_joystick(setup, first, peak_time, force, wait_for_power, aim,
-                                               sheet, zero, longest_step);
+                                               sheet, zero, longest_step, load.value_or(nullptr));
         return std::make_unique<OnLoopback>(hub.open({.frames = kFrames}), std::move(joystick));
       }),
       py::arg("hub"), py::arg("setup"), py::kw_only(), py::arg("first") = 1,
       py::arg("peak_time") = 2.0, py::arg("force") = py::none(), py::arg("wait_for_power") = false,
       py::arg("aim") = py::none(), py::arg("sheet") = std::vector<SheetRow>{},
       py::arg("zero") = std::vector<std::int64_t>{},
-      py::arg("longest_step") = std::numeric_limits<double>::infinity());
+      py::arg("longest_step") = std::numeric_limits<double>::infinity(),
+      py::arg("load") = py::none());
   add_work(inside);
   py::class_<OnSocketCan> outside(
       m, "SocketCanJoystick",

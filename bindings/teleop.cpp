@@ -13,6 +13,7 @@
 namespace ebac::python {
 
 void bind_teleop_udp(py::module_& m);  // teleop_udp.cpp
+void bind_remote(py::module_& m);      // remote.cpp
 
 namespace {
 
@@ -53,14 +54,17 @@ void bind_packet(py::module_& m) {
                      "A datagram between master and slave; see `ebac.teleop` for the layout.")
       .def(py::init([](bool from_slave, bool lost, std::uint32_t session, std::uint32_t sequence,
                        std::uint32_t echo, std::int64_t stamp, double value, double energy,
-                       double wave, std::uint32_t run) {
-             return Packet{from_slave, lost,  session, sequence, echo,
-                           stamp,      value, energy,  wave,     run};
+                       double wave, std::uint32_t run, std::uint32_t fault, bool leaving,
+                       const std::array<double, 3>& more, const std::array<double, 4>& at) {
+             return Packet{from_slave, lost, session, sequence, echo,    stamp, value,
+                           energy,     wave, run,     fault,    leaving, more,  at};
            }),
            py::kw_only(), py::arg("from_slave") = false, py::arg("lost") = false,
            py::arg("session") = 1, py::arg("sequence") = 0, py::arg("echo") = 0,
            py::arg("stamp") = 0, py::arg("value") = 0.0, py::arg("energy") = 0.0,
-           py::arg("wave") = 0.0, py::arg("run") = 0)
+           py::arg("wave") = 0.0, py::arg("run") = 0, py::arg("fault") = 0,
+           py::arg("leaving") = false, py::arg("more") = std::array<double, 3>{},
+           py::arg("at") = std::array<double, 4>{})
       .def_readonly("from_slave", &Packet::from_slave, "Whether the slave sent it.")
       .def_readonly("lost", &Packet::lost, "Whether its sender has lost the link.")
       .def_readonly("session", &Packet::session, "The hand's consents so far.")
@@ -71,7 +75,13 @@ void bind_packet(py::module_& m) {
       .def_readonly("energy", &Packet::energy, "Energy into the network [J].")
       .def_readonly("wave", &Packet::wave, "Integral of the wave variable [sqrt(W) s].")
       .def_readonly("run", &Packet::run, "Number of the master's run.")
-      .def("encode", &encoded, "Return its 56 bytes.")
+      .def_readonly("fault", &Packet::fault,
+                    "Fault that has stopped the sender's drives; 0 for none.")
+      .def_readonly("leaving", &Packet::leaving, "Whether its sender ends.")
+      .def_readonly("more", &Packet::more,
+                    "Rotation, bend to the right and down [rad], or their load [N m].")
+      .def_readonly("at", &Packet::at, "From the slave: where its four axes are [m, rad].")
+      .def("encode", &encoded, "Return its 116 bytes.")
       .def_static(
           "decode", &decoded, py::arg("datagram"),
           "Return the packet, or None for a datagram that is damaged or not of this version.")
@@ -86,6 +96,7 @@ void bind_teleop(py::module_& m) {
   bind_fields<SlaveModel>(m, "SlaveModel", "The slave's one axis, and the spring it meets.");
   bind_packet(m);
   bind_teleop_udp(m);
+  bind_remote(m);
   m.def("_simulate_teleop", &simulated, py::arg("law"), py::arg("setup"), py::kw_only(),
         py::arg("coupling"), py::arg("slave"), py::arg("there"), py::arg("back"),
         py::arg("consent_after"));

@@ -17,8 +17,8 @@ ebac_bundle(ebac machine cpp/ebac can/raw_socket can/socketcan can/wake_event
             simulated_drives/simulated_wire simulated_drives/through_can)
 ebac_bundle(ebac model cpp/ebac core/matrix_exponential model/device model/exact_axis model/exact_plant model/hand model/hand_model model/joint_dynamics
             model/limits model/linear_flow model/stepped_plant world/engine/make_bridge world/make)
-ebac_bundle(ebac gastroscope cpp/ebac gastroscope/bending gastroscope/lumen gastroscope/physician gastroscope/slave gastroscope/tube)
-ebac_bundle(ebac teleop cpp/ebac teleop/packet teleop/simulate teleop/udp_sides)
+ebac_bundle(ebac gastroscope cpp/ebac gastroscope/bending gastroscope/driven_scope gastroscope/lumen gastroscope/physician gastroscope/slave gastroscope/tube)
+ebac_bundle(ebac teleop cpp/ebac remote/link_end remote/slave_worlds teleop/packet teleop/simulate teleop/udp_sides)
 ebac_bundle(ebac run cpp/ebac control/virtual_coupling core/check core/fields faults/campaign faults/case
             faults/case_setup faults/referee faults/test_bench identify/arm_drive identify/arm_jacobian identify/arm_record identify/arm_step identify/arm_trials loop/retune loop/trace sim/contact sim/ideal_wall
             sim/perceived_ripple sim/rest_power sim/sweep)
@@ -26,7 +26,7 @@ ebac_bundle(ebac run cpp/ebac control/virtual_coupling core/check core/fields fa
 if(EBAC_PYTHON)
   ebac_bundle(_core_values device bindings core device fields hand kinematics limits module values)
   ebac_bundle(_core_values world bindings engines environment gastroscope identify linear_loop worlds)
-  ebac_bundle(_core_values run bindings controllers python_hand python_law realtime replay simulation sweep teleop teleop_udp)
+  ebac_bundle(_core_values run bindings controllers python_hand python_law realtime remote replay simulation sweep teleop teleop_udp)
   ebac_bundle(_core_values bus bindings can can_plan faults running)
   ebac_bundle(_core_values machine bindings drive node_server others_run sensor sensor_emulator)
   ebac_bundle(_core loop bindings law_runs running_laws stepped_run)

@@ -60,13 +60,16 @@ __all__: list[str] = [
     "Estimate",
     "ExactPlant",
     "Fallback",
+    "FarLink",
     "Fault",
     "Field",
     "FingerPad",
+    "Follow",
     "ForceBounding",
     "ForceSensor",
     "Free",
     "FtScale",
+    "Gears",
     "Gimbal",
     "Grant",
     "Hand",
@@ -7283,10 +7286,21 @@ class LoopbackJoystick:
         wait_for_power: bool = False,
         aim: SharedHandTarget | None = None,
         sheet: collections.abc.Sequence[
-            tuple[int, int, str, bool, int, int, int, int | None, str]
+            tuple[
+                typing.SupportsInt | typing.SupportsIndex,
+                typing.SupportsInt | typing.SupportsIndex,
+                str,
+                bool,
+                typing.SupportsInt | typing.SupportsIndex,
+                typing.SupportsInt | typing.SupportsIndex,
+                typing.SupportsInt | typing.SupportsIndex,
+                typing.SupportsInt | typing.SupportsIndex | None,
+                str,
+            ]
         ] = [],
         zero: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex] = [],
         longest_step: typing.SupportsFloat | typing.SupportsIndex = ...,
+        load: _DrivenMachine | None = None,
     ) -> None: ...
     def start(self, mode: RealTimeMode = ..., realtime: RealTime = ...) -> typing.Self:
         """
@@ -8156,10 +8170,23 @@ class TeleopPacket:
         energy: typing.SupportsFloat | typing.SupportsIndex = 0.0,
         wave: typing.SupportsFloat | typing.SupportsIndex = 0.0,
         run: typing.SupportsInt | typing.SupportsIndex = 0,
+        fault: typing.SupportsInt | typing.SupportsIndex = 0,
+        leaving: bool = False,
+        more: typing.Annotated[
+            collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(3)"
+        ] = [0.0, 0.0, 0.0],
+        at: typing.Annotated[
+            collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(4)"
+        ] = [0.0, 0.0, 0.0, 0.0],
     ) -> None: ...
     def encode(self) -> bytes:
         """
-        Return its 56 bytes.
+        Return its 116 bytes.
+        """
+    @property
+    def at(self) -> typing.Annotated[list[float], "FixedSize(4)"]:
+        """
+        From the slave: where its four axes are [m, rad].
         """
     @property
     def echo(self) -> int:
@@ -8172,14 +8199,29 @@ class TeleopPacket:
         Energy into the network [J].
         """
     @property
+    def fault(self) -> int:
+        """
+        Fault that has stopped the sender's drives; 0 for none.
+        """
+    @property
     def from_slave(self) -> bool:
         """
         Whether the slave sent it.
         """
     @property
+    def leaving(self) -> bool:
+        """
+        Whether its sender ends.
+        """
+    @property
     def lost(self) -> bool:
         """
         Whether its sender has lost the link.
+        """
+    @property
+    def more(self) -> typing.Annotated[list[float], "FixedSize(3)"]:
+        """
+        Rotation, bend to the right and down [rad], or their load [N m].
         """
     @property
     def run(self) -> int:
@@ -9334,3 +9376,256 @@ def _scheduled_world(
     world: _World, timing: EngineTiming, params: BridgeParams, held: bool
 ) -> _World: ...
 def _bridge_report(world: _World) -> dict[str, typing.Any] | None: ...
+
+class _DrivenMachine:
+    pass
+
+class FarLink:
+    """
+    When a link between loops on drives counts as lost.
+
+    Parameters
+    ----------
+    timeout : float
+        silence after which the link counts as lost [s], 0.01 to 10.
+    fade : float
+        in which the master's force goes to zero and comes back [s], 0.001 to 10.
+    consent_after : float
+        a simulated hand consents so long after the link is back; inf for never [s], at least 0.
+    """
+
+    @staticmethod
+    def fields() -> list[Field]:
+        """
+        Return name, unit, meaning, default and range of every parameter.
+        """
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __init__(
+        self, *, timeout: float = 0.5, fade: float = 0.2, consent_after: float = ...
+    ) -> None: ...
+    def __reduce__(self) -> tuple[typing.Any, ...]: ...
+    def __repr__(self) -> str: ...
+    def as_dict(self) -> dict[str, typing.Any]:
+        """
+        Return the parameters by name.
+        """
+    def replace(self, **changes: typing.Any) -> typing.Self:
+        """
+        Return a copy with some parameters changed, checked as at construction.
+        """
+    @property
+    def consent_after(self) -> float:
+        """
+        a simulated hand consents so long after the link is back; inf for never [s], at least 0
+        """
+    @property
+    def fade(self) -> float:
+        """
+        in which the master's force goes to zero and comes back [s], 0.001 to 10
+        """
+    @property
+    def timeout(self) -> float:
+        """
+        silence after which the link counts as lost [s], 0.01 to 10
+        """
+
+class Follow:
+    """
+    How the drives of a slave follow what its master asks.
+
+    Parameters
+    ----------
+    stiffness : float
+        of every position controller, at its cable [N/m], 1 to 1e+06.
+    damping : float
+        of the same [N s/m], 0 to 10000.
+    most_force : float
+        largest force asked of a drive [N], 0.1 to 1000.
+    insertion_speed : float
+        fastest insertion [m/s], 0.001 to 1.
+    turn_speed : float
+        fastest rotation and bend [rad/s], 0.01 to 50.
+    realign : float
+        fastest rotation and bend back to the stick at the beginning and after consent [rad/s], 0.01 to 50.
+    deepest : float
+        insertion from where the drives began, at most [m], 0.01 to 2.
+    most_bend : float
+        largest bend asked of the drives [rad], 0.1 to 4.
+    """
+
+    @staticmethod
+    def fields() -> list[Field]:
+        """
+        Return name, unit, meaning, default and range of every parameter.
+        """
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __init__(
+        self,
+        *,
+        stiffness: float = 4000.0,
+        damping: float = 30.0,
+        most_force: float = 25.0,
+        insertion_speed: float = 0.08,
+        turn_speed: float = 2.0,
+        realign: float = 0.5,
+        deepest: float = 0.8,
+        most_bend: float = 2.6,
+    ) -> None: ...
+    def __reduce__(self) -> tuple[typing.Any, ...]: ...
+    def __repr__(self) -> str: ...
+    def as_dict(self) -> dict[str, typing.Any]:
+        """
+        Return the parameters by name.
+        """
+    def replace(self, **changes: typing.Any) -> typing.Self:
+        """
+        Return a copy with some parameters changed, checked as at construction.
+        """
+    @property
+    def damping(self) -> float:
+        """
+        of the same [N s/m], 0 to 10000
+        """
+    @property
+    def deepest(self) -> float:
+        """
+        insertion from where the drives began, at most [m], 0.01 to 2
+        """
+    @property
+    def insertion_speed(self) -> float:
+        """
+        fastest insertion [m/s], 0.001 to 1
+        """
+    @property
+    def most_bend(self) -> float:
+        """
+        largest bend asked of the drives [rad], 0.1 to 4
+        """
+    @property
+    def most_force(self) -> float:
+        """
+        largest force asked of a drive [N], 0.1 to 1000
+        """
+    @property
+    def realign(self) -> float:
+        """
+        fastest rotation and bend back to the stick at the beginning and after consent [rad/s], 0.01 to 50
+        """
+    @property
+    def stiffness(self) -> float:
+        """
+        of every position controller, at its cable [N/m], 1 to 1e+06
+        """
+    @property
+    def turn_speed(self) -> float:
+        """
+        fastest rotation and bend [rad/s], 0.01 to 50
+        """
+
+class Gears:
+    """
+    What the cables at the slave's drives move.
+
+    Parameters
+    ----------
+    insertion : float
+        insertion per way of its cable, 0.01 to 100.
+    rotation : float
+        rotation per way of its cable [rad/m], 0.1 to 10000.
+    bend : float
+        bend per way of its cable [rad/m], 0.1 to 10000.
+    """
+
+    @staticmethod
+    def fields() -> list[Field]:
+        """
+        Return name, unit, meaning, default and range of every parameter.
+        """
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __init__(
+        self,
+        *,
+        insertion: float = 1.0,
+        rotation: float = 66.66666666666667,
+        bend: float = 66.66666666666667,
+    ) -> None: ...
+    def __reduce__(self) -> tuple[typing.Any, ...]: ...
+    def __repr__(self) -> str: ...
+    def as_dict(self) -> dict[str, typing.Any]:
+        """
+        Return the parameters by name.
+        """
+    def replace(self, **changes: typing.Any) -> typing.Self:
+        """
+        Return a copy with some parameters changed, checked as at construction.
+        """
+    @property
+    def bend(self) -> float:
+        """
+        bend per way of its cable [rad/m], 0.1 to 10000
+        """
+    @property
+    def insertion(self) -> float:
+        """
+        insertion per way of its cable, 0.01 to 100
+        """
+    @property
+    def rotation(self) -> float:
+        """
+        rotation per way of its cable [rad/m], 0.1 to 10000
+        """
+
+class _LinkEnd:
+    def consent(self) -> None: ...
+    def events(
+        self, start: typing.SupportsInt | typing.SupportsIndex = 0
+    ) -> list[tuple[float, int, float]]: ...
+    def fail(self, fault: Fault) -> None: ...
+    def leave(self) -> None: ...
+    def report(self) -> dict[str, typing.Any]: ...
+    @property
+    def port(self) -> int: ...
+
+class _DrivenScope:
+    def __init__(
+        self,
+        scope: Scope,
+        lumen: _Lumen,
+        start: typing.SupportsFloat | typing.SupportsIndex,
+        gears: Gears,
+    ) -> None: ...
+    def load(self, group: typing.SupportsInt | typing.SupportsIndex) -> _DrivenMachine: ...
+    def report(self) -> dict[str, typing.Any]: ...
+
+def _master_link(
+    *,
+    params: FarLink,
+    dt: typing.SupportsFloat | typing.SupportsIndex,
+    host: str,
+    port: typing.SupportsInt | typing.SupportsIndex,
+    peer: tuple[str, typing.SupportsInt | typing.SupportsIndex],
+) -> _LinkEnd: ...
+def _master_world(link: _LinkEnd, params: Master) -> _World: ...
+def _slave_link(
+    *,
+    params: FarLink,
+    dt: typing.SupportsFloat | typing.SupportsIndex,
+    host: str,
+    port: typing.SupportsInt | typing.SupportsIndex,
+) -> _LinkEnd: ...
+def _slave_worlds(link: _LinkEnd, params: Follow, gears: Gears) -> tuple[_World, _World]: ...
+def _targets(
+    params: Follow,
+    asked: collections.abc.Sequence[
+        typing.Annotated[
+            collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(4)"
+        ]
+    ],
+    dt: typing.SupportsFloat | typing.SupportsIndex,
+) -> list[typing.Annotated[list[float], "FixedSize(4)"]]:
+    """
+    Return where a slave's targets go, tick by tick.
+    """

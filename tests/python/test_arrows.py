@@ -37,6 +37,7 @@ MAY_SEE = {
     "sensor": {"core", "model", "control", "loop", "rt"},
     "portable": {"core", "can", "rt", "sensor"},
     "teleop": {"core", "model", "control", "loop", "sim", "sensor"},
+    "remote": {"core", "model", "loop", "sensor", "teleop", "gastroscope"},
     "faults": {"core", "model", "control", "loop", "sim", "can", "canopen", "simulated_drives"},
 }
 

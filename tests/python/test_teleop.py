@@ -31,13 +31,17 @@ def packet(value: float = 0.01, energy: float = 2.0, wave: float = -3.0) -> Pack
         energy=energy,
         wave=wave,
         run=4,
+        fault=7,
+        leaving=True,
+        more=(0.1, 0.2, 0.3),
+        at=(1.0, 2.0, 3.0, 4.0),
     )
 
 
 @given(FINITE, FINITE, FINITE)
 def test_a_packet_comes_back_as_it_was(value: float, energy: float, wave: float) -> None:
     sent = packet(value, energy, wave)
-    assert len(sent.encode()) == 56
+    assert len(sent.encode()) == 116
     assert Packet.decode(sent.encode()) == sent
 
 
@@ -46,9 +50,10 @@ def test_the_layout_is_the_one_that_is_documented() -> None:
     import zlib
 
     wire = packet().encode()
-    assert struct.unpack("<2sBBIIIqdddII", wire) == (
-        *(b"ET", 2, 1, 3, 70000, 5, -1, 0.01, 2.0, -3.0, 4),
-        zlib.crc32(wire[:52]),
+    assert struct.unpack("<2sBBIIIqdddII7dI", wire) == (
+        *(b"ET", 3, 5, 3, 70000, 5, -1, 0.01, 2.0, -3.0, 4, 7),
+        *(0.1, 0.2, 0.3, 1.0, 2.0, 3.0, 4.0),
+        zlib.crc32(wire[:112]),
     )
 
 
@@ -62,11 +67,15 @@ def test_every_flipped_bit_and_every_other_length_is_refused() -> None:
     assert Packet.decode(wire + b"\0") is None
 
 
-@given(st.binary(max_size=64), st.floats(allow_nan=True))
+@given(st.binary(max_size=128), st.floats(allow_nan=True))
 def test_noise_and_numbers_that_are_not_finite_are_refused(noise: bytes, value: float) -> None:
     assert Packet.decode(noise) is None
-    whole = Packet.decode(Packet(value=value).encode())
-    assert (whole is not None) == np.isfinite(value)
+    for packet in (
+        Packet(value=value),
+        Packet(more=(0.0, value, 0.0)),
+        Packet(at=(0.0, 0.0, 0.0, value)),
+    ):
+        assert (Packet.decode(packet.encode()) is not None) == np.isfinite(value)
 
 
 @given(
@@ -321,7 +330,12 @@ def test_endurance_finds_what_is_beyond_a_limit(monkeypatch: pytest.MonkeyPatch)
     link = Link(delay=0.02, cut_every=3, cut_length=1)
     found = teleop.endurance(5, link=link, consent_after=0.2)
     assert [fault.split(" = ")[0] for fault in found.faults] == ["largest force of the master"]
+    assert " s after the link began to run" in found.faults[0]
     assert found.reported["master"] >= found.reports["master"]["losses"] >= 1
+    for name in ("master", "slave"):
+        times = [t for t, _ in found.events[name]]
+        assert times == sorted(times)
+        assert sum("LINK LOST" in words for _, words in found.events[name]) == found.reported[name]
     assert all(len(values) > 3 for values in found.memory.values())
 
 

@@ -38,6 +38,9 @@ class Master {
     return command_;
   }
 
+  /// The insertion goes on from here [m].
+  void restart(double inserted) EBAC_RT { command_.insertion = inserted; }
+
   /// Forces that resist the handle [N]: the power of a bend is that of its handle, times feedback.
   Handle felt(const Answer& answer, bool clutched) const EBAC_RT {
     const MasterParams& p = params_;

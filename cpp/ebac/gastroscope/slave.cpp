@@ -79,6 +79,11 @@ void Slave::drive(const Command& command, double dt) EBAC_RT {
                 p.bend_speed, p.most_torque, dt);
   motor_y_.step(share * command.bend_y, p.bend_stiffness * (pulled_.y - bend_.y), p.lag,
                 p.bend_speed, p.most_torque, dt);
+  pull();
+}
+
+void Slave::pull() EBAC_RT {
+  const ScopeParams& p = params_;
   pulled_ = {tendon_x_.follow(motor_x_.at, p.backlash, p.hysteresis, p.hysteresis_width),
              tendon_y_.follow(motor_y_.at, p.backlash, p.hysteresis, p.hysteresis_width)};
 }
@@ -106,8 +111,21 @@ void Slave::advance(const Load& load, double dt) EBAC_RT {
 }
 
 Answer Slave::step(const Command& command, double t, double dt) EBAC_RT {
-  motion_.t = t;
   drive(command, dt);
+  return move(t, dt);
+}
+
+Answer Slave::carry(const Command& motors, double t, double dt) EBAC_RT {
+  insert_.at = std::max(motors.insertion, 0.0);
+  rotate_.at = motors.rotation;
+  motor_x_.at = motors.bend_x;
+  motor_y_.at = motors.bend_y;
+  pull();
+  return move(t, dt);
+}
+
+Answer Slave::move(double t, double dt) EBAC_RT {
+  motion_.t = t;
   at_ = tube_.reach(base_, 1 - static_cast<double>(until_tube_) / kTubeEvery);
   at_.frame = rolled(at_.frame, rotate_.at);
   const Load load = meet(dt);

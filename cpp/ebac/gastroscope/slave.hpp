@@ -22,6 +22,11 @@ class Slave {
   /// One tick of `dt` [s] until time `t` [s].
   Answer step(const Command& command, double t, double dt) EBAC_RT;
 
+  /// The same with motors that are elsewhere: `motors` is where they stand, not what they are asked.
+  Answer carry(const Command& motors, double t, double dt) EBAC_RT;
+
+  /// Where the insertion motor stands [m].
+  double insertion() const EBAC_RT { return insert_.at; }
   /// Where the camera is, and its axes: right, down, ahead.
   const SectionPoint& camera() const EBAC_RT { return camera_; }
   /// The camera's place along the lumen [m].
@@ -29,6 +34,8 @@ class Slave {
   /// Length of the scope behind the teeth, to the camera [m].
   double inserted() const EBAC_RT { return base_ + params_.section + params_.tip; }
   const Bend& bend() const EBAC_RT { return bend_; }
+  /// Bend that the tendons ask for; with the section's stiffness, the torque at them.
+  const Bend& pulled() const EBAC_RT { return pulled_; }
   const LumenMotion& motion() const EBAC_RT { return motion_; }
   const InsertionTube& tube() const EBAC_RT { return tube_; }
   const InsertionTube::Base& base() const EBAC_RT { return at_; }
@@ -51,6 +58,8 @@ class Slave {
   };
   Load meet(double dt) EBAC_RT;
   void drive(const Command& command, double dt) EBAC_RT;
+  void pull() EBAC_RT;
+  Answer move(double t, double dt) EBAC_RT;
   void advance(const Load& load, double dt) EBAC_RT;
 
   static constexpr int kTubeEvery = 10;  // ticks from one look at the tube to the next

@@ -33,7 +33,7 @@ Endpoint resolve(const std::string& host, std::uint16_t port, const std::string&
 /// A received packet: its first bytes. A packet of the protocol is shorter than the room here, so
 /// one that fills it was too long.
 struct Datagram {
-  static constexpr std::size_t kRoom = 64;
+  static constexpr std::size_t kRoom = 128;
 
   std::array<std::uint8_t, kRoom> data{};
   std::size_t size = 0;

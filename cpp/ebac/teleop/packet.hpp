@@ -11,12 +11,12 @@
 /// Bilateral teleoperation: a master and a slave, joined by packets.
 namespace ebac::teleop {
 
-/// What one side tells the other, once a tick. On the wire 56 bytes, little-endian:
+/// What one side tells the other, once a tick. On the wire 116 bytes, little-endian:
 ///
 ///     offset  type    content
 ///      0      u8[2]   'E' 'T'
-///      2      u8      version, 2
-///      3      u8      flags: 1 from the slave, 2 this side has lost the link
+///      2      u8      version, 3
+///      3      u8      flags: 1 from the slave, 2 this side has lost the link, 4 this side ends
 ///      4      u32     session: the hand's consents so far
 ///      8      u32     sequence number, from 1 in each session
 ///     12      u32     echo: newest sequence number this side has received, 0 for none
@@ -25,10 +25,15 @@ namespace ebac::teleop {
 ///     32      f64     energy that went into the network at this port since the session began [J]
 ///     40      f64     integral of the wave variable since the session began [sqrt(W) s]
 ///     48      u32     run: number of the master's run; from the slave, of the master it belongs to
-///     52      u32     CRC-32 (IEEE 802.3) of the bytes before
+///     52      u32     fault that has stopped the sender's drives, 0 for none
+///     56      f64[3]  value of further axes: rotation, bend to the right, bend down [rad], or their load [N m]
+///     80      f64[4]  from the slave: where its axes are, in the same order [m, rad]
+///    112      u32     CRC-32 (IEEE 802.3) of the bytes before
+///
+/// A master and a slave of one axis leave the last three at 0.
 struct Packet {
-  static constexpr std::size_t kSize = 56;
-  static constexpr std::uint8_t kVersion = 2;
+  static constexpr std::size_t kSize = 116;
+  static constexpr std::uint8_t kVersion = 3;
   using Wire = std::array<std::uint8_t, kSize>;
 
   bool from_slave = false;
@@ -41,6 +46,10 @@ struct Packet {
   double energy = 0;       // J
   double wave = 0;         // sqrt(W) s
   std::uint32_t run = 0;
+  std::uint32_t fault = 0;
+  bool leaving = false;
+  std::array<double, 3> more{};  // rad or N m
+  std::array<double, 4> at{};    // m, rad
 
   bool operator==(const Packet&) const = default;
 };

@@ -108,6 +108,9 @@ class Receiver {
     packet.value += share * (next.value - packet.value);
     packet.energy += share * (next.energy - packet.energy);
     packet.wave += share * (next.wave - packet.wave);
+    for (std::size_t i = 0; i < packet.more.size(); ++i) {
+      packet.more[i] += share * (next.more[i] - packet.more[i]);
+    }
     return packet;
   }
 

@@ -210,5 +210,32 @@ DATASETS: dict[str, Dataset] = {
             commands=("ebac run joystick-3.toml --simulated",),
             _write=_joystick,
         ),
+        *(
+            Dataset(
+                name=f"gastroscope-{part}",
+                file=f"gastroscope-{part}.toml",
+                about=f"The configuration of a teleoperated gastroscope's {what}, for real and for simulated drives.",
+                data=False,
+                commands=(command,),
+                _write=_joystick,
+            )
+            for part, what, command in (
+                (
+                    "master",
+                    "joystick",
+                    "ebac gastroscopy master gastroscope-master.toml --simulated --seconds 3",
+                ),
+                (
+                    "feed",
+                    "drives for insertion and rotation",
+                    "ebac gastroscopy slave --feed gastroscope-feed.toml --simulated --seconds 3",
+                ),
+                (
+                    "bend",
+                    "drives for both bends",
+                    "ebac gastroscopy slave --bend gastroscope-bend.toml --simulated --seconds 3",
+                ),
+            )
+        ),
     )
 }

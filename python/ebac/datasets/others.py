@@ -59,5 +59,5 @@ def joystick() -> Configuration:
 
 
 def joystick_text(name: str = "joystick") -> str:
-    """Return the configuration "joystick", or "joystick-3" with three axes, as TOML text with comments."""
+    """Return a configuration, such as "joystick" or "joystick-3" with three axes, as TOML text with comments."""
     return (files("ebac.datasets") / f"{name}.toml").read_text(encoding="utf-8")

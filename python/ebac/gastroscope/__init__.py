@@ -11,17 +11,25 @@ Everything here is a simulation with measures from the literature and assumption
 patients.
 """
 
-from ebac._core import Master, Patient, Physician, Polyp, Scope
+from ebac._core import FarLink, Follow, Gears, Master, Patient, Physician, Polyp, Scope
+from ebac.gastroscope.chain import Chain, chain
+from ebac.gastroscope.far_side import LinkEvent, SideReport
 from ebac.gastroscope.lumen import Lumen, Wall
+from ebac.gastroscope.on_drives import configuration, run_master, run_slave
 from ebac.gastroscope.procedure import Gastroscopy, Procedure, gastroscopy
 from ebac.gastroscope.slave import Camera, Slave, SlaveState, camera
 from ebac.gastroscope.study import Effect, GastroscopyStudy, StudyRow, gastroscopy_study
 
 __all__ = [
     "Camera",
+    "Chain",
     "Effect",
+    "FarLink",
+    "Follow",
     "Gastroscopy",
     "GastroscopyStudy",
+    "Gears",
+    "LinkEvent",
     "Lumen",
     "Master",
     "Patient",
@@ -29,13 +37,18 @@ __all__ = [
     "Polyp",
     "Procedure",
     "Scope",
+    "SideReport",
     "Slave",
     "SlaveState",
     "StudyRow",
     "Wall",
     "camera",
+    "chain",
+    "configuration",
     "gastroscopy",
     "gastroscopy_study",
+    "run_master",
+    "run_slave",
 ]
 
 

@@ -25,6 +25,7 @@ if TYPE_CHECKING:
         SharedForce,
         SharedHandTarget,
         SocketCanJoystick,
+        _DrivenMachine,
     )
     from ebac.hardware.configuration import Configuration
     from ebac.hardware.signs import Signs
@@ -104,7 +105,10 @@ def hardware(configuration: Configuration) -> Iterator[Backend]:
 
 @contextmanager
 def simulated(
-    configuration: Configuration, *, longest_step: float | None = None
+    configuration: Configuration,
+    *,
+    longest_step: float | None = None,
+    load: _DrivenMachine | None = None,
 ) -> Iterator[Backend]:
     """Put simulated drives with a device and a hand on a bus until the end of the block.
 
@@ -112,7 +116,8 @@ def simulated(
     bus inside this process. The hand holds still until the motors first have power.
 
     With `longest_step` [s] they are always in this process, and time stands still for them while their loop is held up:
-    the device moves for so long at most from one tick to the next.
+    the device moves for so long at most from one tick to the next. So they are with a `load`, which takes the
+    hand's place: the hand's stiffness is that of its cables.
 
     Raises
     ------
@@ -124,7 +129,7 @@ def simulated(
     from ebac._core import LoopbackJoystick, SharedForce, SharedHandTarget
 
     aim = SharedHandTarget()
-    channel = virtual_can() if longest_step is None else None
+    channel = virtual_can() if longest_step is None and load is None else None
     if channel is not None:
         with in_a_process(channel, configuration, scenario, first, aim) as (sensor, grants):
             yield Backend(
@@ -154,6 +159,7 @@ def simulated(
             aim=aim,
             zero=configuration.counts_of_simulated_drives,
             longest_step=inf if longest_step is None else longest_step,
+            load=load,
         )
         return at_work(served, request, "the simulated drives", grants)
 

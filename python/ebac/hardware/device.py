@@ -35,6 +35,7 @@ from ebac.hardware.run_log import free_log
 from ebac.hardware.run_setup import run_setup
 
 if TYPE_CHECKING:
+    from ebac._core import _DrivenMachine
     from ebac.hardware.backends import Backend
     from ebac.laws import AnyLaw, CoreLaw
     from ebac.scenario import Environment
@@ -63,6 +64,8 @@ class OpenDevice:
     longest_step : float, optional
         Of simulated drives: how long the device moves at most from one tick to the next [s], however late the loop is;
         default: as long as it takes, as a real one.
+    load : optional
+        Of simulated drives: the machine that they move in place of a hand.
 
     Attributes
     ----------
@@ -96,6 +99,7 @@ class OpenDevice:
         detached: bool = False,
         beyond_rating: bool = False,
         longest_step: float | None = None,
+        load: _DrivenMachine | None = None,
     ) -> None:
         if not beyond_rating:
             check_rating(configuration.limits, configuration.device)
@@ -113,7 +117,7 @@ class OpenDevice:
         with ExitStack() as stack:
             self.interrupts = stack.enter_context(Interrupts())
             self.backend: Backend = stack.enter_context(
-                simulated(configuration, longest_step=longest_step)
+                simulated(configuration, longest_step=longest_step, load=load)
                 if simulate
                 else hardware(configuration)
             )

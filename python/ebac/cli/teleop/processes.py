@@ -22,7 +22,8 @@ REPORT = 5.0
 LOST = 2
 
 
-def _peer(text: str, option: str) -> tuple[str, int]:
+def peer_of(text: str, option: str) -> tuple[str, int]:
+    """Return address and port of an option."""
     host, colon, port = text.rpartition(":")
     if not colon or not host or not port.isdecimal() or not 0 < int(port) < 65536:
         output.fail(f"{option} {text}: must be an address and a port, as 127.0.0.1:49200")
@@ -66,7 +67,7 @@ def master(
     from ebac.teleop import scheme as scheme_of
 
     with output.refusing():
-        where = _peer(peer, "--peer")
+        where = peer_of(peer, "--peer")
         chosen = scheme_of(scheme)
         path = Sine(centre=0.02, amplitude=0.015, frequency=0.2, phase=-1.5708)
         scenario = Scenario(environment=Free(), hand=Hand(path=[path]), seed=seed or 1)
@@ -111,6 +112,9 @@ def network(
     port: Annotated[int, PORT] = 49200,
     seconds: simulated.Seconds = None,
     seed: options.Seed = None,
+    announce: Annotated[
+        bool, typer.Option("--announce", help="Print the UDP port as JSON at once.")
+    ] = False,
     as_json: output.AsJson = False,
 ) -> None:
     """Stand between master and slave: delay, drop, reorder, damage and cut what they send.
@@ -124,9 +128,12 @@ def network(
     from ebac.teleop import processes
 
     with output.refusing():
-        where = _peer(slave, "--slave")
+        where = peer_of(slave, "--slave")
         link = over.link()
         side = processes.Network(link, link, host=host, port=port, slave=where, seed=seed or 1)
+    if announce:
+        typer.echo(json.dumps({"port": side.port}))
+        sys.stdout.flush()
     _run("network", side, seconds, as_json)
 
 

@@ -1,0 +1,287 @@
+"""`ebac gastroscopy master`, `slave` and `drives`: joystick and gastroscope on CANopen drives, over a network."""
+
+from __future__ import annotations
+
+import json
+import select
+import sys
+from collections.abc import Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from ebac.cli import options, output, setting, simulated
+from ebac.cli.drive.options import Yes, telling
+from ebac.cli.gastroscopy.side_table import show
+from ebac.cli.run.confirm import can_ask, confirm
+from ebac.cli.teleop.options import LinkOptions
+from ebac.cli.teleop.processes import HOST, PORT, peer_of
+
+if TYPE_CHECKING:
+    from ebac.gastroscope.far_side import FarLink, LinkEvent, SideReport
+    from ebac.hardware import Configuration
+
+BACK = 3
+Simulated = Annotated[
+    bool,
+    typer.Option(
+        "--simulated", help="On simulated drives; clock, threads, bus and network are real."
+    ),
+]
+GiveUp = Annotated[
+    float,
+    typer.Option(
+        help="After so long without a link, end with drives at rest [s].", min=0.5, max=1e7
+    ),
+]
+Timeout = Annotated[
+    float, typer.Option(help="Silence after which the link counts as lost [s].", min=0.01, max=10)
+]
+Log = Annotated[
+    Path | None,
+    typer.Option("--log", help="Record every tick to this file, .mcap.", show_default=False),
+]
+
+
+def master(
+    configuration: Annotated[
+        Path | None,
+        typer.Argument(
+            help="The joystick, in TOML, as of `ebac demo gastroscope-master`.",
+            show_default="that one, with --simulated",
+        ),
+    ] = None,
+    peer: Annotated[
+        str, typer.Option(help="Slave, or a network before it, as 127.0.0.1:49200.")
+    ] = "127.0.0.1:49201",
+    host: Annotated[str, HOST] = "127.0.0.1",
+    port: Annotated[int, PORT] = 0,
+    on_simulated: Simulated = False,
+    law: Annotated[str | None, options.one_law(default="as configured")] = None,
+    consent_after: Annotated[
+        float | None,
+        typer.Option(
+            help="A simulated hand agrees so long after the link is back [s].",
+            show_default="press Enter",
+            min=0,
+            max=1e7,
+        ),
+    ] = None,
+    give_up: GiveUp = 10.0,
+    timeout: Timeout = 0.5,
+    seconds: simulated.Seconds = None,
+    log: Log = None,
+    yes: Yes = False,
+    as_json: output.AsJson = False,
+) -> None:
+    """Run a joystick on its drives, with a gastroscope at the other end of a network as its world.
+
+    **The motors get power and the joystick moves.** It is `ebac run` with its limits, faults, log and question before
+    the motors have power. Two axes bend the tip, the slide of the lever advances it; what the gastroscope's drives
+    meet comes back as a force, through the law. Where the link is lost, the force fades to zero within 0.2 s; once it
+    is back, the hand has to agree (Enter). Without a link for `--give-up`, or when the slave says that its drives
+    have stopped, the run ends with the drives at rest and exit code 1.
+
+    **Examples**
+
+    * `ebac gastroscopy slave --simulated`, then `ebac gastroscopy master --simulated --seconds 20`
+
+    * `ebac gastroscopy master --simulated --seconds 3 --give-up 1 --json`: nobody answers, and it waits
+    """
+    from ebac.gastroscope.on_drives import run_master
+
+    with output.refusing(), telling():
+        name = None if law is None else setting.one_law(law)
+        at = peer_of(peer, "--peer")
+        (known,) = _known({"master": configuration}, on_simulated)
+        if not on_simulated:
+            can_ask(known, yes)
+        found = run_master(
+            known,
+            peer=at,
+            law=name,
+            host=host,
+            port=port,
+            simulate=on_simulated,
+            consent_after=consent_after,
+            give_up=give_up,
+            timeout=timeout,
+            seconds=seconds,
+            log=log,
+            notify=_notifier("master", as_json, by_hand=consent_after is None),
+            confirm=lambda device: confirm(device, yes, stderr=as_json),
+            look=lambda run, link: _consent(link, by_hand=consent_after is None),
+        )
+    _give(found, as_json)
+
+
+def slave(
+    feed: Annotated[
+        Path | None,
+        typer.Option(
+            help="Drives for insertion and rotation, in TOML, as of `ebac demo gastroscope-feed`.",
+            show_default="that one, with --simulated",
+        ),
+    ] = None,
+    bend: Annotated[
+        Path | None,
+        typer.Option(
+            help="Drives for both bends, as of `ebac demo gastroscope-bend`.",
+            show_default="that one, with --simulated",
+        ),
+    ] = None,
+    host: Annotated[str, HOST] = "127.0.0.1",
+    port: Annotated[int, PORT] = 49201,
+    on_simulated: Simulated = False,
+    give_up: GiveUp = 10.0,
+    timeout: Timeout = 0.5,
+    seconds: simulated.Seconds = None,
+    log: Log = None,
+    announce: Annotated[
+        bool,
+        typer.Option("--announce", help="Print the UDP port as JSON when the drives have power."),
+    ] = False,
+    yes: Yes = False,
+    as_json: output.AsJson = False,
+) -> None:
+    """Run the four drives of a gastroscope, which follow a joystick over a network and send their load back.
+
+    **The motors get power and the gastroscope moves.** Insertion and rotation are on one bus, both bends on another:
+    four drives at 1 kHz do not fit on one of 1 Mbit/s. Each pair runs as `ebac run` does, with its limits, faults and
+    log (that of the bends beside the other, with `-bend` in its name); a fault of one pair stops both at once, with
+    zero torque, and the master learns of it. Without a link the drives hold where they are, and after `--give-up` the
+    run ends with the drives at rest and exit code 1.
+
+    With `--simulated` a gastroscope in a patient is behind the drives: tendons, tube, wall.
+
+    **Examples**
+
+    * `ebac gastroscopy slave --simulated --seconds 3`
+
+    * `ebac gastroscopy slave --simulated --port 49202 --log slave.mcap --seconds 3`, then `ebac log info slave.mcap`
+    """
+    from ebac.gastroscope.on_drives import run_slave
+
+    with output.refusing(), telling():
+        both = _known({"feed": feed, "bend": bend}, on_simulated)
+        for known in both if not on_simulated else ():
+            can_ask(known, yes)
+        found = run_slave(
+            *both,
+            host=host,
+            port=port,
+            simulate=on_simulated,
+            give_up=give_up,
+            timeout=timeout,
+            seconds=seconds,
+            log=log,
+            notify=_notifier("slave", as_json),
+            confirm=lambda device: confirm(device, yes, stderr=as_json),
+            ready=lambda at: _ready(at, announce, as_json),
+        )
+    _give(found, as_json)
+
+
+def drives(
+    over: LinkOptions,
+    law: Annotated[str | None, options.one_law(default="as configured")] = None,
+    seconds: Annotated[
+        float, typer.Option(help="How long the joystick has power [s].", min=1, max=3600)
+    ] = 30.0,
+    give_up: GiveUp = 10.0,
+    out: Annotated[
+        Path | None,
+        typer.Option("--out", "-o", help="Folder for the logs of all drives.", show_default="none"),
+    ] = None,
+    seed: options.Seed = None,
+    as_json: output.AsJson = False,
+) -> None:
+    """Run joystick, network and gastroscope as three processes, on simulated drives: bus, network, bus.
+
+    A simulated hand bends the tip to and fro and advances it; it consents 1 s after a lost link is back. Ends with 1
+    where a lost link was not reported, a drive kept its power, or a side ended otherwise than by its time or the
+    master's.
+
+    **Examples**
+
+    * `ebac gastroscopy drives --seconds 10`
+
+    * `ebac gastroscopy drives --seconds 10 --delay 0.1 --jitter 0.01 --loss 0.05 --cut-every 6 --cut-length 1 --json`
+    """
+    from ebac.gastroscope.chain import chain
+
+    with output.refusing():
+        found = chain(
+            seconds,
+            link=over.link(),
+            law=None if law is None else setting.one_law(law),
+            give_up=give_up,
+            folder=out,
+            seed=seed or 1,
+        )
+    rows = [{"process": name, **one} for name, one in found.reports.items()]
+    if as_json:
+        typer.echo(output.document("gastroscopy drives", rows, faults=found.faults))
+    else:
+        show(found.reports, found.faults)
+        if out is not None:
+            output.list_files(out, sorted(one.name for one in out.glob("*.mcap")))
+    if found.faults:
+        raise typer.Exit(1)
+
+
+def _known(given: Mapping[str, Path | None], on_simulated: bool) -> list[Configuration]:
+    """Return the configurations of files; those that come with `ebac` where there are none, for simulated drives."""
+    from ebac.gastroscope.on_drives import configuration
+    from ebac.hardware import Configuration
+
+    found = {part: Configuration.load(file) for part, file in given.items() if file is not None}
+    for part in given:
+        if part in found:
+            continue
+        if not on_simulated:
+            what = "CONFIGURATION" if part == "master" else f"--{part}"
+            output.fail(
+                f"{what}: must name a configuration of your drives; `ebac demo gastroscope-{part}` writes one, "
+                "--simulated needs none"
+            )
+        found[part] = configuration(part)
+    return [found[part] for part in given]
+
+
+def _ready(port: int, announce: bool, as_json: bool) -> None:
+    if announce:
+        typer.echo(json.dumps({"port": port}))
+        sys.stdout.flush()
+    elif not as_json:
+        output.say(f"slave on UDP port {port}: the drives have power. Ctrl-C stops it.")
+
+
+def _notifier(name: str, as_json: bool, *, by_hand: bool = False) -> Any:
+    def notify(event: LinkEvent) -> None:
+        typer.echo(f"{event.t:8.2f} s  {name}: {event.text}", err=as_json)
+        if by_hand and event.what == "back":
+            typer.echo("            press Enter to go on", err=as_json)
+
+    return notify
+
+
+def _consent(link: FarLink, *, by_hand: bool) -> None:
+    if by_hand and link.end.report()["state"] == BACK:
+        ready, _, _ = select.select([sys.stdin], [], [], 0)
+        if ready and sys.stdin.readline():
+            link.end.consent()
+
+
+def _give(found: SideReport, as_json: bool) -> None:
+    row = found.row()
+    if as_json:
+        # One line, so that a program may read it while others write.
+        typer.echo(json.dumps({"command": f"gastroscopy {found.name}", **row}))
+    else:
+        show({found.name: row}, [])
+        for log in found.logs:
+            output.path(log)
+    if not found.good:
+        raise typer.Exit(1)
