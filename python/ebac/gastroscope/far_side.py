@@ -105,7 +105,7 @@ class LinkEvent:
 
 
 @dataclass(kw_only=True)
-class FarLink:
+class LinkAtWork:
     """One end of the link while a loop runs: reports its events, and knows when to give up.
 
     Attributes

@@ -10,9 +10,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ebac import _core
-from ebac._core import FarLink as FarLinkParams
-from ebac._core import Fault, Follow, Gears, Hand, Master, Scope, Step
-from ebac.gastroscope.far_side import FarLink, FarWorld, LinkEvent, SideReport
+from ebac._core import FarLink, Fault, Follow, Gears, Hand, Master, Scope, Step
+from ebac.gastroscope.far_side import FarWorld, LinkAtWork, LinkEvent, SideReport
 from ebac.gastroscope.lumen import Lumen
 
 if TYPE_CHECKING:
@@ -73,7 +72,7 @@ def run_master(
     log: str | Path | None = None,
     notify: Callable[[LinkEvent], None] = _silent,
     confirm: Callable[[OpenDevice], None] = _agreed,
-    look: Callable[[Run, FarLink], None] = lambda run, link: None,
+    look: Callable[[Run, LinkAtWork], None] = lambda run, link: None,
 ) -> SideReport:
     """Run a joystick on its drives, as `OpenDevice.run`, with a gastroscope at the other end of a network as its world.
 
@@ -92,7 +91,7 @@ def run_master(
     simulate : bool
         On simulated drives, device and hand.
     consent_after : float, optional
-        A simulated hand consents so long after the link is back [s]; default: only `FarLink.end.consent`.
+        A simulated hand consents so long after the link is back [s]; default: only `LinkAtWork.end.consent`.
     give_up : float
         After so long without a link the run ends [s].
     timeout : float
@@ -116,11 +115,9 @@ def run_master(
     chosen = configuration("master") if known is None else known
     if simulate:
         chosen = patient(chosen)
-    params = FarLinkParams(
-        timeout=timeout, consent_after=inf if consent_after is None else consent_after
-    )
+    params = FarLink(timeout=timeout, consent_after=inf if consent_after is None else consent_after)
     end = _core._master_link(params=params, dt=chosen.timing.dt, host=host, port=port, peer=peer)
-    link = FarLink(name="master", end=end, give_up=give_up, notify=notify)
+    link = LinkAtWork(name="master", end=end, give_up=give_up, notify=notify)
     world = FarWorld(_core._master_world(end, mapping or Master()), "the slave")
     step = LONGEST_STEP * chosen.timing.dt if simulate else None
     fault, run = Fault.NONE, None
@@ -162,7 +159,7 @@ def run_slave(
     log: str | Path | None = None,
     notify: Callable[[LinkEvent], None] = _silent,
     confirm: Callable[[OpenDevice], None] = _agreed,
-    look: Callable[[tuple[Run, Run], FarLink], None] = lambda runs, link: None,
+    look: Callable[[tuple[Run, Run], LinkAtWork], None] = lambda runs, link: None,
     ready: Callable[[int], None] = lambda port: None,
 ) -> SideReport:
     """Run the four drives of a gastroscope, which follow what comes over a network and send their load back.
@@ -205,9 +202,9 @@ def run_slave(
             "feed, bend: must have 2 axes each, insertion and rotation, and both bends"
         )
     end = _core._slave_link(
-        params=FarLinkParams(timeout=timeout), dt=both[0].timing.dt, host=host, port=port
+        params=FarLink(timeout=timeout), dt=both[0].timing.dt, host=host, port=port
     )
-    link = FarLink(name="slave", end=end, give_up=give_up, notify=notify)
+    link = LinkAtWork(name="slave", end=end, give_up=give_up, notify=notify)
     worlds = _core._slave_worlds(end, follow or Follow(), geared)
     driven = None
     if simulate:
@@ -238,7 +235,12 @@ def run_slave(
                 run = device.start(None, world, seconds=seconds, log=names[i])
                 runs.append(stack.enter_context(run))
             ready(end.port)
-            _watch_both(runs, link, look)
+            try:
+                _watch_both(runs, link, look)
+            except BaseException:
+                for run in runs:  # both at once: neither pair goes on alone
+                    run.stop(by="exception")
+                raise
             fault = next((one for one in map(_fault_of, runs) if one != Fault.NONE), Fault.NONE)
     finally:
         ended = all(run.report is not None for run in runs)
@@ -248,7 +250,7 @@ def run_slave(
 
 
 def _watch_both(
-    runs: list[Run], link: FarLink, look: Callable[[tuple[Run, Run], FarLink], None]
+    runs: list[Run], link: LinkAtWork, look: Callable[[tuple[Run, Run], LinkAtWork], None]
 ) -> None:
     """Wait for the end of either loop; then the other one ends as well, at once where it was a fault."""
     one, other = runs
@@ -275,7 +277,7 @@ def _fault_of(run: Run) -> Fault:
 
 
 def _side(
-    link: FarLink, runs: Sequence[Run | None], fault: Fault, scope: dict[str, Any] | None = None
+    link: LinkAtWork, runs: Sequence[Run | None], fault: Fault, scope: dict[str, Any] | None = None
 ) -> SideReport:
     known = [run for run in runs if run is not None]
     reports = [run.report for run in known if run.report is not None]

@@ -19,7 +19,7 @@ from ebac.cli.teleop.options import LinkOptions
 from ebac.cli.teleop.processes import HOST, PORT, peer_of
 
 if TYPE_CHECKING:
-    from ebac.gastroscope.far_side import FarLink, LinkEvent, SideReport
+    from ebac.gastroscope.far_side import LinkAtWork, LinkEvent, SideReport
     from ebac.hardware import Configuration
 
 BACK = 3
@@ -97,6 +97,7 @@ def master(
         (known,) = _known({"master": configuration}, on_simulated)
         if not on_simulated:
             can_ask(known, yes)
+        _keep(log)
         found = run_master(
             known,
             peer=at,
@@ -167,6 +168,7 @@ def slave(
         both = _known({"feed": feed, "bend": bend}, on_simulated)
         for known in both if not on_simulated else ():
             can_ask(known, yes)
+        _keep(log)
         found = run_slave(
             *both,
             host=host,
@@ -250,6 +252,12 @@ def _known(given: Mapping[str, Path | None], on_simulated: bool) -> list[Configu
     return [found[part] for part in given]
 
 
+def _keep(log: Path | None) -> None:
+    """Whatever ends the command: the log is there."""
+    if log is not None:
+        output.keeping(f"look at the rows with `ebac log info {log}`")
+
+
 def _ready(port: int, announce: bool, as_json: bool) -> None:
     if announce:
         typer.echo(json.dumps({"port": port}))
@@ -267,7 +275,7 @@ def _notifier(name: str, as_json: bool, *, by_hand: bool = False) -> Any:
     return notify
 
 
-def _consent(link: FarLink, *, by_hand: bool) -> None:
+def _consent(link: LinkAtWork, *, by_hand: bool) -> None:
     if by_hand and link.end.report()["state"] == BACK:
         ready, _, _ = select.select([sys.stdin], [], [], 0)
         if ready and sys.stdin.readline():
