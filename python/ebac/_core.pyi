@@ -7873,6 +7873,8 @@ class Coupling:
         largest speed at which drift is compensated, on top of the motion [m/s], 0 to 10.
     realign : float
         largest speed at which the slave goes back to the master's place after consent to go on; 0 goes on from where both are [m/s], 0 to 1.
+    fastest : float
+        position and force: largest speed of the slave's target, after a gap in what comes [m/s], 0.01 to 10.
     buffer : float
         play-out buffer of both receivers, against jitter and loss; it adds to the delay [s], 0 to 0.3.
     timeout : float
@@ -7903,6 +7905,7 @@ class Coupling:
         damping: float = 40.0,
         catch_up: float = 0.1,
         realign: float = 0.02,
+        fastest: float = 0.3,
         buffer: float = 0.0,
         timeout: float = 0.5,
         fade: float = 0.2,
@@ -7937,6 +7940,11 @@ class Coupling:
     def fade(self) -> float:
         """
         in which the master's force goes to zero and comes back [s], 0.001 to 10
+        """
+    @property
+    def fastest(self) -> float:
+        """
+        position and force: largest speed of the slave's target, after a gap in what comes [m/s], 0.01 to 10
         """
     @property
     def follow(self) -> bool:

@@ -4,6 +4,7 @@ import json
 import subprocess
 import sys
 import threading
+import time
 from pathlib import Path
 
 import numpy as np
@@ -322,6 +323,30 @@ def test_a_restarted_master_waits_for_consent() -> None:
     finally:
         over.set()
         thread.join()
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="UDP of the library is Linux's")
+def test_a_slave_that_was_held_up_does_not_hit() -> None:
+    """0.3 s late, it finds the stick 5 mm away: the way there was one blow of 30 N, its limit."""
+    from ebac import Free, Scenario
+    from ebac.laws import design
+    from ebac.teleop import processes
+
+    scheme = teleop.scheme("ebac")
+    swings = Hand(path=[Sine(centre=0.0, amplitude=0.015, frequency=0.4)])
+    scenario = Scenario(environment=Free(), hand=swings)
+    law = design(scheme.law, scenario.device, scenario.known_timing)
+    free = SlaveModel(contact_stiffness=0)
+    slave = processes.Slave(free, scheme, host="127.0.0.1", port=0)
+    peer = ("127.0.0.1", slave.port)
+    master = processes.Master(scenario, law, scheme, host="127.0.0.1", port=0, peer=peer)
+    thread = threading.Thread(target=lambda: master.run(3.0))
+    thread.start()
+    slave.run(1.0)
+    time.sleep(0.3)
+    report = slave.run(0.5)
+    thread.join()
+    assert report["most_force"] < 22  # 40 N s/m times 0.3 m/s, and the spring
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="UDP of the library is Linux's")

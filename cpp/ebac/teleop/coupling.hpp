@@ -28,6 +28,7 @@ struct Coupling {
   double damping = 40;      // N s/m
   double catch_up = 0.1;    // m/s
   double realign = 0.02;    // m/s
+  double fastest = 0.3;     // m/s
   double buffer = 0;        // s
   double timeout = 0.5;     // s
   double fade = 0.2;        // s
@@ -60,6 +61,9 @@ struct Coupling {
           "on; "
           "0 goes on from where both are",
           0, 1},
+        F{"fastest", &Coupling::fastest, "m/s",
+          "position and force: largest speed of the slave's target, after a gap in what comes",
+          0.01, 10},
         F{"buffer", &Coupling::buffer, "s",
           "play-out buffer of both receivers, against jitter and loss; it adds to the delay", 0,
           0.3},

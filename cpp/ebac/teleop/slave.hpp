@@ -156,7 +156,9 @@ class SlaveSide {
     last_ = place;
     const double behind = (place - state_.target) / kSmooth;
     state_.drift = place - state_.target;
-    if (scheme() == Scheme::kPositionForce) return behind;
+    if (scheme() == Scheme::kPositionForce) {
+      return std::clamp(behind, -coupling_.fastest, coupling_.fastest);
+    }
     double v = smooth_;
     if (coupling_.follow) {
       v += std::clamp(behind - smooth_, -coupling_.catch_up, coupling_.catch_up);

@@ -47,6 +47,16 @@ void run_for(double seconds, Pace& pace, Report& report, Tick tick) noexcept {
   }
 }
 
+/// Keeps the largest force, and when it was: how long after the link began to run.
+template <class Side>
+void hold_most(const Side& side, double& running, Report& report) EBAC_RT {
+  running = side.watch().state() == LinkState::kRunning ? running + kSecond : 0.0;
+  if (std::abs(report.force) <= report.most_force) return;
+  report.most_force = std::abs(report.force);
+  report.most_force_at = report.seconds;
+  report.most_force_since = running;
+}
+
 template <class Side>
 void describe(const Side& side, Report& report) EBAC_RT {
   report.arrivals = side.receiver().arrivals();
@@ -105,7 +115,7 @@ void UdpMaster::tick() EBAC_RT {
   report_.position = side_.device_port().x;
   report_.farthest = std::max(report_.farthest, std::abs(report_.position));
   report_.force = side_.device_port().f_applied;
-  report_.most_force = std::max(report_.most_force, std::abs(report_.force));
+  hold_most(side_, running_, report_);
   calm_ = side_.watch().share() == 0 ? calm_ + kSecond : 0.0;
   if (calm_ > kSettled) {
     report_.force_when_lost = std::max(report_.force_when_lost, std::abs(report_.force));
@@ -142,7 +152,7 @@ void UdpSlave::tick() EBAC_RT {
   report_.position = state.x;
   report_.farthest = std::max(report_.farthest, std::abs(report_.position));
   report_.force = state.force;
-  report_.most_force = std::max(report_.most_force, std::abs(state.force));
+  hold_most(side_, running_, report_);
   if (!peer_) return;
   socket_.send(encode(out), *peer_);
   ++report_.sent;

@@ -30,6 +30,8 @@ struct Report {
   double farthest = 0;
   double force = 0;
   double most_force = 0;
+  double most_force_at = 0;
+  double most_force_since = 0;
   double force_when_lost = 0;
   double moved_when_lost = 0;
   std::int64_t late_ticks = 0;
@@ -52,6 +54,9 @@ struct Report {
         F{"farthest", &Report::farthest, "m", "largest distance of this side from where it began"},
         F{"force", &Report::force, "N", "of this side now"},
         F{"most_force", &Report::most_force, "N", "largest force of this side"},
+        F{"most_force_at", &Report::most_force_at, "s", "when that was first reached"},
+        F{"most_force_since", &Report::most_force_since, "s",
+          "how long the link had been running again then"},
         F{"force_when_lost", &Report::force_when_lost, "N",
           "master: largest force of its motor while the link is lost and the fade is over"},
         F{"moved_when_lost", &Report::moved_when_lost, "m",
@@ -92,6 +97,7 @@ class UdpMaster {
   double consent_after_;                      // s
   double back_ = 0;                           // s, since the link is back
   double calm_ = 0;                           // s, since the fade ended
+  double running_ = 0;                        // s, since the link began to run
   std::array<std::int64_t, 4096> sent_at_{};  // ns, by sequence number
   Pace pace_;
   Report report_{};
@@ -112,6 +118,7 @@ class UdpSlave {
   std::optional<sensor::Endpoint> peer_;  // who sent the last good packet
   double held_ = 0;                       // m, target when the link was lost
   bool holds_ = false;
+  double running_ = 0;  // s, since the link began to run
   Pace pace_;
   Report report_{};
 };

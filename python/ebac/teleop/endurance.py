@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import json
+import re
 import socket
 import subprocess
 import sys
 import time
 from collections.abc import Callable
 from contextlib import ExitStack
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from tempfile import TemporaryFile
 from typing import IO, Any
@@ -46,6 +47,8 @@ class Endurance:
         What `ebac teleop slave`, `network` and `master --json` print at their end.
     reported : dict of str to int
         How often each process said that its link was lost.
+    events : dict of str to list of tuple
+        When each process said what [s], of its own time: link lost, back, running.
     memory : dict of str to list of int
         Resident memory of each process [bytes], one value a second.
     faults : list of str
@@ -56,6 +59,7 @@ class Endurance:
     reported: dict[str, int]
     memory: dict[str, list[int]] = field(repr=False)
     faults: list[str]
+    events: dict[str, list[tuple[float, str]]] = field(default_factory=dict)
 
     def growth(self, name: str) -> int:
         """Return by how much the memory of a process grew over the last two thirds, without the first 10 s [bytes]."""
@@ -139,7 +143,14 @@ def endurance(
     reports = {name: json.loads(texts[name][0]) for name in NAMES}
     reported = {name: texts[name][1].count("LINK LOST") for name in NAMES}
     found = Endurance(reports=reports, reported=reported, memory=memory, faults=[])
-    return Endurance(reports=reports, reported=reported, memory=memory, faults=_faults(found, over))
+    events = {name: _events(texts[name][1], name) for name in NAMES}
+    return replace(found, faults=_faults(found, over), events=events)
+
+
+def _events(text: str, name: str) -> list[tuple[float, str]]:
+    """Return time and words of each line such as "  12.3 s  slave: running"."""
+    lines = re.findall(rf"^ *([0-9.]+) s  {name}: (.*)$", text, flags=re.M)
+    return [(float(t), words) for t, words in lines]
 
 
 def _faults(found: Endurance, over: Link) -> list[str]:
@@ -168,6 +179,15 @@ def _faults(found: Endurance, over: Link) -> list[str]:
         for what, value, limit, unit in checks
         if not value <= limit
     ]
+    for name, report in (("master", master), ("slave", slave)):
+        where = f"largest force of the {name} ="
+        faults = [
+            f"{one}; it was at {report['most_force_at_s']:.1f} s, {report['most_force_since_s']:.2f} s after the link "
+            "began to run"
+            if one.startswith(where)
+            else one
+            for one in faults
+        ]
     for name in ("master", "slave"):
         losses = found.reports[name]["losses"]
         if found.reported[name] < losses:

@@ -30,6 +30,8 @@ UNITS = {
     "moved_when_lost": "m",
     "force": "N",
     "most_force": "N",
+    "most_force_at": "s",
+    "most_force_since": "s",
     "force_when_lost": "N",
 }
 

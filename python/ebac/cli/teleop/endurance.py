@@ -65,18 +65,20 @@ def _row(found: Endurance, name: str) -> dict[str, Any]:
         "reported": found.reported[name],
         "memory_B": max(found.memory[name], default=0),
         "growth_B": found.growth(name),
+        "events": [{"t_s": t, "text": text} for t, text in found.events.get(name, [])],
     }
 
 
 def _show(rows: list[dict[str, Any]], faults: list[str]) -> None:
-    columns = ["process", "lost", "reported", "largest force", "farthest", "memory", "growth"]
-    grid = output.table(columns, numbers=(1, 2, 3, 4, 5, 6))
+    columns = ["process", "lost", "reported", "largest force", "at", "farthest", "memory", "growth"]
+    grid = output.table(columns, numbers=range(1, 8))
     for row in rows:
         grid.add_row(
             row["process"],
             str(row["losses"]),
             str(row["reported"]),
             f"{row['most_force_N']:.1f} N",
+            f"{row['most_force_at_s']:.1f} s",
             f"{1e3 * row['farthest_m']:.1f} mm",
             f"{row['memory_B'] / 1e6:.1f} MB",
             f"{row['growth_B'] / 1e3:.0f} kB",
