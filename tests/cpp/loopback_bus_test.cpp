@@ -12,6 +12,9 @@
 #include <thread>
 #include <vector>
 
+#include "ebac/core/realtime.hpp"
+
+#ifndef EBAC_THREAD_SANITIZER  // whose runtime brings an operator new of its own with clang
 namespace {
 thread_local std::size_t allocations = 0;
 
@@ -26,6 +29,7 @@ thread_local std::size_t allocations = 0;
 void* operator new(std::size_t size) { return counted(size); }
 void operator delete(void* memory) noexcept { std::free(memory); }
 void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+#endif
 
 namespace ebac::can::loopback_bus_test {
 namespace {
@@ -217,6 +221,7 @@ TEST(LoopbackBus, StampsAreTheTimeOfDayWhereAskedFor) {
   }
 }
 
+#ifndef EBAC_THREAD_SANITIZER
 TEST(LoopbackBus, SendAndReceiveDoNotAllocate) {
   LoopbackHub hub(LoopbackHub::Stamps::kWallClock);
   LoopbackBus a = hub.open({.frames = 8, .own = true});
@@ -231,6 +236,7 @@ TEST(LoopbackBus, SendAndReceiveDoNotAllocate) {
   EXPECT_EQ(allocations, before);
   EXPECT_EQ(number_of(in), 999);
 }
+#endif
 
 TEST(Waiting, EndsWithItsTime) {
   LoopbackHub hub;

@@ -8,9 +8,22 @@
 #define EBAC_RT noexcept
 #endif
 
+/// Whether a sanitizer watches: g++ says so by a macro, clang when asked.
+#if defined(__SANITIZE_ADDRESS__)
+#define EBAC_ADDRESS_SANITIZER
+#elif defined(__SANITIZE_THREAD__)
+#define EBAC_THREAD_SANITIZER
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer)
+#define EBAC_ADDRESS_SANITIZER
+#elif __has_feature(thread_sanitizer)
+#define EBAC_THREAD_SANITIZER
+#endif
+#endif
+
 /// Inlines every call of the function: no calls within a simulated tick. Only in optimised code:
 /// with a sanitizer it would compile for minutes.
-#if defined(__OPTIMIZE__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#if defined(__OPTIMIZE__) && !defined(EBAC_ADDRESS_SANITIZER) && !defined(EBAC_THREAD_SANITIZER)
 #define EBAC_ONE_FUNCTION [[gnu::flatten]]
 #else
 #define EBAC_ONE_FUNCTION
