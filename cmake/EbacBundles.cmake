@@ -25,8 +25,9 @@ ebac_bundle(ebac run cpp/ebac control/virtual_coupling core/check core/fields fa
 
 if(EBAC_PYTHON)
   ebac_bundle(_core_values device bindings core device fields hand kinematics limits module values)
-  ebac_bundle(_core_values world bindings engines environment gastroscope identify linear_loop worlds)
-  ebac_bundle(_core_values run bindings controllers python_hand python_law realtime remote replay simulation sweep teleop teleop_udp)
+  ebac_bundle(_core_values world bindings engines environment remote worlds)
+  ebac_bundle(_core_values body bindings gastroscope identify linear_loop)
+  ebac_bundle(_core_values run bindings controllers python_hand python_law realtime replay simulation sweep teleop teleop_udp)
   ebac_bundle(_core_values bus bindings can can_plan faults running)
   ebac_bundle(_core_values machine bindings drive node_server others_run sensor sensor_emulator)
   ebac_bundle(_core loop bindings law_runs running_laws stepped_run)
