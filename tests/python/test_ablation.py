@@ -127,6 +127,7 @@ def test_what_cannot_be_taken_apart_is_refused() -> None:
 # --- rows ---
 
 
+@pytest.mark.slow
 def test_a_row_for_the_law_each_piece_and_each_law_beside(few: Ablation) -> None:
     labels = [row.label for row in few.rows]
     expected = [piece.label for piece in pieces("ebac", ENCODER)]

@@ -92,6 +92,7 @@ def test_ctrl_c_says_what_is_kept_and_how_to_go_on(words: str, tmp_path: Path) -
     assert seconds < 20
 
 
+@pytest.mark.slow
 def test_a_run_that_was_interrupted_names_its_log_and_what_to_do_with_it(tmp_path: Path) -> None:
     datasets.write("joystick", tmp_path)
     process = start("run joystick.toml --simulated --seconds 60", tmp_path)

@@ -85,6 +85,7 @@ def ended_by_fault(trace: ebac.Trace) -> ebac.Trace:
         (("direct", "tca", "eba", "ebac"), "single"),
     ],
 )
+@pytest.mark.slow
 def test_walls_fit_any_column(laws: tuple[str, ...], width: str | None, run: Run) -> None:
     figure = plot_walls([run(law, seconds=1.0) for law in laws])
     assert figure.get_suptitle().startswith("simulated: the reference device")

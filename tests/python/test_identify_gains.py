@@ -290,6 +290,7 @@ def test_equal_is_what_noise_changes_and_never_is_never() -> None:
     assert compare(chosen, default, scatter, 1e-3) == {"better": 2, "equal": 3, "worse": 2}
 
 
+@pytest.mark.slow
 def test_the_command_writes_a_report_and_json(tmp_path: Path, trace: ebac.Trace) -> None:
     trace.to_npz(tmp_path / "log.npz")
     out = tmp_path / "report"

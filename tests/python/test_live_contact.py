@@ -16,6 +16,7 @@ CHANGES = [
 
 @pytest.mark.parametrize("before", CHANGES, ids=lambda one: ",".join(map(str, one.values())))
 @pytest.mark.parametrize("observer", [True, False])
+@pytest.mark.slow
 def test_ebac_that_takes_over_in_contact_rests_where_it_would_have(
     tmp_path: Path, before: dict[str, object], observer: bool
 ) -> None:

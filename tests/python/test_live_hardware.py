@@ -166,6 +166,7 @@ def test_without_allow_control_no_message_gives_power_or_changes_anything(
         assert not list(tmp_path.iterdir())
 
 
+@pytest.mark.slow
 def test_power_is_there_while_the_key_is_held_and_ends_with_it(
     device: OpenDevice, tmp_path: Path
 ) -> None:

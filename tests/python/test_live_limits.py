@@ -75,6 +75,7 @@ def own_bus(folder: Path) -> Path:
 
 @pytest.mark.real_time(seconds=True)
 @pytest.mark.parametrize("words", [[], ["--allow-control"], ["--virtual"]])
+@pytest.mark.slow
 def test_the_command_opens_a_file_and_gives_no_power_by_itself(
     tmp_path: Path, words: list[str]
 ) -> None:

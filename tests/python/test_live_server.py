@@ -165,6 +165,7 @@ def test_a_malformed_message_is_refused(raw: str | bytes) -> None:
         read(raw)
 
 
+@pytest.mark.slow
 def test_malformed_messages_by_the_thousand_do_not_reach_the_loop(server: Any) -> None:
     async def flood(seed: int) -> None:
         random = np.random.default_rng(seed)

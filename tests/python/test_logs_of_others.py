@@ -246,6 +246,7 @@ def test_a_small_file_never_unpacks_to_a_large_one(trace: ebac.Trace, tmp_path: 
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="reads /proc")
+@pytest.mark.slow
 def test_chunks_that_unpack_to_much_are_unpacked_few_at_a_time(
     trace: ebac.Trace, tmp_path: Path
 ) -> None:

@@ -23,6 +23,7 @@ def labels(figure: Figure) -> list[str]:
 
 
 @pytest.mark.parametrize("law", list(ebac.LAWS))
+@pytest.mark.slow
 def test_every_law_has_a_colour_and_a_figure(law: str, run: Run, tmp_path: Path) -> None:
     assert law in COLOURS
     figure = plot_trace(run(law, observer=False))
@@ -133,6 +134,7 @@ def test_threads_may_draw_at_once(run: Run) -> None:
 
 
 @pytest.mark.parametrize("width", [None, "single", "double"])
+@pytest.mark.slow
 def test_a_png_is_the_picture_that_matplotlib_saves(
     run: Run, tmp_path: Path, width: str | None
 ) -> None:

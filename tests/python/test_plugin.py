@@ -74,6 +74,7 @@ def test_a_difference_is_named_drawn_and_updated_by_the_flag(project: pytest.Pyt
     project.runpytest_inprocess().assert_outcomes(passed=1)
 
 
+@pytest.mark.slow
 def test_tests_in_parallel_write_and_compare_their_own(project: pytest.Pytester) -> None:
     pytest.importorskip("xdist")
     project.makepyfile(

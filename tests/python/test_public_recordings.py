@@ -202,6 +202,7 @@ def test_a_hand_without_stiffness_is_the_robot_seen_from_the_other_side(arm_log:
     assert any("no stiffness" in text for text in result.misses)
 
 
+@pytest.mark.slow
 def test_the_script_judges_what_is_in_the_folder(
     axis_log: Path, arm_log: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

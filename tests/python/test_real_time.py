@@ -87,6 +87,7 @@ ALONE = """
 """
 
 
+@pytest.mark.slow
 def test_what_is_repeated_is_repeated_alone(pytester: pytest.Pytester) -> None:
     pytest.importorskip("xdist")
     pytester.makeconftest(CONFTEST.read_text(encoding="utf-8"))

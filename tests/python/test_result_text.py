@@ -48,6 +48,7 @@ def results() -> dict[str, Callable[[], Any]]:
 
 
 @pytest.mark.parametrize("name", list(results()))
+@pytest.mark.slow
 def test_every_result_is_read_in_under_20_lines(name: str) -> None:
     what, unit = name.split()
     shown = repr(results()[name]())
