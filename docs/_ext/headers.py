@@ -3,6 +3,7 @@
 import re
 import subprocess
 from collections.abc import Iterator
+from functools import cache
 from pathlib import Path
 from xml.etree import ElementTree
 
@@ -102,6 +103,7 @@ def xml_folder(app: Sphinx) -> Path:
     return Path(app.doctreedir) / "doxygen" / "xml"
 
 
+@cache
 def doxygen_pages(xml: Path) -> dict[str, ElementTree.Element]:
     """Return what Doxygen says of each header, by its path."""
     index = ElementTree.parse(xml / "index.xml")
@@ -122,6 +124,7 @@ def run_doxygen(app: Sphinx) -> None:
     settings = SETTINGS | {"OUTPUT_DIRECTORY": folder.parent}
     text = "".join(f"{key} = {value}\n" for key, value in settings.items())
     subprocess.run(["doxygen", "-"], input=text, text=True, check=True)
+    doxygen_pages.cache_clear()
     for page in folder.glob("*.xml"):
         page.write_text(INITIALIZER.sub("", page.read_text(encoding="utf-8")), encoding="utf-8")
     app.config.breathe_projects = {"ebac": str(folder)}

@@ -35,7 +35,8 @@ class Public(SphinxDirective):
         names = [line.strip() for line in self.content if line.strip()] or public(module)
         shown = self.env.metadata.setdefault(self.env.docname, {}).setdefault("public", {})
         shown.setdefault(package, []).extend(names)
-        comments = data_comments(module)
+        data = any(is_data(getattr(module, name, None)) for name in names)
+        comments = data_comments(module) if data else {}
         lines = [f".. py:currentmodule:: {package}", "", ".. list-table::", "   :widths: 30 70", ""]
         details: list[str] = []
         for name in names:
