@@ -79,7 +79,7 @@ def test_chosen_columns_make_panels_in_their_order(minute: ebac.Trace) -> None:
 @pytest.mark.parametrize(
     ("groups", "kind", "message"),
     [
-        (["y"], KeyError, "no column 'y'"),
+        (["y"], KeyError, "no column is called 'y'"),
         ([["x", "f_cmd"]], ValueError, r"x \[m\], f_cmd \[N\]: put them into panels of their own"),
         ([[]], ValueError, "a panel without a column"),
     ],

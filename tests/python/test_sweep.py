@@ -302,7 +302,7 @@ def test_the_result_as_a_table(tmp_path: Path, local: SweepResult) -> None:
         np.testing.assert_array_equal(read, local[name])
     assert [row["law"] for row in rows] == frame["law"].tolist() == local["law"].tolist()
     assert "14 runs under tca, ebac, 14 done" in repr(local)
-    with pytest.raises(KeyError, match="no column 'swing'"):
+    with pytest.raises(KeyError, match="no column is called 'swing', did you mean 'swing_m'"):
         local["swing"]
 
 

@@ -74,6 +74,29 @@ def trace() -> Any:
         (lambda t: E.plot.plot_trace(3), "ebac.plot.plot_trace takes a Trace, not 3 (int)"),
         (lambda t: E.plot.plot_world(3), "ebac.plot.plot_world takes a World, not 3 (int)"),
         (lambda t: E.plot.save(3, "x.png"), "ebac.plot.save takes a Figure, not 3 (int)"),
+        (lambda t: E.tracking.error_budget(runs="x"), "runs = 'x': must be a whole number"),
+        (
+            lambda t: E.tracking.ErrorSources(slack="x"),
+            "ErrorSources.slack = 'x': must be a number",
+        ),
+        (
+            lambda t: W.EngineThread(lambda x, v: None, rate="x"),
+            "EngineThread.rate = 'x': must be a number",
+        ),
+        (lambda t: W.Mesh("x.stl", scale="a"), "Mesh.scale = 'a': must be a number"),
+        (
+            lambda t: E.identify.Target.tapping("a", 1.0),
+            "Target.tapping: frequency = 'a': must be a number",
+        ),
+        (
+            lambda t: E.Operators.grid().scenarios(3),
+            "Operators.scenarios takes a Scenario, not 3 (int)",
+        ),
+        (lambda t: E.explore.explore(3), "ebac.explore.explore takes a Trace, not 3 (int)"),
+        (
+            lambda t: E.study(E.Operators.sample(1, 1), ["ebac"], 3),
+            "ebac.study takes conditions by name, not 3 (int)",
+        ),
         (
             lambda t: E.testing.assert_passive(3),
             "ebac.testing.assert_passive takes a Trace, not 3 (int)",
@@ -127,3 +150,8 @@ def test_no_time_is_no_default_time() -> None:
     known = E.hardware.Configuration.from_toml("")
     with pytest.raises(ValueError, match=r"seconds = 0 s: must lie in \[0.01, 100000\] s"):
         known.simulate(seconds=0)
+
+
+def test_one_condition_may_stand_without_a_list() -> None:
+    rows = ebac.study(ebac.Operators.sample(1, 1), "direct", "d2K10").rows
+    assert [row.condition for row in rows] == ["d2K10"]

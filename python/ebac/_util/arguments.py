@@ -5,6 +5,7 @@ from __future__ import annotations
 import difflib
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import wraps
+from numbers import Real
 from operator import index
 from os import PathLike
 from typing import Any, TypeVar
@@ -49,6 +50,19 @@ def whole(name: str, value: Any) -> int:
         return index(value)
     except TypeError:
         raise TypeError(f"{name} = {value!r}: must be a whole number") from None
+
+
+def number(name: str, value: Any) -> float:
+    """Return a number.
+
+    Raises
+    ------
+    TypeError
+        For anything else; the message names it.
+    """
+    if isinstance(value, bool) or not isinstance(value, Real):
+        raise TypeError(f"{name} = {value!r}: must be a number")
+    return float(value)
 
 
 def keywords_only(

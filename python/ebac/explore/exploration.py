@@ -8,6 +8,7 @@ from functools import cached_property
 from html import escape
 from pathlib import Path
 
+from ebac._util.arguments import require
 from ebac.explore.panels import Panel, chosen, usual
 from ebac.trace import Trace
 
@@ -91,6 +92,7 @@ def explore(trace: Trace, *columns: str | Sequence[str], axis: int = 0) -> Explo
     ImportError
         Without Bokeh.
     """
+    require(trace, Trace, "ebac.explore.explore", "a Trace")
     if len(trace) < 2:
         raise ValueError(
             f"the trace has {len(trace)} rows: there is something to explore from 2 on"

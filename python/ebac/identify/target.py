@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ebac._core import Hand, MinimumJerk, Recorded, Sine, Step, Tapping
-from ebac._util.arguments import require
+from ebac._util.arguments import number, require
 from ebac._util.wrong_calls import plain_constructor
 from ebac.identify.recording import Recording
 
@@ -83,6 +83,8 @@ class Target:
     @classmethod
     def tapping(cls, frequency: float, seconds: float, start: float = 0.0) -> Target:
         """Level 0 for the first half of each period, level 1 for the second, as `ebac.Tapping`."""
+        number("Target.tapping: frequency", frequency)
+        number("Target.tapping: seconds", seconds)
         if not (frequency > 0 and seconds > 0):
             raise ValueError(
                 f"Target.tapping: frequency = {frequency} Hz, seconds = {seconds} s: must be positive"

@@ -232,6 +232,9 @@ class Operators:
         ValueError
             When an operator approaches but `base` has no wall.
         """
+        from ebac.scenario import Scenario
+
+        require(base, Scenario, "Operators.scenarios", "a Scenario")
         wall = base.environment
         scenarios = []
         for hand, approach in zip(self.hands(), self.approach_m.tolist(), strict=True):

@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from ebac._util.arguments import unknown
+from ebac._util.arguments import require, unknown
 from ebac.hands import FingerPad, LetGo, NonlinearGrip, Reflex
 from ebac.studies import scenario_changes as to
 from ebac.studies.scenario_changes import Belief, Change
@@ -236,7 +236,8 @@ def conditions(names: Iterable[str | Condition]) -> list[Condition]:
         For a name that is neither; suggests the nearest.
     """
     found: dict[str, Condition] = {}
-    for name in names:
+    require(names, Iterable, "ebac.study", "conditions by name")
+    for name in [names] if isinstance(names, str) else names:
         if isinstance(name, Condition):
             found[name.name] = name
             continue

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from ebac._core import Device
+from ebac._util.arguments import number, whole
 from ebac.tracking.circle import fit_circle
 from ebac.tracking.deviation import Numbers
 from ebac.tracking.error_sources import GROUPS, ErrorSources, Joystick
@@ -140,9 +141,9 @@ def error_budget(
     """
     from ebac import presets
 
-    if not 2 <= runs <= 100_000:
+    if not 2 <= whole("runs", runs) <= 100_000:
         raise ValueError(f"runs = {runs}: must lie in [2, 100000]")
-    if not 0 < radius <= 0.049:
+    if not 0 < number("radius", radius) <= 0.049:
         raise ValueError(
             f"radius = {radius} m: must lie in (0, 0.049] m, the reach of +-30 deg on 100 mm"
         )

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from ebac._core import Device, Gimbal
-from ebac._util.arguments import unknown_name
+from ebac._util.arguments import number, unknown_name
 from ebac._util.wrong_calls import plain_constructor
 from ebac.tracking.deviation import Numbers
 
@@ -73,6 +73,7 @@ class ErrorSources:
             raise TypeError(f"ErrorSources.encoder = {self.encoder!r}: must be bool")
         for name, (low, high, unit) in _RANGES.items():
             value = getattr(self, name)
+            number(f"ErrorSources.{name}", value)
             if not (isfinite(value) and low <= value <= high):
                 shown = "" if unit == "1" else f" {unit}"
                 raise ValueError(

@@ -9,6 +9,7 @@ from typing import Any, Self
 
 from ebac import _core
 from ebac._core import BridgeParams
+from ebac._util.arguments import number
 from ebac.worlds.answers import model_numbers
 from ebac.worlds.engines import BridgeReport, Engine, ForeignWorld, report_of, warning_of
 
@@ -75,7 +76,7 @@ class EngineThread:
     ) -> None:
         if isinstance(engine, type) or not callable(engine):
             raise TypeError(f"EngineThread.engine = {engine!r}: must be callable")
-        if not RATES[0] <= rate <= RATES[1]:
+        if not RATES[0] <= number("EngineThread.rate", rate) <= RATES[1]:
             raise ValueError(
                 f"EngineThread.rate = {rate} Hz: must lie in [{RATES[0]:g}, {RATES[1]:g}] Hz"
             )

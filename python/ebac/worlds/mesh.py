@@ -10,6 +10,7 @@ from typing import Any, Self
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ebac._util.arguments import number
 from ebac.worlds.grid import Floats, Grid, Ints, Progress, Surface, cached_grid, needed
 from ebac.worlds.part import Part
 
@@ -166,9 +167,9 @@ class Mesh(_Triangles):
         object.__setattr__(self, "file", str(self.file))
         if Path(self.file).is_dir():  # the empty path, too
             raise ValueError(f"Mesh.file = {self.file!r}: is a folder, must be the path of a file")
-        if not 1e-6 <= self.scale <= 1e3:
+        if not 1e-6 <= number("Mesh.scale", self.scale) <= 1e3:
             raise ValueError(f"Mesh.scale = {self.scale!r} m: must lie in [1e-06, 1000] m")
-        if self.size is not None and not 1e-3 <= self.size <= 10:
+        if self.size is not None and not 1e-3 <= number("Mesh.size", self.size) <= 10:
             raise ValueError(f"Mesh.size = {self.size!r} m: must lie in [0.001, 10] m")
         _check_cell("Mesh", self.cell)
         if self.thickness != 0 and not 1e-4 <= self.thickness <= 0.1:
