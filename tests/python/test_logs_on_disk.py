@@ -51,7 +51,7 @@ def test_a_run_that_does_not_begin_leaves_no_log(
         there.append(path.exists())
         raise RuntimeError("no")
 
-    module = drive_setup if where == "start" else "ebac.hardware.device"
+    module = drive_setup if where == "start" else "ebac.hardware.power_up"
     if isinstance(module, str):
         monkeypatch.setattr(f"{module}.started", refuses)
     else:
@@ -75,8 +75,8 @@ def test_power_goes_off_whatever_the_log_does(
         raise OSError(errno.ENOSPC, "disk full")
 
     power_off = drive_setup.power_off
-    monkeypatch.setattr("ebac.hardware.device.started", refuses)
-    monkeypatch.setattr("ebac.hardware.device.discard_log", full)
+    monkeypatch.setattr("ebac.hardware.power_up.started", refuses)
+    monkeypatch.setattr("ebac.hardware.power_up.discard_log", full)
     monkeypatch.setattr(
         drive_setup, "power_off", lambda *given: (off.append(given), power_off(*given))[1]
     )
