@@ -28,7 +28,7 @@ TEST(BendingSection, JacobianIsThatOfTheKinematics) {
     const double large = i % 4 == 0 ? 1e-3 : 2.5;  // also where the series is used
     const Bend bend{large * random.symmetric(), large * random.symmetric()};
     const CameraJacobian j = jacobian_of(bend, kLength, kTip);
-    for (std::size_t column : {2, 3}) {
+    for (const std::size_t column : {2U, 3U}) {
       const double dx = column == 2 ? kStep : 0, dy = column == 3 ? kStep : 0;
       const Vec more = camera_of({bend.x + dx, bend.y + dy}, kLength, kTip).at;
       const Vec less = camera_of({bend.x - dx, bend.y - dy}, kLength, kTip).at;

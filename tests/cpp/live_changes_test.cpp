@@ -13,7 +13,13 @@ namespace {
 
 using All = PerAxis<AnyLaw>;
 
-Axis pressing(double f_env) { return {.port = {.dx = 1e-5, .dt = 1e-3, .f_env = f_env}}; }
+Axis pressing(double f_env) {
+  Axis axis;
+  axis.port.dx = 1e-5;
+  axis.port.dt = 1e-3;
+  axis.port.f_env = f_env;
+  return axis;
+}
 
 TEST(PerAxis, AnotherLawTakesOverWithoutAStepAndItsForceFadesIn) {
   All law(any_law(Tca(Tca::Params{.kp = 0})));

@@ -124,11 +124,13 @@ def test_the_same_press_has_the_same_verdict_on_either_clock_and_as_a_scenario(
     assert [one.verdict for one in contacts[1:]] == ["exact and quiet"] * 2
     assert contacts[0].exact
     assert contacts[0].still
-    if real["lateness"][real["t"] > 1.0].max() < 3e-4:  # s; a late tick is a step of the force
-        assert contacts[0].quiet
     for one in contacts:
-        assert one.settled_s is not None
         assert contacts[2].rest_m == pytest.approx(one.rest_m, abs=2 * known.device.count)
+    # A late tick is a step of the force, and the handle moves.
+    prompt = real["lateness"][real["t"] > 1.0].max() < 3e-4  # s
+    assert contacts[0].quiet or not prompt
+    for one in contacts if prompt else contacts[1:]:
+        assert one.settled_s is not None
         assert contacts[2].settled_s == pytest.approx(one.settled_s, abs=0.2)
     use = ebac.observer_use(real)
     assert use is not None
