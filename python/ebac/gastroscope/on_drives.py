@@ -91,7 +91,8 @@ def run_master(
     simulate : bool
         On simulated drives, device and hand.
     consent_after : float, optional
-        A simulated hand consents so long after the link is back [s]; default: only `LinkAtWork.end.consent`.
+        With `simulate`: a simulated hand consents so long after the link is back [s]; default: only
+        `LinkAtWork.end.consent`.
     give_up : float
         After so long without a link the run ends [s].
     timeout : float
@@ -105,6 +106,8 @@ def run_master(
 
     Raises
     ------
+    ValueError
+        For `consent_after` without `simulate`.
     OSError
         Where the port cannot be had.
     PositionError, DriveError, ConfigurationError
@@ -112,6 +115,11 @@ def run_master(
     """
     from ebac.hardware import OpenDevice
 
+    if consent_after is not None and not simulate:
+        raise ValueError(
+            f"consent_after = {consent_after:g} s: only a simulated hand consents by itself; on your "
+            "drives press Enter, or call `LinkAtWork.end.consent`"
+        )
     chosen = configuration("master") if known is None else known
     if simulate:
         chosen = patient(chosen)
@@ -133,7 +141,7 @@ def run_master(
                         run.stop(by=link.ended_by)
 
                 run.wait(look=watch)
-            fault = _fault_of(run)
+                fault = _fault_of(run)  # before its end, which may raise for a log or a drive
     finally:
         # Whatever ended it: the other side gets to know.
         link.goodbye(fault if run is None or run.report is not None else Fault.DEVICE)
@@ -183,7 +191,7 @@ def run_slave(
     log : str or Path, optional
         File to record to, .mcap; the bends go to a file beside it, with "-bend" at the end of its name.
     notify, confirm, look : callable
-        As `run_master`; `look` gets both runs.
+        As `run_master`; `confirm` for both pairs before either has power, `look` with both runs.
     ready : callable
         Called with the UDP port when the drives have power.
 
@@ -221,6 +229,7 @@ def run_slave(
             for one, k in zip(both, stiffness, strict=True)
         ]
     names = (None, None) if log is None else (Path(log), _beside(Path(log)))
+    devices: list[OpenDevice] = []
     runs: list[Run] = []
     fault = Fault.NONE
     try:
@@ -229,8 +238,9 @@ def run_slave(
                 more: dict[str, Any] = {}
                 if driven is not None:
                     more = {"longest_step": LONGEST_STEP * known.timing.dt, "load": driven.load(i)}
-                device = stack.enter_context(OpenDevice(known, simulate=simulate, **more))
-                confirm(device)
+                devices.append(stack.enter_context(OpenDevice(known, simulate=simulate, **more)))
+                confirm(devices[i])
+            for i, device in enumerate(devices):  # none has power before all are confirmed
                 world = FarWorld(worlds[i], "the master")
                 run = device.start(None, world, seconds=seconds, log=names[i])
                 runs.append(stack.enter_context(run))

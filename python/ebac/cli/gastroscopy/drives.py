@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import select
 import sys
 from collections.abc import Mapping
 from pathlib import Path
@@ -15,6 +14,7 @@ from ebac.cli import options, output, setting, simulated
 from ebac.cli.drive.options import Yes, telling
 from ebac.cli.gastroscopy.side_table import show
 from ebac.cli.run.confirm import can_ask, confirm
+from ebac.cli.teleop.consent import Consent
 from ebac.cli.teleop.options import LinkOptions
 from ebac.cli.teleop.processes import HOST, PORT, peer_of
 
@@ -22,7 +22,6 @@ if TYPE_CHECKING:
     from ebac.gastroscope.far_side import LinkAtWork, LinkEvent, SideReport
     from ebac.hardware import Configuration
 
-BACK = 3
 Simulated = Annotated[
     bool,
     typer.Option(
@@ -62,7 +61,7 @@ def master(
     consent_after: Annotated[
         float | None,
         typer.Option(
-            help="A simulated hand agrees so long after the link is back [s].",
+            help="With --simulated: the hand agrees so long after the link is back [s].",
             show_default="press Enter",
             min=0,
             max=1e7,
@@ -92,12 +91,17 @@ def master(
     from ebac.gastroscope.on_drives import run_master
 
     with output.refusing(), telling():
+        if consent_after is not None and not on_simulated:
+            output.fail(
+                f"--consent-after {consent_after:g}: only with --simulated; on your drives the hand agrees, by Enter"
+            )
         name = None if law is None else setting.one_law(law)
         at = peer_of(peer, "--peer")
         (known,) = _known({"master": configuration}, on_simulated)
         if not on_simulated:
             can_ask(known, yes)
         _keep(log)
+        enter = Consent() if consent_after is None else None
         found = run_master(
             known,
             peer=at,
@@ -110,11 +114,11 @@ def master(
             timeout=timeout,
             seconds=seconds,
             log=log,
-            notify=_notifier("master", as_json, by_hand=consent_after is None),
+            notify=_notifier("master", as_json, enter),
             confirm=lambda device: confirm(device, yes, stderr=as_json),
-            look=lambda run, link: _consent(link, by_hand=consent_after is None),
+            look=lambda run, link: _consent(link, enter),
         )
-    _give(found, as_json)
+    _give(found, as_json, on_simulated)
 
 
 def slave(
@@ -182,7 +186,7 @@ def slave(
             confirm=lambda device: confirm(device, yes, stderr=as_json),
             ready=lambda at: _ready(at, announce, as_json),
         )
-    _give(found, as_json)
+    _give(found, as_json, on_simulated)
 
 
 def drives(
@@ -266,29 +270,31 @@ def _ready(port: int, announce: bool, as_json: bool) -> None:
         output.say(f"slave on UDP port {port}: the drives have power. Ctrl-C stops it.")
 
 
-def _notifier(name: str, as_json: bool, *, by_hand: bool = False) -> Any:
+def _notifier(name: str, as_json: bool, enter: Consent | None = None) -> Any:
     def notify(event: LinkEvent) -> None:
         typer.echo(f"{event.t:8.2f} s  {name}: {event.text}", err=as_json)
-        if by_hand and event.what == "back":
+        if enter is None:
+            return
+        enter.withdraw()
+        if event.what == "back":
             typer.echo("            press Enter to go on", err=as_json)
+            enter.ask()
 
     return notify
 
 
-def _consent(link: LinkAtWork, *, by_hand: bool) -> None:
-    if by_hand and link.end.report()["state"] == BACK:
-        ready, _, _ = select.select([sys.stdin], [], [], 0)
-        if ready and sys.stdin.readline():
-            link.end.consent()
+def _consent(link: LinkAtWork, enter: Consent | None) -> None:
+    if enter is not None and enter.given():
+        link.end.consent()
 
 
-def _give(found: SideReport, as_json: bool) -> None:
+def _give(found: SideReport, as_json: bool, on_simulated: bool) -> None:
     row = found.row()
     if as_json:
         # One line, so that a program may read it while others write.
         typer.echo(json.dumps({"command": f"gastroscopy {found.name}", **row}))
     else:
-        show({found.name: row}, [])
+        show({found.name: row}, [], simulated=on_simulated)
         for log in found.logs:
             output.path(log)
     if not found.good:

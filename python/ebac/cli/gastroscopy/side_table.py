@@ -8,7 +8,7 @@ from typing import Any
 from ebac.cli import output
 
 
-def show(reports: dict[str, dict[str, Any]], faults: list[str]) -> None:
+def show(reports: dict[str, dict[str, Any]], faults: list[str], *, simulated: bool = True) -> None:
     """Print both sides of the chain, or one, and what was wrong."""
     sides = {name: one for name, one in reports.items() if name in ("master", "slave")}
     for name, row in sides.items():
@@ -25,7 +25,8 @@ def show(reports: dict[str, dict[str, Any]], faults: list[str]) -> None:
         )
     for fault in faults:
         output.say(f"Fault: {fault}")
-    output.say("On simulated drives nothing was moved; no device was ever run with this.")
+    if simulated:
+        output.say("On simulated drives nothing was moved; no device was ever run with this.")
 
 
 def _axes(row: dict[str, Any], key: str, units: Mapping[str, tuple[float, str]]) -> str:

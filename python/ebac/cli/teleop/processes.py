@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import select
 import sys
 import time
 from math import inf
@@ -12,6 +11,7 @@ from typing import Annotated, Any
 import typer
 
 from ebac.cli import options, output, simulated
+from ebac.cli.teleop.consent import Consent
 from ebac.cli.teleop.options import LinkOptions
 
 PORT = typer.Option(help="UDP port to listen on; 0 takes any free one.", min=0, max=65535)
@@ -19,7 +19,7 @@ HOST = typer.Option(help="Address of this machine to take.")
 SCHEME = typer.Option(help="Scheme; the same on both sides. See `ebac teleop run`.")
 CUT = 0.2
 REPORT = 5.0
-LOST = 2
+LOST, BACK = 2, 3
 
 
 def peer_of(text: str, option: str) -> tuple[str, int]:
@@ -145,6 +145,7 @@ def _run(name: str, side: Any, seconds: float | None, as_json: bool, by_hand: bo
         sys.stdout.flush()
     state, reported, report = None, time.monotonic(), side.run(0)
     losses = 0
+    enter = Consent()
     end = time.monotonic() + (inf if seconds is None else seconds)
     with simulated.signalled() as over:
         while time.monotonic() < end and not over.is_set():
@@ -155,9 +156,11 @@ def _run(name: str, side: Any, seconds: float | None, as_json: bool, by_hand: bo
             if name != "network" and report["state"] != state:
                 state = report["state"]
                 _tell(f"{report['seconds']:8.1f} s  {name}: {STATES[state]}", as_json)
-                if state == 3 and by_hand:
+                enter.withdraw()
+                if state == BACK and by_hand:
                     _tell("            press Enter to go on", as_json)
-            if by_hand and state == 3 and _entered():
+                    enter.ask()
+            if enter.given():
                 side.consent()
             if time.monotonic() - reported > REPORT and not as_json:
                 reported = time.monotonic()
@@ -180,11 +183,6 @@ def _named(report: dict[str, Any]) -> dict[str, Any]:
 
 def _tell(text: str, as_json: bool) -> None:
     typer.echo(text, err=as_json)
-
-
-def _entered() -> bool:
-    ready, _, _ = select.select([sys.stdin], [], [], 0)
-    return bool(ready) and bool(sys.stdin.readline())
 
 
 def _line(report: dict[str, Any]) -> str:

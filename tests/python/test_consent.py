@@ -1,0 +1,91 @@
+"""A hand that consents after a lost link: not by what it typed before it was asked, and not by itself."""
+
+import os
+import subprocess
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from ebac.cli.gastroscopy.side_table import show
+from ebac.cli.teleop.consent import Consent
+from ebac.gastroscope.on_drives import configuration, run_master, run_slave
+from ebac.hardware import OpenDevice
+
+
+@pytest.fixture
+def keyboard(monkeypatch: pytest.MonkeyPatch) -> Iterator[int]:
+    end, keys = os.pipe()
+    with os.fdopen(end) as typed:
+        monkeypatch.setattr(sys, "stdin", typed)
+        yield keys
+    os.close(keys)
+
+
+def test_enter_before_the_question_is_no_consent(keyboard: int) -> None:
+    consent = Consent()
+    os.write(keyboard, b"\n\n")
+    assert not consent.given()
+    consent.ask()
+    assert not consent.given()
+    os.write(keyboard, b"\n")
+    assert consent.given()
+    assert not consent.given()
+
+
+def test_enter_after_the_link_has_gone_again_is_no_consent(keyboard: int) -> None:
+    consent = Consent()
+    consent.ask()
+    consent.withdraw()
+    os.write(keyboard, b"\n")
+    assert not consent.given()
+    consent.ask()
+    assert not consent.given()
+
+
+def test_the_end_of_standard_input_is_no_consent(monkeypatch: pytest.MonkeyPatch) -> None:
+    with Path(os.devnull).open(encoding="utf-8") as nobody:
+        monkeypatch.setattr(sys, "stdin", nobody)
+        consent = Consent()
+        consent.ask()
+        assert not consent.given()
+
+
+def test_no_hand_is_simulated_on_real_drives() -> None:
+    with pytest.raises(ValueError, match=r"consent_after = 1 s: only a simulated hand"):
+        run_master(configuration("master"), peer=("127.0.0.1", 49201), consent_after=1.0)
+    words = ["gastroscopy", "master", "mine.toml", "--consent-after", "1"]
+    ended = subprocess.run(
+        [sys.executable, "-m", "ebac.cli", *words],
+        capture_output=True,
+        text=True,
+        timeout=120,
+        check=False,
+    )
+    assert ended.returncode == 2
+    assert "--consent-after 1: only with --simulated" in ended.stderr
+
+
+class NoError(Exception):
+    """What somebody answers who says no."""
+
+
+def test_no_drive_of_the_slave_has_power_before_both_pairs_are_confirmed(tmp_path: Path) -> None:
+    asked: list[OpenDevice] = []
+
+    def confirm(device: OpenDevice) -> None:
+        asked.append(device)
+        if len(asked) == 2:
+            raise NoError
+
+    with pytest.raises(NoError):
+        run_slave(simulate=True, log=tmp_path / "slave.mcap", confirm=confirm)
+    assert len(asked) == 2
+    assert asked[0].report is None  # it was never run
+    assert not list(tmp_path.iterdir())
+
+
+def test_a_run_on_real_drives_is_not_called_simulated(capsys: pytest.CaptureFixture[str]) -> None:
+    show({}, [], simulated=False)
+    assert "simulated" not in capsys.readouterr().out
