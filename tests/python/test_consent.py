@@ -1,6 +1,7 @@
 """A hand that consents after a lost link: not by what it typed before it was asked, and not by itself."""
 
 import os
+import socket
 import subprocess
 import sys
 from collections.abc import Iterator
@@ -8,10 +9,13 @@ from pathlib import Path
 
 import pytest
 
+import ebac
+from ebac import Scenario
 from ebac.cli.gastroscopy.side_table import show
 from ebac.cli.teleop.consent import Consent
 from ebac.gastroscope.on_drives import configuration, run_master, run_slave
 from ebac.hardware import OpenDevice
+from ebac.teleop import Link, processes, scheme
 
 
 @pytest.fixture
@@ -65,6 +69,34 @@ def test_no_hand_is_simulated_on_real_drives() -> None:
     )
     assert ended.returncode == 2
     assert "--consent-after 1: only with --simulated" in ended.stderr
+
+
+def test_another_machine_is_not_asked_from_a_loopback_address() -> None:
+    peer = ("192.0.2.1", 49201)
+    with pytest.raises(ValueError, match=r"host = 127.0.0.1: from there nothing reaches the slave"):
+        run_master(peer=peer, simulate=True)
+    with pytest.raises(ValueError, match="host = localhost: from there nothing"):
+        processes.Network(Link(), Link(), host="localhost", port=0, slave=peer)
+    law = ebac.laws.design("direct", Scenario().device, Scenario().known_timing)
+    with pytest.raises(ValueError, match="host = 127"):
+        processes.Master(
+            Scenario(), law, scheme("position-force"), host="127.0.0.1", port=0, peer=peer
+        )
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="UDP of the library is Linux's")
+@pytest.mark.real_time
+def test_a_side_says_that_what_comes_is_of_another_protocol() -> None:
+    older = bytes([*b"ET", 2, 0, *bytes(52)])
+
+    def ready(port: int) -> None:
+        with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as other:
+            for _ in range(20):
+                other.sendto(older, ("127.0.0.1", port))
+
+    found = run_slave(simulate=True, seconds=0.5, ready=ready)
+    assert [one.what for one in found.events] == ["refused"]
+    assert "version 3" in found.events[0].text
 
 
 class NoError(Exception):

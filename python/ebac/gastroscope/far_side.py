@@ -53,6 +53,9 @@ _WORDS = {
 }
 #: How an event is called in reports.
 _NAMES = ("", "running", "lost", "back", "consent", "far ended", "far fault", "group silent")
+#: Datagrams that a poor network may have damaged before the first good one.
+_MOST_DAMAGED = 10
+_REFUSED = "datagrams come, but none is one of this protocol (version 3): does the other side run the same release?"
 LOST, FAR_LEFT, FAR_FAULT = 2, 5, 6
 #: A side that ends says so for so long [s].
 _GOODBYE = 0.2
@@ -90,7 +93,7 @@ class LinkEvent:
     t : float
         Time of the loop there [s].
     what : str
-        "running", "lost", "back", "consent", "far ended", "far fault", "group silent".
+        "running", "lost", "back", "consent", "far ended", "far fault", "group silent", "refused".
     text : str
         The same in a sentence.
     """
@@ -128,10 +131,13 @@ class LinkAtWork:
     ended_by: str = ""
     _since: float | None = None
     _far_ended: bool = False
+    _refused: bool = False
+    _seen: int = 0
 
     def look(self) -> bool:
         """Report what is new; return whether the run goes on."""
-        for t, what, value in self.end.events(len(self.events)):
+        for t, what, value in self.end.events(self._seen):
+            self._seen += 1
             event = self._event(t, what, value)
             self.events.append(event)
             self.notify(event)
@@ -139,7 +145,10 @@ class LinkAtWork:
                 self._far_ended = True
                 other = "slave" if self.name == "master" else "master"
                 self.ended_by = f"{other} ended" if what == FAR_LEFT else f"fault of the {other}"
-        state = self.end.report()["state"]
+        report = self.end.report()
+        state = report["state"]
+        if report["refused"] > _MOST_DAMAGED and not report["arrivals"]["received"]:
+            self._tell_refused(report["seconds"])
         now = time.monotonic()
         if state == 1:
             self._since = None
@@ -153,6 +162,14 @@ class LinkAtWork:
             self.ended_by = self.ended_by or "link lost"
             return False
         return True
+
+    def _tell_refused(self, t: float) -> None:
+        if self._refused:
+            return
+        self._refused = True
+        event = LinkEvent(t=t, what="refused", text=_REFUSED)
+        self.events.append(event)
+        self.notify(event)
 
     def goodbye(self, fault: Fault) -> None:
         """After the loop has ended: let the other side know, by packets enough for a poor network."""

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from ebac import _core
 from ebac._core import FarLink, Fault, Follow, Gears, Hand, Master, Scope, Step
+from ebac._util.reach import check_reach
 from ebac.gastroscope.far_side import FarWorld, LinkAtWork, LinkEvent, SideReport
 from ebac.gastroscope.lumen import Lumen
 
@@ -107,7 +108,7 @@ def run_master(
     Raises
     ------
     ValueError
-        For `consent_after` without `simulate`.
+        For `consent_after` without `simulate`, and for a `host` from which no other machine is reached.
     OSError
         Where the port cannot be had.
     PositionError, DriveError, ConfigurationError
@@ -120,6 +121,7 @@ def run_master(
             f"consent_after = {consent_after:g} s: only a simulated hand consents by itself; on your "
             "drives press Enter, or call `LinkAtWork.end.consent`"
         )
+    check_reach(host, peer[0], "the slave")
     chosen = configuration("master") if known is None else known
     if simulate:
         chosen = patient(chosen)

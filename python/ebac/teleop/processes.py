@@ -7,6 +7,7 @@ from typing import Any
 
 from ebac import _core
 from ebac._core import Link, SlaveModel
+from ebac._util.reach import check_reach
 from ebac.laws import CoreLaw, PythonLaw
 from ebac.scenario import Scenario
 from ebac.teleop.run import Scheme
@@ -71,6 +72,8 @@ class Master(_Side):
 
     Raises
     ------
+    ValueError
+        For a `host` from which no other machine is reached.
     OSError
         Where the port cannot be had.
     TypeError
@@ -90,6 +93,7 @@ class Master(_Side):
     ) -> None:
         if not isinstance(law, CoreLaw):
             raise TypeError(f"law = {law!r}: must be a law of the core, not one written in Python")
+        check_reach(host, peer[0], "the slave")
         self._core = _core._UdpMaster(
             setup=scenario.setup(),
             law=law,
@@ -126,6 +130,7 @@ class Network(_Side):
         slave: tuple[str, int],
         seed: int = 1,
     ) -> None:
+        check_reach(host, slave[0], "the slave")
         self._core = _core._UdpNetwork(
             there=there,
             back=back,
