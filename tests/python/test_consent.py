@@ -4,18 +4,22 @@ import os
 import socket
 import subprocess
 import sys
+import threading
+import time
 from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 
 import ebac
-from ebac import Scenario
+from ebac import Hand, MinimumJerk, Scenario, logs
 from ebac.cli.gastroscopy.side_table import show
 from ebac.cli.teleop.consent import Consent
 from ebac.gastroscope.on_drives import configuration, run_master, run_slave
 from ebac.hardware import OpenDevice
 from ebac.teleop import Link, processes, scheme
+
+LINUX = pytest.mark.skipif(sys.platform != "linux", reason="UDP of the library is Linux's")
 
 
 @pytest.fixture
@@ -84,7 +88,7 @@ def test_another_machine_is_not_asked_from_a_loopback_address() -> None:
         )
 
 
-@pytest.mark.skipif(sys.platform != "linux", reason="UDP of the library is Linux's")
+@LINUX
 @pytest.mark.real_time
 def test_a_side_says_that_what_comes_is_of_another_protocol() -> None:
     older = bytes([*b"ET", 2, 0, *bytes(52)])
@@ -94,7 +98,7 @@ def test_a_side_says_that_what_comes_is_of_another_protocol() -> None:
             for _ in range(20):
                 other.sendto(older, ("127.0.0.1", port))
 
-    found = run_slave(simulate=True, seconds=0.5, ready=ready)
+    found = run_slave(simulate=True, seconds=1.0, ready=ready)
     assert [one.what for one in found.events] == ["refused"]
     assert "version 3" in found.events[0].text
 
@@ -116,6 +120,30 @@ def test_no_drive_of_the_slave_has_power_before_both_pairs_are_confirmed(tmp_pat
     assert len(asked) == 2
     assert asked[0].report is None  # it was never run
     assert not list(tmp_path.iterdir())
+
+
+@LINUX
+@pytest.mark.slow
+@pytest.mark.real_time
+def test_what_a_waiting_master_asks_is_not_made_up_for(tmp_path: Path) -> None:
+    """The lever is out before the slave starts: insertion begins with the lever's speed, not with a run."""
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as free:
+        free.bind(("127.0.0.1", 0))
+        port = free.getsockname()[1]
+    hand = Hand(path=[MinimumJerk(target=one, at=0.3, duration=0.3) for one in (0, 0, 0.008)])
+    known = configuration("master").replace(hand=hand)
+    master = threading.Thread(
+        target=lambda: run_master(known, peer=("127.0.0.1", port), simulate=True, seconds=4.0)
+    )
+    master.start()
+    time.sleep(1.0)
+    slave = run_slave(simulate=True, port=port, seconds=30, log=tmp_path / "slave.mcap")
+    master.join()
+    log = logs.load(slave.logs[0])
+    t, x = log["t"], log.axis("x", 0)
+    speed = (x[50:] - x[:-50]) / (t[50:] - t[:-50])
+    assert x[-1] > 0.01
+    assert speed.max() < 0.03  # m/s; the lever asks 0.013, the slave may 0.08
 
 
 def test_a_run_on_real_drives_is_not_called_simulated(capsys: pytest.CaptureFixture[str]) -> None:

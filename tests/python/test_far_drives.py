@@ -187,7 +187,7 @@ def test_what_is_felt_is_what_the_model_meets(tmp_path: Path) -> None:
     assert slave.good, slave
     assert at_rest(master, 3)
     assert at_rest(slave, 4)
-    # Before the master ends all is at rest. The loop of the bends began a little later than the one that tells times.
+    # Before the master ends all is at rest. The loop of the bends began a little earlier than the one that tells times.
     end = next(one.t for one in slave.events if one.what == "far ended")
     log = logs.load(slave.logs[1])
     rows = np.flatnonzero((log["t"] > end - 2.0) & (log["t"] < end - 1.4))

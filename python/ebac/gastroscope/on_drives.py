@@ -25,6 +25,8 @@ LONGEST_STEP = 2
 PATIENCE = 200
 #: How often somebody looks after the loops [s].
 LOOK = 0.02
+#: The second pair of the slave has power earlier than the first, by at most this [s], and ends with it.
+_BEFORE = 10.0
 
 
 def configuration(part: str) -> Configuration:
@@ -232,7 +234,7 @@ def run_slave(
         ]
     names = (None, None) if log is None else (Path(log), _beside(Path(log)))
     devices: list[OpenDevice] = []
-    runs: list[Run] = []
+    started: dict[int, Run] = {}
     fault = Fault.NONE
     try:
         with ExitStack() as stack:
@@ -242,10 +244,14 @@ def run_slave(
                     more = {"longest_step": LONGEST_STEP * known.timing.dt, "load": driven.load(i)}
                 devices.append(stack.enter_context(OpenDevice(known, simulate=simulate, **more)))
                 confirm(devices[i])
-            for i, device in enumerate(devices):  # none has power before all are confirmed
+                stack.push(_end_of(started, i))  # while signals are still its own device's
+            # None has power before all are confirmed. The first pair, which answers the master, comes last: what the
+            # master asks before all follow would be made up for.
+            for i in (1, 0):
                 world = FarWorld(worlds[i], "the master")
-                run = device.start(None, world, seconds=seconds, log=names[i])
-                runs.append(stack.enter_context(run))
+                longest = seconds if seconds is None or i == 0 else seconds + _BEFORE
+                started[i] = devices[i].start(None, world, seconds=longest, log=names[i])
+            runs = [started[0], started[1]]
             ready(end.port)
             try:
                 _watch_both(runs, link, look)
@@ -255,10 +261,20 @@ def run_slave(
                 raise
             fault = next((one for one in map(_fault_of, runs) if one != Fault.NONE), Fault.NONE)
     finally:
-        ended = all(run.report is not None for run in runs)
+        ended = all(run.report is not None for run in started.values())
         link.goodbye(fault if ended else Fault.DEVICE)
         link.look()
     return _side(link, runs, fault, {} if driven is None else _scope_row(driven.report()))
+
+
+def _end_of(started: dict[int, Run], i: int) -> Callable[..., None]:
+    """Return what ends a run, if there is one by then."""
+
+    def end(*raised: Any) -> None:
+        if i in started:
+            started[i].__exit__(*raised)
+
+    return end
 
 
 def _watch_both(
