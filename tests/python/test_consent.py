@@ -14,6 +14,7 @@ import pytest
 import ebac
 from ebac import Hand, MinimumJerk, Scenario, logs
 from ebac.cli.gastroscopy.side_table import show
+from ebac.cli.gastroscopy.teller import Teller
 from ebac.cli.teleop.consent import Consent
 from ebac.gastroscope.on_drives import configuration, run_master, run_slave
 from ebac.hardware import OpenDevice
@@ -58,6 +59,22 @@ def test_the_end_of_standard_input_is_no_consent(monkeypatch: pytest.MonkeyPatch
         consent = Consent()
         consent.ask()
         assert not consent.given()
+
+
+def test_a_stopped_terminal_holds_up_nobody() -> None:
+    """A pipe that nobody reads takes 64 kB; more is said later, and who says it goes on."""
+    end, full = os.pipe()
+    with os.fdopen(full, "w") as terminal:
+        teller = Teller(terminal)
+        began = time.monotonic()
+        for _ in range(3):
+            teller.say("x" * 100_000)
+        teller.close()
+        assert time.monotonic() - began < 30  # it would wait for ever
+        heard = 0
+        while heard < 300_003:
+            heard += len(os.read(end, 65536))
+    os.close(end)
 
 
 def test_no_hand_is_simulated_on_real_drives() -> None:

@@ -106,6 +106,7 @@ def run_master(
         File to record to, .mcap; must not exist.
     notify, confirm, look : callable
         Called with each event; with the open device, before it has power; 50 times a second with run and link.
+        While `notify` or `look` does not return, nobody gives up a lost link or hears of a fault elsewhere.
 
     Raises
     ------

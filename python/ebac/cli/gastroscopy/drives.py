@@ -13,6 +13,7 @@ import typer
 from ebac.cli import options, output, setting, simulated
 from ebac.cli.drive.options import Yes, telling
 from ebac.cli.gastroscopy.side_table import show
+from ebac.cli.gastroscopy.teller import Teller
 from ebac.cli.run.confirm import can_ask, confirm
 from ebac.cli.teleop.consent import Consent
 from ebac.cli.teleop.options import LinkOptions
@@ -90,7 +91,7 @@ def master(
     """
     from ebac.gastroscope.on_drives import run_master
 
-    with output.refusing(), telling():
+    with output.refusing(), telling(), Teller(err=as_json) as teller:
         if consent_after is not None and not on_simulated:
             output.fail(
                 f"--consent-after {consent_after:g}: only with --simulated; on your drives the hand agrees, by Enter"
@@ -114,7 +115,7 @@ def master(
             timeout=timeout,
             seconds=seconds,
             log=log,
-            notify=_notifier("master", as_json, enter),
+            notify=_notifier("master", teller, enter),
             confirm=lambda device: confirm(device, yes, stderr=as_json),
             look=lambda run, link: _consent(link, enter),
         )
@@ -168,7 +169,7 @@ def slave(
     """
     from ebac.gastroscope.on_drives import run_slave
 
-    with output.refusing(), telling():
+    with output.refusing(), telling(), Teller(err=as_json) as teller:
         both = _known({"feed": feed, "bend": bend}, on_simulated)
         for known in both if not on_simulated else ():
             can_ask(known, yes)
@@ -182,9 +183,9 @@ def slave(
             timeout=timeout,
             seconds=seconds,
             log=log,
-            notify=_notifier("slave", as_json),
+            notify=_notifier("slave", teller),
             confirm=lambda device: confirm(device, yes, stderr=as_json),
-            ready=lambda at: _ready(at, announce, as_json),
+            ready=lambda at: _ready(at, announce, None if as_json else teller),
         )
     _give(found, as_json, on_simulated)
 
@@ -262,22 +263,22 @@ def _keep(log: Path | None) -> None:
         output.keeping(f"look at the rows with `ebac log info {log}`")
 
 
-def _ready(port: int, announce: bool, as_json: bool) -> None:
+def _ready(port: int, announce: bool, teller: Teller | None) -> None:
     if announce:
         typer.echo(json.dumps({"port": port}))
         sys.stdout.flush()
-    elif not as_json:
-        output.say(f"slave on UDP port {port}: the drives have power. Ctrl-C stops it.")
+    elif teller is not None:
+        teller.say(f"slave on UDP port {port}: the drives have power. Ctrl-C stops it.")
 
 
-def _notifier(name: str, as_json: bool, enter: Consent | None = None) -> Any:
+def _notifier(name: str, teller: Teller, enter: Consent | None = None) -> Any:
     def notify(event: LinkEvent) -> None:
-        typer.echo(f"{event.t:8.2f} s  {name}: {event.text}", err=as_json)
+        teller.say(f"{event.t:8.2f} s  {name}: {event.text}")
         if enter is None:
             return
         enter.withdraw()
         if event.what == "back":
-            typer.echo("            press Enter to go on", err=as_json)
+            teller.say("            press Enter to go on")
             enter.ask()
 
     return notify
