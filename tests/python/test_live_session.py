@@ -150,6 +150,18 @@ def test_a_dead_man_key_starts_and_stops_it(tmp_path: Path) -> None:
         assert all(state == "switch on disabled" for state in report.drives), report.drives
 
 
+def test_whatever_goes_wrong_beside_it_the_dead_man_key_is_watched(tmp_path: Path) -> None:
+    with Session(dead_man=True, folder=tmp_path) as session:
+        for _ in range(2):  # and again in the next run
+            session.hold()
+            session.start()
+            until(lambda: bool(session.run and session.run.ticks > 0))
+            session.hand._left, session.hand._left_at = 0.0, []  # a hand of other axes
+            until(lambda: bool(session.run and session.run.done))
+            assert session.trouble
+            assert session._watch.is_alive()
+
+
 def test_frames_have_rows_words_and_history(session: Session) -> None:
     frames = Frames(session)
     assert frames.frame()["verdict"]["head"] == "At rest"

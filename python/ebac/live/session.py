@@ -10,7 +10,6 @@ from types import TracebackType
 from typing import Any, Self
 
 from ebac._util.wrong_calls import plain_constructor
-from ebac.drives.errors import DriveError
 from ebac.hardware import Configuration, OpenDevice, Run
 from ebac.hardware.virtual_device import VirtualDevice, VirtualRun
 from ebac.live.choices import CONFIGURED, RANGES, Choices, base_of
@@ -61,7 +60,8 @@ class Session(SessionChanges):
     kept : list of Path
         Files written.
     trouble : str
-        Why a drive could not be seen to be without power, or a log not be written, after a run; empty if all is well.
+        Why a drive could not be seen to be without power, a log not be written, or a run not be watched; empty if all is
+        well.
     ranges : dict
         From where to where stiffness, damping and delay may be chosen.
 
@@ -201,24 +201,27 @@ class Session(SessionChanges):
             run = self.run
             if run is None:
                 continue
-            if self.virtual:
-                steps = self._time.due() if self._paced else 0
-                if steps:
-                    self.advance(steps * STEP)
-            elif not run.done and run.ticks > 0:
-                self.hand.go_on(run)
-            if self.dead_man and not run.done and not self._is_held():
-                run.stop(by="dead-man key")
-            if run.done and run.report is None and self._lock.acquire(blocking=False):
-                try:
-                    self._settle()
-                except (
-                    DriveError,
-                    OSError,
-                ) as error:  # this thread watches the dead-man key: it goes on
-                    self.trouble = str(error)
-                finally:
-                    self._lock.release()
+            try:
+                self._look(run)
+            except Exception as error:  # this thread watches the dead-man key: it goes on
+                self.trouble = str(error) or repr(error)
+                if self.dead_man:
+                    run.stop(by="exception")
+
+    def _look(self, run: Run) -> None:
+        if self.dead_man and not run.done and not self._is_held():
+            run.stop(by="dead-man key")
+        if run.done and run.report is None and self._lock.acquire(blocking=False):
+            try:
+                self._settle()
+            finally:
+                self._lock.release()
+        if self.virtual:
+            steps = self._time.due() if self._paced else 0
+            if steps:
+                self.advance(steps * STEP)
+        elif not run.done and run.ticks > 0:
+            self.hand.go_on(run)
 
     def _settle(self) -> None:
         if self.run is not None:
