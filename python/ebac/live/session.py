@@ -60,8 +60,8 @@ class Session(SessionChanges):
     kept : list of Path
         Files written.
     trouble : str
-        Why a drive could not be seen to be without power, a log not be written, or a run not be watched; empty if all is
-        well.
+        Why a drive could not be seen to be without power, a log not be written, or a run not be watched; empty if all
+        is well.
     ranges : dict
         From where to where stiffness, damping and delay may be chosen.
 
