@@ -6,7 +6,7 @@ from ipaddress import ip_address
 
 
 def check_reach(host: str, peer: str, what: str) -> None:
-    """Refuse to talk to another machine from a loopback address: the system drops every datagram, and nobody is told.
+    """Refuse to talk to another machine from a loopback address: the system drops every datagram, and nothing says so.
 
     Raises
     ------
