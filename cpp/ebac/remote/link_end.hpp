@@ -39,6 +39,7 @@ struct LinkParams {
 
 /// What has happened at one end.
 enum class EventOf : int {
+  kNone = 0,      // nothing yet
   kRunning = 1,   // packets come: the force, or the slave, is let go
   kLost = 2,      // silence, or the other end has lost the link
   kBack = 3,      // packets come again; waits for consent
@@ -50,7 +51,7 @@ enum class EventOf : int {
 
 struct Event {
   double t = 0;  // s, since the loop began
-  EventOf what = EventOf::kRunning;
+  EventOf what = EventOf::kNone;
   double value = 0;
 };
 
