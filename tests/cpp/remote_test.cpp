@@ -165,6 +165,54 @@ TEST(SlaveLink, StandsStillUntilBothPairsKnowWhereTheyAre) {
   }
   EXPECT_EQ(count(*slave, EventOf::kGroup), 1);
   EXPECT_TRUE(slave->lost());
+  const auto agreed =
+      [&](bool bends) {  // the master hears of it, its hand consents, half a second passes
+        for (int i = 0; i < 1000; ++i) {
+          t += kDt;
+          if (i == 500) master->consent();
+          master->begin(t, kDt);
+          master->end({0.1, 0, 0, 0}, {});
+          feed->contact(here, Axes::Zero(), t);
+          if (bends) bend->contact(Axes::Zero(), Axes::Zero(), t);
+          if (i % 50 == 0) std::this_thread::sleep_for(std::chrono::microseconds(200));
+        }
+      };
+  agreed(false);
+  EXPECT_FALSE(slave->running()) << "a consent does not bring the other drives back";
+  agreed(true);
+  EXPECT_TRUE(slave->running());
+  EXPECT_TRUE(master->running());
+}
+
+TEST(FarLink, ARepeatedPacketIsNoSignOfLife) {
+  const Ptr slave = slave_end();
+  sensor::UdpSocket socket(kHere);
+  teleop::Packet packet{.session = 1, .sequence = 1, .run = 5};
+  const auto sends = [&](double seconds) {
+    for (int i = 0; i < static_cast<int>(seconds / kDt); ++i) {
+      socket.send(teleop::encode(packet), slave->local());
+      slave->begin(i * kDt, kDt);
+      slave->end({}, {});
+      if (i % 50 == 0) std::this_thread::sleep_for(std::chrono::microseconds(200));
+    }
+  };
+  sends(0.2);
+  EXPECT_TRUE(slave->running());
+  sends(1);
+  EXPECT_TRUE(slave->lost());
+}
+
+TEST(FarLink, AForgedSessionIsNone) {
+  const Ptr slave = slave_end();
+  const Ptr master = master_end(*slave);
+  Ends ends(slave);
+  ends.run(master.get(), 0.2);
+  sensor::UdpSocket socket(kHere);
+  socket.send(teleop::encode({.from_slave = true, .lost = true, .session = 0xFFFFFFFF, .run = 9}),
+              master->local());
+  std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  ends.run(master.get(), 0.2);
+  EXPECT_TRUE(master->running());
 }
 
 }  // namespace

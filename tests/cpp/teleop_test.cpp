@@ -44,6 +44,15 @@ TEST(TeleopReceiver, CountsWhatIsLateDoubledAndMissing) {
   EXPECT_EQ(receiver.play().value, 5);  // the newest, not the last that came
 }
 
+TEST(TeleopReceiver, AJumpOfMoreThanAMinuteIsNotTaken) {
+  Receiver receiver;
+  for (const std::uint32_t n : {70'000U, 70'001U, 0xFFFFFF00U, 70'002U}) {
+    receiver.take({.sequence = n, .value = 1.0 * n});
+  }
+  EXPECT_EQ(receiver.play().value, 70'002);
+  EXPECT_EQ(receiver.arrivals().foreign, 1);
+}
+
 TEST(TeleopLink, OnlyAConsentLeadsBackToRunning) {
   LinkWatch watch(Coupling{.timeout = 0.5, .fade = 0.2}, kDt);
   const auto run = [&](double seconds, bool hears) {

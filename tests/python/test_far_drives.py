@@ -39,7 +39,7 @@ def test_targets_stay_within_place_and_speed(asked: list[Any], dt: float) -> Non
     at = np.array(_core._targets(FOLLOW, asked, dt))
     speed = np.abs(np.diff(np.vstack([np.zeros(4), at]), axis=0)) / dt
     assert np.abs(at[:, 0]).max() <= FOLLOW.deepest
-    assert np.hypot(at[:, 2], at[:, 3]).max() <= math.sqrt(2) * FOLLOW.most_bend + 1e-9
+    assert np.hypot(at[:, 2], at[:, 3]).max() <= FOLLOW.most_bend + 1e-9
     assert speed[:, 0].max() <= FOLLOW.insertion_speed * (1 + 1e-9)
     assert speed[:, 1:].max() <= FOLLOW.turn_speed * (1 + 1e-9)
 

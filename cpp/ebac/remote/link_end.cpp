@@ -10,8 +10,10 @@ namespace ebac::remote {
 
 namespace {
 
-constexpr int kMostAtOnce = 256;     // datagrams in a tick
-constexpr double kLongestTick = 10;  // s
+constexpr int kMostAtOnce = 256;                // datagrams in a tick
+constexpr double kLongestTick = 10;             // s
+constexpr std::uint32_t kSessions = 1'000'000;  // no hand consents more often
+constexpr std::size_t kLastWords = 8;           // events kept for the other end's fault or end
 
 std::int64_t now() EBAC_RT {
   return std::chrono::nanoseconds(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -69,7 +71,8 @@ void LinkEnd::begin(double t, double elapsed) EBAC_RT {
 
 /// The master's rule: what belongs to its run and session.
 bool LinkEnd::belongs(const teleop::Packet& packet) EBAC_RT {
-  if (packet.run != run_ && packet.lost && packet.session >= session_) {
+  if (packet.run != run_ && packet.lost && packet.session >= session_ &&
+      packet.session < session_ + kSessions) {
     slave_session_ = packet.session;  // a slave that an earlier run has left behind
     watch_.lose();
     watch_.heard();
@@ -82,7 +85,8 @@ bool LinkEnd::belongs(const teleop::Packet& packet) EBAC_RT {
 /// The slave's: one master, and another only after the link was lost and a hand has consented.
 bool LinkEnd::obeys(const teleop::Packet& packet) EBAC_RT {
   const bool other = bound_ && packet.run != run_;
-  if (other ? !watch_.lost() : packet.session < session_) {
+  if ((other ? !watch_.lost() : packet.session < session_) ||
+      packet.session >= session_ + kSessions) {
     receiver_.refuse();
     return false;
   }
@@ -110,7 +114,8 @@ void LinkEnd::take(const teleop::Packet& packet) EBAC_RT {
     note(packet.fault != 0 ? EventOf::kFarFault : EventOf::kFarLeft, packet.fault);
   }
   other_lost_ = packet.lost;
-  if (!far_ended_) watch_.heard();  // what says goodbye does not come back
+  // What says goodbye does not come back.
+  if (!far_ended_ && (watch_.lost() || receiver_.is_news(packet))) watch_.heard();
   receiver_.take(packet);
   heard_ = receiver_.play();
 }
@@ -148,7 +153,8 @@ void LinkEnd::tell(teleop::LinkState before) EBAC_RT {
 
 void LinkEnd::note(EventOf what, double value) EBAC_RT {
   const std::size_t i = events_.load(std::memory_order_relaxed);
-  if (i >= kEvents) return;
+  const bool last = what == EventOf::kFarFault || what == EventOf::kFarLeft;
+  if (i >= (last ? kEvents : kEvents - kLastWords)) return;
   event_[i] = {.t = t_, .what = what, .value = value};
   events_.store(i + 1, std::memory_order_release);
 }

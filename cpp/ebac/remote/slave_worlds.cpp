@@ -44,13 +44,19 @@ void Targets::follow(const Four& asked, double dt) EBAC_RT {
     goal[2] *= p.most_bend / bend;
     goal[3] *= p.most_bend / bend;
   }
+  const double turn = aligned_ ? p.turn_speed : p.realign;
+  for (std::size_t i = 0; i < goal.size(); ++i) rate_[i] = (goal[i] - at_[i]) / (kSmooth + dt);
+  rate_[0] = std::clamp(rate_[0], -p.insertion_speed, p.insertion_speed);
+  rate_[1] = std::clamp(rate_[1], -turn, turn);
+  // Both bends slowed alike go straight, and so stay within the largest bend.
+  const double bending = std::hypot(rate_[2], rate_[3]);
+  if (bending > turn) {
+    rate_[2] *= turn / bending;
+    rate_[3] *= turn / bending;
+  }
   bool near = true;
   for (std::size_t i = 0; i < goal.size(); ++i) {
-    const double turn = aligned_ ? p.turn_speed : p.realign;
-    const double fastest = i == 0 ? p.insertion_speed : turn;
-    const double rate = std::clamp((goal[i] - at_[i]) / (kSmooth + dt), -fastest, fastest);
-    rate_[i] = rate;
-    at_[i] += rate * dt;
+    at_[i] += rate_[i] * dt;
     near = near && (i == 0 || std::abs(goal[i] - at_[i]) < kAligned);
   }
   aligned_ = aligned_ || near;
@@ -70,18 +76,21 @@ std::shared_ptr<World> SlaveLink::world(std::shared_ptr<SlaveLink> slave, std::s
 ContactForce SlaveLink::contact(std::size_t group, const Axes& x, const Axes& v, double t) EBAC_RT {
   const std::size_t first = 2 * group;
   for (std::size_t i = 0; i < 2; ++i) put(at_[first + i], x[static_cast<Eigen::Index>(i)]);
+  bool moves = true;
   if (group == 0) {
     lead(t);
+    led_.fetch_add(1, std::memory_order_relaxed);
   } else {
     beat_.fetch_add(1, std::memory_order_relaxed);
+    moves = is_led(t);
   }
   Axes force = Axes::Zero();
   const bool started = started_.load(std::memory_order_acquire);
   for (std::size_t i = 0; i < 2; ++i) {
     const auto e = static_cast<Eigen::Index>(i);
     const double wanted = started ? load(wanted_[first + i]) : x[e];
-    const double pull =
-        params_.stiffness * (wanted - x[e]) + params_.damping * (load(rate_[first + i]) - v[e]);
+    const double rate = moves ? load(rate_[first + i]) : 0.0;
+    const double pull = params_.stiffness * (wanted - x[e]) + params_.damping * (rate - v[e]);
     const double held = std::clamp(pull, -params_.most_force, params_.most_force);
     put(force_[first + i], held);
     force[e] = -held;  // a world resists
@@ -137,11 +146,21 @@ void SlaveLink::watch_group(double dt) EBAC_RT {
   const std::int64_t beat = beat_.load(std::memory_order_relaxed);
   silent_ = beat == beats_ && beat > 0 ? silent_ + dt : 0.0;
   beats_ = beat;
-  if (silent_ > kSilent && !alone_) {
+  if (silent_ > kSilent) {
+    if (!alone_) link_->note(EventOf::kGroup, silent_);
     alone_ = true;
-    link_->note(EventOf::kGroup, silent_);
-    link_->lose();
+    link_->lose();  // again after every consent, until these drives go on
+  } else if (silent_ == 0) {
+    alone_ = false;
   }
+}
+
+/// Whether the first group goes on; without it the bends stand where they were asked to be last.
+bool SlaveLink::is_led(double t) EBAC_RT {
+  const std::int64_t led = led_.load(std::memory_order_relaxed);
+  if (led != seen_) led_at_ = t;
+  seen_ = led;
+  return t - led_at_ <= kSilent;
 }
 
 void SlaveLink::describe(double dt) EBAC_RT {

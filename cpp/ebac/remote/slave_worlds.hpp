@@ -86,11 +86,12 @@ class SlaveLink {
   LinkEnd& link() EBAC_RT { return *link_; }
 
  private:
-  static constexpr double kSilent = 0.1;  // s, of the other group
+  static constexpr double kSilent = 0.1;  // s, of either group
 
   void lead(double t) EBAC_RT;
   void start() EBAC_RT;
   void watch_group(double dt) EBAC_RT;
+  bool is_led(double t) EBAC_RT;
   void describe(double dt) EBAC_RT;
 
   std::shared_ptr<LinkEnd> link_;
@@ -106,6 +107,9 @@ class SlaveLink {
   bool alone_ = false;
   std::int64_t beats_ = 0;                       // of the second group, seen
   std::atomic<std::int64_t> beat_{0};            // of the second group
+  std::atomic<std::int64_t> led_{0};             // ticks of the first group
+  std::int64_t seen_{0};                         // of them, by the second group
+  double led_at_ = 0;                            // s, by the second group's clock
   std::atomic<bool> started_{false};             // both know where they stand
   std::array<std::atomic<double>, 4> wanted_{};  // m, at the cables
   std::array<std::atomic<double>, 4> rate_{};    // m/s

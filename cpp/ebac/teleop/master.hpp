@@ -45,7 +45,7 @@ class MasterSide {
       return receiver_.refuse();
     }
     other_lost_ = packet.lost;
-    watch_.heard();
+    if (watch_.lost() || receiver_.is_news(packet)) watch_.heard();
     receiver_.take(packet);
   }
 
@@ -81,16 +81,17 @@ class MasterSide {
     if (sample_.fault == Fault::kNone) sample_.fault = judge(reading, axes);
     if (sample_.fault != Fault::kNone) rest(axes);
     ++tick_;
-    return {.from_slave = false,
-            .lost = watch_.lost(),
-            .session = session_,
-            .sequence = ++sequence_,
-            .echo = receiver_.newest(),
-            .stamp = stamp,
-            .value = port.x - origin_,
-            .energy = waves() ? port_.in - port_.out + port_.dissipated + used_energy_ : port_.in,
-            .wave = wave_sum_,
-            .run = run_};
+    return {
+        .from_slave = false,
+        .lost = watch_.lost() || sample_.fault != Fault::kNone,  // nobody follows a stick at rest
+        .session = session_,
+        .sequence = ++sequence_,
+        .echo = receiver_.newest(),
+        .stamp = stamp,
+        .value = port.x - origin_,
+        .energy = waves() ? port_.in - port_.out + port_.dissipated + used_energy_ : port_.in,
+        .wave = wave_sum_,
+        .run = run_};
   }
 
   /// Another place for the hand [m].

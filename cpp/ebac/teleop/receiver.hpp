@@ -52,6 +52,7 @@ class Receiver {
       ++arrivals_.doubled;
       return;
     }
+    if (newest_ > 0 && is_news(packet) && packet.sequence - newest_ > kJump) return refuse();
     if (packet.sequence + kRing <= newest_) return;  // its place is another's
     ++arrivals_.received;
     if (packet.sequence > newest_) {
@@ -64,6 +65,8 @@ class Receiver {
     place = packet;
   }
   void refuse() EBAC_RT { ++arrivals_.foreign; }
+  /// Whether it is newer than all before: a repeated packet is no sign of life.
+  bool is_news(const Packet& packet) const EBAC_RT { return packet.sequence > newest_; }
 
   /// In every tick: what counts now; all zero before the first packet.
   Packet play() EBAC_RT {
@@ -86,6 +89,8 @@ class Receiver {
 
  private:
   static constexpr std::uint32_t kRing = 1024;
+  static constexpr std::uint32_t kJump =
+      60'000;  // packets: a minute; more within a session is none of its own
   static constexpr double kFollow = 0.002;  // of the distance, in each tick
   static constexpr double kFar = 200;       // packets
 

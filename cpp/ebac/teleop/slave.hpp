@@ -86,7 +86,7 @@ class SlaveSide {
     // It has heard what this slave never sent: the slave was restarted.
     if (packet.echo > sequence_) watch_.lose();
     other_lost_ = packet.lost;
-    watch_.heard();
+    if (watch_.lost() || receiver_.is_news(packet)) watch_.heard();
     receiver_.take(packet);
     return true;
   }
