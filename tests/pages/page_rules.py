@@ -65,6 +65,7 @@ RULES = (
     Rule(r"^ebac teleop (master|network|slave)(?!.*--seconds)", BESIDE, "runs until Ctrl-C"),
     Rule(r"^ebac gastroscopy (master|slave).*my-", NEVER, "needs drives"),
     Rule(r"^ebac gastroscopy (master|slave)(?!.*--seconds)", BESIDE, "runs until Ctrl-C"),
+    Rule(r"^ebac log info slave\.mcap", SLOW, "reads what a command that takes seconds writes"),
     Rule(r"^ebac gastroscopy drives", SLOW, "takes seconds", fewer="--seconds 5"),
     Rule(r"^ebac teleop study", SLOW, "takes seconds", fewer="--scheme waves --delay 0.05"),
     Rule(r"^ebac teleop endurance", SLOW, "takes minutes", fewer="--seconds 5"),
