@@ -87,7 +87,7 @@ def master(
 
     * `ebac gastroscopy slave --simulated`, then `ebac gastroscopy master --simulated --seconds 20`
 
-    * `ebac gastroscopy master --simulated --seconds 3 --give-up 1 --json`: nobody answers, and it waits
+    * `ebac gastroscopy master --simulated --peer 127.0.0.1:49299 --seconds 3 --json`: nobody answers, and it waits
     """
     from ebac.gastroscope.on_drives import run_master
 
