@@ -166,3 +166,11 @@ def test_what_a_waiting_master_asks_is_not_made_up_for(tmp_path: Path) -> None:
 def test_a_run_on_real_drives_is_not_called_simulated(capsys: pytest.CaptureFixture[str]) -> None:
     show({}, [], simulated=False)
     assert "simulated" not in capsys.readouterr().out
+
+
+@LINUX
+def test_pairs_of_different_sample_times_are_refused_before_power() -> None:
+    feed = configuration("feed")
+    slower = feed.replace(timing=feed.timing.replace(dt=2e-3))
+    with pytest.raises(ValueError, match=r"timing.dt = 0.002 s and 0.001 s: must be the same"):
+        run_slave(slower, simulate=True)

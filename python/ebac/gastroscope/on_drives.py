@@ -214,6 +214,10 @@ def run_slave(
         raise ValueError(
             "feed, bend: must have 2 axes each, insertion and rotation, and both bends"
         )
+    if both[0].timing.dt != both[1].timing.dt:
+        raise ValueError(
+            f"feed, bend: timing.dt = {both[0].timing.dt:g} s and {both[1].timing.dt:g} s: must be the same"
+        )
     end = _core._slave_link(
         params=FarLink(timeout=timeout), dt=both[0].timing.dt, host=host, port=port
     )
