@@ -16,9 +16,18 @@ CPP = HERE.parents[1] / "cpp"
 #: among them, are most of the work.
 CORE = (
     *("core/check", "core/fields", "core/matrix_exponential"),
-    *("control/laws", "control/virtual_coupling"),
-    *("model/device", "model/exact_axis", "model/exact_plant", "model/hand", "model/hand_model"),
-    *("model/joint_dynamics", "model/limits", "model/linear_flow", "model/stepped_plant"),
+    *("control/laws", "control/turned_ports", "control/virtual_coupling"),
+    *("loop/plausibility", "loop/safety_limiter", "loop/signal_chain", "loop/state_observer"),
+    *(
+        "model/device",
+        "model/environment",
+        "model/exact_axis",
+        "model/exact_plant",
+        "model/hand",
+        "model/hand_model",
+    ),
+    *("model/joint_dynamics", "model/kinematics", "model/limits", "model/linear_flow"),
+    *("model/port_space", "model/pose", "model/stepped_plant"),
     *("sim/simulated_device", "sim/contact", "sim/perceived_ripple"),
 )
 OWN = ("settings", "catalogue", "exports")

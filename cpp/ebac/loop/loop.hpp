@@ -132,7 +132,7 @@ class Loop {
   template <std::size_t N>
   void step(ParameterUpdates<Law>* updates, std::byte* row, std::span<Axis, N> axes) EBAC_RT {
     const Instant now = clock_.wait();
-    if (updates != nullptr) updates->apply(sample_.tick, law_, chain_, device_);
+    if (updates != nullptr) take(*updates);
     const bool arming = run_state_.state() == LoopState::kArm;
     if (arming) chain_.forget();  // counts that begin to arrive are no motion
     const Reading reading = sense(chain_, device_, now, sample_, axes);
@@ -156,6 +156,11 @@ class Loop {
     stop_device();
     if constexpr (kTimed) clock_.finish();
     if (row != nullptr) append(row, axes.size());
+  }
+
+  /// Not part of the tick's one function: a simulation has no updates.
+  [[gnu::noinline]] void take(ParameterUpdates<Law>& updates) EBAC_RT {
+    updates.apply(sample_.tick, law_, chain_, device_);
   }
 
   void restart() EBAC_RT {

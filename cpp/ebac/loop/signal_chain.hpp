@@ -1,6 +1,5 @@
 #pragma once
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <span>
 
@@ -10,7 +9,6 @@
 #include "ebac/loop/state_observer.hpp"
 #include "ebac/model/device.hpp"
 #include "ebac/model/environment.hpp"
-#include "ebac/model/port_space.hpp"
 
 namespace ebac {
 
@@ -23,7 +21,7 @@ class SignalChain {
 
   /// Another virtual world, from this tick on. An external one is used as it is; the poster keeps it, so that none is
   /// freed here.
-  void change(const Environment& environment) EBAC_RT { environment_ = environment; }
+  void change(const Environment& environment) EBAC_RT;
 
   /// Whether the law of now on uses the observer's estimate.
   void act(bool observed) EBAC_RT { observer_.act(observed); }
@@ -69,6 +67,8 @@ class SignalChain {
     port.f_applied = f_applied;
   }
   ContactForce meet(const Axes& x, const Axes& v, double t) const EBAC_RT;
+  ContactForce meet_in_space(const External& world, const Axes& x, const Axes& v,
+                             double t) const EBAC_RT;
   void forward_general(const Reading& reading, double dt, std::span<Axis> axes) EBAC_RT;
   void drive_general(double dt, std::span<Axis> axes) EBAC_RT;
   void send(Joint& joint, double tau) const EBAC_RT;
@@ -100,28 +100,7 @@ class SignalChain {
   std::array<double, kMaxAxes> acceleration_{};  // m/s^2, filtered
 };
 
-// Inline, as every line of a tick.
-
-inline SignalChain::SignalChain(const DeviceModel& device, const Environment& environment,
-                                const Observing& observing)
-    : kinematics_(device.kinematics),
-      encoder_(device.encoder),
-      estimator_(device.velocity),
-      compensation_(device.compensation),
-      first_(fresh(environment)),
-      environment_(first_),
-      observer_(device, observing),
-      account_(device.facts()),
-      rad_per_count_(device.encoder.count() / device.capstan.ratio()),
-      radius_(device.radius()),
-      travel_(travel(device.kinematics)),
-      torque_per_amp_(device.motor.torque_constant * device.capstan.ratio()),
-      amp_per_torque_(1 / torque_per_amp_),
-      force_per_amp_(torque_per_amp_ / radius_),
-      peak_current_(device.drive.peak_current(device.motor)),
-      gravity_(device.mechanics.gravity),
-      linear_(std::holds_alternative<Linear>(device.kinematics)),
-      compensates_(device.compensation.active()) {}
+// Inline, as every line of a tick of the usual device and world; signal_chain.cpp has the others.
 
 inline void SignalChain::measure(const Reading& reading, double dt, std::span<Axis> axes) EBAC_RT {
   if (dt != dt_) set_tick(dt);
@@ -154,27 +133,10 @@ inline void SignalChain::forward(const Reading& reading, double dt, std::span<Ax
   }
 }
 
-inline void SignalChain::forward_general(const Reading& reading, double dt,
-                                         std::span<Axis> axes) EBAC_RT {
-  const Axes q = of_all(axes, &Axis::joint, &Joint::q);
-  Jacobian j = jacobian(kinematics_, q);
-  const Axes x = ebac::forward(kinematics_, q);
-  const Axes v = j * of_all(axes, &Axis::joint, &Joint::dq);
-  for (auto i = static_cast<Eigen::Index>(axes.size()); i < kMaxAxes; ++i) j(i, i) = 1;
-  const Axes torque = torque_per_amp_ * of_all(axes, &Axis::joint, &Joint::current_applied);
-  const Axes f = j.transpose().inverse() * torque;
-  for (std::size_t i = 0; i < axes.size(); ++i) {
-    const auto e = static_cast<Eigen::Index>(i);
-    axes[i].port.f_meas = reading.force[i];
-    enter(axes[i].port, dt, x[e], v[e], f[e]);
-  }
-}
-
 inline ContactForce SignalChain::meet(const Axes& x, const Axes& v, double t) const EBAC_RT {
   const auto* external = std::get_if<External>(&environment_);
-  if (external == nullptr) return ebac::contact(environment_, x, v, t);
-  const PortSpace space(kinematics_, x);
-  return space.felt(external->contact(space.at(), space.velocity(v), t));
+  return external == nullptr ? ebac::contact(environment_, x, v, t)
+                             : meet_in_space(*external, x, v, t);
 }
 
 inline ContactForce SignalChain::contact(double t, std::span<Axis> axes) const EBAC_RT {
@@ -197,22 +159,6 @@ inline ContactForce SignalChain::contact(double t, std::span<Axis> axes) const E
   }
   return contact;
 }
-/// tau_static of eq. (2).
-inline Axes SignalChain::compensate(double dt, std::span<const Axis> axes) EBAC_RT {
-  Axes tau = weight(kinematics_, of_all(axes, &Axis::joint, &Joint::q),
-                    compensation_.gravity_mass * gravity_);
-  for (std::size_t i = 0; i < axes.size(); ++i) {
-    const auto e = static_cast<Eigen::Index>(i);
-    const double v = travel_[e] * axes[i].joint.dq;
-    if (dt > 0) {
-      acceleration_[i] +=
-          ((v - speed_[i]) / dt - acceleration_[i]) * dt / (compensation_.inertia_lag + dt);
-    }
-    speed_[i] = v;
-    tau[e] += travel_[e] * compensation_.force(v, acceleration_[i]);
-  }
-  return tau;
-}
 
 /// The current that gives one axis its torque, up to the drive's peak.
 inline void SignalChain::send(Joint& joint, double tau) const EBAC_RT {
@@ -226,14 +172,6 @@ inline void SignalChain::drive(double dt, std::span<Axis> axes) EBAC_RT {
   } else {
     drive_general(dt, axes);
   }
-}
-
-inline void SignalChain::drive_general(double dt, std::span<Axis> axes) EBAC_RT {
-  const Axes q = of_all(axes, &Axis::joint, &Joint::q);
-  Axes tau = transpose(kinematics_, q, of_all(axes, &Axis::port, &Port::f_cmd));
-  if (compensates_) tau += compensate(dt, axes);
-  for (std::size_t i = 0; i < axes.size(); ++i)
-    send(axes[i].joint, tau[static_cast<Eigen::Index>(i)]);
 }
 
 }  // namespace ebac

@@ -54,19 +54,12 @@ struct Wall {
 
   ContactForce contact(const Axes& x, const Axes& v) const EBAC_RT {
     if (angle == 0) return ContactForce::straight({push_along(x[0], v[0]), 0, 0});
-    const Axes n = normal();
-    return ContactForce::along_normal(n, push_along(n.dot(x), n.dot(v)));
+    return turned(x, v);
   }
 
   /// The same at time `t` [s], with the wall where its motion has it.
   ContactForce contact(const Axes& x, const Axes& v, double t) const EBAC_RT {
-    if (motion_amplitude == 0) return contact(x, v);
-    const Axes n = normal();
-    const double w = 2 * std::numbers::pi * motion_frequency;
-    const Axes rate = w * motion_amplitude * std::cos(w * t) * n;
-    ContactForce made = contact(x - motion_amplitude * std::sin(w * t) * n, v - rate);
-    made.velocity = rate;
-    return made;
+    return motion_amplitude == 0 ? contact(x, v) : moving(x, v, t);
   }
 
   static constexpr auto fields() {
@@ -82,6 +75,10 @@ struct Wall {
         F{"motion_frequency", &Wall::motion_frequency, "Hz", "of that motion", 0, 100},
     };
   }
+
+ private:
+  ContactForce turned(const Axes& x, const Axes& v) const EBAC_RT;
+  ContactForce moving(const Axes& x, const Axes& v, double t) const EBAC_RT;
 };
 
 /// Two walls that meet: each pushes along its own normal. The frame is that of the first; walls
@@ -91,37 +88,12 @@ struct Corner {
   Wall first{};
   Wall second{.angle = std::numbers::pi / 2};
 
-  ContactForce contact(const Axes& x, const Axes& v) const EBAC_RT {
-    const Axes n = first.normal();
-    const Axes m = second.normal();
-    const double one = first.push_along(n.dot(x), n.dot(v));
-    const double other = second.push_along(m.dot(x), m.dot(v));
-    if (std::abs(n.dot(m)) > kNarrow) return narrow(one * n + other * m);
-    ContactForce contact = ContactForce::along_normal(n, one);
-    const double across = contact.frame.row(1).dot(m);
-    const bool square =
-        std::abs(n.dot(m)) < 1e-9;  // then exact, so that an untouched wall is exactly zero
-    contact.along +=
-        square ? Axes{0, std::copysign(other, across), 0} : Axes(other * (contact.frame * m));
-    contact.force += other * m;
-    return contact;
-  }
+  ContactForce contact(const Axes& x, const Axes& v) const EBAC_RT;
 
  private:
   static constexpr double kNarrow = 0.5;  // cosine between the normals
 
-  /// In the principal directions of both stiffnesses.
-  ContactForce narrow(const Axes& force) const EBAC_RT {
-    const double a = 2 * first.angle, b = 2 * second.angle;
-    const double stiffest =
-        0.5 * std::atan2(first.stiffness * std::sin(a) + second.stiffness * std::sin(b),
-                         first.stiffness * std::cos(a) + second.stiffness * std::cos(b));
-    ContactForce contact =
-        ContactForce::along_normal({std::cos(stiffest), std::sin(stiffest), 0}, 0);
-    contact.force = force;
-    contact.along = contact.frame * force;
-    return contact;
-  }
+  ContactForce narrow(const Axes& force) const EBAC_RT;
 };
 
 /// A round pillar in the plane of the first two axes, met from outside.
@@ -132,14 +104,7 @@ struct Disc {
   double y = 0;             // m
   double radius = 0.02;     // m
 
-  ContactForce contact(const Axes& at, const Axes& v) const EBAC_RT {
-    const Axes inwards = Axes{x, y, 0} - Axes{at[0], at[1], 0};
-    const double distance = inwards.norm();
-    if (!(distance > 0))
-      return ContactForce::straight(Axes::Constant(distance));  // dead centre has no direction
-    const Axes n = inwards / distance;
-    return ContactForce::along_normal(n, push(stiffness, damping, radius - distance, n.dot(v)));
-  }
+  ContactForce contact(const Axes& at, const Axes& v) const EBAC_RT;
 
   static constexpr auto fields() {
     using F = Field<Disc>;
@@ -165,24 +130,17 @@ struct External {
 using Environment = std::variant<Free, Wall, Corner, Disc, External>;
 
 /// The same environment, without memory of another run.
-inline Environment fresh(const Environment& environment) {
-  const auto* external = std::get_if<External>(&environment);
-  if (external == nullptr || external->world == nullptr) return environment;
-  return External{external->world->fresh()};
-}
+Environment fresh(const Environment& environment);
+
+/// What any but a wall gives.
+ContactForce contact_with_other(const Environment& environment, const Axes& x, const Axes& v,
+                                double t) EBAC_RT;
 
 /// At time `t` [s] of the run.
 inline ContactForce contact(const Environment& environment, const Axes& x, const Axes& v,
                             double t) EBAC_RT {
-  return std::visit(
-      [&](const auto& shape) EBAC_RT {
-        if constexpr (requires { shape.contact(x, v, t); }) {
-          return shape.contact(x, v, t);
-        } else {
-          return shape.contact(x, v);
-        }
-      },
-      environment);
+  const auto* wall = std::get_if<Wall>(&environment);
+  return wall != nullptr ? wall->contact(x, v, t) : contact_with_other(environment, x, v, t);
 }
 
 }  // namespace ebac

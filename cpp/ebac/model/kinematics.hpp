@@ -165,53 +165,22 @@ inline int axes(const Linear& linear) EBAC_RT { return linear.axes; }
 inline int axes(const Gimbal&) EBAC_RT { return Gimbal::kAxes; }
 inline int axes(const SlidingGimbal&) EBAC_RT { return SlidingGimbal::kAxes; }
 
-inline int axes(const Kinematics& kinematics) EBAC_RT {
-  return std::visit([](const auto& k) { return axes(k); }, kinematics);
-}
-inline double radius(const Kinematics& kinematics) EBAC_RT {
-  return std::visit([](const auto& k) { return k.radius; }, kinematics);
-}
+int axes(const Kinematics& kinematics) EBAC_RT;
+double radius(const Kinematics& kinematics) EBAC_RT;
 /// Way of the handle per angle of each joint, at rest in the middle [m].
-inline Axes travel(const Kinematics& kinematics) EBAC_RT {
-  return std::visit([](const auto& k) { return k.travel(); }, kinematics);
-}
+Axes travel(const Kinematics& kinematics) EBAC_RT;
 /// Largest angle of each joint either way [rad].
-inline Axes stops(const Kinematics& kinematics) EBAC_RT {
-  return std::visit([](const auto& k) { return k.stops(); }, kinematics);
-}
+Axes stops(const Kinematics& kinematics) EBAC_RT;
 /// Longest lever over that in the middle.
-inline double stretch(const Kinematics& kinematics) EBAC_RT {
-  const auto* slide = std::get_if<SlidingGimbal>(&kinematics);
-  return slide == nullptr ? 1 : slide->stretch();
-}
-inline Axes forward(const Kinematics& kinematics, const Axes& q) EBAC_RT {
-  return std::visit([&](const auto& k) { return k.forward(q); }, kinematics);
-}
-inline Axes inverse(const Kinematics& kinematics, const Axes& x) EBAC_RT {
-  return std::visit([&](const auto& k) { return k.inverse(x); }, kinematics);
-}
-inline Jacobian jacobian(const Kinematics& kinematics, const Axes& q) EBAC_RT {
-  return std::visit([&](const auto& k) { return k.jacobian(q); }, kinematics);
-}
+double stretch(const Kinematics& kinematics) EBAC_RT;
+Axes forward(const Kinematics& kinematics, const Axes& q) EBAC_RT;
+Axes inverse(const Kinematics& kinematics, const Axes& x) EBAC_RT;
+Jacobian jacobian(const Kinematics& kinematics, const Axes& q) EBAC_RT;
 /// Joint torque that shows the force `f` at the handle: tau = J(q)^T f.
-inline Axes transpose(const Kinematics& kinematics, const Axes& q, const Axes& f) EBAC_RT {
-  return jacobian(kinematics, q).transpose() * f;
-}
+Axes transpose(const Kinematics& kinematics, const Axes& q, const Axes& f) EBAC_RT;
 /// Joint torque along +q of a weight [N] at the handle: along +x for Linear, down for a gimbal.
-inline Axes weight(const Kinematics& kinematics, const Axes& q, double newton) EBAC_RT {
-  return std::visit([&](const auto& k) { return k.weight(q, newton); }, kinematics);
-}
+Axes weight(const Kinematics& kinematics, const Axes& q, double newton) EBAC_RT;
 /// Whether every joint lies within its limit.
-inline bool within_limits(const Kinematics& kinematics, const Axes& q) EBAC_RT {
-  return std::visit(
-      [&](const auto& k) {
-        const Axes most = k.stops();
-        for (int i = 0; i < axes(k); ++i) {
-          if (!(std::abs(q[i]) <= most[i])) return false;
-        }
-        return true;
-      },
-      kinematics);
-}
+bool within_limits(const Kinematics& kinematics, const Axes& q) EBAC_RT;
 
 }  // namespace ebac

@@ -1,8 +1,5 @@
 #pragma once
 
-#include <cmath>
-#include <variant>
-
 #include "ebac/model/contact_force.hpp"
 #include "ebac/model/kinematics.hpp"
 
@@ -14,17 +11,7 @@ namespace ebac {
 /// there. The origin is the handle at rest in the middle.
 class PortSpace {
  public:
-  PortSpace(const Kinematics& kinematics, const Axes& x) EBAC_RT : axes_(ebac::axes(kinematics)),
-                                                                   at_(x) {
-    for (int i = 0; i < axes_; ++i) reach_(i, i) = 1;
-    if (const auto* gimbal = std::get_if<Gimbal>(&kinematics)) {
-      const double below = gimbal->radius * gimbal->radius - x[0] * x[0] - x[1] * x[1];
-      const double height = std::sqrt(std::max(below, kFlattest * gimbal->radius * gimbal->radius));
-      at_[2] = height - gimbal->radius;
-      reach_(2, 0) = -x[0] / height;
-      reach_(2, 1) = -x[1] / height;
-    }
-  }
+  PortSpace(const Kinematics& kinematics, const Axes& x) EBAC_RT;
 
   /// Of the handle [m].
   const Axes& at() const EBAC_RT { return at_; }
@@ -32,28 +19,7 @@ class PortSpace {
   Axes velocity(const Axes& v) const EBAC_RT { return reach_ * v; }
 
   /// A contact in space as the ports feel it: force, directions and velocity of the surface in their coordinates.
-  ContactForce felt(const ContactForce& contact) const EBAC_RT {
-    ContactForce made{.force = reach_.transpose() * contact.force,
-                      .depth = contact.depth,
-                      .stiffness = contact.stiffness};
-    int rows = 0;
-    Axes speed = Axes::Zero();  // of the surface, along each row
-    for (int i = 0; i < kMaxAxes && rows < axes_; ++i) {
-      const Axes direction = contact.frame.row(i);
-      Axes rest = reach_.transpose() * direction;
-      for (int k = 0; k < rows; ++k)
-        rest -= made.frame.row(k).dot(rest) * made.frame.row(k).transpose();
-      const double length = rest.norm();
-      if (length < kAcross) continue;
-      made.frame.row(rows) = rest / length;
-      speed[rows++] = direction.dot(contact.velocity) / length;
-    }
-    for (int i = rows; i < kMaxAxes; ++i) made.frame.row(i) = Axes::Unit(i);
-    made.along = made.frame * made.force;
-    made.velocity = made.frame.transpose() * speed;
-    made.turned = !made.frame.isIdentity(0);
-    return made;
-  }
+  ContactForce felt(const ContactForce& contact) const EBAC_RT;
 
  private:
   static constexpr double kFlattest = 1e-4;  // of the radius squared: the lever never lies flat

@@ -1,0 +1,78 @@
+#include "ebac/loop/signal_chain.hpp"
+
+#include <Eigen/LU>
+
+#include "ebac/model/port_space.hpp"
+
+namespace ebac {
+
+SignalChain::SignalChain(const DeviceModel& device, const Environment& environment,
+                         const Observing& observing)
+    : kinematics_(device.kinematics),
+      encoder_(device.encoder),
+      estimator_(device.velocity),
+      compensation_(device.compensation),
+      first_(fresh(environment)),
+      environment_(first_),
+      observer_(device, observing),
+      account_(device.facts()),
+      rad_per_count_(device.encoder.count() / device.capstan.ratio()),
+      radius_(device.radius()),
+      travel_(travel(device.kinematics)),
+      torque_per_amp_(device.motor.torque_constant * device.capstan.ratio()),
+      amp_per_torque_(1 / torque_per_amp_),
+      force_per_amp_(torque_per_amp_ / radius_),
+      peak_current_(device.drive.peak_current(device.motor)),
+      gravity_(device.mechanics.gravity),
+      linear_(std::holds_alternative<Linear>(device.kinematics)),
+      compensates_(device.compensation.active()) {}
+
+void SignalChain::change(const Environment& environment) EBAC_RT { environment_ = environment; }
+
+void SignalChain::forward_general(const Reading& reading, double dt, std::span<Axis> axes) EBAC_RT {
+  const Axes q = of_all(axes, &Axis::joint, &Joint::q);
+  Jacobian j = jacobian(kinematics_, q);
+  const Axes x = ebac::forward(kinematics_, q);
+  const Axes v = j * of_all(axes, &Axis::joint, &Joint::dq);
+  for (auto i = static_cast<Eigen::Index>(axes.size()); i < kMaxAxes; ++i) j(i, i) = 1;
+  const Axes torque = torque_per_amp_ * of_all(axes, &Axis::joint, &Joint::current_applied);
+  const Axes f = j.transpose().inverse() * torque;
+  for (std::size_t i = 0; i < axes.size(); ++i) {
+    const auto e = static_cast<Eigen::Index>(i);
+    axes[i].port.f_meas = reading.force[i];
+    enter(axes[i].port, dt, x[e], v[e], f[e]);
+  }
+}
+
+ContactForce SignalChain::meet_in_space(const External& world, const Axes& x, const Axes& v,
+                                        double t) const EBAC_RT {
+  const PortSpace space(kinematics_, x);
+  return space.felt(world.contact(space.at(), space.velocity(v), t));
+}
+
+/// tau_static of eq. (2).
+Axes SignalChain::compensate(double dt, std::span<const Axis> axes) EBAC_RT {
+  Axes tau = weight(kinematics_, of_all(axes, &Axis::joint, &Joint::q),
+                    compensation_.gravity_mass * gravity_);
+  for (std::size_t i = 0; i < axes.size(); ++i) {
+    const auto e = static_cast<Eigen::Index>(i);
+    const double v = travel_[e] * axes[i].joint.dq;
+    if (dt > 0) {
+      acceleration_[i] +=
+          ((v - speed_[i]) / dt - acceleration_[i]) * dt / (compensation_.inertia_lag + dt);
+    }
+    speed_[i] = v;
+    tau[e] += travel_[e] * compensation_.force(v, acceleration_[i]);
+  }
+  return tau;
+}
+
+void SignalChain::drive_general(double dt, std::span<Axis> axes) EBAC_RT {
+  const Axes q = of_all(axes, &Axis::joint, &Joint::q);
+  Axes tau = transpose(kinematics_, q, of_all(axes, &Axis::port, &Port::f_cmd));
+  if (compensates_) tau += compensate(dt, axes);
+  for (std::size_t i = 0; i < axes.size(); ++i)
+    send(axes[i].joint, tau[static_cast<Eigen::Index>(i)]);
+}
+
+}  // namespace ebac
