@@ -34,6 +34,7 @@ WALL_KEYS = [
     "still",
     "force_quiet",
     "quiet",
+    "touched_at_rest",
 ]
 
 
@@ -297,8 +298,8 @@ def test_a_fault_is_told_and_its_log_kept(monkeypatch: pytest.MonkeyPatch, tmp_p
         ("log plot latin.csv --from 5 --to 1", "--to = 1 s: must be larger than --from, 5 s"),
         ("wall --law nonsense", "--law nonsense: no such name; `ebac laws` lists all"),
         ("wall --world corn", "no such name, did you mean 'corner'; `ebac worlds` lists all"),
-        ("study -c d1K11", "--condition d1K11: no such name, did you mean 'd1K10'"),
-        ("study -c d1K11", "`ebac conditions` lists all"),
+        ("study -c d1L10", "--condition d1L10: no such name, did you mean 'd1K10'"),
+        ("study -c d1L10", "`ebac conditions` lists all"),
         ("wall --hand bob", "no such name; `ebac presets` lists all"),
         ("wall --device bob", "joystick"),
         ("wall --scenario none.toml", "none.toml: there is no such file"),

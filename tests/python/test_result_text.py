@@ -120,6 +120,18 @@ def test_a_run_in_free_air_has_no_contact(run: Run) -> None:
     )
 
 
+def test_a_handle_that_left_the_surface_has_no_rest_to_judge(run: Run) -> None:
+    pressed = ebac.contact(run("ebac", seconds=2.0))
+    assert pressed.touched_at_rest is True
+    hand = ebac.Hand(release_at=1.0)  # s; the wall pushes the handle out
+    left = ebac.contact(run("ebac", hand=hand, seconds=3.0))
+    assert (left.touched, left.touched_at_rest) == (True, False)
+    assert left.verdict == "left the surface: no contact at rest"
+    shaking = ebac.contact(run("tca"))
+    assert (shaking.touched_at_rest, shaking.verdict) == (True, "swings")
+    assert pressed.row()["touched_at_rest"] is True
+
+
 @given(st.floats(1e-12, 4e-8))
 def test_lengths_far_below_a_count_read_as_zero(metres: float) -> None:
     assert formatting.quantity(metres, "m") == "0 mm"

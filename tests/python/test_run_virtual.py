@@ -16,6 +16,7 @@ from ebac.cli.files import FigureOptions
 from ebac.cli.run import names
 from ebac.hardware import Configuration, Run
 from ebac.hardware.lateness import lateness, lateness_of
+from ebac.hardware.virtual_device import VirtualDevice
 from ebac.simulation import LoopFault
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "joystick.toml"
@@ -151,3 +152,36 @@ def test_the_command_offers_the_virtual_clock(capsys: pytest.CaptureFixture[str]
     assert "the loop woke up to 12.3 ms late" in text
     assert "ebac doctor" in text
     assert "--virtual instead of --simulated" in text
+
+
+def edited(tmp_path: Path, old: str, new: str) -> str:
+    text = EXAMPLE.read_text(encoding="utf-8")
+    assert text.count(old) == 1, old
+    file = tmp_path / "joystick.toml"
+    file.write_text(text.replace(old, new), encoding="utf-8")
+    return str(file)
+
+
+def test_the_data_sheet_counts_on_a_virtual_clock_too(tmp_path: Path) -> None:
+    known = Configuration.load(EXAMPLE)
+    most = ebac.Limits.of(known.device).thermal_time
+    file = edited(tmp_path, "speed = 1.0 # m/s\n", f"thermal_time = {1.5 * most} # s\n")
+    words = ["run", file, "--virtual", "--seconds", "0.1", "--no-files"]
+    done = CliRunner().invoke(app, words)
+    assert done.exit_code == 2, done.output
+    assert "limits.thermal_time" in done.stderr
+    assert "the motor may burn" in " ".join(done.stderr.split())
+    assert CliRunner().invoke(app, [*words, "--beyond-rating"]).exit_code == 0
+    beyond = known.replace(limits=known.limits.replace(thermal_time=1.5 * most))
+    with pytest.raises(ebac.hardware.ConfigurationError, match="thermal_time"):
+        VirtualDevice(beyond, delay=1)
+
+
+def test_a_handle_that_left_the_surface_has_no_contact_at_rest() -> None:
+    back = ["--hand-target", "-0.02"]  # m: the wall is met on the way, if at all
+    left = CliRunner().invoke(app, [*RUN, *back, "--no-files", "--json"])
+    assert left.exit_code == 0, left.output
+    (row,) = json.loads(left.stdout)["rows"]
+    assert row["touched_at_rest"] is False
+    (row,) = json.loads(CliRunner().invoke(app, [*RUN, "--no-files", "--json"]).stdout)["rows"]
+    assert row["touched_at_rest"] is True

@@ -212,12 +212,15 @@ def verdict(contact: Contact) -> str:
     """Return what a contact came to: "exact and quiet", "swings", "quiet, too deep by 5.63 mm".
 
     One that is still and not quiet has a force that is not: "exact, force not quiet". "no contact" where
-    the virtual world never acted, "too short to judge" for less than half a second.
+    the virtual world never acted, "left the surface: no contact at rest" where it acts no more at rest, "too short to
+    judge" for less than half a second.
     """
     if contact.touched is False:
         return "no contact"
     if contact.seconds is not None and contact.seconds < JUDGED_FROM:
         return "too short to judge"
+    if contact.touched_at_rest is False:
+        return "left the surface: no contact at rest"
     if not contact.still:
         return "swings"
     deviation = contact.deviation_m

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, cast
 from ebac import _core
 from ebac.drives.errors import DriveError
 from ebac.hardware.interrupts import Interrupts
+from ebac.hardware.rating import check_rating
 from ebac.hardware.run import Run
 
 if TYPE_CHECKING:
@@ -45,11 +46,13 @@ class VirtualDevice:
     Raises
     ------
     ConfigurationError
-        When signs or zero of the simulated device are others than those of the configuration.
+        When signs or zero of the simulated device are others than those of the configuration, or a limit exceeds the
+        data sheet of the motor.
     """
 
     def __init__(self, configuration: Configuration, *, delay: int) -> None:
         configuration._refuse_wrong_wiring()
+        check_rating(configuration.limits, configuration.device)
         self.configuration = configuration
         self._delay = delay
         self._run: VirtualRun | None = None

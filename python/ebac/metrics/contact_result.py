@@ -101,6 +101,9 @@ class Contact:
         Length of the run [s].
     touched : bool or None
         Whether the virtual world ever acted; None where that is not known.
+    touched_at_rest : bool or None
+        Whether it acted in the last half second of the run, or in its last 30 % where that is shorter: False where the
+        handle left the surface, and rest, swing and force are those of free air. None where that is not known.
 
     Notes
     -----
@@ -153,6 +156,7 @@ class Contact:
     allowed_m: float | None = None
     seconds: float | None = None
     touched: bool | None = None
+    touched_at_rest: bool | None = None
 
     @property
     def verdict(self) -> str:

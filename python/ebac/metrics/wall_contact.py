@@ -17,6 +17,9 @@ from ebac.trace import Trace
 
 #: The end of a run over which rest and swing are taken.
 TAIL_SHARE = 0.3
+#: A handle that met nothing for so long at the end of a run has left the surface [s]; a law that shakes meets the wall
+#: several times within it.
+LEFT_AFTER = 0.5
 #: A contact swinging by less than this, peak to peak, is still [m].
 STILL_SWING = 0.25e-3
 #: Fewer rows have no tail to measure.
@@ -108,10 +111,22 @@ def contact(trace: Trace, *, axis: int = 0, truth: bool = True) -> Contact:
         count_m=scenario.device.count if scenario else None,
         allowed_m=allowed_deviation(scenario) if scenario else None,
         seconds=float(trace["t"][-1] - trace["t"][0]),
-        touched=bool(trace.axis("f_env", axis).any()) if "f_env" in trace else None,
+        **_touched(trace, axis),
         **{column: known[name] for column, name in COLUMNS.items()},
         **{name: known[name] for name in FLAGS},
     )
+
+
+def _touched(trace: Trace, axis: int) -> dict[str, bool]:
+    """Return whether the virtual world ever acted, and whether it still did at the end."""
+    if "f_env" not in trace:
+        return {}
+    acted, t = trace.axis("f_env", axis) != 0, trace["t"]
+    end = min(LEFT_AFTER, TAIL_SHARE * float(t[-1] - t[0]))
+    return {
+        "touched": bool(acted.any()),
+        "touched_at_rest": bool(acted[t >= t[-1] - end].any()),
+    }
 
 
 def _columns(trace: Trace, name: str) -> NDArray[np.float64]:

@@ -134,6 +134,7 @@ def run(
       harder wall after 3 s; the hand goes back after 6 s. The log has the tick from which each acts.
 
     """
+    from ebac.hardware.rating import check_rating
     from ebac.hardware.schedule import Schedule
 
     if no_files and out is not None:
@@ -155,6 +156,9 @@ def run(
     shown = output.console(stderr=True).is_terminal if live is None else live
     try:
         if virtual:
+            if not beyond_rating:
+                with output.refusing():
+                    check_rating(known.limits, known.device)
             _run_virtual(known, stem, as_json, style, bus_time=bus_time)
         else:
             how = {"simulate": simulated, "detached": detached, "beyond_rating": beyond_rating}

@@ -212,6 +212,6 @@ def _lines(lines: Lines, columns: Mapping[str, object]) -> Table:
 def _verdict(contact: Contact) -> str:
     from ebac._util import formatting
 
-    words = re.sub(r" (?=by|and|not quiet)|(?<=,) ", "\n", formatting.verdict(contact))
-    good = contact.quiet and contact.exact is not False
+    words = re.sub(r" (?=by|and|not quiet)|(?<=[,:]) ", "\n", formatting.verdict(contact))
+    good = contact.quiet and contact.exact is not False and contact.touched_at_rest is not False
     return f"[{'green' if good else 'yellow' if contact.still else 'red'}]{words}[/]"
