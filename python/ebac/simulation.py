@@ -9,7 +9,7 @@ from ebac import _core
 from ebac._util.arguments import require
 from ebac._util.fault_remedies import REMEDIES
 from ebac._util.foreign_worlds import foreign
-from ebac.laws import AnyLaw, CoreLaw, design, law_name
+from ebac.laws import AnyLaw, CoreLaw, PythonLaw, design, law_name
 from ebac.scenario import Scenario
 from ebac.trace import Trace
 
@@ -135,6 +135,7 @@ def simulate(
         if limits is True:
             allowed = _core.Limits.of(scenario.device)
         setup = _core._with_loop(setup, soft_start=soft_start, limits=allowed)
+    _check_observer(finished, scenario)
     if isinstance(finished, CoreLaw):
         rows = finished._simulate(setup, through is not None, bus)
     else:
@@ -151,6 +152,17 @@ def simulate(
     if mine is not None and (remark := mine.remark()):
         warnings.warn(remark, stacklevel=2)
     return trace
+
+
+def _check_observer(law: CoreLaw | PythonLaw, scenario: Scenario) -> None:
+    """Refuse a law in Python that goes by an estimate which nothing makes."""
+    if isinstance(law, CoreLaw) or scenario.observer or not getattr(law, "observer", False):
+        return
+    name = law_name(law)
+    raise ValueError(
+        f"the law {name} has observer = True: it goes by the estimate of the state observer, which "
+        "Scenario(observer=False) turns off; leave observer=False out, or set the law's observer to False"
+    )
 
 
 def _hand_error(setup: _core.Setup) -> Exception | None:

@@ -65,3 +65,18 @@ def test_a_place_that_is_no_number_is_no_contact_and_is_forgotten(wrong: float) 
     assert not outside.force.any()
     assert np.isnan(none.force).all()
     assert inside.force == pytest.approx([10, 0, 0])
+
+
+def test_a_mesh_in_millimetres_is_warned_about_with_the_remedy(
+    recwarn: pytest.WarningsRecorder,
+) -> None:
+    trimesh.creation.icosphere(radius=20).export("ball.stl")  # 40 mm, read as metres
+    with pytest.warns(
+        UserWarning, match=r"ball\.stl: its longest side is 40 m; .*scale=0\.001"
+    ) as told:
+        Mesh("ball.stl")
+    assert told[0].filename == __file__
+    recwarn.clear()
+    for right in ({"scale": 1e-3}, {"size": 0.04}, {"scale": 2.4 / 40}):
+        Mesh("ball.stl", **right)
+    assert not recwarn.list

@@ -85,7 +85,12 @@ def test_what_a_handle_meets_at_places() -> None:
     assert outside["distance_m"] == pytest.approx(0.01)
     assert outside["force_N"] == [0, 0, 0]
     assert outside["normal"] is None
-    assert "10 0 0" in ran("worlds sphere --at 0.001,0,0")
+
+
+def test_every_number_at_a_place_has_its_unit() -> None:
+    shown = ran("worlds sphere --at 0.001,0,0")
+    for cell in ("1 0 0 mm", "-1.000 mm", "1.000 mm", "10 0 0 N", "1 0 0", "10000 N/m"):
+        assert f" {cell} " in f" {shown} ", cell
 
 
 @pytest.mark.parametrize(

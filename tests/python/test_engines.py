@@ -227,8 +227,15 @@ def test_an_engine_that_raises_in_its_thread_says_so_in_the_end() -> None:
                 thread.world.contact(np.zeros(3), np.zeros(3), time.monotonic())
                 time.sleep(1e-3)
 
-    with pytest.raises(RuntimeError, match="engine down"):
+    with pytest.raises(worlds.EngineError) as caught:
         until_it_fails()
+    said = str(caught.value)
+    assert said.startswith("the engine test_an_engine_that_raises_in_its_thread_says_so_in_the_end")
+    assert "bad raised RuntimeError: engine down; its thread ended there" in said
+    assert caught.value.__cause__ is thread.error
+    assert str(pickle.loads(pickle.dumps(worlds.EngineError(plane, RuntimeError("x"))))).startswith(
+        "the engine plane raised RuntimeError: x"
+    )
 
 
 def test_held_forces_shake_where_models_do_not() -> None:

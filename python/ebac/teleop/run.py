@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 from ebac import _core
 from ebac._core import Coupling, Free, Hand, Link, MinimumJerk, SlaveModel
-from ebac._util.arguments import unknown_name
+from ebac._util.arguments import number, require, shown, unknown_name, whole
 from ebac.laws import AnyLaw, CoreLaw, design
 from ebac.scenario import Scenario
 
@@ -261,9 +261,14 @@ def simulate(
 
     Raises
     ------
-    KeyError, ValueError
-        For a scheme, a law or a parameter that does not exist or is out of its range.
+    KeyError, TypeError, ValueError
+        For a scheme, a law or a parameter that does not exist, is of a wrong type or out of its range.
     """
+    require(scheme, (str, Scheme), "teleop.simulate", "the name of a scheme or a Scheme")
+    _check_parts(there=there, back=back, slave=slave, hand=hand, scenario=scenario)
+    seconds = number("teleop.simulate: seconds", seconds)
+    consent_after = number("teleop.simulate: consent_after", consent_after)
+    seed = whole("teleop.simulate: seed", seed)
     chosen = _chosen(scheme)
     if changes:
         chosen = chosen.changed(**changes)
@@ -300,6 +305,24 @@ def simulate(
         at_slave=at_slave,
         whole=len(columns["t"]) == ticks and not columns["fault"].any(),
     )
+
+
+#: What the parts of a run must be.
+_PARTS: Mapping[str, type] = {
+    "there": Link,
+    "back": Link,
+    "slave": SlaveModel,
+    "hand": Hand,
+    "scenario": Scenario,
+}
+
+
+def _check_parts(**given: Any) -> None:
+    """Refuse a part of a wrong type; None stands for the default."""
+    for name, value in given.items():
+        kind = _PARTS[name]
+        if value is not None and not isinstance(value, kind):
+            raise TypeError(f"teleop.simulate: {name} = {shown(value)}: must be a {kind.__name__}")
 
 
 def _chosen(given: str | Scheme) -> Scheme:

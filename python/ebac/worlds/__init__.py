@@ -25,7 +25,7 @@ from ebac._core import (
 )
 from ebac.worlds.answers import LocalModel
 from ebac.worlds.closed_forms import Puncture
-from ebac.worlds.engine_thread import EngineThread
+from ebac.worlds.engine_thread import EngineError, EngineThread
 from ebac.worlds.engines import Bridge, BridgeReport, FunctionWorld
 from ebac.worlds.force_depth import ForceDepth, force_depth
 from ebac.worlds.mesh import GridError, HeightField, Mesh
@@ -55,6 +55,7 @@ __all__ = [
     "Cylinder",
     "Difference",
     "Elastic",
+    "EngineError",
     "EngineThread",
     "EngineTiming",
     "ForceDepth",

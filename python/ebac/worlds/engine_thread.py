@@ -11,7 +11,7 @@ from ebac import _core
 from ebac._core import BridgeParams
 from ebac._util.arguments import number
 from ebac.worlds.answers import model_numbers
-from ebac.worlds.engines import BridgeReport, Engine, ForeignWorld, report_of, warning_of
+from ebac.worlds.engines import BridgeReport, Engine, ForeignWorld, named, report_of, warning_of
 
 #: Rates of an engine [Hz].
 RATES = (1.0, 1000.0)
@@ -49,12 +49,27 @@ class PostedWorld(ForeignWorld):
         return f"PostedWorld(rendering={self.rendering!r})"
 
 
+class EngineError(RuntimeError):
+    """An engine in its thread raised an error, its `__cause__`, or answered with no model."""
+
+    def __init__(self, engine: Engine, error: Exception) -> None:
+        super().__init__(engine, error)
+        self.engine, self.error = engine, error
+
+    def __str__(self) -> str:
+        """Return engine and error in one sentence."""
+        return (
+            f"the engine {named(self.engine)} raised {type(self.error).__name__}: {self.error}; its thread ended "
+            "there, and its force faded to zero"
+        )
+
+
 class EngineThread:
     """Calls an engine at a rate, in a thread of its own, beside a loop in real time.
 
     The loop never waits for it: poses go to the thread and models come back through mailboxes that hold the newest
     value. An engine that raises ends the thread; its force fades within `stale + fade`, and leaving the `with` block
-    raises the error. For an engine in another process, give a function that asks that process.
+    raises an `EngineError` that names it. For an engine in another process, give a function that asks that process.
 
     ::
 
@@ -105,8 +120,11 @@ class EngineThread:
         self._stop.set()
         if self._thread is not None:
             self._thread.join()
-        if self.error is not None and error is None:
+        if self.error is None or error is not None:
+            return
+        if not isinstance(self.error, Exception):  # an interrupt is raised as it is
             raise self.error
+        raise EngineError(self._engine, self.error) from self.error
 
     def _serve(self) -> None:
         due = time.monotonic()

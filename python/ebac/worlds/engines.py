@@ -49,7 +49,8 @@ class ForeignWorld(_core._World):
         raise NotImplementedError
 
 
-def _named(function: Any) -> str:
+def named(function: Any) -> str:
+    """Return what a function or an object that can be called goes by in messages."""
     return getattr(function, "__qualname__", None) or type(function).__name__
 
 
@@ -95,7 +96,7 @@ class FunctionWorld(ForeignWorld):
     @property
     def what(self) -> str:
         """Name for messages."""
-        return f"the world {_named(self.function)}"
+        return f"the world {named(self.function)}"
 
     def __repr__(self) -> str:
         """Return the function."""
@@ -251,7 +252,7 @@ class Bridge(ForeignWorld):
     @property
     def what(self) -> str:
         """Name for messages."""
-        return f"the engine {_named(self.engine)}"
+        return f"the engine {named(self.engine)}"
 
     def __repr__(self) -> str:
         """Return engine, timing and rendering."""

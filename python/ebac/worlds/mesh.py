@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from pathlib import Path
@@ -16,6 +17,8 @@ from ebac.worlds.part import Part
 
 #: Cells along the longest side of a mesh, unless given.
 CELLS = 96
+#: A mesh that is longer was probably drawn in millimetres, and read as metres [m].
+LONGEST = 2.5
 #: Fewest cells along it, of which one may be set: with fewer a body has another shape.
 COARSEST = 4
 
@@ -152,6 +155,11 @@ class Mesh(_Triangles):
         When it is a folder, holds no triangles, is open without a `thickness`, or a number is out of range.
     ImportError
         Without the extra.
+
+    Warns
+    -----
+    UserWarning
+        When its longest side is above 2.5 m: the file is probably in millimetres.
     """
 
     file: str
@@ -176,7 +184,13 @@ class Mesh(_Triangles):
             raise ValueError(
                 f"Mesh.thickness = {self.thickness!r} m: must be 0 or lie in [0.0001, 0.1] m"
             )
-        self.surface()
+        longest = float(np.ptp(self.surface().vertices, axis=0).max())
+        if longest > LONGEST:
+            warnings.warn(
+                f"{self.file}: its longest side is {longest:.4g} m; a file in millimetres needs scale=0.001, or "
+                "size=0.1 makes that side 0.1 m long",
+                stacklevel=3,  # past the dataclass's own constructor
+            )
 
     def surface(self) -> Surface:
         """Return the triangles in metres."""

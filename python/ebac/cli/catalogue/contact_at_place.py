@@ -22,23 +22,21 @@ def show(name: str, world: World, given: Sequence[str], *, as_json: bool) -> Non
     if as_json:
         typer.echo(output.document("worlds", rows))
         return
-    grid = output.table(
-        ["place [mm]", "distance [mm]", "depth [mm]", "force [N]", "normal", "stiffness [N/m]"]
-    )
+    grid = output.table(["place", "distance", "depth", "force", "normal", "stiffness"])
     for row in rows:
         touching = row["normal"] is not None
         grid.add_row(
-            _three(row["place_m"], 1e3),
-            f"{1e3 * row['distance_m']:.3f}",
-            f"{1e3 * row['depth_m']:.3f}",
-            _three(row["force_N"]),
+            f"{_three(row['place_m'], 1e3)} mm",
+            f"{1e3 * row['distance_m']:.3f} mm",
+            f"{1e3 * row['depth_m']:.3f} mm",
+            f"{_three(row['force_N'])} N",
             _three(row["normal"]) if touching else "-",
-            f"{row['stiffness_N_per_m']:g}" if touching else "-",
+            f"{row['stiffness_N_per_m']:g} N/m" if touching else "-",
         )
     output.show(grid)
     output.say(
-        "Distance to the nearest surface, negative inside. Force as the handle presses, at rest; normal into the body. "
-        "The handle comes from the origin, slowly and straight."
+        "Distance to the nearest surface, negative inside. Force as the handle presses, at rest; normal into the body, "
+        "of length 1. The handle comes from the origin, slowly and straight."
     )
 
 
