@@ -197,8 +197,8 @@ def test_a_study_resumes(tmp_path: Path, few: Study) -> None:
 
 
 def test_what_is_no_condition_is_refused() -> None:
-    with pytest.raises(ValueError, match="condition d1K11: no such name, did you mean 'd1K1"):
-        study(FEW, "tca", ["d1K11"])
+    with pytest.raises(ValueError, match="condition d1L10: no such name, did you mean 'd1K1"):
+        study(FEW, "tca", ["d1L10"])
     with pytest.raises(ValueError, match="no condition given"):
         study(FEW, "tca", [])
     free = ebac.Scenario(environment=ebac.Free())
@@ -285,7 +285,17 @@ def test_resume_continues_in_a_folder_of_runs_only(tmp_path: Path, hands_csv: Pa
     assert "mine has files but no runs of `ebac study` (sweep/sweep.json)" in text
     assert "leave --resume out" in text
     assert [file.read_text() for file in mine.iterdir()] == ["mine"]
-    command(*words, tmp_path / "new")
+    empty = tmp_path / "empty"
+    empty.mkdir()
+    for nothing, says in (
+        (empty, "is empty and has no runs"),
+        (tmp_path / "new", "does not exist"),
+    ):
+        text = " ".join(command(*words, nothing, code=2).output.split())
+        assert f"{nothing.name} {says}" in text
+        assert "leave --resume out to start in a new folder" in text
+    assert not (tmp_path / "new").exists()
+    command(*(word for word in words if word != "--resume"), tmp_path / "new")
     other = command(*words[:3], "eba", *words[4:], tmp_path / "new", code=2).output
     assert "--force instead of --resume to start anew" in " ".join(other.split())
 

@@ -174,7 +174,7 @@ def test_a_law_in_python_can_be_searched() -> None:
         ({"seed": -1}, "seed = -1: must lie in"),
         ({"pull": 0.0}, r"pull = 0 N: must lie in \[0.001, 1000\] N"),
         ({"family": ["impct"]}, "family impct: no such name, did you mean 'impact'"),
-        ({"condition": "d1K11"}, "condition d1K11: no such name"),
+        ({"condition": "d1L10"}, "condition d1L10: no such name"),
         ({"condition": "five"}, "condition five: stands for d1K10, "),
         ({"condition": "tremor-9Hz"}, "condition tremor-9Hz: changes the hand"),
         ({"condition": "pumping"}, "condition pumping: changes the hand"),

@@ -169,11 +169,15 @@ def free_folder(out: Path, *, force: bool) -> Path:
 
 
 def _resumed(out: Path, command: str, runs: str) -> Path:
-    """Return a folder that is new, empty or holds such runs; one that holds something else ends the command."""
-    if _has_files(out) and not (out / runs / "sweep.json").is_file():
+    """Return a folder that holds such runs; one without them ends the command."""
+    if not (out / runs / "sweep.json").is_file():
+        if _has_files(out):
+            has = "has files but"
+        else:
+            has = "is empty and has" if out.is_dir() else "does not exist: there are"
         output.fail(
-            f"--resume: {out} has files but no runs of `ebac {command}` ({runs}/sweep.json); give the folder of the "
-            f"stopped {command} with --out, or leave --resume out to start in a new folder"
+            f"--resume: {out} {has} no runs of `ebac {command}` ({runs}/sweep.json) to continue; give the folder of "
+            f"the stopped {command} with --out, or leave --resume out to start in a new folder"
         )
     return out
 

@@ -167,6 +167,10 @@ class DeviceOptions:
         float | None,
         option(text="Noise of the force sensor, standard deviation [N]", default="0", panel=DEVICE),
     ] = None
+    device_coulomb: Annotated[
+        float | None,
+        option(text="Coulomb friction of the device [N]", default="0", panel=DEVICE),
+    ] = None
     device_permille: Annotated[
         bool | None,
         option(
@@ -240,7 +244,8 @@ def _scenario_of(given: dict[str, Any], seconds: float | None) -> Scenario:
     return base.replace(
         device=setting.choose_device(
             base.device, given.get("device"),
-            noise=given.get("device_noise"), permille=given.get("device_permille"),
+            noise=given.get("device_noise"), coulomb=given.get("device_coulomb"),
+            permille=given.get("device_permille"),
         ),
         hand=hand_of(base.hand, given),
         environment=setting.choose_engine(wall_of(base.environment, given), given),

@@ -49,6 +49,11 @@ def fail(message: str, *, code: int = BAD_INPUT) -> NoReturn:
     raise typer.Exit(code)
 
 
+def note(message: str) -> None:
+    """Print one sentence on stderr that the user should know, and go on."""
+    console(stderr=True).print(f"[bold]Note:[/] {_plain(message)}.", soft_wrap=True)
+
+
 def _plain(text: str) -> str:
     from rich.markup import escape
 

@@ -31,6 +31,7 @@ OPTIONS = {
     "MinimumJerk.target": "--hand-target",
     "Tapping.target": "--hand-target",
     "ForceSensor.noise": "--device-noise",
+    "Mechanics.coulomb": "--device-coulomb",
     "Timing.delay": "--delay",
     "Scenario.jitter": "--jitter",
     "Scenario.seconds": "--seconds",
@@ -74,7 +75,21 @@ def law_names(given: Sequence[str], option: str = "--law") -> list[str]:
         if name not in known and name != "all":
             raise ValueError(unknown(f"{option} {word}", name, [*known, "all"], "law"))
         names += LAWS if name == "all" else [name]
-    return list(dict.fromkeys(names))
+    chosen = list(dict.fromkeys(names))
+    _tell_tuned([name for name in chosen if name not in LAWS])
+    return chosen
+
+
+def _tell_tuned(names: Sequence[str]) -> None:
+    """Say on stderr what a law with tuned parameters is."""
+    from ebac.cli import output
+
+    for name in names:
+        law, _, end = name.partition("-tuned")
+        how = ", acting on the observer's estimate: use it with --observer-every-law" if end else ""
+        output.note(
+            f"{name} is {law} with the parameters that `ebac tune` found for the reference device at 1 kHz{how}"
+        )
 
 
 def _words(given: Sequence[str], option: str) -> list[str]:
@@ -90,15 +105,23 @@ def _words(given: Sequence[str], option: str) -> list[str]:
 
 def condition_names(given: Sequence[str]) -> list[str]:
     """Return the conditions and groups of lists with commas."""
-    from ebac.studies import CONDITIONS, GROUPS
-    from ebac.studies.conditions import ALIASES
+    from ebac.studies import conditions
 
     names = _words(given, "--condition")
     for name in names:
-        if name not in CONDITIONS and name not in GROUPS and name not in ALIASES:
-            every = [*GROUPS, *CONDITIONS]
-            raise ValueError(unknown(f"--condition {name}", name, every, "condition"))
+        try:
+            conditions([name])
+        except ValueError as error:
+            raise ValueError(f"--{error}") from None
     return names
+
+
+def one_condition(name: str) -> str:
+    """Return a condition by its name, where there can be one only; a group is refused by who searches."""
+    names = condition_names([name])
+    if len(names) != 1:
+        raise ValueError(f"--condition {name}: one condition only; give one of {', '.join(names)}")
+    return names[0]
 
 
 def parse_change(text: str) -> dict[str, Any]:
@@ -250,13 +273,20 @@ def choose_hand(
 
 
 def choose_device(
-    device: Device, name: str | None, *, noise: float | None = None, permille: bool | None = None
+    device: Device,
+    name: str | None,
+    *,
+    noise: float | None = None,
+    coulomb: float | None = None,
+    permille: bool | None = None,
 ) -> Device:
-    """Return the device of that name, or `device`, with sensor noise [N] and drive as given."""
+    """Return the device of that name, or `device`, with sensor noise [N], Coulomb friction [N] and drive as given."""
     chosen = known_device(name) if name is not None else device
     changes: dict[str, Any] = {}
     if noise is not None:
         changes["sensor"] = chosen.sensor.replace(noise=noise)
+    if coulomb is not None:
+        changes["mechanics"] = chosen.mechanics.replace(coulomb=coulomb)
     if permille is not None:
         changes["drive"] = chosen.drive.replace(permille=permille)
     return chosen.replace(**changes) if changes else chosen

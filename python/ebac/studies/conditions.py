@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from ebac._util.arguments import require, unknown
 from ebac.hands import FingerPad, LetGo, NonlinearGrip, Reflex
 from ebac.studies import scenario_changes as to
+from ebac.studies.condition_grammar import GRAMMAR, written_out
 from ebac.studies.scenario_changes import Belief, Change
 
 if TYPE_CHECKING:
@@ -230,10 +231,12 @@ GROUPS: dict[str, tuple[str, ...]] = {
 def conditions(names: Iterable[str | Condition]) -> list[Condition]:
     """Return conditions by name or group, each once, in the order asked; a Condition stands for itself.
 
+    A name such as d2b1K15 that is none of `CONDITIONS` is understood, too: see `written_out`.
+
     Raises
     ------
     ValueError
-        For a name that is neither; suggests the nearest.
+        For a name that is none of these; suggests the nearest.
     """
     found: dict[str, Condition] = {}
     require(names, Iterable, "ebac.study", "conditions by name")
@@ -241,10 +244,22 @@ def conditions(names: Iterable[str | Condition]) -> list[Condition]:
         if isinstance(name, Condition):
             found[name.name] = name
             continue
-        if name not in CONDITIONS and name not in GROUPS and name not in ALIASES:
-            raise ValueError(
-                unknown(f"condition {name}", name, [*GROUPS, *CONDITIONS], "condition")
-            )
-        for one in GROUPS.get(name, (ALIASES.get(name, name),)):
-            found[one] = CONDITIONS[one]
+        for one in _named(name):
+            found[one.name] = one
     return list(found.values())
+
+
+def _named(name: str) -> list[Condition]:
+    """Return the conditions that a name stands for."""
+    if name in GROUPS:
+        return [CONDITIONS[one] for one in GROUPS[name]]
+    known = CONDITIONS.get(ALIASES.get(name, name))
+    if known is not None:
+        return [known]
+    numbers = written_out(name)
+    if numbers is None:
+        near = unknown(f"condition {name}", name, [*GROUPS, *CONDITIONS], "condition")
+        raise ValueError(f"{near}; {GRAMMAR}")
+    delay, damping, kilo = numbers
+    canonical = f"d{delay}b{damping:g}K{kilo:g}"
+    return [CONDITIONS.get(canonical) or _cell(canonical, delay, damping, kilo)]

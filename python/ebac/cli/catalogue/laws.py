@@ -83,7 +83,11 @@ def _show_all(rows: list[dict[str, Any]]) -> None:
         grid.add_row(row["law"], row["what"], "yes" if row["passive"] else "no", names)
     output.show(grid)
     output.say("passive: proven for every hand and wall, given true damping, delay, lag and count.")
-    output.say(f"With parameters tuned for the reference device: {', '.join(tuned_laws())}.")
+    output.say(f"Tuned: {', '.join(tuned_laws())}.")
+    output.say(
+        "LAW-tuned is LAW with the parameters that `ebac tune` found for the reference device at 1 kHz; "
+        "LAW-tuned-observer the same for use with --observer-every-law."
+    )
     output.say("`ebac laws NAME` shows one in detail.")
 
 

@@ -12,13 +12,16 @@ from ebac.cli import output
 def conditions(as_json: output.AsJson = False) -> None:
     """List the conditions of a study and their groups.
 
-    A name such as d1b2K10 stands for 1 sample of delay, device damping 2 N s/m, and a wall of 10 kN/m.
+    A name such as d1b2K10 stands for 1 sample of delay, device damping 2 N s/m, and a wall of 10 kN/m. Any other
+    numbers may be written in their places where a condition is asked for: d2b0.5K15, or d2K15 with 2 N s/m.
 
     **Examples**
 
     * `ebac conditions`
 
     * `ebac study --condition five --law ebac`: the five of one group
+
+    * `ebac study --condition d2K15 --law ebac`: 2 samples of delay, 15 kN/m
     """
     from ebac.studies import CONDITIONS, GROUPS
 

@@ -9,7 +9,7 @@ import typer
 
 from ebac.cli import options, output, setting
 from ebac.cli.files import PANEL, ResultOptions
-from ebac.cli.studies import study_results
+from ebac.cli.studies import replaced, study_results
 
 if TYPE_CHECKING:
     from ebac.operators import Operators
@@ -53,7 +53,8 @@ def study(
     condition: Annotated[
         list[str] | None,
         options.conditions(
-            "A condition or a group of them, see `ebac conditions`; several with commas between.",
+            "A condition or a group of them, see `ebac conditions`, or one written out, as d2K15; several with commas "
+            "between.",
             panel=_WHAT,
             default="d1K10",
         ),
@@ -97,6 +98,7 @@ def study(
             "seed": seed,
             "threads": threads,
         }
+        replaced.tell(given["base"], given["conditions"])
     folder = to.folder("study", as_json=as_json, resume=study_results.BUNDLES * resume)
     found = _run(people, names, given, folder, resume, quiet=as_json)
     to.report(

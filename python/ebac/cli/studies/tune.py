@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from ebac.cli import completion, options, output, setting
+from ebac.cli.studies import replaced
 
 if TYPE_CHECKING:
     from ebac.studies import Tuned
@@ -80,6 +81,7 @@ def tune(
             names = [name for name in names if name in RANGES]
         wanted = setting.condition_names(condition or TUNING_CONDITIONS)
         base = options.scenario_of(device, length)
+        replaced.tell(base, wanted)
         training = Operators.sample(hands, HANDS_SEED)
         for name in names:
             with output.counting(f"tuning {name}", quiet=as_json) as progress:

@@ -9,6 +9,7 @@ import typer
 
 from ebac.cli import options, output, setting
 from ebac.cli.files import ResultOptions
+from ebac.cli.studies import replaced
 
 if TYPE_CHECKING:
     from ebac.studies import Worst, WorstHand
@@ -32,7 +33,8 @@ def worst(
     condition: Annotated[
         str,
         options.conditions(
-            "A condition of device, timing or wall, see `ebac conditions`.", panel=_WHAT
+            "A condition of device, timing or wall, see `ebac conditions`, or one written out, as d2K15.",
+            panel=_WHAT,
         ),
     ] = "d1K10",
     family: Annotated[
@@ -80,7 +82,8 @@ def worst(
         name = setting.one_law(law)
         chosen = Variant(name, setting.parse_change(change)) if change else name
         base = options.scenario_of(device, length)
-        [wanted] = setting.condition_names([condition])
+        wanted = setting.one_condition(condition)
+        replaced.tell(base, [wanted])
         families = [word for text in family or [] for word in output.words(text)]
         folder = to.folder("worst", as_json=as_json)
         output.keeping(

@@ -1,0 +1,100 @@
+"""Conditions that are written out, and what the command line says of conditions and laws that were named."""
+
+from pathlib import Path
+
+import pytest
+from typer.testing import CliRunner
+
+import ebac
+from ebac.cli import app
+from ebac.studies import CONDITIONS, conditions
+
+
+def told(*words: str, code: int = 0) -> str:
+    """Return what a command says on stderr, in one line."""
+    done = CliRunner().invoke(app, [*words])
+    assert done.exit_code == code, done.output
+    return " ".join(done.stderr.split())
+
+
+def test_a_condition_that_is_written_out_is_what_it_says() -> None:
+    (made,) = conditions(["d2b0.5K15"])
+    scenario = made.change(ebac.Scenario())
+    assert scenario.timing.delay == 2
+    assert scenario.device.mechanics.damping == 0.5
+    assert scenario.environment == ebac.Wall(stiffness=15e3)
+    assert made.summary == "2 samples of delay, device damping 0.5 N s/m, wall 15 kN/m"
+
+
+@pytest.mark.parametrize(
+    ("written", "name"),
+    [
+        ("d2K15", "d2b2K15"),
+        ("d2K20", "d2b2K20"),
+        ("d1b2.0K10", "d1b2K10"),
+        ("d3b4K0.5", "d3b4K0.5"),
+        ("d1K10", "d1K10"),
+    ],
+)
+def test_a_condition_has_one_name(written: str, name: str) -> None:
+    (made,) = conditions([written, name])
+    assert made.name == name
+    assert made is CONDITIONS.get(name, made)
+
+
+@pytest.mark.parametrize("command", ["study", "worst", "tune tca-damped"])
+def test_an_error_teaches_how_a_condition_is_written(command: str) -> None:
+    text = told(*command.split(), "-c", "d2M15", code=2)
+    assert "--condition d2M15: no such name" in text
+    assert "`ebac conditions` lists all" in text
+    assert "or write one out, as d2b1K15: 2 samples of delay, device damping 1 N s/m" in text
+    text = told(*command.split(), "-c", "d2K99999", code=2)
+    assert "--condition d2K99999: Wall.stiffness = 99999000 N/m: must lie in [0, 1e+07] N/m" in text
+
+
+def test_a_search_takes_one_condition() -> None:
+    assert "--condition d1K10,d2K15: one condition only" in told(
+        "worst", "-c", "d1K10,d2K15", code=2
+    )
+
+
+def test_a_study_runs_under_a_condition_that_is_written_out(tmp_path: Path) -> None:
+    hands = tmp_path / "hands.csv"
+    hands.write_text("m_kg,b_Ns_per_m,k_N_per_m,target_m\n0.15,6,300,0.04\n")
+    done = CliRunner().invoke(
+        app, ["study", "--population", str(hands), "-l", "ebac", "-c", "d2K15", "--json"]
+    )
+    assert '"condition": "d2b2K15"' in done.stdout
+
+
+def test_a_note_says_what_a_condition_replaces_of_a_scenario(tmp_path: Path) -> None:
+    file, hands = tmp_path / "mine.toml", tmp_path / "hands.csv"
+    hands.write_text("m_kg,b_Ns_per_m,k_N_per_m,target_m\n0.15,6,300,0.04\n")
+    study = ("study", "--population", str(hands), "-l", "tca", "--json", "--scenario", str(file))
+    mine = ebac.Scenario(
+        environment=ebac.Wall(stiffness=3e3, damping=4),
+        timing=ebac.Timing(delay=3),
+        device=ebac.Device(mechanics=ebac.Mechanics(damping=5, coulomb=0.2)),
+    )
+    mine.save(file)
+    text = told(*study, "-c", "d2K15")
+    assert text == (
+        "Note: of the scenario condition d2K15 replaces device.mechanics.damping = 5 N s/m by 2; "
+        "environment.stiffness = 3000 N/m by 15000; timing.delay = 3 samples by 2."
+    )
+    text = told(*study, "-c", "d1K10,d3b5K10")
+    assert "the conditions replace device.mechanics.damping = 5 N s/m by 2; " in text
+    assert "environment.stiffness = 3000 N/m by 10000" in text
+    assert "timing.delay = 3 samples by 1." in text
+    ebac.Scenario(seconds=3).save(file)
+    assert told(*study) == ""
+
+
+def test_a_law_with_tuned_parameters_is_explained() -> None:
+    wall = ("wall", "--no-files", "--seconds", "0.1", "--law")
+    text = told(*wall, "tca-damped-tuned,ebac")
+    assert "Note: tca-damped-tuned is tca-damped with the parameters that `ebac tune` found" in text
+    assert "--observer-every-law" not in text
+    text = told(*wall, "tca-damped-tuned-observer", "--observer-every-law")
+    assert "acting on the observer's estimate: use it with --observer-every-law" in text
+    assert "Note" not in told(*wall, "ebac")
