@@ -31,6 +31,7 @@ from ebac._core import (
 from ebac._util import serialisation
 from ebac._util.arguments import keywords_only, refuse_unknown, require, require_path
 from ebac._util.foreign_worlds import foreign
+from ebac._util.mesh_paths import seen_from, seen_from_here
 from ebac._util.text_file import read_text
 from ebac._util.toml import parsed
 from ebac.hands import as_hand, is_own
@@ -187,8 +188,14 @@ class Scenario:
         refuse_unknown("Scenario", changes, _PARTS, _part_of)
         return dataclasses.replace(self, **changes)
 
-    def to_toml(self) -> str:
+    def to_toml(self, *, folder: str | Path | None = None) -> str:
         """Return the scenario as TOML text, SI units throughout.
+
+        Parameters
+        ----------
+        folder : path, optional
+            Where it will lie: the file of a mesh below it is named from there, any other by its whole path; default:
+            as the mesh names it.
 
         Raises
         ------
@@ -212,11 +219,21 @@ class Scenario:
         values = {f.name: getattr(self, f.name) for f in dataclasses.fields(self)}
         numbers = {k: v for k, v in values.items() if isinstance(v, (int, float, str))}
         parts = {k: serialisation.to_document(v) for k, v in values.items() if k not in numbers}
-        return "# ebac scenario; SI units throughout\n" + tomli_w.dumps(numbers | parts)
+        document = numbers | parts
+        if folder is not None:
+            document = seen_from(document, Path(folder))
+        return "# ebac scenario; SI units throughout\n" + tomli_w.dumps(document)
 
     @classmethod
-    def from_toml(cls, text: str) -> Self:
+    def from_toml(cls, text: str, *, folder: str | Path | None = None) -> Self:
         """Read a scenario from TOML text; what is not named keeps its default.
+
+        Parameters
+        ----------
+        text : str
+            TOML.
+        folder : path, optional
+            Where the document lies, from which the file of a mesh is named; default: the working directory.
 
         Raises
         ------
@@ -228,18 +245,20 @@ class Scenario:
             table = parsed(text)
         except ValueError as error:
             raise ValueError(f"not a TOML document: {error}") from None
+        if folder is not None:
+            table = seen_from_here(table, Path(folder))
         try:
             return cls(**serialisation.read_table(table, dataclasses.fields(cls), "scenario"))
         except TypeError as error:
             raise ValueError(str(error)) from None
 
     def save(self, path: str | Path) -> None:
-        """Write the scenario to a TOML file."""
-        Path(path).write_text(self.to_toml(), encoding="utf-8")
+        """Write the scenario to a TOML file. The file of a mesh below its folder is named from there."""
+        Path(path).write_text(self.to_toml(folder=Path(path).parent), encoding="utf-8")
 
     @classmethod
     def load(cls, path: str | Path) -> Self:
-        """Read a scenario from a TOML file.
+        """Read a scenario from a TOML file. The file of a mesh is named from the folder of the TOML file.
 
         Raises
         ------
@@ -250,7 +269,7 @@ class Scenario:
         """
         require_path(path, "Scenario.load")
         try:
-            return cls.from_toml(read_text(path))
+            return cls.from_toml(read_text(path), folder=Path(path).parent)
         except ValueError as error:
             raise ValueError(f"{path}: {error}") from None
 

@@ -148,3 +148,37 @@ def test_more_triangles_make_the_same_grid(tmp_path: Path) -> None:
     one, other = (distance(Mesh(str(file), cell=1e-3), points)[0] for file in (fine, coarse))
     assert np.abs(one - other).max() < 6e-5
     assert Placed(Mesh(str(coarse)), (0.02, 0, 0)).at == (0.02, 0, 0)
+
+
+def test_the_file_of_a_mesh_is_named_from_its_document(
+    cube: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    scenario = ebac.Scenario(environment=World(Mesh(str(cube), cell=2e-3)), seconds=0.1)
+    file = cube.parent / "scenario.toml"
+    scenario.save(file)
+    assert f'file = "{cube.name}"' in file.read_text()
+    there = tmp_path / "there"
+    monkeypatch.chdir(cube.parent)
+    cube.parent.joinpath("other").mkdir()
+    monkeypatch.chdir("other")
+    assert ebac.Scenario.load(file) == scenario
+    assert (
+        ebac.Scenario.load("../scenario.toml").environment.bodies[0].solid.file.endswith(cube.name)
+    )
+    there.mkdir()
+    scenario.save(there / "scenario.toml")  # the mesh lies elsewhere: by its whole path
+    assert ebac.Scenario.load(there / "scenario.toml") == scenario
+    with pytest.raises(FileNotFoundError):
+        ebac.Scenario.from_toml(file.read_text())  # text has no folder
+
+
+def test_the_file_of_a_mesh_is_named_from_a_configuration(cube: Path) -> None:
+    example = (Path(__file__).parents[2] / "examples" / "joystick.toml").read_text(encoding="utf-8")
+    begin, end = example.index("[environment]"), example.index("[law]")
+    body = (
+        f'[[environment.bodies]]\nsolid = {{ type = "Mesh", file = "{cube.name}", cell = 2e-3 }}\n'
+    )
+    file = cube.parent / "mine.toml"
+    file.write_text(f'{example[:begin]}[environment]\ntype = "World"\n{body}\n{example[end:]}')
+    world = ebac.hardware.Configuration.load(file).environment
+    assert world.bodies[0].solid.file == str(cube)

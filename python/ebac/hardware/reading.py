@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from ebac import presets
 from ebac._core import Device, Hand, Limits, Observer, RealTime, TimedBus, Timing
+from ebac._util.mesh_paths import seen_from_here
 from ebac._util.serialisation import from_document
 from ebac.drives.errors import ProfileError
 from ebac.drives.toml_positions import Source
@@ -174,7 +175,7 @@ def _observer(source: Source, values: Mapping[str, Any]) -> Observer | bool:
 
 
 def _environment(source: Source) -> Environment:
-    found = table(source, ("environment",))
+    found = seen_from_here(table(source, ("environment",)), Path(source.name).parent)
     made: Environment = refusing(
         source, ("environment",), lambda: from_document("environment", found, "environment")
     )

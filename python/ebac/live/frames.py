@@ -16,7 +16,7 @@ from ebac.hardware.lateness import BY_MOTION
 from ebac.live.choices import options
 from ebac.live.session import Session
 from ebac.live.surface import surface
-from ebac.metrics.wall_contact import STILL_SWING
+from ebac.metrics.wall_contact import LEFT_AFTER, STILL_SWING
 from ebac.scenario import Environment
 from ebac.trace.columns import row_views
 
@@ -39,6 +39,7 @@ class Frames:
         self._seen = 0
         self._judged = -1e9
         self._verdict: dict[str, str] = {}
+        self._touched = False
         self._late: NDArray[np.float64] = np.empty(0)
         self._skipped = 0
         self._world: Environment | None = None
@@ -80,7 +81,7 @@ class Frames:
             "target": session.hand.place,
         }
         if run is not self._run:
-            self._run, self._seen, self._skipped = run, 0, 0
+            self._run, self._seen, self._skipped, self._touched = run, 0, 0, False
             self._late = np.empty(0)
         if run is None:
             return found | {"state": "rest", "verdict": self._words(None)}
@@ -90,6 +91,7 @@ class Frames:
         self._seen = stop
         if len(raw):
             view = row_views(rows, raw)
+            self._touched = self._touched or bool(np.any(view["f_env"]))
             self._skipped += int(view["skipped"].sum())
             self._late = np.concatenate([self._late, view["lateness"]])[-2000:]
             found |= {
@@ -140,7 +142,7 @@ class Frames:
         if run.done:
             by = "" if run.report is None else f" Ended by: {run.report.ended_by}."
             return {"kind": "free", "head": "At rest", "more": f"The drives have no power.{by}"}
-        return verdict(run)
+        return verdict(run, touched=self._touched)
 
     def _remedy(self, fault: Fault) -> str:
         if fault in BY_MOTION and not self._session.real:
@@ -176,16 +178,24 @@ def strips(view: Any, first: int, dt: float) -> dict[str, Any]:
     return found
 
 
-def verdict(run: Run) -> dict[str, str]:
-    """Return what the last seconds were like: `kind` good, fair, bad or free, a headline, a sentence behind it."""
+def verdict(run: Run, *, touched: bool = False) -> dict[str, str]:
+    """Return what the last seconds were like: `kind` good, fair, bad or free, a headline, a sentence behind it.
+
+    `touched`: whether the world ever acted in this run.
+    """
     tail = run.tail(round(JUDGED / _dt(run)))
     acts = tail["state"] == LoopState.RUN
     if acts.sum() * _dt(run) < 0.5:
         return {"kind": "free", "head": "Starting", "more": "The force comes in."}
-    touched = [k for k in range(tail.axes) if np.abs(tail.axis("f_env", k)[acts]).max() > 0]
-    if not touched:
-        return {"kind": "free", "head": "Free air", "more": "Drag the hand into the world."}
-    worst = max((_measured(tail, k, acts) for k in touched), key=lambda one: one["swing"])
+    last = round(LEFT_AFTER / _dt(run))
+    met = [k for k in range(tail.axes) if tail.axis("f_env", k)[acts][-last:].any()]
+    if not met:
+        drag = "Drag the hand into the world."
+        if touched:
+            more = f"The handle left the surface. {drag}"
+            return {"kind": "free", "head": "No contact at rest", "more": more}
+        return {"kind": "free", "head": "Free air", "more": drag}
+    worst = max((_measured(tail, k, acts) for k in met), key=lambda one: one["swing"])
     if not worst["swing"] < STILL_SWING:
         at = worst["limit_cycle"]
         often = f" at {at:.0f} Hz" if np.isfinite(at) else ""

@@ -43,7 +43,9 @@ class SessionFiles(SessionParts):
         with self._lock:
             path = self._new(".toml")
             with path.open("x", encoding="utf-8") as file:
-                file.write(f"# law: {self.choices.law}\n{self.scenario.to_toml()}")
+                file.write(
+                    f"# law: {self.choices.law}\n{self.scenario.to_toml(folder=path.parent)}"
+                )
             self.kept.append(path)
             return path
 

@@ -142,7 +142,11 @@ def _show(found: ZWidth) -> None:
     from ebac._util import formatting
     from ebac.studies.zwidth import CRITERIA
 
-    grid = output.table(["delay", "law", *CRITERIA], numbers=range(2, 2 + len(CRITERIA)))
+    output.say(
+        "Area of the walls that each law renders: stiffness times damping, in kN/m N s/m",
+        style="bold",
+    )
+    grid = output.table(["delay \\[samples]", "law", *CRITERIA], numbers=range(2, 2 + len(CRITERIA)))
     for number, delay in enumerate(found.delays):
         if number:
             grid.add_section()
@@ -154,8 +158,8 @@ def _show(found: ZWidth) -> None:
     output.show(grid)
     full, most = found.top / 1e3, found.dampings[-1]
     output.say(
-        f"Area under the border in kN/m N s/m, both axes linear, up to {full:g} kN/m and {most:g} N s/m: "
-        f"{full * most:.0f} is all of it. In brackets, times that of direct."
+        f"Both axes are linear, up to {full:g} kN/m and {most:g} N s/m: {full * most:.0f} kN/m N s/m is all of it. In "
+        "brackets, times that of direct."
     )
     output.say(
         "Simulation. Wall stiffness, wall damping and delay vary; everything else as in:",

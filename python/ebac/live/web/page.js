@@ -153,6 +153,7 @@ export class Page {
       return;
     }
     this.fault = 0;
+    this.touched = false;
     this.fresh();
     for (const button of this.lawsAt.querySelectorAll("button")) {
       button.setAttribute("aria-pressed", button.dataset.law === this.law);
@@ -180,6 +181,7 @@ export class Page {
       this.frame.least = Math.min(this.frame.least, made.x[k]);
       this.frame.most = Math.max(this.frame.most, made.x[k]);
     }
+    this.touched ||= made.f_env.some((force) => force !== 0);
     this.ticks += made.rows;
     this.fault = made.fault;
     if (this.speed === 1) this.sound.play(made.f_applied, 1e-3);
@@ -243,7 +245,7 @@ export class Page {
     if (this.fault !== 0) said = { kind: "bad", head: `Fault ${this.fault}`, more: "The loop stopped; start it again." };
     else if (!waits) {
       measured = this.core.measure();
-      said = verdict(measured, this.ideal());
+      said = verdict(measured, this.ideal(), this.touched);
     }
     this.measured = measured;
     this.rippleAt.textContent = measured ? quantity(measured.force_swing, "N") : "–";

@@ -62,7 +62,7 @@ async function render({ model, el }) {
       const landmarks = { surface: position, ...(ideal === null ? {} : { "ideal wall": ideal }) };
       const colour = facts.colours[model.get("law")] ?? "#555555";
       strips(canvas, panels(columns, landmarks, colour, LIGHT), { from: 0, to: facts.seconds, theme: LIGHT });
-      const { head, more } = verdict(core.measure(), ideal);
+      const { head, more } = verdict(core.measure(), ideal, columns.f_env.some((force) => force !== 0));
       said.textContent = fault ? `Fault ${fault}: the loop stopped.` : `${head}. ${more}`;
       model.set("verdict", said.textContent);
       model.set("error", "");

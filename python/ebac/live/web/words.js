@@ -21,9 +21,13 @@ export function idealRest({ stiffness, position, hand, target }) {
   return target > position ? (hand * target + stiffness * position) / (hand + stiffness) : null;
 }
 
-/** A verdict: `kind` good, fair or bad, a headline and a sentence behind it. */
-export function verdict(measured, ideal) {
-  if (ideal === null) return { kind: "free", head: "Free air", more: "Drag the hand into the wall." };
+/** A verdict: `kind` good, fair, bad or free, a headline and a sentence behind it; `touched`: whether the wall ever acted. */
+export function verdict(measured, ideal, touched) {
+  if (ideal === null) {
+    return touched
+      ? { kind: "free", head: "No contact at rest", more: "The handle left the surface. Drag the hand into the wall." }
+      : { kind: "free", head: "Free air", more: "Drag the hand into the wall." };
+  }
   const { swing, rest, perceived, limit_cycle: frequency } = measured;
   if (!measured.still) {
     const at = Number.isFinite(frequency) ? ` at ${quantity(frequency, "Hz", 2)}` : "";
