@@ -11,7 +11,8 @@
 from ebac._core import Coupling, Link, SlaveModel
 from ebac._core import TeleopPacket as Packet
 from ebac.teleop.endurance import Endurance, endurance
-from ebac.teleop.run import SCHEMES, Run, Scheme, scheme, simulate
+from ebac.teleop.run import Run, simulate
+from ebac.teleop.schemes import SCHEMES, Scheme, scheme
 from ebac.teleop.study import CONTACTS, DELAYS, NETWORKS, Study, StudyRow, study, tuned
 
 __all__ = [

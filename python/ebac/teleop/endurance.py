@@ -16,7 +16,7 @@ from tempfile import TemporaryFile
 from typing import IO, Any
 
 from ebac._core import Link
-from ebac.teleop.run import scheme as scheme_of
+from ebac.teleop.schemes import scheme as scheme_of
 
 #: Values of memory that are not judged: a process starts.
 STARTED = 10

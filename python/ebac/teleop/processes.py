@@ -10,7 +10,7 @@ from ebac._core import Link, SlaveModel
 from ebac._util.reach import check_reach
 from ebac.laws import CoreLaw, PythonLaw
 from ebac.scenario import Scenario
-from ebac.teleop.run import Scheme
+from ebac.teleop.schemes import Scheme
 
 #: What the states of a side mean.
 STATES = (

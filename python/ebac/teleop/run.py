@@ -10,10 +10,11 @@ import numpy as np
 import numpy.typing as npt
 
 from ebac import _core
-from ebac._core import Coupling, Free, Hand, Link, MinimumJerk, SlaveModel
+from ebac._core import Free, Hand, Link, MinimumJerk, SlaveModel
 from ebac._util.arguments import number, require, shown, unknown_name, whole
 from ebac.laws import AnyLaw, CoreLaw, design
 from ebac.scenario import Scenario
+from ebac.teleop.schemes import Scheme, chosen_scheme
 
 #: Swing below which the stick is still, peak to peak [m], as everywhere in `ebac`.
 STILL = 0.25e-3
@@ -23,96 +24,6 @@ NO_REST = 5e-3
 SPARE = 1e-3
 #: Share of a run at its end over which rest and swing are taken.
 TAIL = 0.3
-POSITION_FORCE, PASSIVITY, WAVES = 0, 1, 2
-
-
-@dataclass(frozen=True, kw_only=True)
-class Scheme:
-    """How master and slave are coupled, and the law of the master.
-
-    Attributes
-    ----------
-    name : str
-        Its name.
-    law : str
-        Of the master, by name.
-    coupling : Coupling
-        What goes over the network, and its parameters.
-    summary : str
-        One line.
-    """
-
-    name: str
-    law: str
-    coupling: Coupling
-    summary: str
-
-    def changed(self, **changes: Any) -> Scheme:
-        """Return the same with parameters of the coupling changed."""
-        return Scheme(
-            name=self.name,
-            law=self.law,
-            coupling=self.coupling.replace(**changes),
-            summary=self.summary,
-        )
-
-
-#: The schemes by name, with the parameters that `ebac teleop study --tune` finds for a rough network.
-SCHEMES: Mapping[str, Scheme] = {
-    name: Scheme(name=name, law=law, coupling=coupling, summary=summary)
-    for name, law, coupling, summary in (
-        (
-            "position-force",
-            "direct",
-            Coupling(scheme=POSITION_FORCE, measured=True),
-            "position there, measured force back, nothing that keeps it passive",
-        ),
-        (
-            "master-passivity",
-            "passivity-control",
-            Coupling(scheme=POSITION_FORCE, measured=True),
-            "the same, with passivity control at the master alone",
-        ),
-        (
-            "two-port-passivity",
-            "direct",
-            Coupling(
-                scheme=PASSIVITY,
-                injection=10,
-                catch_up=0.005,
-                stiffness=500,
-                reserve=1e-3,
-                buffer=0.015,
-            ),
-            "passivity observers and controllers at both ports (Ryu, Artigas, Preusche 2010)",
-        ),
-        (
-            "waves",
-            "direct",
-            Coupling(scheme=WAVES, impedance=20, buffer=0.015),
-            "wave variables, matched impedance (Niemeyer, Slotine 1991, 2004)",
-        ),
-        (
-            "ebac",
-            "ebac",
-            Coupling(scheme=POSITION_FORCE, buffer=0.015),
-            "position there, the controller's force back, EBAC at the master",
-        ),
-        (
-            "two-port-ebac",
-            "ebac",
-            Coupling(scheme=PASSIVITY, buffer=0.015),
-            "EBAC at the master, an energy bound at the slave's port",
-        ),
-    )
-}
-
-
-def scheme(name: str) -> Scheme:
-    """Return a scheme by its name; KeyError names the nearest."""
-    if name not in SCHEMES:
-        raise unknown_name("scheme", name, SCHEMES)
-    return SCHEMES[name]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -269,7 +180,7 @@ def simulate(
     seconds = number("teleop.simulate: seconds", seconds)
     consent_after = number("teleop.simulate: consent_after", consent_after)
     seed = whole("teleop.simulate: seed", seed)
-    chosen = _chosen(scheme)
+    chosen = chosen_scheme(scheme)
     if changes:
         chosen = chosen.changed(**changes)
     if not 0.1 <= seconds <= 600:
@@ -323,8 +234,3 @@ def _check_parts(**given: Any) -> None:
         kind = _PARTS[name]
         if value is not None and not isinstance(value, kind):
             raise TypeError(f"teleop.simulate: {name} = {shown(value)}: must be a {kind.__name__}")
-
-
-def _chosen(given: str | Scheme) -> Scheme:
-    """Return the scheme itself, or that of the name."""
-    return given if isinstance(given, Scheme) else scheme(given)

@@ -10,7 +10,8 @@ from typing import Any
 import numpy as np
 
 from ebac._core import Hand, Link, MinimumJerk, SlaveModel
-from ebac.teleop.run import SCHEMES, SPARE, STILL, Run, Scheme, _chosen, simulate
+from ebac.teleop.run import SPARE, STILL, Run, simulate
+from ebac.teleop.schemes import SCHEMES, Scheme, chosen_scheme
 
 #: What the slave meets [N/m].
 CONTACTS: Mapping[str, float] = {"free": 0.0, "soft": 500.0, "hard": 20e3}
@@ -153,7 +154,7 @@ def study(
     for name in networks:
         if name not in NETWORKS:
             raise KeyError(f"no network is called {name!r}; there are: {', '.join(NETWORKS)}")
-    chosen = tuple(_chosen(one) for one in schemes)
+    chosen = tuple(chosen_scheme(one) for one in schemes)
     cells = list(product(chosen, contacts.items(), networks, delays))
     rows = []
     for one, (contact, stiffness), network, delay in cells:
@@ -215,7 +216,7 @@ def tuned(name: str, *, progress: Callable[[int, int], None] | None = None) -> S
     progress : callable, optional
         Called with sets of parameters done and all.
     """
-    from ebac.teleop.run import scheme
+    from ebac.teleop.schemes import scheme
 
     base, grid = scheme(name), GRIDS[name]
     tries = [dict(zip(grid, values, strict=True)) for values in product(*grid.values())]

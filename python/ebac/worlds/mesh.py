@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import warnings
 from dataclasses import dataclass, replace
-from functools import lru_cache
 from pathlib import Path
 from typing import Any, Self
 
@@ -12,7 +11,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ebac._util.arguments import number
-from ebac.worlds.grid import Floats, Grid, Ints, Progress, Surface, cached_grid, needed
+from ebac.worlds.grid import Grid, Progress, Surface, cached_grid
+from ebac.worlds.mesh_file import read
 from ebac.worlds.part import Part
 
 #: Cells along the longest side of a mesh, unless given.
@@ -194,7 +194,7 @@ class Mesh(_Triangles):
 
     def surface(self) -> Surface:
         """Return the triangles in metres."""
-        vertices, faces, open_edges = _read(self.file, Path(self.file).stat().st_mtime_ns)
+        vertices, faces, open_edges = read(self.file, Path(self.file).stat().st_mtime_ns)
         if open_edges and not self.thickness:
             raise ValueError(
                 f"{self.file}: the surface is open, {open_edges} edges belong to one triangle: it has no inside; "
@@ -207,30 +207,6 @@ class Mesh(_Triangles):
     def replace(self, **changes: Any) -> Self:
         """Return a copy with some parameters changed."""
         return replace(self, **changes)
-
-
-@lru_cache(maxsize=4)
-def _read(file: str, changed: int) -> tuple[Floats, Ints, int]:
-    """Return vertices, triangles and the number of open edges of a file."""
-    del changed  # a file that was written anew is read anew
-    trimesh = needed("trimesh", "trimesh")
-    try:
-        mesh = trimesh.load_mesh(file)
-        vertices, faces = np.array(mesh.vertices, float), np.array(mesh.faces, np.int64)
-    except Exception as error:
-        raise ValueError(f"{file}: cannot be read as a mesh ({error})") from error
-    if len(faces) == 0 or not np.isfinite(vertices).all():
-        raise ValueError(f"{file}: holds no triangles with finite corners")
-    corners = vertices[faces]
-    area = np.linalg.norm(
-        np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1
-    )
-    faces = faces[area > 0]
-    if len(faces) == 0:
-        raise ValueError(f"{file}: holds no triangles with an area")
-    edges = np.sort(faces[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2), axis=1)
-    _, count = np.unique(edges, axis=0, return_counts=True)
-    return vertices, faces, int((count == 1).sum())
 
 
 @dataclass(frozen=True)

@@ -146,7 +146,9 @@ def _show(found: ZWidth) -> None:
         "Area of the walls that each law renders: stiffness times damping, in kN/m N s/m",
         style="bold",
     )
-    grid = output.table(["delay \\[samples]", "law", *CRITERIA], numbers=range(2, 2 + len(CRITERIA)))
+    grid = output.table(
+        ["delay \\[samples]", "law", *CRITERIA], numbers=range(2, 2 + len(CRITERIA))
+    )
     for number, delay in enumerate(found.delays):
         if number:
             grid.add_section()
