@@ -14,10 +14,11 @@ from numpy.typing import NDArray
 
 from ebac._core import ArmGains, ArmRecord
 from ebac.identify import unrecorded_motor
+from ebac.identify.arm_record import arm_record
 from ebac.identify.doubt import BEND, DELAY, DELAY_DRIVEN, WITHIN_TICK, Doubt, doubt_of
 from ebac.identify.parameters import INPUTS, STEPS, Parameters, kind
 from ebac.identify.recording import Recording
-from ebac.identify.signals import Fold, by_target, readings, ripple, rough, unknown_force
+from ebac.identify.signals import Fold, by_target, rough
 from ebac.identify.target import Target
 
 #: Steps of the differences, as a share of a value.
@@ -252,51 +253,3 @@ class Problem:
     def _step(self, index: int, values: NDArray[np.float64]) -> float:
         least = STEPS[kind(self.parameters.names[index])]
         return max(STEP_SHARE * abs(float(values[index])), least)
-
-
-def arm_record(recording: Recording, target: Target) -> ArmRecord:
-    """Hand a recording to the core.
-
-    Raises
-    ------
-    ValueError
-        When it has no force of the hand.
-    """
-    if recording.force is None:
-        raise ValueError(
-            f"{recording.name}: has no force of the hand; eq. (4) needs one: name its column, or identify from "
-            "a log that has one"
-        )
-    _check_switches(recording, target)
-    t0 = float(recording.t[0])
-    read = readings(recording)
-    return ArmRecord(
-        x=read.x,
-        force=recording.force,
-        variance=read.variance,
-        early=read.early,
-        known=np.zeros(len(recording.t)) if target.path is None else target.path,
-        doubt=unknown_force(recording),
-        inputs=[ripple(recording)],
-        switches=[s - t0 for s in target.switches],
-        segments=list(target.segments),
-        dt=recording.dt,
-        lag=recording.lag,
-    )
-
-
-def _check_switches(recording: Recording, target: Target) -> None:
-    """Refuse a target that changes outside the log, or faster than its rows."""
-    start, end = float(recording.t[0]), float(recording.t[-1])
-    for at in target.switches:
-        if not start < at < end:
-            raise ValueError(
-                f"{recording.name}: the target changes at {at:g} s: "
-                f"must lie in ({start:g}, {end:g}) s, the time of the log"
-            )
-    shortest = min(np.diff(target.switches), default=np.inf)
-    if shortest < 10 * recording.dt:
-        raise ValueError(
-            f"{recording.name}: the target changes again within {shortest:.3g} s: "
-            f"must hold for 10 rows, {10 * recording.dt:g} s"
-        )

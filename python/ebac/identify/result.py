@@ -13,10 +13,11 @@ from numpy.typing import NDArray
 from ebac._core import Hand, Recorded, Step
 from ebac._util.arguments import unknown_name
 from ebac.identify import informativeness, unrecorded_motor, validation
+from ebac.identify.arm_record import arm_record
 from ebac.identify.estimate import Estimate
 from ebac.identify.intervals import Z95
 from ebac.identify.parameters import BEFORE_LEVELS, HAND, OWN, Parameters, kind
-from ebac.identify.problem import Problem, arm_record
+from ebac.identify.problem import Problem
 from ebac.identify.recording import Recording
 from ebac.identify.target import Target, longest
 from ebac.identify.validation import (

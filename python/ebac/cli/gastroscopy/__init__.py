@@ -8,7 +8,7 @@ import typer
 
 from ebac.cli import output, setting, wrong_input
 from ebac.cli.command import Group, add, expanded
-from ebac.cli.gastroscopy import drives, navigate, study
+from ebac.cli.gastroscopy import chain, drives, navigate, study
 
 
 class OwnAndStudy(Group):
@@ -25,6 +25,6 @@ class OwnAndStudy(Group):
 app = typer.Typer(name="gastroscopy", cls=OwnAndStudy)
 app.callback(invoke_without_command=True)(expanded(navigate.gastroscopy, "gastroscopy"))
 add(app, study.study)
-add(app, drives.drives)
+add(app, chain.drives)
 add(app, drives.master)
 add(app, drives.slave)

@@ -1,4 +1,4 @@
-"""`ebac gastroscopy master`, `slave` and `drives`: joystick and gastroscope on CANopen drives, over a network."""
+"""`ebac gastroscopy master` and `slave`: joystick and gastroscope on CANopen drives, over a network."""
 
 from __future__ import annotations
 
@@ -16,7 +16,6 @@ from ebac.cli.gastroscopy.side_table import show
 from ebac.cli.gastroscopy.teller import Teller
 from ebac.cli.run.confirm import can_ask, confirm
 from ebac.cli.teleop.consent import Consent
-from ebac.cli.teleop.options import LinkOptions
 from ebac.cli.teleop.processes import HOST, PORT, peer_of
 
 if TYPE_CHECKING:
@@ -188,54 +187,6 @@ def slave(
             ready=lambda at: _ready(at, announce, None if as_json else teller),
         )
     _give(found, as_json, on_simulated)
-
-
-def drives(
-    over: LinkOptions,
-    law: Annotated[str | None, options.one_law(default="as configured")] = None,
-    seconds: Annotated[
-        float, typer.Option(help="How long the joystick has power [s].", min=1, max=3600)
-    ] = 30.0,
-    give_up: GiveUp = 10.0,
-    out: Annotated[
-        Path | None,
-        typer.Option("--out", "-o", help="Folder for the logs of all drives.", show_default="none"),
-    ] = None,
-    seed: options.Seed = None,
-    as_json: output.AsJson = False,
-) -> None:
-    """Run joystick, network and gastroscope as three processes, on simulated drives: bus, network, bus.
-
-    A simulated hand bends the tip to and fro and advances it; it consents 1 s after a lost link is back. Ends with 1
-    where a lost link was not reported, a drive kept its power, or a side ended otherwise than by its time or the
-    master's.
-
-    **Examples**
-
-    * `ebac gastroscopy drives --seconds 10`
-
-    * `ebac gastroscopy drives --seconds 10 --delay 0.1 --jitter 0.01 --loss 0.05 --cut-every 6 --cut-length 1 --json`
-    """
-    from ebac.gastroscope.chain import chain
-
-    with output.refusing():
-        found = chain(
-            seconds,
-            link=over.link(),
-            law=None if law is None else setting.one_law(law),
-            give_up=give_up,
-            folder=out,
-            seed=seed or 1,
-        )
-    rows = [{"process": name, **one} for name, one in found.reports.items()]
-    if as_json:
-        typer.echo(output.document("gastroscopy drives", rows, faults=found.faults))
-    else:
-        show(found.reports, found.faults)
-        if out is not None:
-            output.list_files(out, sorted(one.name for one in out.glob("*.mcap")))
-    if found.faults:
-        raise typer.Exit(1)
 
 
 def _known(given: Mapping[str, Path | None], on_simulated: bool) -> list[Configuration]:
