@@ -1,15 +1,14 @@
-"""A run on hardware: a loop in a thread of C++, watched, updated, recorded and ended from Python."""
+"""A run on hardware: a loop in a thread of C++, watched, recorded and ended from Python."""
 
 from __future__ import annotations
 
 import io
-import threading
 import time
 import warnings
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from types import TracebackType
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from ebac import _core
 from ebac._util.exception_notes import noted_on
@@ -19,8 +18,8 @@ from ebac.drives.errors import DriveError
 from ebac.hardware.current_parameters import CurrentParameters
 from ebac.hardware.interrupts import Interrupts, OfParent
 from ebac.hardware.lateness import loop_fault
-from ebac.hardware.live_status import LiveStatus
 from ebac.hardware.report import Report
+from ebac.hardware.run_changes import RunChanges
 from ebac.logs.about import SIMULATED_DRIVES
 from ebac.trace import Trace
 
@@ -28,14 +27,14 @@ if TYPE_CHECKING:
     from ebac.hardware.axis_positions import AxisPosition
     from ebac.laws import CoreLaw
     from ebac.logs import Recorder
-    from ebac.scenario import Environment, Scenario
+    from ebac.scenario import Scenario
 
 #: How often the main thread looks after the loop [s]: a signal is late by at most this.
 LOOK = 0.02
 
 
 @plain_constructor
-class Run(LiveStatus):
+class Run(RunChanges):
     """A loop at work. Get it from `OpenDevice.start`; a context manager that ends it.
 
     Whatever comes first ends it: its time, a fault, `stop`, an exception, a signal, the end of the program or of its
@@ -69,133 +68,12 @@ class Run(LiveStatus):
         self._power_off = power_off
         self._positions = tuple(positions)
         self._grants = [*running.grants, *grants]
-        self._lock = threading.RLock()  # who changes or ends it
         self._parent = None if detached else OfParent(self._parent_is_gone)
-
-    # --- while it runs ---
 
     @property
     def grants(self) -> list[_core.Grant]:
         """What its threads asked of the system, and what they got: the loop's, then those of what is simulated."""
         return list(self._grants)
-
-    def retune(self, **changes: Any) -> CoreLaw:
-        """Change parameters of the law from the next tick on; its memory stays. Return the law with its new gains.
-
-        Parameters
-        ----------
-        **changes
-            In their SI units. What the law knows of the device cannot change while it runs.
-
-        Raises
-        ------
-        ValueError
-            For a number out of range, or one that cannot change.
-        RuntimeError
-            When the loop has ended.
-        """
-        with self._lock:
-            self._check()
-            return self._parameters.retune(**changes)
-
-    def replace_law(self, law: CoreLaw) -> CoreLaw:
-        """Let another law take over from the next tick on, and return it.
-
-        It begins without memory, and the step between the two forces fades out within 50 ms. A law that differs in its
-        gains only takes over their memory, too, as in `retune`. The columns `law.*` are those of the law of the start,
-        and 0 under another one.
-
-        Parameters
-        ----------
-        law : law of the core
-            Designed for the device, as by `ebac.design`.
-
-        Raises
-        ------
-        TypeError
-            For one that is not compiled in C++.
-        RuntimeError
-            When the loop has ended.
-        """
-        with self._lock:
-            self._check()
-            return self._parameters.replace_law(law)
-
-    def hold_back(self, ticks: int) -> int:
-        """Hold every command back by some ticks more from the next tick on, and return how many; simulated drives only.
-
-        Parameters
-        ----------
-        ticks : int
-            On top of what drives and bus take [samples], 0 to 7.
-
-        Raises
-        ------
-        ValueError
-            For a number out of range, and on hardware.
-        RuntimeError
-            When the loop has ended.
-        """
-        with self._lock:
-            self._check()
-            return self._parameters.hold_back(ticks)
-
-    def change(self, environment: Environment | None = None, **changes: Any) -> Environment:
-        """Change the virtual world from the next tick on: another one, or numbers of the present one. Return it.
-
-        Parameters
-        ----------
-        environment : Free, Wall, Corner, Disc or worlds.World, optional
-            The new one; the present one, if not given.
-        **changes
-            Numbers of it, in SI units: `stiffness=5e3`.
-
-        Raises
-        ------
-        ValueError, TypeError
-            For a number out of range, or a name it does not have.
-        RuntimeError
-            When the loop has ended.
-        """
-        with self._lock:
-            self._check()
-            return self._parameters.change(environment, **changes)
-
-    def set_target(self, *target: float | None) -> tuple[float | None, ...]:
-        """Move the target of a simulated hand from the next tick on, and return all its targets.
-
-        Parameters
-        ----------
-        *target
-            By axis, -10 to 10 m; None for an axis that stays as it is.
-
-        Returns
-        -------
-        tuple
-            Target of each axis [m]; None where it still follows its path.
-
-        Raises
-        ------
-        ValueError
-            For a number out of range, for more numbers than axes, where the path is a recorded one, and on hardware:
-            only a simulated hand has a target that can be set.
-        RuntimeError
-            When the loop has ended.
-        """
-        with self._lock:
-            self._check()
-            return self._parameters.set_target(*target)
-
-    def aim(self, *target: float | None) -> tuple[float | None, ...]:
-        """Do what `set_target` does; the old name, until the next release."""
-        warnings.warn("Run.aim is now Run.set_target", DeprecationWarning, stacklevel=2)
-        return self.set_target(*target)
-
-    def _check(self) -> None:
-        if self.done:
-            raise RuntimeError("the loop has ended: start another run")
-
-    # --- its end ---
 
     def stop(self, *, at_once: bool = False, by: str = "stop") -> None:
         """Ask for the end: force ramped to zero, drives without power. `finish` waits for it.
