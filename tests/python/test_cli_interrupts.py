@@ -117,7 +117,7 @@ def test_an_interruption_after_a_run_names_its_log(
         raise KeyboardInterrupt
 
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr(sys.modules["ebac.cli.run.run"], "_give", stopped)
+    monkeypatch.setattr(sys.modules["ebac.cli.run.carry_out"], "give", stopped)
     datasets.write("joystick", tmp_path)
     result = CliRunner().invoke(app, ["run", "joystick.toml", *clock.split()])
     assert result.exit_code == 130

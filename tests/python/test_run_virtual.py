@@ -138,14 +138,14 @@ def test_a_simulation_is_never_late() -> None:
 
 
 def test_the_command_offers_the_virtual_clock(capsys: pytest.CaptureFixture[str]) -> None:
-    command = import_module("ebac.cli.run.run")
+    command = import_module("ebac.cli.run.carry_out")
     trace = late_trace(ebac.Fault.DRIVE_SILENT)
     with pytest.raises(LoopFault) as caught:
         Ended(trace).finish()
     known = Configuration.load(EXAMPLE)
     result = command.results.Result.of_virtual(known, trace, None, caught.value)
     with pytest.raises(typer.Exit) as end:
-        command._give(replace(result, virtual=False), None, False, FigureOptions(), caught.value)
+        command.give(replace(result, virtual=False), None, False, FigureOptions(), caught.value)
     assert end.value.exit_code == 1
     text = " ".join(capsys.readouterr().err.split())
     assert "fault 9 (drive silent)" in text
