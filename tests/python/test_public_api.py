@@ -73,8 +73,9 @@ def signature(thing: Any) -> str:
 
 
 def members(cls: type) -> Iterator[str]:
-    """Give the methods and properties of a class of Python; those of the core are in its stub."""
-    for name in sorted(vars(cls)):
+    """Give the methods and properties of a class of Python, inherited ones too; those of the core are in its stub."""
+    own = [base for base in cls.__mro__ if base.__module__.partition(".")[0] == "ebac"]
+    for name in sorted({name for base in own for name in vars(base)}):
         thing = inspect.getattr_static(cls, name)
         if name.startswith("_") or inspect.isclass(thing):
             continue
