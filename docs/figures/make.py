@@ -93,7 +93,7 @@ def energy() -> Picture:
         dress(ax, "energy [mJ]")
     kept = traces["ebac"]
     line(
-        grid[1], kept["t"], 1e3 * kept["law.energy"], color="black", lw=0.8, label="ledger of ebac"
+        grid[1], kept["t"], 1e3 * kept["law.energy"], color="black", lw=0.8, label="account of ebac"
     )
     grid[1].set_ylim(-15, 60)
     grid[1].set_xlabel("time [s]")

@@ -161,22 +161,28 @@ def z_width(printed: Printed) -> str:
 
 
 def _best(scores: dict[tuple[str, str, int], Row]) -> str:
-    """Say how the usable area of `ebac` compares with that of the best simple law, at each delay."""
+    """Compare the usable area of `ebac` with the best simple law, on the observer and on the encoder alone."""
 
     def area(key: tuple[str, str, int]) -> float:
         return float(scores[key]["usable_area"])
 
-    parts = []
-    for delay in DELAYS:
-        of = {key: area(key) for key in scores if key[2] == delay and key[0] != "ebac"}
-        best = max(of, key=lambda key: of[key])
-        ours = area(("ebac", "yes", delay))
-        observer = "with" if best[1] == "yes" else "without"
-        parts.append(
-            f"{ours / of[best]:.2f} at d = {delay} ({code(best[0])} {observer} the observer: "
-            f"{of[best] / 1e3:.0f}, `ebac`: {ours / 1e3:.0f})"
+    def rounded(value: float) -> str:
+        return fixed(value, 2 if value < 10 else 1 if value < 100 else 0)
+
+    def compared(delay: int, word: str) -> str:
+        laws = {law for law, form, d in scores if (form, d) == (word, delay)} - {"ebac"}
+        best = max(sorted(laws), key=lambda law: area((law, word, delay)))
+        theirs, ours = area((best, word, delay)), area(("ebac", "yes", delay))
+        return (
+            f"{rounded(ours / theirs)} at d = {delay} "
+            f"({code(best)}: {rounded(theirs / 1e3)}, `ebac`: {rounded(ours / 1e3)})"
         )
-    return f"Usable area of `ebac` over that of the best simple law: {', '.join(parts)}."
+
+    def sentence(name: str, word: str) -> str:
+        found = ", ".join(compared(delay, word) for delay in DELAYS)
+        return f"Usable area of `ebac` over that of the best simple law {name}: {found}."
+
+    return f"{sentence('with the observer', 'yes')}\n\n{sentence('on the encoder alone', 'no')}"
 
 
 def _ceilings(found: Row) -> str:

@@ -6455,7 +6455,7 @@ class EBAC:
     injection : bool
         virtual damping while in contact, 0 to 1.
     guard : bool
-        hold the command to what the ledger covers, 0 to 1.
+        hold the command to what the account covers, 0 to 1.
     observer : bool
         meet the world at the observer's estimate, where a run has one, 0 to 1.
     """
@@ -6502,7 +6502,7 @@ class EBAC:
         @property
         def energy(self) -> float:
             """
-            ledger: what the virtual side may give back [J]
+            account: what the virtual side may give back [J]
             """
         @property
         def f_d(self) -> float:
@@ -6670,7 +6670,7 @@ class EBAC:
     @property
     def guard(self) -> bool:
         """
-        hold the command to what the ledger covers, 0 to 1
+        hold the command to what the account covers, 0 to 1
         """
     @property
     def heaviest_hand(self) -> float:

@@ -79,7 +79,7 @@ struct EbacParams {
         F{"continuity", &EbacParams::continuity, "1", "ratio rows of eq. (10)", 0, 1},
         F{"recovery", &EbacParams::recovery, "1", "relaxation towards F_e at dx = 0", 0, 1},
         F{"injection", &EbacParams::injection, "1", "virtual damping while in contact", 0, 1},
-        F{"guard", &EbacParams::guard, "1", "hold the command to what the ledger covers", 0, 1},
+        F{"guard", &EbacParams::guard, "1", "hold the command to what the account covers", 0, 1},
         F{"observer", &EbacParams::observer, "1",
           "meet the world at the observer's estimate, where a run has one", 0, 1},
     };
@@ -106,7 +106,7 @@ struct EbacState : BetaTrace {
           "F_d of eq. (8), before damping and force loop; with the observer the world's force as "
           "shown"},
         F{"injected", &EbacState::injected, "N", "force of the virtual damper"},
-        F{"energy", &EbacState::energy, "J", "ledger: what the virtual side may give back"},
+        F{"energy", &EbacState::energy, "J", "account: what the virtual side may give back"},
         F{"slope", &EbacState::slope, "N/m", "stiffness of the environment as seen"},
         F{"admitted", &EbacState::admitted, "1", "share of the command the guard let through"},
         F{"starved", &EbacState::starved, "s",

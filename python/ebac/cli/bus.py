@@ -23,15 +23,19 @@ def load(
     rate: Annotated[float, typer.Option(help="Ticks per second, one SYNC each [Hz].")] = 1000,
     bitrate: Annotated[float, typer.Option(help="Bit rate of the bus [bit/s].")] = 1e6,
     force_sensor: Annotated[
-        bool, typer.Option("--force-sensor", help="A force sensor on the same bus, at every tick.")
+        bool,
+        typer.Option(
+            "--force-sensor",
+            help="Include a force sensor that sends on the same bus in every tick.",
+        ),
     ] = False,
     as_json: output.AsJson = False,
 ) -> None:
     """Compute the worst-case load of a CAN bus from the frames of each tick.
 
-    Each tick sends one SYNC, and for every drive controlword and target torque out, statusword,
-    position and actual torque in. The worst case has every stuff bit there can be. Over 70 %
-    gives a warning, over 90 % exit code 2.
+    Each tick sends one SYNC, and for every drive controlword and target torque; every drive answers with statusword,
+    position and actual torque. The worst case has the largest possible number of stuff bits. A load above 70 % gives
+    a warning, above 90 % exit code 2.
 
     **Examples**
 

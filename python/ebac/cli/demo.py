@@ -18,7 +18,7 @@ def demo(
     names: Annotated[
         list[str] | None,
         typer.Argument(
-            help="Data sets to write, or `all`; without a name they are listed.",
+            help="Data sets to write, or `all`; without a name, list them.",
             metavar="[NAME]...",
             show_default=False,
         ),
@@ -31,7 +31,7 @@ def demo(
     ] = False,
     as_json: output.AsJson = False,
 ) -> None:
-    """Write sample data to try the other commands with.
+    """Write sample data for trying out the other commands.
 
     Everything is simulated, nothing was measured.
 

@@ -48,7 +48,7 @@ class EngineOptions:
         bool,
         typer.Option(
             "--engine-held",
-            help="Hold its force until the next answer instead, as a bridge is not to do.",
+            help="Hold the engine's force until its next answer, instead of rendering its local model.",
             rich_help_panel=ENGINE,
         ),
     ] = False

@@ -28,7 +28,7 @@ class FigureOptions:
         list[str] | None,
         typer.Option(
             "--format",
-            help="Format of figures: png, pdf or svg; several with commas between.",
+            help="Format of figures: png, pdf or svg; several separated by commas.",
             show_default="png",
             rich_help_panel=PANEL,
         ),
@@ -86,14 +86,16 @@ class ResultOptions(FigureOptions):
         typer.Option(
             "--out",
             "-o",
-            help="Folder for the results, new or empty; with --json written only when given.",
+            help="Folder for the results, new or empty; with --json, written only if given.",
             show_default="ebac-COMMAND, then ebac-COMMAND-2, ...",
             rich_help_panel=PANEL,
         ),
     ] = None
     force: Annotated[
         bool,
-        typer.Option("--force", help="Write into a folder that has files.", rich_help_panel=PANEL),
+        typer.Option(
+            "--force", help="Write to a folder that already contains files.", rich_help_panel=PANEL
+        ),
     ] = False
 
     def folder(self, command: str, *, as_json: bool, resume: str = "") -> Path | None:

@@ -24,20 +24,20 @@ def live(
     configuration: Annotated[
         Path | None,
         typer.Argument(
-            help="The device and the run, in TOML: see `ebac demo joystick`. Without it all is simulated."
+            help="Configuration of device and run in TOML; see `ebac demo joystick`. Default: simulate everything."
         ),
     ] = None,
     simulated: Annotated[
         bool,
         typer.Option(
-            "--simulated", help="On simulated drives, device and hand, whatever the file says."
+            "--simulated", help="Use simulated drives, device and hand, whatever the file contains."
         ),
     ] = False,
     virtual: Annotated[
         bool,
         typer.Option(
             "--virtual",
-            help="The same on a virtual clock: no tick is late, however busy the machine is.",
+            help="Also simulate the clock: no tick is late, however busy the machine is.",
         ),
     ] = False,
     law: Annotated[str | None, options.one_law(default="as configured")] = None,
@@ -72,11 +72,15 @@ def live(
         Path,
         typer.Option("--out", "-o", help="Folder for logs and scenarios that the page writes."),
     ] = Path("ebac-live"),
-    no_browser: Annotated[bool, typer.Option("--no-browser", help="Open no browser.")] = False,
+    no_browser: Annotated[
+        bool, typer.Option("--no-browser", help="Do not open a browser.")
+    ] = False,
     page: Annotated[
         Path | None,
         typer.Option(
-            "--page", metavar="FILE", help="Write the page without a server to this file, and end."
+            "--page",
+            metavar="FILE",
+            help="Write the page that needs no server to this file, and exit.",
         ),
     ] = None,
     force: Annotated[
@@ -85,24 +89,24 @@ def live(
     yes: Yes = False,
     as_json: output.AsJson = False,
 ) -> None:
-    """See a loop in a browser, move its hand, change its law.
+    """Show a running loop in a browser; move its hand and change its law.
 
-    A loop runs, in real time but for `--virtual`; the page shows handle, world and force, and strips of the last ten
-    seconds. Drag the hand with the mouse. Law, world, stiffness, damping and delay change while the loop runs;
-    observer, hand and device restart it. The page records to MCAP and saves the scenario as TOML, into the folder of
-    `--out`. Ctrl-C ends it.
+    The loop runs in real time, unless `--virtual` is given; the page shows handle, world and force, and plots of the
+    last ten seconds. Drag the hand with the mouse. Law, world, stiffness, damping and delay can be changed while the
+    loop runs; a change of observer, hand or device restarts it. The page can record to MCAP and save the scenario as
+    TOML, in the folder of `--out`. Ctrl-C ends it.
 
-    Without a file, or with `--simulated`, drives, device and hand are simulated, on the real clock. With `--virtual`
-    the clock is simulated too: time goes on in steps of 8 ms, stands still while the machine is late, and no tick is
-    skipped.
+    Without a file, or with `--simulated`, drives, device and hand are simulated in real time. With `--virtual` the
+    clock is simulated, too: time advances in steps of 8 ms, pauses while the machine is late, and no tick is skipped.
 
-    With a file **real motors may get power**: only with `--allow-control`, and only while somebody holds the dead-man
-    key of the page. Released, or when the page is silent for 0.3 s, the force fades and the drives are left
-    without power. Limits are those of the file; no page can change them. A page chooses no surface stiffer than the
-    file's, or than `--max-stiffness`.
+    With a file **real motors may get power**, but only with `--allow-control` and while somebody holds the dead-man
+    key of the page. When the key is released or the page is silent for 0.3 s, the force fades and the drives are
+    switched off. The limits are those of the file; no page can change them. A page cannot choose a surface stiffer
+    than that of the file, or than `--max-stiffness`.
 
-    The printed address carries a secret; whoever has it controls the loop if nobody else does. The second address only
-    watches. Nothing is encrypted: to see it from another machine, use an SSH tunnel rather than `--host`.
+    The printed address contains a secret; a page that has it can control the loop if no other page does. Pages at the
+    second address can only watch. Nothing is encrypted: to see the loop on another machine, use an SSH tunnel rather
+    than `--host`.
 
     With `--page` the command writes a page that needs no server, with the loop compiled to WebAssembly.
 
@@ -116,7 +120,7 @@ def live(
 
     * `ebac live joystick.toml --allow-control`: your device, with the dead-man key.
 
-    * `ebac live --page live.html`: the page without a server.
+    * `ebac live --page live.html`: the page that needs no server.
     """
     if page is not None:
         write_page(page, force=force, as_json=as_json)

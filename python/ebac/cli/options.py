@@ -33,7 +33,7 @@ def laws(default: str, *, panel: str = RUN) -> Any:
     return typer.Option(
         "--law",
         "-l",
-        help="A law by name, see `ebac laws`; several with commas between, `all` for every law.",
+        help="A law by name, see `ebac laws`; several separated by commas, `all` for every law.",
         show_default=default,
         rich_help_panel=panel,
         autocompletion=completion.laws,
@@ -192,7 +192,7 @@ class RunOptions:
         bool | None,
         typer.Option(
             "--observer-every-law",
-            help="Let every law act on the estimate of the observer, not `ebac` alone.",
+            help="Let every law use the estimate of the observer, not only `ebac`.",
             rich_help_panel=RUN,
         ),
     ] = None

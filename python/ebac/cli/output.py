@@ -196,7 +196,7 @@ def path(name: str | Path) -> None:
 
 
 def words(text: str) -> list[str]:
-    """Return the words of a list with commas between."""
+    """Return the words of a list separated by commas."""
     return [word for word in (part.strip() for part in text.split(",")) if word]
 
 

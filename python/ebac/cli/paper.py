@@ -36,7 +36,7 @@ def paper(
 ) -> None:
     """Reproduce the numbers and figures of the paper.
 
-    Everything is computed or simulated; nothing is measured on a device.
+    Everything is computed or simulated; nothing was measured on a device.
 
     **Examples**
 

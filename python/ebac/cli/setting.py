@@ -65,7 +65,7 @@ def one_law(name: str, option: str = "--law") -> str:
 
 
 def law_names(given: Sequence[str], option: str = "--law") -> list[str]:
-    """Return the laws of names in any case, with commas between, each once, in the order given; `all` is every law."""
+    """Return the laws of names in any case, separated by commas, each once, in the order given; `all` is every law."""
     from ebac.laws import LAWS, tuned_laws
 
     known = (*LAWS, *tuned_laws())
@@ -93,7 +93,7 @@ def _tell_tuned(names: Sequence[str]) -> None:
 
 
 def _words(given: Sequence[str], option: str) -> list[str]:
-    """Return the names of lists with commas between."""
+    """Return the names of lists separated by commas."""
     names = [word.strip() for text in given for word in text.split(",")]
     for name in names:
         if " " in name:

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 PlantFile: TypeAlias = Annotated[
     Path | None,
     typer.Option(
-        help="Take device, hand and seed from a scenario in TOML; other options come on top.",
+        help="Take device, hand and seed from a scenario in TOML; other options override it.",
         show_default=False,
     ),
 ]
@@ -34,7 +34,7 @@ PlantHand: TypeAlias = Annotated[
 ]
 Seconds: TypeAlias = Annotated[
     float | None,
-    typer.Option(help="Stop after so long [s].", show_default="until Ctrl-C", min=0, max=1e7),
+    typer.Option(help="Stop after this time [s].", show_default="until Ctrl-C", min=0, max=1e7),
 ]
 
 

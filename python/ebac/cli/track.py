@@ -27,7 +27,7 @@ def track(
     columns: Annotated[
         str | None,
         typer.Option(
-            help="Columns of the position, with commas between.",
+            help="Columns of the position, separated by commas.",
             show_default="x,y or x,y,z",
             rich_help_panel=_READ,
         ),
@@ -41,7 +41,7 @@ def track(
         ),
     ] = None,
     shape: Annotated[
-        str, typer.Option(help="line, circle, or auto for what fits.", rich_help_panel=_FIT)
+        str, typer.Option(help="line, circle, or auto for the one that fits.", rich_help_panel=_FIT)
     ] = "auto",
     robust: Annotated[
         bool, typer.Option("--robust", help="Leave outliers out.", rich_help_panel=_FIT)
@@ -57,11 +57,14 @@ def track(
     runs: Annotated[
         int,
         typer.Option(
-            help="Joysticks drawn for each row.", min=2, max=100_000, rich_help_panel=_SIMULATED
+            help="Number of random joysticks for each row.",
+            min=2,
+            max=100_000,
+            rich_help_panel=_SIMULATED,
         ),
     ] = 100,
     seed: Annotated[
-        int, typer.Option(help="Seed of the draws.", min=0, rich_help_panel=_SIMULATED)
+        int, typer.Option(help="Seed of these joysticks.", min=0, rich_help_panel=_SIMULATED)
     ] = 1,
     slack: Annotated[
         float | None,
@@ -86,9 +89,8 @@ def track(
 ) -> None:
     """Fit a line or a circle to recorded paths.
 
-    Standard deviation, path error and uncertainty, as in Table I of the paper.
-    SD is sqrt(sum d^2 / (n - p)) of the distances d from the fit with p = 2 for a line, 3 for a circle; the path
-    error is the mean of |d|.
+    Prints standard deviation, path error and uncertainty, as in Table I of the paper. SD is sqrt(sum d^2 / (n - p))
+    of the distances d from the fit, with p = 2 for a line and 3 for a circle; the path error is the mean of |d|.
 
     **Examples**
 

@@ -184,7 +184,7 @@ def _energy(ax: Axes, trace: Trace, axis: int) -> None:
     thick: dict[str, Any] = {"color": "0.75", "lw": 3}
     curves = [(work, "port work + damping taken", thick)]
     for name, label, style in (
-        ("law.energy", "ledger of the law", {"color": OTHER_LAW}),
+        ("law.energy", "account of the law", {"color": OTHER_LAW}),
         ("law.account", "account of the law", {"color": OTHER_LAW}),
         ("true.energy", "true port energy", {"color": colour(trace.law)}),
     ):

@@ -121,7 +121,12 @@ def _energy(ax: Axes, trace: Trace, found: Worst) -> None:
     for name in ("law.energy", "law.account"):
         if name in trace:
             line(
-                ax, t, 1e3 * trace.axis(name, 0), color=OTHER_LAW, lw=0.8, label="ledger of the law"
+                ax,
+                t,
+                1e3 * trace.axis(name, 0),
+                color=OTHER_LAW,
+                lw=0.8,
+                label="account of the law",
             )
     if found.reserve is not None:
         ax.axhline(-1e3 * found.reserve, color="#d55e00", lw=1, ls="--", label="-e(0)")

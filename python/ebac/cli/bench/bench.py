@@ -37,7 +37,9 @@ def bench(
     setup: options.ScenarioOptions,
     repeats: Annotated[
         int,
-        typer.Option(help="Runs of the scenario; the quickest counts.", min=1, max=100_000),
+        typer.Option(
+            help="Repetitions of the scenario; the fastest one counts.", min=1, max=100_000
+        ),
     ] = 50,
     with_peers: Annotated[
         bool,
@@ -65,14 +67,16 @@ def bench(
     ] = None,
     side: Annotated[
         int,
-        typer.Option(help="Side of the map that --peers times, side x side runs.", min=2, max=5000),
+        typer.Option(
+            help="Side of the map that --peers times; it has side x side runs.", min=2, max=5000
+        ),
     ] = 200,
     as_json: output.AsJson = False,
 ) -> None:
     """Time each law and the control loop on this machine.
 
-    A tick is everything: plant, encoder, kinematics, wall, law, energy account, motor and one row of the log, for one
-    axis on one core, in C++. The last line is a law written in Python in the same loop.
+    A tick includes plant, encoder, kinematics, wall, law, energy account, motor and one row of the log, for one axis
+    on one core, in C++. The last row of the table is a law written in Python, in the same loop.
 
     **Examples**
 

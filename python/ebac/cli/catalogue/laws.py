@@ -13,7 +13,9 @@ def laws(
     name: Annotated[
         str | None,
         typer.Argument(
-            help="One law, in detail.", show_default=False, autocompletion=completion.laws
+            help="Name of a law to show in detail.",
+            show_default=False,
+            autocompletion=completion.laws,
         ),
     ] = None,
     device: options.DeviceName = None,

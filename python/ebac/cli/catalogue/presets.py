@@ -10,7 +10,7 @@ from ebac.cli import output
 
 
 def presets(as_json: output.AsJson = False) -> None:
-    """List the hands and devices known by name.
+    """List the hands and devices that can be used by name.
 
     **Examples**
 

@@ -19,9 +19,7 @@ def specs(
     ] = "joystick",
     figure: Annotated[
         Path | None,
-        typer.Option(
-            help="Draw its workspace into this file: png, pdf or svg.", show_default=False
-        ),
+        typer.Option(help="Draw the workspace to this file: png, pdf or svg.", show_default=False),
     ] = None,
     as_json: output.AsJson = False,
 ) -> None:
@@ -33,7 +31,7 @@ def specs(
 
     * `ebac specs --device reference`: one straight axis
 
-    * `ebac specs --device joystick-3 --figure workspace.png`: three axes, and where its handle can be
+    * `ebac specs --device joystick-3 --figure workspace.png`: three axes, and a figure of the workspace
     """
     from ebac import presets
     from ebac._util import formatting

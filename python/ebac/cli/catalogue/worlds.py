@@ -18,7 +18,7 @@ def worlds(
     name: Annotated[
         str | None,
         typer.Argument(
-            help="One world: its bodies as TOML, for the table `environment` of a scenario.",
+            help="Name of a world: print its bodies as TOML, for the table `environment` of a scenario.",
             show_default=False,
             autocompletion=completion.worlds,
         ),
@@ -27,22 +27,22 @@ def worlds(
         list[str] | None,
         typer.Option(
             metavar="X,Y,Z",
-            help="A place [m]: show force, normal, depth and stiffness there instead. May be given several times.",
+            help="Show force, normal, depth and stiffness at this position [m] instead. May be given several times.",
             show_default=False,
         ),
     ] = None,
     as_json: output.AsJson = False,
 ) -> None:
-    """List the virtual worlds known by name, or show the bodies of one, or what it does at a place.
+    """List the virtual worlds known by name, or show the bodies of one or the contact at a position.
 
-    Each lies with its surface at the origin and is met by a motion along +x. `mesh:FILE` is a mesh of your own, its
-    longest side made 40 mm.
+    The surface of each world is at the origin and is touched by a motion along +x. `mesh:FILE` is a mesh of your own,
+    scaled so that its longest side is 40 mm.
 
     **Examples**
 
     * `ebac worlds`
 
-    * `ebac worlds sphere`: its bodies, to begin a scenario file with
+    * `ebac worlds sphere`: its bodies, as the start of a scenario file
 
     * `ebac worlds sphere --at 0.001,0,0`: force, normal, depth and stiffness 1 mm inside
 

@@ -23,18 +23,18 @@ app = typer.Typer(
 def drive() -> None:
     """Scan, set up and power CANopen drives.
 
-    Which bus: `--interface` and `--channel`, or python-can's own configuration (CAN_INTERFACE and
-    CAN_CHANNEL, or ~/.canrc). `ebac drive simulate` puts simulated drives on a bus; `--interface ebac
-    --channel joystick` is a bus within the process, with new simulated drives for every command.
+    `--interface` and `--channel` select the bus, or python-can's own configuration (CAN_INTERFACE and CAN_CHANNEL, or
+    ~/.canrc). `ebac drive simulate` puts simulated drives on a bus; `--interface ebac --channel joystick` is a bus
+    within the process, with new simulated drives for every command.
 
     **Examples**, in this order on a new machine; here with simulated drives
 
-    * `ebac drive scan --interface ebac --channel joystick`: who answers?
+    * `ebac drive scan --interface ebac --channel joystick`: which drives answer
 
-    * `ebac drive plan joystick --interface ebac --channel joystick`: what would change?
+    * `ebac drive plan joystick --interface ebac --channel joystick`: what would be changed
 
-    * `ebac drive apply joystick --yes --interface ebac --channel joystick`: set it. A real drive keeps it; these
-      simulated ones are gone when the command ends
+    * `ebac drive apply joystick --yes --interface ebac --channel joystick`: write the settings. A real drive keeps
+      them; these simulated ones are gone when the command ends
     """
 
 

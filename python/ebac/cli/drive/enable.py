@@ -42,10 +42,10 @@ def enable(
     yes: Yes = False,
     as_json: output.AsJson = False,
 ) -> None:
-    """Power the motors, commanded to zero torque. Keep hands off the device.
+    """Enable the motors with zero torque. Keep your hands off the device.
 
-    They stay powered after the command, until `ebac drive disable`. A motor that moves now has a wrong
-    sign, a wrong encoder or another master: disable it.
+    They stay enabled after the command, until `ebac drive disable`. If a motor moves now, a sign is wrong, the
+    encoder is wrong or another master commands it: disable it.
 
     **Examples**
 
@@ -80,7 +80,7 @@ def disable(
     node: Nodes = None,
     as_json: output.AsJson = False,
 ) -> None:
-    """Remove the power from the motors, in any state.
+    """Switch off the power of the motors, in any state.
 
     **Examples**
 
@@ -95,7 +95,7 @@ def reset_fault(
     node: Nodes = None,
     as_json: output.AsJson = False,
 ) -> None:
-    """Reset the fault of a drive, and check that it is gone. It stays disabled.
+    """Reset the fault of a drive and check that it is gone. The drive stays disabled.
 
     **Examples**
 

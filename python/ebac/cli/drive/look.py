@@ -33,7 +33,7 @@ def scan(
 ) -> None:
     """List the nodes that answer on a bus. Nothing is changed.
 
-    Exit code 1 when nobody answers.
+    Exit code 1 when no node answers.
 
     **Examples**
 
@@ -56,10 +56,12 @@ def scan(
 def show(
     where: BusOptions,
     node: Nodes = None,
-    everything: Annotated[bool, typer.Option("--all", help="PDO parameters too.")] = False,
+    everything: Annotated[
+        bool, typer.Option("--all", help="Also read the PDO parameters.")
+    ] = False,
     as_json: output.AsJson = False,
 ) -> None:
-    """Read the objects of a drive that ebac knows by name, and with `--eds` all of its own. Nothing is changed.
+    """Read the objects of a drive that ebac knows by name, or with `--eds` all of its data sheet. Nothing is changed.
 
     **Examples**
 
@@ -126,10 +128,10 @@ def timing(
             help="Id of a node that destroys its every frame.", show_default="none", min=1, max=127
         ),
     ] = None,
-    seed: Annotated[int, typer.Option(help="Of data and errors.", min=0)] = 0,
+    seed: Annotated[int, typer.Option(help="Seed of data and errors.", min=0)] = 0,
     as_json: output.AsJson = False,
 ) -> None:
-    """Simulate how long the exchanges of a loop take on the bus, and whether answers come in time. No bus is opened.
+    """Simulate how long the exchanges of a loop take on the bus, and whether answers arrive in time. No bus is opened.
 
     Exit code 1 when an answer came late or not at all.
 
@@ -162,11 +164,11 @@ def verify(
     node: ProfileNodes = None,
     as_json: output.AsJson = False,
 ) -> None:
-    """Check whether the drives hold a profile; exit code 1 when they do not. Nothing is changed.
+    """Check whether the drives have the settings of a profile; exit code 1 if not. Nothing is changed.
 
     **Examples**
 
-    * `ebac drive verify --interface ebac --channel joystick`: new simulated drives hold none of it, exit code 1
+    * `ebac drive verify --interface ebac --channel joystick`: new simulated drives have none of them, so exit code 1
     """
     network = network_of(profile, node, where)
     with opened(where) as bus:

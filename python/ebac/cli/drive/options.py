@@ -122,9 +122,9 @@ ProfileName: TypeAlias = Annotated[
         autocompletion=_profiles,
     ),
 ]
-Yes: TypeAlias = Annotated[bool, typer.Option("--yes", "-y", help="Do not ask.")]
+Yes: TypeAlias = Annotated[bool, typer.Option("--yes", "-y", help="Do not ask for confirmation.")]
 Store: TypeAlias = Annotated[
-    bool, typer.Option("--store", help="Let the drive keep it in its flash (0x1010).")
+    bool, typer.Option("--store", help="Store the settings in the drive's flash memory (0x1010).")
 ]
 BackupFolder: TypeAlias = Annotated[
     Path | None,

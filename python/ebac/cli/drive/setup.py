@@ -45,8 +45,8 @@ def apply(
 ) -> None:
     """Set the drives to a profile: disable, back up, write, read back. They stay disabled.
 
-    Without `--yes` the plan is shown and a question asked. After an interruption the same command finishes the work,
-    and `ebac drive restore` takes it back.
+    Without `--yes` the plan is shown and confirmation is asked for. After an interruption the same command finishes
+    the work, and `ebac drive restore` undoes it.
 
     **Examples**
 
@@ -80,7 +80,7 @@ def restore(
     backup: BackupFolder = None,
     as_json: output.AsJson = False,
 ) -> None:
-    """Restore what the drives held before the first `apply`. They stay disabled.
+    """Restore the settings that the drives had before the first `apply`. They stay disabled.
 
     **Examples**, on a device: needs a backup that `ebac drive apply` made
 

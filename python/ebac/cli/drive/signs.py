@@ -18,20 +18,23 @@ def signs(
     configuration: ConfigurationFile,
     simulated: Simulated = False,
     current: Annotated[
-        float, typer.Option(help="Current of every push [A].", min=0.02, max=0.3)
+        float, typer.Option(help="Current of each push [A].", min=0.02, max=0.3)
     ] = 0.1,
     write: Annotated[
-        bool, typer.Option("--write", help="Write the signs into the file; all else in it stays.")
+        bool,
+        typer.Option(
+            "--write", help="Write the signs to the file and leave the rest of it unchanged."
+        ),
     ] = False,
     yes: Yes = False,
     as_json: output.AsJson = False,
 ) -> None:
     """Find which motor and which encoder has a wrong sign.
 
-    **The motors get power and the handle moves by some millimetres.** Every axis is pushed to and fro with a tenth of
-    an ampere that comes in slowly; any key stops it. Put the handle into the middle and let go of it. With a force
-    sensor hold it loosely instead: its force against the motor distinguishes a wrong motor from a wrong
-    encoder. Without one, a motor is called wrong where the two contradict each other.
+    **The motors get power and the handle moves by some millimetres.** Each axis is pushed to and fro with a tenth of
+    an ampere that is ramped up slowly; any key stops it. Put the handle in the middle and let go of it. With a force
+    sensor, hold it loosely instead: the force of your hand against the motor distinguishes a wrong motor from a wrong
+    encoder. Without a force sensor, the motor is taken to be wrong when the two contradict each other.
 
     Exit code 1 when a sign is wrong and was not written, or an axis did not move.
 

@@ -72,11 +72,11 @@ def simulate(
     ] = None,
     sensor: Annotated[
         bool,
-        typer.Option("--sensor", help="Also a simulated force sensor at the handle, on 127.0.0.1."),
+        typer.Option("--sensor", help="Also simulate a force sensor at the handle, on 127.0.0.1."),
     ] = False,
     sensor_counts: Annotated[
         tuple[float, float],
-        typer.Option("--sensor-counts", help="Its counts of 1 N and of 1 N m."),
+        typer.Option("--sensor-counts", help="Counts of that sensor per N and per N m."),
     ] = (1e6, 1e6),
     realtime: Annotated[
         str,
@@ -88,7 +88,7 @@ def simulate(
     beside: Annotated[
         int,
         typer.Option(
-            help="Priority of the loop they serve; theirs is one below.",
+            help="Priority of the loop; the threads of the drives run one below it.",
             min=1,
             max=99,
             rich_help_panel="Real time",
@@ -114,10 +114,10 @@ def simulate(
 ) -> None:
     """Put the simulated drives of a joystick on a bus, in real time, until Ctrl-C. A simulation.
 
-    Every CANopen tool can talk to them: `ebac drive scan` in another terminal, canopen, candump. They
-    move the simulated device and hand, so positions and torques on the bus are those of the joystick.
-    A hand of a scenario file starts on its path with the command; the file's virtual world and delay
-    belong to the loop that will come over the bus.
+    Every CANopen tool can talk to them: `ebac drive scan` in another terminal, canopen, candump. They move the
+    simulated device and hand, so positions and torques on the bus are those of the joystick. A hand of a scenario
+    file starts its path when the command starts; virtual world and delay of the file are not used, since they belong
+    to the loop that connects over the bus.
 
     **Examples**
 
@@ -206,7 +206,7 @@ def inject(
         int, typer.Option("--node", "-n", help="Node id of the simulated drive.", min=1, max=127)
     ] = 1,
 ) -> None:
-    """Put a simulated drive into the faults named, and out of all others. Real drives are refused.
+    """Put a simulated drive into the named faults, and clear all others. Real drives are refused.
 
     **Examples**, with `ebac drive simulate` in another terminal
 

@@ -20,23 +20,24 @@ def zero(
     write: Annotated[
         bool,
         typer.Option(
-            "--write", help="Write the counts into the file as its zero; all else in it stays."
+            "--write",
+            help="Write the counts to the file as its zero and leave the rest of it unchanged.",
         ),
     ] = False,
     yes: Yes = False,
     as_json: output.AsJson = False,
 ) -> None:
-    """Read where each axis stands, and take it for the zero of its encoder.
+    """Read the position of each axis and use it as the zero of its encoder.
 
-    Nothing has power and nothing is written to a drive. An incremental encoder counts from wherever its handle was when
-    its drive was switched on: put the handle at its mark and give `--write` after every power-on. For an absolute
-    encoder do it once, and set `absolute = true` in the table `[zero]`: then `ebac run` does not ask.
+    No motor has power and nothing is written to a drive. An incremental encoder counts from the position at which its
+    drive was switched on: put the handle at its mark and use `--write` after every power-on. For an absolute encoder
+    do it once, and set `absolute = true` in the table `[zero]`: then `ebac run` does not ask.
 
-    Exit code 1 when the handle moved while it was confirmed; nothing is written then.
+    Exit code 1 when the handle moved before the zero was confirmed; nothing is written then.
 
     **Examples**
 
-    * `ebac demo joystick`, then `ebac drive zero joystick.toml --simulated`: where the axes stand now
+    * `ebac demo joystick`, then `ebac drive zero joystick.toml --simulated`: the present position of the axes
 
     * `ebac drive zero my-joystick.toml --write`
     """

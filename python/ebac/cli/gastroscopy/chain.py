@@ -29,9 +29,9 @@ def drives(
 ) -> None:
     """Run joystick, network and gastroscope as three processes, on simulated drives: bus, network, bus.
 
-    A simulated hand bends the tip to and fro and advances it; it consents 1 s after a lost link is back. Ends with 1
-    where a lost link was not reported, a drive kept its power, or a side ended otherwise than by its time or the
-    master's.
+    A simulated hand bends the tip to and fro and advances it; it consents 1 s after a lost link is back. Exit code 1
+    when a lost link was not reported, a drive kept its power, or a side ended for another reason than its own time or
+    the end of the master.
 
     **Examples**
 

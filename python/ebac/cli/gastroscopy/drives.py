@@ -25,13 +25,15 @@ if TYPE_CHECKING:
 Simulated = Annotated[
     bool,
     typer.Option(
-        "--simulated", help="On simulated drives; clock, threads, bus and network are real."
+        "--simulated", help="Use simulated drives; clock, threads, bus and network are real."
     ),
 ]
 GiveUp = Annotated[
     float,
     typer.Option(
-        help="After so long without a link, end with drives at rest [s].", min=0.5, max=1e7
+        help="Time without a link after which the run ends, with the drives at rest [s].",
+        min=0.5,
+        max=1e7,
     ),
 ]
 Timeout = Annotated[
@@ -47,12 +49,15 @@ def master(
     configuration: Annotated[
         Path | None,
         typer.Argument(
-            help="The joystick, in TOML, as of `ebac demo gastroscope-master`.",
+            help="Configuration of the joystick in TOML, as `ebac demo gastroscope-master` writes it.",
             show_default="that one, with --simulated",
         ),
     ] = None,
     peer: Annotated[
-        str, typer.Option(help="Slave, or a network before it, as 127.0.0.1:49200.")
+        str,
+        typer.Option(
+            help="Address of the slave, or of a network in front of it, such as 127.0.0.1:49200."
+        ),
     ] = "127.0.0.1:49201",
     host: Annotated[str, HOST] = "127.0.0.1",
     port: Annotated[int, PORT] = 0,
@@ -61,7 +66,7 @@ def master(
     consent_after: Annotated[
         float | None,
         typer.Option(
-            help="With --simulated: the hand agrees so long after the link is back [s].",
+            help="With --simulated: the hand consents this long after the link is back [s].",
             show_default="press Enter",
             min=0,
             max=1e7,
@@ -76,17 +81,17 @@ def master(
 ) -> None:
     """Run a joystick on its drives, with a gastroscope at the other end of a network as its world.
 
-    **The motors get power and the joystick moves.** It is `ebac run` with its limits, faults, log and question before
-    the motors have power. Two axes bend the tip, the slide of the lever advances it; what the gastroscope's drives
-    meet comes back as a force, through the law. Where the link is lost, the force fades to zero within 0.2 s; once it
-    is back, the hand has to agree (Enter). Without a link for `--give-up`, or when the slave says that its drives
-    have stopped, the run ends with the drives at rest and exit code 1.
+    **The motors get power and the joystick moves.** Limits, faults, log and the question before the motors get power
+    are those of `ebac run`. Two axes bend the tip, and the slide of the lever advances it; the load of the
+    gastroscope's drives is fed back as a force, through the law. When the link is lost, the force fades to zero
+    within 0.2 s; once it is back, the hand has to consent (Enter). Without a link for `--give-up`, or when the slave
+    reports that its drives have stopped, the run ends with the drives at rest and exit code 1.
 
     **Examples**
 
     * `ebac gastroscopy slave --simulated`, then `ebac gastroscopy master --simulated --seconds 20`
 
-    * `ebac gastroscopy master --simulated --peer 127.0.0.1:49299 --seconds 3 --json`: nobody answers, and it waits
+    * `ebac gastroscopy master --simulated --peer 127.0.0.1:49299 --seconds 3 --json`: no slave answers, so it waits
     """
     from ebac.gastroscope.on_drives import run_master
 
@@ -125,14 +130,14 @@ def slave(
     feed: Annotated[
         Path | None,
         typer.Option(
-            help="Drives for insertion and rotation, in TOML, as of `ebac demo gastroscope-feed`.",
+            help="Drives for insertion and rotation, in TOML, as `ebac demo gastroscope-feed` writes it.",
             show_default="that one, with --simulated",
         ),
     ] = None,
     bend: Annotated[
         Path | None,
         typer.Option(
-            help="Drives for both bends, as of `ebac demo gastroscope-bend`.",
+            help="Drives for both bends, as `ebac demo gastroscope-bend` writes it.",
             show_default="that one, with --simulated",
         ),
     ] = None,
@@ -153,12 +158,12 @@ def slave(
     """Run the four drives of a gastroscope, which follow a joystick over a network and send their load back.
 
     **The motors get power and the gastroscope moves.** Insertion and rotation are on one bus, both bends on another:
-    four drives at 1 kHz do not fit on one of 1 Mbit/s. Each pair runs as `ebac run` does, with its limits, faults and
-    log (that of the bends beside the other, with `-bend` in its name); a fault of one pair stops both at once, with
-    zero torque, and the master learns of it. Without a link the drives hold where they are, and after `--give-up` the
-    run ends with the drives at rest and exit code 1.
+    four drives at 1 kHz do not fit on one of 1 Mbit/s. Each pair runs like `ebac run`, with its limits, faults and
+    log (the log of the bends has `-bend` in its name); a fault of one pair stops both at once, with zero torque, and
+    is reported to the master. Without a link the drives hold their position, and after `--give-up` the run ends with
+    the drives at rest and exit code 1.
 
-    With `--simulated` a gastroscope in a patient is behind the drives: tendons, tube, wall.
+    With `--simulated` the drives move a simulated gastroscope in a patient: tendons, tube, wall.
 
     **Examples**
 

@@ -37,14 +37,17 @@ class MasterOptions:
     ] = "rate"
     bending: Annotated[
         str,
-        typer.Option(help="The handle's place is a position or a rate.", rich_help_panel=MASTER),
+        typer.Option(
+            help="Whether the position of the handle commands a position or a rate.",
+            rich_help_panel=MASTER,
+        ),
     ] = "position"
     feedback: Annotated[
         float,
         typer.Option(
             min=0,
             max=10,
-            help="Share of the force that is fed back; 0 none.",
+            help="Share of the force that is fed back; 0 for none.",
             rich_help_panel=MASTER,
         ),
     ] = 1.0
@@ -72,18 +75,20 @@ def gastroscopy(
     law: Annotated[str, options.one_law()] = "ebac",
     delay: Annotated[
         float,
-        typer.Option(min=0, max=2, help="Of the line each way [s].", rich_help_panel=MASTER),
+        typer.Option(
+            min=0, max=2, help="Delay of the link in each direction [s].", rich_help_panel=MASTER
+        ),
     ] = 0.0,
     heed: Annotated[
         float,
         typer.Option(
             min=0,
             max=100,
-            help="Force on the hand at which the physician stops to advance [N]; 0: none.",
+            help="Force on the hand at which the physician stops advancing [N]; 0 for never.",
         ),
     ] = 3.0,
-    seconds: Annotated[float, typer.Option(help="Longest time [s].")] = 120.0,
-    seed: Annotated[int, typer.Option(min=0, help="Of the physician.")] = 1,
+    seconds: Annotated[float, typer.Option(help="Longest duration [s].")] = 120.0,
+    seed: Annotated[int, typer.Option(min=0, help="Seed of the physician.")] = 1,
     log: Annotated[
         Path | None,
         typer.Option(
@@ -98,7 +103,7 @@ def gastroscopy(
         bool,
         typer.Option(
             "--live",
-            help="See it in a browser, in real time: outside, the camera's view, forces. Writes no files.",
+            help="Show it in a browser in real time: view from outside, camera image and forces. Writes no files.",
             rich_help_panel=LIVE,
         ),
     ] = False,
@@ -110,20 +115,22 @@ def gastroscopy(
     ] = 0,
     no_browser: Annotated[
         bool,
-        typer.Option("--no-browser", help="With --live: open no browser.", rich_help_panel=LIVE),
+        typer.Option(
+            "--no-browser", help="With --live: do not open a browser.", rich_help_panel=LIVE
+        ),
     ] = False,
     as_json: output.AsJson = False,
 ) -> None:
     """Run a gastroscopy: from the teeth to the pylorus, touching three targets.
 
-    A simulation: joystick, hand and law as everywhere in `ebac`, a line with a delay, a gastroscope with its motors
-    and tendons, a patient, and a physician who steers by the camera. It says nothing about patients.
+    A simulation of joystick, hand and law as everywhere in `ebac`, a link with a delay, a gastroscope with its motors
+    and tendons, a patient, and a physician who steers by the camera image. Its results do not apply to patients.
 
     **Examples**
 
     * `ebac gastroscopy --seconds 5`: the first five seconds
 
-    * `ebac gastroscopy --live`: see it in your browser
+    * `ebac gastroscopy --live`: watch it in your browser
 
     * `ebac gastroscopy --delay 0.1 --law direct --seconds 5 --json`
 

@@ -21,7 +21,10 @@ def study(
     law: Annotated[list[str] | None, options.laws("direct, ebac")] = None,
     delay: Annotated[
         list[float] | None,
-        typer.Option(help="Of the line each way [s]; several.", show_default="0, 0.05, 0.1"),
+        typer.Option(
+            help="Delay of the link in each direction [s]; may be given several times.",
+            show_default="0, 0.05, 0.1",
+        ),
     ] = None,
     physicians: Annotated[
         int, typer.Option(min=2, max=10000, help="Physicians in each cell.")
@@ -31,19 +34,19 @@ def study(
         typer.Option(
             min=0,
             max=100,
-            help="Force on the hand at which a physician stops to advance [N]; 0: none.",
+            help="Force on the hand at which a physician stops advancing [N]; 0 for never.",
         ),
     ] = 3.0,
-    seconds: Annotated[float, typer.Option(help="Longest time of a run [s].")] = 120.0,
-    seed: Annotated[int, typer.Option(min=0, help="Of the population.")] = 1,
-    threads: Annotated[int, typer.Option(min=0, help="0: one per core.")] = 0,
+    seconds: Annotated[float, typer.Option(help="Longest duration of a run [s].")] = 120.0,
+    seed: Annotated[int, typer.Option(min=0, help="Seed of the population.")] = 1,
+    threads: Annotated[int, typer.Option(min=0, help="Number of threads; 0 for one per core.")] = 0,
     as_json: output.AsJson = False,
 ) -> None:
     """Compare gastroscopies with and without force feedback over simulated physicians.
 
-    Each physician runs every law at every delay without and with feedback: time, way, largest and integrated force
-    on the tissue, perforations, energy; the effect of feedback with its confidence interval and its power. The joystick
-    has three straight axes here.
+    Each physician runs every law at every delay without and with feedback. The tables show duration, distance,
+    largest and integrated force on the tissue, perforations and energy, and the effect of feedback with its
+    confidence interval and statistical power. The joystick has three straight axes here.
 
     **Examples**
 

@@ -23,12 +23,14 @@ def arm(
     fix: given.Fix = None,
     free: Annotated[
         list[str] | None,
-        typer.Option(help="Fit delay or onset too.", show_default=False, rich_help_panel=given.FIT),
+        typer.Option(
+            help="Also fit delay or onset.", show_default=False, rich_help_panel=given.FIT
+        ),
     ] = None,
     hold_out: Annotated[
         list[Path] | None,
         typer.Option(
-            help="A log of the same arm to judge the fit on; not fitted.",
+            help="A second log of the same arm, to judge the fit; it is not used in the fit.",
             show_default=False,
             rich_help_panel=given.FIT,
         ),
@@ -36,13 +38,18 @@ def arm(
     robust: given.Robust = None,
     starts: Annotated[
         int,
-        typer.Option(help="Starts of the search.", min=1, max=1000, rich_help_panel=given.FIT),
+        typer.Option(
+            help="Number of starting points of the search.",
+            min=1,
+            max=1000,
+            rich_help_panel=given.FIT,
+        ),
     ] = 1,
     profile: Annotated[
         bool,
         typer.Option(
             "--profile",
-            help="Profile likelihood intervals too (slower).",
+            help="Also compute profile likelihood intervals (slower).",
             rich_help_panel=given.FIT,
         ),
     ] = False,
@@ -50,7 +57,8 @@ def arm(
 ) -> None:
     """Identify a human arm, eq. (4): mass M0, damping B0, stiffness K0 and the position it moves to.
 
-    Needs position and force of the hand. A column `target` in the log is taken as the path the hand followed.
+    The log must contain position and force of the hand. A column `target` is taken as the path that the hand
+    followed.
 
     **Examples**
 
@@ -58,7 +66,7 @@ def arm(
 
     * `ebac demo tapping`, then `ebac identify arm tapping.mcap --out report`
 
-    Exit code 1 where the result is no hand: it explains less of the motion than none would.
+    Exit code 1 when the result is not a plausible hand, because it explains less of the motion than no hand would.
     """
     from ebac.identify import fit_arm
 

@@ -26,7 +26,7 @@ LOGS = {What.ARM: 200, What.DEVICE: 200, What.GAINS: 10}
 
 
 def check(
-    what: Annotated[What, typer.Argument(help="What is identified.")] = What.ARM,
+    what: Annotated[What, typer.Argument(help="What to identify.")] = What.ARM,
     logs: Annotated[
         int | None,
         typer.Option(
@@ -44,11 +44,11 @@ def check(
     ] = None,
     as_json: output.AsJson = False,
 ) -> None:
-    """Check the identification on random arms and devices: how often do the intervals hold the truth? A simulation.
+    """Check on random arms and devices how often the intervals contain the true value. A simulation.
 
-    Each arm taps, follows a path or presses, at a wall under a law, with encoder counts and noise of the force sensor;
-    one in ten never meets the wall, and its log is not informative. Prints coverage and bias of every parameter.
-    With `gains`, K_p and K_d are chosen from each log and tried on hands that were not in it.
+    Each arm taps, follows a path or presses, at a wall under a law, with encoder counts and noise of the force
+    sensor; one in ten never touches the wall, so its log is not informative. The command prints coverage and bias of
+    each parameter. With `gains`, K_p and K_d are chosen from each log and tested on hands that were not in it.
 
     **Examples**
 

@@ -22,7 +22,7 @@ def device(
 ) -> None:
     """Identify a device: mass, damping, Coulomb and Stribeck friction, weight, and tau_static of eq. (2).
 
-    Needs position, and the motor's force or the hand's, which moves it both ways.
+    The log must contain the position and the force that moves the device to and fro, of the motor or of the hand.
 
     **Examples**
 
@@ -30,7 +30,8 @@ def device(
 
     * `ebac identify device device.csv --out report`: with a page and figures
 
-    Exit code 1 where the result is no device, such as a negative friction; the sign that fits is named.
+    Exit code 1 when the result is not a plausible device, such as one with negative friction; the message names the
+    sign that fits.
     """
     from ebac.identify import fit_device
 

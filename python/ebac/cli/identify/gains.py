@@ -39,14 +39,14 @@ def gains(
     vary: Annotated[
         float,
         typer.Option(
-            help="Hands this share beyond the identified one are tried too.",
+            help="Also try hands that differ from the identified one by this share.",
             rich_help_panel=given.FIT,
         ),
     ] = 0.3,
     overshoot: Annotated[
         float | None,
         typer.Option(
-            help="Deepest beyond the rest of an ideal wall [m].",
+            help="Largest overshoot beyond the rest at an ideal wall [m].",
             min=0,
             max=1,
             show_default="a quarter more than the default gains show",
@@ -76,7 +76,7 @@ def gains(
     noise_gain: Annotated[
         float,
         typer.Option(
-            help="Noise of the command per noise of the force reading.",
+            help="Largest ratio of the noise of the command to that of the force reading.",
             min=0,
             max=100,
             rich_help_panel=LIMITS,
@@ -85,17 +85,20 @@ def gains(
     energy: Annotated[
         float,
         typer.Option(
-            help="Most energy the port may give away [J].", min=0, max=100, rich_help_panel=LIMITS
+            help="Most energy that the port may give out [J].",
+            min=0,
+            max=100,
+            rich_help_panel=LIMITS,
         ),
     ] = 0.010,
     as_json: output.AsJson = False,
 ) -> None:
     """Choose the gains K_p and K_d of eq. (2) from logged presses.
 
-    Arm, device and wall are identified first. Every pair of gains is then simulated on the identified hand, on the ends
-    of its interval and on hands around it. No hand may break a constraint; settling, swing and noise are compared with
-    those of the default gains, and none of the three may get worse. The rule of the paper, on the step response, stands
-    beside it. The table is a simulation.
+    Arm, device and wall are identified first. Every pair of gains is then simulated on the identified hand, on the
+    ends of its interval and on hands around it. No hand may violate a constraint; settling, swing and noise are
+    compared with those of the default gains, and none of the three may get worse. The table, which is simulated, also
+    shows the gains by the paper's rule on the step response.
 
     **Examples**
 

@@ -17,7 +17,7 @@ def log(
     ask: Annotated[
         list[str] | None,
         typer.Option(
-            help="Parameters to identify: M0, B0, K0, with commas between.",
+            help="Parameters to identify: M0, B0, K0, separated by commas.",
             show_default="all three",
             rich_help_panel=given.FIT,
         ),

@@ -61,7 +61,7 @@ class TargetOptions:
         bool,
         typer.Option(
             "--held",
-            help="The hand was held in one place, whatever the log says.",
+            help="The hand was held in one place, whatever the log contains.",
             rich_help_panel=FIT,
         ),
     ] = False
@@ -108,7 +108,9 @@ class ReportOptions(FigureOptions):
     ] = None
     force: Annotated[
         bool,
-        typer.Option("--force", help="Write into a folder that has files.", rich_help_panel=PANEL),
+        typer.Option(
+            "--force", help="Write to a folder that already contains files.", rich_help_panel=PANEL
+        ),
     ] = False
 
     def folder(self) -> Path | None:
@@ -206,7 +208,7 @@ class Reading:
         bool,
         typer.Option(
             "--flip-force",
-            help="The log holds the force on the hand, of the other sign.",
+            help="The log contains the force on the hand, with the opposite sign.",
             rich_help_panel=LOG,
         ),
     ] = False
@@ -215,7 +217,7 @@ class Reading:
         bool,
         typer.Option(
             "--flip-motor",
-            help="The motor's force drives to +x, where positive.",
+            help="A positive motor force in the log drives towards +x.",
             rich_help_panel=LOG,
         ),
     ] = False

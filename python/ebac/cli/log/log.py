@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 log = typer.Typer(
     cls=Group,
     no_args_is_help=True,
-    help="Look into, export, repair and draw the logs of runs.",
+    help="Inspect, export, repair and plot the logs of runs.",
 )
 
 LogFile: TypeAlias = Annotated[
@@ -43,11 +43,11 @@ class Profile(StrEnum):
 def info(
     file: LogFile,
     meanings: Annotated[
-        bool, typer.Option("--meanings", help="Say what each column means.")
+        bool, typer.Option("--meanings", help="Explain what each column means.")
     ] = False,
     as_json: output.AsJson = False,
 ) -> None:
-    """Print what a log holds: rows, time, columns with units, gaps, faults, versions.
+    """Print the contents of a log: rows, time, columns with units, gaps, faults, versions.
 
     Also reads logs that a crash cut short. Exit code 3 when parts are damaged.
 
@@ -78,16 +78,18 @@ def export(
     start: From = None,
     stop: To = None,
     profile: Annotated[
-        Profile, typer.Option("--profile", help="Of .mcap: a log of ebac, or a bag of ROS 2.")
+        Profile, typer.Option("--profile", help="For .mcap: a log of ebac, or a bag of ROS 2.")
     ] = Profile.EBAC,
-    force: Annotated[bool, typer.Option("--force", help="Replace a file of that name.")] = False,
+    force: Annotated[
+        bool, typer.Option("--force", help="Replace a file of the same name.")
+    ] = False,
     as_json: output.AsJson = False,
 ) -> None:
-    """Write the rows of a log in the format of another program, by the extension of OUT.
+    """Export the rows of a log to another format, chosen by the extension of OUT.
 
-    Every number keeps all its digits, every column its unit. MATLAB needs `pip install 'ebac[log]'`, so does HDF5;
-    Parquet `ebac[sweep]`. Only the rows asked for come into memory. Exit code 3 when parts of the log are damaged:
-    the rows in them are missing.
+    Every number keeps all its digits and every column its unit. MATLAB and HDF5 need `pip install 'ebac[log]'`,
+    Parquet needs `ebac[sweep]`. Only the requested rows are loaded into memory. Exit code 3 when parts of the log are
+    damaged; their rows are missing.
 
     **Examples**
 
@@ -134,7 +136,7 @@ def repair(
     ] = None,
     as_json: output.AsJson = False,
 ) -> None:
-    """Write a whole log from one that was cut or damaged; the old one stays as it is.
+    """Write a complete log from one that was cut or damaged; the old file is not changed.
 
     Rows and events that can be read go to a new MCAP file with a summary, which every reader accepts.
 
@@ -187,17 +189,19 @@ def plot(
         typer.Option(
             "--column",
             "-c",
-            help="Columns to draw, with commas between.",
+            help="Columns to draw, separated by commas.",
             show_default="position, force, beta and energy",
         ),
     ] = None,
     start: From = None,
     stop: To = None,
-    force: Annotated[bool, typer.Option("--force", help="Replace a file of that name.")] = False,
+    force: Annotated[
+        bool, typer.Option("--force", help="Replace a file of the same name.")
+    ] = False,
 ) -> None:
     """Draw a log over time: position, force, beta and energy, or columns by name.
 
-    Exit code 3 when parts of the log are damaged: the rows in them are missing.
+    Exit code 3 when parts of the log are damaged; their rows are missing.
 
     **Examples**
 

@@ -20,29 +20,30 @@ def doctor(
     configuration: Annotated[
         Path | None,
         typer.Argument(
-            help="Configuration of a run: what its drives do when the loop stalls, and the time its bus takes."
+            help="Configuration of a run: also report what its drives do when the loop stalls, and the time on its bus."
         ),
     ] = None,
     priority: Annotated[
-        int, typer.Option(help="Priority the control thread would ask for.", min=1, max=99)
+        int, typer.Option(help="Priority that the control thread would request.", min=1, max=99)
     ] = 80,
     cpu: Annotated[
-        int, typer.Option(help="CPU the thread would stay on; -1 for any.", min=-1)
+        int, typer.Option(help="CPU that the thread would be pinned to; -1 for any.", min=-1)
     ] = -1,
     as_json: output.AsJson = False,
 ) -> None:
     """Check this machine for real-time problems.
 
-    Prints how to fix each one. Kernel, clock, limits and CAN interfaces are looked at; nothing is changed. "fair":
-    ticks come late now and then. "bad": a control loop cannot run as asked; exit code 1.
+    Prints how to fix each one. Kernel, clock, limits and CAN interfaces are checked; nothing is changed. "fair" means
+    that some ticks will be late, "bad" that a control loop cannot run as requested, with exit code 1.
 
     **Examples**
 
     * `ebac doctor`
 
-    * `ebac doctor --cpu 0`: would a thread get CPU 0?
+    * `ebac doctor --cpu 0`: also check whether a thread can be pinned to CPU 0
 
-    * `ebac demo joystick`, then `ebac doctor joystick.toml`: and how long its drives hold a torque when the loop stalls
+    * `ebac demo joystick`, then `ebac doctor joystick.toml`: also how long its drives hold a torque when the loop
+      stalls
     """
     from ebac.realtime import RealTime, examine
 

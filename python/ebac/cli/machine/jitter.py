@@ -24,11 +24,11 @@ def jitter(
     realtime: Annotated[
         str,
         typer.Option(
-            help="Real-time priority; auto: take what is granted, enforce: all or nothing, off: ask for nothing."
+            help="Real-time priority: auto (use it if granted), enforce (fail without it) or off (do not request it)."
         ),
     ] = "auto",
     priority: Annotated[int, typer.Option(help="Priority under SCHED_FIFO.", min=1, max=99)] = 80,
-    cpu: Annotated[int, typer.Option(help="CPU to stay on; -1 for any.", min=-1)] = -1,
+    cpu: Annotated[int, typer.Option(help="CPU to pin the thread to; -1 for any.", min=-1)] = -1,
     stay_awake: Annotated[
         bool,
         typer.Option("--stay-awake/--no-stay-awake", help="Keep idle CPUs from sleeping."),
@@ -40,8 +40,8 @@ def jitter(
 ) -> None:
     """Measure how late this machine wakes a real-time thread.
 
-    Where `cyclictest` (Debian: rt-tests) is installed the two take turns of 2 s, with what the thread was granted.
-    On a virtual machine the tail is the host's.
+    If `cyclictest` (Debian: rt-tests) is installed, the two alternate every 2 s, with the same priority. On a virtual
+    machine the longest delays come from the host.
 
     **Examples**
 
@@ -49,7 +49,7 @@ def jitter(
 
     * `ebac jitter --seconds 4 --cpu 0`: on one CPU
 
-    * `ebac jitter --seconds 4 --no-stay-awake`: what it costs to let idle CPUs sleep; cyclictest never does.
+    * `ebac jitter --seconds 4 --no-stay-awake`: the effect of letting idle CPUs sleep; cyclictest never lets them.
     """
     from ebac.realtime import RealTime, beside_cyclictest, measure
 

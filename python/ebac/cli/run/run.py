@@ -26,27 +26,28 @@ def run(
     person: options.HandOptions,
     style: FigureOptions,
     configuration: Annotated[
-        Path, typer.Argument(help="The device and the run, in TOML: see `ebac demo joystick`.")
+        Path,
+        typer.Argument(help="Configuration of device and run in TOML; see `ebac demo joystick`."),
     ],
     simulated: Annotated[
         bool,
         typer.Option(
             "--simulated",
-            help="On simulated drives, device and hand; clock, thread and bus are real.",
+            help="Use simulated drives, device and hand; clock, thread and bus are real.",
         ),
     ] = False,
     virtual: Annotated[
         bool,
         typer.Option(
             "--virtual",
-            help="The same on a virtual clock, all simulated: no tick is late, however busy the machine is.",
+            help="Simulate everything, also the clock: no tick is late, however busy the machine is.",
         ),
     ] = False,
     bus_time: Annotated[
         bool,
         typer.Option(
             "--bus-time/--no-bus-time",
-            help="With --virtual: frames take their time on the bus, or each arrives at once.",
+            help="With --virtual: model the time that frames take on the bus, or deliver each one at once.",
         ),
     ] = True,
     law: Annotated[str | None, options.one_law(default="as configured")] = None,
@@ -73,12 +74,14 @@ def run(
         typer.Option(
             "--out",
             "-o",
-            help="Folder for log, figure and numbers, each named by its time; with --json only when given.",
+            help="Folder for log, figure and numbers, named by the time; with --json, written only if given.",
             show_default="ebac-run",
             rich_help_panel=PANEL,
         ),
     ] = None,
-    no_files: Annotated[bool, typer.Option("--no-files", help="Write no files, no log.")] = False,
+    no_files: Annotated[
+        bool, typer.Option("--no-files", help="Write neither files nor a log.")
+    ] = False,
     live: Annotated[
         bool | None,
         typer.Option(
@@ -89,7 +92,9 @@ def run(
     ] = None,
     detached: Annotated[
         bool,
-        typer.Option("--detached", help="Go on when the program that started this one has died."),
+        typer.Option(
+            "--detached", help="Continue when the program that started this one has died."
+        ),
     ] = False,
     beyond_rating: Annotated[
         bool,
@@ -104,17 +109,17 @@ def run(
 
     **The motors get power and the device moves.**
 
-    The drives are checked against their profiles, enabled, run under the law for the time asked, and left without
-    power, however it ends: any key, Ctrl-C, a closed terminal, a fault, the death of the program that started this one.
-    A fault gives exit code 1 and the last rows stay in the log.
+    The drives are checked against their profiles, enabled, run under the law for the given time, and switched off
+    however the run ends: by any key, Ctrl-C, a closed terminal, a fault, or the death of the program that started
+    this one. A fault gives exit code 1; the log contains the rows up to it.
 
-    Before they have power, the command shows where each axis stands from the zero of its encoder and how far the wall
-    is, and asks whether that is so; `--yes` does not ask (`ebac drive zero` sets the zero). Simulated drives are not
-    asked about.
+    Before the drives get power, the command shows the position of each axis relative to the zero of its encoder and
+    the distance to the wall, and asks you to confirm it; `--yes` skips the question (`ebac drive zero` sets the
+    zero). With simulated drives it does not ask.
 
     With `--simulated` nothing moves: the drives, the device and the hand are simulated, in another process on a
-    virtual CAN interface where there is one (`ip link add vcan0 type vcan`), else in a thread of this process. All the
-    rest is what runs on hardware.
+    virtual CAN interface if there is one (`ip link add vcan0 type vcan`), otherwise in a thread of this process.
+    Everything else is the same as on hardware.
 
     **Examples**
 

@@ -18,22 +18,22 @@ _AXES = ("force_x", "force_y", "force_z", "torque_x", "torque_y", "torque_z")
 def bias(
     which: options.SensorOptions,
     records: Annotated[
-        int, typer.Option(help="Records to take the mean of.", min=1, max=1_000_000)
+        int, typer.Option(help="Number of records to average.", min=1, max=1_000_000)
     ] = 500,
     inside: Annotated[
         bool,
         typer.Option(
             "--inside",
-            help="Have the sensor itself do it: for every program, until it loses its power.",
+            help="Set the bias in the sensor itself, for every program, until it is switched off.",
         ),
     ] = False,
     as_json: output.AsJson = False,
 ) -> None:
-    """Measure what the sensor shows with nobody at the handle, to be taken as zero.
+    """Measure the reading of the sensor with nobody at the handle, to be used as zero.
 
-    The mean goes into the configuration, so that every run starts from the same zero: the line to
-    put under `[sensor]` is printed. With `--inside` the sensor's own software bias is set instead, and
-    the table shows what is left. Saturated records and those with an error do not count.
+    The command prints the line with the mean to put under `[sensor]` in the configuration, so that every run starts
+    from the same zero. With `--inside` the sensor's own software bias is set instead, and the table shows the
+    remaining offset. Saturated records and those with an error do not count.
 
     **Examples**
 

@@ -30,19 +30,19 @@ def read(
     seconds: Annotated[
         float | None,
         typer.Option(
-            help="Stop after so long [s].",
+            help="Stop after this time [s].",
             show_default="until Ctrl-C; 1 with --json",
             min=0,
             max=1e7,
         ),
     ] = None,
-    rate: Annotated[float, typer.Option(help="Rows a second [Hz].", min=0.1, max=1000)] = 10.0,
+    rate: Annotated[float, typer.Option(help="Rows per second [Hz].", min=0.1, max=1000)] = 10.0,
     as_json: output.AsJson = False,
 ) -> None:
-    """Show force and torque at the handle, how old they are, and what was lost on the way.
+    """Show force and torque at the handle, their age, and the number of lost packets.
 
-    A sensor streams to one program at a time: this takes the stream from a loop that runs on it, and
-    that loop then stops by its fault FORCE_STALE.
+    A sensor streams to one program at a time: this command takes the stream from a running loop, which then stops
+    with the fault FORCE_STALE.
 
     **Examples**
 

@@ -28,13 +28,15 @@ def _share(what: str) -> Any:
 
 
 def simulate(
-    host: Annotated[str, typer.Option(help="Address of this machine to take.")] = "127.0.0.1",
+    host: Annotated[str, typer.Option(help="Address of this machine to use.")] = "127.0.0.1",
     port: Annotated[
         int, typer.Option(help="UDP port; 0 takes any free one.", min=0, max=65535)
     ] = 49152,
     http_port: Annotated[
         int | None,
-        typer.Option(help="Port of its page.", show_default="no page", min=0, max=65535),
+        typer.Option(
+            help="Port of the sensor's web page.", show_default="no page", min=0, max=65535
+        ),
     ] = None,
     force: Annotated[
         tuple[float, float, float] | None,
@@ -44,12 +46,15 @@ def simulate(
     device: simulated.PlantDevice = None,
     hand: simulated.PlantHand = None,
     seed: options.Seed = None,
-    rate: Annotated[float, typer.Option(help="Records a second [Hz].", min=1, max=7000)] = 1000.0,
+    rate: Annotated[float, typer.Option(help="Records per second [Hz].", min=1, max=7000)] = 1000.0,
     load: Annotated[
-        float, typer.Option(help="What weighs on its z axis besides the hand, until a bias [N].")
+        float,
+        typer.Option(
+            help="Weight on the z axis of the sensor in addition to the hand, until a bias is set [N]."
+        ),
     ] = 0.0,
     model: Annotated[
-        str, typer.Option(help="Whose status bits it has: net-ft, axia, other.")
+        str, typer.Option(help="Model whose status bits it uses: net-ft, axia, other.")
     ] = "net-ft",
     loss: Annotated[float, _share("are not sent")] = 0.0,
     duplicate: Annotated[float, _share("are sent twice")] = 0.0,
@@ -58,9 +63,9 @@ def simulate(
 ) -> None:
     """Put a simulated force sensor on the network, in real time, until Ctrl-C. A simulation.
 
-    It speaks the protocol of the ATI Net F/T (RDT over UDP), so every program for one can talk to it. It
-    feels the hand of a scenario that moves its device without power, or a steady force. One client at a
-    time, as the real one: who asks last has the stream.
+    It uses the protocol of the ATI Net F/T (RDT over UDP), so every program for that sensor can read it. It measures
+    the hand of a scenario, which moves its device without power, or a steady force. Like the real sensor it has one
+    client at a time: the last one to ask gets the stream.
 
     **Examples**
 

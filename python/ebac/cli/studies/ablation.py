@@ -30,7 +30,7 @@ def ablation(
     change: Annotated[
         list[str] | None,
         typer.Option(
-            help="One more row: NAME=VALUE in SI units, on or off; several with commas between; repeat it. "
+            help="Add a row: NAME=VALUE in SI units, on or off; several separated by commas; repeat it. "
             "`ebac laws NAME` lists the parameters.",
             rich_help_panel=_WHAT,
         ),
@@ -38,7 +38,7 @@ def ablation(
     beside: Annotated[
         list[str] | None,
         typer.Option(
-            help="Other laws to compare with; several with commas between.",
+            help="Other laws to compare with; several separated by commas.",
             show_default="tca, eba",
             rich_help_panel=_WHAT,
         ),
@@ -63,12 +63,12 @@ def ablation(
     resume: Annotated[bool, options.resume("ablation")] = False,
     as_json: output.AsJson = False,
 ) -> None:
-    """Switch off each part of a controller and see what gets worse.
+    """Switch off each part of a controller and measure what gets worse.
 
     An ablation study, simulated.
 
-    The parts are the on/off parameters of the law, each turned over, and its gain kp set to zero. The measures are the
-    share of good hands under hard conditions, energy given out, and ripple.
+    The parts are the on/off parameters of the law, which are switched one at a time, and its gain kp, which is set to
+    zero. The measures are the share of good hands under hard conditions, energy given out, and ripple.
 
     **Examples**
 

@@ -31,11 +31,11 @@ def engines(
     engine_compute: engine_options.EngineCompute = None,
     as_json: output.AsJson = False,
 ) -> None:
-    """Compare laws before an engine that is slower than the loop.
+    """Compare laws with a physics engine that is slower than the loop.
 
-    A simulation. Each law meets the world three times: computed in every tick; by an engine whose force is held until
-    its next answer; and by the same engine whose answers are local models, which the loop renders in every tick.
-    *passive*: the port gave out no more than 1 mJ.
+    A simulation. Each law renders the world in three ways: computed in every tick; by an engine whose force is held
+    until its next answer; and by the same engine with local models as answers, which the loop renders in every tick.
+    *passive* means that the port gave out no more than 1 mJ.
 
     **Examples**
 

@@ -22,7 +22,7 @@ def faults(
     cases: Annotated[
         int,
         typer.Option(
-            help="Runs in which something goes wrong; every kind in turn.", min=1, max=10_000_000
+            help="Number of runs with an injected fault; every kind in turn.", min=1, max=10_000_000
         ),
     ] = 10_000,
     seed: Annotated[int, typer.Option(help="Seed; the same one gives the same cases.", min=0)] = 1,
@@ -31,10 +31,10 @@ def faults(
 ) -> None:
     """Inject faults into the control loop and check how it stops.
 
-    A simulation. Two simulated CANopen drives, a hand at a wall, EBAC, limits and states, in virtual time. In every
-    case: zero torque on the bus within 2 ticks of the fault, every drive disabled at the end, no limit exceeded at
-    any tick by the drives' own currents, the right fault reported, no restart without a reset; and no false alarm.
-    Exit code 1 when a case fails.
+    A simulation. Two simulated CANopen drives, a hand at a wall, EBAC, limits and states, in virtual time. Each case
+    checks that the torque on the bus is zero within 2 ticks of the fault, that every drive is disabled at the end,
+    that the drives' own currents exceed no limit at any tick, that the right fault is reported, that there is no
+    restart without a reset, and that there is no false alarm. Exit code 1 when a case fails.
 
     **Examples**
 

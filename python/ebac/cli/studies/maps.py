@@ -51,7 +51,7 @@ def map_(
     resume: Annotated[bool, options.resume("map")] = False,
     as_json: output.AsJson = False,
 ) -> None:
-    """Map where a law is stable, over two quantities.
+    """Map over two quantities where a law is stable.
 
     A simulation. KB is wall stiffness over wall damping, Kd wall stiffness over delay, MB damping over mass of the
     hand. Quantities: stiffness, damping, delay, hand-mass, hand-damping, hand-stiffness, device-mass,

@@ -49,10 +49,10 @@ def shapes(
     delay: options.Delay = None,
     as_json: output.AsJson = False,
 ) -> None:
-    """Compare laws at worlds of several shapes and stiffnesses, on devices of one to three axes.
+    """Compare laws on worlds of several shapes and stiffnesses, with devices of one to three axes.
 
-    A simulation. A hand of 300 N/m with its target 18 mm inside and a little aside presses for 4 s. *good*: quiet and
-    exact on every axis, and the port gave out no more than 1 mJ.
+    A simulation. A hand of 300 N/m, with its target 18 mm inside and slightly to the side, presses for 4 s. *good*
+    means quiet and exact on every axis, with no more than 1 mJ given out by the port.
 
     **Examples**
 

@@ -26,7 +26,7 @@ def study(
     population: Annotated[
         str,
         typer.Option(
-            help="grid60, random, or a CSV file with the columns m_kg, b_Ns_per_m, k_N_per_m, target_m and, as wanted, "
+            help="grid60, random, or a CSV file with the columns m_kg, b_Ns_per_m, k_N_per_m, target_m and optionally "
             "approach_m, tremor_m, tremor_Hz.",
             rich_help_panel=_WHO,
         ),
@@ -53,8 +53,8 @@ def study(
     condition: Annotated[
         list[str] | None,
         options.conditions(
-            "A condition or a group of them, see `ebac conditions`, or one written out, as d2K15; several with commas "
-            "between.",
+            "A condition or a group of them, see `ebac conditions`, or one written out, such as d2K15; several "
+            "separated by commas.",
             panel=_WHAT,
             default="d1K10",
         ),
@@ -64,7 +64,7 @@ def study(
     traces: Annotated[
         int,
         typer.Option(
-            help="Failures whose traces are kept, at most.",
+            help="Largest number of failures whose traces are kept.",
             min=0,
             max=10_000,
             rich_help_panel=PANEL,
@@ -74,10 +74,10 @@ def study(
 ) -> None:
     """Simulate laws with many different hands and conditions.
 
-    In simulation. A hand is good when it rests within two encoder counts of the ideal, or where friction f_c holds it,
-    f_c/(K0 + K) farther, swings by less than 0.25 mm, and feels no vibration of the force (quiet force). "Exact, still"
-    is the same without a look at the force; such a hand is in time when it settles within 1.5 times what it needs
-    against an ideal wall, plus 0.2 s.
+    A simulation. A hand is good when it rests within two encoder counts of the ideal (with friction f_c, within
+    f_c/(K0 + K) more), swings by less than 0.25 mm, and its force settles and vibrates by less than three detection
+    thresholds (quiet force). "Exact, still" does not judge the force. Such a hand is in time when it settles within
+    1.5 times the time that it needs at an ideal wall, plus 0.2 s.
 
     **Examples**
 

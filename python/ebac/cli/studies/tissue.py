@@ -21,19 +21,19 @@ def tissue(
     ] = None,
     depth: Annotated[
         float,
-        typer.Option(help="Deepest place of the curves [m].", rich_help_panel=options.WALL),
+        typer.Option(help="Largest depth of the curves [m].", rich_help_panel=options.WALL),
     ] = 0.012,
     speed: Annotated[
         float,
-        typer.Option(help="Of the curves, in and out [m/s].", rich_help_panel=options.WALL),
+        typer.Option(help="Speed of the curves, in and out [m/s].", rich_help_panel=options.WALL),
     ] = 0.02,
     as_json: output.AsJson = False,
 ) -> None:
-    """Compare soft materials with their closed forms, and laws that meet them.
+    """Compare soft materials with their closed forms, and laws that render them.
 
-    A simulation. An elastic, a Kelvin-Voigt, a Hunt-Crossley and a layered body are pressed and let out at one speed:
-    force over depth, punctures, energy taken and given back, each beside its closed form. Then a hand of 300 N/m
-    presses each under every law and lets go.
+    A simulation. An elastic, a Kelvin-Voigt, a Hunt-Crossley and a layered body are pressed and released at constant
+    speed; force over depth, punctures, energy put in and energy returned are compared with closed forms. Then a hand
+    of 300 N/m presses each body under every law and lets go.
 
     **Examples**
 

@@ -21,7 +21,7 @@ def tune(
     law: Annotated[
         str,
         typer.Argument(
-            help="A law, see `ebac laws`; several with commas between, `all` for every law that has something to tune.",
+            help="A law, see `ebac laws`; several separated by commas, `all` for every law with parameters to tune.",
             autocompletion=completion.laws,
         ),
     ],
@@ -40,7 +40,10 @@ def tune(
     evaluations: Annotated[
         int,
         typer.Option(
-            help="Points to try for each delay.", min=2, max=10_000_000, rich_help_panel=_SEARCH
+            help="Number of points to try for each delay.",
+            min=2,
+            max=10_000_000,
+            rich_help_panel=_SEARCH,
         ),
     ] = 120,
     seed: Annotated[
@@ -52,13 +55,12 @@ def tune(
     """Search the best parameters of a law.
 
     A simulation. The parameters are searched on random training hands; the table shows the 60 hands of the grid, with
-    the parameters of the design and with those found. Good hands count most, those that are exact and quiet in position
-    and force; then settling, energy drawn and the ripple of the force at rest.
-    With --observer-every-law the law acts on the estimate of the observer, else on the encoder.
-    Ctrl-C keeps the best so far.
+    the parameters of the design and with those found. The number of good hands, which are exact and quiet in position
+    and force, counts most; then settling, energy drawn and the ripple of the force at rest. With --observer-every-law
+    the law uses the estimate of the observer, otherwise the encoder. Ctrl-C keeps the best parameters so far.
 
-    What this package found for the reference device, with 0.03 N of sensor noise, are laws of their own:
-    `tca-damped-tuned`, and `tca-damped-tuned-observer` for use with --observer-every-law.
+    The parameters found for the reference device, with 0.03 N of sensor noise, are part of the package under names
+    such as `tca-damped-tuned`, and `tca-damped-tuned-observer` for use with --observer-every-law.
 
     **Examples**
 

@@ -25,7 +25,7 @@ def worst(
     change: Annotated[
         str | None,
         typer.Option(
-            help="Parameters of the law to change: NAME=VALUE in SI units, on or off, with commas between.",
+            help="Parameters of the law to change: NAME=VALUE in SI units, on or off, separated by commas.",
             show_default=False,
             rich_help_panel=_WHAT,
         ),
@@ -41,7 +41,7 @@ def worst(
         list[str] | None,
         typer.Option(
             help="A family of hands: impact, press-and-go, tapping, swinging, drive, noise, periodic; "
-            "several with commas between.",
+            "several separated by commas.",
             show_default="all",
             rich_help_panel=_SEARCH,
         ),
@@ -73,7 +73,7 @@ def worst(
 
     * `ebac worst --condition d2K10 --family swinging --evaluations 1000`
 
-    * `ebac worst --change guard=off --family impact`: what the guard is for
+    * `ebac worst --change guard=off --family impact`: the same without the guard
     """
     from ebac.laws import Variant
     from ebac.studies.worst import worst as search

@@ -71,9 +71,9 @@ def zwidth(
 ) -> None:
     """Find the stiffest wall each law can render (Z-width).
 
-    A simulation, over wall damping and delay. *still*: no limit cycle, for a press and a tap. *quiet*: still, and no
-    vibration of the force above three detection thresholds. *energy*: takes no more than epsilon out of the port.
-    *usable*: quiet and energy, and shows at least half of the stiffness asked for. The score is the area under the
+    A simulation, over wall damping and delay, of a press and a tap. Criteria: *still*, no limit cycle; *quiet*, still
+    and no vibration of the force above three detection thresholds; *energy*, at most epsilon given out by the port;
+    *usable*, quiet, energy and at least half of the requested stiffness at rest. The score is the area under the
     border.
 
     **Examples**

@@ -15,20 +15,25 @@ if TYPE_CHECKING:
 def endurance(
     seconds: Annotated[float, typer.Option(help="Length [s].", min=5, max=86400)] = 600.0,
     scheme: Annotated[str, typer.Option(help="Scheme; see `ebac teleop run`.")] = "ebac",
-    delay: Annotated[float, typer.Option(help="Delay each way [s].", min=0, max=0.3)] = 0.05,
+    delay: Annotated[
+        float, typer.Option(help="Delay in each direction [s].", min=0, max=0.3)
+    ] = 0.05,
     loss: Annotated[float, typer.Option(help="Share of packets lost.", min=0, max=1)] = 0.05,
     cut_every: Annotated[
-        float, typer.Option(help="Cut the link so often [s]; 0 never.", min=0, max=1e6)
+        float,
+        typer.Option(help="Interval between cuts of the link [s]; 0 for none.", min=0, max=1e6),
     ] = 20.0,
-    cut_length: Annotated[float, typer.Option(help="For so long [s].", min=0, max=1e6)] = 2.0,
+    cut_length: Annotated[
+        float, typer.Option(help="Length of each cut [s].", min=0, max=1e6)
+    ] = 2.0,
     seed: options.Seed = None,
     as_json: output.AsJson = False,
 ) -> None:
-    """Run master, network and slave as three processes with link cuts; check forces, places, messages and memory.
+    """Run master, network and slave as three processes with link cuts; check forces, positions, messages and memory.
 
-    The hand swings the stick and consents 1 s after the link is back. Ends with 1 where a lost link was not reported, a
-    force or a place was beyond its limit, or memory of master or slave grew by more than 1 MB over the last two thirds
-    of the run (of the network, whose queues fill, by 10 MB); the first 10 s do not count.
+    The hand swings the stick and consents 1 s after the link is back. Exit code 1 when a lost link was not reported,
+    a force or position exceeded its limit, or the memory of master or slave grew by more than 1 MB over the last two
+    thirds of the run (of the network, whose queues fill, by 10 MB); the first 10 s do not count.
 
     **Examples**
 

@@ -20,11 +20,12 @@ class LinkOptions:
     """The network, the same both ways."""
 
     delay: Annotated[
-        float, typer.Option(help="Delay each way [s].", min=0, max=0.5, rich_help_panel=PANEL)
+        float,
+        typer.Option(help="Delay in each direction [s].", min=0, max=0.5, rich_help_panel=PANEL),
     ] = 0.05
     jitter: Annotated[
         float,
-        typer.Option(help="Largest further delay [s].", min=0, max=0.2, rich_help_panel=PANEL),
+        typer.Option(help="Largest additional delay [s].", min=0, max=0.2, rich_help_panel=PANEL),
     ] = 0.0
     loss: Annotated[
         float, typer.Option(help="Share of packets lost.", min=0, max=1, rich_help_panel=PANEL)
@@ -41,10 +42,12 @@ class LinkOptions:
     ] = 0.0
     cut_every: Annotated[
         float,
-        typer.Option(help="Cut the link so often [s]; 0 never.", min=0, rich_help_panel=PANEL),
+        typer.Option(
+            help="Interval between cuts of the link [s]; 0 for none.", min=0, rich_help_panel=PANEL
+        ),
     ] = 0.0
     cut_length: Annotated[
-        float, typer.Option(help="For so long [s].", min=0, rich_help_panel=PANEL)
+        float, typer.Option(help="Length of each cut [s].", min=0, rich_help_panel=PANEL)
     ] = 0.0
 
     def link(self) -> Link:

@@ -15,7 +15,7 @@ from ebac.cli.teleop.consent import Consent
 from ebac.cli.teleop.options import LinkOptions
 
 PORT = typer.Option(help="UDP port to listen on; 0 takes any free one.", min=0, max=65535)
-HOST = typer.Option(help="Address of this machine to take.")
+HOST = typer.Option(help="Address of this machine to use.")
 SCHEME = typer.Option(help="Scheme; the same on both sides. See `ebac teleop run`.")
 CUT = 0.2
 REPORT = 5.0
@@ -32,7 +32,7 @@ def peer_of(text: str, option: str) -> tuple[str, int]:
 
 def master(
     peer: Annotated[
-        str, typer.Option(help="Network or slave, as 127.0.0.1:49200.")
+        str, typer.Option(help="Address of the network or the slave, such as 127.0.0.1:49200.")
     ] = "127.0.0.1:49201",
     scheme: Annotated[str, SCHEME] = "ebac",
     host: Annotated[str, HOST] = "127.0.0.1",
@@ -40,7 +40,7 @@ def master(
     consent_after: Annotated[
         float | None,
         typer.Option(
-            help="A simulated hand agrees so long after the link is back [s].",
+            help="A simulated hand consents this long after the link is back [s].",
             show_default="press Enter",
             min=0,
             max=1e7,
@@ -50,10 +50,10 @@ def master(
     seed: options.Seed = None,
     as_json: output.AsJson = False,
 ) -> None:
-    """Run a simulated stick with its hand and law at 1 kHz, joined to a slave over UDP.
+    """Run a simulated stick with its hand and law at 1 kHz, connected to a slave over UDP.
 
-    The hand swings the stick between 5 and 35 mm. Where the link is lost, the force fades to zero; once it is back, the
-    hand has to agree (Enter) before the slave moves again. Say the same scheme to the slave.
+    The hand swings the stick between 5 and 35 mm. When the link is lost, the force fades to zero; once it is back,
+    the hand has to consent (Enter) before the slave moves again. Give the slave the same scheme.
 
     **Examples**
 
@@ -81,14 +81,14 @@ def master(
 def slave(
     scheme: Annotated[str, SCHEME] = "ebac",
     contact_stiffness: Annotated[
-        float, typer.Option(help="Of what it meets at 20 mm [N/m].", min=0, max=1e5)
+        float, typer.Option(help="Stiffness of the contact at 20 mm [N/m].", min=0, max=1e5)
     ] = 500.0,
     host: Annotated[str, HOST] = "127.0.0.1",
     port: Annotated[int, PORT] = 49201,
     seconds: simulated.Seconds = None,
     as_json: output.AsJson = False,
 ) -> None:
-    """Run a simulated slave that answers whoever sends it good packets; without them it holds where it is.
+    """Run a simulated slave that answers any master that sends valid packets; without them it holds its position.
 
     **Examples**
 
@@ -107,7 +107,9 @@ def slave(
 
 def network(
     over: LinkOptions,
-    slave: Annotated[str, typer.Option(help="The slave, as 127.0.0.1:49201.")] = "127.0.0.1:49201",
+    slave: Annotated[
+        str, typer.Option(help="Address of the slave, such as 127.0.0.1:49201.")
+    ] = "127.0.0.1:49201",
     host: Annotated[str, HOST] = "127.0.0.1",
     port: Annotated[int, PORT] = 49200,
     seconds: simulated.Seconds = None,
@@ -117,7 +119,7 @@ def network(
     ] = False,
     as_json: output.AsJson = False,
 ) -> None:
-    """Stand between master and slave: delay, drop, reorder, damage and cut what they send.
+    """Simulate a network between master and slave that delays, drops, reorders and damages packets and cuts the link.
 
     **Examples**
 

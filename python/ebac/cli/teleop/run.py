@@ -20,7 +20,7 @@ def run(
     over: LinkOptions,
     scheme: Annotated[
         list[str] | None,
-        typer.Option(help="Schemes, with commas between.", show_default="all"),
+        typer.Option(help="Schemes, separated by commas.", show_default="all"),
     ] = None,
     law: Annotated[
         str | None,
@@ -28,7 +28,11 @@ def run(
     ] = None,
     contact_stiffness: Annotated[
         float,
-        typer.Option(help="Of what the slave meets at 20 mm [N/m]; 0 for nothing.", min=0, max=1e5),
+        typer.Option(
+            help="Stiffness of the contact that the slave meets at 20 mm [N/m]; 0 for none.",
+            min=0,
+            max=1e5,
+        ),
     ] = 500.0,
     seconds: Annotated[float, typer.Option(help="Length of the run [s].", min=3, max=600)] = 10.0,
     seed: options.Seed = None,
@@ -36,8 +40,9 @@ def run(
 ) -> None:
     """Simulate a master, a network and a slave in contact, under each scheme.
 
-    A hand moves the stick to 45 mm; the slave follows through the network and meets a spring at 20 mm. Shown: how far
-    the stick swings at rest, energies of the master's port and of both, stiffness at the stick over that at the slave.
+    A hand moves the stick to 45 mm; the slave follows through the network and meets a spring at 20 mm. The table
+    shows the swing of the stick at rest, the energies of the master's port and of both ports, and the stiffness at
+    the stick divided by that at the slave.
 
     **Examples**
 

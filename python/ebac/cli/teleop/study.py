@@ -18,18 +18,19 @@ def study(
     to: ResultOptions,
     scheme: Annotated[
         list[str] | None,
-        typer.Option(help="Schemes, with commas between.", show_default="all"),
+        typer.Option(help="Schemes, separated by commas.", show_default="all"),
     ] = None,
     delay: Annotated[
         list[float] | None,
         typer.Option(
-            help="Delay each way [s]; may be given again.", show_default="0, 0.05, 0.2, 0.3"
+            help="Delay in each direction [s]; may be given several times.",
+            show_default="0, 0.05, 0.2, 0.3",
         ),
     ] = None,
     contact_stiffness: Annotated[
         list[float] | None,
         typer.Option(
-            help="Of what the slave meets [N/m]; may be given again.",
+            help="Stiffness of the contact that the slave meets [N/m]; may be given several times.",
             show_default="0, 500, 20000",
         ),
     ] = None,
@@ -37,14 +38,14 @@ def study(
         str, typer.Option(help="rough: jitter of 10 ms, 10 % lost, 2 % held back; or clean.")
     ] = "rough",
     tune: Annotated[
-        bool, typer.Option("--tune", help="Choose the parameters anew on the training set.")
+        bool, typer.Option("--tune", help="Choose the parameters again on the training set.")
     ] = False,
     as_json: output.AsJson = False,
 ) -> None:
-    """Compare schemes in free motion, on soft tissue and on something hard, over delay, jitter and loss.
+    """Compare schemes in free motion, on soft tissue and on a hard contact, over delay, jitter and loss.
 
-    A simulation of three hands in each case. Parameters of every scheme are those that were best on a training set of
-    other contacts, delays and hands; `--tune` repeats that.
+    A simulation of three hands in each case. The parameters of each scheme were the best on a training set of other
+    contacts, delays and hands; `--tune` repeats that search.
 
     **Examples**
 

@@ -58,8 +58,8 @@ def wall(
 
     **Examples**
 
-    * `ebac wall`: the paper's experiment. TCA swings, damped TCA is not quiet in force, EBA rests
-    too deep, EBAC does none of it.
+    * `ebac wall`: the paper's experiment. TCA swings, damped TCA is not quiet in force, EBA rests too deep; EBAC is
+      exact and quiet.
 
     * `ebac wall --law all --wall-stiffness 20000 --delay 2`: every law
 
@@ -67,7 +67,7 @@ def wall(
 
     * `ebac wall --law ebac --log ebac.mcap`: a log for PlotJuggler or Foxglove
 
-    * `ebac wall --world sphere --engine-rate 60 --engine-jitter 0.01`: a world that is computed 60 times a second
+    * `ebac wall --world sphere --engine-rate 60 --engine-jitter 0.01`: a world that is computed 60 times per second
 
     * `ebac wall --through can`: over a CAN bus, with simulated drives
 
