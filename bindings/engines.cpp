@@ -12,6 +12,7 @@
 #include "bind.hpp"
 #include "ebac/model/environment.hpp"
 #include "ebac/world/engine/bridge.hpp"
+#include "engine_numbers.hpp"
 #include "fields.hpp"
 #include "others_run.hpp"
 
@@ -81,21 +82,6 @@ class PythonWorld final : public World {
   Called function_;
   TransportedFrame frame_;
 };
-
-using ModelNumbers = std::tuple<Axes, Axes, double, double, double, Axes>;
-
-LocalModel model_of(const std::optional<ModelNumbers>& given, double t) {
-  if (!given) return {.t = t};
-  const auto& [at, into, curvature, stiffness, damping, velocity] = *given;
-  return {.at = at,
-          .into = into,
-          .curvature = curvature,
-          .stiffness = stiffness,
-          .damping = damping,
-          .velocity = velocity,
-          .t = t,
-          .surface = true};
-}
 
 /// An engine that is a Python function; for simulation.
 class PythonEngine final : public Engine {

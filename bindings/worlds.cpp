@@ -12,6 +12,7 @@
 #include "ebac/core/best_time.hpp"
 #include "ebac/model/environment.hpp"
 #include "ebac/world/make.hpp"
+#include "engine_process.hpp"
 #include "engines.hpp"
 #include "fields.hpp"
 #include "held_solid.hpp"
@@ -182,6 +183,7 @@ void bind_worlds(py::module_& m) {
       .def("_time", &time_contacts, py::arg("start"), py::arg("path"), py::arg("repeats"))
       .def("reset", [](External& world) { world.world = world.world->fresh(); });
   bind_engines(m);
+  bind_engine_process(m);
 }
 
 }  // namespace ebac::python

@@ -14,7 +14,7 @@ ebac_bundle(ebac_tick model cpp/ebac control/turned_ports loop/plausibility loop
             model/kinematics model/limits model/linear_flow model/port_space model/pose model/stepped_plant)
 ebac_bundle(ebac machine cpp/ebac can/raw_socket can/socketcan can/wake_event
             canopen/canopen_setup canopen/eds canopen/pdo canopen/pdo_plan
-            rt/awake_cpus rt/grants rt/jitter rt/shared_memory rt/thread
+            rt/awake_cpus rt/grants rt/jitter rt/other_process rt/shared_memory rt/thread
             sensor/emulator_server sensor/rdt_client sensor/udp sim/linear_loop
             simulated_drives/simulated_drive simulated_drives/simulated_drive_errors
             simulated_drives/simulated_drive_motion simulated_drives/simulated_drive_objects
@@ -23,11 +23,12 @@ ebac_bundle(ebac gastroscope cpp/ebac gastroscope/bending gastroscope/driven_sco
 ebac_bundle(ebac teleop cpp/ebac remote/link_end remote/slave_worlds teleop/packet teleop/simulate teleop/udp_sides)
 ebac_bundle(ebac run cpp/ebac control/virtual_coupling core/check core/fields core/matrix_exponential faults/campaign faults/case
             faults/case_setup faults/referee faults/test_bench identify/arm_drive identify/arm_jacobian identify/arm_record identify/arm_step identify/arm_trials loop/retune loop/trace sim/contact sim/ideal_wall
-            sim/perceived_ripple sim/rest_power sim/sweep world/engine/make_bridge world/make)
+            sim/perceived_ripple sim/rest_power sim/sweep world/engine/engine_client world/engine/make_bridge
+            world/engine/shared_channel world/make)
 
 if(EBAC_PYTHON)
   ebac_bundle(_core_values device bindings core device fields hand kinematics limits module values)
-  ebac_bundle(_core_values world bindings engines environment remote worlds)
+  ebac_bundle(_core_values world bindings engine_process engines environment remote worlds)
   ebac_bundle(_core_values body bindings gastroscope identify linear_loop sweep)
   ebac_bundle(_core_values run bindings controllers python_hand python_law realtime replay simulation teleop teleop_udp)
   ebac_bundle(_core_values bus bindings can can_plan faults running)

@@ -3116,6 +3116,46 @@ class _EngineEnd:
     ) -> None: ...
     def world(self, params: BridgeParams) -> _World: ...
 
+class _SharedEngineChannel:
+    def __init__(self, name: str) -> None: ...
+    def end(self) -> None: ...
+    def world(self, params: BridgeParams) -> _World: ...
+    @property
+    def engine(self) -> int: ...
+    @property
+    def engine_lives(self) -> bool: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def posted(self) -> int: ...
+
+class _EngineClient:
+    def __init__(self, name: str) -> None: ...
+    def pose(
+        self,
+    ) -> (
+        tuple[
+            typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"],
+            typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"],
+            float,
+        ]
+        | None
+    ): ...
+    def post(
+        self,
+        model: tuple[
+            typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"],
+            typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"],
+            typing.SupportsFloat | typing.SupportsIndex,
+            typing.SupportsFloat | typing.SupportsIndex,
+            typing.SupportsFloat | typing.SupportsIndex,
+            typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"],
+        ]
+        | None,
+    ) -> None: ...
+    @property
+    def loop_runs(self) -> bool: ...
+
 class _World:
     @typing.overload
     def __init__(

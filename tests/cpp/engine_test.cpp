@@ -165,6 +165,15 @@ TEST(EngineChannel, OneWorldAtATimeStandsAtTheTicksEnd) {
   EXPECT_GT(second->contact(at(0.002), kStill, 0.01).force.norm(), 0);
 }
 
+TEST(EngineChannel, AnAnswerToAnEarlierRunIsNotTaken) {
+  const auto channel = std::make_shared<EngineChannel>();
+  const auto bridge = make_posted(channel, {});
+  channel->post(plane(0, 1000, 30.0), at(0));  // it would be young for half a minute
+  EXPECT_EQ(bridge->contact(at(0.002), kStill, 0).force.norm(), 0);
+  EXPECT_EQ(bridge->contact(at(0.002), kStill, 0.1).force.norm(), 0);
+  EXPECT_EQ(bridge->report().models(), 0);
+}
+
 TEST(EngineChannel, ThreadsMeetWithoutWaiting) {
   const auto channel = std::make_shared<EngineChannel>();
   const auto bridge = make_posted(channel, {});

@@ -1,7 +1,7 @@
 """Who may include whom.
 
 core <- model <- control <- loop <- { sim | rt <- sensor | rt <- can <- canopen <- simulated_drives }
-    <- bindings <- python, and world <- bindings: the loop knows its interface, which is the model's
+    <- bindings <- python, and rt <- world <- bindings: the loop knows its interface, which is the model's
 """
 
 import ast
@@ -24,7 +24,7 @@ PACKAGE = Path(ebac.__file__).parent
 MAY_SEE = {
     "core": set(),
     "model": {"core"},
-    "world": {"core", "model", "loop"},  # of the loop, the mailbox
+    "world": {"core", "model", "loop", "rt"},  # the mailbox, and memory shared with another process
     "control": {"core", "model"},
     "identify": {"core", "model"},
     "loop": {"core", "model", "control"},

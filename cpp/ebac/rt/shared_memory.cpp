@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <string>
 #include <system_error>
+#include <utility>
 
 namespace ebac::rt {
 
@@ -43,11 +44,46 @@ SharedMemory::SharedMemory(int descriptor, std::size_t bytes)
   map();
 }
 
+SharedMemory::SharedMemory(std::string name, int descriptor, std::size_t bytes)
+    : bytes_(bytes), descriptor_(descriptor), name_(std::move(name)) {
+  map();
+}
+
+SharedMemory SharedMemory::named(const std::string& name, std::size_t bytes) {
+  const std::string what = "memory to share as " + name;
+  const int descriptor = shm_open(name.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
+  if (descriptor < 0) refuse(what.c_str());
+  if (ftruncate(descriptor, static_cast<off_t>(bytes)) != 0) {
+    const int error = errno;
+    close(descriptor);
+    remove(name);
+    errno = error;
+    refuse(what.c_str());
+  }
+  return {name, descriptor, bytes};
+}
+
+SharedMemory SharedMemory::opened(const std::string& name) {
+  const std::string what = "memory that another process shares as " + name;
+  const int descriptor = shm_open(name.c_str(), O_RDWR | O_CLOEXEC, 0);
+  if (descriptor < 0) refuse(what.c_str());
+  struct stat facts{};
+  if (fstat(descriptor, &facts) != 0 || facts.st_size <= 0) {
+    close(descriptor);
+    errno = ENODATA;
+    refuse(what.c_str());
+  }
+  return {{}, descriptor, static_cast<std::size_t>(facts.st_size)};
+}
+
+void SharedMemory::remove(const std::string& name) noexcept { shm_unlink(name.c_str()); }
+
 void SharedMemory::map() {
   at_ = mmap(nullptr, bytes_, PROT_READ | PROT_WRITE, MAP_SHARED, descriptor_, 0);
   if (at_ != MAP_FAILED) return;
   const int error = errno;
   close(descriptor_);
+  if (!name_.empty()) remove(name_);
   errno = error;
   refuse("memory to share");
 }
@@ -55,6 +91,7 @@ void SharedMemory::map() {
 SharedMemory::~SharedMemory() {
   munmap(at_, bytes_);
   close(descriptor_);
+  if (!name_.empty()) remove(name_);
 }
 
 }  // namespace ebac::rt

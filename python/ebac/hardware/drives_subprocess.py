@@ -12,6 +12,8 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from ebac._core import Free
+from ebac._util.foreign_worlds import foreign
 from ebac.drives.errors import BusError
 
 if TYPE_CHECKING:
@@ -44,7 +46,7 @@ def in_a_process(
     sensor, loop = configuration.sensor, configuration.realtime
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder) / "scenario.toml"
-        scenario.save(file)
+        _without_engine(scenario).save(file)
         command = [sys.executable, "-m", "ebac.cli", "drive", "simulate"]
         command += ["--channel", channel, "--scenario", str(file), "--first", str(first)]
         command += ["--realtime", configuration.mode, "--beside", str(loop.priority)]
@@ -83,6 +85,12 @@ def in_a_process(
                     process.wait(timeout=5)
                 except subprocess.TimeoutExpired:
                     process.kill()
+
+
+def _without_engine(scenario: Scenario) -> Scenario:
+    """Return the scenario without a world that no file can hold: the drives meet none."""
+    world = foreign(scenario.environment)
+    return scenario if world is None or world.has_text else scenario.replace(environment=Free())
 
 
 def _emulated(known: SensorConfig, port: int) -> SensorConfig:

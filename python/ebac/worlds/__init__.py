@@ -25,12 +25,14 @@ from ebac._core import (
 )
 from ebac.worlds.answers import LocalModel
 from ebac.worlds.closed_forms import Puncture
+from ebac.worlds.engine_process import EngineProcess
 from ebac.worlds.engine_thread import EngineError, EngineThread
 from ebac.worlds.engines import Bridge, BridgeReport, FunctionWorld
 from ebac.worlds.force_depth import ForceDepth, force_depth
 from ebac.worlds.mesh import GridError, HeightField, Mesh
 from ebac.worlds.mujoco import MujocoEngine
 from ebac.worlds.presets import PRESETS, WorldPreset, preset
+from ebac.worlds.serving import serve_engine
 from ebac.worlds.solids import (
     Cavity,
     Difference,
@@ -56,6 +58,7 @@ __all__ = [
     "Difference",
     "Elastic",
     "EngineError",
+    "EngineProcess",
     "EngineThread",
     "EngineTiming",
     "ForceDepth",
@@ -85,6 +88,7 @@ __all__ = [
     "distance",
     "force_depth",
     "preset",
+    "serve_engine",
 ]
 
 

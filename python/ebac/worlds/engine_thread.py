@@ -3,18 +3,13 @@
 from __future__ import annotations
 
 import threading
-import time
 from types import TracebackType
-from typing import Any, Self
+from typing import Self
 
 from ebac import _core
 from ebac._core import BridgeParams
-from ebac._util.arguments import number
-from ebac.worlds.answers import model_numbers
 from ebac.worlds.engines import BridgeReport, Engine, ForeignWorld, named, report_of, warning_of
-
-#: Rates of an engine [Hz].
-RATES = (1.0, 1000.0)
+from ebac.worlds.serving import answer_poses, checked_engine, checked_rate
 
 
 class PostedWorld(ForeignWorld):
@@ -69,7 +64,7 @@ class EngineThread:
 
     The loop never waits for it: poses go to the thread and models come back through mailboxes that hold the newest
     value. An engine that raises ends the thread; its force fades within `stale + fade`, and leaving the `with` block
-    raises an `EngineError` that names it. For an engine in another process, give a function that asks that process.
+    raises an `EngineError` that names it. For an engine in another process, see `EngineProcess`.
 
     ::
 
@@ -89,14 +84,9 @@ class EngineThread:
     def __init__(
         self, engine: Engine, *, rate: float = 60.0, rendering: BridgeParams | None = None
     ) -> None:
-        if isinstance(engine, type) or not callable(engine):
-            raise TypeError(f"EngineThread.engine = {engine!r}: must be callable")
-        if not RATES[0] <= number("EngineThread.rate", rate) <= RATES[1]:
-            raise ValueError(
-                f"EngineThread.rate = {rate} Hz: must lie in [{RATES[0]:g}, {RATES[1]:g}] Hz"
-            )
+        self._engine = checked_engine("EngineThread", engine)
+        self._rate = checked_rate("EngineThread", rate)
         self._end = _core._EngineEnd()
-        self._engine, self._period = engine, 1 / rate
         self._stop = threading.Event()
         self._thread: threading.Thread | None = None
         self.error: BaseException | None = None
@@ -127,13 +117,7 @@ class EngineThread:
         raise EngineError(self._engine, self.error) from self.error
 
     def _serve(self) -> None:
-        due = time.monotonic()
         try:
-            while not self._stop.wait(max(0.0, due - time.monotonic())):
-                due = max(due + self._period, time.monotonic())
-                pose: Any = self._end.pose()
-                if pose is not None:
-                    x, v, _ = pose
-                    self._end.post(model_numbers(self._engine(x, v)))
+            answer_poses(self._end, self._engine, self._rate, self._stop.wait)
         except BaseException as failed:
             self.error = failed

@@ -9,25 +9,35 @@
 
 namespace ebac::world {
 
-/// The handle, as an engine's thread is told.
+/// The handle, as an engine is told.
 struct EnginePose {
   Axes x = Axes::Zero();  // m
   Axes v = Axes::Zero();  // m/s
   double t = 0;           // s of the run
 };
 
-/// Between the tick and an engine in a thread of its own: the newest pose there, the newest model back. Neither waits.
+/// What passes between a tick and an engine, without a pointer in it: it may lie in memory of two processes.
+struct EngineMail {
+  Mailbox<EnginePose> poses;
+  Mailbox<Answer> models;
+};
+
+/// Between the tick and an engine in a thread or a process of its own: the newest pose there, the newest model back.
+/// Neither waits.
 class EngineChannel {
  public:
+  EngineChannel() : EngineChannel(std::make_shared<EngineMail>()) {}
+  explicit EngineChannel(std::shared_ptr<EngineMail> mail) : mail_(std::move(mail)) {}
+
   /// Of the engine's thread, and of no other at the same time.
-  const EnginePose* take_pose() EBAC_RT { return poses_.take(); }
+  const EnginePose* take_pose() EBAC_RT { return mail_->poses.take(); }
   void post(const LocalModel& model, const Axes& asked_at) EBAC_RT {
-    models_.post({.model = model, .x = asked_at});
+    mail_->models.post({.model = model, .x = asked_at});
   }
 
   /// Of the tick.
-  void tell(const EnginePose& pose) EBAC_RT { poses_.post(pose); }
-  const Answer* take() EBAC_RT { return models_.take(); }
+  void tell(const EnginePose& pose) EBAC_RT { mail_->poses.post(pose); }
+  const Answer* take() EBAC_RT { return mail_->models.take(); }
 
   /// One world alone may stand at the tick's end: the first that asks, until it is gone.
   bool claim(const void* world) EBAC_RT {
@@ -41,12 +51,11 @@ class EngineChannel {
   }
 
  private:
-  Mailbox<EnginePose> poses_;
-  Mailbox<Answer> models_;
+  std::shared_ptr<EngineMail> mail_;
   std::atomic<const void*> owner_{nullptr};
 };
 
-/// Answers of an engine in a thread of its own.
+/// Answers of an engine in a thread or a process of its own.
 class PostedModels {
  public:
   explicit PostedModels(std::shared_ptr<EngineChannel> channel) : channel_(std::move(channel)) {}
@@ -57,7 +66,9 @@ class PostedModels {
   const Answer* take(const Axes& x, const Axes& v, double t) EBAC_RT {
     if (!channel_->claim(this)) return nullptr;
     channel_->tell({.x = x, .v = v, .t = t});
-    return channel_->take();
+    const Answer* answer = channel_->take();
+    // One to a pose of an earlier run, whose time was later, would never grow old.
+    return answer == nullptr || answer->model.t > t ? nullptr : answer;
   }
 
  private:

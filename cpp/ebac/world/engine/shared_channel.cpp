@@ -1,0 +1,105 @@
+#include "ebac/world/engine/shared_channel.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <new>
+#include <stdexcept>
+#include <system_error>
+#include <utility>
+
+#include "ebac/rt/other_process.hpp"
+
+namespace ebac::world {
+
+namespace {
+
+constexpr std::size_t kLongest = 200;
+constexpr const char* kOwn = "ebac-engine-";
+
+/// Whether the process that shared something under that name has died without taking it away.
+bool left_behind(const std::string& name) {
+  try {
+    const rt::SharedMemory memory = rt::SharedMemory::opened(name);
+    if (memory.bytes() < offsetof(EngineSegment, mail)) return false;
+    const auto* segment = static_cast<const EngineSegment*>(memory.at());
+    return segment->valid() && !rt::process_lives(segment->loop);
+  } catch (const std::exception&) {  // it is not ours, or is gone
+    return false;
+  }
+}
+
+/// Takes away what loops that were killed have left, under names of their own.
+void clean_up() {
+  std::error_code none;
+  for (const auto& file : std::filesystem::directory_iterator("/dev/shm", none)) {
+    const std::string name = file.path().filename().string();
+    if (name.starts_with(kOwn) && left_behind("/" + name)) rt::SharedMemory::remove("/" + name);
+  }
+}
+
+std::string own_name() {
+  static std::atomic<int> count{0};
+  return "/" + (kOwn + std::to_string(rt::own_process())) + "-" + std::to_string(++count);
+}
+
+rt::SharedMemory made(const std::string& name) {
+  try {
+    return rt::SharedMemory::named(name, sizeof(EngineSegment));
+  } catch (const std::system_error& error) {
+    if (error.code() != std::errc::file_exists) throw;
+  }
+  if (!left_behind(name)) {
+    throw std::invalid_argument("channel " + name +
+                                ": is taken by another program; end it, or give another name");
+  }
+  rt::SharedMemory::remove(name);
+  return rt::SharedMemory::named(name, sizeof(EngineSegment));
+}
+
+/// Memory and what lies in it, for as long as anybody has either.
+struct Kept {
+  explicit Kept(const std::string& name)
+      : memory(made(name)), segment(new (memory.at()) EngineSegment()) {}
+  rt::SharedMemory memory;
+  EngineSegment* segment;
+};
+
+}  // namespace
+
+bool EngineSegment::loop_runs() const noexcept {
+  return over.load(std::memory_order_acquire) == 0 && rt::process_lives(loop);
+}
+
+std::string channel_name(const std::string& name) {
+  const std::string bare = name.starts_with('/') ? name.substr(1) : name;
+  const bool fits = !bare.empty() && bare.size() <= kLongest && bare[0] != '.' &&
+                    std::ranges::all_of(bare, [](unsigned char one) {
+                      return std::isalnum(one) || one == '.' || one == '_' || one == '-';
+                    });
+  if (fits) return "/" + bare;
+  throw std::invalid_argument("channel = \"" + name +
+                              "\": must be up to 200 letters, digits, '.', '_' and '-'");
+}
+
+SharedEngineChannel::SharedEngineChannel(const std::string& name)
+    : name_(name.empty() ? own_name() : channel_name(name)) {
+  if (name.empty()) clean_up();
+  const auto kept = std::make_shared<Kept>(name_);
+  segment_ = std::shared_ptr<EngineSegment>(kept, kept->segment);
+  channel_ =
+      std::make_shared<EngineChannel>(std::shared_ptr<EngineMail>(kept, &kept->segment->mail));
+  segment_->loop = rt::own_process();
+  segment_->magic.store(EngineSegment::kMagic, std::memory_order_release);
+}
+
+bool SharedEngineChannel::engine_lives() const noexcept {
+  return engine() != 0 && segment_->left.load(std::memory_order_acquire) == 0 &&
+         rt::process_lives(engine());
+}
+
+void SharedEngineChannel::end() noexcept {
+  if (segment_->over.exchange(1, std::memory_order_acq_rel) == 0) rt::SharedMemory::remove(name_);
+}
+
+}  // namespace ebac::world
