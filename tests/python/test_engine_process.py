@@ -15,7 +15,7 @@ import pytest
 
 import ebac
 from ebac._core import _EngineClient, _SharedEngineChannel
-from ebac.hardware import Configuration, Run
+from ebac.hardware import Configuration, ConfigurationError, Run
 from ebac.worlds import BridgeParams, EngineProcess, LocalModel, serve_engine
 from ebac.worlds.engine_process import VARIABLE
 
@@ -124,12 +124,13 @@ def test_a_program_that_serves_nothing_is_refused(
         pass
 
 
-def test_a_program_that_is_not_there_is_named() -> None:
-    with (
-        pytest.raises(RuntimeError, match="`no-such-program` cannot be started: No such file"),
-        EngineProcess("no-such-program"),
-    ):
-        pass
+def test_a_program_that_is_not_there_is_named(tmp_path: Path) -> None:
+    with pytest.raises(ValueError, match="there is no program 'no-such-program'"):
+        EngineProcess("no-such-program")
+    file = tmp_path / "empty"
+    file.touch(mode=0o755)
+    with pytest.raises(RuntimeError, match="cannot be started: Exec format error"):
+        EngineProcess([str(file)]).__enter__()
 
 
 def test_one_started_by_hand_finds_the_loop_by_name(engine: Callable[..., list[str]]) -> None:
@@ -191,7 +192,7 @@ def test_what_is_given_wrongly_is_refused(monkeypatch: pytest.MonkeyPatch) -> No
     with pytest.raises(ValueError, match="letters, digits"):
         EngineProcess(name="a/b")
     with pytest.raises(ValueError, match="must be above 0 s"):
-        EngineProcess("x", patience=0.0)
+        EngineProcess("true", patience=0.0)
     with pytest.raises(TypeError, match=r"serve_engine\.engine = 3: must be callable"):
         serve_engine(3)  # type: ignore[arg-type]
     with pytest.raises(ValueError, match=r"serve_engine\.rate = 0\.5 Hz"):
@@ -258,3 +259,17 @@ def test_a_loop_on_simulated_drives_takes_an_engine_in_a_process(
     assert np.isfinite(run.finish()["f_env"]).all()
     assert process.world.report.models > 0
     assert len(ebac.load(tmp_path / "run.mcap")) > 0
+
+
+def test_a_configured_engine_is_not_left_out_in_silence() -> None:
+    text = (Path(__file__).parents[2] / "examples" / "joystick.toml").read_text()
+    known = Configuration.from_toml(text + '\n[engine]\ncommand = "python it.py"\nstale = 0.2\n')
+    assert known.engine == "python it.py"
+    assert known.rendering == BridgeParams(stale=0.2)
+    with (
+        ebac.Device.open(known, simulate=True) as device,
+        pytest.raises(RuntimeError, match=r"start it by worlds\.EngineProcess"),
+    ):
+        device.start()
+    with pytest.raises(ConfigurationError, match=r"BridgeParams\.stale"):
+        Configuration.from_toml(text + "\n[engine]\nstale = 1e9\n")

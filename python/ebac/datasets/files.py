@@ -130,6 +130,12 @@ def _joystick(path: Path, note: str) -> None:
     path.write_text(others.joystick_text(path.stem), encoding="utf-8")
 
 
+def _engine(path: Path, note: str) -> None:
+    path.write_text(
+        Path(__file__).with_name("engine.py").read_text(encoding="utf-8"), encoding="utf-8"
+    )
+
+
 _HAND = {"t": "t [s]", "x": "x [m]", "f_meas": "force [N]", "f_applied": "motor [N]"}
 
 #: Every data set by its name.
@@ -209,6 +215,14 @@ DATASETS: dict[str, Dataset] = {
             data=False,
             commands=("ebac run joystick-3.toml --simulated",),
             _write=_joystick,
+        ),
+        Dataset(
+            name="engine",
+            file="engine.py",
+            about="A program that computes a virtual world, a ball that breathes, for a run on drives.",
+            data=False,
+            commands=('ebac run joystick.toml --simulated --engine-command "python engine.py"',),
+            _write=_engine,
         ),
         *(
             Dataset(

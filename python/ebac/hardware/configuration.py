@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, Self
 
-from ebac._core import Device, Hand, Limits, Observer, RealTime, Timing, Wall
+from ebac._core import BridgeParams, Device, Hand, Limits, Observer, RealTime, Timing, Wall
 from ebac._util.arguments import require, require_path
 from ebac._util.foreign_worlds import refuse_python
 from ebac._util.text_file import read_text
@@ -66,6 +66,11 @@ class Configuration:
         Sample time and delay.
     environment : Free, Wall, Corner, Disc or worlds.World
         The virtual world.
+    engine : str
+        Program that computes the virtual world, and its arguments, empty for none: `ebac run` starts it in place of
+        `environment`; in Python start a `worlds.EngineProcess` and give its world to the run.
+    rendering : BridgeParams
+        How the models of the engine take over from each other and fade.
     law : str
         Name of the law.
     changes : mapping
@@ -113,6 +118,8 @@ class Configuration:
     device: Device
     timing: Timing = field(default_factory=Timing)
     environment: Environment = field(default_factory=Wall)
+    engine: str = ""
+    rendering: BridgeParams = field(default_factory=BridgeParams)
     law: str = "ebac"
     changes: Mapping[str, Any] = field(default_factory=dict)
     limits: Limits

@@ -14,6 +14,7 @@ from types import TracebackType
 from typing import TYPE_CHECKING, Any, Self
 
 from ebac._util.exception_notes import noted_on
+from ebac._util.foreign_worlds import foreign
 from ebac._util.wrong_calls import plain_constructor
 from ebac.drives import Backups, check_stall
 from ebac.hardware import drive_setup
@@ -264,6 +265,11 @@ class OpenDevice:
                 "the last run ended by a fault: look at its rows and at the device, then call `reset()` and run again"
             )
         known = self.configuration
+        if known.engine and environment is None and foreign(known.environment) is None:
+            raise RuntimeError(
+                f"the configuration has an engine, {known.engine!r}: start it by worlds.EngineProcess and give its "
+                "world to the run, or give another environment"
+            )
         finished = self._law(law, changes)
         chosen = known if environment is None else known.replace(environment=environment)
         length = known.seconds if seconds is None else seconds

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ebac import presets
-from ebac._core import Device, Hand, Limits, Observer, RealTime, TimedBus, Timing
+from ebac._core import BridgeParams, Device, Hand, Limits, Observer, RealTime, TimedBus, Timing
 from ebac._util.mesh_paths import seen_from_here
 from ebac._util.serialisation import from_document
 from ebac.drives.errors import ProfileError
@@ -31,6 +31,7 @@ TABLES = [
     "zero",
     "timing",
     "environment",
+    "engine",
     "law",
     "limits",
     "run",
@@ -61,6 +62,7 @@ def read(source: Source) -> dict[str, Any]:
     values["simulated_zero"] = _zero(source, ("simulated", "zero"), ["counts"], axes)
     values["timing"] = on_top(source, ("timing",), Timing())
     values["environment"] = _environment(source)
+    values |= _engine(source)
     values |= _law(source, values)
     values["limits"] = _limits(source, values["device"])
     values |= {key.name: number(source, ("run",), key) for key in RUN}
@@ -180,6 +182,15 @@ def _environment(source: Source) -> Environment:
         source, ("environment",), lambda: from_document("environment", found, "environment")
     )
     return made
+
+
+def _engine(source: Source) -> dict[str, Any]:
+    found = table(source, ("engine",))
+    command = found.get("command")
+    return {
+        "engine": "" if command is None else word(source, ("engine", "command"), command),
+        "rendering": on_top(source, ("engine",), BridgeParams(), apart=("command",)),
+    }
 
 
 def _law(source: Source, values: Mapping[str, Any]) -> dict[str, Any]:

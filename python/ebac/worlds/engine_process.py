@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import shlex
+import shutil
 import signal
 import subprocess
 import time
@@ -235,6 +236,11 @@ def _words(command: str | Sequence[str] | None) -> list[str] | None:
         raise ValueError(f"EngineProcess.command = {command!r}: {error}") from None
     if not words:
         raise ValueError("EngineProcess.command: is empty; give a program and its arguments")
+    if shutil.which(words[0]) is None:
+        raise ValueError(
+            f"EngineProcess.command: there is no program {words[0]!r} that could be run; give its path, or an "
+            "interpreter and the file"
+        )
     return words
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -10,7 +11,7 @@ import typer
 from ebac.cli import output
 from ebac.cli.drive.options import telling
 from ebac.cli.files import FigureOptions
-from ebac.cli.run import results
+from ebac.cli.run import engine, results
 from ebac.cli.run.confirm import confirm
 
 if TYPE_CHECKING:
@@ -18,6 +19,7 @@ if TYPE_CHECKING:
     from ebac.hardware.schedule import Schedule
     from ebac.simulation import LoopFault
     from ebac.trace import Trace
+    from ebac.worlds import EngineProcess
 
 
 def run_in_real_time(
@@ -29,8 +31,9 @@ def run_in_real_time(
     as_json: bool,
     schedule: Schedule,
     style: FigureOptions,
+    process: EngineProcess | None,
 ) -> None:
-    """Run on drives, real or simulated, on the real clock, and give what a run gives."""
+    """Run on drives, real or simulated, on the real clock, and give what a run gives; `process` computes the world."""
     from ebac.hardware import OpenDevice
     from ebac.simulation import LoopFault
 
@@ -40,7 +43,7 @@ def run_in_real_time(
         with OpenDevice.open(known, **how) as device:
             confirm(device, yes, stderr=as_json)
             try:
-                trace = _watched(device, log, live, schedule)
+                trace = _watched(device, log, live, schedule, engine.watch(process))
             except LoopFault as error:
                 fault, trace = error, error.trace
             except BaseException:
@@ -59,6 +62,7 @@ def run_in_real_time(
             how["simulate"],
             fault,
             changed=bool(schedule.orders),
+            process=process,
         )
     give(result, stem, as_json, style, fault)
 
@@ -132,7 +136,13 @@ def _tell_end(device: OpenDevice, as_json: bool) -> None:
     )
 
 
-def _watched(device: OpenDevice, log: Path | None, live: bool, schedule: Schedule) -> Trace:
+def _watched(
+    device: OpenDevice,
+    log: Path | None,
+    live: bool,
+    schedule: Schedule,
+    watch: Callable[[Run], None],
+) -> Trace:
     from ebac.cli.run.any_key import any_key
     from ebac.cli.run.live import view
 
@@ -141,6 +151,7 @@ def _watched(device: OpenDevice, log: Path | None, live: bool, schedule: Schedul
         def look(run: Run) -> None:
             key(run)
             schedule.look(run)
+            watch(run)
             picture(run)
 
         return device.run(log=log, look=look)

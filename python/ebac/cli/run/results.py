@@ -11,12 +11,14 @@ from typing import TYPE_CHECKING, Any, Self
 from ebac.cli import output
 from ebac.cli.files import FigureOptions
 from ebac.cli.machine.grants import show_refused
+from ebac.cli.run.engine import Served, without_engine
 
 if TYPE_CHECKING:
     from ebac.hardware import Configuration, Report, Times
     from ebac.metrics import Contact, ObserverUse
     from ebac.simulation import LoopFault
     from ebac.trace import Trace
+    from ebac.worlds import EngineProcess
 
 #: The longest run that is also shown on a virtual clock [ticks]: about a second of computing, 100 MB of rows.
 LONGEST_EXPECTED = 100_000
@@ -59,6 +61,8 @@ class Result:
         Whether the clock was virtual too.
     changed : bool
         Whether parameters changed during the run.
+    engine : Served or None
+        How the engine served the run; None without one.
     """
 
     configuration: Configuration
@@ -73,6 +77,7 @@ class Result:
     fault: str | None
     virtual: bool = False
     changed: bool = False
+    engine: Served | None = None
 
     @classmethod
     def of_virtual(
@@ -108,14 +113,16 @@ class Result:
         fault: LoopFault | None,
         *,
         changed: bool = False,
+        process: EngineProcess | None = None,
     ) -> Self:
-        """Measure a run; `changed` on its way, it has no verdict and no simulation beside it."""
+        """Measure a run; `changed` on its way, or with an engine, it has no simulation beside it."""
         from ebac.hardware import times, under_the_law
         from ebac.metrics import FEWEST_ROWS, contact, observer_use
 
         part = under_the_law(trace)
         measured = len(part) >= FEWEST_ROWS and fault is None
-        whole = report.ended_by == "time" and not changed
+        whole = report.ended_by == "time" and not changed and process is None
+        seconds = report.ticks * configuration.timing.dt
         return cls(
             configuration=configuration,
             trace=trace,
@@ -128,11 +135,14 @@ class Result:
             times=times(part) if len(part) else None,
             fault=None if fault is None else fault.fault.name.lower(),
             changed=changed,
+            engine=None if process is None else Served.of(process, seconds),
         )
 
     def document(self) -> str:
         """Return the JSON document."""
-        scenario = tomllib.loads(self.configuration.scenario().to_toml())
+        scenario = tomllib.loads(without_engine(self.configuration).scenario().to_toml())
+        if self.engine is not None:
+            del scenario["environment"]  # it was the engine's
         rows: list[dict[str, Any]] = [] if self.contact is None else [self.contact.row()]
         return output.document(
             "run",
@@ -145,6 +155,7 @@ class Result:
             observer=None if self.observer is None else asdict(self.observer),
             times=None if self.times is None else asdict(self.times),
             fault=self.fault,
+            engine=None if self.engine is None else self.engine.row(),
             **self.report.row(),
         )
 
@@ -201,6 +212,8 @@ def show(result: Result) -> None:
         output.say(f"Observer: {result.observer}.")
     elif result.configuration.law == "ebac" and result.configuration.sensor is not None:
         output.say("By the encoder alone: with --observer the law acts on the force sensor, too.")
+    if result.engine is not None:
+        output.say(str(result.engine))
     if result.times is not None:
         _show_times(result.times)
     report = result.report

@@ -10,7 +10,7 @@ import typer
 from ebac.cli import options, output
 from ebac.cli.drive.options import Yes, telling
 from ebac.cli.files import PANEL, FigureOptions
-from ebac.cli.run import carry_out
+from ebac.cli.run import carry_out, engine
 from ebac.cli.run.chosen import chosen
 from ebac.cli.run.confirm import can_ask
 from ebac.cli.run.names import free_stem, leave
@@ -60,6 +60,16 @@ def run(
         options.option(text="Time the law acts [s]", default="as configured", panel=options.RUN),
     ] = None,
     observer: Annotated[bool | None, options.observer(default="as configured")] = None,
+    engine_command: Annotated[
+        str | None,
+        typer.Option(
+            "--engine-command",
+            help="Program that computes the virtual world, and its arguments: it is started beside the loop and ended "
+            "with it.",
+            show_default="as configured",
+            rich_help_panel=options.WALL,
+        ),
+    ] = None,
     at: Annotated[
         list[str] | None,
         typer.Option(
@@ -132,6 +142,10 @@ def run(
 
     * `ebac run joystick.toml --simulated --observer`: the same wall at the estimated state, from encoder and force.
 
+    * `ebac demo engine`, then `ebac run joystick.toml --simulated --seconds 3 --engine-command "python engine.py"`: the
+      world of a program that calls `ebac.worlds.serve_engine`, or in C++ has an `EngineClient`. If it dies, its force
+      fades to zero, and the run says so.
+
     * `ebac run joystick.toml --simulated --at "3 environment.stiffness=2e4" --at "6 hand.target=0"`: a
       harder wall after 3 s; the hand goes back after 6 s. The log has the tick from which each acts.
 
@@ -147,8 +161,15 @@ def run(
         )
     style.check()
     with output.refusing(), telling():
-        known = chosen(configuration, law, seconds, rate, observer, wall, person)
         schedule = Schedule.parse(at or [])
+        known = engine.with_engine(
+            chosen(configuration, law, seconds, rate, observer, wall, person),
+            engine_command, wall, schedule,
+        )  # fmt: skip
+        if virtual and known.engine:
+            raise ValueError(
+                "--virtual: the engine is a program in real time; run it with --simulated, or leave out the engine"
+            )
         if not virtual:
             schedule.check(known, simulated=simulated)
     if not (virtual or simulated):
@@ -164,9 +185,10 @@ def run(
             carry_out.run_virtual(known, stem, as_json, style, bus_time=bus_time)
         else:
             how = {"simulate": simulated, "detached": detached, "beyond_rating": beyond_rating}
-            carry_out.run_in_real_time(
-                known, how, yes, stem, shown and not as_json, as_json, schedule, style
-            )
+            with engine.started(known) as (with_world, process):
+                carry_out.run_in_real_time(
+                    with_world, how, yes, stem, shown and not as_json, as_json, schedule, style, process
+                )  # fmt: skip
     finally:
         if stem is not None:
             leave(stem)

@@ -1,0 +1,154 @@
+"""`ebac run --engine-command`: a world computed by another program, and every way in which that can fail."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import ebac
+from ebac import datasets
+
+EXAMPLE = Path(__file__).parents[2] / "examples" / "joystick.toml"
+#: How long a busy machine may take for anything [s].
+PATIENCE = 120.0
+
+#: A plane at 5 mm, whose program kills itself in contact.
+MORTAL = """
+import os, signal
+from ebac.worlds import LocalModel, serve_engine
+
+calls = [0]
+def plane(x, v):
+    calls[0] += x[0] > 0.006
+    if calls[0] > 100:
+        os.kill(os.getpid(), signal.SIGKILL)
+    return LocalModel(at=(0.005, 0, 0), normal=(1, 0, 0), stiffness=2000)
+
+serve_engine(plane, rate=500)
+"""
+SILENT = """
+import time
+from ebac._core import _EngineClient
+
+client = _EngineClient("")
+while client.loop_runs:
+    time.sleep(0.01)
+"""
+
+pytestmark = [
+    pytest.mark.real_time,
+    pytest.mark.skipif(not Path("/dev/shm").is_dir(), reason="memory with names is Linux's"),
+]
+
+
+@pytest.fixture
+def room(tmp_path: Path) -> Path:
+    """A folder with the example, patient with a busy machine, and the engine of `ebac demo`."""
+    text = EXAMPLE.read_text(encoding="utf-8")
+    limits = "overruns = 100000\nforce_age = 10.0\njump = 1.0\nspeed = 100.0"
+    text = text.replace("silent = 10", "silent = 1000").replace("speed = 1.0", limits)
+    text += "\n[engine]\nstale = 0.3\n"
+    (tmp_path / "joystick.toml").write_text(text, encoding="utf-8")
+    datasets.write("engine", tmp_path)
+    return tmp_path
+
+
+def run(
+    room: Path, engine: str, *more: str, seconds: float = 3
+) -> subprocess.CompletedProcess[str]:
+    command = [sys.executable, "-m", "ebac.cli", "run", "joystick.toml", "--simulated", "--no-live"]
+    command += ["--seconds", str(seconds), "--out", "out", "--engine-command", engine, *more]
+    return subprocess.run(
+        command, cwd=room, capture_output=True, text=True, timeout=PATIENCE, check=False
+    )
+
+
+def written(room: Path, text: str) -> str:
+    (room / "other.py").write_text(text)
+    return f"{sys.executable} other.py"
+
+
+def left() -> set[str]:
+    return {path.name for path in Path("/dev/shm").glob(f"ebac-engine-{os.getpid()}-*")}
+
+
+def test_the_world_of_a_program_is_felt_and_the_program_is_ended(room: Path) -> None:
+    done = run(room, f"{sys.executable} engine.py", "--json")
+    assert done.returncode == 0, done.stderr
+    told = json.loads(done.stdout)
+    assert told["engine"]["models"] > 100
+    assert told["engine"]["rate_Hz"] > 30
+    assert told["engine"]["trouble"] == ""
+    assert told["engine"]["command"].endswith("engine.py")
+    assert told["expected"] is None
+    assert "environment" not in told["scenario"]
+    assert told["ended_by"] == "time"
+    trace = ebac.load(room / told["log"])
+    assert trace["f_env"].max() > 1
+    assert not left()
+    assert (
+        subprocess.run(["pgrep", "-f", str(room)], capture_output=True, check=False).stdout == b""
+    )
+    about = ebac.logs.read(room / told["log"]).about
+    assert "# the engine of this run:" in about.files["configuration.toml"]
+
+
+def test_one_that_is_killed_in_contact_fades_and_the_run_goes_on_and_says_so(room: Path) -> None:
+    done = run(room, written(room, MORTAL), seconds=4)
+    assert done.returncode == 0, done.stderr
+    assert "was killed by SIGKILL: its force fades to zero" in " ".join(done.stderr.split())
+    assert "It did not last" in " ".join(done.stdout.split())
+    (log,) = (room / "out").glob("*.mcap")
+    force = ebac.load(log)["f_env"][:, 0]
+    assert force.max() > 2
+    assert np.all(force[-200:] == 0)
+
+
+def test_one_that_never_posts_is_told(room: Path) -> None:
+    done = run(room, written(room, SILENT))
+    assert done.returncode == 0, done.stderr
+    assert "the engine has posted nothing so far: no force is rendered" in done.stderr
+    assert "posted nothing. No force was rendered." in " ".join(done.stdout.split())
+
+
+@pytest.mark.parametrize(
+    ("engine", "more", "code", "says"),
+    [
+        (f"{sys.executable} -c 'raise SystemExit(3)'", [], 1, "has ended with exit code 3 before"),
+        ("no-such-program", [], 2, "there is no program 'no-such-program'"),
+        ("python 'x", [], 2, "No closing quotation"),
+        ("x", ["--wall-stiffness", "100"], 2, "--wall-stiffness: the engine computes the world"),
+        ("x", ["--at", "1 environment.stiffness=5"], 2, "--at environment: the engine computes"),
+    ],
+)
+def test_what_cannot_be_is_refused(
+    engine: str, more: list[str], code: int, says: str, room: Path
+) -> None:
+    done = run(room, engine, *more)
+    assert done.returncode == code, done.stderr
+    assert says in done.stderr
+    assert "Traceback" not in done.stderr
+    assert not (room / "out").exists()
+
+
+def test_a_configured_engine_is_started_and_has_no_virtual_clock(room: Path) -> None:
+    file = room / "joystick.toml"
+    engine = f'[engine]\ncommand = "{sys.executable} engine.py"\n'
+    file.write_text(file.read_text().replace("[engine]\n", engine))
+    command = [sys.executable, "-m", "ebac.cli", "run", "joystick.toml", "--json", "--seconds", "2"]
+    done = subprocess.run(
+        [*command, "--simulated"], cwd=room, capture_output=True, text=True, timeout=PATIENCE, check=False
+    )  # fmt: skip
+    assert done.returncode == 0, done.stderr
+    assert json.loads(done.stdout)["engine"]["models"] > 0
+    done = subprocess.run(
+        [*command, "--virtual"], cwd=room, capture_output=True, text=True, timeout=PATIENCE, check=False
+    )  # fmt: skip
+    assert done.returncode == 2
+    assert "--virtual: the engine is a program in real time" in done.stderr
