@@ -103,7 +103,6 @@ RULES = (
         fewer="--evaluations 40 --family swinging",
     ),
     Rule(r"^ebac worst\b", SLOW, "takes seconds", fewer="--evaluations 40"),
-    Rule(r"ebac\.worst\(", SLOW, "takes a minute"),
     Rule(r"^ebac zwidth\b", SLOW, "takes seconds", fewer="--points 2 --seconds 1"),
     Rule(r"^ebac gastroscopy study\b", SLOW, "takes minutes", fewer="--physicians 2 --seconds 2"),
     Rule(r"^ebac gastroscopy\b", SLOW, "takes seconds", fewer="--seconds 2"),
