@@ -2,7 +2,6 @@
 
 import os
 import socket
-import subprocess
 import sys
 import threading
 import time
@@ -10,9 +9,11 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+from typer.testing import CliRunner
 
 import ebac
 from ebac import Hand, MinimumJerk, Scenario, logs
+from ebac.cli import app
 from ebac.cli.gastroscopy.side_table import show
 from ebac.cli.gastroscopy.teller import Teller
 from ebac.cli.teleop.consent import Consent
@@ -81,14 +82,8 @@ def test_no_hand_is_simulated_on_real_drives() -> None:
     with pytest.raises(ValueError, match=r"consent_after = 1 s: only a simulated hand"):
         run_master(configuration("master"), peer=("127.0.0.1", 49201), consent_after=1.0)
     words = ["gastroscopy", "master", "mine.toml", "--consent-after", "1"]
-    ended = subprocess.run(
-        [sys.executable, "-m", "ebac.cli", *words],
-        capture_output=True,
-        text=True,
-        timeout=120,
-        check=False,
-    )
-    assert ended.returncode == 2
+    ended = CliRunner().invoke(app, words)
+    assert ended.exit_code == 2
     assert "--consent-after 1: only with --simulated" in ended.stderr
 
 

@@ -15,10 +15,12 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from typer.testing import CliRunner
 
 import ebac
 from ebac import Hand, MinimumJerk, _core, logs
 from ebac.can.channels import hub_of
+from ebac.cli import app
 from ebac.gastroscope import Lumen, Patient, Scope, Slave
 from ebac.gastroscope.chain import OFF, Chain, chain
 from ebac.gastroscope.far_side import LinkEvent, SideReport
@@ -327,14 +329,8 @@ def check_the_others(found: Chain, killed: str) -> None:
 # --- the commands ---
 
 
-def command(*words: str) -> subprocess.CompletedProcess[str]:
-    return subprocess.run(
-        [sys.executable, "-m", "ebac.cli", "gastroscopy", *words],
-        capture_output=True,
-        text=True,
-        timeout=120,
-        check=False,
-    )
+def command(*words: str) -> Any:
+    return CliRunner().invoke(app, ["gastroscopy", *words])
 
 
 @pytest.mark.parametrize(
@@ -349,7 +345,7 @@ def command(*words: str) -> subprocess.CompletedProcess[str]:
 )
 def test_wrong_input_is_refused(words: list[str], said: str) -> None:
     ended = command(*words)
-    assert ended.returncode == 2
+    assert ended.exit_code == 2
     assert said in ended.stderr
 
 
@@ -358,7 +354,7 @@ def test_wrong_input_is_refused(words: list[str], said: str) -> None:
 def test_a_slave_alone_waits_and_ends_by_its_time() -> None:
     ended = command("slave", "--simulated", "--port", "0", "--seconds", "1", "--json")
     row = json.loads(ended.stdout)
-    assert ended.returncode == 0, ended.stderr
+    assert ended.exit_code == 0, ended.stderr
     assert row["ended_by"] == "time"
     assert row["state"] == 0
     assert row["drives"] == ["switch on disabled"] * 4
