@@ -3,13 +3,12 @@
 import hashlib
 import os
 import shutil
-import subprocess
-import sys
 from pathlib import Path
 from typing import Any, ClassVar
 
 from docutils import nodes
 from docutils.parsers.rst import directives
+from drawing import draw
 from sphinx.application import Sphinx
 from sphinx.util import logging
 from sphinx.util.docutils import SphinxDirective
@@ -40,20 +39,11 @@ class Drawn(SphinxDirective):
         """Run the commands and keep the picture."""
         room = picture.with_suffix("")
         shutil.rmtree(room, ignore_errors=True)
-        ebac = room / "bin" / "ebac"
-        ebac.parent.mkdir(parents=True)
-        ebac.write_text(f'#!/bin/sh\nexec "{sys.executable}" -m ebac.cli "$@"\n')
-        ebac.chmod(0o755)
-        path = f"{ebac.parent}{os.pathsep}{os.environ['PATH']}"
-        env = {**os.environ, "PATH": path, "MPLBACKEND": "Agg"}
-        done = subprocess.run(
-            ["bash", "-ec", script], cwd=room, env=env, capture_output=True, text=True, check=False
-        )
+        room.mkdir(parents=True)
+        error = draw(script, room)
         drawn = room / self.arguments[0]
-        if done.returncode != 0 or not drawn.exists():
-            LOGGER.warning(
-                "no %s: %s", self.arguments[0], done.stderr, location=self.get_location()
-            )
+        if error or not drawn.exists():
+            LOGGER.warning("no %s: %s", self.arguments[0], error, location=self.get_location())
             return
         drawn.replace(picture)
         shutil.rmtree(room)
