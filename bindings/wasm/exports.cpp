@@ -99,13 +99,13 @@ EBAC_EXPORT("capacity") int capacity() { return kRows; }
 /// Runs `ticks`, at most `capacity`, and returns the fault, 0 for none.
 EBAC_EXPORT("step") int step(int ticks) {
   LiveRun& live = running();
-  const auto fields = Shown::fields();
+  const auto fields = field_table<Shown>().rows;
   const int rows = std::clamp(ticks, 0, kRows);
   for (int i = 0; i < rows; ++i) {
     const Shown row = live.step();
     remember(row);
     for (std::size_t c = 0; c < fields.size(); ++c) {
-      columns[c][static_cast<std::size_t>(i)] = row.*(*std::get_if<0>(&fields[c].member));
+      columns[c][static_cast<std::size_t>(i)] = fields[c].in<double>(&row);
     }
   }
   return static_cast<int>(live.fault());
@@ -124,9 +124,9 @@ EBAC_EXPORT("measure") const double* measure() {
   recorder.start(record.size());
   for (const Shown& row : record) recorder.add(row.t, row.x, row.f_applied, row.energy, 0);
   const WallContact contact = measure_contact(recorder.record());
-  const auto fields = WallContact::fields();
+  const auto fields = field_table<WallContact>().rows;
   for (std::size_t i = 0; i < fields.size(); ++i) {
-    measured[i] = contact.*(*std::get_if<0>(&fields[i].member));
+    measured[i] = fields[i].in<double>(&contact);
   }
   measured[fields.size()] = contact.still() ? 1 : 0;
   measured[fields.size() + 1] = contact.force_quiet() ? 1 : 0;

@@ -31,11 +31,9 @@ void EmulatorServer::set(const EmulatorTrouble& trouble) {
 
 EmulatorCounts EmulatorServer::counts() const {
   EmulatorCounts counts;
-  for (std::size_t i = 0; const auto& field : EmulatorCounts::fields()) {
+  for (std::size_t i = 0; const FieldRow& field : field_table<EmulatorCounts>().rows) {
     const std::int64_t value = published_[i++].load(std::memory_order_relaxed);
-    if (const auto* whole = std::get_if<std::int64_t EmulatorCounts::*>(&field.member)) {
-      counts.*(*whole) = value;
-    }
+    if (field.kind == FieldKind::kInt64) field.in<std::int64_t>(&counts) = value;
   }
   return counts;
 }
@@ -78,9 +76,10 @@ void EmulatorServer::sample(std::chrono::nanoseconds period) noexcept {
 }
 
 void EmulatorServer::publish_counts() noexcept {
-  for (std::size_t i = 0; const auto& field : EmulatorCounts::fields()) {
-    if (const auto* whole = std::get_if<std::int64_t EmulatorCounts::*>(&field.member)) {
-      published_[i].store(emulator_.counts().*(*whole), std::memory_order_relaxed);
+  for (std::size_t i = 0; const FieldRow& field : field_table<EmulatorCounts>().rows) {
+    if (field.kind == FieldKind::kInt64) {
+      const auto value = field.in<std::int64_t>(&emulator_.counts());
+      published_[i].store(value, std::memory_order_relaxed);
     }
     ++i;
   }
