@@ -19,8 +19,9 @@ ebac_bundle(ebac machine cpp/ebac can/raw_socket can/socketcan can/wake_event
             simulated_drives/simulated_drive simulated_drives/simulated_drive_errors
             simulated_drives/simulated_drive_motion simulated_drives/simulated_drive_objects
             simulated_drives/simulated_wire simulated_drives/through_can)
-ebac_bundle(ebac gastroscope cpp/ebac gastroscope/bending gastroscope/driven_scope gastroscope/lumen gastroscope/physician gastroscope/slave gastroscope/tube)
-ebac_bundle(ebac teleop cpp/ebac remote/link_end remote/slave_worlds teleop/packet teleop/simulate teleop/udp_sides)
+ebac_bundle(ebac teleop cpp/ebac gastroscope/bending gastroscope/driven_scope gastroscope/lumen gastroscope/physician
+            gastroscope/slave gastroscope/tube remote/link_end remote/slave_worlds teleop/packet teleop/simulate
+            teleop/udp_sides)
 ebac_bundle(ebac run cpp/ebac control/virtual_coupling core/check core/fields core/matrix_exponential faults/campaign faults/case
             faults/case_setup faults/referee faults/test_bench identify/arm_drive identify/arm_jacobian identify/arm_record identify/arm_step identify/arm_trials loop/retune loop/trace sim/contact sim/ideal_wall
             sim/perceived_ripple sim/rest_power sim/sweep world/engine/engine_client world/engine/make_bridge
