@@ -112,7 +112,7 @@ class PythonLaw(Protocol):
 @plain_constructor
 @dataclasses.dataclass(frozen=True)
 class Variant:
-    """A law with parameters changed on top of its design, designed anew wherever the law would be.
+    """A law with parameters changed on top of its design, designed again wherever the law would be.
 
     Attributes
     ----------

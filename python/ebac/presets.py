@@ -139,7 +139,7 @@ def hand(name: str) -> Hand:
     Raises
     ------
     KeyError
-        When there is none; the message lists the names.
+        For an unknown name; the message lists the names.
     """
     return named("hand", name, HANDS).hand
 
@@ -150,6 +150,6 @@ def device(name: str) -> Device:
     Raises
     ------
     KeyError
-        When there is none; the message lists the names.
+        For an unknown name; the message lists the names.
     """
     return named("device", name, DEVICES).device

@@ -149,7 +149,7 @@ def test_columns_of_text_are_left_out_with_a_note(tmp_path: Path, kind: str) -> 
     path.write_text("\n".join(["t,comment,x,force", *rows]))
     found = load(path)
     assert found.x == pytest.approx(X, abs=1e-9)
-    assert "column 'comment' is left out: it holds text" in found.remarks
+    assert "column 'comment' is left out: it contains text" in found.remarks
     with pytest.raises(ValueError, match=r"in row \d, column 'comment', is no number"):
         load(path, columns={"force": "comment"})
 

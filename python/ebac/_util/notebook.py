@@ -32,7 +32,7 @@ def table(rows: Sequence[Mapping[str, Any]], *, most: int = MOST_ROWS) -> str:
     rows : sequence of mappings
         With the same keys, whose endings give the SI unit: `rest_m`, `least_energy_J`.
     most : int
-        Show at most so many, first and last ones.
+        Show at most this many, first and last ones.
     """
     if not rows:
         return "<p>no rows</p>"

@@ -68,7 +68,7 @@ class FaultRow:
 
 @dataclass(frozen=True, kw_only=True, repr=False)
 class FaultCampaign:
-    """What a campaign came to: one row per kind."""
+    """The result of a campaign: one row per kind."""
 
     seed: int
     cases: int

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from ebac.hardware import Configuration
 
-#: A simulated device moves at most so many ticks from one tick to the next, however late its loop is.
+#: A simulated device moves at most this many ticks from one tick to the next, however late its loop is.
 LONGEST_STEP = 2
 #: Ticks in a row without an answer, or too late, that simulated drives bear: their machine is not made for it.
 PATIENCE = 200

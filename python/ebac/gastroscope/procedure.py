@@ -156,7 +156,7 @@ class Gastroscopy:
         return trace_of(self)
 
     def thinned(self, every: int) -> Gastroscopy:
-        """Return the run with only each so many rows of its record, and the last; forces are the largest in between.
+        """Return the run with only every n-th row of its record, and the last; forces are the largest in between.
 
         Parameters
         ----------
@@ -241,7 +241,7 @@ def gastroscopy(
     procedure : Procedure, optional
         Default: `Procedure()`.
     every : int
-        A row of the record each so many ticks, [1, 10000].
+        Ticks from one row of the record to the next, [1, 10000].
     **changes
         Parameters of the law on top of its design.
 

@@ -47,7 +47,7 @@ def run_slave(
     Parameters
     ----------
     feed, bend : Configuration, optional
-        Drives for insertion and rotation, and for both bends, each pair on a bus of its own; default: `configuration`.
+        Drives for insertion and rotation, and for both bends, each pair on its own bus; default: `configuration`.
     host, port : str, int
         Where to listen; port 0 takes any free one.
     simulate : bool

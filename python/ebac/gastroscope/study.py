@@ -58,7 +58,7 @@ class Effect:
     low_N, high_N : float
         95 % confidence interval by bootstrap over physicians.
     power : float
-        Probability to find a difference of 1 N at the 5 % level with so many pairs of this scatter.
+        Probability to find a difference of 1 N at the 5 % level with this many pairs of this scatter.
     detectable_N : float
         Difference that would be found with 80 % probability.
     """

@@ -21,7 +21,7 @@ class VirtualRun(Run):
     """A run whose ticks are taken by `advance` alone; nothing of it depends on how late a machine is."""
 
     def advance(self, ticks: int) -> int:
-        """Take so many ticks, fewer where the run ends; return how many."""
+        """Take this many ticks, fewer where the run ends; return how many."""
         return self._stepped.advance(ticks)
 
     def aim_now(self, target: Sequence[float]) -> None:

@@ -69,7 +69,7 @@ def fit_arm(
         From how many points the search starts, at least 1; from 4 at least where the first one determines a part of the
         hand only, or a hand that answers within two rows.
     robust : float, optional
-        Errors beyond so many standard deviations count linearly (Huber); 1.345 keeps 95 % of the efficiency.
+        Errors beyond this many standard deviations count linearly (Huber); 1.345 keeps 95 % of the efficiency.
     seed : int
         Of the further starts.
 

@@ -18,7 +18,7 @@ Values = NDArray[np.float64]
 DRIFT_ROUNDS, SAME_DRIFT = 4, 0.1
 #: So near the largest drift it is none.
 NOT_A_DRIFT = 0.95
-#: A drift is known to about this share: so many times larger, it moves the values by what the intervals hold.
+#: A drift is known to about this share: this many times larger, it moves the values by what the intervals hold.
 DOUBTED_DRIFT = 1.25
 #: Least fall of the cost that a step must promise [deviations squared].
 SMALL_FALL = 5e-2

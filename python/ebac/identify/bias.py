@@ -11,7 +11,7 @@ from ebac._core import ArmGains, ArmRecord
 from ebac.identify.problem import Problem
 from ebac.identify.signals import rough
 
-#: The noise that moves a hand is at least what the force signal itself shows, and so many times that at most.
+#: The noise that moves a hand is at least what the force signal itself shows, and this many times that at most.
 WIDEST = 300.0
 #: First step of the logarithm of the noise, and how near is near enough.
 STEP, NEAR = 0.1, 0.02
@@ -70,7 +70,7 @@ def likely_noise(
 DRIFTS, LARGEST_DRIFT = (0.003, 0.03, 0.3), 0.4
 #: By how much -2 log of the likelihood must fall for a drift to be believed.
 BELIEVED = 10.0
-#: Noise that is so many times the shown one may be a drift.
+#: Noise that is this many times the shown one may be a drift.
 LOUD = 1.2
 
 

@@ -32,11 +32,11 @@ LEAST_SLIDING = 200
 AROUND = 0.012
 #: Slowest sliding [m/s], and in counts over the width of the kernel.
 SLOWEST, COUNTS = 1e-3, 0.5
-#: A shorter stop than the kernel shows where an encoder is so fine: slowest sliding passes so many counts within WIDTH.
+#: A shorter stop than the kernel shows where an encoder is so fine: slowest sliding passes as many counts within WIDTH.
 FINE = 4.0
-#: Where it does not slide, friction is whatever it has to be: so many times the largest force.
+#: Where it does not slide, friction is whatever it has to be: this many times the largest force.
 WHATEVER = 100.0
-#: A force jumps where it bends by so many deviations of its noise; a tick may miss this share of it, for so many
+#: A force jumps where it bends by this many deviations of its noise; a tick may miss this share of it, for this many
 #: rows before and after.
 NOISY, JUMP, FELT = 5.0, 0.5, 4
 FITTED = ("M_h", "B_h", "coulomb", "weight", "stribeck")

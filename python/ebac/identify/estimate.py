@@ -18,7 +18,7 @@ class Estimate:
     determined: bool
 
     def row(self) -> dict[str, str]:
-        """Return it in words, for a table."""
+        """Return it as text, for a table."""
         bounds = "" if self.fixed else f"{self.low:.4g} to {self.high:.4g}"
         said = "given" if self.fixed else "yes" if self.determined else "NO"
         return {

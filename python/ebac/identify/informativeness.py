@@ -113,7 +113,7 @@ def check_log(
     Raises
     ------
     ValueError
-        For a name that is none of these, without force, or when the recording is too short.
+        For an unknown name, without force, or when the recording is too short.
     """
     require_recordings(recording, "check_log", rotary=True)  # shares have no unit
     for name in ask:
@@ -183,7 +183,7 @@ DETERMINED = 0.25
 TOGETHER = 0.95
 #: ... and when either is looser than this share, the log cannot separate them.
 LOOSE = 0.2
-#: A hand that answers within so many rows, M0/B0, depends on what a force does between rows, which is not recorded.
+#: A hand that answers within this many rows, M0/B0, depends on what a force does between rows, which is not recorded.
 FASTEST = 2.0
 #: ... unless its M0 and B0 are separated better than by this correlation.
 FAST_TOGETHER = 0.85

@@ -171,9 +171,7 @@ def _trace(path: Path) -> tuple[Trace | None, str, list[str]]:
 
         log = read(path)
         if len(log.trace) == 0:
-            raise ValueError(
-                f"{path.name}: the log holds no rows; ebac log info says what it does hold"
-            )
+            raise ValueError(f"{path.name}: the log has no rows; ebac log info shows its contents")
         remarks = [] if log.condition.complete else [f"the log is not whole: {log.condition}"]
         remarks += [f"{gap.rows} rows are missing after t = {gap.t:.4g} s" for gap in log.gaps]
         return log.trace, log.trace.origin, remarks
@@ -224,7 +222,7 @@ def _recording(
     for column in chosen.values():
         if column in words:
             raise ValueError(words[column])
-    remarks += [f"column {column!r} is left out: it holds text" for column in words]
+    remarks += [f"column {column!r} is left out: it contains text" for column in words]
     if "x" not in chosen:
         raise ValueError(
             f"{name}: found no position among {listed(list(raw))}; which is it? For example "

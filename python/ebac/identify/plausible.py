@@ -55,7 +55,7 @@ def plausible(name: str, signals: Columns, *, rotary: bool, guessed: bool) -> No
     rotary : bool
         Whether they are in rad and N m.
     guessed : bool
-        Whether nobody said the unit of x.
+        Whether the unit of x was not given.
     """
     long, strong = ("rad", "N m") if rotary else ("m", "N")
     dt, reach = float(np.median(np.diff(signals["t"]))), float(np.ptp(signals["x"]))

@@ -235,7 +235,7 @@ class ArmResult:
         return min(p.vaf for p in self.predictions())
 
     def profile(self, name: str, level: float = Z95**2) -> tuple[float, float]:
-        """Return the 95 % interval of a parameter by profile likelihood: all others are fitted anew along it."""
+        """Return the 95 % interval of a parameter by profile likelihood: all others are fitted again along it."""
         from ebac.identify.intervals import profile
 
         return profile(self, name, level)

@@ -58,7 +58,7 @@ class Conversion:
 
     @property
     def step(self) -> float | None:
-        """Step of an encoder of so many counts a turn, as `in_si` returns the position [rad or m]; None without one."""
+        """Step of an encoder of these counts per turn, as `in_si` returns the position [rad or m]; None without one."""
         if self.counts_per_turn is None:
             return None
         return 2 * pi / self.counts_per_turn * (self.lever or 1.0)

@@ -120,7 +120,7 @@ def unknown_force(recording: Recording) -> NDArray[np.float64]:
 
 
 def _missed(force: NDArray[np.float64], lost: int) -> float:
-    """Return what a straight line over so many rows misses, all of them the same way [N]."""
+    """Return what a straight line over this many rows misses, all of them the same way [N]."""
     middle = (lost + 1) // 2
     share = middle / (lost + 1)
     line = (1 - share) * force[: -lost - 1] + share * force[lost + 1 :]
@@ -138,7 +138,7 @@ def speed(x: NDArray[np.float64], dt: float) -> NDArray[np.float64]:
 WIDTH = 8e-3
 
 
-#: The kernel ends at so many of its widths: at 4 its second derivative would be off by 1 % at 20 Hz.
+#: The kernel ends at this many of its widths: at 4 its second derivative would be off by 1 % at 20 Hz.
 TAILS = 6
 
 

@@ -167,7 +167,7 @@ def indicators(recording: Recording, target: Target) -> NDArray[np.float64]:
     return np.array([lagged(row, dt, recording.lag, stepping=True) for row in out])
 
 
-#: A lag has settled after so many of its time constants: to 1e-11.
+#: A lag has settled after this many of its time constants: to 1e-11.
 SETTLES = 25
 
 

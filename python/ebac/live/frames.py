@@ -26,7 +26,7 @@ STEP, BACK = 8e-3, 10.0
 STRIPS = ("t", "x", "f_env", "f_cmd", "f_meas", "beta", "energy")
 #: A verdict looks back so far [s], and is given so often [s].
 JUDGED, OFTEN = 1.5, 0.4
-#: A vibration below so many detection thresholds is not perceived.
+#: A vibration below this many detection thresholds is not perceived.
 PERCEIVED = 3.0
 
 

@@ -14,7 +14,7 @@ from ebac.live.device_limits import DeviceLimits
 from ebac.live.intended_hand import IntendedHand
 from ebac.scenario import Environment, Scenario
 
-#: A simulated device moves for so many ticks at most from one tick to the next: on a machine that is late its time
+#: A simulated device moves for this many ticks at most from one tick to the next: on a machine that is late its time
 #: stands still.
 LONGEST_STEP = 2
 #: Ticks without an answer that are a fault of simulated drives.

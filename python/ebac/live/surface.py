@@ -14,7 +14,7 @@ from ebac.scenario import Environment
 
 Floats = NDArray[np.float64]
 Distance = Callable[[Floats], Floats]
-#: The part of space that is drawn reaches so far from the middle [m], in so many cells.
+#: The part of space that is drawn reaches so far from the middle [m], in this many cells.
 REACH, CELLS = 0.07, 44
 #: How far walls and discs, which have no height, are drawn up and down [m].
 _HALF_HEIGHT = 0.03

@@ -41,7 +41,7 @@ class Cdr:
         self._data += bytes(width * size)
 
     def rows(self, number: int) -> tuple[NDArray[Any], bytearray]:
-        """Return so many messages: what has room in them, by name, and the bytes in which it lies."""
+        """Return this many messages: what has room in them, by name, and the bytes in which it lies."""
         data = self._data * number
         names = list(self._room)
         forms, offsets = zip(*self._room.values(), strict=True)

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from ebac.logs.layout import Layout
 
-#: Rows that are spread over the columns at a time: so many stay in a processor's cache.
+#: Rows that are spread over the columns at a time: this many stay in a processor's cache.
 _BLOCK = 1024
 #: Columns have room for this many times the rows so far, at most: the size a log announces may be wrong.
 _GROWTH = 8

@@ -37,7 +37,7 @@ SCHEMA = {
 }
 
 
-#: An event beyond so long a time [s], or so many ticks, is damage.
+#: An event beyond so long a time [s], or this many ticks, is damage.
 MOST_TIME, MOST_TICK = 1e9, 1 << 62
 
 

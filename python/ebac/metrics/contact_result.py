@@ -1,4 +1,4 @@
-"""What a contact with a wall came to: its numbers, in words and in tables."""
+"""The result of a contact with a wall: its numbers, as text and as tables."""
 
 from __future__ import annotations
 
@@ -60,7 +60,7 @@ class Contact:
         Most energy taken out of the port in any window beyond what an ideal wall stores at the window's start, max
         over t1 < t2 of W(t1) - W(t2) - K depth(t1)^2 / 2; 0 for an ideal wall, None without a simulation.
     clamped_share : float or None
-        Share of ticks in which the law held its force back; None for a law that never does.
+        Share of ticks in which the law limited its force; None for a law without such a limit.
     force_step_N : float
         Largest change of the applied force from one tick to the next.
     most_pull_N : float or None
@@ -96,7 +96,7 @@ class Contact:
     count_m : float or None
         One encoder count.
     allowed_m : float or None
-        How far from the ideal a rest still is `exact`, see `allowed_deviation`.
+        How far from the ideal a rest still counts as `exact`, see `allowed_deviation`.
     seconds : float or None
         Length of the run [s].
     touched : bool or None
@@ -160,12 +160,12 @@ class Contact:
 
     @property
     def verdict(self) -> str:
-        """What the contact came to in words: "exact and quiet", "swings", "no contact", "too short to judge"."""
+        """The verdict in words: "exact and quiet", "swings", "no contact", "too short to judge"."""
         return formatting.verdict(self)
 
     @property
     def force_verdict(self) -> str:
-        """What its force came to in words: "not quiet: settled 2.994 s, 338 jumps, vibration 19.8 thresholds"."""
+        """The verdict on its force in words: "not quiet: settled 2.994 s, 338 jumps, vibration 19.8 thresholds"."""
         return formatting.force_verdict(
             self.force_quiet, self.force_settled_s, self.jumps, self.perceived
         )

@@ -39,7 +39,7 @@ def plot_ablation(found: Ablation) -> Picture:
 
 
 def _draw(found: Ablation, abreast: int) -> Picture:
-    """Draw so many measures abreast, and the others below them."""
+    """Draw this many measures abreast, and the others below them."""
     measures, rows = found.measures, found.rows
     bands = [measures[i : i + abreast] for i in range(0, len(measures), abreast)]
     high = 1.4 * len(bands) + 1.3 + 0.34 * len(rows) * len(bands)

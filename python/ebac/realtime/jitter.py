@@ -85,7 +85,7 @@ class Cyclictest:
     Attributes
     ----------
     counts : array, shape (microseconds,)
-        Wake-ups that were so many whole microseconds late.
+        Wake-ups that were this many whole microseconds late.
     beyond : int
         Wake-ups later than the longest of these.
     most : float

@@ -1,4 +1,4 @@
-"""A force sensor that is none: it speaks the protocol on the network, and serves its page. A simulation."""
+"""A simulated force sensor: it uses the protocol of the real one on the network, and serves its page."""
 
 from __future__ import annotations
 

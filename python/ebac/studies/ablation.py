@@ -186,7 +186,7 @@ def pieces(law: AnyLaw, changes: Sequence[Mapping[str, Any]] = ()) -> list[Piece
     law : str, law class, Variant, law or PythonLaw
         Whose pieces.
     changes : sequence of mapping
-        More changes, each a row of its own: parameters and their values.
+        More changes, each in a separate row: parameters and their values.
 
     Raises
     ------
@@ -228,9 +228,9 @@ def ablation(
     population : Operators, optional
         The hands; default: the grid of 60.
     law : str, law class, Variant, law or PythonLaw
-        Its pieces are discovered, see `pieces`. A finished law is not designed anew for a condition.
+        Its pieces are discovered, see `pieces`. A finished law is not designed again for a condition.
     changes : sequence of mapping
-        More changes, each a row of its own: `[{"pull": 40.0}]`.
+        More changes, each in a separate row: `[{"pull": 40.0}]`.
     beside : sequence of str
         Other laws, for the reader.
     measures : sequence of Measure

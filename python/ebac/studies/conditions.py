@@ -236,7 +236,7 @@ def conditions(names: Iterable[str | Condition]) -> list[Condition]:
     Raises
     ------
     ValueError
-        For a name that is none of these; suggests the nearest.
+        For an unknown name; suggests the nearest.
     """
     found: dict[str, Condition] = {}
     require(names, Iterable, "ebac.study", "conditions by name")

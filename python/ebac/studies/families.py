@@ -134,7 +134,7 @@ def find_family(name: str, pull: float) -> Family:
     Raises
     ------
     ValueError
-        For a name that is none; suggests the nearest.
+        For an unknown name; suggests the nearest.
     """
     every = families(pull)
     if name not in every:

@@ -80,7 +80,7 @@ class HandSearch:
         self.best: tuple[NDArray[np.float64], Columns] | None = None
 
     def run(self, evaluations: int, seed: int) -> WorstHand:
-        """Try so many hands; return the worst."""
+        """Try this many hands; return the worst."""
         n = len(self.family.parameters)
         random = np.random.Generator(np.random.PCG64([seed, n]))
         at_random = max(1, int(AT_RANDOM * evaluations))

@@ -94,12 +94,12 @@ def approach(way: float) -> Change:
 
 
 def slow_press(duration: float) -> Change:
-    """Let the hand reach its target along a minimum-jerk path of so many seconds."""
+    """Let the hand reach its target along a minimum-jerk path of this many seconds."""
     return _path(lambda target, surface: MinimumJerk(target=target, duration=duration))
 
 
 def waves(amplitude: float, frequency: float, seconds: float) -> Change:
-    """Let the hand's target swing about its place [m], [Hz] for so many seconds, then rest there."""
+    """Let the hand's target swing about its place [m], [Hz] for this many seconds, then rest there."""
     times = [0.01 * i for i in range(round(100 * seconds) + 1)]
     swing = [amplitude * sin(2 * pi * frequency * t) for t in times]
     return _path(lambda target, surface: Recorded(t=times, x=[target + x for x in swing]))

@@ -56,7 +56,7 @@ def head(trace: Trace, rows: int, columns: tuple[str, ...]) -> Text:
 
 
 def summary(trace: Trace) -> Text:
-    """Return what a trace is of, what its contact came to, and least, mean and most of its main columns."""
+    """Return the scenario of a trace, the verdict on its contact, and minimum, mean and maximum of its main columns."""
     from ebac.metrics import contact
 
     lines = [repr(trace)]

@@ -172,7 +172,7 @@ class Trace:
         return head(self, rows, columns)
 
     def summary(self) -> Text:
-        """Return as text what was run, what the contact came to, and the range of the main columns."""
+        """Return as text the scenario, the verdict on the contact, and the range of the main columns."""
         from ebac.trace.text import summary
 
         return summary(self)

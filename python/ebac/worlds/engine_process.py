@@ -1,4 +1,4 @@
-"""An engine in a process of its own, for runs in real time."""
+"""An engine in a separate process, for runs in real time."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""An engine in a thread of its own, for runs in real time."""
+"""An engine in a separate thread, for runs in real time."""
 
 from __future__ import annotations
 
@@ -60,7 +60,7 @@ class EngineError(RuntimeError):
 
 
 class EngineThread:
-    """Calls an engine at a rate, in a thread of its own, beside a loop in real time.
+    """Calls an engine at a given rate, in a separate thread, for a loop in real time.
 
     The loop never waits for it: poses go to the thread and models come back through mailboxes that hold the newest
     value. An engine that raises ends the thread; its force fades within `stale + fade`, and leaving the `with` block

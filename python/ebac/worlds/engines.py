@@ -22,7 +22,7 @@ class ForeignWorld(_core._World):
     in_real_time = False
 
     def for_run(self) -> ForeignWorld:
-        """Return the same world for one run, with errors and report of its own."""
+        """Return the same world for one run, with its own errors and report."""
         raise NotImplementedError
 
     def ideal(self) -> World | None:
@@ -85,7 +85,7 @@ class FunctionWorld(ForeignWorld):
         self.function = function
 
     def for_run(self) -> FunctionWorld:
-        """Return the same world for one run, with errors of its own."""
+        """Return the same world for one run, with its own errors."""
         return FunctionWorld(self.function)
 
     @property
@@ -226,7 +226,7 @@ class Bridge(ForeignWorld):
         }
 
     def for_run(self) -> Bridge:
-        """Return the same bridge for one run, with errors and report of its own."""
+        """Return the same bridge for one run, with its own errors and report."""
         made = Bridge(self.engine, timing=self.timing, held=self.held, rendering=self.rendering)
         self._last = made
         return made

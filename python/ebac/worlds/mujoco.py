@@ -142,7 +142,7 @@ class MujocoEngine:
         return LocalModel(at=(a, b, c), normal=tuple(normal), stiffness=self._stiffness)
 
     def __deepcopy__(self, memo: dict[int, Any]) -> MujocoEngine:
-        """Return one that begins anew: each run has its own."""
+        """Return a fresh one: each run has its own."""
         tip, period, stiffness, most, reach = self._given
         return MujocoEngine(
             self.model,

@@ -39,7 +39,8 @@ def _fit(text: str, default: str | bool = False, **more: Any) -> Any:
 
 Fix = Annotated[list[str] | None, _fit("NAME=VALUE in SI units: M0, B0, K0, X0, delay; repeat it.")]
 Robust = Annotated[
-    float | None, _fit("Errors beyond so many deviations count linearly.", min=0.1, max=100)
+    float | None,
+    _fit("Errors beyond this many standard deviations count linearly.", min=0.1, max=100),
 ]
 
 

@@ -86,7 +86,7 @@ class GainsResult:
         return notebook.result(repr(self), self.rows(), lambda: plot_gains(self))
 
     def __repr__(self) -> str:
-        """Return the choice and what it comes to."""
+        """Return the choice and its results."""
         n = self.chosen.presses.numbers()
         return (
             f"<Gains of {self.name}: kp = {self.kp:.3g}, kd = {1e3 * self.kd:.3f} ms; settles in "

@@ -26,7 +26,7 @@ LARGEST = {"kp": 2.0, "kd": 0.01}
 LOOKS = (0.0, 0.25, 0.5, 0.75, 0.95)
 #: Where the default gains break a constraint, shares of them down to the first that keeps all.
 SHARES = (0.9, 0.8, 0.7, 0.6, 0.5, 0.4, 0.3, 0.2, 0.1)
-#: COBYLA starts from the default gains or what is left of them, and from so many of the best looks.
+#: COBYLA starts from the default gains or what is left of them, and from this many of the best looks.
 STARTS = 2
 #: How much deeper than the default gains others may go, where no limit is given.
 SLACK = 1.25

@@ -63,7 +63,7 @@ class Limits:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Candidate:
-    """One pair of gains and what it came to.
+    """One pair of gains and its results.
 
     `ratios`: settling, swing and noise over the default's, geometric mean over the presses. `close`: overshoot or
     energy come so near their limit that another hand might break it.

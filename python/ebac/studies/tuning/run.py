@@ -18,7 +18,7 @@ from ebac.studies.tuning.search import Search
 
 #: Conditions of a search: delay 0, 1, 2 at 10 and 20 kN/m.
 TUNING_CONDITIONS = ("d0K10", "d0K20", "d1K10", "d1K20", "d2K10", "d2K20")
-#: Training hands: so many random ones, of this seed; the test hands are the grid of 60.
+#: Training hands: this many random ones, of this seed; the test hands are the grid of 60.
 HANDS, HANDS_SEED = 24, 14
 
 
