@@ -241,6 +241,15 @@ def test_wall_runs_every_law_once() -> None:
     assert list(wall_rows("--law", "all", "--law", "tca", "--seconds", "0.1")) == list(ebac.LAWS)
 
 
+def test_the_friction_of_the_device_is_an_option() -> None:
+    words = ["wall", "--law", "ebac", "--seconds", "0.1", "--json", "--device-coulomb", "0.5"]
+    told = json.loads(CliRunner().invoke(app, words).stdout)
+    assert told["scenario"]["device"]["mechanics"]["coulomb"] == 0.5
+    refused = CliRunner().invoke(app, [*words[:-1], "-1"])
+    assert refused.exit_code == 2
+    assert "--device-coulomb = -1 N: must lie in [0, 100] N" in " ".join(refused.output.split())
+
+
 def test_a_thing_that_does_not_exist_is_null() -> None:
     rows = wall_rows("--law", "tca", "--device", "joystick", "--seconds", "1")
     assert rows["tca"]["ideal_m"] is None

@@ -29,6 +29,7 @@ from ebac.plot import (
     plot_trace,
     plot_tracking,
     plot_walls,
+    plot_world,
     plot_worst,
     plot_zwidth,
     save,
@@ -116,6 +117,20 @@ def test_beta_has_its_panel_in_walls(run: Run) -> None:
     assert len(panel.get_lines()) == 1
     none = plot_walls([run("tca"), run("direct")])
     assert not any("beta" in ax.get_ylabel() for ax in none.axes)
+
+
+def test_a_world_has_a_legend(run: Run) -> None:
+    world = ebac.worlds.preset("sphere")
+    traces = [run(law, environment=world, seconds=0.5) for law in ("tca", "ebac")]
+    for shown, names in (
+        (traces, ["handle under tca", "handle under ebac", "body"]),
+        ([], ["body", "motion along x"]),
+    ):
+        figure = plot_world(world, shown)
+        legend = figure.axes[1].get_legend()
+        assert legend is not None
+        assert [text.get_text() for text in legend.get_texts()] == names
+        check_inside(figure)
 
 
 def test_a_fault_is_named_and_shown(run: Run) -> None:

@@ -92,7 +92,7 @@ def test_law_drag_and_pause_show_what_the_simulation_gives(open_page: Callable[.
     page.focus("#scene")
     for _ in range(20):
         page.keyboard.press("ArrowLeft")
-    assert judged(page) == "Free air"
+    assert judged(page) == "No contact at rest"
     assert not page.errors
 
 

@@ -11,6 +11,7 @@ from ebac import datasets
 from ebac.hardware import Configuration
 from ebac.hardware.virtual_device import VirtualDevice
 from ebac.live import serve
+from ebac.live.frames import Frames
 from ebac.live.session import Session
 
 KNOWN = Configuration.from_toml(datasets.joystick_text("joystick"), name="joystick")
@@ -137,3 +138,22 @@ def test_time_goes_on_with_the_clock_on_the_wall_and_nothing_is_late(tmp_path: P
 def test_only_a_virtual_clock_is_told_to_go_on(tmp_path: Path) -> None:
     with Session(folder=tmp_path) as session, pytest.raises(RuntimeError, match="virtual=True"):
         session.advance(1.0)
+
+
+def test_a_handle_that_left_the_surface_has_no_contact_at_rest(session: Session) -> None:
+    with session:
+        frames = Frames(session)
+        session.hand.drag([-0.02, 0.0])  # m; the wall begins at 0.01 m
+        session.start()
+
+        def told() -> str:
+            session.advance(2.0)
+            frames.frame()
+            frames._judged = -1e9
+            return str(frames.frame()["verdict"]["head"])
+
+        assert told() == "Free air"
+        session.hand.drag([0.04, 0.0])
+        assert told() in ("Still and quiet", "Buzzes")
+        session.hand.drag([-0.02, 0.0])
+        assert told() == "No contact at rest"

@@ -190,6 +190,21 @@ def test_it_is_bool_or_observer() -> None:
         ebac.Observer(mass=-1)
 
 
+def test_a_law_in_python_that_needs_it_is_refused_without() -> None:
+    class Observed:
+        observer = True
+
+        def step(self, port: ebac.Port) -> float:
+            return 0.0
+
+        def reset(self) -> None: ...
+
+    without = ebac.Scenario(observer=False, seconds=0.05)
+    with pytest.raises(ValueError, match=r"the law Observed has observer = True: .*observer=False"):
+        ebac.simulate(without, Observed())
+    assert len(ebac.simulate(without.replace(observer=True), Observed())) == 51
+
+
 def test_a_replay_gives_the_commands_of_its_run() -> None:
     trace = ebac.simulate(OBSERVED.replace(seconds=0.5), "ebac")
     again = ebac.replay(trace, "ebac")

@@ -59,6 +59,24 @@ def test_every_result_is_read_in_under_20_lines(name: str) -> None:
         assert unit in shown
 
 
+def test_a_printed_sweep_shows_its_results_whatever_was_swept() -> None:
+    scenarios = [
+        SHORT.replace(environment=ebac.Wall(stiffness=k, damping=b), hand=ebac.Hand(mass=m))
+        for k in (5e3, 1e4)
+        for b in (0, 5)
+        for m in (0.1, 0.3)
+    ]
+    shown = repr(ebac.sweep(scenarios, ["tca", "ebac"]))
+    for heading in (
+        "hand.mass [kg]", "environment.stiffness [N/m]", "environment.damping [N s/m]", "rest [mm]", "ideal [mm]",
+        "swing [mm]", "settled [s]", "least energy [mJ]",
+    ):  # fmt: skip
+        assert shown.count(heading) == 1, heading
+    assert "more column" not in shown
+    assert shown.count("  law ") == 2  # which row it is stands in both tables
+    assert len(shown.splitlines()) < 20
+
+
 def test_a_printed_contact_has_every_number_with_its_unit(run: Run) -> None:
     text = str(ebac.contact(run("ebac")))
     assert text.splitlines()[0] == "Contact of ebac: exact and quiet"

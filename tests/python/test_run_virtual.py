@@ -177,6 +177,17 @@ def test_the_data_sheet_counts_on_a_virtual_clock_too(tmp_path: Path) -> None:
         VirtualDevice(beyond, delay=1)
 
 
+def test_the_figure_of_a_run_has_a_panel_for_beta() -> None:
+    from ebac.plot import plot_trace
+
+    for law, panels in (("eba", 4), ("ebac", 4), ("tca", 3)):
+        known = Configuration.load(EXAMPLE).replace(law=law, seconds=1.5)
+        figure = plot_trace(known.simulate())
+        labels = [ax.get_ylabel() for ax in figure.axes]
+        assert len(labels) == panels, law
+        assert any("beta" in label for label in labels) == (panels == 4)
+
+
 def test_a_handle_that_left_the_surface_has_no_contact_at_rest() -> None:
     back = ["--hand-target", "-0.02"]  # m: the wall is met on the way, if at all
     left = CliRunner().invoke(app, [*RUN, *back, "--no-files", "--json"])

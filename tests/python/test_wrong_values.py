@@ -74,6 +74,32 @@ def trace() -> Any:
         (lambda t: E.plot.plot_trace(3), "ebac.plot.plot_trace takes a Trace, not 3 (int)"),
         (lambda t: E.plot.plot_world(3), "ebac.plot.plot_world takes a World, not 3 (int)"),
         (lambda t: E.plot.save(3, "x.png"), "ebac.plot.save takes a Figure, not 3 (int)"),
+        (
+            lambda t: E.teleop.simulate("ebac", there=3),
+            "teleop.simulate: there = 3 (int): must be a Link",
+        ),
+        (
+            lambda t: E.teleop.simulate("ebac", slave=1),
+            "teleop.simulate: slave = 1 (int): must be a SlaveModel",
+        ),
+        (
+            lambda t: E.teleop.simulate(3),
+            "teleop.simulate takes the name of a scheme or a Scheme, not 3 (int)",
+        ),
+        (
+            lambda t: E.teleop.simulate(seconds="x"),
+            "teleop.simulate: seconds = 'x': must be a number",
+        ),
+        (
+            lambda t: E.teleop.simulate(seed=1.5),
+            "teleop.simulate: seed = 1.5: must be a whole number",
+        ),
+        (lambda t: E.EBAC(timing=3), "EBAC.timing = 3: must be a Timing"),
+        (lambda t: E.EBAC(kp=[1]), "EBAC.kp = [1]: must be float"),
+        (
+            lambda t: E.EBAC.design(3, E.Timing()),
+            "EBAC.design: facts = 3: must be a Device or DeviceFacts",
+        ),
         (lambda t: E.tracking.error_budget(runs="x"), "runs = 'x': must be a whole number"),
         (
             lambda t: E.tracking.ErrorSources(slack="x"),

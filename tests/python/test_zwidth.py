@@ -237,6 +237,7 @@ def test_the_command_tells_rows_and_scores() -> None:
 
 def test_the_command_writes_a_folder(tmp_path: Path) -> None:
     text = command(*SMALL, "--out", str(tmp_path / "out"))
+    assert "stiffness times damping, in kN/m N s/m. Delay in samples." in " ".join(text.split())
     assert "linear loop, no law" in text
     names = {path.name for path in (tmp_path / "out").iterdir()}
     assert names == {"zwidth.png", "zwidth.json", "zwidth.csv", "scores.csv", "scenario.toml"}

@@ -1,4 +1,4 @@
-"""Results as text for a console: a title and a table with units, under 20 lines."""
+"""Results as text for a console: a title and a table with units, about 20 lines."""
 
 from __future__ import annotations
 
@@ -7,9 +7,9 @@ from typing import Any
 
 from ebac._util import formatting
 
-#: Rows of a table; longer ones are cut in the middle.
-MOST_ROWS = 12
-#: Characters of a line; columns beyond are left out, and named as such.
+#: Rows of a table; longer ones are cut in the middle. With several tables each has fewer, but not below the fewest.
+MOST_ROWS, FEWEST_ROWS = 12, 4
+#: Characters of a line; columns beyond are left out, and named as such, or stand below.
 WIDTH = 110
 
 #: Endings of a key and the SI unit they stand for, the longer ones first.
@@ -27,8 +27,10 @@ UNITS = {
 }
 
 
-def report(title: str, rows: Sequence[Mapping[str, Any]], *notes: str) -> str:
-    """Return a title, a table of rows, and notes, at most `MOST_ROWS` + 4 lines.
+def report(
+    title: str, rows: Sequence[Mapping[str, Any]], *notes: str, keys: Sequence[str] = ()
+) -> str:
+    """Return a title, a table of rows, and notes.
 
     Parameters
     ----------
@@ -38,15 +40,43 @@ def report(title: str, rows: Sequence[Mapping[str, Any]], *notes: str) -> str:
         With the same keys, whose endings name the SI unit: `rest_m`, `least_energy_J`.
     *notes : str
         Lines below the table; empty ones are left out.
+    keys : sequence of str
+        Of the columns that say which row it is: columns that do not fit then stand below, behind these once more.
     """
-    return "\n".join([title, *_table(rows), *filter(None, notes)])
+    return "\n".join([title, *_tables(rows, keys), *filter(None, notes)])
 
 
-def _table(rows: Sequence[Mapping[str, Any]]) -> list[str]:
+def _tables(rows: Sequence[Mapping[str, Any]], keys: Sequence[str]) -> list[str]:
+    """Return the lines of one table, or with `keys` of as many as it takes to show all columns."""
+    if not rows or not keys:
+        return _table(rows, MOST_ROWS)
+    blocks = _blocks(rows, keys)
+    most = max(FEWEST_ROWS, MOST_ROWS // len(blocks))
+    tables = [_table([{key: row[key] for key in block} for row in rows], most) for block in blocks]
+    return [line for table in tables for line in ("", *table)][1:]
+
+
+def _blocks(rows: Sequence[Mapping[str, Any]], keys: Sequence[str]) -> list[list[str]]:
+    """Return the columns of each table: the keys, and as many others as fit a line."""
+    wide = {
+        key: 2 + max(len(heading(key)), *(len(cell(key, row[key])) for row in rows))
+        for key in rows[0]
+    }
+    blocks = [list(keys)]
+    for key in rows[0]:
+        if key in keys:
+            continue
+        if sum(wide[one] for one in (*blocks[-1], key)) > WIDTH and len(blocks[-1]) > len(keys):
+            blocks.append(list(keys))
+        blocks[-1].append(key)
+    return blocks
+
+
+def _table(rows: Sequence[Mapping[str, Any]], most: int) -> list[str]:
     if not rows:
         return []
-    half = MOST_ROWS // 2
-    shown = list(rows) if len(rows) <= MOST_ROWS else [*rows[:half], *rows[-half:]]
+    half = most // 2
+    shown = list(rows) if len(rows) <= most else [*rows[:half], *rows[-half:]]
     lines = aligned([[heading(key), *(cell(key, row[key]) for row in shown)] for key in rows[0]])
     if len(shown) < len(rows):
         lines.insert(1 + half, f"  ... {len(rows) - len(shown)} more rows ...")

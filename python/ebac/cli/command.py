@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import inspect
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from copy import copy
 from dataclasses import fields, is_dataclass
 from typing import Any, get_type_hints
@@ -51,6 +52,11 @@ class Command(TyperCommand):
             output.fail(wrong)
         return rest
 
+    def format_help(self, ctx: Any, formatter: Any) -> None:
+        """Write the help."""
+        with one_column(self.params):
+            super().format_help(ctx, formatter)
+
     def invoke(self, ctx: Any) -> Any:
         """Run the command."""
         setting.current.clear()
@@ -83,6 +89,20 @@ class Group(TyperGroup):
             near = did_you_mean(args[0], known)
             path = ctx.command_path
             output.fail(f"{path} {args[0]}: there is no such command{near}; see {path} --help")
+
+
+@contextmanager
+def one_column(params: Sequence[Any]) -> Iterator[None]:
+    """Show the two names of a switch below each other: side by side they leave 80 columns no room for names."""
+    names = [(one, list(one.opts), list(one.secondary_opts)) for one in params]
+    for one, first, second in names:
+        if second:
+            one.opts, one.secondary_opts = ["\n".join([*first, *second])], []
+    try:
+        yield
+    finally:
+        for one, first, second in names:
+            one.opts, one.secondary_opts = first, second
 
 
 def _renamed(word: str, command: Any) -> str:

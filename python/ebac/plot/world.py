@@ -146,14 +146,16 @@ def _cut(ax: Axes, world: World, traces: Sequence[Trace], up: int) -> None:
     for trace in traces:
         places = trace["true.x" if "true.x" in trace else "x"].reshape(len(trace), -1)
         across = places[:, up] if trace.axes > up else np.zeros(len(trace))
-        ax.plot(1e3 * places[:, 0], 1e3 * across, color=colour(trace.law), lw=1.2, label=trace.law)
+        label = f"handle under {trace.law}" if trace.law else "handle"
+        ax.plot(1e3 * places[:, 0], 1e3 * across, color=colour(trace.law), lw=1.2, label=label)
+    ax.plot([], [], "s", color=INSIDE, mec="black", ms=8, label="body")
     if not traces:
+        ax.plot([], [], color="black", marker=">", lw=1.6, label="motion along x")
         ax.annotate(
             "", (0, 0), (-25, 0), arrowprops={"arrowstyle": "-|>", "color": "black", "lw": 1.6}
         )
     ax.set_aspect("equal")
-    ax.set_title(f"cut at {'zy'[up - 1]} = 0", fontsize="medium")
+    ax.text(0.98, 0.98, f"cut at {'zy'[up - 1]} = 0", ha="right", va="top", transform=ax.transAxes)
     dress(ax, f"{'yz'[up - 1]} [mm]")
     ax.set_xlabel("x [mm]")
-    if traces:
-        legend(ax)
+    legend(ax)

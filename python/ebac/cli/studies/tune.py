@@ -30,7 +30,7 @@ def tune(
         options.conditions(
             "Conditions of the search, see `ebac conditions`; each delay is tuned for itself.",
             panel=_SEARCH,
-            default="d0K10,d0K20,d1K10,d1K20,d2K10,d2K20",
+            default="d0K10, d0K20, d1K10, d1K20, d2K10, d2K20",
         ),
     ] = None,
     hands: Annotated[

@@ -143,12 +143,10 @@ def _show(found: ZWidth) -> None:
     from ebac.studies.zwidth import CRITERIA
 
     output.say(
-        "Area of the walls that each law renders: stiffness times damping, in kN/m N s/m",
+        "Area of the walls that each law renders: stiffness times damping, in kN/m N s/m. Delay in samples.",
         style="bold",
     )
-    grid = output.table(
-        ["delay \\[samples]", "law", *CRITERIA], numbers=range(2, 2 + len(CRITERIA))
-    )
+    grid = output.table(["delay", "law", *CRITERIA], numbers=range(2, 2 + len(CRITERIA)))
     for number, delay in enumerate(found.delays):
         if number:
             grid.add_section()

@@ -122,9 +122,9 @@ class SweepResult:
         return notebook.result(repr(self), self.rows(), lambda: plot_sweep(self))
 
     def __repr__(self) -> str:
-        """Return runs, laws, and the first and last rows."""
+        """Return runs, laws, and the first and last rows: what was swept and what came of it."""
         from ebac._util.report import report
 
         laws = ", ".join(dict.fromkeys(self["law"].tolist()))
         title = f"SweepResult: {len(self)} runs under {laws}, {int(self['done'].sum())} done"
-        return report(title, self.rows())
+        return report(title, self.rows(), keys=("law", "scenario"))
