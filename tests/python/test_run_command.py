@@ -12,8 +12,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from typer.testing import CliRunner
 
 import ebac
+from ebac.cli import app
 from ebac.hardware import Configuration
 
 pytestmark = pytest.mark.real_time
@@ -97,12 +99,7 @@ def test_a_run_gives_rows_verdict_figure_and_a_log_that_others_read(
         names = {one.name for one in reader.iter_attachments()}
     assert {"configuration.toml", "simulated.txt"} <= names
     assert {path.suffix for path in out.iterdir()} == {".mcap", ".png", ".json"}
-    info = subprocess.run(
-        [sys.executable, "-m", "ebac.cli", "log", "info", str(log), "--json"],
-        check=True,
-        capture_output=True,
-        text=True,
-    )
+    info = CliRunner().invoke(app, ["log", "info", str(log), "--json"])
     assert json.loads(info.stdout)["command"] == "log info"
 
 
