@@ -7,6 +7,8 @@ Python share one namespace, as a reader who types them would have it.
 
 from __future__ import annotations
 
+import contextlib
+import importlib
 import json
 import os
 import re
@@ -14,18 +16,28 @@ import shlex
 import signal
 import subprocess
 import sys
+import tempfile
 import time
 from pathlib import Path
-from typing import Any
+from typing import IO, Any
 
-#: Time that what runs until Ctrl-C gets to start [s].
-START = 3.0
+#: Longest time that what runs until Ctrl-C gets to say so, and how long it then runs before the next step [s].
+START, SETTLE = 3.0, 0.5
 #: What only a shell can do.
 SHELL = re.compile(r"[|&;<>$*`]")
+#: What most pages import sooner or later: a third of a second for each of them. None of it starts a thread.
+USUAL = (
+    *("can", "mcap.reader", "nlopt", "numpy.fft", "numpy.random", "pydantic.type_adapter"),
+    *("rich.live", "rich.progress", "rich.table"),
+    *("ebac.datasets", "ebac.drives", "ebac.hardware", "ebac.identify", "ebac.logs", "ebac.sensor"),
+)
+
+#: What runs until Ctrl-C: the command, its process and what it prints.
+Beside = tuple[str, "subprocess.Popen[bytes]", IO[bytes]]
 
 
 def main(steps: list[dict[str, Any]]) -> None:
-    beside: list[tuple[str, subprocess.Popen[bytes]]] = []
+    beside: list[Beside] = []
     base = Path.cwd()
     names: dict[str, Any] = sys.modules["__main__"].__dict__
     try:
@@ -39,27 +51,42 @@ def main(steps: list[dict[str, Any]]) -> None:
             elif step["action"] == "beside":
                 if " simulate" in text:  # in place of the one before, whose port it needs
                     end(beside)
-                beside.append((text, subprocess.Popen(["bash", "-c", f"exec {text}"])))
-                time.sleep(START)
+                beside.append(started(text))
             else:
                 code = shell(text)
                 expected = step["action"] == "fails"
                 if bool(code) != expected:
                     sys.exit(f"line {step['line']}: {text}\nended with exit code {code}")
         # A side of a link ends well when the other one tells it so.
-        ended = [text for text, process in beside if process.poll() not in (None, 0)]
+        ended = [text for text, process, _ in beside if process.poll() not in (None, 0)]
         if ended:
             sys.exit(f"did not run until Ctrl-C, or until its other side ended: {ended}")
     finally:
         end(beside)
 
 
-def end(beside: list[tuple[str, subprocess.Popen[bytes]]]) -> None:
-    """End what runs until Ctrl-C."""
-    for _, process in beside:
+def started(text: str) -> Beside:
+    """Start what runs until Ctrl-C; most of it says so as soon as it is ready."""
+    said = tempfile.TemporaryFile()  # noqa: SIM115 - `end` reads it and closes it
+    process = subprocess.Popen(["bash", "-c", f"exec {text}"], stdout=said, stderr=said)
+    latest = time.monotonic() + START
+    while process.poll() is None and time.monotonic() < latest:
+        if b"Ctrl-C" in os.pread(said.fileno(), 65536, 0):
+            time.sleep(SETTLE)
+            break
+        time.sleep(0.02)
+    return text, process, said
+
+
+def end(beside: list[Beside]) -> None:
+    """End what runs until Ctrl-C, and print what it said."""
+    for _, process, _ in beside:
         process.send_signal(signal.SIGINT)
-    for _, process in beside:
+    for text, process, said in beside:
         process.wait(20)
+        with said:
+            told = os.pread(said.fileno(), 65536, 0).decode(errors="replace")
+        print(f"\n>>> {text}\n{told}", flush=True)
     beside.clear()
 
 
@@ -118,4 +145,7 @@ if __name__ == "__main__":
     import ebac.cli  # noqa: F401
 
     plain_pictures.SAVE.write_png = plain_pictures.draw_plain
+    for usual in USUAL:
+        with contextlib.suppress(ImportError):  # of an extra, or of a library's own liking
+            importlib.import_module(usual)
     serve()
