@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "engine_device.hpp"
 #include "haptic_device.hpp"
 #include "result.hpp"
 #include "scene_list.hpp"
@@ -21,6 +22,7 @@ struct Choice {
   bool realtime = false;   // at 1 kHz of the machine's clock
   bool can = false;        // over a CAN bus, through simulated CANopen drives
   bool hold = false;       // forces as they come, no plane through them
+  bool engine = false;     // the device is a loop's in another process
   bool json = false, check = false;
 };
 
@@ -65,12 +67,31 @@ chai::Result run(const Choice& choice, const chai::Scene& scene, std::string_vie
   return result;
 }
 
+/// The same program, started by `ebac run --engine-command`: it ends with that loop.
+int serve(const Choice& choice, const chai::Scene& scene) {
+  const auto device = std::make_shared<chai::EngineDevice>(choice.stiffness);
+  chai3d::cWorld world;
+  scene.build(world, choice.stiffness);
+  chai3d::cToolCursor* tool = nullptr;
+  try {
+    tool = chai::add_tool(world, device, scene.tool);
+  } catch (const std::exception& error) {  // there is no loop
+    std::fprintf(stderr, "%s\n", error.what());
+    return 2;
+  }
+  while (device->running()) chai::haptic_pass(world, *tool);  // the haptic thread
+  std::printf("%ld forces were posted\n", device->posted());
+  return 0;
+}
+
 int usage(const char* name) {
   std::fprintf(stderr,
                "usage: %s [--law NAME] [--scene NAME] [--stiffness N_PER_M] [--seconds S] "
                "[--realtime] [--can] [--hold] "
-               "[--json | --check]\n",
-               name);
+               "[--json | --check]\n"
+               "       %s --engine [--scene NAME] [--stiffness N_PER_M], started by `ebac run FILE "
+               "--engine-command`\n",
+               name, name);
   return 2;
 }
 
@@ -84,6 +105,8 @@ bool parse(int count, char** arguments, Choice& choice) {
       choice.can = true;
     else if (name == "--hold")
       choice.hold = true;
+    else if (name == "--engine")
+      choice.engine = true;
     else if (name == "--json")
       choice.json = true;
     else if (name == "--check")
@@ -114,6 +137,7 @@ int main(int count, char** arguments) {
     if (one.name == choice.scene) scene = &one;
   }
   if (scene == nullptr) return usage(arguments[0]);
+  if (choice.engine) return serve(choice, *scene);
   std::vector<std::string> laws{"direct", "ebac"};
   if (!choice.law.empty()) laws = {choice.law};
 

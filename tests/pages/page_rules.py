@@ -34,7 +34,11 @@ RULES = (
     Rule(
         r"^\.venv/bin/pytest|^pytest\b", NEVER, "is this test run; .ci/run does it as README says"
     ),
-    Rule(r"^build/", NEVER, "needs a build; .ci/chai3d runs it where there is a CHAI3D"),
+    Rule(
+        r"^build/|ENGINE",
+        NEVER,
+        "needs a build; .ci/chai3d runs it where there is a CHAI3D",
+    ),
     Rule(r"^cmake |^ctest ", NEVER, "builds C++; .ci/run builds and tests the same example"),
     Rule(
         r"^jupy\w+ ",

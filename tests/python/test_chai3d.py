@@ -6,6 +6,7 @@ import json
 import os
 import shutil
 import subprocess
+import sys
 from pathlib import Path
 from typing import Any
 
@@ -65,3 +66,39 @@ def test_a_program_of_chai3d_runs_on_a_device_of_ebac(built: Path, options: list
     assert ebac["least_energy_J"] > -1e-3
     again = rows(built / "chai3d_program", "--seconds", "2", *options)
     assert [row["rest_m"] for row in again] == [direct["rest_m"], ebac["rest_m"]]
+
+
+@pytest.mark.real_time
+def test_a_program_of_chai3d_is_the_world_of_a_run_on_drives(built: Path, tmp_path: Path) -> None:
+    from ebac import datasets
+
+    file = datasets.write("joystick", tmp_path)
+    text = file.read_text(encoding="utf-8")
+    limits = "overruns = 100000\nforce_age = 10.0\njump = 1.0\nspeed = 100.0"
+    text = text.replace("silent = 10", "silent = 1000").replace("speed = 1.0", limits)
+    file.write_text(text, encoding="utf-8")
+    program = f"{built / 'chai3d_program'} --engine --stiffness 20000"
+    command = [sys.executable, "-m", "ebac.cli", "run", str(file), "--simulated", "--seconds", "4"]
+    done = subprocess.run(
+        [*command, "--engine-command", program, "--json"],
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    told = json.loads(done.stdout)
+    assert told["engine"]["models"] > 500
+    assert told["engine"]["trouble"] == ""
+    assert told["rows"][0]["touched"]
+
+
+def test_a_program_of_chai3d_without_a_loop_says_so(built: Path) -> None:
+    bare = {name: value for name, value in os.environ.items() if name != "EBAC_ENGINE_CHANNEL"}
+    done = subprocess.run(
+        [built / "chai3d_program", "--engine"],
+        env=bare,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 2
+    assert "no channel to a loop is named" in done.stderr

@@ -213,7 +213,8 @@ def show(result: Result) -> None:
     elif result.configuration.law == "ebac" and result.configuration.sensor is not None:
         output.say("By the encoder alone: with --observer the law acts on the force sensor, too.")
     if result.engine is not None:
-        output.say(str(result.engine))
+        still = " The verdict takes its surface to stand still." if result.engine.models else ""
+        output.say(f"{result.engine}{still}")
     if result.times is not None:
         _show_times(result.times)
     report = result.report
