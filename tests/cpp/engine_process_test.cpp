@@ -1,10 +1,10 @@
 // An engine in another process: real ones, killed ones, memory of others, and no names left.
 #include <gtest/gtest.h>
-#include <signal.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <chrono>
+#include <csignal>
 #include <filesystem>
 #include <functional>
 #include <set>

@@ -1,11 +1,11 @@
 #include "ebac/rt/other_process.hpp"
 
 #include <poll.h>
-#include <signal.h>
 #include <sys/syscall.h>
 #include <unistd.h>
 
 #include <cerrno>
+#include <csignal>
 
 namespace ebac::rt {
 
