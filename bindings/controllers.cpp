@@ -92,20 +92,21 @@ py::object instance(const py::object& cls, AnyLaw law) {
 }
 
 void bind_init(const LawClass& law) {
-  const auto init = [type = law.type, owner = law.owner](
-                        const py::object& self, const py::args& args, const py::kwargs& given) {
-    const py::object start = core().attr("_Law").attr("__init__");
+  const auto init = [type = law.type, owner = law.owner](py::detail::value_and_holder& self,
+                                                         const py::args& args,
+                                                         const py::kwargs& given) {
     if (args.size() == 1 && py::isinstance<py::capsule>(args[0])) {
-      start(self, args[0]);
+      const auto made = py::reinterpret_borrow<py::capsule>(args[0]);
+      self.value_ptr() = new AnyLaw(*made.get_pointer<const AnyLaw>());
       return;
     }
     refuse_positional(owner, args, parameter_names(*type));
-    AnyLaw made =
-        make_law(*type, owner, Block(type->params, type->params.initial), Timing{}, given);
-    start(self, py::capsule(static_cast<const void*>(&made)));
+    self.value_ptr() = new AnyLaw(
+        make_law(*type, owner, Block(type->params, type->params.initial), Timing{}, given));
   };
   law.def("__init__", init,
-          "(self, *" + signature(law.type->params) + ", timing: Timing = ...) -> None", "");
+          "(self, *" + signature(law.type->params) + ", timing: Timing = ...) -> None", "",
+          py::detail::is_new_style_constructor());
   add_signature(law.cls, law.type->params, {{"timing", py::cast(Timing{})}});
 }
 
@@ -214,9 +215,7 @@ void bind_bases(py::module_& m) {
              return LawState{&law.type(), Block(law.type().state, law.state())};
            }),
            "State of a law.");
-  py::class_<AnyLaw>(m, "_Law", "Base class of the control laws.")
-      .def(py::init([](const py::capsule& law) { return AnyLaw(*law.get_pointer<AnyLaw>()); }),
-           "A copy of a law.");
+  const py::class_<AnyLaw> laws(m, "_Law", "Base class of the control laws.");
 }
 
 }  // namespace

@@ -41,6 +41,41 @@ TEST(Proxy, IsHeldByThreePlanesInACorner) {
   EXPECT_FALSE(proxy.touching());
 }
 
+/// Two half spaces whose normals are `angle` [rad] apart: a groove along z at x = 0.
+class Groove final : public Solid {
+ public:
+  explicit Groove(double angle)
+      : left_(-std::cos(angle / 2), std::sin(angle / 2), 0),
+        right_(-std::cos(angle / 2), -std::sin(angle / 2), 0) {}
+  Distance distance(const Axes& x) const EBAC_RT override {
+    const double left = left_.dot(x), right = right_.dot(x);
+    return left < right ? Distance{left, left_} : Distance{right, right_};
+  }
+  /// The point of the surface nearest to a handle inside.
+  Axes nearest(const Axes& x) const {
+    const Axes on_left = x - left_.dot(x) * left_, on_right = x - right_.dot(x) * right_;
+    if (right_.dot(on_left) >= 0) return on_left;
+    return left_.dot(on_right) >= 0 ? on_right : Axes(0, 0, x[2]);
+  }
+
+ private:
+  Axes left_, right_;
+};
+
+TEST(Proxy, IsHeldByBothFacesOfAGrooveHoweverShallow) {
+  for (const double degrees : {1.0, 3.0, 10.0, 20.0, 25.0, 30.0, 60.0}) {
+    const Groove groove(degrees * std::numbers::pi / 180);
+    Proxy proxy;
+    proxy.put({-0.01, 0.002, 0});
+    for (int i = 0; i < 4000; ++i) {
+      const Axes x{std::min(0.001, -0.01 + 2e-5 * i), 5e-4 * std::sin(6e-3 * i), 0};
+      proxy.follow(groove, x);
+      if (!proxy.touching()) continue;
+      ASSERT_NEAR((proxy.place() - groove.nearest(x)).norm(), 0, 1e-6) << degrees << " degrees";
+    }
+  }
+}
+
 TEST(Proxy, FollowsASphereAtItsNearestPoint) {
   const auto ball = solid(Sphere{.radius = 0.02});
   Proxy proxy;

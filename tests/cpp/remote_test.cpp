@@ -79,6 +79,37 @@ TEST(FarLink, CarriesBothWaysAndNeedsConsentAfterSilence) {
   EXPECT_EQ(count(*master, EventOf::kLost), 1);
 }
 
+TEST(FarLink, ARestartedSlaveReportsNoConsentThatNobodyGave) {
+  Ptr slave = slave_end();
+  const sensor::Endpoint place = slave->local();
+  const Ptr master = master_end(*slave);
+  {
+    Ends ends(slave);
+    ends.run(master.get(), 0.1);
+    ends.run(nullptr, 0.7);
+    ends.run(master.get(), 0.5);
+    master->consent();
+    ends.run(master.get(), 0.3);
+  }
+  ASSERT_EQ(slave->session(), 2U);
+  EXPECT_EQ(count(*slave, EventOf::kConsent), 1);
+  slave.reset();
+  slave = std::make_shared<LinkEnd>(LinkEnd::Role::kSlave, LinkParams{}, kDt, place, std::nullopt);
+  Ends(slave).run(master.get(), 0.3);
+  EXPECT_EQ(slave->session(), 2U);
+  EXPECT_EQ(count(*slave, EventOf::kConsent), 0);
+}
+
+TEST(FarLink, AMasterThatLeavesBeforeItsFirstTickSaysWhoItIs) {
+  const Ptr slave = slave_end();
+  const Ptr master = master_end(*slave);
+  master->leave();
+  std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  slave->begin(0, kDt);
+  EXPECT_EQ(count(*slave, EventOf::kFarLeft), 1);
+  EXPECT_EQ(slave->report().refused, 0);
+}
+
 TEST(FarLink, ObeysOneMasterAndAnotherOnlyAfterConsent) {
   const Ptr slave = slave_end();
   const Ptr one = master_end(*slave);

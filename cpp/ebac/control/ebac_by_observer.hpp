@@ -17,7 +17,7 @@ class EbacByObserver {
  public:
   EbacByObserver(const EbacParams& params, const Timing& timing) EBAC_RT
       : force_(params, timing),
-        work_(params.count),
+        work_(params.count, params.force_noise),
         guard_(params.damping, params.mass, params.count / 2, timing.longest(), kKnown) {}
 
   void retune(const EbacByObserver& next) EBAC_RT { force_.retune(next.force_); }

@@ -16,6 +16,7 @@ struct EbacParams {
   double count = 3.07e-5;     // m
   double peak_force = 42.4;   // N
   double resonance = 0;       // Hz
+  double force_noise = 0.03;  // N
   double growth = 1.2;
   double decay = 0.8;
   double kp = 0.1;
@@ -39,7 +40,8 @@ struct EbacParams {
             .current_lag = facts.current_lag,
             .count = facts.count,
             .peak_force = facts.peak_force,
-            .resonance = facts.resonance};
+            .resonance = facts.resonance,
+            .force_noise = facts.force_noise};
   }
   static constexpr auto fields() {
     using F = Field<EbacParams>;
@@ -56,6 +58,10 @@ struct EbacParams {
           "first resonance of the structure, which bounds the virtual damper; 0 where none is "
           "known",
           0, 1e4},
+        F{"force_noise", &EbacParams::force_noise, "N",
+          "with the observer, standard deviation of the force sensor's noise, which the account "
+          "does not charge; less than 0.03 N counts as that",
+          0, 10},
         F{"growth", &EbacParams::growth, "1", "c1 of eq. (10)", 1, 1.2},
         F{"decay", &EbacParams::decay, "1", "c2 of eq. (10)", 0.8, 1},
         F{"kp", &EbacParams::kp, "1", "K_p of eq. (2); it divides the device's damping by 1 + K_p",

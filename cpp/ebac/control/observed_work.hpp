@@ -16,6 +16,8 @@ namespace ebac {
 ///
 ///   F = F_r + n,  F_r = play of half-width max(0.3 N, 3/4 slope count) on F, zero without force
 ///
+/// for a sensor of 0.03 N of noise; 0.3 N and the 0.05 N below grow with the noise that is declared.
+///
 /// F_r rests with the hand, n with the noise. n is counted with the observer's position, kept within
 /// half a count of the reading, and charged half a count for what its change in a tick exceeds
 /// 0.05 N: motion faster than the observer follows. For F_r the position is known where the reading
@@ -31,7 +33,10 @@ namespace ebac {
 /// docs/explanation/observer.md has what searches find.
 class ObservedWork {
  public:
-  explicit ObservedWork(double count) EBAC_RT : half_(count / 2) {}
+  /// `noise`: standard deviation of the force sensor's [N].
+  ObservedWork(double count, double noise) EBAC_RT : half_(count / 2),
+                                                     play_(kPlay* louder(noise)),
+                                                     slow_(kSlow* louder(noise)) {}
 
   /// The observer's place within the count, from which displacements are counted.
   void start(const Port& port) EBAC_RT {
@@ -43,12 +48,12 @@ class ObservedWork {
   /// `mean` is the mean force of the interval that ended with `port`, `slope` that of the world
   /// [N/m], `b` the device's damping over the tick [N/m].
   double step(double mean, const Port& port, double slope, double b) EBAC_RT {
-    const double play = std::max(kPlay, kCell * slope * 2 * half_);
+    const double play = std::max(play_, kCell * slope * 2 * half_);
     const bool no_force = port.f_applied == 0 && std::abs(mean) < kEnded;
     const double counted = no_force ? 0.0 : std::clamp(counted_, mean - play, mean + play);
     const double rest = mean - counted;
     const double place = within(port);
-    const double fast = std::max(0.0, std::abs(rest - rest_) - kSlow);
+    const double fast = std::max(0.0, std::abs(rest - rest_) - slow_);
     const double moved = port.dx + place - within_;
     const double sure = std::max(std::abs(port.dx) - half_, 0.0);
     const double held = from_edge(counted, port);
@@ -59,12 +64,16 @@ class ObservedWork {
   }
 
  private:
-  // The first two from a study before this law; kSlow from searches of `ebac worst` at d1K10.
+  // The first two from a study before this law; kSlow from searches of `ebac worst` at d1K10. Both
+  // forces are those of a sensor of usual noise.
+  static constexpr double kUsual = 0.03;  // N, standard deviation
   static constexpr double kPlay = 0.3;    // N
   static constexpr double kCell = 0.75;   // counts by which the force of a held wall wanders
   static constexpr double kSlow = 0.05;   // N, a change in a tick that sensor noise can cause
   static constexpr double kEnded = 0.05;  // N
   static constexpr double kSoon = 0.1;    // s, from edge to edge
+
+  static double louder(double noise) EBAC_RT { return std::max(1.0, noise / kUsual); }
 
   double within(const Port& port) const EBAC_RT {
     return std::clamp(port.est.x - port.x, -half_, half_);
@@ -95,6 +104,8 @@ class ObservedWork {
   }
 
   double half_;         // m
+  double play_;         // N
+  double slow_;         // N
   double within_ = 0;   // m
   double reached_ = 0;  // m, reckoned from the last edge
   double unread_ = 0;   // s, since that edge

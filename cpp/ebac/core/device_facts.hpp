@@ -15,6 +15,7 @@ struct DeviceFacts {
   double current_lag = 3e-4;  // s
   double peak_force = 42.4;   // N
   double resonance = 0;       // Hz
+  double force_noise = 0.03;  // N
 
   static constexpr auto fields() {
     using F = Field<DeviceFacts>;
@@ -31,6 +32,8 @@ struct DeviceFacts {
           1e4},
         F{"resonance", &DeviceFacts::resonance, "Hz",
           "first resonance of the structure, handle held; 0 where none is known", 0, 1e4},
+        F{"force_noise", &DeviceFacts::force_noise, "N",
+          "standard deviation of the force sensor's noise; less than 0.03 N counts as that", 0, 10},
     };
   }
 };

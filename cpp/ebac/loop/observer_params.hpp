@@ -31,10 +31,10 @@ struct ObserverParams {
             .count = device.facts().count,
             .current_lag = device.drive.current_lag,
             .force_lag = device.sensor.lag,
-            .force_noise = std::max(kLeastNoise, device.sensor.noise),
+            .force_noise = device.facts().force_noise,
             .delay = timing.delay};
   }
-  static constexpr double kLeastNoise = 0.03;  // N, of a usual six-axis sensor
+  static constexpr double kLeastNoise = DeviceFacts{}.force_noise;  // N, of a usual six-axis sensor
 
   static constexpr auto fields() {
     using F = Field<ObserverParams>;

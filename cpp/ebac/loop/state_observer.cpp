@@ -47,26 +47,35 @@ void StateObserver::enter(std::size_t axis, Port& port) const EBAC_RT {
   est.fallback = static_cast<int>(fallback_);
 }
 
-/// Fades the estimate out in 20 ms where its inputs or its model fail, and in again.
-void StateObserver::trust(const Reading& reading, double dt, std::size_t axes) EBAC_RT {
-  constexpr double kFade = 0.02;  // s
+/// What is wrong with the estimate's inputs or its model in this tick.
+Fallback StateObserver::failure(const Reading& reading, std::size_t axes) const EBAC_RT {
   constexpr double kContradicted = 0.5, kAgrees = 0.1;
   double contradicted = 0;
   for (std::size_t i = 0; i < axes; ++i) {
     contradicted = std::max(contradicted, observer_[i].contradicted());
   }
   const bool model_fails = contradicted > (fallback_ == Fallback::kModel ? kAgrees : kContradicted);
-  fallback_ = !observing_.acts                                  ? Fallback::kOff
-              : reading.force_status != SensorStatus::kGood     ? Fallback::kForceStatus
-              : reading.force_age > observing_.params.force_age ? Fallback::kForceStale
-              : model_fails                                     ? Fallback::kModel
-                                                                : Fallback::kNone;
-  if (fallback_ == Fallback::kOff) {
+  return reading.force_status != SensorStatus::kGood       ? Fallback::kForceStatus
+         : reading.force_age > observing_.params.force_age ? Fallback::kForceStale
+         : model_fails                                     ? Fallback::kModel
+                                                           : Fallback::kNone;
+}
+
+/// Fades the estimate out in 20 ms where its inputs or its model fail, and in again when neither has failed for a while:
+/// one that came back between two short failures, in a contact, would give the law a new account each time.
+void StateObserver::trust(const Reading& reading, double dt, std::size_t axes) EBAC_RT {
+  constexpr double kFade = 0.02;  // s
+  const Fallback failed = failure(reading, axes);
+  unbroken_ = failed == Fallback::kNone ? std::min(kUnbroken, unbroken_ + dt) : 0.0;
+  if (!observing_.acts) {
+    fallback_ = Fallback::kOff;
     weight_ = 0;
-  } else if (fallback_ == Fallback::kNone) {
-    weight_ = dt > 0 && !forgot_ ? std::min(1.0, weight_ + dt / kFade) : 1.0;
-  } else {
+  } else if (failed != Fallback::kNone || unbroken_ < kUnbroken) {
+    if (failed != Fallback::kNone) fallback_ = failed;
     weight_ = std::max(0.0, weight_ - dt / kFade);
+  } else {
+    fallback_ = Fallback::kNone;
+    weight_ = dt > 0 && !forgot_ ? std::min(1.0, weight_ + dt / kFade) : 1.0;
   }
 }
 

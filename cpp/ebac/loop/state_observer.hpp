@@ -44,6 +44,9 @@ class StateObserver {
             std::span<Axis> axes) EBAC_RT;
 
  private:
+  static constexpr double kUnbroken = 0.1;  // s without a failure, until the estimate is used again
+
+  Fallback failure(const Reading& reading, std::size_t axes) const EBAC_RT;
   void trust(const Reading& reading, double dt, std::size_t axes) EBAC_RT;
   double mass_share(const Pose& at, Eigen::Index axis) const EBAC_RT;
   void step_general(const Reading& reading, const std::array<bool, kMaxAxes>& counted, double dt,
@@ -65,6 +68,7 @@ class StateObserver {
   bool forgot_ = false;  // begins in this tick
   double weight_ = 1;    // of the estimate
   Fallback fallback_ = Fallback::kNone;
+  double unbroken_ = kUnbroken;  // s, without a failure
 };
 
 }  // namespace ebac

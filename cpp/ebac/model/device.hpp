@@ -76,7 +76,8 @@ struct DeviceModel {
             .count = std::max(count() * longest, count(last)),
             .current_lag = drive.current_lag,
             .peak_force = std::min(peak_force() / longest, peak_force(last)),
-            .resonance = resonance()};
+            .resonance = resonance(),
+            .force_noise = std::max(DeviceFacts{}.force_noise, sensor.noise)};
   }
 };
 

@@ -34,7 +34,11 @@ LinkEnd::LinkEnd(Role role, const LinkParams& params, double dt, const sensor::E
       watch_(watched(params), dt),
       socket_(at),
       peer_(peer),
-      run_(slave_ ? 0 : std::random_device{}()) {}
+      run_(slave_ ? 0 : std::random_device{}()) {
+  told_ = {.from_slave = slave_,
+           .session = session_,
+           .run = run_};  // said by whoever leaves before its first tick
+}
 
 void LinkEnd::begin(double t, double elapsed) EBAC_RT {
   t_ = t;
@@ -95,7 +99,11 @@ bool LinkEnd::obeys(const teleop::Packet& packet) EBAC_RT {
     watch_.heard();
     return false;
   }
-  if (packet.session > session_) begin_session(packet.session);
+  if (packet.session > session_) {
+    begin_session(packet.session);
+    if (bound_)
+      note(EventOf::kConsent, session_);  // a restarted slave joins a session it saw no consent to
+  }
   bound_ = true;
   run_ = packet.run;
   // It has heard what this slave never sent: the slave was restarted.
@@ -128,13 +136,13 @@ void LinkEnd::begin_session(std::uint32_t session) EBAC_RT {
   watch_.begin();
   other_lost_ = far_ended_ = false;
   sent_at_.fill(0);
-  note(EventOf::kConsent, session);
 }
 
 void LinkEnd::agree() EBAC_RT {
   if (slave_ || watch_.state() != teleop::LinkState::kBack) return;
   back_ = 0;
   begin_session(std::max(session_, slave_session_) + 1);
+  note(EventOf::kConsent, session_);
 }
 
 void LinkEnd::tell(teleop::LinkState before) EBAC_RT {

@@ -104,7 +104,7 @@ class DistanceGrid final : public Solid {
   /// Sum over the eight nodes of weight times (distance + direction . way from the node): as
   /// u . sum(w n) less the share of the nodes at 1 along each coordinate, so that all is done four
   /// numbers at a time.
-  Distance near(std::int32_t which, const Place& at) const EBAC_RT {
+  EBAC_ONE_FUNCTION Distance near(std::int32_t which, const Place& at) const EBAC_RT {
     const auto [x, y, z] = at.u;
     const float* const first = nodes_.data() + static_cast<std::size_t>(which) * kBrick +
                                4 * number(at.cell, kNodes, kNodes);

@@ -134,7 +134,7 @@ class Proxy {
       const Distance at = solid.distance(next);
       if (at.d < -kExact) {  // another surface, or the same one further on
         place_ = next - at.d * at.out;
-        hold(at.out);
+        hold(at.out, i < kSettles ? kSameSurface : kSamePlane);
         continue;
       }
       place_ = next;
@@ -166,10 +166,11 @@ class Proxy {
     }
   }
 
-  /// A plane at `place_`: in place of one of the same surface, beside those of others.
-  void hold(const Axes& out) EBAC_RT {
+  /// A plane at `place_`: in place of one of the same surface, beside those of others. `same` is the cosine between two
+  /// normals from which on they are one surface's: where a smooth surface would have been met by now, there are two.
+  void hold(const Axes& out, double same = kSameSurface) EBAC_RT {
     int which = most_parallel(out);
-    const bool other = which < 0 || held_[index(which)].out.dot(out) <= kSameSurface;
+    const bool other = which < 0 || held_[index(which)].out.dot(out) <= same;
     if (other && count_ < kMaxAxes) which = count_++;
     held_[index(which)] = {place_, out};
   }
@@ -251,11 +252,14 @@ class Proxy {
   static std::size_t index(int i) EBAC_RT { return static_cast<std::size_t>(i); }
 
   static constexpr int kMostSteps = 64;
-  static constexpr double kParallel = 1e-3;
+  static constexpr double kParallel = 1e-5;
   static constexpr int kMostTries = 4;
-  static constexpr double kSurface = 1e-6;  // m, off the surface
-  static constexpr double kFlat = 1e-7;     // m, over which a surface is its tangent plane
-  static constexpr double kLearns = 1e-6;   // m
+  static constexpr int kSettles =
+      6;  // strides in which one tangent plane of a smooth surface is found
+  static constexpr double kSamePlane = 0.99995;  // cosine, 0.6 degrees
+  static constexpr double kSurface = 1e-6;       // m, off the surface
+  static constexpr double kFlat = 1e-7;          // m, over which a surface is its tangent plane
+  static constexpr double kLearns = 1e-6;        // m
 
   Axes place_ = Axes::Zero();
   double room_ = 0;  // m, radius of a ball about `place_` without any surface

@@ -16,7 +16,7 @@ class Scene final : public World {
  public:
   explicit Scene(std::vector<Body> bodies) : bodies_(std::move(bodies)) {}
 
-  ContactForce contact(const Axes& x, const Axes& v, double t) EBAC_RT override {
+  EBAC_ONE_FUNCTION ContactForce contact(const Axes& x, const Axes& v, double t) EBAC_RT override {
     ContactForce all;
     // No body is told of such a place, whose proxy would never leave it; the loop ends by what it reads here.
     if (!std::isfinite(x.sum()))
