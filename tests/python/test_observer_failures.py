@@ -81,3 +81,24 @@ def test_it_comes_back_during_a_contact_without_a_step() -> None:
         clicks = steps[(t > 1.1) & (t < 1.5)].max()
         assert steps[(t > 1.5) & (t < 1.63)].max() <= clicks + 0.05
         assert steps[(t > 1.63) & (t < 1.7)].max() < 0.5
+
+
+def test_a_sensor_that_saturates_in_every_swing_gives_no_new_account_each_time() -> None:
+    """It came back between two swings, and what the two ways of the law are lent was drawn again."""
+    swings = ebac.Sine(centre=9.65e-3, amplitude=6e-3, frequency=3.84)
+    hand = ebac.Hand(mass=0.116, damping=38.4, stiffness=354.0, path=[swings])
+    device = ebac.Device(sensor=ebac.ForceSensor(noise=0.03, range=5.0))
+    trace = ebac.simulate(ebac.Scenario(device=device, hand=hand, seconds=60.0), "ebac")
+    assert ebac.contact(trace).least_energy_J > -0.009  # -0.0112 before
+
+
+@pytest.mark.parametrize("noise", [0.1, 0.2])
+def test_a_noisy_sensor_does_not_dissolve_a_wall_that_is_held(noise: float) -> None:
+    device = ebac.Device(sensor=ebac.ForceSensor(noise=noise))
+    assert device.facts.force_noise == noise
+    trace = ebac.simulate(ebac.Scenario(device=device, seconds=60.0), "ebac")
+    assert trace["law.admitted"].min() == 1
+    assert ebac.contact(trace).exact
+    untold = ebac.design("ebac", device, ebac.Timing(), force_noise=0.03)
+    lost = ebac.simulate(ebac.Scenario(device=device, seconds=60.0), untold)
+    assert noise < 0.2 or not ebac.contact(lost).exact, "the declared noise makes no difference"
