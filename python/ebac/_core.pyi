@@ -640,6 +640,8 @@ class DeviceFacts:
         largest force the motor can give [N], 0.001 to 10000.
     resonance : float
         first resonance of the structure, handle held; 0 where none is known [Hz], 0 to 10000.
+    force_noise : float
+        standard deviation of the force sensor's noise; less than 0.03 N counts as that [N], 0 to 10.
     """
 
     @staticmethod
@@ -658,6 +660,7 @@ class DeviceFacts:
         current_lag: float = 0.0003,
         peak_force: float = 42.4,
         resonance: float = 0.0,
+        force_noise: float = 0.03,
     ) -> None: ...
     def __reduce__(self) -> tuple[typing.Any, ...]: ...
     def __repr__(self) -> str: ...
@@ -683,6 +686,11 @@ class DeviceFacts:
     def damping(self) -> float:
         """
         lower bound of the physical viscous damping at the handle, after compensation [N s/m], -500 to 500
+        """
+    @property
+    def force_noise(self) -> float:
+        """
+        standard deviation of the force sensor's noise; less than 0.03 N counts as that [N], 0 to 10
         """
     @property
     def mass(self) -> float:
@@ -6466,6 +6474,8 @@ class EBAC:
         largest command [N], 0.001 to 10000.
     resonance : float
         first resonance of the structure, which bounds the virtual damper; 0 where none is known [Hz], 0 to 10000.
+    force_noise : float
+        with the observer, standard deviation of the force sensor's noise, which the account does not charge; less than 0.03 N counts as that [N], 0 to 10.
     growth : float
         c1 of eq. (10), 1 to 1.2.
     decay : float
@@ -6547,7 +6557,7 @@ class EBAC:
         @property
         def f_d(self) -> float:
             """
-            F_d of eq. (8), before damping and force loop [N]
+            F_d of eq. (8), before damping and force loop; with the observer the world's force as shown [N]
             """
         @property
         def injected(self) -> float:
@@ -6606,6 +6616,7 @@ class EBAC:
         count: float = 3.07e-05,
         peak_force: float = 42.4,
         resonance: float = 0.0,
+        force_noise: float = 0.03,
         growth: float = 1.2,
         decay: float = 0.8,
         kp: float = 0.1,
@@ -6701,6 +6712,11 @@ class EBAC:
     def filter(self) -> float:
         """
         low-pass on the derivative of the force error [s], 0 to 1
+        """
+    @property
+    def force_noise(self) -> float:
+        """
+        with the observer, standard deviation of the force sensor's noise, which the account does not charge; less than 0.03 N counts as that [N], 0 to 10
         """
     @property
     def growth(self) -> float:
