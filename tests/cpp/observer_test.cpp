@@ -201,8 +201,14 @@ TEST(Observer, FadesWhereTheForceIsOldOrTheSensorSaysSo) {
     }
     EXPECT_EQ(est.fallback, static_cast<int>(at.says));
     EXPECT_NEAR(est.weight, at.says == Fallback::kNone ? 1 : 0, 1e-9);
-    for (int k = 0; k < 20; ++k) est = tick({}, 1e-3);
+    for (int k = 0; k < 99; ++k) est = tick({}, 1e-3);
+    if (at.says != Fallback::kNone) {
+      EXPECT_EQ(est.weight, 0) << "less than 0.1 s without a failure";
+      EXPECT_EQ(est.fallback, static_cast<int>(at.says));
+    }
+    for (int k = 0; k < 21; ++k) est = tick({}, 1e-3);
     EXPECT_NEAR(est.weight, 1, 1e-9);
+    EXPECT_EQ(est.fallback, static_cast<int>(Fallback::kNone));
   }
 }
 
@@ -213,7 +219,7 @@ TEST(ObservedWork, NeverCountsMoreThanTheTruth) {
   std::mt19937 random(7);
   std::normal_distribution<double> normal;
   for (int run = 0; run < 50; ++run) {
-    ObservedWork work(kCount);
+    ObservedWork work(kCount, 0.03);
     Port port{.dt = 1e-3};
     const double slope = std::pow(10, 3 + 1.5 * std::abs(normal(random)));
     const double pace = std::pow(10, -2 + normal(random));  // counts in a tick
@@ -238,7 +244,7 @@ TEST(ObservedWork, NeverCountsMoreThanTheTruth) {
 /// A force that rests costs nothing, however long and whatever the reading does.
 TEST(ObservedWork, ChargesNothingForAForceThatRests) {
   constexpr double kCount = 3e-5;
-  ObservedWork work(kCount);
+  ObservedWork work(kCount, 0.03);
   Port port{.dt = 1e-3, .f_applied = 10};
   work.start(port);
   work.step(10, port, 10e3, 0);

@@ -98,30 +98,18 @@ class Machine:
         lines = [f'#include "{ROOT / one}"' for one in CAMPAIGN]
         self.campaign.write_text("\n".join(lines) + "\n", encoding="utf-8")
 
-    def fails(self, source: Path, folder: Path, overlay: Path | None = None) -> bool:
-        """Compile a test in `folder`, with the headers of `overlay` first; return whether it fails."""
+    def fails(
+        self, source: Path, folder: Path, overlay: Path | None = None, file: Path | None = None
+    ) -> bool:
+        """Return whether a test fails that is compiled in `folder`.
+
+        The headers of `overlay` come first, and `file`, a source with a bug, takes the place of the library's own.
+        """
         program = folder / source.stem
-        thing = program.with_suffix(".o")
         headers = [one for one in (overlay, ROOT / "cpp", ROOT / "tests/cpp") if one is not None]
-        flags = [word for flag in self.flags for word in flag.split()]
-        options = ["-std=c++20", "-O1", "-fno-math-errno", "-ffp-contract=off", "-w"]
-        compiled = [
-            *self.ccache,
-            "g++",
-            *options,
-            *(f"-I{one}" for one in headers),
-            *flags,
-            "-c",
-            str(source),
-            "-o",
-            str(thing),
-        ]
+        things = [self.compiled(one, folder, headers) for one in (source, file) if one is not None]
         libraries = [str(self.library), "-lgtest_main", "-lgtest", "-lpthread"]
-        linked = ["g++", str(thing), *libraries, "-o", str(program)]
-        for command in (compiled, linked):
-            made = subprocess.run(command, capture_output=True, text=True, check=False)
-            if made.returncode != 0:
-                raise RuntimeError(f"{source.name} does not compile: {made.stderr[-2000:]}")
+        made_of(source, ["g++", *map(str, things), *libraries, "-o", str(program)])
         try:
             ran = subprocess.run(
                 [str(program), "--gtest_brief=1"], capture_output=True, check=False, timeout=LONGEST
@@ -129,6 +117,18 @@ class Machine:
         except subprocess.TimeoutExpired:
             return True
         return ran.returncode != 0
+
+    def compiled(self, source: Path, folder: Path, headers: list[Path]) -> Path:
+        """Compile a file in `folder`; return the object."""
+        thing = folder / f"{source.stem}.o"
+        flags = [word for flag in self.flags for word in flag.split()]
+        options = ["-std=c++20", "-O1", "-fno-math-errno", "-ffp-contract=off", "-w"]
+        paths = [f"-I{one}" for one in headers]
+        made_of(
+            source,
+            [*self.ccache, "g++", *options, *paths, *flags, "-c", str(source), "-o", str(thing)],
+        )
+        return thing
 
     def check(self, tests: set[str], *, campaign: bool) -> None:
         """Raise RuntimeError where a test fails without any bug: it would notice them all."""
@@ -146,8 +146,16 @@ class Machine:
             made = overlay / mutant.file.removeprefix("cpp/")
             made.parent.mkdir(parents=True)
             made.write_text(mutant.text(), encoding="utf-8")
-            by_tests = any(self.fails(test_source(one), overlay, overlay) for one in tests)
-            return by_tests, campaign and self.fails(self.campaign, overlay, overlay)
+            file = made if made.suffix == ".cpp" else None
+            by_tests = any(self.fails(test_source(one), overlay, overlay, file) for one in tests)
+            return by_tests, campaign and self.fails(self.campaign, overlay, overlay, file)
+
+
+def made_of(source: Path, command: list[str]) -> None:
+    """Run a compiler or linker; raise RuntimeError where it fails."""
+    made = subprocess.run(command, capture_output=True, text=True, check=False)
+    if made.returncode != 0:
+        raise RuntimeError(f"{source.name} does not compile: {made.stderr[-2000:]}")
 
 
 def test_source(name: str) -> Path:

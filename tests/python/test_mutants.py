@@ -30,7 +30,7 @@ def test_every_mutant_applies_and_has_its_tests(mutants: ModuleType) -> None:
     root = MUTANTS.parents[2]
     for one in found:
         one.text()  # raises
-        kind = "cpp/{}_test.cpp" if one.file.endswith(".hpp") else "python/{}.py"
+        kind = "cpp/{}_test.cpp" if one.file.endswith("pp") else "python/{}.py"
         assert one.tests
         for test in one.tests:
             assert (root / "tests" / kind.format(test)).is_file(), test
