@@ -9,9 +9,11 @@ endfunction()
 
 ebac_bundle(ebac_tick tick cpp/ebac control/laws gastroscope/procedure sim/any_law sim/ebac_loop sim/simulated_device)
 # Apart from the tick, which would take their functions into its own (gnu::flatten).
-ebac_bundle(ebac_tick model cpp/ebac control/turned_ports loop/plausibility loop/safety_limiter loop/signal_chain loop/state_observer
-            model/device model/environment model/exact_axis model/exact_plant model/hand model/hand_model model/joint_dynamics
-            model/kinematics model/limits model/linear_flow model/port_space model/pose model/stepped_plant)
+ebac_bundle(ebac_tick stages cpp/ebac control/turned_ports loop/plausibility loop/safety_limiter loop/signal_chain
+            loop/state_observer model/environment model/port_space)
+ebac_bundle(ebac model cpp/ebac core/matrix_exponential model/device model/exact_axis model/exact_plant model/hand model/hand_model model/joint_dynamics
+            model/kinematics model/limits model/linear_flow model/stepped_plant world/engine/engine_client
+            world/engine/make_bridge world/engine/shared_channel world/make)
 ebac_bundle(ebac machine cpp/ebac can/raw_socket can/socketcan can/wake_event
             canopen/canopen_setup canopen/eds canopen/pdo canopen/pdo_plan
             rt/awake_cpus rt/grants rt/jitter rt/other_process rt/shared_memory rt/thread
@@ -22,10 +24,9 @@ ebac_bundle(ebac machine cpp/ebac can/raw_socket can/socketcan can/wake_event
 ebac_bundle(ebac teleop cpp/ebac gastroscope/bending gastroscope/driven_scope gastroscope/lumen gastroscope/physician
             gastroscope/slave gastroscope/tube remote/link_end remote/slave_worlds teleop/packet teleop/simulate
             teleop/udp_sides)
-ebac_bundle(ebac run cpp/ebac control/virtual_coupling core/check core/fields core/matrix_exponential faults/campaign faults/case
+ebac_bundle(ebac run cpp/ebac control/virtual_coupling core/check core/fields faults/campaign faults/case
             faults/case_setup faults/referee faults/test_bench identify/arm_drive identify/arm_jacobian identify/arm_record identify/arm_step identify/arm_trials loop/retune loop/trace sim/contact sim/ideal_wall
-            sim/perceived_ripple sim/rest_power sim/sweep world/engine/engine_client world/engine/make_bridge
-            world/engine/shared_channel world/make)
+            sim/perceived_ripple sim/rest_power sim/sweep)
 
 if(EBAC_PYTHON)
   ebac_bundle(_core_values device bindings core device fields hand kinematics limits module values)

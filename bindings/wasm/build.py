@@ -27,7 +27,7 @@ CORE = (
         "model/hand_model",
     ),
     *("model/joint_dynamics", "model/kinematics", "model/limits", "model/linear_flow"),
-    *("model/port_space", "model/pose", "model/stepped_plant"),
+    *("model/port_space", "model/stepped_plant"),
     *("sim/simulated_device", "sim/contact", "sim/perceived_ripple"),
 )
 OWN = ("settings", "catalogue", "exports")
