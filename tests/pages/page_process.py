@@ -7,8 +7,6 @@ Python share one namespace, as a reader who types them would have it.
 
 from __future__ import annotations
 
-import contextlib
-import importlib
 import json
 import os
 import re
@@ -25,12 +23,6 @@ from typing import IO, Any
 START, SETTLE = 3.0, 0.5
 #: What only a shell can do.
 SHELL = re.compile(r"[|&;<>$*`]")
-#: What most pages import sooner or later: a third of a second for each of them. None of it starts a thread.
-USUAL = (
-    *("can", "mcap.reader", "nlopt", "numpy.fft", "numpy.random", "pydantic.type_adapter"),
-    *("rich.live", "rich.progress", "rich.table"),
-    *("ebac.datasets", "ebac.drives", "ebac.hardware", "ebac.identify", "ebac.logs", "ebac.sensor"),
-)
 
 #: What runs until Ctrl-C: the command, its process and what it prints.
 Beside = tuple[str, "subprocess.Popen[bytes]", IO[bytes]]
@@ -145,7 +137,4 @@ if __name__ == "__main__":
     import ebac.cli  # noqa: F401
 
     plain_pictures.SAVE.write_png = plain_pictures.draw_plain
-    for usual in USUAL:
-        with contextlib.suppress(ImportError):  # of an extra, or of a library's own liking
-            importlib.import_module(usual)
     serve()
