@@ -111,16 +111,16 @@ def test_one_that_stops_posting_fades_and_comes_back(engine: Callable[..., list[
 
 
 @pytest.mark.parametrize(
-    ("text", "says"),
+    ("text", "patience", "says"),
     [
-        ("raise SystemExit(3)", "has ended with exit code 3 before it opened its channel"),
-        ("import time; time.sleep(60)", r"has not opened the channel .* within 0\.5 s"),
+        ("raise SystemExit(3)", 30.0, "has ended with exit code 3 before it opened its channel"),
+        ("import time; time.sleep(60)", 0.5, r"has not opened the channel .* within 0\.5 s"),
     ],
 )
 def test_a_program_that_serves_nothing_is_refused(
-    text: str, says: str, engine: Callable[..., list[str]]
+    text: str, patience: float, says: str, engine: Callable[..., list[str]]
 ) -> None:
-    with pytest.raises(RuntimeError, match=says), EngineProcess(engine(text), patience=0.5):
+    with pytest.raises(RuntimeError, match=says), EngineProcess(engine(text), patience=patience):
         pass
 
 
