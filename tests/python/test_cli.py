@@ -234,7 +234,7 @@ def test_wall_takes_every_option_into_the_scenario() -> None:
 
 def test_several_laws_have_commas_between_them() -> None:
     text = refusal("wall", "--law", "tca ebac")
-    assert "--law tca ebac: several names have commas between them, as in --law tca,ebac" in text
+    assert "--law tca ebac: separate names by commas: --law tca,ebac" in text
 
 
 def test_wall_runs_every_law_once() -> None:

@@ -1,6 +1,7 @@
 """Teleoperation: schemes, network, protocol, lost links, three processes."""
 
 import json
+import re
 import subprocess
 import sys
 import threading
@@ -389,3 +390,11 @@ def test_command_line(tmp_path: Path) -> None:
     wrong = CliRunner().invoke(app, ["teleop", "master", "--peer", "nowhere"])
     assert wrong.exit_code == 2
     assert "must be an address and a port" in wrong.output
+
+
+def test_a_study_and_an_endurance_run_of_the_wrong_type_are_refused_by_name() -> None:
+    for wrong in (3, "ebac"):
+        with pytest.raises(TypeError, match=re.escape(f"schemes = {wrong!r}: must be a sequence")):
+            teleop.study(wrong)  # type: ignore[arg-type]
+    with pytest.raises(TypeError, match="seconds = 'x': must be a number"):
+        teleop.endurance(seconds="x")  # type: ignore[arg-type]

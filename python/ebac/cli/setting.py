@@ -98,7 +98,7 @@ def _words(given: Sequence[str], option: str) -> list[str]:
     for name in names:
         if " " in name:
             raise ValueError(
-                f"{option} {name}: several names have commas between them, as in {option} {','.join(name.split())}"
+                f"{option} {name}: separate names by commas: {option} {','.join(name.split())}"
             )
     return names
 

@@ -98,7 +98,12 @@ def endurance(
     ------
     KeyError, ValueError
         For a scheme that does not exist, a time out of its range.
+    TypeError
+        For seconds that are no number.
     """
+    given: object = seconds
+    if isinstance(given, bool) or not isinstance(given, int | float):
+        raise TypeError(f"seconds = {seconds!r}: must be a number [s]")
     if not 5 <= seconds <= 86400:
         raise ValueError(f"seconds = {seconds:g} s: must lie in [5, 86400] s")
     chosen = scheme_of(scheme).name

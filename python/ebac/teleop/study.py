@@ -150,7 +150,11 @@ def study(
     ------
     KeyError, ValueError
         For a scheme or network that does not exist, a value out of its range.
+    TypeError
+        For schemes that are no sequence.
     """
+    if isinstance(schemes, str) or not isinstance(schemes, Sequence):
+        raise TypeError(f"schemes = {schemes!r}: must be a sequence of schemes or their names")
     for name in networks:
         if name not in NETWORKS:
             raise KeyError(f"no network is called {name!r}; there are: {', '.join(NETWORKS)}")
