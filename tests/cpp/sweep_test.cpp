@@ -52,8 +52,10 @@ std::vector<Outcome> run(const Tasks& tasks, const AnyLaw& law, int threads) {
 
 bool same_bits(const WallContact& a, const WallContact& b) {
   return std::ranges::all_of(WallContact::fields(), [&](const auto& field) {
-    const auto member = std::get<double WallContact::*>(field.member);
-    return std::bit_cast<std::uint64_t>(a.*member) == std::bit_cast<std::uint64_t>(b.*member);
+    const auto bits = [&](const WallContact& of) {
+      return std::bit_cast<std::uint64_t>(*static_cast<const double*>(field.member.in(of)));
+    };
+    return bits(a) == bits(b);
   });
 }
 
