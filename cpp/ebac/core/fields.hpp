@@ -22,11 +22,11 @@ enum class FieldKind : char { kDouble = 'f', kInt64 = 'i', kInt = 'w', kFault = 
 template <class Owner>
 class FieldMember {
  public:
-  constexpr FieldMember(double Owner::* at) : kind_(FieldKind::kDouble), double_(at) {}
-  constexpr FieldMember(int Owner::* at) : kind_(FieldKind::kInt), int_(at) {}
-  constexpr FieldMember(bool Owner::* at) : kind_(FieldKind::kBool), bool_(at) {}
-  constexpr FieldMember(std::int64_t Owner::* at) : kind_(FieldKind::kInt64), int64_(at) {}
-  constexpr FieldMember(Fault Owner::* at) : kind_(FieldKind::kFault), fault_(at) {}
+  constexpr FieldMember(double Owner::* at) : kind_(FieldKind::kDouble), number(at) {}
+  constexpr FieldMember(int Owner::* at) : kind_(FieldKind::kInt), whole(at) {}
+  constexpr FieldMember(bool Owner::* at) : kind_(FieldKind::kBool), flag(at) {}
+  constexpr FieldMember(std::int64_t Owner::* at) : kind_(FieldKind::kInt64), longer(at) {}
+  constexpr FieldMember(Fault Owner::* at) : kind_(FieldKind::kFault), fault(at) {}
 
   constexpr FieldKind kind() const { return kind_; }
 
@@ -34,27 +34,27 @@ class FieldMember {
   const void* in(const Owner& owner) const {
     switch (kind_) {
       case FieldKind::kDouble:
-        return &(owner.*double_);
+        return &(owner.*number);
       case FieldKind::kInt:
-        return &(owner.*int_);
+        return &(owner.*whole);
       case FieldKind::kBool:
-        return &(owner.*bool_);
+        return &(owner.*flag);
       case FieldKind::kInt64:
-        return &(owner.*int64_);
+        return &(owner.*longer);
       case FieldKind::kFault:
         break;
     }
-    return &(owner.*fault_);
+    return &(owner.*fault);
   }
 
  private:
   FieldKind kind_;
   union {
-    double Owner::* double_;
-    int Owner::* int_;
-    bool Owner::* bool_;
-    std::int64_t Owner::* int64_;
-    Fault Owner::* fault_;
+    double Owner::* number;
+    int Owner::* whole;
+    bool Owner::* flag;
+    std::int64_t Owner::* longer;
+    Fault Owner::* fault;
   };
 };
 
