@@ -62,7 +62,7 @@ class Groove final : public Solid {
   Axes left_, right_;
 };
 
-TEST(Proxy, IsHeldByBothFacesOfAGrooveHoweverShallow) {
+TEST(Proxy, IsHeldByBothFacesOfAShallowGroove) {
   for (const double degrees : {1.0, 3.0, 10.0, 20.0, 25.0, 30.0, 60.0}) {
     const Groove groove(degrees * std::numbers::pi / 180);
     Proxy proxy;

@@ -41,6 +41,30 @@ while client.loop_runs:
     time.sleep(0.01)
 """
 
+#: Posts for a second, and then no more.
+HANGING = """
+import time
+from ebac.worlds import LocalModel, serve_engine
+
+begun = time.monotonic()
+def plane(x, v):
+    if time.monotonic() - begun > 2.5:
+        time.sleep(60)
+    return LocalModel(at=(0.005, 0, 0), normal=(1, 0, 0), stiffness=2000)
+
+serve_engine(plane, rate=500)
+"""
+#: With a child that ignores SIGTERM.
+PARENT = """
+import subprocess, sys
+from ebac.worlds import LocalModel, serve_engine
+
+deaf = "import signal, time; signal.signal(signal.SIGTERM, signal.SIG_IGN); time.sleep(300)"
+child = subprocess.Popen([sys.executable, "-c", deaf])
+open("child", "w").write(str(child.pid))
+serve_engine(lambda x, v: LocalModel(at=(0.005, 0, 0), normal=(1, 0, 0), stiffness=2000), rate=500)
+"""
+
 pytestmark = [
     pytest.mark.real_time,
     pytest.mark.skipif(not Path("/dev/shm").is_dir(), reason="memory with names is Linux's"),
@@ -101,7 +125,7 @@ def test_the_world_of_a_program_is_felt_and_the_program_is_ended(room: Path) -> 
 
 def test_one_that_is_killed_in_contact_fades_and_the_run_goes_on_and_says_so(room: Path) -> None:
     done = run(room, written(room, MORTAL), seconds=4)
-    assert done.returncode == 0, done.stderr
+    assert done.returncode == 1, done.stderr
     assert "was killed by SIGKILL: its force fades to zero" in " ".join(done.stderr.split())
     assert "It did not last" in " ".join(done.stdout.split())
     (log,) = (room / "out").glob("*.mcap")
@@ -112,14 +136,33 @@ def test_one_that_is_killed_in_contact_fades_and_the_run_goes_on_and_says_so(roo
 
 def test_one_that_never_posts_is_told(room: Path) -> None:
     done = run(room, written(room, SILENT))
-    assert done.returncode == 0, done.stderr
+    assert done.returncode == 1, done.stderr
     assert "the engine has posted nothing so far: no force is rendered" in done.stderr
     assert "posted nothing. No force was rendered." in " ".join(done.stdout.split())
+
+
+def test_one_that_hangs_is_told_while_the_run_goes_on(room: Path) -> None:
+    done = run(room, written(room, HANGING), seconds=4)
+    assert done.returncode == 0, done.stderr
+    assert "the engine has stopped posting: its force has faded to zero" in done.stderr
+
+
+def test_what_an_engine_has_started_is_ended_with_it(room: Path) -> None:
+    """A shell about it, and a child that does not end when it is asked to."""
+    (room / "other.py").write_text(PARENT)
+    (room / "engine.sh").write_text(f"#!/bin/sh\n{sys.executable} other.py\n")
+    (room / "engine.sh").chmod(0o755)
+    done = run(room, "./engine.sh")
+    assert done.returncode == 0, done.stderr
+    child = int((room / "child").read_text())
+    state = Path(f"/proc/{child}/stat")
+    assert not state.exists() or state.read_text().split()[2] == "Z"
 
 
 @pytest.mark.parametrize(
     ("engine", "more", "code", "says"),
     [
+        ("", [], 2, "--engine-command: is empty"),
         (f"{sys.executable} -c 'raise SystemExit(3)'", [], 1, "has ended with exit code 3 before"),
         ("no-such-program", [], 2, "there is no program 'no-such-program'"),
         ("python 'x", [], 2, "No closing quotation"),

@@ -88,6 +88,8 @@ class EngineProcess:
 
     Raises
     ------
+    TypeError
+        For a command that is neither a string nor a sequence.
     ValueError
         For no program, or a name that is none or is taken.
     OSError
@@ -201,12 +203,12 @@ class EngineProcess:
         program = self._program
         if program is None:
             return
-        if _ends(program):
-            return
-        program.terminate()
         if not _ends(program):
-            program.kill()
-            program.wait()
+            program.terminate()
+            if not _ends(program):
+                program.kill()
+                program.wait()
+        _end_group(program.pid)
 
     def __exit__(
         self,
@@ -227,9 +229,31 @@ def _ends(program: subprocess.Popen[bytes]) -> bool:
     return True
 
 
+def _end_group(leader: int) -> None:
+    """End what a program that has ended has started itself, as a shell does."""
+    for how in (
+        signal.SIGTERM,
+        signal.SIGCONT,
+        signal.SIGKILL,
+    ):  # one that is stopped ends when it goes on
+        until = time.monotonic() + (0 if how is signal.SIGTERM else _END)
+        try:
+            os.killpg(leader, how)
+            while time.monotonic() < until:
+                os.killpg(leader, 0)
+                time.sleep(_LOOK)
+        except (ProcessLookupError, PermissionError):
+            return
+
+
 def _words(command: str | Sequence[str] | None) -> list[str] | None:
     if command is None:
         return None
+    given: object = command
+    if isinstance(given, bytes) or not isinstance(given, Sequence):
+        raise TypeError(
+            f"EngineProcess.command = {command!r}: must be a string, or a sequence of strings"
+        )
     try:
         words = shlex.split(command) if isinstance(command, str) else [str(one) for one in command]
     except ValueError as error:

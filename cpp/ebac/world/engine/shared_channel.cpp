@@ -99,6 +99,7 @@ bool SharedEngineChannel::engine_lives() const noexcept {
 }
 
 void SharedEngineChannel::end() noexcept {
+  if (segment_->loop != rt::own_process()) return;  // a forked copy of it ends nothing
   if (segment_->over.exchange(1, std::memory_order_acq_rel) == 0) rt::SharedMemory::remove(name_);
 }
 

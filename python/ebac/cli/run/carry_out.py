@@ -119,6 +119,8 @@ def give(
         hints = [*notes, fault.remedy, *(other if notes and result.simulated else []), *kept]
         text = str(fault).partition("; see")[0]
         output.fail("; ".join([text, *hints]), code=output.FAILED)
+    if result.engine is not None and not result.engine.lasted:
+        raise typer.Exit(output.FAILED)  # its own sentence stands above
 
 
 def _tell_end(device: OpenDevice, as_json: bool) -> None:

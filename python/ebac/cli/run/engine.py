@@ -16,6 +16,8 @@ if TYPE_CHECKING:
 
 #: A loop has ticked so long before an engine that has posted nothing is spoken of [s].
 _SILENT = 1.0
+#: So long after its force has faded one that has stopped posting is spoken of [s].
+_HUNG = 0.2
 
 
 def with_engine(
@@ -28,6 +30,10 @@ def with_engine(
     ValueError
         Where something else is asked of the world that the engine computes.
     """
+    if command is not None and not command.strip():
+        raise ValueError(
+            "--engine-command: is empty; give a program and its arguments, or leave it out"
+        )
     made = known if command is None else known.replace(engine=command)
     if not made.engine:
         return made
@@ -62,24 +68,32 @@ def started(known: Configuration) -> Iterator[tuple[Configuration, EngineProcess
 
 
 def watch(process: EngineProcess | None) -> Callable[[Run], None]:
-    """Return what a run calls while it runs: it says once on stderr that the engine is gone, or has posted nothing."""
+    """Return what a run calls meanwhile: it says on stderr that the engine is gone, hangs, or has posted nothing."""
     said: set[str] = set()
+    posted, since = 0, 0.0
 
-    def tell(what: str, text: str, run: Run) -> None:
+    def tell(what: str, text: str, t: float) -> None:
         if what not in said:
             said.add(what)
-            t = float(run.tail(1)["t"][-1])
             output.console(stderr=True).print(
                 f"At t = {t:.1f} s: {text}.", style="yellow", markup=False, soft_wrap=True
             )
 
     def look(run: Run) -> None:
+        nonlocal posted, since
         if process is None or run.done or not len(tail := run.tail(1)):
             return
+        t = float(tail["t"][-1])
+        if process.posted != posted:
+            posted, since = process.posted, t
+            said.discard("hangs")
+        faded = process.rendering.stale + process.rendering.fade
         if trouble := process.trouble:
-            tell("gone", f"{trouble}: its force fades to zero", run)
-        elif process.posted == 0 and float(tail["t"][-1]) > _SILENT:
-            tell("silent", "the engine has posted nothing so far: no force is rendered", run)
+            tell("gone", f"{trouble}: its force fades to zero", t)
+        elif posted == 0 and t > _SILENT:
+            tell("silent", "the engine has posted nothing so far: no force is rendered", t)
+        elif posted > 0 and t - since > faded + _HUNG:
+            tell("hangs", "the engine has stopped posting: its force has faded to zero", t)
 
     return look
 
@@ -119,6 +133,11 @@ class Served:
         rate = report["models"] / seconds if seconds > 0 else 0.0
         words = " ".join(process.command or [process.name])
         return cls(command=words, rate_Hz=rate, trouble=process.trouble, **report)
+
+    @property
+    def lasted(self) -> bool:
+        """Whether it had a world until the end."""
+        return self.models > 0 and not self.trouble
 
     def row(self) -> dict[str, Any]:
         """Return it as plain values."""
