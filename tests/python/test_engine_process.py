@@ -145,6 +145,19 @@ def test_one_started_by_hand_finds_the_loop_by_name(engine: Callable[..., list[s
     assert not (MEMORY / name).exists()
 
 
+def test_a_forked_copy_of_the_loop_ends_nothing(engine: Callable[..., list[str]]) -> None:
+    """As a worker of `multiprocessing` that ends with all that its parent had."""
+    with EngineProcess(engine()) as process:
+        pressed(process, lambda force: force > 0, 0.0)
+        copy = os.fork()
+        if copy == 0:
+            process._channel.end()
+            os._exit(0)
+        os.waitpid(copy, 0)
+        assert (MEMORY / process.name.removeprefix("/")).exists()
+        assert process.trouble == ""
+
+
 def test_an_engine_that_raises_ends_its_program(engine: Callable[..., list[str]]) -> None:
     text = "from ebac.worlds import serve_engine\nserve_engine(lambda x, v: 1 / 0, rate=1000)"
     with EngineProcess(engine(text)) as process:

@@ -15,46 +15,13 @@ from typing import Self
 from ebac import _core
 from ebac._core import BridgeParams
 from ebac._util.arguments import number
-from ebac.worlds.engines import BridgeReport, ForeignWorld, report_of, warning_of
+from ebac.worlds.engines import PostedWorld
 
 #: The variable of the environment that names the channel.
 VARIABLE = "EBAC_ENGINE_CHANNEL"
 
 #: How often a start is looked after [s], and how long an end may take before it is asked for more firmly [s].
 _LOOK, _END = 0.01, 2.0
-
-
-class ProcessWorld(ForeignWorld):
-    """The world of an `EngineProcess`: what the process posted last, rendered in every tick."""
-
-    in_real_time = True
-
-    def __init__(self, process: EngineProcess, channel: _core._SharedEngineChannel) -> None:
-        super().__init__(channel.world(process.rendering))
-        self._process = process
-
-    def for_run(self) -> ProcessWorld:
-        """Return itself: one run at a time has the process."""
-        return self
-
-    @property
-    def what(self) -> str:
-        """Name for messages."""
-        return "the engine's process"
-
-    def remark(self) -> str:
-        """Return what the run must say, empty if nothing."""
-        said = (self._process.trouble, warning_of(self.report, self._process.rendering))
-        return "; ".join(one for one in said if one)
-
-    @property
-    def report(self) -> BridgeReport:
-        """How the engine served the runs so far."""
-        return report_of(self)
-
-    def __repr__(self) -> str:
-        """Return what it is."""
-        return f"ProcessWorld(rendering={self._process.rendering!r})"
 
 
 class EngineProcess:
@@ -117,7 +84,9 @@ class EngineProcess:
         self._channel = _core._SharedEngineChannel("" if name is None else name)
         self._program: subprocess.Popen[bytes] | None = None
         self._ended = False
-        self.world = ProcessWorld(self, self._channel)
+        self.world = PostedWorld(
+            self._channel, self.rendering, "the engine's process", lambda: self.trouble
+        )
 
     @property
     def name(self) -> str:

@@ -8,40 +8,8 @@ from typing import Self
 
 from ebac import _core
 from ebac._core import BridgeParams
-from ebac.worlds.engines import BridgeReport, Engine, ForeignWorld, named, report_of, warning_of
+from ebac.worlds.engines import Engine, PostedWorld, named
 from ebac.worlds.serving import answer_poses, checked_engine, checked_rate
-
-
-class PostedWorld(ForeignWorld):
-    """The world of an `EngineThread`: what the thread posted last, rendered in every tick."""
-
-    in_real_time = True
-
-    def __init__(self, end: _core._EngineEnd, rendering: BridgeParams) -> None:
-        super().__init__(end.world(rendering))
-        self._end, self.rendering = end, rendering
-
-    def for_run(self) -> PostedWorld:
-        """Return itself: one run at a time has the thread."""
-        return self
-
-    @property
-    def what(self) -> str:
-        """Name for messages."""
-        return "the engine's thread"
-
-    def remark(self) -> str:
-        """Return what the run must say, empty if nothing."""
-        return warning_of(self.report, self.rendering)
-
-    @property
-    def report(self) -> BridgeReport:
-        """How the engine served the runs so far."""
-        return report_of(self)
-
-    def __repr__(self) -> str:
-        """Return what it is."""
-        return f"PostedWorld(rendering={self.rendering!r})"
 
 
 class EngineError(RuntimeError):
@@ -90,7 +58,8 @@ class EngineThread:
         self._stop = threading.Event()
         self._thread: threading.Thread | None = None
         self.error: BaseException | None = None
-        self.world = PostedWorld(self._end, BridgeParams() if rendering is None else rendering)
+        chosen = BridgeParams() if rendering is None else rendering
+        self.world = PostedWorld(self._end, chosen, "the engine's thread")
 
     def __enter__(self) -> Self:
         """Start the thread."""
