@@ -1,4 +1,4 @@
-// A million invalid frames, into the loop's side of the bus. Whatever comes, the
+// A million invalid frames, a quarter of them under sanitizers, into the loop's side of the bus. Whatever comes, the
 // device keeps its promises: no torque after a fault, none beyond the limit, counters that only grow.
 #include <gtest/gtest.h>
 
@@ -7,12 +7,13 @@
 
 #include "ebac/canopen/canopen_device.hpp"
 #include "ebac/model/noise.hpp"
+#include "rounds.hpp"
 #include "scripted_drives.hpp"
 
 namespace ebac::can::canopen_fuzz_test {
 namespace {
 
-constexpr int kFrames = 1'000'000;
+constexpr int kFrames = rounds(1'000'000);
 
 /// Frames from anything to almost right.
 class Chaos {
@@ -55,7 +56,7 @@ std::int64_t trouble(const BusRow& row) {
 
 class Fuzz : public testing::TestWithParam<std::uint64_t> {};
 
-TEST_P(Fuzz, AMillionFramesMoveNothingTheyShouldNot) {
+TEST_P(Fuzz, FramesOfAnyKindMoveNothingTheyShouldNot) {
   Chaos chaos(GetParam());
   ScriptedBus bus;
   ScriptedDrives drives{.bus = &bus, .nodes = 2};
@@ -113,8 +114,8 @@ TEST_P(Fuzz, AMillionFramesMoveNothingTheyShouldNot) {
     faults += !faulted && device.fault() != Fault::kNone ? 1 : 0;
     was_running = device.running();
   }
-  EXPECT_GT(runs, 100) << "the drives were hardly ever enabled: this fuzz shows nothing";
-  EXPECT_GT(faults, 100);
+  EXPECT_GT(runs, 25) << "the drives were hardly ever enabled: this fuzz shows nothing";
+  EXPECT_GT(faults, 25);
 }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, Fuzz, testing::Values(1, 2));

@@ -5,6 +5,7 @@
 #include <thread>
 
 #include "ebac/world/engine/bridge.hpp"
+#include "rounds.hpp"
 
 namespace ebac::engine_test {
 namespace {
@@ -135,7 +136,7 @@ TEST(Bridge, SaysHowOldItsModelsWereAndNeverForcesWithoutOne) {
 /// A spring that changes as it likes takes at least what it gives, but for what the bridge counts and what any sampled
 /// spring leaks, K dx^2 / 2 a tick.
 TEST(Bridge, CountsAllThatItsChangesCanGive) {
-  for (std::int64_t seed = 1; seed <= 20; ++seed) {
+  for (std::int64_t seed = 1; seed <= rounds(20); ++seed) {
     auto bridge =
         make_scheduled(std::make_unique<Restless>(),
                        {.rate = 60, .compute = 0.01, .jitter = 0.02, .seed = seed}, {}, false);

@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "ebac/model/noise.hpp"
+#include "rounds.hpp"
 
 namespace ebac::motion_guard_test {
 namespace {
@@ -66,7 +67,7 @@ class Guard : public testing::TestWithParam<std::tuple<int, double>> {
 TEST_P(Guard, AdmitsTheLargestForceTheEnergyCovers) {
   const MotionGuard guard(kDamping, kMass, kCount, kTick);
   Noise random(1);
-  for (int i = 0; i < 2000; ++i) {
+  for (int i = 0; i < rounds(2000); ++i) {
     CommandsInFlight in_flight(delay());
     for (int j = 0; j < delay(); ++j) in_flight.push(15 * random.normal());
     const LaggedForce lagged = lagged_force(lag(), 15 * random.normal());
@@ -89,7 +90,7 @@ TEST_P(Guard, TheCheapTestNeverAdmitsMoreThanTheExactOne) {
   const MotionGuard guard(kDamping, kMass, kCount, kTick);
   Noise random(2);
   int admitted = 0;
-  for (int i = 0; i < 20000; ++i) {
+  for (int i = 0; i < rounds(20000); ++i) {
     CommandsInFlight in_flight(delay());
     for (int j = 0; j < delay(); ++j) in_flight.push(10 * random.normal());
     const LaggedForce lagged = lagged_force(lag(), 10 * random.normal());
@@ -101,7 +102,7 @@ TEST_P(Guard, TheCheapTestNeverAdmitsMoreThanTheExactOne) {
     ++admitted;
     ASSERT_EQ(guard.admit(asked, in_flight, lagged, energy, v, kPull), asked);
   }
-  EXPECT_GT(admitted, 1000);
+  EXPECT_GT(admitted, rounds(1000));
 }
 
 INSTANTIATE_TEST_SUITE_P(DelayAndLag, Guard,

@@ -1,4 +1,4 @@
-// A million packets of nonsense, and sockets that take anything: nothing crashes, all is counted.
+// A million packets of nonsense, a quarter of them under sanitizers, and sockets that take anything: nothing crashes, all is counted.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -8,9 +8,12 @@
 #include "ebac/model/noise.hpp"
 #include "ebac/sensor/emulator.hpp"
 #include "ebac/sensor/rdt_client.hpp"
+#include "rounds.hpp"
 
 namespace ebac::sensor::sensor_fuzz_test {
 namespace {
+
+constexpr int kPackets = rounds(1'000'000);
 
 /// A record, or something like it.
 std::size_t nonsense(Noise& random, std::span<std::uint8_t> bytes, std::uint32_t& number) {
@@ -23,7 +26,7 @@ std::size_t nonsense(Noise& random, std::span<std::uint8_t> bytes, std::uint32_t
   return random.bits() % 50 == 0 ? random.bits() % bytes.size() : RdtRecord::kBytes;
 }
 
-TEST(RdtFuzz, AMillionPacketsOfNonsense) {
+TEST(RdtFuzz, PacketsOfNonsense) {
   Noise random(2026);
   RdtLink link({.scale = {.counts_per_force = 1e-3, .force_range = 50}});
   RdtEmulator<int> emulator;
@@ -31,7 +34,7 @@ TEST(RdtFuzz, AMillionPacketsOfNonsense) {
   std::uint32_t number = 4'294'900'000;
   std::int64_t good = 0;
   std::int64_t wrong = 0;
-  for (int i = 0; i < 1'000'000; ++i) {
+  for (int i = 0; i < kPackets; ++i) {
     const std::size_t size = nonsense(random, bytes, number);
     const auto packet = std::span(bytes).first(size);
     if (size != RdtRecord::kBytes) ++wrong;
@@ -46,10 +49,10 @@ TEST(RdtFuzz, AMillionPacketsOfNonsense) {
     if (!(link.force().allFinite() && link.torque().allFinite())) FAIL() << "packet " << i;
   }
   const StreamOrder& order = link.order();
-  EXPECT_GT(good, 300'000);
+  EXPECT_GT(good, kPackets / 10 * 3);
   EXPECT_EQ(good, link.received());
   EXPECT_EQ(link.malformed(), wrong + order.stray());
-  EXPECT_EQ(good + order.late() + order.duplicate() + order.stray() + wrong, 1'000'000);
+  EXPECT_EQ(good + order.late() + order.duplicate() + order.stray() + wrong, kPackets);
   EXPECT_GE(order.lost(), 0);
 }
 

@@ -10,6 +10,7 @@
 #include "ebac/model/noise.hpp"
 #include "ebac/world/scene.hpp"
 #include "ebac/world/shapes.hpp"
+#include "rounds.hpp"
 
 namespace ebac::world_test {
 namespace {
@@ -60,7 +61,7 @@ class EverySolid : public testing::TestWithParam<std::size_t> {
 
 TEST_P(EverySolid, ADistanceChangesByNoMoreThanTheWay) {
   Noise random(1);
-  for (int i = 0; i < 20'000; ++i) {
+  for (int i = 0; i < rounds(20'000); ++i) {
     const Axes a = somewhere(random, 0.06);
     const Axes b = i % 2 == 0 ? somewhere(random, 0.06) : Axes(a + somewhere(random, 1e-4));
     const double change = std::abs(it_.made->distance(a).d - it_.made->distance(b).d);
@@ -72,7 +73,7 @@ TEST_P(EverySolid, TheNormalIsTheDerivativeOfTheDistance) {
   Noise random(2);
   const double h = 1e-7;
   int compared = 0;
-  for (int i = 0; i < 5000; ++i) {
+  for (int i = 0; i < rounds(5000); ++i) {
     const Axes x = somewhere(random, 0.06);
     const Distance at = it_.made->distance(x);
     ASSERT_NEAR(at.out.norm(), 1, 1e-12);
@@ -86,12 +87,12 @@ TEST_P(EverySolid, TheNormalIsTheDerivativeOfTheDistance) {
     ++compared;
     ASSERT_NEAR((slope - at.out).norm(), 0, 1e-4) << it_.name << " at " << x.transpose();
   }
-  EXPECT_GT(compared, 4500);
+  EXPECT_GT(compared, rounds(4500));
 }
 
 TEST_P(EverySolid, AStepOfTheDistanceNeverPassesTheSurface) {
   Noise random(3);
-  for (int i = 0; i < 5000; ++i) {
+  for (int i = 0; i < rounds(5000); ++i) {
     const Axes x = somewhere(random, 0.06);
     const Distance at = it_.made->distance(x);
     if (at.d <= 0) continue;
@@ -113,7 +114,7 @@ TEST_P(EverySolid, TheProxyIsNeverInsideAndFreeOutside) {
   proxy.put(x);
   Axes v = Axes::Zero();
   int touched = 0;
-  for (int i = 0; i < 20'000; ++i) {
+  for (int i = 0; i < rounds(20'000); ++i) {
     v = 0.99 * v + 2e-5 * Axes{random.normal(), random.normal(), random.normal()} - 1e-5 * x;
     x += v;
     proxy.follow(*it_.made, x);
@@ -127,7 +128,7 @@ TEST_P(EverySolid, TheProxyIsNeverInsideAndFreeOutside) {
       ASSERT_GE(it_.made->distance(x).d, -2 * Proxy::kExact);
     }
   }
-  EXPECT_GT(touched, 100);
+  EXPECT_GT(touched, rounds(100));
 }
 
 INSTANTIATE_TEST_SUITE_P(, EverySolid, testing::Range<std::size_t>(0, solids().size()),
@@ -179,7 +180,7 @@ TEST(Scene, TheFrameIsOrthonormalAndGivesTheForce) {
   for (const Named& one : solids()) {
     Scene scene = scene_of(one.made, 0.3);
     Axes x = {-0.08, 0.001, 0.002}, v = Axes::Zero();
-    for (int i = 0; i < 5000; ++i) {
+    for (int i = 0; i < rounds(5000); ++i) {
       v = 0.99 * v + 2e-5 * Axes{random.normal(), random.normal(), random.normal()} - 1e-5 * x;
       x += v;
       const ContactForce touch = scene.contact(x, 1e3 * v, 1e-3 * i);

@@ -70,9 +70,14 @@ RULES = (
     Rule(r"^ebac gastroscopy (master|slave).*my-", NEVER, "needs drives"),
     Rule(r"^ebac gastroscopy (master|slave)(?!.*--seconds)", BESIDE, "runs until Ctrl-C"),
     Rule(r"^ebac log info slave\.mcap", SLOW, "reads what a command that takes seconds writes"),
-    Rule(r"^ebac gastroscopy drives", SLOW, "takes seconds", fewer="--seconds 5"),
+    Rule(
+        r"^ebac gastroscopy drives --seconds 10$", NEVER, "the example with a bad network does it"
+    ),
+    Rule(r"^ebac gastroscopy drives", SLOW, "takes seconds", fewer="--seconds 2"),
     Rule(r"^ebac teleop study", SLOW, "takes seconds", fewer="--scheme waves --delay 0.05"),
+    Rule(r"^ebac teleop endurance$", NEVER, "takes minutes; the example with options is run"),
     Rule(r"^ebac teleop endurance", SLOW, "takes minutes", fewer="--seconds 5"),
+    Rule(r"^ebac teleop master.*--seconds", SLOW, "takes its time", fewer="--seconds 2"),
     Rule(r"^ebac sensor read(?!.*--seconds)", BESIDE, "runs until Ctrl-C"),
     Rule(r"^python -m can\.logger", BESIDE, "runs until Ctrl-C"),
     Rule(r"^ebac drive verify --interface ebac", FAILS, "new simulated drives hold no profile"),
@@ -107,6 +112,12 @@ RULES = (
         fewer="--evaluations 40 --family swinging",
     ),
     Rule(r"^ebac worst\b", SLOW, "takes seconds", fewer="--evaluations 40"),
+    Rule(
+        r"^ebac zwidth\b(?!.*--law)",
+        SLOW,
+        "takes seconds",
+        fewer="--points 2 --seconds 1 --law ebac --law tca",
+    ),
     Rule(r"^ebac zwidth\b", SLOW, "takes seconds", fewer="--points 2 --seconds 1"),
     Rule(r"^ebac gastroscopy study\b", SLOW, "takes minutes", fewer="--physicians 2 --seconds 2"),
     Rule(r"^ebac gastroscopy\b", SLOW, "takes seconds", fewer="--seconds 2"),
@@ -115,7 +126,9 @@ RULES = (
     Rule(r"^ebac faults\b", SLOW, "takes seconds", fewer="--cases 5"),
     Rule(r"^ebac track --simulated", SLOW, "takes seconds", fewer="--runs 4"),
     Rule(r"^ebac jitter\b", SLOW, "takes seconds", fewer="--seconds 1"),
-    Rule(r"^ebac run\b(?!.*--at)", SLOW, "takes its time", fewer="--seconds 3"),
+    Rule(r"^ebac run\b(?!.*--at)", SLOW, "takes its time", fewer="--seconds 1.5"),
+    Rule(r'^ebac run\b.*--at "6 ', SLOW, "takes its time", fewer="--seconds 6.2"),
+    Rule(r'^ebac run\b.*--at "2.5 ', SLOW, "takes its time", fewer="--seconds 3"),
     Rule(r"^ebac (paper|doctor|run)\b", SLOW, "takes seconds"),
     Rule(
         r"^ebac wall.*(--law all|--format)|--through can",
@@ -127,6 +140,8 @@ RULES = (
 )
 #: A block of Python is run with three hands of the 60.
 FEWER_HANDS = ("Operators.grid()", "Operators.grid()[::20]")
+#: The gastroscope's three processes run one second of the three.
+SHORTER_CHAIN = ("chain(3,", "chain(1,")
 
 
 def rule(command: str) -> Rule | None:
@@ -138,6 +153,6 @@ def as_run(command: str) -> str:
     """Return a command as a test runs it."""
     known = rule(command)
     if known is None or not known.fewer:
-        return command.replace(*FEWER_HANDS)
+        return command.replace(*FEWER_HANDS).replace(*SHORTER_CHAIN)
     words, rest = re.fullmatch(r"([^|&;<>]*)(.*)", command, re.S).groups()  # type: ignore[union-attr]
     return f"{words.rstrip()} {known.fewer} {rest}".rstrip()
