@@ -81,6 +81,7 @@ void bind_states(py::module_& m) {
       .value("FORCE_STALE", Fallback::kForceStale)
       .value("FORCE_STATUS", Fallback::kForceStatus)
       .value("MODEL", Fallback::kModel)
+      .value("ACCOUNT", Fallback::kAccount)
       .finalize();
 }
 

@@ -253,6 +253,7 @@ class Fallback(enum.IntEnum):
     Why the observer's estimate is not used in a tick.
     """
 
+    ACCOUNT = ...
     FORCE_STALE = ...
     FORCE_STATUS = ...
     MODEL = ...
@@ -339,7 +340,7 @@ class Estimate:
     weight : float
         share of the estimate in what the law is given: 1 the observer, 0 the encoder alone.
     fallback : int
-        0, or why the weight goes to 0: 1 off, 2 force stale, 3 force sensor status, 4 model contradicted.
+        0, or why the weight goes to 0: 1 off, 2 force stale, 3 force sensor status, 4 model contradicted, 5 account drained.
     """
 
     @staticmethod
@@ -390,7 +391,7 @@ class Estimate:
     @property
     def fallback(self) -> int:
         """
-        0, or why the weight goes to 0: 1 off, 2 force stale, 3 force sensor status, 4 model contradicted
+        0, or why the weight goes to 0: 1 off, 2 force stale, 3 force sensor status, 4 model contradicted, 5 account drained
         """
     @property
     def v(self) -> float:

@@ -43,6 +43,8 @@ class LawObject {
   virtual void begin_account() EBAC_RT {}
   /// How long its energy account has held its force back [s]; 0 for a law without one.
   virtual double starved() const EBAC_RT = 0;
+  /// Whether its energy account is low with the observer.
+  virtual bool drained() const EBAC_RT { return false; }
   /// Whether it uses the observer's estimate where a run has one.
   virtual bool observed() const EBAC_RT = 0;
   virtual std::unique_ptr<LawObject> clone() const = 0;
@@ -91,6 +93,7 @@ class AnyLaw {
 
   void begin_account() EBAC_RT { law_->begin_account(); }
   double starved() const EBAC_RT { return law_->starved(); }
+  bool drained() const EBAC_RT { return law_->drained(); }
   bool observed() const EBAC_RT { return law_->observed(); }
   const LawType& type() const EBAC_RT { return law_->type(); }
   const void* params() const EBAC_RT { return law_->params(); }

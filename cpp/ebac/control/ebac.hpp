@@ -82,6 +82,8 @@ class Ebac {
 
   const State& state() const EBAC_RT { return shared_.state; }
   double starved() const EBAC_RT { return shared_.state.starved; }
+  /// Whether the account is low with the observer, as under a sensor whose noise it cannot pay for.
+  bool drained() const EBAC_RT { return weight_ >= 1 && observer_.drained(shared_); }
   const Params& params() const EBAC_RT { return shared_.params; }
   /// Whether it uses the observer's estimate where a run has one.
   bool observed() const EBAC_RT { return shared_.params.observer; }

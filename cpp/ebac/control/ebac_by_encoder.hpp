@@ -79,13 +79,15 @@ class EbacByEncoder {
     const double energy = shared.to_spend(wanted, port);
     const double step =
         std::abs(port.dx) + shared.params.count;  // no window slopes by more than this
+    const bool sensed = port.est.fallback == static_cast<int>(Fallback::kAccount);
+    const double pull = sensed ? shared.pull_shown(wanted, port) : shared.params.pull;
     if (guard_.surely_admits(wanted, shared.in_flight, shared.ledger.lagged(), energy, step,
-                             shared.params.pull)) {
+                             pull)) {
       return wanted;
     }
     const double v = adaptive_slope(readings_, kWindow, shared.params.count);
-    const double command = guard_.admit(wanted, shared.in_flight, shared.ledger.lagged(), energy, v,
-                                        shared.params.pull);
+    const double command =
+        guard_.admit(wanted, shared.in_flight, shared.ledger.lagged(), energy, v, pull);
     if (command != wanted) {
       shared.limited(command, wanted);
       take_back(command, shared);

@@ -25,6 +25,14 @@ class EbacByObserver {
   /// The account begins with this tick.
   void begin(const Port& port) EBAC_RT { work_.start(port); }
 
+  /// Whether the account is too low for the whole force, or holds less than half of its reserve or than a spring
+  /// would give back.
+  bool drained(const EbacShared& shared) const EBAC_RT {
+    const double stored = force_.stored(shared.f_env);
+    const double least = std::max(kLow * shared.params.observed_reserve, stored);
+    return shared.state.admitted < 1 || shared.ledger.energy() < least;
+  }
+
   /// Nothing is known of the contact.
   void forget() EBAC_RT { force_.forget(); }
 
@@ -52,10 +60,7 @@ class EbacByObserver {
   /// shows, behind its lag: a hand may vanish at any time, but its pull grows no faster than declared.
   double guarded(double wanted, const Port& port, EbacShared& shared) const EBAC_RT {
     if (!shared.params.guard || wanted == 0) return wanted;
-    const double shown = std::max(0.0, wanted > 0 ? -port.f_meas : port.f_meas);
-    const double unseen = (shared.timing.delay + 1) * port.dt + kBehind;
-    const double grown = shared.params.pull_rate * unseen;
-    const double pull = std::min(shared.params.pull, shown + kSensor + grown);
+    const double pull = shared.pull_shown(wanted, port);
     const double v = port.est.v;
     const double energy = shared.to_spend(wanted, port);
     if (guard_.surely_admits(wanted, shared.in_flight, shared.ledger.lagged(), energy,
@@ -69,9 +74,9 @@ class EbacByObserver {
   }
 
  private:
-  static constexpr double kSensor = 0.5;   // N, error of the force sensor the guard counts with
-  static constexpr double kBehind = 1e-3;  // s, lag of a usual force sensor and age of its reading
   static constexpr double kKnown = 0.5;  // of a jump: the velocity is that at the interval's start
+
+  static constexpr double kLow = 0.5;  // of the reserve
 
   ObservedForce force_;
   ObservedWork work_;

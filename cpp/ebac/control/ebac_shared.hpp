@@ -54,6 +54,13 @@ struct EbacShared {
     return ledger.energy() - in_flight.largest_with(wanted) * yields * time;
   }
 
+  /// Largest pull of the hand against `wanted` until the command has acted, from what the force sensor shows [N].
+  double pull_shown(double wanted, const Port& port) const EBAC_RT {
+    const double shown = std::max(0.0, wanted > 0 ? -port.f_meas : port.f_meas);
+    const double unseen = (timing.delay + 1) * port.dt + kBehind;
+    return std::min(params.pull, shown + kSensor + params.pull_rate * unseen);
+  }
+
   /// The guard lets less through.
   void limited(double command_given, double wanted) EBAC_RT {
     state.clamped = true;
@@ -73,8 +80,10 @@ struct EbacShared {
   }
 
  private:
-  static constexpr double kShort = 0.5;  // of a command: less is starved
-  static constexpr double kFed = 10;     // s by which `starved` falls in a second
+  static constexpr double kSensor = 0.5;   // N, error of the force sensor the guard counts with
+  static constexpr double kBehind = 1e-3;  // s, lag of a usual force sensor and age of its reading
+  static constexpr double kShort = 0.5;    // of a command: less is starved
+  static constexpr double kFed = 10;       // s by which `starved` falls in a second
 };
 
 }  // namespace ebac

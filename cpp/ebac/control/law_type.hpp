@@ -28,6 +28,7 @@ class LawOf final : public LawObject {
     if constexpr (requires { law_.begin_account(); }) law_.begin_account();
   }
   double starved() const EBAC_RT override { return starved_of(law_); }
+  bool drained() const EBAC_RT override { return drained_of(law_); }
   bool observed() const EBAC_RT override { return observed_of(law_); }
   std::unique_ptr<LawObject> clone() const override { return std::make_unique<LawOf>(law_); }
 

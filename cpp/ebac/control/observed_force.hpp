@@ -68,6 +68,12 @@ class ObservedForce {
   double injected() const EBAC_RT { return injected_; }    // N
   double slope() const EBAC_RT { return slope_.value(); }  // N/m, 0 out of contact
 
+  /// Energy that a spring of the world's slope gives back from `force` [J]; 0 where no slope is known.
+  double stored(double force) const EBAC_RT {
+    const double slope = slope_.value();
+    return slope > 0 ? 0.5 * force * force / slope : 0.0;
+  }
+
   /// Stiffness at which the last contact can have stored energy [N/m].
   double stored_at() const EBAC_RT { return stored_at_; }
 
@@ -91,7 +97,7 @@ class ObservedForce {
   double softer(double force, double energy) const EBAC_RT {
     const double slope = slope_.value();
     if (slope <= 0 || reserve_ <= 0) return 1;
-    const double beyond = energy - 0.5 * force * force / slope;
+    const double beyond = energy - stored(force);
     const double borne = std::clamp(stiffest_ / slope - 1, 0.0, 1.0);
     return std::clamp(2 * beyond / reserve_ - 1, -borne, 1.0);
   }

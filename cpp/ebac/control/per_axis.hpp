@@ -92,6 +92,7 @@ class PerAxis : public Replaceable<Law> {
     for (const Law& law : laws_) longest = std::max(longest, starved_of(law));
     return longest;
   }
+  bool drained() const EBAC_RT { return std::ranges::any_of(laws_, drained_of<Law>); }
   decltype(auto) state(std::size_t i) const EBAC_RT { return laws_[i].state(); }
   /// Of a law whose type is known at run time only.
   const FieldTable& state_table() const EBAC_RT

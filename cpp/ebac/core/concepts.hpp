@@ -35,6 +35,13 @@ double starved_of(const L& law) EBAC_RT {
   return 0;
 }
 
+/// Whether the energy account of a law is low with the observer; false for a law without one.
+template <class L>
+bool drained_of(const L& law) EBAC_RT {
+  if constexpr (requires { law.drained(); }) return law.drained();
+  return false;
+}
+
 /// Whether a law uses the observer's estimate where a run has one.
 template <class L>
 bool observed_of(const L& law) EBAC_RT {

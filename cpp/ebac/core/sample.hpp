@@ -93,6 +93,7 @@ enum class Fallback : std::int32_t {
   kForceStale = 2,   // the force is older than allowed
   kForceStatus = 3,  // the force sensor is saturated, disconnected or in error
   kModel = 4,        // the encoder contradicts the model for longer than a transient
+  kAccount = 5,      // the law's energy account runs out with it, until this contact ends
 };
 
 /// State of the device at one port, from encoder, force sensor and current: see `Observer`.
@@ -124,7 +125,8 @@ struct Estimate {
           "share of the estimate in what the law is given: 1 the observer, 0 the encoder alone"},
         F{"fallback", &Estimate::fallback, "1",
           "0, or why the weight goes to 0: 1 off, 2 force stale, 3 force sensor status, 4 model "
-          "contradicted"},
+          "contradicted, 5 account "
+          "drained"},
     };
   }
 };

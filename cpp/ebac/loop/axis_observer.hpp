@@ -115,6 +115,9 @@ class AxisObserver {
   double v() const EBAC_RT { return v_; }
   double disturbance() const EBAC_RT { return disturbance_; }
 
+  /// Share of the last 0.1 s in which the measured force bent more than its declared noise does.
+  double rough() const EBAC_RT { return rough_; }
+
   /// Share of the last 50 ms in which the reading was more than a count from where the model put it.
   double contradicted() const EBAC_RT { return contradicted_; }
 

@@ -26,6 +26,11 @@ class SignalChain {
   /// Whether the law of now on uses the observer's estimate.
   void act(bool observed) EBAC_RT { observer_.act(observed); }
 
+  /// A law whose account is `drained` at rest gives the observer up, until the hand moves.
+  void heed(bool drained, double dt, std::span<const Axis> axes) EBAC_RT {
+    if (observer_.on()) observer_.heed(drained, dt, axes);
+  }
+
   /// Velocity, acceleration and the observer begin anew.
   void forget() EBAC_RT {
     velocity_ = {};

@@ -58,6 +58,7 @@ Fallback StateObserver::failure(const Reading& reading, std::size_t axes) const 
   return reading.force_status != SensorStatus::kGood       ? Fallback::kForceStatus
          : reading.force_age > observing_.params.force_age ? Fallback::kForceStale
          : model_fails                                     ? Fallback::kModel
+         : account_.given_up()                             ? Fallback::kAccount
                                                            : Fallback::kNone;
 }
 
@@ -77,6 +78,17 @@ void StateObserver::trust(const Reading& reading, double dt, std::size_t axes) E
     fallback_ = Fallback::kNone;
     weight_ = dt > 0 && !forgot_ ? std::min(1.0, weight_ + dt / kFade) : 1.0;
   }
+}
+
+void StateObserver::heed(bool drained, double dt, std::span<const Axis> axes) EBAC_RT {
+  AccountWatch::Tick now{.drained = drained};
+  for (std::size_t i = 0; i < axes.size(); ++i) {
+    const Port& port = axes[i].port;
+    now.contact = now.contact || port.f_env != 0;
+    now.speed = std::max(now.speed, std::abs(port.est.v));
+    now.rough = std::max(now.rough, observer_[i].rough());
+  }
+  account_.step(now, dt);
 }
 
 /// The mass of an axis over that of the first in the middle. A lever that slides changes the handle's part of it.

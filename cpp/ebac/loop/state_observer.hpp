@@ -5,6 +5,7 @@
 
 #include "ebac/core/concepts.hpp"
 #include "ebac/core/realtime.hpp"
+#include "ebac/loop/account_watch.hpp"
 #include "ebac/loop/axis_observer.hpp"
 #include "ebac/loop/observing.hpp"
 #include "ebac/model/device.hpp"
@@ -36,6 +37,9 @@ class StateObserver {
     observing_.acts = acts;
   }
 
+  /// Whether the account of the law is `drained` in this tick, by which the law may give the estimate up.
+  void heed(bool drained, double dt, std::span<const Axis> axes) EBAC_RT;
+
   /// Begins anew in the next tick.
   void forget() EBAC_RT { forgot_ = true; }
 
@@ -66,7 +70,8 @@ class StateObserver {
   Observing observing_;
   std::array<AxisObserver, kMaxAxes> observer_;
   bool forgot_ = false;  // begins in this tick
-  double weight_ = 1;    // of the estimate
+  AccountWatch account_;
+  double weight_ = 1;  // of the estimate
   Fallback fallback_ = Fallback::kNone;
   double unbroken_ = kUnbroken;  // s, without a failure
 };

@@ -64,6 +64,7 @@ void render(SignalChain& chain, Law& law, const Instant& now, std::span<Axis, N>
   chain.account(axes);
   const ContactForce contact = chain.contact(now.t, axes);
   law.step(axes, contact);
+  chain.heed(drained_of(law), now.dt, axes);
   chain.drive(now.dt, axes);
 }
 

@@ -22,8 +22,8 @@ class ObserverUse:
         encoder alone, or back.
     fallback : dict of str to float
         Share of the ticks in which there was a reason to fall back to the encoder alone, by reason: `Fallback` in
-        lower case, "force_stale", "force_status", "model", or "off" for a law that does not use the estimate. Only
-        reasons that occurred.
+        lower case, "force_stale", "force_status", "model", "account", or "off" for a law that does not use the
+        estimate. Only reasons that occurred.
     """
 
     trusted: float
