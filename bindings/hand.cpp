@@ -161,7 +161,8 @@ void bind_hand(py::module_& m) {
               set_paths(hand, steps_to(item.cast<Targets>()));
             } catch (const py::cast_error&) {
               throw py::type_error("Hand.target = " + py::cast<std::string>(py::repr(item)) +
-                                   ": must be a number in m, or one for each axis");
+                                   ": must be a number in m, or one for each axis; a path, such as "
+                                   "MinimumJerk, is given as path=");
             }
           } else if (word == "model") {
             hand.model = hand_model(py::reinterpret_borrow<py::object>(item));

@@ -237,6 +237,12 @@ def test_several_laws_have_commas_between_them() -> None:
     assert "--law tca ebac: separate names by commas: --law tca,ebac" in text
 
 
+def test_a_condition_with_a_space_in_it_is_told_as_one_word() -> None:
+    text = refusal("study", "--law", "ebac", "--condition", "d1 K10")
+    assert "--condition d1 K10: a condition is one word: --condition d1K10" in text
+    assert "commas" in refusal("study", "--law", "ebac", "--condition", "d1K10 d2K10")
+
+
 def test_wall_runs_every_law_once() -> None:
     assert list(wall_rows("--law", "all", "--law", "tca", "--seconds", "0.1")) == list(ebac.LAWS)
 

@@ -249,3 +249,8 @@ def test_the_pull_is_the_spring_of_eq_4_until_the_hand_lets_go() -> None:
     np.testing.assert_allclose(hand.pull(t, x), expected, rtol=1e-12)
     with pytest.raises(ValueError, match="axis = 3: must lie in"):
         hand.pull(t, x, 3)
+
+
+def test_a_path_given_as_a_target_is_told_where_it_goes() -> None:
+    with pytest.raises(TypeError, match="a path, such as MinimumJerk, is given as path="):
+        ebac.Hand(target=ebac.MinimumJerk(target=0.03))  # type: ignore[call-overload]

@@ -103,10 +103,23 @@ def _words(given: Sequence[str], option: str) -> list[str]:
     return names
 
 
+def _is_condition(name: str) -> bool:
+    from ebac.studies import conditions
+
+    try:
+        return bool(conditions([name]))
+    except ValueError:
+        return False
+
+
 def condition_names(given: Sequence[str]) -> list[str]:
     """Return the conditions and groups of lists with commas."""
     from ebac.studies import conditions
 
+    for text in given:
+        joined = "".join(text.split())
+        if " " in text.strip() and "," not in text and _is_condition(joined):
+            raise ValueError(f"--condition {text}: a condition is one word: --condition {joined}")
     names = _words(given, "--condition")
     for name in names:
         try:
