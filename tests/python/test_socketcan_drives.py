@@ -7,12 +7,12 @@ import json
 import os
 import signal
 import subprocess
-import sys
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
 import pytest
+from forked_program import ForkedProgram
 from typer.testing import CliRunner
 
 from ebac.cli import app
@@ -20,7 +20,6 @@ from ebac.drives.profile import read_source
 
 INTERFACE = os.environ.get("EBAC_CAN", "")
 PROGRAM = os.environ.get("EBAC_KERNEL_TESTS", "kernel_tests")
-EBAC = [sys.executable, "-c", "from ebac.cli import app; app()"]
 
 pytestmark = pytest.mark.skipif(
     not INTERFACE, reason="EBAC_CAN names no virtual CAN interface to test on"
@@ -41,11 +40,9 @@ sync.period = 1.0
 
 
 @pytest.fixture
-def drives() -> Iterator["subprocess.Popen[str]"]:
-    command = [*EBAC, "drive", "simulate", "--channel", INTERFACE]
-    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as served:
+def drives() -> Iterator[ForkedProgram]:
+    with ForkedProgram("drive", "simulate", "--channel", INTERFACE) as served:
         try:
-            assert served.stdout is not None
             assert "Simulated drives, nodes 1, 2" in served.stdout.readline()
             yield served
         finally:
@@ -60,7 +57,7 @@ def drive(*words: str, code: int = 0) -> Any:
 
 
 def test_configure_enable_run_stop(
-    drives: "subprocess.Popen[str]", tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    drives: ForkedProgram, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     profile = tmp_path / "patient.toml"
     profile.write_text(PATIENT, encoding="utf-8")
@@ -90,5 +87,4 @@ def test_configure_enable_run_stop(
     assert not drive("restore", *backup, code=1)
     drives.send_signal(signal.SIGTERM)
     assert drives.wait(30) == 0
-    assert drives.stdout is not None
     assert "Stopped:" in drives.stdout.read()

@@ -16,6 +16,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from forked_program import ForkedProgram
 
 import ebac
 from ebac import drives
@@ -53,17 +54,12 @@ def config(tmp_path: Path) -> Path:
 
 
 @contextmanager
-def served(config: Path) -> Iterator[subprocess.Popen[str]]:
+def served(config: Path) -> Iterator[ForkedProgram]:
     """Simulated drives, device, hand and sensor in another process; the configuration says where the sensor is."""
     scenario = config.with_name("scenario.toml")
     Configuration.load(config).scenario(seconds=10).save(scenario)
-    command = [sys.executable, "-m", "ebac.cli", "drive", "simulate", "--channel", INTERFACE]
-    command += ["--scenario", str(scenario), "--wait-for-power", "--until-eof", "--sensor"]
-    with subprocess.Popen(
-        command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
-    ) as process:
-        assert process.stdout is not None
-        assert process.stdin is not None
+    words = ["drive", "simulate", "--channel", INTERFACE, "--scenario", str(scenario)]
+    with ForkedProgram(*words, "--wait-for-power", "--until-eof", "--sensor") as process:
         said = process.stdout.readline()
         port = re.search(r"force sensor at 127\.0\.0\.1:(\d+)", said)
         assert port, said
