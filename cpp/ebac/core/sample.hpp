@@ -93,7 +93,7 @@ enum class Fallback : std::int32_t {
   kForceStale = 2,   // the force is older than allowed
   kForceStatus = 3,  // the force sensor is saturated, disconnected or in error
   kModel = 4,        // the encoder contradicts the model for longer than a transient
-  kAccount = 5,      // the law's energy account runs out with it, until this contact ends
+  kAccount = 5,      // the law's energy account runs out with it, while the device rests
 };
 
 /// State of the device at one port, from encoder, force sensor and current: see `Observer`.
