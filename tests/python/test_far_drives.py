@@ -180,7 +180,7 @@ def at_rest(side: SideReport, count: int) -> bool:
 
 @LINUX
 @pytest.mark.slow
-@pytest.mark.real_time
+@pytest.mark.real_time(seconds=True)
 def test_what_is_felt_is_what_the_model_meets(tmp_path: Path) -> None:
     """A bend held against the wall: the load that came over two buses and a network is that of the model alone."""
     pair = Pair(tmp_path)
