@@ -121,6 +121,7 @@ def test_delay_and_observer_begin_anew(session: Session) -> None:
 
 
 def test_time_goes_on_with_the_clock_on_the_wall_and_nothing_is_late(tmp_path: Path) -> None:
+    pytest.importorskip("websockets")
     with serve(virtual=True, folder=tmp_path) as server:
         run = server.session.run
         assert run is not None

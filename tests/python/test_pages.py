@@ -192,7 +192,10 @@ def judge(code: int, told: str) -> None:
     """Fail where a page ended with an error; skip where it lacks a library."""
     if code == 0:
         return
-    missing = re.search(r"pip install '?ebac\[|No module named '(pandas|h5py|pyarrow|bokeh)'", told)
+    missing = re.search(
+        r"pip install '?ebac\[|No module named '(pandas|h5py|pyarrow|bokeh|trimesh|websockets)'",
+        told,
+    )
     if missing and not ALL:
         pytest.skip(f"needs the library of an extra: {missing[0]}")
     pytest.fail(told, pytrace=False)

@@ -176,6 +176,7 @@ def test_zero_newton_is_no_better_than_zero_newton() -> None:
 
 
 def test_a_sweep_carries_what_was_swept() -> None:
+    pytest.importorskip("pandas")
     stiff = [1e3, 5e3, 1e4]
     scenarios = [SHORT.replace(environment=ebac.Wall(stiffness=k)) for k in stiff]
     result = ebac.sweep(scenarios, ["tca", "ebac"])
