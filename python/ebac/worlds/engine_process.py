@@ -15,7 +15,7 @@ from typing import Self
 from ebac import _core
 from ebac._core import BridgeParams
 from ebac._util.arguments import number
-from ebac.worlds.engines import PostedWorld
+from ebac.worlds.posted_world import PostedWorld
 
 #: The variable of the environment that names the channel.
 VARIABLE = "EBAC_ENGINE_CHANNEL"

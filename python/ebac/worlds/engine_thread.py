@@ -8,7 +8,8 @@ from typing import Self
 
 from ebac import _core
 from ebac._core import BridgeParams
-from ebac.worlds.engines import Engine, PostedWorld, named
+from ebac.worlds.engines import Engine, named
+from ebac.worlds.posted_world import PostedWorld
 from ebac.worlds.serving import answer_poses, checked_engine, checked_rate
 
 
