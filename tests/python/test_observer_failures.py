@@ -137,7 +137,7 @@ def test_an_account_that_noise_uses_up_gives_the_wall_to_the_encoder(
     after = slice(first, first + 1000)
     assert trace["law.admitted"][after].min() > 0.5
     assert (trace["x"][after] - 0.01).max() < 1e-3  # the wall does not give way meanwhile
-    assert trace["law.energy"].max() < trace["law.energy"][:first].max() + 0.01  # lent once
+    assert (np.diff(trace["law.energy"]) > 5e-3).sum() == 1  # lent once
 
 
 def test_a_hand_that_moves_gets_the_observer_back() -> None:

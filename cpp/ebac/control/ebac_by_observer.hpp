@@ -75,8 +75,7 @@ class EbacByObserver {
 
  private:
   static constexpr double kKnown = 0.5;  // of a jump: the velocity is that at the interval's start
-
-  static constexpr double kLow = 0.5;  // of the reserve
+  static constexpr double kLow = 0.5;    // of the reserve
 
   ObservedForce force_;
   ObservedWork work_;

@@ -200,11 +200,8 @@ def _ends(program: subprocess.Popen[bytes]) -> bool:
 
 def _end_group(leader: int) -> None:
     """End what a program that has ended has started itself, as a shell does."""
-    for how in (
-        signal.SIGTERM,
-        signal.SIGCONT,
-        signal.SIGKILL,
-    ):  # one that is stopped ends when it goes on
+    # One that is stopped ends when it goes on.
+    for how in (signal.SIGTERM, signal.SIGCONT, signal.SIGKILL):
         until = time.monotonic() + (0 if how is signal.SIGTERM else _END)
         try:
             os.killpg(leader, how)
