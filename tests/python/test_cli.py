@@ -2,6 +2,7 @@
 
 import json
 import re
+import sys
 from pathlib import Path
 from typing import Any
 
@@ -459,3 +460,19 @@ def test_bench() -> None:
     assert all(row["tick_ns"] > 0 for row in rows)
     assert rows[-1]["step_ns"] is None
     assert "aim" in ebac_command("bench", "--repeats", "1").stdout
+
+
+def test_a_mesh_without_its_library_is_refused_in_a_sentence(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    mesh = '{ type = "Mesh", file = "part.off" }'
+    material = '{ type = "Elastic", stiffness = 1e4 }'
+    file = tmp_path / "scenario.toml"
+    file.write_text(
+        f'[environment]\ntype = "World"\n[[environment.bodies]]\nsolid = {mesh}\nmaterial = {material}\n'
+    )
+    (tmp_path / "part.off").write_text("OFF\n0 0 0\n")
+    monkeypatch.setitem(sys.modules, "trimesh", None)
+    assert "meshes need trimesh: pip install 'ebac[worlds]'" in refusal(
+        "wall", "--scenario", str(file)
+    )

@@ -1,9 +1,13 @@
 """Where the observer's inputs or its model fail: `ebac` with it is no worse than without it, and says what it does."""
 
+import re
+
 import numpy as np
 import pytest
+from typer.testing import CliRunner
 
 import ebac
+from ebac.cli import app
 from ebac.studies import CONDITIONS, GROUPS
 from ebac.studies import scenario_changes as to
 from ebac.studies.conditions import Condition
@@ -138,6 +142,18 @@ def test_an_account_that_noise_uses_up_gives_the_wall_to_the_encoder(
     assert trace["law.admitted"][after].min() > 0.5
     assert (trace["x"][after] - 0.01).max() < 1e-3  # the wall does not give way meanwhile
     assert (np.diff(trace["law.energy"]) > 5e-3).sum() == 1  # lent once
+
+
+def test_the_command_says_why_a_law_fell_back() -> None:
+    noisy = "--wall-stiffness 20000 --wall-position 0.01 --hand-damping 36 --hand-stiffness 134 --delay 2"
+    words = [*noisy.split(), "--device-noise", "0.3", "--seconds", "60", "--law", "ebac,tca"]
+    done = CliRunner().invoke(app, ["wall", "--no-files", *words])
+    assert done.exit_code == 0, done.output
+    text = " ".join(done.output.split())
+    assert re.search(r"Observer of ebac: trusted in .* encoder alone: account in", text), text
+    assert "Observer of tca" not in text  # it has no use for one
+    quiet = CliRunner().invoke(app, ["wall", "--no-files", "--law", "ebac"])
+    assert "Observer of" not in quiet.output
 
 
 def test_a_hand_that_moves_gets_the_observer_back() -> None:

@@ -75,6 +75,10 @@ def refusing() -> Iterator[None]:
         where = "" if error.filename is None else f"{error.filename}: "
         verb = "written" if error.errno in _FULL else "read"
         fail(f"{where}cannot be {verb} ({error.strerror or error})")
+    except ImportError as error:  # of an extra; any other is a mistake of ours
+        if "pip install" not in str(error):
+            raise
+        fail(str(error))
     except (KeyError, TypeError, ValueError) as error:
         from ebac.cli.setting import in_options
 

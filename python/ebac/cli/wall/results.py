@@ -175,6 +175,16 @@ def show(
         )
 
 
+def show_fallbacks(traces: list[Trace]) -> None:
+    """Print how far laws that are made for the observer's estimate could not use it."""
+    from ebac.metrics import observer_use
+
+    for trace in traces:
+        used = observer_use(trace)
+        if used is not None and used.fallback.keys() - {"off"}:
+            output.say(f"Observer of {trace.law}: {used}.")
+
+
 def show_contacts(contacts: list[Contact]) -> None:
     """Print the table, a few laws at a time."""
     for first in range(0, len(contacts), LAWS_ABREAST):

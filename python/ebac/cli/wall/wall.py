@@ -145,6 +145,7 @@ def _run(
         typer.echo(text)
         return
     wall_results.show(scenario, contacts, through, bodies)
+    wall_results.show_fallbacks(traces)
     if out is not None:
         output.list_files(out, files)
     for path in logs:
