@@ -49,6 +49,7 @@ class Ebac {
     if (port.dt != dt_) set_tick(port.dt);
     if (port.est.weight != weight_) shift(port);
     if (shared_.ledger.owed() > 0) pay(port);
+    shared_.watch_hand(port);
     shared_.state.clamped = false;
     shared_.state.admitted = 1;
     double command = 0;

@@ -55,7 +55,7 @@ class EbacByEncoder {
   /// Steps 1 to 6: the force that is wanted.
   double step(const Port& port, EbacShared& shared) EBAC_RT {
     recovered_ = 0;
-    shared.ledger.lend(shared.params.reserve);
+    lend(port, shared);
     shared.ledger.take(port.f_applied, sub_count_.step(port.x, port.dt), port.dx,
                        shared.surface(port),
                        shared.asked[0]);  // 1
@@ -79,8 +79,7 @@ class EbacByEncoder {
     const double energy = shared.to_spend(wanted, port);
     const double step =
         std::abs(port.dx) + shared.params.count;  // no window slopes by more than this
-    const bool sensed = port.est.fallback == static_cast<int>(Fallback::kAccount);
-    const double pull = sensed ? shared.pull_shown(wanted, port) : shared.params.pull;
+    const double pull = at_rest(port) ? shared.pull_shown(wanted, port) : shared.params.pull;
     if (guard_.surely_admits(wanted, shared.in_flight, shared.ledger.lagged(), energy, step,
                              pull)) {
       return wanted;
@@ -106,6 +105,17 @@ class EbacByEncoder {
   static constexpr double kFloor = 0.5;   // of c_h: slope that continuity always allows
   static constexpr double kYield = 0.01;  // s, F_d follows a command the guard holds back
   static constexpr int kWindow = 16;      // samples, velocity the guard counts with
+
+  /// The observer was given up for the account, in a contact at rest.
+  static bool at_rest(const Port& port) EBAC_RT {
+    return port.est.fallback == static_cast<int>(Fallback::kAccount);
+  }
+
+  /// This way to a command needs more than the observer's, and lends nothing more while that one comes back.
+  static void lend(const Port& port, EbacShared& shared) EBAC_RT {
+    if (port.est.fallback == static_cast<int>(Fallback::kNone)) return;
+    shared.ledger.lend(at_rest(port) ? shared.reserve_at_rest() : shared.params.reserve);
+  }
 
   double release(EbacShared& shared) EBAC_RT {
     shared.state.f_d = shared.state.injected = 0;

@@ -24,6 +24,8 @@ struct EbacShared {
   double command = 0;      // N, of the last tick
   double world_v = 0;      // m/s, of the last tick
   double f_env = 0;        // N, of the last tick
+  double f_meas = 0;       // N, of the last tick
+  double quickest = 0;     // N/s, lately
 
   EbacShared(const EbacParams& given, const Timing& tick) EBAC_RT
       : params(given),
@@ -58,7 +60,22 @@ struct EbacShared {
   double pull_shown(double wanted, const Port& port) const EBAC_RT {
     const double shown = std::max(0.0, wanted > 0 ? -port.f_meas : port.f_meas);
     const double unseen = (timing.delay + 1) * port.dt + kBehind;
-    return std::min(params.pull, shown + kSensor + params.pull_rate * unseen);
+    return std::min(params.pull, shown + kSensor + std::max(params.pull_rate, quickest) * unseen);
+  }
+
+  /// Keeps how quickly the force of the hand has changed: one that shakes faster than declared will do so again.
+  void watch_hand(const Port& port) EBAC_RT {
+    const double change = std::abs(port.f_meas - f_meas) - kNoise * params.force_noise;
+    f_meas = port.f_meas;
+    quickest = std::max(change / port.dt, quickest * kForget / (kForget + port.dt));
+  }
+
+  /// What the account is lent in a contact at rest that the law gives the observer up for [J]. Only with a sensor
+  /// noisier than usual does the noise alone use the account up, and the noisier, the more is needed.
+  double reserve_at_rest() const EBAC_RT {
+    const double least = params.observed_reserve;
+    return std::clamp(least * ObservedWork::noisier(params.force_noise), least,
+                      std::max(least, params.reserve));
   }
 
   /// The guard lets less through.
@@ -82,6 +99,8 @@ struct EbacShared {
  private:
   static constexpr double kSensor = 0.5;   // N, error of the force sensor the guard counts with
   static constexpr double kBehind = 1e-3;  // s, lag of a usual force sensor and age of its reading
+  static constexpr double kNoise = 4;      // standard deviations of the sensor in a change
+  static constexpr double kForget = 0.1;   // s
   static constexpr double kShort = 0.5;    // of a command: less is starved
   static constexpr double kFed = 10;       // s by which `starved` falls in a second
 };

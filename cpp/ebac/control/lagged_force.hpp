@@ -26,6 +26,7 @@ class LaggedForce {
     ticks_ = lag_ / dt;
     left_ = Transient(lag_, dt);
     later_ = left_.end / (1 - left_.end);
+    moment_ = lag_ * (left_.mean - left_.end) - 0.5 * dt * left_.mean;
   }
 
   /// Holds `command` for one interval; returns the mean force over it.
@@ -34,6 +35,10 @@ class LaggedForce {
     force_ = command + transient * left_.end;
     return command + transient * left_.mean;
   }
+
+  /// Moment of the force about the middle of an interval that holds `command`, the integral of f (t/T - 1/2) [N s]:
+  /// over a velocity that changes by c the force does c times this more than its mean does.
+  double moment(double command) const EBAC_RT { return (force_ - command) * moment_; }
 
   double force() const EBAC_RT { return force_; }  // N, now
   const Transient& left() const EBAC_RT { return left_; }
@@ -50,6 +55,7 @@ class LaggedForce {
   Transient left_;
   double ticks_ = 0;
   double later_ = 0;
+  double moment_ = 0;  // s
 };
 
 }  // namespace ebac

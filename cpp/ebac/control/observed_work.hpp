@@ -35,19 +35,23 @@ class ObservedWork {
  public:
   /// `noise`: standard deviation of the force sensor's [N].
   ObservedWork(double count, double noise) EBAC_RT : half_(count / 2),
-                                                     play_(kPlay* louder(noise)),
-                                                     slow_(kSlow* louder(noise)) {}
+                                                     play_(kPlay* noisier(noise)),
+                                                     slow_(kSlow* noisier(noise)) {}
+
+  /// How many times noisier than usual a force sensor is, at least 1; `noise` is its standard deviation [N].
+  static double noisier(double noise) EBAC_RT { return std::max(1.0, noise / kUsual); }
 
   /// The observer's place within the count, from which displacements are counted.
   void start(const Port& port) EBAC_RT {
     within_ = within(port);
+    v_ = port.est.v;
     reached_ = port.x + within_;
     charged_ = changed_ = way_ = 0;  // its place is no edge
   }
 
-  /// `mean` is the mean force of the interval that ended with `port`, `slope` that of the world
-  /// [N/m], `b` the device's damping over the tick [N/m].
-  double step(double mean, const Port& port, double slope, double b) EBAC_RT {
+  /// `mean` and `moment` are those of the force over the interval that ended with `port`, `slope` is that of the
+  /// world [N/m], `b` the device's damping over the tick [N/m].
+  double step(double mean, double moment, const Port& port, double slope, double b) EBAC_RT {
     const double play = std::max(play_, kCell * slope * 2 * half_);
     const bool no_force = port.f_applied == 0 && std::abs(mean) < kEnded;
     const double counted = no_force ? 0.0 : std::clamp(counted_, mean - play, mean + play);
@@ -57,10 +61,12 @@ class ObservedWork {
     const double moved = port.dx + place - within_;
     const double sure = std::max(std::abs(port.dx) - half_, 0.0);
     const double held = from_edge(counted, port);
+    const double uneven = moment * (port.est.v - v_);
+    v_ = port.est.v;
     counted_ = counted;
     rest_ = rest;
     within_ = place;
-    return held + rest * moved - half_ * fast + b * sure * sure;
+    return held + rest * moved + uneven - half_ * fast + b * sure * sure;
   }
 
  private:
@@ -72,8 +78,6 @@ class ObservedWork {
   static constexpr double kSlow = 0.05;   // N, a change in a tick that sensor noise can cause
   static constexpr double kEnded = 0.05;  // N
   static constexpr double kSoon = 0.1;    // s, from edge to edge
-
-  static double louder(double noise) EBAC_RT { return std::max(1.0, noise / kUsual); }
 
   double within(const Port& port) const EBAC_RT {
     return std::clamp(port.est.x - port.x, -half_, half_);
@@ -107,6 +111,7 @@ class ObservedWork {
   double play_;         // N
   double slow_;         // N
   double within_ = 0;   // m
+  double v_ = 0;        // m/s
   double reached_ = 0;  // m, reckoned from the last edge
   double unread_ = 0;   // s, since that edge
   double way_ = 0;      // m, over that edge
