@@ -8,6 +8,7 @@
 
 #include "designed_law.hpp"
 #include "ebac/control/ebac.hpp"
+#include "ebac/control/lagged_force.hpp"
 #include "ebac/control/observed_work.hpp"
 #include "ebac/loop/axis_observer.hpp"
 #include "ebac/loop/signal_chain.hpp"
@@ -235,8 +236,33 @@ TEST(ObservedWork, NeverCountsMoreThanTheTruth) {
       port.x = reading;
       port.est.x = x;
       port.f_applied = force;
-      counted += work.step(force, port, slope, /*b=*/0);
+      counted += work.step(force, /*moment=*/0, port, slope, /*b=*/0);
       ASSERT_LE(counted, truth + kCount / 2 * std::abs(force) + 1e-12) << "run " << run;
+    }
+  }
+}
+
+/// Mean and moment of a lagged force give its work over any interval in which the velocity changes evenly.
+TEST(LaggedForce, DoesWorkOverAChangingVelocity) {
+  constexpr double kTick = 1e-3;
+  constexpr int kParts = 2000;
+  std::mt19937 random(11);
+  std::normal_distribution<double> normal;
+  for (const double lag : {0.0, 1e-4, 5e-4, 3e-3}) {
+    LaggedForce force(lag);
+    force.set_tick(kTick);
+    for (int run = 0; run < 20; ++run) {
+      const double command = 10 * normal(random), v = 0.1 * normal(random), change = normal(random);
+      const double transient = force.force() - command;
+      double work = 0;
+      for (int k = 0; k < kParts; ++k) {
+        const double share = (k + 0.5) / kParts;
+        const double left = lag > 0 ? std::exp(-share * kTick / lag) : 0.0;
+        work += (command + transient * left) * (v + change * share) * kTick / kParts;
+      }
+      const double moment = force.moment(command);
+      const double way = (v + 0.5 * change) * kTick;
+      EXPECT_NEAR(force.hold(command) * way + moment * change, work, 1e-7) << "lag " << lag;
     }
   }
 }
@@ -247,13 +273,13 @@ TEST(ObservedWork, ChargesNothingForAForceThatRests) {
   ObservedWork work(kCount, 0.03);
   Port port{.dt = 1e-3, .f_applied = 10};
   work.start(port);
-  work.step(10, port, 10e3, 0);
+  work.step(10, 0, port, 10e3, 0);
   double counted = 0, start = 0;
   for (int k = 0; k < 10'000; ++k) {
     port.dx = k % 2 == 0 ? kCount : -kCount;
     port.x += port.dx;
     port.est.x = kCount / 2;  // an edge
-    counted += work.step(10 + 0.02 * (k % 3), port, 10e3, 0);
+    counted += work.step(10 + 0.02 * (k % 3), 0, port, 10e3, 0);
     if (k == 0) start = counted;  // the way to the edge is work
   }
   EXPECT_NEAR(counted, start, 1e-4);

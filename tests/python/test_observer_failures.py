@@ -141,7 +141,7 @@ def test_an_account_that_noise_uses_up_gives_the_wall_to_the_encoder(
     after = slice(first, first + 1000)
     assert trace["law.admitted"][after].min() > 0.5
     assert (trace["x"][after] - 0.01).max() < 1e-3  # the wall does not give way meanwhile
-    assert (np.diff(trace["law.energy"]) > 5e-3).sum() == 1  # lent once
+    assert (np.diff(trace["law.energy"]) > 3e-3).sum() == 1  # lent once
 
 
 def test_the_command_says_why_a_law_fell_back() -> None:
@@ -177,3 +177,19 @@ def test_a_hand_that_shakes_the_account_empty_is_not_lent_more(frequency: float)
     use = ebac.observer_use(trace)
     assert use is not None
     assert "account" not in use.fallback
+
+
+@pytest.mark.parametrize(
+    ("condition", "family", "seed"),
+    [
+        ("d2K10", "periodic", 4),  # 2.2 mJ: it pulls faster than the guard counted with
+        ("d2b1K20", "periodic", 5),  # 2.2 mJ
+        ("d2b1K20", "swinging", 4),  # 6.3 mJ: the account was lent more when the observer went and when it came back
+    ],
+)
+def test_no_hand_that_a_search_finds_draws_more_than_the_reserve(
+    condition: str, family: str, seed: int
+) -> None:
+    found = ebac.worst("ebac", condition, family=[family], seed=seed, base=BASE)
+    assert found.reserve == 2e-3
+    assert 0.5e-3 < found.hands[0].energy_J < found.reserve

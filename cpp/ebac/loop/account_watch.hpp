@@ -26,7 +26,7 @@ class AccountWatch {
 
   void step(const Tick& now, double dt) EBAC_RT {
     speed_ += (now.speed - speed_) * dt / (kMean + dt);
-    if (!now.contact) paid_ = 0;
+    if (!now.contact) paid_ = std::max(0.0, paid_ - dt);
     const bool shakes = now.rough > (given_up_ ? kShaken : kShakes);
     if (speed_ > kMoves || shakes || !now.contact) {
       given_up_ = false;
