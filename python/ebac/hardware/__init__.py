@@ -1,4 +1,4 @@
-"""A law on hardware, in real time: configuration, device, run.
+"""Run a law on hardware in real time: configuration, device, run.
 
 ::
 

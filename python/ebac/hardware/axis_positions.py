@@ -1,4 +1,4 @@
-"""Where each axis stands before it has power, and where that is in the virtual world."""
+"""Positions of the axes before their motors have power, and distances to the surfaces of the virtual world."""
 
 from __future__ import annotations
 
@@ -23,21 +23,22 @@ if TYPE_CHECKING:
 
 
 class PositionError(DriveError):
-    """An axis stands where no run may begin, or nobody has confirmed where it stands."""
+    """An axis is outside the workspace, or nobody has confirmed the zero of the encoders."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class AxisPosition:
-    """Where an axis stands.
+    """Position of an axis.
 
     Attributes
     ----------
     axis, node : int
-        Axis from 0, and the node id of its drive.
+        Number of the axis, from 0, and node id of its drive.
     counts, zero_counts : int
-        What the drive shows (0x6064), and what it shows at the zero of the configuration.
+        Counts that the drive shows (0x6064), and counts that it shows at the zero of the configuration.
     angle_rad, position_m : float
-        Angle of the joint from that zero, and the way at the handle: what the limits of the workspace hold.
+        Angle of the joint from that zero [rad], and the displacement of the handle [m], to which the limits of the
+        workspace apply.
     """
 
     axis: int
@@ -48,7 +49,7 @@ class AxisPosition:
     position_m: float
 
     def row(self) -> dict[str, Any]:
-        """Return it as plain values."""
+        """Return the position as plain values, for JSON."""
         return asdict(self)
 
     def __str__(self) -> str:
@@ -60,7 +61,7 @@ class AxisPosition:
 
 
 def axis_positions(known: Configuration, *, simulate: bool = False) -> list[AxisPosition]:
-    """Read where each axis stands. Nothing is written to the drives, and none may have power.
+    """Read the position of each axis. Nothing is written to the drives; no drive may have power.
 
     Parameters
     ----------
@@ -72,7 +73,7 @@ def axis_positions(known: Configuration, *, simulate: bool = False) -> list[Axis
     Raises
     ------
     PositionError
-        When a drive has power: somebody else commands it.
+        When a drive has power, because another program may command it.
     DriveError
         When a drive does not answer.
     """
@@ -81,7 +82,7 @@ def axis_positions(known: Configuration, *, simulate: bool = False) -> list[Axis
 
 
 def read_positions(known: Configuration, backend: Backend) -> list[AxisPosition]:
-    """Do the same with the drives of a backend. Raises as `axis_positions`."""
+    """Read the position of each axis from the drives of a backend. Raises the same errors as `axis_positions`."""
     with drives_at(backend, known.drives.nodes) as drives:
         for drive in drives:
             if drive.state is State.OPERATION_ENABLED:
@@ -95,7 +96,7 @@ def read_positions(known: Configuration, backend: Backend) -> list[AxisPosition]
 def positions_of(
     known: Configuration, backend: Backend, counts: Sequence[int]
 ) -> list[AxisPosition]:
-    """Return where axes stand whose drives show these counts."""
+    """Return the positions of axes whose drives show these counts."""
     device = known.device
     axes = zip(
         known.drives.nodes,
@@ -147,7 +148,7 @@ def distances(
     known : Configuration
         The device.
     positions : sequence of AxisPosition
-        Of all its axes.
+        The positions of all its axes.
     environment : Free, Wall, Corner, Disc or worlds.World, optional
         The virtual world; that of the configuration, if not given.
     """

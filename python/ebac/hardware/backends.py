@@ -1,4 +1,4 @@
-"""Where the drives of a run are: on an interface of the kernel, or on a bus inside this process."""
+"""Backends: the drives of a run on a CAN interface of the kernel, or on a bus inside this process."""
 
 from __future__ import annotations
 
@@ -44,11 +44,11 @@ class Backend:
     Attributes
     ----------
     interface, channel : str
-        As python-can calls it.
+        Names by which python-can opens the bus.
     bus : str or LoopbackHub
-        As the C++ loop takes it.
+        The bus as the C++ loop opens it.
     about : str
-        For people.
+        Description for messages.
     sensor : SensorConfig or None
         The force sensor, where there is one.
     patience : float
@@ -56,7 +56,7 @@ class Backend:
     aim : SharedHandTarget or None
         Shared target of a simulated hand; None on hardware.
     grants : sequence of Grant
-        What the threads of what is simulated asked of the system, and got.
+        What the threads of the simulated parts requested from the system, and what was granted.
     real : bool
         Whether a hand may hold the device: its zero must be confirmed before it has power.
     """
@@ -72,7 +72,7 @@ class Backend:
     real: bool = False
 
     def signs(self, known: Configuration) -> Signs:
-        """Return what is to turn: on a simulated device what the configuration does not turn rightly stays turned."""
+        """Return the signs to apply. On a simulated device with other signs than configured, the error remains."""
         return known.signs if self.aim is None else known.signs.against(known.simulated_signs)
 
 

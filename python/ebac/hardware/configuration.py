@@ -34,30 +34,30 @@ if TYPE_CHECKING:
 @plain_constructor
 @dataclass(frozen=True, kw_only=True)
 class Configuration:
-    """What `Device.open` and `ebac run` need to know.
+    """The configuration that `Device.open` and `ebac run` use.
 
     Parameters
     ----------
     name : str
-        Of the file, for people.
+        Name of the file, for messages.
     text : str
-        The file itself; it goes into every log.
+        Text of the file; it is stored in every log.
     interface, channel : str
-        Of the CAN bus: "socketcan" and "can0", or "ebac" and a channel inside this process.
+        Interface and channel of the CAN bus: "socketcan" and "can0", or "ebac" and a channel inside this process.
     drives : Network
         The drives, one per axis, each with its profile.
     signs : Signs
-        Of every axis: -1 turns the current of its motor, the counts of its encoder.
+        Signs of every axis: -1 reverses the current of its motor or the counts of its encoder.
     simulated_signs : Signs or None
-        Those that the simulated device needs; None for the same, a device that is wired as configured.
+        Signs that the simulated device needs; None for the same signs, so that it is wired as configured.
     zero : Zero
-        What each drive counts with the handle at its zero.
+        Counts of each drive with the handle at its zero.
     simulated_zero : Zero or None
-        The same of the simulated drives; None for those of `zero`.
+        The same for the simulated drives; None for the counts of `zero`.
     setup : "verify" or "apply"
-        Whether a drive that holds something else than its profile is refused, or written.
+        Whether a drive whose objects differ from its profile is refused ("verify") or written ("apply").
     silent : int
-        Ticks in a row without process data that are a fault [samples].
+        Number of ticks in a row without process data that is a fault [samples].
     answer_share : float
         How long the drives may take to answer, as a share of the sample time.
     device : Device
@@ -67,35 +67,36 @@ class Configuration:
     environment : Free, Wall, Corner, Disc or worlds.World
         The virtual world.
     engine : str
-        Program that computes the virtual world, and its arguments, empty for none: `ebac run` starts it in place of
-        `environment`; in Python start a `worlds.EngineProcess` and give its world to the run.
+        Program that computes the virtual world, with its arguments; empty for none. `ebac run` starts it and uses it
+        in place of `environment`. In Python start a `worlds.EngineProcess` and pass its world to the run.
     rendering : BridgeParams
-        How the models of the engine take over from each other and fade.
+        How one model of the engine replaces the previous one, and how the force fades.
     law : str
         Name of the law.
     changes : mapping
-        Parameters of the law on top of its design, SI units.
+        Parameters of the law that replace those of its design, in SI units.
     limits : Limits
-        What the loop allows.
+        Limits that the loop enforces.
     seconds, soft_start, ramp_down : float
-        Length of a run, time in which force comes in and goes out [s].
+        Length of a run [s], and the times in which the force is ramped up and down [s].
     mode : "auto", "enforce" or "off"
-        What the loop's thread insists on.
+        Whether real-time settings that the system does not grant are an error ("enforce"), are tolerated ("auto") or
+        are not requested ("off").
     realtime : RealTime
-        What it asks of the system.
+        Real-time settings that the loop's thread requests from the system.
     memory : float
-        Rows of so long a time stay in memory [s]; all of them go to the log.
+        Length of time whose rows stay in memory [s]; all rows are written to the log.
     sync : float or None
-        Time after which the log is forced to the disk [s].
+        Interval at which the log is flushed to the disk [s].
     sensor : SensorConfig or None
         The force sensor, where there is one.
     observer : bool or Observer
         Whether the state of the device is estimated from encoder, force sensor and currents, as in a `Scenario`. Needs
         a sensor.
     hand : Hand
-        Who holds the simulated device.
+        The hand that holds the simulated device.
     simulated_bus : mapping
-        Fields of `drives.TimedBus` on top of those that follow from drives and bus.
+        Fields of `drives.TimedBus` that replace those derived from drives and bus.
 
     Raises
     ------
@@ -150,7 +151,7 @@ class Configuration:
         FileNotFoundError
             When there is no such file.
         ConfigurationError
-            For what cannot be; the message names file, line, key, value, unit, range and remedy.
+            For an invalid entry; the message contains file, line, key, value, unit, range and remedy.
         """
         require_path(path, "Configuration.load")
         try:
@@ -161,7 +162,7 @@ class Configuration:
 
     @classmethod
     def from_toml(cls, text: str, *, name: str = "configuration") -> Self:
-        """Read a configuration from TOML text. Raises as `load`."""
+        """Read a configuration from TOML text. Raises the same errors as `load`."""
         require(text, str, "Configuration.from_toml", "text")
         try:
             return cls(**read(Source(name=name, text=text)))
@@ -175,13 +176,13 @@ class Configuration:
         return dataclasses.replace(self, **changes)
 
     def design(self) -> CoreLaw:
-        """Return the law, designed for the device; without a sensor the gains of a force loop are 0."""
+        """Return the law, designed for the device. Without a force sensor the gains of its force loop are 0."""
         with_sensor = self.sensor is not None
         return designed(self.law, self.changes, self.device, self.timing, sensor=with_sensor)
 
     @property
     def counts_of_simulated_drives(self) -> tuple[int, ...]:
-        """What simulated drives count with the handle at its zero: as real ones do, if not configured otherwise."""
+        """Counts of the simulated drives with the handle at its zero; those of the real drives by default."""
         return (self.simulated_zero or self.zero).counts
 
     def scenario(self, *, seconds: float | None = None) -> Scenario:
@@ -209,7 +210,7 @@ class Configuration:
         )
 
     def timed_bus(self) -> TimedBus:
-        """Return the bus as a simulated run has it: bit rate, watches and waiting time as configured."""
+        """Return the simulated bus, with bit rate, monitors and waiting time as configured."""
         from ebac.hardware.timed_bus import timed_bus
 
         return timed_bus(
@@ -220,27 +221,28 @@ class Configuration:
         )
 
     def simulate(self, *, seconds: float | None = None, bus_time: bool = True) -> Trace:
-        """Run it on a virtual clock: same law, drives and bus, every tick on time. What a run should come to.
+        """Simulate the run on a virtual clock, with the same law, drives and bus and every tick on time.
 
-        Time begins as the drives have power. Frames take their time on the bus, and an answer that the loop did not
-        wait for is late, as on hardware. The force is read at the handle without a network, and the first run after
-        power-on is meant: the drives count from 0.
+        The result is what a run on hardware should give. Time begins when the drives have power. Frames take time on
+        the bus, and an answer that the loop did not wait for is late, as on hardware. The force is read at the handle
+        without a network. The simulated run is the first one after power-on: the drives count from 0.
 
         Parameters
         ----------
         seconds : float, optional
-            Length of the run [s]; default as configured.
+            Length of the run [s]; default: as configured.
         bus_time : bool
             False lets every frame arrive at once.
 
         Raises
         ------
         LoopFault
-            When the device leaves its limits, or answers stay away; carries the trace.
+            When the device exceeds its limits or answers are missing; it contains the trace.
         ConfigurationError
-            When `[simulated.signs]` or `[simulated.zero]` differ from `[signs]` and `[zero]`, which are taken as right.
+            When `[simulated.signs]` or `[simulated.zero]` differ from `[signs]` and `[zero]`, which this simulation
+            assumes to be correct.
         ValueError
-            When the loop does not wait long enough for the answers, with both times.
+            When the loop does not wait long enough for the answers; the message contains both times.
         """
         from ebac.simulation import simulate
 

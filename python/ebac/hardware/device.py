@@ -1,4 +1,4 @@
-"""A device that is open: `with ebac.Device.open(config) as device: trace = device.run(law)`."""
+"""An open device: `with ebac.Device.open(config) as device: trace = device.run(law)`."""
 
 from __future__ import annotations
 
@@ -45,51 +45,51 @@ if TYPE_CHECKING:
 
 @plain_constructor
 class OpenDevice:
-    """The drives of a device, set up and without power. Get it from `ebac.Device.open`; a context manager.
+    """The drives of a device, set up and without power. A context manager; `ebac.Device.open` returns it.
 
-    Only a run powers the motors. Each ends without power, however it ends: by its time, a fault, `stop`, an exception,
-    a signal such as SIGINT, the end of the program or of its parent. One that is killed leaves the drives to their own
-    watch over the loop's torques and heartbeat.
+    Only a run powers the motors. Every run ends with the power off, whatever ends it: its time, a fault, `stop`, an
+    exception, a signal such as SIGINT, the end of the program or of its parent. If the process is killed, the drives
+    switch off by their own monitors of the loop's torques and heartbeat.
 
     Parameters
     ----------
     configuration : Configuration
-        What is there, and what is wanted.
+        The configuration of device and run.
     simulate : bool
-        Whether simulated drives, with a simulated device in a simulated hand, stand in for the real ones. All else is
-        as it is: the loop's thread, its clock, the bus, the set-up of the drives.
+        Whether simulated drives, with a simulated device in a simulated hand, replace the real ones. Everything else
+        stays the same: the loop's thread, its clock, the bus, the set-up of the drives.
     detached : bool
-        Whether a run goes on when the program that started this one has died.
+        Whether a run continues when the program that started this process has ended.
     beyond_rating : bool
         Whether limits may exceed the data sheet of the motor.
     longest_step : float, optional
-        Of simulated drives: how long the device moves at most from one tick to the next [s], however late the loop is;
-        default: as long as it takes, as a real one.
+        For simulated drives: the longest time that the device moves from one tick to the next [s], however late the
+        loop is; default: no limit, as for a real device.
     load : optional
-        Of simulated drives: the machine that they move in place of a hand.
+        For simulated drives: the machine that they move in place of a hand.
 
     Attributes
     ----------
     configuration : Configuration
-        As given.
+        The configuration as passed.
     backend : Backend
         The bus with the drives.
 
     Warns
     -----
     UserWarning
-        When the process data take over 70 % of the bus, or the force sensor's own page cannot be read.
+        When the process data take more than 70 % of the bus, or the web page of the force sensor cannot be read.
 
     Raises
     ------
     ConfigurationError
         When a limit exceeds the data sheet of the motor, without `beyond_rating`.
     SensorError
-        When the force sensor scales its counts otherwise than configured.
+        When the force sensor scales its counts differently from the configuration.
     ProfileError
-        When they take over 90 % of it, or a drive would hold its torque without the loop.
+        When the process data take more than 90 % of the bus, or a drive would hold its torque without the loop.
     DriveError
-        When a drive cannot be reached, is in fault, or holds something else than its profile.
+        When a drive cannot be reached, is in fault, or its objects differ from its profile.
     """
 
     def __init__(
@@ -137,24 +137,24 @@ class OpenDevice:
 
     @property
     def report(self) -> Report | None:
-        """How the last run went."""
+        """Report of the last run."""
         return None if self._held.run is None else self._held.run.report
 
     @property
     def confirmed(self) -> bool:
-        """Whether a run may begin: `confirm_zero` was called, the encoders are absolute, or no hand can be there."""
+        """Whether a run may begin: `confirm_zero` was called, the encoders are absolute, or the drives are simulated."""
         return self._confirmed or not self.backend.real or self.configuration.zero.absolute
 
     def confirm_zero(self) -> None:
-        """Confirm that `positions` are right, for all runs until `reset` or until the device is closed.
+        """Confirm that `positions` are correct, for all runs until `reset` or until the device is closed.
 
-        An incremental encoder counts from wherever its handle was when the drive was switched on: with another zero the
-        virtual world stands elsewhere. Real drives take no run before.
+        An incremental encoder counts from the position at which its drive was switched on; with a wrong zero the
+        virtual world is displaced. On real drives no run may begin before the zero is confirmed.
         """
         self._confirmed = True
 
     def positions(self) -> list[AxisPosition]:
-        """Read where each axis stands from the zero of the configuration; between runs only.
+        """Read the position of each axis from the zero of the configuration; only between runs.
 
         Raises
         ------
@@ -179,7 +179,7 @@ class OpenDevice:
         detached: bool = False,
         beyond_rating: bool = False,
     ) -> Self:
-        """Open the device of a configuration, or of its file. Raises as `Configuration.load` and the class."""
+        """Open the device of a configuration or of a file. Raises the errors of `Configuration.load` and of the class."""
         if not isinstance(configuration, Configuration):
             configuration = Configuration.load(configuration)
         return cls(configuration, simulate=simulate, detached=detached, beyond_rating=beyond_rating)
@@ -194,12 +194,12 @@ class OpenDevice:
         look: Callable[[Run], None] = lambda run: None,
         **changes: Any,
     ) -> Trace:
-        """Run a law to the end of its time, and return the rows.
+        """Run a law for the configured time and return the rows.
 
         Parameters
         ----------
         law : str, law class, Variant or law, optional
-            One of the core; that of the configuration, if not given.
+            A law of the core; default: the law of the configuration.
         environment : Free, Wall, Corner, Disc or worlds.World, optional
             The virtual world; that of the configuration, if not given.
         seconds : float, optional
@@ -207,27 +207,27 @@ class OpenDevice:
         log : str or Path, optional
             File to record to, .mcap; must not exist.
         look : callable
-            Called about 50 times a second with the run; what it raises ends the run, and is raised after it.
+            Called about 50 times a second with the run. An exception from it ends the run and is raised afterwards.
         **changes
-            Parameters of the law on top of its design, in SI units.
+            Parameters of the law that replace those of its design, in SI units.
 
         Returns
         -------
         Trace
-            The rows in memory, those of `configuration.memory` seconds at most; the log has all.
+            The rows in memory, from the last `configuration.memory` seconds at most; the log contains all rows.
 
         Raises
         ------
         LoopFault
-            When the loop ended by a fault; it carries the rows. The next run asks for `reset` first.
+            When the loop ended by a fault; it contains the rows. Call `reset` before the next run.
         RuntimeError
             When a run is under way, or the last one ended by a fault and `reset` was not called.
         PositionError
             When an axis stands outside the workspace, or on real drives `confirm_zero` was not called.
         DriveError, OSError
-            When a drive does not obey, or the log cannot be written.
+            When a drive does not carry out a command, or the log cannot be written.
         KeyboardInterrupt, Terminated
-            When a signal came; all has stopped before.
+            When the process received a signal; everything is stopped before this is raised.
         """
         run = self.start(law, environment, seconds=seconds, log=log, **changes)
         with run:
@@ -243,7 +243,7 @@ class OpenDevice:
         log: str | Path | None = None,
         **changes: Any,
     ) -> Run:
-        """Start a run and return at once: to change parameters, to look at the rows, to stop it. As `run`.
+        """Start a run and return at once, so that you can change parameters, read the rows and stop it. See `run`.
 
         Raises
         ------
@@ -282,9 +282,9 @@ class OpenDevice:
         )  # fmt: skip
 
     def reset(self) -> None:
-        """Allow another run after one that ended by a fault. A drive in fault is reset by `ebac drive reset-fault`.
+        """Allow another run after one that ended by a fault. To reset a drive in fault, use `ebac drive reset-fault`.
 
-        The zero must be confirmed anew: where a fault was a loss of power, an incremental encoder has lost its place.
+        The zero must be confirmed again: if the fault was a loss of power, an incremental encoder has lost its position.
         """
         self._confirmed = False
         self._cleared = self.report
@@ -297,7 +297,7 @@ class OpenDevice:
         return designed(law, changes, known.device, known.timing, sensor=with_sensor)
 
     def close(self) -> None:
-        """End a run that is under way, and let go of the bus. The drives have no power."""
+        """End a run that is under way and close the bus. The drives have no power afterwards."""
         self._forgotten.detach()
         self._held.close()
 

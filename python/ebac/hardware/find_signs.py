@@ -1,4 +1,4 @@
-"""Find the signs of motors and encoders: push each axis a little, and see where it goes."""
+"""Find the signs of motors and encoders: push each axis with a small current and observe its motion."""
 
 from __future__ import annotations
 
@@ -33,22 +33,22 @@ _ENDING = (LoopState.STOP, LoopState.IDLE, LoopState.FAULT)
 
 @dataclass(frozen=True, kw_only=True)
 class AxisSigns:
-    """What the pushes of one axis showed.
+    """Result of the pushes of one axis.
 
     Attributes
     ----------
     axis : int
-        From 0.
+        Number of the axis, from 0.
     configured_motor, configured_encoder : int
         The signs of the configuration.
     motor, encoder : int or None
-        The right ones; None where the axis did not move, or not to and fro.
+        The correct signs; None if the axis did not move, or not in both directions.
     moved_m : float
-        Way along +x under a positive force, mean of both directions; negative is right.
+        Motion along +x under a positive force, mean of both directions [m]; negative is correct.
     force_N : float or None
-        What the force sensor showed against a positive force; positive is right, None where nobody held.
+        Reading of the force sensor against a positive force [N]; positive is correct, None if no hand held the handle.
     remark : str
-        What came of it.
+        The result in words.
     """
 
     axis: int
@@ -62,7 +62,7 @@ class AxisSigns:
 
     @property
     def right(self) -> bool:
-        """Whether the configured signs are the right ones."""
+        """Whether the configured signs are correct."""
         return (self.motor, self.encoder) == (self.configured_motor, self.configured_encoder)
 
 
@@ -93,10 +93,10 @@ def find_signs(
     current: float = 0.1,
     look: Callable[[Run], None] = lambda run: None,
 ) -> list[AxisSigns]:
-    """Push every axis to and fro with a small current, and return which signs are right.
+    """Push every axis in both directions with a small current, and return the correct signs.
 
-    The handle is let go, or held loosely: only where a hand holds against the motor does the force sensor distinguish a
-    wrong motor from a wrong encoder. Without it a motor is called wrong where both together are.
+    The handle is free or held loosely. The force sensor can distinguish a reversed motor from a reversed encoder only
+    if a hand holds against the motor. Otherwise, if the two signs do not match, the motor is reported as wrong.
 
     Parameters
     ----------
@@ -105,9 +105,9 @@ def find_signs(
     simulate : bool
         Whether simulated drives stand in for the real ones.
     current : float
-        Of every push [A], 0.02 to 0.3.
+        Current of every push [A], 0.02 to 0.3.
     look : callable
-        Called between two looks at the rows; it may stop the run, which ends the test.
+        Called repeatedly while the rows are read; it may stop the run, which ends the test.
 
     Raises
     ------
@@ -116,7 +116,7 @@ def find_signs(
     RuntimeError
         When the test was stopped before its end.
     LoopFault, DriveError
-        As a run.
+        As for a run.
     """
     if not 0.02 <= current <= 0.3:
         raise ValueError(f"current = {current:g} A: must lie in [0.02, 0.3] A")
