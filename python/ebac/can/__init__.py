@@ -1,4 +1,4 @@
-"""CAN buses inside this process: the interface `ebac` of python-can, and the nodes on its channels."""
+"""CAN buses inside this process: the python-can interface `ebac` and the nodes on its channels."""
 
 from ebac._util.lazy import from_stub
 

@@ -1,4 +1,4 @@
-"""Channels of the interface `ebac`: buses of this process by name, and the nodes that stand on them."""
+"""Channels of the interface `ebac`: named buses of this process, and the nodes on them."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ Nodes = Callable[[LoopbackHub], AbstractContextManager[object]]
 
 
 def resting_joystick() -> Scenario:
-    """Return the scenario of the joystick on a channel: the paper's, in a hand that holds it where it is."""
+    """Return the scenario of the joystick on a channel: the paper's device, with a hand that holds it still."""
     from ebac import presets
     from ebac.scenario import Scenario
 
@@ -36,13 +36,13 @@ NODES: dict[str, Nodes] = {"joystick": joystick}
 
 
 def nodes_on(channel: str) -> Nodes | None:
-    """Return what builds the nodes of a channel; None where it carries but those who open it."""
+    """Return the function that builds the nodes of a channel; None if the channel has no nodes of its own."""
     names = [name for name in NODES if channel.startswith(name)]
     return NODES[max(names, key=len)] if names else None
 
 
 def populate(channel: str, hub: LoopbackHub) -> AbstractContextManager[object]:
-    """Return the context in which a channel's nodes stand on its bus.
+    """Return the context in which the nodes of a channel run on its bus.
 
     It is entered when the first bus on the channel is open, which so receives their boot messages, and left after
     the last one shut down.
@@ -67,7 +67,7 @@ LOCK = RLock()
 
 
 def join(channel: str, queue: int, own: bool) -> LoopbackBus:
-    """Return an end of the bus of a channel, and hold it; the first one puts its nodes on."""
+    """Open an end of the bus of a channel and return it. The first call creates the bus and starts its nodes."""
     with LOCK:
         entry = CHANNELS.get(channel)
         hub = LoopbackHub(stamps=True) if entry is None else entry.hub
@@ -85,7 +85,7 @@ def join(channel: str, queue: int, own: bool) -> LoopbackBus:
 
 
 def leave(channel: str) -> None:
-    """Let go of a channel; the last one takes its nodes off."""
+    """Close a channel. The last call stops its nodes."""
     with LOCK:
         entry = CHANNELS.get(channel)
         if entry is None:
@@ -99,7 +99,7 @@ def leave(channel: str) -> None:
 
 @contextmanager
 def hub_of(channel: str) -> Iterator[LoopbackHub]:
-    """Hold a channel, and give its bus: for a loop of C++ among the programs of Python."""
+    """Keep a channel open and yield its bus, so that a C++ loop can use it together with Python programs."""
     end = join(channel, 1, False)
     try:
         yield CHANNELS[channel].hub
@@ -110,12 +110,12 @@ def hub_of(channel: str) -> Iterator[LoopbackHub]:
 
 @contextmanager
 def standing(channel: str, nodes: Nodes) -> Iterator[LoopbackHub]:
-    """Put nodes of your own on a new channel, hold it, and give its bus.
+    """Put your own nodes on a new channel, keep it open, and yield its bus.
 
     Raises
     ------
     ValueError
-        When there is a channel of that name, or nodes that stand on it.
+        When a channel of that name exists, or nodes are registered for it.
     """
     with LOCK:
         if channel in CHANNELS or nodes_on(channel) is not None:

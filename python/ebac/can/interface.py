@@ -1,14 +1,15 @@
-"""The python-can interface `ebac`: CAN buses inside this process, the simulated joystick on one of them.
+"""The python-can interface `ebac`: CAN buses inside this process, one of them with the simulated joystick.
 
-python-can finds it by its name, so that canopen, `can.Notifier`, `can.logger` and `can.viewer` work on it::
+python-can finds it by its name, so canopen, `can.Notifier`, `can.logger` and `can.viewer` can use it::
 
     import can
 
     with can.Bus(interface="ebac", channel="joystick") as bus:
         print(bus.recv(timeout=1.0))
 
-A channel is a bus of this process, made by whoever opens it first and gone with the last who shuts down. Buses on one
-channel receive each other's frames, and the C++ loop on the same `ebac._core.LoopbackHub` receives all.
+A channel is a bus of this process. It is created when it is first opened, and removed when the last bus object on it is
+shut down. Bus objects on one channel receive each other's frames, and a C++ loop on the same `ebac._core.LoopbackHub`
+receives all of them.
 """
 
 from __future__ import annotations
@@ -45,28 +46,28 @@ _OPEN: WeakSet[EbacBus] = WeakSet()
 
 
 class EbacBus(can.BusABC):
-    """One end of a CAN bus inside this process; `can.Bus(interface="ebac", channel=...)` makes one.
+    """One end of a CAN bus inside this process; `can.Bus(interface="ebac", channel=...)` opens it.
 
     Classical CAN only. Any thread may send and receive.
 
     Parameters
     ----------
     channel : str
-        Name of the bus. Names that start with "joystick" carry simulated drives.
+        Name of the bus. A bus whose name starts with "joystick" contains simulated drives.
     receive_own_messages : bool
-        Receive also what this end sent, with `is_rx` false.
+        Whether this end also receives the frames that it sent, with `is_rx` false.
     rx_queue_size : int
-        Frames that wait to be received, 1 to 1,048,576. What comes when it is full is lost to this end alone,
-        counted in `counts.lost` and reported by the logger `can.ebac`.
+        Length of the receive queue [frames], 1 to 1,048,576. Frames that arrive when it is full are lost for this end
+        only, counted in `counts.lost` and reported by the logger `can.ebac`.
     can_filters : list of dict, optional
-        As of `can.BusABC.set_filters`.
+        As for `can.BusABC.set_filters`.
     **kwargs
-        What other interfaces know, such as `bitrate`, means nothing here.
+        Options of other interfaces, such as `bitrate`, have no effect.
 
     Raises
     ------
     ValueError
-        When the queue is out of range, or CAN FD is asked for.
+        When the length of the queue is out of range, or CAN FD is requested.
     """
 
     def __init__(
@@ -90,28 +91,28 @@ class EbacBus(can.BusABC):
 
     @property
     def counts(self) -> BusCounts:
-        """Frames sent, refused, received and lost by this end."""
+        """Numbers of frames sent, refused, received and lost by this end."""
         return self._end.counts
 
     def send(self, msg: can.Message, timeout: float | None = None) -> None:
         """Send a message to all others on the channel.
 
-        As on the wire it is taken at once, whoever listens; only while another thread that sends is held up may it have
-        to wait.
+        As on a real bus it is accepted at once, whether or not anyone receives it. It may have to wait only if another
+        sending thread is held up.
 
         Parameters
         ----------
         msg : can.Message
-            Classical; 11 or 29 bits of identifier, up to 8 bytes.
+            A classical frame with an 11-bit or 29-bit identifier and up to 8 bytes.
         timeout : float, optional
-            How long to try [s]; None for no end.
+            How long to try [s]; None for no limit.
 
         Raises
         ------
         can.CanOperationError
-            When the bus is shut down, or did not take the message in time.
+            When the bus is shut down or did not accept the message in time.
         ValueError
-            When no classical frame can carry the message.
+            When the message does not fit a classical frame.
         """
         if msg.is_fd:
             raise ValueError(f"{msg}: a message of CAN FD, but this bus is classical; is_fd=False")
@@ -179,7 +180,7 @@ class EbacBus(can.BusABC):
         return task
 
     def flush_tx_buffer(self) -> None:
-        """Do nothing: a frame that was sent is on its way already."""
+        """Do nothing: frames are sent at once."""
 
     def shutdown(self) -> None:
         """Leave the channel. A thread that waits in `recv` gets `can.CanOperationError`."""

@@ -78,7 +78,7 @@ class Backend:
 
 @contextmanager
 def hardware(configuration: Configuration) -> Iterator[Backend]:
-    """Give the bus a configuration names."""
+    """Open the bus that a configuration names."""
     interface, channel = configuration.interface, configuration.channel
     if interface == "socketcan":
         yield Backend(

@@ -142,7 +142,7 @@ class OpenDevice:
 
     @property
     def confirmed(self) -> bool:
-        """Whether a run may begin: `confirm_zero` was called, the encoders are absolute, or the drives are simulated."""
+        """Whether a run may begin: `confirm_zero` was called, the encoders are absolute, or drives are simulated."""
         return self._confirmed or not self.backend.real or self.configuration.zero.absolute
 
     def confirm_zero(self) -> None:
@@ -179,7 +179,7 @@ class OpenDevice:
         detached: bool = False,
         beyond_rating: bool = False,
     ) -> Self:
-        """Open the device of a configuration or of a file. Raises the errors of `Configuration.load` and of the class."""
+        """Open the device of a configuration or a file. Raises the errors of `Configuration.load` and the class."""
         if not isinstance(configuration, Configuration):
             configuration = Configuration.load(configuration)
         return cls(configuration, simulate=simulate, detached=detached, beyond_rating=beyond_rating)
@@ -284,7 +284,7 @@ class OpenDevice:
     def reset(self) -> None:
         """Allow another run after one that ended by a fault. To reset a drive in fault, use `ebac drive reset-fault`.
 
-        The zero must be confirmed again: if the fault was a loss of power, an incremental encoder has lost its position.
+        The zero must be confirmed again: after a loss of power an incremental encoder has lost its position.
         """
         self._confirmed = False
         self._cleared = self.report

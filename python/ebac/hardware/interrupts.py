@@ -22,12 +22,12 @@ PARENT = 0.1
 
 
 class Terminated(SystemExit):
-    """The process received a signal to end (SIGTERM, ...); all that moved has been stopped before this was raised.
+    """The process received a signal to end (SIGTERM, ...). Everything that moved was stopped before this is raised.
 
     Attributes
     ----------
     signal : signal.Signals
-        By what.
+        The signal received.
     """
 
     def __init__(self, number: int) -> None:

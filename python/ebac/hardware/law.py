@@ -15,14 +15,14 @@ FORCE_GAINS = ("kp", "kd")
 def designed(
     law: AnyLaw, changes: Mapping[str, Any], device: Device, timing: Timing, *, sensor: bool
 ) -> CoreLaw:
-    """Return a law of the core for a device; without a sensor, the gains of its force loop are 0.
+    """Return a law of the core, designed for a device. Without a force sensor the gains of its force loop are 0.
 
     Raises
     ------
     TypeError
-        For a law in Python: the loop's thread never touches Python.
+        For a law written in Python: the loop's thread never runs Python code.
     ValueError
-        When a gain of the force loop is asked for and nothing measures the force.
+        When a gain of the force loop is requested without a force sensor.
     """
     given = dict(changes)
     if not sensor and (isinstance(law, (str, type))):

@@ -1,4 +1,4 @@
-"""What can be seen of a loop while it runs, and afterwards."""
+"""Status and rows of a loop while it runs and afterwards."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 
 class LiveStatus:
-    """Rows and current parameters of a running loop, for any thread, at any time."""
+    """Rows and current parameters of a running loop; any thread may read them at any time."""
 
     def __init__(
         self,
@@ -42,7 +42,7 @@ class LiveStatus:
 
     @property
     def target(self) -> tuple[float | None, ...]:
-        """Target of a simulated hand, by axis [m]; None where it follows the path it has."""
+        """Target of a simulated hand, by axis [m]; None for an axis that follows its path."""
         return self._parameters.target
 
     @property
@@ -52,7 +52,7 @@ class LiveStatus:
 
     @property
     def ticks(self) -> int:
-        """Rows so far."""
+        """Number of rows so far."""
         return self._running.rows.count
 
     def tail(self, rows: int = 1000) -> Trace:
@@ -61,7 +61,7 @@ class LiveStatus:
         Parameters
         ----------
         rows : int
-            How many at most, at least 1.
+            Largest number of rows, at least 1.
 
         Returns
         -------
@@ -89,14 +89,14 @@ class LiveStatus:
 
     @property
     def state(self) -> _core.LoopState:
-        """Where the loop stands: arm, run, stop, idle or fault."""
+        """State of the loop: arm, run, stop, idle or fault."""
         if self.done:
             return self._running.state
         last = self.tail(1)
         return _core.LoopState(int(last["state"][-1])) if len(last) else _core.LoopState.ARM
 
     def trace(self) -> Trace:
-        """Return all rows in memory, shared and not copied where they are no ring's."""
+        """Return all rows in memory; they are shared instead of copied unless they are in a ring buffer."""
         return Trace.from_rows(
             self._running.rows,
             scenario=self._scenario,

@@ -1,4 +1,4 @@
-"""How a run went, beside its rows."""
+"""Report of a run, in addition to its rows."""
 
 from __future__ import annotations
 
@@ -20,26 +20,26 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, kw_only=True)
 class Report:
-    """How a run went, beside its rows. SI units, the unit in the name.
+    """Report of a run, in addition to its rows. SI units; the names contain the unit.
 
     Attributes
     ----------
     ended_by : str
         "time", "fault", "stop", "key", "parent", "exception", "recorder", or the name of a signal such as "SIGINT".
     log : Path or None
-        The log.
+        File of the log.
     ticks, recorded, lost_rows : int
-        Ticks of the loop, rows in the log, and rows written over before they were recorded.
+        Ticks of the loop, rows in the log, and rows that were overwritten before they were recorded.
     changes_lost : int
-        Changes that acted but of which no note was kept.
+        Parameter updates that took effect but were not recorded.
     drives : tuple of str
-        State of each drive, asked after the run.
+        State of each drive, read after the run.
     positions : tuple of AxisPosition
-        Where each axis stood before it had power, and the zero it was counted from; none on a virtual clock.
+        Position of each axis before its motor had power, and the zero used for it; none on a virtual clock.
     grants : tuple of Grant
-        What its threads asked of the system, and got: the loop's, then those of what is simulated.
+        What its threads requested from the system and what was granted: the loop's, then those of simulated parts.
     sent, received, refused, lost_frames : int
-        Frames at the loop's end of the bus.
+        Numbers of frames at the loop's end of the bus.
     """
 
     ended_by: str
@@ -68,7 +68,7 @@ class Report:
         ended_by: str,
         by_signal: int | None,
     ) -> Self:
-        """Return how a loop went that has ended: by a fault, a signal, or what else is known, else by its time."""
+        """Return the report of a loop that has ended: by a fault, a signal, another known reason, or its time."""
         if running.state is LoopState.FAULT:
             ended_by = "fault"
         elif by_signal is not None:
@@ -92,7 +92,7 @@ class Report:
 
     @classmethod
     def of_virtual(cls, trace: Trace, log: Path | None, *, fault: bool) -> Self:
-        """Return how a run on a virtual clock went: nothing was late or lost, and no drive is left to ask."""
+        """Return the report of a run on a virtual clock: nothing is late or lost, and the state of no drive is read."""
         rows = len(trace)
         return cls(
             ended_by="fault" if fault else "time",
@@ -126,18 +126,18 @@ def grant_row(grant: Grant) -> dict[str, Any]:
 
 @dataclass(frozen=True, kw_only=True)
 class Times:
-    """How quick and how punctual a loop was. Times in s.
+    """Computation times and lateness of a loop [s].
 
     Attributes
     ----------
     compute_p50_s, compute_p99_9_s, compute_most_s : float
-        From wake-up to the end of the tick, less the exchange with the drives.
+        Time from wake-up to the end of the tick, without the exchange with the drives.
     exchange_p50_s, exchange_p99_9_s : float
-        The exchange, waiting for the drives' answers included.
+        Time of the exchange, including the wait for the drives' answers.
     late_p50_s, late_p99_9_s, late_most_s : float
-        Wake-up after the planned instant.
+        Delay of the wake-up after the planned instant.
     skipped : int
-        Ticks that could not be kept.
+        Number of ticks that were skipped because the loop was late.
     """
 
     compute_p50_s: float
@@ -157,7 +157,7 @@ def times(trace: Trace) -> Times:
     Raises
     ------
     ValueError
-        When the trace has no rows, or is not of a run in real time.
+        When the trace has no rows or is not the trace of a run in real time.
     """
     if len(trace) == 0 or "time.busy" not in trace:
         raise ValueError("the trace has no times: it is empty, or of a simulation in virtual time")
@@ -182,7 +182,7 @@ def times(trace: Trace) -> Times:
 
 
 def under_the_law(trace: Trace) -> Trace:
-    """Return the rows in which the law acted, their time from its first tick on."""
+    """Return the rows in which the law acted; their time begins at its first tick."""
     rows = np.flatnonzero(trace["state"] == int(LoopState.RUN))
     if not len(rows):
         return trace.rows(0, 0)

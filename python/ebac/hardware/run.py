@@ -1,4 +1,4 @@
-"""A run on hardware: a loop in a thread of C++, watched, recorded and ended from Python."""
+"""A run on hardware: a loop in a C++ thread that Python monitors, records and ends."""
 
 from __future__ import annotations
 
@@ -35,10 +35,10 @@ LOOK = 0.02
 
 @plain_constructor
 class Run(RunChanges):
-    """A loop at work. Get it from `OpenDevice.start`; a context manager that ends it.
+    """A running loop. `OpenDevice.start` returns it; a context manager that ends the run.
 
-    Whatever comes first ends it: its time, a fault, `stop`, an exception, a signal, the end of the program or of its
-    parent. Each ends in zero force and drives without power.
+    The first of these ends it: its time, a fault, `stop`, an exception, a signal, the end of the program or of its
+    parent. In each case the force goes to zero and the drives have no power afterwards.
     """
 
     def __init__(
@@ -72,18 +72,18 @@ class Run(RunChanges):
 
     @property
     def grants(self) -> list[_core.Grant]:
-        """What its threads asked of the system, and what they got: the loop's, then those of what is simulated."""
+        """What its threads requested from the system and were granted: the loop's, then those of simulated parts."""
         return list(self._grants)
 
     def stop(self, *, at_once: bool = False, by: str = "stop") -> None:
-        """Ask for the end: force ramped to zero, drives without power. `finish` waits for it.
+        """Request the end of the run: the force is ramped to zero and the drives lose power. `finish` waits for it.
 
         Parameters
         ----------
         at_once : bool
-            Without the ramp: zero force from the next tick on.
+            Whether the ramp is omitted, so that the force is zero from the next tick on.
         by : str
-            What `Report.ended_by` will say.
+            Value of `Report.ended_by`.
         """
         self._note_end(by)
         self._running.stop(at_once=at_once)
@@ -96,7 +96,7 @@ class Run(RunChanges):
         sync: float | None = None,
         file: io.FileIO | None = None,
     ) -> None:
-        """Write the rows to a log from here on, in a thread of its own."""
+        """Write the rows to a log from now on, in a separate thread."""
         from ebac.logs import Recorder
 
         self.recorder = Recorder(
@@ -123,7 +123,7 @@ class Run(RunChanges):
         Parameters
         ----------
         look : callable
-            Called about 50 times a second with this run; what it raises ends the run.
+            Called about 50 times a second with this run. An exception from it ends the run.
         """
         while not self._running.wait(LOOK):
             look(self)
@@ -132,16 +132,16 @@ class Run(RunChanges):
                 self._running.stop()
 
     def finish(self) -> Trace:
-        """End the loop if it runs, see that the drives have no power, close the log; return the rows in memory.
+        """End the loop if it runs, check that the drives have no power, close the log, and return the rows in memory.
 
         Raises
         ------
         LoopFault
-            When the loop ended by a fault; it carries the rows.
+            When the loop ended by a fault; it contains the rows.
         DriveError
-            When a drive could not be seen to be without power.
+            When it could not be confirmed that a drive has no power.
         OSError
-            When the log could not be written to its end.
+            When the log could not be written completely.
         """
         self.end()
         trace = self.trace()
@@ -154,7 +154,9 @@ class Run(RunChanges):
         return trace
 
     def end(self) -> None:
-        """End the loop, power off, close the log; nothing the second time. Raises as `finish`, but for a fault."""
+        """End the loop, switch the power off and close the log. A second call does nothing.
+
+        Raises the same errors as `finish`, except `LoopFault`."""
         with self._lock:
             if self.report is not None:
                 return

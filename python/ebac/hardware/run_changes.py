@@ -1,4 +1,4 @@
-"""What can be changed of a loop while it runs: its law, its virtual world, the target of a simulated hand."""
+"""Change a loop while it runs: its law, its virtual world, the target of a simulated hand."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 class RunChanges(LiveStatus):
-    """Changes of a running loop, each from the next tick on, by any thread."""
+    """Changes of a running loop. Each takes effect at the next tick; any thread may make them."""
 
     def __init__(
         self,
@@ -30,17 +30,17 @@ class RunChanges(LiveStatus):
         self._lock = threading.RLock()  # who changes or ends it
 
     def retune(self, **changes: Any) -> CoreLaw:
-        """Change parameters of the law from the next tick on; its memory stays. Return the law with its new gains.
+        """Change parameters of the law from the next tick on and return it. It keeps its internal state.
 
         Parameters
         ----------
         **changes
-            In their SI units. What the law knows of the device cannot change while it runs.
+            New values in SI units. Declared parameters of the device cannot change while the law runs.
 
         Raises
         ------
         ValueError
-            For a number out of range, or one that cannot change.
+            For a number out of range, or a parameter that cannot change.
         RuntimeError
             When the loop has ended.
         """
@@ -51,9 +51,9 @@ class RunChanges(LiveStatus):
     def replace_law(self, law: CoreLaw) -> CoreLaw:
         """Let another law take over from the next tick on, and return it.
 
-        It begins without memory, and the step between the two forces fades out within 50 ms. A law that differs in its
-        gains only takes over their memory, too, as in `retune`. The columns `law.*` are those of the law of the start,
-        and 0 under another one.
+        It begins with its initial state, and the step between the two forces fades out within 50 ms. A law that
+        differs only in its gains continues with the present state, as in `retune`. The columns `law.*` are those of
+        the law with which the run began, and 0 under another law.
 
         Parameters
         ----------
@@ -63,7 +63,7 @@ class RunChanges(LiveStatus):
         Raises
         ------
         TypeError
-            For one that is not compiled in C++.
+            For a law that is not compiled in C++.
         RuntimeError
             When the loop has ended.
         """
@@ -72,12 +72,12 @@ class RunChanges(LiveStatus):
             return self._parameters.replace_law(law)
 
     def hold_back(self, ticks: int) -> int:
-        """Hold every command back by some ticks more from the next tick on, and return how many; simulated drives only.
+        """Delay every command by some more ticks from the next tick on, and return their number; simulated drives only.
 
         Parameters
         ----------
         ticks : int
-            On top of what drives and bus take [samples], 0 to 7.
+            Delay in addition to that of drives and bus [samples], 0 to 7.
 
         Raises
         ------
@@ -91,19 +91,19 @@ class RunChanges(LiveStatus):
             return self._parameters.hold_back(ticks)
 
     def change(self, environment: Environment | None = None, **changes: Any) -> Environment:
-        """Change the virtual world from the next tick on: another one, or numbers of the present one. Return it.
+        """Replace the virtual world, or change parameters of the present one, from the next tick on, and return it.
 
         Parameters
         ----------
         environment : Free, Wall, Corner, Disc or worlds.World, optional
-            The new one; the present one, if not given.
+            The new world; default: the present one.
         **changes
-            Numbers of it, in SI units: `stiffness=5e3`.
+            Parameters of the world, in SI units: `stiffness=5e3`.
 
         Raises
         ------
         ValueError, TypeError
-            For a number out of range, or a name it does not have.
+            For a number out of range, or a name that the world does not have.
         RuntimeError
             When the loop has ended.
         """
@@ -117,7 +117,7 @@ class RunChanges(LiveStatus):
         Parameters
         ----------
         *target
-            By axis, -10 to 10 m; None for an axis that stays as it is.
+            Target of each axis, -10 to 10 m; None for an axis whose target does not change.
 
         Returns
         -------
@@ -127,8 +127,8 @@ class RunChanges(LiveStatus):
         Raises
         ------
         ValueError
-            For a number out of range, for more numbers than axes, where the path is a recorded one, and on hardware:
-            only a simulated hand has a target that can be set.
+            For a number out of range, for more numbers than axes, if the path is a recorded one, and on hardware:
+            only the target of a simulated hand can be set.
         RuntimeError
             When the loop has ended.
         """
@@ -137,7 +137,7 @@ class RunChanges(LiveStatus):
             return self._parameters.set_target(*target)
 
     def aim(self, *target: float | None) -> tuple[float | None, ...]:
-        """Do what `set_target` does; the old name, until the next release."""
+        """Do the same as `set_target`; the old name, which will be removed in the next release."""
         warnings.warn("Run.aim is now Run.set_target", DeprecationWarning, stacklevel=2)
         return self.set_target(*target)
 

@@ -1,4 +1,4 @@
-"""Signs of motors and encoders: what a configuration turns, so that a positive force resists motion along +x."""
+"""Signs of motors and encoders, by which a configuration makes a positive force resist motion along +x."""
 
 from __future__ import annotations
 
@@ -11,12 +11,12 @@ from ebac.hardware.toml_table import with_table
 
 @dataclass(frozen=True, kw_only=True)
 class Signs:
-    """1 or -1 for each axis; empty for all 1.
+    """Signs of motors and encoders, 1 or -1 for each axis; empty if all are 1.
 
     Attributes
     ----------
     motor, encoder : tuple of int
-        What the current of each motor and the counts of each encoder are turned by.
+        Factors of the current of each motor and of the counts of each encoder.
     """
 
     motor: tuple[int, ...] = ()
@@ -29,7 +29,7 @@ class Signs:
         Raises
         ------
         ValueError
-            For what is not 1 or -1 for each of the axes.
+            When it does not contain 1 or -1 for each of the axes.
         """
         for name, given in table.items():
             fits = isinstance(given, list) and len(given) == axes
@@ -41,11 +41,11 @@ class Signs:
         return cls(**{name: tuple(given) for name, given in table.items()})
 
     def of_all(self, axes: int) -> Self:
-        """Return the same, with every sign written out."""
+        """Return the same signs, with the sign of every axis given explicitly."""
         return type(self)(motor=self.motor or (1,) * axes, encoder=self.encoder or (1,) * axes)
 
     def against(self, needed: Signs | None) -> Signs:
-        """Return what is left to turn on a device that needs other signs; nothing where they are the same."""
+        """Return the signs that remain on a device that needs other signs; all 1 if they are the same."""
         if needed is None:
             return Signs()
         return Signs(
@@ -58,7 +58,7 @@ class Signs:
         Raises
         ------
         ValueError
-            When the signs stand there in a way that cannot be changed line by line.
+            When the signs are written in a form that cannot be changed line by line.
         """
         wanted = {"motor": self.motor, "encoder": self.encoder}
         return with_table(text, "signs", wanted, "one for each axis, found by `ebac drive signs`")

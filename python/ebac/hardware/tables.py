@@ -18,7 +18,7 @@ _NAMED = re.compile(r"\b[A-Za-z]\w*\.([a-z]\w*)(?: = |:)")
 
 
 class ConfigurationError(ProfileError):
-    """A configuration that cannot be; the message names file, line, key, value, unit, range and remedy."""
+    """An invalid configuration; the message contains file, line, key, value, unit, range and remedy."""
 
 
 def table(source: Source, path: Path) -> Mapping[str, Any]:

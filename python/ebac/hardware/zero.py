@@ -1,4 +1,4 @@
-"""The zero of the encoders: what each drive counts with the handle at the origin of the virtual world."""
+"""The zero of the encoders: the counts of each drive with the handle at the origin of the virtual world."""
 
 from __future__ import annotations
 
@@ -14,15 +14,15 @@ LEAST, MOST = -(2**31), 2**31 - 1
 
 @dataclass(frozen=True, kw_only=True)
 class Zero:
-    """What each drive shows (0x6064) where the handle is at its zero.
+    """Counts that each drive shows (0x6064) with the handle at its zero.
 
     Attributes
     ----------
     counts : tuple of int
-        Counts of each axis, -2147483648 to 2147483647, as the drive shows them, before `[signs]`; empty for all 0.
+        Counts of each axis, -2147483648 to 2147483647, as the drive shows them, before `[signs]`; empty if all are 0.
     absolute : bool
-        Whether these counts hold for good, as those of an absolute encoder do. An incremental encoder begins anew
-        whenever its drive is switched on: then a run on hardware asks whether the zero is right.
+        Whether these counts stay valid, as those of an absolute encoder do. An incremental encoder begins at another
+        count whenever its drive is switched on; a run on hardware then asks whether the zero is correct.
     """
 
     counts: tuple[int, ...] = ()
@@ -35,7 +35,7 @@ class Zero:
         Raises
         ------
         ValueError
-            For counts that are no whole numbers of 32 bits, one for each axis, and for an absolute encoder without.
+            When there is not one 32-bit integer for each axis, and for an absolute encoder without counts.
         """
         counts, absolute = table.get("counts", []), table.get("absolute", False)
         fits = isinstance(counts, list) and ("counts" not in table or len(counts) == axes)
@@ -53,7 +53,7 @@ class Zero:
         return cls(counts=tuple(counts), absolute=absolute)
 
     def of_all(self, axes: int) -> tuple[int, ...]:
-        """Return the counts of every axis, written out."""
+        """Return the counts of every axis, given explicitly."""
         return self.counts or (0,) * axes
 
     def written_into(self, text: str) -> str:
@@ -62,7 +62,7 @@ class Zero:
         Raises
         ------
         ValueError
-            When the zero stands there in a way that cannot be changed line by line.
+            When the zero is written in a form that cannot be changed line by line.
         """
         note = "counts of each drive with the handle at its zero, by `ebac drive zero`"
         return with_table(text, "zero", {"counts": self.counts}, note)
