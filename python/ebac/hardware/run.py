@@ -156,7 +156,8 @@ class Run(RunChanges):
     def end(self) -> None:
         """End the loop, switch the power off and close the log. A second call does nothing.
 
-        Raises the same errors as `finish`, except `LoopFault`."""
+        Raises the same errors as `finish`, except `LoopFault`.
+        """
         with self._lock:
             if self.report is not None:
                 return

@@ -1,4 +1,4 @@
-"""From logs to models: the arm of eq. (4), the device, the gains of eq. (2).
+"""Identify models from logs: the arm of eq. (4), the device, the gains of eq. (2).
 
 A first look::
 
@@ -6,7 +6,7 @@ A first look::
 
     recording = identify.load("press.csv")
     result = identify.fit_arm(recording)
-    print(result)  # estimates, intervals, what cannot be separated
+    print(result)  # estimates, intervals, parameters that cannot be separated
     scenario = ebac.Scenario(hand=result.hand)
 """
 

@@ -43,35 +43,34 @@ def fit_arm(
 ) -> ArmResult:
     """Fit M0, B0, K0 and the targets X0 of eq. (4) to one or more recordings of one arm.
 
-    The force of the hand drives the model, the position is compared: what lies on the other side of the force sensor,
-    device, law and
-    wall, need not be known. The force reading is an input with noise, so the errors are those of a Kalman filter one
-    tick ahead; its
-    initial state is free. The noise of the force is estimated along.
+    The recorded force of the hand drives the model, and the predicted position is compared with the recorded one. The
+    other side of the force sensor (device, law and wall) need not be known. The force reading is an input with noise,
+    so the errors are those of a Kalman filter one tick ahead; its initial state is free. The noise of the force is
+    estimated, too.
 
     Parameters
     ----------
     recordings : Recording or sequence of them
-        With position and force of the hand.
+        Recordings with position and force of the hand.
     targets : Target or sequence of them, optional
-        One for each recording; default: held in one place.
+        Target of the hand in each recording; default: held in one place.
     fixed : mapping, optional
         Values that are not fitted, by name: `{"M0": 0.2}` [kg], B0 [N s/m], K0 [N/m], X0, X0/2 [m], delay, onset [s].
-        Where a log lacks the motor's force, what its steps add to the delay is still fitted, see `ArmResult.notes`.
-        A name of one recording carries its number: `X0@2`.
+        If a log lacks the motor's force, the delay that its steps cause is fitted all the same; see `ArmResult.notes`.
+        For a parameter of one recording, append the number of the recording: `X0@2`.
     bounds : mapping, optional
         (low, high) by name.
     free : sequence of str, optional
-        Fit `delay` or `onset` too, which are 0 otherwise.
+        Also fit `delay` or `onset`, which are otherwise 0.
     own : sequence of str, optional
-        Which of M0, B0, K0, delay every recording has for itself.
+        Which of M0, B0, K0 and delay are fitted separately for every recording.
     starts : int
-        From how many points the search starts, at least 1; from 4 at least where the first one determines a part of the
-        hand only, or a hand that answers within two rows.
+        Number of points from which the search starts, at least 1. It starts from at least 4 if the first one determines
+        only a part of the hand, or a hand that responds within two rows.
     robust : float, optional
         Errors beyond this many standard deviations count linearly (Huber); 1.345 keeps 95 % of the efficiency.
     seed : int
-        Of the further starts.
+        Seed of the further starts.
 
     Returns
     -------

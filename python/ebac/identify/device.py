@@ -1,4 +1,4 @@
-"""Identify the device: M_h, B_h of eq. (6), friction, weight; from them tau_static of eq. (2)."""
+"""Identify the device: M_h and B_h of eq. (6), friction and weight; from them tau_static of eq. (2)."""
 
 from __future__ import annotations
 
@@ -43,9 +43,9 @@ ROTARY_UNITS = ("kg m^2", "N m s/rad", "N m", "N m", "N m")
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class DeviceResult:
-    """The device as identified; `result.compensation` feeds a `Device`.
+    """The identified device; pass `result.compensation` to a `Device`.
 
-    Of a rotary recording all numbers are of the joint: kg m^2, N m s/rad and N m.
+    For a rotary recording all numbers refer to the joint: kg m^2, N m s/rad and N m.
     """
 
     recording: Recording
@@ -100,12 +100,12 @@ class DeviceResult:
 
     @property
     def undetermined(self) -> tuple[str, ...]:
-        """Names of what the log does not determine."""
+        """Names of the parameters that the log does not determine."""
         return tuple(name for name, e in self.estimates.items() if not e.determined)
 
     @property
     def impossible(self) -> tuple[str, ...]:
-        """Why no device is like this, a sentence each: then nothing of it is a result."""
+        """Why no device can have these parameters, one sentence each; if not empty, the estimates are not a result."""
         deviations = np.sqrt(np.diag(self.covariance))
         rows = zip(self.names, self.values.tolist(), deviations, self.units, strict=False)
         out = []
@@ -125,12 +125,12 @@ class DeviceResult:
 
     @property
     def other_sign(self) -> float | None:
-        """Share explained with the hand's force of the other sign, where that was tried."""
+        """Share of the motion explained with the opposite sign of the hand's force, if that was tried."""
         return self.other_signs.get("force")
 
     @property
     def misses(self) -> tuple[str, ...]:
-        """What the model misses, a sentence each."""
+        """What the model does not explain, one sentence each."""
         turned = max(self.other_signs, key=lambda key: self.other_signs[key], default="")
         wrong = [f"This is no device: {'; '.join(self.impossible)}."] if self.impossible else []
         share = 0.0 if wrong else self.explained
@@ -142,15 +142,15 @@ class DeviceResult:
 
     @property
     def compensation(self) -> Compensation:
-        """Return tau_static of eq. (2), never more than is surely there.
+        """Return tau_static of eq. (2), from the lower bounds of the estimates.
 
-        The lower bounds of friction and of the weight against +x; nothing of a device that is impossible. Inertia is
-        left alone: given back it costs damping, see `Compensation`.
+        These are the lower bounds of friction and of the weight against +x, and zero for an impossible device. Inertia
+        is not compensated, because that costs damping; see `Compensation`.
 
         Raises
         ------
         ValueError
-            Of a rotary device: a `Device` is one of a handle.
+            For a rotary device, because a `Device` has a handle.
         """
         if self.recording.rotary:
             raise ValueError(
@@ -196,21 +196,22 @@ class DeviceResult:
 def fit_device(recording: Recording, *, current_lag: float | None = None) -> DeviceResult:
     """Identify the device of one axis from motion and forces.
 
-    The forces on the handle drive it, the hand's where the log has it and the motor's; its position is predicted one
-    tick ahead and compared, as for the arm. While it slides, friction is known but for its size; near a turn, or at
-    rest, it is whatever it has to be, and these rows contain no information.
+    The model is driven by the forces on the handle: the force of the motor, and that of the hand if the log has it. Its
+    position is predicted one tick ahead and compared, as for the arm. While the device slides, only the magnitude of
+    the friction is unknown. Near a reversal or at rest, friction can have any value up to its limit, so these rows
+    contain no information.
 
     Parameters
     ----------
     recording : Recording
-        With motion both ways, and the motor's or the hand's force.
+        Recording with motion in both directions, and with the force of the motor or of the hand.
     current_lag : float, optional
-        Lag of the current loop [s]; default: of the recording.
+        Lag of the current loop [s]; default: that of the recording.
 
     Raises
     ------
     ValueError
-        When the recording has neither force, or does not slide both ways for long enough.
+        When the recording has neither force, or does not slide long enough in both directions.
     """
     require_recordings(recording, "fit_device", rotary=True)
     lag = recording.current_lag if current_lag is None else current_lag

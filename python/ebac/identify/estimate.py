@@ -1,4 +1,4 @@
-"""One number of a fit, and how sure it is."""
+"""One estimated parameter and its interval."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True, kw_only=True)
 class Estimate:
-    """One number of a fit with its 95 % interval, all in `unit`."""
+    """One estimated parameter with its 95 % interval, all in `unit`."""
 
     name: str
     value: float

@@ -46,7 +46,7 @@ def chirp(
     seconds: float = 10.0,
     dt: float = 1e-3,
 ) -> tuple[Values, Values]:
-    """Return times [s] and a sine that rises from `low` to `high` [Hz], evenly in octaves."""
+    """Return times [s] and a sine whose frequency rises from `low` to `high` [Hz] at a constant rate in octaves."""
     t = _times(seconds, dt)
     _band(low, high, dt)
     rate = np.log(high / low) / seconds
@@ -63,10 +63,10 @@ def multisine(
     seed: int = 1,
     tries: int = 60,
 ) -> tuple[Values, Values]:
-    """Return times [s] and a sum of all whole harmonics of 1/`seconds` in [low, high] Hz, largest value `amplitude`.
+    """Return times [s] and the sum of all harmonics of 1/`seconds` in [low, high] Hz, with the peak `amplitude`.
 
-    Schroeder's phases (1970), then the best of `tries` small changes of them: the crest factor, peak over root mean
-    square, comes out below 2.
+    The phases are those of Schroeder (1970), or the best of `tries` small changes of them. The crest factor, peak over
+    root mean square, is below 2.
     """
     t = _times(seconds, dt)
     _band(low, high, dt)
@@ -93,7 +93,7 @@ def multisine(
 
 
 def crest(values: Values) -> float:
-    """Return the crest factor: largest over root mean square; 1.41 for a sine."""
+    """Return the crest factor, peak over root mean square; 1.41 for a sine."""
     return float(np.abs(values).max() / np.sqrt(np.mean(values**2)))
 
 

@@ -1,4 +1,4 @@
-"""Check what a log can determine: its spectra before a fit, the estimates after one."""
+"""Check which parameters a log can determine: from its spectra before a fit, from the estimates after one."""
 
 from __future__ import annotations
 
@@ -39,22 +39,22 @@ GAP = 1.1
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class LogCheck:
-    """Bands a log excites, and the expected deviation of each parameter.
+    """Frequency bands that a log excites, and the expected standard deviation of each parameter.
 
     Attributes
     ----------
     name : str
-        Of the recording.
+        Name of the recording.
     asked : tuple of str
-        Parameters that were asked for.
+        Requested parameters.
     bands : tuple of (low, high)
-        Where the motion follows the force, in Hz.
+        Bands in which the motion follows the force [Hz].
     deviation : dict
-        Expected standard deviation of each parameter as a share of it; infinite where nothing determines it.
+        Expected standard deviation of each parameter, relative to its value; infinite if nothing determines it.
     outside : bool
         Whether something moves hand or device from outside the loop: a target that changes, or a perturbation.
     other_sign : bool
-        Whether only the force of the other sign is that of a hand.
+        Whether only the force with the opposite sign can be that of a hand.
     """
 
     name: str
@@ -69,14 +69,14 @@ class LogCheck:
         return self.deviation[name] * Z95 <= DETERMINED
 
     def bands_in_words(self) -> str:
-        """Return "0.5 to 6 Hz, 9 to 10 Hz", or that there is nothing; of many bands the first and the last."""
+        """Return the bands in words, such as "0.5 to 6 Hz, 9 to 10 Hz"; of many bands the first and the last."""
         words = [f"{a:.3g} to {b:.3g} Hz" for a, b in self.bands]
         if len(words) > MOST_BANDS:
             words = [*words[:3], "...", f"{words[-1]} ({len(words)} bands)"]
         return ", ".join(words) or "nothing"
 
     def rows(self) -> list[dict[str, Any]]:
-        """Return one row for each parameter that was asked for."""
+        """Return one row for each requested parameter."""
         return [
             {
                 "recording": self.name,
@@ -98,22 +98,23 @@ def check_log(
 ) -> LogCheck:
     """Check whether a log is informative enough to identify the parameters of eq. (4).
 
-    The expected deviations come from the spectra alone: each line determines M0 s^2 + B0 s + K0 as well as the force
-    follows the motion there. This takes milliseconds and is approximate; the intervals of the fit are decisive.
+    The expected standard deviations are computed from the spectra alone: each spectral line determines
+    M0 s^2 + B0 s + K0 as precisely as the force follows the motion there. This takes milliseconds and is approximate;
+    the intervals of the fit are decisive.
 
     Parameters
     ----------
     recording : Recording
-        With position and force of the hand.
+        Recording with position and force of the hand.
     target : Target, optional
-        Where the hand wanted to be; default: held in one place.
+        Target position of the hand; default: held in one place.
     ask : sequence of str
-        Of M0, B0, K0.
+        Requested parameters, out of M0, B0, K0.
 
     Raises
     ------
     ValueError
-        For an unknown name, without force, or when the recording is too short.
+        For an unknown name, a recording without force, or a recording that is too short.
     """
     require_recordings(recording, "check_log", rotary=True)  # shares have no unit
     for name in ask:

@@ -1,4 +1,4 @@
-"""Read a recording: one place for every kind of log."""
+"""Read a recording from any kind of log."""
 
 from __future__ import annotations
 
@@ -40,41 +40,41 @@ def load(
 ) -> Recording:
     """Read MCAP, CSV, .mat, or NPZ (of `Trace.to_npz`, or plain arrays).
 
-    A log of a knob or a joint has angles (rad, deg, turns, counts) and torques (N m, mN m, currents); its recording is
-    `rotary`, in rad and N m, unless a `lever` is given.
+    A log of a knob or a joint contains angles (rad, deg, turns, counts) and torques (N m, mN m, currents). Its
+    recording is `rotary`, in rad and N m, unless a `lever` is given.
 
     Parameters
     ----------
     path : str or Path
         The file; its extension gives the format.
     columns : mapping, optional
-        Which column is `t`, `x`, `force`, `motor`, `desired`, `target`: `{"force": "Fz"}`. What is not given is
-        guessed by name, and named in `remarks`.
+        Names of the columns for `t`, `x`, `force`, `motor`, `desired`, `target`: `{"force": "Fz"}`. Columns that are
+        not given are guessed by name, and listed in `remarks`.
     units : mapping, optional
-        Unit of each, as `{"x": "mm"}`; otherwise that of the heading, `pos [mm]`, or SI.
+        Unit of each column, as `{"x": "mm"}`; default: the unit in the heading, `pos [mm]`, or SI.
     rate : float, optional
-        Rows per second [Hz], for a file without time, or one whose times are wrong: they are not used then.
+        Rows per second [Hz], for a file without times or with wrong times, which are then not used.
     lag : float, optional
-        Lag of the force sensor [s]; default: of the scenario of a trace, else 0.
+        Lag of the force sensor [s]; default: that of the scenario of a trace, else 0.
     current_lag : float, optional
-        Lag of the motor's current loop [s]; default: of the scenario of a trace, else 0.3 ms.
+        Lag of the motor's current loop [s]; default: that of the scenario of a trace, else 0.3 ms.
     count : float, optional
-        Step of the encoder at the handle [m], of a rotary log [rad], 0 for none; default: found in the position.
+        Step of the encoder at the handle [m], for a rotary log [rad], 0 for none; default: found in the position.
     axis : int
-        Which axis of a trace; other files have one.
+        Axis of a trace; other files have one axis.
     flip_force : bool
-        Whether the force of the hand is logged with the other sign: positive where the handle pushes the hand to +x.
+        Whether the force of the hand is logged with the opposite sign: positive if the handle pushes the hand to +x.
     flip_motor : bool
-        Whether the force of the motor is logged with the other sign: positive where it drives to +x.
+        Whether the force of the motor is logged with the opposite sign: positive if it drives to +x.
     lever : float, optional
-        Radius at which the hand holds a rotary device [m]: angles become ways of the handle, torques forces on it.
+        Radius at which the hand holds a rotary device [m]: angles become displacements of the handle, torques forces.
     counts_per_turn : float, optional
-        Counts of the encoder for one turn of the knob or joint, all edges and gear included.
+        Counts of the encoder for one turn of the knob or joint, all edges and the gear included.
     torque_constant : float, optional
-        Torque at the knob or joint for one ampere [N m/A], gear included, for a motor logged as a current; for one
-        volt [N m/V] where its drive's voltage command was logged.
+        Torque at the knob or joint per ampere [N m/A], gear included, for a motor logged as a current; per volt
+        [N m/V] if the voltage command of its drive was logged.
     force_constant : float, optional
-        Force of a slide for one ampere [N/A] or one volt [N/V], for a motor logged as a current or a voltage.
+        Force of a slide per ampere [N/A] or per volt [N/V], for a motor logged as a current or a voltage.
 
     Returns
     -------
@@ -85,8 +85,8 @@ def load(
     FileNotFoundError
         When there is no such file.
     ValueError
-        When it cannot be read, a column is missing, is no number, or a unit is unknown; for an option that this file
-        has no use for.
+        When it cannot be read, a column is missing or is not numeric, or a unit is unknown; for an option that does not
+        apply to this file.
     """
     require_path(path, "ebac.identify.load")
     path = Path(path)

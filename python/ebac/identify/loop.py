@@ -1,4 +1,4 @@
-"""The loop of a log: whose hand, which device, which wall; what gains are chosen on."""
+"""The loop of a log: hand, device and wall, for which gains are chosen."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ LEAST_TOUCHED = 50
 @plain_constructor
 @dataclass(frozen=True, kw_only=True, eq=False)
 class LoopModel:
-    """Arm, device, wall and timing of a log, as far as it determines them; `scenario` presses on the wall again."""
+    """Arm, device, wall and timing of a log, as far as it determines them; `scenario` simulates a press on the wall."""
 
     arm: ArmResult
     device: Device
@@ -72,17 +72,17 @@ def fit_loop(
     timing: Timing | None = None,
     **arm: Any,
 ) -> LoopModel:
-    """Identify what stands in the loop of eq. (2) from logged steps.
+    """Identify arm, device and wall in the loop of eq. (2) from logged steps.
 
     Parameters
     ----------
     recordings, targets
         As for `fit_arm`.
     device : Device, optional
-        What is known of it: motor, drive, encoder. Mass, damping, friction and noise come from the log where it
-        determines them. Default: the reference device.
+        The known parts of the device: motor, drive, encoder. Mass, damping, friction and noise are taken from the log
+        where it determines them. Default: the reference device.
     wall : Wall, optional
-        Default: estimated from the column `desired`, and where that is missing, the paper's.
+        The virtual wall. Default: estimated from the column `desired`, or the paper's wall if that column is missing.
     timing : Timing, optional
         Sample time [s] and transport delay [samples]; default: one sample.
     **arm
@@ -91,7 +91,7 @@ def fit_loop(
     Raises
     ------
     ValueError
-        As `fit_arm`.
+        As for `fit_arm`.
     """
     require_recordings(recordings, "fit_loop")
     result = fit_arm(recordings, targets, **arm)

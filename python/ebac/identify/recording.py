@@ -29,51 +29,50 @@ PAUSE = 1.5
 class Recording:
     """Position and forces of one axis over time, on equally spaced rows that may pause.
 
-    Of a rotary device, every [m] here is [rad], and every [N] is [N m].
+    For a rotary device, read [rad] for [m] and [N m] for [N].
 
     Parameters
     ----------
     name : str
-        For messages and tables.
+        Name in messages and tables.
     t : array, shape (rows,)
-        Time [s], equally spaced but for pauses, which are longer steps.
+        Time [s], equally spaced except for pauses, which are longer steps.
     x : array, shape (rows,)
         Position of the handle [m].
     force : array, shape (rows,), or None
-        Force of the hand on the handle [N], towards +x, as the F/T sensor shows it.
+        Force of the hand on the handle [N], towards +x, as measured by the force sensor.
     motor : array, shape (rows,), or None
-        Force of the motor over the interval that ends at each row [N], positive when it resists +x; a log in which it
-        drives to +x is `flipped("motor")`.
+        Force of the motor over the interval that ends at each row [N], positive when it resists motion to +x. For a log
+        with the opposite sign use `flipped("motor")`.
     desired : array, shape (rows,), or None
-        Force the law was asked for [N], F_D of eq. (2).
+        Force of the virtual world, which the law is to render [N], F_D of eq. (2).
     met : array, shape (rows,), or None
-        Position at which the virtual world was asked for that force [m], where the loop had a state observer; None: at
-        `x`.
+        Position at which that force was computed [m], if the loop had a state observer; None: at `x`.
     target : array, shape (rows,), or None
-        Instructed position of the hand [m], when that was recorded.
+        Instructed position of the hand [m], if it was recorded.
     early : array, shape (rows,), or None
         How long before the time of its row each position was read [s]; None: at that time.
     known : array of bool, shape (rows,), or None
-        Which rows were recorded; the others bridge a few lost ones. None: all of them.
+        Which rows were recorded; the others bridge a few lost rows. None: all were recorded.
     count : float
-        Step of the position [m]; 0 when it has none.
+        Step of the position [m]; 0 if it is not quantised.
     lag : float
         First-order lag of the force sensor [s].
     current_lag : float
         First-order lag of the motor's current loop [s].
     path : Step, Tapping, Sine, MinimumJerk, Recorded or None
-        Where the hand wanted to be, by the scenario in the log.
+        Target path of the hand, from the scenario in the log.
     remarks : tuple of str
-        What was guessed or changed on reading.
+        What was guessed or changed when the log was read.
     origin : str
-        What a figure calls the data: "recorded", "simulated", or what its log says.
+        Origin of the data for figures: "recorded", "simulated", or the origin stated in the log.
     rotary : bool
-        Whether it is of a knob or a joint, in rad and N m.
+        Whether the recording is of a knob or a joint, in rad and N m.
 
     Raises
     ------
     ValueError
-        When a column holds no number, is constant, too short or of another length.
+        When a column contains a value that is not a number, is constant, too short or of a different length.
     """
 
     name: str
@@ -170,7 +169,7 @@ class Recording:
         return float(self.t[-1] - self.t[0])
 
     def channels(self) -> dict[str, NDArray[np.float64]]:
-        """Return what was recorded, by name; times apart."""
+        """Return the recorded signals by name, without the times."""
         every = {
             "t": self.t,
             "x": self.x,
@@ -188,7 +187,7 @@ class Recording:
         return self.channels() | {n: v for n, v in more.items() if v is not None}
 
     def rows(self, part: slice) -> Self:
-        """Return some rows of it."""
+        """Return the given rows as a recording."""
         cut: dict[str, Any] = {name: values[part] for name, values in self._columns().items()}
         return replace(self, **cut)
 
@@ -209,7 +208,7 @@ class Recording:
         return self.rows(slice(*(int(np.searchsorted(self.t, t)) for t in (start, stop))))
 
     def flipped(self, *signals: str) -> Self:
-        """Return the same with forces of the other sign: "force" of the hand (default), "motor"."""
+        """Return the recording with the opposite sign of some forces: "force" of the hand (default), "motor"."""
         said = {"force": "the force of the hand", "motor": "the force of the motor"}
         changes: dict[str, Any] = {}
         remarks = self.remarks
@@ -225,7 +224,7 @@ class Recording:
 
     @classmethod
     def from_trace(cls, trace: Trace, *, axis: int = 0, name: str = "trace") -> Self:
-        """Look at one axis of a `Trace`; count and lag are taken from its scenario where it has one."""
+        """Return the recording of one axis of a `Trace`; count and lag are taken from its scenario, if it has one."""
         columns: dict[str, Any] = signals_of(trace, axis)
         facts = trace_facts(trace, axis)
         if not facts["count"]:

@@ -1,4 +1,4 @@
-"""Frequency response of the hand: for the eye, for a first guess, and for what a log excites."""
+"""Frequency response of the hand, for figures, for a first guess, and to check what a log excites."""
 
 from __future__ import annotations
 
@@ -27,22 +27,22 @@ INDEPENDENT = 0.6
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Response:
-    """What force a motion of the hand takes, line by line: Z(f) = K0 + B0 s + M0 s^2 at s = 2 pi f i.
+    """Frequency response of the hand, force over motion: Z(f) = K0 + B0 s + M0 s^2 at s = 2 pi f i.
 
     Attributes
     ----------
     frequency : array, shape (lines,)
-        [Hz].
+        Frequency of each spectral line [Hz].
     stiffness : array of complex, shape (lines,)
         H1: cross spectrum of motion and force over the spectrum of the motion [N/m].
     by_target : array of complex or None
-        The same with the target as instrument: what a law feeds back of noise drops out. None where it never moves.
+        The same with the target as instrument, so that noise fed back by a law drops out. None if it never moves.
     coherence : array, shape (lines,)
         Share of the force that follows the motion, 0 to 1.
     motion : array, shape (lines,)
         Spectral density of the position [m^2/Hz].
     segments : int
-        How many stretches, half overlapping, were averaged.
+        Number of averaged segments, which overlap by half.
     """
 
     frequency: Values
@@ -54,16 +54,16 @@ class Response:
 
     @property
     def independent(self) -> float:
-        """How many independent segments the averages are worth."""
+        """Equivalent number of independent segments in the averages."""
         return max(2.0, INDEPENDENT * self.segments)
 
     @property
     def significant(self) -> float:
-        """Coherence that unrelated signals exceed in one of twenty lines."""
+        """Coherence that unrelated signals exceed in one of twenty spectral lines."""
         return float(1 - 0.05 ** (1 / (self.independent - 1)))
 
     def model(self, mass: float, damping: float, stiffness: float) -> Lines:
-        """Return Z of eq. (4) at the same lines [N/m], from kg, N s/m, N/m."""
+        """Return Z of eq. (4) at the same spectral lines [N/m], from kg, N s/m, N/m."""
         s = 2j * np.pi * self.frequency
         return np.asarray(stiffness + damping * s + mass * s**2)
 
@@ -157,13 +157,13 @@ def frequency_response(
     Parameters
     ----------
     recording : Recording
-        With position and force of the hand; where it pauses, its longest stretch is taken.
+        Recording with position and force of the hand; if it has pauses, its longest stretch is used.
     target : Target, optional
-        Where the hand wanted to be; default: held in one place.
+        Target position of the hand; default: held in one place.
     levels : array, optional
         The levels of the target [m], shape (levels,); default: 0.
     stiffness : float
-        K0 [N/m], by which a moving target pulls; that part is taken off the force. It does not matter while the
+        K0 [N/m], with which a moving target pulls; this part is subtracted from the force. It has no effect while the
         target rests.
 
     Raises

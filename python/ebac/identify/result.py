@@ -1,4 +1,4 @@
-"""What a fit of an arm found, and how sure it is."""
+"""Result of a fit of an arm: estimates, intervals and tests."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class ArmResult:
-    """The arm of eq. (4) as identified; `result.hand` feeds a `Scenario`."""
+    """The identified arm of eq. (4); pass `result.hand` to a `Scenario`."""
 
     problem: Problem
     values: NDArray[np.float64]
@@ -55,12 +55,12 @@ class ArmResult:
 
     @property
     def parameters(self) -> Parameters:
-        """Names, bounds, what is free."""
+        """Names and bounds of the parameters, and which are free."""
         return self.problem.parameters
 
     @property
     def recordings(self) -> tuple[Recording, ...]:
-        """What was fitted to."""
+        """The fitted recordings."""
         return self.problem.recordings
 
     @cached_property
@@ -82,7 +82,7 @@ class ArmResult:
 
     @cached_property
     def undetermined(self) -> tuple[str, ...]:
-        """Names of what this log does not determine."""
+        """Names of the parameters that this log does not determine."""
         half = Z95 * self.deviation
         dt = max(r.dt for r in self.recordings)
         if self.impossible:
@@ -93,7 +93,7 @@ class ArmResult:
 
     @cached_property
     def impossible(self) -> tuple[str, ...]:
-        """Why nothing of this is a result, a sentence each: the model explains less of the motion than none would."""
+        """Why the estimates are no result, one sentence each: the model explains less of the motion than no model."""
         if self.explained >= 0:
             return ()
         share = f"{100 * self.explained:.3g} %"
@@ -101,7 +101,7 @@ class ArmResult:
 
     @cached_property
     def inseparable(self) -> tuple[tuple[str, str, float], ...]:
-        """Pairs that this log cannot separate, with their correlation."""
+        """Pairs of parameters that this log cannot separate, with their correlation."""
         half = Z95 * self.deviation
         return informativeness.inseparable(
             self.parameters, self.values, half, self.correlation, self._span
@@ -129,7 +129,7 @@ class ArmResult:
 
     @property
     def shown(self) -> tuple[Estimate, ...]:
-        """Return the rows of a table, what was fitted and what of the hand was given."""
+        """Return the rows of a table: fitted parameters, and given parameters of the hand."""
         return tuple(e for e in self.estimates.values() if not e.fixed or kind(e.name) in HAND)
 
     def __getitem__(self, name: str) -> Estimate:
@@ -152,17 +152,17 @@ class ArmResult:
 
     @cached_property
     def misses(self) -> tuple[str, ...]:
-        """What the model misses, a sentence each; empty where it changes no result."""
+        """What the model does not explain, one sentence each; empty if that changes no result."""
         return validation.misses(self)
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """What widens the intervals because the log does not contain it, a sentence each."""
+        """Which missing information widens the intervals, one sentence each."""
         return unrecorded_motor.notes(self.recordings, self.parameters, self.values)
 
     @cached_property
     def hand(self) -> Hand:
-        """The hand, for a `Scenario`: of the first recording, its last level as target.
+        """The hand of the first recording for a `Scenario`, with its last level as target.
 
         Raises
         ------
@@ -189,7 +189,7 @@ class ArmResult:
         )
 
     def simulated(self, recording: int = 0) -> NDArray[np.float64]:
-        """Return the position [m] that a recording's force alone gives with this hand, from the best start."""
+        """Return the position [m] simulated with this hand from a recording's force and the best initial state."""
         theta = self.values[self.parameters.places[recording]]
         r = self.recordings[recording]
         record = self.problem.records[recording]
@@ -201,11 +201,11 @@ class ArmResult:
 
     @property
     def drift(self) -> float:
-        """Drift of the force that the errors asked for [N/sqrt(s)]; 0 for none."""
+        """Estimated drift of the force [N/sqrt(s)]; 0 for none."""
         return self.problem.drift
 
     def drifts(self, recording: int = 0) -> NDArray[np.float64]:
-        """Return by how much the force of a recording reads too high at each row, as far as known there [N]."""
+        """Return the estimated error of a recording's force due to drift at each row [N]; positive: too high."""
         place = self.problem.parameters.places[recording]
         gains = self.problem.gains(self.values, self.force_noise)[recording]
         out = self.problem.records[recording].drifts(self.values[place], gains)
@@ -214,10 +214,9 @@ class ArmResult:
     def predictions(
         self, held_out: Sequence[tuple[Recording, Target]] = ()
     ) -> tuple[Prediction, ...]:
-        """Judge the hand on its own recordings and on others.
+        """Return how well the hand predicts its own recordings and others.
 
-        On a recording held out, M0, B0, K0 and delay are kept; where that hand wanted to be and where it started is
-        fitted.
+        For a recording that was not fitted, M0, B0, K0 and delay are kept; the target and the initial state are fitted.
         """
         rows = []
         for i, r in enumerate(self.recordings):
@@ -231,17 +230,17 @@ class ArmResult:
 
     @cached_property
     def explained(self) -> float:
-        """Least share of the motion (VAF) of a recording that the force alone explains with this hand."""
+        """Smallest share of the motion of a recording (VAF) that this hand explains from the force alone."""
         return min(p.vaf for p in self.predictions())
 
     def profile(self, name: str, level: float = Z95**2) -> tuple[float, float]:
-        """Return the 95 % interval of a parameter by profile likelihood: all others are fitted again along it."""
+        """Return the 95 % interval of a parameter by profile likelihood: for each value all others are fitted again."""
         from ebac.identify.intervals import profile
 
         return profile(self, name, level)
 
     def plot(self) -> Figure:
-        """Draw fit, errors, their correlations and the frequency response."""
+        """Plot the fit, its errors, their correlations and the frequency response."""
         from ebac.identify.figures import plot_arm
 
         return plot_arm(self)

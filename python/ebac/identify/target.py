@@ -1,4 +1,4 @@
-"""Where the hand wanted to be: X0 of eq. (4) over time, in levels between switches."""
+"""Target position of the hand: X0 of eq. (4) over time, in levels between switches."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ class Target:
     switches : tuple of float
         Times [s] at which the target goes to the next level; the reaction time may be fitted as `onset`.
     segments : tuple of int
-        Which level holds before the first switch, between the first two, and so on.
+        Index of the level before the first switch, between the first two, and so on.
     path : array or None
         Known part of the target [m], one value a row; None for none.
     """
@@ -50,11 +50,11 @@ class Target:
 
     @property
     def levels(self) -> int:
-        """How many levels are fitted."""
+        """Number of fitted levels."""
         return max(self.segments) + 1
 
     def late(self, seconds: float) -> Target:
-        """Return the same with every switch later by some time [s]."""
+        """Return the target with every switch delayed by some time [s]."""
         return replace(self, switches=tuple(at + seconds for at in self.switches))
 
     def cut(self, recording: Recording, part: slice) -> tuple[Target, tuple[int, ...]]:
@@ -70,7 +70,7 @@ class Target:
 
     @classmethod
     def held(cls) -> Target:
-        """One place, all the time."""
+        """Return a target that stays in one place."""
         return cls()
 
     @classmethod
@@ -82,7 +82,7 @@ class Target:
 
     @classmethod
     def tapping(cls, frequency: float, seconds: float, start: float = 0.0) -> Target:
-        """Level 0 for the first half of each period, level 1 for the second, as `ebac.Tapping`."""
+        """Return a target with level 0 in the first half of each period and level 1 in the second, like `Tapping`."""
         number("Target.tapping: frequency", frequency)
         number("Target.tapping: seconds", seconds)
         if not (frequency > 0 and seconds > 0):
@@ -100,7 +100,7 @@ class Target:
 
     @classmethod
     def following(cls, path: NDArray[np.float64]) -> Target:
-        """Return a path known but for where it starts, one value [m] a row."""
+        """Return a target along a path that is known except for its start, one value [m] per row."""
         return cls(path=np.asarray(path, dtype=float))
 
     @classmethod
@@ -110,7 +110,7 @@ class Target:
 
     @classmethod
     def along(cls, path: Path, t: NDArray[np.float64]) -> Target:
-        """Return the same of the path of a hand along one axis."""
+        """Return the target that follows the path of a hand along one axis."""
         start, end = float(t[0]), float(t[-1])
         dt = (end - start) / (len(t) - 1)
         if isinstance(path, Step):

@@ -21,10 +21,10 @@ DEPTHS = (DEPTH, 0.5 * DEPTH)
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class GainsResult:
-    """Gains chosen on a loop; `result.law` runs in any `Scenario`.
+    """Gains chosen for a loop; `result.law` runs in any `Scenario`.
 
-    `turned_down` is the largest share of the default gains that keeps all constraints with something to spare, in
-    tenths; None where the default itself does, or no share of it.
+    `turned_down` is the largest share of the default gains, in tenths, that keeps all constraints with a margin; None
+    if the default itself keeps them, or no share of it does.
     """
 
     loop: LoopModel
@@ -54,11 +54,11 @@ class GainsResult:
 
     @property
     def scenario(self) -> Scenario:
-        """The loop they were chosen on."""
+        """The scenario of the loop for which the gains were chosen."""
         return self.loop.scenario
 
     def rows(self) -> list[dict[str, Any]]:
-        """Return default, rules and choice, one row each."""
+        """Return one row each for the default gains, the rules and the chosen gains."""
         return [c.row() for c in (self.default, *self.rules, self.chosen)]
 
     def to_dict(self) -> dict[str, Any]:
@@ -118,19 +118,19 @@ def fit_gains(
     Parameters
     ----------
     loop : LoopModel
-        From `fit_loop`.
+        The loop, from `fit_loop`.
     law : str
         A law with the force loop of eq. (2): `tca`, `tca-damped`, `ebac`.
     limits : Limits, optional
         Constraints.
     vary : float
-        How far hands are tried beyond the interval, as a share, [0, 3].
+        Relative distance of the further hands from the identified one, [0, 3].
     evaluations : int
-        Pairs that COBYLA may try, at least 1.
+        Largest number of pairs that COBYLA tries, at least 1.
     threads : int
         Threads of the simulation; 0 for one per core.
     progress : callable, optional
-        Called with how many pairs are done, and of how many at most.
+        Called with the number of pairs that are done and the largest number of pairs.
 
     Returns
     -------

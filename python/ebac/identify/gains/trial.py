@@ -1,4 +1,4 @@
-"""What a pair of gains is judged by: limits that hold for every hand, and a cost."""
+"""Criteria for a pair of gains: limits that apply to every hand, and a cost."""
 
 from __future__ import annotations
 
@@ -23,20 +23,20 @@ RUINED = 1e3
 @plain_constructor
 @dataclass(frozen=True, kw_only=True)
 class Limits:
-    """What gains must keep for every hand they are tried on.
+    """Limits that gains must keep for every hand with which they are simulated.
 
     Parameters
     ----------
     overshoot : float, optional
-        How much deeper than an ideal wall rests [m]; default: a quarter more than the default gains show.
+        Largest depth beyond the ideal rest [m]; default: 1.25 times that of the default gains.
     force : float, optional
         Largest applied force [N]; default: the motor's peak.
     current : float, optional
-        Largest current asked [A]; default: the drive's peak.
+        Largest commanded current [A]; default: the drive's peak.
     noise_gain : float
         Noise of the command per noise of the force reading [1], > 0.
     energy : float
-        Most energy the port may have given away at any time [J], >= 0.
+        Largest energy that the port may have given out at any time [J], >= 0.
 
     Raises
     ------
