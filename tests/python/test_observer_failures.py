@@ -184,7 +184,7 @@ def test_a_hand_that_shakes_the_account_empty_is_not_lent_more(frequency: float)
     [
         ("d2K10", "periodic", 4),  # 2.2 mJ: it pulls faster than the guard counted with
         ("d2b1K20", "periodic", 5),  # 2.2 mJ
-        ("d2b1K20", "swinging", 4),  # 6.3 mJ: the account was lent more when the observer went and when it came back
+        ("d2b1K20", "swinging", 4),  # 6.3 mJ: the account was lent more where the observer went
     ],
 )
 def test_no_hand_that_a_search_finds_draws_more_than_the_reserve(
