@@ -25,7 +25,7 @@ struct EbacShared {
   double world_v = 0;      // m/s, of the last tick
   double f_env = 0;        // N, of the last tick
   double f_meas = 0;       // N, of the last tick
-  double quickest = 0;     // N/s, lately
+  double rising = 0, falling = 0;  // N/s, quickest change of it lately
 
   EbacShared(const EbacParams& given, const Timing& tick) EBAC_RT
       : params(given),
@@ -60,14 +60,19 @@ struct EbacShared {
   double pull_shown(double wanted, const Port& port) const EBAC_RT {
     const double shown = std::max(0.0, wanted > 0 ? -port.f_meas : port.f_meas);
     const double unseen = (timing.delay + 1) * port.dt + kBehind;
-    return std::min(params.pull, shown + kSensor + std::max(params.pull_rate, quickest) * unseen);
+    const double let_go = wanted > 0 ? falling : rising, pushed = wanted > 0 ? rising : falling;
+    const double rate = std::max({params.pull_rate, let_go, kAsQuick * pushed});
+    return std::min(params.pull, shown + kSensor + rate * unseen);
   }
 
-  /// Keeps how quickly the force of the hand has changed: one that shakes faster than declared will do so again.
+  /// Keeps how quickly the force of the hand has changed in the last tenth of a second: one that has let go faster than
+  /// declared will do so again, and one that has pushed so may let go a fifth as fast.
   void watch_hand(const Port& port) EBAC_RT {
-    const double change = std::abs(port.f_meas - f_meas) - kNoise * params.force_noise;
+    const double change = port.f_meas - f_meas, noise = kNoise * params.force_noise;
+    const double kept = kForget / (kForget + port.dt);
     f_meas = port.f_meas;
-    quickest = std::max(change / port.dt, quickest * kForget / (kForget + port.dt));
+    rising = std::max((change - noise) / port.dt, rising * kept);
+    falling = std::max((-change - noise) / port.dt, falling * kept);
   }
 
   /// What the account is lent in a contact at rest that the law gives the observer up for [J]. Only with a sensor
@@ -101,6 +106,7 @@ struct EbacShared {
   static constexpr double kBehind = 1e-3;  // s, lag of a usual force sensor and age of its reading
   static constexpr double kNoise = 4;      // standard deviations of the sensor in a change
   static constexpr double kForget = 0.1;   // s
+  static constexpr double kAsQuick = 0.2;  // with 0 searches draw more, with 0.3 walls are lost
   static constexpr double kShort = 0.5;    // of a command: less is starved
   static constexpr double kFed = 10;       // s by which `starved` falls in a second
 };
