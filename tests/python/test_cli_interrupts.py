@@ -93,6 +93,7 @@ def test_ctrl_c_says_what_is_kept_and_how_to_go_on(words: str, tmp_path: Path) -
 
 
 @pytest.mark.slow
+@pytest.mark.real_time
 def test_a_run_that_was_interrupted_names_its_log_and_what_to_do_with_it(tmp_path: Path) -> None:
     datasets.write("joystick", tmp_path)
     process = start("run joystick.toml --simulated --seconds 60", tmp_path)
@@ -107,6 +108,7 @@ def test_a_run_that_was_interrupted_names_its_log_and_what_to_do_with_it(tmp_pat
     assert f"`ebac log plot ebac-run/{log.name}`" in said
 
 
+@pytest.mark.real_time
 @pytest.mark.parametrize("clock", ["--simulated --seconds 0.2", "--virtual --seconds 0.2"])
 def test_an_interruption_after_a_run_names_its_log(
     clock: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
