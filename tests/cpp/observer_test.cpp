@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <random>
@@ -311,6 +312,25 @@ TEST(Ebac, FadesToTheEncoderAndBackWithoutAJump) {
     before = force;
   }
   EXPECT_NEAR(before, 10, 0.1);
+}
+
+/// A hand that presses before the first tick has not pushed quickly: the guard admits what it admits later.
+TEST(Ebac, CountsNoPushBeforeTheFirstTick) {
+  std::array<double, 2> admitted{};
+  for (const bool later : {false, true}) {
+    Ebac law = designed();
+    for (int k = 0; k < (later ? 1000 : 1); ++k) {
+      Port port = pressed(1, k);
+      port.f_env = port.f_applied = 0;
+      law.step(port);
+    }
+    Port port = pressed(1, 1);
+    port.f_env = 25;
+    port.f_applied = 0;
+    admitted.at(later ? 1 : 0) = law.step(port);
+  }
+  EXPECT_LT(admitted[0], 25);
+  EXPECT_DOUBLE_EQ(admitted[0], admitted[1]);
 }
 
 /// The reserve is lent once: an observer that comes and goes lends no more each time.

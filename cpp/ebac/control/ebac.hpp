@@ -105,6 +105,7 @@ class Ebac {
     encoder_.begin(port);
     observer_.begin(port);
     shared_.world_v = port.world_v;
+    shared_.f_meas = port.f_meas;
     return 0;
   }
 
