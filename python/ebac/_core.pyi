@@ -6623,7 +6623,7 @@ class EBAC:
         kp: float = 0.1,
         kd: float = 0.0,
         filter: float = 0.005,
-        fast_stiffness: float = 5000.0,
+        fast_stiffness: float = 3000.0,
         heaviest_hand: float = 1.5,
         pull: float = 20.0,
         pull_rate: float = 1000.0,

@@ -10,15 +10,20 @@ namespace ebac {
 /// Shows changes of a force that are small and fast with a stiffness of their own.
 ///
 /// The estimate of the position moves by a share of a count with the noise of sensor and encoder. A
-/// stiff world makes a force of it, which rings with a heavy hand that B_v damps little. With
-/// d = F_e - (F_e behind a lag of 0.2 s), at most F_e, the world's stiffness K and k_f for small fast
-/// changes,
-///   F = F_e - s (1 - k_f/K) d / (1 + (d / 1.8 N)^2)^2.
+/// stiff world makes a force of it, which rings with a heavy hand that B_v damps little. With the
+/// world's stiffness K, k_f for small fast changes, c = 1 - k_f/K, and d = F_e - (F_e behind two
+/// lags), at most F_e,
+///   F = F_e - s c d / (1 + (d / 1.8 N)^2)^2.
 /// F is F_e at rest, differs from it by 0.6 N at most and in a large motion by less and less, and ends
 /// with F_e.
 ///
+/// The lags are t/(1 - sqrt c) and t/(1 + sqrt c), t = 90 ms: against a hand that pushes steadily they
+/// make a critically damped pair of time constant t, whatever K is. One lag that ends as soon would
+/// take damping c m/t from a hand of mass m; the pair takes less the faster it rings. Far from its end
+/// d is brought there up to 20 times faster.
+///
 /// A force that is softer to fast changes than to slow ones gives energy out when it varies slowly,
-/// one that is stiffer takes energy in. So s = 1 is for an account that can pay; with s < 0 it earns.
+/// one that is stiffer takes energy in: s > 0 costs, s < 0 earns.
 class DynamicStiffness {
  public:
   /// `fast` in N/m; 0 shows every change whole.
@@ -28,16 +33,17 @@ class DynamicStiffness {
   double step(double force, double slope, double softer, double dt) EBAC_RT {
     if (force == 0) {
       unknown_ = false;
-      return slow_ = 0;
+      return slow_ = slower_ = 0;
     }
-    slow_ = unknown_ ? force : slow_ + (force - slow_) * dt / (kLag + dt);
+    if (unknown_) slow_ = slower_ = force;
     unknown_ = false;
-    if (fast_ == 0 || slope <= fast_) return force;
+    const double share = fast_ > 0 && slope > fast_ ? 1 - fast_ / slope : 0.0;
+    approach(force, std::sqrt(share), dt);
     const double most = std::abs(force);
-    const double change = std::clamp(force - slow_, -most, most);
-    const double small = change / kSmall;
+    const double change = std::clamp(force - slower_, -most, most);
+    const double small = change * kPerSmall;
     const double large = 1 + small * small;
-    return force - softer * (1 - fast_ / slope) * change / (large * large);
+    return force - softer * share * change / (large * large);
   }
 
   /// The next force may be of a contact that has lasted.
@@ -45,12 +51,23 @@ class DynamicStiffness {
   void retune(const DynamicStiffness& next) EBAC_RT { fast_ = next.fast_; }
 
  private:
-  static constexpr double kLag = 0.2;    // s
-  static constexpr double kSmall = 1.8;  // N
+  static constexpr double kLag = 0.09;          // s
+  static constexpr double kPerSmall = 1 / 1.8;  // 1/N
+  static constexpr double kPerNear = 1 / 0.46;  // 1/N: twice as fast at 0.46 N
+  static constexpr double kFastest = 20.0;      // times
+
+  void approach(double force, double root, double dt) EBAC_RT {
+    const double off = (force - slower_) * kPerNear;
+    const double passed = std::min(1 + off * off, kFastest) * dt;
+    slow_ += (force - slow_) * follows(passed * (1 - root));
+    slower_ += (slow_ - slower_) * follows(passed * (1 + root));
+  }
+  static double follows(double passed) EBAC_RT { return passed / (kLag + passed); }
 
   double fast_;           // N/m
-  double slow_ = 0;       // N
-  bool unknown_ = false;  // whether slow_ is
+  double slow_ = 0;       // N, behind the first lag
+  double slower_ = 0;     // N, behind both
+  bool unknown_ = false;  // whether they are
 };
 
 }  // namespace ebac

@@ -116,12 +116,12 @@ class Ebac {
     encoder_.set_tick(dt);
   }
 
-  /// The observer comes or goes: what takes over starts where the other is. The encoder's part
-  /// needs a larger reserve.
+  /// The observer comes or goes: what takes over starts where the other is. While it comes, the world is met
+  /// elsewhere in every tick. The encoder's part needs a larger reserve.
   void shift(const Port& port) EBAC_RT {
     const double weight = port.est.weight;
     if (weight_ >= 1 && weight < 1) encoder_.take_over(port, shared_.params);
-    if (weight_ <= 0) observer_.forget();
+    if (weight_ < 1 && weight >= weight_) observer_.forget();
     if (weight_ < 1 && weight >= 1) observer_.begin(port);
     weight_ = weight;
   }

@@ -22,7 +22,7 @@ struct EbacParams {
   double kp = 0.1;
   double kd = 0;                    // s
   double filter = 5e-3;             // s
-  double fast_stiffness = 5e3;      // N/m
+  double fast_stiffness = 3e3;      // N/m
   double heaviest_hand = 1.5;       // kg
   double pull = 20;                 // N
   double pull_rate = 1e3;           // N/s

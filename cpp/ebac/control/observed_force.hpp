@@ -15,8 +15,12 @@ namespace ebac {
 
 /// The force of the virtual world at the state predicted for the instant at which the command acts,
 /// with a damper on the predicted velocity: F = F_e + B_v v_act, never against F_e. Of F_e, small
-/// fast changes are shown softer while the account is rich, stiffer while it is poor
-/// (`DynamicStiffness`).
+/// fast changes are shown softer (`DynamicStiffness`) while account and allowance pay, stiffer where
+/// one of them is spent.
+///
+/// The allowance is charged with the work of what is shown beyond the world's force, F - F_e, over the
+/// estimated motion, and never exceeds the reserve. So the softer changes give out less than a reserve
+/// in any window of time, however much energy the account holds.
 ///
 /// Without a count of noise in the velocity, mass and delay alone bound the damper: B_v = 0.5 M /
 /// ((d + 0.8) T + current_lag). Twice as much loses walls where the observer is told half of the
@@ -35,6 +39,7 @@ class ObservedForce {
         stiffest_(2 * damping_ * damping_ / law.mass),
         heaviest_(law.mass + law.heaviest_hand),
         reserve_(law.observed_reserve),
+        allowance_(reserve_),
         stored_at_(show_.stiffness),
         slope_(kLeast* law.count) {}
 
@@ -44,9 +49,11 @@ class ObservedForce {
     injected_ = 0;
     shown_ = dynamic_.step(port.f_env, slope_.value(), softer(port.f_env, energy), port.dt);
     const double damped = half_period_.step(shown_ + std::min(damping_, enough_) * port.est.v_act);
+    beyond_ = 0;
     if (port.f_env == 0) return 0;
     const double force = port.f_env > 0 ? std::max(damped, 0.0) : std::min(damped, 0.0);
     injected_ = force - shown_;
+    beyond_ = force - port.f_env;
     return force;
   }
 
@@ -54,6 +61,7 @@ class ObservedForce {
   void forget() EBAC_RT {
     slope_.forget();
     dynamic_.forget();
+    beyond_ = 0;
     half_period_ = HalfPeriod(show_.half_period);
   }
 
@@ -86,20 +94,22 @@ class ObservedForce {
   /// The estimate that fades in or out is not where the world was met.
   void watch(const Port& port) EBAC_RT {
     if (port.est.weight < 1) return;
+    allowance_ = std::min(allowance_ + beyond_ * port.est.dx, reserve_);
     const double surface = port.world_v * port.dt;
     if (!slope_.step(port.f_env, port.est.x_act, port.est.v_act, surface)) return;
     stored_at_ = std::min(show_.stiffness, slope_.value());
     enough_ = std::sqrt(slope_.value() * heaviest_);
   }
 
-  /// Share by which small fast changes are softer: all while the account holds a reserve beyond what
-  /// a spring would, none at half of it, and stiffer below, as far as the damper bears it.
+  /// Share by which small fast changes are softer: all while the whole allowance is left and the
+  /// account holds as much beyond what a spring would, none at half of that, and stiffer below, as far
+  /// as the damper bears it.
   double softer(double force, double energy) const EBAC_RT {
     const double slope = slope_.value();
     if (slope <= 0 || reserve_ <= 0) return 1;
-    const double beyond = energy - stored(force);
+    const double left = std::min(allowance_, energy - stored(force));
     const double borne = std::clamp(stiffest_ / slope - 1, 0.0, 1.0);
-    return std::clamp(2 * beyond / reserve_ - 1, -borne, 1.0);
+    return std::clamp(2 * left / reserve_ - 1, -borne, 1.0);
   }
 
   Injection show_;
@@ -109,11 +119,13 @@ class ObservedForce {
   double stiffest_;   // N/m, at which the damper is 0.35 of critical for the device alone
   double heaviest_;   // kg, device and hand
   double reserve_;    // J
+  double allowance_;  // J, of the reserve, for softer changes
   double stored_at_;  // N/m
   StaticSlope slope_;
   double enough_ = std::numeric_limits<double>::infinity();  // N s/m, on the last world
-  double shown_ = 0;
-  double injected_ = 0;
+  double shown_ = 0;                                         // N
+  double injected_ = 0;                                      // N
+  double beyond_ = 0;  // N, of the last command, what the world did not ask for
 };
 
 }  // namespace ebac
