@@ -11,7 +11,7 @@ namespace ebac {
 ///
 /// The estimate of the position moves by a share of a count with the noise of sensor and encoder. A
 /// stiff world makes a force of it, which rings with a heavy hand that B_v damps little. With the
-/// world's stiffness K, k_f for small fast changes, c = 1 - k_f/K, and d = F_e - (F_e behind two
+/// world's stiffness K, k_f for small fast changes, c = 1 - k_f/K up to 7/8, and d = F_e - (F_e behind two
 /// lags), at most F_e,
 ///   F = F_e - s c d / (1 + (d / 1.8 N)^2)^2.
 /// F is F_e at rest, differs from it by 0.6 N at most and in a large motion by less and less, and ends
@@ -37,7 +37,7 @@ class DynamicStiffness {
     }
     if (unknown_) slow_ = slower_ = force;
     unknown_ = false;
-    const double share = fast_ > 0 && slope > fast_ ? 1 - fast_ / slope : 0.0;
+    const double share = fast_ > 0 && slope > fast_ ? std::min(1 - fast_ / slope, kSoftest) : 0.0;
     approach(force, std::sqrt(share), dt);
     const double most = std::abs(force);
     const double change = std::clamp(force - slower_, -most, most);
@@ -51,6 +51,7 @@ class DynamicStiffness {
   void retune(const DynamicStiffness& next) EBAC_RT { fast_ = next.fast_; }
 
  private:
+  static constexpr double kSoftest = 7.0 / 8;   // 1: eight times softer
   static constexpr double kLag = 0.09;          // s
   static constexpr double kPerSmall = 1 / 1.8;  // 1/N
   static constexpr double kPerNear = 1 / 0.46;  // 1/N: twice as fast at 0.46 N
