@@ -6488,7 +6488,7 @@ class EBAC:
     filter : float
         low-pass on the derivative of the force error [s], 0 to 1.
     fast_stiffness : float
-        with the observer, stiffness for changes of the force below about 1 N that are faster than 1 Hz; 0 shows them with the world's own [N/m], 0 to 1e+06.
+        with the observer, stiffness for changes of the force by some tenths of a newton that are faster than 1 Hz; 0 shows them with the world's own [N/m], 0 to 1e+06.
     heaviest_hand : float
         heaviest hand that recovery, and on soft walls the damper, are designed for [kg], 0 to 10.
     pull : float
@@ -6707,7 +6707,7 @@ class EBAC:
     @property
     def fast_stiffness(self) -> float:
         """
-        with the observer, stiffness for changes of the force below about 1 N that are faster than 1 Hz; 0 shows them with the world's own [N/m], 0 to 1e+06
+        with the observer, stiffness for changes of the force by some tenths of a newton that are faster than 1 Hz; 0 shows them with the world's own [N/m], 0 to 1e+06
         """
     @property
     def filter(self) -> float:

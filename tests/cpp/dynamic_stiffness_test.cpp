@@ -34,11 +34,11 @@ TEST(DynamicStiffness, ASmallFastChangeHasTheFastStiffness) {
   }
 }
 
-TEST(DynamicStiffness, NoChangeIsShownMoreThanSixTenthsOfANewtonOff) {
+TEST(DynamicStiffness, NoChangeIsShownMoreThanHalfANewtonOff) {
   for (double force = -40; force <= 40; force += 0.05) {
     for (const double softer : {-1.0, 1.0}) {
       const double shown = rested(5, 35e3).step(force, 35e3, softer, kTick);
-      EXPECT_LE(std::abs(shown - force), 0.6);
+      EXPECT_LE(std::abs(shown - force), 0.52);
       EXPECT_GE(shown * force, 0) << "against the world's force, " << force << " N";
     }
   }

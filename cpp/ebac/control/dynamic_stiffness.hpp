@@ -14,7 +14,7 @@ namespace ebac {
 /// world's stiffness K, k_f for small fast changes, c = 1 - k_f/K up to 7/8, and d = F_e - (F_e behind two
 /// lags), at most F_e,
 ///   F = F_e - s c d / (1 + (d / 1.8 N)^2)^2.
-/// F is F_e at rest, differs from it by 0.6 N at most and in a large motion by less and less, and ends
+/// F is F_e at rest, differs from it by 0.52 N at most and in a large motion by less and less, and ends
 /// with F_e.
 ///
 /// The lags are t/(1 - sqrt c) and t/(1 + sqrt c), t = 90 ms: against a hand that pushes steadily they

@@ -70,8 +70,8 @@ struct EbacParams {
         F{"filter", &EbacParams::filter, "s", "low-pass on the derivative of the force error", 0,
           1},
         F{"fast_stiffness", &EbacParams::fast_stiffness, "N/m",
-          "with the observer, stiffness for changes of the force below about 1 N that are faster "
-          "than 1 Hz; 0 shows them with the world's own",
+          "with the observer, stiffness for changes of the force by some tenths of a newton that "
+          "are faster than 1 Hz; 0 shows them with the world's own",
           0, 1e6},
         F{"heaviest_hand", &EbacParams::heaviest_hand, "kg",
           "heaviest hand that recovery, and on soft walls the damper, are designed for", 0, 10},
