@@ -94,7 +94,7 @@ TEST(Observer, KnowsThePositionWithinACountAndTheVelocityWithoutItsNoise) {
 
 TEST(Observer, PredictsWhereTheCommandActs) {
   for (const int delay : {1, 2}) {
-    ebac::Setup setup = observed(0.3);  // the impact: later, nothing moves
+    ebac::Setup setup = observed(0.1);  // the impact: later, nothing moves
     setup.timing.delay = delay;
     setup.observer = ObserverParams::of(setup.device, setup.timing);
     const Errors e = errors(setup);
