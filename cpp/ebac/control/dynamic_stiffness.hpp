@@ -13,8 +13,8 @@ namespace ebac {
 /// stiff world makes a force of it, which rings with a heavy hand that B_v damps little. With the
 /// world's stiffness K, k_f for small fast changes, c = 1 - k_f/K up to 7/8, and d = F_e - (F_e behind two
 /// lags), at most F_e,
-///   F = F_e - s c d / (1 + (d / 1.8 N)^2)^2.
-/// F is F_e at rest, differs from it by 0.52 N at most and in a large motion by less and less, and ends
+///   F = F_e - s c d / (1 + (d / D)^2)^2,   D = max(1.8 N, 6 counts K).
+/// F is F_e at rest, differs from it by 0.29 D at most and in a large motion by less and less, and ends
 /// with F_e.
 ///
 /// The lags are t/(1 - sqrt c) and t/(1 + sqrt c), t = 90 ms: against a hand that pushes steadily they
@@ -26,8 +26,8 @@ namespace ebac {
 /// one that is stiffer takes energy in: s > 0 costs, s < 0 earns.
 class DynamicStiffness {
  public:
-  /// `fast` in N/m; 0 shows every change whole.
-  explicit DynamicStiffness(double fast) EBAC_RT : fast_(fast) {}
+  /// `fast` in N/m; 0 shows every change whole. `count` is that of the encoder [m].
+  DynamicStiffness(double fast, double count) EBAC_RT : fast_(fast), small_(kSmallCounts* count) {}
 
   /// `slope` is the world's stiffness where the device is [N/m], `softer` the share s, -1 to 1.
   double step(double force, double slope, double softer, double dt) EBAC_RT {
@@ -38,10 +38,11 @@ class DynamicStiffness {
     if (unknown_) slow_ = slower_ = force;
     unknown_ = false;
     const double share = fast_ > 0 && slope > fast_ ? std::min(1 - fast_ / slope, kSoftest) : 0.0;
-    approach(force, std::sqrt(share), dt);
+    const double per_small = 1 / std::max(kSmall, small_ * slope);
+    approach(force, std::sqrt(share), per_small, dt);
     const double most = std::abs(force);
     const double change = std::clamp(force - slower_, -most, most);
-    const double small = change * kPerSmall;
+    const double small = change * per_small;
     const double large = 1 + small * small;
     return force - softer * share * change / (large * large);
   }
@@ -51,14 +52,15 @@ class DynamicStiffness {
   void retune(const DynamicStiffness& next) EBAC_RT { fast_ = next.fast_; }
 
  private:
-  static constexpr double kSoftest = 7.0 / 8;   // 1: eight times softer
-  static constexpr double kLag = 0.09;          // s
-  static constexpr double kPerSmall = 1 / 1.8;  // 1/N
-  static constexpr double kPerNear = 1 / 0.46;  // 1/N: twice as fast at 0.46 N
-  static constexpr double kFastest = 20.0;      // times
+  static constexpr double kSoftest = 7.0 / 8;  // 1: eight times softer
+  static constexpr double kLag = 0.09;         // s
+  static constexpr double kSmall = 1.8;        // N
+  static constexpr double kSmallCounts = 6;    // counts, of which a stiff world makes more than that
+  static constexpr double kNear = 1.0 / 3;     // of a small change: from here on twice as fast
+  static constexpr double kFastest = 20.0;     // times
 
-  void approach(double force, double root, double dt) EBAC_RT {
-    const double off = (force - slower_) * kPerNear;
+  void approach(double force, double root, double per_small, double dt) EBAC_RT {
+    const double off = (force - slower_) * per_small / kNear;
     const double passed = std::min(1 + off * off, kFastest) * dt;
     slow_ += (force - slow_) * follows(passed * (1 - root));
     slower_ += (slow_ - slower_) * follows(passed * (1 + root));
@@ -66,6 +68,7 @@ class DynamicStiffness {
   static double follows(double passed) EBAC_RT { return passed / (kLag + passed); }
 
   double fast_;           // N/m
+  double small_;          // m
   double slow_ = 0;       // N, behind the first lag
   double slower_ = 0;     // N, behind both
   bool unknown_ = false;  // whether they are

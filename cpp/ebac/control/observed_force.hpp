@@ -22,7 +22,7 @@ namespace ebac {
 /// estimated motion, and never exceeds the reserve. So the softer changes give out less than a reserve
 /// in any window of time, however much energy the account holds.
 ///
-/// Without a count of noise in the velocity, mass and delay alone bound the damper: B_v = 0.5 M /
+/// Without a count of noise in the velocity, mass and delay alone bound the damper: B_v = 0.55 M /
 /// ((d + 0.8) T + current_lag). Twice as much loses walls where the observer is told half of the
 /// mass or a wrong lag of the sensor. On a soft world, of slope K, it is at most sqrt(K (M + heaviest
 /// hand)), half of critical for that hand: more would only make it slow. The world may be shown at its
@@ -33,7 +33,7 @@ class ObservedForce {
   ObservedForce(const EbacParams& law, const Timing& timing) EBAC_RT
       : show_(law.mass, kNoCount, law.current_lag + kSpare * timing.dt, timing, law.resonance,
               kPhaseLag),
-        dynamic_(law.fast_stiffness),
+        dynamic_(law.fast_stiffness, law.count),
         half_period_(show_.half_period),
         damping_(law.injection ? show_.damping : 0.0),
         stiffest_(2 * damping_ * damping_ / law.mass),
@@ -86,7 +86,7 @@ class ObservedForce {
   double stored_at() const EBAC_RT { return stored_at_; }
 
  private:
-  static constexpr double kPhaseLag = 0.5;   // rad of delay at w
+  static constexpr double kPhaseLag = 0.55;  // rad of delay at w
   static constexpr double kSpare = 0.3;      // ticks of delay, for facts that are wrong
   static constexpr double kNoCount = 1e-12;  // m: the velocity has no noise of counts
   static constexpr double kLeast = 0.02;     // counts: a smaller motion shows no slope

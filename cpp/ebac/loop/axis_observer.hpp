@@ -29,9 +29,9 @@ namespace ebac {
 /// The encoder corrects x, u and D. A reading says little about where in its count the device is, so
 /// an innovation counts half up to one count and whole beyond, and x is kept within 1.5 counts of the
 /// reading. The steady Kalman gain of force noise against a reading uniform within a count has the
-/// bandwidth w = sqrt(sqrt(12) force_noise / (M count)). Half of it is used in motion, a quarter at
-/// rest, where an edge of a count would be felt as a click; D is slower than x and u, by far so at
-/// rest. The prediction takes the force of the hand to change as it did in the last 5 ms, and at rest
+/// bandwidth w = sqrt(sqrt(12) force_noise / (M count)). 0.4 of it is used in motion, 0.3 at rest,
+/// where an edge of a count would be felt as a click; D is slower than x and u, by far so at rest. The
+/// prediction takes the force of the hand to change as it did in the last 12 ms, and at rest
 /// without its noise: a lag in that force of 1 N would be 4 m/s^2. Where the force turns out to be
 /// noisier than declared, all of w is used. v is kept within what two readings prove of it.
 class AxisObserver {
@@ -129,8 +129,8 @@ class AxisObserver {
       0.09;                                // 1, (w dt)^2 from which noise moves x over whole counts
   static constexpr double kMoving = 0.01;  // m/s, from here on the device moves
   static constexpr double kRests = 0.05;   // s, until it counts as resting
-  static constexpr double kCalm = 5e-3;    // s, over which the hand's force is smoothed
-  static constexpr double kNoise = 2;      // standard deviations that smoothing takes away at most
+  static constexpr double kCalm = 12e-3;   // s, over which the hand's force is smoothed
+  static constexpr double kNoise = 1.5;    // standard deviations that smoothing takes away at most
   static constexpr double kLoud = 10;    // standard deviations in a second difference, 4 of its own
   static constexpr double kRough = 0.1;  // s, memory of such differences
   static constexpr double kMemory = 0.05;      // s, of the contradictions
@@ -218,8 +218,8 @@ class AxisObserver {
     const double w = std::sqrt(std::sqrt(12.0) * params_.force_noise / (mass_ * params_.count));
     within_ = std::clamp(w * w * dt * dt / kDithered, 0.5, 1.0);
     full_ = Gains::of(w, 0.5, dt);
-    in_motion_ = Gains::of(0.5 * w, 0.5, dt);
-    at_rest_ = Gains::of(0.5 * within_ * w, 0.1, dt);
+    in_motion_ = Gains::of(0.4 * w, 0.5, dt);
+    at_rest_ = Gains::of(0.6 * within_ * w, 0.1, dt);
     resting_ = std::max(0.0, 1 - dt / kRests);
     const double kept =
         std::exp(-dt / (kCalm * std::sqrt(params_.force_noise / ObserverParams::kLeastNoise)));
