@@ -290,3 +290,18 @@ def test_friction_stops_only_what_stops() -> None:
         reference.advance(device.force(current), k * 1e-3, 1e-3)
         assert plant.truth().v == pytest.approx(reference.state[1], abs=1e-8)
         assert plant.truth().v > 0
+
+
+@pytest.mark.parametrize("lag", [1e-308, 1e-20, 1e-15, 1e-10, 1e-8])
+@pytest.mark.parametrize("part", ["sensor", "drive"])
+def test_a_lag_that_is_hardly_there_is_none(part: str, lag: float) -> None:
+    """The reciprocal of a tiny lag must neither overflow nor swallow the digits of the motion."""
+    if part == "sensor":
+        device, without = (ebac.Device(sensor=ebac.ForceSensor(lag=t)) for t in (lag, 0.0))
+    else:
+        device, without = (ebac.Device(drive=ebac.Drive(current_lag=t)) for t in (lag, 0.0))
+    x, ideal = (
+        ebac.simulate(ebac.Scenario(device=d, seconds=0.3), "ebac")["true.x"]
+        for d in (device, without)
+    )
+    assert np.abs(x - ideal).max() < 1e-6

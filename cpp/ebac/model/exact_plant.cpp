@@ -5,13 +5,20 @@
 
 namespace ebac {
 
+namespace {
+
+/// A lag below 1 ns counts as none: the digits of the exponential would all go to its rate.
+double resolved(double lag) { return lag < 1e-9 ? 0.0 : lag; }
+
+}  // namespace
+
 AxisParameters axis_parameters(const DeviceModel& device, const Hand& hand) {
   return {.device_mass = device.mass(),
           .device_damping = device.mechanics.damping,
           .coulomb = device.mechanics.coulomb,
           .weight = device.mechanics.handle_mass * device.mechanics.gravity,
-          .current_lag = device.drive.current_lag,
-          .sensor_lag = device.sensor.lag,
+          .current_lag = resolved(device.drive.current_lag),
+          .sensor_lag = resolved(device.sensor.lag),
           .hand_mass = hand.mass,
           .hand_damping = hand.damping,
           .hand_stiffness = hand.stiffness};
