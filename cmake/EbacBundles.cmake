@@ -9,8 +9,8 @@ endfunction()
 
 ebac_bundle(ebac_tick tick cpp/ebac control/laws gastroscope/procedure sim/any_law sim/ebac_loop sim/simulated_device)
 # Apart from the tick, which would take their functions into its own (gnu::flatten).
-ebac_bundle(ebac_tick stages cpp/ebac control/turned_ports loop/plausibility loop/safety_limiter loop/signal_chain
-            loop/state_observer model/environment model/port_space)
+ebac_bundle(ebac_tick stages cpp/ebac control/turned_ports loop/axis_observer loop/plausibility loop/safety_limiter
+            loop/signal_chain loop/state_observer model/environment model/port_space)
 ebac_bundle(ebac model cpp/ebac core/matrix_exponential model/device model/exact_axis model/exact_plant model/hand model/hand_model model/joint_dynamics
             model/kinematics model/limits model/linear_flow model/stepped_plant world/engine/engine_client
             world/engine/make_bridge world/engine/shared_channel world/make)

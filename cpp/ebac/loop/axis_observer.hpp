@@ -212,22 +212,7 @@ class AxisObserver {
     unread_ = 0;
   }
 
-  void set_tick(double dt) EBAC_RT {
-    dt_ = dt;
-    motor_.set_tick(params_.force_lag + records_.mean_age(), dt);
-    const double w = std::sqrt(std::sqrt(12.0) * params_.force_noise / (mass_ * params_.count));
-    within_ = std::clamp(w * w * dt * dt / kDithered, 0.5, 1.0);
-    full_ = Gains::of(w, 0.5, dt);
-    in_motion_ = Gains::of(0.4 * w, 0.5, dt);
-    at_rest_ = Gains::of(0.6 * within_ * w, 0.1, dt);
-    resting_ = std::max(0.0, 1 - dt / kRests);
-    const double kept =
-        std::exp(-dt / (kCalm * std::sqrt(params_.force_noise / ObserverParams::kLeastNoise)));
-    calming_ = 1 - kept * kept;
-    trending_ = (1 - kept) * (1 - kept) / dt;
-    roughening_ = dt / (kRough + dt);
-    forget_ = dt / (kMemory + dt);
-  }
+  void set_tick(double dt) EBAC_RT;
 
   ObserverParams params_;
   ForceHistory records_;

@@ -1,8 +1,5 @@
 #include "ebac/loop/state_observer.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <optional>
 #include <variant>
 
 #include "ebac/loop/of_all.hpp"
@@ -21,75 +18,6 @@ StateObserver::StateObserver(const DeviceModel& device, const Observing& observi
       observing_(observing),
       observer_{AxisObserver(observing.params), AxisObserver(observing.params),
                 AxisObserver(observing.params)} {}
-
-/// One axis in its joint: s = R q (of a slide its own R), and `force` along it.
-const AxisObserver& StateObserver::follow(std::size_t axis, const Joint& joint, double force,
-                                          const Reading& reading, bool counted, double dt) EBAC_RT {
-  AxisObserver& observer = observer_[axis];
-  const auto e = static_cast<Eigen::Index>(axis);
-  const double s = travel_[e] * joint.q;
-  if (dt > 0) {
-    const Aged encoder{s, reading.counts_age[axis]};
-    observer.give(force_per_amp_[e] * joint.current);
-    observer.step(counted ? std::optional(encoder) : std::nullopt, {force, reading.force_age},
-                  force_per_amp_[e] * joint.current_applied, dt);
-  } else {
-    observer.start(s);
-  }
-  return observer;
-}
-
-void StateObserver::enter(std::size_t axis, Port& port) const EBAC_RT {
-  Estimate& est = port.est;
-  est.disturbance = observer_[axis].disturbance();
-  est.bound = observing_.params.count / 2 + std::abs(port.x - est.x);
-  est.weight = weight_;
-  est.fallback = static_cast<int>(fallback_);
-}
-
-/// What is wrong with the estimate's inputs or its model in this tick.
-Fallback StateObserver::failure(const Reading& reading, std::size_t axes) const EBAC_RT {
-  constexpr double kContradicted = 0.5, kAgrees = 0.1;
-  double contradicted = 0;
-  for (std::size_t i = 0; i < axes; ++i) {
-    contradicted = std::max(contradicted, observer_[i].contradicted());
-  }
-  const bool model_fails = contradicted > (fallback_ == Fallback::kModel ? kAgrees : kContradicted);
-  return reading.force_status != SensorStatus::kGood       ? Fallback::kForceStatus
-         : reading.force_age > observing_.params.force_age ? Fallback::kForceStale
-         : model_fails                                     ? Fallback::kModel
-         : account_.given_up()                             ? Fallback::kAccount
-                                                           : Fallback::kNone;
-}
-
-/// Fades the estimate out in 20 ms where its inputs or its model fail, and in again when neither has failed for a while:
-/// one that came back between two short failures, in a contact, would give the law a new account each time.
-void StateObserver::trust(const Reading& reading, double dt, std::size_t axes) EBAC_RT {
-  constexpr double kFade = 0.02;  // s
-  const Fallback failed = failure(reading, axes);
-  unbroken_ = failed == Fallback::kNone ? std::min(kUnbroken, unbroken_ + dt) : 0.0;
-  if (!observing_.acts) {
-    fallback_ = Fallback::kOff;
-    weight_ = 0;
-  } else if (failed != Fallback::kNone || unbroken_ < kUnbroken) {
-    if (failed != Fallback::kNone) fallback_ = failed;
-    weight_ = std::max(0.0, weight_ - dt / kFade);
-  } else {
-    fallback_ = Fallback::kNone;
-    weight_ = dt > 0 && !forgot_ ? std::min(1.0, weight_ + dt / kFade) : 1.0;
-  }
-}
-
-void StateObserver::heed(bool drained, double dt, std::span<const Axis> axes) EBAC_RT {
-  AccountWatch::Tick now{.drained = drained};
-  for (std::size_t i = 0; i < axes.size(); ++i) {
-    const Port& port = axes[i].port;
-    now.contact = now.contact || port.f_env != 0;
-    now.speed = std::max(now.speed, std::abs(port.est.v));
-    now.rough = std::max(now.rough, observer_[i].rough());
-  }
-  account_.step(now, dt);
-}
 
 /// The mass of an axis over that of the first in the middle. A lever that slides changes the handle's part of it.
 double StateObserver::mass_share(const Pose& at, Eigen::Index axis) const EBAC_RT {
@@ -132,27 +60,6 @@ void StateObserver::step_general(const Reading& reading, const std::array<bool, 
     est.x_act = x_act[e];
     est.v_act = v_act[e];
     enter(i, axes[i].port);
-  }
-}
-
-void StateObserver::step(const Reading& reading, const std::array<bool, kMaxAxes>& counted,
-                         double dt, std::span<Axis> axes) EBAC_RT {
-  trust(reading, dt, axes.size());
-  if (forgot_) dt = 0;
-  forgot_ = false;
-  if (linear_) {  // the general case below, with J = R
-    for (std::size_t i = 0; i < axes.size(); ++i) {
-      Port& port = axes[i].port;
-      const AxisObserver& observer = follow(i, axes[i].joint, port.f_meas, reading, counted[i], dt);
-      Estimate& est = port.est;
-      est.x = observer.x();
-      est.dx = dt > 0 ? observer.moved() : 0.0;
-      est.v = observer.v();
-      observer.predict(est.x_act, est.v_act);
-      enter(i, port);
-    }
-  } else {
-    step_general(reading, counted, dt, axes);
   }
 }
 
