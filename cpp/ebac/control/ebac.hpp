@@ -112,7 +112,7 @@ class Ebac {
   /// Values that depend on the time since the last tick alone.
   void set_tick(double dt) EBAC_RT {
     dt_ = dt;
-    shared_.ledger.set_tick(dt);
+    shared_.set_tick(dt);
     encoder_.set_tick(dt);
   }
 

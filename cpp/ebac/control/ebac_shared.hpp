@@ -26,6 +26,7 @@ struct EbacShared {
   double f_env = 0;        // N, of the last tick
   double f_meas = 0;       // N, of the last tick
   double rising = 0, falling = 0;  // N/s, quickest change of it lately
+  double kept = 0;                 // share of them, per tick
 
   EbacShared(const EbacParams& given, const Timing& tick) EBAC_RT
       : params(given),
@@ -34,6 +35,12 @@ struct EbacShared {
         in_flight(tick.delay),
         asked(std::min(tick.delay + 1, kMaxDelay)) {
     state.energy = given.reserve;
+  }
+
+  /// Values that depend on the time since the last tick alone.
+  void set_tick(double dt) EBAC_RT {
+    ledger.set_tick(dt);
+    kept = kForget / (kForget + dt);
   }
 
   double held(double force) const EBAC_RT {
@@ -69,7 +76,6 @@ struct EbacShared {
   /// declared will do so again, and one that has pushed so may let go a fifth as fast.
   void watch_hand(const Port& port) EBAC_RT {
     const double change = port.f_meas - f_meas, noise = kNoise * params.force_noise;
-    const double kept = kForget / (kForget + port.dt);
     f_meas = port.f_meas;
     rising = std::max((change - noise) / port.dt, rising * kept);
     falling = std::max((-change - noise) / port.dt, falling * kept);

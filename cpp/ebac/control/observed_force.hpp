@@ -108,8 +108,10 @@ class ObservedForce {
     const double slope = slope_.value();
     if (slope <= 0 || reserve_ <= 0) return 1;
     const double left = std::min(allowance_, energy - stored(force));
+    const double share = 2 * left / reserve_ - 1;
+    if (share >= 0) return std::min(share, 1.0);
     const double borne = std::clamp(stiffest_ / slope - 1, 0.0, 1.0);
-    return std::clamp(2 * left / reserve_ - 1, -borne, 1.0);
+    return std::max(share, -borne);
   }
 
   Injection show_;

@@ -186,7 +186,8 @@ class AxisObserver {
     const double innovation = off - (1 - noisy) * (1 - within_) * within;
     contradicted_ += ((std::abs(off) > 1.5 * count ? 1.0 : 0.0) - contradicted_) * forget_;
     moving_ = std::max(std::min(1.0, std::abs(u_) / kMoving), moving_ * resting_);
-    const Gains gain = at_rest_.towards(in_motion_, moving_).towards(full_, noisy);
+    Gains gain = at_rest_.towards(in_motion_, moving_);
+    if (noisy > 0) gain = gain.towards(full_, noisy);
     x_ += gain.x * innovation;
     u_ += gain.v * innovation / dt;
     disturbance_ += gain.d * innovation * mass_ / (dt * dt);
