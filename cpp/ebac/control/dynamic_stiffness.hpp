@@ -59,13 +59,15 @@ class DynamicStiffness {
   static constexpr double kNear = 1.0 / 3;     // of a small change: from here on twice as fast
   static constexpr double kFastest = 20.0;     // times
 
+  /// By implicit steps of both lags.
   void approach(double force, double root, double per_small, double dt) EBAC_RT {
-    const double off = (force - slower_) * per_small / kNear;
+    const double off = (force - slower_) * per_small * (1 / kNear);
     const double passed = std::min(1 + off * off, kFastest) * dt;
-    slow_ += (force - slow_) * follows(passed * (1 - root));
-    slower_ += (slow_ - slower_) * follows(passed * (1 + root));
+    const double first = passed * (1 - root), second = passed * (1 + root);
+    const double per_both = 1 / ((kLag + first) * (kLag + second));
+    slow_ += (force - slow_) * (first * (kLag + second) * per_both);
+    slower_ += (slow_ - slower_) * (second * (kLag + first) * per_both);
   }
-  static double follows(double passed) EBAC_RT { return passed / (kLag + passed); }
 
   double fast_;           // N/m
   double small_;          // m

@@ -39,6 +39,7 @@ class AxisObserver {
   AxisObserver(const ObserverParams& params, double mass_share = 1) EBAC_RT
       : params_(params),
         mass_(params.mass* mass_share),
+        per_mass_(1 / mass_),
         motor_(params.current_lag),
         in_flight_(params.delay) {}
 
@@ -56,7 +57,10 @@ class AxisObserver {
   }
 
   /// The mass felt on this axis, as a share of that of the parameters (a gimbal's first axis).
-  void set_mass_share(double share) EBAC_RT { mass_ = params_.mass * share; }
+  void set_mass_share(double share) EBAC_RT {
+    mass_ = params_.mass * share;
+    per_mass_ = 1 / mass_;
+  }
 
   /// Takes one tick: the encoder [m], if it was read anew, the force sensor [N], and the force that
   /// acted over the last interval [N].
@@ -67,20 +71,20 @@ class AxisObserver {
     doubt(seen.age > params_.force_age, measured);
     const double motor = motor_.hold(applied);  // G f
     // The mean over the interval, of the parabola through the last three readings.
-    const double force = (5 * measured + 8 * measured_ - before_last_) / 12 + disturbance_;
+    const double force = (5 * measured + 8 * measured_ - before_last_) * (1.0 / 12) + disturbance_;
     const double bend = measured - 2 * measured_ + before_last_;
     const bool loud = std::abs(bend) > kLoud * params_.force_noise;
     rough_ += ((loud ? 1.0 : 0.0) - rough_) * roughening_;
     before_last_ = measured_;
     measured_ = measured;
     follow_hand(measured);
-    const double a = (force - params_.damping * u_ - motor) / mass_;
+    const double a = (force - params_.damping * u_ - motor) * per_mass_;
     const double before = x_;
     x_ += (u_ + (0.5 * dt + motor_.sensor_lag()) * a) * dt;
     u_ += a * dt;
     unread_ += dt;
     const double reading = encoder ? encoder->value + v_ * encoder->age : reading_;
-    if (encoder) correct(reading, dt);
+    if (encoder) correct(reading);
     moved_ = x_ - before;
     v_ = u_ + motor_.sensor_lag() * acceleration();
     if (encoder) keep_pace(reading);
@@ -99,7 +103,7 @@ class AxisObserver {
     double ahead = params_.force_lag;
     const auto advance = [&](double force, double time) EBAC_RT {
       const double grown = trend_ * (ahead + 0.5 * time);
-      const double a = (hand + grown - params_.damping * v - force) / mass_;
+      const double a = (hand + grown - params_.damping * v - force) * per_mass_;
       x += (v + 0.5 * a * time) * time;
       v += a * time;
       ahead += time;
@@ -136,7 +140,7 @@ class AxisObserver {
   static constexpr double kMemory = 0.05;      // s, of the contradictions
   static constexpr double kPatience = 3.5e-3;  // s, half a period of a cable's resonance of 140 Hz
 
-  /// Gains of the three states.
+  /// Gains of the three states: 1, 1/s, 1/s^2 (of D times the mass).
   struct Gains {
     double x = 0, v = 0, d = 0;
 
@@ -144,8 +148,8 @@ class AxisObserver {
     static Gains of(double bandwidth, double slow, double dt) EBAC_RT {
       const double z = std::exp(-bandwidth * dt);
       const double q = std::exp(-slow * bandwidth * dt);
-      return {1 - z * z * q, (1 - z) * (1 - z) + (1 - q) * (1 - z) * (1 + z),
-              (1 - z) * (1 - z) * (1 - q)};
+      return {1 - z * z * q, ((1 - z) * (1 - z) + (1 - q) * (1 - z) * (1 + z)) / dt,
+              (1 - z) * (1 - z) * (1 - q) / (dt * dt)};
     }
     Gains towards(const Gains& other, double share) const EBAC_RT {
       return {x + share * (other.x - x), v + share * (other.v - v), d + share * (other.d - d)};
@@ -153,7 +157,7 @@ class AxisObserver {
   };
 
   double acceleration() const EBAC_RT {
-    return (measured_ + disturbance_ - params_.damping * u_ - motor_.shown()) / mass_;
+    return (measured_ + disturbance_ - params_.damping * u_ - motor_.shown()) * per_mass_;
   }
 
   /// While the force is old, the encoder counts in full and D holds what the force has changed by.
@@ -178,19 +182,19 @@ class AxisObserver {
     calm_ = measured - std::clamp((1 - calming_) * off, -noise, noise);
   }
 
-  void correct(double reading, double dt) EBAC_RT {
+  void correct(double reading) EBAC_RT {
     const double count = params_.count;
     const double off = reading - x_;
     const double within = std::clamp(off, -count, count);
     const double noisy = std::clamp(2.5 * rough_ - 0.5, 0.0, 1.0);
     const double innovation = off - (1 - noisy) * (1 - within_) * within;
     contradicted_ += ((std::abs(off) > 1.5 * count ? 1.0 : 0.0) - contradicted_) * forget_;
-    moving_ = std::max(std::min(1.0, std::abs(u_) / kMoving), moving_ * resting_);
+    moving_ = std::max(std::min(1.0, std::abs(u_) * (1 / kMoving)), moving_ * resting_);
     Gains gain = at_rest_.towards(in_motion_, moving_);
     if (noisy > 0) gain = gain.towards(full_, noisy);
     x_ += gain.x * innovation;
-    u_ += gain.v * innovation / dt;
-    disturbance_ += gain.d * innovation * mass_ / (dt * dt);
+    u_ += gain.v * innovation;
+    disturbance_ += gain.d * innovation * mass_;
     x_ = std::clamp(x_, reading - kCell * count, reading + kCell * count);
   }
 
@@ -217,7 +221,8 @@ class AxisObserver {
 
   ObserverParams params_;
   ForceHistory records_;
-  double mass_;  // kg
+  double mass_;      // kg
+  double per_mass_;  // 1/kg
   MotorForce motor_;
   CommandsInFlight in_flight_;
   double x_ = 0;            // m
