@@ -1,4 +1,4 @@
-"""Walls on a slant, corners and discs on two axes: quiet, exact, and along the normal."""
+"""Walls on a slant, corners and discs on two axes, with a noisy sensor: quiet, exact, and along the normal."""
 
 import itertools
 from dataclasses import dataclass
@@ -10,9 +10,10 @@ from numpy.typing import NDArray
 
 import ebac
 
+SENSOR = ebac.ForceSensor(noise=0.03)
 DEVICES = {
-    "linear": ebac.Device(kinematics=ebac.Linear(axes=2)),
-    "gimbal": ebac.Device(kinematics=ebac.Gimbal()),
+    "linear": ebac.Device(kinematics=ebac.Linear(axes=2), sensor=SENSOR),
+    "gimbal": ebac.Device(kinematics=ebac.Gimbal(), sensor=SENSOR),
 }
 HAND = ebac.Hand(path=[ebac.Step(target=0.03), ebac.Step(target=0.02)])
 TARGET = np.array([0.03, 0.02])
@@ -23,11 +24,11 @@ every_device = pytest.mark.parametrize("device", DEVICES)
 
 @dataclass
 class Rest:
-    """The last 1.2 s of a run."""
+    """The last 1.2 s of a run; quiet in position and force, on both axes, as `ebac.contact` judges it."""
 
     x: NDArray[np.float64]
     force: NDArray[np.float64]
-    swing: float
+    quiet: bool
     least_energy: float
 
 
@@ -39,7 +40,7 @@ def rest(device: str, world: ebac.scenario.Environment) -> Rest:
     return Rest(
         x=x.mean(axis=0),
         force=end["f_applied"].mean(axis=0),
-        swing=float(np.ptp(x, axis=0).max()),
+        quiet=all(ebac.contact(trace, axis=axis).quiet for axis in range(2)),
         least_energy=float(trace["true.energy"].sum(axis=1).min()),
     )
 
@@ -63,22 +64,26 @@ def test_a_wall_on_a_slant_is_quiet_exact_and_pushes_along_its_normal(
     ideal = HAND.stiffness * (normal @ TARGET) / (HAND.stiffness + wall.stiffness)
     assert abs(normal @ end.x - ideal) <= EXACT
     assert degrees_apart(end.force, normal) < 2
-    assert end.swing < ebac.metrics.STILL_SWING
+    assert end.quiet
     assert end.least_energy >= -1e-3
 
 
 @pytest.mark.parametrize("observer", [False, True])
 @pytest.mark.parametrize("apart", [30, 150])
 @pytest.mark.parametrize("aside", [0.0, 2e-3, 8e-3])
-def test_a_narrow_or_flat_corner_is_quiet_and_exact(
+def test_a_narrow_or_flat_corner_is_still_and_exact(
     apart: float, aside: float, observer: bool
 ) -> None:
-    """Normals that are nearly parallel: both walls share every direction of the plane."""
+    """Normals that are nearly parallel: both walls share every direction of the plane.
+
+    Position alone: on the encoder alone the force clicks, and along its bisector a flat corner is as stiff as 19 kN/m,
+    where the force is not quiet for a hand of 0.5 kg and 100 N/m that presses with 0.2 N.
+    """
     half = np.radians(apart / 2)
     target = np.array([0.03, aside])
     for mass, damping, stiffness in itertools.product((0.05, 0.5), (2, 6), (100, 600)):
         scenario = ebac.Scenario(
-            device=DEVICES["linear"].replace(sensor=ebac.ForceSensor(noise=0.03)),
+            device=DEVICES["linear"],
             hand=ebac.Hand(mass=mass, damping=damping, stiffness=stiffness, target=tuple(target)),
             environment=ebac.Corner(first=ebac.Wall(angle=-half), second=ebac.Wall(angle=half)),
             observer=observer,
@@ -103,13 +108,13 @@ def test_a_corner_is_quiet_and_exact_in_both_directions(device: str, angle: floa
     ideal = HAND.stiffness * TARGET / (HAND.stiffness + 1e4)
     assert np.abs(end.x - ideal).max() <= EXACT
     assert degrees_apart(end.force, TARGET) < 2
-    assert end.swing < ebac.metrics.STILL_SWING
+    assert end.quiet
 
 
 @every_device
 def test_a_corner_that_is_not_square_is_quiet(device: str) -> None:
     end = rest(device, ebac.Corner(first=ebac.Wall(), second=ebac.Wall(angle=pi / 3)))
-    assert end.swing < ebac.metrics.STILL_SWING
+    assert end.quiet
     assert degrees_apart(end.force, HAND.stiffness * (TARGET - end.x)) < 2
 
 
@@ -121,7 +126,7 @@ def test_a_disc_met_on_a_slant_is_quiet_and_pushes_along_its_radius(device: str)
     depth = disc.radius - np.linalg.norm(inwards)
     assert depth == pytest.approx(np.linalg.norm(end.force) / disc.stiffness, abs=EXACT)
     assert degrees_apart(end.force, inwards) < 2
-    assert end.swing < ebac.metrics.STILL_SWING
+    assert end.quiet
 
 
 def test_a_disc_pushes_from_its_centre_and_only_inside() -> None:
