@@ -33,7 +33,7 @@ void bind_contact(py::module_& m) {
                                    .pull = view(pull)};
         const WallContact c = measure_contact(record);
         Values numbers = values_of(c);
-        numbers["rest_power"] = rest_power(record);
+        numbers["rest_power"] = rest_power(record, c);
         numbers["still"] = c.still();
         numbers["force_quiet"] = c.force_quiet();
         numbers["quiet"] = c.quiet();

@@ -22,7 +22,7 @@ def pressing(model: object = None, **changes: object) -> ebac.Scenario:
     """A hand that meets the reference wall after 10 mm."""
     hand = ebac.Hand(target=0.05, model=model)
     wall = ebac.Wall(position=0.01)
-    return ebac.Scenario(hand=hand, environment=wall, **{"seconds": 1.0, **changes})
+    return ebac.Scenario(**{"hand": hand, "environment": wall, "seconds": 1.0, **changes})
 
 
 class Spring(OwnHand):
@@ -209,12 +209,51 @@ def test_the_command_line_knows_the_presets() -> None:
 
 
 def test_power_at_rest_is_the_slope_of_the_energy() -> None:
-    trace = ebac.simulate(pressing(seconds=3.0), "direct")
-    tail = trace["t"] >= trace["t"][-1] - 0.3 * 3.0
+    trace = ebac.simulate(pressing(seconds=30.0), "tca-damped")
+    tail = trace["t"] >= trace["t"][-1] - 0.3 * 30.0
     slope = np.polyfit(trace["t"][tail], trace["true.energy"][tail], 1)[0]
     assert ebac.contact(trace).rest_power_W == pytest.approx(slope, rel=1e-2)
-    swept = ebac.sweep([trace.scenario], "direct")
+    swept = ebac.sweep([trace.scenario], "tca-damped")
     assert swept["rest_power_W"][0] == ebac.contact(trace).rest_power_W
+
+
+def test_what_is_not_at_rest_has_no_power_at_rest() -> None:
+    """It showed what settling takes: -0.22 mW for a hand of `d1K10`, of which nothing stays."""
+
+    def power(law: str, **changes: object) -> float | None:
+        return ebac.contact(ebac.simulate(pressing(**changes), law)).rest_power_W
+
+    assert power("ebac", seconds=6.0) is None
+    assert power("ebac", seconds=28.0) is None  # the last 30 % begin after 19.6 s
+    assert power("ebac", seconds=29.0) is not None
+    assert power("direct", seconds=60.0) is None  # it swings
+    clicks = pressing(seconds=60.0, observer=False)
+    found = ebac.contact(ebac.simulate(clicks, "tca-damped"))
+    assert found.force_settled_s is None
+    assert found.rest_power_W is not None  # and this is what gives out energy
+
+
+@pytest.mark.parametrize("seconds", [7.0, 15.0, 25.0])
+def test_a_hand_that_moved_within_20_s_before_is_not_at_rest(seconds: float) -> None:
+    """The last 30 % of 40 s begin after 28 s; a soft hand moves the handle by far less than 0.125 mm."""
+    times = [0.0, 0.5, seconds, seconds + 0.5]
+    path = ebac.Recorded(t=times, x=[0.0, 0.05, 0.05, 0.06])
+    soft = ebac.Hand(stiffness=100.0, path=path)
+    trace = ebac.simulate(pressing(hand=soft, seconds=40.0), "ebac")
+    found = ebac.contact(trace)
+    assert found.settled_s is not None
+    assert found.settled_s < 1.0
+    assert (found.rest_power_W is None) == (seconds > 7.0)
+
+
+def test_a_study_shows_power_at_rest_of_long_holds_alone() -> None:
+    few = ebac.Operators.grid()[::20]
+    rows = ebac.study(
+        few, ["tca-damped", "ebac"], ["d1K10", "slow-waves", "hold", "hold-10min"]
+    ).rows
+    for row in rows:
+        there = row.condition.startswith("hold")
+        assert (row.least_rest_power_W is not None) == there, row
 
 
 def test_ebac_holds_under_every_model() -> None:

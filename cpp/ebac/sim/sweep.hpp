@@ -119,10 +119,10 @@ Outcome measure_run(const Setup& setup, const Scalar& scalar, const RunLimits& l
     ++outcome.ticks;
   }
   if (recorder.rows() >= kFewestRows) outcome.contact = measure_contact(recorder.record());
-  outcome.rest_power = rest_power(recorder.record());
   if (outcome.ticks < rows) {
     outcome.contact.settled = outcome.contact.force_settled = WallContact::kNone;
   }
+  outcome.rest_power = rest_power(recorder.record(), outcome.contact);
   outcome.done = true;
   return outcome;
 }

@@ -68,7 +68,9 @@ class Contact:
         of your own.
     rest_power_W : float or None
         Mean rate of the port energy over the last 30 %, dW/dt at rest; negative where the port gives out energy for
-        as long as it is held. None without a simulation.
+        as long as it is held. None without a simulation, and unless the run is at rest from 20 s before its last 30 %
+        on: the position stays within 0.125 mm of its rest, and the force, which may click, within the range of the
+        last 30 %, widened by 5 % of its rest or 0.2 N, the larger. So a run of less than 28.6 s has none.
     force_rest_N : float
         Mean applied force over the last 30 % of the run.
     force_settled_s : float or None

@@ -51,7 +51,8 @@ class StudyRow:
         it has no closed form.
     least_rest_power_W : float or None
         Lowest mean rate of the port energy over the last 30 % of a run, dW/dt at rest; a port that is held for long
-        gives out energy without end where it is below zero.
+        gives out energy without end where it is below zero. Of the runs that are at rest from 20 s before that on, see
+        `Contact`; None where there is none, as after 6 s.
     force_quiet : int or None
         Hands for which the force is quiet, see `Contact`; None where the condition has no point of rest.
     """
