@@ -1483,6 +1483,8 @@ class ForceSensor:
         when records come again; inf for never [s], at least 0.
     repeats : bool
         whether it sends its last record over and over meanwhile, so that nothing looks old.
+    disconnects : bool
+        whether its status says disconnected meanwhile; its reading is the last record.
     """
 
     @staticmethod
@@ -1505,6 +1507,7 @@ class ForceSensor:
         stops_at: float = ...,
         resumes_at: float = ...,
         repeats: bool = False,
+        disconnects: bool = False,
     ) -> None: ...
     def __reduce__(self) -> tuple[typing.Any, ...]: ...
     def __repr__(self) -> str: ...
@@ -1525,6 +1528,11 @@ class ForceSensor:
     def delay(self) -> float:
         """
         time from a force to its record, of which the loop knows nothing [s], 0 to 0.02
+        """
+    @property
+    def disconnects(self) -> bool:
+        """
+        whether its status says disconnected meanwhile; its reading is the last record
         """
     @property
     def lag(self) -> float:

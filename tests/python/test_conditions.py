@@ -7,7 +7,7 @@ from typer.testing import CliRunner
 
 import ebac
 from ebac.cli import app
-from ebac.studies import CONDITIONS, conditions
+from ebac.studies import CONDITIONS, GROUPS, conditions
 
 
 def told(*words: str, code: int = 0) -> str:
@@ -40,6 +40,20 @@ def test_a_condition_has_one_name(written: str, name: str) -> None:
     (made,) = conditions([written, name])
     assert made.name == name
     assert made is CONDITIONS.get(name, made)
+
+
+def test_failures_contain_a_noisy_and_a_disconnected_sensor() -> None:
+    assert {"force-noise", "sensor-disconnected"} <= set(GROUPS["failures"])
+    sensor = CONDITIONS["sensor-disconnected"].change(ebac.Scenario()).device.sensor
+    assert (sensor.disconnects, sensor.stops_at) == (True, 1.0)
+
+
+def test_holds_are_on_stiff_walls_with_one_and_two_samples_of_delay() -> None:
+    held = [CONDITIONS[name].change(ebac.Scenario()) for name in GROUPS["holds"]]
+    assert {(s.environment.stiffness, s.timing.delay) for s in held} == {
+        (10e3, 1), (20e3, 1), (20e3, 2), (35e3, 1), (35e3, 2),
+    }  # fmt: skip
+    assert {s.seconds for s in held} == {120}
 
 
 @pytest.mark.parametrize("command", ["study", "worst", "tune tca-damped"])

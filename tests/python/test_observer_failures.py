@@ -55,6 +55,7 @@ TAPS = to.tapping(1.5)
         ("sensor-gap-impact", {"force_stale"}),
         ("sensor-repeats", {"model"}),
         ("sensor-saturated", {"force_status"}),
+        ("sensor-disconnected", {"force_status"}),
         ("none", set()),
     ],
 )

@@ -24,7 +24,7 @@ class ForceRecords {
     head_ = (head_ + 1) % kTicks;
     past_[head_] = {t, force};
     used_ = std::min(used_ + 1, kTicks);
-    const bool stopped = t >= sensor.stops_at && t < sensor.resumes_at;
+    const bool stopped = sensor.stopped(t);
     const double latest = sensor.period > 0 ? std::floor(t / sensor.period) * sensor.period : t;
     if (!stopped && (latest > taken_ || used_ == 1)) {
       taken_ = latest;

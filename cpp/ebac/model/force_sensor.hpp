@@ -22,7 +22,8 @@ struct ForceSensor {
   double delay = 0;    // s, unknown to the loop
   double stops_at = std::numeric_limits<double>::infinity();    // s
   double resumes_at = std::numeric_limits<double>::infinity();  // s
-  bool repeats = false;  // the last record while it stops, as if it were new
+  bool repeats = false;      // the last record while it stops, as if it were new
+  bool disconnects = false;  // while it stops, its status says so
 
   double read(double force, Noise& random) const EBAC_RT {
     if (bias != 0) force += bias;
@@ -30,6 +31,8 @@ struct ForceSensor {
     if (quantum > 0) force = quantum * std::round(force / quantum);
     return std::clamp(force, -range, range);
   }
+
+  bool stopped(double t) const EBAC_RT { return t >= stops_at && t < resumes_at; }
 
   /// Whether it shows every tick the force of that tick.
   bool prompt() const EBAC_RT {
@@ -53,6 +56,8 @@ struct ForceSensor {
         F{"resumes_at", &ForceSensor::resumes_at, "s", "when records come again; inf for never", 0},
         F{"repeats", &ForceSensor::repeats, "1",
           "whether it sends its last record over and over meanwhile, so that nothing looks old"},
+        F{"disconnects", &ForceSensor::disconnects, "1",
+          "whether its status says disconnected meanwhile; its reading is the last record"},
     };
   }
 };

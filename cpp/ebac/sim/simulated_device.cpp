@@ -35,6 +35,9 @@ void SimulatedDevice::feel(const P& plant, Reading& reading) EBAC_RT {
   });
   reading.force = shown_;
   reading.force_age = records_.age();
+  if (device_.sensor.disconnects && device_.sensor.stopped(t_)) {
+    reading.force_status = SensorStatus::kDisconnected;
+  }
 }
 
 template <class P>

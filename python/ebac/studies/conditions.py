@@ -160,6 +160,8 @@ _SENSOR = [
             to.device("sensor", stops_at=0.03, resumes_at=0.13)),
     _robust("sensor-repeats", "from 1 s on the force sensor sends its last reading over and over, as if it were new",
             to.device("sensor", stops_at=1.0, repeats=True)),
+    _robust("sensor-disconnected", "from 1 s on the force sensor is silent, and its status says disconnected",
+            to.device("sensor", stops_at=1.0, disconnects=True)),
     _robust("sensor-saturated", "the force sensor shows 5 N at most, and its status says so",
             to.device("sensor", range=5.0)),
     _robust("sensor-bias", "the force sensor shows 2 N more", to.device("sensor", bias=2.0)),
@@ -175,7 +177,7 @@ _SENSOR = [
             to.device("mechanics", cable_stiffness=1e5, backlash=5e-5)),
 ]  # fmt: skip
 _TOLD = ("told-mass+50", "told-mass-50", "told-delay-1-of-2")
-_OTHER = ("device-0.1kg", "encoder-12bit", "friction-1", "jitter")
+_OTHER = ("device-0.1kg", "encoder-12bit", "friction-1", "force-noise", "jitter")
 
 _MODELS = (
     ("reflex", "hands with a stretch reflex of 40 ms, see ebac.hands.Reflex", Reflex()),
@@ -196,6 +198,16 @@ _HANDS = [
     ),
 ]
 
+_HOLDS = [
+    _robust(name, f"the hand presses for 120 s, {summary}", to.scenario(seconds=120.0), at=at)
+    for name, summary, at in (
+        ("hold-K20", "20 kN/m", (1, 2, 20e3)),
+        ("hold-d2K20", "2 samples of delay and 20 kN/m", (2, 2, 20e3)),
+        ("hold-K35", "35 kN/m", (1, 2, 35e3)),
+        ("hold-d2K35", "2 samples of delay and 35 kN/m", (2, 2, 35e3)),
+    )
+]
+
 _HELD = [
     _robust("hold-10min", "no hands: one of 0.05 kg, 20 N s/m, 1000 N/m moves 30 mm in 3 s and holds for 10 min",
             drives=[to.held(600.0)]),
@@ -204,7 +216,7 @@ _HELD = [
 
 #: Every condition by its name.
 CONDITIONS: dict[str, Condition] = {
-    c.name: c for c in (*_FIVE, *_CELLS, *_ROBUSTNESS, *_SENSOR, *_HANDS, *_DAMPED, *_HELD)
+    c.name: c for c in (*_FIVE, *_CELLS, *_ROBUSTNESS, *_SENSOR, *_HANDS, *_DAMPED, *_HOLDS, *_HELD)
 }
 
 #: Shorter names of conditions: d2K20 is d2b2K20, as d1K10 has a damping of 2 N s/m.
@@ -224,6 +236,7 @@ GROUPS: dict[str, tuple[str, ...]] = {
     "failures": (*(c.name for c in _SENSOR), *_TOLD, *_OTHER),
     "hands": tuple(c.name for c in _HANDS),
     "damped-walls": tuple(c.name for c in _DAMPED),
+    "holds": ("hold", *(c.name for c in _HOLDS)),
     "all": tuple(CONDITIONS),
 }  # fmt: skip
 
