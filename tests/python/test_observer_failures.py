@@ -13,35 +13,48 @@ from ebac.studies import scenario_changes as to
 from ebac.studies.conditions import Condition
 
 BASE = ebac.Scenario(device=ebac.Device(sensor=ebac.ForceSensor(noise=0.03)))
-HANDS = ebac.Operators.grid()[::12]
+HANDS = ebac.Operators.grid()
+FEW = HANDS[::12]
 #: What sensor noise and the edge of an encoder count do to a resting force anyway, peak to peak [N].
 RIPPLE = 1.0
 #: A light device moves more by the noise of its sensor, and clicks less on the encoder alone [N].
 RIPPLE_LIGHT = 1.9
 #: What the observer's part and the encoder's part of the account are lent, together [J].
 LENT = 0.012
+#: Drawn in a window where the sensor or the declared mass is wrong: 0.55 mJ was the most of the 60 hands [J].
+DRAWN = 0.8e-3
 
 
-def compared(condition: str | Condition) -> tuple[ebac.studies.Study, ebac.studies.Study]:
+def compared(
+    condition: str | Condition, hands: ebac.Operators = FEW
+) -> tuple[ebac.studies.Study, ebac.studies.Study]:
     without, with_it = (
-        ebac.study(HANDS, ["ebac"], [condition], base=BASE.replace(observer=on))
+        ebac.study(hands, ["ebac"], [condition], base=BASE.replace(observer=on))
         for on in (False, True)
     )
     return without, with_it
 
 
+#: A mass on a stiff cable takes twenty times as long to simulate.
+DEAR = ("cable", "backlash")
+
+
 @pytest.mark.parametrize("condition", GROUPS["failures"])
 def test_it_is_never_worse_than_the_encoder_alone(condition: str) -> None:
-    without, with_it = compared(condition)
+    """Of 60 hands; where they take long to simulate of 5."""
+    without, with_it = compared(condition, FEW if condition in DEAR else HANDS)
     before, after = without.rows[0], with_it.rows[0]
-    assert after.good is not None
-    assert before.good is not None
-    assert after.good >= before.good
+    for count in ("good", "exact_and_still"):
+        assert getattr(after, count) >= getattr(before, count), count
     assert after.least_energy_J is not None
     assert before.least_energy_J is not None
     assert after.least_energy_J >= min(before.least_energy_J, -1e-9)
+    assert after.most_drawn_J is not None
+    assert before.most_drawn_J is not None
+    assert after.most_drawn_J <= max(before.most_drawn_J, DRAWN)
     swings = [s.columns["force_swing_N"].max() for s in (without, with_it)]
-    assert swings[1] <= max(swings[0], RIPPLE_LIGHT if condition == "device-0.1kg" else RIPPLE)
+    most = {"device-0.1kg": RIPPLE_LIGHT}.get(condition, RIPPLE)
+    assert swings[1] <= max(1.01 * swings[0], most)
 
 
 TAPS = to.tapping(1.5)
@@ -67,7 +80,7 @@ def test_a_hand_that_taps_on_draws_no_more_than_was_lent_and_the_loop_says_why(
     _, found = compared(Condition(name="tapped", summary="", change=change))
     assert found.columns["most_drawn_J"].max() < LENT
     assert found.columns["least_energy_J"].min() >= -1e-9
-    uses = [ebac.observer_use(found.trace(run)) for run in range(len(HANDS))]
+    uses = [ebac.observer_use(found.trace(run)) for run in range(len(FEW))]
     reasons = {name for use in uses if use is not None for name in use.fallback}
     assert named <= reasons
     assert bool(reasons) == bool(named)
@@ -76,7 +89,7 @@ def test_a_hand_that_taps_on_draws_no_more_than_was_lent_and_the_loop_says_why(
 def test_it_comes_back_during_a_contact_without_a_step() -> None:
     """None larger than those that the encoder alone makes anyway, and soon much smaller ones."""
     _, found = compared("sensor-gap")
-    for run in range(len(HANDS)):
+    for run in range(len(FEW)):
         trace = found.trace(run)
         t, weight = trace["t"], trace["est.weight"]
         steps = np.abs(np.diff(trace["f_applied"], prepend=0.0))
