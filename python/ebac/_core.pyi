@@ -336,7 +336,7 @@ class Estimate:
     disturbance : float
         force that the model of the device does not explain: friction, weight, sensor bias [N].
     bound : float
-        largest error of x that the encoder allows [m].
+        largest error of x that the encoder allows, apart from an offset that stays the same: the phase of its counts, half a count at most, which no reading shows; for a rigid device [m].
     weight : float
         share of the estimate in what the law is given: 1 the observer, 0 the encoder alone.
     fallback : int
@@ -376,7 +376,7 @@ class Estimate:
     @property
     def bound(self) -> float:
         """
-        largest error of x that the encoder allows [m]
+        largest error of x that the encoder allows, apart from an offset that stays the same: the phase of its counts, half a count at most, which no reading shows; for a rigid device [m]
         """
     @property
     def disturbance(self) -> float:
@@ -444,7 +444,7 @@ class Port:
     work : float
         energy the virtual side absorbed, sum of f_applied dx; dx of the observer where there is one [J].
     unsure : float
-        largest error of work: the position's, half a count or est.bound, times every change of the force [J].
+        largest error of work: the position's, half a count or est.bound, times every change of the force; for a rigid device [J].
     damped : float
         energy the device's known damping took: with the observer sum of b v^2 dt, estimated; without at least sum of (b/dt) max(|dx| - count, 0)^2 [J].
     world_v : float
@@ -543,7 +543,7 @@ class Port:
     @property
     def unsure(self) -> float:
         """
-        largest error of work: the position's, half a count or est.bound, times every change of the force [J]
+        largest error of work: the position's, half a count or est.bound, times every change of the force; for a rigid device [J]
         """
     @unsure.setter
     def unsure(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...

@@ -167,6 +167,36 @@ def test_the_estimate_is_in_every_row() -> None:
     assert (trace["est.fallback"] == 0).all()
 
 
+@pytest.mark.parametrize("seed", [1, 2, 3])
+@pytest.mark.parametrize("kinematics", [ebac.Linear(), ebac.Gimbal()])
+@pytest.mark.parametrize("stiffness", [10e3, 20e3])
+def test_the_error_of_the_estimate_is_within_its_bound_up_to_the_phase_of_the_counts(
+    stiffness: float, kinematics: Any, seed: int
+) -> None:
+    """A seed puts the edges of the counts somewhere; that offset stays and no reading shows it."""
+    device = NOISY.replace(kinematics=kinematics)
+    path = [ebac.Step(target=x) for x in (0.03, 0.02)[: device.axes]]
+    scenario = ebac.Scenario(
+        device=device,
+        hand=ebac.Hand(mass=0.5, stiffness=600.0, path=path),
+        environment=ebac.Wall(stiffness=stiffness),
+        seed=seed,
+    )
+    trace = ebac.simulate(scenario, "ebac")
+    beyond = False
+    for axis in range(device.axes):
+        bound = trace.axis("est.bound", axis)
+        error = trace.axis("est.x", axis) - trace.axis("true.x", axis)
+        least, most = (
+            (error - bound).max(),
+            (error + bound).min(),
+        )  # offsets that put all of it within
+        assert least <= most
+        assert max(least, -most) <= device.count / 2
+        beyond |= bool((np.abs(error) > bound).any())
+    assert beyond  # without the offset it is not
+
+
 def test_a_law_not_made_for_it_runs_as_without_and_is_estimated_all_the_same() -> None:
     short = OBSERVED.replace(seconds=0.5)
     with_it, without = (ebac.simulate(s, "tca") for s in (short, short.replace(observer=False)))

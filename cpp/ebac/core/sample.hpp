@@ -120,7 +120,10 @@ struct Estimate {
         F{"v_act", &Estimate::v_act, "m/s", "handle velocity predicted for that instant"},
         F{"disturbance", &Estimate::disturbance, "N",
           "force that the model of the device does not explain: friction, weight, sensor bias"},
-        F{"bound", &Estimate::bound, "m", "largest error of x that the encoder allows"},
+        F{"bound", &Estimate::bound, "m",
+          "largest error of x that the encoder allows, apart from an offset that stays the same: "
+          "the "
+          "phase of its counts, half a count at most, which no reading shows; for a rigid device"},
         F{"weight", &Estimate::weight, "1",
           "share of the estimate in what the law is given: 1 the observer, 0 the encoder alone"},
         F{"fallback", &Estimate::fallback, "1",
@@ -165,7 +168,7 @@ struct Port {
           "one"},
         F{"unsure", &Port::unsure, "J",
           "largest error of work: the position's, half a count or est.bound, times every change of "
-          "the force"},
+          "the force; for a rigid device"},
         F{"damped", &Port::damped, "J",
           "energy the device's known damping took: with the observer sum of b v^2 dt, estimated; "
           "without at least sum of (b/dt) max(|dx| - count, 0)^2"},
