@@ -35,6 +35,18 @@ def test_ebac_is_good_everywhere_and_direct_swings_where_it_is_stiff(found: Shap
     assert {row.stiffness_N_per_m for row in found.rows if row.world == "soft"} == {None}
 
 
+def test_ebac_is_good_with_a_noisy_sensor_as_well() -> None:
+    """Two and three axes, 10 kN/m; on the encoder alone its force clicks."""
+    worlds, devices = ("sphere", "corner"), ("joystick", "joystick-3")
+    found = shapes(("ebac",), worlds=worlds, stiffnesses=(10e3,), devices=devices, noise=0.03)
+    assert found.noise_N == 0.03
+    assert all(row.good for row in found.rows), found.rows
+    plain = shapes(("ebac",), worlds=worlds, stiffnesses=(10e3,), devices=devices)
+    assert all(
+        (a.perceived or 0) > (b.perceived or 0) for a, b in zip(found.rows, plain.rows, strict=True)
+    )
+
+
 def test_a_figure_has_a_panel_for_each_stiffness(found: Shapes) -> None:
     figure = plot_shapes(found)
     assert len(figure.axes) == 3
@@ -65,7 +77,9 @@ def test_the_command_says_the_same_as_json(tmp_path: Path) -> None:
     call = "shapes --world edge --stiffness 10000 --device joystick --law direct,ebac --json --out"
     answer = CliRunner().invoke(app, [*call.split(), str(tmp_path / "s")])
     assert answer.exit_code == 0, answer.output
-    direct, ours = json.loads(answer.stdout)["rows"]
+    document = json.loads(answer.stdout)
+    direct, ours = document["rows"]
+    assert document["noise_N"] == 0
     assert (direct["still"], ours["quiet"], ours["exact"], ours["passive"]) == (
         False, True, True, True,
     )  # fmt: skip
@@ -76,6 +90,10 @@ def test_the_command_says_the_same_as_json(tmp_path: Path) -> None:
     answer = CliRunner().invoke(app, table)
     assert "swings" in answer.output
     assert "good" in answer.output
+    assert "the force sensor without noise" in " ".join(answer.output.split())
+    table = [*table[:-1], str(tmp_path / "u"), "--device-noise", "0.03"]
+    answer = CliRunner().invoke(app, table)
+    assert "the force sensor with 0.03 N of noise" in " ".join(answer.output.split())
 
 
 @pytest.mark.parametrize(
@@ -85,6 +103,7 @@ def test_the_command_says_the_same_as_json(tmp_path: Path) -> None:
         ("--device stick", "--device stick"),
         ("--stiffness -1", "stiffness = -1 N/m: must lie in [0, 1e+07] N/m"),
         ("--law best", "--law best"),
+        ("--device-noise -1", "--device-noise = -1 N: must lie in [0, 100] N"),
     ],
 )
 def test_what_cannot_be_is_refused(

@@ -82,6 +82,10 @@ DeviceName: TypeAlias = Annotated[
         autocompletion=completion.devices,
     ),
 ]
+DeviceNoise: TypeAlias = Annotated[
+    float | None,
+    option(text="Noise of the force sensor, standard deviation [N]", default="0", panel=DEVICE),
+]
 Rate: TypeAlias = Annotated[
     float | None, option(text="Ticks per second [Hz]", default="1000", panel=RUN)
 ]
@@ -163,10 +167,7 @@ class DeviceOptions:
     """The simulated device."""
 
     device: DeviceName = None
-    device_noise: Annotated[
-        float | None,
-        option(text="Noise of the force sensor, standard deviation [N]", default="0", panel=DEVICE),
-    ] = None
+    device_noise: DeviceNoise = None
     device_coulomb: Annotated[
         float | None,
         option(text="Coulomb friction of the device [N]", default="0", panel=DEVICE),

@@ -95,11 +95,14 @@ class Shapes:
         Sample time and delay.
     missing : tuple of str
         What was left out, and why.
+    noise_N : float
+        Noise of the force sensor, standard deviation.
     """
 
     rows: tuple[ShapeRow, ...]
     timing: Timing
     missing: tuple[str, ...] = ()
+    noise_N: float = 0.0
 
     def table(self) -> list[dict[str, Any]]:
         """Return the rows as dictionaries, units in the keys."""
@@ -113,6 +116,7 @@ def shapes(
     stiffnesses: Sequence[float] = STIFFNESSES,
     devices: Sequence[str] = DEVICES,
     timing: Timing | None = None,
+    noise: float = 0.0,
     progress: Callable[[int, int], None] | None = None,
 ) -> Shapes:
     """Simulate each law in each world, at each stiffness, on each device: a hand of 300 N/m presses, 4 s.
@@ -130,13 +134,15 @@ def shapes(
         Names as in `ebac.presets.DEVICES`.
     timing : Timing, optional
         Sample time and delay; default 1 ms and one sample.
+    noise : float
+        Of the force sensor, standard deviation [N], [0, 100]; by default it has none.
     progress : callable, optional
         Called with runs done and all.
 
     Raises
     ------
     ValueError
-        For an unknown world, a stiffness out of its range, or nothing to compare.
+        For an unknown world, a stiffness or noise out of its range, or nothing to compare.
     KeyError
         For an unknown device.
     ImportError
@@ -148,20 +154,27 @@ def shapes(
         if isinstance(given, str) or not len(given):
             raise ValueError(f"{name} = {given!r}: must be a sequence of one at least")
     clock = Timing() if timing is None else timing
-    places, missing = _scenarios(worlds, stiffnesses, devices, clock)
+    chosen = {name: _noisy(presets.device(name), noise) for name in devices}
+    places, missing = _scenarios(worlds, stiffnesses, chosen, clock)
     rows: list[ShapeRow] = []
     for known, scenario in places:
         for law in laws:
             rows.append(_row(known, scenario, law))
             if progress is not None:
                 progress(len(rows), len(places) * len(laws))
-    return Shapes(rows=tuple(rows), timing=clock, missing=missing)
+    return Shapes(rows=tuple(rows), timing=clock, missing=missing, noise_N=noise)
+
+
+def _noisy(device: Device, noise: float) -> Device:
+    return device.replace(sensor=device.sensor.replace(noise=noise))
 
 
 def _scenarios(
-    worlds: Sequence[str], stiffnesses: Sequence[float], devices: Sequence[str], timing: Timing
+    worlds: Sequence[str],
+    stiffnesses: Sequence[float],
+    devices: dict[str, Device],
+    timing: Timing,
 ) -> tuple[list[tuple[dict[str, Any], Scenario]], tuple[str, ...]]:
-    chosen = {name: presets.device(name) for name in devices}
     places, missing = [], []
     for world in worlds:
         try:
@@ -177,7 +190,7 @@ def _scenarios(
                 _pressed(device, one, timing),
             )
             for k, one in known.items()
-            for name, device in chosen.items()
+            for name, device in devices.items()
         ]
     return places, tuple(missing)
 

@@ -45,6 +45,7 @@ def shapes(
             autocompletion=completion.devices,
         ),
     ] = None,
+    device_noise: options.DeviceNoise = None,
     rate: options.Rate = None,
     delay: options.Delay = None,
     as_json: output.AsJson = False,
@@ -52,13 +53,16 @@ def shapes(
     """Compare laws on worlds of several shapes and stiffnesses, with devices of one to three axes.
 
     A simulation. A hand of 300 N/m, with its target 18 mm inside and slightly to the side, presses for 4 s. *good*
-    means quiet and exact on every axis, with no more than 1 mJ given out by the port.
+    means quiet and exact on every axis, with no more than 1 mJ given out by the port. The force sensor has no noise
+    unless --device-noise gives it some.
 
     **Examples**
 
     * `ebac shapes`: six laws, eight worlds, 2 and 10 kN/m, one to three axes; half a minute
 
     * `ebac shapes --world corner --device joystick-3 --law direct,ebac`
+
+    * `ebac shapes --world sphere --law ebac --device-noise 0.03`: a sensor with 0.03 N of noise
 
     * `ebac shapes --world texture --stiffness 20000 --delay 2 --json`: waves of 0.2 mm, two samples of delay
     """
@@ -83,6 +87,7 @@ def shapes(
                 stiffnesses=list(dict.fromkeys(stiffness)) if stiffness else STIFFNESSES,
                 devices=[name.lower() for name in devices],
                 timing=timing,
+                noise=0.0 if device_noise is None else device_noise,
                 progress=progress,
             )
     to.report(
@@ -92,7 +97,7 @@ def shapes(
 
 
 def _document(found: Shapes) -> str:
-    return output.document("shapes", found.table(), missing=found.missing)
+    return output.document("shapes", found.table(), missing=found.missing, noise_N=found.noise_N)
 
 
 def _fill(draft: Path, found: Shapes, to: ResultOptions) -> None:
@@ -120,9 +125,11 @@ def _show(found: Shapes) -> None:
         )
         before = row.world
     output.show(grid)
+    noise = f"with {found.noise_N:g} N of noise" if found.noise_N > 0 else "without noise"
     output.say(
-        "Simulated. good: quiet and exact on every axis, at most 1 mJ given out. Otherwise the worst of: swing peak to "
-        "peak; vibration in detection thresholds; how far from a balance of hand and world; energy given out."
+        f"Simulated, the force sensor {noise}. good: quiet and exact on every axis, at most 1 mJ given out. Otherwise "
+        "the worst of: swing peak to peak; vibration in detection thresholds; how far from a balance of hand and "
+        "world; energy given out."
     )
     for sentence in found.missing:
         output.say(sentence, style="bold")
