@@ -57,12 +57,40 @@ FORMS = (
 
 
 def tuned(printed: Printed) -> str:
-    """Every law tuned, on the test hands of `ebac tune`; `ebac` as designed."""
-    cells = [code(name) for name in TUNING_CONDITIONS]
-    heads = ["law", "observer", *cells, "of 360", "settled, median [s]", "ripple [N]"]
-    rows = [[code(law), form.word, *_all_six(form.of(law))] for law in RANGES for form in FORMS]
-    own = [[code("ebac"), form.word, *_all_six(_own(form, printed))] for form in FORMS]
-    return table(heads, [*rows, *own])
+    """Every law tuned, on the test hands of `ebac tune`, `ebac` as designed: hands, ripple and energy."""
+    heads = [
+        "law",
+        "observer",
+        "good of 360",
+        "settled, median [s]",
+        "ripple [N]",
+        "impact [mJ]",
+        "let go [mJ]",
+        "pumping [mJ]",
+        "worst hand [mJ]",
+    ]
+    rows = [
+        [code(law), form.word, *_all_six(form.of(law)),
+         *_given_out(printed, f"{law}{form.ending}", form.rivals, form.of(law))]
+        for law in RANGES
+        for form in FORMS
+    ]  # fmt: skip
+    for form in FORMS:
+        own = _own(form, printed)
+        given_out = _given_out(printed, "ebac", form.own, own)
+        rows.append([code("ebac"), form.word, *_all_six(own), *given_out])
+    return table(heads, rows)
+
+
+def tuned_cells(printed: Printed) -> str:
+    """The good hands of the same, condition by condition."""
+    heads = ["law", "observer", *(code(name) for name in TUNING_CONDITIONS)]
+    found = [(law, form, form.of(law)) for law in RANGES for form in FORMS]
+    found += [("ebac", form, _own(form, printed)) for form in FORMS]
+    rows = [
+        [code(law), form.word, *(_counts([part]) for part in parts)] for law, form, parts in found
+    ]
+    return table(heads, rows)
 
 
 def _own(form: Form, printed: Printed) -> list[Row]:
@@ -81,7 +109,6 @@ def _all_six(parts: list[Row]) -> list[str]:
         for key in ("median_settled_s", "ripple_N")
     )
     return [
-        *(_counts([part]) for part in parts),
         _counts(parts),
         " to ".join(dict.fromkeys(f"{of(settled):.2f}" for of in (min, max))) if settled else "-",
         f"{max(ripple):.1f}" if ripple else "-",
@@ -94,22 +121,8 @@ def _counts(parts: list[Row]) -> str:
     return " / ".join(dict.fromkeys(numbers))
 
 
-def tuned_energy(printed: Printed) -> str:
-    """What the port of each gives out: on impact, when let go, under pumping, to the worst hands."""
-    heads = ["law", "observer", "impact [mJ]", "let go [mJ]", "pumping [mJ]", "worst hand [mJ]"]
-    rows = [
-        [code(law), form.word, *_given_out(printed, f"{law}{form.ending}", form.rivals, form.of(law))]
-        for law in RANGES
-        for form in FORMS
-    ]  # fmt: skip
-    own = [
-        [code("ebac"), form.word, *_given_out(printed, "ebac", form.own, _own(form, printed))]
-        for form in FORMS
-    ]
-    return table(heads, [*rows, *own])
-
-
 def _given_out(printed: Printed, law: str, how: str, impacts: list[Row]) -> list[str]:
+    """Return the least port energy on impact, when let go, under pumping, and with the worst hand."""
     conditions = ",".join((*LET_GO, PUMPING))
     *let_go, pumping = (
         row["least_energy_J"] for row in printed.rows(f"study -c {conditions} {how} --law {law}")

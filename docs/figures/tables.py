@@ -37,7 +37,7 @@ PAGES = tuple(
 TABLES: dict[str, Callable[[Printed], str]] = {
     "grid": populations.grid,
     "tuned": rivals.tuned,
-    "tuned-energy": rivals.tuned_energy,
+    "tuned-cells": rivals.tuned_cells,
     "tuned-values": rivals.tuned_values,
     "hands": story.hands,
     "cells": populations.cells,

@@ -12,12 +12,41 @@ DOCS = Path(__file__).parents[2] / "docs"
 sys.path.insert(0, str(DOCS / "figures"))
 
 import printed  # noqa: E402
+import rival_tables  # noqa: E402
 import tables  # noqa: E402
 
 
 def test_every_table_has_one_place_and_every_place_a_table() -> None:
     places = [name for page in tables.PAGES for name in printed.names(page)]
     assert sorted(places) == sorted(tables.TABLES)
+
+
+def test_hands_ripple_and_energy_of_the_rivals_stand_in_one_table(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """A row per law and form, the hands of the six conditions together, beside what the searches drew."""
+
+    class Kept:
+        threads = 1
+
+        def rows(self, command: str) -> list[printed.Row]:
+            if command.startswith("worst"):
+                return [{"energy_drawn_J": 1e-3}, {"energy_drawn_J": 5e-3}]
+            return [{"least_energy_J": energy} for energy in (0.0, -2e-3, 0.0, -3e-3)]
+
+    laws = dict(list(rival_tables.RANGES.items())[:2])
+    monkeypatch.setattr(rival_tables, "RANGES", laws)
+    monkeypatch.setattr(rival_tables, "_own", lambda form, _: form.of(next(iter(laws))))
+    for name, columns in (("tuned", 9), ("tuned-cells", 8)):
+        lines = tables.TABLES[name](Kept()).splitlines()  # type: ignore[arg-type]
+        cells = [[cell.strip() for cell in line.strip("|").split("|")] for line in lines]
+        assert {len(row) for row in cells} == {columns}
+        assert [tuple(row[:2]) for row in cells[2:]] == [
+            (f"`{law}`", word) for law in (*laws, "ebac") for word in ("no", "yes")
+        ]
+        if name == "tuned":
+            assert all(row[-3:] == ["-2", "-3", "-5"] for row in cells[2:])  # mJ
+            assert cells[0][2:5] == ["good of 360", "settled, median [s]", "ripple [N]"]
 
 
 @pytest.mark.slow
