@@ -117,6 +117,16 @@ class EbacByEncoder {
     shared.ledger.lend(at_rest(port) ? shared.reserve_at_rest() : shared.params.reserve);
   }
 
+  /// Eq. (2), without the force loop while the sensor is stale or reports a failure.
+  double feedback(double desired, const Port& port) EBAC_RT {
+    const auto fallback = static_cast<Fallback>(port.est.fallback);
+    if (fallback != Fallback::kForceStale && fallback != Fallback::kForceStatus) {
+      return loop_.step(desired, port.f_meas, port.dt);
+    }
+    loop_.reset();
+    return 0;
+  }
+
   double release(EbacShared& shared) EBAC_RT {
     shared.state.f_d = shared.state.injected = 0;
     ratio_ = 0;
@@ -164,7 +174,7 @@ class EbacByEncoder {
       desired = port.f_env > 0 ? std::max(desired, 0.0) : std::min(desired, 0.0);  // never sticks
       shared.state.injected = desired - shared.state.f_d;
     }
-    const double total = desired + loop_.step(desired, port.f_meas, port.dt);  // eq. (2)
+    const double total = desired + feedback(desired, port);
     return shared.held(total);
   }
 
