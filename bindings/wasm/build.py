@@ -17,7 +17,8 @@ CPP = HERE.parents[1] / "cpp"
 CORE = (
     *("core/check", "core/fields", "core/matrix_exponential"),
     *("control/laws", "control/turned_ports", "control/virtual_coupling"),
-    *("loop/plausibility", "loop/safety_limiter", "loop/signal_chain", "loop/state_observer"),
+    *("loop/axis_observer", "loop/plausibility", "loop/safety_limiter", "loop/signal_chain"),
+    "loop/state_observer",
     *(
         "model/device",
         "model/environment",

