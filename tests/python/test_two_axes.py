@@ -100,6 +100,65 @@ def test_a_narrow_or_flat_corner_is_still_and_exact(
         assert np.ptp(end, axis=0).max() < ebac.metrics.STILL_SWING
 
 
+@pytest.mark.parametrize("apart", [10, 30, 50, 61, 121, 150])
+@pytest.mark.parametrize("aside", [0.01, 0.02])
+@pytest.mark.parametrize("which", ["first", "second"])
+def test_a_wall_of_a_corner_that_pushes_alone_is_as_exact_as_one_without_the_other(
+    apart: float, aside: float, which: str
+) -> None:
+    angle = np.radians(apart)
+    n, tangent = direction(0.0), np.array([0.0, -1.0])
+    if which == "second":
+        n, tangent = direction(angle), direction(angle + pi / 2)
+    for mass, deep in itertools.product((0.05, 0.5), (0.015, 0.03)):
+        target = deep * n + aside * tangent
+        scenario = ebac.Scenario(
+            device=DEVICES["linear"].replace(sensor=ebac.ForceSensor(noise=0.03)),
+            hand=ebac.Hand(mass=mass, stiffness=500, target=tuple(target)),
+            environment=ebac.Corner(first=ebac.Wall(), second=ebac.Wall(angle=angle)),
+        )
+        trace = ebac.simulate(scenario, "ebac")
+        end = trace[4.2:]
+        wanted = target - n * deep * 1e4 / (1e4 + 500)
+        assert np.abs(end["true.x"].mean(axis=0) - wanted).max() <= EXACT
+        assert np.ptp(end["true.x"], axis=0).max() < ebac.metrics.STILL_SWING
+        assert np.abs(end["f_applied"].mean(axis=0) - 500 * (target - wanted)).max() < 0.1
+        assert all(ebac.contact(trace, axis=axis).force_quiet for axis in (0, 1))
+        assert trace["law.starved"].max() == 0
+
+
+@every_device
+@pytest.mark.parametrize("apart", [5, 30, 50, 75, 121, 150, 170])
+def test_a_hand_that_goes_around_a_corner_loses_no_wall_and_draws_less_than_the_reserve(
+    device: str, apart: float
+) -> None:
+    """Along one wall, into both, along the other, and back, four times; then it rests."""
+    angle = np.radians(apart)
+    n, m = direction(0.0), direction(angle)
+    one, both = 0.02 * n - [0, 0.01], 0.02 * (n + m) / np.linalg.norm(n + m)
+    other = 0.02 * m + 0.01 * direction(angle + pi / 2)
+    places = [np.zeros(2), *[one, both, other, both, one, other] * 4]
+    t = np.sort(np.append(0.3 * np.arange(len(places)), 0.3 * np.arange(len(places)) + 0.15))
+    path = np.repeat(places, 2, axis=0)
+    scenario = ebac.Scenario(
+        device=DEVICES[device].replace(sensor=ebac.ForceSensor(noise=0.03)),
+        hand=ebac.Hand(path=[ebac.Recorded(t=t, x=x) for x in path.T.copy()]),
+        environment=ebac.Corner(first=ebac.Wall(), second=ebac.Wall(angle=angle)),
+        seconds=14,
+    )
+    trace = ebac.simulate(scenario, "ebac")
+    assert trace["true.energy"].sum(axis=1).min() > -2e-3
+    assert trace["law.starved"].max() == 0
+    end = trace[11.0:]["true.x"]
+    assert np.ptp(end, axis=0).max() < ebac.metrics.STILL_SWING
+    normals = np.array([n, m])
+    wanted = np.linalg.solve(300 * np.eye(2) + 1e4 * normals.T @ normals, 300 * other)
+    if (normals @ wanted < 0).any():
+        wanted = other - m * (m @ other) * 1e4 / (1e4 + 300)
+    if device == "linear":  # elsewhere the hand is not a spring in the coordinates of the ports
+        assert np.abs(end.mean(axis=0) - wanted).max() <= EXACT
+
+
 @every_device
 @pytest.mark.parametrize("angle", [0.0, 0.3])
 def test_a_corner_is_quiet_and_exact_in_both_directions(device: str, angle: float) -> None:

@@ -41,6 +41,9 @@ class LawObject {
   virtual void retune(const LawObject& next) EBAC_RT = 0;
   /// Its energy account, if it has one, gets what the contact it is in stores.
   virtual void begin_account() EBAC_RT {}
+  /// What its energy account, if it has one, holds beyond its reserve [J], and another such amount for it.
+  virtual double surplus() const EBAC_RT { return 0; }
+  virtual void settle(double) EBAC_RT {}
   /// How long its energy account has held its force back [s]; 0 for a law without one.
   virtual double starved() const EBAC_RT = 0;
   /// Whether its energy account is low with the observer.
@@ -92,6 +95,8 @@ class AnyLaw {
   }
 
   void begin_account() EBAC_RT { law_->begin_account(); }
+  double surplus() const EBAC_RT { return law_->surplus(); }
+  void settle(double surplus) EBAC_RT { law_->settle(surplus); }
   double starved() const EBAC_RT { return law_->starved(); }
   bool drained() const EBAC_RT { return law_->drained(); }
   bool observed() const EBAC_RT { return law_->observed(); }

@@ -67,6 +67,9 @@ class Ebac {
   /// After the contact was changed from outside, by another law or world, which no motion has paid for: the account
   /// begins anew and is raised to what this contact stores, while it lasts.
   void begin_account() EBAC_RT { shared_.ledger.begin(shared_.f_env, stored_at()); }
+  /// What the account holds beyond its reserve [J], and another such amount for it.
+  double surplus() const EBAC_RT { return shared_.ledger.surplus(); }
+  void settle(double surplus) EBAC_RT { shared_.ledger.settle(surplus); }
   void retune(const Ebac& next) EBAC_RT {
     shared_.params = next.params();
     encoder_.retune(next.params(), next.encoder_);

@@ -68,6 +68,10 @@ class EnergyLedger {
     reserve_ += change;
   }
 
+  /// What it holds beyond its reserve [J], and another such amount for it.
+  double surplus() const EBAC_RT { return energy_ - reserve_; }
+  void settle(double surplus) EBAC_RT { energy_ = reserve_ + surplus; }
+
   /// Begins anew, and owes what is missing to what a contact of `force` on `stiffness` stores.
   void begin(double force, double stiffness) EBAC_RT {
     energy_ = std::max(energy_, reserve_);

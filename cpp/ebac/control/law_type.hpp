@@ -27,6 +27,13 @@ class LawOf final : public LawObject {
   void begin_account() EBAC_RT override {
     if constexpr (requires { law_.begin_account(); }) law_.begin_account();
   }
+  double surplus() const EBAC_RT override {
+    if constexpr (requires { law_.surplus(); }) return law_.surplus();
+    return 0;
+  }
+  void settle(double surplus) EBAC_RT override {
+    if constexpr (requires { law_.settle(surplus); }) law_.settle(surplus);
+  }
   double starved() const EBAC_RT override { return starved_of(law_); }
   bool drained() const EBAC_RT override { return drained_of(law_); }
   bool observed() const EBAC_RT override { return observed_of(law_); }

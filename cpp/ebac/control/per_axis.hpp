@@ -8,7 +8,9 @@
 #include <utility>
 
 #include "ebac/control/any_law.hpp"
+#include "ebac/control/eased_frame.hpp"
 #include "ebac/control/force_blend.hpp"
+#include "ebac/control/shared_account.hpp"
 #include "ebac/control/turned_ports.hpp"
 #include "ebac/core/concepts.hpp"
 
@@ -46,8 +48,15 @@ class PerAxis : public Replaceable<Law> {
 
   template <std::size_t N>
   void step(std::span<Axis, N> axes, const ContactForce& contact) EBAC_RT {
-    turned_.step(axes, contact,
-                 [this](std::size_t i, const Port& port) EBAC_RT { return laws_[i].step(port); });
+    const auto ask = [this](std::size_t i, const Port& port)
+                         EBAC_RT { return laws_[i].step(port); };
+    if (N > 1 && axes.size() > 1 && contact.shared) {
+      const ContactForce eased = frame_.ease(contact, axes[0].port.dt);
+      account_.share(laws_, eased);
+      turned_.step(axes, eased, ask);
+    } else {
+      turned_.step(axes, contact, ask);
+    }
     if constexpr (std::same_as<Law, AnyLaw>) {
       if (blend_.step(axes)) {
         for (Law& law : laws_) law.begin_account();
@@ -57,6 +66,8 @@ class PerAxis : public Replaceable<Law> {
   void reset() EBAC_RT {
     for (Law& law : laws_) law.reset();
     turned_ = {};
+    frame_ = {};
+    account_ = {};
     blend_ = {};
   }
   /// Takes the gains of `next`; the memory and the device parameters of the law stay.
@@ -104,6 +115,8 @@ class PerAxis : public Replaceable<Law> {
  private:
   std::array<Law, kMaxAxes> laws_;
   TurnedPorts turned_{};
+  EasedFrame frame_{};
+  SharedAccount account_{};
   [[no_unique_address]] std::conditional_t<std::same_as<Law, AnyLaw>, ForceBlend, Nothing> blend_{};
 };
 

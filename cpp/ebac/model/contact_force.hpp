@@ -15,6 +15,7 @@ struct ContactForce {
   Jacobian frame = Jacobian::Identity();
   Axes velocity = Axes::Zero();  // m/s, of the surface itself, in the axes of the device
   bool turned = false;           // whether the frame is other than the axes of the device
+  bool shared = false;           // whether what pushes is shared by the first two directions
   double depth = 0;              // m, behind the surface; 0 where a world does not tell
   double stiffness = 0;          // N/m, of the surface at this depth
 

@@ -19,31 +19,29 @@ ContactForce Wall::moving(const Axes& x, const Axes& v, double t) const EBAC_RT 
   return made;
 }
 
+double Corner::turn() const EBAC_RT {
+  const double least = std::remainder(second.angle - first.angle, std::numbers::pi / 2);
+  return std::abs(least) < 1e-9 ? 0.0 : least;
+}
+
+double Corner::way(double one, double other) EBAC_RT {
+  const double share = other > 0 ? other / (one + other) : 0.0;
+  return share < 0.5 ? std::min(0.5, share / kBoth) : 1 - std::min(0.5, (1 - share) / kBoth);
+}
+
 ContactForce Corner::contact(const Axes& x, const Axes& v) const EBAC_RT {
   const Axes n = first.normal();
   const Axes m = second.normal();
   const double one = first.push_along(n.dot(x), n.dot(v));
   const double other = second.push_along(m.dot(x), m.dot(v));
-  if (std::abs(n.dot(m)) > kNarrow) return narrow(one * n + other * m);
-  ContactForce contact = ContactForce::along_normal(n, one);
-  const double across = contact.frame.row(1).dot(m);
-  const bool square =
-      std::abs(n.dot(m)) < 1e-9;  // then exact, so that an untouched wall is exactly zero
-  contact.along +=
-      square ? Axes{0, std::copysign(other, across), 0} : Axes(other * (contact.frame * m));
-  contact.force += other * m;
-  return contact;
-}
-
-/// In the principal directions of both stiffnesses.
-ContactForce Corner::narrow(const Axes& force) const EBAC_RT {
-  const double a = 2 * first.angle, b = 2 * second.angle;
-  const double stiffest =
-      0.5 * std::atan2(first.stiffness * std::sin(a) + second.stiffness * std::sin(b),
-                       first.stiffness * std::cos(a) + second.stiffness * std::cos(b));
-  ContactForce contact = ContactForce::along_normal({std::cos(stiffest), std::sin(stiffest), 0}, 0);
-  contact.force = force;
-  contact.along = contact.frame * force;
+  const double angle = first.angle + way(one, other) * turn();
+  ContactForce contact = ContactForce::along_normal({std::cos(angle), std::sin(angle), 0}, 0);
+  contact.force = one * n + other * m;
+  contact.along = contact.frame * contact.force;
+  const double rounding = 1e-12 * (one + other);  // a direction without force has exactly none
+  contact.along = (contact.along.array().abs() < rounding).select(0, contact.along);
+  contact.shared = turn() != 0;
+  contact.turned |= contact.shared;
   return contact;
 }
 
