@@ -332,3 +332,10 @@ def test_damped_walls_are_a_grid() -> None:
     assert {w.damping for w in walls} == {0, 10, 20, 30, 40}
     assert {w.stiffness for w in walls} == {100, 300, 1000, 3000, 10000}
     assert len(walls) == 25
+
+
+@pytest.mark.parametrize("cell", ["B10K1", "B30K3", "B40K10"])
+def test_a_damped_wall_is_exact_on_the_encoder_alone(cell: str) -> None:
+    """The velocity of single counts would tear F_d down with every count outwards."""
+    runs = CONDITIONS[cell].scenarios(ebac.Operators.grid(), ebac.Scenario(observer=False))
+    assert ebac.sweep(runs, "ebac").exact_and_still.sum() >= 50

@@ -16,6 +16,9 @@
 namespace ebac {
 
 /// The way of `Ebac` from the encoder's readings to a command: its steps 1 to 7.
+///
+/// F_d follows the environment without its damping, which the damper of step 5 stands for: the velocity of one count a
+/// tick is 31 mm/s, and what it takes from the force outwards at once, recovery would give back slowly.
 class EbacByEncoder {
  public:
   EbacByEncoder(const EbacParams& params, const Timing& timing) EBAC_RT
@@ -63,6 +66,7 @@ class EbacByEncoder {
     readings_.push(port.x, time_ += port.dt);
     contact_.watch(port, sub_count_.direction());
     shared.state.slope = contact_.slope();
+    spring_ = spring(port);
     if (port.f_env == 0) return release(shared);  // 4
     if (port.dx != 0) {
       move(port, shared);  // 2
@@ -127,6 +131,12 @@ class EbacByEncoder {
     return 0;
   }
 
+  /// The force of the environment without its damping.
+  double spring(const Port& port) const EBAC_RT {
+    const double force = port.f_env - contact_.damping() * port.v;
+    return port.f_env > 0 ? std::max(force, 0.0) : std::min(force, 0.0);
+  }
+
   double release(EbacShared& shared) EBAC_RT {
     shared.state.f_d = shared.state.injected = 0;
     ratio_ = 0;
@@ -138,8 +148,8 @@ class EbacByEncoder {
   void move(const Port& port, EbacShared& shared) EBAC_RT {
     const double dx = port.dx;
     const double before = shared.state.f_d;
-    double rise = port.f_env - before;  // eq. (9): beta dx
-    const bool releasing = before * dx < 0 && std::abs(port.f_env) < std::abs(before);
+    double rise = spring_ - before;  // eq. (9): beta dx
+    const bool releasing = before * dx < 0 && std::abs(spring_) < std::abs(before);
     if (shared.params.continuity && !releasing) {
       const double least = kFloor * show_.stiffness * std::abs(dx);  // the floor
       const double grown = shared.params.growth * ratio_ * dx;       // eq. (10), rows 3 and 4,
@@ -157,7 +167,7 @@ class EbacByEncoder {
   void recover(const Port& port, EbacShared& shared) EBAC_RT {
     const double slope = contact_.slope_at_rest();
     const double open = 0.5 * slope * shared.params.count;  // uncertainty of a reading
-    const double off = port.f_env - shared.state.f_d;
+    const double off = spring_ - shared.state.f_d;
     const double sure = std::max(off - open, 0.0) + std::min(off + open, 0.0);
     const double change = sure * recovery_.share(slope, contact_.pace(), port.dt);
     shared.ledger.charge_unseen(std::abs(change));
@@ -195,6 +205,7 @@ class EbacByEncoder {
   Readings readings_{};
   double time_ = 0;       // s
   double ratio_ = 0;      // N/m, beta(t-1)
+  double spring_ = 0;     // N, of the environment
   double recovered_ = 0;  // N, change of F_d by recovery in this tick
 };
 
