@@ -9,9 +9,9 @@
 namespace ebac::dynamic_stiffness_test {
 namespace {
 
-constexpr double kFast = 3e3;   // N/m
+constexpr double kFast = 3e3;    // N/m
 constexpr double kCount = 3e-5;  // m
-constexpr double kTick = 1e-4;  // s
+constexpr double kTick = 1e-4;   // s
 
 /// One in a contact that has lasted at `force`.
 DynamicStiffness rested(double force, double slope) {

@@ -17,9 +17,10 @@ from ebac.logs import read, repair
 KILLS = int(os.environ.get("EBAC_KILLS", "10"))
 RATE, LOST = 1000, 0.050  # Hz, s
 
-#: A loop at 1 kHz in real time whose rows a recorder takes. It keeps in a file of 16 bytes that outlives it how many it has
-#: appended, and for how long the recorder was ready and kept waiting (by other programs, the interpreter or the disk) in
-#: its last interval and in the present one: wall time beyond the interval it asks for and the processor time it took.
+#: A loop at 1 kHz in real time whose rows a recorder takes. It keeps in a file of 16 bytes that outlives it how many it
+#: has appended, and for how long the recorder was ready and kept waiting (by other programs, the interpreter or the
+#: disk) in its last interval and in the present one: wall time beyond the interval it asks for and the processor time
+#: it took.
 PRODUCER = """
 import mmap, struct, sys, threading, time
 import ebac

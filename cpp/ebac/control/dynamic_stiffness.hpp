@@ -55,9 +55,9 @@ class DynamicStiffness {
   static constexpr double kSoftest = 7.0 / 8;  // 1: eight times softer
   static constexpr double kLag = 0.09;         // s
   static constexpr double kSmall = 1.8;        // N
-  static constexpr double kSmallCounts = 6;    // counts, of which a stiff world makes more than that
-  static constexpr double kNear = 1.0 / 3;     // of a small change: from here on twice as fast
-  static constexpr double kFastest = 20.0;     // times
+  static constexpr double kSmallCounts = 6;  // counts, of which a stiff world makes more than that
+  static constexpr double kNear = 1.0 / 3;   // of a small change: from here on twice as fast
+  static constexpr double kFastest = 20.0;   // times
 
   /// By implicit steps of both lags.
   void approach(double force, double root, double per_small, double dt) EBAC_RT {
