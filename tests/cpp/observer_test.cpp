@@ -142,15 +142,20 @@ TEST(Observer, TakesCountsForWhenTheyWereLatched) {
   EXPECT_EQ(est.v, 0);
   EXPECT_EQ(est.x, axis.port.x);
   constexpr double kPace = 20;  // counts in a tick
-  std::int64_t counts = 100'000;
-  for (int k = 0; k < 600; ++k) est = tick({.counts = {counts += 20}}, 1e-3);
   const double v = kPace * params.count / 1e-3;
+  const double force = params.damping * v;  // keeps that pace
+  std::int64_t counts = 100'000;
+  for (int k = 0; k < 600; ++k) {
+    est = tick({.counts = {counts += 20}, .force = {force}}, 1e-3);
+  }
   EXPECT_NEAR(est.v, v, 0.02 * v);
-  for (int k = 1; k <= 5; ++k) est = tick({.counts = {counts}, .counts_age = {1e-3 * k}}, 1e-3);
+  for (int k = 1; k <= 5; ++k) {
+    est = tick({.counts = {counts}, .counts_age = {1e-3 * k}, .force = {force}}, 1e-3);
+  }
   EXPECT_NEAR(est.x - axis.port.x, 5 * kPace * params.count, 3 * params.count);
   EXPECT_NEAR(est.v, v, 0.02 * v);
   counts += 100;
-  est = tick({.counts = {counts}, .counts_age = {1e-3}}, 1e-3);
+  est = tick({.counts = {counts}, .counts_age = {1e-3}, .force = {force}}, 1e-3);
   EXPECT_NEAR(est.x - axis.port.x, kPace * params.count, 2 * params.count);
 }
 
