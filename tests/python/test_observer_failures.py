@@ -110,6 +110,23 @@ def test_a_sensor_that_saturates_in_every_swing_gives_no_new_account_each_time()
     assert ebac.contact(trace).least_energy_J > -0.009  # -0.0112 before
 
 
+def test_a_change_between_observer_and_encoder_leaves_no_motion_out_of_the_account() -> None:
+    """A heavy hand, few ticks and much delay: the estimate goes and comes back in every swing. Each time the account
+    left out the work of one tick, and a hand whose motion was then outwards drew 115 mJ in six seconds."""
+    slow = ebac.Timing(dt=2e-3, delay=1)
+    wall = ebac.Wall(stiffness=20e3, position=0.01)
+    hand = ebac.Hand(mass=1.0, damping=2.0, stiffness=1000.0, path=ebac.Step(target=0.03))
+    trace = ebac.simulate(ebac.Scenario(timing=slow, environment=wall, hand=hand), "ebac")
+    weight, moving = trace["est.weight"], np.abs(trace["true.v"]) > 0.1
+    changes = np.diff(weight, prepend=1.0) != 0
+    begins = np.flatnonzero(changes & ((weight == 1) | (np.roll(weight, 1) == 1)) & moving)
+    assert len(begins) > 5
+    more = np.diff(trace["law.energy"] - trace["true.energy"], prepend=0.0)
+    lent = np.where(weight == 1, -8e-3, 8e-3)  # what the encoder's part needs more, and gives back
+    assert np.abs(more[begins] - lent[begins]).max() < 1.5e-3
+    assert trace["true.energy"].min() >= -1e-9
+
+
 @pytest.mark.parametrize("noise", [0.1, 0.2])
 def test_a_noisy_sensor_does_not_dissolve_a_wall_that_is_held(noise: float) -> None:
     device = ebac.Device(sensor=ebac.ForceSensor(noise=noise))

@@ -27,6 +27,12 @@ class ContactEstimator {
   /// Stiffness at which the last contact can have stored energy [N/m]: its slope, at most the law's.
   double stored_at() const EBAC_RT { return stored_at_; }
 
+  /// Begins in a contact: the force of this tick is no change.
+  void begin(const Port& port) EBAC_RT {
+    last_env_ = port.f_env;
+    last_v_ = port.v;
+  }
+
   /// Takes one tick; `direction` is that of the motion beyond one count: -1, 0, +1.
   void watch(const Port& port, int direction) EBAC_RT {
     if (port.f_env == 0) {

@@ -37,13 +37,14 @@ class EbacByEncoder {
     readings_.push(port.x, 0);
   }
 
-  /// Begins anew where the observer goes.
+  /// Begins anew where the observer goes; the interval up to now is still to be taken.
   void take_over(const Port& port, const EbacParams& params) EBAC_RT {
-    sub_count_.start(port.x);
+    sub_count_.start(port.x - port.dx);
     damper_.reset();
     loop_.reset();
     readings_.clear();
     contact_ = ContactEstimator(params.count, show_.stiffness);
+    contact_.begin(port);
     ratio_ = 0;
   }
 

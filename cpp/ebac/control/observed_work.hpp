@@ -41,11 +41,12 @@ class ObservedWork {
   /// How many times noisier than usual a force sensor is, at least 1; `noise` is its standard deviation [N].
   static double noisier(double noise) EBAC_RT { return std::max(1.0, noise / kUsual); }
 
-  /// The observer's place within the count, from which displacements are counted.
+  /// Counts from where the observer was at the last tick, within its count: the interval up to now is still to be taken.
   void start(const Port& port) EBAC_RT {
-    within_ = within(port);
+    const double last = port.x - port.dx;
+    within_ = std::clamp(port.est.x - port.est.dx - last, -half_, half_);
     v_ = port.est.v;
-    reached_ = port.x + within_;
+    reached_ = last + within_;
     charged_ = changed_ = way_ = 0;  // its place is no edge
   }
 
