@@ -324,6 +324,25 @@ def test_stiff_walls_are_held_for_two_minutes(hands: ebac.Operators) -> None:
         assert row.least_rest_power_W >= -15e-6, row
 
 
+@pytest.mark.parametrize(
+    "hands",
+    [
+        ebac.Operators.grid(mass=[0.5], damping=[2.0, 6.0], stiffness=[100.0, 300.0]),
+        pytest.param(ebac.Operators.grid(), marks=pytest.mark.slow),
+    ],
+    ids=["8", "60"],
+)
+def test_without_noise_a_stiff_wall_that_is_held_becomes_quite_still(
+    hands: ebac.Operators,
+) -> None:
+    """At 35 kN/m and two samples of delay 15 of 60 hands swung on at 20 to 30 Hz, within one count: the encoder changed
+    with the swing and kept it going, and a lag was put on a force that had no noise."""
+    for row in ebac.study(hands, "ebac", "holds").rows:
+        assert row.good == row.hands, row
+        assert row.least_rest_power_W is not None
+        assert row.least_rest_power_W >= -1e-6, row
+
+
 def test_damped_walls_are_a_grid() -> None:
     walls = [
         CONDITIONS[name].scenarios(ebac.Operators.grid(), ebac.Scenario())[0].environment

@@ -8,6 +8,8 @@ namespace ebac {
 /// Values that depend on the time since the last tick and on the age of the force alone.
 void AxisObserver::set_tick(double dt) EBAC_RT {
   dt_ = dt;
+  per_dt_ = 1 / dt;
+  per_noise_ = 1 / params_.force_noise;
   motor_.set_tick(params_.force_lag + records_.mean_age(), dt);
   const double w = std::sqrt(std::sqrt(12.0) * params_.force_noise / (mass_ * params_.count));
   within_ = std::clamp(w * w * dt * dt / kDithered, 0.5, 1.0);
@@ -20,6 +22,7 @@ void AxisObserver::set_tick(double dt) EBAC_RT {
   calming_ = 1 - kept * kept;
   trending_ = (1 - kept) * (1 - kept) / dt;
   roughening_ = dt / (kRough + dt);
+  averaging_ = dt / (kBends + dt);
   forget_ = dt / (kMemory + dt);
 }
 

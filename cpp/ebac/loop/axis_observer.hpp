@@ -28,11 +28,12 @@ namespace ebac {
 ///
 /// The encoder corrects x, u and D. A reading says little about where in its count the device is, so
 /// an innovation counts half up to one count and whole beyond, and x is kept within 1.5 counts of the
-/// reading. The steady Kalman gain of force noise against a reading uniform within a count has the
+/// reading. Where the sensor shows less noise than declared, the half shrinks with it, down to a tenth:
+/// at rest the reading changes with the swing of a hand within a count, and would keep it going. The steady Kalman gain of force noise against a reading uniform within a count has the
 /// bandwidth w = sqrt(sqrt(12) force_noise / (M count)). 0.4 of it is used in motion, 0.3 at rest,
 /// where an edge of a count would be felt as a click; D is slower than x and u, by far so at rest. The
 /// prediction takes the force of the hand to change as it did in the last 12 ms, and at rest
-/// without its noise: a lag in that force of 1 N would be 4 m/s^2. Where the force turns out to be
+/// without the noise it shows: a lag in that force of 1 N would be 4 m/s^2. Where the force turns out to be
 /// noisier than declared, all of w is used. v is kept within what two readings prove of it.
 class AxisObserver {
  public:
@@ -50,6 +51,8 @@ class AxisObserver {
     motor_ = MotorForce(params_.current_lag);
     measured_ = before_last_ = calm_ = trend_ = contradicted_ = rough_ = 0;
     moving_ = 1;
+    bends_ = kHigh * params_.force_noise;
+    noise_ = params_.force_noise;
     old_ = false;
     in_flight_ = CommandsInFlight(params_.delay);
     records_ = {};
@@ -73,8 +76,7 @@ class AxisObserver {
     // The mean over the interval, of the parabola through the last three readings.
     const double force = (5 * measured + 8 * measured_ - before_last_) * (1.0 / 12) + disturbance_;
     const double bend = measured - 2 * measured_ + before_last_;
-    const bool loud = std::abs(bend) > kLoud * params_.force_noise;
-    rough_ += ((loud ? 1.0 : 0.0) - rough_) * roughening_;
+    hear(std::abs(bend));
     before_last_ = measured_;
     measured_ = measured;
     follow_hand(measured);
@@ -137,6 +139,10 @@ class AxisObserver {
   static constexpr double kNoise = 1.5;    // standard deviations that smoothing takes away at most
   static constexpr double kLoud = 10;    // standard deviations in a second difference, 4 of its own
   static constexpr double kRough = 0.1;  // s, memory of such differences
+  static constexpr double kHigh = 4;     // standard deviations at which others are cut off
+  static constexpr double kBends = 0.2;  // s, over which they are averaged
+  static constexpr double kOfBends = 0.56;   // noise of that mean; 0.51 for one that is normal
+  static constexpr double kLeastNoise = 0.2;  // of the declared noise
   static constexpr double kMemory = 0.05;      // s, of the contradictions
   static constexpr double kPatience = 3.5e-3;  // s, half a period of a cable's resonance of 140 Hz
 
@@ -173,11 +179,19 @@ class AxisObserver {
     old_ = old;
   }
 
+  /// The noise of the measured force, from its second differences: at most as much as declared.
+  void hear(double bend) EBAC_RT {
+    const double declared = params_.force_noise;
+    rough_ += ((bend > kLoud * declared ? 1.0 : 0.0) - rough_) * roughening_;
+    bends_ += (std::min(bend, kHigh * declared) - bends_) * averaging_;
+    noise_ = std::min(kOfBends * bends_, declared);
+  }
+
   /// Level and trend of the hand's force, a second-order filter that follows a ramp without lag and
   /// takes away no more than noise can be.
   void follow_hand(double measured) EBAC_RT {
     const double off = measured - calm_ - trend_ * dt_;
-    const double noise = kNoise * params_.force_noise;
+    const double noise = kNoise * noise_;
     trend_ += trending_ * off;
     calm_ = measured - std::clamp((1 - calming_) * off, -noise, noise);
   }
@@ -187,7 +201,8 @@ class AxisObserver {
     const double off = reading - x_;
     const double within = std::clamp(off, -count, count);
     const double noisy = std::clamp(2.5 * rough_ - 0.5, 0.0, 1.0);
-    const double innovation = off - (1 - noisy) * (1 - within_) * within;
+    const double share = within_ * std::max(kLeastNoise, noise_ * per_noise_);
+    const double innovation = off - (1 - noisy) * (1 - share) * within;
     contradicted_ += ((std::abs(off) > 1.5 * count ? 1.0 : 0.0) - contradicted_) * forget_;
     moving_ = std::max(std::min(1.0, std::abs(u_) * (1 / kMoving)), moving_ * resting_);
     Gains gain = at_rest_.towards(in_motion_, moving_);
@@ -202,8 +217,9 @@ class AxisObserver {
   /// what it changes by, each to a count. A force that is wrong by far does not lead beyond that for
   /// longer than `kPatience`. Where motor and handle ring on a cable, the sign alternates sooner.
   void keep_pace(double reading) EBAC_RT {
-    const double pace = (reading - reading_) / unread_;
-    const double unsure = 2 * params_.count / unread_ + 0.5 * std::abs(pace - pace_);
+    const double per_time = unread_ == dt_ ? per_dt_ : 1 / unread_;
+    const double pace = (reading - reading_) * per_time;
+    const double unsure = 2 * params_.count * per_time + 0.5 * std::abs(pace - pace_);
     const double off = v_ - std::clamp(v_, pace - unsure, pace + unsure);
     const double less = std::copysign(std::max(0.0, std::abs(astray_) - unread_), astray_);
     astray_ = off == 0 ? less : (off * astray_ < 0 ? 0.0 : astray_) + std::copysign(unread_, off);
@@ -238,15 +254,20 @@ class AxisObserver {
   double unread_ = 0;   // s, since the last one
   double astray_ = 0;   // s, that v was beyond what the readings prove, with the sign of its error
   double dt_ = 0;       // s, argument of the last set_tick
+  double per_dt_ = 0;   // 1/s
   double calm_ = 0;     // N, the force of the hand without its noise
   double trend_ = 0;    // N/s, its change
   double undoubted_ = 0;  // N, the disturbance when the force began to be old
   bool old_ = false;      // the force
   double rough_ = 0;      // share of ticks with more noise than declared; 1 in doubt
+  double bends_ = 0;      // N, mean size of second differences of the measured force
+  double noise_ = 0;      // N, standard deviation of the measured force
   double moving_ = 1;     // 1 in motion, 0 at rest
   Gains in_motion_{}, at_rest_{}, full_{};
   double within_ = 1;                                  // share of an innovation within a count
+  double per_noise_ = 1;                               // 1/N, of the declared noise
   double resting_ = 0, calming_ = 0, roughening_ = 0;  // share kept, share taken, per tick
+  double averaging_ = 0;                               // share taken
   double trending_ = 0;                                // 1/s
   double forget_ = 0;
 };
