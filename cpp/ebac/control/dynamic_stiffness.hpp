@@ -37,19 +37,21 @@ class DynamicStiffness {
     }
     if (unknown_) slow_ = slower_ = force;
     unknown_ = false;
-    const double share = fast_ > 0 && slope > fast_ ? std::min(1 - fast_ / slope, kSoftest) : 0.0;
-    const double per_small = 1 / std::max(kSmall, small_ * slope);
-    approach(force, std::sqrt(share), per_small, dt);
+    if (slope != slope_) set_slope(slope);
+    approach(force, dt);
     const double most = std::abs(force);
     const double change = std::clamp(force - slower_, -most, most);
-    const double small = change * per_small;
+    const double small = change * per_small_;
     const double large = 1 + small * small;
-    return force - softer * share * change / (large * large);
+    return force - softer * share_ * change / (large * large);
   }
 
   /// The next force may be of a contact that has lasted.
   void forget() EBAC_RT { unknown_ = true; }
-  void retune(const DynamicStiffness& next) EBAC_RT { fast_ = next.fast_; }
+  void retune(const DynamicStiffness& next) EBAC_RT {
+    fast_ = next.fast_;
+    slope_ = -1;
+  }
 
  private:
   static constexpr double kSoftest = 7.0 / 8;  // 1: eight times softer
@@ -59,11 +61,19 @@ class DynamicStiffness {
   static constexpr double kNear = 1.0 / 3;   // of a small change: from here on twice as fast
   static constexpr double kFastest = 20.0;   // times
 
+  /// Values that depend on the world's slope alone.
+  void set_slope(double slope) EBAC_RT {
+    slope_ = slope;
+    share_ = fast_ > 0 && slope > fast_ ? std::min(1 - fast_ / slope, kSoftest) : 0.0;
+    root_ = std::sqrt(share_);
+    per_small_ = 1 / std::max(kSmall, small_ * slope);
+  }
+
   /// By implicit steps of both lags.
-  void approach(double force, double root, double per_small, double dt) EBAC_RT {
-    const double off = (force - slower_) * per_small * (1 / kNear);
+  void approach(double force, double dt) EBAC_RT {
+    const double off = (force - slower_) * per_small_ * (1 / kNear);
     const double passed = std::min(1 + off * off, kFastest) * dt;
-    const double first = passed * (1 - root), second = passed * (1 + root);
+    const double first = passed * (1 - root_), second = passed * (1 + root_);
     const double per_both = 1 / ((kLag + first) * (kLag + second));
     slow_ += (force - slow_) * (first * (kLag + second) * per_both);
     slower_ += (slow_ - slower_) * (second * (kLag + first) * per_both);
@@ -74,6 +84,10 @@ class DynamicStiffness {
   double slow_ = 0;       // N, behind the first lag
   double slower_ = 0;     // N, behind both
   bool unknown_ = false;  // whether they are
+  double slope_ = -1;     // N/m, argument of the last set_slope
+  double share_ = 0;      // c
+  double root_ = 0;       // of c
+  double per_small_ = 0;  // 1/N, 1/D
 };
 
 }  // namespace ebac

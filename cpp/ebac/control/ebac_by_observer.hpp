@@ -28,10 +28,10 @@ class EbacByObserver {
   /// Whether the account is too low for the whole force, or holds less than half of its reserve or than a spring
   /// would give back, and without the observer more would be lent.
   bool drained(const EbacShared& shared) const EBAC_RT {
-    if (shared.reserve_at_rest() <= shared.params.observed_reserve) return false;
     const double stored = force_.stored(shared.f_env);
     const double least = std::max(kLow * shared.params.observed_reserve, stored);
-    return shared.state.admitted < 1 || shared.ledger.energy() < least;
+    if (shared.state.admitted >= 1 && shared.ledger.energy() >= least) return false;
+    return shared.reserve_at_rest() > shared.params.observed_reserve;
   }
 
   /// Nothing is known of the contact.

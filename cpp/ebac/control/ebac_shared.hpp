@@ -27,6 +27,7 @@ struct EbacShared {
   double f_meas = 0;       // N, of the last tick
   double rising = 0, falling = 0;  // N/s, quickest change of it lately
   double kept = 0;                 // share of them, per tick
+  double per_dt = 0;               // 1/s
 
   EbacShared(const EbacParams& given, const Timing& tick) EBAC_RT
       : params(given),
@@ -41,6 +42,7 @@ struct EbacShared {
   void set_tick(double dt) EBAC_RT {
     ledger.set_tick(dt);
     kept = kForget / (kForget + dt);
+    per_dt = 1 / dt;
   }
 
   double held(double force) const EBAC_RT {
@@ -77,8 +79,8 @@ struct EbacShared {
   void watch_hand(const Port& port) EBAC_RT {
     const double change = port.f_meas - f_meas, noise = kNoise * params.force_noise;
     f_meas = port.f_meas;
-    rising = std::max((change - noise) / port.dt, rising * kept);
-    falling = std::max((-change - noise) / port.dt, falling * kept);
+    rising = std::max((change - noise) * per_dt, rising * kept);
+    falling = std::max((-change - noise) * per_dt, falling * kept);
   }
 
   /// What the account is lent in a contact at rest that the law gives the observer up for [J]. Only with a sensor

@@ -39,6 +39,7 @@ class ObservedForce {
         stiffest_(2 * damping_ * damping_ / law.mass),
         heaviest_(law.mass + law.heaviest_hand),
         reserve_(law.observed_reserve),
+        per_half_(reserve_ > 0 ? 2 / reserve_ : 0.0),
         allowance_(reserve_),
         stored_at_(show_.stiffness),
         slope_(kLeast* law.count) {}
@@ -78,8 +79,7 @@ class ObservedForce {
 
   /// Energy that a spring of the world's slope gives back from `force` [J]; 0 where no slope is known.
   double stored(double force) const EBAC_RT {
-    const double slope = slope_.value();
-    return slope > 0 ? 0.5 * force * force / slope : 0.0;
+    return slope_.value() > 0 ? 0.5 * force * force * per_slope_ : 0.0;
   }
 
   /// Stiffness at which the last contact can have stored energy [N/m].
@@ -97,6 +97,7 @@ class ObservedForce {
     allowance_ = std::min(allowance_ + beyond_ * port.est.dx, reserve_);
     const double surface = port.world_v * port.dt;
     if (!slope_.step(port.f_env, port.est.x_act, port.est.v_act, surface)) return;
+    per_slope_ = 1 / slope_.value();
     stored_at_ = std::min(show_.stiffness, slope_.value());
     enough_ = std::sqrt(slope_.value() * heaviest_);
   }
@@ -105,12 +106,11 @@ class ObservedForce {
   /// account holds as much beyond what a spring would, none at half of that, and stiffer below, as far
   /// as the damper bears it.
   double softer(double force, double energy) const EBAC_RT {
-    const double slope = slope_.value();
-    if (slope <= 0 || reserve_ <= 0) return 1;
+    if (slope_.value() <= 0 || reserve_ <= 0) return 1;
     const double left = std::min(allowance_, energy - stored(force));
-    const double share = 2 * left / reserve_ - 1;
+    const double share = left * per_half_ - 1;
     if (share >= 0) return std::min(share, 1.0);
-    const double borne = std::clamp(stiffest_ / slope - 1, 0.0, 1.0);
+    const double borne = std::clamp(stiffest_ * per_slope_ - 1, 0.0, 1.0);
     return std::max(share, -borne);
   }
 
@@ -121,9 +121,11 @@ class ObservedForce {
   double stiffest_;   // N/m, at which the damper is 0.35 of critical for the device alone
   double heaviest_;   // kg, device and hand
   double reserve_;    // J
+  double per_half_;   // 1/J, of half of it
   double allowance_;  // J, of the reserve, for softer changes
   double stored_at_;  // N/m
   StaticSlope slope_;
+  double per_slope_ = 0;  // m/N
   double enough_ = std::numeric_limits<double>::infinity();  // N s/m, on the last world
   double shown_ = 0;                                         // N
   double injected_ = 0;                                      // N

@@ -21,7 +21,7 @@ class StaticSlope {
   void forget() EBAC_RT { *this = StaticSlope(least_); }
 
   /// Force [N] at position [m] and velocity [m/s]; `surface` is the way of the world's surface since
-  /// the last call [m]. Says whether the slope is known better now.
+  /// the last call [m]. Says whether the slope has changed.
   bool step(double force, double x, double v, double surface) EBAC_RT {
     const double df = force - force_, dx = x - x_ - surface, dv = v - v_;
     const bool both = force != 0 && force_ != 0;
@@ -32,12 +32,15 @@ class StaticSlope {
     if (!both || std::abs(dx) <= least_) return false;
     const double turn = dx_ * dv - dx * dv_;
     if (std::abs(turn) > kTurned * (std::abs(dx_ * dv) + std::abs(dx * dv_))) {
-      damping_ = std::max(0.0, (dx_ * df - dx * df_) / turn);
+      const double bend = dx_ * df - dx * df_;
+      const bool damped = std::abs(bend) > kSame * std::abs(dx * df_);
+      damping_ = damped ? std::max(0.0, bend / turn) : 0.0;
     }
     df_ = df;
     dx_ = dx;
     dv_ = dv;
     const double seen = std::max(0.0, (df - damping_ * dv) / dx);
+    if (std::abs(seen - slope_) < kSame * slope_) return false;
     slope_ = seen > slope_ ? seen : slope_ + kForget * (seen - slope_);
     return true;
   }
@@ -45,6 +48,7 @@ class StaticSlope {
  private:
   static constexpr double kTurned = 0.05;  // of two parts that would cancel in one direction
   static constexpr double kForget = 0.02;  // per tick
+  static constexpr double kSame = 1e-9;    // of a value: less is rounding
 
   double least_;                    // m
   double slope_ = 0, damping_ = 0;  // N/m, N s/m

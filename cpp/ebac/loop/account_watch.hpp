@@ -25,7 +25,8 @@ class AccountWatch {
   bool given_up() const EBAC_RT { return given_up_; }
 
   void step(const Tick& now, double dt) EBAC_RT {
-    speed_ += (now.speed - speed_) * dt / (kMean + dt);
+    if (dt != dt_) set_tick(dt);
+    speed_ += (now.speed - speed_) * averaging_;
     if (!now.contact) paid_ = std::max(0.0, paid_ - dt);
     const bool shakes = now.rough > (given_up_ ? kShaken : kShakes);
     if (speed_ > kMoves || shakes || !now.contact) {
@@ -41,15 +42,22 @@ class AccountWatch {
   }
 
  private:
+  void set_tick(double dt) EBAC_RT {
+    dt_ = dt;
+    averaging_ = dt / (kMean + dt);
+  }
+
   static constexpr double kMoves = 0.01;                  // m/s
   static constexpr double kMean = 0.1;                    // s, over which the speed is smoothed
   static constexpr double kShakes = 0.02, kShaken = 0.2;  // of the ticks: prevents it, ends it
   static constexpr double kPaid = 0.3;  // s of rest in this contact that the account has paid for
   static constexpr double kDrained = 0.2;  // s
 
-  double speed_ = 0;    // m/s
-  double paid_ = 0;     // s
-  double drained_ = 0;  // s
+  double dt_ = 0;         // s
+  double averaging_ = 0;  // share taken, per tick
+  double speed_ = 0;      // m/s
+  double paid_ = 0;       // s
+  double drained_ = 0;    // s
   bool given_up_ = false;
 };
 

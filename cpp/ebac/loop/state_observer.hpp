@@ -134,7 +134,7 @@ inline void StateObserver::trust(const Reading& reading, double dt, std::size_t 
   } else if (failed != Fallback::kNone || unbroken_ < kUnbroken) {
     if (failed != Fallback::kNone) fallback_ = failed;
     weight_ = std::max(0.0, weight_ - dt / kFade);
-  } else {
+  } else if (weight_ < 1 || fallback_ != Fallback::kNone) {
     fallback_ = Fallback::kNone;
     weight_ = dt > 0 && !forgot_ ? std::min(1.0, weight_ + dt / kFade) : 1.0;
   }
