@@ -125,7 +125,7 @@ class ObservedForce {
   double allowance_;  // J, of the reserve, for softer changes
   double stored_at_;  // N/m
   StaticSlope slope_;
-  double per_slope_ = 0;  // m/N
+  double per_slope_ = 0;                                     // m/N
   double enough_ = std::numeric_limits<double>::infinity();  // N s/m, on the last world
   double shown_ = 0;                                         // N
   double injected_ = 0;                                      // N

@@ -141,8 +141,8 @@ class AxisObserver {
   static constexpr double kRough = 0.1;  // s, memory of such differences
   static constexpr double kHigh = 4;     // standard deviations at which others are cut off
   static constexpr double kBends = 0.2;  // s, over which they are averaged
-  static constexpr double kOfBends = 0.56;   // noise of that mean; 0.51 for one that is normal
-  static constexpr double kLeastNoise = 0.2;  // of the declared noise
+  static constexpr double kOfBends = 0.56;     // noise of that mean; 0.51 for one that is normal
+  static constexpr double kLeastNoise = 0.2;   // of the declared noise
   static constexpr double kMemory = 0.05;      // s, of the contradictions
   static constexpr double kPatience = 3.5e-3;  // s, half a period of a cable's resonance of 140 Hz
 
