@@ -120,7 +120,7 @@ def test_on_the_encoder_alone_the_same_force_clicks() -> None:
     [
         ("d0K20", 0),
         ("d2K20", 0),
-        ("slow-press-d2K20", 1),  # 4 of 60, for which the account is 1 mJ too low with noise
+        ("slow-press-d2K20", 1),  # 56 of 60 with noise, 60 without
         ("slow-let-go-d2", 0),
         ("told-mass+50", 0),
     ],

@@ -139,10 +139,10 @@ class AxisObserver {
   static constexpr double kNoise = 1.5;    // standard deviations that smoothing takes away at most
   static constexpr double kLoud = 10;    // standard deviations in a second difference, 4 of its own
   static constexpr double kRough = 0.1;  // s, memory of such differences
-  static constexpr double kHigh = 4;     // standard deviations at which others are cut off
-  static constexpr double kBends = 0.2;  // s, over which they are averaged
+  static constexpr double kHigh = 4;     // standard deviations: a larger difference counts as this
+  static constexpr double kBends = 0.2;  // s, over which their sizes are averaged
   static constexpr double kOfBends = 0.56;     // noise of that mean; 0.51 for one that is normal
-  static constexpr double kLeastNoise = 0.2;   // of the declared noise
+  static constexpr double kLeastShare = 0.2;   // of the share within a count, without noise
   static constexpr double kMemory = 0.05;      // s, of the contradictions
   static constexpr double kPatience = 3.5e-3;  // s, half a period of a cable's resonance of 140 Hz
 
@@ -179,7 +179,7 @@ class AxisObserver {
     old_ = old;
   }
 
-  /// The noise of the measured force, from its second differences: at most as much as declared.
+  /// The noise of the measured force, from the size of its second difference: at most as much as declared.
   void hear(double bend) EBAC_RT {
     const double declared = params_.force_noise;
     rough_ += ((bend > kLoud * declared ? 1.0 : 0.0) - rough_) * roughening_;
@@ -201,7 +201,7 @@ class AxisObserver {
     const double off = reading - x_;
     const double within = std::clamp(off, -count, count);
     const double noisy = std::clamp(2.5 * rough_ - 0.5, 0.0, 1.0);
-    const double share = within_ * std::max(kLeastNoise, noise_ * per_noise_);
+    const double share = within_ * std::max(kLeastShare, noise_ * per_noise_);
     const double innovation = off - (1 - noisy) * (1 - share) * within;
     contradicted_ += ((std::abs(off) > 1.5 * count ? 1.0 : 0.0) - contradicted_) * forget_;
     moving_ = std::max(std::min(1.0, std::abs(u_) * (1 / kMoving)), moving_ * resting_);
