@@ -157,6 +157,19 @@ def test_wall_damping_on_encoder_counts_is_felt_however_soft_the_wall(found: ZWi
     assert (observed.limits["quiet"][0, 0] > 1e3).all()
 
 
+def test_random_hands_find_the_energy_that_a_press_and_a_tap_do_not() -> None:
+    few = {"delays": (1,), "dampings": (0.0, 10.0), "rungs": 4}
+    base = ebac.Scenario(seconds=1.0, observer="every-law")
+    laws = ("lag-compensator", "eba-account")
+    pressed, explored = (search(base=base, laws=laws, hands=n, **few) for n in (0, 2))
+    lag, account = 0, 1
+    assert (explored.limits["energy"][lag] < 0.5 * pressed.limits["energy"][lag]).all()
+    assert (explored.limits["energy"][account] == explored.top).all()  # proven passive
+    assert (explored.limits["usable"] <= explored.limits["energy"]).all()
+    for name in ("still", "quiet"):
+        assert (explored.limits[name] == pressed.limits[name]).all()
+
+
 def test_eba_is_still_on_every_wall_and_shows_few(found: ZWidth) -> None:
     assert (found.limits["still"][1] == found.top).all()
     assert (found.limits["usable"][1] < 0.2 * found.top).all()
@@ -187,9 +200,11 @@ def test_the_search_does_not_depend_on_how_it_is_computed(found: ZWidth) -> None
         assert (elsewhere.limits[name] == limits).all()
 
 
-def test_progress_comes_to_its_end() -> None:
+@pytest.mark.parametrize("hands", [0, 1])
+def test_progress_comes_to_its_end(hands: int) -> None:
     seen: list[tuple[int, int]] = []
-    search(laws="direct", delays=(1,), progress=lambda done, total: seen.append((done, total)))
+    few = {"laws": "direct", "delays": (1,), "rungs": 3, "hands": hands}
+    search(**few, progress=lambda done, total: seen.append((done, total)))
     assert seen[-1][0] == seen[-1][1]
 
 
@@ -200,6 +215,7 @@ def test_progress_comes_to_its_end() -> None:
         ({"least": 0.0}, "least = 0.0 N/m, top = 100000.0 N/m"),
         ({"rungs": 1}, "rungs = 1: must be at least 2"),
         ({"epsilon": -1.0}, "epsilon = -1.0 J"),
+        ({"hands": -1}, r"hands = -1: must lie in \[0, 1000\]"),
         ({"base": ebac.Scenario(environment=ebac.Free())}, "needs a scenario with a wall"),
     ],
 )
@@ -233,6 +249,7 @@ def test_the_command_tells_rows_and_scores() -> None:
     told = json.loads(command(*SMALL, "--json"))
     assert [row["damping_Ns_per_m"] for row in told["rows"]] == [0, 20]
     assert told["scores"][0]["quiet_times_direct"] == 1
+    assert told["hands"] == 0
 
 
 def test_the_command_writes_a_folder(tmp_path: Path) -> None:

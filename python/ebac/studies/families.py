@@ -17,6 +17,9 @@ if TYPE_CHECKING:
 
 Values: TypeAlias = Mapping[str, float]
 
+#: Largest pull of a hand [N] where a law declares none.
+PULL = 20.0
+
 
 @dataclass(frozen=True, kw_only=True)
 class Parameter:
@@ -61,6 +64,12 @@ class Family:
         """Return the parameters at shares of their ranges, shape (len(parameters),), each in [0, 1]."""
         pairs = zip(self.parameters, shares.tolist(), strict=True)
         return {parameter.name: parameter.at(share) for parameter, share in pairs}
+
+    def at_random(self, hands: int, random: np.random.Generator) -> NDArray[np.float64]:
+        """Return a Latin hypercube of shares, shape (hands, parameters): each parameter over its whole range."""
+        n = len(self.parameters)
+        order = np.stack([random.permutation(hands) for _ in range(n)], axis=1)
+        return np.asarray((order + random.random((hands, n))) / hands)
 
 
 def families(pull: float) -> dict[str, Family]:

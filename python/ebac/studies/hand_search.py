@@ -84,9 +84,7 @@ class HandSearch:
         n = len(self.family.parameters)
         random = np.random.Generator(np.random.PCG64([seed, n]))
         at_random = max(1, int(AT_RANDOM * evaluations))
-        # A Latin hypercube: every parameter is spread over its whole range.
-        order = np.stack([random.permutation(at_random) for _ in range(n)], axis=1)
-        points = (order + random.random((at_random, n))) / at_random
+        points = self.family.at_random(at_random, random)
         parts = [points[start : start + BATCH] for start in range(0, at_random, BATCH)]
         values = np.concatenate([self.measure(part) for part in parts])
         self._breed(points, values, int((AT_RANDOM + BRED) * evaluations), random)

@@ -12,14 +12,11 @@ from ebac._util.cores import usable_cores
 from ebac.laws import AnyLaw, design, law_name
 from ebac.scenario import Scenario
 from ebac.studies.conditions import Condition, conditions
-from ebac.studies.families import families, find_family
+from ebac.studies.families import PULL, families, find_family
 from ebac.studies.hand_search import HandSearch, WorstHand, every_row
 from ebac.studies.scenario_changes import truth
 from ebac.studies.sweeps.job import Progress
 from ebac.trace import Trace
-
-#: Largest pull of a hand [N] for a law that declares none.
-PULL = 20.0
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)

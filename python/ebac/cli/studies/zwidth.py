@@ -65,6 +65,16 @@ def zwidth(
             help="Energy a law may take out of the port [J].", rich_help_panel=options.RUN
         ),
     ] = 1e-3,
+    hands: Annotated[
+        int,
+        typer.Option(
+            help="Random hands of each family of `ebac worst` that may not take more energy than that either: "
+            "they tap, swing, shake, press and let go.",
+            min=0,
+            max=1000,
+            rich_help_panel=options.RUN,
+        ),
+    ] = 0,
     seed: options.Seed = None,
     threads: options.Threads = None,
     as_json: output.AsJson = False,
@@ -72,9 +82,9 @@ def zwidth(
     """Find the stiffest wall each law can render (Z-width).
 
     A simulation, over wall damping and delay, of a press and a tap. Criteria: *still*, no limit cycle; *quiet*, still
-    and no vibration of the force above three detection thresholds; *energy*, at most epsilon given out by the port;
-    *usable*, quiet, energy and at least half of the requested stiffness at rest. The score is the area under the
-    border.
+    and no vibration of the force above three detection thresholds; *energy*, at most epsilon given out by the port,
+    with --hands to random hands as well; *usable*, quiet, energy and at least half of the requested stiffness at rest.
+    The score is the area under the border.
 
     **Examples**
 
@@ -83,6 +93,8 @@ def zwidth(
     * `ebac zwidth`: every law at 0, 1 and 2 samples of delay
 
     * `ebac zwidth --law direct,ebac --delay 1 --most-damping 50 --points 5`
+
+    * `ebac zwidth --law ebac --delay 1 --points 2 --hands 3 --epsilon 0.002`: 21 random hands explore the wall, too
     """
     import numpy as np
 
@@ -101,7 +113,7 @@ def zwidth(
         with output.counting("searching", quiet=as_json) as progress:
             found = search(
                 base, names, delays=delay or (0, 1, 2), dampings=np.linspace(0, most_damping, points),
-                least=least, top=top, epsilon=epsilon, threads=threads, progress=progress,
+                least=least, top=top, epsilon=epsilon, hands=hands, threads=threads, progress=progress,
             )  # fmt: skip
     to.report(
         folder, "zwidth", _document(found), as_json=as_json,
@@ -125,7 +137,7 @@ def _check(most_damping: float, least: float, top: float, epsilon: float) -> Non
 
 def _document(found: ZWidth) -> str:
     return output.document(
-        "zwidth", found.rows(), epsilon_J=found.epsilon, top_N_per_m=found.top, scores=found.scores()
+        "zwidth", found.rows(), epsilon_J=found.epsilon, hands=found.hands, top_N_per_m=found.top, scores=found.scores()
     )  # fmt: skip
 
 

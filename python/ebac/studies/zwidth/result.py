@@ -39,6 +39,8 @@ class ZWidth:
         Ends of the search [N/m]: a limit of `top` means "at least"; below `least` it is 0.
     epsilon : float
         Energy that may be taken out [J].
+    hands : int
+        Random hands of each family for which the energy criterion must hold as well.
     limits : dict of str to array, shape (laws, delays, m)
         Largest stiffness [N/m] by criterion, see `CRITERIA`.
     spectral : array, shape (delays, m)
@@ -52,6 +54,7 @@ class ZWidth:
     least: float
     top: float
     epsilon: float
+    hands: int
     limits: dict[str, Numbers]
     spectral: Numbers
 

@@ -14,6 +14,7 @@ from ebac._util.arguments import require
 from ebac.laws import LAWS, AnyLaw
 from ebac.metrics import EXACT_COUNTS, ideal_rest
 from ebac.scenario import Scenario
+from ebac.studies.families import PULL, families
 from ebac.studies.sweeps import SweepResult, sweep
 from ebac.studies.sweeps.run import Laws, name_laws
 from ebac.studies.zwidth.linear import stiffness_limit
@@ -27,6 +28,8 @@ APPROACHES = (0.0, 0.02)
 ROUNDS = 4
 #: At least this share of the stiffness asked for must be there at rest.
 SHOWN_SHARE = 0.5
+#: Most random hands of a family.
+MOST_HANDS = 1000
 
 Flags = NDArray[np.bool_]
 Point = tuple[Timing, float]
@@ -42,6 +45,7 @@ def zwidth(
     top: float = 1e5,
     rungs: int = 31,
     epsilon: float = 1e-3,
+    hands: int = 0,
     threads: int | None = None,
     executor: Executor | None = None,
     progress: Callable[[int, int], None] | None = None,
@@ -68,6 +72,9 @@ def zwidth(
         Of the ladder, at least 2.
     epsilon : float
         Energy [J] that may be taken out of the port.
+    hands : int
+        Random hands of each family of `ebac worst`, [0, 1000], that may not take out more either: they tap, swing,
+        shake, push at random, press and let go, with at most 20 N. The same seven times `hands` on every wall.
     threads, executor, progress
         As in `sweep`.
 
@@ -82,29 +89,35 @@ def zwidth(
     """
     scenario = Scenario(seconds=3.0) if base is None else base
     require(scenario, Scenario, "ebac.zwidth", "a Scenario as its base")
-    _check(scenario, dampings, least, top, rungs, epsilon)
-    search = _Search(scenario, epsilon, {"threads": threads, "executor": executor})
+    _check(scenario, dampings, least, top, rungs, epsilon, hands)
+    search = _Search(scenario, epsilon, hands, {"threads": threads, "executor": executor})
     named = name_laws(list(LAWS.values()) if laws is None else laws)
     timings = [scenario.timing.replace(delay=delay) for delay in delays]
     points = [(timing, float(damping)) for timing in timings for damping in dampings]
     ladder = np.geomspace(least, top, rungs)
-    total = len(named) * len(points) * (rungs + ROUNDS * len(CRITERIA)) * len(APPROACHES)
+    total = len(named) * len(points) * (rungs + ROUNDS * len(CRITERIA)) * search.runs
     search.report = _counter(progress, total)
     shape = (len(named), len(timings), len(dampings))
     borders = [search.border(law, points, ladder) for law in named.values()]
     return ZWidth(
         base=scenario, laws=tuple(named), delays=tuple(delays), dampings=np.asarray(dampings, float),
-        least=least, top=top, epsilon=epsilon,
+        least=least, top=top, epsilon=epsilon, hands=hands,
         limits={name: np.array([b[i] for b in borders]).reshape(shape) for i, name in enumerate(CRITERIA)},
         spectral=np.array([_spectral(scenario, *point) for point in points]).reshape(shape[1:]),
     )  # fmt: skip
 
 
 class _Search:
-    def __init__(self, base: Scenario, epsilon: float, how: dict[str, Any]) -> None:
+    def __init__(self, base: Scenario, epsilon: float, hands: int, how: dict[str, Any]) -> None:
         self.base = base
         self.epsilon = epsilon
         self.how = how
+        self.explorers = [
+            (family, family.values(point))
+            for i, family in enumerate(families(PULL).values())
+            for point in family.at_random(hands, np.random.default_rng([base.seed, i]))
+        ]
+        self.runs = len(APPROACHES) + len(self.explorers)  # for each wall
         first, *others = base.hand.path
         target: float = getattr(first, "target", 0.0)
         self.hands = {
@@ -130,13 +143,28 @@ class _Search:
         return np.where(first == 0, 0.0, inside)
 
     def passes(self, law: AnyLaw, tasks: list[tuple[Point, float]]) -> Flags:
-        """Return whether each criterion holds for each wall, with every approach."""
+        """Return whether each criterion holds for each wall, with every approach and every random hand."""
         runs = [self._scenario(p, k, way) for p, k in tasks for way in APPROACHES]
         result = sweep(runs, law, **self.how)
         self.report(len(runs))
         stiffness = np.repeat([k for _, k in tasks], len(APPROACHES))
         flags = _judge(result, self.base, self.epsilon, stiffness)
-        return np.asarray(flags.reshape(len(CRITERIA), len(tasks), len(APPROACHES)).all(axis=2))
+        still, quiet, energy, usable = flags.reshape(-1, len(tasks), len(APPROACHES)).all(axis=2)
+        energy &= self.drawn(law, tasks, energy) <= self.epsilon
+        return np.array([still, quiet, energy, usable & energy])
+
+    def drawn(self, law: AnyLaw, tasks: list[tuple[Point, float]], asked: Flags) -> Numbers:
+        """Return the most energy that a random hand takes out, for each wall that is asked for; else 0 [J]."""
+        walls = [self._scenario(p, k, 0.0) for (p, k), ask in zip(tasks, asked, strict=True) if ask]
+        runs = [family.make(wall, values) for wall in walls for family, values in self.explorers]
+        most = np.zeros(len(tasks))
+        if runs:
+            result = sweep(runs, law, **self.how)
+            taken = np.where(_whole(result), -result["least_energy_J"], np.inf)
+            taken[result["most_pull_N"] > PULL] = 0.0  # as a stiff position drive may
+            most[asked] = np.maximum(taken, 0.0).reshape(len(walls), -1).max(axis=1)
+        self.report(len(tasks) * len(self.explorers))
+        return most
 
     def _scenario(self, point: Point, stiffness: float, way: float) -> Scenario:
         timing, damping = point
@@ -145,15 +173,18 @@ class _Search:
 
 
 def _judge(result: SweepResult, base: Scenario, epsilon: float, stiffness: Numbers) -> Flags:
-    whole = result["done"] & ~result["diverged"] & (result["fault"] == 0)
     still, quiet = result["still"], result["quiet"]
-    energy = whole & (result["least_energy_J"] >= -epsilon)
+    energy = _whole(result) & (result["least_energy_J"] >= -epsilon)
     surface = _surface(base) + np.resize(APPROACHES, len(result))
     depth, ideal = result["rest_m"] - surface, result["ideal_m"] - surface
     held = ideal * (base.hand.stiffness + stiffness) - base.hand.stiffness * depth  # N, at rest
     slack = EXACT_COUNTS * result["count_m"]
     shown = held >= SHOWN_SHARE * stiffness * (depth - slack)
     return np.array([still, quiet, energy, quiet & energy & shown])
+
+
+def _whole(result: SweepResult) -> Flags:
+    return np.asarray(result["done"] & ~result["diverged"] & (result["fault"] == 0))
 
 
 def _surface(base: Scenario) -> float:
@@ -179,7 +210,13 @@ def _counter(progress: Callable[[int, int], None] | None, total: int) -> Callabl
 
 
 def _check(
-    base: Scenario, dampings: Any, least: float, top: float, rungs: int, epsilon: float
+    base: Scenario,
+    dampings: Any,
+    least: float,
+    top: float,
+    rungs: int,
+    epsilon: float,
+    hands: int,
 ) -> None:
     if not isinstance(base.environment, Wall) or ideal_rest(base) is None:
         raise ValueError(
@@ -199,3 +236,5 @@ def _check(
         raise ValueError(f"zwidth: rungs = {rungs}: must be at least 2")
     if not epsilon >= 0:
         raise ValueError(f"zwidth: epsilon = {epsilon} J: must be at least 0")
+    if not 0 <= hands <= MOST_HANDS:
+        raise ValueError(f"zwidth: hands = {hands}: must lie in [0, {MOST_HANDS}]")
