@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 from printed import NOISE, Printed, Row, code, fixed, millijoules, table
 
 import ebac
@@ -15,6 +18,35 @@ from ebac.studies.tuning import RANGES, TUNING_CONDITIONS
 from ebac.studies.tuning.result import rows_of
 from ebac.studies.zwidth.result import CRITERIA
 
+#: Simple laws on the observer; of the parameter sets of each the best counts. The first is what `ebac tune` found.
+SWEPT: dict[str, list[ebac.Variant | str]] = {
+    "direct": ["direct"],
+    "tca-damped": [
+        "tca-damped-tuned-observer",
+        *(
+            ebac.Variant("tca-damped", {"virtual_damping": damping, "kp": 0.0})
+            for damping in (30.0, 60.0, 90.0, 120.0)
+        ),
+    ],
+    "lag-compensator": [
+        "lag-compensator-tuned-observer",
+        *(
+            ebac.Variant(
+                "lag-compensator",
+                {"stiffness": stiffness, "virtual_damping": damping, "recovery_time": time},
+            )
+            for stiffness in (8e3, 16e3)
+            for damping in (90.0, 110.0, 130.0)
+            for time in (0.02, 0.03, 0.05)
+        ),
+    ],
+    "passivity-control": ["passivity-control-tuned-observer"],
+    "virtual-coupling": ["virtual-coupling-tuned-observer"],
+}
+#: The walls of that comparison: damping [N s/m], and rungs of the ladder of stiffness.
+WALLS: dict[str, Any] = {"dampings": (0.0, 10.0, 20.0), "rungs": 16}
+#: Random hands of each family on each wall, and the reserve of `ebac` [J] that none of them may exceed.
+EXPLORERS, RESERVES = 10, (2e-3, 3e-3, 5e-3, 10e-3)
 LET_GO, PUMPING = ("slow-let-go", "slow-let-go-d2", "slow-let-go-K20"), "pumping"
 DELAYS = (0, 1, 2)
 
@@ -171,6 +203,51 @@ def z_width(printed: Printed) -> str:
     ]  # fmt: skip
     heads = ["law", "observer", *(f"{name}, d = {d}" for d in DELAYS for name in CRITERIA)]
     return f"{table(heads, rows)}\n\n{_best(scores)}\n\n{_ceilings(found['direct', 'no'])}"
+
+
+def z_width_explored(printed: Printed) -> str:
+    """Usable areas, without and with random hands, none of which may draw more than the reserve of `ebac`."""
+    device = ebac.Device(sensor=ebac.ForceSensor(noise=0.03))
+    base = ebac.Scenario(device=device, seconds=3.0, observer="every-law")
+
+    def areas(laws: Sequence[ebac.Variant | str], energy: float) -> NDArray[np.float64]:
+        """Return the largest of some laws: without and with random hands, for every delay."""
+        named = {str(i): law for i, law in enumerate(laws)}
+        found = [
+            ebac.zwidth(base, named, hands=hands, epsilon=energy, threads=printed.threads, **WALLS)
+            for hands in (0, EXPLORERS)
+        ]
+        return np.array(
+            [[max(z.area("usable", law, d) for law in z.laws) for d in DELAYS] for z in found]
+        )
+
+    best = {law: areas(variants, RESERVES[0]) for law, variants in SWEPT.items()}
+    rows = [[code(law), str(len(SWEPT[law])), "2", *_pairs(found)] for law, found in best.items()]
+    for reserve in RESERVES:
+        found = areas([ebac.Variant("ebac", {"observed_reserve": reserve})], reserve)
+        best.setdefault("ebac", found)
+        rows.append([code("ebac"), "1", f"{1e3 * reserve:g}", *_pairs(found)])
+    heads = ["law", "parameter sets", "energy [mJ]", *(f"d = {d}" for d in DELAYS)]
+    return f"{table(heads, rows)}\n\n{_compared({law: found[1] for law, found in best.items()})}"
+
+
+def _pairs(areas: NDArray[np.float64]) -> list[str]:
+    """Return areas without and with random hands in kN/m N s/m."""
+    return [f"{pressed / 1e3:.0f} / {explored / 1e3:.0f}" for pressed, explored in areas.T]
+
+
+def _compared(best: dict[str, NDArray[np.float64]]) -> str:
+    parts = []
+    for i, delay in enumerate(DELAYS):
+        law = max(SWEPT, key=lambda name, i=i: best[name][i])
+        ours, theirs = best["ebac"][i] / 1e3, best[law][i] / 1e3
+        parts.append(
+            f"{fixed(ours / theirs, 1)} at d = {delay} ({code(law)}: {theirs:.0f}, `ebac`: {ours:.0f})"
+        )
+    return (
+        "Usable area of `ebac` with 2 mJ over that of the best simple law with the observer, random hands included: "
+        f"{', '.join(parts)}."
+    )
 
 
 def _best(scores: dict[tuple[str, str, int], Row]) -> str:

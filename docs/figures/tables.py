@@ -52,6 +52,7 @@ TABLES: dict[str, Callable[[Printed], str]] = {
     "pieces": story.pieces,
     "worst": laws.worst,
     "zwidth": rivals.z_width,
+    "zwidth-explored": rivals.z_width_explored,
     "adversaries": hostile.adversaries,
     "walls": story.walls,
     "identify-arm": identified.arm,

@@ -260,6 +260,13 @@ def test_the_command_writes_a_folder(tmp_path: Path) -> None:
     assert names == {"zwidth.png", "zwidth.json", "zwidth.csv", "scores.csv", "scenario.toml"}
 
 
+def test_random_hands_are_named_where_the_result_is_shown(tmp_path: Path) -> None:
+    text = command(*SMALL, "--hands", "1", "--out", str(tmp_path))
+    assert "none of 7 random hands took more than 1 mJ either" in " ".join(text.split())
+    figure = plot_zwidth(search(laws="direct", delays=(1,), rungs=3, hands=1))
+    assert "drawn from the port (7 random hands included)" in figure.get_suptitle()
+
+
 def test_the_command_refuses() -> None:
     assert "did you mean 'direct'" in " ".join(command("--law", "dirct", code=2).split())
     assert "--least = 100 N/m: must lie in (0, 1) N/m, below --top" in command("--top", "1", code=2)

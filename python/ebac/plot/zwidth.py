@@ -58,10 +58,11 @@ def plot_zwidth(found: ZWidth) -> Picture:
     handles, labels = grid[0, 0].get_legend_handles_labels()
     figure_legend(figure, handles, labels, columns=5)
     parts = formatting.describe(found.base).split("; ")
+    others = f" ({found.explorers} included)" if found.hands else ""
     figure.suptitle(
         f"Z-width, simulated: {parts[0]}; {parts[1]}; {1e-3 / found.base.timing.dt:g} kHz\n"
         "Hardest wall K that each law renders, by wall damping B, still and with a quiet force (quiet), with at most "
-        f"{1e3 * found.epsilon:g} mJ drawn from the port,\n"
+        f"{1e3 * found.epsilon:g} mJ drawn from the port{others},\n"
         "and with both and at least half of K shown (usable); bars: mean over B",
         fontsize="medium",
     )

@@ -173,6 +173,10 @@ def _show(found: ZWidth) -> None:
         f"Both axes are linear, up to {full:g} kN/m and {most:g} N s/m: {full * most:.0f} kN/m N s/m is all of it. In "
         "brackets, times that of direct."
     )
+    if found.hands:
+        output.say(
+            f"Energy and usable: none of {found.explorers} took more than {1e3 * found.epsilon:g} mJ either."
+        )
     output.say(
         "Simulation. Wall stiffness, wall damping and delay vary; everything else as in:",
         style="bold",

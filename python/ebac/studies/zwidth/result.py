@@ -58,6 +58,14 @@ class ZWidth:
     limits: dict[str, Numbers]
     spectral: Numbers
 
+    @property
+    def explorers(self) -> str:
+        """In words, who else may not take out more than epsilon: empty, or "70 random hands"."""
+        from ebac._util.report import plural
+        from ebac.studies.families import PULL, families
+
+        return plural(self.hands * len(families(PULL)), "random hand") if self.hands else ""
+
     def area(self, criterion: str, law: str, delay: int) -> float:
         """Return the score: the area under the border, both axes linear, stiffness up to `top` [N/m N s/m].
 
