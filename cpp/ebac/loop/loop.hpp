@@ -149,7 +149,9 @@ class Loop {
     if (arming) restart();
     note(reading, now, axes);
     if (sample_.fault == Fault::kNone && run_state_.gain() > 0) {
-      sample_.limited = limiter_.limit(axes, run_state_.gain(), now.dt);
+      const int limited = limiter_.limit(axes, run_state_.gain(), now.dt);
+      // What is stored now keeps the row waiting: see copy_words.
+      if (limited != sample_.limited) sample_.limited = limited;
     } else {
       shut(now, axes);
     }
@@ -181,8 +183,10 @@ class Loop {
     }
     if (sample_.fault != Fault::kNone) return;
     const Fault judged = judge(reading, axes);
-    sample_.fault = judged != Fault::kNone ? judged : watched;
-    run_state_.fail(sample_.fault);
+    const Fault found = judged != Fault::kNone ? judged : watched;
+    if (found == Fault::kNone) return;
+    sample_.fault = found;
+    run_state_.fail(found);
     sample_.state = static_cast<int>(run_state_.state());
   }
 
@@ -235,7 +239,7 @@ class Loop {
     std::memcpy(row, &sample_, offsetof(Sample, axis));
     std::byte* to = row + offsetof(Sample, axis);
     for (std::size_t i = 0; i < axes; ++i, to += sizeof(Axis)) {
-      std::memcpy(to + offsetof(Axis, joint), &sample_.axis[i].joint, sizeof(Joint));
+      copy_words(to + offsetof(Axis, joint), sample_.axis[i].joint);
       std::memcpy(to + offsetof(Axis, port), &sample_.axis[i].port, sizeof(Port));
     }
     if constexpr (kAnyLaw) {
@@ -256,6 +260,18 @@ class Loop {
         row_parts(device_));
     if (limiter_.on()) copy_states(row + limiter_at_, limiter_, axes);
     if constexpr (kTimed) copy_states(row + clock_at_, clock_, axes);
+  }
+
+  /// What was just written is copied a word at a time: a vector of two such words waits until they have left the store
+  /// queue.
+  template <class T>
+  static void copy_words(std::byte* to, const T& from) EBAC_RT {
+    constexpr std::size_t kWord = sizeof(std::uint64_t);
+    static_assert(sizeof(T) % kWord == 0);
+    const auto* words = reinterpret_cast<const std::byte*>(&from);
+    [&]<std::size_t... I>(std::index_sequence<I...>) {
+      (std::memcpy(to + I * kWord, words + I * kWord, kWord), ...);
+    }(std::make_index_sequence<sizeof(T) / kWord>());
   }
 
   template <class Part>

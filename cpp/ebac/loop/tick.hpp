@@ -14,7 +14,8 @@ inline Fault first_fault(const Axis& axis) EBAC_RT {
   const Port& port = axis.port;
   const double tau = axis.joint.tau;
   // A value that is not finite makes the sum not finite; only then look for its stage.
-  const double sum = port.x + port.v + port.f_applied + port.f_meas + port.f_env + port.f_cmd + tau;
+  const double known = (port.x + port.v) + (port.f_applied + port.f_meas);
+  const double sum = known + (port.f_env + (port.f_cmd + tau));
   if (std::isfinite(sum)) return Fault::kNone;
   if (!std::isfinite(port.x) || !std::isfinite(port.v)) return Fault::kPositionNotFinite;
   if (!std::isfinite(port.f_applied)) return Fault::kDevice;
