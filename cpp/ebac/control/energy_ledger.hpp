@@ -62,6 +62,7 @@ class EnergyLedger {
   /// From now on `reserve` [J] is lent in all. More is added at once; less is taken back as far as
   /// the account holds more than `reserve`.
   void lend(double reserve) EBAC_RT {
+    if (reserve == reserve_) return;
     double change = reserve - reserve_;
     if (change < 0) change = -std::min(-change, std::max(0.0, energy_ - reserve));
     energy_ += change;

@@ -37,6 +37,11 @@ namespace ebac {
 /// noisier than declared, all of w is used. v is kept within what two readings prove of it.
 class AxisObserver {
  public:
+  struct Motion {
+    double x = 0;  // m
+    double v = 0;  // m/s
+  };
+
   AxisObserver(const ObserverParams& params, double mass_share = 1) EBAC_RT
       : params_(params),
         mass_(params.mass* mass_share),
@@ -97,9 +102,8 @@ class AxisObserver {
 
   /// Where the device is when a command given now acts, in the middle of its interval: over every
   /// command in flight, half a tick and the current lag, the hand's force changing as it does.
-  void predict(double& x, double& v) const EBAC_RT {
-    x = x_;
-    v = v_;
+  Motion predict() const EBAC_RT {
+    double x = x_, v = v_;
     LaggedForce motor = motor_.acts();
     const double hand = calm_ + moving_ * (measured_ - calm_) + disturbance_;
     double ahead = params_.force_lag;
@@ -114,6 +118,7 @@ class AxisObserver {
       advance(motor.hold(in_flight_[j]), dt_);
     }
     advance(motor.force(), 0.5 * dt_ + params_.current_lag);
+    return {x, v};
   }
 
   double x() const EBAC_RT { return x_; }

@@ -176,7 +176,8 @@ class Loop {
   }
 
   void note(const Reading& reading, const Instant& now, std::span<const Axis> axes) EBAC_RT {
-    Fault watched = limiter_.watch(reading, now, axes, starved_of(law_));
+    Fault watched = Fault::kNone;
+    if (limiter_.on()) watched = limiter_.watch(reading, now, axes, starved_of(law_));
     if (plausibility_) {
       const Fault implausible = plausibility_->watch(reading, now, axes);
       if (watched == Fault::kNone) watched = implausible;

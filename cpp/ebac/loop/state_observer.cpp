@@ -43,9 +43,9 @@ void StateObserver::step_general(const Reading& reading, const std::array<bool, 
         follow(i, axes[i].joint, along[e] / travel_[e], reading, counted[i], dt);
     now[e] = observer.x() / travel_[e];
     speed[e] = observer.v() / travel_[e];
-    observer.predict(then[e], speed_then[e]);
-    then[e] /= travel_[e];
-    speed_then[e] /= travel_[e];
+    const AxisObserver::Motion ahead = observer.predict();
+    then[e] = ahead.x / travel_[e];
+    speed_then[e] = ahead.v / travel_[e];
   }
   const Axes x = forward(kinematics_, now);
   const Axes v = jacobian(kinematics_, now) * speed;

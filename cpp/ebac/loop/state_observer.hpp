@@ -164,7 +164,9 @@ inline void StateObserver::step(const Reading& reading, const std::array<bool, k
       est.x = observer.x();
       est.dx = dt > 0 ? observer.moved() : 0.0;
       est.v = observer.v();
-      observer.predict(est.x_act, est.v_act);
+      const AxisObserver::Motion then = observer.predict();
+      est.x_act = then.x;
+      est.v_act = then.v;
       enter(i, port);
     }
   } else {

@@ -26,12 +26,16 @@ class ExactPlant {
 
   /// Moves by `quanta` of 2^-20 tick from time `t` on, under the motor currents `current` [A].
   void advance(const Axes& current, double t, std::int64_t quanta) EBAC_RT {
+    advance(current, t, quanta, axes_.size());
+  }
+  /// The same by who knows how many axes there are.
+  void advance(const Axes& current, double t, std::int64_t quanta, std::size_t axes) EBAC_RT {
     if (!released_ && t >= hand_.release_at) let_go();
     const double time = tick_ * static_cast<double>(quanta) / static_cast<double>(kQuanta);
-    int i = 0;
-    for (ExactAxis& axis : axes_) {
-      const Target target = hand_.target(i, t, time);
-      axis.advance(force_per_amp_ * current[i++], target.x, target.rate, quanta);
+    for (std::size_t i = 0; i < axes; ++i) {
+      const auto e = static_cast<int>(i);
+      const Target target = hand_.target(e, t, time);
+      axes_[i].advance(force_per_amp_ * current[e], target.x, target.rate, quanta);
     }
   }
 

@@ -2,12 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <concepts>
 
 namespace ebac {
 
 /// Sets the currents of the next interval: the command of `delay` exchanges ago.
-void SimulatedDevice::drive(const Command& command) EBAC_RT {
-  for (std::size_t i = 0; i < axes_; ++i) {
+void SimulatedDevice::drive(const Command& command, std::size_t axes) EBAC_RT {
+  for (std::size_t i = 0; i < axes; ++i) {
     double current = std::clamp(command.current[i], -peak_current_, peak_current_);
     if (device_.drive.permille) current = whole_permille(current);
     if (delay_ > 0) std::swap(current, queue_[head_][i]);
@@ -41,10 +42,10 @@ void SimulatedDevice::feel(const P& plant, Reading& reading) EBAC_RT {
 }
 
 template <class P>
-Reading SimulatedDevice::latch(const P& plant) EBAC_RT {
+Reading SimulatedDevice::latch(const P& plant, std::size_t axes) EBAC_RT {
   Reading reading = blank_;
   if (!prompt_) feel(plant, reading);
-  for (std::size_t i = 0; i < axes_; ++i) {
+  for (std::size_t i = 0; i < axes; ++i) {
     const double angle = plant.motor_angle(i);
     if (!std::isfinite(angle)) {
       reading.fault = Fault::kDevice;
@@ -60,14 +61,27 @@ Reading SimulatedDevice::latch(const P& plant) EBAC_RT {
   return reading;
 }
 
-EBAC_ONE_FUNCTION Reading SimulatedDevice::exchange(const Command& command) EBAC_RT {
+template <class P>
+Reading SimulatedDevice::step(P& plant, const Command& command, std::size_t axes) EBAC_RT {
   if (command.elapsed > 0) {
-    drive(command);
-    std::visit([&](auto& plant) EBAC_RT { plant.advance(applied_, t_, quanta(command.elapsed)); },
-               plant_);
+    drive(command, axes);
+    if constexpr (std::same_as<P, ExactPlant>) {
+      plant.advance(applied_, t_, quanta(command.elapsed), axes);
+    } else {
+      plant.advance(applied_, t_, quanta(command.elapsed));
+    }
     t_ += command.elapsed;
   }
-  return std::visit([&](const auto& plant) EBAC_RT { return latch(plant); }, plant_);
+  return latch(plant, axes);
+}
+
+EBAC_ONE_FUNCTION Reading SimulatedDevice::exchange(const Command& command) EBAC_RT {
+  if (auto* stepped = std::get_if<SteppedPlant>(&plant_)) {
+    return step(*stepped, command, axes_);
+  }
+  auto& exact = *std::get_if<ExactPlant>(&plant_);
+  // The usual device: its code has no loops.
+  return axes_ == 1 ? step(exact, command, 1) : step(exact, command, axes_);
 }
 
 }  // namespace ebac

@@ -57,11 +57,13 @@ class SimulatedDevice {
     return SteppedPlant(s.device, s.hand, s.timing.dt);
   }
 
-  void drive(const Command& command) EBAC_RT;
+  void drive(const Command& command, std::size_t axes) EBAC_RT;
   std::int64_t quanta(double seconds) const EBAC_RT;
   double whole_permille(double current) const EBAC_RT;
   template <class P>
-  Reading latch(const P& plant) EBAC_RT;
+  Reading latch(const P& plant, std::size_t axes) EBAC_RT;
+  template <class P>
+  Reading step(P& plant, const Command& command, std::size_t axes) EBAC_RT;
   template <class P>
   void feel(const P& plant, Reading& reading) EBAC_RT;
 
