@@ -29,16 +29,22 @@ class DynamicStiffness {
   /// `fast` in N/m; 0 shows every change whole. `count` is that of the encoder [m].
   DynamicStiffness(double fast, double count) EBAC_RT : fast_(fast), small_(kSmallCounts* count) {}
 
-  /// `slope` is the world's stiffness where the device is [N/m], `softer` the share s, -1 to 1.
-  double step(double force, double slope, double softer, double dt) EBAC_RT {
+  /// Follows the force of the world and `slope`, its stiffness where the device is [N/m].
+  void follow(double force, double slope, double dt) EBAC_RT {
     if (force == 0) {
       unknown_ = false;
-      return slow_ = slower_ = 0;
+      slow_ = slower_ = 0;
+      return;
     }
     if (unknown_) slow_ = slower_ = force;
     unknown_ = false;
     if (slope != slope_) set_slope(slope);
     approach(force, dt);
+  }
+
+  /// What is shown of that force, with `softer` the share s, -1 to 1.
+  double shown(double force, double softer) const EBAC_RT {
+    if (force == 0) return 0;
     const double most = std::abs(force);
     const double change = std::clamp(force - slower_, -most, most);
     const double small = change * per_small_;

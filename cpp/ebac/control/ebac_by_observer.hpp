@@ -42,14 +42,17 @@ class EbacByObserver {
 
   /// Steps 2 to 6 alone.
   double force(const Port& port, const EbacShared& shared) EBAC_RT {
-    return shared.held(force_.step(port, shared.ledger.energy()));
+    force_.meet(port);
+    return met(port, shared);
   }
 
   /// Steps 1 to 6: the force that is wanted.
   double step(const Port& port, EbacShared& shared) EBAC_RT {
-    shared.ledger.take(port, work_, force_.slope(), shared.surface(port), shared.asked[0]);
+    const double slope = force_.slope();  // during the interval that ended
+    force_.meet(port);
+    shared.ledger.take(port, work_, slope, shared.surface(port), shared.asked[0]);
     shared.ledger.lend(shared.params.observed_reserve);
-    const double wanted = force(port, shared);
+    const double wanted = met(port, shared);
     shared.state.slope = force_.slope();
     shared.state.f_d = shared.held(force_.shown());
     shared.state.injected = force_.injected();
@@ -75,6 +78,11 @@ class EbacByObserver {
   }
 
  private:
+  /// The force of the world that was met.
+  double met(const Port& port, const EbacShared& shared) EBAC_RT {
+    return shared.held(force_.force(port, shared.ledger.energy()));
+  }
+
   static constexpr double kKnown = 0.5;  // of a jump: the velocity is that at the interval's start
   static constexpr double kLow = 0.5;    // of the reserve
 

@@ -44,11 +44,17 @@ class ObservedForce {
         stored_at_(show_.stiffness),
         slope_(kLeast* law.count) {}
 
-  /// `energy` is what the account holds [J].
-  double step(const Port& port, double energy) EBAC_RT {
+  /// Takes the state and the force of the world. Apart from `force`, so that the account of the interval that ended is
+  /// kept meanwhile: one waits for the other only at its end.
+  void meet(const Port& port) EBAC_RT {
     watch(port);
+    dynamic_.follow(port.f_env, slope_.value(), port.dt);
+  }
+
+  /// `energy` is what the account holds [J].
+  double force(const Port& port, double energy) EBAC_RT {
     injected_ = 0;
-    shown_ = dynamic_.step(port.f_env, slope_.value(), softer(port.f_env, energy), port.dt);
+    shown_ = dynamic_.shown(port.f_env, softer(port.f_env, energy));
     const double damped = half_period_.step(shown_ + std::min(damping_, enough_) * port.est.v_act);
     beyond_ = 0;
     if (port.f_env == 0) return 0;
