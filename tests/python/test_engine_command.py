@@ -2,17 +2,21 @@
 
 from __future__ import annotations
 
+import contextlib
 import json
 import os
 import subprocess
 import sys
+import warnings
 from pathlib import Path
 
 import numpy as np
 import pytest
+from typer.testing import CliRunner, Result
 
 import ebac
 from ebac import datasets
+from ebac.cli import app
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "joystick.toml"
 #: How long a busy machine may take for anything [s].
@@ -41,14 +45,14 @@ while client.loop_runs:
     time.sleep(0.01)
 """
 
-#: Posts for a second, and then no more.
+#: Posts for two seconds, and then no more.
 HANGING = """
 import time
 from ebac.worlds import LocalModel, serve_engine
 
 begun = time.monotonic()
 def plane(x, v):
-    if time.monotonic() - begun > 2.5:
+    if time.monotonic() - begun > 2:
         time.sleep(60)
     return LocalModel(at=(0.005, 0, 0), normal=(1, 0, 0), stiffness=2000)
 
@@ -83,14 +87,24 @@ def room(tmp_path: Path) -> Path:
     return tmp_path
 
 
-def run(
-    room: Path, engine: str, *more: str, seconds: float = 3
-) -> subprocess.CompletedProcess[str]:
-    command = [sys.executable, "-m", "ebac.cli", "run", "joystick.toml", "--simulated", "--no-live"]
-    command += ["--seconds", str(seconds), "--out", "out", "--engine-command", engine, *more]
+def words(engine: str, *more: str, seconds: float = 1.5) -> list[str]:
+    known = ["run", "joystick.toml", "--simulated", "--no-live", "--seconds", str(seconds)]
+    return [*known, "--out", "out", "--engine-command", engine, *more]
+
+
+def run(room: Path, engine: str, *more: str) -> subprocess.CompletedProcess[str]:
+    """Run the command in a process of its own."""
+    command = [sys.executable, "-m", "ebac.cli", *words(engine, *more)]
     return subprocess.run(
         command, cwd=room, capture_output=True, text=True, timeout=PATIENCE, check=False
     )
+
+
+def here(room: Path, command: list[str]) -> Result:
+    """Run a command in this process, which has imported ebac; a warning is no error there, as in a program."""
+    with contextlib.chdir(room), warnings.catch_warnings():
+        warnings.simplefilter("default")
+        return CliRunner().invoke(app, command, catch_exceptions=False)
 
 
 def written(room: Path, text: str) -> str:
@@ -99,6 +113,7 @@ def written(room: Path, text: str) -> str:
 
 
 def left() -> set[str]:
+    """Return the memory that loops of this process share with engines."""
     return {path.name for path in Path("/dev/shm").glob(f"ebac-engine-{os.getpid()}-*")}
 
 
@@ -115,7 +130,6 @@ def test_the_world_of_a_program_is_felt_and_the_program_is_ended(room: Path) -> 
     assert told["ended_by"] == "time"
     trace = ebac.load(room / told["log"])
     assert trace["f_env"].max() > 1
-    assert not left()
     assert (
         subprocess.run(["pgrep", "-f", str(room)], capture_output=True, check=False).stdout == b""
     )
@@ -124,26 +138,27 @@ def test_the_world_of_a_program_is_felt_and_the_program_is_ended(room: Path) -> 
 
 
 def test_one_that_is_killed_in_contact_fades_and_the_run_goes_on_and_says_so(room: Path) -> None:
-    done = run(room, written(room, MORTAL), seconds=4)
-    assert done.returncode == 1, done.stderr
+    done = here(room, words(written(room, MORTAL), seconds=2.5))
+    assert done.exit_code == 1, done.stderr
     assert "was killed by SIGKILL: its force fades to zero" in " ".join(done.stderr.split())
     assert "It did not last" in " ".join(done.stdout.split())
     (log,) = (room / "out").glob("*.mcap")
     force = ebac.load(log)["f_env"][:, 0]
     assert force.max() > 2
     assert np.all(force[-200:] == 0)
+    assert not left()
 
 
 def test_one_that_never_posts_is_told(room: Path) -> None:
-    done = run(room, written(room, SILENT))
-    assert done.returncode == 1, done.stderr
+    done = here(room, words(written(room, SILENT)))
+    assert done.exit_code == 1, done.stderr
     assert "the engine has posted nothing so far: no force is rendered" in done.stderr
     assert "posted nothing. No force was rendered." in " ".join(done.stdout.split())
 
 
 def test_one_that_hangs_is_told_while_the_run_goes_on(room: Path) -> None:
-    done = run(room, written(room, HANGING), seconds=4)
-    assert done.returncode == 0, done.stderr
+    done = here(room, words(written(room, HANGING), seconds=3))
+    assert done.exit_code == 0, done.stderr
     assert "the engine has stopped posting: its force has faded to zero" in done.stderr
 
 
@@ -173,10 +188,9 @@ def test_what_an_engine_has_started_is_ended_with_it(room: Path) -> None:
 def test_what_cannot_be_is_refused(
     engine: str, more: list[str], code: int, says: str, room: Path
 ) -> None:
-    done = run(room, engine, *more)
-    assert done.returncode == code, done.stderr
+    done = here(room, words(engine, *more))
+    assert done.exit_code == code, done.stderr
     assert says in done.stderr
-    assert "Traceback" not in done.stderr
     assert not (room / "out").exists()
 
 
@@ -184,14 +198,10 @@ def test_a_configured_engine_is_started_and_has_no_virtual_clock(room: Path) -> 
     file = room / "joystick.toml"
     engine = f'[engine]\ncommand = "{sys.executable} engine.py"\n'
     file.write_text(file.read_text().replace("[engine]\n", engine))
-    command = [sys.executable, "-m", "ebac.cli", "run", "joystick.toml", "--json", "--seconds", "2"]
-    done = subprocess.run(
-        [*command, "--simulated"], cwd=room, capture_output=True, text=True, timeout=PATIENCE, check=False
-    )  # fmt: skip
-    assert done.returncode == 0, done.stderr
+    command = ["run", "joystick.toml", "--json", "--seconds", "1"]
+    done = here(room, [*command, "--simulated"])
+    assert done.exit_code == 0, done.stderr
     assert json.loads(done.stdout)["engine"]["models"] > 0
-    done = subprocess.run(
-        [*command, "--virtual"], cwd=room, capture_output=True, text=True, timeout=PATIENCE, check=False
-    )  # fmt: skip
-    assert done.returncode == 2
+    done = here(room, [*command, "--virtual"])
+    assert done.exit_code == 2
     assert "--virtual: the engine is a program in real time" in done.stderr

@@ -166,6 +166,14 @@ class Pair:
         while not self.over.is_set():
             self.network.run(0.05)
 
+    def run(self, more: float) -> None:
+        """Wait until both sides follow each other, and so much longer [s]."""
+        latest = time.monotonic() + 60
+        while {name for name, one in self.told if one.what == "running"} != {"master", "slave"}:
+            assert time.monotonic() < latest, self.told
+            time.sleep(0.02)
+        time.sleep(more)
+
     def end(self) -> tuple[SideReport, SideReport]:
         try:
             return self.master.end(), self.slave.end()
@@ -214,10 +222,10 @@ def test_what_is_felt_is_what_the_model_meets(tmp_path: Path) -> None:
 @pytest.mark.slow
 @pytest.mark.real_time
 def test_a_cut_link_is_held_faded_told_and_resumed(tmp_path: Path) -> None:
-    pair = Pair(tmp_path, seconds=9.0)
-    time.sleep(4.0)
+    pair = Pair(tmp_path, seconds=6.0)
+    pair.run(1.5)
     pair.network.cut(True)
-    time.sleep(1.5)
+    time.sleep(1.0)
     pair.network.cut(False)
     master, slave = pair.end()
     for side in (master, slave):
@@ -236,7 +244,7 @@ def test_a_cut_link_is_held_faded_told_and_resumed(tmp_path: Path) -> None:
 @pytest.mark.real_time
 def test_a_link_that_stays_away_ends_both_with_drives_at_rest(tmp_path: Path) -> None:
     pair = Pair(tmp_path, seconds=60.0)
-    time.sleep(3.0)
+    pair.run(1.0)
     pair.network.cut(True)
     master, slave = pair.end()
     assert master.ended_by == slave.ended_by == "link lost"
@@ -252,7 +260,7 @@ def test_a_link_that_stays_away_ends_both_with_drives_at_rest(tmp_path: Path) ->
 @pytest.mark.parametrize("group", [0, 1])
 def test_a_drive_in_fault_stops_the_slave_and_is_told(tmp_path: Path, group: int) -> None:
     pair = Pair(tmp_path, seconds=60.0)
-    time.sleep(3.0)
+    pair.run(1.0)
     backend = pair.devices[group].backend
     with hub_of(backend.channel) as hub:
         over_voltage = bytes([0x2F, 0x00, 0x5F, 0x00, 1, 0, 0, 0])  # by SDO
@@ -266,7 +274,7 @@ def test_a_drive_in_fault_stops_the_slave_and_is_told(tmp_path: Path, group: int
     assert any("SLAVE'S DRIVES HAVE STOPPED by fault" in one.text for one in master.events)
     for log in slave.logs:
         trace = logs.load(log)
-        assert len(trace) > 1000
+        assert len(trace) > 500
     one = logs.load(slave.logs[group])
     assert not one["current"][one["fault"] != 0].any()
 
@@ -279,8 +287,8 @@ def rough(**more: float) -> Link:
 @pytest.mark.slow
 @pytest.mark.real_time
 def test_three_processes_with_a_cut(tmp_path: Path) -> None:
-    link = rough(cut_every=6, cut_length=1)
-    found = chain(9, link=link, folder=tmp_path, give_up=4)
+    link = rough(cut_every=3, cut_length=1)
+    found = chain(6, link=link, folder=tmp_path, give_up=4)
     assert found.faults == []
     assert found.codes["master"] == found.codes["network"] == 0
     for name in ("master", "slave"):
@@ -301,11 +309,13 @@ def test_a_killed_process_leaves_the_others_safe(tmp_path: Path, killed: str) ->
     def kill(running: dict[str, subprocess.Popen[bytes]], passed: float) -> None:
         if not began and log.exists() and log.stat().st_size > 100_000:
             began.append(passed)  # the master's loop is at work
-        if began and not done and passed > began[0] + 3:
+        if began and not done and passed > began[0] + 1.5:
             done.append(running[killed].pid)
             running[killed].send_signal(signal.SIGKILL)
 
-    found = chain(40, link=rough(), folder=tmp_path, give_up=3, meanwhile=kill)
+    found = chain(
+        40, link=rough(), folder=tmp_path, consent_after=0.3, give_up=2, meanwhile=kill
+    )
     assert done
     check_the_others(found, killed)
     for name in ("master", "slave"):

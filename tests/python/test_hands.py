@@ -279,11 +279,13 @@ def test_a_held_hand_shows_what_a_law_gives_out_at_rest() -> None:
 
 NOISY = ebac.Scenario(device=ebac.Device(sensor=ebac.ForceSensor(noise=0.03)))
 SOME = ebac.Operators.grid()[::12]
+#: Every fourth hand from the second on, none of them one of those five, for CI; all, once a week.
+FOURTH = pytest.param(ebac.Operators.grid()[1::4], id="15", marks=pytest.mark.slow)
+ALL = pytest.param(ebac.Operators.grid(), id="60", marks=[pytest.mark.slow, pytest.mark.weekly])
+MANY = [pytest.param(SOME, id="5"), FOURTH, ALL]
 
 
-@pytest.mark.parametrize(
-    "hands", [SOME, pytest.param(ebac.Operators.grid(), marks=pytest.mark.slow)], ids=["5", "60"]
-)
+@pytest.mark.parametrize("hands", MANY)
 def test_damped_walls_are_as_good_as_without_a_law(hands: ebac.Operators) -> None:
     """In each of the 25 cells all hands are exact and still, and at least as many good as under `direct`."""
     found = ebac.study(hands, ["direct", "ebac"], ["damped-walls"], base=NOISY)
@@ -295,9 +297,7 @@ def test_damped_walls_are_as_good_as_without_a_law(hands: ebac.Operators) -> Non
         assert (ours.good or 0) >= ours.hands - 1, ours
 
 
-@pytest.mark.parametrize(
-    "hands", [SOME, pytest.param(ebac.Operators.grid(), marks=pytest.mark.slow)], ids=["5", "60"]
-)
+@pytest.mark.parametrize("hands", MANY)
 def test_a_wall_held_for_ten_minutes_leaks_little(hands: ebac.Operators) -> None:
     """Measured on 60 hands: -0.58 mJ and -8.7 uW; on the light hand of `hold-10min` 0 mJ and -5.1 uW."""
     long = to.together(CONDITIONS["hold"].change, to.scenario(seconds=600.0))
@@ -310,9 +310,7 @@ def test_a_wall_held_for_ten_minutes_leaks_little(hands: ebac.Operators) -> None
         assert row.least_rest_power_W >= -15e-6, row
 
 
-@pytest.mark.parametrize(
-    "hands", [SOME, pytest.param(ebac.Operators.grid(), marks=pytest.mark.slow)], ids=["5", "60"]
-)
+@pytest.mark.parametrize("hands", MANY)
 def test_stiff_walls_are_held_for_two_minutes(hands: ebac.Operators) -> None:
     """Measured on 60 hands: 0 mJ, and -9.7 uW at 35 kN/m; with two samples of delay that wall is not held by all."""
     names = [name for name in GROUPS["holds"] if name != "hold-d2K35"]
@@ -327,10 +325,12 @@ def test_stiff_walls_are_held_for_two_minutes(hands: ebac.Operators) -> None:
 @pytest.mark.parametrize(
     "hands",
     [
-        ebac.Operators.grid(mass=[0.5], damping=[2.0, 6.0], stiffness=[100.0, 300.0]),
-        pytest.param(ebac.Operators.grid(), marks=pytest.mark.slow),
+        pytest.param(
+            ebac.Operators.grid(mass=[0.5], damping=[2.0, 6.0], stiffness=[100.0, 300.0]), id="8"
+        ),
+        FOURTH,
+        ALL,
     ],
-    ids=["8", "60"],
 )
 def test_without_noise_a_stiff_wall_that_is_held_becomes_quite_still(
     hands: ebac.Operators,

@@ -93,7 +93,7 @@ def test_what_is_repeated_is_repeated_alone(pytester: pytest.Pytester) -> None:
     pytester.makeconftest(CONFTEST.read_text(encoding="utf-8"))
     pytester.makeini(f"[pytest]\npythonpath = {CONFTEST.parents[1] / 'pages'}\n")
     pytester.makepyfile(test_mine=ALONE)
-    result = pytester.runpytest_subprocess("-p", "no:cacheprovider", "-n", "3")
+    result = pytester.runpytest_subprocess("-p", "no:cacheprovider", "-n", "2")
     result.assert_outcomes(passed=21)
 
 

@@ -257,14 +257,14 @@ def ebac(*words: str) -> subprocess.Popen:
 @pytest.mark.skipif(sys.platform != "linux", reason="UDP of the library is Linux's")
 @pytest.mark.slow
 def test_three_processes_with_cuts() -> None:
-    slave = ebac("slave", "--port", "49411", "--seconds", "9", "--json")
+    slave = ebac("slave", "--port", "49411", "--seconds", "7", "--json")
     network = ebac(
-        *("network", "--slave", "127.0.0.1:49411", "--port", "49410", "--seconds", "9"),
+        *("network", "--slave", "127.0.0.1:49411", "--port", "49410", "--seconds", "7"),
         *("--delay", "0.02", "--jitter", "0.005", "--loss", "0.05", "--corrupt", "0.02"),
-        *("--cut-every", "3.5", "--cut-length", "1", "--json"),
+        *("--cut-every", "2.5", "--cut-length", "1", "--json"),
     )
     master = ebac(
-        *("master", "--peer", "127.0.0.1:49410", "--seconds", "8"),
+        *("master", "--peer", "127.0.0.1:49410", "--seconds", "6"),
         *("--consent-after", "0.2", "--json"),
     )
     ends = {}
