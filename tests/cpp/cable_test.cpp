@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "ebac/model/stepped_plant.hpp"
+#include "rounds.hpp"
 
 namespace ebac::cable_test {
 namespace {
@@ -120,7 +121,7 @@ TEST(SteppedPlant, BacklashShowsAtStandstill) {
   SteppedPlant plant(device, hand, kTick);
   const double force = 3;
   const auto settle = [&](double f) {
-    for (int k = 0; k < 3000; ++k) plant.advance({f / device.force(1), 0, 0}, 0, kQuanta);
+    for (int k = 0; k < 2000; ++k) plant.advance({f / device.force(1), 0, 0}, 0, kQuanta);
     return Axes{plant.truth(0).x, rotor(device, plant), 0};
   };
   const Axes pulled = settle(force);
@@ -149,7 +150,7 @@ TEST(SteppedPlant, UndampedBacklashKeepsItsEnergy) {
   for (int k = 0; k < 100; ++k) plant.advance({-0.5, 0, 0}, 0, kQuanta);
   const double work = -plant.truth(0).energy;  // the motor's
   double before = rotor(device, plant);
-  for (int k = 0; k < 10000; ++k) {
+  for (int k = 0; k < rounds(10000); ++k) {
     plant.advance(Axes::Zero(), 0, kQuanta);
     const double v = (rotor(device, plant) - before) / 1e-4;
     before = rotor(device, plant);

@@ -7,6 +7,7 @@
 #include "ebac/model/exact_plant.hpp"
 #include "ebac/model/noise.hpp"
 #include "ebac/model/stepped_plant.hpp"
+#include "rounds.hpp"
 
 namespace ebac::plant_agreement_test {
 namespace {
@@ -19,7 +20,7 @@ struct Agreement {
   std::string_view name;
   void (*change)(DeviceModel&, Hand&);
   bool jitter = false;
-  int ticks = 2000;
+  int ticks = rounds(2000);
 };
 
 void PrintTo(const Agreement& a, std::ostream* out) { *out << a.name; }
