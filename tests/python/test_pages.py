@@ -287,7 +287,8 @@ def test_a_command_that_does_not_exist_is_noticed() -> None:
 def test_a_command_is_run_with_fewer_hands_before_its_output_goes_elsewhere() -> None:
     assert as_run("ebac study > table.txt").split()[-2:] == [">", "table.txt"]
     assert "--hands" in as_run("ebac study > table.txt").partition(">")[0]
-    assert as_run("ebac wall --law tca") == "ebac wall --law tca"
+    assert as_run("ebac wall --law tca") == "ebac wall --law tca --seconds 1"
+    assert as_run("ebac laws") == "ebac laws"
 
 
 def test_a_block_of_python_is_run_with_fewer_hands() -> None:
