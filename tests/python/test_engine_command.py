@@ -101,9 +101,9 @@ def run(room: Path, engine: str, *more: str) -> subprocess.CompletedProcess[str]
 
 
 def here(room: Path, command: list[str]) -> Result:
-    """Run a command in this process, which has imported ebac; a warning is no error there, as in a program."""
+    """Run a command in this process, which has imported ebac; what a program warns of is no error."""
     with contextlib.chdir(room), warnings.catch_warnings():
-        warnings.simplefilter("default")
+        warnings.simplefilter("ignore")
         return CliRunner().invoke(app, command, catch_exceptions=False)
 
 

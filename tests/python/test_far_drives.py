@@ -313,9 +313,7 @@ def test_a_killed_process_leaves_the_others_safe(tmp_path: Path, killed: str) ->
             done.append(running[killed].pid)
             running[killed].send_signal(signal.SIGKILL)
 
-    found = chain(
-        40, link=rough(), folder=tmp_path, consent_after=0.3, give_up=2, meanwhile=kill
-    )
+    found = chain(40, link=rough(), folder=tmp_path, consent_after=0.3, give_up=2, meanwhile=kill)
     assert done
     check_the_others(found, killed)
     for name in ("master", "slave"):
