@@ -261,9 +261,7 @@ def test_the_command_runs_three_simulated_drives_in_a_mesh(tmp_path: Any) -> Non
     pytest.importorskip("igl")
     trimesh.creation.icosphere(subdivisions=2, radius=20).export(tmp_path / "ball.stl")
     ball = 'solid = { type = "Sphere", radius = 0.02 }'
-    mesh = (
-        f'solid = {{ type = "Mesh", file = "{tmp_path / "ball.stl"}", scale = 1e-3, cell = 2e-3 }}'
-    )
+    mesh = f'solid = {{ type = "Mesh", file = "{tmp_path / "ball.stl"}", scale = 1e-3 }}'
     assert ball in joystick_text("joystick-3")
     file = tmp_path / "three.toml"
     patient = "[limits]\nforce_age = 0.2\noverruns = 1000\npause = 5.0\n"
