@@ -36,17 +36,27 @@ SWEPT: dict[str, list[ebac.Variant | str]] = {
                 {"stiffness": stiffness, "virtual_damping": damping, "recovery_time": time},
             )
             for stiffness in (8e3, 16e3)
-            for damping in (90.0, 110.0, 130.0)
-            for time in (0.02, 0.03, 0.05)
+            for damping in (110.0, 130.0)
+            for time in (0.02, 0.03)
         ),
     ],
-    "passivity-control": ["passivity-control-tuned-observer"],
-    "virtual-coupling": ["virtual-coupling-tuned-observer"],
+    "passivity-control": [
+        "passivity-control-tuned-observer",
+        *(ebac.Variant("passivity-control", {"cap": cap, "reference": True}) for cap in (1.0, 3.0)),
+    ],
+    "virtual-coupling": [
+        "virtual-coupling-tuned-observer",
+        *(
+            ebac.Variant("virtual-coupling", {"coupling_stiffness": 60e3, "coupling_damping": c})
+            for c in (10.0, 100.0)
+        ),
+    ],
+    "iss": ["iss-tuned-observer"],
 }
 #: The walls of that comparison: damping [N s/m], and rungs of the ladder of stiffness.
 WALLS: dict[str, Any] = {"dampings": (0.0, 10.0, 20.0), "rungs": 16}
 #: Random hands of each family on each wall, and the reserve of `ebac` [J] that none of them may exceed.
-EXPLORERS, RESERVES = 10, (2e-3, 3e-3, 5e-3, 10e-3)
+EXPLORERS, RESERVES = 30, (2e-3, 3e-3, 5e-3, 10e-3)
 LET_GO, PUMPING = ("slow-let-go", "slow-let-go-d2", "slow-let-go-K20"), "pumping"
 DELAYS = (0, 1, 2)
 
