@@ -114,14 +114,8 @@ RULES = (
     Rule(
         r"^ebac worst (?=.*--device-noise)(?!.*--family)",
         SLOW,
-        "takes seconds; test_worst.py searches every family",
+        "takes seconds; the help's examples search every family",
         fewer="--evaluations 40 --family swinging",
-    ),
-    Rule(
-        r"^ebac worst\b(?!.*--family)",
-        SLOW,
-        "takes seconds; test_worst.py searches every family",
-        fewer="--evaluations 40 --family noise",
     ),
     Rule(r"^ebac worst\b", SLOW, "takes seconds", fewer="--evaluations 40"),
     Rule(
@@ -134,12 +128,6 @@ RULES = (
     Rule(r"^ebac gastroscopy study\b", SLOW, "takes minutes", fewer="--physicians 2 --seconds 2"),
     Rule(r"^ebac gastroscopy (master|slave)", SLOW, "takes its time", fewer="--seconds 1"),
     Rule(r"^ebac gastroscopy\b", SLOW, "takes seconds", fewer="--seconds 2"),
-    Rule(
-        r"^ebac shapes\b(?!.*--world)",
-        SLOW,
-        "takes half a minute; test_shapes.py has every world",
-        fewer="--law ebac --device joystick --world sphere",
-    ),
     Rule(r"^ebac shapes\b", SLOW, "takes half a minute", fewer="--law ebac --device joystick"),
     Rule(r"^ebac map\b", SLOW, "takes seconds", fewer="--side 8"),
     Rule(r"^ebac faults\b", SLOW, "takes seconds", fewer="--cases 5"),
