@@ -149,9 +149,11 @@ class _Search:
         self.report(len(runs))
         stiffness = np.repeat([k for _, k in tasks], len(APPROACHES))
         flags = _judge(result, self.base, self.epsilon, stiffness)
-        still, quiet, energy, usable = flags.reshape(-1, len(tasks), len(APPROACHES)).all(axis=2)
-        energy &= self.drawn(law, tasks, energy) <= self.epsilon
-        return np.array([still, quiet, energy, usable & energy])
+        shape = (len(CRITERIA), len(tasks), len(APPROACHES))
+        held: Flags = np.asarray(flags.reshape(shape).all(axis=2))
+        energy, usable = (list(CRITERIA).index(name) for name in ("energy", "usable"))
+        held[[energy, usable]] &= self.drawn(law, tasks, held[energy]) <= self.epsilon
+        return held
 
     def drawn(self, law: AnyLaw, tasks: list[tuple[Point, float]], asked: Flags) -> Numbers:
         """Return the most energy that a random hand takes out, for each wall that is asked for; else 0 [J]."""
