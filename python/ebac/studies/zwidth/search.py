@@ -74,7 +74,8 @@ def zwidth(
         Energy [J] that may be taken out of the port.
     hands : int
         Random hands of each family of `ebac worst`, [0, 1000], that may not take out more either: they tap, swing,
-        shake, push at random, press and let go, with at most 20 N. The same seven times `hands` on every wall.
+        shake, push at random, press and let go. The same seven times `hands` on every wall; one that pulls harder than
+        20 N in its run is not counted, as are most position drives on a stiff wall.
     threads, executor, progress
         As in `sweep`.
 
@@ -162,9 +163,10 @@ class _Search:
         most = np.zeros(len(tasks))
         if runs:
             result = sweep(runs, law, **self.how)
-            taken = np.where(_whole(result), -result["least_energy_J"], np.inf)
-            taken[result["most_pull_N"] > PULL] = 0.0  # as a stiff position drive may
-            most[asked] = np.maximum(taken, 0.0).reshape(len(walls), -1).max(axis=1)
+            taken = np.maximum(-result["least_energy_J"], 0.0)
+            taken[result["most_pull_N"] > PULL] = 0.0  # as a stiff position drive may: not counted
+            taken[~_whole(result)] = np.inf
+            most[asked] = taken.reshape(len(walls), -1).max(axis=1)
         self.report(len(tasks) * len(self.explorers))
         return most
 
