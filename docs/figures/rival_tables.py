@@ -52,6 +52,8 @@ SWEPT: dict[str, list[ebac.Variant | str]] = {
         ),
     ],
     "iss": ["iss-tuned-observer"],
+    "eba-account": ["eba-account-tuned-observer", "eba-account"],
+    "force-bounding": ["force-bounding"],
 }
 #: The walls of that comparison: damping [N s/m], and rungs of the ladder of stiffness.
 WALLS: dict[str, Any] = {"dampings": (0.0, 10.0, 20.0), "rungs": 16}
