@@ -169,9 +169,10 @@ def _show(found: ZWidth) -> None:
                 grid.add_row(str(delay), row["law"], *(_cell(row, name) for name in CRITERIA))
     output.show(grid)
     full, most = found.top / 1e3, found.dampings[-1]
+    beside = " In brackets, times that of direct." if "direct" in found.laws else ""
     output.say(
-        f"Both axes are linear, up to {full:g} kN/m and {most:g} N s/m: {full * most:.0f} kN/m N s/m is all of it. In "
-        "brackets, times that of direct."
+        f"Both axes are linear, up to {full:g} kN/m and {most:g} N s/m: {full * most:.0f} kN/m N s/m is all of it."
+        f"{beside}"
     )
     if found.hands:
         output.say(
