@@ -58,7 +58,7 @@ def plot_zwidth(found: ZWidth) -> Picture:
     handles, labels = grid[0, 0].get_legend_handles_labels()
     figure_legend(figure, handles, labels, columns=5)
     parts = formatting.describe(found.base).split("; ")
-    others = f" ({found.explorers} included)" if found.hands else ""
+    others = f" ({found.random_hands} included)" if found.hands else ""
     figure.suptitle(
         f"Z-width, simulated: {parts[0]}; {parts[1]}; {1e-3 / found.base.timing.dt:g} kHz\n"
         "Hardest wall K that each law renders, by wall damping B, still and with a quiet force (quiet), with at most "

@@ -152,6 +152,7 @@ def _fill(draft: Path, found: ZWidth, to: ResultOptions) -> None:
 
 def _show(found: ZWidth) -> None:
     from ebac._util import formatting
+    from ebac.studies.families import PULL
     from ebac.studies.zwidth import CRITERIA
 
     output.say(
@@ -176,7 +177,8 @@ def _show(found: ZWidth) -> None:
     )
     if found.hands:
         output.say(
-            f"Energy and usable: none of {found.explorers} took more than {1e3 * found.epsilon:g} mJ either."
+            f"Energy and usable hold for {found.random_hands} as well; one that pulls harder than {PULL:g} N is not "
+            "counted."
         )
     output.say(
         "Simulation. Wall stiffness, wall damping and delay vary; everything else as in:",

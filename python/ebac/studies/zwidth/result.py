@@ -59,8 +59,8 @@ class ZWidth:
     spectral: Numbers
 
     @property
-    def explorers(self) -> str:
-        """In words, who else may not take out more than epsilon: empty, or "70 random hands"."""
+    def random_hands(self) -> str:
+        """How many random hands of all families there were, as "210 random hands"; empty for none."""
         from ebac._util.report import plural
         from ebac.studies.families import PULL, families
 
