@@ -2,27 +2,26 @@
 
 namespace ebac {
 
-namespace {
-
-Axes turn(std::span<const Axis> axes, const ContactForce& contact, double Port::* member) EBAC_RT {
-  Axes all = Axes::Zero();
-  for (std::size_t i = 0; i < axes.size(); ++i)
-    all[static_cast<Eigen::Index>(i)] = axes[i].port.*member;
-  return contact.frame * all;
-}
-
 template <class Of>
-Axes turn_estimate(std::span<const Axis> axes, const ContactForce& contact, Of of) EBAC_RT {
+Axes TurnedPorts::turn(std::span<const Axis> axes, Of of) const EBAC_RT {
   Axes all = Axes::Zero();
   for (std::size_t i = 0; i < axes.size(); ++i)
     all[static_cast<Eigen::Index>(i)] = of(axes[i].port);
-  return contact.frame * all;
+  return frame_ * all;
 }
 
-}  // namespace
+/// The ways go on from the places that the laws had before.
+void TurnedPorts::begin(std::span<const Axis> axes) EBAC_RT {
+  turned_ = true;
+  for (std::size_t i = 0; i < axes.size(); ++i) port_[i].x = axes[i].port.x - axes[i].port.dx;
+}
 
 void TurnedPorts::enter(std::span<const Axis> axes, const ContactForce& contact) EBAC_RT {
-  const auto turned = [&](double Port::* member) EBAC_RT { return turn(axes, contact, member); };
+  if (!turned_) begin(axes);
+  if (contact.turned || !contact.along.isZero(0)) frame_ = contact.frame;
+  const auto turned = [&](double Port::* member) EBAC_RT {
+    return turn(axes, [member](const Port& p) EBAC_RT { return p.*member; });
+  };
   Axes dx = turned(&Port::dx);
   const double rounding = 1e-12 * dx.norm();
   dx = (dx.array().abs() < rounding).select(0, dx);  // counts that cancel are no motion
@@ -30,12 +29,11 @@ void TurnedPorts::enter(std::span<const Axis> axes, const ContactForce& contact)
   const Axes applied = turned(&Port::f_applied);
   const Axes measured = turned(&Port::f_meas);
   const Axes surface = turned(&Port::world_v);
-  const auto estimate = [&](auto of) EBAC_RT { return turn_estimate(axes, contact, of); };
-  const Axes moved = estimate([](const Port& p) EBAC_RT { return p.est.dx; });
-  const Axes estimated = estimate([](const Port& p) EBAC_RT { return p.est.v; });
-  const Axes predicted = estimate([](const Port& p) EBAC_RT { return p.est.v_act; });
-  const Axes offset = estimate([](const Port& p) EBAC_RT { return p.est.x - p.x; });
-  const Axes ahead = estimate([](const Port& p) EBAC_RT { return p.est.x_act - p.est.x; });
+  const Axes moved = turn(axes, [](const Port& p) EBAC_RT { return p.est.dx; });
+  const Axes estimated = turn(axes, [](const Port& p) EBAC_RT { return p.est.v; });
+  const Axes predicted = turn(axes, [](const Port& p) EBAC_RT { return p.est.v_act; });
+  const Axes offset = turn(axes, [](const Port& p) EBAC_RT { return p.est.x - p.x; });
+  const Axes ahead = turn(axes, [](const Port& p) EBAC_RT { return p.est.x_act - p.est.x; });
   for (std::size_t i = 0; i < axes.size(); ++i) {
     const auto e = static_cast<Eigen::Index>(i);
     Port& port = port_[i];
@@ -56,10 +54,10 @@ void TurnedPorts::enter(std::span<const Axis> axes, const ContactForce& contact)
   }
 }
 
-void TurnedPorts::leave(std::span<Axis> axes, const ContactForce& contact) const EBAC_RT {
+void TurnedPorts::leave(std::span<Axis> axes) const EBAC_RT {
   Axes f = Axes::Zero();
   for (std::size_t i = 0; i < axes.size(); ++i) f[static_cast<Eigen::Index>(i)] = port_[i].f_cmd;
-  const Axes back = contact.frame.transpose() * f;
+  const Axes back = frame_.transpose() * f;
   for (std::size_t i = 0; i < axes.size(); ++i)
     axes[i].port.f_cmd = back[static_cast<Eigen::Index>(i)];
 }

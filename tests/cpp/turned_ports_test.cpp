@@ -1,0 +1,73 @@
+#include "ebac/control/turned_ports.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <span>
+
+#include "ebac/model/noise.hpp"
+#include "rounds.hpp"
+
+namespace ebac::turned_ports_test {
+namespace {
+
+/// A contact as worlds give it: none, or a push along the x axis or along another normal.
+ContactForce some_contact(Noise& random) {
+  const double kind = random.symmetric();
+  if (kind < -0.3) return {};
+  if (kind < 0) return ContactForce::straight({3, 0, 0});
+  const double angle = 3 * random.symmetric();
+  return ContactForce::along_normal({std::cos(angle), std::sin(angle), 0}, 3);
+}
+
+TEST(TurnedPorts, PlacesGoOnWhateverIsMetAndWorkIsThatOfTheDevice) {
+  Noise random(4);
+  for (int run = 0; run < rounds(200); ++run) {
+    TurnedPorts ports;
+    std::array<Axis, 2> axes{};
+    std::array<double, 2> last{};
+    for (int tick = 0; tick < 50; ++tick) {
+      double work = 0;
+      for (Axis& axis : axes) {
+        Port& port = axis.port;
+        port.dx = tick > 0 ? 1e-3 * random.normal() : 0.0;
+        port.x += port.dx;
+        port.est.dx = port.dx;
+        port.est.x = port.x + 1e-5 * random.normal();
+        port.f_applied = random.normal();
+        work += port.f_applied * port.dx;
+      }
+      double taken = 0;
+      ports.step(std::span(axes), some_contact(random), [&](std::size_t i, const Port& port) {
+        if (tick > 0) EXPECT_NEAR(port.x - last[i], port.dx, 1e-12) << "tick " << tick;
+        last[i] = port.x;
+        taken += port.f_applied * port.dx;
+        return 0.0;
+      });
+      EXPECT_NEAR(taken, work, 1e-12);
+    }
+  }
+}
+
+TEST(TurnedPorts, WhileNothingIsMetTheDirectionsStay) {
+  TurnedPorts ports;
+  std::array<Axis, 2> axes{};
+  std::array<double, 2> applied{};
+  const auto ask = [&](std::size_t i, const Port& port) {
+    applied[i] = port.f_applied;
+    return i == 0 ? 2.0 : 0.0;
+  };
+  ports.step(std::span(axes), ContactForce::along_normal({0, 1, 0}, 3), ask);
+  axes[1].port.f_applied = 3;  // in flight when the hand has left
+  ports.step(std::span(axes), {}, ask);
+  EXPECT_EQ(applied[0], 3);
+  EXPECT_EQ(axes[0].port.f_cmd, 0);
+  EXPECT_EQ(axes[1].port.f_cmd, 2);
+  ports.step(std::span(axes), ContactForce::straight({3, 0, 0}), ask);  // met along x now
+  EXPECT_EQ(applied[0], 0);
+  EXPECT_EQ(axes[0].port.f_cmd, 2);
+}
+
+}  // namespace
+}  // namespace ebac::turned_ports_test
