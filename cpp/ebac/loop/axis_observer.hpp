@@ -184,11 +184,12 @@ class AxisObserver {
     old_ = old;
   }
 
-  /// The noise of the measured force, from the size of its second difference: at most as much as declared.
+  /// The noise of the measured force, from the size of its second difference: at most as much as declared. None at all
+  /// is no measure of it: a sensor that repeats its last reading is not quiet.
   void hear(double bend) EBAC_RT {
     const double declared = params_.force_noise;
     rough_ += ((bend > kLoud * declared ? 1.0 : 0.0) - rough_) * roughening_;
-    bends_ += (std::min(bend, kHigh * declared) - bends_) * averaging_;
+    if (bend != 0) bends_ += (std::min(bend, kHigh * declared) - bends_) * averaging_;
     noise_ = std::min(kOfBends * bends_, declared);
   }
 
