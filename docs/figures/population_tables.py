@@ -171,7 +171,7 @@ def held(printed: Printed) -> str:
          f"{round(1e6 * r['least_rest_power_W'], 1) + 0.0:.1f}"]
         for name, r in sorted(found, key=lambda one: one[1]["condition"] == "hold-1h")
     ]  # fmt: skip
-    return table(["condition", "law", "least energy [mJ]", "power at rest [uW]"], rows)
+    return table(["condition", "law", "least energy [mJ]", "power at rest [µW]"], rows)
 
 
 def damped(printed: Printed) -> str:
