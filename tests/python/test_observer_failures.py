@@ -58,7 +58,7 @@ def test_it_is_never_worse_than_the_encoder_alone(condition: str) -> None:
 
 
 def test_a_sensor_that_repeats_its_reading_is_not_taken_for_one_without_noise() -> None:
-    """Its second differences are zero, and the observer trusted it the more: the force of 13 of 60 hands was not quiet."""
+    """Its second differences are zero, and the observer trusted it the more: 13 of 60 hands were not quiet in force."""
     _, found = compared("sensor-repeats", HANDS)
     assert found.rows[0].good >= 50
 
