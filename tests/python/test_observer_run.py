@@ -154,7 +154,9 @@ def test_a_sensor_that_falls_silent_fades_it_out_and_in_and_the_wall_holds(
     gone = part["est.fallback"][:, 0] == int(ebac.Fallback.FORCE_STALE)
     assert gone.mean() * 4 > 0.1
     assert (part["est.weight"][gone][40:] < 1).all()
-    assert part["est.weight"][-1, 0] == 1
+    silent_at = part["t"][gone].min()
+    # Back again. A machine that is busy may delay the force once more later, so not in the last tick.
+    assert part["est.weight"][part["t"] > silent_at + 0.4].max() == 1
     pressed = part["t"] > 2.0
     # On a machine busy with other things it was 0.09 mm, three counts; else one or two.
     assert np.ptp(part["x"][pressed, 0]) < ebac.metrics.STILL_SWING
