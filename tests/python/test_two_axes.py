@@ -217,9 +217,8 @@ def account_errors(scenario: ebac.Scenario) -> NDArray[np.float64]:
     trace = ebac.simulate(scenario, "ebac")
     took = np.diff(trace["law.energy"].sum(axis=1))
     brought = np.diff(trace["true.energy"].sum(axis=1))
-    trusted = (trace["est.weight"] == 1).all(axis=1) & (
-        trace["t"] > 2e-3
-    )  # the first tick settles what is lent
+    settled = trace["t"] > 2e-3  # the first tick takes back what the encoder's part is lent
+    trusted = (trace["est.weight"] == 1).all(axis=1) & settled
     return (took - brought)[trusted[1:] & trusted[:-1]]
 
 
@@ -265,7 +264,7 @@ def test_a_ball_that_is_tapped_changes_the_account_no_more_than_a_disc(hand: eba
     aside=st.tuples(st.floats(-0.01, 0.01), st.floats(-0.01, 0.01)),
     cell=st.sampled_from([(10e3, 1), (20e3, 1), (20e3, 2)]),
 )
-def test_no_tap_on_a_body_brings_the_account_more_than_the_hand_did(
+def test_a_tap_on_one_body_adds_hardly_more_to_the_account_than_the_hand_did(
     box: bool,
     friction: float,
     device: str,
@@ -274,6 +273,7 @@ def test_no_tap_on_a_body_brings_the_account_more_than_the_hand_did(
     aside: tuple[float, float],
     cell: tuple[float, int],
 ) -> None:
+    """One body that stands still; two that are met at once are a known failure (docs/explanation/limits.md)."""
     solid = Box(width=0.03, depth=0.02, height=0.02) if box else Sphere(radius=0.02)
     body = Body(
         solid=Placed(solid, at=(0.035, 0.003, 0)),
