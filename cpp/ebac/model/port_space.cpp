@@ -1,5 +1,6 @@
 #include "ebac/model/port_space.hpp"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <variant>
@@ -20,26 +21,34 @@ PortSpace::PortSpace(const Kinematics& kinematics, const Axes& x) EBAC_RT
 }
 
 ContactForce PortSpace::felt(const ContactForce& contact) const EBAC_RT {
-  ContactForce made{.force = reach_.transpose() * contact.force,
-                    .depth = contact.depth,
-                    .stiffness = contact.stiffness};
+  ContactForce made{
+      .shared = contact.shared, .depth = contact.depth, .stiffness = contact.stiffness};
   int rows = 0;
-  Axes speed = Axes::Zero();  // of the surface, along each row
   for (int i = 0; i < kMaxAxes && rows < axes_; ++i) {
-    const Axes direction = contact.frame.row(i);
-    Axes rest = reach_.transpose() * direction;
+    Axes rest = reach_.transpose() * contact.frame.row(i).transpose();
     for (int k = 0; k < rows; ++k)
       rest -= made.frame.row(k).dot(rest) * made.frame.row(k).transpose();
     const double length = rest.norm();
-    if (length < kAcross) continue;
-    made.frame.row(rows) = rest / length;
-    speed[rows++] = direction.dot(contact.velocity) / length;
+    if (length >= kAcross) made.frame.row(rows++) = rest / length;
   }
   for (int i = rows; i < kMaxAxes; ++i) made.frame.row(i) = Axes::Unit(i);
+  made.force = reach_.transpose() * contact.force;
   made.along = made.frame * made.force;
-  made.velocity = made.frame.transpose() * speed;
   made.turned = !made.frame.isIdentity(0);
+  if (!contact.velocity.isZero(0)) made.velocity = felt_velocity(contact, made.force);
   return made;
+}
+
+/// The velocity of the ports that is nearest to that of the surface, and along the force as fast as the power of the
+/// surface says: on a slope a surface that rises is faster along the ports than in space.
+Axes PortSpace::felt_velocity(const ContactForce& contact, const Axes& felt) const EBAC_RT {
+  Jacobian square = reach_.transpose() * reach_;
+  for (int i = axes_; i < kMaxAxes; ++i) square(i, i) = 1;
+  const Axes nearest = square.inverse() * (reach_.transpose() * contact.velocity);
+  const double missing = contact.force.dot(contact.velocity) - felt.dot(nearest);  // W
+  const double least = kSteepest * kSteepest * contact.force.squaredNorm();
+  const double force = std::max(felt.squaredNorm(), least);
+  return force > 0 ? Axes(nearest + missing / force * felt) : nearest;
 }
 
 }  // namespace ebac

@@ -22,8 +22,11 @@ class PortSpace {
   ContactForce felt(const ContactForce& contact) const EBAC_RT;
 
  private:
+  Axes felt_velocity(const ContactForce& contact, const Axes& felt) const EBAC_RT;
+
   static constexpr double kFlattest = 1e-4;  // of the radius squared: the lever never lies flat
   static constexpr double kAcross = 1e-3;    // a direction in which the ports cannot move
+  static constexpr double kSteepest = 0.2;  // part of a force that the ports feel, for its velocity
 
   int axes_;
   Axes at_;
