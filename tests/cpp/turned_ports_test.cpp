@@ -39,12 +39,13 @@ TEST(TurnedPorts, PlacesGoOnWhateverIsMetAndWorkIsThatOfTheDevice) {
         work += port.f_applied * port.dx;
       }
       double taken = 0;
-      ports.step(std::span(axes), some_contact(random), [&](std::size_t i, const Port& port) {
-        if (tick > 0) EXPECT_NEAR(port.x - last[i], port.dx, 1e-12) << "tick " << tick;
-        last[i] = port.x;
-        taken += port.f_applied * port.dx;
-        return 0.0;
-      });
+      ports.step(std::span(axes), some_contact(random), 1,
+                 [&](std::size_t i, const Port& port, double misplaced) {
+                   if (tick > 0) EXPECT_NEAR(port.x - last[i], port.dx, 1e-12) << "tick " << tick;
+                   last[i] = port.x;
+                   taken += port.f_applied * port.dx + misplaced;
+                   return 0.0;
+                 });
       EXPECT_NEAR(taken, work, 1e-12);
     }
   }
@@ -54,19 +55,40 @@ TEST(TurnedPorts, WhileNothingIsMetTheDirectionsStay) {
   TurnedPorts ports;
   std::array<Axis, 2> axes{};
   std::array<double, 2> applied{};
-  const auto ask = [&](std::size_t i, const Port& port) {
+  const auto ask = [&](std::size_t i, const Port& port, double) {
     applied[i] = port.f_applied;
     return i == 0 ? 2.0 : 0.0;
   };
-  ports.step(std::span(axes), ContactForce::along_normal({0, 1, 0}, 3), ask);
+  ports.step(std::span(axes), ContactForce::along_normal({0, 1, 0}, 3), 1, ask);
   axes[1].port.f_applied = 3;  // in flight when the hand has left
-  ports.step(std::span(axes), {}, ask);
+  ports.step(std::span(axes), {}, 1, ask);
   EXPECT_EQ(applied[0], 3);
   EXPECT_EQ(axes[0].port.f_cmd, 0);
   EXPECT_EQ(axes[1].port.f_cmd, 2);
-  ports.step(std::span(axes), ContactForce::straight({3, 0, 0}), ask);  // met along x now
+  ports.step(std::span(axes), ContactForce::straight({3, 0, 0}), 1, ask);  // met along x now
   EXPECT_EQ(applied[0], 0);
   EXPECT_EQ(axes[0].port.f_cmd, 2);
+}
+
+TEST(TurnedPorts, WorkOfACommandBelongsToTheDirectionInWhichItWasGiven) {
+  TurnedPorts ports;
+  std::array<Axis, 2> axes{};
+  std::array<double, 2> work{};
+  const auto ask = [&](std::size_t i, const Port& port, double misplaced) {
+    work[i] = port.f_applied * port.dx + misplaced;
+    return i == 0 ? 2.0 : 0.0;
+  };
+  const auto along = [](double angle) {
+    return ContactForce::along_normal({std::cos(angle), std::sin(angle), 0}, 2);
+  };
+  ports.step(std::span(axes), along(0.3), 1, ask);
+  ports.step(std::span(axes), along(0.5), 1, ask);
+  axes[0].port.f_applied = 2 * std::cos(0.3);  // the first command
+  axes[1].port.f_applied = 2 * std::sin(0.3);
+  axes[0].port.dx = 1e-3;
+  ports.step(std::span(axes), along(0.8), 1, ask);
+  EXPECT_NEAR(work[0], 2 * std::cos(0.3) * 1e-3, 1e-15);
+  EXPECT_NEAR(work[1], 0, 1e-15);
 }
 
 }  // namespace

@@ -1,8 +1,8 @@
 #pragma once
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "ebac/core/realtime.hpp"
 #include "ebac/model/contact_force.hpp"
@@ -11,28 +11,55 @@ namespace ebac {
 
 /// Directions that share what pushes turn slowly while there is force: as they turn, the force along each changes, and a
 /// law would take that for motion into the world or out of it.
+///
+/// A direction keeps its number while there is force, whichever surface it is normal to: accounts and commands in flight
+/// are those of the number.
 class EasedFrame {
  public:
   ContactForce ease(const ContactForce& contact, double dt) EBAC_RT {
-    const double wanted = std::atan2(contact.frame(0, 1), contact.frame(0, 0));
-    const double off = std::remainder(wanted - angle_, 2 * std::numbers::pi);
-    const double most = (std::abs(off) / kLag + kSlowest) * dt;
-    const bool arrives = !pushed_ || std::abs(off) <= most;
-    angle_ = arrives ? wanted : angle_ + std::copysign(most, off);
-    pushed_ = !contact.force.isZero(0);
-    if (arrives) return contact;
+    if (!pushed_) return follow(contact);
     ContactForce eased = contact;
-    const double c = std::cos(angle_), s = std::sin(angle_);
-    eased.frame.topLeftCorner<2, 2>() << c, s, -s, c;
-    eased.along = eased.frame * eased.force;
-    return eased;
+    eased.frame = towards(numbered_as_before(contact.frame), dt);
+    eased.set_force(contact.force);
+    eased.turned = true;
+    return follow(eased);
+  }
+
+  /// The directions of a contact that shares none.
+  const ContactForce& follow(const ContactForce& contact) EBAC_RT {
+    frame_ = contact.frame;
+    pushed_ = !contact.force.isZero(0);
+    return contact;
   }
 
  private:
+  /// The same directions, forwards or backwards, each under the number of the one nearest to it.
+  Jacobian numbered_as_before(const Jacobian& wanted) const EBAC_RT {
+    Jacobian likeness = frame_ * wanted.transpose();  // of each number before to each wanted
+    Jacobian made;
+    for (int i = 0; i < kMaxAxes; ++i) {
+      Eigen::Index before = 0, now = 0;
+      likeness.cwiseAbs().maxCoeff(&before, &now);
+      made.row(before) = std::copysign(1.0, likeness(before, now)) * wanted.row(now);
+      likeness.row(before).setZero();
+      likeness.col(now).setZero();
+    }
+    return made;
+  }
+
+  /// Some of the way from the directions of the last tick to others.
+  Jacobian towards(const Jacobian& wanted, double dt) const EBAC_RT {
+    const Jacobian turn = wanted.transpose() * frame_;
+    const Eigen::AngleAxisd off(turn);
+    const double most = (off.angle() / kLag + kSlowest) * dt;
+    if (off.angle() <= most) return wanted;
+    return frame_ * Eigen::AngleAxisd(-most, off.axis()).toRotationMatrix();
+  }
+
   static constexpr double kLag = 0.01;     // s
   static constexpr double kSlowest = 0.1;  // rad/s, so that it arrives
 
-  double angle_ = 0;     // rad
+  Jacobian frame_ = Jacobian::Identity();
   bool pushed_ = false;  // in the last tick
 };
 

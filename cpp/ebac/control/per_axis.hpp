@@ -48,14 +48,21 @@ class PerAxis : public Replaceable<Law> {
 
   template <std::size_t N>
   void step(std::span<Axis, N> axes, const ContactForce& contact) EBAC_RT {
-    const auto ask = [this](std::size_t i, const Port& port)
-                         EBAC_RT { return laws_[i].step(port); };
+    const auto ask = [this](std::size_t i, const Port& port, double misplaced) EBAC_RT {
+      Law& law = laws_[i];
+      if constexpr (requires { law.settle(law.surplus()); }) {
+        if (misplaced != 0) law.settle(law.surplus() + misplaced);
+      }
+      return law.step(port);
+    };
+    const int delay = laws_[0].timing().delay;
     if (N > 1 && axes.size() > 1 && contact.shared) {
       const ContactForce eased = frame_.ease(contact, axes[0].port.dt);
-      account_.share(laws_, eased);
-      turned_.step(axes, eased, ask);
+      account_.share(laws_, axes.size(), eased);
+      turned_.step(axes, eased, delay, ask);
     } else {
-      turned_.step(axes, contact, ask);
+      if (N > 1) frame_.follow(contact);
+      turned_.step(axes, contact, delay, ask);
     }
     if constexpr (std::same_as<Law, AnyLaw>) {
       if (blend_.step(axes)) {

@@ -3,26 +3,26 @@
 #include <array>
 #include <cstddef>
 
-#include "ebac/core/realtime.hpp"
 #include "ebac/core/sample.hpp"
 #include "ebac/model/contact_force.hpp"
 
 namespace ebac {
 
-/// The accounts of two directions that share what pushes, as one: their frame turns, and what is paid along one direction
-/// is given back along the other.
+/// The accounts of the directions that share what pushes, as one: their frame turns, and what is paid along one direction
+/// is given back along another.
 ///
-/// What both hold beyond their reserves is where the force is, by its square. What they lack of them is lacking in both:
+/// What all hold beyond their reserves is where the force is, by its square. What they lack of them is lacking in each:
 /// together they lend about as much as one.
 class SharedAccount {
  public:
-  /// Of the first two of `laws`, where they have accounts.
+  /// Of the first `axes` of `laws`, where they have accounts.
   template <class Law>
-  void share(std::array<Law, kMaxAxes>& laws, const ContactForce& contact) EBAC_RT {
+  void share(std::array<Law, kMaxAxes>& laws, std::size_t axes,
+             const ContactForce& contact) EBAC_RT {
     if constexpr (requires(Law law) { law.settle(law.surplus()); }) {
-      for (std::size_t i = 0; i < kShared; ++i) surplus_ += laws[i].surplus() - shown_[i];
+      for (std::size_t i = 0; i < axes; ++i) surplus_ += laws[i].surplus() - shown_[i];
       const double square = contact.force.squaredNorm();
-      for (std::size_t i = 0; i < kShared; ++i) {
+      for (std::size_t i = 0; i < axes; ++i) {
         const double along = contact.along[static_cast<Eigen::Index>(i)];
         if (square > 0) laws[i].settle(surplus_ > 0 ? surplus_ * along * along / square : surplus_);
         shown_[i] = laws[i].surplus();
@@ -31,10 +31,8 @@ class SharedAccount {
   }
 
  private:
-  static constexpr std::size_t kShared = 2;
-
-  double surplus_ = 0;                   // J, of both
-  std::array<double, kShared> shown_{};  // J, of each
+  double surplus_ = 0;                    // J, of all
+  std::array<double, kMaxAxes> shown_{};  // J, of each
 };
 
 }  // namespace ebac

@@ -13,6 +13,7 @@ Axes TurnedPorts::turn(std::span<const Axis> axes, Of of) const EBAC_RT {
 /// The ways go on from the places that the laws had before.
 void TurnedPorts::begin(std::span<const Axis> axes) EBAC_RT {
   turned_ = true;
+  given_.fill(Jacobian::Identity());
   for (std::size_t i = 0; i < axes.size(); ++i) port_[i].x = axes[i].port.x - axes[i].port.dx;
 }
 
@@ -52,6 +53,26 @@ void TurnedPorts::enter(std::span<const Axis> axes, const ContactForce& contact)
     port.est.x = port.x + offset[e];
     port.est.x_act = port.est.x + ahead[e];
   }
+}
+
+Axes TurnedPorts::work_misplaced(std::span<const Axis> axes, int delay) EBAC_RT {
+  const int size = static_cast<int>(given_.size());
+  const Jacobian& acting = given_[static_cast<std::size_t>((last_ + size - delay) % size)];
+  Axes misplaced = Axes::Zero();
+  if (acting != frame_) {
+    Axes force = Axes::Zero(), moved = Axes::Zero();
+    for (std::size_t i = 0; i < axes.size(); ++i) {
+      const Port& port = axes[i].port;
+      const auto e = static_cast<Eigen::Index>(i);
+      force[e] = port.f_applied;
+      moved[e] = port.dx + port.est.weight * (port.est.dx - port.dx);
+    }
+    misplaced = (acting * force).cwiseProduct(acting * moved) -
+                (frame_ * force).cwiseProduct(frame_ * moved);
+  }
+  last_ = (last_ + 1) % size;
+  given_[static_cast<std::size_t>(last_)] = frame_;
+  return misplaced;
 }
 
 void TurnedPorts::leave(std::span<Axis> axes) const EBAC_RT {

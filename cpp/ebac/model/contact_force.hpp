@@ -15,9 +15,16 @@ struct ContactForce {
   Jacobian frame = Jacobian::Identity();
   Axes velocity = Axes::Zero();  // m/s, of the surface itself, in the axes of the device
   bool turned = false;           // whether the frame is other than the axes of the device
-  bool shared = false;           // whether what pushes is shared by the first two directions
-  double depth = 0;              // m, behind the surface; 0 where a world does not tell
-  double stiffness = 0;          // N/m, of the surface at this depth
+  bool shared = false;   // whether several surfaces push, none of which has a direction of its own
+  double depth = 0;      // m, behind the surface; 0 where a world does not tell
+  double stiffness = 0;  // N/m, of the surface at this depth
+
+  /// The push that is shared by the directions of `frame`; one that is without force has exactly none.
+  void set_force(const Axes& push) EBAC_RT {
+    force = push;
+    along = frame * push;
+    along = (along.array().abs() < kRounding * push.norm()).select(0, along);
+  }
 
   static ContactForce straight(const Axes& force) EBAC_RT {
     return {.force = force, .along = force};
@@ -30,6 +37,9 @@ struct ContactForce {
     contact.frame.row(1) << -n[1], n[0], 0;
     return contact;
   }
+
+ private:
+  static constexpr double kRounding = 1e-12;  // of a force
 };
 
 }  // namespace ebac

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "ebac/model/shared_push.hpp"
+
 namespace ebac {
 
 ContactForce Wall::turned(const Axes& x, const Axes& v) const EBAC_RT {
@@ -19,28 +21,15 @@ ContactForce Wall::moving(const Axes& x, const Axes& v, double t) const EBAC_RT 
   return made;
 }
 
-double Corner::turn() const EBAC_RT {
-  const double least = std::remainder(second.angle - first.angle, std::numbers::pi / 2);
-  return std::abs(least) < 1e-9 ? 0.0 : least;
-}
-
-double Corner::way(double one, double other) EBAC_RT {
-  const double share = other > 0 ? other / (one + other) : 0.0;
-  return share < 0.5 ? std::min(0.5, share / kBoth) : 1 - std::min(0.5, (1 - share) / kBoth);
-}
-
 ContactForce Corner::contact(const Axes& x, const Axes& v) const EBAC_RT {
   const Axes n = first.normal();
   const Axes m = second.normal();
   const double one = first.push_along(n.dot(x), n.dot(v));
   const double other = second.push_along(m.dot(x), m.dot(v));
-  const double angle = first.angle + way(one, other) * turn();
-  ContactForce contact = ContactForce::along_normal({std::cos(angle), std::sin(angle), 0}, 0);
-  contact.force = one * n + other * m;
-  contact.along = contact.frame * contact.force;
-  const double rounding = 1e-12 * (one + other);  // a direction without force has exactly none
-  contact.along = (contact.along.array().abs() < rounding).select(0, contact.along);
-  contact.shared = turn() != 0;
+  const SharedPush pushes(n, one, m, other);
+  ContactForce contact = ContactForce::along_normal(pushes.first(), 0);
+  contact.set_force(one * n + other * m);
+  contact.shared = pushes.turn() != 0;
   contact.turned |= contact.shared;
   return contact;
 }

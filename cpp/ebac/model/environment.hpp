@@ -81,22 +81,12 @@ struct Wall {
   ContactForce moving(const Axes& x, const Axes& v, double t) const EBAC_RT;
 };
 
-/// Two walls that meet: each pushes along its own normal. Where one pushes alone, its normal is a direction of the
-/// frame, and where both push alike, the frame is halfway from one such place to the other, on the shorter way there:
-/// 45 degrees at most, and none in a square corner.
+/// Two walls that meet: each pushes along its own normal.
 struct Corner {
   Wall first{};
   Wall second{.angle = std::numbers::pi / 2};
 
   ContactForce contact(const Axes& x, const Axes& v) const EBAC_RT;
-
- private:
-  static constexpr double kBoth = 0.3;  // of the push: with more of it from either, both push alike
-
-  /// The way of the frame from the first wall to the second [rad].
-  double turn() const EBAC_RT;
-  /// The part of it that the frame has gone where the walls push with `one` and `other` [N].
-  static double way(double one, double other) EBAC_RT;
 };
 
 /// A round pillar in the plane of the first two axes, met from outside.

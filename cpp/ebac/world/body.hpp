@@ -18,6 +18,7 @@ struct Touch {
   double stiffness = 0;          // N/m
   int normals = 0;
   std::array<Axes, kMaxAxes> normal{};  // unit vectors into the body
+  std::array<double, kMaxAxes> push{};  // N, along each
 };
 
 /// The surface of one body near a handle outside, in the axes of the device.
@@ -94,8 +95,11 @@ class Body {
       made.force += hold(x - before, normal, push);
       stored_ += 0.5 * push.stiffness * stretch_.squaredNorm();
     }
-    for (int i = 0; i < made.normals; ++i)
-      made.normal[static_cast<std::size_t>(i)] = -proxy_.constraint(i).out;
+    for (int i = 0; i < made.normals; ++i) {
+      const Proxy::Constraint& plane = proxy_.constraint(i);
+      made.normal[static_cast<std::size_t>(i)] = -plane.out;
+      made.push[static_cast<std::size_t>(i)] = depth > 0 ? push.force * plane.depth / depth : 0.0;
+    }
     return made;
   }
 

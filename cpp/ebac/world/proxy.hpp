@@ -27,8 +27,9 @@ class Proxy {
 
   /// A plane that the proxy may not pass.
   struct Constraint {
-    Axes at;   // m, a point of it
-    Axes out;  // unit normal away from the solid
+    Axes at;           // m, a point of it
+    Axes out;          // unit normal away from the solid
+    double depth = 0;  // m, its part of the way from the handle to the proxy
   };
 
   bool touching() const EBAC_RT { return count_ > 0; }
@@ -95,7 +96,7 @@ class Proxy {
       if (behind <= kExact) return false;
       const Axes goal = x + behind * at.out;
       if ((goal - expected).squaredNorm() <= kFlat * kFlat) {
-        held_[0] = {goal, at.out};
+        held_[0] = {goal, at.out, behind};
         place_ = goal;
         return true;
       }
@@ -185,7 +186,7 @@ class Proxy {
 
   /// The point nearest to `x` that lies behind no plane; planes that do not keep it are let go.
   Axes nearest(const Axes& x) EBAC_RT {
-    if (count_ == 1) return nearest_on(held_[0], x);
+    if (count_ == 1) return nearest_on_one(x);
     for (int planes = 0; planes <= count_; ++planes) {
       for (unsigned set = 0; set < 1U << static_cast<unsigned>(count_); ++set) {
         if (std::popcount(set) != planes) continue;
@@ -199,17 +200,19 @@ class Proxy {
   }
 
   /// The same for a single plane, the usual case.
-  Axes nearest_on(const Constraint& plane, const Axes& x) EBAC_RT {
+  Axes nearest_on_one(const Axes& x) EBAC_RT {
+    const Constraint& plane = held_[0];
     const double behind = plane.out.dot(plane.at - x);
     if (behind <= kExact) {
       count_ = 0;
       return x;
     }
+    held_[0].depth = behind;
     return x + behind * plane.out;
   }
 
   /// The point nearest to `x` on all planes of a set, if these push it there and no other plane is passed.
-  bool solve(unsigned set, const Axes& x, Axes& goal) const EBAC_RT {
+  bool solve(unsigned set, const Axes& x, Axes& goal) EBAC_RT {
     Jacobian gram = Jacobian::Identity();
     Axes missing = Axes::Zero();
     for (int i = 0; i < count_; ++i) {
@@ -235,6 +238,7 @@ class Proxy {
       if (!has(set, i) && held_[index(i)].out.dot(goal - held_[index(i)].at) < -kExact)
         return false;
     }
+    for (int i = 0; i < count_; ++i) held_[index(i)].depth = missing[i];
     return true;
   }
 

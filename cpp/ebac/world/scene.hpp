@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -17,29 +19,34 @@ class Scene final : public World {
   explicit Scene(std::vector<Body> bodies) : bodies_(std::move(bodies)) {}
 
   EBAC_ONE_FUNCTION ContactForce contact(const Axes& x, const Axes& v, double t) EBAC_RT override {
-    ContactForce all;
     // No body is told of such a place, whose proxy would never leave it; the loop ends by what it reads here.
     if (!std::isfinite(x.sum()))
       return ContactForce::straight(Axes::Constant(std::numeric_limits<double>::quiet_NaN()));
-    std::array<Axes, kMaxAxes> normals;
-    int count = 0;
-    double strongest = 0;
+    ContactForce all;
+    Axes force = Axes::Zero();
+    Pushers pushers;
+    double pushes = 0;  // N, of all bodies, whatever their directions
     for (Body& body : bodies_) {
       const Touch touch = body.touch(x, v, t);
       if (touch.normals == 0) continue;
-      all.force += touch.force;
+      force += touch.force;
       all.depth = std::max(all.depth, touch.depth);
       all.stiffness = std::max(all.stiffness, touch.stiffness);
-      if (const double force = touch.force.norm(); count == 0 || force > strongest) {
-        strongest = force;
-        all.velocity = touch.velocity;
+      pushes += touch.force.norm();
+      if (pushes > 0) all.velocity += touch.force.norm() / pushes * (touch.velocity - all.velocity);
+      for (int i = 0; i < touch.normals; ++i) {
+        const auto e = static_cast<std::size_t>(i);
+        pushers.add({touch.normal[e], touch.push[e]});
       }
-      for (int i = 0; i < touch.normals && count < kMaxAxes; ++i)
-        normals[static_cast<std::size_t>(count++)] = touch.normal[static_cast<std::size_t>(i)];
     }
-    if (count == 0) return all;
-    all.frame = frame_.along(normals.data(), count);
-    all.along = all.frame * all.force;
+    shared_ = pushers.count > 1 || (shared_ && pushers.count > 0);
+    if (pushers.count == 0) return all;
+    const auto& [first, second] = pushers.strongest;
+    all.frame = pushers.count == 1
+                    ? frame_.along(&first.normal, 1)
+                    : frame_.shared({first.normal, first.push, second.normal, second.push});
+    all.shared = shared_;
+    all.set_force(force);
     all.turned = all.frame(0, 0) != 1 || !all.frame.isIdentity(0);
     return all;
   }
@@ -63,12 +70,33 @@ class Scene final : public World {
     auto made = std::make_unique<Scene>(*this);
     for (Body& body : made->bodies_) body.reset();
     made->frame_ = {};
+    made->shared_ = false;
     return made;
   }
 
  private:
+  struct Pusher {
+    Axes normal = Axes::Zero();
+    double push = -1;  // N
+  };
+  /// The two that push the most.
+  struct Pushers {
+    std::array<Pusher, 2> strongest;
+    int count = 0;
+
+    void add(const Pusher& one) EBAC_RT {
+      ++count;
+      if (one.push > strongest[0].push) {
+        strongest = {one, strongest[0]};
+      } else if (one.push > strongest[1].push) {
+        strongest[1] = one;
+      }
+    }
+  };
+
   std::vector<Body> bodies_;
   TransportedFrame frame_;
+  bool shared_ = false;  // since this contact has met more than one surface
 };
 
 }  // namespace ebac::world

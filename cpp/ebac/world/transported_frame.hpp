@@ -1,8 +1,10 @@
 #pragma once
 
+#include <array>
 #include <cmath>
 
 #include "ebac/model/kinematics.hpp"
+#include "ebac/model/shared_push.hpp"
 
 namespace ebac::world {
 
@@ -21,6 +23,12 @@ class TransportedFrame {
       ++i;
     }
     return frame_;
+  }
+
+  /// Rows: the directions of two surfaces that push, then what is left.
+  const Jacobian& shared(const SharedPush& pushes) EBAC_RT {
+    const std::array<Axes, 2> rows{pushes.first(), pushes.second()};
+    return along(rows.data(), pushes.plane() ? 2 : 1);
   }
 
  private:
