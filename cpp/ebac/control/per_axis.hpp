@@ -56,13 +56,14 @@ class PerAxis : public Replaceable<Law> {
       return law.step(port);
     };
     const int delay = laws_[0].timing().delay;
-    if (N > 1 && axes.size() > 1 && contact.shared) {
+    if (N == 1 || axes.size() == 1) {
+      turned_.step(axes, contact, delay, ask);
+    } else if (contact.shared) {
       const ContactForce eased = frame_.ease(contact, axes[0].port.dt);
       account_.share(laws_, axes.size(), eased);
       turned_.step(axes, eased, delay, ask);
     } else {
-      if (N > 1) frame_.follow(contact);
-      turned_.step(axes, contact, delay, ask);
+      turned_.step(axes, frame_.follow(contact), delay, ask);
     }
     if constexpr (std::same_as<Law, AnyLaw>) {
       if (blend_.step(axes)) {
