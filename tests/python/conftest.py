@@ -4,8 +4,8 @@ More examples than usual: `pytest --hypothesis-profile=explore`.
 
 A test marked `real_time` runs a loop against the clock. Where a loop in it ended because this machine kept it or what
 answers it waiting, the test is repeated while no other worker runs one, seven times at most. The summary says so. Any
-other failure is one at once. One marked `real_time(seconds=True)` looks at a page after real seconds, in which a
-machine that is late has computed fewer ticks: it is repeated alone after any failure, twice at most.
+other failure is one at once. One marked `real_time(seconds=True)` looks at what real seconds have brought, in
+which a machine that is late has done less: it is repeated alone after any failure, twice at most.
 """
 
 import fcntl
