@@ -107,7 +107,7 @@ def tuned(printed: Printed) -> str:
         "observer",
         "good of 360",
         "settled, median [s]",
-        "ripple [N]",
+        "force swing [N]",
         "impact [mJ]",
         "let go [mJ]",
         "pumping [mJ]",

@@ -124,6 +124,12 @@ RULES = (
         "takes seconds",
         fewer="--points 2 --seconds 1 --law ebac --law tca",
     ),
+    Rule(
+        r"^ebac zwidth\b.*--hands [1-9]\d",
+        SLOW,
+        "takes minutes",
+        fewer="--points 2 --seconds 1 --delay 1 --hands 1",
+    ),
     Rule(r"^ebac zwidth\b", SLOW, "takes seconds", fewer="--points 2 --seconds 1"),
     Rule(r"^ebac gastroscopy study\b", SLOW, "takes minutes", fewer="--physicians 2 --seconds 2"),
     Rule(r"^ebac gastroscopy (master|slave)", SLOW, "takes its time", fewer="--seconds 1"),

@@ -269,6 +269,19 @@ def test_random_hands_are_named_where_the_result_is_shown(tmp_path: Path) -> Non
     assert "drawn from the port (7 random hands included)" in figure.get_suptitle()
 
 
+def test_the_command_puts_other_parameters_of_a_law_beside_it() -> None:
+    small = ("--law", "ebac", "--delay", "2", "--points", "2", "--seconds", "1", "--json")
+    told = json.loads(command(*small, "--change", "guard=off", "--change", "kp=0,pull=40"))
+    assert [one["law"] for one in told["scores"]] == [
+        "ebac",
+        "ebac, guard=off",
+        "ebac, kp=0,pull=40",
+    ]
+    assert "--change kp=0: changes one law, not 2" in command(
+        "--law", "ebac,eba", "--change", "kp=0", code=2
+    )
+
+
 def test_the_command_refuses() -> None:
     assert "did you mean 'direct'" in " ".join(command("--law", "dirct", code=2).split())
     assert "--least = 100 N/m: must lie in (0, 1) N/m, below --top" in command("--top", "1", code=2)

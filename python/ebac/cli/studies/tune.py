@@ -56,7 +56,7 @@ def tune(
 
     A simulation. The parameters are searched on random training hands; the table shows the 60 hands of the grid, with
     the parameters of the design and with those found. The number of good hands, which are exact and quiet in position
-    and force, counts most; then settling, energy drawn and the ripple of the force at rest. With --observer-every-law
+    and force, counts most; then settling, energy drawn and the force swing at rest. With --observer-every-law
     the law uses the estimate of the observer, otherwise the encoder. Ctrl-C keeps the best parameters so far.
 
     The parameters found for the reference device, with 0.03 N of sensor noise, are part of the package under names
@@ -123,8 +123,8 @@ def _show(found: list[Tuned]) -> None:
         "in position",
         "and force",
         "settled",
-        "drawn",
-        "ripple",
+        "most drawn",
+        "force swing",
     ]
     grid = output.table(headings, numbers=(3, 4, 5, 6, 7))
     for one in found:
@@ -136,8 +136,8 @@ def _show(found: list[Tuned]) -> None:
                 )  # fmt: skip
     output.show(grid)
     output.say(
-        "Good hands by their position alone, and by position and force. Settled: median of the good. Ripple: the force "
-        "at rest, of hands good in position."
+        "Good hands by their position alone, and by position and force. Settled: median of the good. Force swing: "
+        "peak to peak at rest, the largest of the hands good in position."
     )
     for one in found:
         changes = ", ".join(f"{n} = {shown_value(v)}" for n, v in one.changes.items())

@@ -12,6 +12,7 @@ from ebac.cli import options, output, setting
 from ebac.cli.files import ResultOptions
 
 if TYPE_CHECKING:
+    from ebac.laws import Variant
     from ebac.studies.zwidth import ZWidth
 
 #: Largest wall damping [N s/m], stiffness [N/m] and energy [J] that can be asked for.
@@ -31,6 +32,14 @@ def zwidth(
     device: options.DeviceOptions,
     length: _Run,
     law: Annotated[list[str] | None, options.laws("all")] = None,
+    change: Annotated[
+        list[str] | None,
+        typer.Option(
+            help="The law once more, with other parameters: NAME=VALUE in SI units, on or off; several separated by "
+            "commas; repeat it. Wants one --law. `ebac laws NAME` lists the parameters.",
+            rich_help_panel=options.RUN,
+        ),
+    ] = None,
     delay: Annotated[
         list[int] | None,
         typer.Option(
@@ -95,13 +104,15 @@ def zwidth(
     * `ebac zwidth --law direct,ebac --delay 1 --most-damping 50 --points 5`
 
     * `ebac zwidth --law ebac --delay 1 --points 2 --hands 3 --epsilon 0.002`: 21 random hands explore the wall, too
+
+    * `ebac zwidth --law ebac --delay 2 --points 2 --change observed_reserve=0.005`: with a larger reserve beside it
     """
     import numpy as np
 
     from ebac.studies.zwidth import zwidth as search
 
     with output.refusing():
-        names = setting.law_names(law or ["all"])
+        laws = _laws(setting.law_names(law or ["all"]), change or [])
         base = options.scenario_of(hand, device, length, seconds=3.0)
         base = base.replace(**setting.given(seed=seed))
         _check(most_damping, least, top, epsilon)
@@ -112,13 +123,27 @@ def zwidth(
         )
         with output.counting("searching", quiet=as_json) as progress:
             found = search(
-                base, names, delays=delay or (0, 1, 2), dampings=np.linspace(0, most_damping, points),
+                base, laws, delays=delay or (0, 1, 2), dampings=np.linspace(0, most_damping, points),
                 least=least, top=top, epsilon=epsilon, hands=hands, threads=threads, progress=progress,
             )  # fmt: skip
     to.report(
         folder, "zwidth", _document(found), as_json=as_json,
         fill=lambda draft: _fill(draft, found, to), show=lambda: _show(found),
     )  # fmt: skip
+
+
+def _laws(names: list[str], changes: list[str]) -> dict[str, str | Variant]:
+    """Return the laws by name, and the one of `changes` once more with each of them."""
+    from ebac.laws import Variant
+
+    laws: dict[str, str | Variant] = {name: name for name in names}
+    if changes and len(names) != 1:
+        raise ValueError(
+            f"--change {changes[0]}: changes one law, not {len(names)}; add --law NAME"
+        )
+    for change in changes:
+        laws[f"{names[0]}, {change}"] = Variant(names[0], setting.parse_change(change))
+    return laws
 
 
 def _check(most_damping: float, least: float, top: float, epsilon: float) -> None:
