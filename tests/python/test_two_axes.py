@@ -6,7 +6,7 @@ from math import pi
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
@@ -294,14 +294,17 @@ def test_a_tap_on_one_body_adds_hardly_more_to_the_account_than_the_hand_did(
     assert account_errors(scenario).max() < 2.5e-3
 
 
-def two_balls(apart: float, stiffness: float) -> list[Body]:
+def two_balls(
+    apart: float, stiffness: float, motions: tuple[Swing, Swing] = (Swing(), Swing())
+) -> list[Body]:
     """Balls of 20 mm, 5 mm from the middle; between them the hand touches both."""
     return [
         Body(
             solid=Placed(Sphere(radius=0.02), at=(0.025 * np.cos(q), 0.025 * np.sin(q), 0)),
             material=Elastic(stiffness=stiffness),
+            motion=motion,
         )
-        for q in (0.0, apart)
+        for q, motion in zip((0.0, apart), motions, strict=True)
     ]
 
 
@@ -394,3 +397,60 @@ def test_a_moving_body_tells_no_speed_far_above_its_own(device: str) -> None:
     fastest = 2 * np.pi * motion.frequency * np.hypot(motion.amplitude_x, motion.amplitude_y)
     assert 0.5 * fastest < np.abs(trace["world_v"]).max() <= fastest
     assert trace["law.starved"].max() < 0.02
+
+
+@every_device
+@given(
+    apart=st.floats(0.2, 2.5),
+    mass=st.floats(0.03, 0.6),
+    amplitude=st.tuples(st.floats(1e-3, 12e-3), st.floats(1e-3, 12e-3)),
+    swing=st.tuples(*[st.floats(-3e-3, 3e-3)] * 4),
+    frequency=st.tuples(*[st.floats(0.5, 3)] * 4),
+    cell=st.just((10e3, 1)),
+)
+@example(
+    apart=1.23,
+    mass=0.034,
+    amplitude=(5.4e-3, 8.5e-3),
+    swing=(2.2e-3, -2.4e-3, -2.1e-3, -2e-3),
+    frequency=(0.93, 1.43, 2.8, 1.7),
+    cell=(20e3, 1),
+)
+@example(
+    apart=1.41,
+    mass=0.059,
+    amplitude=(2.3e-3, 9.1e-3),
+    swing=(-3e-3, 2.6e-3, -2.7e-3, 1.8e-3),
+    frequency=(2.83, 0.7, 2.48, 2.93),
+    cell=(20e3, 2),
+)
+def test_bodies_that_move_each_in_its_own_way_tell_the_power_of_all(
+    device: str,
+    apart: float,
+    mass: float,
+    amplitude: tuple[float, float],
+    swing: tuple[float, float, float, float],
+    frequency: tuple[float, float, float, float],
+    cell: tuple[float, int],
+) -> None:
+    """Once they told the mean of their velocities by force, and what they did beyond was charged to the hand.
+
+    Both examples lost their balls for 1.5 s by that.
+    """
+    motions = (
+        Swing(amplitude_x=swing[0], amplitude_y=swing[1], frequency=frequency[2]),
+        Swing(amplitude_x=swing[2], amplitude_y=swing[3], frequency=frequency[3]),
+    )
+    path = [
+        ebac.Sine(centre=c, amplitude=a, frequency=f)
+        for c, a, f in zip((0.0124, 0.0167), amplitude, frequency[:2], strict=True)
+    ]
+    scenario = ebac.Scenario(
+        device=DEVICES[device],
+        hand=ebac.Hand(mass=mass, damping=10, stiffness=486, path=path),
+        environment=World(*two_balls(apart, cell[0], motions)),
+        timing=ebac.Timing(delay=cell[1]),
+        seconds=3,
+    )
+    trace = ebac.simulate(scenario, "ebac")
+    assert trace["law.starved"].max() < 0.1

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <variant>
 
+#include "ebac/model/velocity_of_power.hpp"
+
 namespace ebac {
 
 PortSpace::PortSpace(const Kinematics& kinematics, const Axes& x) EBAC_RT
@@ -39,16 +41,13 @@ ContactForce PortSpace::felt(const ContactForce& contact) const EBAC_RT {
   return made;
 }
 
-/// The velocity of the ports that is nearest to that of the surface, and along the force as fast as the power of the
-/// surface says: on a slope a surface that rises is faster along the ports than in space.
+/// On a slope a surface that rises is faster along the ports than in space.
 Axes PortSpace::felt_velocity(const ContactForce& contact, const Axes& felt) const EBAC_RT {
   Jacobian square = reach_.transpose() * reach_;
   for (int i = axes_; i < kMaxAxes; ++i) square(i, i) = 1;
   const Axes nearest = square.inverse() * (reach_.transpose() * contact.velocity);
-  const double missing = contact.force.dot(contact.velocity) - felt.dot(nearest);  // W
-  const double least = kSteepest * kSteepest * contact.force.squaredNorm();
-  const double force = std::max(felt.squaredNorm(), least);
-  return force > 0 ? Axes(nearest + missing / force * felt) : nearest;
+  return velocity_of_power(nearest, contact.force.dot(contact.velocity), felt,
+                           contact.force.norm());
 }
 
 }  // namespace ebac

@@ -26,7 +26,6 @@ class PortSpace {
 
   static constexpr double kFlattest = 1e-4;  // of the radius squared: the lever never lies flat
   static constexpr double kAcross = 1e-3;    // a direction in which the ports cannot move
-  static constexpr double kSteepest = 0.2;  // part of a force that the ports feel, for its velocity
 
   int axes_;
   Axes at_;

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "ebac/model/velocity_of_power.hpp"
 #include "ebac/model/world.hpp"
 #include "ebac/world/body.hpp"
 #include "ebac/world/transported_frame.hpp"
@@ -26,6 +27,7 @@ class Scene final : public World {
     Axes force = Axes::Zero();
     Pushers pushers;
     double pushes = 0;  // N, of all bodies, whatever their directions
+    double power = 0;   // W, of their surfaces
     for (Body& body : bodies_) {
       const Touch touch = body.touch(x, v, t);
       if (touch.normals == 0) continue;
@@ -33,6 +35,7 @@ class Scene final : public World {
       all.depth = std::max(all.depth, touch.depth);
       all.stiffness = std::max(all.stiffness, touch.stiffness);
       pushes += touch.force.norm();
+      power += touch.force.dot(touch.velocity);
       if (pushes > 0) all.velocity += touch.force.norm() / pushes * (touch.velocity - all.velocity);
       for (int i = 0; i < touch.normals; ++i) {
         const auto e = static_cast<std::size_t>(i);
@@ -46,6 +49,7 @@ class Scene final : public World {
                     ? frame_.along(&first.normal, 1)
                     : frame_.shared({first.normal, first.push, second.normal, second.push});
     all.shared = shared_;
+    if (pushers.count > 1) all.velocity = velocity_of_power(all.velocity, power, force, pushes);
     all.set_force(force);
     all.turned = all.frame(0, 0) != 1 || !all.frame.isIdentity(0);
     return all;
