@@ -21,7 +21,7 @@ def test_every_table_has_one_place_and_every_place_a_table() -> None:
     assert sorted(places) == sorted(tables.TABLES)
 
 
-def test_hands_ripple_and_energy_of_the_rivals_stand_in_one_table(
+def test_hands_force_swing_and_energy_of_the_rivals_stand_in_one_table(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     """A row per law and form, the hands of the six conditions together, beside what the searches drew."""
@@ -46,7 +46,7 @@ def test_hands_ripple_and_energy_of_the_rivals_stand_in_one_table(
         ]
         if name == "tuned":
             assert all(row[-3:] == ["-2", "-3", "-5"] for row in cells[2:])  # mJ
-            assert cells[0][2:5] == ["good of 360", "settled, median [s]", "ripple [N]"]
+            assert cells[0][2:5] == ["good of 360", "settled, median [s]", "force swing [N]"]
 
 
 @pytest.mark.slow
