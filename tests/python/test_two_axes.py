@@ -424,7 +424,7 @@ def test_a_moving_body_tells_no_speed_far_above_its_own(device: str) -> None:
     frequency=(2.83, 0.7, 2.48, 2.93),
     cell=(20e3, 2),
 )
-def test_bodies_that_move_each_in_its_own_way_tell_the_power_of_all(
+def test_bodies_that_move_each_in_its_own_way_are_not_lost(
     device: str,
     apart: float,
     mass: float,
