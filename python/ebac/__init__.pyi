@@ -306,6 +306,9 @@ from ebac.studies import (
     Engines as Engines,
 )
 from ebac.studies import (
+    RandomWorlds as RandomWorlds,
+)
+from ebac.studies import (
     Shapes as Shapes,
 )
 from ebac.studies import (
@@ -331,6 +334,9 @@ from ebac.studies import (
 )
 from ebac.studies import (
     engines as engines,
+)
+from ebac.studies import (
+    random_worlds as random_worlds,
 )
 from ebac.studies import (
     shapes as shapes,

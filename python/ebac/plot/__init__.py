@@ -8,6 +8,7 @@ from ebac.plot.gastroscope import plot_gastroscopy, plot_gastroscopy_study
 from ebac.plot.jitter import plot_jitter
 from ebac.plot.maps import plot_map
 from ebac.plot.overlay import plot_overlay
+from ebac.plot.random_worlds import plot_random_worlds
 from ebac.plot.run import plot_trace
 from ebac.plot.save import FORMATS, WIDTHS, save
 from ebac.plot.shapes import plot_shapes
@@ -55,6 +56,7 @@ __all__ = [
     "plot_jitter",
     "plot_map",
     "plot_overlay",
+    "plot_random_worlds",
     "plot_shapes",
     "plot_study",
     "plot_sweep",

@@ -5,6 +5,7 @@ from ebac.studies.conditions import CONDITIONS, GROUPS, Condition, conditions
 from ebac.studies.engines import EngineRow, Engines, engines
 from ebac.studies.hand_search import WorstHand
 from ebac.studies.measures import MEASURES, Measure
+from ebac.studies.random_worlds import RandomWorldRow, RandomWorlds, random_worlds
 from ebac.studies.result import Failure, Study, StudyRow
 from ebac.studies.shapes import ShapeRow, Shapes, shapes
 from ebac.studies.study import study
@@ -24,6 +25,8 @@ __all__ = [
     "Failure",
     "Measure",
     "Piece",
+    "RandomWorldRow",
+    "RandomWorlds",
     "ShapeRow",
     "Shapes",
     "Study",
@@ -39,6 +42,7 @@ __all__ = [
     "conditions",
     "engines",
     "pieces",
+    "random_worlds",
     "shapes",
     "study",
     "tissue",
