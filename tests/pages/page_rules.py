@@ -135,6 +135,7 @@ RULES = (
     Rule(r"^ebac gastroscopy (master|slave)", SLOW, "takes its time", fewer="--seconds 1"),
     Rule(r"^ebac gastroscopy\b", SLOW, "takes seconds", fewer="--seconds 2"),
     Rule(r"^ebac shapes\b", SLOW, "takes half a minute", fewer="--law ebac --device joystick"),
+    Rule(r"^ebac random-worlds\b", SLOW, "takes seconds", fewer="--hands 2"),
     Rule(r"^ebac map\b", SLOW, "takes seconds", fewer="--side 8"),
     Rule(r"^ebac faults\b", SLOW, "takes seconds", fewer="--cases 5"),
     Rule(r"^ebac track --simulated", SLOW, "takes seconds", fewer="--runs 4"),

@@ -19,6 +19,7 @@ from ebac.cli.studies import (
     engines,
     faults,
     maps,
+    random_worlds,
     shapes,
     study,
     tissue,
@@ -86,6 +87,7 @@ add(app, zwidth.zwidth, panel=STUDY)
 add(app, tune.tune, panel=STUDY)
 add(app, maps.map_, "map", panel=STUDY)
 add(app, shapes.shapes, panel=STUDY)
+add(app, random_worlds.random_worlds, panel=STUDY)
 add(app, engines.engines, panel=STUDY)
 add(app, tissue.tissue, panel=STUDY)
 add(app, faults.faults, panel=STUDY)

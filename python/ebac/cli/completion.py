@@ -31,6 +31,20 @@ def devices(incomplete: str) -> list[str]:
     return [name for name in DEVICES if name.startswith(incomplete)]
 
 
+def world_kinds(incomplete: str) -> list[str]:
+    """Return the kinds of random worlds that begin so."""
+    from ebac.studies.world_kinds import KINDS
+
+    return [name for name in KINDS if name.startswith(incomplete)]
+
+
+def world_devices(incomplete: str) -> list[str]:
+    """Return the devices for random worlds that begin so."""
+    from ebac.studies.random_scenario import DEVICES
+
+    return [name for name in DEVICES if name.startswith(incomplete)]
+
+
 def conditions(incomplete: str) -> list[str]:
     """Return the conditions and groups that begin so."""
     from ebac.studies import CONDITIONS, GROUPS

@@ -1,0 +1,270 @@
+"""`ebac random-worlds` and `ebac.random_worlds`: random hands in random worlds of several bodies."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from typer.testing import CliRunner
+
+import ebac
+from ebac.cli import app, completion
+from ebac.plot import plot_random_worlds
+from ebac.studies import RandomWorlds, random_worlds
+from ebac.studies.random_scenario import DEVICES, random_scenario
+from ebac.studies.random_worlds import HELD_BACK, drawn
+from ebac.studies.world_kinds import KINDS
+from ebac.studies.zwidth import passive_ceiling
+
+cell = st.tuples(st.sampled_from(list(KINDS)), st.sampled_from(list(DEVICES)), st.integers(0, 999))
+
+
+@pytest.fixture(scope="module")
+def found() -> RandomWorlds:
+    return random_worlds(("direct", "ebac"), kinds=("planes", "cavity"), hands=5)
+
+
+def test_rows_are_in_the_order_of_the_arguments(found: RandomWorlds) -> None:
+    names = [(row.kind, row.device, row.law) for row in found.rows]
+    assert names == [
+        (kind, device, law)
+        for kind in ("planes", "cavity")
+        for device in ("2-axes", "3-axes", "gimbal")
+        for law in ("direct", "ebac")
+    ]
+    assert all(
+        len(energies) == row.hands == 5
+        for row, energies in zip(found.rows, found.drawn_J, strict=True)
+    )
+
+
+def test_ebac_holds_no_hand_back_and_direct_gives_energy_out(found: RandomWorlds) -> None:
+    direct, ours = found.totals()
+    assert (direct.law, ours.law) == ("direct", "ebac")
+    assert direct.hands == ours.hands == 30
+    assert direct.faults == ours.faults == 0
+    assert ours.held_back == ours.beyond_reserve == 0
+    assert ours.reserve_J == 2e-3
+    assert ours.longest_held_back_s is not None
+    assert ours.longest_held_back_s <= HELD_BACK
+    assert direct.most_drawn_J > 0.05 > ours.reserve_J >= ours.most_drawn_J
+    no_guard = (
+        direct.held_back,
+        direct.longest_held_back_s,
+        direct.beyond_reserve,
+        direct.reserve_J,
+    )
+    assert no_guard == (None,) * 4
+
+
+def test_the_worst_hand_of_a_row_is_simulated_again(found: RandomWorlds, tmp_path: Path) -> None:
+    direct, ours = found.worst()[:2]
+    assert drawn(found.trace(direct)) == direct.most_drawn_J
+    found.scenario(direct).save(tmp_path / "worst.toml")
+    loaded = ebac.Scenario.load(tmp_path / "worst.toml")
+    assert loaded == found.scenario(direct)
+    assert drawn(ebac.simulate(loaded, "direct")) == direct.most_drawn_J
+    every = [found.trace(ours, hand) for hand in range(ours.hands)]
+    assert max(map(drawn, every)) == ours.most_drawn_J
+    assert max(trace["law.starved"].max() for trace in every) == ours.longest_held_back_s
+
+
+def test_a_hand_that_is_held_back_is_the_worst_of_its_row() -> None:
+    """Walls ten times as stiff as the law is made for, at four samples of delay."""
+    found = random_worlds(
+        kinds=["balls"], devices=["2-axes"], stiffnesses=[100e3], delays=[4], moving=True, hands=5
+    )
+    [row] = found.rows
+    assert row.held_back
+    assert found.trace(row)["law.starved"].max() == row.longest_held_back_s
+    assert (row.longest_held_back_s or 0) > HELD_BACK
+
+
+def test_threads_more_hands_and_other_rows_change_no_hand() -> None:
+    few = random_worlds(kinds=["balls"], devices=["2-axes"], hands=3, moving=True, threads=1)
+    more = random_worlds(
+        ("direct", "ebac"), kinds=["planes", "balls"], devices=["gimbal", "2-axes"], delays=[2, 1],
+        hands=4, moving=True, threads=3,
+    )  # fmt: skip
+    same = next(
+        i
+        for i, row in enumerate(more.rows)
+        if (row.kind, row.device, row.delay_samples, row.law) == ("balls", "2-axes", 1, "ebac")
+    )
+    assert (more.drawn_J[same][:3] == few.drawn_J[0]).all()
+    assert more.scenario(more.rows[same], 2) == few.scenario(few.rows[0], 2)
+    again = random_worlds(
+        kinds=["balls"], devices=["2-axes"], hands=3, moving=True, threads=3, seed=1
+    )
+    assert again.rows == few.rows
+    assert again.scenario(again.rows[0], 0) != random_scenario(
+        "balls", "2-axes", 0, moving=True, seed=2
+    )
+
+
+@given(cell, st.integers(0, 2**31 - 1))
+@settings(max_examples=60)
+def test_a_hand_begins_in_free_space_and_moves_in_the_same_world(
+    where: tuple[str, str, int], seed: int
+) -> None:
+    still, moving = (random_scenario(*where, moving=moving, seed=seed) for moving in (False, True))
+    world, swinging = still.environment, moving.environment
+    assert isinstance(world, ebac.worlds.World)
+    assert isinstance(swinging, ebac.worlds.World)
+    around = 0.9e-3 * np.vstack([np.zeros(3), np.eye(3), -np.eye(3)])
+    assert not any(touch.force.any() for place in around for touch in world.walk(place))
+    assert still.hand == moving.hand
+    assert [body.solid for body in world.bodies] == [body.solid for body in swinging.bodies]
+    assert all(body.motion.still() for body in world.bodies)
+    assert not any(body.motion.still() for body in swinging.bodies)
+
+
+@given(cell, st.booleans())
+@settings(max_examples=25)
+def test_nothing_is_drawn_from_surfaces_so_soft_that_they_are_passive(
+    where: tuple[str, str, int], moving: bool
+) -> None:
+    """Without a law; at 300 N/m the damping of the device makes up for sampling and delay."""
+    scenario = random_scenario(*where, stiffness=300.0, moving=moving)
+    assert passive_ceiling(scenario.device, scenario.timing) > 4 * 300
+    assert drawn(ebac.simulate(scenario, "direct")) < 1e-5
+
+
+def test_what_moving_bodies_do_is_not_drawn() -> None:
+    found = random_worlds(
+        ["direct"], kinds=["planes"], devices=["2-axes"], stiffnesses=[300.0], moving=True, hands=40
+    )
+    [row] = found.rows
+    least = min(found.trace(row, i)["true.energy"].sum(axis=1).min() for i in range(row.hands))
+    assert least < -1e-3
+    assert row.most_drawn_J < 1e-5
+
+
+class Pushes:
+    """A law in Python that pushes the handle on for as long as it is touched, with a fault in some hands."""
+
+    def reset(self) -> None:
+        pass
+
+    def step(self, port: ebac.Port) -> float:
+        return float("nan") if port.f_env > 20 else port.f_env
+
+
+def test_a_fault_is_counted_and_its_hand_is_the_worst() -> None:
+    found = random_worlds([Pushes()], kinds=["planes"], devices=["2-axes"], hands=4)
+    [row] = found.rows
+    assert 0 < row.faults < 4
+    assert found.trace(row)["fault"].any()
+    assert found.trace(row)["t"][-1] < 4
+
+
+def test_it_is_printed_and_drawn(found: RandomWorlds) -> None:
+    shown = repr(found)
+    assert "5 random hands a row in worlds of still bodies, simulated" in shown
+    assert "most drawn [mJ]" in shown
+    assert len(shown.splitlines()) < 20
+    figure = plot_random_worlds(found)
+    assert [ax.get_title() for ax in figure.axes] == ["planes", "cavity"]
+    for ax in figure.axes:
+        direct, ours, reserve = ax.lines
+        assert (np.diff(np.asarray(direct.get_ydata())) <= 0).all()
+        assert np.asarray(reserve.get_xdata())[0] == 2.0
+        assert np.asarray(ours.get_ydata())[-1] == 0
+
+
+@pytest.mark.parametrize(
+    ("given", "kind", "says"),
+    [
+        ({"kinds": ["ball"]}, ValueError, "kind ball: no such name, did you mean 'balls'"),
+        ({"kinds": "balls"}, ValueError, "kinds = 'balls': must be a sequence of one at least"),
+        ({"devices": ["reference"]}, ValueError, "there are: 2-axes, 3-axes, gimbal"),
+        ({"delays": ()}, ValueError, r"delays = \(\): must be a sequence of one at least"),
+        ({"stiffnesses": [-1]}, ValueError, "stiffness = -1 N/m: must lie in"),
+        ({"hands": 0}, ValueError, r"hands = 0: must lie in \[1, 100000\]"),
+        ({"hands": 1.5}, TypeError, "hands = 1.5: must be a whole number"),
+        ({"seed": -1}, ValueError, r"seed = -1: must lie in \[0, 2147483647\]"),
+        ({"threads": 0}, ValueError, r"threads = 0: must lie in \[1, 1024\]"),
+        ({"moving": "still"}, TypeError, "moving=True or False, not 'still'"),
+        ({"laws": ()}, ValueError, "no law given"),
+    ],
+)
+def test_what_cannot_be_is_refused_before_any_run(
+    given: dict[str, Any], kind: type[Exception], says: str
+) -> None:
+    with pytest.raises(kind, match=says):
+        random_worlds(**given)
+
+
+def test_the_command_prints_a_table_and_the_way_to_see_a_hand_again(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    call = "random-worlds --kind planes --device 2-axes --hands 3 --law direct,ebac"
+    answer = CliRunner().invoke(app, call.split(), env={"COLUMNS": "100"})
+    assert answer.exit_code == 0, answer.output
+    text = " ".join(answer.output.split())
+    assert "held back" in text
+    assert "direct: of 3 runs the worst drew" in text
+    assert "ebac: of 3 runs 0 were held back for longer than 0.1 s" in text
+    assert "0 drew more than the reserve of 2.00 mJ" in text
+    assert "the bodies stand still" in text
+    replay = "wall --law ebac --scenario ebac-random-worlds/worst-ebac-planes.toml"
+    assert replay in answer.output
+    assert {file.name for file in Path("ebac-random-worlds").iterdir()} == {
+        "random-worlds.json", "random-worlds.csv", "random-worlds.png",
+        "worst-direct-planes.toml", "worst-ebac-planes.toml",
+    }  # fmt: skip
+    again = CliRunner().invoke(app, [*replay.split(), "--json"])
+    assert again.exit_code == 0, again.output
+    [row] = json.loads(again.stdout)["rows"]
+    assert row["least_energy_J"] <= 0
+
+
+def test_the_command_prints_the_same_as_json(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    call = "random-worlds --kind balls,cavity --device gimbal --hands 2 --moving --delay 0 --json"
+    answer = CliRunner().invoke(app, call.split())
+    assert answer.exit_code == 0, answer.output
+    document = json.loads(answer.stdout)
+    assert document["moving"] is True
+    assert (document["noise_N"], document["seed"]) == (0.03, 1)
+    found = random_worlds(
+        kinds=["balls", "cavity"], devices=["gimbal"], hands=2, moving=True, delays=[0]
+    )
+    assert document["rows"] == found.table()
+    assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize(
+    ("call", "says"),
+    [
+        ("--kind ball", "--kind ball: no such name, did you mean 'balls' or 'ball-and-plane'"),
+        ("--kind ,", "--kind: is empty; there are: planes"),
+        ("--device joystick", "--device joystick: no such name; there are: 2-axes"),
+        ("--stiffness -1", "--stiffness = -1 N/m: must lie in [0, 1e+07] N/m"),
+        ("--delay 9", "--delay = 9 samples: must lie in [0, 8] samples"),
+        ("--device-noise -1", "--device-noise = -1 N: must lie in [0, 100] N"),
+        ("--hands 0", "--hands = 0: must lie in [1, 100000]"),
+        ("--law best", "--law best"),
+    ],
+)
+def test_what_cannot_be_is_refused_by_its_option(
+    call: str, says: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    answer = CliRunner().invoke(app, ["random-worlds", *call.split()])
+    assert answer.exit_code == 2
+    assert says in " ".join(answer.output.split())
+    assert not list(tmp_path.iterdir())
+
+
+def test_a_shell_completes_kinds_and_devices() -> None:
+    assert completion.world_kinds("ba") == ["balls", "ball-and-plane"]
+    assert completion.world_devices("") == ["2-axes", "3-axes", "gimbal"]
