@@ -169,7 +169,10 @@ def test_it_is_printed_and_drawn(found: RandomWorlds) -> None:
     assert "most drawn [mJ]" in shown
     assert len(shown.splitlines()) < 20
     figure = plot_random_worlds(found)
-    assert [ax.get_title() for ax in figure.axes] == ["planes", "cavity"]
+    assert [ax.get_title() for ax in figure.axes] == [
+        "two planes",
+        "a cylinder in a round cavity",
+    ]
     for ax in figure.axes:
         direct, ours, reserve = ax.lines
         assert (np.diff(np.asarray(direct.get_ydata())) <= 0).all()

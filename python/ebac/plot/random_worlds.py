@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ebac.plot.style import Picture, colour, dress, figure_legend, new_figure
+from ebac.plot.style import Numbers, Picture, colour, dress, figure_legend, new_figure
+from ebac.studies.world_kinds import KINDS
 
 if TYPE_CHECKING:
     from ebac.studies.random_worlds import RandomWorlds
@@ -44,7 +45,7 @@ def plot_random_worlds(found: RandomWorlds) -> Picture:
         dress(ax, "")
         ax.set_xscale("log")
         ax.set_xlim(LEAST, top)
-        ax.set_title(kind, fontsize="medium")
+        ax.set_title(KINDS[kind].summary, fontsize="medium")
         ax.set_xlabel("energy [mJ]")
     panels[0].set_ylim(-2, 102)
     panels[0].set_ylabel("hands that draw more [%]")
@@ -57,7 +58,7 @@ def plot_random_worlds(found: RandomWorlds) -> Picture:
     return figure
 
 
-def _energies(found: RandomWorlds, kind: str, law: str) -> np.ndarray:
+def _energies(found: RandomWorlds, kind: str, law: str) -> Numbers:
     """Return what each hand drew [mJ], sorted."""
     of_rows = zip(found.rows, found.drawn_J, strict=True)
     return 1e3 * np.sort(np.concatenate([e for r, e in of_rows if (r.kind, r.law) == (kind, law)]))

@@ -128,8 +128,6 @@ KINDS: dict[str, WorldKind] = {
         WorldKind(name="balls", summary="two balls of the same radius", draw=_balls),
         WorldKind(name="ball-and-plane", summary="a ball and a plane", draw=_ball_and_plane),
         WorldKind(name="three-planes", summary="three planes", draw=_three_planes),
-        WorldKind(
-            name="cavity", summary="a round cavity, felt from inside, with a cylinder in it", draw=_cavity
-        ),
+        WorldKind(name="cavity", summary="a cylinder in a round cavity", draw=_cavity),
     )
-}  # fmt: skip
+}
