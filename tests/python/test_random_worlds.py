@@ -145,6 +145,12 @@ def test_what_moving_bodies_do_is_not_drawn() -> None:
     assert row.most_drawn_J < 1e-5
 
 
+def test_the_damper_of_a_law_at_a_surface_that_recedes_is_no_work_of_the_surface() -> None:
+    """It brakes the handle that follows; taken as work of the surface, 9 mJ would seem to be drawn."""
+    scenario = random_scenario("ball-and-plane", "gimbal", 341, moving=True)
+    assert drawn(ebac.simulate(scenario, "ebac")) == 0
+
+
 class Pushes:
     """A law in Python that pushes the handle on for as long as it is touched, with a fault in some hands."""
 
