@@ -60,6 +60,7 @@ def test_ebac_holds_no_hand_back_and_direct_gives_energy_out(found: RandomWorlds
         direct.reserve_J,
     )
     assert no_guard == (None,) * 4
+    assert np.isnan(found.held_back_s[0]).all()
 
 
 def test_the_worst_hand_of_a_row_is_simulated_again(found: RandomWorlds, tmp_path: Path) -> None:
@@ -82,7 +83,9 @@ def test_a_hand_that_is_held_back_is_the_worst_of_its_row() -> None:
     [row] = found.rows
     assert row.held_back
     assert found.trace(row)["law.starved"].max() == row.longest_held_back_s
-    assert (row.longest_held_back_s or 0) > HELD_BACK
+    [times] = found.held_back_s
+    assert times.max() == times[row.worst_hand] == row.longest_held_back_s
+    assert (times > HELD_BACK).sum() == row.held_back
 
 
 def test_threads_more_hands_and_other_rows_change_no_hand() -> None:

@@ -96,8 +96,9 @@ class RandomWorlds:
         Of all hands.
     laws : dict of str to law
         By the names in the rows.
-    drawn_J : tuple of array, each of shape (hands,)
-        Energy that each hand of a row drew, in the order of `rows`.
+    drawn_J, held_back_s : tuple of array, each of shape (hands,)
+        Energy that each hand of a row drew, and the longest time for which it was held back, in the order of `rows`;
+        the time is NaN for a law without a guard.
     """
 
     rows: tuple[RandomWorldRow, ...]
@@ -106,6 +107,7 @@ class RandomWorlds:
     seed: int
     laws: dict[str, AnyLaw]
     drawn_J: tuple[NDArray[np.float64], ...] = field(compare=False)
+    held_back_s: tuple[NDArray[np.float64], ...] = field(compare=False)
 
     def table(self) -> list[dict[str, Any]]:
         """Return the rows as dictionaries, units in the keys."""
@@ -242,7 +244,7 @@ def random_worlds(
         for first in firsts
     ]
     rows: list[RandomWorldRow] = []
-    drawn: list[NDArray[np.float64]] = []
+    hand_by_hand: list[list[_Run]] = []
     total = len(cells) * len(named) * hands
     with _threads(workers) as executor:
         for cell, make, ready in zip(cells, makers, made, strict=True):
@@ -255,9 +257,17 @@ def random_worlds(
                     if progress is not None:
                         progress(len(rows) * hands + len(runs), total)
                 rows.append(_row(cell, name, law, runs))
-                drawn.append(np.array([run.drawn_J for run in runs]))
+                hand_by_hand.append(runs)
     return RandomWorlds(
-        rows=tuple(rows), moving=moving, noise_N=noise, seed=seed, laws=named, drawn_J=tuple(drawn)
+        rows=tuple(rows),
+        moving=moving,
+        noise_N=noise,
+        seed=seed,
+        laws=named,
+        drawn_J=tuple(np.array([run.drawn_J for run in runs]) for runs in hand_by_hand),
+        held_back_s=tuple(
+            np.array([run.held_back_s for run in runs], float) for runs in hand_by_hand
+        ),
     )
 
 
