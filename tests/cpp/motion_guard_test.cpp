@@ -20,13 +20,14 @@ constexpr double kPull = 20;        // N
 constexpr double kB = kDamping / kTick;
 
 /// Largest energy a force gives out over a displacement within `reach` of `step`, by trying them
-/// all.
-double worst(double force, double step, double reach) {
+/// all, with what a surface takes that yields to it by `way`.
+double worst(double force, double step, double reach, double way) {
   constexpr int kTries = 4000;
+  const double yielded = std::max(0.0, force * way);
   double most = 0;
   for (int i = -kTries; i <= kTries; ++i) {
     const double s = step + reach * i / kTries;
-    most = std::max(most, -force * s - kB * s * s);
+    most = std::max(most, yielded - force * s - kB * s * s);
   }
   return most;
 }
@@ -34,14 +35,14 @@ double worst(double force, double step, double reach) {
 /// What the guard has to cover: every force as it is behind the current loop, and after the last
 /// command what the loop still gives out until nothing is left.
 double need(double force, double asked, const CommandsInFlight& in_flight, LaggedForce lagged,
-            double v) {
+            double v, double surface) {
   const double largest = std::max(in_flight.largest_with(force), std::abs(lagged.force()));
   const double most = std::max({in_flight.largest_with(asked), std::abs(lagged.force())});
   const double jump = (kPull + most) / kMass * kTick * kTick;
   double sum = kCount * largest;
   int interval = 0;
   const auto hold = [&](double command) {
-    sum += worst(lagged.hold(command), v * kTick, ++interval * jump);
+    sum += worst(lagged.hold(command), v * kTick, ++interval * jump, surface * kTick);
   };
   for (int j = 0; j < in_flight.size(); ++j) hold(in_flight[j]);
   hold(force);
@@ -73,15 +74,17 @@ TEST_P(Guard, AdmitsTheLargestForceTheEnergyCovers) {
     const LaggedForce lagged = lagged_force(lag(), 15 * random.normal());
     const double asked = 20 * random.normal();
     const double v = 0.3 * random.normal();
+    const double surface = i % 2 == 0 ? 0 : 0.1 * random.normal();  // m/s
     const double energy = 0.02 * (1 + random.symmetric());
-    const double given = guard.admit(asked, in_flight, lagged, energy, v, kPull);
+    const double given = guard.admit(asked, in_flight, lagged, energy, v, kPull, surface);
 
     ASSERT_LE(std::abs(given), std::abs(asked));
     ASSERT_GE(given * asked, 0);
     if (given == 0) continue;
-    ASSERT_LE(need(given, asked, in_flight, lagged, v), energy * (1 + 1e-6));  // covered
+    ASSERT_LE(need(given, asked, in_flight, lagged, v, surface), energy * (1 + 1e-6));  // covered
     if (given != asked && lag() == 0) {  // and not by a hair less
-      ASSERT_GT(need(given * (1 + 1e-3), asked, in_flight, lagged, v), energy * (1 - 1e-3));
+      ASSERT_GT(need(given * (1 + 1e-3), asked, in_flight, lagged, v, surface),
+                energy * (1 - 1e-3));
     }
   }
 }
@@ -96,11 +99,12 @@ TEST_P(Guard, TheCheapTestNeverAdmitsMoreThanTheExactOne) {
     const LaggedForce lagged = lagged_force(lag(), 10 * random.normal());
     const double asked = 10 * random.normal();
     const double v = 0.1 * random.normal();
+    const double surface = i % 2 == 0 ? 0 : 0.1 * random.normal();  // m/s
     const double energy = 0.03 * (1 + random.symmetric());
-    if (!guard.surely_admits(asked, in_flight, lagged, energy, std::abs(v) * kTick, kPull))
+    if (!guard.surely_admits(asked, in_flight, lagged, energy, std::abs(v) * kTick, kPull, surface))
       continue;
     ++admitted;
-    ASSERT_EQ(guard.admit(asked, in_flight, lagged, energy, v, kPull), asked);
+    ASSERT_EQ(guard.admit(asked, in_flight, lagged, energy, v, kPull, surface), asked);
   }
   EXPECT_GT(admitted, rounds(1000));
 }

@@ -88,6 +88,17 @@ def test_a_hand_that_is_held_back_is_the_worst_of_its_row() -> None:
     assert (times > HELD_BACK).sum() == row.held_back
 
 
+@pytest.mark.parametrize(
+    "where", [("planes", "2-axes", 321), ("three-planes", "gimbal", 66), ("cavity", "2-axes", 6)]
+)
+def test_a_hand_that_follows_a_yielding_surface_keeps_it(where: tuple[str, str, int]) -> None:
+    """The first two had lost it for 4 s: the guard set aside what the wall takes, at a force it then did not allow."""
+    scenario = random_scenario(*where, stiffness=20e3, delay=2, moving=True)
+    trace = ebac.simulate(scenario, "ebac")
+    assert trace["law.starved"].max() <= HELD_BACK
+    assert drawn(trace) == 0
+
+
 def test_threads_more_hands_and_other_rows_change_no_hand() -> None:
     few = random_worlds(kinds=["balls"], devices=["2-axes"], hands=3, moving=True, threads=1)
     more = random_worlds(

@@ -81,17 +81,17 @@ class EbacByEncoder {
   /// Step 7: what the ledger can pay for, of that.
   double guarded(double wanted, const Port& port, EbacShared& shared) EBAC_RT {
     if (!shared.params.guard) return wanted;
-    const double energy = shared.to_spend(wanted, port);
+    const double energy = to_spend(wanted, port, shared);
     const double step =
         std::abs(port.dx) + shared.params.count;  // no window slopes by more than this
     const double pull = at_rest(port) ? shared.pull_shown(wanted, port) : shared.params.pull;
-    if (guard_.surely_admits(wanted, shared.in_flight, shared.ledger.lagged(), energy, step,
-                             pull)) {
+    if (guard_.surely_admits(wanted, shared.in_flight, shared.ledger.lagged(), energy, step, pull,
+                             kStill)) {
       return wanted;
     }
     const double v = adaptive_slope(readings_, kWindow, shared.params.count);
     const double command =
-        guard_.admit(wanted, shared.in_flight, shared.ledger.lagged(), energy, v, pull);
+        guard_.admit(wanted, shared.in_flight, shared.ledger.lagged(), energy, v, pull, kStill);
     if (command != wanted) {
       shared.limited(command, wanted);
       take_back(command, shared);
@@ -110,6 +110,16 @@ class EbacByEncoder {
   static constexpr double kFloor = 0.5;   // of c_h: slope that continuity always allows
   static constexpr double kYield = 0.01;  // s, F_d follows a command the guard holds back
   static constexpr int kWindow = 16;      // samples, velocity the guard counts with
+  static constexpr double kStill = 0;     // m/s, what `to_spend` has set aside for
+
+  /// What the ledger has for the guard, which here knows no velocity that lets it see a hand follow: a surface that
+  /// yields takes its share of the energy until the command has acted.
+  static double to_spend(double wanted, const Port& port, const EbacShared& shared) EBAC_RT {
+    const double yields = std::copysign(port.world_v, port.world_v * wanted);
+    if (!(yields > 0)) return shared.ledger.energy();
+    const double time = (shared.timing.delay + 1) * port.dt + shared.params.current_lag;
+    return shared.ledger.energy() - shared.in_flight.largest_with(wanted) * yields * time;
+  }
 
   /// The observer was given up for the account, in a contact at rest.
   static bool at_rest(const Port& port) EBAC_RT {

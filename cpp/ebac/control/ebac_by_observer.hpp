@@ -66,13 +66,13 @@ class EbacByObserver {
     if (!shared.params.guard || wanted == 0) return wanted;
     const double pull = shared.pull_shown(wanted, port);
     const double v = port.est.v;
-    const double energy = shared.to_spend(wanted, port);
+    const double energy = shared.ledger.energy();
     if (guard_.surely_admits(wanted, shared.in_flight, shared.ledger.lagged(), energy,
-                             std::abs(v) * port.dt, pull)) {
+                             std::abs(v) * port.dt, pull, port.world_v)) {
       return wanted;
     }
-    const double command =
-        guard_.admit(wanted, shared.in_flight, shared.ledger.lagged(), energy, v, pull);
+    const double command = guard_.admit(wanted, shared.in_flight, shared.ledger.lagged(), energy, v,
+                                        pull, port.world_v);
     if (command != wanted) shared.limited(command, wanted);
     return command;
   }

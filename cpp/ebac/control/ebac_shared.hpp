@@ -56,15 +56,6 @@ struct EbacShared {
     return mean * port.dt;
   }
 
-  /// What the ledger has for the guard: a surface that yields takes its share of the energy until
-  /// the command has acted.
-  double to_spend(double wanted, const Port& port) const EBAC_RT {
-    const double yields = std::copysign(port.world_v, port.world_v * wanted);
-    if (!(yields > 0)) return ledger.energy();
-    const double time = (timing.delay + 1) * port.dt + params.current_lag;
-    return ledger.energy() - in_flight.largest_with(wanted) * yields * time;
-  }
-
   /// Largest pull of the hand against `wanted` until the command has acted, from what the force sensor shows [N].
   double pull_shown(double wanted, const Port& port) const EBAC_RT {
     const double shown = std::max(0.0, wanted > 0 ? -port.f_meas : port.f_meas);
