@@ -14,10 +14,11 @@ from typer.testing import CliRunner
 
 import ebac
 from ebac.cli import app, completion
+from ebac.metrics.energy_drawn import drawn
 from ebac.plot import plot_random_worlds
 from ebac.studies import RandomWorlds, random_worlds
 from ebac.studies.random_scenario import DEVICES, random_scenario
-from ebac.studies.random_worlds import HELD_BACK, drawn
+from ebac.studies.random_worlds import HELD_BACK
 from ebac.studies.world_kinds import KINDS
 from ebac.studies.zwidth import passive_ceiling
 
@@ -88,11 +89,9 @@ def test_a_hand_that_is_held_back_is_the_worst_of_its_row() -> None:
     assert (times > HELD_BACK).sum() == row.held_back
 
 
-@pytest.mark.parametrize(
-    "where", [("planes", "2-axes", 321), ("three-planes", "gimbal", 66), ("cavity", "2-axes", 6)]
-)
+@pytest.mark.parametrize("where", [("planes", "2-axes", 321), ("three-planes", "gimbal", 66)])
 def test_a_hand_that_follows_a_yielding_surface_keeps_it(where: tuple[str, str, int]) -> None:
-    """The first two had lost it for 4 s: the guard set aside what the wall takes, at a force it then did not allow."""
+    """Both had lost it for 4 s: the guard set aside what the wall takes, at a force it then did not allow."""
     scenario = random_scenario(*where, stiffness=20e3, delay=2, moving=True)
     trace = ebac.simulate(scenario, "ebac")
     assert trace["law.starved"].max() <= HELD_BACK

@@ -86,12 +86,12 @@ class EbacByEncoder {
         std::abs(port.dx) + shared.params.count;  // no window slopes by more than this
     const double pull = at_rest(port) ? shared.pull_shown(wanted, port) : shared.params.pull;
     if (guard_.surely_admits(wanted, shared.in_flight, shared.ledger.lagged(), energy, step, pull,
-                             kStill)) {
+                             /*surface=*/0)) {
       return wanted;
     }
     const double v = adaptive_slope(readings_, kWindow, shared.params.count);
-    const double command =
-        guard_.admit(wanted, shared.in_flight, shared.ledger.lagged(), energy, v, pull, kStill);
+    const double command = guard_.admit(wanted, shared.in_flight, shared.ledger.lagged(), energy, v,
+                                        pull, /*surface=*/0);
     if (command != wanted) {
       shared.limited(command, wanted);
       take_back(command, shared);
@@ -110,7 +110,6 @@ class EbacByEncoder {
   static constexpr double kFloor = 0.5;   // of c_h: slope that continuity always allows
   static constexpr double kYield = 0.01;  // s, F_d follows a command the guard holds back
   static constexpr int kWindow = 16;      // samples, velocity the guard counts with
-  static constexpr double kStill = 0;     // m/s, what `to_spend` has set aside for
 
   /// What the ledger has for the guard, which here knows no velocity that lets it see a hand follow: a surface that
   /// yields takes its share of the energy until the command has acted.

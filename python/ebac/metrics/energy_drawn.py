@@ -1,0 +1,40 @@
+"""Energy that a hand draws out of the port of a world that may move."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ebac.trace import Trace
+
+
+def drawn(trace: Trace) -> float:
+    """Return the energy that a hand drew beyond all it had put in and beyond what moving surfaces did [J].
+
+    Minus the least port energy less the work of the surfaces, at least 0. The work is that of eq. (moving) in
+    :doc:`/explanation/theory`: what was applied of the force that the world had asked for, over the motion that it
+    reported. Bodies that press the handle from opposite sides do work without a force that is left; that work is in
+    the number, as if the hand had drawn it.
+
+    Parameters
+    ----------
+    trace : Trace
+        A simulated run of any number of axes.
+
+    Raises
+    ------
+    ValueError
+        For a trace without its scenario.
+    """
+    if trace.scenario is None:
+        raise ValueError("the trace has no scenario: drawn needs the delay; simulate it")
+    rows, late = len(trace), trace.scenario.timing.delay + 1
+    energy, applied, force, speed = (
+        trace[name].reshape(rows, -1) for name in ("true.energy", "f_applied", "f_env", "world_v")
+    )
+    asked = np.concatenate([np.zeros_like(force[:late]), force[:-late]])
+    size = np.linalg.norm(asked, axis=1)
+    along = asked / np.where(size > 0, size, 1.0)[:, None]
+    given = np.clip((applied * along).sum(axis=1), 0.0, size)
+    motion = (along[1:] * (speed[1:] + speed[:-1]) / 2).sum(axis=1)
+    work = np.concatenate([[0.0], np.cumsum(given[1:] * motion * np.diff(trace["t"]))])
+    return max(0.0, -float((energy.sum(axis=1) - work).min()))
