@@ -18,7 +18,7 @@ from ebac.metrics.energy_drawn import drawn
 from ebac.plot import plot_random_worlds
 from ebac.studies import RandomWorlds, random_worlds
 from ebac.studies.random_scenario import DEVICES, random_scenario
-from ebac.studies.random_worlds import HELD_BACK
+from ebac.studies.random_worlds_result import HELD_BACK
 from ebac.studies.world_kinds import KINDS
 from ebac.studies.zwidth import passive_ceiling
 
@@ -188,23 +188,26 @@ def test_it_is_printed_and_drawn(found: RandomWorlds) -> None:
     assert "most drawn [mJ]" in shown
     assert len(shown.splitlines()) < 20
     figure = plot_random_worlds(found)
-    assert [ax.get_title() for ax in figure.axes] == [
-        "two planes",
-        "a cylinder in a round cavity",
-    ]
-    for ax in figure.axes:
+    above, below = figure.axes[:2], figure.axes[2:]
+    assert [ax.get_title() for ax in above] == ["two planes", "a cylinder in a round cavity"]
+    for ax in above:
         direct, ours, reserve = ax.lines
         assert (np.diff(np.asarray(direct.get_ydata())) <= 0).all()
         assert np.asarray(reserve.get_xdata())[0] == 2.0
         assert np.asarray(ours.get_ydata())[-1] == 0
+    for ax in below:
+        ours, counted = ax.lines  # `direct` has no guard
+        assert np.asarray(ours.get_ydata())[-1] == 0
+        assert np.asarray(counted.get_xdata())[0] == HELD_BACK
+    assert len(plot_random_worlds(random_worlds("direct", hands=1)).axes) == 5
 
 
 @pytest.mark.parametrize(
     ("given", "kind", "says"),
     [
-        ({"kinds": ["ball"]}, ValueError, "kind ball: no such name, did you mean 'balls'"),
+        ({"kinds": ["ball"]}, KeyError, "no kind of world is called 'ball', did you mean 'balls'"),
         ({"kinds": "balls"}, ValueError, "kinds = 'balls': must be a sequence of one at least"),
-        ({"devices": ["reference"]}, ValueError, "there are: 2-axes, 3-axes, gimbal"),
+        ({"devices": ["reference"]}, KeyError, "there are: 2-axes, 3-axes, gimbal"),
         ({"delays": ()}, ValueError, r"delays = \(\): must be a sequence of one at least"),
         ({"stiffnesses": [-1]}, ValueError, "stiffness = -1 N/m: must lie in"),
         ({"hands": 0}, ValueError, r"hands = 0: must lie in \[1, 100000\]"),

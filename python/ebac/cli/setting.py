@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -202,15 +202,17 @@ def given(**options: Any) -> dict[str, Any]:
 
 def known_hand(name: str, option: str = "--hand") -> Hand:
     """Return the hand of a name, in any case."""
-    return presets.hand(_known("hand", option, name, list(presets.HANDS)))
+    return presets.hand(known_name("hand", option, name, list(presets.HANDS)))
 
 
 def known_device(name: str, option: str = "--device") -> Device:
     """Return the device of a name, in any case."""
-    return presets.device(_known("device", option, name, list(presets.DEVICES)))
+    return presets.device(known_name("device", option, name, list(presets.DEVICES)))
 
 
-def _known(kind: str, option: str, name: str, names: list[str]) -> str:
+def known_name(kind: str, option: str, name: str, names: Iterable[str]) -> str:
+    """Return a name in lower case that is one of `names`; ValueError names the option and the nearest."""
+    names = list(names)
     if name.lower() not in names:
         raise ValueError(unknown(f"{option} {name}", name.lower(), names, kind))
     return name.lower()

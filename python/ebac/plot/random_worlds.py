@@ -1,23 +1,25 @@
-"""Random hands in random worlds: how many hands draw more than an energy."""
+"""Random hands in random worlds: how many draw more than an energy, and are held back for longer than a time."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ebac.plot.style import Numbers, Picture, colour, dress, figure_legend, new_figure
+from ebac.studies.random_worlds_result import HELD_BACK
 from ebac.studies.world_kinds import KINDS
 
 if TYPE_CHECKING:
-    from ebac.studies.random_worlds import RandomWorlds
+    from ebac.studies.random_worlds_result import RandomWorlds
 
-#: Ends of the axis of energy [mJ], the upper one at least.
+#: Ends of the axis of energy [mJ], the upper one at least; of that of time [s], in which a run lasts 4 s.
 LEAST, TOP = 1e-3, 10.0
+SHORTEST, LONGEST = 1e-3, 4.0
 
 
 def plot_random_worlds(found: RandomWorlds) -> Picture:
-    """Draw a panel for each kind of world, a line for each law: the share of hands that draw more than an energy.
+    """Draw a column for each kind of world, a line for each law: shares of hands, all devices and delays together.
 
     Parameters
     ----------
@@ -27,29 +29,31 @@ def plot_random_worlds(found: RandomWorlds) -> Picture:
     Returns
     -------
     Figure
-        Hands with all devices, stiffnesses and delays together; the reserve of a law as a vertical line.
+        Above, the share of hands that draw more than an energy, with the reserve of a law as a vertical line. Below,
+        where a law has a guard, the share that it holds back for longer than a time, with the time that is counted.
     """
     kinds = list(dict.fromkeys(row.kind for row in found.rows))
-    figure = new_figure(1.0 + 2.2 * len(kinds), 3.0)
-    panels = figure.subplots(1, len(kinds), squeeze=False, sharey=True)[0]
-    top = max(TOP, 2e3 * max(row.most_drawn_J for row in found.rows))
-    for ax, kind in zip(panels, kinds, strict=True):
-        for law in found.laws:
-            energies = _energies(found, kind, law)
-            shown = energies[energies > LEAST]
-            more = np.arange(len(shown), -1, -1) / len(energies)
-            x, y = np.concatenate([[LEAST], shown, [top]]), 100 * np.append(more, 0.0)
-            ax.step(x, y, where="post", color=colour(law), label=law)
+    guarded = any(row.held_back is not None for row in found.rows)
+    figure = new_figure(1.0 + 2.2 * len(kinds), 5.2 if guarded else 3.0)
+    panels = figure.subplots(1 + guarded, len(kinds), squeeze=False, sharey="row")
+    energies = tuple(1e3 * drawn for drawn in found.drawn_J)
+    top = max(TOP, 2 * max(drawn.max() for drawn in energies))
+    for ax, kind in zip(panels[0], kinds, strict=True):
+        _exceed(ax, found, kind, energies, (LEAST, top))
         for reserve in {row.reserve_J for row in found.rows if row.reserve_J}:
             ax.axvline(1e3 * reserve, color="0.35", lw=1, ls="--", label="reserve")
-        dress(ax, "")
-        ax.set_xscale("log")
-        ax.set_xlim(LEAST, top)
         ax.set_title(KINDS[kind].summary, fontsize="medium")
         ax.set_xlabel("energy [mJ]")
-    panels[0].set_ylim(-2, 102)
-    panels[0].set_ylabel("hands that draw more [%]")
-    handles, labels = panels[0].get_legend_handles_labels()
+    panels[0, 0].set_ylabel("hands that draw more [%]")
+    handles, labels = panels[0, 0].get_legend_handles_labels()
+    if guarded:
+        for ax, kind in zip(panels[1], kinds, strict=True):
+            _exceed(ax, found, kind, found.held_back_s, (SHORTEST, LONGEST))
+            ax.axvline(HELD_BACK, color="0.35", lw=1, ls=":", label="counted from here")
+            ax.set_xlabel("time [s]")
+        panels[1, 0].set_ylabel("held back for longer [%]")
+        lines, names = panels[1, 0].get_legend_handles_labels()
+        handles, labels = [*handles, lines[-1]], [*labels, names[-1]]
     figure_legend(figure, handles, labels)
     bodies = "moving" if found.moving else "still"
     figure.suptitle(
@@ -58,7 +62,28 @@ def plot_random_worlds(found: RandomWorlds) -> Picture:
     return figure
 
 
-def _energies(found: RandomWorlds, kind: str, law: str) -> Numbers:
-    """Return what each hand drew [mJ], sorted."""
-    of_rows = zip(found.rows, found.drawn_J, strict=True)
-    return 1e3 * np.sort(np.concatenate([e for r, e in of_rows if (r.kind, r.law) == (kind, law)]))
+def _exceed(
+    ax: Any,
+    found: RandomWorlds,
+    kind: str,
+    of_rows: tuple[Numbers, ...],
+    ends: tuple[float, float],
+) -> None:
+    """Draw for each law the share of hands with a larger value than the axis says; none for a law without one."""
+    for law in found.laws:
+        of_law = [
+            v
+            for row, v in zip(found.rows, of_rows, strict=True)
+            if (row.kind, row.law) == (kind, law)
+        ]
+        values = np.sort(np.concatenate(of_law))
+        if np.isnan(values).any():
+            continue
+        shown = values[values > ends[0]]
+        more = np.arange(len(shown), -1, -1) / len(values)
+        x, y = np.concatenate([[ends[0]], shown, [ends[1]]]), 100 * np.append(more, 0.0)
+        ax.step(x, y, where="post", color=colour(law), label=law)
+    dress(ax, "")
+    ax.set_xscale("log")
+    ax.set_xlim(*ends)
+    ax.set_ylim(bottom=0.0)

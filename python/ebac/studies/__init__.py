@@ -5,7 +5,8 @@ from ebac.studies.conditions import CONDITIONS, GROUPS, Condition, conditions
 from ebac.studies.engines import EngineRow, Engines, engines
 from ebac.studies.hand_search import WorstHand
 from ebac.studies.measures import MEASURES, Measure
-from ebac.studies.random_worlds import RandomWorldRow, RandomWorlds, random_worlds
+from ebac.studies.random_worlds import random_worlds
+from ebac.studies.random_worlds_result import RandomWorldRow, RandomWorlds
 from ebac.studies.result import Failure, Study, StudyRow
 from ebac.studies.shapes import ShapeRow, Shapes, shapes
 from ebac.studies.study import study

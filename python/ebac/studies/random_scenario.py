@@ -8,9 +8,9 @@ from zlib import crc32
 import numpy as np
 
 from ebac._core import Device, ForceSensor, Gimbal, Hand, Linear, Sine, Swing, Timing
-from ebac._util.arguments import unknown
+from ebac._util.arguments import named
 from ebac.scenario import Scenario
-from ebac.studies.world_kinds import direction, find_kind
+from ebac.studies.world_kinds import KINDS, direction
 from ebac.worlds import Body, Elastic, World
 
 #: Devices by name: the reference device with more axes, and on the gimbal of the paper's joystick.
@@ -25,19 +25,6 @@ SECONDS = 4.0
 SWING, SWING_FREQUENCIES = 4e-3, (0.5, 3.0)
 #: Coulomb's coefficient; one world in three has friction.
 FRICTION = 0.4
-
-
-def find_device(name: str) -> Device:
-    """Return a device by its name.
-
-    Raises
-    ------
-    ValueError
-        For an unknown name; suggests the nearest.
-    """
-    if name not in DEVICES:
-        raise ValueError(unknown(f"device {name}", name, DEVICES))
-    return DEVICES[name]
 
 
 def random_scenario(
@@ -77,10 +64,13 @@ def random_scenario(
 
     Raises
     ------
+    KeyError
+        For an unknown kind or device.
     ValueError
-        For an unknown name or a number out of its range.
+        For a number out of its range.
     """
-    chosen, base = find_kind(kind), find_device(device)
+    chosen = named("kind of world", kind, KINDS)
+    base = named("device for random worlds", device, DEVICES)
     axes = base.axes
     random = np.random.Generator(np.random.PCG64([seed, crc32(f"{kind} {device}".encode()), index]))
     solids = chosen.draw(random, axes)

@@ -11,7 +11,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ebac._core import Cylinder, Plane, Sphere
-from ebac._util.arguments import unknown
 from ebac.worlds.solids import Cavity, Placed, Solid
 
 #: Least and largest angle between two directions [deg]: neither the same plane twice nor two planes face to face.
@@ -36,19 +35,6 @@ class WorldKind:
     name: str
     summary: str
     draw: Callable[[np.random.Generator, int], tuple[Solid, ...]]
-
-
-def find_kind(name: str) -> WorldKind:
-    """Return a kind by its name.
-
-    Raises
-    ------
-    ValueError
-        For an unknown name; suggests the nearest.
-    """
-    if name not in KINDS:
-        raise ValueError(unknown(f"kind {name}", name, KINDS))
-    return KINDS[name]
 
 
 def direction(random: np.random.Generator, axes: int) -> Vector:

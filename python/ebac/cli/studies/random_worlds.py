@@ -12,7 +12,7 @@ from ebac.cli import completion, options, output, setting
 from ebac.cli.files import ResultOptions
 
 if TYPE_CHECKING:
-    from ebac.studies.random_worlds import RandomWorldRow, RandomWorlds
+    from ebac.studies.random_worlds_result import RandomWorldRow, RandomWorlds
 
 _WORLD = "World"
 
@@ -143,7 +143,9 @@ def _names(option: str, given: list[str] | None, known: Iterable[str]) -> list[s
     """Return the names of lists separated by commas, each once; all that are known where none is given."""
     if given is None:
         return list(known)
-    names = [word.lower() for text in given for word in output.words(text)]
+    names = [
+        setting.known_name("", option, word, known) for text in given for word in output.words(text)
+    ]
     if not names:
         raise ValueError(f"{option}: is empty; there are: {', '.join(known)}")
     return list(dict.fromkeys(names))
