@@ -44,6 +44,7 @@ def plot_random_worlds(found: RandomWorlds) -> Picture:
             ax.axvline(1e3 * reserve, color="0.35", lw=1, ls="--", label="reserve")
         ax.set_title(KINDS[kind].summary, fontsize="medium")
         ax.set_xlabel("energy [mJ]")
+    panels[0, 0].set_ylim(-2, 102)
     panels[0, 0].set_ylabel("hands that draw more [%]")
     handles, labels = panels[0, 0].get_legend_handles_labels()
     if guarded:
@@ -51,6 +52,8 @@ def plot_random_worlds(found: RandomWorlds) -> Picture:
             _exceed(ax, found, kind, found.held_back_s, (SHORTEST, LONGEST))
             ax.axvline(HELD_BACK, color="0.35", lw=1, ls=":", label="counted from here")
             ax.set_xlabel("time [s]")
+        shares = [np.max(line.get_ydata()) for ax in panels[1] for line in ax.lines[:-1]]
+        panels[1, 0].set_ylim(-0.1, max(5.0, 1.05 * max(shares)))
         panels[1, 0].set_ylabel("held back for longer [%]")
         lines, names = panels[1, 0].get_legend_handles_labels()
         handles, labels = [*handles, lines[-1]], [*labels, names[-1]]
@@ -86,4 +89,3 @@ def _exceed(
     dress(ax, "")
     ax.set_xscale("log")
     ax.set_xlim(*ends)
-    ax.set_ylim(bottom=0.0)
