@@ -157,9 +157,13 @@ def test_a_sensor_that_falls_silent_fades_it_out_and_in_and_the_wall_holds(
     silent_at = part["t"][gone].min()
     # Back again. A machine that is busy may delay the force once more later, so not in the last tick.
     assert part["est.weight"][part["t"] > silent_at + 0.4].max() == 1
-    pressed = part["t"] > 2.0
-    # On a machine busy with other things it was 0.09 mm, three counts; else one or two.
-    assert np.ptp(part["x"][pressed, 0]) < ebac.metrics.STILL_SWING
+    pressed = part[2.0:]
+    # Where ticks are late, the force of the tick before moves the handle until the wall has brought it back: 0.3 mm,
+    # ten counts, on a machine busy with other things; else one or two counts.
+    shallow, deep = np.percentile(pressed["x"][:, 0], [5, 95])
+    assert deep - shallow < ebac.metrics.STILL_SWING
+    if pressed["lateness"].max() < 3e-4:  # s
+        assert np.ptp(pressed["x"][:, 0]) < ebac.metrics.STILL_SWING
     again = ebac.replay(tmp_path / "run.mcap", known.design())
     for name in ("est.x", "est.v_act", "est.weight", "est.fallback", "f_env", "f_cmd"):
         np.testing.assert_array_equal(again[name][: len(part)], part[name], err_msg=name)

@@ -175,9 +175,9 @@ def test_a_kill_loses_50_ms_of_rows_at_most(case: int, config: Path, tmp_path: P
         time.sleep(random.Random(case).uniform(0.0, 0.5))
         process.send_signal(signal.SIGKILL)
         at = time.time()
-    process.communicate(timeout=PATIENCE)
+    _, errors = process.communicate(timeout=PATIENCE)
     log = ebac.logs.read(path)
-    assert not log.condition.complete
+    assert not log.condition.complete, " ".join(errors.split())  # a fault was first
     assert log.condition.damaged == 0
     assert (np.diff(log.trace["tick"]) == 1).all()
     last = log.about.start_ns * 1e-9 + float(log.trace["t"][-1])
