@@ -35,7 +35,7 @@ from ebac.plot import (
     save,
 )
 from ebac.plot.save import balanced, fitted, millimetres
-from ebac.plot.style import BETTER, QUANTITIES, SAME, WORSE
+from ebac.plot.style import BETTER, OTHER_LAWS, QUANTITIES, SAME, WORSE, colours
 from ebac.studies import MEASURES, ablation, study, worst
 from ebac.studies.maps import stability_map
 from ebac.studies.zwidth import zwidth
@@ -226,19 +226,28 @@ def lab(shade: str, eye: str) -> NDArray[np.float64]:
 
 @pytest.mark.parametrize("eye", list(EYES))
 def test_every_eye_tells_the_laws_apart(eye: str) -> None:
-    for one, other in itertools.combinations(COLOURS.values(), 2):
+    for one, other in itertools.combinations([*COLOURS.values(), *OTHER_LAWS], 2):
         assert np.linalg.norm(lab(one, eye) - lab(other, eye)) > 15
     for one, other in itertools.combinations((BETTER, WORSE, SAME), 2):
         assert np.linalg.norm(lab(one, eye) - lab(other, eye)) > 15
 
 
+def test_laws_without_a_colour_of_their_own_get_different_ones() -> None:
+    shades = colours(["ebac", "mine", "ebac, kp=0", "tca-tuned", "mine"])
+    assert list(shades) == ["ebac", "mine", "ebac, kp=0", "tca-tuned"]
+    assert shades["ebac"] == COLOURS["ebac"]
+    assert shades["tca-tuned"] == COLOURS["tca"]
+    assert [shades["mine"], shades["ebac, kp=0"]] == [*OTHER_LAWS[:2]]
+    assert len(colours(map(str, range(6)))) == 6
+
+
 def test_pages_have_the_colours_of_the_figures(run: Run) -> None:
     pytest.importorskip("bokeh")
-    from ebac.explore.page import colours
+    from ebac.explore import page
 
     for law in ("tca", "ebac"):
         for panel in run(law, seconds=1.0).explore().panels:
-            shown = dict(zip(panel.names, colours(panel, law), strict=True))
+            shown = dict(zip(panel.names, page.colours(panel, law), strict=True))
             for name, shade in shown.items():
                 if name in ("true.x", "f_applied", "law.beta", "true.energy"):
                     assert shade == COLOURS[law]

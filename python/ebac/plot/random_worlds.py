@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ebac.plot.style import Numbers, Picture, colour, dress, figure_legend, new_figure
+from ebac.plot.style import Numbers, Picture, colours, dress, figure_legend, new_figure
 from ebac.studies.random_worlds_result import HELD_BACK
 from ebac.studies.world_kinds import KINDS
 
@@ -73,7 +73,7 @@ def _exceed(
     ends: tuple[float, float],
 ) -> None:
     """Draw for each law the share of hands with a larger value than the axis says; none for a law without one."""
-    for law in found.laws:
+    for law, shade in colours(found.laws).items():
         of_law = [
             v
             for row, v in zip(found.rows, of_rows, strict=True)
@@ -85,7 +85,7 @@ def _exceed(
         shown = values[values > ends[0]]
         more = np.arange(len(shown), -1, -1) / len(values)
         x, y = np.concatenate([[ends[0]], shown, [ends[1]]]), 100 * np.append(more, 0.0)
-        ax.step(x, y, where="post", color=colour(law), label=law)
+        ax.step(x, y, where="post", color=shade, label=law)
     dress(ax, "")
     ax.set_xscale("log")
     ax.set_xlim(*ends)

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from io import BytesIO
+from itertools import cycle
 from typing import Any
 
 import numpy as np
@@ -17,7 +18,9 @@ from ebac.metrics import ideal_rest
 from ebac.plot.legends import figure_legend, legend
 from ebac.trace import Trace
 
-OTHER_LAW = "#000000"
+#: Colours of laws that have none of their own: a user's, or one with other parameters.
+OTHER_LAWS = ("#000000", "#9933ff", "#664dcc", "#994d80")
+OTHER_LAW = OTHER_LAWS[0]
 #: One colour per quantity that is not the law's own, in figures and on pages alike.
 QUANTITIES = {
     "x": "#a6a6a6",
@@ -45,12 +48,14 @@ __all__ = [
     "IDEAL",
     "MOST_POINTS",
     "OTHER_LAW",
+    "OTHER_LAWS",
     "QUANTITIES",
     "SAME",
     "WORSE",
     "Numbers",
     "Picture",
     "colour",
+    "colours",
     "dress",
     "figure_legend",
     "landmarks",
@@ -99,6 +104,15 @@ def new_figure(width: float, height: float) -> Picture:
 def colour(law: str) -> str:
     """Return the colour of a law; a tuned one has that of its design."""
     return COLOURS.get(law.partition("-tuned")[0], OTHER_LAW)
+
+
+def colours(laws: Iterable[str]) -> dict[str, str]:
+    """Return the colours of all laws of a picture; those that have none of their own get different ones."""
+    others = cycle(OTHER_LAWS)
+    return {
+        law: next(others) if colour(law) == OTHER_LAW else colour(law)
+        for law in dict.fromkeys(laws)
+    }
 
 
 def dress(ax: Axes, ylabel: str) -> None:

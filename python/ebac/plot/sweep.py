@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ebac.metrics import STILL_SWING
-from ebac.plot.style import Picture, colour, dress, legend, new_figure
+from ebac.plot.style import Picture, colours, dress, legend, new_figure
 from ebac.studies.sweeps import SweepResult
 
 #: Swings below this [m] are drawn at it: the axis is logarithmic.
@@ -34,7 +34,7 @@ def plot_sweep(result: SweepResult) -> Picture:
         raise ValueError("no run has an ideal rest: there is nothing to draw")
     figure = new_figure(9, 4.5)
     ax = figure.subplots()
-    for law in dict.fromkeys(result["law"].tolist()):
+    for law, shade in colours(result["law"].tolist()).items():
         runs = known & (result["law"] == law)
         swing = np.maximum(result["swing_m"][runs], LEAST_SWING)
         ax.plot(
@@ -43,7 +43,7 @@ def plot_sweep(result: SweepResult) -> Picture:
             "o",
             ms=5,
             alpha=0.7,
-            color=colour(law),
+            color=shade,
             label=law,
         )
     ax.axhline(1e3 * STILL_SWING, color="0.35", lw=1, ls="--", label="still below")

@@ -6,9 +6,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.ticker import MaxNLocator
 
 from ebac._util import formatting
-from ebac.plot.style import Numbers, Picture, colour, dress, figure_legend, new_figure
+from ebac.plot.style import Numbers, Picture, colours, dress, figure_legend, new_figure
 
 if TYPE_CHECKING:
     from ebac.studies.zwidth import ZWidth
@@ -70,17 +71,20 @@ def plot_zwidth(found: ZWidth) -> Picture:
 
 
 def _borders(ax: Axes, found: ZWidth, criterion: str, d: int) -> None:
-    for i, law in enumerate(found.laws):
+    for i, (law, shade) in enumerate(colours(found.laws).items()):
         limit = found.limits[criterion][i, d]
         wide = 1.4 + 0.35 * (len(found.laws) - 1 - i)  # laws that share a border all remain visible
-        ax.plot(found.dampings, _kilo(limit), ".-", ms=4, color=colour(law), lw=wide, label=law)
+        ax.plot(found.dampings, _kilo(limit), ".-", ms=4, color=shade, lw=wide, label=law)
     ceilings = [(found.dampings, found.spectral[d]), *_ceilings(found, d)]
     for (name, style), (dampings, ceiling) in zip(CEILINGS.items(), ceilings, strict=True):
         ax.plot(dampings, _kilo(ceiling), **style, label=name)
     ax.set_yscale("log")
     ax.set_ylim(1e-3 * found.least, 1.3e-3 * found.top)
     ax.yaxis.set_major_formatter("{x:g}")
+    ax.xaxis.set_major_locator(MaxNLocator(5))
+    ax.xaxis.set_major_formatter("{x:g}")
     dress(ax, "")
+    ax.margins(x=0.03)
 
 
 def _ceilings(found: ZWidth, d: int) -> list[tuple[Numbers, Numbers]]:
@@ -102,7 +106,7 @@ def _kilo(newton_per_metre: Numbers) -> Numbers:
 
 def _areas(ax: Axes, found: ZWidth, delay: int) -> None:
     places = np.arange(len(found.laws))
-    shades = [colour(law) for law in found.laws]
+    shades = list(colours(found.laws).values())
     # Mean stiffness over the damping: the area over its width, a number in kN/m.
     width = 1e3 * float(found.dampings[-1] - found.dampings[0])
     for criterion, thick, alpha in (("quiet", 0.75, 0.3), ("usable", 0.45, 1.0)):
