@@ -127,10 +127,9 @@ std::vector<std::string> field_names(const FieldTable& table) {
 void refuse_keyword(const std::string& owner, const std::string& name,
                     const std::vector<std::string>& known) {
   if (known.empty()) throw py::type_error(owner + " has no parameter '" + name + "'; it has none");
-  const py::list near = py::module_::import("difflib").attr("get_close_matches")(name, known, 1);
-  std::string text = owner + " has no parameter '" + name + "'";
-  if (!near.empty()) text += ", did you mean '" + py::cast<std::string>(near[0]) + "'";
-  throw py::type_error(text + "; it has: " + listed(known));
+  py::dict given;
+  given[py::str(name)] = py::none();
+  py::module_::import("ebac._util.arguments").attr("refuse_unknown")(owner, given, known);
 }
 
 void refuse_positional(const std::string& owner, const py::args& args,

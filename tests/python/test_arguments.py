@@ -89,6 +89,15 @@ def test_wrong_arguments_are_refused_with_a_sentence(
             lambda: ebac.Encoder().read(angl=1),
             "Encoder.read has no parameter 'angl', did you mean 'angle'; it has: angle",
         ),
+        (
+            lambda: ebac.Encoder(count=5e-5),
+            "Encoder has no parameter 'count': give counts_per_turn, of the motor; device.count is one count at the "
+            "handle; it has: counts_per_turn, counter_bits",
+        ),
+        (
+            lambda: ebac.Timing(rate=2000),
+            "Timing has no parameter 'rate': give dt, 1/rate; it has: dt, delay, jitter",
+        ),
         (lambda: ebac.Encoder().unwrap(1.5, 2), "Encoder.unwrap: raw = 1.5: must be an integer"),
         (
             lambda: ebac.Encoder().unwrap(2**80, 2),

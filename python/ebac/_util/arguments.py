@@ -26,6 +26,20 @@ LISTED_BY = {
 #: As many names stand in a message all the same.
 FEW = 8
 
+_MASS = "it is the sum of handle and rotor, give mechanics=ebac.Mechanics(handle_mass=...) without the rotor's share"
+#: Where a parameter is that people look for in another place.
+ELSEWHERE = {
+    ("Device", "mass"): _MASS,
+    ("Mechanics", "mass"): _MASS,
+    ("Device", "damping"): "give mechanics=ebac.Mechanics(damping=...)",
+    ("Device", "count"): "give encoder=ebac.Encoder(counts_per_turn=...), of the motor",
+    (
+        "Encoder",
+        "count",
+    ): "give counts_per_turn, of the motor; device.count is one count at the handle",
+    ("Timing", "rate"): "give dt, 1/rate",
+}
+
 
 def require(value: Any, types: type | tuple[type, ...], function: str, wanted: str) -> None:
     """Raise TypeError unless a value is of one of the types; `wanted` names it for people."""
@@ -164,11 +178,11 @@ def refuse_unknown(
     names: Sequence[str],
     hint: Callable[[str], str] = lambda name: "",
 ) -> None:
-    """Raise TypeError for a name that is not taken, with a hint or the nearest name."""
+    """Raise TypeError for a name that is not taken, with a hint or the nearest name; bindings/fields.cpp calls it."""
     for name in given:
         if name in names:
             continue
-        better = hint(name)
+        better = hint(name) or ELSEWHERE.get((what, name), "")
         more = f": {better}" if better else did_you_mean(name, names)
         raise TypeError(f"{what} has no parameter {name!r}{more}; it has: {', '.join(names)}")
 
