@@ -163,6 +163,24 @@ def test_several_axes_rest_as_quietly(kinematics: Any, angle: float) -> None:
     assert mean @ normal / np.linalg.norm(mean) > np.cos(np.radians(2))
 
 
+def test_a_gimbal_far_from_its_middle_is_estimated_as_well() -> None:
+    """Where the handle's part of the inertia changes, and turning one axis drives the other."""
+    path = [
+        ebac.Sine(centre=0.01, amplitude=0.045, frequency=f, phase=p) for f, p in ((2, 0), (1.6, 1))
+    ]
+    scenario = ebac.Scenario(
+        device=ebac.Device(kinematics=ebac.Gimbal()),
+        hand=ebac.Hand(mass=0.1, damping=5.0, stiffness=800.0, path=path),
+        environment=ebac.Free(),
+        observer=True,
+        seconds=3.0,
+    )
+    trace = ebac.simulate(scenario, "ebac")[0.5:]
+    assert np.abs(trace["true.x"]).max() > 0.06
+    assert np.abs(trace["est.v"] - trace["true.v"]).max() < 0.01  # m/s; of a speed of 0.5
+    assert np.abs(trace["est.disturbance"]).max() < 0.03  # N
+
+
 # --- choosing it ---
 
 

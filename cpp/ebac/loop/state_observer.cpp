@@ -12,29 +12,26 @@ StateObserver::StateObserver(const DeviceModel& device, const Observing& observi
       linear_(std::holds_alternative<Linear>(device.kinematics)),
       travel_(travel(device.kinematics)),
       force_per_amp_(device.motor.torque_constant * device.capstan.ratio() / travel_.array()),
-      slides_(std::holds_alternative<SlidingGimbal>(device.kinematics)),
       handle_mass_(device.mechanics.handle_mass),
       slide_mass_(device.mass(device.axes() - 1)),
       observing_(observing),
       observer_{AxisObserver(observing.params), AxisObserver(observing.params),
                 AxisObserver(observing.params)} {}
 
-/// The mass of an axis over that of the first in the middle. A lever that slides changes the handle's part of it.
+/// The mass of an axis over that of the first in the middle. The pose changes the handle's part of it.
 double StateObserver::mass_share(const Pose& at, Eigen::Index axis) const EBAC_RT {
   const double share = at.inertia[axis] / (travel_[axis] * travel_[axis]);
-  if (!slides_) return share;
   const double middle = axis == 2 ? slide_mass_ : observing_.params.mass;
   return (middle + handle_mass_ * (share - 1)) / observing_.params.mass;
 }
 
-/// With the inertia of the pose; of a lever that slides also with what its turning and sliding do to each other.
+/// With the inertia of the pose, and with what the turning and sliding of the joints do to each other.
 void StateObserver::step_general(const Reading& reading, const std::array<bool, kMaxAxes>& counted,
                                  double dt, std::span<Axis> axes) EBAC_RT {
   const Axes q = of_all(axes, &Axis::joint, &Joint::q);
-  const Axes dq = slides_ ? of_all(axes, &Axis::joint, &Joint::dq) : Axes::Zero();
-  const Pose here = pose(kinematics_, q, dq);
-  Axes along = here.j.transpose() * of_all(axes, &Axis::port, &Port::f_meas);
-  if (slides_) along -= handle_mass_ * here.coriolis;
+  const Pose here = pose(kinematics_, q, of_all(axes, &Axis::joint, &Joint::dq));
+  const Axes along =
+      here.j.transpose() * of_all(axes, &Axis::port, &Port::f_meas) - handle_mass_ * here.coriolis;
   Axes now = Axes::Zero(), speed = Axes::Zero(), then = Axes::Zero(), speed_then = Axes::Zero();
   for (std::size_t i = 0; i < axes.size(); ++i) {
     const auto e = static_cast<Eigen::Index>(i);

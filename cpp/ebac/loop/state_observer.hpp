@@ -67,7 +67,6 @@ class StateObserver {
   bool linear_;
   Axes travel_;         // m, way at the handle per joint angle
   Axes force_per_amp_;  // N/A, at the handle
-  bool slides_;         // the lever
   double handle_mass_;  // kg
   double slide_mass_;   // kg, on the last axis, in the middle
   Observing observing_;
