@@ -5,6 +5,7 @@
 #include <deque>
 
 #include "ebac/control/eba_account.hpp"
+#include "ebac/control/ebac_shared.hpp"
 #include "ebac/model/noise.hpp"
 
 namespace ebac::energy_test {
@@ -82,6 +83,30 @@ TEST_P(EbaBound, HoldsOverHundredsOfThousandsOfHostileSteps) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Delay, EbaBound, testing::Values(0, 1, 2, 5));
+
+/// With the observer a world tells how it moves when the command acts, `delay` ticks and a half ahead.
+TEST(EbacShared, TakesTheMotionOfAWorldThatWasToldWithTheForceThatActs) {
+  for (const int delay : {0, 1, 2, kMaxDelay}) {
+    EbacShared shared(EbacParams{}, Timing{.delay = delay});
+    shared.set_tick(1e-3);
+    Port port;
+    port.dt = 1e-3;
+    port.est.weight = 1;
+    for (int k = 0; k < 40; ++k) {
+      port.world_v = k < 20 ? 0.1 * (1 + k) : 0;
+      port.f_env = port.world_v == 0 ? 0 : -1 - k;
+      const int told = k - delay - 1;
+      const bool moved = 0 <= told && told < 20;
+      EXPECT_NEAR(shared.surface(port), moved ? 0.1e-3 * (1 + told) : 0, 1e-15)
+          << delay << " " << k;
+      EXPECT_EQ(shared.asked[0], moved ? -1 - told : 0) << delay << " " << k;
+      shared.give(0, port, 1e4);
+    }
+    port.est.weight = 0;  // where the world is met as it is now, as it moves now
+    port.world_v = 0.2;
+    EXPECT_NEAR(shared.surface(port), 0.1e-3, 1e-15);
+  }
+}
 
 }  // namespace
 }  // namespace ebac::energy_test

@@ -75,7 +75,10 @@ TEST_P(Guard, AdmitsTheLargestForceTheEnergyCovers) {
     const double asked = 20 * random.normal();
     const double v = 0.3 * random.normal();
     const double surface = i % 2 == 0 ? 0 : 0.1 * random.normal();  // m/s
-    const double energy = 0.02 * (1 + random.symmetric());
+    // Behind a lag the tail of a force counts on what the device damps in the first interval: up to some microjoules.
+    const bool little = lag() == 0 && i % 3 == 0;
+    const double energy =
+        little ? std::pow(10, -5 + 3 * random.symmetric()) : 0.02 * (1 + random.symmetric());
     const double given = guard.admit(asked, in_flight, lagged, energy, v, kPull, surface);
 
     ASSERT_LE(std::abs(given), std::abs(asked));

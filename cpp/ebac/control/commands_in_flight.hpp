@@ -41,7 +41,7 @@ class CommandsInFlight {
 
  private:
   int size_;
-  std::array<double, kMaxDelay> force_{};
+  std::array<double, kMaxDelay + 1> force_{};  // one more for what belongs to the command that acts
 };
 
 }  // namespace ebac

@@ -20,11 +20,13 @@ struct EbacShared {
   EbacState state{};
   EnergyLedger ledger;
   CommandsInFlight in_flight;
-  CommandsInFlight asked;  // N, of the world: for the commands in flight and the one that acts
-  double command = 0;      // N, of the last tick
-  double world_v = 0;      // m/s, of the last tick
-  double f_env = 0;        // N, of the last tick
-  double f_meas = 0;       // N, of the last tick
+  CommandsInFlight asked;     // N, of the world: for the commands in flight and the one that acts
+  CommandsInFlight surfaces;  // m/s, of the world's surface: as it moved for each of them
+  int moving = 0;             // ticks until neither shows a world that moved
+  double command = 0;         // N, of the last tick
+  double world_v = 0;         // m/s, of the last tick
+  double f_env = 0;           // N, of the last tick
+  double f_meas = 0;          // N, of the last tick
   double rising = 0, falling = 0;  // N/s, quickest change of it lately
   double kept = 0;                 // share of them, per tick
   double per_dt = 0;               // 1/s
@@ -34,7 +36,8 @@ struct EbacShared {
         timing(tick),
         ledger(given.damping, given.count, given.current_lag, given.reserve),
         in_flight(tick.delay),
-        asked(std::min(tick.delay + 1, kMaxDelay)) {
+        asked(tick.delay + 1),
+        surfaces(tick.delay + 1) {
     state.energy = given.reserve;
   }
 
@@ -49,11 +52,12 @@ struct EbacShared {
     return std::clamp(force, -params.peak_force, params.peak_force);
   }
 
-  /// Way of the world's surface over the last interval [m].
+  /// Way of the world's surface over the last interval [m]. With the observer a world is met, and tells its velocity,
+  /// for when the command acts: it was told with the force that acted now.
   double surface(const Port& port) EBAC_RT {
     const double mean = 0.5 * (world_v + port.world_v);
     world_v = port.world_v;
-    return mean * port.dt;
+    return (mean + port.est.weight * (surfaces[0] - mean)) * port.dt;
   }
 
   /// Largest pull of the hand against `wanted` until the command has acted, from what the force sensor shows [N].
@@ -93,7 +97,12 @@ struct EbacShared {
     command = given;
     f_env = port.f_env;
     in_flight.push(given);
-    if (port.world_v != 0) asked.push(port.f_env);
+    if (port.world_v != 0) moving = asked.size() + 1;
+    if (moving > 0) {
+      asked.push(port.f_env);
+      surfaces.push(port.world_v);
+      --moving;
+    }
     ledger.leak(given, stored_at);
     state.energy = ledger.energy();
     const double longer = state.admitted < kShort ? port.dt : -kFed * port.dt;

@@ -100,7 +100,8 @@ class MotionGuard {
       }
       if (near_ < 0) {
         const double most = (energy + b_ * near_ * near_) / (way - near_);
-        if (most <= -2 * b_ * near_) return most;
+        // Of a small force the device damps more than it gives out, which pays for no count.
+        if (most <= -2 * b_ * near_) return count > 0 ? std::min(most, energy / count) : most;
       }
       const double most = 2 * b_ * (std::sqrt(way * way + energy / b_) - way);
       if (most <= 2 * b_ * far_) return most;
