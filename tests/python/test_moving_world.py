@@ -52,6 +52,29 @@ def test_no_moving_wall_lets_the_hand_through(
 
 
 @pytest.mark.parametrize("observer", [True, False])
+@pytest.mark.parametrize("delay", [0, 2])
+def test_the_work_of_a_wall_is_that_of_its_motion_while_the_force_acts(
+    delay: int, observer: bool
+) -> None:
+    wall = ebac.Wall(stiffness=20e3, position=0.005, motion_amplitude=3e-3, motion_frequency=8.0)
+    hand = ebac.Hand(mass=1.0, damping=5.0, stiffness=300.0, target=0.03)
+    scenario = ebac.Scenario(
+        device=NOISY,
+        hand=hand,
+        environment=wall,
+        timing=ebac.Timing(delay=delay),
+        seconds=5.0,
+        observer=observer,
+    )
+    trace = ebac.simulate(scenario, "ebac")
+    asked = np.r_[np.zeros(delay + 1), trace["f_env"][: -delay - 1]]
+    given = np.clip(trace["f_applied"], np.minimum(asked, 0), np.maximum(asked, 0))
+    true = float(np.sum(given[1:] * np.diff(surface(trace, wall))))
+    assert true < -0.5
+    assert ebac.metrics.work_of_surfaces(trace)[-1] == pytest.approx(true, rel=0.03)
+
+
+@pytest.mark.parametrize("observer", [True, False])
 def test_a_hand_that_pumps_against_a_moving_wall_gets_no_more_than_the_world_gives(
     observer: bool,
 ) -> None:

@@ -1,6 +1,7 @@
 """Measure a contact with a wall, and the use of the observer, from a trace alone."""
 
 from ebac.metrics.contact_result import Contact
+from ebac.metrics.energy_drawn import drawn, work_of_surfaces
 from ebac.metrics.ideal import EXACT_COUNTS, allowed_deviation, ideal_rest
 from ebac.metrics.observer import ObserverUse, observer_use
 from ebac.metrics.wall_contact import FEWEST_ROWS, STILL_SWING, TAIL_SHARE, contact
@@ -16,8 +17,10 @@ __all__ = [
     "WorldContact",
     "allowed_deviation",
     "contact",
+    "drawn",
     "ideal_rest",
     "observer_use",
+    "work_of_surfaces",
     "world_contact",
 ]
 
