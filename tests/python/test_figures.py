@@ -238,7 +238,7 @@ def test_laws_without_a_colour_of_their_own_get_different_ones() -> None:
     assert shades["ebac"] == COLOURS["ebac"]
     assert shades["tca-tuned"] == COLOURS["tca"]
     assert [shades["mine"], shades["ebac, kp=0"]] == [*OTHER_LAWS[:2]]
-    assert len(colours(map(str, range(6)))) == 6
+    assert len(colours(map(str, range(6)))) == 6  # they begin anew
 
 
 def test_pages_have_the_colours_of_the_figures(run: Run) -> None:
@@ -253,6 +253,23 @@ def test_pages_have_the_colours_of_the_figures(run: Run) -> None:
                     assert shade == COLOURS[law]
                 elif name in QUANTITIES:
                     assert shade == QUANTITIES[name]
+
+
+@pytest.mark.parametrize("conditions", [["d1K10"], ["d1K10", "d2b1K15"]])
+@pytest.mark.parametrize("width", [None, "single"])
+def test_long_names_of_laws_leave_room_for_the_table(
+    conditions: list[str], width: str | None, tmp_path: Path
+) -> None:
+    laws = ["lag-compensator-tuned-observer", "tca-damped-tuned-observer", "ebac"]
+    few = study(Operators.grid()[:1], laws, conditions, base=ebac.Scenario(seconds=0.5))
+    _, overview = next(plot_study(few))
+    save(overview, tmp_path / "overview.png", width=width)  # warns where a panel has no room
+    shown = overview if width is None else overview.narrow()  # type: ignore[misc]
+    with fitted(shown):
+        shown.draw_without_rendering()
+        for ax in shown.axes:
+            rows = ax.get_window_extent().height / shown.dpi / len(conditions)
+            assert rows > 0.15  # inch
 
 
 # --- every other figure ---

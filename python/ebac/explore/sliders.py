@@ -89,7 +89,7 @@ def moved(scenario: Scenario, values: dict[str, Any]) -> Scenario:
 
 def picture(trace: Trace) -> dict[str, Any]:
     """Return what the page draws: panels of lines, as float32 bytes."""
-    from ebac.plot.style import COLOURS, OTHER_LAW
+    from ebac.plot.style import colour as colour_of
 
     def line(name: str, colour: str, values: Any) -> dict[str, Any]:
         return {
@@ -98,7 +98,7 @@ def picture(trace: Trace) -> dict[str, Any]:
             "y": np.ascontiguousarray(values, np.float32).tobytes(),
         }
 
-    own = COLOURS.get(trace.law, OTHER_LAW)
+    own = colour_of(trace.law)
     return {
         "t": np.ascontiguousarray(trace["t"], np.float32).tobytes(),
         "panels": [
@@ -109,7 +109,7 @@ def picture(trace: Trace) -> dict[str, Any]:
             {
                 "label": "force [N]",
                 "lines": [
-                    line("of the wall", OTHER_LAW, trace.axis("f_env")),
+                    line("of the wall", "#000000", trace.axis("f_env")),
                     line("commanded", own, trace.axis("f_cmd")),
                 ],
             },

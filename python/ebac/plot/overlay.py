@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
 from ebac._util import formatting
-from ebac.plot.style import OTHER_LAW, Picture, colour, dress, legend, line, new_figure
+from ebac.plot.style import Picture, colour, dress, legend, line, new_figure
 from ebac.trace import Trace
 
 if TYPE_CHECKING:
@@ -72,7 +72,7 @@ def _both(
     wanted: NDArray[np.float64],
 ) -> None:  # fmt: skip
     line(ax, golden["t"], wanted, color="0.65", lw=3, label="golden")
-    own = colour(found.law) if found.law else OTHER_LAW
+    own = colour(found.law)
     line(ax, found["t"], values, color=own, lw=1.1, label="now")
     dress(ax, f"{channel} [{unit}]" if unit != "1" else channel)
 

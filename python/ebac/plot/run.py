@@ -13,7 +13,6 @@ from ebac._util.arguments import require
 from ebac.plot.columns import plot_columns
 from ebac.plot.marks import mark_end, title, used_axes
 from ebac.plot.style import (
-    OTHER_LAW,
     QUANTITIES,
     Numbers,
     Picture,
@@ -184,8 +183,8 @@ def _energy(ax: Axes, trace: Trace, axis: int) -> None:
     thick: dict[str, Any] = {"color": "0.75", "lw": 3}
     curves = [(work, "port work + damping taken", thick)]
     for name, label, style in (
-        ("law.energy", "account of the law", {"color": OTHER_LAW}),
-        ("law.account", "account of the law", {"color": OTHER_LAW}),
+        ("law.energy", "account of the law", {"color": "black"}),
+        ("law.account", "account of the law", {"color": "black"}),
         ("true.energy", "true port energy", {"color": colour(trace.law)}),
     ):
         if name in trace:

@@ -24,6 +24,8 @@ if TYPE_CHECKING:
 PAGE, ABREAST, NAMED = 5, 5, 4
 #: What is shown of swing and deviation [mm]; beyond lies on the edge.
 LEAST_SWING, MOST = 1e-4, 100.0
+#: Room for a letter of a name in a table [inch], and the slope of names below it [degree].
+LETTER, SLOPE = 0.085, 30
 
 
 def plot_study(study: Study) -> Iterator[tuple[str, Picture]]:
@@ -164,11 +166,14 @@ def _overview(study: Study, *, narrow: bool) -> Picture:
     drawn = [
         [None if r.most_drawn_J is None else 1e3 * r.most_drawn_J for r in line] for line in every
     ]
+    below = LETTER * max(map(len, laws)) * np.sin(np.radians(SLOPE))  # the names of the laws
+    beside = LETTER * max(map(len, names))
     if narrow:
-        figure = new_figure(5, 3.2 + 0.6 * len(names))
+        figure = new_figure(5, 2.4 + 2 * below + 0.6 * len(names))
         left, right = figure.subplots(2, 1)
     else:
-        figure = new_figure(2.6 + 1.7 * len(laws), 1.7 + 0.24 * len(names))
+        panel = max(2.8, 0.85 * len(laws))  # a title has room
+        figure = new_figure(1.2 + beside + 2 * panel, 1.4 + below + 0.24 * len(names))
         left, right = figure.subplots(1, 2, sharey=True)
     figure.narrow = partial(_overview, study, narrow=True)
     _table(left, good, {"cmap": "RdYlBu", "vmin": 0, "vmax": 100})
@@ -182,7 +187,7 @@ def _overview(study: Study, *, narrow: bool) -> Picture:
         fontsize="medium",
     )
     for ax in (left, right):
-        ax.set_xticks(range(len(laws)), laws, rotation=30, ha="right")
+        ax.set_xticks(range(len(laws)), laws, rotation=SLOPE, ha="right")
         ax.set_yticks(range(len(names)), names)
         ax.tick_params(length=0)
         ax.spines[:].set_visible(False)

@@ -19,8 +19,7 @@ from ebac.plot.legends import figure_legend, legend
 from ebac.trace import Trace
 
 #: Colours of laws that have none of their own: a user's, or one with other parameters.
-OTHER_LAWS = ("#000000", "#9933ff", "#664dcc", "#994d80")
-OTHER_LAW = OTHER_LAWS[0]
+OTHER_LAWS = ("#9933ff", "#994d80", "#664dcc")
 #: One colour per quantity that is not the law's own, in figures and on pages alike.
 QUANTITIES = {
     "x": "#a6a6a6",
@@ -47,7 +46,6 @@ __all__ = [
     "DPI",
     "IDEAL",
     "MOST_POINTS",
-    "OTHER_LAW",
     "OTHER_LAWS",
     "QUANTITIES",
     "SAME",
@@ -103,14 +101,14 @@ def new_figure(width: float, height: float) -> Picture:
 
 def colour(law: str) -> str:
     """Return the colour of a law; a tuned one has that of its design."""
-    return COLOURS.get(law.partition("-tuned")[0], OTHER_LAW)
+    return COLOURS.get(law.partition("-tuned")[0], OTHER_LAWS[0])
 
 
 def colours(laws: Iterable[str]) -> dict[str, str]:
     """Return the colours of all laws of a picture; those that have none of their own get different ones."""
     others = cycle(OTHER_LAWS)
     return {
-        law: next(others) if colour(law) == OTHER_LAW else colour(law)
+        law: next(others) if colour(law) == OTHER_LAWS[0] else colour(law)
         for law in dict.fromkeys(laws)
     }
 

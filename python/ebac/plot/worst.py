@@ -9,7 +9,7 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from ebac._util import formatting
-from ebac.plot.style import OTHER_LAW, QUANTITIES, Picture, colour, dress, legend, line, new_figure
+from ebac.plot.style import QUANTITIES, Picture, colour, dress, legend, line, new_figure
 
 if TYPE_CHECKING:
     from ebac.studies import Worst, WorstHand
@@ -124,7 +124,7 @@ def _energy(ax: Axes, trace: Trace, found: Worst) -> None:
                 ax,
                 t,
                 1e3 * trace.axis(name, 0),
-                color=OTHER_LAW,
+                color="black",
                 lw=0.8,
                 label="account of the law",
             )
