@@ -15,6 +15,7 @@ VARIED = {
     r"--hand(-\w+)?": ("--population", "--family"),
     r"--wall-\w+": ("--condition", "--top"),
     r"--delay": ("--condition",),
+    r"--device-(mass|damping|inertia|radius|count|motor|encoder)": ("--scenario",),
 }
 
 

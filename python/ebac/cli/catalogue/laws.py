@@ -84,7 +84,9 @@ def _show_all(rows: list[dict[str, Any]]) -> None:
         names = ", ".join(parameter["name"] for parameter in row["parameters"])
         grid.add_row(row["law"], row["what"], "yes" if row["passive"] else "no", names)
     output.show(grid)
-    output.say("passive: proven for every hand and wall, given true damping, delay, lag and count.")
+    output.say(
+        "passive: proven for every hand and every world that stands still, given true damping, delay, lag and count."
+    )
     output.say(f"Tuned: {', '.join(tuned_laws())}.")
     output.say(
         "LAW-tuned is LAW with the parameters that `ebac tune` found for the reference device at 1 kHz; "

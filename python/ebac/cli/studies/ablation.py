@@ -10,7 +10,7 @@ import typer
 
 from ebac.cli import options, output, setting
 from ebac.cli.files import ResultOptions
-from ebac.cli.studies import study_results
+from ebac.cli.studies import replaced, study_results
 
 if TYPE_CHECKING:
     from ebac.studies import Ablation, AblationRow, Piece
@@ -91,11 +91,19 @@ def ablation(
             "out": None if folder is None else folder / study_results.BUNDLES,
         }
         people = setting.population(population, hands, seed)
+        replaced.tell(given["base"], _conditions())
     found = _run(people, given, folder, quiet=as_json)
     to.report(
         folder, "ablation", _document(found), as_json=as_json,
         fill=lambda draft: _fill(draft, found, to), show=lambda: _show(found),
     )  # fmt: skip
+
+
+def _conditions() -> list[str]:
+    """Return the conditions that the measures are taken under."""
+    from ebac.studies import MEASURES
+
+    return list(dict.fromkeys(name for measure in MEASURES for name in measure.conditions))
 
 
 def _run(people: Any, given: dict[str, Any], folder: Path | None, *, quiet: bool) -> Ablation:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from ebac._util.arguments import unknown_name
+from ebac._util.arguments import shown, unknown_name
 from ebac.laws import LAWS, AnyLaw, Variant
 from ebac.operators import Operators
 from ebac.scenario import Scenario
@@ -71,9 +71,16 @@ def tune(
     ------
     TuningInterrupted
         On a keyboard interrupt; carries the best so far, judged on the test hands.
+    TypeError
+        For a law that is no name.
     ValueError
         For a law without ranges, a parameter it does not have, or a number out of range.
     """
+    if not isinstance(law, str):
+        raise TypeError(
+            f"law = {shown(law)}: tune takes the name of a law of the package; search the parameters of your own with "
+            "ebac.study and ebac.studies.tuning.cost_of"
+        )
     if law not in LAWS:
         raise unknown_name("law", law, LAWS)
     if evaluations < 2:
