@@ -53,7 +53,7 @@ def test_ebac_holds_no_hand_back_and_direct_gives_energy_out(found: RandomWorlds
     assert ours.reserve_J == 2e-3
     assert ours.longest_held_back_s is not None
     assert ours.longest_held_back_s <= HELD_BACK
-    assert direct.most_drawn_J > 0.05 > ours.reserve_J >= ours.most_drawn_J
+    assert direct.drawn_J > 0.05 > ours.reserve_J >= ours.drawn_J
     no_guard = (
         direct.held_back,
         direct.longest_held_back_s,
@@ -66,13 +66,13 @@ def test_ebac_holds_no_hand_back_and_direct_gives_energy_out(found: RandomWorlds
 
 def test_the_worst_hand_of_a_row_is_simulated_again(found: RandomWorlds, tmp_path: Path) -> None:
     direct, ours = found.worst()[:2]
-    assert drawn(found.trace(direct)) == direct.most_drawn_J
+    assert drawn(found.trace(direct)) == direct.drawn_J
     found.scenario(direct).save(tmp_path / "worst.toml")
     loaded = ebac.Scenario.load(tmp_path / "worst.toml")
     assert loaded == found.scenario(direct)
-    assert drawn(ebac.simulate(loaded, "direct")) == direct.most_drawn_J
+    assert drawn(ebac.simulate(loaded, "direct")) == direct.drawn_J
     every = [found.trace(ours, hand) for hand in range(ours.hands)]
-    assert max(map(drawn, every)) == ours.most_drawn_J
+    assert max(map(drawn, every)) == ours.drawn_J
     assert max(trace["law.starved"].max() for trace in every) == ours.longest_held_back_s
 
 
@@ -155,7 +155,7 @@ def test_what_moving_bodies_do_is_not_drawn() -> None:
     [row] = found.rows
     least = min(found.trace(row, i)["true.energy"].sum(axis=1).min() for i in range(row.hands))
     assert least < -1e-3
-    assert row.most_drawn_J < 1e-5
+    assert row.drawn_J < 1e-5
 
 
 def test_the_damper_of_a_law_at_a_surface_that_recedes_is_no_work_of_the_surface() -> None:
@@ -185,7 +185,7 @@ def test_a_fault_is_counted_and_its_hand_is_the_worst() -> None:
 def test_it_is_printed_and_drawn(found: RandomWorlds) -> None:
     shown = repr(found)
     assert "5 random hands a row in worlds of still bodies, simulated" in shown
-    assert "most drawn [mJ]" in shown
+    assert "drawn [mJ]" in shown
     assert len(shown.splitlines()) < 20
     figure = plot_random_worlds(found)
     above, below = figure.axes[:2], figure.axes[2:]
@@ -206,9 +206,14 @@ def test_it_is_printed_and_drawn(found: RandomWorlds) -> None:
     ("given", "kind", "says"),
     [
         ({"kinds": ["ball"]}, KeyError, "no kind of world is called 'ball', did you mean 'balls'"),
-        ({"kinds": "balls"}, ValueError, "kinds = 'balls': must be a sequence of one at least"),
+        (
+            {"kinds": "balls"},
+            TypeError,
+            r"kinds = 'balls' \(str\): must be a sequence, such as \['balls'\]",
+        ),
+        ({"stiffnesses": 1e4}, TypeError, r"stiffnesses = 10000.0 \(float\): must be a sequence"),
         ({"devices": ["reference"]}, KeyError, "there are: 2-axes, 3-axes, gimbal"),
-        ({"delays": ()}, ValueError, r"delays = \(\): must be a sequence of one at least"),
+        ({"delays": ()}, ValueError, r"delays = \[\]: is empty; give one at least"),
         ({"stiffnesses": [-1]}, ValueError, "stiffness = -1 N/m: must lie in"),
         ({"hands": 0}, ValueError, r"hands = 0: must lie in \[1, 100000\]"),
         ({"hands": 1.5}, TypeError, "hands = 1.5: must be a whole number"),
@@ -275,7 +280,7 @@ def test_the_command_prints_the_same_as_json(
         ("--device joystick", "--device joystick: no such name; there are: 2-axes"),
         ("--stiffness -1", "--stiffness = -1 N/m: must lie in [0, 1e+07] N/m"),
         ("--delay 9", "--delay = 9 samples: must lie in [0, 8] samples"),
-        ("--device-noise -1", "--device-noise = -1 N: must lie in [0, 100] N"),
+        ("--device-noise -1", "--device-noise = -1 N: must lie in [0, 10] N"),
         ("--hands 0", "--hands = 0: must lie in [1, 100000]"),
         ("--law best", "--law best"),
     ],
@@ -293,3 +298,9 @@ def test_what_cannot_be_is_refused_by_its_option(
 def test_a_shell_completes_kinds_and_devices() -> None:
     assert completion.world_kinds("ba") == ["balls", "ball-and-plane"]
     assert completion.world_devices("") == ["2-axes", "3-axes", "gimbal"]
+
+
+def test_a_shell_completes_the_last_name_of_a_list() -> None:
+    assert completion.world_kinds("planes,ba") == ["planes,balls", "planes,ball-and-plane"]
+    assert "tca,ebac" in completion.laws("tca,eb")
+    assert completion.laws("tca,nothing") == []

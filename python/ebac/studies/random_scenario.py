@@ -58,7 +58,7 @@ def random_scenario(
     moving : bool
         Whether each body swings, by up to 4 mm at 0.5 to 3 Hz in a direction of its own, from where it stands still.
     noise : float
-        Of the force sensor, standard deviation [N], [0, 100].
+        Of the force sensor, standard deviation [N], [0, 100]; laws with a `force_noise` take 10 at most.
     seed : int
         Of all hands, at least 0.
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
 from functools import partial
@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from ebac._util.arguments import named, require, whole
+from ebac._util.arguments import named, require, shown, whole
 from ebac._util.cores import usable_cores
 from ebac.laws import CoreLaw, PythonLaw, design
 from ebac.metrics.energy_drawn import drawn
@@ -65,7 +65,7 @@ def random_worlds(
     hands : int
         For each row, [1, 100000].
     noise : float
-        Of the force sensor, standard deviation [N], [0, 100].
+        Of the force sensor, standard deviation [N], [0, 10].
     seed : int
         Of all hands, [0, 2^31).
     threads : int, optional
@@ -87,21 +87,28 @@ def random_worlds(
         For an unknown law, kind or device.
     """
     require(moving, bool, "ebac.random_worlds", "moving=True or False")
-    _check(kinds=kinds, devices=devices, stiffnesses=stiffnesses, delays=delays)
+    kinds = _several("kinds", kinds)
+    devices = _several("devices", devices)
+    stiffnesses = _several("stiffnesses", stiffnesses)
+    delays = _several("delays", delays)
+    for kind in kinds:
+        named("kind of world", kind, KINDS)
+    for device in devices:
+        named("device for random worlds", device, DEVICES)
     _check_whole(hands=(hands, 1, MOST_HANDS), seed=(seed, 0, 2**31 - 1))
     workers = usable_cores() if threads is None else threads
     _check_whole(threads=(workers, 1, 1024))
-    named = name_laws(laws)
+    chosen = name_laws(laws)
     cells = list(product(kinds, devices, stiffnesses, delays))
     makers = [_maker(cell, moving=moving, noise=noise, seed=seed) for cell in cells]
     firsts = [make(0) for make in makers]  # refuse what cannot be, before any work
     made = [
-        {name: design(law, first.device, first.known_timing) for name, law in named.items()}
+        {name: design(law, first.device, first.known_timing) for name, law in chosen.items()}
         for first in firsts
     ]
     rows: list[RandomWorldRow] = []
     hand_by_hand: list[list[HandRun]] = []
-    total = len(cells) * len(named) * hands
+    total = len(cells) * len(chosen) * hands
     with _threads(workers) as executor:
         for cell, make, ready in zip(cells, makers, made, strict=True):
             for name, law in ready.items():
@@ -119,7 +126,7 @@ def random_worlds(
         moving=moving,
         noise_N=noise,
         seed=seed,
-        laws=named,
+        laws=chosen,
         drawn_J=tuple(np.array([run.drawn_J for run in runs]) for runs in hand_by_hand),
         held_back_s=tuple(
             np.array([run.held_back_s for run in runs], float) for runs in hand_by_hand
@@ -142,14 +149,26 @@ def _indexed(kind: str, device: str, how: dict[str, Any], index: int) -> Scenari
 
 def _measured(make: Callable[[int], Scenario], law: CoreLaw | PythonLaw, index: int) -> HandRun:
     trace = every_row(make(index), law)
-    held = float(trace["law.starved"].max()) if "law.starved" in trace else None
-    return HandRun(held, drawn(trace), bool(trace["fault"].any()))
+    held = float(trace["law.starved"].max()) if _guarded(law) else None
+    touched = bool(trace["f_env"].any())
+    return HandRun(held, drawn(trace), bool(trace["fault"].any()), touched)
+
+
+def _guarded(law: CoreLaw | PythonLaw) -> bool:
+    return bool(getattr(law, "guard", False))
+
+
+def _reserve(law: CoreLaw | PythonLaw) -> float | None:
+    """Return what a law lends [J]: less with the observer, which it may lose."""
+    name = "observed_reserve" if getattr(law, "observer", False) else "reserve"
+    lent: float | None = getattr(law, name, None)
+    return lent
 
 
 def _row(cell: _Cell, name: str, law: CoreLaw | PythonLaw, runs: list[HandRun]) -> RandomWorldRow:
     kind, device, stiffness, delay = cell
     held = [run.held_back_s for run in runs if run.held_back_s is not None]
-    reserve = getattr(law, "observed_reserve", None)
+    reserve = _reserve(law)
     return RandomWorldRow(
         kind=kind,
         device=device,
@@ -157,9 +176,10 @@ def _row(cell: _Cell, name: str, law: CoreLaw | PythonLaw, runs: list[HandRun]) 
         delay_samples=delay,
         law=name,
         hands=len(runs),
+        touched=sum(run.touched for run in runs),
         held_back=sum(time > HELD_BACK for time in held) if held else None,
         longest_held_back_s=max(held, default=None),
-        most_drawn_J=max(run.drawn_J for run in runs),
+        drawn_J=max(run.drawn_J for run in runs),
         reserve_J=reserve,
         beyond_reserve=None if reserve is None else sum(run.drawn_J > reserve for run in runs),
         faults=sum(run.fault for run in runs),
@@ -177,14 +197,14 @@ def _threads(count: int) -> Iterator[ThreadPoolExecutor]:
         executor.shutdown(cancel_futures=True)
 
 
-def _check(**given: Sequence[Any]) -> None:
-    for name, values in given.items():
-        if isinstance(values, str) or not len(values):
-            raise ValueError(f"{name} = {values!r}: must be a sequence of one at least")
-    for kind in given["kinds"]:
-        named("kind of world", kind, KINDS)
-    for device in given["devices"]:
-        named("device for random worlds", device, DEVICES)
+def _several(name: str, values: Iterable[Any]) -> list[Any]:
+    """Return a list of several, each once."""
+    if isinstance(values, str) or not isinstance(values, Iterable):
+        raise TypeError(f"{name} = {shown(values)}: must be a sequence, such as [{values!r}]")
+    every = list(dict.fromkeys(values))
+    if not every:
+        raise ValueError(f"{name} = {every}: is empty; give one at least")
+    return every
 
 
 def _check_whole(**numbers: tuple[Any, int, int]) -> None:

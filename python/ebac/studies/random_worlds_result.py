@@ -32,14 +32,17 @@ class RandomWorldRow:
         Until a command acts.
     hands : int
         How many ran.
+    touched : int
+        How many of them met a body at all.
     held_back : int or None
-        Hands for which the guard let less than half of the command through for longer than 0.1 s; None for a law
-        without a guard.
+        Hands that the guard held back for longer than 0.1 s, letting less than half of the command through; None for
+        a law without a guard.
     longest_held_back_s : float or None
-        The longest such time of all hands.
-    most_drawn_J : float
-        Most energy that a hand drew out of the port beyond all that it had put in and what moving surfaces did:
-        `drawn`.
+        The longest such time of all hands: the largest value of the column `law.starved`, which rises in ticks in
+        which less than half passes in one direction, and falls ten times faster in others.
+    drawn_J : float
+        Energy that the hand that drew most took out of the port beyond all that it had put in and what moving
+        surfaces did: `ebac.metrics.drawn`.
     reserve_J : float or None
         What the law lends at the start of a run; None for a law that lends nothing.
     beyond_reserve : int or None
@@ -48,7 +51,7 @@ class RandomWorldRow:
         Hands whose run ended by a fault.
     worst_hand : int
         Index of a hand to look at: one with a fault, else the one that was held back longest if that is longer than
-        0.1 s, else the one that drew most.
+        0.1 s, else the one that drew most; of several that drew nothing the one that was held back longest.
     """
 
     kind: str
@@ -57,9 +60,10 @@ class RandomWorldRow:
     delay_samples: int
     law: str
     hands: int
+    touched: int
     held_back: int | None
     longest_held_back_s: float | None
-    most_drawn_J: float
+    drawn_J: float
     reserve_J: float | None
     beyond_reserve: int | None
     faults: int
@@ -104,17 +108,26 @@ class RandomWorlds:
 
         A hand counts once for each stiffness and delay that it met.
         """
+        of_law: dict[str, list[int]] = {}
+        for i, row in enumerate(self.rows):
+            of_law.setdefault(row.law, []).append(i)
         return [
-            _together([row for row in self.rows if row.law == law])
-            for law in dict.fromkeys(row.law for row in self.rows)
+            _together([self.rows[i] for i in those], self.rows[max(those, key=self._rank)])
+            for those in of_law.values()
         ]
 
     def worst(self) -> list[RandomWorldRow]:
         """Return the row with the worst hand, for each law and kind."""
-        groups: dict[tuple[str, str], list[RandomWorldRow]] = {}
-        for row in self.rows:
-            groups.setdefault((row.law, row.kind), []).append(row)
-        return [max(rows, key=_rank) for rows in groups.values()]
+        groups: dict[tuple[str, str], list[int]] = {}
+        for i, row in enumerate(self.rows):
+            groups.setdefault((row.law, row.kind), []).append(i)
+        return [self.rows[max(those, key=self._rank)] for those in groups.values()]
+
+    def _rank(self, i: int) -> tuple[bool, float, float, float]:
+        """Return the rank of the worst hand of a row."""
+        row = self.rows[i]
+        held, drawn = self.held_back_s[i][row.worst_hand], self.drawn_J[i][row.worst_hand]
+        return HandRun(None if np.isnan(held) else float(held), float(drawn), row.faults > 0).rank
 
     def scenario(self, row: RandomWorldRow, hand: int | None = None) -> Scenario:
         """Return the scenario of a hand.
@@ -150,7 +163,7 @@ class RandomWorlds:
 
         shown = (
             "kind", "device", "stiffness_N_per_m", "delay_samples", "law", "held_back",
-            "longest_held_back_s", "most_drawn_J",
+            "longest_held_back_s", "drawn_J",
         )  # fmt: skip
         bodies = "moving" if self.moving else "still"
         return report(
@@ -165,28 +178,25 @@ class HandRun(NamedTuple):
     held_back_s: float | None
     drawn_J: float
     fault: bool
+    touched: bool = True
 
     @property
-    def rank(self) -> tuple[bool, float, float]:
+    def rank(self) -> tuple[bool, float, float, float]:
         """Larger for a hand that is more worth to look at."""
         held = self.held_back_s or 0.0
-        return self.fault, held if held > HELD_BACK else 0.0, self.drawn_J
+        return self.fault, held if held > HELD_BACK else 0.0, self.drawn_J, held
 
 
-def _together(rows: list[RandomWorldRow]) -> RandomWorldRow:
+def _together(rows: list[RandomWorldRow], worst: RandomWorldRow) -> RandomWorldRow:
     """Return the rows of a law as one, named after its worst."""
-    worst = max(rows, key=_rank)
     guarded, lends = worst.held_back is not None, worst.beyond_reserve is not None
     return replace(
         worst,
         hands=sum(row.hands for row in rows),
+        touched=sum(row.touched for row in rows),
         held_back=sum(row.held_back or 0 for row in rows) if guarded else None,
         longest_held_back_s=max(row.longest_held_back_s or 0.0 for row in rows) if guarded else None,
-        most_drawn_J=max(row.most_drawn_J for row in rows),
+        drawn_J=max(row.drawn_J for row in rows),
         beyond_reserve=sum(row.beyond_reserve or 0 for row in rows) if lends else None,
         faults=sum(row.faults for row in rows),
     )  # fmt: skip
-
-
-def _rank(row: RandomWorldRow) -> tuple[bool, float, float]:
-    return HandRun(row.longest_held_back_s, row.most_drawn_J, row.faults > 0).rank

@@ -67,6 +67,8 @@ def random_worlds(
         float,
         typer.Option(
             help="Noise of the force sensor, standard deviation [N].",
+            min=0,
+            max=10,
             rich_help_panel=options.DEVICE,
         ),
     ] = 0.03,
@@ -172,9 +174,9 @@ def _file(row: RandomWorldRow) -> str:
 
 def _show(found: RandomWorlds) -> None:
     """Print a line for each row, and a sentence for each law; columns in which nothing differs are left out."""
-    headings = ["world", "device", "law", "kN/m", "delay", "hands", "held back", "longest", "most drawn",
+    headings = ["world", "device", "law", "kN/m", "delay", "hands", "touched", "held back", "longest", "drawn",
                 "beyond reserve", "faults"]  # fmt: skip
-    grid = output.table(headings, numbers=range(3, len(headings)))
+    grid = output.table(headings, numbers=range(5, len(headings)))
     faults = any(row.faults for row in found.rows)
     before = None
     for row in found.rows:
@@ -192,8 +194,9 @@ def _show(found: RandomWorlds) -> None:
     bodies = "each body swings in its own way" if found.moving else "the bodies stand still"
     output.say(
         f"Simulated, 4 s a hand; {bodies}; the force sensor with {found.noise_N:g} N of noise; seed {found.seed}. "
-        "Held back: hands for which the guard let less than half of the command through for longer than 0.1 s, and the "
-        "longest such time of all hands. Drawn: beyond all that the hand had put in and what moving bodies did."
+        "Touched: hands that met a body. Held back: hands for which the guard let less than half of the command "
+        "through for longer than 0.1 s (law.starved), and the longest such time of all hands. Drawn: by the hand that "
+        "drew most, beyond all that it had put in and what moving bodies did."
     )
 
 
@@ -204,9 +207,10 @@ def _numbers(row: RandomWorldRow) -> list[str]:
         f"{1e-3 * row.stiffness_N_per_m:g}",
         str(row.delay_samples),
         str(row.hands),
+        str(row.touched),
         _count(row.held_back),
         formatting.quantity(row.longest_held_back_s, "s"),
-        formatting.quantity(row.most_drawn_J, "J"),
+        formatting.quantity(row.drawn_J, "J"),
         _count(row.beyond_reserve),
     ]
 
@@ -230,12 +234,14 @@ def _sentence(total: RandomWorldRow) -> str:
         parts.append(f"{total.beyond_reserve} drew more than the reserve of {lent}")
     if total.faults:
         parts.append(f"{total.faults} ended by a fault")
-    most = formatting.quantity(total.most_drawn_J, "J")
+    most = formatting.quantity(total.drawn_J, "J")
     came_to = f" {', '.join(parts)}," if parts else ""
     return f"{total.law}: of {output.plural(total.hands, 'run')}{came_to} the worst drew {most}."
 
 
 def _tell_replay(found: RandomWorlds, folder: Path) -> None:
     output.say("\nReplay the worst hand of each law:", style="bold")
+    if found.moving:
+        output.say("There the least energy of the port counts what the moving bodies do, too.")
     for total in found.totals():
         output.path(f"ebac wall --law {total.law} --scenario {folder / _file(total)}.toml")
