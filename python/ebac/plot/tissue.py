@@ -15,6 +15,8 @@ if TYPE_CHECKING:
     from ebac.worlds.force_depth import ForceDepth
 
 IN, OUT, EXACT = "#0072b2", "#d55e00", "0.7"
+#: A force that goes further than this share of its range to and fro is drawn pale: it hides the others.
+BUZZ = 20
 
 
 def plot_tissue(found: Tissue) -> Picture:
@@ -73,4 +75,8 @@ def _felt(ax: Axes, trace: Trace, law: str) -> None:
     shown = depth > -1
     force = trace["true.f_motor"][shown]
     way = float(np.abs(np.diff(force)).sum())  # N; a force that buzzes would hide the others
-    line(ax, depth[shown], force, color=colour(law), lw=0.9, label=law, zorder=2 + 1 / (1 + way))
+    buzzes = way > BUZZ * float(np.ptp(force))
+    line(
+        ax, depth[shown], force, color=colour(law), lw=0.9, alpha=0.35 if buzzes else 1.0, label=law,
+        zorder=2 + 1 / (1 + way),
+    )  # fmt: skip

@@ -50,6 +50,7 @@ def plot_worst(found: Worst, hand: WorstHand | None = None) -> Picture:
         column[-1].set_xlabel("time [s]")
     for ax in grid[:, 0]:
         legend(ax, columns=5)
+    grid[0, 1].set_title("around the least port energy (dotted line)", fontsize="medium")
     for ax in grid[:, 1]:
         ax.set_ylabel("")
     from_, to = max(0.0, least - NEAR), min(float(trace["t"][-1]), least + NEAR)
@@ -129,7 +130,7 @@ def _energy(ax: Axes, trace: Trace, found: Worst) -> None:
                 label="account of the law",
             )
     if found.reserve is not None:
-        ax.axhline(-1e3 * found.reserve, color="#d55e00", lw=1, ls="--", label="-e(0)")
+        ax.axhline(-1e3 * found.reserve, color="#d55e00", lw=1, ls="--", label="what is lent")
         largest = max(largest, 2e3 * found.reserve)
     ax.axhline(0, color="0.35", lw=1)
     ax.set_ylim(1.2 * min(float(true.min()), -1e3 * (found.reserve or 0.0)), largest)
