@@ -1,5 +1,6 @@
 #include "ebac/loop/state_observer.hpp"
 
+#include <algorithm>
 #include <variant>
 
 #include "ebac/loop/of_all.hpp"
@@ -22,7 +23,8 @@ StateObserver::StateObserver(const DeviceModel& device, const Observing& observi
 double StateObserver::mass_share(const Pose& at, Eigen::Index axis) const EBAC_RT {
   const double share = at.inertia[axis] / (travel_[axis] * travel_[axis]);
   const double middle = axis == 2 ? slide_mass_ : observing_.params.mass;
-  return (middle + handle_mass_ * (share - 1)) / observing_.params.mass;
+  const double handle = std::min(handle_mass_, middle);  // of a mass that is declared too small
+  return (middle + handle * (share - 1)) / observing_.params.mass;
 }
 
 /// With the inertia of the pose, and with what the turning and sliding of the joints do to each other.
