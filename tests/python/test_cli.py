@@ -36,6 +36,7 @@ WALL_KEYS = [
     "force_quiet",
     "quiet",
     "touched_at_rest",
+    "drawn_J",
 ]
 
 

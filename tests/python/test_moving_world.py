@@ -74,6 +74,19 @@ def test_the_work_of_a_wall_is_that_of_its_motion_while_the_force_acts(
     assert ebac.metrics.work_of_surfaces(trace)[-1] == pytest.approx(true, rel=0.03)
 
 
+def test_a_contact_shows_what_is_drawn_beyond_the_work_of_the_wall() -> None:
+    moving = ebac.contact(ebac.simulate(OBSERVED.replace(seconds=2.0), "ebac"))
+    assert moving.least_energy_J is not None
+    assert moving.least_energy_J < -5e-3
+    assert moving.drawn_J == 0
+    assert "  drawn               0 mJ" in str(moving)
+    still = ebac.contact(
+        ebac.simulate(OBSERVED.replace(environment=ebac.Wall(), seconds=2.0), "ebac")
+    )
+    assert still.drawn_J is None
+    assert "  drawn" not in str(still)
+
+
 @pytest.mark.parametrize("observer", [True, False])
 def test_a_hand_that_pumps_against_a_moving_wall_gets_no_more_than_the_world_gives(
     observer: bool,

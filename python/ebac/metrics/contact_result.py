@@ -10,7 +10,7 @@ from ebac._util import formatting
 MORE = (
     "count_m", "allowed_m", "most_drawn_J", "force_step_N", "most_pull_N", "rest_power_W", "seconds", "touched",
 )  # fmt: skip
-#: What a printed contact shows: label, attribute, unit, what to print where there is none.
+#: What a printed contact shows: label, attribute, unit, what to print where there is none: with nothing, no line.
 LINES = (
     ("rest", "rest_m", "m", "-"),
     ("ideal rest", "ideal_m", "m", "-"),
@@ -29,6 +29,7 @@ LINES = (
     ("deepest", "peak_m", "m", "-"),
     ("limit cycle", "limit_cycle_Hz", "Hz", "none"),
     ("least port energy", "least_energy_J", "J", "-"),
+    ("drawn", "drawn_J", "J", ""),
     ("most energy drawn", "most_drawn_J", "J", "-"),
     ("force limited", "clamped_share", "share", "-"),
 )
@@ -56,6 +57,9 @@ class Contact:
         Frequency of the swing; None when it is still or drifts without swinging back.
     least_energy_J : float or None
         Lowest physical port energy, integral of (f v + b v^2 + friction); None without a simulation.
+    drawn_J : float or None
+        In a world that moves, energy taken out of the port beyond all that the hand had put in and beyond what the
+        surfaces did, which the least energy counts: `ebac.metrics.drawn`. None where nothing moved.
     most_drawn_J : float or None
         Most energy taken out of the port in any window beyond what an ideal wall stores at the window's start, max
         over t1 < t2 of W(t1) - W(t2) - K depth(t1)^2 / 2; 0 for an ideal wall, None without a simulation.
@@ -159,6 +163,7 @@ class Contact:
     seconds: float | None = None
     touched: bool | None = None
     touched_at_rest: bool | None = None
+    drawn_J: float | None = None
 
     @property
     def verdict(self) -> str:
@@ -190,6 +195,8 @@ class Contact:
         ]
         for label, name, unit, none in LINES:
             value = getattr(self, name)
+            if value is None and not none:
+                continue
             shown = formatting.quantity(value, unit, signed=name in signed, none=none)
             lines.append(f"  {label:<20}{shown}")
         return "\n".join(lines)

@@ -12,6 +12,7 @@ from ebac._core import _measure_contact, _stored_energy
 from ebac._util.arguments import require
 from ebac.hands import is_own
 from ebac.metrics.contact_result import Contact
+from ebac.metrics.energy_drawn import drawn
 from ebac.metrics.ideal import allowed_deviation, ideal_rest, without_engine
 from ebac.trace import Trace
 
@@ -111,10 +112,16 @@ def contact(trace: Trace, *, axis: int = 0, truth: bool = True) -> Contact:
         count_m=scenario.device.count if scenario else None,
         allowed_m=allowed_deviation(scenario) if scenario else None,
         seconds=float(trace["t"][-1] - trace["t"][0]),
+        drawn_J=drawn(trace) if with_energy and scenario and _moves(trace) else None,
         **_touched(trace, axis),
         **{column: known[name] for column, name in COLUMNS.items()},
         **{name: known[name] for name in FLAGS},
     )
+
+
+def _moves(trace: Trace) -> bool:
+    """Return whether a surface of the virtual world moved while it was touched."""
+    return "world_v" in trace and bool(trace["world_v"].any())
 
 
 def _touched(trace: Trace, axis: int) -> dict[str, bool]:

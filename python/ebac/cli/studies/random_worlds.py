@@ -241,7 +241,5 @@ def _sentence(total: RandomWorldRow) -> str:
 
 def _tell_replay(found: RandomWorlds, folder: Path) -> None:
     output.say("\nReplay the worst hand of each law:", style="bold")
-    if found.moving:
-        output.say("There the least energy of the port counts what the moving bodies do, too.")
     for total in found.totals():
         output.path(f"ebac wall --law {total.law} --scenario {folder / _file(total)}.toml")

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 Lines: TypeAlias = tuple[tuple[str, str, str, str], ...]
 
-#: The lines of the table: label, attribute of a contact, its unit, what to say where there is none.
+#: Lines of the table: label, attribute of a contact, its unit, what to say where there is none; with nothing no line.
 LINES = (
     ("rest", "rest_m", "m", "-"),
     ("ideal rest", "ideal_m", "m", "-"),
@@ -35,6 +35,7 @@ LINES = (
     ("deepest", "peak_m", "m", "-"),
     ("limit cycle", "limit_cycle_Hz", "Hz", "none"),
     ("least energy", "least_energy_J", "J", "-"),
+    ("drawn", "drawn_J", "J", ""),
     ("force limited", "clamped_share", "share", "-"),
 )
 #: The same of a contact with bodies.
@@ -211,7 +212,9 @@ def _lines(lines: Lines, columns: Mapping[str, object]) -> Table:
 
     grid = output.table(["", *columns], numbers=range(1, 99))
     for label, name, unit, none in lines:
-        cells = (getattr(one, name) for one in columns.values())
+        cells = [getattr(one, name) for one in columns.values()]
+        if not none and all(cell is None for cell in cells):
+            continue
         signed = name == "deviation_m"
         grid.add_row(
             label, *(formatting.quantity(c, unit, signed=signed, none=none) for c in cells)
