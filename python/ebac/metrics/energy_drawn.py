@@ -49,11 +49,11 @@ def work_of_surfaces(trace: Trace) -> NDArray[np.float64]:
     applied, force, speed = (
         trace[name].reshape(rows, -1) for name in ("f_applied", "f_env", "world_v")
     )
-    asked, told = (np.concatenate([0 * of[:late], of[:-late]]) for of in (force, speed))
+    asked, reported = (np.concatenate([0 * of[:late], of[:-late]]) for of in (force, speed))
     # On readings the world is met where it is now, with the observer where it will be when the force acts.
     ahead = trace["est.weight"].reshape(rows, -1)[:, :1] if "est.weight" in trace else 0.0
     now = (speed + np.concatenate([speed[:1], speed[:-1]])) / 2
-    moved = now + ahead * (told - now)
+    moved = now + ahead * (reported - now)
     size = np.linalg.norm(asked, axis=1)
     along = asked / np.where(size > 0, size, 1.0)[:, None]
     given = np.clip((applied * along).sum(axis=1), 0.0, size)
