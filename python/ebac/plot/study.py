@@ -166,14 +166,16 @@ def _overview(study: Study, *, narrow: bool) -> Picture:
     drawn = [
         [None if r.most_drawn_J is None else 1e3 * r.most_drawn_J for r in line] for line in every
     ]
-    below = LETTER * max(map(len, laws)) * np.sin(np.radians(SLOPE))  # the names of the laws
-    beside = LETTER * max(map(len, names))
+    # The names of the laws reach below the tables and to their left, beside the names of the conditions.
+    slope = np.radians(SLOPE)
+    below, left_of = LETTER * max(map(len, laws)) * np.array([np.sin(slope), np.cos(slope)])
+    beside = max(LETTER * max(map(len, names)), left_of)
     if narrow:
         figure = new_figure(5, 2.4 + 2 * below + 0.6 * len(names))
         left, right = figure.subplots(2, 1)
     else:
-        panel = max(2.8, 0.85 * len(laws))  # a title has room
-        figure = new_figure(1.2 + beside + 2 * panel, 1.4 + below + 0.24 * len(names))
+        panel = max(3.2, 0.85 * len(laws))  # a title has room
+        figure = new_figure(beside + left_of + 2 * panel, 1.4 + below + 0.24 * len(names))
         left, right = figure.subplots(1, 2, sharey=True)
     figure.narrow = partial(_overview, study, narrow=True)
     _table(left, good, {"cmap": "RdYlBu", "vmin": 0, "vmax": 100})
