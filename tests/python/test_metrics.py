@@ -438,6 +438,6 @@ def test_the_row_is_the_documented_one(run: Any) -> None:
         "law", "rest_m", "ideal_m", "swing_m", "force_swing_N", "settled_s", "peak_m",
         "limit_cycle_Hz", "least_energy_J", "clamped_share",
         "force_rest_N", "force_settled_s", "ripple_N", "ripple_rms_N", "ripple_high_N", "jumps", "perceived",
-        "still", "force_quiet", "quiet", "touched_at_rest",
+        "still", "force_quiet", "quiet", "touched_at_rest", "drawn_J",
     ]  # fmt: skip
     assert json.loads(json.dumps(row)) == row
