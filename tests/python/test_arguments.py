@@ -91,8 +91,8 @@ def test_wrong_arguments_are_refused_with_a_sentence(
         ),
         (
             lambda: ebac.Encoder(count=5e-5),
-            "Encoder has no parameter 'count': give counts_per_turn, of the motor; device.count is one count at the "
-            "handle; it has: counts_per_turn, counter_bits",
+            "Encoder has no parameter 'count': give counts_per_turn, of the motor; device.count is that at the handle; "
+            "it has: counts_per_turn, counter_bits",
         ),
         (
             lambda: ebac.Timing(rate=2000),

@@ -177,7 +177,7 @@ def test_a_gimbal_far_from_its_middle_is_estimated_as_well() -> None:
     )
     trace = ebac.simulate(scenario, "ebac")[0.5:]
     assert np.abs(trace["true.x"]).max() > 0.06
-    assert np.abs(trace["est.v"] - trace["true.v"]).max() < 0.01  # m/s; of a speed of 0.5
+    assert np.abs(trace["est.v"] - trace["true.v"]).max() < 0.01  # m/s
     assert np.abs(trace["est.disturbance"]).max() < 0.03  # N
 
 

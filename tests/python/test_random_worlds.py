@@ -18,7 +18,7 @@ from ebac.metrics.energy_drawn import drawn
 from ebac.plot import plot_random_worlds
 from ebac.studies import RandomWorlds, random_worlds
 from ebac.studies.random_scenario import DEVICES, random_scenario
-from ebac.studies.random_worlds_result import HELD_BACK
+from ebac.studies.random_worlds_result import HELD_BACK, HandRun
 from ebac.studies.world_kinds import KINDS
 from ebac.studies.zwidth import passive_ceiling
 
@@ -304,3 +304,32 @@ def test_a_shell_completes_the_last_name_of_a_list() -> None:
     assert completion.world_kinds("planes,ba") == ["planes,balls", "planes,ball-and-plane"]
     assert "tca,ebac" in completion.laws("tca,eb")
     assert completion.laws("tca,nothing") == []
+
+
+def test_a_name_that_is_given_alone_is_completed_alone() -> None:
+    assert completion.devices("joystick,re") == []
+    assert completion.hands("finger-") == ["finger-pad"]
+
+
+def test_what_a_law_lends_and_whether_it_is_guarded_is_asked_of_the_law() -> None:
+    laws = {
+        "on the encoder": ebac.Variant("ebac", {"observer": False}),
+        "without guard": ebac.Variant("ebac", {"guard": False}),
+        "direct": "direct",
+    }
+    encoder, bare, direct = random_worlds(laws, kinds=["planes"], devices=["2-axes"], hands=2).rows
+    assert (encoder.reserve_J, encoder.held_back) == (ebac.EBAC().reserve, 0)
+    assert (bare.reserve_J, bare.held_back) == (ebac.EBAC().observed_reserve, None)
+    assert (direct.reserve_J, direct.held_back, direct.beyond_reserve) == (None, None, None)
+
+
+def test_hands_that_touch_nothing_are_not_counted_as_touched() -> None:
+    found = random_worlds("direct", kinds=["balls"], devices=["2-axes"], hands=12)
+    met = [bool(found.trace(found.rows[0], i)["f_env"].any()) for i in range(12)]
+    assert 0 < found.rows[0].touched == sum(met) < 12
+
+
+def test_of_hands_that_drew_nothing_the_one_held_back_longest_is_looked_at() -> None:
+    short, none = HandRun(0.01, 0.0, fault=False), HandRun(0.0, 0.0, fault=False)
+    drew, long = HandRun(0.0, 1e-6, fault=False), HandRun(0.2, 0.0, fault=False)
+    assert none.rank < short.rank < drew.rank < long.rank < HandRun(0.0, 0.0, fault=True).rank

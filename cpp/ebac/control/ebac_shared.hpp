@@ -22,7 +22,6 @@ struct EbacShared {
   CommandsInFlight in_flight;
   CommandsInFlight asked;     // N, of the world: for the commands in flight and the one that acts
   CommandsInFlight surfaces;  // m/s, of the world's surface: as it moved for each of them
-  int moving = 0;             // ticks until neither shows a world that moved
   double command = 0;         // N, of the last tick
   double world_v = 0;         // m/s, of the last tick
   double f_env = 0;           // N, of the last tick
@@ -97,12 +96,8 @@ struct EbacShared {
     command = given;
     f_env = port.f_env;
     in_flight.push(given);
-    if (port.world_v != 0) moving = asked.size() + 1;
-    if (moving > 0) {
-      asked.push(port.f_env);
-      surfaces.push(port.world_v);
-      --moving;
-    }
+    asked.push(port.f_env);
+    surfaces.push(port.world_v);
     ledger.leak(given, stored_at);
     state.energy = ledger.energy();
     const double longer = state.admitted < kShort ? port.dt : -kFed * port.dt;

@@ -33,10 +33,7 @@ ELSEWHERE = {
     ("Mechanics", "mass"): _MASS,
     ("Device", "damping"): "give mechanics=ebac.Mechanics(damping=...)",
     ("Device", "count"): "give encoder=ebac.Encoder(counts_per_turn=...), of the motor",
-    (
-        "Encoder",
-        "count",
-    ): "give counts_per_turn, of the motor; device.count is one count at the handle",
+    ("Encoder", "count"): "give counts_per_turn, of the motor; device.count is that at the handle",
     ("Timing", "rate"): "give dt, 1/rate",
 }
 

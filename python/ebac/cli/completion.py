@@ -1,4 +1,4 @@
-"""The names a shell completes options with. Each returns those that begin so, the last of a list behind its commas."""
+"""The names a shell completes options with. Each returns those that begin so; of a list, its last name."""
 
 from __future__ import annotations
 
@@ -6,15 +6,20 @@ from collections.abc import Iterable
 
 
 def _begun(incomplete: str, names: Iterable[str]) -> list[str]:
+    return [name for name in names if name.startswith(incomplete)]
+
+
+def _last_begun(incomplete: str, names: Iterable[str]) -> list[str]:
+    """Return lists separated by commas, with each name that the last one may become."""
     before, comma, last = incomplete.rpartition(",")
-    return [f"{before}{comma}{name}" for name in names if name.startswith(last)]
+    return [f"{before}{comma}{name}" for name in _begun(last, names)]
 
 
 def laws(incomplete: str) -> list[str]:
     """Return the laws that begin so."""
     from ebac.laws import LAWS, tuned_laws
 
-    return _begun(incomplete.lower(), (*LAWS, *tuned_laws(), "all"))
+    return _last_begun(incomplete.lower(), (*LAWS, *tuned_laws(), "all"))
 
 
 def hands(incomplete: str) -> list[str]:
@@ -42,18 +47,18 @@ def world_kinds(incomplete: str) -> list[str]:
     """Return the kinds of random worlds that begin so."""
     from ebac.studies.world_kinds import KINDS
 
-    return _begun(incomplete, KINDS)
+    return _last_begun(incomplete, KINDS)
 
 
 def world_devices(incomplete: str) -> list[str]:
     """Return the devices for random worlds that begin so."""
     from ebac.studies.random_scenario import DEVICES
 
-    return _begun(incomplete, DEVICES)
+    return _last_begun(incomplete, DEVICES)
 
 
 def conditions(incomplete: str) -> list[str]:
     """Return the conditions and groups that begin so."""
     from ebac.studies import CONDITIONS, GROUPS
 
-    return _begun(incomplete, (*GROUPS, *CONDITIONS))
+    return _last_begun(incomplete, (*GROUPS, *CONDITIONS))

@@ -99,18 +99,19 @@ def new_figure(width: float, height: float) -> Picture:
     return Picture(figsize=(width, height), layout="constrained", dpi=DPI)
 
 
+def _own_colour(law: str) -> str | None:
+    return COLOURS.get(law.partition("-tuned")[0])
+
+
 def colour(law: str) -> str:
     """Return the colour of a law; a tuned one has that of its design."""
-    return COLOURS.get(law.partition("-tuned")[0], OTHER_LAWS[0])
+    return _own_colour(law) or OTHER_LAWS[0]
 
 
 def colours(laws: Iterable[str]) -> dict[str, str]:
     """Return the colours of all laws of a picture; those that have none of their own get different ones."""
     others = cycle(OTHER_LAWS)
-    return {
-        law: next(others) if colour(law) == OTHER_LAWS[0] else colour(law)
-        for law in dict.fromkeys(laws)
-    }
+    return {law: _own_colour(law) or next(others) for law in dict.fromkeys(laws)}
 
 
 def dress(ax: Axes, ylabel: str) -> None:

@@ -12,7 +12,7 @@ from typing import Any
 from ebac._core import Device, Timing
 from ebac.laws import AnyLaw, CoreLaw, changed, design, law_name, shown_value
 from ebac.operators import Operators
-from ebac.studies.measures import MEASURES, Measure
+from ebac.studies.measures import MEASURES, Measure, conditions_of
 from ebac.studies.result import Study
 from ebac.studies.study import study
 
@@ -258,8 +258,7 @@ def ablation(
         laws[_row_name(name, piece)] = variant
     others = tuple(other for other in beside if other != name)
     laws |= {other: other for other in others}
-    where = list(dict.fromkeys(one for measure in measures for one in measure.conditions))
-    done = study(population or Operators.grid(), laws, where, **run)
+    done = study(population or Operators.grid(), laws, conditions_of(measures), **run)
     return Ablation(law=name, pieces=found, beside=others, measures=tuple(measures), study=done)
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, TypeAlias
 
@@ -156,3 +156,8 @@ MEASURES = (
     Measure(key="friction_m", heading="off the ideal, friction 1 N", unit="m", conditions=("friction-1",),
             of=_away, matters=0.05, relative=True),
 )  # fmt: skip
+
+
+def conditions_of(measures: Iterable[Measure]) -> list[str]:
+    """Return the conditions under which all of these measures are taken, each once."""
+    return list(dict.fromkeys(one for measure in measures for one in measure.conditions))

@@ -78,6 +78,8 @@ def ablation(
 
     * `ebac ablation --population random --hands 20 --seed 7 --json`
     """
+    from ebac.studies.measures import MEASURES, conditions_of
+
     folder = to.folder("ablation", as_json=as_json, resume=study_results.BUNDLES * resume)
     with output.refusing():
         given: dict[str, Any] = {
@@ -91,19 +93,12 @@ def ablation(
             "out": None if folder is None else folder / study_results.BUNDLES,
         }
         people = setting.population(population, hands, seed)
-        replaced.tell(given["base"], _conditions())
+        replaced.tell(given["base"], conditions_of(MEASURES))
     found = _run(people, given, folder, quiet=as_json)
     to.report(
         folder, "ablation", _document(found), as_json=as_json,
         fill=lambda draft: _fill(draft, found, to), show=lambda: _show(found),
     )  # fmt: skip
-
-
-def _conditions() -> list[str]:
-    """Return the conditions that the measures are taken under."""
-    from ebac.studies import MEASURES
-
-    return list(dict.fromkeys(name for measure in MEASURES for name in measure.conditions))
 
 
 def _run(people: Any, given: dict[str, Any], folder: Path | None, *, quiet: bool) -> Ablation:
