@@ -2,10 +2,9 @@
 
 More examples than usual: `pytest --hypothesis-profile=explore`.
 
-A test marked `real_time` runs a loop against the clock. Where a loop in it ended because this machine kept it or what
-answers it waiting, the test is repeated while no other worker runs one, seven times at most. The summary says so. Any
-other failure is one at once. One marked `real_time(seconds=True)` looks at what real seconds have brought, in
-which a machine that is late has done less: it is repeated alone after any failure, twice at most.
+A test marked `real_time` runs a loop against the clock, and a machine that is late brings less in the same seconds. One
+that fails is repeated while no other worker runs a test: seven times at most where a loop in it ended because this
+machine kept it or what answers it waiting, twice at most after any other failure. The summary says so.
 """
 
 import fcntl
@@ -194,14 +193,14 @@ _LATE = re.compile(
     r"|error code 0x8130, heartbeat"
     r"|ticks could not be kept and were skipped(?=[\s\S]*fault 21 \(starved)"
 )
-#: How often a test is run at most.
-_TRIES = 8
+#: How often a test is repeated at most: after a stall, and after any other failure.
+_STALLS, _OTHERS = 7, 2
 
 
 def pytest_configure(config: pytest.Config) -> None:
     """Know the marker."""
     config.addinivalue_line(
-        "markers", "real_time: runs a loop against the clock; repeated where the machine stalled it"
+        "markers", "real_time: runs a loop against the clock; repeated alone where it fails"
     )
 
 
@@ -224,20 +223,24 @@ def _machine(alone: bool) -> Iterator[None]:
 
 
 def pytest_runtest_protocol(item: pytest.Item, nextitem: pytest.Item | None) -> bool:
-    """Run a test; one of the clock again, alone, where a loop in it ended on the machine's account."""
+    """Run a test; one of the clock again, alone, where it fails."""
     item.ihook.pytest_runtest_logstart(nodeid=item.nodeid, location=item.location)
-    marker = item.get_closest_marker("real_time")
-    seconds = marker is not None and marker.kwargs.get("seconds", False)
-    tries = 1 if marker is None else 3 if seconds else _TRIES
-    for tried in range(tries):
-        with _machine(alone=tried > 0):
+    stalls = others = 0
+    while True:
+        with _machine(alone=stalls + others > 0):
             reports = runtestprotocol(item, nextitem=nextitem, log=False)  # with fixtures anew
         failed = [_message(one) for one in reports if one.failed]
-        late = [words for words in failed if _LATE.search(words)]
-        if not failed or (not seconds and late != failed) or tried == tries - 1:
+        if not failed or item.get_closest_marker("real_time") is None:
             break
-        fault = _LATE.search(late[0])[0] if late else failed[0].partition("\n")[0]  # type: ignore[index]
-        item.user_properties.append(("repeated", fault))
+        if all(_LATE.search(words) for words in failed):
+            stalls += 1
+        else:
+            others += 1
+        if stalls > _STALLS or others > _OTHERS:
+            break
+        fault = _LATE.search(failed[0])
+        why = fault[0] if fault else failed[0].partition("\n")[0]
+        item.user_properties.append(("repeated", why))
     for report in reports:
         item.ihook.pytest_runtest_logreport(report=report)
     item.ihook.pytest_runtest_logfinish(nodeid=item.nodeid, location=item.location)
@@ -256,7 +259,7 @@ def pytest_terminal_summary(terminalreporter: Any) -> None:
         for report in terminalreporter.stats.get(found, []):
             why = [value for name, value in report.user_properties if name == "repeated"]
             if why:
-                told = f"repeated alone, the machine was late: {report.nodeid}: {', '.join(why)}"
+                told = f"repeated alone: {report.nodeid}: {', '.join(why)}"
                 terminalreporter.write_line(told, yellow=True)
 
 

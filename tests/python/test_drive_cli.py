@@ -231,7 +231,7 @@ def test_simulate_serves_until_its_time_is_over() -> None:
     assert "Stopped: 0 frames received, 2 sent." in said(result)  # boot-up of both
 
 
-@pytest.mark.real_time(seconds=True)  # multicast drops frames that nobody takes in time
+@pytest.mark.real_time  # multicast drops frames that nobody takes in time
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
 def test_drives_in_another_process_are_set_up_and_end_by_a_signal(
     number: signal.Signals, tmp_path: Path

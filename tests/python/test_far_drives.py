@@ -188,7 +188,7 @@ def at_rest(side: SideReport, count: int) -> bool:
 
 @LINUX
 @pytest.mark.slow
-@pytest.mark.real_time(seconds=True)
+@pytest.mark.real_time
 def test_what_is_felt_is_what_the_model_meets(tmp_path: Path) -> None:
     """A bend held against the wall: the load that came over two buses and a network is that of the model alone."""
     pair = Pair(tmp_path)

@@ -12,7 +12,7 @@ from ebac.gastroscope import Physician, Procedure, gastroscopy
 from ebac.live.gastroscopy import serve_gastroscopy
 
 pytest.importorskip("websockets")
-pytestmark = pytest.mark.real_time(seconds=True)
+pytestmark = pytest.mark.real_time
 
 HEEDS = Procedure(physician=Physician(heed=3))
 

@@ -21,7 +21,7 @@ from ebac.live import serve
 from ebac.live.session_parts import PATIENCE
 
 websockets = pytest.importorskip("websockets.asyncio.client")
-pytestmark = pytest.mark.real_time(seconds=True)
+pytestmark = pytest.mark.real_time
 
 
 #: The target of the hand on the simulated device.

@@ -73,7 +73,7 @@ def own_bus(folder: Path) -> Path:
     return file
 
 
-@pytest.mark.real_time(seconds=True)
+@pytest.mark.real_time
 @pytest.mark.parametrize("words", [[], ["--allow-control"], ["--virtual"]])
 @pytest.mark.slow
 def test_the_command_opens_a_file_and_gives_no_power_by_itself(

@@ -23,7 +23,7 @@ from ebac.live.serving import serve
 websockets = pytest.importorskip("websockets.asyncio.client")
 from websockets.exceptions import ConnectionClosed, InvalidStatus  # noqa: E402
 
-pytestmark = pytest.mark.real_time(seconds=True)
+pytestmark = pytest.mark.real_time
 
 
 @pytest.fixture

@@ -11,7 +11,7 @@ from ebac.live import serve
 
 pytest.importorskip("websockets")
 #: A browser draws thirty frames a second by the processor.
-pytestmark = [pytest.mark.slow, pytest.mark.real_time(seconds=True)]
+pytestmark = [pytest.mark.slow, pytest.mark.real_time]
 
 DRAWN = "() => window.ebacServed && ebacServed.drawn > 0 && ebacServed.frame.x"
 #: Where the violet ball is on the screen [pixels].

@@ -12,7 +12,7 @@ from ebac.live.choices import Choices, options
 from ebac.live.frames import Frames
 from ebac.live.session import Session
 
-pytestmark = pytest.mark.real_time(seconds=True)
+pytestmark = pytest.mark.real_time
 
 
 @pytest.fixture
