@@ -306,6 +306,30 @@ def test_a_shell_completes_the_last_name_of_a_list() -> None:
     assert completion.laws("tca,nothing") == []
 
 
+def test_a_list_of_numbers_is_separated_by_commas_or_the_option_repeated(tmp_path: Path) -> None:
+    few = ["random-worlds", *["--kind", "balls", "--device", "2-axes", "--hands", "1", "--json"]]
+    calls = ["--delay 1,2", "--delay=1,2", "--delay 1 --delay 2", "--delay 1,1 --delay 2"]
+    rows = [
+        json.loads(CliRunner().invoke(app, few + call.split()).stdout)["rows"] for call in calls
+    ]
+    assert [row["delay_samples"] for row in rows[0]] == [1, 2]
+    assert rows[1:] == rows[:1] * 3
+
+
+@pytest.mark.parametrize(
+    ("call", "says"),
+    [
+        ("--delay 1,two", "--delay = two: must be a whole number (in samples)"),
+        ("--stiffness 1000,", "--stiffness = : must be a number (in N/m)"),
+        ("--hands 1,2", "--hands = 1,2: must be a whole number; must lie in [1, 100000]"),
+    ],
+)
+def test_a_wrong_number_of_a_list_is_named(call: str, says: str) -> None:
+    answer = CliRunner().invoke(app, ["random-worlds", *call.split()])
+    assert answer.exit_code == 2
+    assert says in " ".join(answer.output.split())
+
+
 def test_a_name_that_is_given_alone_is_completed_alone() -> None:
     assert completion.devices("joystick,re") == []
     assert completion.hands("finger-") == ["finger-pad"]

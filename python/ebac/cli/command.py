@@ -40,7 +40,7 @@ class Command(TyperCommand):
 
     def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
         """Read the words after the command."""
-        words = [_renamed(word, self) for word in args]
+        words = _numbers_apart([_renamed(word, self) for word in args], self)
         try:
             rest: list[str] = super().parse_args(ctx, list(words))
         except _UsageError as error:
@@ -113,6 +113,23 @@ def _renamed(word: str, command: Any) -> str:
         return word
     typer.echo(f"{name} is called {new} now; the next release drops the old name.", err=True)
     return f"{new}{equals}{value}"
+
+
+def _numbers_apart(words: Sequence[str], command: Any) -> list[str]:
+    """Write `--option 1,2` as `--option 1 --option 2`, where an option takes several numbers."""
+    several = [p for p in command.params if getattr(p, "multiple", False)]
+    names = {name for p in several if wrong_input.is_number(p) for name in p.opts}
+    apart: list[str] = []
+    for word in words:
+        name, equals, value = word.partition("=")
+        if equals and name in names:
+            apart += [f"{name}={one}" for one in value.split(",")]
+        elif apart and apart[-1] in names:
+            first, *more = word.split(",")
+            apart += [first, *(part for one in more for part in (apart[-1], one))]
+        else:
+            apart.append(word)
+    return apart
 
 
 def add(

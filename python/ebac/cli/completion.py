@@ -2,24 +2,31 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
+from functools import wraps
 
 
 def _begun(incomplete: str, names: Iterable[str]) -> list[str]:
     return [name for name in names if name.startswith(incomplete)]
 
 
-def _last_begun(incomplete: str, names: Iterable[str]) -> list[str]:
-    """Return lists separated by commas, with each name that the last one may become."""
-    before, comma, last = incomplete.rpartition(",")
-    return [f"{before}{comma}{name}" for name in _begun(last, names)]
+def several(complete: Callable[[str], list[str]]) -> Callable[[str], list[str]]:
+    """Return a completion of lists separated by commas, whose last name is completed."""
+
+    @wraps(complete)
+    def last(incomplete: str) -> list[str]:
+        before, comma, name = incomplete.rpartition(",")
+        return [f"{before}{comma}{one}" for one in complete(name)]
+
+    return last
 
 
+@several
 def laws(incomplete: str) -> list[str]:
     """Return the laws that begin so."""
     from ebac.laws import LAWS, tuned_laws
 
-    return _last_begun(incomplete.lower(), (*LAWS, *tuned_laws(), "all"))
+    return _begun(incomplete.lower(), (*LAWS, *tuned_laws(), "all"))
 
 
 def hands(incomplete: str) -> list[str]:
@@ -43,22 +50,25 @@ def devices(incomplete: str) -> list[str]:
     return _begun(incomplete, DEVICES)
 
 
+@several
 def world_kinds(incomplete: str) -> list[str]:
     """Return the kinds of random worlds that begin so."""
     from ebac.studies.world_kinds import KINDS
 
-    return _last_begun(incomplete, KINDS)
+    return _begun(incomplete, KINDS)
 
 
+@several
 def world_devices(incomplete: str) -> list[str]:
     """Return the devices for random worlds that begin so."""
     from ebac.studies.random_scenario import DEVICES
 
-    return _last_begun(incomplete, DEVICES)
+    return _begun(incomplete, DEVICES)
 
 
+@several
 def conditions(incomplete: str) -> list[str]:
     """Return the conditions and groups that begin so."""
     from ebac.studies import CONDITIONS, GROUPS
 
-    return _last_begun(incomplete, (*GROUPS, *CONDITIONS))
+    return _begun(incomplete, (*GROUPS, *CONDITIONS))

@@ -55,13 +55,13 @@ class FigureOptions:
     def formats(self) -> list[str]:
         """Return the extensions of the figures."""
         given = ["png"] if self.figure_format is None else self.figure_format
-        names = [word for text in given for word in output.words(text)]
+        names = output.words(given)
         if not names:
             output.fail(f"--format: is empty; must be {', '.join(FORMATS[:-1])} or {FORMATS[-1]}")
         for name in names:
             if name not in FORMATS:
                 output.fail(unknown(f"--format {name}", name, FORMATS))
-        return list(dict.fromkeys(names))
+        return names
 
     def save(self, figure: Figure, folder: Path, name: str) -> list[str]:
         """Write a figure in every format; return the names of the files."""

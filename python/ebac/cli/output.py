@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import errno
 import json
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager
 from math import isfinite
 from pathlib import Path
@@ -199,9 +199,10 @@ def path(name: str | Path) -> None:
     console().print(str(name), soft_wrap=True, markup=False)
 
 
-def words(text: str) -> list[str]:
-    """Return the words of a list separated by commas."""
-    return [word for word in (part.strip() for part in text.split(",")) if word]
+def words(given: Iterable[str] | None) -> list[str]:
+    """Return the words of lists separated by commas, each once."""
+    parts = (part.strip() for text in given or () for part in text.split(","))
+    return list(dict.fromkeys(part for part in parts if part))
 
 
 def plural(count: int, one: str, many: str = "") -> str:

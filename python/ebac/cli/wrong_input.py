@@ -52,6 +52,11 @@ def option_name(param: Any) -> str:
     return str(getattr(param, "metavar", None) or param.name.upper()).strip("[].")
 
 
+def is_number(param: Any) -> bool:
+    """Return whether a parameter takes numbers."""
+    return bool(re.search("int|float", _kind(param)))
+
+
 def _wrong_value(param: Any, name: str, message: str, words: Sequence[str]) -> str:
     given = list(values_of(param, words))
     low, high = _range(param)
@@ -146,9 +151,14 @@ def _choices(param: Any) -> list[str]:
 
 
 def _whole(param: Any) -> bool:
-    kind = getattr(param, "type", None)
+    return "int" in _kind(param)
+
+
+def _kind(param: Any) -> str:
+    """Return what names the type of a parameter, in any release of typer."""
+    kind = getattr(getattr(param, "type", None), "name", "")
     annotation = getattr(getattr(param, "type_descriptor", None), "annotation", "")
-    return "int" in str(getattr(kind, "name", "")) or "int" in str(annotation)
+    return f"{kind} {annotation}"
 
 
 def _must(low: float | None, high: float | None, unit: str) -> str:

@@ -28,7 +28,7 @@ def enable(
     where: BusOptions,
     node: Annotated[
         list[int],
-        typer.Option("--node", "-n", help="Node id; repeat it for several.", min=1, max=127),
+        typer.Option("--node", "-n", help="Node id; several separated by commas.", min=1, max=127),
     ],
     mode: Annotated[
         int | None,

@@ -97,7 +97,7 @@ Nodes: TypeAlias = Annotated[
     typer.Option(
         "--node",
         "-n",
-        help="Node id of a drive, 1 to 127; repeat it for several.",
+        help="Node id of a drive, 1 to 127; several separated by commas.",
         show_default="every drive that answers",
         min=1,
         max=127,
@@ -108,7 +108,7 @@ ProfileNodes: TypeAlias = Annotated[
     typer.Option(
         "--node",
         "-n",
-        help="Node id, 1 to 127; repeat it for several. A profile that is not a network file needs it.",
+        help="Node id, 1 to 127; several separated by commas. A profile that is not a network file needs it.",
         show_default="all of the network file",
         min=1,
         max=127,

@@ -22,7 +22,7 @@ def study(
     delay: Annotated[
         list[float] | None,
         typer.Option(
-            help="Delay of the link in each direction [s]; may be given several times.",
+            help="Delay of the link in each direction [s]; several separated by commas.",
             show_default="0, 0.05, 0.1",
         ),
     ] = None,

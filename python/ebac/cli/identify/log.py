@@ -37,7 +37,7 @@ def log(
     from ebac.identify import check_log
 
     with output.refusing():
-        wanted = [word for text in ask or [] for word in output.words(text)]
+        wanted = output.words(ask)
         pairs = [target.of(reading.load(path)) for path in logs]
         found = [check_log(*pair, ask=wanted or ("M0", "B0", "K0")) for pair in pairs]
     rows = [row for one in found for row in one.rows()]

@@ -51,7 +51,7 @@ class TargetOptions:
     switch: Annotated[
         list[float] | None,
         _fit(
-            "Time at which the hand went to another place [s]; repeat it.",
+            "Time at which the hand went to another place [s]; several separated by commas.",
             "as the log says, else held in one place",
         ),
     ] = None

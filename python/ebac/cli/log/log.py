@@ -224,7 +224,7 @@ def plot(
     with output.refusing():
         from ebac.plot import plot_columns, plot_trace
 
-        chosen = [word for text in column or [] for word in output.words(text)]
+        chosen = output.words(column)
         figure = plot_columns(trace, chosen) if chosen else plot_trace(trace)
         files = [out] if out else [free_file(file.with_suffix(f".{e}")) for e in style.formats()]
         for picture in files:

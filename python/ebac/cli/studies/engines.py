@@ -22,7 +22,7 @@ def engines(
     engine_rate: Annotated[
         list[float] | None,
         options.option(
-            text="Calls of the engine per second [Hz]; repeat it for several",
+            text="Calls of the engine per second [Hz]; several separated by commas",
             default="60, 500",
             panel=engine_options.ENGINE,
         ),

@@ -32,7 +32,7 @@ def random_worlds(
     stiffness: Annotated[
         list[float] | None,
         options.option(
-            text="Of every surface [N/m]; repeat it for several",
+            text="Of every surface [N/m]; several separated by commas",
             default="10000",
             panel=_WORLD,
         ),
@@ -75,7 +75,7 @@ def random_worlds(
     delay: Annotated[
         list[int] | None,
         options.option(
-            text="Ticks until a command acts [samples]; repeat it for several",
+            text="Ticks until a command acts [samples]; several separated by commas",
             default="1",
             panel=options.RUN,
         ),
@@ -145,9 +145,7 @@ def _names(option: str, given: list[str] | None, known: Iterable[str]) -> list[s
     """Return the names of lists separated by commas, each once; all that are known where none is given."""
     if given is None:
         return list(known)
-    names = [
-        setting.known_name("", option, word, known) for text in given for word in output.words(text)
-    ]
+    names = [setting.known_name("", option, word, known) for word in output.words(given)]
     if not names:
         raise ValueError(f"{option}: is empty; there are: {', '.join(known)}")
     return list(dict.fromkeys(names))

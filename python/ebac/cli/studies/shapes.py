@@ -21,17 +21,17 @@ def shapes(
     world: Annotated[
         list[str] | None,
         options.option(
-            text="A world by name, see `ebac worlds`; mesh:FILE; or mesh, a ball of 1,280 triangles; repeat it for "
-            "several",
+            text="A world by name, see `ebac worlds`; mesh:FILE; or mesh, a ball of 1,280 triangles; several "
+            "separated by commas",
             default="plane, sphere, box, edge, inside, corner, lumen, mesh",
             panel=options.WALL,
-            autocompletion=completion.worlds,
+            autocompletion=completion.several(completion.worlds),
         ),
     ] = None,
     stiffness: Annotated[
         list[float] | None,
         options.option(
-            text="Of the surface [N/m]; repeat it for several",
+            text="Of the surface [N/m]; several separated by commas",
             default="2000, 10000",
             panel=options.WALL,
         ),
@@ -39,10 +39,10 @@ def shapes(
     device: Annotated[
         list[str] | None,
         options.option(
-            text="A device by name, see `ebac presets`; repeat it for several",
+            text="A device by name, see `ebac presets`; several separated by commas",
             default="reference, joystick, joystick-3",
             panel=options.DEVICE,
-            autocompletion=completion.devices,
+            autocompletion=completion.several(completion.devices),
         ),
     ] = None,
     device_noise: options.DeviceNoise = None,
@@ -72,7 +72,7 @@ def shapes(
 
     with output.refusing():
         names = setting.law_names(law or LAWS)
-        devices = list(dict.fromkeys(device or DEVICES))
+        devices = output.words(device) or DEVICES
         for name in devices:
             setting.known_device(name)
         timing = setting.choose_timing(Timing(), rate, delay)
@@ -83,7 +83,7 @@ def shapes(
         ):
             found = compare(
                 names,
-                worlds=list(dict.fromkeys(world)) if world else WORLDS,
+                worlds=output.words(world) or WORLDS,
                 stiffnesses=list(dict.fromkeys(stiffness)) if stiffness else STIFFNESSES,
                 devices=[name.lower() for name in devices],
                 timing=timing,

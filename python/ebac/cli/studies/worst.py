@@ -84,7 +84,7 @@ def worst(
         base = options.scenario_of(device, length)
         wanted = setting.one_condition(condition)
         replaced.tell(base, [wanted])
-        families = [word for text in family or [] for word in output.words(text)]
+        families = output.words(family)
         folder = to.folder("worst", as_json=as_json)
         output.keeping(
             "nothing was written; the same command starts from the beginning, and fewer --family or --evaluations "

@@ -43,7 +43,7 @@ def zwidth(
     delay: Annotated[
         list[int] | None,
         typer.Option(
-            help="Ticks until a command acts [samples]; repeat it for several.",
+            help="Ticks until a command acts [samples]; several separated by commas.",
             show_default="0, 1, 2",
             rich_help_panel=options.RUN,
         ),

@@ -55,7 +55,7 @@ def run(
     from ebac.teleop import SCHEMES, SlaveModel, simulate
 
     with output.refusing():
-        names = [one for text in scheme or SCHEMES for one in output.words(text)]
+        names = output.words(scheme or SCHEMES)
         folder = to.folder("teleop-run", as_json=as_json)
         runs = [
             simulate(

@@ -23,14 +23,14 @@ def study(
     delay: Annotated[
         list[float] | None,
         typer.Option(
-            help="Delay in each direction [s]; may be given several times.",
+            help="Delay in each direction [s]; several separated by commas.",
             show_default="0, 0.05, 0.2, 0.3",
         ),
     ] = None,
     contact_stiffness: Annotated[
         list[float] | None,
         typer.Option(
-            help="Stiffness of the contact that the slave meets [N/m]; may be given several times.",
+            help="Stiffness of the contact that the slave meets [N/m]; several separated by commas.",
             show_default="0, 500, 20000",
         ),
     ] = None,
@@ -53,12 +53,12 @@ def study(
 
     * `ebac teleop study --network clean --scheme waves,ebac --delay 0.1`
 
-    * `ebac teleop study --scheme ebac --contact-stiffness 100 --contact-stiffness 1000 --json`
+    * `ebac teleop study --scheme ebac --contact-stiffness 100,1000 --json`
     """
     from ebac import teleop
 
     with output.refusing():
-        names = [one for text in scheme or teleop.SCHEMES for one in output.words(text)]
+        names = output.words(scheme or teleop.SCHEMES)
         schemes = [teleop.scheme(name) for name in names]
         folder = to.folder("teleop-study", as_json=as_json)
         if tune:
