@@ -92,6 +92,19 @@ TEST(AnyLaw, IsRetunedByItsOwnTypeOnly) {
   EXPECT_THROW(check_retune(law, any_law(Direct({}))), std::invalid_argument);
 }
 
+TEST(AnyLaw, OfOtherDeviceFactsTakesOverAnew) {
+  const AnyLaw law = any_law(Ebac({}));
+  EXPECT_TRUE(law.same_but_gains(any_law(Ebac({.kp = 0.2}))));
+  EXPECT_FALSE(law.same_but_gains(any_law(Ebac({.mass = 0.3}))));
+  EXPECT_FALSE(law.same_but_gains(any_law(Ebac({}, {.delay = 2}))));
+  EXPECT_FALSE(law.same_but_gains(any_law(Direct({}))));
+
+  PerAxis<AnyLaw> laws(any_law(Ebac({.reserve = 0.01})));
+  auto next = PerAxis<AnyLaw>::replacement(any_law(Ebac({.reserve = 0.03})));
+  laws.adopt(next);
+  EXPECT_EQ(laws.state_table().find("energy")->number(laws.state(0)), 0.03);
+}
+
 /// A law whose gains are fixed.
 class Fixed : public Direct {
  public:

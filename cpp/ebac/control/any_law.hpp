@@ -1,10 +1,11 @@
 #pragma once
 
+#include <concepts>
 #include <memory>
 #include <string_view>
-#include <type_traits>
 #include <utility>
 
+#include "ebac/control/fixed_params.hpp"
 #include "ebac/core/concepts.hpp"
 
 /// A law whose type is known at run time only: one virtual call for each port and tick. What runs
@@ -91,7 +92,8 @@ class AnyLaw {
   void retune(const AnyLaw& next) EBAC_RT { law_->retune(*next.law_); }
   /// Whether `next` differs in its gains only, so that this one may take them and keep its memory.
   bool same_but_gains(const AnyLaw& next) const EBAC_RT {
-    return &type() == &next.type() && timing() == next.timing();
+    return &type() == &next.type() && timing() == next.timing() &&
+           fixed_change(type().params, params(), next.params()) == nullptr;
   }
 
   void begin_account() EBAC_RT { law_->begin_account(); }

@@ -1,38 +1,22 @@
 #include "ebac/loop/retune.hpp"
 
-#include <algorithm>
-#include <array>
 #include <stdexcept>
 #include <string>
 
+#include "ebac/control/fixed_params.hpp"
 #include "ebac/core/check.hpp"
 
 namespace ebac {
 
-namespace {
-
-/// Parameters that a law keeps from its start: those of the device, the energy reserve, the way
-/// it is measured.
-constexpr std::array<std::string_view, 8> kFixedParams{"mass",        "damping", "count",
-                                                       "current_lag", "reserve", "observed_reserve",
-                                                       "resonance",   "observer"};
-
-}  // namespace
-
 void check_tuning(const Tuning& now, const Tuning& next) {
-  for (const FieldRow& field : now.table.rows) {
-    if (std::ranges::find(kFixedParams, field.name) == kFixedParams.end()) continue;
-    const double before = field.number(now.params);
-    const double after = field.number(next.params);
-    if (before == after) continue;
-    throw std::invalid_argument(std::string(now.name) + "." + std::string(field.name) + " = " +
-                                shortest(after) + " " + std::string(field.unit) +
-                                ": cannot change from " + shortest(before) +
+  if (const FieldRow* field = fixed_change(now.table, now.params, next.params)) {
+    throw std::invalid_argument(std::string(now.name) + "." + std::string(field->name) + " = " +
+                                shortest(field->number(next.params)) + " " +
+                                std::string(field->unit) + ": cannot change from " +
+                                shortest(field->number(now.params)) +
                                 " while the loop runs; stop it first");
   }
-  const bool same = now.timing.dt == next.timing.dt && now.timing.delay == next.timing.delay &&
-                    now.timing.jitter == next.timing.jitter;
-  if (!same) {
+  if (now.timing != next.timing) {
     throw std::invalid_argument(std::string(now.name) +
                                 ": its timing cannot change while the loop runs; stop it first");
   }
