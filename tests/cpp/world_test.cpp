@@ -204,6 +204,17 @@ TEST(Scene, FrictionSticksAndSlipsOnItsCone) {
   }
 }
 
+TEST(Scene, FrictionBeginsWhereAContactFromInsideDoes) {
+  for (const Axes& x : {Axes{0.005, 0.02, 0}, Axes{0.005, -0.02, 0.01}}) {
+    Scene scene = scene_of(solid(Plane{}), 0.5);
+    EXPECT_NEAR((scene.contact(x, Axes::Zero(), 0).force - Axes{10, 0, 0}).norm(), 0, 1e-9);
+    const ContactForce slid = scene.contact(x + Axes{0, 1e-3, 0}, Axes::Zero(), 1e-3);
+    EXPECT_NEAR((slid.force - Axes{10, 2, 0}).norm(), 0, 1e-9);
+    const ContactForce again = scene.fresh()->contact(-0.5 * x + Axes{0.01, 0, 0}, Axes::Zero(), 0);
+    EXPECT_NEAR((again.force - Axes{15, 0, 0}).norm(), 0, 1e-9);
+  }
+}
+
 TEST(Scene, AMovingBodyHasTheVelocityOfItsSurface) {
   const Swing motion{.amplitude_x = 0.002, .frequency = 2, .turn_z = 3};
   Scene scene = scene_of(solid(Sphere{.radius = 0.02}), 0, motion);

@@ -30,7 +30,11 @@ class HeldBackCommands {
   /// out.
   void hold_back(std::size_t ticks) EBAC_RT { ticks_ = std::min(ticks, kMost); }
 
-  void aim(std::size_t axis, double target) EBAC_RT { device_.aim(axis, target); }
+  void aim(std::size_t axis, double target) EBAC_RT
+    requires requires(D& d) { d.aim(axis, target); }
+  {
+    device_.aim(axis, target);
+  }
   void enable() EBAC_RT
     requires requires(D& d) {
       { d.enable() } noexcept;
@@ -45,7 +49,11 @@ class HeldBackCommands {
   {
     device_.disable();
   }
-  void stop() EBAC_RT { device_.stop(); }
+  void stop() EBAC_RT
+    requires requires(D& d) { d.stop(); }
+  {
+    device_.stop();
+  }
   bool running() const EBAC_RT
     requires requires(const D& d) { d.running(); }
   {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <optional>
 
 #include "ebac/model/contact_force.hpp"
 #include "ebac/world/combined.hpp"
@@ -68,13 +69,14 @@ class Body {
 
   void reset() EBAC_RT {
     proxy_ = {};
+    last_.reset();
     let_go();
   }
 
  private:
   /// In the body's own axes; `v` against its surface.
   Touch touch(const Axes& x, const Axes& v) EBAC_RT {
-    const Axes before = last_;
+    const Axes moved = last_ ? Axes(x - *last_) : Axes(Axes::Zero());
     last_ = x;
     proxy_.follow(*solid_, x);
     if (!proxy_.touching()) {
@@ -92,7 +94,7 @@ class Body {
                .normals = proxy_.constraints()};
     stored_ = world::stored(material_, depth);
     if (friction_ > 0) {
-      made.force += hold(x - before, normal, push);
+      made.force += hold(moved, normal, push);
       stored_ += 0.5 * push.stiffness * stretch_.squaredNorm();
     }
     for (int i = 0; i < made.normals; ++i) {
@@ -128,7 +130,7 @@ class Body {
   Swing motion_;
   bool still_;
   Proxy proxy_;
-  Axes last_ = Axes::Zero();     // m, the handle in the body
+  std::optional<Axes> last_;     // m, the handle in the body
   Axes stretch_ = Axes::Zero();  // m, along the surface
   double stored_ = 0;            // J
 };

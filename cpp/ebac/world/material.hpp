@@ -86,9 +86,8 @@ struct Layer {
   }
 };
 
-/// Layers one behind the other. The uppermost that is whole carries the force, from its own surface on; what lies below is
-/// pressed with it only when it is reached. A punctured layer resists by `cutting` alone and is whole again when the handle
-/// has left.
+/// Layers one behind the other. The uppermost that is whole is pressed alone, from its own surface on and however deep,
+/// until it is punctured. A punctured layer resists by `cutting` alone and is whole again when the handle has left.
 class Layered {
  public:
   static constexpr std::size_t kMost = 6;
@@ -107,7 +106,7 @@ class Layered {
       if (i >= punctured_) {
         const Push own = Elastic{layer.stiffness, layer.damping}.press(std::max(0.0, depth - top),
                                                                        depth > top ? speed : 0.0);
-        if (i == punctured_ && layer.puncture > 0 && own.force > layer.puncture) {
+        if (layer.puncture > 0 && own.force > layer.puncture) {
           ++punctured_;
           return press(depth, speed);
         }

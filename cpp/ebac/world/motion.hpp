@@ -17,7 +17,6 @@ struct BodyPose {
   Axes rate = Axes::Zero();      // rad/s
 
   Axes into(const Axes& x) const EBAC_RT { return turn.transpose() * (x - at); }
-  Axes out_of(const Axes& own) const EBAC_RT { return at + turn * own; }
   /// Of the body's material at a point of space.
   Axes velocity_at(const Axes& x) const EBAC_RT { return velocity + rate.cross(x - at); }
 };

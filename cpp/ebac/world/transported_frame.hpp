@@ -16,11 +16,10 @@ class TransportedFrame {
     if (count == 1 && turn_to(directions[0])) return frame_;
     int row = 0;
     for (int i = 0; i < count && row < kMaxAxes; ++i) row = add(directions[i], row);
-    for (int i = row; i < kMaxAxes;) {
+    for (int i = row; i < kMaxAxes; ++i) {
       const Axes before = frame_.row(i);
       const int added = add(before, i);
       if (added == i) frame_.row(i) = missing(i).transpose();
-      ++i;
     }
     return frame_;
   }

@@ -31,8 +31,8 @@ class Tube final : public Solid {
   }
 
  private:
-  /// A cone between two balls, touching both: the centre of the ball that is nearest lies a little towards the narrower
-  /// end of the foot of the plumb line.
+  /// A cone between two balls, touching both: the centre of the ball that is nearest lies a little towards the wider end
+  /// from the foot of the plumb line.
   static Distance from_cone(const Point& a, const Point& b, const Axes& x) EBAC_RT {
     const Axes way = b.at - a.at;
     const double length = way.norm();
