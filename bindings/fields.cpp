@@ -130,6 +130,7 @@ void refuse_keyword(const std::string& owner, const std::string& name,
   py::dict given;
   given[py::str(name)] = py::none();
   py::module_::import("ebac._util.arguments").attr("refuse_unknown")(owner, given, known);
+  throw py::type_error(owner + ": unexpected keyword argument '" + name + "'");
 }
 
 void refuse_positional(const std::string& owner, const py::args& args,

@@ -19,6 +19,9 @@ std::span<const double> view(const std::optional<Numbers>& values) {
 }
 
 void bind_contact(py::module_& m) {
+  m.attr("TAIL_SHARE") = kTailShare;
+  m.attr("FEWEST_ROWS") = kFewestRows;
+  m.attr("STILL_SWING") = kStillSwing;
   m.def(
       "_measure_contact",
       [](const Numbers& t, const Numbers& x, const Numbers& force,

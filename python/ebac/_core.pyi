@@ -19,9 +19,12 @@ import ebac.laws
 __all__: list[str] = [
     "EBA",
     "EBAC",
+    "FEWEST_ROWS",
     "ISS",
     "REFUSED_LOAD",
     "SFA",
+    "STILL_SWING",
+    "TAIL_SHARE",
     "TCA",
     "WARNED_LOAD",
     "AdaptiveWindow",
@@ -9438,7 +9441,10 @@ def pdo_plan(
 
 def worst_bits(size: typing.SupportsInt | typing.SupportsIndex) -> int: ...
 
+FEWEST_ROWS: int = 10
 REFUSED_LOAD: float = 0.9
+STILL_SWING: float = 0.00025
+TAIL_SHARE: float = 0.3
 WARNED_LOAD: float = 0.7
 
 def _function_world(function: typing.Any) -> _World: ...

@@ -141,12 +141,25 @@ TEST(Contact, ARipplingForceIsWeighedAsTheFiltersSay) {
 }
 
 TEST(Contact, TheDetectedAmplitudeIsThatOfTheSource) {
-  // Of a handle of 0.25 kg in the hand of Israr, Choi, Tan 2006: N by Hz.
-  const double threshold_at[][2] = {
-      {20, 37e-3}, {40, 27e-3}, {80, 21e-3}, {160, 16.5e-3}, {320, 61e-3}};
-  for (const auto& [hertz, newton] : threshold_at) {
-    const double here = 25e-3 / (high_pass(hertz, 1e4) * low_pass(hertz, 1e4));
-    EXPECT_LT(std::abs(20 * std::log10(here / newton)), 4) << hertz;
+  // Of a handle of 0.25 kg in the hand of Israr, Choi, Tan 2006.
+  struct Point {
+    double hertz, amplitude, impedance, newton;  // Hz, m, N s/m, N as documented
+  };
+  const auto less = [](double value, double decibel) {
+    return value * std::pow(10, -decibel / 20);
+  };
+  const double at20 = 8.5e-6, z = 14;
+  const Point points[] = {{20, at20, z, 37e-3},
+                          {40, less(at20, 13), z, 31e-3},
+                          {80, less(at20, 26), less(z, 7), 27e-3},
+                          {160, less(at20, 39), less(z, 23), 24e-3},
+                          {320, 0.06e-6, less(z, 23), 61e-3}};
+  for (const Point& point : points) {
+    const double w = 2 * std::numbers::pi * point.hertz;
+    const double detected = std::hypot(w * 0.25, point.impedance) * w * point.amplitude;
+    EXPECT_NEAR(detected, point.newton, 0.5e-3) << point.hertz;
+    const double here = 25e-3 / (high_pass(point.hertz, 1e4) * low_pass(point.hertz, 1e4));
+    EXPECT_LT(std::abs(20 * std::log10(here / detected)), 2) << point.hertz;
   }
 }
 

@@ -5,10 +5,9 @@
 #include <cmath>
 
 #include "ebac/core/realtime.hpp"
+#include "ebac/core/timing.hpp"
 
 namespace ebac {
-
-inline constexpr int kMaxDelay = 8;  // samples, as Timing::delay
 
 /// Commands given but not yet acting: the last `delay` of them, oldest first.
 class CommandsInFlight {

@@ -7,6 +7,8 @@
 
 namespace ebac {
 
+inline constexpr int kMaxDelay = 8;  // samples
+
 /// Timing for which a law is designed: the nominal tick, and the delay of a command.
 struct Timing {
   double dt = 1e-3;   // s
@@ -24,7 +26,8 @@ struct Timing {
     return std::array{
         F{"dt", &Timing::dt, "s", "sample time", 1e-5, 0.1},
         F{"delay", &Timing::delay, "samples",
-          "ticks from computing a command to its acting; 1 is a synchronous CAN drive", 0, 8},
+          "ticks from computing a command to its acting; 1 is a synchronous CAN drive", 0,
+          kMaxDelay},
         F{"jitter", &Timing::jitter, "1",
           "largest deviation of a tick from its instant, over the sample time, that laws count "
           "with",

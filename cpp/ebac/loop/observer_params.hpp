@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 
-#include "ebac/control/commands_in_flight.hpp"
 #include "ebac/core/fields.hpp"
 #include "ebac/core/realtime.hpp"
 #include "ebac/core/timing.hpp"

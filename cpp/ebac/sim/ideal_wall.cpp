@@ -127,7 +127,7 @@ IdealContact ideal_contact(const Setup& setup, ContactRecorder& recorder) {
       std::isfinite(setup.hand.release_at)) {
     return {};
   }
-  const auto rows = static_cast<std::size_t>(std::llround(setup.seconds / setup.timing.dt)) + 1;
+  const auto rows = row_count(setup);
   if (rows < kFewestRows) return {};
   IdealAxis axis(setup, *wall);
   recorder.start(rows);

@@ -18,8 +18,8 @@ inline constexpr double kFewestVibrating = 80;  // Hz; fewer rows a second show 
 /// at 20 Hz, 13 dB less with each octave to 160 Hz, and 0.06 um at 320 Hz, the least; the impedance
 /// Z of the hand is 12.6 to 15.8 N s/m below 40 Hz, 7 dB less at 80 Hz, 16 dB less again at 160 Hz
 /// and the same at 320 Hz. Assumed here: the force moves a handle of M = 0.25 kg (the reference
-/// device) in such a hand, so |j w M + Z| w d is just detected: 37, 27, 21, 16 and 61 mN at 20, 40,
-/// 80, 160 and 320 Hz. 25 mN behind the filters below is within 4 dB of that.
+/// device) in such a hand, so |j w M + Z| w d is just detected: 37, 31, 27, 24 and 61 mN at 20, 40,
+/// 80, 160 and 320 Hz. 25 mN behind the filters below is within 2 dB of that.
 inline constexpr double kDetected = 25e-3;
 inline constexpr double kPerceivedBelow = 200;    // Hz, corner of the low-pass
 inline constexpr double kPerceivedDamping = 0.5;  // 1, of the low-pass

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 
@@ -24,5 +26,10 @@ struct Setup {
   LoopOptions loop{};  // soft start and limits; none by default
   std::optional<ObserverParams> observer{};
 };
+
+/// Rows of a whole run: one for every tick from 0 to its end.
+inline std::size_t row_count(const Setup& setup) {
+  return static_cast<std::size_t>(std::llround(setup.seconds / setup.timing.dt)) + 1;
+}
 
 }  // namespace ebac

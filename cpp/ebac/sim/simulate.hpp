@@ -19,10 +19,6 @@ Loop<SimulatedDevice, VirtualClock, Law> simulated_loop(const Setup& setup, Law 
           setup.device.axes(),    setup.loop};
 }
 
-inline std::size_t row_count(const Setup& setup) {
-  return static_cast<std::size_t>(std::llround(setup.seconds / setup.timing.dt)) + 1;
-}
-
 /// Runs `setup` under `law` to its end and returns every row.
 template <AxesController Law>
 std::shared_ptr<Trace> simulate(const Setup& setup, Law law) {

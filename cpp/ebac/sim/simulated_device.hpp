@@ -79,7 +79,7 @@ class SimulatedDevice {
   double tick_;
   std::size_t delay_;
   double t_ = 0;
-  std::array<std::array<double, kMaxAxes>, 8> queue_{};  // A, oldest at head_
+  std::array<std::array<double, kMaxAxes>, kMaxDelay> queue_{};  // A, oldest at head_
   std::size_t head_ = 0;
   Axes applied_ = Axes::Zero();           // A, over the last interval
   std::array<double, kMaxAxes> phase_{};  // rad, of the motor within its first count

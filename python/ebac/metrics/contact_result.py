@@ -122,8 +122,8 @@ class Contact:
     25 mN is made from the displacements of a held stylus that are just detected, and from the impedance of the hand
     that holds it [1]_: 8.5 um at 20 Hz, 13 dB less with each octave to 160 Hz, 0.06 um at 320 Hz; 14 N s/m below 40 Hz,
     7 dB less at 80 Hz, 23 dB less from 160 to 320 Hz. The force is assumed to move a handle of 0.25 kg, the reference
-    device, in that hand. Both impedances make 37, 27, 21, 16 and 61 mN at 20, 40, 80, 160 and 320 Hz, and the filters
-    keep within 4 dB of that. Vibration sums up over about 0.2 s [2]_.
+    device, in that hand. Both impedances make 37, 31, 27, 24 and 61 mN at 20, 40, 80, 160 and 320 Hz, and the filters
+    keep within 2 dB of that. Vibration sums up over about 0.2 s [2]_.
 
     It puts laws on one scale. It does not predict what a person feels on another handle: a light one moves more by the
     same force, and a hand that moves or presses detects less than one at rest in a laboratory. Below 20 Hz, where a
@@ -203,8 +203,6 @@ class Contact:
 
     def _repr_html_(self) -> str:
         """Return a table for a notebook."""
-        from dataclasses import asdict
-
         from ebac._util.notebook import table
 
         return table([asdict(self)])

@@ -8,6 +8,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ebac._core import FEWEST_ROWS as FEWEST_ROWS  # fewer have no tail to measure
+from ebac._core import (
+    STILL_SWING as STILL_SWING,
+)  # m, peak to peak: a contact that swings by less is still
+from ebac._core import (
+    TAIL_SHARE as TAIL_SHARE,
+)  # of a run, its end, over which rest and swing are taken
 from ebac._core import _measure_contact, _stored_energy
 from ebac._util.arguments import require
 from ebac.hands import is_own
@@ -16,15 +23,9 @@ from ebac.metrics.energy_drawn import drawn
 from ebac.metrics.ideal import allowed_deviation, ideal_rest, without_engine
 from ebac.trace import Trace
 
-#: The end of a run over which rest and swing are taken.
-TAIL_SHARE = 0.3
 #: A handle that met nothing for so long at the end of a run has left the surface [s]; a law that shakes meets the wall
 #: several times within it.
 LEFT_AFTER = 0.5
-#: A contact swinging by less than this, peak to peak, is still [m].
-STILL_SWING = 0.25e-3
-#: Fewer rows have no tail to measure.
-FEWEST_ROWS = 10
 #: The numbers of a contact, and what the core calls them.
 COLUMNS = {
     "rest_m": "rest",

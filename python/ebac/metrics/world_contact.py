@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ebac._core import Gimbal
+from ebac._core import TAIL_SHARE, Gimbal
 from ebac._util.arguments import require
 from ebac.trace import Trace
 from ebac.worlds import World, distance
@@ -75,7 +75,7 @@ def world_contact(trace: Trace) -> WorldContact:
     touches = world.walk(x, None, trace["t"])
     depth = np.array([touch.depth for touch in touches])
     in_contact = depth > 0
-    tail = np.arange(n) >= 0.7 * n
+    tail = np.arange(n) >= (1 - TAIL_SHARE) * n
     friction = any(body.friction for body in world.bodies)
     return WorldContact(
         touched_share=float(in_contact.mean()),

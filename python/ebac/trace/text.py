@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ebac._core import FEWEST_ROWS
 from ebac._util import formatting
 from ebac._util.arguments import whole
 from ebac._util.report import aligned
@@ -26,8 +27,6 @@ SHOWN = (
     "law.beta",
     "true.energy",
 )
-#: Fewer rows are no contact to measure.
-FEWEST_ROWS = 10
 
 
 class Text(str):
