@@ -7,7 +7,7 @@ import json
 from collections.abc import Mapping, Sequence
 from functools import cache
 from pathlib import Path
-from typing import Any, ClassVar, Protocol, TypeAlias, cast, runtime_checkable
+from typing import TYPE_CHECKING, Any, ClassVar, Protocol, TypeAlias, cast, runtime_checkable
 
 from ebac import _core
 from ebac._core import (
@@ -28,6 +28,9 @@ from ebac._core import (
 )
 from ebac._util.arguments import require, unknown_name
 from ebac._util.wrong_calls import plain_constructor
+
+if TYPE_CHECKING:
+    from ebac.scenario import Scenario
 
 __all__ = [
     "LAWS",
@@ -249,6 +252,16 @@ def _tuned_rows(ending: str) -> list[dict[str, Any]]:
     text = Path(__file__).with_name(_TUNED[ending]).read_text(encoding="utf-8")
     rows: list[dict[str, Any]] = json.loads(text)["rows"]
     return rows
+
+
+def reserve_of(law: CoreLaw | PythonLaw, scenario: Scenario) -> float | None:
+    """Return the energy [J] that a law's account begins with in a scenario; None for a law without an account.
+
+    Less where the law acts on the estimate of a state observer.
+    """
+    observed = bool(scenario.observer) and getattr(law, "observer", False)
+    lent: float | None = getattr(law, "observed_reserve" if observed else "reserve", None)
+    return lent
 
 
 def law_name(law: AnyLaw) -> str:

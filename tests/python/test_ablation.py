@@ -21,7 +21,7 @@ FEW = Operators.grid(mass=[0.15], damping=[2, 6], stiffness=[300], target=[0.04]
 KEYS = [
     "law", "piece", "changes", "hands", "good", "exact_and_still", "settled_in_time", "median_settled_s", "good_K20",
     "good_d2_K20", "good_slow_press_d2_K20", "good_tremor", "least_energy_impact_J", "least_energy_let_go_J",
-    "least_energy_pumping_J", "ripple_N", "ripple_noise_N", "force_step_N", "friction_m", "worse", "better",
+    "least_energy_pumping_J", "force_swing_N", "force_swing_noise_N", "force_step_N", "friction_m", "worse", "better",
 ]  # fmt: skip
 
 #: On the encoder alone, and without a piece.
@@ -192,7 +192,7 @@ def test_what_the_law_needs_is_worse_without_it(few: Ablation) -> None:
 
 def test_only_what_matters_counts_as_a_difference() -> None:
     known = {measure.key: measure for measure in MEASURES}
-    good, energy, ripple = (known[k] for k in ("good", "least_energy_let_go_J", "ripple_N"))
+    good, energy, ripple = (known[k] for k in ("good", "least_energy_let_go_J", "force_swing_N"))
     assert [good.gain(value, 59, 60) for value in (57, 58, 59, 60)] == [-1, 0, 0, 0]
     assert [good.gain(value, 1, 2) for value in (0, 1, 2)] == [-1, 0, 1]
     assert [energy.gain(v, -1e-3, 60) for v in (-2e-3, -1.4e-3, 0.0)] == [-1, 0, 1]

@@ -61,6 +61,11 @@ def test_every_quantity_changes_the_scenario(name: str) -> None:
     assert axis.unit in axis.label
 
 
+def test_the_mass_of_the_device_is_that_at_the_handle_rotor_included() -> None:
+    for mass in AXES["device-mass"].values(3):
+        assert AXES["device-mass"].apply(BASE, mass).device.mass == pytest.approx(mass)
+
+
 def test_a_law_is_designed_anew_where_the_device_changes() -> None:
     found = stability_map(
         "ebac", "device-damping", "delay", xs=(1.0, 4.0), ys=(0, 2), base=BASE.replace(seconds=0.5)

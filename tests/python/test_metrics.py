@@ -329,6 +329,7 @@ def test_the_ideal_is_where_all_forces_balance(
         {"environment": ebac.Free()},
         {"environment": ebac.Corner()},
         {"environment": ebac.Wall(angle=0.1)},
+        {"environment": ebac.Wall(motion_amplitude=2e-3)},
         {"hand": ebac.Hand(release_at=1.0)},
         {"hand": ebac.Hand(path=ebac.Sine())},
         {"hand": ebac.Hand(path=ebac.Tapping())},

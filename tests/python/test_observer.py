@@ -293,6 +293,14 @@ def test_a_replay_gives_the_commands_of_its_run() -> None:
         np.testing.assert_array_equal(again[name], trace[name])
 
 
+@pytest.mark.parametrize("observer", [True, False])
+def test_a_search_counts_with_what_the_account_begins_with(observer: bool) -> None:
+    law = ebac.Variant("ebac", {"observer": observer})
+    found = ebac.worst(law, base=OBSERVED, family=["impact"], evaluations=40)
+    begins = ebac.simulate(OBSERVED.replace(seconds=0.1), law)["law.energy"][1]
+    assert found.reserve == pytest.approx(begins)
+
+
 def test_a_search_counts_with_the_reserve_of_the_observer() -> None:
     found = ebac.worst("ebac", base=OBSERVED, family=["impact"], evaluations=40)
     assert found.reserve == found.made.observed_reserve

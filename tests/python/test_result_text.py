@@ -169,7 +169,7 @@ def test_numbers_that_read_the_same_are_the_same(measure: Any, value: float, lit
 
 
 def test_zero_newton_is_no_better_than_zero_newton() -> None:
-    ripple = next(m for m in MEASURES if m.key == "ripple_N")
+    ripple = next(m for m in MEASURES if m.key == "force_swing_N")
     assert ripple.gain(0.0, 3e-16, 60) == 0
     assert ripple.gain(1e-13, 0.0, 60) == 0
     assert ripple.gain(0.0, 1.0, 60) == 1

@@ -2,6 +2,8 @@
 
 import base64
 import json
+import shutil
+import subprocess
 from pathlib import Path
 from typing import Any
 
@@ -40,6 +42,50 @@ def test_the_picture_is_the_simulation() -> None:
     assert made.scenario == there
     assert "m from the ideal wall" in made.verdict
     np.testing.assert_array_equal(made.trace["x"], trace["x"])
+
+
+#: A notebook of which only the model matters: as traitlets, it answers where a value differs from the one before.
+NOTEBOOK = """
+const listeners = [];
+const element = () => ({
+  style: {}, append() {}, setAttribute() {},
+  addEventListener(name, does) { if (name === "input") listeners.push(does); },
+});
+globalThis.document = { createElement: element };
+globalThis.requestAnimationFrame = () => {};
+let values = { law: "ebac", a: 1 }, sent = 0;
+const on = {};
+const model = {
+  get: (name) => ({ values, laws: [], controls: [{ name: "a", label: "a", low: 0, high: 9, step: 1, unit: "1" }],
+                    picture: {} })[name],
+  set(name, given) { if (JSON.stringify(given) !== JSON.stringify(values)) { values = given; ++sent; } },
+  save_changes() {}, on(name, does) { on[name] = does; },
+};
+const inputs = [];
+const made = document.createElement;
+document.createElement = (kind) => { const one = made(); if (kind === "input") inputs.push(one); return one; };
+const { default: page } = await import(process.argv[1]);
+page.render({ model, el: element() });
+const move = (value) => { inputs[0].value = value; listeners[0](); };
+const answer = () => on["change:serial"]();
+"""
+
+
+@pytest.mark.parametrize(
+    ("moves", "sent"),
+    [
+        ("move(2); answer(); move(3); answer();", 2),
+        ("move(2); move(3); move(2); answer(); move(5);", 2),  # forth and back meanwhile
+        ("move(1); move(4);", 1),  # to where it was
+        ("move(2); move(3); move(4); answer(); answer();", 2),  # what was skipped is not simulated
+    ],
+)
+def test_a_slider_never_waits_for_an_answer_that_does_not_come(moves: str, sent: int) -> None:
+    node = shutil.which("node") or pytest.skip("no node")
+    script = f"{NOTEBOOK}{moves}; console.log(sent);"
+    how = [node, "--input-type=module", "--eval", script, SCRIPT.as_uri()]
+    done = subprocess.run(how, capture_output=True, text=True, timeout=60, check=False)
+    assert done.stdout.split() == [str(sent)], done.stderr
 
 
 def test_a_wrong_value_is_told_and_the_picture_stays() -> None:

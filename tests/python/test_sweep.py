@@ -290,6 +290,15 @@ def test_a_law_in_python_is_known_again_by_its_values(tmp_path: Path) -> None:
 # --- the result ---
 
 
+def test_scenarios_with_and_without_the_observer_are_told_apart() -> None:
+    bare = scenarios(1, seconds=0.1)[0].replace(observer=False)
+    designed = bare.replace(observer=ebac.Observer(force_noise=0.1))
+    given = [bare, bare.replace(observer=True), designed, bare.replace(observer="every-law")]
+    columns = sweep(given, "direct")
+    assert [str(one) for one in columns["observer"]] == ["False", "True", "Observer", "every-law"]
+    assert columns["observer.force_noise_N"][2] == 0.1
+
+
 def test_the_result_as_a_table(tmp_path: Path, local: SweepResult) -> None:
     pytest.importorskip("pandas")
     local.to_csv(tmp_path / "sweep.csv")

@@ -14,6 +14,10 @@ function shown(value, control) {
   return `${digits} ${control.unit}`;
 }
 
+function same(one, other) {
+  return Object.keys(one).every((name) => one[name] === other[name]);
+}
+
 function render({ model, el }) {
   const box = element("div", el, "", "display:flex;gap:16px;flex-wrap:wrap;font:13px sans-serif;color:#222;background:#fff;padding:8px");
   const side = element("div", box, "", "width:230px");
@@ -25,6 +29,7 @@ function render({ model, el }) {
   let waiting = false, next = null;
   function send(values) {
     if (waiting) { next = values; return; }
+    if (same(values, model.get("values"))) return;  // moved forth and back: no answer would come
     waiting = true;
     model.set("values", values);
     model.save_changes();

@@ -166,7 +166,7 @@ def gastroscopy_study(
     if not 2 <= count <= 10000:
         raise ValueError(f"count = {count}: must lie in [2, 10000] physicians")
     base = Procedure(device=STRAIGHT) if procedure is None else procedure
-    names = [law if isinstance(law, str) else law_name(law) for law in laws]
+    names = [law_name(law) for law in laws]
     cells = [
         (name, law, float(delay), feedback)
         for name, law in zip(names, laws, strict=True)

@@ -82,11 +82,7 @@ class CurrentParameters:
         world = self.world if environment is None else environment
         refuse_python(world)
         if changes:
-            if isinstance(world, _World):
-                raise ValueError(
-                    f"change({', '.join(changes)}=...): a world of bodies is changed as a whole; give environment=..."
-                )
-            world = world.replace(**changes)
+            world = changed(world, **changes)
         note = Note(
             message=f"environment {world!r}",
             values={f"environment.{name}": value for name, value in changes.items()},
@@ -107,6 +103,22 @@ class CurrentParameters:
         self.updates.send(lambda: self._running.aim(places), note)
         self.target = wanted
         return wanted
+
+
+def changed(world: Environment, **changes: float) -> Environment:
+    """Return a world with other numbers.
+
+    Raises
+    ------
+    ValueError
+        For a world of bodies, or a number out of range.
+    """
+    if isinstance(world, _World):
+        raise ValueError(
+            f"environment: {', '.join(changes)} cannot change in a world of bodies, which is changed as a whole: "
+            "run.change(environment=...)"
+        )
+    return world.replace(**changes)
 
 
 def targets_after(

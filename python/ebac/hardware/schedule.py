@@ -11,7 +11,7 @@ import numpy as np
 
 from ebac._core import LoopState
 from ebac._util.arguments import unknown
-from ebac.hardware.current_parameters import targets_after
+from ebac.hardware.current_parameters import changed, targets_after
 
 if TYPE_CHECKING:
     from ebac.hardware.configuration import Configuration
@@ -147,7 +147,7 @@ class Schedule:
                 law._check_retune(after)
                 law = after
             if order.environment:
-                world = world.replace(**order.environment)
+                world = changed(world, **order.environment)
             if order.target:
                 target = targets_after(known.hand if simulated else None, target, *order.target)
 

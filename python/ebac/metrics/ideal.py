@@ -56,7 +56,7 @@ def allowed_deviation(scenario: Scenario) -> float:
 def ideal_rest(scenario: Scenario) -> float | None:
     """Return where hand and ideal wall balance, x* = (K0 X0 + K p + weight) / (K0 + K) [m].
 
-    None where there is no such point: no straight wall across the first axis, or a hand without rest. With a
+    None where there is no such point: no straight wall at rest across the first axis, or a hand without rest. With a
     model of `ebac.hands` it is where the steady force of the model and the wall balance; None for a hand of your own.
     In a `worlds.World` it is where a slow hand comes to rest; None with friction, motion or puncture. Behind a
     `worlds.Bridge` it is that of the world the engine computes; None for a function.
@@ -71,7 +71,9 @@ def ideal_rest(scenario: Scenario) -> float | None:
         rest = _in_world(scenario)
         return None if rest is None else rest.x
     path = hand.path[0]
-    if not isinstance(wall, Wall) or wall.angle != 0 or np.isfinite(hand.release_at):
+    if not isinstance(wall, Wall) or wall.angle != 0 or wall.motion_amplitude != 0:
+        return None
+    if np.isfinite(hand.release_at):
         return None
     if isinstance(path, Recorded):
         if path.t[-1] >= scenario.seconds:

@@ -13,6 +13,7 @@ from ebac.laws import AnyLaw, law_name
 from ebac.metrics import contact
 from ebac.scenario import Environment, Scenario
 from ebac.simulation import LoopFault, simulate
+from ebac.studies.measures import SPARE
 from ebac.trace import Trace
 from ebac.worlds import Bridge, Elastic, World, preset
 
@@ -22,8 +23,6 @@ LAWS = ("direct", "tca-damped", "passivity-control", "ebac")
 RATES, JITTER = (60.0, 500.0), 0.01
 #: How the world is met: in every tick, and by an engine in two ways.
 EVERY_TICK, HELD, MODEL = "every tick", "force held", "local model"
-#: Energy that a passive port may have given out for errors of the measurement, as in `ebac zwidth` [J].
-SPARE = 1e-3
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -194,7 +193,7 @@ def _run(scenario: Scenario, law: AnyLaw) -> tuple[EngineRow, Trace]:
     world = scenario.environment
     bridge = world if isinstance(world, Bridge) else None
     known: dict[str, Any] = {
-        "law": law if isinstance(law, str) else law_name(law),
+        "law": law_name(law),
         "rate_Hz": bridge and bridge.timing.rate,
         "jitter_s": bridge and bridge.timing.jitter,
         "compute_s": bridge and bridge.timing.compute,

@@ -15,6 +15,9 @@ if TYPE_CHECKING:
     from ebac.studies.result import Study
     from ebac.trace import Trace
 
+#: Energy that a passive port may have given out for errors of the measurement, as in `ebac zwidth` [J].
+SPARE = 1e-3
+
 Columns: TypeAlias = dict[str, NDArray[Any]]
 
 
@@ -147,9 +150,9 @@ MEASURES = (
     _energy("least_energy_impact_J", "least energy, impact", "d1K10", "d1K20", "d2b2K20"),
     _energy("least_energy_let_go_J", "least energy, let go", "slow-let-go", "slow-let-go-d2", "slow-let-go-K20"),
     _energy("least_energy_pumping_J", "least energy, pumping", "pumping"),
-    Measure(key="ripple_N", heading="force swing", unit="N", conditions=("d1K10",),
+    Measure(key="force_swing_N", heading="force swing", unit="N", conditions=("d1K10",),
             of=_largest("force_swing_N", "exact_and_still"), matters=0.1, relative=True),
-    Measure(key="ripple_noise_N", heading="force swing, sensor noise 0.2 N", unit="N", conditions=("force-noise",),
+    Measure(key="force_swing_noise_N", heading="force swing, sensor noise 0.2 N", unit="N", conditions=("force-noise",),
             of=_largest("force_swing_N", "exact_and_still"), matters=0.1, relative=True),
     Measure(key="force_step_N", heading="largest force step inside", unit="N", conditions=("d1K10",),
             of=_largest("traced"), traced=_step_inside, matters=0.1, relative=True),

@@ -13,7 +13,7 @@ import numpy as np
 
 from ebac._util.arguments import named, require, shown, whole
 from ebac._util.cores import usable_cores
-from ebac.laws import CoreLaw, PythonLaw, design
+from ebac.laws import CoreLaw, PythonLaw, design, reserve_of
 from ebac.metrics.energy_drawn import drawn
 from ebac.scenario import Scenario
 from ebac.studies.hand_search import every_row
@@ -110,7 +110,7 @@ def random_worlds(
     hand_by_hand: list[list[HandRun]] = []
     total = len(cells) * len(chosen) * hands
     with _threads(workers) as executor:
-        for cell, make, ready in zip(cells, makers, made, strict=True):
+        for cell, make, first, ready in zip(cells, makers, firsts, made, strict=True):
             for name, law in ready.items():
                 measured = partial(_measured, make, law)
                 spread = executor.map if isinstance(law, CoreLaw) else map
@@ -119,7 +119,7 @@ def random_worlds(
                     runs.append(run)
                     if progress is not None:
                         progress(len(rows) * hands + len(runs), total)
-                rows.append(_row(cell, name, law, runs))
+                rows.append(_row(cell, name, reserve_of(law, first), runs))
                 hand_by_hand.append(runs)
     return RandomWorlds(
         rows=tuple(rows),
@@ -158,17 +158,9 @@ def _guarded(law: CoreLaw | PythonLaw) -> bool:
     return bool(getattr(law, "guard", False))
 
 
-def _reserve(law: CoreLaw | PythonLaw) -> float | None:
-    """Return what a law lends [J]: less with the observer, which it may lose."""
-    name = "observed_reserve" if getattr(law, "observer", False) else "reserve"
-    lent: float | None = getattr(law, name, None)
-    return lent
-
-
-def _row(cell: _Cell, name: str, law: CoreLaw | PythonLaw, runs: list[HandRun]) -> RandomWorldRow:
+def _row(cell: _Cell, name: str, reserve: float | None, runs: list[HandRun]) -> RandomWorldRow:
     kind, device, stiffness, delay = cell
     held = [run.held_back_s for run in runs if run.held_back_s is not None]
-    reserve = _reserve(law)
     return RandomWorldRow(
         kind=kind,
         device=device,

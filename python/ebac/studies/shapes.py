@@ -17,6 +17,7 @@ from ebac.metrics import allowed_deviation, contact
 from ebac.metrics.world_rest import world_rest
 from ebac.scenario import Scenario
 from ebac.simulation import LoopFault, simulate
+from ebac.studies.measures import SPARE
 from ebac.worlds import PRESETS, World, preset
 from ebac.worlds.grid import cache_folder, needed
 
@@ -29,8 +30,6 @@ DEVICES = ("reference", "joystick", "joystick-3")
 SURFACE = 0.01
 TARGET = (0.028, 0.006, 0.004)
 SECONDS = 4.0
-#: Energy that a passive port may have given out for errors of the measurement, as in `ebac zwidth` [J].
-SPARE = 1e-3
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -222,7 +221,7 @@ def _pressed(device: Device, world: World, timing: Timing) -> Scenario:
 
 def _row(known: dict[str, Any], scenario: Scenario, law: AnyLaw) -> ShapeRow:
     known = known | {
-        "law": law if isinstance(law, str) else law_name(law),
+        "law": law_name(law),
         "allowed_m": allowed_deviation(scenario),
     }
     try:

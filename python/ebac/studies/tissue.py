@@ -13,6 +13,7 @@ from ebac.laws import AnyLaw, law_name
 from ebac.metrics import contact
 from ebac.scenario import Scenario
 from ebac.simulation import simulate
+from ebac.studies.measures import SPARE
 from ebac.trace import Trace
 from ebac.worlds import Body, Placed, World, preset
 from ebac.worlds.force_depth import ForceDepth, Material, force_depth
@@ -23,8 +24,6 @@ LAWS = ("direct", "tca-damped", "force-bounding", "ebac")
 SURFACE = 5e-3
 TARGET = ((0.0, 1.0, 1.5, 2.5), (0.0, 0.03, 0.03, 0.0))
 SECONDS = 3.0
-#: Energy that a passive port may have given out for errors of the measurement, as in `ebac zwidth` [J].
-SPARE = 1e-3
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -149,7 +148,7 @@ def _pressed(name: str, material: Material, law: AnyLaw) -> tuple[TissueRow, Tra
     least = float(contact(trace).least_energy_J or 0.0)
     return TissueRow(
         material=name,
-        law=law if isinstance(law, str) else law_name(law),
+        law=law_name(law),
         deepest_m=float(x.max() - SURFACE),
         least_energy_J=least,
         passive=least >= -SPARE,

@@ -9,7 +9,7 @@ from typing import Any
 
 from ebac._util import formatting
 from ebac._util.cores import usable_cores
-from ebac.laws import AnyLaw, design, law_name
+from ebac.laws import AnyLaw, design, law_name, reserve_of
 from ebac.scenario import Scenario
 from ebac.studies.conditions import Condition, conditions
 from ebac.studies.families import PULL, families, find_family
@@ -147,9 +147,7 @@ def worst(
     where = _condition(condition, base or Scenario())
     scenario = where.made(where.change(base or Scenario()))
     made = design(law, *where.believed(scenario))
-    observed = scenario.observer and hasattr(made, "observed_reserve")
     declared = getattr(made, "pull", None)
-    reserve = getattr(made, "observed_reserve" if observed else "reserve", None)
     most = pull if pull is not None else declared or PULL
     _check(evaluations=(evaluations, 40, 10**7), seed=(seed, 0, 2**31 - 1), pull=(most, 1e-3, 1e3))
     wanted = [find_family(n, most) for n in dict.fromkeys(family or families(most))]
@@ -163,7 +161,7 @@ def worst(
     found.sort(key=lambda hand: (-hand.energy_J, -hand.most_drawn_J))
     return Worst(
         law=law_name(law), made=made, condition=where, pull=most, declared=declared,
-        reserve=reserve, hands=tuple(found),
+        reserve=reserve_of(made, scenario), hands=tuple(found),
     )  # fmt: skip
 
 

@@ -48,7 +48,7 @@ def drives(
             law=None if law is None else setting.one_law(law),
             give_up=give_up,
             folder=out,
-            seed=seed or 1,
+            seed=1 if seed is None else seed,
         )
     rows = [{"process": name, **one} for name, one in found.reports.items()]
     if as_json:

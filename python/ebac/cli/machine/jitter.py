@@ -88,11 +88,12 @@ def jitter(
 
 
 def _more(found: Jitter, rows: list[dict[str, Any]], rate: float, mode: str) -> dict[str, Any]:
+    from ebac.hardware.report import grant_row
+
     ratio = (
         rows[0]["p99_9_s"] / rows[1]["p99_9_s"] if len(rows) > 1 and rows[1]["p99_9_s"] else None
     )
-    names = ("name", "asked", "granted", "why", "remedy")
-    grants = [{name: getattr(grant, name) for name in names} for grant in found.grants]
+    grants = [grant_row(grant) for grant in found.grants]
     return {"rate_Hz": rate, "mode": mode, "grants": grants, "times_cyclictest_p99_9": ratio}
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
 
@@ -14,9 +14,6 @@ from ebac.cli.run import carry_out, engine
 from ebac.cli.run.chosen import chosen
 from ebac.cli.run.confirm import can_ask
 from ebac.cli.run.names import free_stem, leave
-
-if TYPE_CHECKING:
-    pass
 
 DEFAULT_OUT = Path("ebac-run")
 

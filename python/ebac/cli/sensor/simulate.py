@@ -89,7 +89,7 @@ def simulate(
             http_port=http_port,
             options=built,
             model=model,
-            seed=seed or 1,
+            seed=1 if seed is None else seed,
         )
     work.inject(trouble)
     with work, simulated.signalled() as over:

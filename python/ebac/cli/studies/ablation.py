@@ -67,8 +67,9 @@ def ablation(
 
     An ablation study, simulated.
 
-    The parts are the on/off parameters of the law, which are switched one at a time, and its gain kp, which is set to
-    zero. The measures are the share of good hands under hard conditions, energy given out, and force swing.
+    The parts are the on/off parameters of the law, which are switched one at a time, and its gains kp and
+    fast_stiffness, which are set to zero. The measures are the share of good hands under hard conditions, energy given
+    out, and force swing.
 
     **Examples**
 

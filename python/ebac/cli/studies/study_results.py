@@ -77,7 +77,7 @@ def show(study: Study) -> None:
         "power at rest",
         "settled",
     ]
-    grid = output.table(headings, numbers=range(2, 11))
+    grid = output.table(headings, numbers=range(2, len(headings)))
     last = ""
     for row in study.rows:
         if last and row.condition != last:

@@ -132,7 +132,7 @@ def _show(found: list[Tuned]) -> None:
             for what, row in zip(("designed", "tuned"), rows, strict=True):
                 grid.add_row(
                     one.law, row.condition, what, f"{row.exact_and_still} of {row.hands}", f"{row.good} of {row.hands}",
-                    seconds(row.median_settled_s), quantity(row.most_drawn_J, "J"), quantity(row.ripple_N, "N"),
+                    seconds(row.median_settled_s), quantity(row.most_drawn_J, "J"), quantity(row.force_swing_N, "N"),
                 )  # fmt: skip
     output.show(grid)
     output.say(

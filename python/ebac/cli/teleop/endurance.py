@@ -52,7 +52,9 @@ def endurance(
             cut_every=cut_every,
             cut_length=cut_length,
         )
-        found = teleop.endurance(seconds, scheme=scheme, link=link, seed=seed or 1)
+        found = teleop.endurance(
+            seconds, scheme=scheme, link=link, seed=1 if seed is None else seed
+        )
     rows = [_row(found, name) for name in found.reports]
     if as_json:
         typer.echo(output.document("teleop endurance", rows, faults=found.faults))

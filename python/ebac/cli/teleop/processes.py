@@ -70,7 +70,9 @@ def master(
         where = peer_of(peer, "--peer")
         chosen = scheme_of(scheme)
         path = Sine(centre=0.02, amplitude=0.015, frequency=0.2, phase=-1.5708)
-        scenario = Scenario(environment=Free(), hand=Hand(path=[path]), seed=seed or 1)
+        scenario = Scenario(
+            environment=Free(), hand=Hand(path=[path]), seed=1 if seed is None else seed
+        )
         law = design(chosen.law, scenario.device, scenario.known_timing)
         side = processes.Master(
             scenario, law, chosen, host=host, port=port, peer=where, consent_after=consent_after
@@ -132,7 +134,9 @@ def network(
     with output.refusing():
         where = peer_of(slave, "--slave")
         link = over.link()
-        side = processes.Network(link, link, host=host, port=port, slave=where, seed=seed or 1)
+        side = processes.Network(
+            link, link, host=host, port=port, slave=where, seed=1 if seed is None else seed
+        )
     if announce:
         typer.echo(json.dumps({"port": side.port}))
         sys.stdout.flush()

@@ -64,7 +64,7 @@ def run(
                 there=over.link(),
                 slave=SlaveModel(contact_stiffness=contact_stiffness),
                 seconds=seconds,
-                seed=seed or 1,
+                seed=1 if seed is None else seed,
             )
             for name in names
         ]

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from ebac._core import Wall
 from ebac.scenario import Scenario
+from ebac.studies.scenario_changes import device_mass
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -90,6 +91,10 @@ def _mechanics(name: str) -> Callable[[Scenario, float], Scenario]:
     return apply
 
 
+def _device_mass(scenario: Scenario, value: float) -> Scenario:
+    return device_mass(value)(scenario)
+
+
 def _delay(scenario: Scenario, value: float) -> Scenario:
     return scenario.replace(timing=scenario.timing.replace(delay=int(value)))
 
@@ -107,8 +112,8 @@ AXES: dict[str, MapAxis] = {
                             logarithmic=True, apply=_hand("damping")),
     "hand-stiffness": MapAxis(name="stiffness of the hand", symbol="$K_0$", unit="N/m", low=50, high=850,
                               logarithmic=True, apply=_hand("stiffness")),
-    "device-mass": MapAxis(name="mass of the handle", symbol="$M_h$", unit="kg", low=0.02, high=1,
-                           logarithmic=True, apply=_mechanics("handle_mass")),
+    "device-mass": MapAxis(name="mass of the device", symbol="$M_h$", unit="kg", low=0.02, high=1,
+                           logarithmic=True, apply=_device_mass),
     "device-damping": MapAxis(name="damping of the device", symbol="b", unit="N s/m", low=0.5, high=20,
                               logarithmic=True, apply=_mechanics("damping")),
 }  # fmt: skip

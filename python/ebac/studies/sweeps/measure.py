@@ -84,7 +84,7 @@ def measure(runs: Sequence[Run], *, threads: int, limits: RunLimits, watch: Watc
             setups = [runs[i][0].setup() for i in places]
             laws = [runs[i][1] for i in places]
             found = kind._sweep(setups, laws, threads, limits, watch.core)
-            for name, core_name in (COLUMNS | dict(zip(STATUS, STATUS, strict=True))).items():
+            for name, core_name in (COLUMNS | {name: name for name in STATUS}).items():
                 columns[name][places] = found[core_name]
         else:
             _measure_python(columns, runs, places, limits, watch)

@@ -17,7 +17,7 @@ ENDINGS = {
     "N s/m": "_Ns_per_m", "N/m": "_N_per_m", "m": "_m", "kg": "_kg", "N": "_N", "s": "_s", "Hz": "_Hz",
     "rad": "_rad", "m/s": "_m_per_s", "samples": "_samples", "A": "_A", "N m": "_Nm",
 }  # fmt: skip
-_PARTS = ("device", "hand", "environment", "timing")
+_PARTS = ("device", "hand", "environment", "timing", "observer")
 _NUMBERS = {"jitter": "jitter", "seconds": "seconds_s"}
 
 

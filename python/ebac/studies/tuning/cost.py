@@ -9,10 +9,10 @@ from ebac.studies.sweeps.result import SweepResult
 
 # The cost of a run: at most 0.3 for one that is good, from 1 on for one whose force is not quiet, from 1.5 on for one
 # that is not exact and still.
-_WEIGHT = 0.1  # of settling, of energy and of ripple
+_WEIGHT = 0.1  # of settling, of energy and of the force swing
 _HALF_SETTLING = 0.5  # s, at which half of the weight is charged
 _HALF_ENERGY = 10e-3  # J
-_HALF_RIPPLE = 1.0  # N
+_HALF_SWING = 1.0  # N
 _FAR = 1e-3  # m, error and swing of a run that is not good
 _LIMIT = 3.0  # detection thresholds, the vibration at which a force is no longer quiet
 
@@ -32,8 +32,8 @@ def cost_of(result: SweepResult) -> float:
     settled = np.maximum(result["settled_s"], result["force_settled_s"])
     settling = _WEIGHT * _share(settled, _HALF_SETTLING)
     energy = _WEIGHT * _share(result["most_drawn_J"], _HALF_ENERGY)
-    ripple = _WEIGHT * _share(result["force_swing_N"], _HALF_RIPPLE)
-    return float(np.mean(np.where(result.good, settling, bad) + energy + ripple))
+    swing = _WEIGHT * _share(result["force_swing_N"], _HALF_SWING)
+    return float(np.mean(np.where(result.good, settling, bad) + energy + swing))
 
 
 def _share(values: NDArray[np.float64], half: float) -> NDArray[np.float64]:

@@ -27,7 +27,7 @@ class TunedRow:
         Median over the good hands of the time from which on position and force have settled [s].
     least_energy_J, most_drawn_J : float or None
         Least energy of the port, and most drawn in any window of any run [J].
-    ripple_N : float or None
+    force_swing_N : float or None
         Largest force swing at rest of a hand that is exact and still [N].
     """
 
@@ -38,7 +38,7 @@ class TunedRow:
     median_settled_s: float | None
     least_energy_J: float | None
     most_drawn_J: float | None
-    ripple_N: float | None
+    force_swing_N: float | None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -116,7 +116,9 @@ def rows_of(found: Study, law: str) -> tuple[TunedRow, ...]:
                 median_settled_s=float(np.median(settled)) if len(settled) else None,
                 least_energy_J=row.least_energy_J,
                 most_drawn_J=row.most_drawn_J,
-                ripple_N=float(runs["force_swing_N"][resting].max()) if resting.any() else None,
+                force_swing_N=float(runs["force_swing_N"][resting].max())
+                if resting.any()
+                else None,
             )
         )
     return tuple(rows)

@@ -75,7 +75,7 @@ def zwidth(
     hands : int
         Random hands of each family of `ebac worst`, [0, 1000], that may not take out more either: they tap, swing,
         shake, push at random, press and let go. The same seven times `hands` on every wall; one that pulls harder than
-        20 N in its run is not counted, as are most position drives on a stiff wall.
+        20 N in its run is not counted, as are most position drives on a stiff wall; a run that a fault ends always is.
     threads, executor, progress
         As in `sweep`.
 
