@@ -128,6 +128,9 @@ def test_a_part_is_what_a_slice_of_the_whole_is(
     for start, stop, told in ((5, None, "from 5 s"), (None, -1, "before -1 s")):
         with pytest.raises(ValueError, match=f"no rows {told}: the log has 0 to 0.3 s"):
             read(path, start=start, stop=stop)
+    for one in (read, ebac.load):
+        with pytest.raises(ValueError, match=r"stop = 0\.1 s: must be at least start, 0\.2 s"):
+            one(path, start=0.2, stop=0.1)
 
 
 def test_a_part_has_the_events_of_its_time(trace: ebac.Trace, tmp_path: Path) -> None:

@@ -176,6 +176,12 @@ def test_a_slice_has_no_step(trace: ebac.Trace) -> None:
         trace[0.0:0.1:2]
 
 
+def test_a_slice_does_not_end_before_it_begins(trace: ebac.Trace) -> None:
+    with pytest.raises(ValueError, match=r"stop = 0\.1 s: must be at least start, 0\.2 s"):
+        trace[0.2:0.1]
+    assert len(trace.between(0.1, 0.1)) == 0
+
+
 # --- exports ---
 
 

@@ -153,7 +153,8 @@ def load(
     FileNotFoundError
         When there is no such file.
     ValueError
-        For another extension, a file that is not in the format of its extension, or a part outside it.
+        For another extension, a file that is not in the format of its extension, or a part that lies outside it or
+        ends before it begins.
     ModuleNotFoundError
         When the library of a format is not installed; the message names it.
     """
@@ -161,8 +162,10 @@ def load(
     from ebac.logs.csv_file import read_csv
     from ebac.logs.reader import check_part, read
     from ebac.trace import Trace
+    from ebac.trace.time_slice import check_order
 
     require_path(path, "ebac.load")
+    check_order(start, stop)
     path = Path(path)
     kind = extension(path, READABLE)
     if path.is_dir():

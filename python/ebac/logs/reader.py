@@ -32,6 +32,7 @@ from ebac.logs.records import (
 from ebac.logs.summary import EVENTS_TOPIC, ROWS_TOPIC
 from ebac.scenario import Scenario
 from ebac.trace import Trace
+from ebac.trace.time_slice import check_order
 
 #: Digits of the largest whole number in a file.
 _DIGITS = 19
@@ -86,7 +87,8 @@ def read(
     FileNotFoundError
         When there is no such file.
     ValueError
-        When it is no log of ebac, was cut before its columns were written, or `start` and `stop` lie outside it.
+        When it is no log of ebac, was cut before its columns were written, `start` and `stop` lie outside it, or `stop`
+        lies before `start`.
     """
     path = Path(path)
     if path.suffix.lower() in (".npz", ".csv", ".parquet", ".mat", ".h5"):
@@ -124,6 +126,7 @@ def read_bytes(
     into: Callable[[Layout, float, float], Columns] = Columns,
 ) -> Log:
     """Read a log that is in memory; `name` is for messages, `into` makes what takes the rows. As `read`."""
+    check_order(start, stop)
     path, condition, size = Path(name), Condition(), len(data)
     found = _Found(
         -math.inf if start is None else start, math.inf if stop is None else stop, into=into

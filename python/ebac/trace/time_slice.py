@@ -18,6 +18,7 @@ def rows_between(
     times: list[Any] = [one for one in (start, stop) if one is not None]
     if not all(isinstance(time, (Real, np.number)) for time in times):
         raise TypeError(f"trace[{start!r}:{stop!r}]: must be times [s], as in trace[1.0:2.5]")
+    check_order(start, stop)
     first = 0 if start is None else int(np.searchsorted(t, start))
     last = len(t) if stop is None else int(np.searchsorted(t, stop))
     if len(t) and ((start or 0.0) > t[-1] or (stop is not None and stop < t[0])):
@@ -27,3 +28,9 @@ def rows_between(
             f"trace[{begin}:{end}]: outside the run, which spans {t[0]:.6g} to {t[-1]:.6g} s"
         )
     return first, last
+
+
+def check_order(start: float | None, stop: float | None) -> None:
+    """Refuse a part that ends before it begins [s]."""
+    if start is not None and stop is not None and stop < start:
+        raise ValueError(f"stop = {stop:g} s: must be at least start, {start:g} s")
