@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import copy
 import pickle
+from collections.abc import Callable
 
 import pytest
 
-from ebac.worlds import Cavity, Mesh, Placed, Plane, Sphere, Union, World
+from ebac.worlds import Body, Cavity, Mesh, Placed, Plane, Sphere, Union, World
 from ebac.worlds.solids import DEEPEST, Solid
 
 
@@ -15,6 +16,41 @@ from ebac.worlds.solids import DEEPEST, Solid
 def test_a_file_that_is_no_path_is_refused(file: object) -> None:
     with pytest.raises(TypeError, match=r"Mesh\.file = .*: must be the path of a file"):
         Mesh(file)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize(
+    ("call", "message"),
+    [
+        (
+            lambda: Body(Sphere(radius=0.02)),  # type: ignore[misc]
+            "Body takes its parameters by name, not Sphere(radius=0.02) (Sphere); "
+            "it has: solid, material, friction, motion",
+        ),
+        (
+            lambda: Body(soild=Sphere()),  # type: ignore[call-arg]
+            "Body has no parameter 'soild', did you mean 'solid'; it has: solid, material",
+        ),
+        (lambda: Cavity(), "Cavity needs solid; it has: solid"),  # type: ignore[call-arg]
+        (
+            lambda: Placed(Sphere(), to=(0.0, 0.0, 0.0)),  # type: ignore[call-arg]
+            "Placed has no parameter 'to'; it has: solid, at, turned",
+        ),
+        (
+            lambda: Mesh("ring.stl", scal=1e-3),  # type: ignore[call-arg]
+            "Mesh has no parameter 'scal', did you mean 'scale'; it has: file, scale",
+        ),
+        (
+            lambda: Mesh(path="ring.stl"),  # type: ignore[call-arg]
+            "Mesh has no parameter 'path': did you mean 'file'; it has: file, scale",
+        ),
+    ],
+)
+def test_a_wrong_call_is_refused_with_the_names_it_takes(
+    call: Callable[[], object], message: str
+) -> None:
+    with pytest.raises(TypeError) as refused:
+        call()
+    assert str(refused.value).startswith(message)
 
 
 @pytest.mark.parametrize("file", ["", "."])

@@ -178,6 +178,30 @@ def test_a_number_of_numpy_survives_toml_or_is_refused(number: Any) -> None:
             "scenario.environment: Free has no parameter 'stiffness'",
         ),
         (
+            "[environment]\ntype = 'World'\n[[environment.body]]\nfriction = 0.3",
+            "scenario.environment: World has no parameter 'body', did you mean 'bodies'; it has: bodies",
+        ),
+        (
+            "[environment]\ntype = 'World'",
+            "scenario.environment: World needs bodies; it has: bodies",
+        ),
+        (
+            "[environment]\ntype = 'Bridge'\nhold = true",
+            "scenario.environment: Bridge has no parameter 'hold', did you mean 'held' or 'world'; it has: world",
+        ),
+        (
+            "[environment]\ntype = 'World'\n[[environment.bodies]]\nsolid = {type = 'Mesh', path = 'ring.stl'}",
+            "scenario.environment.bodies[0].solid: Mesh has no parameter 'path': did you mean 'file'; it has: file",
+        ),
+        (
+            "[environment]\ntype = 'World'\n[[environment.bodies]]\nsolid = {type = 'Union', solid = []}",
+            "scenario.environment.bodies[0].solid: Union has no parameter 'solid', did you mean 'solids'",
+        ),
+        (
+            "[hand]\nmotor = 3",
+            "scenario.hand: Hand has no parameter 'motor'; it has: mass",
+        ),
+        (
             "[environment]\ntype = 'Corner'\n[environment.first]\ndamping = -1",
             "scenario.environment.first: Wall.damping = -1 N s/m: must lie in [0, 10000] N s/m",
         ),

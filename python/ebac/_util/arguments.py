@@ -35,6 +35,7 @@ ELSEWHERE = {
     ("Device", "count"): "give encoder=ebac.Encoder(counts_per_turn=...), of the motor",
     ("Encoder", "count"): "give counts_per_turn, of the motor; device.count is that at the handle",
     ("Timing", "rate"): "give dt, 1/rate",
+    ("Mesh", "path"): "did you mean 'file'",
 }
 
 
@@ -171,7 +172,7 @@ def _all(names: list[str], kind: str) -> str:
 
 def refuse_unknown(
     what: str,
-    given: dict[str, Any],
+    given: Mapping[str, Any],
     names: Sequence[str],
     hint: Callable[[str], str] = lambda name: "",
 ) -> None:

@@ -11,6 +11,7 @@ from typing import Any
 
 from ebac import _core
 from ebac._util.arguments import unknown
+from ebac._util.signatures import refuse_names
 
 #: Solids of a world.
 SOLIDS: tuple[type | str, ...] = (
@@ -128,13 +129,14 @@ def _imported(path: str) -> type:
 
 
 def _build(cls: type, table: Mapping[str, Any], where: str) -> Any:
-    given = {
-        name: from_document(name, item, f"{where}.{name}")
-        for name, item in table.items()
-        if name != "type"
-    }
+    own = {name: item for name, item in table.items() if name != "type"}
+    made: Any = getattr(cls, "from_table", cls)
     try:
-        made: Any = getattr(cls, "from_table", cls)
+        refuse_names(cls.__name__, made, own)
+        given = {name: from_document(name, item, f"{where}.{name}") for name, item in own.items()}
+    except TypeError as error:
+        raise ValueError(f"{where}: {error}") from None
+    try:
         return made(**given)
     except (ValueError, TypeError) as error:
         raise ValueError(f"{where}: {error}") from None

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import inspect
 import re
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from operator import index
 from typing import Any
@@ -58,6 +58,17 @@ def python_sentence(cls: type, values: tuple[Any, ...], given: dict[str, Any]) -
         for p in inspect.signature(cls).parameters.values()
     ]
     return _sentence(cls.__name__, takes, values, given)
+
+
+def refuse_names(label: str, call: Callable[..., Any], given: Mapping[str, Any]) -> None:
+    """Raise TypeError for a name that a call does not take, or for one that it needs and that is not given."""
+    takes = inspect.signature(call).parameters.values()
+    if any(p.kind is p.VAR_KEYWORD for p in takes):
+        return
+    names = [p.name for p in takes]
+    refuse_unknown(label, given, names)
+    if missing := [p.name for p in takes if p.default is p.empty and p.name not in given]:
+        raise TypeError(f"{label} needs {', '.join(missing)}; it has: {', '.join(names)}")
 
 
 def _parsed(text: str) -> Iterator[_Parameter]:

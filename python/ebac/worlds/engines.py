@@ -207,10 +207,14 @@ class Bridge(ForeignWorld):
 
     @classmethod
     def from_table(
-        cls, world: World, engine_timing: EngineTiming | None = None, **how: Any
+        cls,
+        world: World,
+        engine_timing: EngineTiming | None = None,
+        held: bool = False,
+        rendering: BridgeParams | None = None,
     ) -> Self:
         """Return it from its parts by name."""
-        return cls(world, timing=engine_timing, **how)
+        return cls(world, timing=engine_timing, held=held, rendering=rendering)
 
     def as_dict(self) -> dict[str, Any]:
         """Return the parameters by name; of a world, not of a function."""

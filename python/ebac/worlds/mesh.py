@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ebac._util.arguments import number
+from ebac._util.wrong_calls import plain_constructor
 from ebac.worlds.grid import Grid, Progress, Surface, cached_grid
 from ebac.worlds.mesh_file import read
 from ebac.worlds.part import Part
@@ -124,6 +125,7 @@ def _check_cell(name: str, cell: float | None) -> None:
         raise ValueError(f"{name}.cell = {cell!r} m: must lie in [1e-05, 0.1] m")
 
 
+@plain_constructor
 @dataclass(frozen=True)
 class Mesh(_Triangles):
     """A solid bounded by triangles, from any file that trimesh reads (STL, OBJ, PLY, OFF, GLB, ...).
@@ -209,6 +211,7 @@ class Mesh(_Triangles):
         return replace(self, **changes)
 
 
+@plain_constructor
 @dataclass(frozen=True)
 class HeightField(_Triangles):
     """Ground of given heights: solid from `-base` up to them.

@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ebac import _core
 from ebac._core import Box, Capsule, Cylinder, Plane, Sphere, Texture, Torus
+from ebac._util.wrong_calls import plain_constructor
 from ebac.worlds.mesh import HeightField, Mesh
 from ebac.worlds.part import Part, three
 
@@ -19,6 +20,7 @@ _SHAPES = (Box, Capsule, Cylinder, Plane, Sphere, Torus)
 DEEPEST = 64
 
 
+@plain_constructor
 @dataclass(frozen=True)
 class Placed(Part):
     """A solid at another place, turned.
@@ -44,6 +46,7 @@ class Placed(Part):
         object.__setattr__(self, "turned", three("Placed.turned", self.turned, "rad", 6.3))
 
 
+@plain_constructor
 @dataclass(frozen=True)
 class Cavity(Part):
     """The space inside a solid is free, and all around it is solid."""
@@ -55,6 +58,7 @@ class Cavity(Part):
         _check_solids(self, "Cavity.solid", self.solid)
 
 
+@plain_constructor
 @dataclass(frozen=True)
 class Textured(Part):
     """A solid with waves on its surface, (sin kx + sin ky + sin kz) / 3 of the place.
@@ -83,6 +87,7 @@ class Textured(Part):
             )
 
 
+@plain_constructor
 @dataclass(frozen=True)
 class Tube(Part):
     """All that is near a curve; `Cavity(Tube(...))` is a lumen.

@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ebac import _core
 from ebac._core import Elastic, HuntCrossley, Layer, Swing
+from ebac._util.wrong_calls import plain_constructor
 from ebac.worlds.part import Part
 from ebac.worlds.solids import SOLIDS, Solid, made
 
@@ -48,6 +49,7 @@ class Layered(Part):
         return cls(*layers)
 
 
+@plain_constructor
 @dataclass(frozen=True, kw_only=True)
 class Body(Part):
     """One body.
