@@ -23,7 +23,7 @@ def worst(
     length: options.RunOptions,
     law: Annotated[str, options.one_law(panel=_WHAT)] = "ebac",
     change: Annotated[
-        str | None,
+        list[str] | None,
         typer.Option(
             help="Parameters of the law to change: NAME=VALUE in SI units, on or off, separated by commas.",
             show_default=False,
@@ -80,7 +80,7 @@ def worst(
 
     with output.refusing():
         name = setting.one_law(law)
-        chosen = Variant(name, setting.parse_change(change)) if change else name
+        chosen = Variant(name, setting.parse_change(_one(change))) if change else name
         base = options.scenario_of(device, length)
         wanted = setting.one_condition(condition)
         replaced.tell(base, [wanted])
@@ -105,6 +105,16 @@ def worst(
         folder, "worst", _document(found, evaluations, seed), as_json=as_json,
         fill=lambda draft: _fill(draft, found, to), show=show,
     )  # fmt: skip
+
+
+def _one(changes: list[str]) -> str:
+    """Return the changes of the law, where the option is given once."""
+    if len(changes) > 1:
+        raise ValueError(
+            f"--change {changes[1]}: one law is searched, and --change {changes[0]} was given already; "
+            f"separate the changes by commas: --change {','.join(changes)}"
+        )
+    return changes[0]
 
 
 def _document(found: Worst, evaluations: int, seed: int) -> str:
