@@ -1,5 +1,6 @@
 """Populations of operators: the grid, random ones, and what a table says that cannot be."""
 
+import re
 from pathlib import Path
 from typing import Any
 
@@ -100,8 +101,14 @@ def test_hands_come_through_10_mm_of_free_air_unless_told_otherwise(tmp_path: Pa
     assert set(Operators.grid(approach_m=0.0).approach_m) == {0.0}
     disc = ebac.Scenario(environment=ebac.Disc())
     assert Operators.grid(approach_m=0.0).scenarios(disc)[0].environment == disc.environment
-    with pytest.raises(ValueError, match="start on the surface with approach_m = 0"):
+    message = (
+        "approach_m = 0.01 m: needs a Wall, the scenario has a Disc; start on the surface, as with "
+        "Operators.grid(approach_m=0) or Operators.sample(n, seed, approach_m=0)"
+    )
+    with pytest.raises(ValueError, match=re.escape(message)):
         Operators.grid().scenarios(disc)
+    (one,) = Operators.sample(1, 1, approach_m=0).scenarios(disc)
+    assert one.environment == disc.environment
 
 
 def test_hands_have_the_numbers_of_their_row() -> None:

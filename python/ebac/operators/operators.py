@@ -244,7 +244,8 @@ class Operators:
                     kind = type(wall).__name__
                     raise ValueError(
                         f"approach_m = {approach:g} m: needs a Wall, the scenario has a {kind}; "
-                        "start on the surface with approach_m = 0"
+                        "start on the surface, as with Operators.grid(approach_m=0) or "
+                        "Operators.sample(n, seed, approach_m=0)"
                     )
                 changes["environment"] = wall.replace(position=wall.position + approach)
             scenarios.append(base.replace(**changes))

@@ -177,7 +177,10 @@ def mistaken(*, delay: int | None = None, **factors_or_values: float) -> Belief:
 
 def _wall(s: Scenario) -> Wall:
     if not isinstance(s.environment, Wall):
-        raise TypeError(f"the environment is a {type(s.environment).__name__}: must be a Wall")
+        raise TypeError(
+            f"the environment is a {type(s.environment).__name__}: must be a Wall, which a named condition changes; "
+            "ebac.sweep(operators.scenarios(base), laws) takes any world"
+        )
     return s.environment
 
 
