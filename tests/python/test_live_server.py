@@ -262,8 +262,17 @@ def test_without_allow_control_nobody_controls_and_the_dead_man_key_ends_with_it
         assert not server.session.running
 
 
-def test_the_command_prints_its_address_and_ends_with_ctrl_c(tmp_path: Path) -> None:
-    words = [sys.executable, "-m", "ebac.cli", "live", "--no-browser", "--json"]
+@pytest.mark.parametrize(
+    ("command", "end"),
+    [
+        (["live"], "Ended; drives without power. Kept: no files."),
+        (["gastroscopy", "--live"], "Ended; all of it was simulated. Kept: no files."),
+    ],
+)
+def test_the_command_prints_its_address_and_ends_with_ctrl_c(
+    tmp_path: Path, command: list[str], end: str
+) -> None:
+    words = [sys.executable, "-m", "ebac.cli", *command, "--no-browser", "--json"]
     with subprocess.Popen(
         words,
         cwd=tmp_path,
@@ -278,5 +287,5 @@ def test_the_command_prints_its_address_and_ends_with_ctrl_c(tmp_path: Path) -> 
         run.send_signal(signal.SIGINT)
         _, said = run.communicate(timeout=30)
     assert run.returncode == 0, said
-    assert "drives without power. Kept: no files" in said
+    assert end in said
     assert not list(tmp_path.iterdir())

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import sys
 import time
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -186,25 +187,29 @@ def _serve(
             output.fail(f"{where}: {error.strerror or error}; give another one")
         watch(server, interrupts, no_browser=no_browser, as_json=as_json)
         kept = list(server.session.kept)
-    console = output.console(stderr=True)
-    files = ", ".join(map(str, kept)) if kept else "no files"
-    console.print(f"Ended; drives without power. Kept: {files}.", soft_wrap=True, markup=False)
+    ended("Ended; drives without power.", kept)
 
 
 def watch(server: Server, interrupts: Interrupts, *, no_browser: bool, as_json: bool) -> None:
     """Print the addresses of a server, open its page, and wait until it is interrupted."""
     from ebac.hardware.interrupts import Terminated
 
-    show(server, as_json=as_json)
-    if not no_browser:
-        import webbrowser
-
-        webbrowser.open(server.gate.url())
     try:
+        show(server, as_json=as_json)
+        if not no_browser:
+            import webbrowser
+
+            webbrowser.open(server.gate.url())
         while True:
             time.sleep(0.5)
     except (KeyboardInterrupt, Terminated):
         interrupts.ending()
+
+
+def ended(how: str, kept: Sequence[Path] = ()) -> None:
+    """Print on stderr how a page ended, and which files are kept."""
+    files = ", ".join(map(str, kept)) if kept else "no files"
+    output.console(stderr=True).print(f"{how} Kept: {files}.", soft_wrap=True, markup=False)
 
 
 def show(server: Server, *, as_json: bool) -> None:

@@ -14,6 +14,7 @@ def watch(law: str, procedure: Procedure, port: int, *, no_browser: bool, as_jso
     """Run it in real time and serve the page until it is interrupted."""
     from contextlib import ExitStack
 
+    from ebac.cli.live import ended
     from ebac.cli.live import watch as wait
     from ebac.hardware.interrupts import Interrupts
     from ebac.live.gastroscopy import serve_gastroscopy
@@ -28,3 +29,4 @@ def watch(law: str, procedure: Procedure, port: int, *, no_browser: bool, as_jso
         except OSError as error:
             output.fail(f"--port {port}: {error.strerror or error}; give another one")
         wait(server, interrupts, no_browser=no_browser, as_json=as_json)
+    ended("Ended; all of it was simulated.")
