@@ -206,7 +206,9 @@ def test_what_is_no_condition_is_refused() -> None:
         ValueError, match=r"approach_m = 0\.01 m: needs a Wall, the scenario has a Free"
     ):
         study(FEW, "tca", ["d1K10"], base=free)
-    with pytest.raises(TypeError, match=r"the environment is a Free: must be a Wall, .*; ebac\.sweep\("):
+    with pytest.raises(
+        TypeError, match=r"the environment is a Free: must be a Wall, .*; ebac\.sweep\("
+    ):
         study(FEW.replace(approach_m=0.0), "tca", ["d1K10"], base=free)
 
 
