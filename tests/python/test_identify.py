@@ -1,6 +1,7 @@
 """Identification: what was simulated comes back, what cannot be known is called so, bad logs are refused."""
 
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -13,9 +14,10 @@ import ebac
 from ebac.cli import app
 from ebac.identify import Recording, Target, excitation, fit_arm, fit_device, load
 from ebac.identify.cases import Case, draw
-from ebac.identify.check import compare_with_scipy, run_case
+from ebac.identify.check import Check, compare_with_scipy, run_case
 from ebac.identify.recording import count_of
 from ebac.identify.unbiased import second_opinion
+from ebac.identify.validation import TooFewReadings
 
 
 def tracked(**changes: object) -> ebac.Scenario:
@@ -105,6 +107,50 @@ def test_a_hand_that_meets_nothing_is_not_identified() -> None:
         assert any(not o.determined for o in run_case(case) if o.parameter in ("M0", "B0", "K0")), (
             case
         )
+
+
+def hardly_moving() -> Case:
+    """Return a hand in free air whose target is 0.2 mm away: the encoder count changes a few times in the log."""
+    case = draw(0, 1, 2.0)
+    hand = case.scenario.hand.replace(path=ebac.Step(target=2e-4))
+    scenario = case.scenario.replace(hand=hand, environment=ebac.Free())
+    return replace(case, task="free", law="direct", scenario=scenario)
+
+
+def test_a_log_with_too_few_readings_to_test_its_fit_is_refused(tmp_path: Path) -> None:
+    case = hardly_moving()
+    trace = ebac.simulate(case.scenario, case.law)
+    recording = Recording.from_trace(trace, name="still")
+    with pytest.raises(TooFewReadings, match=r"^still: \d+ informative readings, at least 13"):
+        fit_arm(recording, Target.of(case.scenario.hand, recording.t))
+    trace.to_npz(tmp_path / "still.npz")
+    run = CliRunner().invoke(app, ["identify", "arm", str(tmp_path / "still.npz")])
+    assert run.exit_code == 2
+    assert "does not determine the hand" in " ".join(run.stderr.split())
+
+
+def test_a_check_counts_a_refused_log_as_one_that_determines_nothing() -> None:
+    found = Check(outcomes=tuple(run_case(hardly_moving())))
+    rows = {row["parameter"]: row for row in found.rows()}
+    assert rows.keys() == {"M0", "B0", "K0", "X0"}
+    assert all((row["cases"], row["determined"]) == (1, 0) for row in rows.values())
+    verdict = found.unidentifiable()
+    assert verdict["silent_cases"] + verdict["telling_cases"] == 1
+    assert verdict["silent_called"] + verdict["telling_called"] == 1
+    assert verdict["determined_and_wrong_by_half"] == 0
+
+
+@pytest.mark.parametrize("informative", [True, False])
+@pytest.mark.parametrize("determined", [True, False])
+def test_a_check_compares_the_verdict_of_the_fit_with_the_truth(
+    informative: bool, determined: bool
+) -> None:
+    one = replace(run_case(hardly_moving())[0], informative=informative, determined=determined)
+    verdict = Check(outcomes=(one,)).unidentifiable()
+    assert verdict["silent_cases"] == (not informative)
+    assert verdict["silent_called"] == (not informative and not determined)
+    assert verdict["telling_cases"] == informative
+    assert verdict["telling_called"] == (informative and not determined)
 
 
 def test_a_case_is_the_same_every_time() -> None:

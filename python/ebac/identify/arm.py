@@ -79,7 +79,8 @@ def fit_arm(
     Raises
     ------
     ValueError
-        For a recording without force, a name that does not exist, a value out of range.
+        For a recording without force, a name that does not exist, a value out of range, or a single recording whose
+        encoder count hardly changes, so that its fit cannot be tested.
     """
     began = perf_counter()
     require_recordings(recordings, "fit_arm")

@@ -7,11 +7,11 @@ knows nothing of.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass, replace
 from time import perf_counter, process_time
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -20,13 +20,12 @@ from ebac.identify.cases import Case, draw, draw_device
 from ebac.identify.device import fit_device
 from ebac.identify.estimate import Estimate
 from ebac.identify.fit import spread_at
-from ebac.identify.parameters import HAND
+from ebac.identify.parameters import HAND, lay_out
+from ebac.identify.problem import Problem
 from ebac.identify.recording import Recording
 from ebac.identify.result import ArmResult
 from ebac.identify.target import Target
-
-if TYPE_CHECKING:
-    from ebac.identify.result import ArmResult
+from ebac.identify.validation import TooFewReadings
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -57,16 +56,23 @@ class Outcome:
 
 
 def run_case(case: Case) -> list[Outcome]:
-    """Simulate and identify one case."""
+    """Simulate and identify one case; a log that is refused determines no parameter."""
     from ebac.simulation import simulate
 
     trace = simulate(case.scenario, case.law)
     recording = Recording.from_trace(trace, name=f"case {case.number}")
-    result = fit_arm(recording, Target.of(case.scenario.hand, recording.t))
-    free = {name: e for name, e in result.estimates.items() if not e.fixed}
+    target = Target.of(case.scenario.hand, recording.t)
     truth = case.truth()
+    try:
+        result = fit_arm(recording, target)
+    except TooFewReadings:
+        result = _not_fitted(recording, target)
+        free, seconds = _nothing(result.parameters.names[i] for i in result.parameters.free), 0.0
+    else:
+        free = {name: e for name, e in result.estimates.items() if not e.fixed}
+        seconds = result.seconds
     known = determined_by(result, truth)
-    found = _outcomes(case, free, truth, result.seconds)
+    found = _outcomes(case, free, truth, seconds)
     return [replace(o, informative=o.parameter in known) for o in found]
 
 
@@ -78,6 +84,35 @@ def determined_by(result: ArmResult, truth: Mapping[str, float]) -> set[str]:
     return set(p.names) - set(known.undetermined)
 
 
+def _not_fitted(recording: Recording, target: Target) -> ArmResult:
+    """Return the problem of a refused log, with no estimates: what it determines can be judged at the true values."""
+    parameters = lay_out([target.levels], fixed={}, bounds={}, free=(), own=())
+    problem = Problem(recordings=(recording,), targets=(target,), parameters=parameters)
+    values = np.where(np.isnan(parameters.fixed), 0.0, parameters.fixed)
+    return ArmResult(
+        problem=problem,
+        values=values,
+        optimum=values,
+        force_noise=problem.shown,
+        errors=np.zeros(len(recording.t)),
+        covariance=np.diag(np.full(len(parameters.free), np.inf)),
+        robust=None,
+        converged=False,
+        evaluations=0,
+        seconds=0.0,
+    )
+
+
+def _nothing(names: Iterable[str]) -> dict[str, Estimate]:
+    """Return estimates of a log that is refused: none of the parameters is determined."""
+    return {
+        n: Estimate(
+            name=n, value=0.0, unit="", low=-np.inf, high=np.inf, fixed=False, determined=False
+        )
+        for n in names
+    }
+
+
 def run_device_case(case: Case) -> list[Outcome]:
     """Simulate one case and identify its device; a log that is refused has no outcome but that."""
     from ebac.simulation import simulate
@@ -87,9 +122,7 @@ def run_device_case(case: Case) -> list[Outcome]:
     try:
         result = fit_device(Recording.from_trace(trace, name=f"case {case.number}"))
     except ValueError:
-        nothing = {n: Estimate(name=n, value=0.0, unit="", low=-np.inf, high=np.inf, fixed=False, determined=False)
-                   for n in truth}  # fmt: skip
-        return _outcomes(case, nothing, truth, 0.0)
+        return _outcomes(case, _nothing(truth), truth, 0.0)
     return _outcomes(case, result.estimates, truth, result.seconds)
 
 
@@ -152,7 +185,7 @@ class Check:
         for o in self.outcomes:
             if o.parameter in HAND:
                 by_case.setdefault(o.case, []).append(o)
-        called = {n: any(not o.informative for o in case) for n, case in by_case.items()}
+        called = {n: any(not o.determined for o in case) for n, case in by_case.items()}
         silent = {n for n, case in by_case.items() if any(not o.informative for o in case)}
         wrong = [
             o for o in self.outcomes if o.parameter in HAND and o.determined and abs(o.error) > 0.5

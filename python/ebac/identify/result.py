@@ -147,7 +147,7 @@ class ArmResult:
             errors = self.errors[start : start + len(r.t)]
             start += len(r.t)
             if enough(errors) or len(self.recordings) == 1:
-                out[r.name] = residual_tests(errors, r.force)
+                out[r.name] = residual_tests(errors, r.force, name=r.name)
         return out
 
     @cached_property

@@ -48,16 +48,32 @@ class ResidualTests:
 SETTLING, LEAST_READINGS = 5, 8
 
 
+class TooFewReadings(ValueError):
+    """A log with too few informative readings to test a fit on: the encoder count hardly changes."""
+
+
 def enough(errors: NDArray[np.float64]) -> bool:
     """Return whether errors, shape (rows,), are enough to be tested."""
     return int(np.count_nonzero(errors)) - SETTLING >= LEAST_READINGS
 
 
-def residual_tests(errors: NDArray[np.float64], force: NDArray[np.float64]) -> ResidualTests:
-    """Test the errors of one recording, shape (rows,), against themselves and the force [N]."""
-    informative = np.flatnonzero(errors)[SETTLING:]  # rows with a reading
+def residual_tests(
+    errors: NDArray[np.float64], force: NDArray[np.float64], *, name: str
+) -> ResidualTests:
+    """Test the errors of one recording, shape (rows,), against themselves and the force [N].
+
+    Raises
+    ------
+    TooFewReadings
+        When too few rows are informative; the message begins with the `name` of the recording.
+    """
+    informative = np.flatnonzero(errors)  # rows with a reading
     if not enough(errors):
-        raise ValueError(f"{informative.size} readings with information: too few to test errors on")
+        raise TooFewReadings(
+            f"{name}: {informative.size} informative readings, at least {SETTLING + LEAST_READINGS} are needed: "
+            "the encoder count hardly changes, so this log does not determine the hand; record one with more motion"
+        )
+    informative = informative[SETTLING:]
     e = errors[informative] - errors[informative].mean()
     u = np.diff(force[informative], prepend=force[informative[0]])
     u = u - u.mean()
