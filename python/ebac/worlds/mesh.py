@@ -191,7 +191,7 @@ class Mesh(_Triangles):
             warnings.warn(
                 f"{self.file}: its longest side is {longest:.4g} m; a file in millimetres needs scale=0.001, or "
                 "size=0.1 makes that side 0.1 m long",
-                stacklevel=3,  # past the dataclass's own constructor
+                stacklevel=4,  # past the constructor: the dataclass's own, and that which checks the call
             )
 
     def surface(self) -> Surface:
