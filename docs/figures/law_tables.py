@@ -25,8 +25,8 @@ MEASURES: tuple[tuple[str, str, Callable[[float | None], str]], ...] = (
     ("least_energy_impact_J", "impact [mJ]", millijoules),
     ("least_energy_let_go_J", "let go [mJ]", millijoules),
     ("least_energy_pumping_J", "pumping [mJ]", millijoules),
-    ("ripple_N", "force swing [N]", lambda f: fixed(f, 2)),
-    ("ripple_noise_N", "the same, 0.2 N noise [N]", lambda f: fixed(f, 2)),
+    ("force_swing_N", "force swing [N]", lambda f: fixed(f, 2)),
+    ("force_swing_noise_N", "the same, 0.2 N noise [N]", lambda f: fixed(f, 2)),
     ("force_step_N", "step inside [N]", lambda f: fixed(f, 1)),
     ("friction_m", "off, friction 1 N [mm]", lambda x: fixed(x, 3, 1e3)),
 )

@@ -150,7 +150,7 @@ def _own(form: Form, printed: Printed) -> list[Row]:
 def _all_six(parts: list[Row]) -> list[str]:
     settled, ripple = (
         [part[key] for part in parts if part[key] is not None]
-        for key in ("median_settled_s", "ripple_N")
+        for key in ("median_settled_s", "force_swing_N")
     )
     return [
         _counts(parts),

@@ -79,3 +79,30 @@ def test_the_force_shown_ends_with_the_force_of_the_world() -> None:
     assert asked.min() < 0.3
     assert (shown >= 0).all()
     assert (shown <= 2 * asked + 1e-9).all()
+
+
+@pytest.mark.parametrize(
+    ("condition", "friction", "good"), [("d0K10", 0.05, 53), ("d1K20", 0.1, 47), ("d2K20", 0.1, 43)]
+)
+def test_a_little_friction_leaves_the_force_quiet(
+    condition: str, friction: float, good: int
+) -> None:
+    """It held the device where the model moves: estimates rested at the end of their counts, with a velocity. `good`
+    hands of 60 were quiet.
+    """
+    device = NOISY.replace(mechanics=NOISY.mechanics.replace(coulomb=friction))
+    base = ebac.Scenario(device=device)
+    found = ebac.study(ebac.Operators.grid(), "ebac", conditions=[condition], base=base).rows[0]
+    assert found.exact_and_still == 60
+    assert found.good is not None
+    assert good < 58 <= found.good
+
+
+def test_friction_that_holds_the_device_is_learnt_as_a_force() -> None:
+    device = NOISY.replace(mechanics=NOISY.mechanics.replace(coulomb=0.05))
+    scenario = ebac.Scenario(device=device, timing=ebac.Timing(delay=0), seconds=3.0)
+    trace = ebac.simulate(scenario, "ebac")
+    assert trace["est.weight"].min() == 1
+    rest = trace[2.0:]
+    assert abs(rest["est.v"]).max() < 2e-3  # m/s; it was 3.5e-3 for as long as it was looked at
+    assert abs(rest["est.x"] - rest["true.x"]).max() < 1.5 * device.count

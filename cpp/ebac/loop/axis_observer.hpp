@@ -29,12 +29,15 @@ namespace ebac {
 /// The encoder corrects x, u and D. A reading says little about where in its count the device is, so
 /// an innovation counts half up to one count and whole beyond, and x is kept within 1.5 counts of the
 /// reading. Where the sensor shows less noise than declared, the half shrinks with it, down to a tenth:
-/// at rest the reading changes with the swing of a hand within a count, and would keep it going. The steady Kalman gain of force noise against a reading uniform within a count has the
-/// bandwidth w = sqrt(sqrt(12) force_noise / (M count)). 0.4 of it is used in motion, 0.3 at rest,
-/// where an edge of a count would be felt as a click; D is slower than x and u, by far so at rest. The
-/// prediction takes the force of the hand to change as it did in the last 12 ms, and at rest
-/// without the noise it shows: a lag in that force of 1 N would be 4 m/s^2. Where the force turns out to be
-/// noisier than declared, all of w is used. v is kept within what two readings prove of it.
+/// at rest the reading changes with the swing of a hand within a count, and would keep it going. The
+/// steady Kalman gain of force noise against a reading uniform within a count has the bandwidth
+/// w = sqrt(sqrt(12) force_noise / (M count)). 0.4 of it is used in motion, 0.3 at rest, where an edge
+/// of a count would be felt as a click; D is slower than x and u, by far so at rest. All of w is used
+/// where the force turns out to be noisier than declared, and where the readings go on contradicting
+/// the model: friction that holds the device is a force that D must learn, or x would rest at the end
+/// of its counts, with a velocity that is none. The prediction takes the force of the hand to change as
+/// it did in the last 12 ms, and at rest without the noise it shows: a lag in that force of 1 N would
+/// be 4 m/s^2. v is kept within what two readings prove of it.
 class AxisObserver {
  public:
   struct Motion {
@@ -146,9 +149,11 @@ class AxisObserver {
   static constexpr double kRough = 0.1;  // s, memory of such differences
   static constexpr double kHigh = 4;     // standard deviations: a larger difference counts as this
   static constexpr double kBends = 0.2;  // s, over which their sizes are averaged
-  static constexpr double kOfBends = 0.56;     // noise of that mean; 0.51 for one that is normal
-  static constexpr double kLeastShare = 0.2;   // of the share within a count, without noise
-  static constexpr double kMemory = 0.05;      // s, of the contradictions
+  static constexpr double kOfBends = 0.56;    // noise of that mean; 0.51 for one that is normal
+  static constexpr double kLeastShare = 0.2;  // of the share within a count, without noise
+  static constexpr double kMemory = 0.05;     // s, of the contradictions
+  static constexpr double kBears = 0.15;      // share of ticks that may contradict
+  static constexpr double kLearn = 2;         // from here to 1/2 more, all gains rise to those of w
   static constexpr double kPatience = 3.5e-3;  // s, half a period of a cable's resonance of 140 Hz
 
   /// Gains of the three states: 1, 1/s, 1/s^2 (of D times the mass).
@@ -212,7 +217,8 @@ class AxisObserver {
     contradicted_ += ((std::abs(off) > 1.5 * count ? 1.0 : 0.0) - contradicted_) * forget_;
     moving_ = std::max(std::min(1.0, std::abs(u_) * (1 / kMoving)), moving_ * resting_);
     Gains gain = at_rest_.towards(in_motion_, moving_);
-    if (noisy > 0) gain = gain.towards(full_, noisy);
+    const double wrong = std::max(noisy, std::min(1.0, kLearn * (contradicted_ - kBears)));
+    if (wrong > 0) gain = gain.towards(full_, wrong);
     x_ += gain.x * innovation;
     u_ += gain.v * innovation;
     disturbance_ += gain.d * innovation * mass_;

@@ -115,8 +115,7 @@ def changed(world: Environment, **changes: float) -> Environment:
     """
     if isinstance(world, _World):
         raise ValueError(
-            f"environment: {', '.join(changes)} cannot change in a world of bodies, which is changed as a whole: "
-            "run.change(environment=...)"
+            f"environment.{', '.join(changes)}: a world of bodies is changed as a whole; give environment=..."
         )
     return world.replace(**changes)
 
