@@ -398,3 +398,15 @@ def test_a_study_and_an_endurance_run_of_the_wrong_type_are_refused_by_name() ->
             teleop.study(wrong)  # type: ignore[arg-type]
     with pytest.raises(TypeError, match="seconds = 'x': must be a number"):
         teleop.endurance(seconds="x")  # type: ignore[arg-type]
+
+
+def test_seed_0_is_a_seed_of_its_own() -> None:
+    from typer.testing import CliRunner
+
+    from ebac.cli import app
+
+    run = ["teleop", "run", "--scheme", "waves", "--jitter", "0.01", "--loss", "0.1", "--json"]
+    runs = [[*run, "--seconds", "3", "--seed", seed] for seed in ("0", "1", "0")]
+    zero, one, again = (json.loads(CliRunner().invoke(app, words).stdout)["rows"] for words in runs)
+    assert zero == again
+    assert zero != one
