@@ -94,6 +94,12 @@ def test_numbers_are_shown_with_their_unit(value: float | None, unit: str, text:
     assert formatting.quantity(value, unit) == text
 
 
+def test_the_description_of_a_device_has_its_friction() -> None:
+    device = ebac.Device(mechanics=ebac.Mechanics(coulomb=0.1))
+    assert "friction 0.1 N" in formatting.describe(ebac.Scenario(device=device))
+    assert "friction" not in formatting.describe(ebac.Scenario())
+
+
 def test_a_scenario_is_told_in_one_line() -> None:
     hand = ebac.Hand(path=ebac.Tapping(), tremor_amplitude=1e-3)
     text = formatting.describe(ebac.Scenario(hand=hand, environment=ebac.Corner(), jitter=0.1))

@@ -111,9 +111,11 @@ def _device(device: Device) -> str:
         if known
         else f"a {kind}"
     )
+    coulomb = device.mechanics.coulomb
+    friction = f", friction {coulomb:g} N" if coulomb else ""
     noise = f", sensor noise {device.sensor.noise:g} N" if device.sensor.noise else ""
     permille = ", torque in per mille" if device.drive.permille else ""
-    return f"{name} ({device.mass:.4g} kg, {device.mechanics.damping:g} N s/m{noise}{permille})"
+    return f"{name} ({device.mass:.4g} kg, {device.mechanics.damping:g} N s/m{friction}{noise}{permille})"
 
 
 def _hand(hand: Hand) -> str:
