@@ -1,5 +1,6 @@
 """A session on a virtual clock: what it gives depends on orders and their ticks, not on the machine."""
 
+import json
 import time
 from pathlib import Path
 
@@ -118,6 +119,20 @@ def test_delay_and_observer_begin_anew(session: Session) -> None:
         session.advance(2.0)
         assert not session.fault
         assert session.starts == 3
+
+
+@pytest.mark.parametrize("observer", [True, False])
+def test_strips_have_a_beta_only_where_the_law_has_one(session: Session, observer: bool) -> None:
+    with session:
+        frames = Frames(session)
+        session.change(observer=observer)
+        session.start()
+        session.hand.drag([0.03, 0.0])
+        session.advance(1.0)
+        found = frames.history()
+    shown = json.loads(json.dumps(found, allow_nan=False))
+    assert not any(None in shown[name] for name in ("t", "x", "f_env", "f_cmd", "f_meas", "energy"))
+    assert any(beta is not None for beta in shown["beta"]) != observer
 
 
 def test_time_goes_on_with_the_clock_on_the_wall_and_nothing_is_late(tmp_path: Path) -> None:

@@ -159,7 +159,10 @@ def _last(column: NDArray[Any]) -> list[float]:
 
 
 def strips(view: Any, first: int, dt: float) -> dict[str, Any]:
-    """Return every eighth row, in the ticks that are multiples of it, along the first axis; forces as they were."""
+    """Return every eighth row, in the ticks that are multiples of it, along the first axis; forces as they were.
+
+    None where there is no number, as beta with the observer.
+    """
     every = max(1, round(STEP / dt))
     rows = slice((-first) % every, None, every)
 
@@ -167,8 +170,9 @@ def strips(view: Any, first: int, dt: float) -> dict[str, Any]:
         column: NDArray[Any] = view[name]
         return column[:, 0] if column.ndim > 1 else column
 
-    def plain(values: NDArray[Any]) -> list[float]:
-        return [float(one) for one in np.round(np.nan_to_num(values[rows].astype(float)), 6)]
+    def plain(values: NDArray[Any]) -> list[float | None]:
+        numbers = np.round(values[rows].astype(float), 6)
+        return [float(one) if np.isfinite(one) else None for one in numbers]
 
     work = view["work"]
     found = {name: plain(axis(name)) for name in ("t", "x", "f_env", "f_cmd", "f_meas")}

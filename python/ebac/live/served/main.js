@@ -109,6 +109,7 @@ function drawStrips(colour) {
   const look = theme();
   const thousand = (values) => values.map((value) => 1e3 * value);
   const to = columns.t.at(-1);
+  const beta = { label: "beta [N/m]", least: 1, marks: [], lines: [{ y: columns.beta, colour, width: 1.5 }] };
   strips($("strips"), {
     t: columns.t,
     panels: [
@@ -118,7 +119,7 @@ function drawStrips(colour) {
         { name: "allowed", y: columns.f_cmd, colour, width: 2 },
         { name: "measured", y: columns.f_meas, colour: look.hand, width: 1 },
       ] },
-      { label: "beta [N/m]", least: 1, marks: [], lines: [{ y: columns.beta, colour, width: 1.5 }] },
+      ...(columns.beta.every(Number.isNaN) ? [] : [beta]), // with the observer there is none
       { label: "energy taken in [mJ]", least: 20, marks: [{ value: 0 }], below: `${look.bad}22`, lines: [{ y: thousand(columns.energy), colour, width: 2 }] },
     ],
   }, { from: Math.max(columns.t[0], to - BACK), to: Math.max(to, columns.t[0] + 1), theme: look });
