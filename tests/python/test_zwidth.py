@@ -186,11 +186,27 @@ def test_rows_and_scores(found: ZWidth) -> None:
         "delay_ceiling_N_per_m",
         "spectral_N_per_m",
         *(f"{name}_N_per_m" for name in CRITERIA),
+        "usable_ended_by",
     }
     direct = found.scores()[0]
     border = found.limits["quiet"][0, 0]
     assert direct["quiet_area"] == pytest.approx(10 * border.mean())
     assert direct["quiet_times_direct"] == 1
+
+
+def test_a_border_says_what_it_ends_by(found: ZWidth) -> None:
+    """`direct` shakes; `eba` shows few walls at half of their stiffness; undamped walls of the top are the search's end."""
+    assert found.ended_by("eba", 1)[0] == "too soft"
+    assert set(found.ended_by("direct", 0)) <= {"limit cycle", "vibration", "energy"}
+    low = search(laws="direct", delays=(0,), dampings=(0.0, 0.1), top=300.0)
+    assert low.ended_by("direct", 0) == ["top", "top"]
+    words = {"still": "limit cycle", "quiet": "vibration", "energy": "energy"}
+    for row in found.rows():
+        criterion = next(
+            (name for name, word in words.items() if word == row["usable_ended_by"]), None
+        )
+        if criterion is not None:
+            assert row[f"{criterion}_N_per_m"] == pytest.approx(row["usable_N_per_m"], rel=1e-9)
 
 
 def test_the_search_does_not_depend_on_how_it_is_computed(found: ZWidth) -> None:

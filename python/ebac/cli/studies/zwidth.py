@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -184,7 +185,9 @@ def _show(found: ZWidth) -> None:
         "Area of the walls that each law renders: stiffness times damping, in kN/m N s/m. Delay in samples.",
         style="bold",
     )
-    grid = output.table(["delay", "law", *CRITERIA], numbers=range(2, 2 + len(CRITERIA)))
+    grid = output.table(
+        ["delay", "law", *CRITERIA, "usable walls end by"], numbers=range(2, 2 + len(CRITERIA))
+    )
     for number, delay in enumerate(found.delays):
         if number:
             grid.add_section()
@@ -192,13 +195,15 @@ def _show(found: ZWidth) -> None:
         grid.add_row(str(delay), "linear loop, no law", linear)
         for row in found.scores():
             if row["delay_samples"] == delay:
-                grid.add_row(str(delay), row["law"], *(_cell(row, name) for name in CRITERIA))
+                ends = Counter(found.ended_by(row["law"], delay))
+                cells = (_cell(row, name) for name in CRITERIA)
+                grid.add_row(str(delay), row["law"], *cells, _ended(ends))
     output.show(grid)
     full, most = found.top / 1e3, found.dampings[-1]
     beside = " In brackets, times that of direct." if "direct" in found.laws else ""
     output.say(
         f"Both axes are linear, up to {full:g} kN/m and {most:g} N s/m: {full * most:.0f} kN/m N s/m is all of it."
-        f"{beside}"
+        f"{beside} What walls end by is counted over {len(found.dampings)} wall dampings."
     )
     if found.hands:
         output.say(
@@ -210,6 +215,13 @@ def _show(found: ZWidth) -> None:
         style="bold",
     )
     output.indented(formatting.describe(found.base).replace("; ", "\n"))
+
+
+def _ended(ends: Counter[str]) -> str:
+    """Return what borders end by, most often first: "vibration 2, top 1"; one word where it is always the same."""
+    if len(ends) == 1:
+        return next(iter(ends))
+    return ", ".join(f"{word} {n}" for word, n in ends.most_common())
 
 
 def _cell(row: dict[str, Any], name: str) -> str:

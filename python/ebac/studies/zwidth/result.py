@@ -20,6 +20,11 @@ CRITERIA: dict[str, str] = {
     "usable": "quiet, energy, and at least half of the stiffness shown at rest",
 }
 
+#: What ends a usable border, by the criterion that ends at the same stiffness.
+ENDS: dict[str, str] = {"still": "limit cycle", "quiet": "vibration", "energy": "energy"}
+#: The same where the search ends first, and where none of these does: less than half of the stiffness is shown.
+AT_TOP, TOO_SOFT = "top", "too soft"
+
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
 class ZWidth:
@@ -83,6 +88,24 @@ class ZWidth:
             else self.limits[criterion][self.laws.index(law), d]
         )
         return float(np.trapezoid(np.minimum(border, self.top), self.dampings))
+
+    def ended_by(self, law: str, delay: int) -> list[str]:
+        """Return what the walls above the usable border are lost by, for each wall damping.
+
+        "limit cycle", "vibration" of the force, "energy" given out, "too soft" (less than half of the stiffness is
+        shown at rest), or "top": the search ended first. Where two criteria end together, the first of these.
+        """
+        i, d = self.laws.index(law), self.delays.index(delay)
+        limits = {name: self.limits[name][i, d] for name in CRITERIA}
+
+        def of(j: int) -> str:
+            usable = limits["usable"][j]
+            if usable >= self.top:
+                return AT_TOP
+            met = (word for name, word in ENDS.items() if limits[name][j] <= usable * (1 + 1e-9))
+            return next(met, TOO_SOFT)
+
+        return [of(j) for j in range(len(self.dampings))]
 
     def scores(self) -> list[dict[str, Any]]:
         """Return one row per law and delay: the area by criterion, and how many times that of `direct`."""
@@ -148,8 +171,11 @@ class ZWidth:
                     f"{name}_N_per_m": float(limits[i, d, j])
                     for name, limits in self.limits.items()
                 },
+                "usable_ended_by": ended,
             }
             for i, law in enumerate(self.laws)
             for d, delay in enumerate(self.delays)
-            for j, damping in enumerate(self.dampings)
+            for j, (damping, ended) in enumerate(
+                zip(self.dampings, self.ended_by(law, delay), strict=True)
+            )
         ]
