@@ -460,6 +460,18 @@ def test_presets() -> None:
     assert all(name in text for name in names)
 
 
+@pytest.mark.parametrize("name", ["joystick", "let-go", "reference", "Finger"])
+def test_a_preset_is_shown_as_a_scenario_file_has_it(name: str, tmp_path: Path) -> None:
+    text = ebac_command("presets", name).stdout
+    (tmp_path / "shown.toml").write_text(text)
+    read = ebac.Scenario.load(tmp_path / "shown.toml")
+    kinds = [row["kind"] for row in document("presets", name)["rows"]]
+    for kind, known in (("hand", ebac.presets.HANDS), ("device", ebac.presets.DEVICES)):
+        assert (kind in kinds) == (name.lower() in known)
+        if kind in kinds:
+            assert getattr(read, kind) == getattr(ebac.presets, kind)(name.lower())
+
+
 def test_bench() -> None:
     rows = document("bench", "--repeats", "1")["rows"]
     assert [row["law"] for row in rows] == [*ebac.LAWS, "python"]

@@ -195,7 +195,7 @@ def test_rows_and_scores(found: ZWidth) -> None:
 
 
 def test_a_border_says_what_it_ends_by(found: ZWidth) -> None:
-    """`direct` shakes; `eba` shows few walls at half of their stiffness; undamped walls of the top are the search's end."""
+    """`direct` shakes, `eba` shows few walls at half of their stiffness."""
     assert found.ended_by("eba", 1)[0] == "too soft"
     assert set(found.ended_by("direct", 0)) <= {"limit cycle", "vibration", "energy"}
     low = search(laws="direct", delays=(0,), dampings=(0.0, 0.1), top=300.0)

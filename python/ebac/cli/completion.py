@@ -50,6 +50,11 @@ def devices(incomplete: str) -> list[str]:
     return _begun(incomplete, DEVICES)
 
 
+def presets(incomplete: str) -> list[str]:
+    """Return the hands and devices that begin so."""
+    return list(dict.fromkeys([*hands(incomplete), *devices(incomplete)]))
+
+
 @several
 def world_kinds(incomplete: str) -> list[str]:
     """Return the kinds of random worlds that begin so."""

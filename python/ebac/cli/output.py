@@ -166,6 +166,15 @@ def document(command: str, rows: Sequence[Mapping[str, Any]], **more: Any) -> st
     return json.dumps(_finite(values), indent=2, allow_nan=False)
 
 
+def toml(**tables: Any) -> str:
+    """Return parts of a scenario as its file has them: by name, SI units."""
+    import tomli_w
+
+    from ebac._util.serialisation import to_document
+
+    return tomli_w.dumps({name: to_document(part) for name, part in tables.items()})
+
+
 def _finite(value: Any) -> Any:
     if isinstance(value, Mapping):
         return {str(name): _finite(item) for name, item in value.items()}

@@ -2,24 +2,39 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Annotated, Any
 
 import typer
 
-from ebac.cli import output
+from ebac.cli import completion, output
 
 
-def presets(as_json: output.AsJson = False) -> None:
-    """List the hands and devices that can be used by name.
+def presets(
+    name: Annotated[
+        str | None,
+        typer.Argument(
+            help="Name of a hand or device: print its numbers as TOML, for a scenario file.",
+            show_default=False,
+            autocompletion=completion.presets,
+        ),
+    ] = None,
+    as_json: output.AsJson = False,
+) -> None:
+    """List the hands and devices that can be used by name, or show all numbers of one.
 
     **Examples**
 
     * `ebac presets`
 
+    * `ebac presets joystick`: every number of it, as the start of a scenario file
+
     * `ebac wall --hand finger --device joystick`: use two of them
     """
     from ebac.presets import DEVICES, HANDS
 
+    if name is not None:
+        _show_one(name, as_json=as_json)
+        return
     hands = [
         {
             "kind": "hand",
@@ -51,19 +66,49 @@ def presets(as_json: output.AsJson = False) -> None:
     _show_devices(devices)
 
 
+def _show_one(name: str, *, as_json: bool) -> None:
+    """Print the hand and the device of a name, as tables of a scenario file."""
+    from ebac.cli import setting
+    from ebac.presets import DEVICES, HANDS
+
+    with output.refusing():
+        name = setting.known_name(
+            "hand or device", "presets", name, dict.fromkeys([*HANDS, *DEVICES])
+        )
+    found: list[tuple[str, str, str]] = []
+    if name in HANDS:
+        hand = HANDS[name]
+        source = _source(hand.source, indicative=hand.indicative)
+        found.append(("hand", source, output.toml(hand=hand.hand)))
+    if name in DEVICES:
+        found.append(("device", DEVICES[name].source, output.toml(device=DEVICES[name].device)))
+    if as_json:
+        rows = [
+            {"kind": kind, "name": name, "source": source, "toml": toml}
+            for kind, source, toml in found
+        ]
+        typer.echo(output.document("presets", rows))
+        return
+    for kind, source, toml in found:
+        typer.echo(f"# {kind} {name}: {source}\n# SI units: m, s, kg, N, A, rad\n{toml}")
+
+
+def _source(source: str, *, indicative: bool) -> str:
+    return f"{source} (indicative)" if indicative else source
+
+
 def _show_hands(rows: list[dict[str, Any]]) -> None:
     grid = output.table(
         ["hand", "mass", "damping", "stiffness", "model", "source"], numbers=(1, 2, 3)
     )
     for row in rows:
-        source = f"{row['source']} (indicative)" if row["indicative"] else row["source"]
         grid.add_row(
             row["name"],
             f"{row['mass_kg']:g} kg",
             f"{row['damping_Ns_per_m']:g} N s/m",
             f"{row['stiffness_N_per_m']:g} N/m",
             row["model"] or "-",
-            source,
+            _source(row["source"], indicative=row["indicative"]),
         )
     output.show(grid)
     output.say("indicative: from memory of the literature, not confirmed.")

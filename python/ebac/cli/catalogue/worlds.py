@@ -2,16 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Annotated, Any
 
 import typer
 from rich.markup import escape
 
 from ebac.cli import completion, output, setting
 from ebac.cli.catalogue import contact_at_place
-
-if TYPE_CHECKING:
-    from ebac.worlds import World
 
 
 def worlds(
@@ -75,13 +72,5 @@ def worlds(
         if at:
             contact_at_place.show(name, world, at, as_json=as_json)
             return
-        text = _toml(world)
+        text = output.toml(environment=world)
     typer.echo(output.document("worlds", [{"name": name, "toml": text}]) if as_json else text)
-
-
-def _toml(world: World) -> str:
-    import tomli_w
-
-    from ebac._util.serialisation import to_document
-
-    return tomli_w.dumps({"environment": to_document(world)})
