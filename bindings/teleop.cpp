@@ -34,6 +34,7 @@ Values simulated(const AnyLaw& law, const Setup& setup, const Coupling& coupling
   Values columns;
   add_columns<teleop::Row>(columns, outcome.rows,
                            [](const teleop::Row& row) -> const teleop::Row& { return row; });
+  columns["whole"] = outcome.whole;
   columns["at_master"] = values_of(outcome.at_master);
   columns["at_slave"] = values_of(outcome.at_slave);
   return columns;

@@ -13,7 +13,7 @@ import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
-from ebac import Hand, MinimumJerk, Sine, teleop
+from ebac import Hand, MinimumJerk, Scenario, Sine, Timing, teleop
 from ebac.plot import plot_teleop, plot_teleop_runs
 from ebac.teleop import Link, Packet, SlaveModel
 
@@ -144,6 +144,21 @@ def test_without_delay_every_scheme_is_transparent() -> None:
         run = teleop.simulate(name, there=Link(delay=0), buffer=0, seconds=6)
         assert run.still
         assert run.transparency > 0.7
+
+
+@pytest.mark.parametrize("dt", [1e-4, 5e-4, 1e-3, 2e-3])
+def test_a_delay_is_a_time_whatever_the_sample_time(dt: float) -> None:
+    scenario = Scenario(timing=Timing(dt=dt))
+    link = Link(delay=0.1)
+    run = teleop.simulate("position-force", law="direct", there=link, scenario=scenario, seconds=2)
+    t, far = run["t"], run["target"]
+    began = [t[np.flatnonzero(np.abs(one) > 1e-3)[0]] for one in (run["x"], far)]
+    assert began[1] - began[0] == pytest.approx(link.delay, abs=6e-3)
+
+
+@pytest.mark.parametrize("seconds", [0.1005, 0.1045, 2.5005])
+def test_a_run_to_its_end_is_whole_whatever_its_length(seconds: float) -> None:
+    assert teleop.simulate("waves", seconds=seconds).whole
 
 
 def test_a_tenth_of_the_packets_is_missing() -> None:
@@ -289,8 +304,20 @@ def test_three_processes_with_cuts() -> None:
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="UDP of the library is Linux's")
+def test_processes_run_at_1_khz_only() -> None:
+    from ebac.laws import design
+    from ebac.teleop import processes
+
+    scheme = teleop.scheme("waves")
+    scenario = Scenario(timing=Timing(dt=5e-4))
+    law = design(scheme.law, scenario.device, scenario.known_timing)
+    with pytest.raises(ValueError, match=r"Timing.dt = 5e-04 s: .* must be 0.001 s"):
+        processes.Master(scenario, law, scheme, host="127.0.0.1", port=0, peer=("127.0.0.1", 1))
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="UDP of the library is Linux's")
 def test_a_restarted_master_waits_for_consent() -> None:
-    from ebac import Free, Scenario
+    from ebac import Free
     from ebac.laws import design
     from ebac.teleop import processes
 
@@ -330,7 +357,7 @@ def test_a_restarted_master_waits_for_consent() -> None:
 @pytest.mark.skipif(sys.platform != "linux", reason="UDP of the library is Linux's")
 def test_a_slave_that_was_held_up_does_not_hit() -> None:
     """0.3 s late, it finds the stick 5 mm away: the way there was one blow of 30 N, its limit."""
-    from ebac import Free, Scenario
+    from ebac import Free
     from ebac.laws import design
     from ebac.teleop import processes
 

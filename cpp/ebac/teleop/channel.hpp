@@ -44,12 +44,15 @@ struct Link {
 };
 
 /// Delays, drops and reorders what is sent through it, the same way for the same seed. Time goes in
-/// ticks of 1 ms; its memory is bounded.
+/// ticks of `tick` [s]; its memory is bounded.
 template <class Item>
 class Channel {
  public:
-  Channel(const Link& link, std::uint64_t seed, std::uint64_t stream)
-      : link_(checked(link, "Link")), chance_(seed, stream), due_(kTicks) {}
+  Channel(const Link& link, double tick, std::uint64_t seed, std::uint64_t stream)
+      : link_(checked(link, "Link")),
+        tick_(tick),
+        chance_(seed, stream),
+        due_(ticks(link.delay + link.jitter + kHeld) + 1) {}
 
   /// False where it is lost.
   bool send(const Item& item) {
@@ -60,8 +63,7 @@ class Channel {
     hit_ = drawn(link_.corrupt);
     if (lost || cut()) return false;
     const double seconds = link_.delay + link_.jitter * late + (held ? kHeld : 0.0);
-    const auto ticks = static_cast<std::size_t>(std::llround(seconds / kTick));
-    auto& place = due_[(now_ + ticks) % kTicks];
+    auto& place = due_[(now_ + ticks(seconds)) % due_.size()];
     if (place.size() >= kMost) return false;
     place.push_back(item);
     newest_ = &place.back();
@@ -73,7 +75,7 @@ class Channel {
   /// Calls `take(item)` for what arrives in this tick, then goes on to the next.
   template <class Take>
   void deliver(Take take) {
-    auto& place = due_[now_ % kTicks];
+    auto& place = due_[now_ % due_.size()];
     for (const Item& item : place) take(item);
     place.clear();
     ++now_;
@@ -81,21 +83,23 @@ class Channel {
   /// Whether the link is cut now.
   bool cut() const {
     if (!(link_.cut_every > 0)) return false;
-    const double into = std::fmod(static_cast<double>(now_) * kTick, link_.cut_every);
+    const double into = std::fmod(static_cast<double>(now_) * tick_, link_.cut_every);
     return into >= link_.cut_every - link_.cut_length;
   }
 
  private:
-  static constexpr double kTick = 1e-3;        // s
-  static constexpr double kHeld = 5e-3;        // s
-  static constexpr std::size_t kTicks = 1024;  // more than the longest delay
-  static constexpr std::size_t kMost = 64;     // in one tick
+  static constexpr double kHeld = 5e-3;     // s
+  static constexpr std::size_t kMost = 64;  // in one tick
 
+  std::size_t ticks(double seconds) const {
+    return static_cast<std::size_t>(std::llround(seconds / tick_));
+  }
   bool drawn(double share) { return 0.5 * (1 + chance_.symmetric()) < share; }
 
   Link link_;
+  double tick_;  // s
   Noise chance_;
-  std::vector<std::vector<Item>> due_;
+  std::vector<std::vector<Item>> due_;  // by tick, up to the longest delay
   std::size_t now_ = 0;
   bool hit_ = false;
   Item* newest_ = nullptr;

@@ -50,8 +50,8 @@ Outcome simulate(const Teleop& teleop, const AnyLaw& law) {
   MasterSide master(teleop.setup, law, teleop.coupling);
   const double dt = teleop.setup.timing.dt;
   SlaveSide slave(teleop.slave, teleop.coupling, dt);
-  Channel<Packet> there(teleop.there, teleop.setup.seed, /*stream=*/11);
-  Channel<Packet> back(teleop.back, teleop.setup.seed, /*stream=*/12);
+  Channel<Packet> there(teleop.there, dt, teleop.setup.seed, /*stream=*/11);
+  Channel<Packet> back(teleop.back, dt, teleop.setup.seed, /*stream=*/12);
   const auto send = [](Channel<Packet>& channel, const Packet& packet) { channel.send(packet); };
   const auto ticks = static_cast<std::size_t>(std::llround(teleop.setup.seconds / dt)) + 1;
   Outcome outcome;
@@ -69,6 +69,7 @@ Outcome simulate(const Teleop& teleop, const AnyLaw& law) {
     outcome.rows.push_back(row_of(t, master, slave));
     if (!(std::abs(master.truth().x) < kFar) || master.sample().fault != Fault::kNone) break;
   }
+  outcome.whole = outcome.rows.size() == ticks && master.sample().fault == Fault::kNone;
   outcome.at_master = master.receiver().arrivals();
   outcome.at_slave = slave.receiver().arrivals();
   return outcome;

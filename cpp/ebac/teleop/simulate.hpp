@@ -78,6 +78,7 @@ struct Teleop {
 
 struct Outcome {
   std::vector<Row> rows;
+  bool whole = false;  // neither fault nor flight ended it
   Arrivals at_master{};
   Arrivals at_slave{};
 };

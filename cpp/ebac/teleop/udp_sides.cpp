@@ -5,7 +5,11 @@
 #include <chrono>
 #include <cmath>
 #include <random>
+#include <stdexcept>
+#include <string>
 #include <thread>
+
+#include "ebac/core/six_digits.hpp"
 
 namespace ebac::teleop {
 
@@ -81,7 +85,12 @@ UdpMaster::UdpMaster(const Setup& setup, const AnyLaw& law, const Coupling& coup
     : side_(setup, law, coupling, std::random_device{}()),
       socket_(at),
       peer_(peer),
-      consent_after_(consent_after) {}
+      consent_after_(consent_after) {
+  if (setup.timing.dt == kSecond) return;
+  throw std::invalid_argument("Timing.dt = " + six_digits(setup.timing.dt) +
+                              " s: master, network and slave as processes run at 1 kHz; must be " +
+                              six_digits(kSecond) + " s, another rate is simulated only");
+}
 
 Report UdpMaster::run(double seconds) noexcept {
   run_for(seconds, pace_, report_, [this] { tick(); });
@@ -162,8 +171,8 @@ UdpNetwork::UdpNetwork(const Link& there, const Link& back, std::uint64_t seed,
                        const sensor::Endpoint& at, const sensor::Endpoint& slave)
     : socket_(at),
       slave_(slave),
-      there_(there, seed, /*stream=*/11),
-      back_(back, seed, /*stream=*/12),
+      there_(there, kSecond, seed, /*stream=*/11),
+      back_(back, kSecond, seed, /*stream=*/12),
       bits_(seed, /*stream=*/13) {}
 
 Report UdpNetwork::run(double seconds) noexcept {
