@@ -182,7 +182,10 @@ void add_work(py::class_<TimedClient>& cls) {
             }
             self.client.begin_bias(records);
           },
-          py::arg("records"), "Take the mean of the next `records` valid records as zero.");
+          py::arg("records"), "Take the mean of the next `records` valid records as zero.")
+      .def(
+          "cancel_bias", [](TimedClient& self) { self.client.cancel_bias(); },
+          "Take no zero after all; it stays what it was.");
 }
 
 /// A read-only property of the client, and of the link within.

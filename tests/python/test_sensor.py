@@ -199,6 +199,21 @@ def test_a_sensor_that_is_unwell_is_told_and_no_zero(pushed: SimulatedSensor) ->
         assert reading.health is SensorStatus.ERROR
 
 
+def test_a_zero_that_was_given_up_is_not_taken_later(pushed: SimulatedSensor) -> None:
+    with Sensor.open(pushed.config) as sensor:
+        pushed.inject(EmulatorTrouble(status=0x80020000))
+        deadline = time.monotonic() + 5
+        while sensor.read().health is SensorStatus.GOOD:
+            assert time.monotonic() < deadline
+        with pytest.raises(SensorError):
+            sensor.bias(10, timeout=0.1)
+        pushed.inject(EmulatorTrouble())
+        while sensor.read().health is not SensorStatus.GOOD:
+            assert time.monotonic() < deadline
+        for _ in range(30):  # more than the zero asked for
+            assert sensor.read().force == (3.0, -2.0, 8.0)
+
+
 def test_what_waited_in_a_queue_is_not_what_acts_now() -> None:
     with (
         SimulatedSensor(options=EmulatorOptions(rate=7000)) as simulated,

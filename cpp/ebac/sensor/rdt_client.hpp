@@ -63,6 +63,7 @@ class RdtClient {
   void bias_sensor() EBAC_RT { ask(RdtCommand::kBias); }
   /// Takes the mean of the next `records` as zero, here.
   void begin_bias(int records) EBAC_RT { link_.begin_bias(records); }
+  void cancel_bias() EBAC_RT { link_.cancel_bias(); }
 
   /// Reads all that came; `elapsed` seconds after the last poll. Whether a newer record did.
   bool poll(double elapsed) EBAC_RT;

@@ -56,6 +56,8 @@ class RdtLink {
     sum_ = {};
     left_ = wanted_ = records;
   }
+  /// Takes no zero after all.
+  void cancel_bias() EBAC_RT { left_ = 0; }
   bool biasing() const EBAC_RT { return left_ > 0; }
   /// The zero of the readings [counts].
   const std::array<double, 6>& bias() const EBAC_RT { return bias_; }

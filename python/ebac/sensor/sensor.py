@@ -144,12 +144,15 @@ class Sensor:
         """
         self._client.begin_bias(records)
         last_good = time.monotonic()
-        while self._client.biasing:
-            reading = self.read(timeout)
-            if reading.health is SensorStatus.GOOD:
-                last_good = time.monotonic()
-            elif time.monotonic() - last_good > timeout:
-                raise SensorError(self._not_good(reading))
+        try:
+            while self._client.biasing:
+                reading = self.read(timeout)
+                if reading.health is SensorStatus.GOOD:
+                    last_good = time.monotonic()
+                elif time.monotonic() - last_good > timeout:
+                    raise SensorError(self._not_good(reading))
+        finally:
+            self._client.cancel_bias()  # or the zero would change later, when good records come again
         return self._bias()
 
     def bias_inside(self) -> None:
