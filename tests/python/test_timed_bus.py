@@ -32,6 +32,16 @@ def test_a_broken_node_must_be_one_of_the_device() -> None:
         ebac.simulate(ebac.Scenario(seconds=0.1), through="can", bus=TimedBus(broken=2))
 
 
+def test_a_watch_below_a_millisecond_is_none_the_less_a_watch() -> None:
+    """Simulated drives watch in whole milliseconds, and 0 would be no watch."""
+    scenario = ebac.Scenario(seconds=0.2)
+    for silence in (3e-4, 1e-3):  # a tick is as long: no torque comes in time
+        with pytest.raises(
+            ValueError, match="the simulated drives did not reach operation enabled"
+        ):
+            ebac.simulate(scenario, through="can", bus=TimedBus(torque_silence=silence))
+
+
 def test_two_drives_at_1_mbit_are_never_late_and_the_wall_is_the_same(known: Configuration) -> None:
     timed, prompt = known.simulate(), known.simulate(bus_time=False)
     assert np.ptp(timed["bus.missing"], axis=0).tolist() == [0, 0]

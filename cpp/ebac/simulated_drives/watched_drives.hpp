@@ -28,7 +28,9 @@ inline constexpr int kLoopNode = 100;
 
 /// The watches of a bus that takes time.
 inline Watches watches_of(const TimedBus& bus) {
-  const auto ms = [](double seconds) { return std::llround(1e3 * seconds); };
+  const auto ms = [](double seconds) {  // 0 would be none
+    return seconds > 0 ? std::max(1LL, std::llround(1e3 * seconds)) : 0LL;
+  };
   return {.drive_heartbeat = ms(bus.drive_heartbeat),
           .loop_silence = ms(bus.loop_silence),
           .torque_silence = ms(bus.torque_silence)};
