@@ -297,7 +297,7 @@ def test_a_replay_gives_the_commands_of_its_run() -> None:
 def test_a_search_counts_with_what_the_account_begins_with(observer: bool) -> None:
     law = ebac.Variant("ebac", {"observer": observer})
     found = ebac.worst(law, base=OBSERVED, family=["impact"], evaluations=40)
-    begins = ebac.simulate(OBSERVED.replace(seconds=0.1), law)["law.energy"][1]
+    begins = ebac.simulate(OBSERVED.replace(seconds=0.1), law)["law.energy"][0]
     assert found.reserve == pytest.approx(begins)
 
 

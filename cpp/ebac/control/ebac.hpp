@@ -107,6 +107,8 @@ class Ebac {
   double begin(const Port& port) EBAC_RT {
     encoder_.begin(port);
     observer_.begin(port);
+    if (port.est.weight >= 1) shared_.ledger.lend(shared_.params.observed_reserve);
+    shared_.state.energy = shared_.ledger.energy();
     shared_.world_v = port.world_v;
     shared_.f_meas = port.f_meas;
     return 0;
