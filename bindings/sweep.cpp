@@ -22,6 +22,7 @@ void bind_contact(py::module_& m) {
   m.attr("TAIL_SHARE") = kTailShare;
   m.attr("FEWEST_ROWS") = kFewestRows;
   m.attr("STILL_SWING") = kStillSwing;
+  m.attr("QUIET_PERCEIVED") = kQuietPerceived;
   m.def(
       "_measure_contact",
       [](const Numbers& t, const Numbers& x, const Numbers& force,

@@ -21,6 +21,7 @@ __all__: list[str] = [
     "EBAC",
     "FEWEST_ROWS",
     "ISS",
+    "QUIET_PERCEIVED",
     "REFUSED_LOAD",
     "SFA",
     "STILL_SWING",
@@ -3849,6 +3850,10 @@ class RdtClient:
     def bias_sensor(self) -> None:
         """
         Make the sensor take the present load as zero.
+        """
+    def cancel_bias(self) -> None:
+        """
+        Take no zero after all; it stays what it was.
         """
     def close(self) -> None:
         """
@@ -9442,6 +9447,7 @@ def pdo_plan(
 def worst_bits(size: typing.SupportsInt | typing.SupportsIndex) -> int: ...
 
 FEWEST_ROWS: int = 10
+QUIET_PERCEIVED: float = 3.0
 REFUSED_LOAD: float = 0.9
 STILL_SWING: float = 0.00025
 TAIL_SHARE: float = 0.3
