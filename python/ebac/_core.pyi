@@ -636,7 +636,7 @@ class DeviceFacts:
     damping : float
         lower bound of the physical viscous damping at the handle, after compensation [N s/m], -500 to 500.
     mass : float
-        mass felt at the handle; an under-estimate is safe [kg], 0.001 to 100.
+        mass felt at the handle; at most 50 % wrong [kg], 0.001 to 100.
     count : float
         one encoder count at the handle [m], 0 to 0.01.
     current_lag : float
@@ -700,7 +700,7 @@ class DeviceFacts:
     @property
     def mass(self) -> float:
         """
-        mass felt at the handle; an under-estimate is safe [kg], 0.001 to 100
+        mass felt at the handle; at most 50 % wrong [kg], 0.001 to 100
         """
     @property
     def peak_force(self) -> float:
@@ -6482,7 +6482,7 @@ class EBAC:
     damping : float
         lower bound of the device's physical damping, b [N s/m], 0.01 to 500.
     mass : float
-        device mass at the handle, M_h; an under-estimate is safe [kg], 0.001 to 100.
+        device mass at the handle, M_h; at most 50 % wrong [kg], 0.001 to 100.
     current_lag : float
         time constant of the drive's current loop [s], 0 to 0.1.
     count : float
@@ -6768,7 +6768,7 @@ class EBAC:
     @property
     def mass(self) -> float:
         """
-        device mass at the handle, M_h; an under-estimate is safe [kg], 0.001 to 100
+        device mass at the handle, M_h; at most 50 % wrong [kg], 0.001 to 100
         """
     @property
     def observed_reserve(self) -> float:
