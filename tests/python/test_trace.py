@@ -182,6 +182,25 @@ def test_a_slice_does_not_end_before_it_begins(trace: ebac.Trace) -> None:
     assert len(trace.between(0.1, 0.1)) == 0
 
 
+@pytest.mark.parametrize(("start", "stop"), [(math.nan, None), (None, math.nan)])
+def test_a_slice_begins_and_ends_at_a_number(
+    trace: ebac.Trace, start: float | None, stop: float | None
+) -> None:
+    with pytest.raises(ValueError, match=r"(start|stop) = nan s: must be a time"):
+        trace[start:stop]
+
+
+def test_times_before_zero_are_sliced_as_others(tmp_path: Path) -> None:
+    file = tmp_path / "early.csv"
+    file.write_text("t [s],x [m]\n-0.5,1\n-0.4,2\n-0.3,3\n-0.2,4\n", encoding="utf-8")
+    early = ebac.load(file)
+    assert early[:]["x"].tolist() == [1, 2, 3, 4]
+    for part in (early[:-0.25], ebac.load(file, stop=-0.25)):
+        assert part["x"].tolist() == [1, 2, 3]
+    with pytest.raises(ValueError, match=r"outside the run, which spans -0\.5 to -0\.2 s"):
+        early[0.0:]
+
+
 # --- exports ---
 
 

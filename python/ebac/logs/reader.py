@@ -32,7 +32,7 @@ from ebac.logs.records import (
 from ebac.logs.summary import EVENTS_TOPIC, ROWS_TOPIC
 from ebac.scenario import Scenario
 from ebac.trace import Trace
-from ebac.trace.time_slice import check_order
+from ebac.trace.time_slice import check_order, is_outside
 
 #: Digits of the largest whole number in a file.
 _DIGITS = 19
@@ -185,7 +185,7 @@ def check_part(
     path: Path, span: tuple[float, float], start: float | None, stop: float | None
 ) -> None:
     """Refuse a part that lies outside a log [s]."""
-    if (start or 0.0) > span[1] or (stop is not None and stop < span[0]):
+    if is_outside(start, stop, span):
         wanted = ((" from", start), (" before", stop))
         asked = "".join(f"{word} {t:g} s" for word, t in wanted if t is not None)
         raise ValueError(f"{path}: no rows{asked}: the log has {span[0]:g} to {span[1]:g} s")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from math import isnan
 from numbers import Real
 from typing import Any
 
@@ -21,7 +22,7 @@ def rows_between(
     check_order(start, stop)
     first = 0 if start is None else int(np.searchsorted(t, start))
     last = len(t) if stop is None else int(np.searchsorted(t, stop))
-    if len(t) and ((start or 0.0) > t[-1] or (stop is not None and stop < t[0])):
+    if len(t) and is_outside(start, stop, (t[0], t[-1])):
         begin = "" if start is None else f"{start:g}"
         end = "" if stop is None else f"{stop:g}"
         raise ValueError(
@@ -30,7 +31,16 @@ def rows_between(
     return first, last
 
 
+def is_outside(start: float | None, stop: float | None, span: tuple[float, float]) -> bool:
+    """Return whether a part begins after the last time or ends before the first one [s]."""
+    first, last = span
+    return (start is not None and start > last) or (stop is not None and stop < first)
+
+
 def check_order(start: float | None, stop: float | None) -> None:
-    """Refuse a part that ends before it begins [s]."""
+    """Refuse a part that ends before it begins, and NaN [s]."""
+    for name, time in (("start", start), ("stop", stop)):
+        if time is not None and isnan(time):
+            raise ValueError(f"{name} = nan s: must be a time; without one the part is open")
     if start is not None and stop is not None and stop < start:
         raise ValueError(f"stop = {stop:g} s: must be at least start, {start:g} s")

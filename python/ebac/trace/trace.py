@@ -127,7 +127,7 @@ class Trace:
         Raises
         ------
         ValueError
-            For a part outside the run or one that ends before it begins, or for a step.
+            For a part outside the run or one that ends before it begins, for NaN, or for a step.
         TypeError
             For what is no time.
         """
