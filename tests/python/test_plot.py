@@ -80,6 +80,28 @@ def test_a_log_without_simulation_can_be_drawn(run: Run) -> None:
     assert len(plot_trace(bare).axes) == 3
 
 
+@pytest.mark.parametrize("rows", [slice(100, 110), slice(None)], ids=["some rows", "all rows"])
+def test_what_was_not_measured_is_left_out_of_the_panel(run: Run, rows: slice) -> None:
+    whole = run("ebac", observer=False)
+    data = {name: whole[name].copy() for name in whole}
+    for name in ("f_meas", "f_env", "work"):
+        data[name][rows] = np.nan
+    figure = ebac.Trace(data=data, columns=whole.columns, axes=1, law="ebac").plot()
+    low, high = figure.axes[1].get_ylim()
+    shown = np.concatenate([data[name] for name in ("f_meas", "f_cmd", "f_applied")])
+    assert low < np.nanmin(shown) < np.nanmax(shown) < high
+    assert labels(figure)[-1] == labels(whole.plot())[-1] == "energy [mJ]"
+
+
+def test_a_run_without_any_reading_of_force_has_an_empty_panel(run: Run) -> None:
+    whole = run("tca")
+    data = {name: whole[name].copy() for name in whole}
+    for name in ("f_meas", "f_env", "f_cmd", "f_applied"):
+        data[name][:] = np.nan
+    figure = ebac.Trace(data=data, columns=whole.columns, axes=1, law="tca").plot()
+    assert figure.axes[1].get_ylim() == (-0.15, 0.15)
+
+
 def test_walls_shows_every_law_and_the_ideal(run: Run) -> None:
     figure = plot_walls([run("tca"), run("eba"), run("ebac")])
     (legend,) = figure.legends

@@ -120,19 +120,22 @@ def _force(ax: Axes, trace: Trace, axis: int) -> None:
             ax, t, trace.axis("log.f_cmd", axis), color="black", ls=":", label="commanded, recorded"
         )
     limited = np.concatenate([trace.axis(n, axis) for n in ("f_meas", "f_cmd", "f_applied")])
-    low, high = float(limited.min()), float(limited.max())
+    low, high = _span(limited)
     room = 0.15 * max(high - low, 1.0)
     ax.set_ylim(low - room, high + room)  # what is asked may go far beyond
-    beyond = max(float(asked.max()) - high - room, low - room - float(asked.min()))
-    far = (
-        f", beyond the panel to {max(asked.min(), asked.max(), key=abs):.3g} N"
-        if beyond > 0
-        else ""
-    )
+    least, most = _span(asked)
+    beyond = max(most - high, low - least) > room
+    far = f", beyond the panel to {max(least, most, key=abs):.3g} N" if beyond else ""
     line(ax, t, asked, color="black", lw=0.6, zorder=1.9, label=f"environment, $F_e${far}")
     mark_end(ax, trace, label=False)
     dress(ax, "force [N]")
     legend(ax, columns=5)
+
+
+def _span(values: Numbers) -> tuple[float, float]:
+    """Return the least and the most of what is finite; zeros where nothing is."""
+    known = values[np.isfinite(values)]
+    return (float(known.min()), float(known.max())) if known.size else (0.0, 0.0)
 
 
 def _beta(ax: Axes, trace: Trace, axis: int) -> None:
@@ -189,7 +192,7 @@ def _energy(ax: Axes, trace: Trace, axis: int) -> None:
     ):
         if name in trace:
             curves.append((trace.axis(name, axis), label, style))
-    largest = max(float(np.abs(values).max()) for values, _, _ in curves)
+    largest = max(abs(end) for values, _, _ in curves for end in _span(values))
     factor, unit = (1e3, "mJ") if largest < 1 else (1.0, "J")
     for values, label, style in curves:
         line(ax, trace["t"], factor * values, label=label, **style)
