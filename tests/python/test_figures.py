@@ -153,10 +153,14 @@ def test_a_run_without_fault_has_no_mark(run: Run) -> None:
 
 
 @pytest.mark.parametrize("kind", ["png", "pdf", "svg"])
-def test_formats(kind: str, run: Run, tmp_path: Path) -> None:
+@pytest.mark.parametrize(
+    ("name", "stem"),
+    [("run", "run"), ("run.png", "run"), ("run.pdf", "run"), ("run.svg", "run"), ("k2.5", "k2.5")],
+)
+def test_formats(kind: str, name: str, stem: str, run: Run, tmp_path: Path) -> None:
     figure = plot_columns(run("eba", seconds=1.0), ["x"])
-    file = save(figure, tmp_path / "run.png", file_format=kind, width="single")
-    assert file == tmp_path / f"run.{kind}"
+    file = save(figure, tmp_path / name, file_format=kind, width="single")
+    assert file == tmp_path / f"{stem}.{kind}"
     begin = {"png": b"\x89PNG", "pdf": b"%PDF", "svg": b"<?xml"}[kind]
     assert file.read_bytes().startswith(begin)
 

@@ -57,7 +57,7 @@ def save(
     path : str or Path
         Name of the file; its extension decides on the format unless `file_format` is given.
     file_format : {"png", "pdf", "svg"}, optional
-        Replaces the extension.
+        Replaces the extension of such a format; any other name gets it behind.
     width : {"single", "double"} or float, optional
         Width on paper: one column (89 mm), two columns (183 mm), or millimetres. Letters shrink to
         6 pt at most; legends and titles are broken into lines that fit. Default: as drawn.
@@ -75,8 +75,9 @@ def save(
     require(figure, Figure, "ebac.plot.save", "a Figure")
     file = Path(path)
     if file_format is not None:
-        file = file.with_name(f"{file.name.removesuffix('.png')}.{file_format}")
-    if file.suffix.removeprefix(".") not in FORMATS:
+        stem = file.stem if file.suffix[1:] in FORMATS else file.name
+        file = file.with_name(f"{stem}.{file_format}")
+    if file.suffix[1:] not in FORMATS:
         raise ValueError(f"{file}: a figure is saved as {', '.join(FORMATS)}")
     inches = None if width is None else _MM * millimetres(width)
     narrow = getattr(figure, "narrow", None)
