@@ -120,6 +120,15 @@ def test_an_origin_must_be_given(server: Any) -> None:
     assert gate.refuses("/?token=c", host="127.0.0.1:80", origin=None, socket=False) is None
 
 
+@pytest.mark.parametrize("name", ["127.0.0.1", "localhost", "[::1]"])
+def test_a_browser_leaves_out_port_80(name: str) -> None:
+    gate = Gate(host="127.0.0.1", port=80, control="c", watch="w")
+    own = {"host": name, "origin": f"http://{name}"}
+    assert gate.refuses("/socket?token=c", **own, socket=True) is None
+    other = Gate(host="127.0.0.1", port=8080, control="c", watch="w")
+    assert other.refuses("/socket?token=c", **own, socket=True)
+
+
 def test_one_controls_and_many_watch(server: Any) -> None:
     async def opened() -> None:
         async with (
@@ -194,6 +203,7 @@ def test_values_out_of_range_are_answered_and_change_nothing(server: Any) -> Non
             for message, text in (
                 ({"kind": "drag", "place": [1e9, 0]}, "must be 2 numbers in"),
                 ({"kind": "drag", "place": [0.0]}, "must be 2 numbers in"),
+                ({"kind": "drag", "place": [10**400, 0]}, "must be 2 numbers in"),
                 ({"kind": "change", "name": "stiffness", "value": 1e9}, "must lie in [100, 50000]"),
                 ({"kind": "change", "name": "limits", "value": 9}, "no setting is called 'limits'"),
                 ({"kind": "mode", "mode": "fly"}, "there are: press, tap, rest"),

@@ -19,6 +19,8 @@ HEADERS = {
     "Referrer-Policy": "no-referrer",
     "X-Content-Type-Options": "nosniff",
 }
+#: The port that a browser leaves out of an address.
+HTTP_PORT = 80
 Role = Literal["control", "watch"]
 
 
@@ -84,4 +86,6 @@ class Gate:
         return None
 
     def _known(self, host: str) -> bool:
-        return host in {f"{name}:{self.port}" for name in ("127.0.0.1", "localhost", "[::1]")}
+        names = ("127.0.0.1", "localhost", "[::1]")
+        bare = self.port == HTTP_PORT and host in names
+        return bare or host in {f"{name}:{self.port}" for name in names}

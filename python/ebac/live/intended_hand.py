@@ -5,7 +5,7 @@ from __future__ import annotations
 import threading
 import time
 from collections.abc import Callable, Sequence
-from math import cos, isfinite, nan, pi
+from math import cos, nan, pi
 from typing import Any
 
 from ebac._core import Hand, Step
@@ -64,11 +64,10 @@ class IntendedHand:
         ValueError
             For as many numbers as there are no axes, or numbers out of range.
         """
-        numbers = [float(one) for one in place]
-        if len(numbers) != self.axes or not all(isfinite(x) and abs(x) <= REACH for x in numbers):
+        if len(place) != self.axes or not all(abs(x) <= REACH for x in place):
             raise ValueError(f"hand: must be {self.axes} numbers in [-{REACH}, {REACH}] m")
         self.mode, self._left = "mouse", None
-        self.goal = numbers
+        self.goal = [float(x) for x in place]
         self.move()
 
     def set_mode(self, mode: str) -> None:
