@@ -1,5 +1,6 @@
 """A loop that is changed while it runs, as the page of `ebac live` does."""
 
+import threading
 import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -8,8 +9,9 @@ import numpy as np
 import pytest
 
 import ebac
-from ebac.live.choices import Choices, options
+from ebac.live.choices import Choices, base_of, options
 from ebac.live.frames import Frames
+from ebac.live.intended_hand import IntendedHand
 from ebac.live.session import Session
 
 pytestmark = pytest.mark.real_time
@@ -128,6 +130,32 @@ def test_dragging_moves_the_handle_and_leaving_lets_the_force_fade(session: Sess
     time.sleep(1.2)
     assert abs(float(session.run.tail(50).axis("f_meas", 0).mean())) < 0.1 * held
     assert session.running
+
+
+def test_a_hand_moves_before_or_after_it_is_left_and_never_between() -> None:
+    trouble: list[Exception] = []
+
+    class Watched(IntendedHand):
+        def __setattr__(self, name: str, value: object) -> None:
+            super().__setattr__(name, value)
+            if name == "_left" and value is not None:  # the session's thread comes in between
+                others.append(threading.Thread(target=moved))
+                others[-1].start()
+                others[-1].join(0.1)
+
+    def moved() -> None:
+        try:
+            hand.move()
+        except Exception as error:
+            trouble.append(error)
+
+    others: list[threading.Thread] = []
+    hand = Watched(base_of(None, "reference"))
+    hand.drag([0.03, 0.0])
+    hand.leave()
+    others[0].join()
+    assert hand.fades
+    assert trouble == []
 
 
 def test_a_dead_man_key_starts_and_stops_it(tmp_path: Path) -> None:

@@ -26,7 +26,7 @@ REACH = 0.2
 
 
 class IntendedHand:
-    """The target of a simulated hand. `drag` by one thread, `move` by another.
+    """The target of a simulated hand; from any thread.
 
     It begins at zero and moves at 0.1 m/s, or 0.5 m/s where it is dragged, so that the loop's limit of speed is not
     reached by a fling of the mouse. Left alone while it is dragged it holds for 0.5 s, and then its force fades in
@@ -66,8 +66,9 @@ class IntendedHand:
         """
         if len(place) != self.axes or not all(abs(x) <= REACH for x in place):
             raise ValueError(f"hand: must be {self.axes} numbers in [-{REACH}, {REACH}] m")
-        self.mode, self._left = "mouse", None
-        self.goal = [float(x) for x in place]
+        with self._lock:
+            self.mode, self._left = "mouse", None
+            self.goal = [float(x) for x in place]
         self.move()
 
     def set_mode(self, mode: str) -> None:
@@ -80,12 +81,14 @@ class IntendedHand:
         """
         if mode not in MODES:
             raise ValueError(unknown(f"hand mode {mode[:40]!r}", mode, MODES))
-        self._begun, self._left, self.mode = self._clock(), None, mode
+        with self._lock:
+            self._begun, self._left, self.mode = self._clock(), None, mode
 
     def leave(self) -> None:
         """Nobody is there any more: hold, then let the force fade; nothing for a hand that moves by itself."""
-        if self.mode == "mouse" and self._left is None:
-            self._left, self._left_at = self._clock(), list(self.place)
+        with self._lock:
+            if self.mode == "mouse" and self._left is None:
+                self._left, self._left_at = self._clock(), list(self.place)
 
     @property
     def fades(self) -> bool:
