@@ -178,6 +178,16 @@ def test_a_dead_man_key_starts_and_stops_it(tmp_path: Path) -> None:
         assert all(state == "switch on disabled" for state in report.drives), report.drives
 
 
+def test_a_closed_session_is_not_started_again(tmp_path: Path) -> None:
+    session = Session(dead_man=True, folder=tmp_path)
+    session.close()
+    session.hold()
+    for again in (session.start, session.reset):
+        with pytest.raises(RuntimeError, match="this session is closed: make a new one"):
+            again()
+    assert session.run is None
+
+
 def test_whatever_goes_wrong_beside_it_the_dead_man_key_is_watched(tmp_path: Path) -> None:
     with Session(dead_man=True, folder=tmp_path) as session:
         for _ in range(2):  # and again in the next run

@@ -130,8 +130,12 @@ class Session(SessionChanges):
         ------
         PermissionError
             With a dead-man key that nobody holds; on hardware after a fault.
+        RuntimeError
+            When the session is closed.
         """
         with self._lock:
+            if self._over.is_set():
+                raise RuntimeError("this session is closed: make a new one")
             if self.running:
                 return
             if self.dead_man and not self._is_held():
