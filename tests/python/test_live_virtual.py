@@ -121,6 +121,28 @@ def test_delay_and_observer_begin_anew(session: Session) -> None:
         assert session.starts == 3
 
 
+def test_a_delay_that_a_run_cannot_hold_back_is_refused(tmp_path: Path) -> None:
+    prompt = ebac.Scenario(timing=ebac.Timing(delay=0))
+    with Session(prompt, virtual=True, paced=False, folder=tmp_path) as session:
+        with pytest.raises(ValueError, match=r"delay = 8 samples: must lie in \[0, 7\] samples"):
+            session.change(delay=8)
+        assert session.choices.delay == 0
+        session.change(delay=7)
+
+
+def test_a_run_that_does_not_hold_back_ends(
+    session: Session, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("ebac.hardware.current_parameters.MOST_HELD_BACK", 1)
+    with session:
+        session.change(delay=5)
+        with pytest.raises(ValueError, match="hold_back = 4 samples"):
+            session.start()
+        assert session.run is not None
+        assert not session.running
+        assert session.run.report is not None
+
+
 @pytest.mark.parametrize("observer", [True, False])
 def test_strips_have_a_beta_only_where_the_law_has_one(session: Session, observer: bool) -> None:
     with session:

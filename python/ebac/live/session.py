@@ -143,11 +143,15 @@ class Session(SessionChanges):
             self._settle()
             if not self._lent:
                 self._close_device()  # a handle without power was pulled on: all begins at zero
-            run = self._begin_virtual() if self.virtual else self._begin()
-            if self.choices.delay != self._least_delay():
-                run.hold_back(self.choices.delay - self._least_delay())
-            self.run, self.trouble = run, ""
+            self.run = self._begin_virtual() if self.virtual else self._begin()
+            self.trouble = ""
             self.starts += 1
+            if self.choices.delay != self._least_delay():
+                try:
+                    self.run.hold_back(self.choices.delay - self._least_delay())
+                except BaseException:
+                    self.pause(by="exception")
+                    raise
 
     def pause(self, *, by: str = "stop") -> None:
         """End the run: the force fades, drives without power."""

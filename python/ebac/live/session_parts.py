@@ -7,6 +7,7 @@ from typing import Any
 
 from ebac._core import Fault
 from ebac.hardware import Configuration, OpenDevice, Run
+from ebac.hardware.current_parameters import MOST_HELD_BACK
 from ebac.hardware.law import designed
 from ebac.hardware.virtual_device import VirtualDevice
 from ebac.live.choices import CONFIGURED, Choices, base_of, world_of
@@ -50,9 +51,11 @@ class SessionParts:
             held = presets.HANDS[self.choices.hand].hand
             known = known.replace(hand=held.replace(path=list(known.hand.path)))
         observer: Any = self.choices.observer
-        if self.choices.delay < known.timing.delay:
+        delay, least = self.choices.delay, known.timing.delay
+        if not least <= delay <= least + MOST_HELD_BACK:
             raise ValueError(
-                f"delay = {self.choices.delay} samples: drives and bus take {known.timing.delay}"
+                f"delay = {delay} samples: must lie in [{least}, {least + MOST_HELD_BACK}] samples; drives and bus "
+                f"take {least}, and at most {MOST_HELD_BACK} are added to them"
             )
         if not (self._lent or self.virtual):  # a machine may be late
             limits = known.limits.replace(
@@ -60,7 +63,7 @@ class SessionParts:
             )
             known = known.replace(silent=PATIENCE, limits=limits)
         return known.replace(
-            timing=known.timing.replace(delay=self.choices.delay),
+            timing=known.timing.replace(delay=delay),
             observer=known.observer if bool(known.observer) == observer else observer,
             law=self.choices.law,
             changes=known.changes if self.choices.law == known.law else {},
