@@ -16,9 +16,11 @@ from typing import Any
 import numpy as np
 import pytest
 
+import ebac
 from ebac.live.gate import Gate
 from ebac.live.messages import MalformedError, read
 from ebac.live.serving import serve
+from ebac.worlds import Bridge, EngineThread, Sphere, World
 
 websockets = pytest.importorskip("websockets.asyncio.client")
 from websockets.exceptions import ConnectionClosed, InvalidStatus  # noqa: E402
@@ -127,6 +129,22 @@ def test_a_browser_leaves_out_port_80(name: str) -> None:
     assert gate.refuses("/socket?token=c", **own, socket=True) is None
     other = Gate(host="127.0.0.1", port=8080, control="c", watch="w")
     assert other.refuses("/socket?token=c", **own, socket=True)
+
+
+def test_a_page_shows_the_bodies_that_an_engine_computes(tmp_path: Path) -> None:
+    shapes: list[Any] = []
+
+    async def opened(server: Any) -> None:
+        async with socket(server) as page:
+            shapes.append((await until(page, "shape"))["shape"])
+            await until(page, "frame")
+
+    ball, unknown = World(Sphere()), EngineThread(lambda x, v: None).world
+    for world in (ball, Bridge(ball), unknown):
+        with serve(ebac.Scenario(environment=world), virtual=True, folder=tmp_path) as server:
+            ask(lambda server=server: opened(server))
+    assert len(shapes[0][0]) > 1000
+    assert shapes[1:] == [shapes[0], [[], []]]
 
 
 def test_one_controls_and_many_watch(server: Any) -> None:

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ebac._core import Corner, Disc, Free, Wall
+from ebac._util.foreign_worlds import foreign
 from ebac.scenario import Environment
 
 Floats = NDArray[np.float64]
@@ -25,8 +26,8 @@ def surface(world: Environment, *, cells: int = CELLS) -> tuple[Floats, NDArray[
 
     Parameters
     ----------
-    world : Free, Wall, Corner, Disc or worlds.World
-        Which.
+    world : Free, Wall, Corner, Disc, worlds.World or that of an engine
+        Which; of an engine the bodies that it computes, nothing where they are not known.
     cells : int
         Along each edge of the space, 8 to 128.
 
@@ -44,7 +45,9 @@ def surface(world: Environment, *, cells: int = CELLS) -> tuple[Floats, NDArray[
 
 
 def distance_of(world: Environment) -> Distance | None:
-    """Return a function of points, shape (n, 3), that is negative inside; None for free space."""
+    """Return a function of points, shape (n, 3), that is negative inside; None where there is no body."""
+    engine = foreign(world)
+    world = world if engine is None else engine.ideal() or Free()
     if isinstance(world, Free):
         return None
     if isinstance(world, Wall):
@@ -56,7 +59,7 @@ def distance_of(world: Environment) -> Distance | None:
         return _upright(lambda p: np.hypot(p[:, 0] - world.x, p[:, 1] - world.y) - world.radius)
     from ebac.worlds.solids import distance
 
-    bodies: Any = world.bodies  # type: ignore[attr-defined]  # every _World is a World
+    bodies: Any = world.bodies  # type: ignore[attr-defined]  # every other _World is a World
     return lambda p: np.min([distance(one.solid, p)[0] for one in bodies], axis=0)
 
 
