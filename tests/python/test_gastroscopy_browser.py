@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 from ebac.gastroscope import Physician, Procedure, gastroscopy
-from ebac.live.gastroscopy import serve_gastroscopy
+from ebac.live.gastroscopy import GastroscopySession, serve_gastroscopy
 
 pytest.importorskip("websockets")
 pytestmark = pytest.mark.real_time
@@ -36,6 +36,23 @@ def test_what_runs_in_real_time_is_what_is_simulated(live: Any) -> None:
     live.session.reset()
     assert live.session.recent[0]["t"] == 0
     assert live.session.starts == 2
+
+
+def test_a_pause_while_time_goes_on_is_not_lost() -> None:
+    class Paused(GastroscopySession):
+        def _take(self, ticks: int) -> None:
+            super()._take(ticks)
+            self.pause()  # as a page does from another thread
+
+    with Paused("ebac", HEEDS) as session:
+        begun = time.monotonic()
+        session.start()
+        while len(session.recent) < 2:
+            assert time.monotonic() - begun < 10
+            time.sleep(0.01)
+        time.sleep(0.1)
+        assert not session.running
+        assert len(session.recent) == 2
 
 
 def test_a_page_can_neither_drag_nor_change(live: Any) -> None:

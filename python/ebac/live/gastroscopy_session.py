@@ -112,7 +112,8 @@ class GastroscopySession:
                 ticks = int((now - self._due) / dt)
                 self._due += ticks * dt
                 self._take(ticks)
-                self.running = not self._run.ended
+                if self._run.ended:
+                    self.running = False  # never True here: a pause takes no lock
 
     def _take(self, ticks: int) -> None:
         self._run.advance(ticks)
