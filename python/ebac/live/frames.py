@@ -38,7 +38,6 @@ class Frames:
         self._run: Run | None = None
         self._seen = 0
         self._judged = -1e9
-        self._verdict: dict[str, str] = {}
         self._touched = False
         self._late: NDArray[np.float64] = np.empty(0)
         self._skipped = 0
@@ -84,7 +83,7 @@ class Frames:
             self._run, self._seen, self._skipped, self._touched = run, 0, 0, False
             self._late = np.empty(0)
         if run is None:
-            return found | {"state": "rest", "verdict": self._words(None)}
+            return found | {"verdict": self._words(None)}
         rows = run._running.rows
         stop = rows.count
         first, raw = rows.copy(max(rows.first, self._seen, stop - round(BACK / _dt(run))), stop)
@@ -95,26 +94,18 @@ class Frames:
             self._skipped += int(view["skipped"].sum())
             self._late = np.concatenate([self._late, view["lateness"]])[-2000:]
             found |= {
-                "tick": stop - 1,
-                "t": float(view["t"][-1]),
                 "x": _last(view["x"]),
                 "force": _last(view["f_cmd"]),
-                "state": LoopState(int(view["state"][-1])).name.lower(),
-                "fault": int(view["fault"][-1]),
                 "strips": strips(view, first, _dt(run)),
             }
-        if run.done:
-            found["state"] = "fault" if found.get("fault") else "rest"
         now = time.monotonic()
         if now - self._judged > OFTEN:
             self._judged = now
-            self._verdict = self._words(run)
-            found["verdict"] = self._verdict
+            found["verdict"] = self._words(run)
             found["late_us"] = (
                 float(1e6 * np.percentile(self._late, 99.9)) if len(self._late) else 0.0
             )
             found["skipped"] = self._skipped
-            found["recorded"] = None if run.recorder is None else run.recorder.written
         return found
 
     def history(self) -> dict[str, Any]:

@@ -41,7 +41,6 @@ class GastroscopyFrames:
             "place": row["place"],
             "force": row["section_force"],
             "most": found["most_section"],
-            "tube_force": row["tube_force"],
             "touched": int(found["touched"]),
             "reached": bool(found["reached"]),
             "fault": int(found["fault"]),
