@@ -11,8 +11,8 @@ from matplotlib.figure import Figure
 from matplotlib.image import imread
 
 import ebac
-from ebac.plot import COLOURS, colour, plot_trace, plot_walls
-from ebac.plot.save import PRINT_DPI, SCREEN_DPI, fitted, millimetres, save
+from ebac.plot import COLOURS, DPI, colour, plot_trace, plot_walls
+from ebac.plot.save import PRINT_DPI, fitted, millimetres, save
 from ebac.plot.style import MOST_POINTS, _extremes
 
 Run = Callable[..., ebac.Trace]
@@ -164,5 +164,5 @@ def test_a_png_is_the_picture_that_matplotlib_saves(
     ours = save(plot_walls(traces), tmp_path / "ours.png", width=width)
     figure, theirs = plot_walls(traces), tmp_path / "theirs.png"
     with fitted(figure, None if width is None else millimetres(width) / 25.4):
-        Figure.savefig(figure, theirs, dpi=SCREEN_DPI if width is None else PRINT_DPI)
+        Figure.savefig(figure, theirs, dpi=DPI if width is None else PRINT_DPI)
     assert np.array_equal(imread(ours), imread(theirs))

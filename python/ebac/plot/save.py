@@ -21,13 +21,14 @@ from matplotlib.text import Text
 
 from ebac._util.arguments import require
 from ebac.plot.legends import LETTERS, fit_legends
+from ebac.plot.style import DPI
 
 #: Formats of a figure's file.
 FORMATS = ("png", "pdf", "svg")
 #: Widths of a journal's columns [mm].
 WIDTHS = {"single": 89.0, "double": 183.0}
-#: Dots per inch of a PNG on the screen, and of one for a journal.
-SCREEN_DPI, PRINT_DPI = 150, 300
+#: Dots per inch of a PNG for a journal.
+PRINT_DPI = 300
 #: Smallest and largest letters in print [pt].
 SMALLEST, LARGEST = 6.0, 9.0
 #: Narrower and wider figures are refused [mm].
@@ -83,7 +84,7 @@ def save(
     narrow = getattr(figure, "narrow", None)
     if narrow is not None and inches is not None and inches < NARROW:
         figure = narrow()
-    dpi = SCREEN_DPI if inches is None else PRINT_DPI
+    dpi = DPI if inches is None else PRINT_DPI
     with fitted(figure, inches):
         if file.suffix == ".png":
             write_png(figure, file, dpi)

@@ -34,6 +34,7 @@ QUANTITIES = {
 #: Better, worse and no difference: blue and orange, which every eye distinguishes.
 BETTER, WORSE, SAME = "#92c5de", "#f4a582", "#f2f2f2"
 IDEAL: dict[str, Any] = {"color": "black", "ls": (0, (5, 3)), "lw": 1.2}
+#: Dots per inch on the screen.
 DPI = 150
 #: More points than this on one line are thinned to their extremes.
 MOST_POINTS = 20_000
