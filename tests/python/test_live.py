@@ -2,6 +2,7 @@
 
 import base64
 import json
+import math
 import shutil
 import subprocess
 from collections.abc import Callable
@@ -170,6 +171,28 @@ def test_the_verdict_is_that_of_the_package(in_javascript: Callable[..., Any]) -
         said[law] = in_javascript(code, law=law, settings={}, options={}, rows=6001)["said"]["head"]
     assert said["tca"] == "Shakes by 9.2 mm"
     assert said["eba"] == "Quiet, but soft"
+
+
+def test_a_force_that_is_not_quiet_has_its_reasons(in_javascript: Callable[..., Any]) -> None:
+    never = math.nan
+    given = [(5.0, 0.3), (2.0, never), (0.5, never)]  # vibration [thresholds], settled at [s]
+    rows = [
+        {
+            "still": 1,
+            "force_quiet": 0,
+            "rest": 0.0,
+            "swing": 0.0,
+            "perceived": p,
+            "force_settled": t,
+        }
+        for p, t in given
+    ]
+    said = in_javascript("return given.rows.map((one) => verdict(one, 0, true).more);", rows=rows)
+    assert [one.partition(". Rests")[0] for one in said] == [
+        "Still, but its force vibrates 5.0 times the threshold of touch",
+        "Still, but its force vibrates 2.0 times the threshold of touch and does not settle",
+        "Still, but its force does not settle",
+    ]
 
 
 def test_the_module_is_small(wasm: bytes) -> None:

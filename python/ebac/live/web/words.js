@@ -28,7 +28,7 @@ export function verdict(measured, ideal, touched) {
       ? { kind: "free", head: "No contact at rest", more: "The handle left the surface. Drag the hand into the wall." }
       : { kind: "free", head: "Free air", more: "Drag the hand into the wall." };
   }
-  const { swing, rest, perceived, limit_cycle: frequency } = measured;
+  const { swing, rest, perceived, force_settled: settled, limit_cycle: frequency } = measured;
   if (!measured.still) {
     const at = Number.isFinite(frequency) ? ` at ${quantity(frequency, "Hz", 2)}` : "";
     return { kind: "bad", head: `Shakes by ${quantity(swing, "mm", 2)}`, more: `The handle swings to and fro${at}.` };
@@ -39,8 +39,10 @@ export function verdict(measured, ideal, touched) {
     : `Rests ${quantity(Math.abs(away), "mm", 2)} too ${away > 0 ? "deep" : "far out"}.`;
   if (!measured.force_quiet) {
     const times = perceived >= 10 ? perceived.toFixed(0) : perceived.toFixed(1);
-    const felt = perceived > 1 ? `its force vibrates ${times} times the threshold of touch` : "its force does not settle";
-    return { kind: "fair", head: "Buzzes", more: `Still, but ${felt}. ${where}` };
+    const felt = [];
+    if (perceived > 1) felt.push(`vibrates ${times} times the threshold of touch`);
+    if (!Number.isFinite(settled)) felt.push("does not settle");
+    return { kind: "fair", head: "Buzzes", more: `Still, but its force ${felt.join(" and ")}. ${where}` };
   }
   const exact = Math.abs(away) < EXACT;
   return { kind: exact ? "good" : "fair", head: exact ? "Quiet and exact" : "Quiet, but soft", more: where };
