@@ -12,7 +12,7 @@ from ebac import datasets
 from ebac.hardware import Configuration
 from ebac.hardware.virtual_device import VirtualDevice
 from ebac.live import serve
-from ebac.live.frames import Frames
+from ebac.live.frames import Frames, verdict
 from ebac.live.session import Session
 
 KNOWN = Configuration.from_toml(datasets.joystick_text("joystick"), name="joystick")
@@ -176,6 +176,24 @@ def test_time_goes_on_with_the_clock_on_the_wall_and_nothing_is_late(tmp_path: P
 def test_only_a_virtual_clock_is_told_to_go_on(tmp_path: Path) -> None:
     with Session(folder=tmp_path) as session, pytest.raises(RuntimeError, match="virtual=True"):
         session.advance(1.0)
+
+
+@pytest.mark.parametrize(
+    ("law", "times"),
+    [("ebac", "below the"), ("direct", "below 3 times the")],
+    ids=["ebac", "direct"],
+)
+def test_a_verdict_says_below_how_many_thresholds_the_force_vibrates(
+    session: Session, law: str, times: str
+) -> None:
+    with session:
+        session.change(law=law, hand="finger", stiffness=3e3)  # direct: 2.7 thresholds
+        session.start()
+        session.advance(4.0)
+        assert session.run is not None
+        said = verdict(session.run)
+    assert said["head"] == "Still and quiet"
+    assert said["more"] == f"Its force vibrates {times} threshold of touch."
 
 
 def test_a_handle_that_left_the_surface_has_no_contact_at_rest(session: Session) -> None:

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ebac._core import Fault, LoopState, _measure_contact
+from ebac._core import QUIET_PERCEIVED, Fault, LoopState, _measure_contact
 from ebac._util.fault_remedies import REMEDIES
 from ebac.hardware import Run
 from ebac.hardware.lateness import BY_MOTION
@@ -26,8 +26,6 @@ STEP, BACK = 8e-3, 10.0
 STRIPS = ("t", "x", "f_env", "f_cmd", "f_meas", "beta", "energy")
 #: A verdict looks back so far [s], and is given so often [s].
 JUDGED, OFTEN = 1.5, 0.4
-#: A vibration below this many detection thresholds is not perceived.
-PERCEIVED = 3.0
 
 
 class Frames:
@@ -200,16 +198,17 @@ def verdict(run: Run, *, touched: bool = False) -> dict[str, str]:
             "more": f"The handle goes to and fro{often}.",
         }
     times = worst["perceived"]
-    if not times < PERCEIVED:
+    if not times < QUIET_PERCEIVED:
         return {
             "kind": "fair",
             "head": "Buzzes",
             "more": f"Still, but its force vibrates at {times:.2g} times the threshold of touch.",
         }
+    limit = "" if times < 1 else f"{QUIET_PERCEIVED:g} times "
     return {
         "kind": "good",
         "head": "Still and quiet",
-        "more": "Its force vibrates below the threshold of touch.",
+        "more": f"Its force vibrates below {limit}the threshold of touch.",
     }
 
 

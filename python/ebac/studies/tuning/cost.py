@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from ebac._core import QUIET_PERCEIVED
 from ebac.studies.sweeps.result import SweepResult
 
 # The cost of a run: at most 0.3 for one that is good, from 1 on for one whose force is not quiet, from 1.5 on for one
@@ -14,7 +15,6 @@ _HALF_SETTLING = 0.5  # s, at which half of the weight is charged
 _HALF_ENERGY = 10e-3  # J
 _HALF_SWING = 1.0  # N
 _FAR = 1e-3  # m, error and swing of a run that is not good
-_LIMIT = 3.0  # detection thresholds, the vibration at which a force is no longer quiet
 
 
 def cost_of(result: SweepResult) -> float:
@@ -26,7 +26,7 @@ def cost_of(result: SweepResult) -> float:
     0.1 E/(E + 10 mJ), E the most energy drawn in any window, and 0.1 R/(R + 1 N), R the force swing at rest. A good
     hand more outweighs what two others that are good can gain.
     """
-    rough = 1 + 0.5 * _share(result["perceived"], _LIMIT)
+    rough = 1 + 0.5 * _share(result["perceived"], QUIET_PERCEIVED)
     away = 1.5 + 0.5 * _share(np.abs(result.deviation_m) + result["swing_m"], _FAR)
     bad = np.where(result.exact_and_still, rough, away)
     settled = np.maximum(result["settled_s"], result["force_settled_s"])
