@@ -22,8 +22,6 @@ from ebac.trace.columns import row_views
 
 #: Time between two points of a strip, and how far the strips look back [s].
 STEP, BACK = 8e-3, 10.0
-#: Columns of the strips.
-STRIPS = ("t", "x", "f_env", "f_cmd", "f_meas", "beta", "energy")
 #: A verdict looks back so far [s], and is given so often [s].
 JUDGED, OFTEN = 1.5, 0.4
 
