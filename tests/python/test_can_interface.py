@@ -549,6 +549,18 @@ def test_the_longest_name_says_what_stands_on_a_channel(monkeypatch: pytest.Monk
     assert channels.nodes_on("other") is None
 
 
+def test_own_nodes_stand_on_the_channel_of_that_name_alone(channel: str) -> None:
+    with channels.standing(f"{channel}1", Echo), channels.standing(f"{channel}10", Echo):
+        for name in (f"{channel}1", f"{channel}10"):
+            with (
+                pytest.raises(ValueError, match="has nodes of its own"),
+                channels.standing(name, Echo),
+            ):
+                pass
+        assert channels.nodes_on(f"{channel}11") is None
+    assert channels.nodes_on(f"{channel}1") is None
+
+
 def test_nodes_that_cannot_stand_leave_no_channel(
     channel: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:

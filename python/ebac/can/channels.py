@@ -33,10 +33,14 @@ def joystick(hub: LoopbackHub) -> LoopbackJoystick:
 
 #: Nodes by the start of a channel's name: "joystick" stands for joystick2 and joystick-left too, each with its own.
 NODES: dict[str, Nodes] = {"joystick": joystick}
+#: Nodes by a channel's whole name, as long as it is `standing`.
+STANDING: dict[str, Nodes] = {}
 
 
 def nodes_on(channel: str) -> Nodes | None:
     """Return the function that builds the nodes of a channel; None if the channel has no nodes of its own."""
+    if channel in STANDING:
+        return STANDING[channel]
     names = [name for name in NODES if channel.startswith(name)]
     return NODES[max(names, key=len)] if names else None
 
@@ -120,12 +124,12 @@ def standing(channel: str, nodes: Nodes) -> Iterator[LoopbackHub]:
     with LOCK:
         if channel in CHANNELS or nodes_on(channel) is not None:
             raise ValueError(f"channel = {channel!r}: has nodes of its own; choose another name")
-        NODES[channel] = nodes
+        STANDING[channel] = nodes
     try:
         with hub_of(channel) as hub:
             yield hub
     finally:
-        del NODES[channel]
+        del STANDING[channel]
 
 
 @atexit.register
