@@ -74,6 +74,21 @@ def test_a_difference_is_named_drawn_and_updated_by_the_flag(project: pytest.Pyt
     project.runpytest_inprocess().assert_outcomes(passed=1)
 
 
+def test_only_what_is_missing_is_written_without_the_flag(project: pytest.Pytester) -> None:
+    folder = wall(project, 300)
+    project.runpytest_inprocess()
+    before = (folder / "test_wall.npz").read_bytes()
+    (folder / "test_wall.json").unlink()
+    wall(project, 350)
+    first = project.runpytest_inprocess()
+    first.assert_outcomes(failed=1)
+    assert f"no file of golden metrics: written to {folder / 'test_wall.json'}; look at" in told(
+        first
+    )
+    assert (folder / "test_wall.npz").read_bytes() == before
+    project.runpytest_inprocess().assert_outcomes(failed=1)
+
+
 @pytest.mark.slow
 def test_tests_in_parallel_write_and_compare_their_own(project: pytest.Pytester) -> None:
     pytest.importorskip("xdist")

@@ -100,7 +100,8 @@ class TraceRegression:
         Raises
         ------
         AssertionError
-            When something differs, or there was no golden trace: it is then written, and the test fails once.
+            When something differs, or the golden trace or its metrics were missing: what was missing is then written,
+            and the test fails once.
         KeyError, ValueError
             For columns, tolerances or numbers that cannot be.
         """
@@ -115,12 +116,16 @@ class TraceRegression:
         golden_file = where.with_name(where.name + ".npz")
         metrics_file = where.with_name(where.name + ".json")
         missing = [f for f in (golden_file, metrics_file)[: 1 + metrics] if not f.exists()]
-        if self.update or missing:
-            self._write(found, came_to, golden_file, metrics_file)
+        if self.update or golden_file in missing:
+            _whole(golden_file, found.to_npz)
+        if came_to is not None and (self.update or metrics_file in missing):
+            text = json.dumps(came_to, indent=2, allow_nan=False) + "\n"
+            _whole(metrics_file, lambda path: path.write_text(text, encoding="utf-8"))
         if missing and not self.update:
+            what = "golden trace" if golden_file in missing else "file of golden metrics"
+            also = "".join(f" and {file.name}" for file in missing[1:])
             raise AssertionError(
-                f"there was no golden trace: written to {golden_file}"
-                f"{f' and {metrics_file.name}' if metrics else ''}; look at it, commit it, run again"
+                f"there was no {what}: written to {missing[0]}{also}; look at it, commit it, run again"
             )
         golden = Trace.from_npz(golden_file)
         known: Metrics = json.loads(metrics_file.read_text(encoding="utf-8")) if metrics else {}
@@ -164,15 +169,6 @@ class TraceRegression:
         plot_overlay(found, golden, result.divergences).savefig(path)
         return path
 
-    def _write(
-        self, found: Trace, came_to: Metrics | None, golden_file: Path, metrics_file: Path
-    ) -> None:
-        golden_file.parent.mkdir(parents=True, exist_ok=True)
-        _whole(golden_file, found.to_npz)
-        if came_to is not None:
-            text = json.dumps(came_to, indent=2, allow_nan=False) + "\n"
-            _whole(metrics_file, lambda path: path.write_text(text, encoding="utf-8"))
-
 
 def _part(trace: Trace, columns: Sequence[str], every: int) -> Trace:
     """Return time, tick and some columns of every n-th row."""
@@ -190,6 +186,7 @@ def _part(trace: Trace, columns: Sequence[str], every: int) -> Trace:
 
 def _whole(path: Path, write: Callable[[Path], Any]) -> None:
     """Write a file that other processes see whole or not at all."""
+    path.parent.mkdir(parents=True, exist_ok=True)
     with NamedTemporaryFile(dir=path.parent, prefix=".draft-", delete=False) as draft:
         new = Path(draft.name)
     try:
