@@ -44,6 +44,14 @@ BAD: dict[str, tuple[bytes, str]] = {
     "heading.csv": (b"t,x,force\n", "lines = 1: needs a heading"),
     "words.csv": (b"t,x,force\n0,left,1\n1,2,1\n", "'left' in row 1, column 'x', is no number"),
     "ragged.csv": (b"t,x,force\n0,1,1\n1,2\n", "row 2 has 2 cells, the heading 3"),
+    "twice.csv": (
+        text("t,x,force,x", T, X, F, 0 * X),
+        "columns 2 and 4 are both headed 'x'; rename one of them",
+    ),
+    "text_twice.csv": (
+        b"t,x,x\n0,1,left\n1,2,right\n",
+        "columns 2 and 3 are both headed 'x'; rename one of them",
+    ),
     "binary.csv": (NOISE, "is no text in UTF-8"),
     "binary.npz": (NOISE, "is no NumPy archive"),
     "empty.npz": (b"", "is no NumPy archive"),
@@ -111,6 +119,13 @@ def test_what_is_no_path_is_refused_with_a_reason(
         read_path(tmp_path / name)
     result = CliRunner().invoke(app, ["track", str(tmp_path / name)])
     assert result.exit_code == 2
+
+
+def test_columns_without_a_heading_are_no_doubles(tmp_path: Path) -> None:
+    nothing = np.full(ROWS, np.nan)
+    path = tmp_path / "spreadsheet.csv"
+    path.write_bytes(text("t,x,force,,", T, X, F, nothing, nothing).replace(b"nan", b""))
+    np.testing.assert_allclose(load(path).x, X, atol=1e-9)
 
 
 def test_decimal_commas_are_read(tmp_path: Path) -> None:

@@ -62,6 +62,11 @@ def _csv(path: Path) -> Table:
         raise ValueError(
             f"{path.name}: has no heading; put the names of the columns into its first line"
         )
+    for number, name in enumerate(names, 1):
+        if name and (first := names.index(name) + 1) < number:
+            raise ValueError(
+                f"{path.name}: columns {first} and {number} are both headed {name!r}; rename one of them"
+            )
     try:  # as most files are; the rest looks for what is wrong, and for text
         numbers = np.loadtxt(lines[1:], delimiter=mark, ndmin=2).T
         return Table(columns=dict(zip(names, numbers, strict=True)))
