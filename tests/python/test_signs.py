@@ -74,6 +74,13 @@ def test_without_a_sensor_the_two_together_are_found(tmp_path: Path) -> None:
     assert "by the encoder alone" in rows[0].remark
 
 
+@pytest.mark.real_time
+def test_a_long_soft_start_does_not_weaken_the_pushes(tmp_path: Path) -> None:
+    known = Configuration.load(wired(tmp_path, [1, 1], [1, 1], sensor=False))
+    rows = find_signs(known.replace(soft_start=30.0), simulate=True)
+    assert all(row.right for row in rows), rows
+
+
 def test_a_current_out_of_range_is_refused() -> None:
     with pytest.raises(ValueError, match=r"current = 1 A: must lie in \[0.02, 0.3\] A"):
         find_signs(Configuration.from_toml(""), current=1)

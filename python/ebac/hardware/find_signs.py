@@ -28,6 +28,8 @@ HELD = 0.3
 _BEHIND = -1.0
 #: Current comes in with this slope [A/s].
 _SLEW = 1.0
+#: The force of the loop comes in within this at most [s]: short beside a push.
+_SOFT_START = 0.2
 _ENDING = (LoopState.STOP, LoopState.IDLE, LoopState.FAULT)
 
 
@@ -81,6 +83,7 @@ def gentle(known: Configuration, current: float) -> Configuration:
         changes={},
         environment=Free(),
         limits=limits,
+        soft_start=min(known.soft_start, _SOFT_START),
         observer=False,
         hand=known.hand.replace(path=[Step(target=0.0)] * axes),
     )
