@@ -33,6 +33,7 @@ from ebac.hardware import (
 )
 from ebac.hardware.axis_positions import positions_of
 from ebac.hardware.backends import Backend
+from ebac.hardware.toml_table import rewrite
 from ebac.hardware.zero import LEAST, MOST, from_zero
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "joystick.toml"
@@ -139,6 +140,8 @@ def test_a_zero_that_cannot_be_is_refused_with_its_line(table: str, words: str) 
         'about = "x"',
         "[zero] # mine\nabsolute = true # a resolver\ncounts = [1, 1] # left\n\n[run]\nseconds = 1.0\n",
         "[zero]\n[run]\nseconds = 1.0\n",
+        "[run]\nseconds = 1.0\n[zero]",
+        "[run]\nseconds = 1.0\n[zero]\nabsolute = false",
     ],
 )
 def test_it_is_written_line_by_line(text: str) -> None:
@@ -147,6 +150,23 @@ def test_it_is_written_line_by_line(text: str) -> None:
     assert known.zero == Zero(counts=(-5, MOST), absolute="absolute = true" in text)
     for comment in ("# mine", "# left", "# a resolver"):
         assert (comment in made) == (comment in text)
+
+
+@pytest.mark.parametrize("table", ["", "[zero] # mine\r\ncounts = [1, 1] # left\r\n", "[zero]"])
+def test_line_ends_and_links_stay(table: str, tmp_path: Path) -> None:
+    path, link = tmp_path / "rig" / "mine.toml", tmp_path / "linked.toml"
+    path.parent.mkdir()
+    before = f"# of the rig\r\n[run]\r\nseconds = 1.0\r\n{table}".encode()
+    path.write_bytes(before)
+    link.symlink_to(path)
+    rewrite(link, Zero(counts=(-5, MOST)).written_into)
+    assert link.is_symlink()
+    after = path.read_bytes()
+    assert Configuration.load(link).zero == Zero(counts=(-5, MOST))
+    kept = [line for line in before.splitlines() if not line.startswith(b"counts")]
+    assert after.replace(b"\r\n", b"").count(b"\n") == 0
+    assert set(kept) <= set(after.splitlines())
+    assert [file.name for file in path.parent.iterdir()] == [path.name]
 
 
 # --- counts that wrap around ---

@@ -31,17 +31,19 @@ def with_table(text: str, name: str, wanted: Mapping[str, Sequence[int]], note: 
     """
     heading = re.compile(rf"^\s*\[{re.escape(name)}\]\s*(#.*)?$")
     values = {key: list(numbers) for key, numbers in wanted.items()}
+    ending = "\r\n" if "\r\n" in text else "\n"
+    if text and not text.endswith("\n"):
+        text += ending
     lines = text.splitlines(keepends=True)
     start = next((i for i, line in enumerate(lines) if heading.match(line)), None)
     if start is None:
-        block = "".join(f"{key} = {numbers}\n" for key, numbers in values.items())
-        gap = "" if not text or text.endswith("\n") else "\n"
-        made = f"{text}{gap}\n[{name}] # {note}\n{block}"
+        block = "".join(f"{key} = {numbers}{ending}" for key, numbers in values.items())
+        made = f"{text}{ending}[{name}] # {note}{ending}{block}"
     else:
         after = range(start + 1, len(lines))
         end = next((i for i in after if _ANY_TABLE.match(lines[i])), len(lines))
         made = "".join(
-            [*lines[: start + 1], *_changed(lines[start + 1 : end], values), *lines[end:]]
+            [*lines[: start + 1], *_changed(lines[start + 1 : end], values, ending), *lines[end:]]
         )
     if not _holds(made, name, values):
         raise ValueError(f"{name} cannot be written line by line: set {values} by hand")
@@ -49,10 +51,14 @@ def with_table(text: str, name: str, wanted: Mapping[str, Sequence[int]], note: 
 
 
 def rewrite(path: Path, change: Callable[[str], str]) -> None:
-    """Change the text of a file, all or nothing. Raises what `change` does, and OSError."""
-    draft = path.with_name(f"{path.name}.draft")
-    draft.write_text(change(path.read_text(encoding="utf-8")), encoding="utf-8")
-    draft.replace(path)
+    """Change the text of a file, all or nothing; where the path is a link, that of the file it leads to.
+
+    Raises what `change` does, and OSError.
+    """
+    file = path.resolve()
+    draft = file.with_name(f"{file.name}.draft")
+    draft.write_text(change(file.read_bytes().decode("utf-8")), encoding="utf-8", newline="")
+    draft.replace(file)
 
 
 def _holds(text: str, name: str, values: Mapping[str, list[int]]) -> bool:
@@ -63,14 +69,14 @@ def _holds(text: str, name: str, values: Mapping[str, list[int]]) -> bool:
     return isinstance(found, dict) and all(found.get(key) == one for key, one in values.items())
 
 
-def _changed(lines: list[str], wanted: Mapping[str, list[int]]) -> list[str]:
+def _changed(lines: list[str], wanted: Mapping[str, list[int]], ending: str) -> list[str]:
     """Return the lines of the table with the wanted values; comments stay."""
     kept = list(lines)
     for name, numbers in wanted.items():
         key = re.compile(rf"^(\s*{name}\s*=\s*)\[[^\]]*\]")
         at = next((i for i, line in enumerate(kept) if key.match(line)), None)
         if at is None:
-            kept.insert(0, f"{name} = {numbers}\n")
+            kept.insert(0, f"{name} = {numbers}{ending}")
         else:
             kept[at] = key.sub(rf"\g<1>{numbers}", kept[at])
     return kept
