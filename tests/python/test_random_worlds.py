@@ -130,7 +130,7 @@ def test_a_hand_begins_in_free_space_and_moves_in_the_same_world(
     assert isinstance(world, ebac.worlds.World)
     assert isinstance(swinging, ebac.worlds.World)
     around = 0.9e-3 * np.vstack([np.zeros(3), np.eye(3), -np.eye(3)])
-    assert not any(touch.force.any() for place in around for touch in world.walk(place))
+    assert not any(touch.force.any() for place in around for touch in world.walk([place]))
     assert still.hand == moving.hand
     assert [body.solid for body in world.bodies] == [body.solid for body in swinging.bodies]
     assert all(body.motion.still() for body in world.bodies)

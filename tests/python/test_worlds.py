@@ -270,3 +270,19 @@ def test_sweeps_and_threads_share_no_memory() -> None:
 def test_what_is_no_world_is_refused(make: object, text: str) -> None:
     with pytest.raises((ValueError, TypeError), match=text):
         make()  # type: ignore[operator]
+
+
+@pytest.mark.parametrize("friction", [np.int64(1), np.float32(1), 1])
+def test_a_number_of_numpy_is_a_friction(friction: float) -> None:
+    body = Body(solid=Plane(), friction=friction)
+    assert body == Body(solid=Plane(), friction=1.0)
+    assert type(body.friction) is float
+
+
+def test_a_vector_of_text_in_a_file_is_refused_by_name(tmp_path: Path) -> None:
+    path = tmp_path / "world.toml"
+    ebac.Scenario(environment=World(Placed(Sphere(), (0.5, 0.0, 0.0)))).save(path)
+    text = path.read_text(encoding="utf-8")
+    path.write_text(text.replace("at = [\n    0.5", 'at = [\n    "abc"'), encoding="utf-8")
+    with pytest.raises((ValueError, TypeError), match=r"Placed.at = .*must be three numbers"):
+        ebac.Scenario.load(path)

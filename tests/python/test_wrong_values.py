@@ -111,6 +111,77 @@ def trace() -> Any:
         ),
         (lambda t: W.Mesh("x.stl", scale="a"), "Mesh.scale = 'a': must be a number"),
         (
+            lambda t: W.Mesh("x.stl", cell="a"),
+            "Mesh.cell = 'a': must be a number",
+        ),
+        (lambda t: W.Mesh("x.stl", thickness=None), "Mesh.thickness = None: must be a number"),
+        (
+            lambda t: W.HeightField([[0, 0], [0, "a"]]),
+            "HeightField.heights = [[0, 0], [0, 'a']] (list): must be numbers, shape (n, m)",
+        ),
+        (
+            lambda t: W.HeightField([[0, 0], [0]]),
+            "HeightField.heights = [[0, 0], [0]] (list): must be numbers, shape (n, m)",
+        ),
+        (
+            lambda t: W.HeightField([[0, 0], [0, 0]], spacing="a"),
+            "HeightField.spacing = 'a': must be a number",
+        ),
+        (
+            lambda t: W.HeightField([[0, 0], [0, 0]], base="a"),
+            "HeightField.base = 'a': must be a number",
+        ),
+        (
+            lambda t: W.Placed(W.Sphere(), at=("abc", 0, 0)),
+            "Placed.at = ('abc', 0, 0) m: must be three numbers in [-10, 10] m",
+        ),
+        (
+            lambda t: W.Placed(W.Sphere(), at=5),
+            "Placed.at = 5 m: must be three numbers in [-10, 10] m",
+        ),
+        (
+            lambda t: W.Tube([(0, 0, 0), (0, 0, "a")]),
+            "Tube.points = [(0, 0, 0), (0, 0, 'a')] (list): must be numbers, shape (n, 3)",
+        ),
+        (
+            lambda t: W.Tube([(0, 0, 0), (0, 0, 1)], radius="a"),
+            "Tube.radius = 'a' (str): must be a number, or one for each point",
+        ),
+        (
+            lambda t: W.Tube.along([(0, 0, 0), (0, 0)]),
+            "Tube.along: points = [(0, 0, 0), (0, 0)] (list): must be numbers, shape (n, 3)",
+        ),
+        (lambda t: W.Body(solid=W.Plane(), friction="a"), "Body.friction = 'a': must be a number"),
+        (
+            lambda t: W.Body(solid=W.Plane(), friction=True),
+            "Body.friction = True: must be a number",
+        ),
+        (
+            lambda t: W.World(W.Plane()).walk([["a", 0, 0]]),
+            "World.walk: x = [['a', 0, 0]] (list): must be numbers, shape (n, 3)",
+        ),
+        (
+            lambda t: W.LocalModel(at=(0, 0, 0), normal=(1, 0, 0), stiffness="a"),
+            "LocalModel.stiffness = 'a': must be a number",
+        ),
+        (
+            lambda t: W.LocalModel(at=(0, 0, 0), normal=(1, 0, 0), stiffness=1, radius=None),
+            "LocalModel.radius = None: must be a number",
+        ),
+        (
+            lambda t: W.LocalModel.of_force((0, 0, 0), "a", 1),
+            "LocalModel.of_force: force = 'a' N: must be three numbers in [-1e+09, 1e+09] N",
+        ),
+        (
+            lambda t: W.LocalModel.of_force((0, 0, "a"), (1, 0, 0), 1),
+            "LocalModel.of_force: x = (0, 0, 'a') m: must be three numbers in [-10, 10] m",
+        ),
+        (
+            lambda t: W.LocalModel.of_force((0, 0, 0), (1, 0, 0), "a"),
+            "LocalModel.of_force: stiffness = 'a': must be a number",
+        ),
+        (lambda t: W.force_depth(W.Elastic(), depth="a"), "depth = 'a': must be a number"),
+        (
             lambda t: E.identify.Target.tapping("a", 1.0),
             "Target.tapping: frequency = 'a': must be a number",
         ),
@@ -148,6 +219,33 @@ def test_a_value_of_another_type_is_refused_by_name(
             lambda t: W.Tube.along([(0, 0, 0)], 1),
             ValueError,
             "Tube.along: points: shape (1, 3): must be (n, 3), n at least 2",
+        ),
+        (
+            lambda t: W.Tube([(0, 0, 0), (0, 0, 0.1), (0, 0, 0.2)], radius=(0.01, 0.02)),
+            ValueError,
+            "Tube.radius = (0.01, 0.02): shape (2,): must be one number, or one for each of the 3 points",
+        ),
+        *(
+            (
+                lambda t, x=x: W.World(W.Plane()).walk(x),
+                ValueError,
+                f"World.walk: x: shape {shape}: must be (n, 3)",
+            )
+            for x, shape in (
+                ([[0, 0, 0, 1, 1, 1]], (1, 6)),
+                ([[0, 0]], (1, 2)),
+                ([[0, 0, 0, 0]] * 3, (3, 4)),
+            )
+        ),
+        (
+            lambda t: W.World(W.Plane()).walk([[0, 0, 0]] * 2, [[0, 0], [0, 0]]),
+            ValueError,
+            "World.walk: v: shape (2, 2): must be (n, 3)",
+        ),
+        (
+            lambda t: W.World(W.Plane()).walk([[0, 0, 0]] * 2, t=[[0, 1]]),
+            ValueError,
+            "World.walk: t: shape (1, 2): must be (n,)",
         ),
         (lambda t: t.head(-3), ValueError, "rows = -3: must be at least 0"),
         (

@@ -11,6 +11,7 @@ from typing import Any, Self
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ebac._util.arguments import number
 from ebac.worlds.part import three
 from ebac.worlds.world import Touch
 
@@ -44,6 +45,8 @@ class LocalModel:
     ------
     ValueError
         For a number out of its range.
+    TypeError
+        For something that is no number.
     """
 
     at: Vector
@@ -67,12 +70,12 @@ class LocalModel:
         object.__setattr__(self, "normal", (x, y, z))
         ranges = {"stiffness": ("N/m", STIFFEST), "damping": ("N s/m", MOST_DAMPING)}
         for name, (unit, most) in ranges.items():
-            value = getattr(self, name)
+            value = number(f"LocalModel.{name}", getattr(self, name))
             if not 0 <= value <= most:
                 raise ValueError(
-                    f"LocalModel.{name} = {value} {unit}: must lie in [0, {most:g}] {unit}"
+                    f"LocalModel.{name} = {value:g} {unit}: must lie in [0, {most:g}] {unit}"
                 )
-        if not abs(self.radius) >= 1e-4:
+        if not abs(number("LocalModel.radius", self.radius)) >= 1e-4:
             raise ValueError(
                 f"LocalModel.radius = {self.radius} m: must be 1e-4 m at least in size; infinite for a plane"
             )
@@ -92,15 +95,16 @@ class LocalModel:
         **more
             `damping`, `radius`, `velocity`.
         """
-        pressed = np.asarray(force, float)
+        pressed = np.array(three("LocalModel.of_force: force", force, "N", 1e9))
         size = float(np.linalg.norm(pressed))
         if size == 0:
             return None
-        if not 0 < stiffness <= STIFFEST:
+        if not 0 < number("LocalModel.of_force: stiffness", stiffness) <= STIFFEST:
             raise ValueError(
                 f"LocalModel.of_force: stiffness = {stiffness} N/m: must lie in (0, {STIFFEST:g}] N/m"
             )
-        a, b, c = np.asarray(x, float) - pressed / stiffness
+        place = np.array(three("LocalModel.of_force: x", x, "m", 10.0))
+        a, b, c = place - pressed / stiffness
         return cls(at=(a, b, c), normal=pressed / size, stiffness=stiffness, **more)  # type: ignore[arg-type]
 
 

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ebac._core import Elastic, HuntCrossley, Plane
+from ebac._util.arguments import number
 from ebac.worlds.closed_forms import ClosedForm, PowerLaw, Puncture, Spring, Springs
 from ebac.worlds.world import Body, Layered, World
 
@@ -93,10 +94,10 @@ def force_depth(material: Material, *, depth: float = 12e-3, speed: float = 0.02
     ValueError
         For a depth or a speed out of its range.
     TypeError
-        For something that is no material.
+        For something that is no material, or no number.
     """
     for name, value, unit, (low, high) in (("depth", depth, "m", DEPTHS), ("speed", speed, "m/s", SPEEDS)):  # fmt: skip
-        if not low <= value <= high:
+        if not low <= number(name, value) <= high:
             raise ValueError(f"{name} = {value:g} {unit}: must lie in [{low:g}, {high:g}] {unit}")
     x = np.linspace(0.0, depth, ROWS + 1)
     depths = np.concatenate([x, x[::-1]])

@@ -14,7 +14,7 @@ from ebac._util.arguments import number
 from ebac._util.wrong_calls import plain_constructor
 from ebac.worlds.grid import Grid, Progress, Surface, cached_grid
 from ebac.worlds.mesh_file import read
-from ebac.worlds.part import Part
+from ebac.worlds.part import Part, array
 
 #: Cells along the longest side of a mesh, unless given.
 CELLS = 96
@@ -121,7 +121,7 @@ def _longest(surface: Surface) -> float:
 
 
 def _check_cell(name: str, cell: float | None) -> None:
-    if cell is not None and not 1e-5 <= cell <= 0.1:
+    if cell is not None and not 1e-5 <= number(f"{name}.cell", cell) <= 0.1:
         raise ValueError(f"{name}.cell = {cell!r} m: must lie in [1e-05, 0.1] m")
 
 
@@ -150,7 +150,7 @@ class Mesh(_Triangles):
     Raises
     ------
     TypeError
-        When it is no path.
+        When it is no path, or a parameter is no number.
     FileNotFoundError
         When there is no such file.
     ValueError
@@ -182,7 +182,8 @@ class Mesh(_Triangles):
         if self.size is not None and not 1e-3 <= number("Mesh.size", self.size) <= 10:
             raise ValueError(f"Mesh.size = {self.size!r} m: must lie in [0.001, 10] m")
         _check_cell("Mesh", self.cell)
-        if self.thickness != 0 and not 1e-4 <= self.thickness <= 0.1:
+        thickness = number("Mesh.thickness", self.thickness)
+        if thickness != 0 and not 1e-4 <= thickness <= 0.1:
             raise ValueError(
                 f"Mesh.thickness = {self.thickness!r} m: must be 0 or lie in [0.0001, 0.1] m"
             )
@@ -229,6 +230,8 @@ class HeightField(_Triangles):
 
     Raises
     ------
+    TypeError
+        When something is no number.
     ValueError
         When a number is out of range.
     ImportError
@@ -242,16 +245,17 @@ class HeightField(_Triangles):
 
     def __post_init__(self) -> None:
         """Check the heights."""
-        heights = np.asarray(self.heights, float)
+        heights = array("HeightField.heights", self.heights, "numbers, shape (n, m)")
         if heights.ndim != 2 or min(heights.shape) < 2 or not (np.abs(heights) <= 1).all():
             raise ValueError(
                 f"HeightField.heights: shape {heights.shape}: must be (n, m), 2 at least each, within [-1, 1] m"
             )
-        if not 1e-4 <= self.spacing <= 1:
+        if not 1e-4 <= number("HeightField.spacing", self.spacing) <= 1:
             raise ValueError(f"HeightField.spacing = {self.spacing!r} m: must lie in [0.0001, 1] m")
-        if self.base is not None and not -heights.min() < self.base <= 10:
+        lowest = -heights.min()
+        if self.base is not None and not lowest < number("HeightField.base", self.base) <= 10:
             raise ValueError(
-                f"HeightField.base = {self.base!r} m: must lie in ({-heights.min():g}, 10] m, below the lowest place"
+                f"HeightField.base = {self.base!r} m: must lie in ({lowest:g}, 10] m, below the lowest place"
             )
         _check_cell("HeightField", self.cell)
         object.__setattr__(self, "heights", tuple(tuple(map(float, row)) for row in heights))
@@ -259,7 +263,10 @@ class HeightField(_Triangles):
     @classmethod
     def of(cls, heights: ArrayLike, **more: Any) -> Self:
         """Return it from an array."""
-        return cls(tuple(map(tuple, np.asarray(heights, float))), **more)
+        return cls(
+            tuple(map(tuple, array("HeightField.of: heights", heights, "numbers, shape (n, m)"))),
+            **more,
+        )
 
     def surface(self) -> Surface:
         """Return the triangles: the ground, four sides and the floor."""

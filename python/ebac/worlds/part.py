@@ -6,6 +6,9 @@ from dataclasses import fields
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
+
+from ebac._util.arguments import number, shown
 
 
 class Part:
@@ -19,10 +22,31 @@ class Part:
 
 def three(name: str, given: Any, unit: str, most: float) -> tuple[float, float, float]:
     """Return three numbers of a vector, each at most `most` in size."""
-    numbers = np.asarray(given, float)
-    if numbers.shape != (3,) or not (np.abs(numbers) <= most).all():
-        raise ValueError(
-            f"{name} = {given!r} {unit}: must be three numbers in [-{most:g}, {most:g}] {unit}"
-        )
-    x, y, z = (float(one) for one in numbers)
+    refusal = f"{name} = {given!r} {unit}: must be three numbers in [-{most:g}, {most:g}] {unit}"
+    try:
+        numbers = [number(name, one) for one in given]
+    except TypeError:
+        raise TypeError(refusal) from None
+    if len(numbers) != 3 or not all(abs(one) <= most for one in numbers):
+        raise ValueError(refusal)
+    x, y, z = numbers
     return x, y, z
+
+
+def array(name: str, given: Any, wanted: str) -> NDArray[np.float64]:
+    """Return an array of numbers; `wanted` names what it must be."""
+    try:
+        values = np.asarray(given)
+    except ValueError:  # rows of several lengths
+        values = np.empty(0, object)
+    if values.dtype.kind not in "iuf":
+        raise TypeError(f"{name} = {shown(given)}: must be {wanted}")
+    return values.astype(float)
+
+
+def points(name: str, given: Any) -> NDArray[np.float64]:
+    """Return an array of points or vectors, shape (n, 3)."""
+    values = array(name, given, "numbers, shape (n, 3)")
+    if values.ndim != 2 or values.shape[1] != 3:
+        raise ValueError(f"{name}: shape {values.shape}: must be (n, 3)")
+    return values

@@ -12,7 +12,7 @@ from ebac import _core
 from ebac._core import Box, Capsule, Cylinder, Plane, Sphere, Texture, Torus
 from ebac._util.wrong_calls import plain_constructor
 from ebac.worlds.mesh import HeightField, Mesh
-from ebac.worlds.part import Part, three
+from ebac.worlds.part import Part, array, three
 
 Shape: TypeAlias = Box | Capsule | Cylinder | Plane | Sphere | Torus
 _SHAPES = (Box, Capsule, Cylinder, Plane, Sphere, Torus)
@@ -105,12 +105,18 @@ class Tube(Part):
 
     def __post_init__(self) -> None:
         """Check points and radius."""
-        points = np.asarray(self.points, float)
+        points = array("Tube.points", self.points, "numbers, shape (n, 3)")
         if points.ndim != 2 or points.shape[1:] != (3,) or not 2 <= len(points) <= 256:
             raise ValueError(f"Tube.points: shape {points.shape}: must be (n, 3), n from 2 to 256")
         if not (np.abs(points) <= 10).all():
             raise ValueError("Tube.points: must lie in [-10, 10] m")
-        radii = np.broadcast_to(np.asarray(self.radius, float), len(points)).copy()
+        radii = array("Tube.radius", self.radius, "a number, or one for each point")
+        if radii.shape not in ((), (len(points),)):
+            raise ValueError(
+                f"Tube.radius = {self.radius!r}: shape {radii.shape}: must be one number, or one for each of the "
+                f"{len(points)} points"
+            )
+        radii = np.broadcast_to(radii, len(points))
         if not ((radii > 0) & (radii <= 1)).all():
             raise ValueError(f"Tube.radius = {self.radius!r} m: must lie in (0, 1] m")
         ways = np.linalg.norm(np.diff(points, axis=0), axis=1)
@@ -130,7 +136,7 @@ class Tube(Part):
     @classmethod
     def along(cls, points: ArrayLike, radius: float = 0.01, *, parts: int = 8) -> Self:
         """Return a tube along a smooth curve (Catmull-Rom) through the points, `parts` pieces between two of them."""
-        given = np.asarray(points, float)
+        given = array("Tube.along: points", points, "numbers, shape (n, 3)")
         if given.ndim != 2 or given.shape[1:] != (3,) or len(given) < 2:
             raise ValueError(
                 f"Tube.along: points: shape {given.shape}: must be (n, 3), n at least 2"

@@ -10,8 +10,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from ebac import _core
 from ebac._core import Elastic, HuntCrossley, Layer, Swing
+from ebac._util.arguments import number
 from ebac._util.wrong_calls import plain_constructor
-from ebac.worlds.part import Part
+from ebac.worlds.part import Part, array, points
 from ebac.worlds.solids import SOLIDS, Solid, made
 
 #: Layers of a tissue, as the core has them.
@@ -76,16 +77,17 @@ class Body(Part):
         parts = {
             "solid": SOLIDS,
             "material": (Elastic, HuntCrossley, Layered),
-            "friction": (int, float),
             "motion": (Swing,),
         }
         for name, kinds in parts.items():
             value = getattr(self, name)
-            if not isinstance(value, kinds) or isinstance(value, bool):
+            if not isinstance(value, kinds):
                 names = " or ".join(kind.__name__ for kind in kinds)
                 raise TypeError(f"Body.{name} = {value!r}: must be {names}")
-        if not 0 <= self.friction <= 2:
+        friction = number("Body.friction", self.friction)
+        if not 0 <= friction <= 2:
             raise ValueError(f"Body.friction = {self.friction}: must lie in [0, 2]")
+        object.__setattr__(self, "friction", friction)
 
 
 class Touch(NamedTuple):
@@ -178,10 +180,17 @@ class World(_core._World):
         -------
         list of Touch
             One for each place.
+
+        Raises
+        ------
+        TypeError, ValueError
+            For what is no array of numbers, or one of another shape.
         """
-        places = np.asarray(x, float).reshape(-1, 3)
-        speeds = np.zeros_like(places) if v is None else np.asarray(v, float).reshape(-1, 3)
-        times = np.zeros(len(places)) if t is None else np.asarray(t, float).ravel()
+        places = points("World.walk: x", x)
+        speeds = np.zeros_like(places) if v is None else points("World.walk: v", v)
+        times = np.zeros(len(places)) if t is None else array("World.walk: t", t, "numbers")
+        if times.ndim != 1:
+            raise ValueError(f"World.walk: t: shape {times.shape}: must be (n,)")
         if not len(places) == len(speeds) == len(times):
             raise ValueError(
                 f"World.walk: {len(places)} places, {len(speeds)} velocities, {len(times)} times: must be as many"
@@ -209,4 +218,4 @@ class World(_core._World):
 def _parts(body: Body) -> tuple[_core._Solid, Any, float, Swing]:
     material = body.material
     own = _core._Layered(list(material.layers)) if isinstance(material, Layered) else material
-    return made(body.solid), own, float(body.friction), body.motion
+    return made(body.solid), own, body.friction, body.motion
