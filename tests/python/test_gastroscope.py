@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -149,6 +150,25 @@ def test_a_study_pairs_physicians_and_does_not_depend_on_threads() -> None:
     effect = one.effects[0]
     assert effect.low_N <= effect.difference_N <= effect.high_N
     assert 0 <= effect.power <= 1
+
+
+@pytest.mark.parametrize(
+    ("given", "kind", "message"),
+    [
+        ({"laws": ()}, ValueError, "laws = []: is empty; give one at least"),
+        ({"laws": "ebac"}, TypeError, "laws = 'ebac' (str): must be a sequence, such as ['ebac']"),
+        ({"delays": ()}, ValueError, "delays = []: is empty; give one at least"),
+        ({"delays": 0.1}, TypeError, "delays = 0.1 (float): must be a sequence, such as [0.1]"),
+        ({"delays": ["a"]}, TypeError, "delays = 'a': must be a number"),
+        ({"count": 2.5}, TypeError, "count = 2.5: must be a whole number"),
+    ],
+)
+def test_a_study_refuses_what_it_cannot_run_by_name(
+    given: dict[str, Any], kind: type[Exception], message: str
+) -> None:
+    with pytest.raises(kind) as refused:
+        gastroscope.gastroscopy_study(**{"count": 2, **given})
+    assert str(refused.value) == message
 
 
 @pytest.mark.parametrize(

@@ -77,6 +77,22 @@ def number(name: str, value: Any) -> float:
     return float(value)
 
 
+def several(name: str, values: Any) -> list[Any]:
+    """Return a list of values, at least one.
+
+    Raises
+    ------
+    TypeError, ValueError
+        For what is no sequence, and for an empty one; the message names it.
+    """
+    if isinstance(values, str) or not isinstance(values, Iterable):
+        raise TypeError(f"{name} = {shown(values)}: must be a sequence, such as [{values!r}]")
+    every = list(values)
+    if not every:
+        raise ValueError(f"{name} = {every}: is empty; give one at least")
+    return every
+
+
 def keywords_only(
     names: Sequence[str], hint: Callable[[str], str] = lambda name: ""
 ) -> Callable[[Class], Class]:

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from ebac import _core
 from ebac._core import Device, Hand, Linear, Master
+from ebac._util.arguments import number, several, whole
 from ebac._util.background import aside
 from ebac.gastroscope.procedure import Procedure, core_law
 from ebac.laws import AnyLaw, law_name
@@ -161,14 +162,20 @@ def gastroscopy_study(
     Raises
     ------
     ValueError
-        For a number out of its range.
+        For a number out of its range, nothing to compare.
+    TypeError
+        For what is no sequence or no number.
     """
-    if not 2 <= count <= 10000:
+    laws, delays = (
+        several("laws", laws),
+        [number("delays", one) for one in several("delays", delays)],
+    )
+    if not 2 <= whole("count", count) <= 10000:
         raise ValueError(f"count = {count}: must lie in [2, 10000] physicians")
     base = Procedure(device=STRAIGHT) if procedure is None else procedure
     names = [law_name(law) for law in laws]
     cells = [
-        (name, law, float(delay), feedback)
+        (name, law, delay, feedback)
         for name, law in zip(names, laws, strict=True)
         for delay in delays
         for feedback in (False, True)
@@ -193,7 +200,7 @@ def gastroscopy_study(
     effects = [
         _effect(name, delay, runs[name, delay, False], runs[name, delay, True], seed)
         for name in names
-        for delay in map(float, delays)
+        for delay in delays
     ]
     rows = [_row(key, found, limit) for key, found in runs.items()]
     return GastroscopyStudy(rows=tuple(rows), effects=tuple(effects), runs=runs)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
 from functools import partial
@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from ebac._util.arguments import named, require, shown, whole
+from ebac._util.arguments import named, require, several, whole
 from ebac._util.cores import usable_cores
 from ebac.laws import CoreLaw, PythonLaw, design, reserve_of
 from ebac.metrics.energy_drawn import drawn
@@ -87,10 +87,15 @@ def random_worlds(
         For an unknown law, kind or device.
     """
     require(moving, bool, "ebac.random_worlds", "moving=True or False")
-    kinds = _several("kinds", kinds)
-    devices = _several("devices", devices)
-    stiffnesses = _several("stiffnesses", stiffnesses)
-    delays = _several("delays", delays)
+    kinds, devices, stiffnesses, delays = (
+        list(dict.fromkeys(several(name, values)))  # each once
+        for name, values in (
+            ("kinds", kinds),
+            ("devices", devices),
+            ("stiffnesses", stiffnesses),
+            ("delays", delays),
+        )
+    )
     for kind in kinds:
         named("kind of world", kind, KINDS)
     for device in devices:
@@ -187,16 +192,6 @@ def _threads(count: int) -> Iterator[ThreadPoolExecutor]:
         yield executor
     finally:
         executor.shutdown(cancel_futures=True)
-
-
-def _several(name: str, values: Iterable[Any]) -> list[Any]:
-    """Return a list of several, each once."""
-    if isinstance(values, str) or not isinstance(values, Iterable):
-        raise TypeError(f"{name} = {shown(values)}: must be a sequence, such as [{values!r}]")
-    every = list(dict.fromkeys(values))
-    if not every:
-        raise ValueError(f"{name} = {every}: is empty; give one at least")
-    return every
 
 
 def _check_whole(**numbers: tuple[Any, int, int]) -> None:

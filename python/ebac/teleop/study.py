@@ -9,8 +9,9 @@ from typing import Any
 
 import numpy as np
 
-from ebac._core import Hand, Link, MinimumJerk, SlaveModel
-from ebac.teleop.run import SPARE, STILL, Run, simulate
+from ebac._core import STILL_SWING, Hand, Link, MinimumJerk, SlaveModel
+from ebac._util.arguments import named, require, several
+from ebac.teleop.run import SPARE, Run, simulate
 from ebac.teleop.schemes import SCHEMES, Scheme, chosen_scheme
 
 #: What the slave meets [N/m].
@@ -149,17 +150,18 @@ def study(
     Raises
     ------
     KeyError, ValueError
-        For a scheme or network that does not exist, a value out of its range.
+        For a scheme or network that does not exist, a value out of its range, nothing to simulate.
     TypeError
-        For schemes that are no sequence.
+        For contacts that are no mapping, others that are no sequence.
     """
-    if isinstance(schemes, str) or not isinstance(schemes, Sequence):
-        raise TypeError(f"schemes = {schemes!r}: must be a sequence of schemes or their names")
+    require(contacts, Mapping, "teleop.study", "contacts by name, as in {'soft': 500}")
+    if not contacts:
+        raise ValueError("contacts = {}: is empty; give one at least")
+    hands, networks = several("hands", hands), several("networks", networks)
     for name in networks:
-        if name not in NETWORKS:
-            raise KeyError(f"no network is called {name!r}; there are: {', '.join(NETWORKS)}")
-    chosen = tuple(chosen_scheme(one) for one in schemes)
-    cells = list(product(chosen, contacts.items(), networks, delays))
+        named("network", name, NETWORKS)
+    chosen = tuple(chosen_scheme(one) for one in several("schemes", schemes))
+    cells = list(product(chosen, contacts.items(), networks, several("delays", delays)))
     rows = []
     for one, (contact, stiffness), network, delay in cells:
         runs = [_run(one, stiffness, network, delay, k, seed) for seed, k in enumerate(hands, 1)]
@@ -192,7 +194,7 @@ def _row(runs: Sequence[Run], contact: str, network: str, delay: float) -> Study
         stiffness_N_per_m=stiffness,
         delay_s=delay,
         runs=len(runs),
-        still=sum(shake < STILL for shake in shakes),
+        still=sum(shake < STILL_SWING for shake in shakes),
         bounded=sum(bool(np.abs(run["true_x"]).max() < BOUND) for run in runs),
         passive=sum(run.passive for run in runs),
         two_port_passive=sum(run.least_network_J >= -spare for run in runs),
@@ -239,7 +241,7 @@ def _score(one: Scheme) -> tuple[int, float]:
     good, ratios = 0, []
     for seed, (contact, delay, hand) in enumerate(product(*TRAINING), 100):
         run = _run(one, contact, "rough", delay, hand, seed)
-        fine = shaking(run) < STILL and run.passive
+        fine = shaking(run) < STILL_SWING and run.passive
         good += fine
         if contact > 0:
             ratios.append(run.transparency if fine and np.isfinite(run.transparency) else 0.0)
