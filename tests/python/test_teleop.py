@@ -1,7 +1,7 @@
 """Teleoperation: schemes, network, protocol, lost links, three processes."""
 
+import itertools
 import json
-import re
 import subprocess
 import sys
 import threading
@@ -13,7 +13,7 @@ import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
-from ebac import Hand, MinimumJerk, Scenario, Sine, Timing, teleop
+from ebac import Hand, MinimumJerk, Scenario, Sine, Timing, gastroscope, teleop
 from ebac.plot import plot_teleop, plot_teleop_runs
 from ebac.teleop import Link, Packet, SlaveModel
 
@@ -381,7 +381,7 @@ def test_a_slave_that_was_held_up_does_not_hit() -> None:
 @pytest.mark.skipif(sys.platform != "linux", reason="UDP of the library is Linux's")
 @pytest.mark.slow
 def test_endurance_finds_what_is_beyond_a_limit(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(sys.modules["ebac.teleop.endurance"], "MASTER_LIMIT", -1.0)
+    monkeypatch.setattr(sys.modules["ebac.teleop.endurance"], "master_limit", lambda: -1.0)
     link = Link(delay=0.02, cut_every=3, cut_length=1)
     found = teleop.endurance(5, link=link, consent_after=0.2)
     assert [fault.split(" = ")[0] for fault in found.faults] == ["largest force of the master"]
@@ -420,9 +420,23 @@ def test_command_line(tmp_path: Path) -> None:
 
 
 def test_a_study_and_an_endurance_run_of_the_wrong_type_are_refused_by_name() -> None:
-    for wrong in (3, "ebac"):
-        with pytest.raises(TypeError, match=re.escape(f"schemes = {wrong!r}: must be a sequence")):
-            teleop.study(wrong)  # type: ignore[arg-type]
+    names = ("schemes", "delays", "networks", "hands")
+    for name, wrong in itertools.product(names, (3, "rough")):
+        with pytest.raises(TypeError, match=rf"{name} = {wrong!r} \(.*\): must be a sequence"):
+            teleop.study(**{name: wrong})
+    for name in names:
+        with pytest.raises(ValueError, match=rf"{name} = \[\]: is empty"):
+            teleop.study(**{name: []})
+    for contacts in ([1], "soft"):
+        with pytest.raises(TypeError, match=r"study takes contacts by name, as in \{'soft': 500\}"):
+            teleop.study(contacts=contacts)  # type: ignore[arg-type]
+    with pytest.raises(ValueError, match=r"contacts = \{\}: is empty"):
+        teleop.study(contacts={})
+    with pytest.raises(KeyError, match="no network is called 3; there are: rough, clean"):
+        teleop.study(networks=[3])  # type: ignore[list-item]
+    for run in (teleop.endurance, gastroscope.chain):
+        with pytest.raises(TypeError, match=r"link = 3 \(int\): must be a Link"):
+            run(link=3)  # type: ignore[operator]
     with pytest.raises(TypeError, match="seconds = 'x': must be a number"):
         teleop.endurance(seconds="x")  # type: ignore[arg-type]
 

@@ -4,16 +4,15 @@ from __future__ import annotations
 
 import json
 import subprocess
-import sys
 import time
 from collections.abc import Callable, Sequence
 from contextlib import ExitStack
 from dataclasses import dataclass, field
 from pathlib import Path
-from tempfile import TemporaryFile
-from typing import IO, Any
+from typing import Any
 
 from ebac._core import Link
+from ebac._util.child_processes import Child, end, link_options, started, text
 
 NAMES = ("slave", "network", "master")
 #: The longest a process may take to start [s].
@@ -85,12 +84,14 @@ def chain(
     ------
     ValueError
         For a time out of its range.
+    TypeError
+        For a link that is none.
     RuntimeError
         Where a process does not start.
     """
     if not 1 <= seconds <= 3600:
         raise ValueError(f"seconds = {seconds:g} s: must lie in [1, 3600] s")
-    over = link or Link(delay=0.05)
+    network = link_options(link or Link(delay=0.05))
     known = ["--give-up", str(give_up), "--json"]
     logs: dict[str, list[str]] = {"slave": [], "master": []}
     if folder is not None:
@@ -98,14 +99,10 @@ def chain(
         where.mkdir(parents=True, exist_ok=True)
         logs = {name: ["--log", str(where / f"{name}.mcap")] for name in logs}
     with ExitStack() as stack:
-        running: dict[str, tuple[subprocess.Popen[bytes], IO[bytes], IO[bytes]]] = {}
+        running: dict[str, Child] = {}
 
         def begin(name: str, words: Sequence[str]) -> None:
-            out, err = stack.enter_context(TemporaryFile()), stack.enter_context(TemporaryFile())
-            command = [sys.executable, "-m", "ebac.cli", *words]
-            process = subprocess.Popen(command, stdout=out, stderr=err)
-            stack.callback(_end, process)
-            running[name] = process, out, err
+            running[name] = stack.enter_context(started(words))
 
         last = str(seconds + _AFTER)
         begin(
@@ -115,15 +112,15 @@ def chain(
                 *("--seconds", last, *known, *logs["slave"], *slave),
             ],
         )
-        at_slave = _announced("slave", *running["slave"])
+        at_slave = _announced("slave", running["slave"])
         begin(
             "network",
             [
                 *("teleop", "network", "--port", "0", "--slave", f"127.0.0.1:{at_slave}"),
-                *("--seconds", last, "--seed", str(seed), "--json", "--announce", *_options(over)),
+                *("--seconds", last, "--seed", str(seed), "--json", "--announce", *network),
             ],
         )
-        at_network = _announced("network", *running["network"])
+        at_network = _announced("network", running["network"])
         begin(
             "master",
             [
@@ -133,9 +130,9 @@ def chain(
                 *(*known, *logs["master"], *master),
             ],
         )
-        _wait({name: one[0] for name, one in running.items()}, seconds, give_up, meanwhile)
-        texts = {name: (_text(out), _text(err)) for name, (_, out, err) in running.items()}
-        codes = {name: int(one[0].wait()) for name, one in running.items()}
+        _wait({name: one.process for name, one in running.items()}, seconds, give_up, meanwhile)
+        texts = {name: (text(one.out), text(one.err)) for name, one in running.items()}
+        codes = {name: int(one.process.wait()) for name, one in running.items()}
     reports = {name: _json(texts[name][0]) for name in texts if _json(texts[name][0])}
     said = {name: texts[name][1] for name in texts}
     return Chain(reports=reports, codes=codes, said=said, faults=_faults(reports, codes, said))
@@ -168,17 +165,17 @@ def _faults(
     return found
 
 
-def _announced(name: str, process: subprocess.Popen[bytes], out: IO[bytes], err: IO[bytes]) -> int:
+def _announced(name: str, child: Child) -> int:
     """Return the UDP port that a process prints when it is ready."""
-    end = time.monotonic() + _START
-    while not (line := _text(out)).endswith("\n") and process.poll() is None:
-        if time.monotonic() > end:
+    latest = time.monotonic() + _START
+    while not (line := text(child.out)).endswith("\n") and child.process.poll() is None:
+        if time.monotonic() > latest:
             break
         time.sleep(0.05)
     try:
         return int(json.loads(line)["port"])
     except (ValueError, KeyError):
-        raise RuntimeError(f"the {name} did not start: {line} {_text(err)}") from None
+        raise RuntimeError(f"the {name} did not start: {line} {text(child.err)}") from None
 
 
 def _wait(
@@ -197,12 +194,12 @@ def _wait(
             meanwhile(processes, passed)
         time.sleep(0.05)
     for process in processes.values():
-        _end(process)
+        end(process)
 
 
-def _json(text: str) -> dict[str, Any]:
+def _json(printed: str) -> dict[str, Any]:
     """Return the last line that is a report."""
-    for line in reversed(text.splitlines()):
+    for line in reversed(printed.splitlines()):
         try:
             found = json.loads(line)
         except ValueError:
@@ -210,26 +207,3 @@ def _json(text: str) -> dict[str, Any]:
         if isinstance(found, dict) and "command" in found:
             return found
     return {}
-
-
-def _options(link: Link) -> list[str]:
-    return [
-        word
-        for name, value in link.as_dict().items()
-        for word in ("--" + name.replace("_", "-"), str(value))
-    ]
-
-
-def _text(file: IO[bytes]) -> str:
-    file.seek(0)
-    return file.read().decode()
-
-
-def _end(process: subprocess.Popen[bytes]) -> None:
-    if process.poll() is None:
-        process.terminate()
-        try:
-            process.wait(timeout=20)
-        except subprocess.TimeoutExpired:
-            process.kill()
-            process.wait()

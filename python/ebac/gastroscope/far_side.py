@@ -9,6 +9,7 @@ from typing import Any
 
 from ebac import _core
 from ebac._core import Fault
+from ebac._core import TeleopPacket as Packet
 from ebac.worlds.engines import ForeignWorld
 
 #: Names of the four axes, with their units and those of their loads.
@@ -55,7 +56,11 @@ _WORDS = {
 _NAMES = ("", "running", "lost", "back", "consent", "far ended", "far fault", "group silent")
 #: Datagrams that a poor network may have damaged before the first good one.
 _MOST_DAMAGED = 10
-_REFUSED = "datagrams come, but none is one of this protocol (version 3): does the other side run the same release?"
+_VERSION = Packet().encode()[2]  # after two bytes that name the protocol
+_REFUSED = (
+    f"datagrams come, but none is one of this protocol (version {_VERSION}): "
+    "does the other side run the same release?"
+)
 LOST, FAR_LEFT, FAR_FAULT = 2, 5, 6
 #: A side that ends says so for so long [s].
 _GOODBYE = 0.2

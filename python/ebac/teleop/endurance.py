@@ -6,16 +6,17 @@ import json
 import re
 import socket
 import subprocess
-import sys
 import time
 from collections.abc import Callable
 from contextlib import ExitStack
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from tempfile import TemporaryFile
-from typing import IO, Any
+from typing import Any
 
-from ebac._core import Link
+from ebac._core import Limits, Link
+from ebac._util.child_processes import Child, link_options, started, text
+from ebac.scenario import Scenario
+from ebac.teleop.schemes import Scheme
 from ebac.teleop.schemes import scheme as scheme_of
 
 #: Values of memory that are not judged: a process starts.
@@ -28,8 +29,6 @@ GROWTH = 1_000_000
 QUEUES = 10_000_000
 #: Largest force of the master while the link is lost, after the fade [N].
 CALM = 0.1
-#: Largest force of the joystick's motor at the handle [N].
-MASTER_LIMIT = 42.4
 #: How far the hand swings the stick [m], and what a stick and a slave may go beyond.
 FARTHEST = 0.05
 #: The slave and the network live longer than the master by this [s].
@@ -99,49 +98,44 @@ def endurance(
     KeyError, ValueError
         For a scheme that does not exist, a time out of its range.
     TypeError
-        For seconds that are no number.
+        For seconds that are no number, a link that is none.
     """
     given: object = seconds
     if isinstance(given, bool) or not isinstance(given, int | float):
         raise TypeError(f"seconds = {seconds!r}: must be a number [s]")
     if not 5 <= seconds <= 86400:
         raise ValueError(f"seconds = {seconds:g} s: must lie in [5, 86400] s")
-    chosen = scheme_of(scheme).name
+    chosen = scheme_of(scheme)
     over = link or Link(
         delay=0.05, jitter=0.01, loss=0.05, corrupt=0.01, cut_every=20, cut_length=2
     )
     at_slave, at_network = _free_ports(2)
     words = {
-        "slave": ["--port", str(at_slave), "--scheme", chosen],
+        "slave": ["--port", str(at_slave), "--scheme", chosen.name],
         "network": [
             *("--port", str(at_network), "--slave", f"127.0.0.1:{at_slave}", "--seed", str(seed)),
-            *_options(over),
+            *link_options(over),
         ],
         "master": [
-            *("--peer", f"127.0.0.1:{at_network}", "--scheme", chosen, "--seed", str(seed)),
+            *("--peer", f"127.0.0.1:{at_network}", "--scheme", chosen.name, "--seed", str(seed)),
             *("--consent-after", str(consent_after)),
         ],
     }
     lasts = {"slave": seconds + BEFORE + AFTER, "network": seconds + BEFORE + AFTER}
     memory: dict[str, list[int]] = {name: [] for name in NAMES}
     with ExitStack() as stack:
-        running: dict[str, tuple[subprocess.Popen[bytes], IO[bytes], IO[bytes]]] = {}
+        running: dict[str, Child] = {}
         for name in NAMES:
-            out, err = stack.enter_context(TemporaryFile()), stack.enter_context(TemporaryFile())
             last = str(lasts.get(name, seconds))
-            command = [sys.executable, "-m", "ebac.cli", "teleop", name, *words[name]]
-            process = subprocess.Popen(
-                [*command, "--seconds", last, "--json"], stdout=out, stderr=err
-            )
-            stack.callback(_end, process)
-            running[name] = process, out, err
+            command = ["teleop", name, *words[name], "--seconds", last, "--json"]
+            running[name] = stack.enter_context(started(command))
             if name == "network":
                 time.sleep(BEFORE)
-        _watch({name: one[0] for name, one in running.items()}, memory, seconds, progress)
-        for process, _, _ in running.values():
-            process.wait(timeout=60)
-        texts = {name: (_text(out), _text(err)) for name, (_, out, err) in running.items()}
-        codes = {name: process.returncode for name, (process, _, _) in running.items()}
+        _watch({name: one.process for name, one in running.items()}, memory, seconds, progress)
+        for one in running.values():
+            one.process.wait(timeout=60)
+        texts = {name: (text(one.out), text(one.err)) for name, one in running.items()}
+        codes = {name: one.process.returncode for name, one in running.items()}
     failed = [f"{name} ended with {codes[name]}: {texts[name][1]}" for name in NAMES if codes[name]]
     if failed:
         return Endurance(reports={}, reported={}, memory=memory, faults=failed)
@@ -149,22 +143,28 @@ def endurance(
     reported = {name: texts[name][1].count("LINK LOST") for name in NAMES}
     found = Endurance(reports=reports, reported=reported, memory=memory, faults=[])
     events = {name: _events(texts[name][1], name) for name in NAMES}
-    return replace(found, faults=_faults(found, over), events=events)
+    return replace(found, faults=_faults(found, over, chosen), events=events)
 
 
-def _events(text: str, name: str) -> list[tuple[float, str]]:
+def _events(said: str, name: str) -> list[tuple[float, str]]:
     """Return time and words of each line such as "  12.3 s  slave: running"."""
-    lines = re.findall(rf"^ *([0-9.]+) s  {name}: (.*)$", text, flags=re.M)
+    lines = re.findall(rf"^ *([0-9.]+) s  {name}: (.*)$", said, flags=re.M)
     return [(float(t), words) for t, words in lines]
 
 
-def _faults(found: Endurance, over: Link) -> list[str]:
+def master_limit() -> float:
+    """Return the largest force of the master's motor at the handle [N]."""
+    device = Scenario().device
+    return device.force(Limits.of(device).peak_current)
+
+
+def _faults(found: Endurance, over: Link, scheme: Scheme) -> list[str]:
     """Return a sentence for each thing that is not as it has to be."""
     master, slave = found.reports["master"], found.reports["slave"]
     checks = [
-        ("largest force of the master", master["most_force_N"], MASTER_LIMIT, "N"),
+        ("largest force of the master", master["most_force_N"], master_limit(), "N"),
         ("force of the master with the link lost", master["force_when_lost_N"], CALM, "N"),
-        ("largest force of the slave", slave["most_force_N"], 30.0, "N"),
+        ("largest force of the slave", slave["most_force_N"], scheme.coupling.peak_force, "N"),
         ("way of the slave with the link lost", slave["moved_when_lost_m"], 0.0, "m"),
         ("way of the stick", master["farthest_m"], FARTHEST, "m"),
         ("way of the slave", slave["farthest_m"], FARTHEST, "m"),
@@ -240,21 +240,3 @@ def _free_ports(count: int) -> list[int]:
         for one in sockets:
             one.bind(("127.0.0.1", 0))
         return [int(one.getsockname()[1]) for one in sockets]
-
-
-def _options(link: Link) -> list[str]:
-    names = ("delay", "jitter", "loss", "reorder", "corrupt", "cut_every", "cut_length")
-    return [
-        word for name in names for word in ("--" + name.replace("_", "-"), str(getattr(link, name)))
-    ]
-
-
-def _text(file: IO[bytes]) -> str:
-    file.seek(0)
-    return file.read().decode()
-
-
-def _end(process: subprocess.Popen[bytes]) -> None:
-    if process.poll() is None:
-        process.terminate()
-        process.wait(timeout=10)

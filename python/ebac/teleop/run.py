@@ -10,20 +10,16 @@ import numpy as np
 import numpy.typing as npt
 
 from ebac import _core
-from ebac._core import Free, Hand, Link, MinimumJerk, SlaveModel
+from ebac._core import STILL_SWING, TAIL_SHARE, Free, Hand, Link, MinimumJerk, SlaveModel
 from ebac._util.arguments import number, require, shown, unknown_name, whole
 from ebac.laws import AnyLaw, CoreLaw, design
 from ebac.scenario import Scenario
 from ebac.teleop.schemes import Scheme, chosen_scheme
 
-#: Swing below which the stick is still, peak to peak [m], as everywhere in `ebac`.
-STILL = 0.25e-3
 #: A stick that swings farther does not rest [m].
 NO_REST = 5e-3
 #: Energy that a passive port may have given out for errors of the measurement, as in `ebac zwidth` [J].
 SPARE = 1e-3
-#: Share of a run at its end over which rest and swing are taken.
-TAIL = 0.3
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -65,7 +61,7 @@ class Run:
     def tail(self, name: str) -> npt.NDArray[np.float64]:
         """Return a column over the last 30 % of the run."""
         values = self[name]
-        return values[int((1 - TAIL) * len(values)) :]
+        return values[int((1 - TAIL_SHARE) * len(values)) :]
 
     @property
     def swing_m(self) -> float:
@@ -75,7 +71,7 @@ class Run:
     @property
     def still(self) -> bool:
         """The stick swings by less than 0.25 mm."""
-        return self.swing_m < STILL
+        return self.swing_m < STILL_SWING
 
     @property
     def least_master_J(self) -> float:  # noqa: N802
