@@ -2,6 +2,7 @@
 
 import itertools
 import json
+import signal
 import subprocess
 import sys
 import threading
@@ -14,6 +15,7 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from ebac import Hand, MinimumJerk, Scenario, Sine, Timing, gastroscope, teleop
+from ebac._util.child_processes import end
 from ebac.plot import plot_teleop, plot_teleop_runs
 from ebac.teleop import Link, Packet, SlaveModel
 
@@ -392,6 +394,19 @@ def test_endurance_finds_what_is_beyond_a_limit(monkeypatch: pytest.MonkeyPatch)
         assert times == sorted(times)
         assert sum("LINK LOST" in words for _, words in found.events[name]) == found.reported[name]
     assert all(len(values) > 3 for values in found.memory.values())
+
+
+def test_a_process_that_does_not_end_is_killed() -> None:
+    deaf = (
+        "import signal; signal.signal(signal.SIGTERM, signal.SIG_IGN); print(flush=True); input()"
+    )
+    with subprocess.Popen(
+        [sys.executable, "-c", deaf], stdin=subprocess.PIPE, stdout=subprocess.PIPE
+    ) as process:
+        assert process.stdout is not None
+        process.stdout.readline()
+        end(process, patience=0.1)
+        assert process.returncode == -signal.SIGKILL
 
 
 def test_memory_is_judged_after_the_start() -> None:

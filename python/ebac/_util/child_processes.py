@@ -39,12 +39,12 @@ def text(file: IO[bytes]) -> str:
     return file.read().decode()
 
 
-def end(process: subprocess.Popen[bytes]) -> None:
-    """End a process, by force where it does not within 20 s."""
+def end(process: subprocess.Popen[bytes], patience: float = 20.0) -> None:
+    """End a process, by force where it does not within `patience` [s]."""
     if process.poll() is None:
         process.terminate()
         try:
-            process.wait(timeout=20)
+            process.wait(timeout=patience)
         except subprocess.TimeoutExpired:
             process.kill()
             process.wait()
