@@ -199,7 +199,7 @@ def test_the_command_writes_figure_record_and_json(tmp_path: Path) -> None:
     row = json.loads(result.stdout)["rows"][0]
     assert row["most_section_N"] >= row["most_tip_N"] >= 0
     assert {path.name for path in out.iterdir()} >= {"gastroscopy.csv", "gastroscopy.json"}
-    assert (out / "gastroscopy.csv").read_text(encoding="utf-8").startswith("t [s],place [m]")
+    assert (out / "gastroscopy.csv").read_text(encoding="utf-8").startswith("tick,t [s],place [m]")
 
 
 def test_a_log_is_read_back_with_units_touches_and_parameters(tmp_path: Path) -> None:

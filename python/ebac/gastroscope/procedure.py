@@ -203,16 +203,8 @@ class Gastroscopy:
         path = Path(path)
         if path.suffix.lower() == ".mcap":
             write_log(self, path)
-        elif path.suffix.lower() == ".csv":
-            self._save_csv(path)
         else:
             self.trace.save(path)
-
-    def _save_csv(self, path: Path) -> None:
-        units = {name: unit for name, unit, _ in _core._procedure_fields()}
-        heading = ",".join(f"{name} [{units[name]}]" for name in self.rows)
-        table = np.column_stack(list(self.rows.values()))
-        np.savetxt(path, table, fmt="%.9g", delimiter=",", header=heading, comments="")
 
 
 def core_law(law: AnyLaw, scenario: Scenario) -> CoreLaw:
