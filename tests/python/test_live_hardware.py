@@ -17,8 +17,8 @@ from ebac import datasets
 from ebac._core import Free, Wall
 from ebac.hardware import Configuration, OpenDevice, drive_setup
 from ebac.hardware.backends import simulated
+from ebac.hardware.patience import LONGEST_STEP, patient
 from ebac.live import serve
-from ebac.live.session_parts import PATIENCE
 
 websockets = pytest.importorskip("websockets.asyncio.client")
 pytestmark = pytest.mark.real_time
@@ -38,11 +38,8 @@ def device(monkeypatch: pytest.MonkeyPatch) -> Iterator[OpenDevice]:
         drive_setup, "nodes_of", lambda known, simulate: nodes_of(known, simulate=True)
     )
     known = Configuration.from_toml(datasets.joystick_text("joystick"), name="joystick")
-    limits = known.limits.replace(
-        watch_motion=False, overruns=PATIENCE, pause=0.5, force_age=0.2
-    )  # for a busy machine
-    known = known.replace(limits=limits, silent=PATIENCE, mode="off")
-    with simulated(known, longest_step=2 * known.timing.dt) as backend:
+    known = patient(known, pause=0.5).replace(mode="off")  # for a busy machine
+    with simulated(known, longest_step=LONGEST_STEP * known.timing.dt) as backend:
         assert backend.sensor is not None
         sensor = dataclasses.replace(backend.sensor, http_port=0)
         wired = known.replace(

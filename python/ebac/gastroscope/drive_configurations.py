@@ -8,10 +8,8 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from ebac.hardware import Configuration
 
-#: A simulated device moves at most this many ticks from one tick to the next, however late its loop is.
-LONGEST_STEP = 2
-#: Ticks in a row without an answer, or too late, that simulated drives bear: their machine is not made for it.
-PATIENCE = 200
+#: Time lost by a loop on simulated drives that is a fault [s].
+PAUSE = 10.0
 
 
 def configuration(part: str) -> Configuration:
@@ -28,9 +26,3 @@ def configuration(part: str) -> Configuration:
         raise KeyError(f"no configuration of a gastroscope is called {part!r}: master, feed, bend")
     text = (files("ebac.datasets") / f"gastroscope-{part}.toml").read_text(encoding="utf-8")
     return Configuration.from_toml(text, name=f"gastroscope-{part}.toml")
-
-
-def patient(known: Configuration) -> Configuration:
-    """Return the configuration with limits of time that a machine without real time keeps; for simulated drives."""
-    limits = known.limits.replace(watch_motion=False, overruns=PATIENCE, pause=10.0, force_age=0.2)
-    return known.replace(silent=PATIENCE, limits=limits)

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from ebac import _core
 from ebac._core import FarLink, Fault, Master
 from ebac._util.reach import check_reach
-from ebac.gastroscope.drive_configurations import LONGEST_STEP, configuration, patient
+from ebac.gastroscope.drive_configurations import PAUSE, configuration
 from ebac.gastroscope.far_side import FarWorld, LinkAtWork, LinkEvent, SideReport
 from ebac.gastroscope.side_at_work import agreed, fault_of, side_report, silent
 from ebac.gastroscope.slave_on_drives import run_slave
@@ -79,6 +79,7 @@ def run_master(
         As `OpenDevice`.
     """
     from ebac.hardware import OpenDevice
+    from ebac.hardware.patience import LONGEST_STEP, patient
 
     if consent_after is not None and not simulate:
         raise ValueError(
@@ -88,7 +89,7 @@ def run_master(
     check_reach(host, peer[0], "the slave")
     chosen = configuration("master") if known is None else known
     if simulate:
-        chosen = patient(chosen)
+        chosen = patient(chosen, pause=PAUSE)
     params = FarLink(timeout=timeout, consent_after=inf if consent_after is None else consent_after)
     end = _core._master_link(params=params, dt=chosen.timing.dt, host=host, port=port, peer=peer)
     link = LinkAtWork(name="master", end=end, give_up=give_up, notify=notify)
@@ -115,4 +116,4 @@ def run_master(
     return side_report(link, [run], fault)
 
 
-__all__ = ["configuration", "patient", "run_master", "run_slave"]
+__all__ = ["configuration", "run_master", "run_slave"]

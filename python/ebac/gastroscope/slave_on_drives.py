@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from ebac import _core
 from ebac._core import FarLink, Fault, Follow, Gears, Hand, Scope, Step
-from ebac.gastroscope.drive_configurations import LONGEST_STEP, configuration, patient
+from ebac.gastroscope.drive_configurations import PAUSE, configuration
 from ebac.gastroscope.far_side import FarWorld, LinkAtWork, LinkEvent, SideReport
 from ebac.gastroscope.lumen import Lumen
 from ebac.gastroscope.side_at_work import agreed, fault_of, side_report, silent
@@ -73,6 +73,7 @@ def run_slave(
         For a sample time that differs, and as `run_master`.
     """
     from ebac.hardware import OpenDevice
+    from ebac.hardware.patience import LONGEST_STEP, patient
 
     both = [configuration("feed") if feed is None else feed]
     both += [configuration("bend") if bend is None else bend]
@@ -99,7 +100,7 @@ def run_slave(
             known_scope.bend_stiffness * geared.bend**2,
         )
         both = [
-            patient(one).replace(
+            patient(one, pause=PAUSE).replace(
                 hand=Hand(mass=0.0, damping=1.0, stiffness=k, path=Step(target=0.0))
             )
             for one, k in zip(both, stiffness, strict=True)

@@ -9,17 +9,13 @@ from ebac._core import Fault
 from ebac.hardware import Configuration, OpenDevice, Run
 from ebac.hardware.current_parameters import MOST_HELD_BACK
 from ebac.hardware.law import designed
+from ebac.hardware.patience import LONGEST_STEP, patient
 from ebac.hardware.virtual_device import VirtualDevice
 from ebac.live.choices import CONFIGURED, Choices, base_of, world_of
 from ebac.live.device_limits import DeviceLimits
 from ebac.live.intended_hand import IntendedHand
 from ebac.scenario import Environment, Scenario
 
-#: A simulated device moves for this many ticks at most from one tick to the next: on a machine that is late its time
-#: stands still.
-LONGEST_STEP = 2
-#: Ticks without an answer that are a fault of simulated drives.
-PATIENCE = 200
 #: Longest run [s].
 LONGEST = 1e5
 
@@ -58,10 +54,7 @@ class SessionParts:
                 f"take {least}, and at most {MOST_HELD_BACK} are added to them"
             )
         if not (self._lent or self.virtual):  # a machine may be late
-            limits = known.limits.replace(
-                watch_motion=False, overruns=PATIENCE, pause=0.5, force_age=0.2
-            )
-            known = known.replace(silent=PATIENCE, limits=limits)
+            known = patient(known, pause=0.5)
         return known.replace(
             timing=known.timing.replace(delay=delay),
             observer=known.observer if bool(known.observer) == observer else observer,
