@@ -4,17 +4,30 @@ import gc
 import json
 import os
 import signal
+import subprocess
+import sys
 import threading
 import time
 from collections.abc import Callable
 from pathlib import Path
+from tempfile import TemporaryFile
 
 import numpy as np
 import pytest
 
 import ebac
 from ebac import drives
-from ebac.hardware import Configuration, OpenDevice, Run, Terminated, times, under_the_law
+from ebac._core import SharedHandTarget
+from ebac._util.child_processes import Child, end, first_lines, text
+from ebac.hardware import (
+    Configuration,
+    OpenDevice,
+    Run,
+    Terminated,
+    drives_subprocess,
+    times,
+    under_the_law,
+)
 
 pytestmark = pytest.mark.real_time
 
@@ -299,3 +312,48 @@ def test_json_of_a_report_is_plain(device: OpenDevice) -> None:
     device.run(seconds=0.05)
     assert device.report is not None
     json.dumps(device.report.row())
+
+
+# --- drives in another process ---
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(sys.platform != "linux", reason="SocketCAN is Linux's")
+@pytest.mark.parametrize(
+    ("seconds", "words"),
+    [
+        (60.0, "simulated drives on vcan99: .*vcan99"),
+        (0.05, r"simulated drives on vcan99: did not start within 0\.05 s"),
+    ],
+)
+def test_drives_that_do_not_start_in_another_process_are_an_error_in_time(
+    seconds: float, words: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(drives_subprocess, "_START", seconds)
+    known = configuration()
+    aim = SharedHandTarget()
+    with (
+        pytest.raises(drives.BusError, match=words),
+        drives_subprocess.in_a_process("vcan99", known, known.scenario(seconds=10), 1, aim),
+    ):
+        pass
+
+
+def test_the_first_lines_of_a_process_are_waited_for_but_not_for_ever() -> None:
+    """Whatever it complains meanwhile."""
+    code = (
+        "import sys, time; sys.stderr.write('x' * 1_000_000)\n"
+        "print('one', flush=True); print('two', end='', flush=True); time.sleep(60)"
+    )
+    with TemporaryFile() as out, TemporaryFile() as err:
+        process = subprocess.Popen([sys.executable, "-c", code], stdout=out, stderr=err)
+        child = Child(process, out, err)
+        try:
+            assert first_lines(child, 1, 20.0) == ["one"]
+            assert first_lines(child, 2, 0.1) == ["one"]
+            process.kill()
+            process.wait()
+            assert first_lines(child, 2, 20.0) == ["one"]
+            assert len(text(err)) == 1_000_000
+        finally:
+            end(process)

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import subprocess
 import sys
+import time
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from tempfile import TemporaryFile
-from typing import IO, NamedTuple
+from typing import IO, Any, NamedTuple
 
 from ebac._core import Link
 from ebac._util.arguments import shown
@@ -22,11 +23,11 @@ class Child(NamedTuple):
 
 
 @contextmanager
-def started(words: Sequence[str]) -> Iterator[Child]:
-    """Start `ebac` with these words; it ends with the block at the latest."""
+def started(words: Sequence[str], **more: Any) -> Iterator[Child]:
+    """Start `ebac` with these words, and `more` for Popen; it ends with the block at the latest."""
     command = [sys.executable, "-m", "ebac.cli", *words]
     with TemporaryFile() as out, TemporaryFile() as err:
-        process = subprocess.Popen(command, stdout=out, stderr=err)
+        process = subprocess.Popen(command, stdout=out, stderr=err, **more)
         try:
             yield Child(process, out, err)
         finally:
@@ -37,6 +38,16 @@ def text(file: IO[bytes]) -> str:
     """Return what a process has printed so far."""
     file.seek(0)
     return file.read().decode()
+
+
+def first_lines(child: Child, count: int, seconds: float) -> list[str]:
+    """Return the first lines that a process prints; fewer where it ends, or the time [s] does."""
+    latest = time.monotonic() + seconds
+    while text(child.out).count("\n") < count and child.process.poll() is None:
+        if time.monotonic() > latest:
+            break
+        time.sleep(0.01)
+    return text(child.out).split("\n")[:-1][:count]
 
 
 def end(process: subprocess.Popen[bytes], patience: float = 20.0) -> None:

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from ebac._core import Link
-from ebac._util.child_processes import Child, end, link_options, started, text
+from ebac._util.child_processes import Child, end, first_lines, link_options, started, text
 
 NAMES = ("slave", "network", "master")
 #: The longest a process may take to start [s].
@@ -167,11 +167,7 @@ def _faults(
 
 def _announced(name: str, child: Child) -> int:
     """Return the UDP port that a process prints when it is ready."""
-    latest = time.monotonic() + _START
-    while not (line := text(child.out)).endswith("\n") and child.process.poll() is None:
-        if time.monotonic() > latest:
-            break
-        time.sleep(0.05)
+    line = "".join(first_lines(child, 1, _START))
     try:
         return int(json.loads(line)["port"])
     except (ValueError, KeyError):

@@ -5,14 +5,14 @@ from __future__ import annotations
 import json
 import re
 import subprocess
-import sys
 import tempfile
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ebac._core import Free
+from ebac._util.child_processes import first_lines, started, text
 from ebac._util.foreign_worlds import foreign
 from ebac.drives.errors import BusError
 
@@ -22,8 +22,8 @@ if TYPE_CHECKING:
     from ebac.scenario import Scenario
     from ebac.sensor import SensorConfig
 
-#: How long it may take to put its drives on a bus [s].
-_START = 60.0
+#: How long it may take to put its drives on a bus [s]; an emulated core is slow.
+_START = 180.0
 
 
 @contextmanager
@@ -47,7 +47,7 @@ def in_a_process(
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder) / "scenario.toml"
         _without_engine(scenario).save(file)
-        command = [sys.executable, "-m", "ebac.cli", "drive", "simulate"]
+        command = ["drive", "simulate"]
         command += ["--channel", channel, "--scenario", str(file), "--first", str(first)]
         command += ["--realtime", configuration.mode, "--beside", str(loop.priority)]
         command += ["--wait-for-power", "--until-eof", "--aim", str(aim.descriptor)]
@@ -59,32 +59,29 @@ def in_a_process(
             counts = [f"{sensor.counts_per_force!r}", f"{sensor.counts_per_torque!r}"]
             command += ["--sensor", "--sensor-counts", *counts]
         with (
-            subprocess.Popen(
+            started(
                 command,
                 stdin=subprocess.PIPE,
-                stdout=subprocess.PIPE,
-                stderr=subprocess.PIPE,
-                text=True,
                 pass_fds=[aim.descriptor],
                 start_new_session=True,  # Ctrl-C is for the loop: its drives must be there until it has stopped
-            ) as process
+            ) as child
         ):
             try:
-                assert process.stdout is not None
-                said, granted = process.stdout.readline(), process.stdout.readline()
-                if not granted:
-                    _, output = process.communicate(timeout=_START)
-                    raise BusError(f"simulated drives on {channel}: {' '.join(output.split())}")
+                lines = first_lines(child, 2, _START)
+                if len(lines) < 2:
+                    message = text(child.err).split()
+                    if child.process.poll() is None:
+                        message = [f"did not start within {_START:g} s", *message]
+                    raise BusError(f"simulated drives on {channel}: {' '.join(message)}")
+                said, granted = lines
                 port = re.search(r"force sensor at 127\.0\.0\.1:(\d+)", said)
                 where = _emulated(sensor, int(port[1])) if sensor and port else None
                 yield where, [Grant(**one) for one in json.loads(granted)]
             finally:
-                assert process.stdin is not None
-                process.stdin.close()
-                try:
-                    process.wait(timeout=5)
-                except subprocess.TimeoutExpired:
-                    process.kill()
+                assert child.process.stdin is not None
+                child.process.stdin.close()
+                with suppress(subprocess.TimeoutExpired):
+                    child.process.wait(timeout=5)
 
 
 def _without_engine(scenario: Scenario) -> Scenario:
