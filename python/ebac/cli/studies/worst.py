@@ -62,9 +62,9 @@ def worst(
     threads: options.Threads = None,
     as_json: output.AsJson = False,
 ) -> None:
-    """Find the hand that extracts the most energy from a controller.
+    """Find the hand that draws the most energy from a controller.
 
-    A simulation. The energy extracted is minus the least energy of the port. Seven families of hands are searched:
+    A simulation. The energy drawn is minus the least energy of the port. Seven families of hands are searched:
     random hands, generations bred from the best, then NLopt. A hand that pulls harder than allowed does not count.
 
     **Examples**
