@@ -1,4 +1,4 @@
-"""Names of the Python package are terms of the field: house words do not come back."""
+"""Names of the Python package are terms of the field, and no paragraph of the pages is a wall of text."""
 
 import re
 from pathlib import Path
@@ -6,6 +6,9 @@ from pathlib import Path
 import ebac
 
 PACKAGE = Path(ebac.__file__).parent
+ROOT = Path(__file__).parents[2]
+#: Words of a paragraph or of an item of a list, at most: a longer one is read by nobody.
+LONGEST = 150
 #: Files that were renamed; a name of this list is no name of a file again.
 FILES = {
     *(
@@ -52,3 +55,14 @@ def test_no_house_word_is_left_in_the_package() -> None:
             if WORDS.search(line) or (TOLD.search(line) and not KEPT.search(line)):
                 found.append(f"{path.relative_to(PACKAGE)}: {line.strip()}")
     assert not found
+
+
+def test_no_paragraph_is_a_wall_of_text() -> None:
+    long = []
+    for page in (ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))):
+        no_prose = r"^```.*?^```|^ *\|.*?$|^<!--.*?-->"
+        text = re.sub(no_prose, "", page.read_text(encoding="utf-8"), flags=re.M | re.S)
+        for paragraph in re.split(r"\n\s*\n|\n(?=\s*(?:[*-]|\d+\.) )", text):
+            if (words := len(paragraph.split())) > LONGEST:
+                long.append(f"{page.relative_to(ROOT)}: {words} words: {paragraph.strip()[:60]}")
+    assert not long, "\n".join(long)
