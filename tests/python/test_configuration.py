@@ -57,6 +57,7 @@ def test_an_empty_one_is_the_paper_s_joystick() -> None:
         ("bus = 3\n", 1, "bus = 3: must be a table"),
         ("[device.kinematics]\ntype = 'Linear'\naxes = 1\n", None, "2 drives, the device 1 axes"),
         ("[device.motor]\ntorque_constant = 0.06\n", None, "motor.torque_constant = 0.0538"),
+        ("[device.motor]\ntorque_constant = 0.06\n", None, "node 1 of the built-in joystick has"),
         ("[sensor]\nhost = '10.0.0.1'\nport = 70000\n", 3, "port = 70000"),
         ("[sensor]\ncounts_per_forc = 1.0\n", 2, "did you mean 'counts_per_force'"),
         (

@@ -19,6 +19,7 @@ from ebac import drives
 from ebac.cli import app
 from ebac.drives import bus as bus_module
 
+EXAMPLES = Path(__file__).parents[2] / "examples"
 Run = Callable[..., Any]
 CHANGE = ["node", "object", "name", "now", "wanted", "unit", "why"]
 COMMANDS = (
@@ -132,7 +133,7 @@ def test_plan_apply_verify_restore(drive: Run, tmp_path: Path) -> None:
     assert [node["node"] for node in applied["nodes"]] == [1, 2]
     assert all(Path(node["backup"]).is_file() for node in applied["nodes"])
     assert all(Path(node["backup"]).is_relative_to(tmp_path) for node in applied["nodes"])
-    assert "Verified" in drive("verify").stdout
+    assert "Verified: the drives hold the built-in joystick." in drive("verify").stdout
     assert drive("verify", "--json")["rows"] == []
     assert "nothing was written" in drive("apply", "--yes").stdout
 
@@ -158,6 +159,27 @@ def test_one_node_of_a_network_and_a_profile_of_ones_own(drive: Run, tmp_path: P
     mine.write_text("[limits]\nrated_torque = -1\n", encoding="utf-8")
     message = said(drive("plan", str(mine), "-n", "1", code=2))
     assert "line 2: limits.rated_torque = -1 N m: must lie in [0.001, 1000] N m" in message
+
+
+@pytest.mark.parametrize("command", ["plan", "verify", "apply", "timing"])
+def test_a_configuration_of_a_run_is_not_taken_for_a_network_file(
+    drive: Run, tmp_path: Path, command: str
+) -> None:
+    (tmp_path / "net.toml").write_text("[[node]]\nid = 1\nprofile = 'joystick'\n", encoding="utf-8")
+    example = (EXAMPLES / "joystick.toml").read_text(encoding="utf-8")
+    mine = tmp_path / "my-joystick.toml"
+    for names, text in [
+        ("joystick", "[device]\npreset = 'reference'\n"),
+        ("joystick", example),
+        (str(tmp_path / "net.toml"), example.replace('"joystick"', '"net.toml"')),
+    ]:
+        mine.write_text(text, encoding="utf-8")
+        message = said(drive(command, str(mine), code=2)).replace(" ", "")
+        wanted = (
+            f"{mine}: is a configuration of `ebac run`; give the network file or profile of its drives, "
+            f"which it names in bus.drives: {names}"
+        )
+        assert message.endswith(wanted.replace(" ", "")), message
 
 
 @pytest.mark.parametrize("command", ["apply", "restore", "enable"])

@@ -13,7 +13,7 @@ from ebac.drives.eds import Sheet
 from ebac.drives.errors import ProfileError, lacks, says_absent
 from ebac.drives.load import BITRATES, BusLoad, Traffic, bus_load
 from ebac.drives.pdo import sync_period
-from ebac.drives.profile import Profile, read_profile, read_source
+from ebac.drives.profile import Profile, builtin, read_profile, read_source
 from ebac.drives.toml_positions import Source
 
 
@@ -140,9 +140,11 @@ def load(name: str | Path, *, nodes: Sequence[int] = (), bitrate: int | None = N
     for node in nodes:
         if not 1 <= node <= 127:
             raise ProfileError(f"node = {node}: must lie in [1, 127]")
+    called = f"the built-in {name}" if str(name) in builtin() else source.name
     if "node" in source.table:
-        network = _network(source)
+        network = _network(source, called)
         return _only(network, nodes)
+    _refuse_configuration(source)
     profile = read_profile(source)
     if not nodes:
         raise ProfileError(
@@ -150,7 +152,21 @@ def load(name: str | Path, *, nodes: Sequence[int] = (), bitrate: int | None = N
             "file with [[node]] tables, see the profile joystick"
         )
     chosen = tuple(Node(id=node, profile=profile) for node in dict.fromkeys(nodes))
-    return Network(name=source.name, nodes=chosen, bitrate=bitrate or 1_000_000)
+    return Network(name=called, nodes=chosen, bitrate=bitrate or 1_000_000)
+
+
+def _refuse_configuration(source: Source) -> None:
+    """Refuse the configuration of a run, and name the file of its drives."""
+    bus = source.table.get("bus")
+    found = bus.get("drives") if isinstance(bus, Mapping) else None
+    if found is None and {"device", "environment", "law"}.isdisjoint(source.table):
+        return
+    found = "joystick" if found is None else str(found)
+    beside = Path(source.name).parent / found
+    raise ProfileError(
+        f"{source.name}: is a configuration of `ebac run`; give the network file or profile of its drives, "
+        f"which it names in bus.drives: {beside if beside.is_file() else found}"
+    )
 
 
 def _only(network: Network, nodes: Sequence[int]) -> Network:
@@ -171,7 +187,7 @@ def _only(network: Network, nodes: Sequence[int]) -> Network:
     )
 
 
-def _network(source: Source) -> Network:
+def _network(source: Source, called: str) -> Network:
     known = ["about", "bus", "node"]
     for title in source.table:
         if title not in known:
@@ -192,7 +208,7 @@ def _network(source: Source) -> Network:
     if not isinstance(others, list):
         raise source.refuse(("bus", "other"), "bus.other: must be written [[bus.other]]")
     return Network(
-        name=source.name,
+        name=called,
         nodes=_nodes(source),
         bitrate=int(bitrate),
         others=tuple(_other(source, i, item) for i, item in enumerate(others)),
