@@ -68,6 +68,21 @@ def test_an_empty_one_is_the_paper_s_joystick() -> None:
         ("[signs]\nencoder = [1, 0]\n", 2, "signs.encoder = [1, 0]: must be a list of 1 or -1"),
         ("[signs]\nmotors = [1, 1]\n", 2, "did you mean 'motor'"),
         ("[run\n", None, "not a TOML document"),
+        (
+            "[limits]\nspeed = 1\n[limits]\nedge = 0.05\n",
+            None,
+            "the table [limits] is there twice (at line 3",
+        ),
+        (
+            "[simulated.hand]\n[simulated.hand]\n",
+            None,
+            "not a TOML document: the table [simulated.hand] is there twice (at line 2",
+        ),
+        (
+            "[environment]\ntype = 'Free'\nstiffness = 1e3\n",
+            None,
+            "Free has no parameter 'stiffness'; it has none: leave it out",
+        ),
     ],
 )
 def test_what_cannot_be_is_refused_with_its_line(text: str, line: int | None, words: str) -> None:

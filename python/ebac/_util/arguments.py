@@ -198,7 +198,8 @@ def refuse_unknown(
             continue
         better = hint(name) or ELSEWHERE.get((what, name), "")
         more = f": {better}" if better else did_you_mean(name, names)
-        raise TypeError(f"{what} has no parameter {name!r}{more}; it has: {', '.join(names)}")
+        has = f"it has: {', '.join(names)}" if names else "it has none: leave it out"
+        raise TypeError(f"{what} has no parameter {name!r}{more}; {has}")
 
 
 def shown(value: Any) -> str:

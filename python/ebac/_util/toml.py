@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import tomllib
 from typing import Any
 
@@ -18,3 +19,9 @@ def parsed(text: str) -> dict[str, Any]:
         return tomllib.loads(text)
     except RecursionError:
         raise ValueError("lists or tables within one another too deeply") from None
+    except tomllib.TOMLDecodeError as error:
+        twice = re.match(r"Cannot declare \((.*)\) twice(.*)", str(error))
+        if twice is None:
+            raise
+        table = ".".join(re.findall("'([^']*)'", twice[1]))
+        raise ValueError(f"the table [{table}] is there twice{twice[2]}; merge the two") from None
