@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 import ebac
+from ebac.metrics.wall_contact import moves_with_hand
 
 
 def synthetic(x: NDArray[np.float64], dt: float = 1e-3, **more: NDArray[Any]) -> ebac.Trace:
@@ -353,6 +354,45 @@ def test_the_reference_rests_ideally_at_the_figure_of_the_theory() -> None:
 
 
 # --- the reference scenario, issue by issue ---
+
+
+@pytest.mark.parametrize(
+    ("law", "stiffness", "path", "verdict"),
+    [
+        ("ebac", 1500, ebac.Sine(centre=0.03, amplitude=0.005, frequency=5), "moves with the hand"),
+        ("ebac", 1500, ebac.MinimumJerk(target=0.05, at=0.5, duration=1.4), "moves with the hand"),
+        ("direct", 10e3, ebac.Sine(centre=0.03, amplitude=0.005, frequency=5), "swings"),
+        ("direct", 10e3, ebac.MinimumJerk(target=0.05, at=0.5, duration=1.4), "swings"),
+    ],
+)
+def test_a_handle_that_follows_its_hand_is_in_no_limit_cycle(
+    law: str, stiffness: float, path: Any, verdict: str
+) -> None:
+    scenario = ebac.Scenario(
+        hand=ebac.Hand(path=path), environment=ebac.Wall(stiffness=stiffness), seconds=2
+    )
+    trace = ebac.simulate(scenario, law)
+    for truth in (True, False):
+        met = ebac.contact(trace, truth=truth)
+        assert met.verdict == verdict
+        assert met.swing_m > 0.25e-3
+        assert ("limit cycle         none" in str(met)) == (verdict != "swings")
+
+
+def test_tremor_and_a_hand_that_has_let_go_excuse_no_swing() -> None:
+    shaking = ebac.Hand(target=0.03, tremor_amplitude=0.01, tremor_frequency=5)
+    scenario = ebac.Scenario(
+        hand=shaking, environment=ebac.Wall(stiffness=1500), observer=False, seconds=2
+    )
+    assert ebac.contact(ebac.simulate(scenario, "ebac")).verdict == "swings"
+    moving = ebac.Hand(path=ebac.Sine(amplitude=0.01, frequency=1))
+    made = synthetic(0.001 * np.sin(20 * T))
+    for release, follows in ((1.0, False), (np.inf, True)):
+        own = scenario.replace(hand=moving.replace(release_at=release))
+        trace = ebac.Trace(
+            data={name: made[name] for name in made}, columns=made.columns, axes=1, scenario=own
+        )
+        assert moves_with_hand(trace) is follows
 
 
 def test_tca_swings_by_five_millimetres_or_more(run: Any) -> None:

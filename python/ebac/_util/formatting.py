@@ -213,7 +213,8 @@ def _material(material: Any) -> str:
 def verdict(contact: Contact) -> str:
     """Return what a contact came to: "exact and quiet", "swings", "quiet, too deep by 5.63 mm".
 
-    One that is still and not quiet has a force that is not: "exact, force not quiet". "no contact" where
+    One that is still and not quiet has a force that is not: "exact, force not quiet". "moves with the hand" where the
+    hand's target has not come to rest either. "no contact" where
     the virtual world never acted, "left the surface: no contact at rest" where it acts no more at rest, "too short to
     judge" for less than half a second.
     """
@@ -224,7 +225,7 @@ def verdict(contact: Contact) -> str:
     if contact.touched_at_rest is False:
         return "left the surface: no contact at rest"
     if not contact.still:
-        return "swings"
+        return "moves with the hand" if contact.with_hand else "swings"
     deviation = contact.deviation_m
     if deviation is None:
         return "quiet" if contact.quiet else "force not quiet"

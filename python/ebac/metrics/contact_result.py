@@ -9,6 +9,7 @@ from ebac._util import formatting
 #: Numbers of a contact that are no keys of `ebac wall --json`.
 MORE = (
     "count_m", "allowed_m", "most_drawn_J", "force_step_N", "most_pull_N", "rest_power_W", "seconds", "touched",
+    "with_hand",
 )  # fmt: skip
 #: What a printed contact shows: label, attribute, unit, what to print where there is none: with nothing, no line.
 LINES = (
@@ -27,7 +28,7 @@ LINES = (
     ("force jumps", "jumps", "1", "-"),
     ("vibration/threshold", "perceived", "1", "-"),
     ("deepest", "peak_m", "m", "-"),
-    ("limit cycle", "limit_cycle_Hz", "Hz", "none"),
+    ("limit cycle", "limit_cycle", "Hz", "none"),
     ("least port energy", "least_energy_J", "J", "-"),
     ("drawn", "drawn_J", "J", ""),
     ("most energy drawn", "most_drawn_J", "J", "-"),
@@ -110,6 +111,9 @@ class Contact:
     touched_at_rest : bool or None
         Whether it acted in the last half second of the run, or in its last 30 % where that is shorter: False where the
         handle left the surface, and rest, swing and force are those of free air. None where that is not known.
+    with_hand : bool
+        Whether it swings because the target of the simulated hand still moves over the last 30 %: there the handle
+        goes no longer a way, to and fro, than the target on all axes, tremor apart. Such a swing is no limit cycle.
 
     Notes
     -----
@@ -164,10 +168,11 @@ class Contact:
     touched: bool | None = None
     touched_at_rest: bool | None = None
     drawn_J: float | None = None
+    with_hand: bool = False
 
     @property
     def verdict(self) -> str:
-        """The verdict in words: "exact and quiet", "swings", "no contact", "too short to judge"."""
+        """The verdict in words: "exact and quiet", "swings", "moves with the hand", "no contact"."""
         return formatting.verdict(self)
 
     @property
@@ -211,6 +216,11 @@ class Contact:
     def deviation_m(self) -> float | None:
         """Rest minus ideal [m]; positive is too deep."""
         return None if self.ideal_m is None else self.rest_m - self.ideal_m
+
+    @property
+    def limit_cycle(self) -> float | None:
+        """Frequency of a limit cycle [Hz]: that of the swing, None where the handle moves with the hand."""
+        return None if self.with_hand else self.limit_cycle_Hz
 
     @property
     def exact(self) -> bool | None:

@@ -107,6 +107,7 @@ def contact(trace: Trace, *, axis: int = 0, truth: bool = True) -> Contact:
     }
     known["jumps"] = int(known["jumps"])
     scenario = trace.scenario
+    simulated = scenario is not None and "true.x" in trace
     return Contact(
         law=trace.law,
         ideal_m=ideal_rest(scenario) if scenario and axis == 0 else None,
@@ -114,10 +115,30 @@ def contact(trace: Trace, *, axis: int = 0, truth: bool = True) -> Contact:
         allowed_m=allowed_deviation(scenario) if scenario else None,
         seconds=float(trace["t"][-1] - trace["t"][0]),
         drawn_J=drawn(trace) if with_energy and scenario and _moves(trace) else None,
+        with_hand=simulated and not known["still"] and moves_with_hand(trace, axis),
         **_touched(trace, axis),
         **{column: known[name] for column, name in COLUMNS.items()},
         **{name: known[name] for name in FLAGS},
     )
+
+
+def moves_with_hand(trace: Trace, axis: int = 0) -> bool:
+    """Return whether the handle goes no longer a way in the tail than the target of the scenario's hand, tremor apart.
+
+    A limit cycle goes to and fro much farther than a hand that still moves.
+    """
+    if trace.scenario is None:
+        return False
+    t, hand = trace["t"], trace.scenario.hand.replace(tremor_amplitude=0.0)
+    tail = t >= t[-1] - TAIL_SHARE * (t[-1] - t[0])
+    held = t[tail & (t < hand.release_at)]
+    targets = [[hand.target(now, i) for i in range(trace.axes)] for now in held]
+    x = trace.axis("true.x" if "true.x" in trace else "x", axis)[tail]
+    return len(held) > 0 and _way(x) <= _way(np.array(targets))
+
+
+def _way(x: NDArray[np.float64]) -> float:
+    return float(np.abs(np.diff(x, axis=0)).sum())
 
 
 def _moves(trace: Trace) -> bool:

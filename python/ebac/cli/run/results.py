@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import tomllib
 import warnings
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Self
 
@@ -118,9 +118,13 @@ class Result:
         """Measure a run; `changed` on its way, or with an engine, it has no simulation beside it."""
         from ebac.hardware import times, under_the_law
         from ebac.metrics import FEWEST_ROWS, contact, observer_use
+        from ebac.metrics.wall_contact import moves_with_hand
 
         part = under_the_law(trace)
         measured = len(part) >= FEWEST_ROWS and fault is None
+        met = contact(part) if measured else None
+        if met is not None and simulated and not met.still:
+            met = replace(met, with_hand=moves_with_hand(part))
         whole = report.ended_by == "time" and not changed and process is None
         seconds = report.ticks * configuration.timing.dt
         return cls(
@@ -129,7 +133,7 @@ class Result:
             report=report,
             place=place,
             simulated=simulated,
-            contact=contact(part) if measured else None,
+            contact=met,
             expected=_expected(configuration) if measured and whole and simulated else None,
             observer=observer_use(part),
             times=times(part) if len(part) else None,

@@ -33,7 +33,7 @@ LINES = (
     ("force jumps", "jumps", "1", "-"),
     ("vibration/threshold", "perceived", "1", "-"),
     ("deepest", "peak_m", "m", "-"),
-    ("limit cycle", "limit_cycle_Hz", "Hz", "none"),
+    ("limit cycle", "limit_cycle", "Hz", "none"),
     ("least energy", "least_energy_J", "J", "-"),
     ("drawn", "drawn_J", "J", ""),
     ("force limited", "clamped_share", "share", "-"),
@@ -225,6 +225,6 @@ def _lines(lines: Lines, columns: Mapping[str, object]) -> Table:
 def _verdict(contact: Contact) -> str:
     from ebac._util import formatting
 
-    words = re.sub(r" (?=by|and|not quiet)|(?<=[,:]) ", "\n", formatting.verdict(contact))
+    words = re.sub(r" (?=by|with|and|not quiet)|(?<=[,:]) ", "\n", formatting.verdict(contact))
     good = contact.quiet and contact.exact is not False and contact.touched_at_rest is not False
     return f"[{'green' if good else 'yellow' if contact.still else 'red'}]{words}[/]"
