@@ -279,6 +279,22 @@ def test_long_names_of_laws_leave_room_for_the_table(
 # --- every other figure ---
 
 
+def test_what_lies_in_the_grey_area_is_exact_and_still_and_not_always_good() -> None:
+    hands = Operators.grid()[:2]
+    found = study(hands, ["tca-damped"], ["d1K10"], base=ebac.Scenario(seconds=3.0))
+    _, (_, scatter) = plot_study(found)
+    [ax] = scatter.axes
+    assert ax.get_title(loc="left") == "0 of 2 good"
+    [grey] = ax.collections
+    box = grey.get_datalim(ax.transData)
+    [rings] = [line for line in ax.lines if line.get_markerfacecolor() == "none"]
+    assert len(rings.get_xydata()) == found.columns["exact_and_still"].sum() > 0
+    assert all(box.contains(x, y) for x, y in rings.get_xydata())
+    title = " ".join(scatter.get_suptitle().split())
+    assert "Grey area: exact and still" in title
+    assert "Ring: exact and still, but its force is not quiet" in title
+
+
 @pytest.mark.slow
 def test_every_study_has_a_title_that_says_simulated() -> None:
     few = Operators.sample(3, seed=1)

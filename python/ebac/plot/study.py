@@ -92,9 +92,9 @@ def _scatter(study: Study, conditions: list[str], *, narrow: bool) -> Picture:
     device, _, *rest = formatting.describe(study.scenarios[0]).split("; ")
     figure.suptitle(
         f"How {len(study.operators)} hands come to rest, one mark each, simulated: {device}; {rest[1]}\n"
-        "Grey area: a good hand, which rests within 2 encoder counts of the ideal, or as far as friction holds it, "
-        "and swings by less than 0.25 mm\nRing: its force is not quiet. Cross: not good by position, the worst with "
-        "their row in the population (#)",
+        "Grey area: exact and still, which is a rest within 2 encoder counts of the ideal, or as far as friction "
+        "holds it, and a swing of less than 0.25 mm\nDot: a good hand. Ring: exact and still, but its force is not "
+        "quiet. Cross: not exact and still, the worst with their row in the population (#)",
         fontsize="medium",
     )
     return figure
