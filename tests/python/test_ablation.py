@@ -238,6 +238,7 @@ def test_the_command_writes_tables_and_a_figure(hands_csv: Path) -> None:
     shown = " ".join(command(*words).stdout.split())
     assert "injection off (virtual damping while in contact): worse" in shown
     assert "observer off, guard off: worse" in shown
+    assert "Red, in the figure orange: worse than ebac as it is; green, in the figure blue" in shown
     out = hands_csv.parent / "out"
     names = {file.name for file in out.iterdir()} - {"sweep"}
     assert names == {"ablation.csv", "ablation.json", "ablation.png", "population.csv", "runs.csv"}
