@@ -1,6 +1,8 @@
 """The parts of a device, from encoder to drive."""
 
 import math
+import re
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -555,3 +557,29 @@ def test_a_plant_refuses_an_axis_it_does_not_have_and_a_tick_that_is_none(plant:
     for tick in (0.0, -1.0, float("nan")):
         with pytest.raises(ValueError, match=r"Timing\.dt = "):
             plant(device=ebac.Device(), hand=ebac.Hand(), tick=tick)
+
+
+# --- in a file ---
+
+
+def test_the_page_has_every_key_of_a_device_with_unit_and_default() -> None:
+    page = Path(__file__).parents[2] / "docs" / "how-to" / "describe_your_device.md"
+    shown: dict[str, dict[str, tuple[str, str]]] = {}
+    part = ""
+    for line in page.read_text(encoding="utf-8").splitlines():
+        cells = [cell.strip() for cell in line.strip("|").split("|")]
+        if len(cells) != 5 or not (key := re.fullmatch(r"`(\w+)`", cells[1])):
+            continue
+        if name := re.match(r"`\[device\.(\w+)\]`", cells[0]):
+            part = name[1]
+        shown.setdefault(part, {})[key[1]] = (cells[2], cells[3])
+    failures = {"stops_at", "resumes_at", "repeats", "disconnects"}
+    device = ebac.Device()
+    parts = {name: value for name, value in device.as_dict().items() if name in shown}
+    assert parts.keys() == device.as_dict().keys() - {"velocity", "compensation"}
+    for name, value in parts.items():
+        assert shown[name] == {
+            f.name: (f.unit, str(f.default).lower() if f.default is False else f"{f.default:.4g}")
+            for f in type(value).fields()
+            if f.name not in failures
+        }, name
