@@ -278,6 +278,22 @@ def test_a_folder_of_results(hands_csv: Path, few: Study) -> None:
     assert command(*words, "--resume").stdout == shown
 
 
+def test_one_failure_of_each_law_is_shown_and_its_trace_kept(hands_csv: Path) -> None:
+    words = ("--population", hands_csv, "-l", "tca,tca-damped,ebac", "-c", "d1K10,d0K10")
+    shown = command(*words, "--out", "out").stdout
+    told = [line for line in shown.splitlines() if " not good, " in line]
+    assert len(told) == len({line.split(":")[0] for line in told}) > 1
+    with (hands_csv.parent / "out" / "failures.csv").open() as file:
+        rows = list(csv.DictReader(file))
+    kinds = {(row["law"], row["condition"]) for row in rows}
+    assert {line.split(":")[0] for line in told} == {", ".join(kind) for kind in kinds}
+    of_tca = [row for row in rows if (row["law"], row["condition"]) == ("tca-damped", "d1K10")]
+    assert f"tca-damped, d1K10: {len(of_tca)} hands not good, the first #1 (" in shown
+    assert f"failures.csv names all {len(rows)}." in shown
+    kept = [file.name for file in (hands_csv.parent / "out").glob("failure-*.npz")]
+    assert len(kept) == len(kinds)
+
+
 def test_resume_continues_in_a_folder_of_runs_only(tmp_path: Path, hands_csv: Path) -> None:
     mine = tmp_path / "mine"
     mine.mkdir()

@@ -62,14 +62,15 @@ def study(
     threads: options.Threads = None,
     resume: Annotated[bool, options.resume("study")] = False,
     traces: Annotated[
-        int,
+        int | None,
         typer.Option(
             help="Largest number of failures whose traces are kept.",
+            show_default="one of each law and condition, 20 at most",
             min=0,
             max=10_000,
             rich_help_panel=PANEL,
         ),
-    ] = 20,
+    ] = None,
     as_json: output.AsJson = False,
 ) -> None:
     """Simulate laws with many different hands and conditions.

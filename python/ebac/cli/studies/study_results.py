@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections import defaultdict
+from collections import Counter, defaultdict
 from itertools import chain, zip_longest
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -15,8 +15,9 @@ if TYPE_CHECKING:
 
 #: Folder of the sweep's bundles inside the results, for `--resume`.
 BUNDLES = "sweep"
-#: Failures named on the screen; the files name all.
-SHOWN = 12
+#: Failures named on the screen, and traces kept where no number is given: one of each law and condition, at most so
+#: many; the files name all.
+SHOWN, KEPT = 12, 20
 #: Columns of failures.csv.
 FAILURES = ("law", "condition", "operator", "hand", "why")
 
@@ -26,11 +27,12 @@ def document(study: Study) -> str:
     return output.document("study", [row.row() for row in study.rows])
 
 
-def fill(draft: Path, study: Study, traces: int, to: ResultOptions, *, quiet: bool) -> None:
-    """Write tables, figures and traces of failures into a draft of the results."""
+def fill(draft: Path, study: Study, traces: int | None, to: ResultOptions, *, quiet: bool) -> None:
+    """Write tables, figures and so many traces of failures into a draft of the results."""
     from ebac.plot import plot_study
 
-    kept = spread(study.failures, traces)
+    most = min(KEPT, len(_counted(study.failures))) if traces is None else traces
+    kept = spread(study.failures, most)
     with output.progress(3 + len(kept), quiet=quiet) as step:
         step("writing tables")
         output.csv_table(draft / "study.csv", [row.row() for row in study.rows])
@@ -113,8 +115,17 @@ def _show_failures(failures: list[Failure]) -> None:
     if not failures:
         output.say("Every hand is good.", style="green")
         return
-    for failure in spread(failures, SHOWN):
-        where = f"{failure.law}, {failure.condition}, #{failure.operator}"
-        output.say(f"{where} ({failure.name}): {failure.why}")
-    if len(failures) > SHOWN:
-        output.say(f"... {len(failures)} failures in all; failures.csv names them.")
+    counted = _counted(failures)
+    for failure in spread(failures, min(SHOWN, len(counted))):
+        count = counted[failure.law, failure.condition]
+        hand = f"{'the first ' if count > 1 else ''}#{failure.operator} ({failure.name})"
+        output.say(
+            f"{failure.law}, {failure.condition}: {output.plural(count, 'hand')} not good, {hand}: {failure.why}"
+        )
+    if len(failures) > min(SHOWN, len(counted)):
+        output.say(f"failures.csv names all {len(failures)}.")
+
+
+def _counted(failures: list[Failure]) -> Counter[tuple[str, str]]:
+    """Return how many failures there are of each law and condition."""
+    return Counter((failure.law, failure.condition) for failure in failures)
