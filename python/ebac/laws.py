@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import inspect
 import json
 from collections.abc import Mapping, Sequence
 from functools import cache
@@ -174,7 +175,7 @@ def design(
     ValueError
         For a parameter out of range.
     TypeError
-        For something that is no law.
+        For something that is no law, or whose `step` or `reset` takes other arguments.
     """
     if isinstance(law, Variant):
         return design(law.law, device, timing, **{**law.changes, **changes})
@@ -193,8 +194,27 @@ def design(
         return law.design(device, timing, **changes)
     if changes:
         raise TypeError(f"{law!r} is finished: make it with {', '.join(changes)}, or give its name")
-    if not isinstance(law, PythonLaw):
+    return checked(law)
+
+
+def checked(law: Any) -> CoreLaw | PythonLaw:
+    """Return a finished law. Raises TypeError unless it has step(port) and reset()."""
+    if not isinstance(law, PythonLaw) or isinstance(law, type):
         raise TypeError(f"{law!r} is no law: it needs step(port) -> float and reset()")
+    if isinstance(law, CoreLaw):
+        return law
+    for name, given, what in (("step", ["port"], "the port of one axis"), ("reset", [], "nothing")):
+        try:
+            takes = inspect.signature(getattr(law, name))
+        except (TypeError, ValueError):  # not callable, or without a signature
+            continue
+        try:
+            takes.bind(*given)
+        except TypeError:
+            raise TypeError(
+                f"{type(law).__name__}.{name}({', '.join(takes.parameters)}) is called with {what}: write it as "
+                f"{name}({', '.join(['self', *given])})"
+            ) from None
     return law
 
 

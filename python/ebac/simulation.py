@@ -56,6 +56,8 @@ class LoopFault(RuntimeError):
         elif world is not None:
             what = getattr(trace.scenario and trace.scenario.environment, "what", "the world")
             cause = f"{what} raised {type(world).__name__}: {world}"
+        elif fault is _core.Fault.LAW_NOT_FINITE:
+            cause = f"{cause}: {trace.law or 'the law'} gave no finite force"
         super().__init__(
             f"fault {int(fault)} ({cause}) in tick {trace['tick'][row]}, t = {trace['t'][row]:.6g} s: "
             "the command was set to zero and the loop stopped; see .trace for the rows before it"

@@ -124,6 +124,7 @@ def test_a_law_that_gives_no_number_ends_in_a_latched_fault(
     error = fault_of(scenario, After(50, value))
     assert_stopped(error, ebac.Fault.LAW_NOT_FINITE, 50)
     assert (error.trace["f_cmd"][:50] == 1).all()
+    assert "fault 4 (law not finite: After gave no finite force) in tick 50" in str(error)
 
 
 def test_a_torque_that_overflows_ends_in_a_latched_fault() -> None:
@@ -153,6 +154,41 @@ def test_what_the_reset_of_a_python_law_raises_comes_out_as_it_was() -> None:
 
     with pytest.raises(LookupError, match="no reset"):
         ebac.simulate(ebac.Scenario(), NoReset(10, 0.0))
+
+
+class NoPort(After):
+    def step(self) -> float:  # type: ignore[override]
+        return 0.0
+
+
+class TwoPorts(After):
+    def step(self, port: ebac.Port, other: ebac.Port) -> float:  # type: ignore[override]
+        return 0.0
+
+
+class ResetsTo(After):
+    def reset(self, tick: int) -> None:  # type: ignore[override]
+        self.tick = tick
+
+
+@pytest.mark.parametrize(
+    ("law", "message"),
+    [
+        (NoPort, "NoPort.step() is called with the port of one axis: write it as step(self, port)"),
+        (
+            TwoPorts,
+            "TwoPorts.step(port, other) is called with the port of one axis: write it as step(self, port)",
+        ),
+        (ResetsTo, "ResetsTo.reset(tick) is called with nothing: write it as reset(self)"),
+    ],
+)
+def test_a_python_law_with_other_arguments_is_told_how_to_take_them(law: Any, message: str) -> None:
+    for run in (
+        lambda: ebac.simulate(ebac.Scenario(seconds=0.1), law(10, 1.0)),
+        lambda: ebac.sweep([ebac.Scenario(seconds=0.1)], [law(10, 1.0)]),
+    ):
+        with pytest.raises(TypeError, match=re.escape(message)):
+            run()
 
 
 @pytest.mark.parametrize("answer", ["ten newtons", None, np.zeros(2), [1.0], {}])

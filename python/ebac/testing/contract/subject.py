@@ -11,7 +11,7 @@ import numpy as np
 
 from ebac._core import Device, DeviceFacts, Port, Timing
 from ebac._util.arguments import unknown_name
-from ebac.laws import LAWS, CoreLaw, PythonLaw, Variant, design, law_name
+from ebac.laws import LAWS, CoreLaw, PythonLaw, Variant, checked, design, law_name
 
 if TYPE_CHECKING:
     from ebac.testing.contract import LawContract
@@ -87,9 +87,7 @@ def _made(given: Any, device: Device | DeviceFacts, timing: Timing) -> Any:
         law = given()
     else:
         law = given
-    if not isinstance(law, PythonLaw) or isinstance(law, type):
-        raise TypeError(f"{law!r} is no law: it needs step(port) -> float and reset()")
-    return law
+    return checked(law)
 
 
 def of_core(test: Test) -> Test:
