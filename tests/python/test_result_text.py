@@ -1,5 +1,6 @@
 """Results as a console shows them: under 20 lines, with units; verdicts of runs that cannot be judged."""
 
+import re
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -19,6 +20,8 @@ from ebac.studies.maps import stability_map
 from ebac.studies.measures import MEASURES
 from ebac.studies.zwidth import zwidth
 from ebac.tracking import RecordedPath, error_budget, evaluate
+from ebac.worlds import Body, Placed, Sphere, World
+from ebac.worlds.mesh import GridError
 
 Run = Callable[..., ebac.Trace]
 SHORT = ebac.Scenario(seconds=1.0)
@@ -45,6 +48,26 @@ def results() -> dict[str, Callable[[], Any]]:
         ),
         "finding 1/s": lambda: paper.find("eq4"),
     }
+
+
+def test_a_contact_with_bodies_and_the_error_of_a_grid_have_units_and_few_digits() -> None:
+    ball = Placed(Sphere(), at=(0.03, 0.002, 0.0))
+    plane = ebac.Device(kinematics=ebac.Linear(axes=2))
+    pressed = SHORT.replace(device=plane, environment=World(Body(solid=ball)))
+    trace = ebac.simulate(pressed, "ebac")
+    met = ebac.metrics.world_contact(trace)
+    assert repr(met) == str(met)
+    assert f"  deepest             {formatting.quantity(met.deepest_m, 'm')}\n" in repr(met)
+    assert re.search(r"\n  normal error        [\d.]+ deg\n  friction share      -\n", repr(met))
+    error = GridError(
+        cell_m=1 / 1e4, samples=100, depth_rms_m=1e-5 / 3, depth_max_m=1e-4 / 3,
+        normal_median_deg=1 / 7, normal_p99_deg=10 / 3,
+    )  # fmt: skip
+    assert "triangles at 100 points" in repr(error)
+    assert re.search(r"\n  normal, 99 %        [\d.]+ deg$", repr(error))
+    assert "\n  depth, rms          0.0033 mm\n" in repr(error)
+    for text in (repr(met), repr(error)):
+        assert not re.search(r"\d\.\d{6}", text)
 
 
 @pytest.mark.parametrize("name", list(results()))

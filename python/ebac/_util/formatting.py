@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from math import degrees, floor, isfinite, log10
 from typing import TYPE_CHECKING, Any
 
@@ -57,6 +58,13 @@ def shown(unit: str) -> str:
 def cell(value: float | None, unit: str, *, none: str = "-") -> str:
     """Return a number in the unit of `shown`, without it: what stands below a heading that has the unit."""
     return quantity(value, unit, none=none).removesuffix(f" {shown(unit)}")
+
+
+def listed(title: str, result: Any, lines: Iterable[tuple[str, str, str, str]]) -> str:
+    """Return a title and the numbers of a result, one a line: label, attribute, SI unit, what to print for none."""
+    shown = [f"  {label:<20}{quantity(getattr(result, name), unit, none=none)}"
+             for label, name, unit, none in lines]  # fmt: skip
+    return "\n".join([title, *shown])
 
 
 def _number(value: float, decimals: int, more: int, signed: bool, exact: bool) -> str:

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ebac._core import TAIL_SHARE, Gimbal
+from ebac._util import formatting
 from ebac._util.arguments import require
 from ebac.trace import Trace
 from ebac.worlds import World, distance
@@ -14,9 +15,18 @@ from ebac.worlds.world import Touch
 
 #: A handle so far inside a body that does not push it has come through [m].
 THROUGH = 1e-4
+#: What a table of contacts with bodies shows: label, attribute, unit, what to print where there is none.
+LINES = (
+    ("depth", "depth_m", "m", "-"),
+    ("normal error", "normal_error_deg", "deg", "-"),
+    ("friction share", "friction_share", "1", "-"),
+    ("in contact", "touched_share", "share", "-"),
+    ("stored at most", "stored_J", "J", "-"),
+    ("ticks come through", "came_through", "1", "-"),
+)
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True, repr=False)
 class WorldContact:
     """A contact with bodies, against the world itself; the port sees what the device can feel of it.
 
@@ -46,6 +56,12 @@ class WorldContact:
     friction_share: float | None
     came_through: int
     stored_J: float
+
+    def __repr__(self) -> str:
+        """Return every number with its unit, one a line."""
+        return formatting.listed(
+            "Contact with the world:", self, (("deepest", "deepest_m", "m", "-"), *LINES)
+        )
 
 
 def world_contact(trace: Trace) -> WorldContact:

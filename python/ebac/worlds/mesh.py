@@ -10,6 +10,7 @@ from typing import Any, Self
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ebac._util import formatting
 from ebac._util.arguments import number
 from ebac._util.wrong_calls import plain_constructor
 from ebac.worlds.grid import Grid, Progress, Surface, cached_grid
@@ -24,7 +25,7 @@ LONGEST = 2.5
 COARSEST = 4
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class GridError:
     """How far a grid is from the triangles it was made of.
 
@@ -46,6 +47,21 @@ class GridError:
     depth_max_m: float
     normal_median_deg: float
     normal_p99_deg: float
+
+    def __repr__(self) -> str:
+        """Return every number with its unit, one a line."""
+        title = f"Grid against its triangles at {self.samples} points:"
+        return formatting.listed(title, self, _LINES)
+
+
+#: What a printed error of a grid shows: label, attribute, unit, what to print where there is none.
+_LINES = (
+    ("cell", "cell_m", "m", "-"),
+    ("depth, rms", "depth_rms_m", "m", "-"),
+    ("depth, most", "depth_max_m", "m", "-"),
+    ("normal, median", "normal_median_deg", "deg", "-"),
+    ("normal, 99 %", "normal_p99_deg", "deg", "-"),
+)
 
 
 class _Triangles(Part):

@@ -38,15 +38,6 @@ LINES = (
     ("drawn", "drawn_J", "J", ""),
     ("force limited", "clamped_share", "share", "-"),
 )
-#: The same of a contact with bodies.
-BODY_LINES = (
-    ("depth", "depth_m", "m", "-"),
-    ("normal error", "normal_error_deg", "deg", "-"),
-    ("friction share", "friction_share", "1", "-"),
-    ("in contact", "touched_share", "share", "-"),
-    ("stored at most", "stored_J", "J", "-"),
-    ("ticks come through", "came_through", "1", "-"),
-)
 
 
 #: More laws than this side by side do not fit 80 columns.
@@ -161,6 +152,7 @@ def show(
 ) -> None:
     """Print the table, a few laws at a time, that of the bodies, and what was simulated."""
     from ebac._util import formatting
+    from ebac.metrics.world_contact import LINES as BODY_LINES
 
     show_contacts(contacts)
     for first in range(0, len(bodies or []), LAWS_ABREAST):
