@@ -196,8 +196,19 @@ def test_info_tells_what_is_in_a_log(recorded: Path) -> None:
     for words in ("complete", "200", "1 missing", "2020-09-13 12:26:40 UTC", "1 rows after tick 99",
                   "damping raised"):  # fmt: skip
         assert words in shown, words
+    assert "fault 0 (none) 0 (none)" in shown
+    assert "state 2 (run) 2 (run)" in shown
     assert "handle position" not in shown
     assert "handle position" in invoke("info", recorded, "--meanings")
+
+
+def test_info_shows_law_and_parameters_for_people(tmp_path: Path) -> None:
+    path = tmp_path / "run.npz"
+    ebac.simulate(ebac.Scenario(seconds=0.2), "ebac").save(path)
+    shown = " ".join(invoke("info", path).split())
+    assert "law ebac parameters damping = 2, mass = 0.25," in shown
+    assert "count = 3.068e-05, peak_force = 42.4," in shown
+    assert "EBAC(" not in shown
 
 
 def test_info_of_a_log_that_was_cut(recorded: Path) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from typing import TYPE_CHECKING, Any
 
 from ebac.cli import output
@@ -110,7 +111,7 @@ def _lines(read: Log) -> list[tuple[str, str]]:
             f"{len(trace)}, {output.plural(trace.axes, 'axis', 'axes')}, {read.lost:,} missing between them",
         ),
         ("time", span + (f" at {rate:.6g} Hz" if rate else "")),
-        ("law", trace.law_repr or trace.law or "not in the log"),
+        *_law(trace),
         ("events", str(len(read.events))),
         ("attached", ", ".join(read.about.attachments) or "nothing"),
         (
@@ -127,6 +128,29 @@ def _lines(read: Log) -> list[tuple[str, str]]:
     return lines
 
 
+def _law(trace: Trace) -> list[tuple[str, str]]:
+    """Return the law and its parameters, with four digits as in the columns."""
+    shown = re.sub(
+        r"\d+\.\d+(e[+-]?\d+)?", lambda number: f"{float(number[0]):.4g}", trace.law_repr
+    )
+    inside = re.fullmatch(r"\w+\((.+)\)", shown, re.DOTALL)
+    if not trace.law or inside is None:
+        return [("law", trace.law or shown or "not in the log")]
+    return [("law", trace.law), ("parameters", f"{inside[1].replace('=', ' = ')} (SI units)")]
+
+
+def _extreme(name: str, value: float) -> str:
+    """Return the least or most of a column; a state and a fault with its name."""
+    from ebac._core import LoopState
+    from ebac.logs.events import fault_name
+
+    if name == "fault":
+        return f"{value:.0f} ({fault_name(int(value))})"
+    if name == "state" and value in list(LoopState):
+        return f"{value:.0f} ({LoopState(int(value)).name.lower()})"
+    return f"{value:.4g}"
+
+
 def _columns(trace: Trace, *, meanings: bool) -> Any:
     import numpy as np
 
@@ -134,8 +158,10 @@ def _columns(trace: Trace, *, meanings: bool) -> Any:
     grid = output.table(["column", "unit", "least", "most", *more], numbers=(2, 3))
     for name, info, values in trace.flat():
         known = values[np.isfinite(values)].astype(float) if len(values) else values
-        least, most = (f"{known.min():.4g}", f"{known.max():.4g}") if len(known) else ("-", "-")
-        grid.add_row(name, info.unit, least, most, *([_escaped(info.meaning)] if meanings else []))
+        ends = (known.min(), known.max()) if len(known) else ()
+        least, most = (_extreme(name, end) for end in ends) if len(ends) else ("-", "-")
+        unit = "" if info.unit == "1" else info.unit
+        grid.add_row(name, unit, least, most, *([_escaped(info.meaning)] if meanings else []))
     return grid
 
 
