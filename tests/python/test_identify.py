@@ -13,8 +13,9 @@ from typer.testing import CliRunner
 import ebac
 from ebac.cli import app
 from ebac.identify import Recording, Target, excitation, fit_arm, fit_device, load
+from ebac.identify.beside_scipy import compare_with_scipy
 from ebac.identify.cases import Case, draw
-from ebac.identify.check import Check, compare_with_scipy, run_case
+from ebac.identify.check import Check, run_case
 from ebac.identify.recording import count_of
 from ebac.identify.unbiased import second_opinion
 from ebac.identify.validation import TooFewReadings

@@ -156,8 +156,8 @@ def _gains(logs: int, seed: int, as_json: bool) -> None:
 def _times(seed: int, seconds: float) -> dict[str, float]:
     """Time a fit and SciPy's `least_squares` on the same objective, in one run."""
     from ebac.identify import Recording, Target, fit_arm
+    from ebac.identify.beside_scipy import compare_with_scipy
     from ebac.identify.cases import draw
-    from ebac.identify.check import compare_with_scipy
     from ebac.simulation import simulate
 
     case = next(c for c in (draw(i, seed, seconds) for i in range(1000)) if c.task == "tapping")
