@@ -113,6 +113,9 @@ def test_a_fast_hand_is_named() -> None:
     with pytest.raises(ebac.LoopFault) as stopped:
         ebac.simulate(scenario(hand=hand, environment=ebac.Free()), limits=True)
     assert stopped.value.fault is _core.Fault.OVERSPEED
+    remedy = stopped.value.remedy  # the handle may be pulled by a motor of the wrong sign
+    assert remedy.startswith("keep your hand off")
+    assert remedy.index("drive signs") < remedy.index("right") < remedy.index("grip")
 
 
 def test_through_can_limits_are_the_same() -> None:

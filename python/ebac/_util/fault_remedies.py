@@ -25,9 +25,10 @@ REMEDIES: dict[Fault, str] = {
         "`bus.malformed`; under a law that shakes, the handle may really have been so fast"
     ),
     Fault.OVERSPEED: (
-        "`ebac drive signs FILE` first: a motor or an encoder with the wrong sign looks like this, "
-        "and so does a law that shakes; hold the handle; only when it is right to be so fast, raise "
-        "the limit"
+        "keep your hand off the handle and run `ebac drive signs FILE`: a motor or an encoder with the "
+        "wrong sign looks like this; only when all signs are right, run again with a firm grip or a "
+        "softer wall, as a law that shakes looks like this, too, or raise `limits.speed` if it is right "
+        "to be so fast"
     ),
     Fault.WORKSPACE: "move the handle back by hand; read the zero of the encoders anew",
     Fault.FORCE_STALE: "check the sensor's network; see its loss and age",
