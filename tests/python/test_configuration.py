@@ -11,6 +11,9 @@ from ebac.hardware import Configuration, ConfigurationError, designed
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "joystick.toml"
 
+#: The axes of a small motion: straight, so that the workspace is a square.
+FLAT = "[device.kinematics]\ntype = 'Linear'\naxes = 2\n"
+
 
 def test_the_example_is_what_it_says() -> None:
     known = Configuration.load(EXAMPLE)
@@ -41,6 +44,31 @@ def test_an_empty_one_is_the_paper_s_joystick() -> None:
         ("[device.mechanics]\ndamping = -3\n", 2, "damping = -3 N s/m"),
         ("[timing]\ndelay = 1\ndt = 1\n", 3, "dt = 1 s: must lie in"),
         ("[environment]\ntype = 'Wall'\nstiffness = -1.0\n", 3, "Wall.stiffness = -1 N/m"),
+        (
+            "[environment]\ntype = 'Wall'\nposition = 10.0\n",
+            3,
+            "environment.position = 10 m: must be less than 0.05427 m",
+        ),
+        (
+            f"{FLAT}[environment]\ntype = 'Wall'\nangle = 0.785\nposition = 0.082\n",
+            7,
+            "must be less than 0.08112 m",
+        ),
+        (
+            "[limits]\nedge = 0.02\nend = 0.03\n[environment]\nposition = 0.04\n",
+            5,
+            "limits.end = 0.03 m",
+        ),
+        (
+            "[environment]\ntype = 'Corner'\nsecond = { angle = 1.57, position = 10.0 }\n",
+            3,
+            "environment.second.position = 10 m",
+        ),
+        (
+            "[environment]\ntype = 'Disc'\nx = 0.01\ny = 3.0\n",
+            4,
+            "environment.y = 3 m: the handle never",
+        ),
         ("[law]\nname = 'ebaac'\n", 2, "did you mean 'ebac'"),
         ("[law]\nname = 'ebac'\nkq = 1\n", 3, "law.kq: no such name"),
         ("[law]\nname = 'ebac'\nkp = 7.0\n", 3, "kp = 7"),
@@ -93,6 +121,20 @@ def test_what_cannot_be_is_refused_with_its_line(text: str, line: int | None, wo
     assert message.startswith("mine.toml")
     if line is not None:
         assert f"line {line}:" in message, message
+
+
+@pytest.mark.parametrize(
+    "world",
+    [
+        "type = 'Wall'\nposition = 0.055\n",  # between limits.edge and limits.end
+        "type = 'Wall'\nposition = 0.06\nmotion_amplitude = 0.005\n",
+        "type = 'Wall'\nangle = 0.785\nposition = 0.08\n",  # in the corner of the workspace
+        "type = 'Disc'\nx = 0.09\ny = 0.05\nradius = 0.04\n",
+        "type = 'Free'\n",
+    ],
+)
+def test_a_world_within_reach_is_taken(world: str) -> None:
+    assert Configuration.from_toml(f"{FLAT}[environment]\n{world}")
 
 
 def test_signs_are_those_of_the_axes() -> None:

@@ -204,6 +204,11 @@ def test_a_fault_is_exit_code_1_and_keeps_the_log(config: Path, tmp_path: Path) 
         (["--law", "ebca"], "no such name"),
         (["--seconds", "0"], "seconds"),
         (["--wall-stiffness", "-1"], "--wall-stiffness = -1 N/m"),
+        (["--wall-position", "10"], "--wall-position = 10 m: must be less than 0.05736 m"),
+        (
+            ["--at", "1 environment.position=10"],
+            "(--at): environment.position = 10 m: must be less",
+        ),
         (["--out", "x", "--no-files"], "exclude each other"),
     ],
 )

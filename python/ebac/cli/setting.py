@@ -21,6 +21,7 @@ OPTIONS = {
     "Wall.stiffness": "--wall-stiffness",
     "Wall.damping": "--wall-damping",
     "Wall.position": "--wall-position",
+    "environment.position": "--wall-position",
     "Elastic.stiffness": "--wall-stiffness",
     "Elastic.damping": "--wall-damping",
     "Body.friction": "--world-friction",

@@ -14,6 +14,7 @@ from ebac.drives.errors import DriveError
 from ebac.drives.state import State
 from ebac.hardware.backends import hardware, simulated
 from ebac.hardware.drive_setup import drives_at
+from ebac.hardware.world_place import ends_of
 from ebac.hardware.zero import from_zero
 
 if TYPE_CHECKING:
@@ -124,10 +125,8 @@ def positions_of(
 
 def check_workspace(known: Configuration, positions: Sequence[AxisPosition]) -> None:
     """Raise PositionError for an axis that stands outside the workspace, where a run would end at once."""
-    lever = known.device.kinematics
-    ways = lever.travel * lever.stops
-    ends = known.limits.end - (ways[0] - ways)  # as the loop holds them
-    for one, end in zip(positions, ends.tolist(), strict=True):
+    ends = ends_of(known.device, known.limits).tolist()
+    for one, end in zip(positions, ends, strict=True):
         if abs(one.position_m) > end:
             raise PositionError(
                 f"{one}: must lie within {1e3 * end:g} mm of its zero (limits.end = {known.limits.end:g} m). "

@@ -16,6 +16,7 @@ from ebac.drives.toml_positions import Source
 from ebac.hardware.configuration_fields import BUS, RECORDING, RUN, number, word
 from ebac.hardware.signs import Signs
 from ebac.hardware.tables import known, on_top, refusing, table
+from ebac.hardware.world_place import never_reached
 from ebac.hardware.zero import Zero
 from ebac.laws import LAWS, design
 from ebac.scenario import Environment, Scenario
@@ -259,3 +260,6 @@ def _fit(source: Source, values: Mapping[str, Any]) -> None:
             timing=values["timing"],
         ).setup(),
     )
+    beyond = never_reached(values["device"], values["limits"], values["environment"])
+    if beyond is not None:
+        raise source.refuse(*beyond)

@@ -12,6 +12,7 @@ import numpy as np
 from ebac._core import LoopState
 from ebac._util.arguments import unknown
 from ebac.hardware.current_parameters import changed, targets_after
+from ebac.hardware.world_place import never_reached
 
 if TYPE_CHECKING:
     from ebac.hardware.configuration import Configuration
@@ -148,6 +149,9 @@ class Schedule:
                 law = after
             if order.environment:
                 world = changed(world, **order.environment)
+                beyond = never_reached(known.device, known.limits, world)
+                if beyond is not None:
+                    raise ValueError(f"a change at {order.at:g} s (--at): {beyond[1]}")
             if order.target:
                 target = targets_after(known.hand if simulated else None, target, *order.target)
 

@@ -22,6 +22,7 @@ def chosen(
 ) -> Configuration:
     """Return the configuration of a file, with what the command line changes in it."""
     from ebac.hardware import Configuration
+    from ebac.hardware.world_place import check_reached
 
     known = Configuration.load(file)
     changes: dict[str, Any] = {
@@ -36,6 +37,7 @@ def chosen(
         changes |= {"law": name, "changes": {}}
     made = known.replace(**changes)
     made.scenario()
+    check_reached(made.device, made.limits, made.environment)
     made.design()
     return made
 
