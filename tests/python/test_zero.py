@@ -31,10 +31,11 @@ from ebac.hardware import (
     distances,
     under_the_law,
 )
-from ebac.hardware.axis_positions import positions_of
+from ebac.hardware.axis_positions import check_outside, positions_at_zero, positions_of
 from ebac.hardware.backends import Backend
 from ebac.hardware.toml_table import rewrite
 from ebac.hardware.zero import LEAST, MOST, from_zero
+from ebac.worlds import Box, World
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "joystick.toml"
 #: What the drives show with the handle at its zero: 12345 counts are 0.38 m at the handle.
@@ -262,6 +263,53 @@ def test_an_axis_outside_the_workspace_gets_no_power() -> None:
         "ebac drive zero",
     ):
         assert words in message
+
+
+INSIDE = ebac.Wall(position=-0.01)
+CUBE = World(Box(width=0.02, depth=0.02, height=0.02))
+
+
+@pytest.mark.parametrize(
+    ("world", "words"),
+    [
+        (INSIDE, "10.00 mm inside the wall and would be pushed with 100 N"),
+        (ebac.Corner(first=ebac.Wall(position=0.02), second=INSIDE), "inside the second wall"),
+        (ebac.Disc(x=0.01, radius=0.02), "10.00 mm inside the disc"),
+        (CUBE, "mm inside the body 1"),
+    ],
+)
+def test_a_handle_inside_the_world_gets_no_power(world: Any, words: str) -> None:
+    known = simulated(text_of(), zero=(), simulated_zero=())
+    with ebac.Device.open(known, simulate=True) as device:
+        with pytest.raises(PositionError) as caught:
+            device.run(environment=world)
+        assert device.report is None
+        assert device.positions()  # no drive has power
+    with pytest.raises(PositionError) as virtual:
+        known.replace(environment=world).simulate(seconds=0.1)
+    for message in (str(caught.value), str(virtual.value)):
+        assert words in message
+        assert "Nothing has power" in message
+
+
+@pytest.mark.parametrize(
+    "world",
+    [
+        ebac.Wall(position=-5e-4),  # as exactly as a hand holds the handle at its mark
+        ebac.Wall(stiffness=300.0, position=-3e-3),  # soft: 0.9 N
+        ebac.Wall(stiffness=0.0, damping=40.0, position=-0.04),  # it only damps
+    ],
+)
+def test_a_handle_at_the_surface_or_in_something_soft_begins(world: ebac.Wall) -> None:
+    check_outside(KNOWN, positions_at_zero(KNOWN), world)
+
+
+def test_the_command_refuses_a_wall_around_the_handle() -> None:
+    result = CliRunner().invoke(
+        app, ["run", str(EXAMPLE), "--virtual", "--no-files", "--wall-position", "-0.01"]
+    )
+    assert result.exit_code == 1
+    assert "10.00 mm inside the wall" in " ".join(result.output.split())
 
 
 @pytest.mark.parametrize(

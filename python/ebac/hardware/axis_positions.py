@@ -23,8 +23,12 @@ if TYPE_CHECKING:
     from ebac.scenario import Environment
 
 
+#: A handle that stands deeper than this inside the virtual world [m], and is pushed harder [N], does not begin outside.
+GRAZE, PUSH = 1e-3, 1.0
+
+
 class PositionError(DriveError):
-    """An axis is outside the workspace, or nobody has confirmed the zero of the encoders."""
+    """An axis is outside the workspace, the handle inside the world, or the zero of the encoders not confirmed."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -123,6 +127,17 @@ def positions_of(
     return found
 
 
+def positions_at_zero(known: Configuration) -> list[AxisPosition]:
+    """Return the positions of axes that stand at the zero of the configuration, as in a run on the virtual clock."""
+    zeros = known.zero.of_all(known.device.axes)
+    return [
+        AxisPosition(
+            axis=axis, node=node.id, counts=zero, zero_counts=zero, angle_rad=0.0, position_m=0.0
+        )
+        for axis, (node, zero) in enumerate(zip(known.drives.nodes, zeros, strict=True))
+    ]
+
+
 def check_workspace(known: Configuration, positions: Sequence[AxisPosition]) -> None:
     """Raise PositionError for an axis that stands outside the workspace, where a run would end at once."""
     ends = ends_of(known.device, known.limits).tolist()
@@ -135,6 +150,34 @@ def check_workspace(known: Configuration, positions: Sequence[AxisPosition]) -> 
                 "`ebac drive zero FILE --write`",
                 node=one.node,
             )
+
+
+def check_outside(
+    known: Configuration, positions: Sequence[AxisPosition], environment: Environment
+) -> None:
+    """Raise PositionError for a handle that stands inside the virtual world, which would throw it out."""
+    inside = {
+        name: -way for name, way in distances(known, positions, environment).items() if way < -GRAZE
+    }
+    if not inside or (force := _push(known, positions, environment)) < PUSH:
+        return
+    depths = " and ".join(
+        f"{1e3 * depth:.2f} mm inside the {name}" for name, depth in inside.items()
+    )
+    raise PositionError(
+        f"the handle stands {depths} and would be pushed with {force:.3g} N at once: it must begin outside, or at most "
+        f"{1e3 * GRAZE:g} mm inside. Nothing has power. Move the handle out by hand, or give the world another place: "
+        "[environment] is in metres from the zero of the encoders"
+    )
+
+
+def _push(known: Configuration, positions: Sequence[AxisPosition], environment: Any) -> float:
+    """Return the force of the virtual world on the handle at rest [N]."""
+    at = known.device.kinematics.forward([one.angle_rad for one in positions])
+    if isinstance(environment, _World):
+        (touch,) = environment.walk([[*at, 0.0, 0.0][:3]])  # type: ignore[attr-defined]  # it has bodies
+        return float(np.linalg.norm(touch.force))
+    return float(np.linalg.norm(environment.force(at, np.zeros_like(at))))
 
 
 def distances(

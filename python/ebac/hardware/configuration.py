@@ -241,12 +241,16 @@ class Configuration:
         ConfigurationError
             When `[simulated.signs]` or `[simulated.zero]` differ from `[signs]` and `[zero]`, which this simulation
             assumes to be correct.
+        PositionError
+            When the handle, which begins at its zero, would begin inside the virtual world.
         ValueError
             When the loop does not wait long enough for the answers; the message contains both times.
         """
+        from ebac.hardware.axis_positions import check_outside, positions_at_zero
         from ebac.simulation import simulate
 
         self._refuse_wrong_wiring()
+        check_outside(self, positions_at_zero(self), self.environment)
         return simulate(
             self.scenario(seconds=seconds),
             self.design(),

@@ -223,7 +223,8 @@ class OpenDevice:
         RuntimeError
             When a run is under way, or the last one ended by a fault and `reset` was not called.
         PositionError
-            When an axis stands outside the workspace, or on real drives `confirm_zero` was not called.
+            When an axis stands outside the workspace or the handle inside the virtual world, or on real drives
+            `confirm_zero` was not called.
         DriveError, OSError
             When a drive does not carry out a command, or the log cannot be written.
         KeyboardInterrupt, Terminated

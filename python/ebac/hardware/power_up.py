@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 from ebac._core import RunSetup
 from ebac.hardware import drive_setup
-from ebac.hardware.axis_positions import AxisPosition, check_workspace, positions_of
+from ebac.hardware.axis_positions import AxisPosition, check_outside, check_workspace, positions_of
 from ebac.hardware.interrupts import Interrupts
 from ebac.hardware.run import Run
 from ebac.hardware.run_log import discard_log
@@ -46,6 +46,7 @@ def power_up(
     def check(counts: list[int]) -> None:
         positions[:] = positions_of(known, backend, counts)
         check_workspace(known, positions)
+        check_outside(known, positions, scenario.environment)
 
     def power_off() -> list[str]:
         return drive_setup.power_off(backend, nodes)

@@ -84,7 +84,7 @@ def run_virtual(
 
     log = None if stem is None else stem.with_suffix(".mcap")
     fault: LoopFault | None = None
-    with output.refusing():
+    with telling():
         try:
             trace = known.simulate(bus_time=bus_time)
         except LoopFault as error:
