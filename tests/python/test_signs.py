@@ -9,6 +9,7 @@ from typer.testing import CliRunner
 
 import ebac
 from ebac.cli import app
+from ebac.cli.drive.signs import show
 from ebac.hardware import Configuration, Signs, find_signs
 from ebac.hardware.find_signs import judged
 
@@ -70,6 +71,7 @@ def test_each_wrong_sign_is_found_and_repaired(tmp_path: Path) -> None:
 def test_without_a_sensor_the_two_together_are_found(tmp_path: Path) -> None:
     known = Configuration.load(wired(tmp_path, [-1, 1], [1, -1], sensor=False))
     rows = find_signs(known, simulate=True)
+    assert [(row.axis, row.node) for row in rows] == [(0, 1), (1, 2)]
     assert [(row.motor, row.encoder) for row in rows] == [(-1, 1), (-1, 1)]
     assert "by the encoder alone" in rows[0].remark
 
@@ -95,12 +97,27 @@ def test_a_run_that_is_stopped_ends_the_test(tmp_path: Path) -> None:
 
 def test_what_moves_by_itself_or_not_at_all_is_no_sign() -> None:
     ones = Signs().of_all(1)
-    still = judged(0, ones, np.array([[1e-5, 1.0], [-1e-5, 1.0]]), 1.0, sensor=True)
+    still = judged(0, 1, ones, np.array([[1e-5, 1.0], [-1e-5, 1.0]]), 1.0, sensor=True)
     assert still.motor is None
     assert "did not move" in still.remark
-    pushed = judged(0, ones, np.array([[-4e-3, 1.0], [4e-3, 1.0]]), 1.0, sensor=True)
+    pushed = judged(0, 1, ones, np.array([[-4e-3, 1.0], [4e-3, 1.0]]), 1.0, sensor=True)
     assert pushed.encoder is None
     assert "something else pushes" in pushed.remark
+
+
+def test_the_table_names_the_node_of_each_axis(capsys: pytest.CaptureFixture[str]) -> None:
+    pushes = np.array([[-4e-3, 1.0], [-4e-3, 1.0]])
+    ones = Signs().of_all(2)
+    show([judged(axis, 5 - axis, ones, pushes, 1.0, sensor=True) for axis in (0, 1)])
+    heads, *rows = [line.split() for line in capsys.readouterr().out.splitlines() if line.strip()]
+    assert heads[:2] == ["axis", "node"]
+    assert [row[:2] for row in rows if row[0] in "01"] == [["0", "5"], ["1", "4"]]
+
+
+def test_before_there_is_power_the_command_names_axes_and_nodes() -> None:
+    asked = CliRunner().invoke(app, ["drive", "signs", str(EXAMPLES / "joystick.toml")], input="n")
+    words = " ".join((asked.stdout + asked.stderr).split())
+    assert "The motors of axis 0 (node 1), axis 1 (node 2) get power" in words
 
 
 @pytest.mark.parametrize(

@@ -381,7 +381,7 @@ def test_a_handle_that_moves_meanwhile_is_no_zero(
     before = mine.read_text(encoding="utf-8")
     done = command("drive", "zero", str(mine), "--write", "--yes")
     assert done.exit_code == 1
-    assert "axis 0 moved by +1.00 mm" in said(done)
+    assert "axis 0 (node 1) moved by +1.00 mm" in said(done)
     assert mine.read_text(encoding="utf-8") == before
 
 

@@ -31,6 +31,11 @@ class PositionError(DriveError):
     """An axis is outside the workspace, the handle inside the world, or the zero of the encoders not confirmed."""
 
 
+def axis_name(axis: int, node: int) -> str:
+    """Return how messages and tables name an axis: its number from 0, and the node id of its drive."""
+    return f"axis {axis} (node {node})"
+
+
 @dataclass(frozen=True, kw_only=True)
 class AxisPosition:
     """Position of an axis.
@@ -60,7 +65,7 @@ class AxisPosition:
     def __str__(self) -> str:
         """Return it in words."""
         return (
-            f"axis {self.axis} (node {self.node}) stands at {1e3 * self.position_m:+.2f} mm "
+            f"{axis_name(self.axis, self.node)} stands at {1e3 * self.position_m:+.2f} mm "
             f"({self.counts} counts, its zero at {self.zero_counts})"
         )
 

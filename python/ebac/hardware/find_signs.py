@@ -39,8 +39,8 @@ class AxisSigns:
 
     Attributes
     ----------
-    axis : int
-        Number of the axis, from 0.
+    axis, node : int
+        Number of the axis, from 0, and node id of its drive.
     configured_motor, configured_encoder : int
         The signs of the configuration.
     motor, encoder : int or None
@@ -54,6 +54,7 @@ class AxisSigns:
     """
 
     axis: int
+    node: int
     configured_motor: int
     configured_encoder: int
     motor: int | None
@@ -140,8 +141,8 @@ def find_signs(
         run.finish()
     sensor = known.sensor is not None
     return [
-        judged(axis, signs, np.array(both), known.device.force(current), sensor=sensor)
-        for axis, both in enumerate(pushes)
+        judged(axis, node.id, signs, np.array(both), known.device.force(current), sensor=sensor)
+        for axis, (node, both) in enumerate(zip(known.drives.nodes, pushes, strict=True))
     ]
 
 
@@ -191,7 +192,7 @@ def _mean(run: Run, axis: int, rows: int) -> NDArray[np.float64]:
 
 
 def judged(
-    axis: int, signs: Signs, pushes: NDArray[np.float64], force: float, *, sensor: bool
+    axis: int, node: int, signs: Signs, pushes: NDArray[np.float64], force: float, *, sensor: bool
 ) -> AxisSigns:
     """Return the signs of an axis from way [m] and reaction force [N] of a push each way, shape (2, 2)."""
     ways, reaction = pushes[:, 0], pushes[:, 1]
@@ -201,6 +202,7 @@ def judged(
     )
     shown: dict[str, Any] = {
         "axis": axis,
+        "node": node,
         "configured_motor": motor,
         "configured_encoder": encoder,
         "moved_m": float(ways.mean()),

@@ -46,13 +46,19 @@ def signs(
     """
     from ebac.cli.run.any_key import any_key
     from ebac.hardware import Configuration, Signs, find_signs
+    from ebac.hardware.axis_positions import axis_name
     from ebac.hardware.toml_table import rewrite
     from ebac.simulation import LoopFault
 
     with telling():
         known = Configuration.load(configuration)
     if not simulated:
-        sure("The motors get power and the handle moves. Is it in the middle, and free?", yes)
+        nodes = [node.id for node in known.drives.nodes]
+        names = ", ".join(axis_name(axis, node) for axis, node in enumerate(nodes))
+        sure(
+            f"The motors of {names} get power and the handle moves. Is it in the middle, and free?",
+            yes,
+        )
     try:
         with telling(), any_key() as key:
             rows = find_signs(known, simulate=simulated, current=current, look=key)
@@ -71,7 +77,7 @@ def signs(
     if as_json:
         typer.echo(output.document("drive signs", [asdict(row) for row in rows], written=written))
     else:
-        _show(rows)
+        show(rows)
         if written:
             output.say(f"Written to {configuration}: motor = {motor}, encoder = {encoder}.")
         elif found and not all(row.right for row in rows):
@@ -80,11 +86,14 @@ def signs(
         raise typer.Exit(output.FAILED)
 
 
-def _show(rows: list[AxisSigns]) -> None:
-    grid = output.table(["axis", "motor", "encoder", "moved", "force", "what"], numbers=range(1, 5))
+def show(rows: list[AxisSigns]) -> None:
+    """Print the signs of each axis."""
+    heads = ["axis", "node", "motor", "encoder", "moved", "force", "what"]
+    grid = output.table(heads, numbers=range(6))
     for row in rows:
         grid.add_row(
             str(row.axis),
+            str(row.node),
             _change(row.configured_motor, row.motor),
             _change(row.configured_encoder, row.encoder),
             f"{1e3 * row.moved_m:.2f} mm",

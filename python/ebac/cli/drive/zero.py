@@ -42,6 +42,7 @@ def zero(
     * `ebac drive zero my-joystick.toml --write`
     """
     from ebac.hardware import Configuration, Zero, axis_positions, distances
+    from ebac.hardware.axis_positions import axis_name
     from ebac.hardware.toml_table import rewrite
 
     with telling():
@@ -59,8 +60,8 @@ def zero(
         for one, before in zip(now, found, strict=True):
             if abs(one.position_m - before.position_m) > STILL:
                 output.fail(
-                    f"axis {one.axis} moved by {1e3 * (one.position_m - before.position_m):+.2f} mm meanwhile; nothing "
-                    "was written. Hold the handle at its mark and try again",
+                    f"{axis_name(one.axis, one.node)} moved by {1e3 * (one.position_m - before.position_m):+.2f} mm "
+                    "meanwhile; nothing was written. Hold the handle at its mark and try again",
                     code=output.FAILED,
                 )
         found, right = now, Zero(counts=tuple(one.counts for one in now))

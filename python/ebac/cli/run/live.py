@@ -52,7 +52,10 @@ def picture(configuration: Configuration, run: Run, tail: Trace) -> RenderableTy
     """Return one picture of a run from its last rows."""
     from rich.console import Group
 
-    grid = output.table(["", *(f"axis {axis}" for axis in range(tail.axes))])
+    from ebac.hardware.axis_positions import axis_name
+
+    nodes = [node.id for node in configuration.drives.nodes]
+    grid = output.table(["", *(axis_name(axis, node) for axis, node in enumerate(nodes))])
     limits = configuration.limits
     force = configuration.device.force(limits.peak_current)
     for label, column, most, unit, factor in (
