@@ -77,8 +77,13 @@ def test_a_value_of_several_lines_stands_where_it_begins() -> None:
          'motor.torque_constant = "0.05": must be a number in N m/A'),
         ("torque_constant = 0.0538", "torque_constant = true", 6,
          "motor.torque_constant = true: must be a number in N m/A"),
-        ("torque_constant = 0.0538", "torque_constant = 0.000012", 6,
-         "motor.torque_constant = 1.2e-05 N m/A: the drive holds 1 raw units instead of 1.2, more than 1 % off"),
+        ("torque_constant = 0.0538", "torque_constant = 54", 6,
+         "motor.torque_constant = 54 N m/A: must lie in [0.0179, 0.161] N m/A, near limits.rated_torque / "
+         "limits.rated_current = 0.0538 N m/A"),
+        ("rated_current = 0.985", "rated_current = 98.5", 6,
+         "motor.torque_constant = 0.0538 N m/A: must lie in [0.000179, 0.00161] N m/A"),
+        ("peak_torque = 0.212", "peak_torque = 0.000012", 8,
+         "motor.peak_torque = 1.2e-05 N m: the drive holds 1 raw units instead of 1.2, more than 1 % off"),
         ("torque_constant = 0.0538", "torque_constant = nan", 6,
          "motor.torque_constant = nan N m/A: must lie in"),
         ("counts_per_turn = 1024", "counts_per_turn = 10.5", 9,
@@ -237,6 +242,12 @@ def test_a_profile_in_python_is_checked_as_one_in_a_file() -> None:
         profile.replace(motor__torqe_constant=1)
     with pytest.raises(drives.ProfileError, match="two things"):
         profile.replace(limits__rated_torque=0.06)
+
+
+@pytest.mark.parametrize("constant", [0.0538 * 1.5, 0.0538 / 2**0.5, 0.0538 * 2.45])
+def test_a_torque_constant_of_peak_or_effective_amperes_is_taken(constant: float) -> None:
+    profile = drives.load("copley-accelnet", nodes=[1]).nodes[0].profile
+    assert profile.replace(motor__torque_constant=constant)
 
 
 # --- raw numbers ---

@@ -266,7 +266,8 @@ def _broken(values: Mapping[str, Value]) -> Iterator[tuple[str, str]]:
     for holds, name, wrong in RULES:
         if not holds(values):
             key = BY_NAME[name]
-            yield name, f"{name} = {key.show(values[name])}: {wrong}"
+            what = wrong if isinstance(wrong, str) else wrong(values)
+            yield name, f"{name} = {key.show(values[name])}: {what}"
     for name, value in values.items():
         key = BY_NAME[name]
         if key.whole or key.choices or (key.per and key.per not in values):

@@ -177,7 +177,11 @@ KEYS: tuple[Key, ...] = (
 BY_NAME: dict[str, Key] = {key.name: key for key in KEYS}
 
 #: What must hold between keys: the condition, the key to blame, what is wrong and what to do.
-Rule: TypeAlias = tuple[Callable[[Mapping[str, Value]], bool], str, str]
+Rule: TypeAlias = tuple[
+    Callable[[Mapping[str, Value]], bool], str, str | Callable[[Mapping[str, Value]], str]
+]
+#: How far a torque constant may be from rated torque over rated current: a drive may mean peak or effective amperes.
+_FAR = 3.0
 
 
 def _number(values: Mapping[str, Value], name: str) -> float:
@@ -190,6 +194,30 @@ def _same_torque(values: Mapping[str, Value]) -> bool:
         return True
     motor, rated = (_number(values, name) for name in both)
     return abs(motor - rated) <= 0.01 * rated
+
+
+def _constant_by_rating(values: Mapping[str, Value]) -> float | None:
+    """Return rated torque over rated current [N m/A]; None where one is not given."""
+    both = ("limits.rated_torque", "limits.rated_current")
+    if not all(name in values for name in both):
+        return None
+    return _number(values, both[0]) / _number(values, both[1])
+
+
+def _near_rating(values: Mapping[str, Value]) -> bool:
+    rating = _constant_by_rating(values)
+    if rating is None or "motor.torque_constant" not in values:
+        return True
+    return rating / _FAR <= _number(values, "motor.torque_constant") <= rating * _FAR
+
+
+def _not_near_rating(values: Mapping[str, Value]) -> str:
+    rating = _constant_by_rating(values) or 0.0
+    return (
+        f"must lie in [{rating / _FAR:.3g}, {rating * _FAR:.3g}] N m/A, near limits.rated_torque / "
+        f"limits.rated_current = {rating:.3g} N m/A, or every force is wrong; {_SHEET} (1 mN m/A is 0.001 N m/A), and "
+        "correct the wrong one of the three"
+    )
 
 
 def _above_rated(kind: str) -> Callable[[Mapping[str, Value]], bool]:
@@ -206,6 +234,7 @@ RULES: tuple[Rule, ...] = (
     (_same_torque, "motor.continuous_torque",
      "differs from limits.rated_torque by more than 1 %: a torque in per mille would mean two things; "
      "give both the same value"),
+    (_near_rating, "motor.torque_constant", _not_near_rating),
     (_above_rated("torque"), "limits.max_torque",
      "is written to the drive in per mille of limits.rated_torque, at most 65535: give limits.rated_torque, "
      "or less"),
