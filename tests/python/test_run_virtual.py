@@ -4,6 +4,8 @@ import json
 from dataclasses import replace
 from importlib import import_module
 from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -14,6 +16,7 @@ import ebac
 from ebac.cli import app
 from ebac.cli.files import FigureOptions
 from ebac.cli.run import names
+from ebac.cli.run.live import lines
 from ebac.hardware import Configuration, Run
 from ebac.hardware.lateness import lateness, lateness_of
 from ebac.hardware.virtual_device import VirtualDevice
@@ -175,6 +178,16 @@ def test_the_data_sheet_counts_on_a_virtual_clock_too(tmp_path: Path) -> None:
     beyond = known.replace(limits=known.limits.replace(thermal_time=1.5 * most))
     with pytest.raises(ebac.hardware.ConfigurationError, match="thermal_time"):
         VirtualDevice(beyond, delay=1)
+
+
+@pytest.mark.parametrize(("seconds", "soon"), [(5.0, False), (2.5, True)])
+def test_the_view_of_a_run_asks_for_the_handle_before_the_force_fades(
+    seconds: float, soon: bool
+) -> None:
+    known = Configuration.load(EXAMPLE).replace(seconds=seconds)
+    run: Any = SimpleNamespace(law=known.design(), recorder=None)
+    said = lines(known, run, known.simulate(seconds=1.0, bus_time=False))
+    assert ("release the handle" in said[0]) is soon
 
 
 def test_the_figure_of_a_run_has_a_panel_for_beta() -> None:

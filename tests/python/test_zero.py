@@ -432,6 +432,8 @@ def test_the_command_shows_where_the_axes_stand_and_asks(
     done = run(input="n\n")
     assert done.exit_code == 1
     assert "The handle is 10.00 mm before the wall." in said(done)
+    assert "After 0.3 s every force fades within 0.2 s (run.ramp_down)" in said(done)
+    assert "release the handle" in said(done)
     assert "nothing was done" in said(done)
     done = run("--yes", "--json")
     assert done.exit_code == 0, done.output

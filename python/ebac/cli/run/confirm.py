@@ -32,7 +32,14 @@ def confirm(device: OpenDevice, yes: bool, *, stderr: bool) -> None:
     if not device.backend.real:
         return
     found = device.positions()
-    positions.show(found, distances(device.configuration, found), stderr=stderr)
+    known = device.configuration
+    positions.show(found, distances(known, found), stderr=stderr)
+    output.console(stderr=stderr).print(
+        f"After {known.seconds:g} s every force fades within {known.ramp_down:g} s (run.ramp_down): who still presses "
+        "then falls through the wall, so release the handle before.",
+        soft_wrap=True,
+        markup=False,
+    )
     if not device.confirmed:
         sure("The motors get power. Is the handle where this says?", yes)
         device.confirm_zero()

@@ -19,6 +19,8 @@ if TYPE_CHECKING:
 
 #: Time between two pictures [s], and the time a picture looks back [s].
 _PICTURE, _BACK = 0.1, 1.0
+#: Time before the end of a run from which on the view asks to release the handle [s].
+_SOON = 3.0
 _BAR = 16
 _TINY = 1e-12
 
@@ -104,6 +106,8 @@ def lines(configuration: Configuration, run: Run, tail: Trace) -> list[str]:
         f"in the last {_BACK:g} s",
         f"bus: {int(tail['bus.missing'].max())} answers missing, {int(tail['bus.refused'].max())} frames refused",
     ]
+    if t > configuration.seconds - _SOON or state == "stop":
+        shown.insert(0, "[bold yellow]the run ends: release the handle, every force fades[/]")
     used = observer_use(tail)
     if used is not None:
         shown.append(f"observer: {used}")
