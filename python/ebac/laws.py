@@ -5,6 +5,7 @@ from __future__ import annotations
 import dataclasses
 import inspect
 import json
+import re
 from collections.abc import Mapping, Sequence
 from functools import cache
 from pathlib import Path
@@ -191,7 +192,10 @@ def design(
             raise TypeError(
                 f"{law.__name__} is a class: give an instance of it, {law.__name__}(...)"
             )
-        return law.design(device, timing, **changes)
+        try:
+            return law.design(device, timing, **changes)
+        except ValueError as error:
+            raise ValueError(_by_cause(str(error), device, changes)) from None
     if changes:
         raise TypeError(f"{law!r} is finished: make it with {', '.join(changes)}, or give its name")
     return checked(law)
@@ -216,6 +220,15 @@ def checked(law: Any) -> CoreLaw | PythonLaw:
                 f"{name}({', '.join(['self', *given])})"
             ) from None
     return law
+
+
+def _by_cause(message: str, device: Device | DeviceFacts, changes: Mapping[str, Any]) -> str:
+    """Return what is wrong with a design, by the number of the device that it follows from."""
+    found = re.match(r"(\w+\.force_noise) = \S+ N: (.*)", message)
+    if found is None or "force_noise" in changes or not isinstance(device, Device):
+        return message
+    noise = device.sensor.noise
+    return f"ForceSensor.noise = {noise:g} N: {found[2]}, as {found[1]} follows from it"
 
 
 def changed(law: AnyLaw, **changes: Any) -> AnyLaw:

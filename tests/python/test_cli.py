@@ -306,6 +306,10 @@ def test_a_fault_is_told_and_its_log_kept(monkeypatch: pytest.MonkeyPatch, tmp_p
         ("wall --hand-damping -1", "--hand-damping = -1 N s/m"),
         ("wall --hand-target 11", "--hand-target = 11 m"),
         ("wall --device-noise -1", "--device-noise = -1 N"),
+        (
+            "wall --device-noise 30",
+            "--device-noise = 30 N: must lie in [0, 10] N, as EBAC.force_noise follows",
+        ),
         ("wall --jitter 0.6", "--jitter = 0.6"),
         ("wall --seed -1", "--seed = -1"),
         ("wall --seconds 0", "--seconds"),

@@ -42,6 +42,22 @@ def test_an_empty_one_is_the_paper_s_joystick() -> None:
         ("[bus]\ndrives = 'nobody'\n", 2, "there is no such file"),
         ("[device]\npreset = 'robot'\n", 2, "no device is called 'robot'"),
         ("[device.mechanics]\ndamping = -3\n", 2, "damping = -3 N s/m"),
+        (
+            "[law]\nname = 'ebac'\n[device.sensor]\nlag = 0.001\nnoise = 30\n",
+            5,
+            "device.sensor.noise = 30 N: must lie in [0, 10] N, as EBAC.force_noise follows from it",
+        ),
+        (
+            "[limits]\nspeed = 1.0\n[device.motor]\ntorque_constant = 54\n",
+            3,
+            "device.motor: rated_torque = 0.053 N m and torque_constant = 54 N m/A give limits.continuous_current = "
+            "0.000981",
+        ),
+        (
+            "[limits]\nspeed = 1.0\n[device.motor]\nrated_torque = 53\n",
+            3,
+            "device.motor: rated_torque = 53 N m and",
+        ),
         ("[timing]\ndelay = 1\ndt = 1\n", 3, "dt = 1 s: must lie in"),
         ("[environment]\ntype = 'Wall'\nstiffness = -1.0\n", 3, "Wall.stiffness = -1 N/m"),
         (

@@ -207,7 +207,7 @@ def test_a_fault_is_exit_code_1_and_keeps_the_log(config: Path, tmp_path: Path) 
         (["--wall-position", "10"], "--wall-position = 10 m: must be less than 0.05736 m"),
         (
             ["--at", "1 environment.position=10"],
-            "(--at): environment.position = 10 m: must be less",
+            "--at 1 s: environment.position = 10 m: must be less",
         ),
         (["--out", "x", "--no-files"], "exclude each other"),
     ],

@@ -210,9 +210,27 @@ def _law(source: Source, values: Mapping[str, Any]) -> dict[str, Any]:
 def _limits(source: Source, device: Device) -> Limits:
     from ebac._core import _check_limits
 
-    limits: Limits = on_top(source, ("limits",), Limits.of(device))
+    own = Limits.of(device)
+    try:
+        _check_limits(own)
+    except ValueError as error:
+        name, wrong = str(error).removeprefix("Limits.").split(" ", 1)
+        if name not in table(source, ("limits",)):
+            raise source.refuse(*_by_device(device, name, wrong)) from None
+    limits: Limits = on_top(source, ("limits",), own)
     refusing(source, ("limits",), lambda: _check_limits(limits))
     return limits
+
+
+def _by_device(device: Device, name: str, wrong: str) -> tuple[tuple[str, ...], str]:
+    """Return the table that a limit follows from, and what is wrong with this limit."""
+    if name != "continuous_current":
+        return ("device",), f"device: limits.{name}, which follows from it, {wrong}"
+    motor = device.motor
+    return ("device", "motor"), (
+        f"device.motor: rated_torque = {motor.rated_torque:g} N m and torque_constant = {motor.torque_constant:g} N m/A"
+        f" give limits.continuous_current {wrong}; correct the motor: 1 mN m is 0.001 N m, 1 mN m/A is 0.001 N m/A"
+    )
 
 
 def _realtime(source: Source) -> dict[str, Any]:

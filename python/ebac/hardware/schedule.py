@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Self
 
@@ -12,7 +13,7 @@ import numpy as np
 from ebac._core import LoopState
 from ebac._util.arguments import unknown
 from ebac.hardware.current_parameters import changed, targets_after
-from ebac.hardware.world_place import never_reached
+from ebac.hardware.world_place import check_reached
 
 if TYPE_CHECKING:
     from ebac.hardware.configuration import Configuration
@@ -72,6 +73,15 @@ class Order:
             environment=parts["environment"],
             target=_target(parts["hand"]),
         )
+
+    @contextmanager
+    def naming(self, part: str) -> Iterator[None]:
+        """Name in an error the order, and the number as it was given: environment.stiffness for Wall.stiffness."""
+        try:
+            yield
+        except (TypeError, ValueError) as error:
+            said = re.sub(r"^[A-Za-z]\w*\.(\w+)(?= = )", rf"{part}.\1", str(error))
+            raise type(error)(f"--at {self.at:g} s: {said}") from None
 
     def apply(self, run: Run) -> None:
         """Tell a loop."""
@@ -143,17 +153,18 @@ class Schedule:
                 raise ValueError(
                     f"a change at {order.at:g} s: the run ends after {known.seconds:g} s; let it last longer"
                 )
-            if order.law:
-                after = law.replace(**order.law)
-                law._check_retune(after)
-                law = after
-            if order.environment:
-                world = changed(world, **order.environment)
-                beyond = never_reached(known.device, known.limits, world)
-                if beyond is not None:
-                    raise ValueError(f"a change at {order.at:g} s (--at): {beyond[1]}")
-            if order.target:
-                target = targets_after(known.hand if simulated else None, target, *order.target)
+            with order.naming("law"):
+                if order.law:
+                    after = law.replace(**order.law)
+                    law._check_retune(after)
+                    law = after
+            with order.naming("environment"):
+                if order.environment:
+                    world = changed(world, **order.environment)
+                    check_reached(known.device, known.limits, world)
+            with order.naming("hand"):
+                if order.target:
+                    target = targets_after(known.hand if simulated else None, target, *order.target)
 
     def look(self, run: Run) -> None:
         """Give the run what is due."""

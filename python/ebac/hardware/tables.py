@@ -15,6 +15,8 @@ Value = TypeVar("Value")
 
 #: "Wall.stiffness = -3 N/m: ...", where the core names what is out of range.
 _NAMED = re.compile(r"\b[A-Za-z]\w*\.([a-z]\w*)(?: = |:)")
+#: Where the number of a device stands that a law is designed for.
+_CAUSES: dict[str, Path] = {"ForceSensor.noise": ("device", "sensor", "noise")}
 
 
 class ConfigurationError(ProfileError):
@@ -106,6 +108,9 @@ def refusing(source: Source, path: Path, make: Any) -> Any:
         return make()
     except (ValueError, TypeError, KeyError) as error:
         message = str(error.args[0]) if error.args else str(error)
+        for name, cause in _CAUSES.items():
+            if message.startswith(f"{name} "):
+                raise source.refuse(cause, dotted(cause) + message.removeprefix(name)) from None
         names = _NAMED.findall(message)
         at = (*path, names[-1]) if names and names[-1] in table(source, path) else path
         raise source.refuse(at, message) from None
