@@ -229,6 +229,9 @@ def test_a_node_that_is_not_there_says_what_to_check(drive: Run) -> None:
 @pytest.mark.parametrize(
     ("words", "message"),
     [
+        (["scan", "--interface", "ebac", "--channel", "joystik"],
+         "--channel: the bus 'joystik' inside this process: no such name, did you mean 'joystick'; there are:"),
+        (["show", "-n", "1", "--interface", "ebac", "--channel", "joystik"], "did you mean 'joystick'"),
         (["scan", "--interface", "socketcan", "--channel", "nocan7"], "interface socketcan, channel nocan7"),
         (["scan", "--interface", "nonsense"], "--interface nonsense: no such name"),
         (["scan", "--interface", "virtual", "--channel", "empty", "--timeout", "0.01"], "Nobody answers"),

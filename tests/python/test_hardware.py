@@ -290,6 +290,13 @@ def test_a_drive_that_holds_something_else_is_refused() -> None:
         ebac.Device.open(known)
 
 
+def test_a_misspelt_bus_inside_this_process_is_named() -> None:
+    with pytest.raises(
+        drives.DriveError, match=r"bus\.channel: .*'joystik'.* did you mean 'joystick'"
+    ):
+        ebac.Device.open(configuration(interface="ebac", channel="joystik"))
+
+
 def test_a_bus_that_cannot_carry_it_is_refused_before_it_is_opened() -> None:
     fast = configuration(timing=ebac.Timing(dt=2e-4), interface="socketcan", channel="nobody0")
     with pytest.raises(drives.ProfileError, match="%"):

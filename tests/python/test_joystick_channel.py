@@ -109,7 +109,7 @@ def test_ebac_drive_scans_it() -> None:
 
 
 def test_a_scan_that_finds_nobody_fails() -> None:
-    where = ["--interface", "ebac", "--channel", "nobody"]
+    where = ["--interface", "virtual", "--channel", "nobody", "--timeout", "0.01"]
     for more in ([], ["--json"]):
         assert CliRunner().invoke(app, ["drive", "scan", *where, *more]).exit_code == 1
 

@@ -10,6 +10,7 @@ from threading import RLock
 from typing import TYPE_CHECKING
 
 from ebac._core import LoopbackBus, LoopbackHub, LoopbackJoystick
+from ebac._util.arguments import unknown
 
 if TYPE_CHECKING:
     from ebac.scenario import Scenario
@@ -99,6 +100,15 @@ def leave(channel: str) -> None:
             return
         del CHANNELS[channel]
     entry.nodes.__exit__(None, None, None)
+
+
+def without_nodes(channel: str) -> str:
+    """Return what is wrong with an open channel that only the caller holds, as with a misspelt one; else nothing."""
+    with LOCK:
+        alone = channel not in CHANNELS or CHANNELS[channel].users == 1
+        if nodes_on(channel) is not None or not alone:
+            return ""
+        return unknown(f"the bus {channel!r} inside this process", channel, sorted(NODES))
 
 
 @contextmanager

@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Self
 
 from ebac.drives.bus import TIMEOUT
+from ebac.drives.errors import BusError
 from ebac.hardware.drives_subprocess import in_a_process
 from ebac.hardware.report import grant_row
 
@@ -78,7 +79,13 @@ class Backend:
 
 @contextmanager
 def hardware(configuration: Configuration) -> Iterator[Backend]:
-    """Open the bus that a configuration names."""
+    """Open the bus that a configuration names.
+
+    Raises
+    ------
+    BusError
+        For a bus inside this process that has no drives.
+    """
     interface, channel = configuration.interface, configuration.channel
     if interface == "socketcan":
         yield Backend(
@@ -90,9 +97,11 @@ def hardware(configuration: Configuration) -> Iterator[Backend]:
             real=True,
         )
         return
-    from ebac.can.channels import hub_of
+    from ebac.can.channels import hub_of, without_nodes
 
     with hub_of(channel) as hub:
+        if wrong := without_nodes(channel):
+            raise BusError(f"bus.channel: {wrong}")
         about = f"the bus {channel!r} inside this process"
         yield Backend(
             interface=interface,

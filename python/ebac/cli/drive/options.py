@@ -191,7 +191,18 @@ def opened(where: BusOptions) -> Iterator[DriveBus]:
             interface=where.interface, channel=where.channel, bitrate=where.bitrate
         ) as bus,
     ):
+        _refuse_empty(bus)
         yield bus
+
+
+def _refuse_empty(bus: DriveBus) -> None:
+    """Refuse a bus inside this process on which nothing can answer: no other program can reach it."""
+    from ebac.can.channels import without_nodes
+    from ebac.can.interface import EbacBus
+
+    ours = bus.network.bus
+    if isinstance(ours, EbacBus) and (wrong := without_nodes(ours.channel)):
+        raise ValueError(f"--channel: {wrong}")
 
 
 def sheet_of(where: BusOptions) -> Sheet | None:
