@@ -54,6 +54,9 @@ _SOLIDS = (Box, Capsule, Cylinder, Plane, Sphere, Torus)
 EVERY_LAW: Final = "every-law"
 _PARTS = ("device", "hand", "environment", "timing", "seconds", "jitter", "seed", "observer")
 
+#: Tables that only a configuration of `ebac run` has.
+_OF_A_RUN = frozenset(("bus", "limits", "run", "signs", "simulated", "zero"))
+
 
 def as_environment(given: Any) -> Any:
     """Return the world of a solid or body of `ebac.worlds`, and anything else as it is."""
@@ -245,6 +248,11 @@ class Scenario:
             table = parsed(text)
         except ValueError as error:
             raise ValueError(f"not a TOML document: {error}") from None
+        if not _OF_A_RUN.isdisjoint(table):
+            raise ValueError(
+                "this is a configuration of `ebac run`, not a scenario: `ebac run FILE --virtual` simulates it; for a "
+                "scenario copy its tables [device], [timing], [environment], and [simulated.hand] as [hand]"
+            )
         if folder is not None:
             table = seen_from_here(table, Path(folder))
         try:

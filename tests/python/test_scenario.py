@@ -113,6 +113,18 @@ def test_toml_of_the_default_is_readable() -> None:
         assert line in text.splitlines(), line
 
 
+def test_a_configuration_of_a_run_is_no_scenario_and_the_reverse(tmp_path: Path) -> None:
+    run = Path(__file__).parents[2] / "examples" / "joystick.toml"
+    with pytest.raises(ValueError, match=r"joystick\.toml: this is a configuration of `ebac run`"):
+        ebac.Scenario.load(run)
+    path = tmp_path / "mine.toml"
+    ebac.Scenario().save(path)
+    with pytest.raises(ValueError, match=r"mine\.toml, line 2: seconds: this is a scenario"):
+        ebac.hardware.Configuration.load(path)
+    with pytest.raises(ValueError, match="seconds: no such name"):  # one that lost its table
+        ebac.hardware.Configuration.from_toml("seconds = 3\n[bus]\nchannel = 'can0'\n")
+
+
 def test_what_toml_does_not_name_keeps_its_default() -> None:
     assert ebac.Scenario.from_toml("") == ebac.Scenario()
     assert ebac.Scenario.from_toml("[hand]\nmass = 0.3") == ebac.Scenario(hand=ebac.Hand(mass=0.3))

@@ -43,6 +43,9 @@ TABLES = [
     "simulated",
 ]
 
+#: What only a scenario has.
+_OF_A_SCENARIO = ("seconds", "jitter", "seed", "hand")
+
 
 def read(source: Source) -> dict[str, Any]:
     """Return the parts of a configuration.
@@ -52,6 +55,14 @@ def read(source: Source) -> dict[str, Any]:
     ProfileError
         For what cannot be, with file and line.
     """
+    for name in _OF_A_SCENARIO:
+        if name in source.table and "bus" not in source.table:
+            raise source.refuse(
+                (name,),
+                f"{name}: this is a scenario, as of `ebac wall --scenario`, not a configuration of `ebac run`: "
+                "`ebac demo joystick` writes one, into which its tables [device], [timing], [environment], and [hand] "
+                "as [simulated.hand] can be copied",
+            )
     known(source, (), TABLES)
     values: dict[str, Any] = {"name": source.name, "text": source.text}
     values |= _bus(source)
