@@ -143,6 +143,11 @@ def test_wrong_arguments_are_refused_with_a_sentence(
             "Limits has no parameter 'fors', did you mean 'force'; "
             "it has: overshoot, force, current, noise_gain, energy",
         ),
+        (
+            lambda: ebac.design("eba", ebac.Device(), ebac.Timing(), virtual_damping=30),
+            "EBA has no parameter 'virtual_damping': it has no virtual damper; its damping is another thing, a lower "
+            "bound of the physical damping of the device",
+        ),
         (lambda: ebac.Variant("ebac"), "Variant needs changes; it has: law, changes"),
     ],
 )

@@ -87,6 +87,12 @@ def test_an_empty_one_is_the_paper_s_joystick() -> None:
         ),
         ("[law]\nname = 'ebaac'\n", 2, "did you mean 'ebac'"),
         ("[law]\nname = 'ebac'\nkq = 1\n", 3, "law.kq: no such name"),
+        (
+            "[law]\nname = 'ebac'\nvirtual_damping = 30.0\n",
+            3,
+            "law.virtual_damping: it is designed, and injection = 0 leaves it out; its damping is another thing, "
+            "a lower bound of the physical damping of the device",
+        ),
         ("[law]\nname = 'ebac'\nkp = 7.0\n", 3, "kp = 7"),
         ("[limits]\nspeed = 0.0\n", 2, "Limits.speed = 0 m/s: must lie in [0.001, 100] m/s"),
         ("[limits]\nedge = 0.06\nend = 0.05\n", None, "end"),

@@ -27,8 +27,16 @@ LISTED_BY = {
 FEW = 8
 
 _MASS = "it is the sum of handle and rotor, give mechanics=ebac.Mechanics(handle_mass=...) without the rotor's share"
+_DAMPING = (
+    "its damping is another thing, a lower bound of the physical damping of the device, and too high a value lets the "
+    "law give out energy that nobody has put in"
+)
+#: Laws whose damping is that of the device.
+_BY_DAMPING = ("PassivityControl", "ISS", "ForceBounding", "EBA", "EBAAccount", "EBACPrinted")
 #: Where a parameter is that people look for in another place.
 ELSEWHERE = {
+    **{(law, "virtual_damping"): f"it has no virtual damper; {_DAMPING}" for law in _BY_DAMPING},
+    ("EBAC", "virtual_damping"): f"it is designed, and injection = 0 leaves it out; {_DAMPING}",
     ("Device", "mass"): _MASS,
     ("Mechanics", "mass"): _MASS,
     ("Device", "damping"): "give mechanics=ebac.Mechanics(damping=...)",

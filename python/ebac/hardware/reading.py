@@ -208,7 +208,8 @@ def _engine(source: Source) -> dict[str, Any]:
 def _law(source: Source, values: Mapping[str, Any]) -> dict[str, Any]:
     found = table(source, ("law",))
     name = word(source, ("law", "name"), found.get("name", "ebac"), list(LAWS))
-    known(source, ("law",), ["name", *(one.name for one in LAWS[name].fields())])
+    kind = LAWS[name]
+    known(source, ("law",), ["name", *(one.name for one in kind.fields())], kind.__name__)
     changes = {key: value for key, value in found.items() if key != "name"}
     refusing(
         source,

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from typing import Any, TypeVar
 
 from ebac._util import serialisation
-from ebac._util.arguments import unknown
+from ebac._util.arguments import ELSEWHERE, unknown
 from ebac.drives.errors import ProfileError
 from ebac.drives.toml_positions import Path, Source, dotted
 
@@ -42,8 +42,8 @@ def table(source: Source, path: Path) -> Mapping[str, Any]:
     return found
 
 
-def known(source: Source, path: Path, names: list[str]) -> Mapping[str, Any]:
-    """Return the table at a path, which may have these keys only.
+def known(source: Source, path: Path, names: list[str], kind: str = "") -> Mapping[str, Any]:
+    """Return the table at a path, which may have these keys only; `kind` is the class that takes them.
 
     Raises
     ------
@@ -53,7 +53,10 @@ def known(source: Source, path: Path, names: list[str]) -> Mapping[str, Any]:
     found = table(source, path)
     for name in found:
         if name not in names:
-            raise source.refuse((*path, name), unknown(dotted((*path, name)), name, names))
+            here = dotted((*path, name))
+            better = ELSEWHERE.get((kind, name))
+            wrong = unknown(here, name, names) if better is None else f"{here}: {better}"
+            raise source.refuse((*path, name), wrong)
     return found
 
 
