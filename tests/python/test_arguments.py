@@ -146,7 +146,8 @@ def test_wrong_arguments_are_refused_with_a_sentence(
         (
             lambda: ebac.design("eba", ebac.Device(), ebac.Timing(), virtual_damping=30),
             "EBA has no parameter 'virtual_damping': it has no virtual damper; its damping is another thing, a lower "
-            "bound of the physical damping of the device",
+            "bound of the physical damping of the device, and too high a value lets the law give out energy that "
+            "nobody has put in; it has: damping, share, peak_force, timing",
         ),
         (lambda: ebac.Variant("ebac"), "Variant needs changes; it has: law, changes"),
     ],

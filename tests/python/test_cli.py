@@ -348,8 +348,20 @@ def test_a_fault_is_told_and_its_log_kept(monkeypatch: pytest.MonkeyPatch, tmp_p
         ("specs --device bob", "joystick"),
         ("bench --repeats 0", "--repeats"),
         ("wal", "wal"),
-        ("wall extra", "extra: too many words; quote a value that has spaces, or see --help"),
-        ("wall one two", "one two: too many words"),
+        (
+            "wall extra",
+            "extra: `ebac wall` takes no argument, only options; quote a value that has",
+        ),
+        ("wall one two", "one two: `ebac wall` takes no argument"),
+        (
+            "bus load joystick",
+            "joystick: `ebac bus load` takes no argument, only options; `ebac drive plan FILE` prints",
+        ),
+        (
+            "conditions d1",
+            "d1: `ebac conditions` takes no argument, only options; `ebac study --condition NAME` runs",
+        ),
+        ("presets hand reference", "too many words; quote a value that has spaces, or see --help"),
         ("wall --scenario latin.toml", "latin.toml: is no text in UTF-8 (line 1, byte 0xe9)"),
         ("study --population latin.csv", "latin.csv: is no text in UTF-8 (line 1, byte 0xe9)"),
         ("log plot latin.csv", "latin.csv: is no text in UTF-8 (line 1, byte 0xe9)"),

@@ -18,6 +18,12 @@ VARIED = {
     r"--device-(mass|damping|inertia|radius|count|motor|encoder)": ("--scenario",),
 }
 
+#: What people look for who give an argument to a command that takes none.
+INSTEAD = {
+    "bus load": "`ebac drive plan FILE` prints the load of a network file or profile",
+    "conditions": "`ebac study --condition NAME` runs a condition",
+}
+
 
 def sentence(error: Any, command: Any, words: Sequence[str]) -> str:
     """Return what is wrong, from an error of the parser and the words it was given."""
@@ -27,7 +33,7 @@ def sentence(error: Any, command: Any, words: Sequence[str]) -> str:
         return _unknown_option(str(wrong), command)
     param = getattr(error, "param", None)
     if param is None:
-        return _plain(message, wrong)
+        return _plain(message, wrong, error)
     name = option_name(param)
     if type(error).__name__ == "MissingParameter":
         return f"{name}: is missing; {_help(param)}"
@@ -110,13 +116,21 @@ def _unknown_option(wrong: str, command: Any) -> str:
     return f"{wrong}: there is no such option{hint}; see --help"
 
 
-def _plain(message: str, wrong: str | None) -> str:
+def _plain(message: str, wrong: str | None, error: Any) -> str:
     if wrong and "requires" in message:
         return f"{wrong}: needs a value after it"
     found = re.search(r"unexpected extra argument(?:s|\(s\))? \((.*)\)", message)
     if found:
-        return f"{found[1]}: too many words; quote a value that has spaces, or see --help"
+        return f"{found[1]}: {_too_many(error.ctx)}"
     return f"{message[0].lower()}{message[1:]}"
+
+
+def _too_many(context: Any) -> str:
+    name = context.command_path.partition(" ")[2]
+    remedy = f"{INSTEAD.get(name, 'quote a value that has spaces')}, or see --help"
+    if any(param.param_type_name == "argument" for param in context.command.params):
+        return f"too many words; {remedy}"
+    return f"`ebac {name}` takes no argument, only options; {remedy}"
 
 
 def _or(words: Sequence[str]) -> str:
