@@ -144,6 +144,23 @@ def test_plan_apply_verify_restore(drive: Run, tmp_path: Path) -> None:
     assert "nothing to restore" in said(drive("restore", "--yes", code=1))
 
 
+def test_apply_tells_why_it_writes_more_than_was_planned(drive: Run) -> None:
+    planned = drive("plan", "-n", "1", "--json")["rows"]
+    told = " ".join(drive("apply", "-n", "1", "--yes").stdout.split())
+    assert (
+        f"Node 1: {len(planned)} objects in 20 writes (a PDO that changes is switched off" in told
+    )
+
+
+@pytest.mark.parametrize("width", [70, 80, 200])
+def test_a_unit_stands_beside_its_number(
+    drive: Run, monkeypatch: pytest.MonkeyPatch, width: int
+) -> None:
+    monkeypatch.setenv("COLUMNS", str(width))
+    (line, *_) = [x for x in drive("plan").stdout.splitlines() if "sync_period" in x]
+    assert "1000 us" in line
+
+
 def test_one_node_of_a_network_and_a_profile_of_ones_own(drive: Run, tmp_path: Path) -> None:
     assert {row["node"] for row in drive("plan", "-n", "2", "--json")["rows"]} == {2}
     mine = tmp_path / "mine.toml"

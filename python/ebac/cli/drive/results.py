@@ -24,10 +24,10 @@ def changes(found: Sequence[Change], none: str) -> None:
     alike: dict[tuple[str, ...], list[str]] = {}
     for one in found:
         unit = "" if one.object.hexadecimal else one.object.unit
-        now, wanted = one.show(one.now), one.show(one.wanted)
-        row = (one.object.where, one.object.name, now, wanted, unit, one.why)
+        now, wanted = one.show(one.now), f"{one.show(one.wanted)} {unit}".rstrip()
+        row = (one.object.where, one.object.name, now, wanted, one.why)
         alike.setdefault(row, []).append(str(one.node))
-    grid = output.table(["object", "", "node", "now", "wanted", "unit", "why"], numbers=(3, 4))
+    grid = output.table(["object", "", "node", "now", "wanted", "why"], numbers=(3, 4))
     for (where, name, *values), nodes in alike.items():
         grid.add_row(where, name, ", ".join(nodes), *values)
     grid.columns[1].min_width = max(len(one.object.name) for one in found)

@@ -141,9 +141,15 @@ def _say_done(one: Drive, done: Applied) -> None:
     if not done.written:
         output.say(f"Node {one.node}: holds all of it already, nothing was written.{kept}")
         return
+    objects, writes = len(done.changes), len(done.written)
+    more = (
+        " (a PDO that changes is switched off, written whole and switched on)"
+        if writes > objects
+        else ""
+    )
     output.say(
-        f"Node {one.node}: {len(done.written)} writes, read back and right. It is disabled, "
-        f"NMT pre-operational.{kept}"
+        f"Node {one.node}: {output.plural(objects, 'object')} in {output.plural(writes, 'write')}{more}, read back and "
+        f"right. It is disabled, NMT pre-operational.{kept}"
     )
     if done.backup is not None and done.backup.exists():
         output.say(f"Backup: {done.backup}", style="dim")
