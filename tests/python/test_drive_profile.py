@@ -15,6 +15,7 @@ from ebac.drives.pdo import read_pdo
 from ebac.drives.profile import read_profile, read_source
 from ebac.drives.profile_fields import KEYS
 from ebac.drives.settings import groups, writes
+from ebac.drives.stall import hold_time
 from ebac.drives.toml_positions import Source
 
 COPLEY = read_source("copley-accelnet").text
@@ -248,6 +249,18 @@ def test_a_profile_in_python_is_checked_as_one_in_a_file() -> None:
 def test_a_torque_constant_of_peak_or_effective_amperes_is_taken(constant: float) -> None:
     profile = drives.load("copley-accelnet", nodes=[1]).nodes[0].profile
     assert profile.replace(motor__torque_constant=constant)
+
+
+def test_the_page_tells_how_long_each_profile_holds_a_torque() -> None:
+    page = Path(__file__).parents[2] / "docs" / "how-to" / "set_up_drives.md"
+    told: dict[str, float] = {}
+    for row in re.finditer(r"^\| (`.*?) \| .* \| (\d+) ms \|$", page.read_text("utf-8"), re.M):
+        told |= dict.fromkeys(re.findall(r"`(.+?)`", row[1]), float(row[2]))
+    for name in drives.builtin():
+        if "node" not in read_source(name).table:
+            (node,) = drives.load(name, nodes=[1]).nodes
+            assert told.pop(name) == pytest.approx(1e3 * hold_time(node.profile)), name
+    assert not told
 
 
 # --- raw numbers ---
