@@ -174,6 +174,7 @@ def test_the_data_sheet_counts_on_a_virtual_clock_too(tmp_path: Path) -> None:
     assert done.exit_code == 2, done.output
     assert "limits.thermal_time" in done.stderr
     assert "the motor may burn" in " ".join(done.stderr.split())
+    assert "of an RE 30's winding, from memory" in " ".join(done.stderr.split())
     assert CliRunner().invoke(app, [*words, "--beyond-rating"]).exit_code == 0
     beyond = known.replace(limits=known.limits.replace(thermal_time=1.5 * most))
     with pytest.raises(ebac.hardware.ConfigurationError, match="thermal_time"):

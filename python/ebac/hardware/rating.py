@@ -17,7 +17,8 @@ def check_rating(limits: Limits, device: Device) -> None:
     limits : Limits
         Of the run.
     device : Device
-        Its motor's rated torque and torque constant, and its drive's peak, give the largest currents [A].
+        Its motor's rated torque and torque constant, and its drive's peak, give the largest currents [A]. The largest
+        time constant of the winding [s] is that of an RE 30 for every motor.
 
     Raises
     ------
@@ -28,12 +29,18 @@ def check_rating(limits: Limits, device: Device) -> None:
     for name, what in (
         ("continuous_current", "current that the motor takes for ever (motor.rated_torque)"),
         ("peak_current", "peak of its drive (drive.peak_ratio)"),
-        ("thermal_time", "time constant of its winding"),
+        ("thermal_time", "time constant of an RE 30's winding, from memory of its data sheet"),
     ):
         asked, most = float(getattr(limits, name)), float(getattr(rated, name))
         if asked > most * (1 + _ROUNDING):
-            unit = "s" if name == "thermal_time" else "A"
+            of_winding = name == "thermal_time"
+            unit = "s" if of_winding else "A"
+            other = (
+                "look it up in your motor's data sheet"
+                if of_winding
+                else "correct the device's motor"
+            )
             raise ConfigurationError(
                 f"limits.{name} = {asked:g} {unit}: is beyond the {what}, {most:.4g} {unit}: the motor may burn; lower "
-                "it, correct the device's motor, or pass --beyond-rating (in Python beyond_rating=True)"
+                f"it, {other}, or pass --beyond-rating (in Python beyond_rating=True)"
             )
