@@ -29,6 +29,7 @@ def never_reached(
 
     None where the handle can reach them, and for a world of bodies, which has no position.
     """
+    walls: dict[tuple[str, ...], Wall]
     match environment:
         case Wall() as wall:
             walls = {(): wall}
