@@ -435,6 +435,10 @@ def test_the_command_shows_where_the_axes_stand_and_asks(
     assert "After 0.3 s every force fades within 0.2 s (run.ramp_down)" in said(done)
     assert "release the handle" in said(done)
     assert "nothing was done" in said(done)
+    done = run("--wall-position", "-0.01", input="y\n")
+    assert done.exit_code == 1
+    assert "10.00 mm inside the wall and would be pushed" in said(done)
+    assert "Is the handle where this says" not in said(done)
     done = run("--yes", "--json")
     assert done.exit_code == 0, done.output
     told = json.loads(done.stdout)
