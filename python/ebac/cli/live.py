@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from ebac.cli import options, output
+from ebac.cli import by_name, options, output
 from ebac.cli.drive.options import Yes, telling
 from ebac.cli.files import new_file
 
@@ -157,7 +157,6 @@ def _serve(
 ) -> None:
     from contextlib import ExitStack
 
-    from ebac.cli import setting
     from ebac.hardware import Configuration, OpenDevice
     from ebac.hardware.interrupts import Interrupts
     from ebac.live.serving import serve
@@ -165,7 +164,7 @@ def _serve(
     known: Configuration | None = None
     with output.refusing():
         known = None if file is None else Configuration.load(file)
-        name = None if law is None else setting.one_law(law)
+        name = None if law is None else by_name.one_law(law)
     with ExitStack() as stack:
         interrupts = stack.enter_context(Interrupts())
         interrupts.moving()

@@ -80,7 +80,7 @@ def refusing() -> Iterator[None]:
             raise
         fail(str(error))
     except (KeyError, TypeError, ValueError) as error:
-        from ebac.cli.setting import in_options
+        from ebac.cli.by_option import in_options
 
         fail(in_options(str(error.args[0]) if error.args else str(error)))
 

@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-import re
-from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ebac import presets
-from ebac._util.arguments import unknown
+from ebac.cli import by_name, by_option
 
 if TYPE_CHECKING:
     from ebac._core import Device, Hand, Timing
@@ -16,36 +14,6 @@ if TYPE_CHECKING:
     from ebac.scenario import Environment, Scenario
     from ebac.worlds import World
 
-#: What the library calls the numbers that options give.
-OPTIONS = {
-    "Wall.stiffness": "--wall-stiffness",
-    "Wall.damping": "--wall-damping",
-    "Wall.position": "--wall-position",
-    "environment.position": "--wall-position",
-    "Elastic.stiffness": "--wall-stiffness",
-    "Elastic.damping": "--wall-damping",
-    "Body.friction": "--world-friction",
-    "Hand.mass": "--hand-mass",
-    "Hand.damping": "--hand-damping",
-    "Hand.stiffness": "--hand-stiffness",
-    "Step.target": "--hand-target",
-    "MinimumJerk.target": "--hand-target",
-    "Tapping.target": "--hand-target",
-    "ForceSensor.noise": "--device-noise",
-    "Mechanics.coulomb": "--device-coulomb",
-    "Timing.delay": "--delay",
-    "Scenario.jitter": "--jitter",
-    "Scenario.seconds": "--seconds",
-    "Scenario.seed": "--seed",
-    "approach_m": "--approach",
-    "EngineTiming.rate": "--engine-rate",
-    "EngineTiming.jitter": "--engine-jitter",
-    "EngineTiming.compute": "--engine-compute",
-    "SensorConfig.counts_per_force": "--sensor-counts",
-    "SensorConfig.counts_per_torque": "--sensor-counts",
-}
-#: The options of the command that runs, by the names of its parameters.
-current: dict[str, str] = {}
 #: Range of the rate [Hz]; the sample time lies in [1e-5, 0.1] s.
 RATES = (10.0, 1e5)
 
@@ -55,87 +23,6 @@ def base_scenario(file: Path | None) -> Scenario:
     from ebac.scenario import Scenario
 
     return Scenario() if file is None else Scenario.load(file)
-
-
-def one_law(name: str, option: str = "--law") -> str:
-    """Return a law by its name, in any case, where there can be one only."""
-    names = law_names([name], option)
-    if len(names) != 1:
-        raise ValueError(f"{option} {name}: one law only; give one of {', '.join(names)}")
-    return names[0]
-
-
-def law_names(given: Sequence[str], option: str = "--law") -> list[str]:
-    """Return the laws of names in any case, separated by commas, each once, in the order given; `all` is every law."""
-    from ebac.laws import LAWS, tuned_laws
-
-    known = (*LAWS, *tuned_laws())
-    names: list[str] = []
-    for word in _words(given, option):
-        name = word.lower().replace("_", "-")
-        if name not in known and name != "all":
-            raise ValueError(unknown(f"{option} {word}", name, [*known, "all"], "law"))
-        names += LAWS if name == "all" else [name]
-    chosen = list(dict.fromkeys(names))
-    _tell_tuned([name for name in chosen if name not in LAWS])
-    return chosen
-
-
-def _tell_tuned(names: Sequence[str]) -> None:
-    """Say on stderr what a law with tuned parameters is."""
-    from ebac.cli import output
-
-    for name in names:
-        law, _, end = name.partition("-tuned")
-        how = ", acting on the observer's estimate: use it with --observer-every-law" if end else ""
-        output.note(
-            f"{name} is {law} with the parameters that `ebac tune` found for the reference device at 1 kHz{how}"
-        )
-
-
-def _words(given: Sequence[str], option: str) -> list[str]:
-    """Return the names of lists separated by commas."""
-    names = [word.strip() for text in given for word in text.split(",")]
-    for name in names:
-        if " " in name:
-            raise ValueError(
-                f"{option} {name}: separate names by commas: {option} {','.join(name.split())}"
-            )
-    return names
-
-
-def _is_condition(name: str) -> bool:
-    from ebac.studies import conditions
-
-    try:
-        return bool(conditions([name]))
-    except ValueError:
-        return False
-
-
-def condition_names(given: Sequence[str]) -> list[str]:
-    """Return the conditions and groups of lists with commas."""
-    from ebac.studies import conditions
-
-    for text in given:
-        joined = "".join(text.split())
-        if " " in text.strip() and "," not in text and _is_condition(joined):
-            raise ValueError(f"--condition {text}: a condition is one word: --condition {joined}")
-    names = _words(given, "--condition")
-    for name in names:
-        try:
-            conditions([name])
-        except ValueError as error:
-            raise ValueError(f"--{error}") from None
-    return names
-
-
-def one_condition(name: str) -> str:
-    """Return a condition by its name, where there can be one only; a group is refused by who searches."""
-    names = condition_names([name])
-    if len(names) != 1:
-        raise ValueError(f"--condition {name}: one condition only; give one of {', '.join(names)}")
-    return names[0]
 
 
 def parse_change(text: str) -> dict[str, Any]:
@@ -173,29 +60,6 @@ def population(name: str, hands: int | None, seed: int, approach: float | None =
     return people if approach is None else people.replace(approach_m=approach)
 
 
-def in_options(message: str) -> str:
-    """Return what the library says of a value, by the name of the option that gave it."""
-    message = message.replace("resume=False", "--force instead of --resume")
-    message = re.sub(r"""columns=\{'(\w+)': (['"])(.*?)\2\}""", _column, message)
-    for pattern in (r"(?:[\w ]+: )?([A-Za-z_.]+)(?= ?= )", r"(?:[a-z_]+: )?([a-z_]+)(?= \S+: )"):
-        found = re.match(pattern, message)
-        if found is None:
-            continue
-        name = found[1]
-        option = OPTIONS.get(name)
-        if option not in current.values():
-            option = current.get(name.rpartition(".")[2])
-        if option is not None:
-            return option + message[found.end() :]
-    return message
-
-
-def _column(found: re.Match[str]) -> str:
-    """Return the option for columns={'x': 'Handle Pos'}: --column "x=Handle Pos"."""
-    pair = f"{found[1]}={found[3]}"
-    return f'--column "{pair}"' if re.search(r"\s|'", pair) else f"--column {pair}"
-
-
 def given(**options: Any) -> dict[str, Any]:
     """Return the options that were given."""
     return {name: value for name, value in options.items() if value is not None}
@@ -203,20 +67,12 @@ def given(**options: Any) -> dict[str, Any]:
 
 def known_hand(name: str, option: str = "--hand") -> Hand:
     """Return the hand of a name, in any case."""
-    return presets.hand(known_name("hand", option, name, list(presets.HANDS)))
+    return presets.hand(by_name.known_name("hand", option, name, list(presets.HANDS)))
 
 
 def known_device(name: str, option: str = "--device") -> Device:
     """Return the device of a name, in any case."""
-    return presets.device(known_name("device", option, name, list(presets.DEVICES)))
-
-
-def known_name(kind: str, option: str, name: str, names: Iterable[str]) -> str:
-    """Return a name in lower case that is one of `names`; ValueError names the option and the nearest."""
-    names = list(names)
-    if name.lower() not in names:
-        raise ValueError(unknown(f"{option} {name}", name.lower(), names, kind))
-    return name.lower()
+    return presets.device(by_name.known_name("device", option, name, list(presets.DEVICES)))
 
 
 def choose_wall(environment: Environment, **options: float | None) -> Environment:
@@ -243,9 +99,9 @@ def choose_world(name: str, option: str = "--world", **options: float | None) ->
     try:
         return preset(kind.lower() + colon + file, **given(**options))
     except (ValueError, FileNotFoundError, ImportError) as error:
-        by_option = in_options(str(error))
-        if option and by_option.startswith("--"):
-            raise ValueError(by_option) from error
+        message = by_option.in_options(str(error))
+        if option and message.startswith("--"):
+            raise ValueError(message) from error
         missing = isinstance(error, FileNotFoundError)
         said = f"{file}: there is no such file" if missing else str(error)
         raise ValueError(f"{option} {name}: {said}" if option else said) from error

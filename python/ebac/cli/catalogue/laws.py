@@ -6,7 +6,7 @@ from typing import Annotated, Any
 
 import typer
 
-from ebac.cli import completion, options, output, setting
+from ebac.cli import by_name, completion, options, output, setting
 
 
 def laws(
@@ -49,7 +49,7 @@ def _rows(
     from ebac._core import Timing
     from ebac.laws import LAWS, design
 
-    names = [setting.one_law(name, "NAME")] if name is not None else list(LAWS)
+    names = [by_name.one_law(name, "NAME")] if name is not None else list(LAWS)
     chosen = setting.known_device(device or "reference")
     timing = setting.choose_timing(Timing(), rate, delay)
     return [_row(design(law, chosen, timing)) for law in names]

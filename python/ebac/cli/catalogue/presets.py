@@ -6,7 +6,7 @@ from typing import Annotated, Any
 
 import typer
 
-from ebac.cli import completion, output
+from ebac.cli import by_name, completion, output
 
 
 def presets(
@@ -68,11 +68,10 @@ def presets(
 
 def _show_one(name: str, *, as_json: bool) -> None:
     """Print the hand and the device of a name, as tables of a scenario file."""
-    from ebac.cli import setting
     from ebac.presets import DEVICES, HANDS
 
     with output.refusing():
-        name = setting.known_name(
+        name = by_name.known_name(
             "hand or device", "presets", name, dict.fromkeys([*HANDS, *DEVICES])
         )
     found: list[tuple[str, str, str]] = []

@@ -6,7 +6,7 @@ from typing import Any
 
 import typer
 
-from ebac.cli import output, setting, wrong_input
+from ebac.cli import by_option, output, wrong_input
 from ebac.cli.command import Group, add, expanded
 from ebac.cli.gastroscopy import chain, drives, navigate, study
 
@@ -16,8 +16,8 @@ class OwnAndStudy(Group):
 
     def invoke(self, ctx: Any) -> Any:
         """Run the navigation, or the study."""
-        setting.current.clear()
-        setting.current.update({p.name: wrong_input.option_name(p) for p in self.params})
+        by_option.current.clear()
+        by_option.current.update({p.name: wrong_input.option_name(p) for p in self.params})
         with output.interruptible():
             return super().invoke(ctx)
 

@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from ebac.cli import options, output, setting
+from ebac.cli import by_name, options, output
 from ebac.cli.gastroscopy.drives import GiveUp
 from ebac.cli.gastroscopy.side_table import show
 from ebac.cli.teleop.options import LinkOptions
@@ -45,7 +45,7 @@ def drives(
         found = chain(
             seconds,
             link=over.link(),
-            law=None if law is None else setting.one_law(law),
+            law=None if law is None else by_name.one_law(law),
             give_up=give_up,
             folder=out,
             seed=1 if seed is None else seed,

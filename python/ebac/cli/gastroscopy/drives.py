@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from ebac.cli import options, output, setting, simulated
+from ebac.cli import by_name, options, output, simulated
 from ebac.cli.drive.options import Yes, telling
 from ebac.cli.gastroscopy.side_table import show
 from ebac.cli.gastroscopy.teller import Teller
@@ -100,7 +100,7 @@ def master(
             output.fail(
                 f"--consent-after {consent_after:g}: only with --simulated; on your drives the hand agrees, by Enter"
             )
-        name = None if law is None else setting.one_law(law)
+        name = None if law is None else by_name.one_law(law)
         at = peer_of(peer, "--peer")
         (known,) = _known({"master": configuration}, on_simulated)
         if not on_simulated:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ebac.cli import options, output, setting
+from ebac.cli import by_name, options, output
 from ebac.cli.files import PANEL, ResultOptions
 from ebac.cli.gastroscopy.watch import watch
 from ebac.cli.wall.results import log_names
@@ -142,7 +142,7 @@ def gastroscopy(
     from ebac.gastroscope import gastroscopy as run
 
     with output.refusing():
-        name = setting.one_law(law)
+        name = by_name.one_law(law)
         procedure = Procedure(
             master=how.master(delay), physician=Physician(heed=heed), seconds=seconds, seed=seed
         )

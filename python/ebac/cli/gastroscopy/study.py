@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ebac.cli import options, output, setting
+from ebac.cli import by_name, options, output
 from ebac.cli.files import ResultOptions
 from ebac.cli.gastroscopy.navigate import MasterOptions
 
@@ -58,7 +58,7 @@ def study(
     from ebac.gastroscope.study import STRAIGHT
 
     with output.refusing():
-        names = setting.law_names(law or ["direct", "ebac"])
+        names = by_name.law_names(law or ["direct", "ebac"])
         delays = delay or [0.0, 0.05, 0.1]
         base = Procedure(
             master=how.master(0.0),

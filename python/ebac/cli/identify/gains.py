@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from ebac.cli import completion, output
+from ebac.cli.by_name import one_law
 from ebac.cli.identify import options as given
-from ebac.cli.setting import one_law
 
 if TYPE_CHECKING:
     from ebac.identify import GainsResult

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ebac.cli import options, setting
+from ebac.cli import by_name, options, setting
 
 if TYPE_CHECKING:
     from ebac.hardware import Configuration
@@ -32,7 +32,7 @@ def chosen(
         **setting.given(seconds=seconds),
         **_observer(known, observer),
     }
-    name = None if law is None else setting.one_law(law)
+    name = None if law is None else by_name.one_law(law)
     if name is not None and name != known.law:
         changes |= {"law": name, "changes": {}}
     made = known.replace(**changes)

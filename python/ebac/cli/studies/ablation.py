@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from ebac.cli import options, output, setting
+from ebac.cli import by_name, options, output, setting
 from ebac.cli.files import ResultOptions
 from ebac.cli.studies import replaced, study_results
 
@@ -84,9 +84,9 @@ def ablation(
     folder = to.folder("ablation", as_json=as_json, resume=study_results.BUNDLES * resume)
     with output.refusing():
         given: dict[str, Any] = {
-            "law": setting.one_law(law),
+            "law": by_name.one_law(law),
             "changes": [setting.parse_change(one) for one in change or []],
-            "beside": setting.law_names(beside or ("tca", "eba"), "--beside"),
+            "beside": by_name.law_names(beside or ("tca", "eba"), "--beside"),
             "base": options.scenario_of(device, length),
             "seed": seed,
             "threads": threads,

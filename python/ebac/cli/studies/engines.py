@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
-from ebac.cli import engine_options, options, output, setting
+from ebac.cli import by_name, engine_options, options, output
 from ebac.cli.files import ResultOptions
 
 if TYPE_CHECKING:
@@ -49,7 +49,7 @@ def engines(
     from ebac.studies.engines import engines as compare
 
     with output.refusing():
-        names = setting.law_names(law or LAWS)
+        names = by_name.law_names(law or LAWS)
         base = _scenario(setup)
         folder = to.folder("engines", as_json=as_json)
         with output.counting("simulating", quiet=as_json) as progress:

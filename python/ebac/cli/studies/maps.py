@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from ebac._util.arguments import unknown
-from ebac.cli import options, output, setting
+from ebac.cli import by_name, options, output
 from ebac.cli.files import ResultOptions
 
 if TYPE_CHECKING:
@@ -69,7 +69,7 @@ def map_(
 
     with output.refusing():
         x, y = _quantities(kind)
-        names = setting.law_names(law or ["ebac"])
+        names = by_name.law_names(law or ["ebac"])
         base = options.scenario_of(setup, seconds=2.0)
         xs = _values("x", AXES[x], base, side, x_low, x_high)
         ys = _values("y", AXES[y], base, side, y_low, y_high)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ebac.cli import completion, options, output, setting
+from ebac.cli import by_name, completion, options, output
 from ebac.cli.files import ResultOptions
 
 if TYPE_CHECKING:
@@ -109,7 +109,7 @@ def random_worlds(
     from ebac.studies.world_kinds import KINDS
 
     with output.refusing():
-        names = setting.law_names(law or ["ebac"])
+        names = by_name.law_names(law or ["ebac"])
         folder = to.folder("random-worlds", as_json=as_json)
         output.keeping(
             "nothing was written; the same command starts from the beginning, and fewer --hands, --kind or --device "
@@ -145,7 +145,7 @@ def _names(option: str, given: list[str] | None, known: Iterable[str]) -> list[s
     """Return the names of lists separated by commas, each once; all that are known where none is given."""
     if given is None:
         return list(known)
-    names = [setting.known_name("", option, word, known) for word in output.words(given)]
+    names = [by_name.known_name("", option, word, known) for word in output.words(given)]
     if not names:
         raise ValueError(f"{option}: is empty; there are: {', '.join(known)}")
     return list(dict.fromkeys(names))

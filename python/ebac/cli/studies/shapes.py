@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
-from ebac.cli import completion, options, output, setting
+from ebac.cli import by_name, completion, options, output, setting
 from ebac.cli.files import ResultOptions
 
 if TYPE_CHECKING:
@@ -71,7 +71,7 @@ def shapes(
     from ebac.studies.shapes import shapes as compare
 
     with output.refusing():
-        names = setting.law_names(law or LAWS)
+        names = by_name.law_names(law or LAWS)
         devices = output.words(device) or DEVICES
         for name in devices:
             setting.known_device(name)

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from ebac.cli import options, output, setting
+from ebac.cli import by_name, options, output, setting
 from ebac.cli.files import PANEL, ResultOptions
 from ebac.cli.studies import replaced, study_results
 
@@ -91,11 +91,11 @@ def study(
     * `ebac study --law ebac --out big`, and after Ctrl-C the same with `--resume`
     """
     with output.refusing():
-        names = setting.law_names(law or DEFAULT_LAWS)
+        names = by_name.law_names(law or DEFAULT_LAWS)
         people = setting.population(population, hands, seed, approach)
         given: dict[str, Any] = {
             "base": options.scenario_of(device, length),
-            "conditions": setting.condition_names(condition or ["d1K10"]),
+            "conditions": by_name.condition_names(condition or ["d1K10"]),
             "seed": seed,
             "threads": threads,
         }

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ebac.cli import options, output, setting
+from ebac.cli import by_name, options, output
 from ebac.cli.files import ResultOptions
 
 if TYPE_CHECKING:
@@ -47,7 +47,7 @@ def tissue(
     from ebac.studies.tissue import tissue as compare
 
     with output.refusing():
-        names = setting.law_names(law or LAWS)
+        names = by_name.law_names(law or LAWS)
         folder = to.folder("tissue", as_json=as_json)
         with output.counting("simulating", quiet=as_json) as progress:
             found = compare(names, depth=depth, speed=speed, progress=progress)

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ebac.cli import completion, options, output, setting
+from ebac.cli import by_name, completion, options, output
 from ebac.cli.studies import replaced
 
 if TYPE_CHECKING:
@@ -78,10 +78,10 @@ def tune(
     found: list[Tuned] = []
     stopped = False
     with output.refusing():
-        names = setting.law_names([law], "LAW")
+        names = by_name.law_names([law], "LAW")
         if law.lower() == "all":
             names = [name for name in names if name in RANGES]
-        wanted = setting.condition_names(condition or TUNING_CONDITIONS)
+        wanted = by_name.condition_names(condition or TUNING_CONDITIONS)
         base = options.scenario_of(device, length)
         replaced.tell(base, wanted)
         training = Operators.sample(hands, HANDS_SEED)

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ebac.cli import options, output, setting
+from ebac.cli import by_name, options, output, setting
 from ebac.cli.files import ResultOptions
 from ebac.cli.studies import replaced
 
@@ -79,10 +79,10 @@ def worst(
     from ebac.studies.worst import worst as search
 
     with output.refusing():
-        name = setting.one_law(law)
+        name = by_name.one_law(law)
         chosen = Variant(name, setting.parse_change(_one(change))) if change else name
         base = options.scenario_of(device, length)
-        wanted = setting.one_condition(condition)
+        wanted = by_name.one_condition(condition)
         replaced.tell(base, [wanted])
         families = output.words(family)
         folder = to.folder("worst", as_json=as_json)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from ebac.cli import options, output, setting
+from ebac.cli import by_name, options, output, setting
 from ebac.cli.files import ResultOptions
 
 if TYPE_CHECKING:
@@ -113,7 +113,7 @@ def zwidth(
     from ebac.studies.zwidth import zwidth as search
 
     with output.refusing():
-        laws = _laws(setting.law_names(law or ["all"]), change or [])
+        laws = _laws(by_name.law_names(law or ["all"]), change or [])
         base = options.scenario_of(hand, device, length, seconds=3.0)
         base = base.replace(**setting.given(seed=seed))
         _check(most_damping, least, top, epsilon)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ebac.cli import engine_options, options, output, setting
+from ebac.cli import by_name, engine_options, options, output
 from ebac.cli.files import PANEL, ResultOptions
 from ebac.cli.wall import results as wall_results
 
@@ -78,7 +78,7 @@ def wall(
     if no_files and to.out is not None:
         output.fail("--no-files and --out exclude each other: leave one of them out")
     with output.refusing():
-        names = setting.law_names(law or DEFAULT_LAWS)
+        names = by_name.law_names(law or DEFAULT_LAWS)
         logs = wall_results.log_names(log, names, force=to.force)
         chosen = options.scenario_of(setup, engine)
         _check_length(chosen)

@@ -1,0 +1,96 @@
+"""Names given to a command, in lists and in any case: laws, conditions, hands, devices."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+from ebac._util.arguments import unknown
+
+
+def one_law(name: str, option: str = "--law") -> str:
+    """Return a law by its name, in any case, where there can be one only."""
+    names = law_names([name], option)
+    if len(names) != 1:
+        raise ValueError(f"{option} {name}: one law only; give one of {', '.join(names)}")
+    return names[0]
+
+
+def law_names(given: Sequence[str], option: str = "--law") -> list[str]:
+    """Return the laws of names in any case, separated by commas, each once, in the order given; `all` is every law."""
+    from ebac.laws import LAWS, tuned_laws
+
+    known = (*LAWS, *tuned_laws())
+    names: list[str] = []
+    for word in _words(given, option):
+        name = word.lower().replace("_", "-")
+        if name not in known and name != "all":
+            raise ValueError(unknown(f"{option} {word}", name, [*known, "all"], "law"))
+        names += LAWS if name == "all" else [name]
+    chosen = list(dict.fromkeys(names))
+    _tell_tuned([name for name in chosen if name not in LAWS])
+    return chosen
+
+
+def _tell_tuned(names: Sequence[str]) -> None:
+    """Say on stderr what a law with tuned parameters is."""
+    from ebac.cli import output
+
+    for name in names:
+        law, _, end = name.partition("-tuned")
+        how = ", acting on the observer's estimate: use it with --observer-every-law" if end else ""
+        output.note(
+            f"{name} is {law} with the parameters that `ebac tune` found for the reference device at 1 kHz{how}"
+        )
+
+
+def _words(given: Sequence[str], option: str) -> list[str]:
+    """Return the names of lists separated by commas."""
+    names = [word.strip() for text in given for word in text.split(",")]
+    for name in names:
+        if " " in name:
+            raise ValueError(
+                f"{option} {name}: separate names by commas: {option} {','.join(name.split())}"
+            )
+    return names
+
+
+def _is_condition(name: str) -> bool:
+    from ebac.studies import conditions
+
+    try:
+        return bool(conditions([name]))
+    except ValueError:
+        return False
+
+
+def condition_names(given: Sequence[str]) -> list[str]:
+    """Return the conditions and groups of lists with commas."""
+    from ebac.studies import conditions
+
+    for text in given:
+        joined = "".join(text.split())
+        if " " in text.strip() and "," not in text and _is_condition(joined):
+            raise ValueError(f"--condition {text}: a condition is one word: --condition {joined}")
+    names = _words(given, "--condition")
+    for name in names:
+        try:
+            conditions([name])
+        except ValueError as error:
+            raise ValueError(f"--{error}") from None
+    return names
+
+
+def one_condition(name: str) -> str:
+    """Return a condition by its name, where there can be one only; a group is refused by who searches."""
+    names = condition_names([name])
+    if len(names) != 1:
+        raise ValueError(f"--condition {name}: one condition only; give one of {', '.join(names)}")
+    return names[0]
+
+
+def known_name(kind: str, option: str, name: str, names: Iterable[str]) -> str:
+    """Return a name in lower case that is one of `names`; ValueError names the option and the nearest."""
+    names = list(names)
+    if name.lower() not in names:
+        raise ValueError(unknown(f"{option} {name}", name.lower(), names, kind))
+    return name.lower()

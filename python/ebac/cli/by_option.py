@@ -1,0 +1,60 @@
+"""What the library says of a value, by the name of the option that gave it."""
+
+from __future__ import annotations
+
+import re
+
+#: What the library calls the numbers that options give.
+OPTIONS = {
+    "Wall.stiffness": "--wall-stiffness",
+    "Wall.damping": "--wall-damping",
+    "Wall.position": "--wall-position",
+    "environment.position": "--wall-position",
+    "Elastic.stiffness": "--wall-stiffness",
+    "Elastic.damping": "--wall-damping",
+    "Body.friction": "--world-friction",
+    "Hand.mass": "--hand-mass",
+    "Hand.damping": "--hand-damping",
+    "Hand.stiffness": "--hand-stiffness",
+    "Step.target": "--hand-target",
+    "MinimumJerk.target": "--hand-target",
+    "Tapping.target": "--hand-target",
+    "ForceSensor.noise": "--device-noise",
+    "Mechanics.coulomb": "--device-coulomb",
+    "Timing.delay": "--delay",
+    "Scenario.jitter": "--jitter",
+    "Scenario.seconds": "--seconds",
+    "Scenario.seed": "--seed",
+    "approach_m": "--approach",
+    "EngineTiming.rate": "--engine-rate",
+    "EngineTiming.jitter": "--engine-jitter",
+    "EngineTiming.compute": "--engine-compute",
+    "SensorConfig.counts_per_force": "--sensor-counts",
+    "SensorConfig.counts_per_torque": "--sensor-counts",
+}
+
+#: The options of the command that runs, by the names of its parameters.
+current: dict[str, str] = {}
+
+
+def in_options(message: str) -> str:
+    """Return what the library says of a value, by the name of the option that gave it."""
+    message = message.replace("resume=False", "--force instead of --resume")
+    message = re.sub(r"""columns=\{'(\w+)': (['"])(.*?)\2\}""", _column, message)
+    for pattern in (r"(?:[\w ]+: )?([A-Za-z_.]+)(?= ?= )", r"(?:[a-z_]+: )?([a-z_]+)(?= \S+: )"):
+        found = re.match(pattern, message)
+        if found is None:
+            continue
+        name = found[1]
+        option = OPTIONS.get(name)
+        if option not in current.values():
+            option = current.get(name.rpartition(".")[2])
+        if option is not None:
+            return option + message[found.end() :]
+    return message
+
+
+def _column(found: re.Match[str]) -> str:
+    """Return the option for columns={'x': 'Handle Pos'}: --column "x=Handle Pos"."""
+    pair = f"{found[1]}={found[3]}"
+    return f'--column "{pair}"' if re.search(r"\s|'", pair) else f"--column {pair}"
