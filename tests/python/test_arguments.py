@@ -40,6 +40,11 @@ has = "; it has: device, hand, environment, timing, seconds, jitter, seed, obser
             "ebac.sweep takes a list of scenarios, not 3 (int)",
         ),
         (
+            lambda: ebac.sweep([ebac.Scenario()], ["ebac"], limits=True),  # type: ignore[arg-type]
+            "ebac.sweep takes limits=RunLimits(...), beyond which a run ends early "
+            "(a device's own: ebac.simulate), not True (bool)",
+        ),
+        (
             lambda: ebac.zwidth("x"),  # type: ignore[arg-type]
             "ebac.zwidth takes a Scenario as its base, not 'x' (str)",
         ),

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from concurrent.futures import Executor
 from pathlib import Path
+from types import NoneType
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -62,7 +63,7 @@ def sweep(
     designed_for : sequence of (Device or DeviceFacts, Timing), optional
         What laws are designed for where that is not what is simulated: one for each scenario.
     limits : RunLimits, optional
-        A run beyond these ends early and is called `diverged`.
+        A run beyond these ends early and is called `diverged`. (Those of a device are `limits` of `simulate`.)
     threads : int, optional
         Threads of this process, or of each worker of `executor`; default: one per core, or 1 under an executor.
     executor : concurrent.futures.Executor, optional
@@ -90,6 +91,8 @@ def sweep(
         For no scenarios or laws, two laws of one name, or a folder that holds another sweep.
     """
     require(scenarios, Sequence, "ebac.sweep", "a list of scenarios")
+    wanted = "limits=RunLimits(...), beyond which a run ends early (a device's own: ebac.simulate)"
+    require(limits, (RunLimits, NoneType), "ebac.sweep", wanted)
     _check(scenarios, seed=seed, threads=threads, bundle=bundle, designed_for=designed_for)
     named = name_laws(laws)
     if progress is not None:
