@@ -346,6 +346,18 @@ def test_drives_that_do_not_start_in_another_process_are_an_error_in_time(
         pass
 
 
+def test_what_a_process_prints_is_read_while_it_goes_on_and_stays_whole() -> None:
+    """Process and reader share the place in the file."""
+    lines = [f"line {i}" for i in range(20_000)]
+    code = f"for i in range({len(lines)}): print('line', i, flush=True)"
+    with TemporaryFile() as out, TemporaryFile() as err:
+        process = subprocess.Popen([sys.executable, "-c", code], stdout=out, stderr=err)
+        child = Child(process, out, err)
+        while process.poll() is None:
+            text(out)
+        assert first_lines(child, len(lines), 1.0) == lines
+
+
 def test_the_first_lines_of_a_process_are_waited_for_but_not_for_ever() -> None:
     """Whatever it complains meanwhile."""
     code = (

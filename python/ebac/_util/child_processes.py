@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import subprocess
 import sys
 import time
@@ -36,8 +37,8 @@ def started(words: Sequence[str], **more: Any) -> Iterator[Child]:
 
 def text(file: IO[bytes]) -> str:
     """Return what a process has printed so far."""
-    file.seek(0)
-    return file.read().decode()
+    # Not by seek and read: the process writes where this file stands.
+    return os.pread(file.fileno(), os.fstat(file.fileno()).st_size, 0).decode()
 
 
 def first_lines(child: Child, count: int, seconds: float) -> list[str]:
