@@ -275,6 +275,7 @@ CUBE = World(Box(width=0.02, depth=0.02, height=0.02))
         (INSIDE, "10.00 mm inside the wall and would be pushed with 100 N"),
         (ebac.Corner(first=ebac.Wall(position=0.02), second=INSIDE), "inside the second wall"),
         (ebac.Disc(x=0.01, radius=0.02), "10.00 mm inside the disc"),
+        (ebac.Disc(x=0.0, radius=0.02), "20.00 mm inside the disc"),  # in its centre
         (CUBE, "mm inside the body 1"),
     ],
 )

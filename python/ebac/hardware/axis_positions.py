@@ -25,6 +25,8 @@ if TYPE_CHECKING:
 
 #: A handle that stands deeper than this inside the virtual world [m], and is pushed harder [N], does not begin outside.
 GRAZE, PUSH = 1e-3, 1.0
+#: In the centre of a disc its force has no direction; this far beside it, it has [m].
+_OFF_CENTRE = 1e-9
 
 
 class PositionError(DriveError):
@@ -182,7 +184,8 @@ def _push(known: Configuration, positions: Sequence[AxisPosition], environment: 
     if isinstance(environment, _World):
         (touch,) = environment.walk([[*at, 0.0, 0.0][:3]])  # type: ignore[attr-defined]  # it has bodies
         return float(np.linalg.norm(touch.force))
-    return float(np.linalg.norm(environment.force(at, np.zeros_like(at))))
+    beside = at + _OFF_CENTRE
+    return float(np.linalg.norm(environment.force(beside, np.zeros_like(at))))
 
 
 def distances(
