@@ -12,38 +12,47 @@ from ebac.studies.conditions import conditions
 from ebac.studies.families import find_family
 
 NOISY = ebac.Scenario(device=ebac.Device(sensor=ebac.ForceSensor(noise=0.03)))
-#: Measures of `ebac ablation`: the key, the heading, how its number is written.
-MEASURES: tuple[tuple[str, str, Callable[[float | None], str]], ...] = (
-    ("good", "good", lambda n: fixed(n, 0)),
-    ("exact_and_still", "exact, still", lambda n: fixed(n, 0)),
-    ("settled_in_time", "in time", lambda n: fixed(n, 0)),
-    ("median_settled_s", "settled [s]", lambda s: fixed(s, 3)),
-    ("good_K20", "20 kN/m", lambda n: fixed(n, 0)),
-    ("good_d2_K20", "20 kN/m, delay 2", lambda n: fixed(n, 0)),
-    ("good_slow_press_d2_K20", "the same, slow press", lambda n: fixed(n, 0)),
-    ("good_tremor", "tremor", lambda n: fixed(n, 0)),
-    ("least_energy_impact_J", "impact [mJ]", millijoules),
-    ("least_energy_let_go_J", "let go [mJ]", millijoules),
-    ("least_energy_pumping_J", "pumping [mJ]", millijoules),
-    ("force_swing_N", "force swing [N]", lambda f: fixed(f, 2)),
-    ("force_swing_noise_N", "the same, 0.2 N noise [N]", lambda f: fixed(f, 2)),
-    ("force_step_N", "step inside [N]", lambda f: fixed(f, 1)),
-    ("friction_m", "off, friction 1 N [mm]", lambda x: fixed(x, 3, 1e3)),
-)
+Show = Callable[[float | None], str]
+#: Measures of `ebac ablation` by question: the key, the heading, how its number is written.
+MEASURES: dict[str, tuple[tuple[str, str, Show], ...]] = {
+    "**How many hands are good?** Of 60, at 10 kN/m, and good in four harder conditions.": (
+        ("good", "good", lambda n: fixed(n, 0)),
+        ("exact_and_still", "exact, still", lambda n: fixed(n, 0)),
+        ("settled_in_time", "in time", lambda n: fixed(n, 0)),
+        ("good_K20", "20 kN/m", lambda n: fixed(n, 0)),
+        ("good_d2_K20", "20 kN/m, delay 2", lambda n: fixed(n, 0)),
+        ("good_slow_press_d2_K20", "the same, slow press", lambda n: fixed(n, 0)),
+        ("good_tremor", "tremor", lambda n: fixed(n, 0)),
+    ),
+    "**How fast, and how quiet?**": (
+        ("median_settled_s", "settled, median [s]", lambda s: fixed(s, 3)),
+        ("force_swing_N", "force swing [N]", lambda f: fixed(f, 2)),
+        ("force_swing_noise_N", "the same, 0.2 N noise [N]", lambda f: fixed(f, 2)),
+        ("force_step_N", "step inside [N]", lambda f: fixed(f, 1)),
+        ("friction_m", "off, friction 1 N [mm]", lambda x: fixed(x, 3, 1e3)),
+    ),
+    "**How much energy?** Least energy [mJ].": (
+        ("least_energy_impact_J", "impact", millijoules),
+        ("least_energy_let_go_J", "let go", millijoules),
+        ("least_energy_pumping_J", "pumping", millijoules),
+    ),
+}
 PURPOSE = {
     "observer": "quiet in force, fast, and seen below a count",
     "continuity": "smaller steps of the force inside of the wall",
     "recovery": "rests where the wall is",
     "injection": "takes out what recovery puts in",
     "fast_stiffness": "noise does not ring with a heavy hand on a stiff wall",
-    "guard": "nobody draws more than was lent",
+    "guard": "no hand draws more than the reserve",
     "kp": "less friction felt",
 }
 
 
 def ablation(printed: Printed) -> str:
     """The law without each of its pieces; bold what gets worse, italics what gets better."""
-    return _pieces(printed.rows(f"ablation {NOISE}"))
+    found = printed.rows(f"ablation {NOISE}")
+    purposes = [[_name(r), PURPOSE[next(iter(r["changes"]))]] for r in found if r["piece"]]
+    return f"{table(['change', 'what the piece is for'], purposes)}\n\n{_pieces(found)}"
 
 
 def ablation_encoder(printed: Printed) -> str:
@@ -53,21 +62,30 @@ def ablation_encoder(printed: Printed) -> str:
 
 
 def _pieces(found: list[Row]) -> str:
-    rows = []
-    for r in found:
-        parts = [
-            f"{k} off" if v is False else f"{k} = {v:g}" for k, v in (r["changes"] or {}).items()
-        ]
-        name = ", ".join(parts) if r["piece"] else code(r["law"])
-        purpose = PURPOSE.get(next(iter(r["changes"] or {}), ""), "")
-        marks = (
-            {**dict.fromkeys(r["worse"], "**"), **dict.fromkeys(r["better"], "*")}
-            if r["piece"]
-            else {}
-        )
-        values = [f"{marks.get(k, '')}{show(r[k])}{marks.get(k, '')}" for k, _, show in MEASURES]
-        rows.append([name, purpose, *values])
-    return table(["", "what the piece is for", *(head for _, head, _ in MEASURES)], rows)
+    """A table for each question, a row for each piece."""
+    return "\n\n".join(
+        f"{question}\n\n{table(['', *(head for _, head, _ in asked)], [_piece(r, asked) for r in found])}"
+        for question, asked in MEASURES.items()
+    )
+
+
+def _piece(row: Row, asked: tuple[tuple[str, str, Show], ...]) -> list[str]:
+    marks = (
+        {**dict.fromkeys(row["worse"], "**"), **dict.fromkeys(row["better"], "*")}
+        if row["piece"]
+        else {}
+    )
+    return [
+        _name(row),
+        *(f"{marks.get(k, '')}{show(row[k])}{marks.get(k, '')}" for k, _, show in asked),
+    ]
+
+
+def _name(row: Row) -> str:
+    """What is off, or the law."""
+    changes = (row["changes"] or {}).items()
+    parts = [f"{k} off" if v is False else f"{k} = {v:g}" for k, v in changes]
+    return ", ".join(parts) if row["piece"] else code(row["law"])
 
 
 def worst(printed: Printed) -> str:
@@ -77,21 +95,27 @@ def worst(printed: Printed) -> str:
         {r["family"]: r["energy_drawn_J"] for r in printed.rows(f"worst {NOISE} {change}")}
         for change in ("--change guard=off", "--no-observer")
     )
-    rows = []
+    drawn, others = [], []
     for r in found["rows"]:
         family = find_family(r["family"], found["allowed_pull_N"])
         (where,) = conditions([r["condition"]])
         values = {p["name"]: p["value"] for p in r["parameters"]}
         hand = family.make(where.change(NOISY), values)
-        others = [(True, 1, 1), (False, 64, 1), (True, 64, 1), (False, 1, 5)]
-        rows.append(
-            [code(family.name), millijoules(r["energy_drawn_J"]), fixed(r["most_pull_N"], 1),
-             *(millijoules(_behind(hand, *other)) for other in others),
-             *(millijoules(found[family.name]) for found in (free, alone))]
-        )  # fmt: skip
-    heads = ["family", "drawn [mJ]", "hardest pull [N]", "no current lag", "64 times the counts", "both",
-             "five times as long", "guard off: drawn [mJ]", "`--no-observer`: drawn [mJ]"]  # fmt: skip
-    return table(heads, rows)
+        name, most = code(family.name), millijoules(r["energy_drawn_J"])
+        again = (millijoules(found[family.name]) for found in (free, alone))
+        drawn.append([name, most, *again, fixed(r["most_pull_N"], 1)])
+        parts = [(True, 1, 1), (False, 64, 1), (True, 64, 1), (False, 1, 5)]
+        others.append([name, most, *(millijoules(_behind(hand, *part)) for part in parts)])
+    searched = table(
+        ["family", "`ebac`", "guard off", "`--no-observer`", "hardest pull of the first [N]"], drawn
+    )
+    behind = table(["family", "as found", "no current lag", "64 times the counts", "both", "five times as long"],
+                   others)  # fmt: skip
+    return (
+        f"**Energy drawn by the worst hand of each family** [mJ].\n\n{searched}\n\n"
+        "**The same hands of the first column** with another current loop, another encoder, or for five times as long "
+        f"[mJ].\n\n{behind}"
+    )
 
 
 def _behind(hand: ebac.Scenario, no_lag: bool, finer: int, longer: int) -> float:

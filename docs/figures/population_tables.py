@@ -12,6 +12,16 @@ ALONE, ALONE_NAME = "--law ebac --no-observer", "`ebac`, `--no-observer`"
 #: Left out of the wide tables: it rests too deep everywhere.
 NARROW = "virtual-coupling"
 SEEDS = (1, 2, 3)
+#: The laws of the wide tables, in groups that fit a page: what a group is called, and its laws.
+GROUPS = {
+    "`ebac`, and the three laws that come closest": (
+        "`ebac`", ALONE_NAME, "`tca-damped`", "`lag-compensator`", "`sfa`",
+    ),
+    "Laws that render the whole stiffness": ("`direct`", "`tca`", "`passivity-control`", "`iss`"),
+    "Energy-bounding laws of the literature": (
+        "`force-bounding`", "`eba`", "`eba-account`", "`ebac-printed`",
+    ),
+}  # fmt: skip
 
 
 def by_law(rows: list[Row], *, wide: bool = False) -> dict[str, list[Row]]:
@@ -21,7 +31,7 @@ def by_law(rows: list[Row], *, wide: bool = False) -> dict[str, list[Row]]:
 
 
 def least(rows: list[Row]) -> float:
-    """Return the least port energy [J]."""
+    """Return the least energy [J]."""
     return float(min(row["least_energy_J"] for row in rows))
 
 
@@ -44,7 +54,7 @@ def grid(printed: Printed) -> str:
         "quiet force",
         "in time",
         "least energy [mJ]",
-        "most drawn [mJ]",
+        "drawn in any window [mJ]",
         "settled, median [s]",
     ]
     rows = [
@@ -77,7 +87,7 @@ def cells(printed: Printed) -> str:
         "exact, still",
         "in time",
         "least energy [mJ]",
-        "most drawn [mJ]",
+        "drawn in any window [mJ]",
     ]
     return (
         f"{table(heads, rows)}\n\nCells in which not all 60 hands are good under `ebac`: "
@@ -117,12 +127,31 @@ def five(printed: Printed) -> str:
 
 
 def robustness_good(printed: Printed) -> str:
-    """Good hands under every condition of the robustness list."""
+    """Good hands under every condition of the robustness list in which a hand comes to rest."""
     every = _robustness(printed)
-    ideal = [[code(r["condition"]), _pair(r, "ideal_good")] for r in every["`ebac`"]]
-    columns = [[_pair(r, "good", "exact_and_still") for r in rows] for rows in every.values()]
-    rows = [[*first, *rest] for first, rest in zip(ideal, zip(*columns, strict=True), strict=True)]
-    return table(["condition", "ideal wall", *every], rows)
+    rests = [r for r in every["`ebac`"] if r["ideal_good"] is not None]
+    ideal = {r["condition"]: str(r["ideal_good"]) for r in rests}
+    found = {
+        law: {r["condition"]: _pair(r, "good", "exact_and_still") for r in rows}
+        for law, rows in every.items()
+    }
+    return _grouped({"ideal wall": ideal} | found, list(ideal), first=("ideal wall",))
+
+
+def _grouped(
+    found: dict[str, dict[str, str]], named: list[str], *, first: tuple[str, ...] = ()
+) -> str:
+    """A table for each group of laws, a row for each condition; where all cells are 0, a sentence instead."""
+    parts = []
+    for title, laws in GROUPS.items():
+        columns = [*(first if not parts else ()), *laws]
+        cells = {name: [found[law][name] for law in columns] for name in named}
+        zero = [name for name, row in cells.items() if set(row) == {"0"}]
+        rows = [[code(name), *row] for name, row in cells.items() if name not in zero]
+        parts.append(f"**{title}.**\n\n{table(['condition', *columns], rows)}")
+        if zero:
+            parts.append(f"All are 0 in: {', '.join(map(code, zero))}.")
+    return "\n\n".join(parts)
 
 
 def _robustness(printed: Printed) -> dict[str, list[Row]]:
@@ -137,26 +166,35 @@ def _pair(row: Row, *keys: str) -> str:
 
 
 def robustness_energy(printed: Printed) -> str:
-    """Least port energy under every condition of the robustness list."""
+    """Least energy under every condition of the robustness list."""
     every = _robustness(printed)
-    first = [code(r["condition"]) for r in every["`ebac`"]]
-    columns = [[millijoules(r["least_energy_J"]) for r in rows] for rows in every.values()]
-    return table(["condition", *every], list(zip(first, *columns, strict=True)))
+    found = {
+        law: {r["condition"]: millijoules(r["least_energy_J"]) for r in rows}
+        for law, rows in every.items()
+    }
+    return _grouped(found, list(found["`ebac`"]))
 
 
 LAWS = "direct,tca,tca-damped,eba,ebac"
 
 
 def models(printed: Printed) -> str:
-    """Hands beyond eq. (4): good, and least port energy; the damper alone beside them."""
+    """Hands beyond eq. (4): good, then least energy."""
     every = by_law(printed.rows(f"study -c hands {NOISE} --law {LAWS}"))
-    rows = [
-        [code(first["condition"]), *(_pair(r[i], "good", "exact_and_still") for r in every.values()),
-         *(millijoules(r[i]["least_energy_J"]) for r in every.values())]
-        for i, first in enumerate(every["ebac"])
-    ]  # fmt: skip
-    good = [f"{code(law)}, good of {every[law][0]['hands']}" for law in every]
-    return table(["condition", *good, *(f"{code(law)} [mJ]" for law in every)], rows)
+    first = [code(r["condition"]) for r in every["ebac"]]
+    heads = ["condition", *map(code, every)]
+    good = [[_pair(r, "good", "exact_and_still") for r in rows] for rows in every.values()]
+    least_ = [[millijoules(r["least_energy_J"]) for r in rows] for rows in every.values()]
+    tables = (table(heads, list(zip(first, *columns, strict=True))) for columns in (good, least_))
+    hands = every["ebac"][0]["hands"]
+    return "\n\n".join(
+        f"{title}\n\n{text}"
+        for title, text in zip(
+            (f"**Of {hands}, good / exact and still.**", "**Least energy [mJ].**"),
+            tables,
+            strict=True,
+        )
+    )
 
 
 def held(printed: Printed) -> str:

@@ -166,7 +166,7 @@ def _counts(parts: list[Row]) -> str:
 
 
 def _given_out(printed: Printed, law: str, how: str, impacts: list[Row]) -> list[str]:
-    """Return the least port energy on impact, when let go, under pumping, and with the worst hand."""
+    """Return the least energy on impact, when let go, under pumping, and with the worst hand."""
     conditions = ",".join((*LET_GO, PUMPING))
     *let_go, pumping = (
         row["least_energy_J"] for row in printed.rows(f"study -c {conditions} {how} --law {law}")
@@ -209,12 +209,16 @@ def z_width(printed: Printed) -> str:
     scores = {
         (*key, score["delay_samples"]): score for key in found for score in found[key]["scores"]
     }
-    rows = [
-        [code(law), word, *(f"{scores[law, word, d][f'{name}_area'] / 1e3:.0f}" for d in DELAYS for name in CRITERIA)]
-        for law, word in runs
-    ]  # fmt: skip
-    heads = ["law", "observer", *(f"{name}, d = {d}" for d in DELAYS for name in CRITERIA)]
-    return f"{table(heads, rows)}\n\n{_best(scores)}\n\n{_ceilings(found['direct', 'no'])}"
+    laws = list(dict.fromkeys(law for law, _ in runs))
+    heads = ["law", *(f"{on}, d = {d}" for on in ("encoder", "observer") for d in DELAYS)]
+    parts = []
+    for name in reversed(CRITERIA):
+        rows = [
+            [code(law), *(f"{scores[law, form.word, d][f'{name}_area'] / 1e3:.0f}" for form in FORMS for d in DELAYS)]
+            for law in laws
+        ]  # fmt: skip
+        parts.append(f"**{name.capitalize()}** [kN/m N s/m].\n\n{table(heads, rows)}")
+    return "\n\n".join([*parts, _best(scores), _ceilings(found["direct", "no"])])
 
 
 def z_width_explored(printed: Printed) -> str:
