@@ -32,4 +32,4 @@ for most in (8.0, 50.0):
     inside = trace["f_env"] > 0
     touches = int((inside[1:] & ~inside[:-1]).sum())
     least = 1e3 * trace["true.energy"].min()
-    print(f"withdraws above {most:g} N: {touches} contacts, least port energy {least:.2f} mJ")
+    print(f"withdraws above {most:g} N: {touches} contacts, least energy {least:.2f} mJ")

@@ -34,7 +34,7 @@ for name, held in (("force held", True), ("local model", False)):
     traces[name] = ebac.simulate(scenario, "direct")
     x = 1e3 * traces[name]["x"][-600:]
     least = 1e3 * traces[name]["true.energy"].min()
-    print(f"{name}: swings by {np.ptp(x):.2f} mm, least port energy {least:.1f} mJ")
+    print(f"{name}: swings by {np.ptp(x):.2f} mm, least energy {least:.1f} mJ")
 
 figure = ebac.plot.new_figure(8, 5)
 above, below = figure.subplots(2, 1, sharex=True)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from printed import NOISE, Printed, Row, code, fixed, joules, millijoules, table
+from printed import NOISE, Printed, Row, code, fixed, joules, millijoules, of_two, table
 
 CELLS = f"study -c cells {NOISE}"
 FIVE = f"study -c five --population random --hands 500 {NOISE} --seed"
@@ -112,7 +112,7 @@ def five(printed: Printed) -> str:
 
     def both(law: str) -> list[str]:
         pairs = zip(fewest(law, "good"), fewest(law, "exact_and_still"), strict=True)
-        return [f"{good} / {still}" for good, still in pairs]
+        return [of_two(good, still) for good, still in pairs]
 
     ours = [row for seed in seeds for row in seed["ebac"]]
     rows = [
@@ -162,7 +162,7 @@ def _robustness(printed: Printed) -> dict[str, list[Row]]:
 def _pair(row: Row, *keys: str) -> str:
     """Return counts of hands, once where they are the same; a dash where there is no point of rest."""
     counts = [row[key] for key in keys]
-    return "-" if None in counts else " / ".join(str(n) for n in dict.fromkeys(counts))
+    return "-" if None in counts else of_two(*counts)
 
 
 def robustness_energy(printed: Printed) -> str:

@@ -120,6 +120,11 @@ def millijoules(energy: float | None) -> str:
     return f"{round(1e3 * energy, -3 if abs(energy) >= 99.95 else -2):,.0f}"
 
 
+def of_two(*counts: object) -> str:
+    """Return counts, once where they are the same; no line breaks between them."""
+    return "\u00a0/\u00a0".join(dict.fromkeys(str(n) for n in counts))
+
+
 def fixed(number: float | None, digits: int, scale: float = 1.0) -> str:
     """Return a number with so many digits behind the point."""
     return "-" if number is None else f"{scale * number:.{digits}f}"

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from printed import NOISE, Printed, Row, code, fixed, millijoules, table
+from printed import NOISE, Printed, Row, code, fixed, millijoules, of_two, table
 
 import ebac
 from ebac.laws import shown_value
@@ -161,8 +161,7 @@ def _all_six(parts: list[Row]) -> list[str]:
 
 def _counts(parts: list[Row]) -> str:
     """Return good hands, and those that are exact and still, once where they are the same."""
-    numbers = (str(sum(part[key] for part in parts)) for key in ("good", "exact_and_still"))
-    return " / ".join(dict.fromkeys(numbers))
+    return of_two(*(sum(part[key] for part in parts) for key in ("good", "exact_and_still")))
 
 
 def _given_out(printed: Printed, law: str, how: str, impacts: list[Row]) -> list[str]:
@@ -249,7 +248,9 @@ def z_width_explored(printed: Printed) -> str:
 
 def _pairs(areas: NDArray[np.float64]) -> list[str]:
     """Return areas without and with random hands in kN/m N s/m."""
-    return [f"{pressed / 1e3:.0f} / {explored / 1e3:.0f}" for pressed, explored in areas.T]
+    return [
+        f"{pressed / 1e3:.0f}\u00a0/\u00a0{explored / 1e3:.0f}" for pressed, explored in areas.T
+    ]
 
 
 def _compared(best: dict[str, NDArray[np.float64]]) -> str:

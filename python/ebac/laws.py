@@ -293,8 +293,8 @@ def reserve_of(law: CoreLaw | PythonLaw, scenario: Scenario) -> float | None:
     Less where the law acts on the estimate of a state observer.
     """
     observed = bool(scenario.observer) and getattr(law, "observer", False)
-    lent: float | None = getattr(law, "observed_reserve" if observed else "reserve", None)
-    return lent
+    reserve: float | None = getattr(law, "observed_reserve" if observed else "reserve", None)
+    return reserve
 
 
 def law_name(law: AnyLaw) -> str:

@@ -110,7 +110,7 @@ def test_a_printed_contact_has_every_number_with_its_unit(run: Run) -> None:
         ("force settled", "s"),
         ("ripple", "N"),
         ("settled", "s"),
-        ("least port energy", "mJ"),
+        ("least energy", "mJ"),
     ):
         (line,) = [one for one in text.splitlines() if one.startswith(f"  {label} ")]
         assert line.endswith(f" {unit}")

@@ -231,7 +231,7 @@ def test_json_has_exactly_the_documented_keys(tmp_path: Path) -> None:
 def test_the_worst_hand_is_written_so_that_it_can_be_replayed(tmp_path: Path) -> None:
     words = ("--family", "swinging", "--family", "noise", "--evaluations", 40, "--out", "out")
     shown = " ".join(command(*words).stdout.split())
-    assert "e(0) lends 2.00 mJ" in shown
+    assert "the reserve is 2.00 mJ" in shown
     names = {file.name for file in (tmp_path / "out").iterdir()}
     assert names == {
         "worst.json", "worst.csv", "worst-noise.png", "worst-noise.toml", "worst-swinging.png", "worst-swinging.toml",

@@ -29,7 +29,7 @@ LINES = (
     ("vibration/threshold", "perceived", "1", "-"),
     ("deepest", "peak_m", "m", "-"),
     ("limit cycle", "limit_cycle", "Hz", "none"),
-    ("least port energy", "least_energy_J", "J", "-"),
+    ("least energy", "least_energy_J", "J", "-"),
     ("drawn", "drawn_J", "J", ""),
     ("most energy drawn", "most_drawn_J", "J", "-"),
     ("force limited", "clamped_share", "share", "-"),

@@ -11,7 +11,7 @@ from ebac.trace import Trace
 def drawn(trace: Trace) -> float:
     """Return the energy that a hand drew beyond all it had put in and beyond what moving surfaces did [J].
 
-    Minus the least port energy less the work of the surfaces, at least 0. The work is that of eq. (moving) in
+    Minus the least energy of the port less the work of the surfaces, at least 0. The work is that of eq. (moving) in
     :doc:`/explanation/theory`: what was applied of the force that the world had asked for, over the motion that it
     reported for the time at which that force acted. Bodies that press the handle from opposite sides do work without
     a force that is left; that work is in the number, as if the hand had drawn it.

@@ -188,7 +188,7 @@ def _energy(ax: Axes, trace: Trace, axis: int) -> None:
     for name, label, style in (
         ("law.energy", "account of the law", {"color": "black"}),
         ("law.account", "account of the law", {"color": "black"}),
-        ("true.energy", "true port energy", {"color": colour(trace.law)}),
+        ("true.energy", "port energy", {"color": colour(trace.law)}),
     ):
         if name in trace:
             curves.append((trace.axis(name, axis), label, style))

@@ -182,7 +182,7 @@ def _overview(study: Study, *, narrow: bool) -> Picture:
     left.set_title("good hands [%]", fontsize="medium")
     log: dict[str, Any] = {"cmap": "YlOrRd", "norm": LogNorm(1e-2, 1e5, clip=True)}
     _table(right, drawn, log)
-    right.set_title("most energy drawn [mJ], k: thousands", fontsize="medium")
+    right.set_title("drawn in any window [mJ], k: thousands", fontsize="medium")
     figure.suptitle(
         f"Study, simulated with {len(study.operators)} hands\n"
         f"{formatting.describe(study.scenarios[0]).split('; ')[0]}, changed as each condition says",

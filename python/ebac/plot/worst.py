@@ -50,7 +50,7 @@ def plot_worst(found: Worst, hand: WorstHand | None = None) -> Picture:
         column[-1].set_xlabel("time [s]")
     for ax in grid[:, 0]:
         legend(ax, columns=5)
-    grid[0, 1].set_title("around the least port energy (dotted line)", fontsize="medium")
+    grid[0, 1].set_title("around the least energy (dotted line)", fontsize="medium")
     for ax in grid[:, 1]:
         ax.set_ylabel("")
     from_, to = max(0.0, least - NEAR), min(float(trace["t"][-1]), least + NEAR)
@@ -64,8 +64,10 @@ def plot_worst(found: Worst, hand: WorstHand | None = None) -> Picture:
 
 
 def _title(found: Worst, hand: WorstHand) -> str:
-    lent = (
-        f" (lent: {formatting.quantity(found.reserve, 'J')})" if found.reserve is not None else ""
+    reserve = (
+        f" (reserve: {formatting.quantity(found.reserve, 'J')})"
+        if found.reserve is not None
+        else ""
     )
     values = ", ".join(
         f"{p.name} {formatting.quantity(hand.values[p.name], p.unit)}"
@@ -75,7 +77,7 @@ def _title(found: Worst, hand: WorstHand) -> str:
     world = f"{device}; {wall}; {timing}"
     return (
         f"law {found.law}, {found.condition.name}, simulated: {world}\nthe worst hand of the family "
-        f"{hand.family.name} draws {formatting.quantity(hand.energy_J, 'J')}{lent}\n{fill(values, 120)}"
+        f"{hand.family.name} draws {formatting.quantity(hand.energy_J, 'J')}{reserve}\n{fill(values, 120)}"
     )
 
 
@@ -130,7 +132,7 @@ def _energy(ax: Axes, trace: Trace, found: Worst) -> None:
                 label="account of the law",
             )
     if found.reserve is not None:
-        ax.axhline(-1e3 * found.reserve, color="#d55e00", lw=1, ls="--", label="what is lent")
+        ax.axhline(-1e3 * found.reserve, color="#d55e00", lw=1, ls="--", label="reserve")
         largest = max(largest, 2e3 * found.reserve)
     ax.axhline(0, color="0.35", lw=1)
     ax.set_ylim(1.2 * min(float(true.min()), -1e3 * (found.reserve or 0.0)), largest)

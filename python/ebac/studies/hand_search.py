@@ -40,7 +40,7 @@ class WorstHand:
     scenario : Scenario
         To simulate it again.
     energy_J : float
-        Energy it drew: minus the least port energy of `Contact`, at least 0.
+        Energy it drew: minus the least energy of `Contact`, at least 0.
     most_drawn_J : float
         The most in any window, see `Contact`.
     most_pull_N : float

@@ -44,9 +44,9 @@ class RandomWorldRow:
         Energy that the hand that drew most took out of the port beyond all that it had put in and what moving
         surfaces did: `ebac.metrics.drawn`.
     reserve_J : float or None
-        What the law lends at the start of a run; None for a law that lends nothing.
+        Reserve of the law, with which its account starts; None for a law without an account.
     beyond_reserve : int or None
-        Hands that drew more than that; None for a law that lends nothing.
+        Hands that drew more than that; None for a law without an account.
     faults : int
         Hands whose run ended by a fault.
     worst_hand : int
@@ -189,7 +189,7 @@ class HandRun(NamedTuple):
 
 def _together(rows: list[RandomWorldRow], worst: RandomWorldRow) -> RandomWorldRow:
     """Return the rows of a law as one, named after its worst."""
-    guarded, lends = worst.held_back is not None, worst.beyond_reserve is not None
+    guarded, has_reserve = worst.held_back is not None, worst.beyond_reserve is not None
     return replace(
         worst,
         hands=sum(row.hands for row in rows),
@@ -197,6 +197,6 @@ def _together(rows: list[RandomWorldRow], worst: RandomWorldRow) -> RandomWorldR
         held_back=sum(row.held_back or 0 for row in rows) if guarded else None,
         longest_held_back_s=max(row.longest_held_back_s or 0.0 for row in rows) if guarded else None,
         drawn_J=max(row.drawn_J for row in rows),
-        beyond_reserve=sum(row.beyond_reserve or 0 for row in rows) if lends else None,
+        beyond_reserve=sum(row.beyond_reserve or 0 for row in rows) if has_reserve else None,
         faults=sum(row.faults for row in rows),
     )  # fmt: skip

@@ -36,7 +36,7 @@ class Worst:
     declared : float or None
         Largest pull the law counts with [N], None for a law that declares none.
     reserve : float or None
-        Energy the law lends at the start, e(0) of eq. (3) [J]; None for a law that lends none.
+        Reserve of the law, e(0) of eq. (3) [J]; None for a law without an account.
     hands : tuple of WorstHand
         One per family.
     """
@@ -81,8 +81,10 @@ class Worst:
 
         shown = ("family", "energy_drawn_J", "most_drawn_J", "most_pull_N", "runs")
         rows = [{key: row[key] for key in shown} for row in self.rows()]
-        lent = "" if self.reserve is None else f", e(0) {formatting.quantity(self.reserve, 'J')}"
-        return report(f"Worst hands of {self.law}, {self.condition.name}, simulated{lent}", rows)
+        reserve = (
+            "" if self.reserve is None else f", reserve {formatting.quantity(self.reserve, 'J')}"
+        )
+        return report(f"Worst hands of {self.law}, {self.condition.name}, simulated{reserve}", rows)
 
     def _repr_html_(self) -> str:
         """Return the worst hand's figure and a row per family, for a notebook."""

@@ -18,7 +18,7 @@ ROUNDING = 1e-9
 def assert_passive(
     trace: Trace, *, reserve: float = 0.0, damping: float | None = None, tolerance: float = ROUNDING
 ) -> None:
-    """Assert that no more energy left the port than was lent to it, eq. (3).
+    """Assert that no more energy left the port than the reserve, eq. (3).
 
     Parameters
     ----------
@@ -26,7 +26,7 @@ def assert_passive(
         A run. Its column `true.energy` is taken where there is one (integral of f v + b v^2 + friction, exact in a
         simulation), summed over the axes; otherwise sum of f_applied dx + (damping/dt) dx^2, what can be observed.
     reserve : float
-        Energy lent, e(0) of eq. (3) [J], >= 0.
+        Reserve e(0) of eq. (3) [J], >= 0.
     damping : float, optional
         Physical damping of the device per axis [N s/m], for a trace without `true.energy`.
     tolerance : float
@@ -47,7 +47,7 @@ def assert_passive(
     least = int(energy.argmin())
     assert energy[least] >= -(reserve + tolerance), (
         f"not passive: {how} falls to {1e3 * energy[least]:.6g} mJ at {_when(trace, least)}; "
-        f"lent are {1e3 * reserve:.6g} mJ"
+        f"the reserve is {1e3 * reserve:.6g} mJ"
     )
 
 

@@ -90,8 +90,8 @@ def random_worlds(
 
     A simulation. Each hand moves for 4 s in a world of its own: it presses, slides from one body to another, and taps.
     The table counts hands that the guard of a law holds back for longer than 0.1 s, and hands that draw more energy
-    than the law lends, beyond what moving bodies put in. All laws, stiffnesses and delays meet the same hands and
-    worlds. The worst hand of each law in each kind of world is saved as a scenario.
+    than the reserve of the law, beyond what moving bodies put in. All laws, stiffnesses and delays meet the same hands
+    and worlds. The worst hand of each law in each kind of world is saved as a scenario.
 
     **Examples**
 
@@ -228,8 +228,8 @@ def _sentence(total: RandomWorldRow) -> str:
         longest = formatting.quantity(total.longest_held_back_s, "s")
         parts.append(f"{total.held_back} were held back for longer than 0.1 s (longest {longest})")
     if total.beyond_reserve is not None:
-        lent = formatting.quantity(total.reserve_J, "J")
-        parts.append(f"{total.beyond_reserve} drew more than the reserve of {lent}")
+        reserve = formatting.quantity(total.reserve_J, "J")
+        parts.append(f"{total.beyond_reserve} drew more than the reserve of {reserve}")
     if total.faults:
         parts.append(f"{total.faults} ended by a fault")
     most = formatting.quantity(total.drawn_J, "J")

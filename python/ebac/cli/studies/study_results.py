@@ -75,7 +75,7 @@ def show(study: Study) -> None:
         "in time",
         "quiet force",
         "least energy",
-        "most drawn",
+        "drawn in any window",
         "power at rest",
         "settled",
     ]

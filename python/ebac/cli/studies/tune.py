@@ -123,7 +123,7 @@ def _show(found: list[Tuned]) -> None:
         "in position",
         "and force",
         "settled",
-        "most drawn",
+        "drawn in any window",
         "force swing",
     ]
     grid = output.table(headings, numbers=(3, 4, 5, 6, 7))

@@ -186,12 +186,13 @@ def _verdict(found: Worst, top: WorstHand) -> str:
 
     drawn = f"It draws {formatting.quantity(top.energy_J, 'J')}"
     if found.reserve is None:
-        return f"{drawn}; {found.law} lends nothing."
+        return f"{drawn}; {found.law} has no reserve."
     unseen = formatting.quantity(top.unseen_J, "J")
-    lent = f"e(0) lends {formatting.quantity(found.reserve, 'J')}"
+    reserve = f"the reserve is {formatting.quantity(found.reserve, 'J')}"
     if top.energy_J <= found.reserve:
-        return f"{drawn}; {lent}: within it."
-    return f"{drawn}; {lent}: beyond it. One count times all changes of the force, which no encoder sees, is {unseen}."
+        return f"{drawn}; {reserve}: within it."
+    drawn = f"{drawn}; {reserve}: beyond it."
+    return f"{drawn} One count times all changes of the force, which no encoder sees, is {unseen}."
 
 
 def _tell_replay(found: Worst, folder: Path, law: str, *, changed: bool) -> None:

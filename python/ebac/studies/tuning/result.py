@@ -26,7 +26,7 @@ class TunedRow:
     median_settled_s : float or None
         Median over the good hands of the time from which on position and force have settled [s].
     least_energy_J, most_drawn_J : float or None
-        Least energy of the port, and most drawn in any window of any run [J].
+        Least energy of the port, and energy drawn in any window of any run [J].
     force_swing_N : float or None
         Largest force swing at rest of a hand that is exact and still [N].
     """

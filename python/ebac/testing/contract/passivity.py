@@ -73,7 +73,7 @@ def least_energy(law: Any, world: list[Any], b: float, timing: ebac.Timing) -> t
 
 
 class Passivity:
-    """The account of the port never falls below what was lent."""
+    """No more energy leaves the port than the reserve."""
 
     timing_of_law: ClassVar[ebac.Timing] = ebac.Timing()
 
