@@ -22,7 +22,7 @@ LINE: dict[str, Any] = {"colors": "black", "linewidths": 1.2, "linestyles": "sol
 
 
 def plot_map(found: StabilityMap) -> Picture:
-    """Draw a map: verdict, swing, energy taken out of the port and deviation, one panel each.
+    """Draw a map: verdict, swing, energy drawn and deviation, one panel each.
 
     Parameters
     ----------
