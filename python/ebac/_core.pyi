@@ -6512,7 +6512,7 @@ class EBAC:
     pull_rate : float
         with the observer, fastest growth of the pull beyond what the force sensor shows [N/s], 0 to 1e+06.
     reserve : float
-        energy lent at the start, e(0) of eq. (3) [J], 0 to 1.
+        reserve of the account, e(0) of eq. (3) [J], 0 to 1.
     observed_reserve : float
         the same with the observer, where less is needed [J], 0 to 1.
     continuity : bool
@@ -6803,7 +6803,7 @@ class EBAC:
     @property
     def reserve(self) -> float:
         """
-        energy lent at the start, e(0) of eq. (3) [J], 0 to 1
+        reserve of the account, e(0) of eq. (3) [J], 0 to 1
         """
     @property
     def resonance(self) -> float:

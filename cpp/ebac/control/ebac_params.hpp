@@ -79,7 +79,7 @@ struct EbacParams {
         F{"pull_rate", &EbacParams::pull_rate, "N/s",
           "with the observer, fastest growth of the pull beyond what the force sensor shows", 0,
           1e6},
-        F{"reserve", &EbacParams::reserve, "J", "energy lent at the start, e(0) of eq. (3)", 0, 1},
+        F{"reserve", &EbacParams::reserve, "J", "reserve of the account, e(0) of eq. (3)", 0, 1},
         F{"observed_reserve", &EbacParams::observed_reserve, "J",
           "the same with the observer, where less is needed", 0, 1},
         F{"continuity", &EbacParams::continuity, "1", "ratio rows of eq. (10)", 0, 1},
