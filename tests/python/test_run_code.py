@@ -18,12 +18,26 @@ EXAMPLE = Path(__file__).parents[2] / "examples" / "joystick.toml"
 
 
 @pytest.fixture
-def setup(monkeypatch: pytest.MonkeyPatch) -> Any:
-    """What a loop is made of, for the example."""
-    known = Configuration.load(EXAMPLE)
+def made_of(monkeypatch: pytest.MonkeyPatch) -> Any:
+    """Say what the loop of a configuration is made of."""
     monkeypatch.setattr(_core, "RunSetup", lambda **parts: SimpleNamespace(**parts))
     place: Any = SimpleNamespace(sensor=None, aim=None, signs=lambda known: known.signs)
-    return run_setup(known, known.drives.nodes, backend=place, seconds=1.0)
+    return lambda known: run_setup(known, known.drives.nodes, backend=place, seconds=1.0)
+
+
+@pytest.fixture
+def setup(made_of: Any) -> Any:
+    """What a loop is made of, for the example."""
+    return made_of(Configuration.load(EXAMPLE))
+
+
+@pytest.mark.parametrize(("dt", "silent", "ticks"), [(1e-3, 10, 2010), (0.04, 500, 550)])
+def test_drives_that_may_be_silent_longer_have_longer_to_be_enabled(
+    made_of: Any, dt: float, silent: int, ticks: int
+) -> None:
+    known = Configuration.load(EXAMPLE)
+    patient = known.replace(silent=silent, timing=known.timing.replace(dt=dt))
+    assert made_of(patient).drives["enable_ticks"] == ticks
 
 
 def test_the_drives_watch_the_loop_and_it_watches_them(setup: Any) -> None:

@@ -19,9 +19,9 @@ BY_TIME = frozenset(
 )
 #: Keys of a configuration that make a loop patient with a machine without real time.
 PATIENT = {
-    Fault.DRIVE_SILENT: "bus.silent = 50",
-    Fault.FORCE_STALE: "limits.force_age = 0.2",
-    Fault.OVERRUNS: "limits.overruns = 100 and limits.pause = 0.5",
+    Fault.DRIVE_SILENT: "bus.silent = 50 or more",
+    Fault.FORCE_STALE: "limits.force_age = 0.2 or more",
+    Fault.OVERRUNS: "limits.overruns = 100 and limits.pause = 0.5 or more",
 }
 #: Those of motion, which a late loop sees only where it skips ticks.
 BY_MOTION = frozenset({Fault.ENCODER_JUMP, Fault.OVERSPEED})

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 #: Rows beside those of the run itself: before the drives are enabled, and while they stop.
 _MORE_ROWS = 4096
-#: The longest the drives may take to be enabled [s].
+#: The longest the drives may take to be enabled [s], beside the ticks that they may be silent for.
 _ENABLE = 2.0
 #: Monitored for three of a drive's heartbeats.
 _BEATS = 3.0
@@ -79,7 +79,7 @@ def run_setup(
         drives={
             "silent_ticks": known.silent,
             "torque_ticks": min(max(10, ceil(_LAG / dt)), 128),
-            "enable_ticks": ceil(_ENABLE / dt),
+            "enable_ticks": ceil(_ENABLE / dt) + known.silent,
             "heartbeat_timeout": _BEATS * max(watched),
             "own_node": masters.pop() if beat > 0 else 0,  # one: `check_stall`
             "heartbeat_period": max(1e-3, beat / 10) if beat > 0 else 0.01,
