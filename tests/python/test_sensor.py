@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import math
 import socket
 import struct
+import threading
 import time
 from collections.abc import Iterator
 
@@ -145,16 +147,83 @@ def test_the_force_of_the_hand_arrives(pushed: SimulatedSensor) -> None:
 
 def test_what_acts_now_is_zero(pushed: SimulatedSensor) -> None:
     with Sensor.open(pushed.config) as sensor:
-        bias = sensor.bias(100)
+        with pytest.raises(SensorError, match="a load acts on the sensor"):
+            sensor.bias(100)  # 8.8 N
+        assert sensor.read().force == (3.0, -2.0, 8.0)
+        bias = sensor.bias(100, accept_load=True)
         assert bias == pytest.approx((3, -2, 8, 0.04, 0.06, 0))
         assert sensor.read().force == (0.0, 0.0, 0.0)
     with Sensor.open(pushed.config, bias=bias) as sensor:  # kept for the next run
         assert sensor.read().force == pytest.approx((0, 0, 0), abs=1e-9)
     with Sensor.open(pushed.config) as sensor:
-        sensor.bias_inside()
+        with pytest.raises(SensorError, match=r"8\.77 N: must be at most 7\.25 N \(5 % of 145 N"):
+            sensor.bias_inside()
+        sensor.bias_inside(accept_load=True)
         deadline = time.monotonic() + 5
         while sensor.read().force != (0.0, 0.0, 0.0):
             assert time.monotonic() < deadline
+
+
+def test_a_load_is_measured_by_the_range_of_the_sensor() -> None:
+    with (
+        SimulatedSensor((3.0, 0.0, 0.0)) as simulated,
+        Sensor.open(simulated.config, force_range=50) as sensor,
+    ):
+        with pytest.raises(
+            SensorError, match=r"3 N: must be at most 2\.5 N \(5 % of sensor\.force"
+        ):
+            sensor.bias(50)
+        with pytest.raises(ValueError, match=r"records = 0: must lie in \[1, 1000000\]"):
+            sensor.bias(0)
+
+
+def test_a_hand_at_the_handle_is_no_zero() -> None:
+    """It trembles: 10 Hz, with an amplitude of 1 N."""
+    shared = SharedForce([1.0, 0.0, 0.0])
+    over = threading.Event()
+
+    def tremble() -> None:
+        while not over.wait(1e-3):
+            shared.post([1 + math.sin(2 * math.pi * 10 * time.monotonic()), 0.0, 0.0])
+
+    thread = threading.Thread(target=tremble)
+    with SimulatedSensor(shared) as simulated, Sensor.open(simulated.config) as sensor:
+        thread.start()
+        try:
+            with pytest.raises(SensorError, match=r"not still, its standard deviation is 0\.\d+ N"):
+                sensor.bias(50, accept_load=True)
+            with pytest.raises(SensorError, match="not still"):
+                sensor.bias_inside(50)
+            zero = sensor.bias(500, accept_unsteady=True)
+            assert zero[0] == pytest.approx(1, abs=0.6)
+        finally:
+            over.set()
+            thread.join()
+
+
+def test_a_hand_that_comes_while_zero_is_taken_ends_it() -> None:
+    shared = SharedForce()
+    with SimulatedSensor(shared) as simulated, Sensor.open(simulated.config) as sensor:
+        rest = sensor.rest(10)
+        assert rest.mean[:3] == (0.0, 0.0, 0.0)
+        shared.post([3.0, 0.0, 0.0])
+        while (now := sensor.read()).force[0] < 3:
+            pass
+        with pytest.raises(
+            SensorError, match=r"changed meanwhile, by 3 N: must be at most 1\.45 N"
+        ):
+            rest.check_same(now, sensor.config)
+
+
+def test_rest_is_in_the_axes_of_the_sensor() -> None:
+    with (
+        SimulatedSensor((3.0, -2.0, 1.0), rotation=TURNED, sign=-1) as simulated,
+        Sensor.open(simulated.config) as sensor,
+    ):
+        found = sensor.rest(10)
+        assert found.mean == pytest.approx(sensor.bias(10))
+        assert found.mean[:3] == pytest.approx((2, -1, -3))
+        assert found.force_spread == pytest.approx(0)
 
 
 def test_the_axes_of_the_sensor_are_turned_into_the_handles() -> None:

@@ -191,6 +191,40 @@ def test_bias_inside_leaves_nothing(simulated: SimulatedSensor) -> None:
     assert rows["torque_y"] == (0.0, "N m")
 
 
+def test_bias_shows_before_and_after(simulated: SimulatedSensor) -> None:
+    code, out, err = run("bias", *at(simulated), "--records", "20", "--json")
+    assert code == 0, err
+    row = json.loads(out)["rows"][0]
+    assert (row["what"], row["unit"]) == ("force_x", "N")
+    assert [row[key] for key in ("value", "before", "after")] == pytest.approx([3, 3, 0])
+    code, out, err = run("bias", *at(simulated), "--records", "20")
+    assert code == 0, err
+    assert "before" in out
+    assert "Standard deviation before: 0 N, 0 N m." in out
+
+
+def test_bias_takes_no_load_without_being_told(tmp_path: Path) -> None:
+    options = EmulatorOptions(load=20)
+    with SimulatedSensor(options=options) as heavy:
+        host, port = heavy.address
+        file = tmp_path / "sensor.toml"
+        file.write_text(f"[sensor]\nhost = '{host}'\nport = {port}\n")
+        for more in ([], ["--inside"]):
+            code, out, err = run("bias", "--config", str(file), *more)
+            assert code == 1
+            assert out == ""
+            assert "20 N: must be at most 7.25 N (5 % of 145 N, as sensor.force_range" in err
+            assert "--accept-load" in err
+        code, out, err = run("bias", "--config", str(file), "--accept-load")
+        assert code == 0, err
+        line = next(line.strip() for line in out.splitlines() if "bias = [" in line)
+        with file.open("a") as text:
+            text.write(f"{line}\n")
+        code, out, err = run("bias", "--config", str(file))  # from the zero it has
+        assert code == 0, err
+        assert line in out
+
+
 @pytest.mark.parametrize(
     ("words", "code", "message"),
     [

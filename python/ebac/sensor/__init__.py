@@ -5,6 +5,7 @@ from ebac.sensor.configuration import SensorConfig
 from ebac.sensor.errors import SensorError
 from ebac.sensor.page import SensorPage, read_page
 from ebac.sensor.reading import SensorCounts, SensorReading
+from ebac.sensor.rest import Rest
 from ebac.sensor.sensor import Sensor
 from ebac.sensor.simulated import SimulatedSensor
 from ebac.sensor.status import explain
@@ -13,6 +14,7 @@ __all__ = [
     "EmulatorOptions",
     "EmulatorTrouble",
     "LinkState",
+    "Rest",
     "Sensor",
     "SensorConfig",
     "SensorCounts",

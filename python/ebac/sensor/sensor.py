@@ -12,9 +12,12 @@ from ebac._util.wrong_calls import plain_constructor
 from ebac.sensor.configuration import SensorConfig, Wrench
 from ebac.sensor.errors import SensorError, silence
 from ebac.sensor.reading import SensorCounts, SensorReading
+from ebac.sensor.rest import WATCH, Rest
 
 #: A record that waited longer [s] is not what acts now: another one is under way.
 _OLD = 0.02
+#: Most records of a mean.
+MOST_RECORDS = 1_000_000
 
 
 @plain_constructor
@@ -120,10 +123,8 @@ class Sensor:
             raise silence(self.config.host, self.config.port, self._client.state, timeout)
         return self._reading()
 
-    def bias(self, records: int = 200, *, timeout: float = 1.0) -> Wrench:
-        """Take the mean of the next good records as zero, here and from now on.
-
-        Nobody may touch the handle meanwhile. Saturated records and those with an error do not count.
+    def rest(self, records: int = 200, *, timeout: float = 1.0) -> Rest:
+        """Return mean and spread of what acts, over the next good records and for 0.2 s at least.
 
         Parameters
         ----------
@@ -131,6 +132,48 @@ class Sensor:
             How many, 1 to 1e6.
         timeout : float
             Longest wait for each good record [s].
+
+        Raises
+        ------
+        SensorError
+            When no good record came.
+        ValueError
+            For a number of records out of range.
+        """
+        if not 1 <= records <= MOST_RECORDS:
+            raise ValueError(f"records = {records}: must lie in [1, {MOST_RECORDS}]")
+        readings: list[SensorReading] = []
+        before = self._client.received
+        end = time.monotonic() + WATCH
+        while self._client.received - before < records or time.monotonic() < end:
+            readings.append(self._good(timeout))
+        return Rest.of(readings, self.config)
+
+    def bias(
+        self,
+        records: int = 200,
+        *,
+        timeout: float = 1.0,
+        accept_load: bool = False,
+        accept_unsteady: bool = False,
+    ) -> Wrench:
+        """Take the mean of the next good records as zero, here and from now on.
+
+        Nobody may touch the handle meanwhile. What acts is first watched for as many records, and for 0.2 s at least.
+        Saturated records and those with an error do not count.
+
+        Parameters
+        ----------
+        records : int
+            How many, 1 to 1e6.
+        timeout : float
+            Longest wait for each good record [s].
+        accept_load : bool
+            Take a force or torque as zero that is more than 5 % of the range, `SensorConfig.force_range` and
+            `torque_range`; where these are 0, of 145 N and 5 N m.
+        accept_unsteady : bool
+            Take the mean of a reading as zero that is not still: its standard deviation is more than 0.1 % of the
+            range.
 
         Returns
         -------
@@ -140,27 +183,49 @@ class Sensor:
         Raises
         ------
         SensorError
-            When no good record came; the bias is then what it was.
+            When no good record came, and for a load or a reading that is not still; the message has the value and its
+            limit. The bias is then what it was.
+        ValueError
+            For a number of records out of range.
         """
+        found = self.rest(records, timeout=timeout)
+        found.check(self.config, accept_load=accept_load, accept_unsteady=accept_unsteady)
         self._client.begin_bias(records)
-        last_good = time.monotonic()
         try:
             while self._client.biasing:
-                reading = self.read(timeout)
-                if reading.health is SensorStatus.GOOD:
-                    last_good = time.monotonic()
-                elif time.monotonic() - last_good > timeout:
-                    raise SensorError(self._not_good(reading))
+                reading = self._good(timeout)
+                if self._client.biasing and not accept_unsteady:
+                    found.check_same(reading, self.config)
         finally:
             self._client.cancel_bias()  # or the zero would change later, when good records come again
         return self._bias()
 
-    def bias_inside(self) -> None:
+    def bias_inside(
+        self,
+        records: int = 200,
+        *,
+        timeout: float = 1.0,
+        accept_load: bool = False,
+        accept_unsteady: bool = False,
+    ) -> None:
         """Have the sensor itself take what acts now as zero (software bias).
 
-        It holds for every program, until the sensor loses its power. Nothing answers: see the next reading.
+        It holds for every program, until the sensor loses its power. Nothing answers: see the next reading. Parameters
+        and errors are those of `bias`; what acts is watched first.
         """
+        found = self.rest(records, timeout=timeout)
+        found.check(self.config, accept_load=accept_load, accept_unsteady=accept_unsteady)
         self._client.bias_sensor()
+
+    def _good(self, timeout: float) -> SensorReading:
+        """Return the next good record; the wait for it is limited, as that for each record."""
+        end = time.monotonic() + timeout
+        while True:
+            reading = self.read(timeout)
+            if reading.health is SensorStatus.GOOD:
+                return reading
+            if time.monotonic() > end:
+                raise SensorError(self._not_good(reading))
 
     def _not_good(self, reading: SensorReading) -> str:
         from ebac.sensor.status import explain
