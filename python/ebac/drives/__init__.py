@@ -33,12 +33,13 @@ from ebac.drives.errors import (
 )
 from ebac.drives.frame_length import exact_bits, frame_bits
 from ebac.drives.load import BusLoad, Traffic, bus_load
-from ebac.drives.network import Network, Node, check_sheet, load
+from ebac.drives.network import Network, Node, load
 from ebac.drives.objects import Object, find
 from ebac.drives.pdo import Pdo
 from ebac.drives.plan import Change, Plan, plan
 from ebac.drives.profile import Profile, builtin
 from ebac.drives.setting import Setting
+from ebac.drives.sheets import check_sheet
 from ebac.drives.simulate import inject
 from ebac.drives.stall import check_stall, hold_time
 from ebac.drives.state import TRANSITIONS, Command, Controlword, State, Statusword, path

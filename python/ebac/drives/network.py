@@ -9,11 +9,12 @@ from typing import Any
 
 from ebac._util.arguments import require_path, unknown
 from ebac._util.wrong_calls import plain_constructor
-from ebac.drives.eds import Sheet
-from ebac.drives.errors import ProfileError, lacks, says_absent
+from ebac.drives.eds import Sheet, read_eds
+from ebac.drives.errors import ProfileError
 from ebac.drives.load import BITRATES, BusLoad, Traffic, bus_load
 from ebac.drives.pdo import sync_period
 from ebac.drives.profile import Profile, builtin, read_profile, read_source
+from ebac.drives.sheets import check_sheet
 from ebac.drives.toml_positions import Source
 
 
@@ -30,11 +31,14 @@ class Node:
         Which axis, for people.
     profile : Profile
         What it is to be set to.
+    sheet : Sheet or None
+        Its maker's electronic data sheet, where the network file names one.
     """
 
     id: int
     name: str = ""
     profile: Profile
+    sheet: Sheet | None = None
 
 
 @plain_constructor
@@ -80,44 +84,6 @@ class Network:
         return f"{self.name}: {load.describe()}" if load.warned else None
 
 
-def check_sheet(network: Network, sheet: Sheet) -> None:
-    """Refuse profiles that a drive with this electronic data sheet cannot take, before anything is on a bus.
-
-    Raises
-    ------
-    ProfileError
-        For the first node whose drive lacks objects, or cannot map them; all of them are listed.
-    """
-    from ebac.drives.objects import find
-    from ebac.drives.settings import groups
-
-    for node in network.nodes:
-        settings = [one for group in groups(node.profile, node.id) for one in group.settings]
-        lacking = [
-            (one.object, one.key)
-            for one in settings
-            if not one.optional and one.object.key not in sheet.entries
-        ]
-        mapped = [(find(name), f"pdo.{p.name}") for p in node.profile.pdos for name in p.objects]
-        lacking += [pair for pair in mapped if pair[0].key not in sheet.entries]
-        if lacking:
-            raise ProfileError(f"{network.name}, node {node.id}: {sheet.name} {lacks(lacking)}")
-        for obj, key in node.profile.absent():
-            if obj.key in sheet.entries:
-                raise ProfileError(
-                    f"{network.name}, node {node.id}: {sheet.name} {says_absent(obj, key)}"
-                )
-        fixed = [
-            f"{obj.where} {obj.name} ({key})"
-            for obj, key in mapped
-            if not sheet.entries[obj.key].mappable
-        ]
-        if fixed:
-            raise ProfileError(
-                f"{network.name}, node {node.id}: {sheet.name} lets no PDO carry {', '.join(fixed)}: map another object"
-            )
-
-
 def load(name: str | Path, *, nodes: Sequence[int] = (), bitrate: int | None = None) -> Network:
     """Return a network from a network file, or from a profile for the nodes given.
 
@@ -148,8 +114,8 @@ def load(name: str | Path, *, nodes: Sequence[int] = (), bitrate: int | None = N
     profile = read_profile(source)
     if not nodes:
         raise ProfileError(
-            f"{source.name}: is a profile for any node: choose one with --node, or write a network "
-            "file with [[node]] tables, see the profile joystick"
+            f"{source.name}: is a profile for any node: choose one with --node, or write a network file with [[node]] "
+            "tables, which a configuration of `ebac run` needs: `ebac drive profile joystick` prints one"
         )
     chosen = tuple(Node(id=node, profile=profile) for node in dict.fromkeys(nodes))
     return Network(name=called, nodes=chosen, bitrate=bitrate or 1_000_000)
@@ -207,12 +173,14 @@ def _network(source: Source, called: str) -> Network:
     others = bus.get("other", [])
     if not isinstance(others, list):
         raise source.refuse(("bus", "other"), "bus.other: must be written [[bus.other]]")
-    return Network(
+    network = Network(
         name=called,
         nodes=_nodes(source),
         bitrate=int(bitrate),
         others=tuple(_other(source, i, item) for i, item in enumerate(others)),
     )
+    check_sheet(network)
+    return network
 
 
 def _nodes(source: Source) -> tuple[Node, ...]:
@@ -233,7 +201,8 @@ def _nodes(source: Source) -> tuple[Node, ...]:
         if not isinstance(name, str):
             raise source.refuse(("node", i, "name"), f"node[{i}].name = {name!r}: must be text")
         profile = read_profile(source, base=_base(source, i, table), at=("node", i))
-        nodes.append(Node(id=found, name=name, profile=profile))
+        sheet = _sheet(source, i, table["eds"]) if "eds" in table else None
+        nodes.append(Node(id=found, name=name, profile=profile, sheet=sheet))
     for i, node in enumerate(nodes):
         if any(node.id == other.profile.values["heartbeat.master"] for other in nodes):
             raise source.refuse(
@@ -251,6 +220,18 @@ def _nodes(source: Source) -> tuple[Node, ...]:
     return tuple(nodes)
 
 
+def _sheet(source: Source, i: int, name: Any) -> Sheet:
+    if not isinstance(name, str):
+        raise source.refuse(
+            ("node", i, "eds"),
+            f"node[{i}].eds = {name!r}: must be the name of the drive's data sheet, an EDS or DCF file",
+        )
+    try:
+        return read_eds(Path(source.name).parent / name)
+    except ProfileError as error:
+        raise source.refuse(("node", i, "eds"), f"node[{i}].eds: {error}") from None
+
+
 def _base(source: Source, i: int, table: Mapping[str, Any]) -> Profile:
     name = table.get("profile")
     if not isinstance(name, str):
@@ -259,7 +240,10 @@ def _base(source: Source, i: int, table: Mapping[str, Any]) -> Profile:
             at, f"node[{i}].profile = {name!r}: must be the name of a profile, or of its file"
         )
     beside = Path(source.name).parent / name
-    base = read_source(beside if beside.is_file() else name)
+    try:
+        base = read_source(beside if beside.is_file() else name)
+    except ProfileError as error:
+        raise source.refuse(("node", i, "profile"), f"node[{i}].profile: {error}") from None
     if "node" in base.table:
         raise source.refuse(
             ("node", i, "profile"), f"node[{i}].profile = {name!r}: is itself a network file"

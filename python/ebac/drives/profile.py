@@ -151,7 +151,8 @@ def read_source(name: str | Path) -> Source:
     except FileNotFoundError:
         known = ", ".join(builtin())
         raise ProfileError(
-            f"{path}: there is no such file, and no profile of that name; there are: {known}"
+            f"{path}: there is no such file, and no profile of that name; there are: {known}. For another drive write "
+            "a profile: `ebac drive profile generic-cia402` prints one to start from"
         ) from None
     except (OSError, ValueError) as error:  # ValueError: no text, or no name of a file
         raise ProfileError(f"{str(path)!r}: cannot be read ({error})") from None
@@ -232,7 +233,7 @@ def _not_without(name: str) -> str | None:
 
 def _values(source: Source, table: Mapping[str, Any], at: Where) -> Iterator[tuple[str, Value]]:
     own = ("objects", "without")
-    apart = ("about", "pdo", *own) if not at else ("id", "name", "profile", *own)
+    apart = ("about", "pdo", *own) if not at else ("id", "name", "profile", "eds", *own)
     for title, item in table.items():
         if title in apart:
             continue

@@ -188,5 +188,5 @@ def verify(
 def _differences(bus: DriveBus, network: Network, where: BusOptions) -> list[Change]:
     from ebac.drives import plan as plan_of
 
-    plans = [plan_of(checked(bus, node.id, where), node) for node in network.nodes]
+    plans = [plan_of(checked(bus, node.id, where, node.sheet), node) for node in network.nodes]
     return [change for one in plans for change in one.changes]

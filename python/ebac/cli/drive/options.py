@@ -20,7 +20,8 @@ if TYPE_CHECKING:
 _BUS = "Bus"
 
 
-def _profiles(incomplete: str) -> list[str]:
+def profiles(incomplete: str) -> list[str]:
+    """Return the names that come with ebac and begin so."""
     from ebac.drives.profile import builtin
 
     return [name for name in builtin() if name.startswith(incomplete)]
@@ -119,7 +120,7 @@ ProfileName: TypeAlias = Annotated[
     typer.Argument(
         help="A profile or network file, or the name of one that comes with ebac: "
         "joystick, copley-accelnet, generic-cia402, ...",
-        autocompletion=_profiles,
+        autocompletion=profiles,
     ),
 ]
 Yes: TypeAlias = Annotated[bool, typer.Option("--yes", "-y", help="Do not ask for confirmation.")]
@@ -229,9 +230,9 @@ def drives(bus: DriveBus, nodes: list[int] | None, where: BusOptions) -> list[Dr
     return chosen
 
 
-def checked(bus: DriveBus, node: int, where: BusOptions) -> Drive:
-    """Return one drive, after a look whether --eds is its maker's."""
-    drive = bus.drive(node, eds=sheet_of(where), timeout=where.timeout)
+def checked(bus: DriveBus, node: int, where: BusOptions, own: Sheet | None = None) -> Drive:
+    """Return one drive, after a look whether the data sheet, of --eds or else its own, is its maker's."""
+    drive = bus.drive(node, eds=sheet_of(where) or own, timeout=where.timeout)
     drive.check_sheet()
     return drive
 

@@ -58,7 +58,7 @@ def apply(
 
     network = network_of(profile, node, where)
     with opened(where) as bus:
-        pairs = [(checked(bus, n.id, where), n) for n in network.nodes]
+        pairs = [(checked(bus, n.id, where, n.sheet), n) for n in network.nodes]
         if not as_json:
             found = [change for one, n in pairs for change in library.plan(one, n).changes]
             results.changes(found, "The drives hold all of it: nothing will change.")
