@@ -95,7 +95,7 @@ void bind_simulated_drive(py::module_& m) {
   cls.def(py::init([](int node, const Motor& motor, const Drive& drive, double peak_time,
                       const std::vector<SheetRow>& sheet) {
             const std::vector<can::SheetEntry> entries = checked_sheet(sheet);
-            return SimulatedDrive({.node = checked_node(node, 1),
+            return SimulatedDrive({.node = checked_node(node),
                                    .motor = motor,
                                    .drive = drive,
                                    .peak_time = checked_peak_time(peak_time),
@@ -120,19 +120,33 @@ void bind_simulated_drive(py::module_& m) {
 }
 
 void bind_joystick(py::module_& m) {
+  py::class_<DriveWiring>(
+      m, "DriveWiring",
+      "How simulated drives are set on their bus and connected to a device: for each axis the node "
+      "id (1 to\n127; default 1, 2, 3), the rows of an electronic data sheet, the counts shown at "
+      "the device's zero, and\nthe signs of motor and encoder (1 or -1). An empty list leaves the "
+      "default.")
+      .def(py::init([](std::vector<int> nodes, std::vector<std::vector<SheetRow>> sheets,
+                       std::vector<std::int64_t> zero, std::vector<int> motor,
+                       std::vector<int> encoder) {
+             return DriveWiring{std::move(nodes), std::move(sheets), std::move(zero),
+                                std::move(motor), std::move(encoder)};
+           }),
+           py::kw_only(), py::arg("nodes") = std::vector<int>{},
+           py::arg("sheets") = std::vector<std::vector<SheetRow>>{},
+           py::arg("zero") = std::vector<std::int64_t>{}, py::arg("motor") = std::vector<int>{},
+           py::arg("encoder") = std::vector<int>{});
   py::class_<PlantOfDrives> cls(m, "Joystick",
                                 "Simulated drives on the axes of one simulated device and hand.");
-  cls.def(py::init([](const Setup& setup, int first, double peak_time,
+  cls.def(py::init([](const Setup& setup, const DriveWiring& wiring, double peak_time,
                       const Shared<sensor::SharedForce>& force, bool wait_for_power,
-                      const Shared<rt::SharedHandTarget>& aim, const std::vector<SheetRow>& sheet,
-                      const std::vector<std::int64_t>& zero, double longest_step) {
-            return make_joystick(setup, first, peak_time, force, wait_for_power, aim, sheet, zero,
+                      const Shared<rt::SharedHandTarget>& aim, double longest_step) {
+            return make_joystick(setup, wiring, peak_time, force, wait_for_power, aim,
                                  longest_step);
           }),
-          py::arg("setup"), py::kw_only(), py::arg("first") = 1, py::arg("peak_time") = 2.0,
-          py::arg("force") = py::none(), py::arg("wait_for_power") = false,
-          py::arg("aim") = py::none(), py::arg("sheet") = std::vector<SheetRow>{},
-          py::arg("zero") = std::vector<std::int64_t>{},
+          py::arg("setup"), py::kw_only(), py::arg_v("wiring", DriveWiring{}, "DriveWiring()"),
+          py::arg("peak_time") = 2.0, py::arg("force") = py::none(),
+          py::arg("wait_for_power") = false, py::arg("aim") = py::none(),
           py::arg("longest_step") = std::numeric_limits<double>::infinity())
       .def_property_readonly("axes", &PlantOfDrives::axes, "Number of axes.")
       .def(

@@ -76,18 +76,17 @@ void bind_node_server(py::module_& m) {
       "between\n"
       "two SYNCs. A context manager.");
   inside.def(
-      py::init([](can::LoopbackHub& hub, const Setup& setup, int first, double peak_time,
-                  const OptionalForce& force, bool wait_for_power, const OptionalTarget& aim,
-                  const std::vector<SheetRow>& sheet, const std::vector<std::int64_t>& zero,
-                  double longest_step, const std::optional<std::shared_ptr<DrivenMachine>>& load) {
-        PlantOfDrives joystick = make_joystick(setup, first, peak_time, force, wait_for_power, aim,
-                                               sheet, zero, longest_step, load.value_or(nullptr));
+      py::init([](can::LoopbackHub& hub, const Setup& setup, const DriveWiring& wiring,
+                  double peak_time, const OptionalForce& force, bool wait_for_power,
+                  const OptionalTarget& aim, double longest_step,
+                  const std::optional<std::shared_ptr<DrivenMachine>>& load) {
+        PlantOfDrives joystick = make_joystick(setup, wiring, peak_time, force, wait_for_power, aim,
+                                               longest_step, load.value_or(nullptr));
         return std::make_unique<OnLoopback>(hub.open({.frames = kFrames}), std::move(joystick));
       }),
-      py::arg("hub"), py::arg("setup"), py::kw_only(), py::arg("first") = 1,
-      py::arg("peak_time") = 2.0, py::arg("force") = py::none(), py::arg("wait_for_power") = false,
-      py::arg("aim") = py::none(), py::arg("sheet") = std::vector<SheetRow>{},
-      py::arg("zero") = std::vector<std::int64_t>{},
+      py::arg("hub"), py::arg("setup"), py::kw_only(),
+      py::arg_v("wiring", DriveWiring{}, "DriveWiring()"), py::arg("peak_time") = 2.0,
+      py::arg("force") = py::none(), py::arg("wait_for_power") = false, py::arg("aim") = py::none(),
       py::arg("longest_step") = std::numeric_limits<double>::infinity(),
       py::arg("load") = py::none());
   add_work(inside);
@@ -95,18 +94,18 @@ void bind_node_server(py::module_& m) {
       m, "SocketCanJoystick",
       "Simulated drives of a joystick on a CAN interface of the Linux kernel, in real time, in a\n"
       "thread of its own that never waits for Python. A context manager.");
-  outside.def(
-      py::init([](const std::string& interface, const Setup& setup, int first, double peak_time,
-                  const OptionalForce& force, bool wait_for_power, const OptionalTarget& aim,
-                  const std::vector<SheetRow>& sheet, const std::vector<std::int64_t>& zero) {
-        PlantOfDrives joystick =
-            make_joystick(setup, first, peak_time, force, wait_for_power, aim, sheet, zero);
-        return std::make_unique<OnSocketCan>(open_socketcan(interface, {}), std::move(joystick));
-      }),
-      py::arg("interface"), py::arg("setup"), py::kw_only(), py::arg("first") = 1,
-      py::arg("peak_time") = 2.0, py::arg("force") = py::none(), py::arg("wait_for_power") = false,
-      py::arg("aim") = py::none(), py::arg("sheet") = std::vector<SheetRow>{},
-      py::arg("zero") = std::vector<std::int64_t>{});
+  outside.def(py::init([](const std::string& interface, const Setup& setup,
+                          const DriveWiring& wiring, double peak_time, const OptionalForce& force,
+                          bool wait_for_power, const OptionalTarget& aim) {
+                PlantOfDrives joystick =
+                    make_joystick(setup, wiring, peak_time, force, wait_for_power, aim);
+                return std::make_unique<OnSocketCan>(open_socketcan(interface, {}),
+                                                     std::move(joystick));
+              }),
+              py::arg("interface"), py::arg("setup"), py::kw_only(),
+              py::arg_v("wiring", DriveWiring{}, "DriveWiring()"), py::arg("peak_time") = 2.0,
+              py::arg("force") = py::none(), py::arg("wait_for_power") = false,
+              py::arg("aim") = py::none());
   add_work(outside);
 }
 

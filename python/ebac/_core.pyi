@@ -53,6 +53,7 @@ __all__: list[str] = [
     "Drive",
     "DriveCondition",
     "DriveState",
+    "DriveWiring",
     "EBAAccount",
     "EBACPrinted",
     "Elastic",
@@ -4338,6 +4339,24 @@ class SimulatedDrive:
         State of CiA 402.
         """
 
+class DriveWiring:
+    """
+    How simulated drives are set on their bus and connected to a device: for each axis the node id (1 to
+    127; default 1, 2, 3), the rows of an electronic data sheet, the counts shown at the device's zero, and
+    the signs of motor and encoder (1 or -1). An empty list leaves the default.
+    """
+    def __init__(
+        self,
+        *,
+        nodes: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex] = [],
+        sheets: collections.abc.Sequence[
+            collections.abc.Sequence[tuple[int, int, str, bool, int, int, int, int | None, str]]
+        ] = [],
+        zero: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex] = [],
+        motor: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex] = [],
+        encoder: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex] = [],
+    ) -> None: ...
+
 class Joystick:
     """
     Simulated drives on the axes of one simulated device and hand.
@@ -4346,15 +4365,11 @@ class Joystick:
         self,
         setup: Setup,
         *,
-        first: typing.SupportsInt | typing.SupportsIndex = 1,
+        wiring: DriveWiring = ...,
         peak_time: typing.SupportsFloat | typing.SupportsIndex = 2.0,
         force: SharedForce | None = None,
         wait_for_power: bool = False,
         aim: SharedHandTarget | None = None,
-        sheet: collections.abc.Sequence[
-            tuple[int, int, str, bool, int, int, int, int | None, str]
-        ] = [],
-        zero: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex] = [],
         longest_step: typing.SupportsFloat | typing.SupportsIndex = ...,
     ) -> None: ...
     def drive(self, axis: typing.SupportsInt | typing.SupportsIndex = 0) -> SimulatedDrive:
@@ -7353,25 +7368,11 @@ class LoopbackJoystick:
         hub: LoopbackHub,
         setup: Setup,
         *,
-        first: typing.SupportsInt | typing.SupportsIndex = 1,
+        wiring: DriveWiring = ...,
         peak_time: typing.SupportsFloat | typing.SupportsIndex = 2.0,
         force: SharedForce | None = None,
         wait_for_power: bool = False,
         aim: SharedHandTarget | None = None,
-        sheet: collections.abc.Sequence[
-            tuple[
-                typing.SupportsInt | typing.SupportsIndex,
-                typing.SupportsInt | typing.SupportsIndex,
-                str,
-                bool,
-                typing.SupportsInt | typing.SupportsIndex,
-                typing.SupportsInt | typing.SupportsIndex,
-                typing.SupportsInt | typing.SupportsIndex,
-                typing.SupportsInt | typing.SupportsIndex | None,
-                str,
-            ]
-        ] = [],
-        zero: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex] = [],
         longest_step: typing.SupportsFloat | typing.SupportsIndex = ...,
         load: _DrivenMachine | None = None,
     ) -> None: ...
@@ -7413,15 +7414,11 @@ class SocketCanJoystick:
         interface: str,
         setup: Setup,
         *,
-        first: typing.SupportsInt | typing.SupportsIndex = 1,
+        wiring: DriveWiring = ...,
         peak_time: typing.SupportsFloat | typing.SupportsIndex = 2.0,
         force: SharedForce | None = None,
         wait_for_power: bool = False,
         aim: SharedHandTarget | None = None,
-        sheet: collections.abc.Sequence[
-            tuple[int, int, str, bool, int, int, int, int | None, str]
-        ] = [],
-        zero: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex] = [],
     ) -> None: ...
     def start(self, mode: RealTimeMode = ..., realtime: RealTime = ...) -> typing.Self:
         """

@@ -179,7 +179,7 @@ def refused(case: Case, room: Path) -> None:
         case = Case(case.command, case.option, case.kind, (*case.words, "new.csv"), case.hint)
     if (
         case.command.startswith("drive")
-        and case.command not in ("drive timing", "drive signs", "drive zero")
+        and case.command not in ("drive timing", "drive signs", "drive zero", "drive profile")
         and case.option not in BUS
     ):
         needs += BUS

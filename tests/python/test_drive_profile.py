@@ -199,6 +199,8 @@ def test_a_wrong_network_file_is_refused_with_its_line(
 def test_a_name_that_is_no_file_lists_what_there_is() -> None:
     with pytest.raises(drives.ProfileError, match="no profile of that name; there are: copley-acc"):
         drives.load("joistick")
+    with pytest.raises(drives.ProfileError, match="`ebac drive profile generic-cia402` prints one"):
+        drives.load("joistick")
 
 
 # --- what comes with the package ---

@@ -341,7 +341,7 @@ def test_drives_that_do_not_start_in_another_process_are_an_error_in_time(
     aim = SharedHandTarget()
     with (
         pytest.raises(drives.BusError, match=words),
-        drives_subprocess.in_a_process("vcan99", known, known.scenario(seconds=10), 1, aim),
+        drives_subprocess.in_a_process("vcan99", known, known.scenario(seconds=10), aim),
     ):
         pass
 

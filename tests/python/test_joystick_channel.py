@@ -17,7 +17,7 @@ from typer.testing import CliRunner
 
 import ebac
 from ebac import drives
-from ebac._core import BusState, LoopbackHub, LoopbackJoystick
+from ebac._core import BusState, DriveWiring, LoopbackHub, LoopbackJoystick
 from ebac.can import channels
 from ebac.can.interface import EbacBus
 from ebac.cli import app
@@ -140,13 +140,13 @@ def test_a_forgotten_joystick_ends_with_the_program(code: str) -> None:
     assert (run.returncode, run.stdout) == (0, "True\n"), run.stderr
 
 
-def joystick(hub: LoopbackHub, **changes: int | float) -> LoopbackJoystick:
+def joystick(hub: LoopbackHub, **changes: object) -> LoopbackJoystick:
     return LoopbackJoystick(hub, ebac.Scenario().setup(), **changes)  # type: ignore[arg-type]
 
 
 def test_a_joystick_works_once() -> None:
     hub = LoopbackHub()
-    served = joystick(hub, first=5)
+    served = joystick(hub, wiring=DriveWiring(nodes=[5]))
     end = hub.open()
     with served as same:
         assert same is served
@@ -165,13 +165,13 @@ def test_a_joystick_works_once() -> None:
 @pytest.mark.parametrize(
     ("changes", "tells"),
     [
-        ({"first": 0}, "drive.node = 0"),
-        ({"first": 128}, "drive.node = 128"),
+        ({"wiring": DriveWiring(nodes=[0])}, "drive.node = 0"),
+        ({"wiring": DriveWiring(nodes=[128])}, "drive.node = 128"),
         ({"peak_time": 0.0}, "drive.peak_time = 0 s"),
         ({"peak_time": float("nan")}, "drive.peak_time = nan s"),
     ],
 )
-def test_bad_input_is_named(changes: dict[str, int | float], tells: str) -> None:
+def test_bad_input_is_named(changes: dict[str, object], tells: str) -> None:
     with pytest.raises(ValueError, match=tells):
         joystick(LoopbackHub(), **changes)
 

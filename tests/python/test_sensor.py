@@ -191,10 +191,10 @@ def test_a_hand_at_the_handle_is_no_zero() -> None:
         thread.start()
         try:
             with pytest.raises(SensorError, match=r"not still, its standard deviation is 0\.\d+ N"):
-                sensor.bias(50, accept_load=True)
+                sensor.bias(50, timeout=10, accept_load=True)
             with pytest.raises(SensorError, match="not still"):
-                sensor.bias_inside(50)
-            zero = sensor.bias(500, accept_unsteady=True)
+                sensor.bias_inside(50, timeout=10)
+            zero = sensor.bias(500, timeout=10, accept_unsteady=True)
             assert zero[0] == pytest.approx(1, abs=0.6)
         finally:
             over.set()
@@ -204,10 +204,10 @@ def test_a_hand_at_the_handle_is_no_zero() -> None:
 def test_a_hand_that_comes_while_zero_is_taken_ends_it() -> None:
     shared = SharedForce()
     with SimulatedSensor(shared) as simulated, Sensor.open(simulated.config) as sensor:
-        rest = sensor.rest(10)
+        rest = sensor.rest(10, timeout=10)
         assert rest.mean[:3] == (0.0, 0.0, 0.0)
         shared.post([3.0, 0.0, 0.0])
-        while (now := sensor.read()).force[0] < 3:
+        while (now := sensor.read(10)).force[0] < 3:
             pass
         with pytest.raises(
             SensorError, match=r"changed meanwhile, by 3 N: must be at most 1\.45 N"

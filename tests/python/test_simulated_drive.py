@@ -17,7 +17,7 @@ from simulated_bus import SimulatedBus
 
 import ebac
 from ebac import _core
-from ebac._core import DriveCondition, DriveState, Joystick, SimulatedDrive
+from ebac._core import DriveCondition, DriveState, DriveWiring, Joystick, SimulatedDrive
 
 CONTROLWORDS = {"none": 0x80, "off": 0, "quick stop": 2, "shutdown": 6, "switch on": 7,
                 "enable": 15, "reset": 0x80}  # fmt: skip
@@ -396,7 +396,9 @@ def setup_of(device: ebac.Device, seconds: float = 1.0) -> Any:
 
 
 def test_two_drives_move_one_joystick() -> None:
-    joystick = Joystick(setup_of(ebac.Device(kinematics=ebac.Gimbal())), first=3)
+    joystick = Joystick(
+        setup_of(ebac.Device(kinematics=ebac.Gimbal())), wiring=DriveWiring(nodes=[3, 4])
+    )
     desk = Desk(joystick, joystick.drive(1))
     try:
         node = desk.node
@@ -459,8 +461,8 @@ def test_a_current_between_two_syncs_acts_from_then_on() -> None:
         (lambda: SimulatedDrive().receive(0x800), "2048"),
         (lambda: SimulatedDrive().receive(1, b"123456789"), "9 bytes"),
         (
-            lambda: Joystick(setup_of(ebac.Device(kinematics=ebac.Gimbal())), first=127),
-            r"node = 127: must lie in \[1, 126\]",
+            lambda: Joystick(setup_of(ebac.Device()), wiring=DriveWiring(nodes=[128])),
+            r"node = 128: must lie in \[1, 127\]",
         ),
     ],
 )

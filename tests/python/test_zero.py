@@ -18,7 +18,7 @@ from typer.testing import CliRunner, Result
 
 import ebac
 from ebac import drives
-from ebac._core import Joystick, LoopbackJoystick
+from ebac._core import DriveWiring, Joystick, LoopbackJoystick
 from ebac.can.channels import resting_joystick, standing
 from ebac.cli import app
 from ebac.hardware import (
@@ -97,7 +97,9 @@ def mine(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
     path.write_text(text_of(**bus), encoding="utf-8")
 
     def nodes(hub: Any) -> LoopbackJoystick:
-        return LoopbackJoystick(hub, resting_joystick().setup(), zero=list(BEGIN))
+        return LoopbackJoystick(
+            hub, resting_joystick().setup(), wiring=DriveWiring(zero=list(BEGIN))
+        )
 
     with standing(channel, nodes):
         yield path
@@ -325,7 +327,7 @@ def test_the_command_refuses_a_wall_around_the_handle() -> None:
 )
 def test_the_counter_of_a_simulated_drive_has_32_bits(zero: list[int], words: str) -> None:
     with pytest.raises(ValueError, match=words):
-        Joystick(resting_joystick().setup(), zero=zero)
+        Joystick(resting_joystick().setup(), wiring=DriveWiring(zero=zero))
 
 
 def test_a_counter_of_a_simulated_drive_is_given_for_each_axis() -> None:

@@ -8,18 +8,18 @@
 #include "ebac/core/concepts.hpp"
 #include "ebac/model/device.hpp"
 #include "ebac/simulated_drives/simulated_drive.hpp"
+#include "ebac/simulated_drives/wiring.hpp"
 
 namespace ebac::can {
 
-/// Drives on the axes of one plant: node `first` moves axis 0, the next one axis 1, and so on.
+/// Drives on the axes of one plant, connected as `wiring` has it: by default node 1 moves axis 0, node 2 axis 1.
 ///
 /// On SYNC the plant advances by the time since the last one, under the currents set then; its
 /// counts are latched and sent; then the data received before the SYNC take effect. A loop that
 /// sends its currents and SYNC in one exchange thus sees a delay of one tick. A current that
 /// changes between two SYNCs (asynchronous RPDO, SDO, ramp, fault) acts from that moment on.
 /// Without a SYNC for a while, the plant follows the elapsed time. With `wait_for_power` its time
-/// begins when a drive is first enabled: until then neither plant nor hand moves. `zero` is what each
-/// drive shows with the plant at its zero [counts].
+/// begins when a drive is first enabled: until then neither plant nor hand moves.
 ///
 /// `D` applies each current as given: a simulated device must have no delay, and torque in whole
 /// thousandths.
@@ -27,22 +27,22 @@ template <Device D>
   requires std::copyable<D>
 class Joystick {
  public:
-  Joystick(D plant, const DeviceModel& device, NodeId first = 1, double peak_time = 2,
-           bool wait_for_power = false, std::span<const SheetEntry> sheet = {},
-           const std::array<std::int32_t, kMaxAxes>& zero = {})
+  Joystick(D plant, const DeviceModel& device, const Wiring& wiring = {}, double peak_time = 2,
+           bool wait_for_power = false)
       : plant_(std::move(plant)),
         axes_(static_cast<std::size_t>(device.axes())),
         waits_(wait_for_power),
-        zero_(zero) {
+        wiring_(wiring) {
     for (std::size_t i = 0; i < axes_; ++i) {
-      drive_[i] = SimulatedDrive({.node = static_cast<NodeId>(first + i),
+      drive_[i] = SimulatedDrive({.node = wiring.node[i],
                                   .motor = device.motor,
                                   .drive = device.drive,
                                   .counts_per_turn = device.encoder.counts_per_turn,
                                   .peak_time = peak_time,
-                                  .sheet = sheet});
+                                  .sheet = wiring.sheet[i]});
     }
-    D peek = plant_;  // the first reading must not change the plant
+    wiring_.sheet = {};  // its entries need not outlive this
+    D peek = plant_;     // the first reading must not change the plant
     show(peek.exchange({}));
   }
 
@@ -112,14 +112,14 @@ class Joystick {
     reading_ = reading;
     for (std::size_t i = 0; i < axes_; ++i) {
       if (reading_.fault != Fault::kNone) drive_[i].set_condition(Condition::kEncoderLost, true);
-      drive_[i].set_position(reading_.counts[i] + zero_[i]);
+      drive_[i].set_position(wiring_.encoder[i] * reading_.counts[i] + wiring_.zero[i]);
     }
   }
 
   /// Where a current has changed, the time until now still belongs to the old ones.
   void hold() EBAC_RT {
     std::array<double, kMaxAxes> now{};
-    for (std::size_t i = 0; i < axes_; ++i) now[i] = drive_[i].current();
+    for (std::size_t i = 0; i < axes_; ++i) now[i] = wiring_.motor[i] * drive_[i].current();
     if (now == current_) return;
     if (since_ > 0) move(std::exchange(since_, 0.0));
     current_ = now;
@@ -128,12 +128,12 @@ class Joystick {
   D plant_;
   std::array<SimulatedDrive, kMaxAxes> drive_{};
   std::size_t axes_;
-  bool waits_;                               // until a drive is enabled
-  std::array<std::int32_t, kMaxAxes> zero_;  // counts
-  std::array<double, kMaxAxes> current_{};   // A, acting since the plant last moved
-  double since_ = 0;                         // s, since the plant last moved
-  double silence_ = 2 * kPatience;           // s, since the last SYNC
-  double rest_ = 0;                          // ns, less than one, not yet passed to the drives
+  bool waits_;  // until a drive is enabled
+  Wiring wiring_;
+  std::array<double, kMaxAxes> current_{};  // A, acting since the plant last moved
+  double since_ = 0;                        // s, since the plant last moved
+  double silence_ = 2 * kPatience;          // s, since the last SYNC
+  double rest_ = 0;                         // ns, less than one, not yet passed to the drives
   Reading reading_;
 };
 

@@ -56,7 +56,7 @@ template <Device D>
 class JoystickOnBus {
  public:
   JoystickOnBus(D plant, const DeviceModel& device, VirtualBus& bus, const LoopTimes& times = {})
-      : joystick_(Still<D>(std::move(plant)), device, /*first=*/1, kPeakTime),
+      : joystick_(Still<D>(std::move(plant)), device, Wiring{}, kPeakTime),
         bus_(&bus),
         times_(times) {}
 

@@ -92,7 +92,8 @@ def lacks(lacking: Sequence[tuple[Object, str]]) -> str:
     )
     return (
         f"lacks {count} of the profile: {listed}. Leave the key out, or name it under `without` where it only scales "
-        "others; a maker's own object goes under [objects]. Is this the right profile for the drive?"
+        "others; a maker's own object goes under [objects]. Is this the right profile for the drive? `ebac drive "
+        "profile` lists those that come with ebac, and for another drive prints generic-cia402 to start from"
     )
 
 

@@ -13,6 +13,14 @@ from ebac.drives.network import Node
 from ebac.drives.objects import ENTRIES, Object, find, mapped
 from ebac.drives.settings import Group, Write, groups, writes
 
+#: Makers by their number (0x1018:1), and the profiles for their drives.
+_MAKERS: dict[object, str] = {
+    0x9A: "Elmo: see the profile elmo-gold",
+    0xAB: "Copley: see the profiles copley-accelnet, copley-xenus and copley-guarded",
+    0xFB: "maxon: see the profile maxon-epos4",
+    0x286: "Trinamic: see the profile trinamic-tmcm",
+}
+
 
 @dataclass(frozen=True, kw_only=True)
 class Change:
@@ -134,7 +142,11 @@ def read_held(drive: Drive, wanted: Iterable[Group]) -> dict[tuple[int, int], by
         if group.pdo and len(group.settings) > 1 and not lacking:
             held |= _other_entries(drive, group, held)
     if lacking:
-        raise Missing(drive.node, lacking)
+        missing = Missing(drive.node, lacking)
+        vendor = drive.look("vendor_id")
+        if vendor in _MAKERS:
+            missing.add_note(f"Its maker is {_MAKERS[vendor]}")
+        raise missing
     return held
 
 

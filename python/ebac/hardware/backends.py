@@ -134,13 +134,13 @@ def simulated(
         When the other process cannot put them there.
     """
     scenario = configuration.scenario(seconds=10)
-    first = min(node.id for node in configuration.drives.nodes)
-    from ebac._core import LoopbackJoystick, SharedForce, SharedHandTarget
+    from ebac._core import DriveWiring, LoopbackJoystick, SharedForce, SharedHandTarget
+    from ebac.hardware.wiring import wiring_of
 
     aim = SharedHandTarget()
     channel = virtual_can() if longest_step is None and load is None else None
     if channel is not None:
-        with in_a_process(channel, configuration, scenario, first, aim) as (sensor, grants):
+        with in_a_process(channel, configuration, scenario, aim) as (sensor, grants):
             yield Backend(
                 interface="socketcan",
                 channel=channel,
@@ -162,11 +162,10 @@ def simulated(
         served = LoopbackJoystick(
             hub,
             scenario.setup(),
-            first=first,
+            wiring=DriveWiring(**wiring_of(configuration)),
             force=shared_force,
             wait_for_power=True,
             aim=aim,
-            zero=configuration.counts_of_simulated_drives,
             longest_step=inf if longest_step is None else longest_step,
             load=load,
         )
@@ -212,11 +211,17 @@ class Request:
 
 @contextmanager
 def sensor_of(
-    known: SensorConfig | None, shared_force: SharedForce, request: Request, grants: list[Grant]
+    known: SensorConfig | None,
+    shared_force: SharedForce,
+    request: Request,
+    grants: list[Grant],
+    *,
+    port: int = 0,
 ) -> Iterator[SensorConfig | None]:
     """Put a simulated sensor that measures a shared force on this machine's own network; None for none.
 
-    It scales counts as the configured one does, and is mounted in the same way. `grants` gets what its thread got.
+    It scales counts as the configured one does, and is mounted in the same way. `grants` gets what its thread got;
+    `port` 0 is any free UDP port.
     """
     if known is None:
         yield None
@@ -228,7 +233,12 @@ def sensor_of(
         counts_per_force=known.counts_per_force, counts_per_torque=known.counts_per_torque
     )
     emulated = SimulatedSensor(
-        shared_force, options=options, rotation=known.rotation, sign=known.sign, model=known.model
+        shared_force,
+        port=port,
+        options=options,
+        rotation=known.rotation,
+        sign=known.sign,
+        model=known.model,
     )
     with at_work(emulated, request, "the simulated sensor", grants):
         host, port = emulated.address

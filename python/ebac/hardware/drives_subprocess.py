@@ -15,6 +15,7 @@ from ebac._core import Free
 from ebac._util.child_processes import first_lines, started, text
 from ebac._util.foreign_worlds import foreign
 from ebac.drives.errors import BusError
+from ebac.hardware.wiring import wiring_of
 
 if TYPE_CHECKING:
     from ebac._core import Grant, SharedHandTarget
@@ -31,7 +32,6 @@ def in_a_process(
     channel: str,
     configuration: Configuration,
     scenario: Scenario,
-    first: int,
     aim: SharedHandTarget,
 ) -> Iterator[tuple[SensorConfig | None, list[Grant]]]:
     """Let `ebac drive simulate` put drives on `channel`; give where their sensor is, and what its threads were granted.
@@ -48,11 +48,11 @@ def in_a_process(
         file = Path(folder) / "scenario.toml"
         _without_engine(scenario).save(file)
         command = ["drive", "simulate"]
-        command += ["--channel", channel, "--scenario", str(file), "--first", str(first)]
+        wiring = Path(folder) / "wiring.json"
+        wiring.write_text(json.dumps(wiring_of(configuration)), encoding="utf-8")
+        command += ["--channel", channel, "--scenario", str(file), "--wiring", str(wiring)]
         command += ["--realtime", configuration.mode, "--beside", str(loop.priority)]
         command += ["--wait-for-power", "--until-eof", "--aim", str(aim.descriptor)]
-        for zero in configuration.counts_of_simulated_drives:
-            command += ["--zero", str(zero)]
         if not loop.lock_memory:
             command += ["--no-lock-memory"]
         if sensor is not None:

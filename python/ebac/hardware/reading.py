@@ -63,6 +63,9 @@ def read(source: Source) -> dict[str, Any]:
                 "`ebac demo joystick` writes one, into which its tables [device], [timing], [environment], and [hand] "
                 "as [simulated.hand] can be copied",
             )
+    if "node" in source.table:
+        wrong = "node: this is a network file; give the configuration of `ebac run` that names it in bus.drives"
+        raise source.refuse(("node",), f"{wrong}: `ebac demo joystick` writes one")
     known(source, (), TABLES)
     values: dict[str, Any] = {"name": source.name, "text": source.text}
     values |= _bus(source)

@@ -192,9 +192,9 @@ class Sensor:
         found.check(self.config, accept_load=accept_load, accept_unsteady=accept_unsteady)
         self._client.begin_bias(records)
         try:
-            while self._client.biasing:
+            while self._biasing():
                 reading = self._good(timeout)
-                if self._client.biasing and not accept_unsteady:
+                if self._biasing() and not accept_unsteady:
                     found.check_same(reading, self.config)
         finally:
             self._client.cancel_bias()  # or the zero would change later, when good records come again
@@ -216,6 +216,10 @@ class Sensor:
         found = self.rest(records, timeout=timeout)
         found.check(self.config, accept_load=accept_load, accept_unsteady=accept_unsteady)
         self._client.bias_sensor()
+
+    def _biasing(self) -> bool:
+        """Whether the zero has not yet been taken."""
+        return self._client.biasing
 
     def _good(self, timeout: float) -> SensorReading:
         """Return the next good record; the wait for it is limited, as that for each record."""

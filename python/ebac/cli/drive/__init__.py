@@ -6,7 +6,9 @@ import typer
 
 from ebac.cli.command import Group, add
 from ebac.cli.drive import enable as drive_power
+from ebac.cli.drive import inject as drive_inject
 from ebac.cli.drive import look, setup
+from ebac.cli.drive import profile as drive_profile
 from ebac.cli.drive import signs as drive_signs
 from ebac.cli.drive import simulate as drive_simulate
 from ebac.cli.drive import zero as drive_zero
@@ -38,6 +40,7 @@ def drive() -> None:
     """
 
 
+add(app, drive_profile.profile)
 add(app, look.scan)
 add(app, look.show)
 add(app, look.plan)
@@ -51,4 +54,4 @@ add(app, drive_power.reset_fault)
 add(app, drive_signs.signs)
 add(app, drive_zero.zero)
 add(app, drive_simulate.simulate)
-add(app, drive_simulate.inject)
+add(app, drive_inject.inject)

@@ -1,4 +1,4 @@
-"""`ebac drive simulate`: the simulated joystick's drives on a bus that any CANopen tool can use."""
+"""`ebac drive simulate`: simulated drives on a bus that any CANopen tool can use."""
 
 from __future__ import annotations
 
@@ -9,20 +9,15 @@ import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from math import inf
+from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from ebac._util.arguments import unknown
 from ebac.cli import options, output, simulated
-from ebac.cli.drive.options import (
-    Bitrate,
-    BusOptions,
-    SheetFile,
-    known_interface,
-    opened,
-    telling,
-)
+from ebac.cli.drive import described
+from ebac.cli.drive.options import Bitrate, SheetFile, known_interface, telling
 from ebac.cli.machine.grants import show_refused
 
 if TYPE_CHECKING:
@@ -30,14 +25,19 @@ if TYPE_CHECKING:
     from ebac.drives.simulate import Simulation
     from ebac.hardware.backends import Request
 
-#: Largest counts of a unit.
-MOST_COUNTS = 1e9
 MODES = ("auto", "enforce", "off")
 #: How often the main thread looks after the others [s].
 _LOOK = 0.1
 
 
 def simulate(
+    configuration: Annotated[
+        Path | None,
+        typer.Argument(
+            help="Configuration of `ebac run`: simulate the drives, device and hand that it describes.",
+            show_default="the paper's joystick",
+        ),
+    ] = None,
     channel: Annotated[
         str, typer.Option(help="Channel of the interface: vcan0, can0, ...", rich_help_panel="Bus")
     ] = "vcan0",
@@ -47,8 +47,11 @@ def simulate(
     bitrate: Bitrate = None,
     eds: SheetFile = None,
     first: Annotated[
-        int, typer.Option("--first", help="Node id of the first drive.", min=1, max=126)
-    ] = 1,
+        int | None,
+        typer.Option(
+            "--first", help="Node id of the first drive.", show_default="1", min=1, max=126
+        ),
+    ] = None,
     scenario: simulated.PlantFile = None,
     device: simulated.PlantDevice = None,
     hand: simulated.PlantHand = None,
@@ -75,9 +78,13 @@ def simulate(
         typer.Option("--sensor", help="Also simulate a force sensor at the handle, on 127.0.0.1."),
     ] = False,
     sensor_counts: Annotated[
-        tuple[float, float],
-        typer.Option("--sensor-counts", help="Counts of that sensor per N and per N m."),
-    ] = (1e6, 1e6),
+        tuple[float, float] | None,
+        typer.Option(
+            "--sensor-counts",
+            help="Counts of that sensor per N and per N m.",
+            show_default="1000000, 1000000",
+        ),
+    ] = None,
     realtime: Annotated[
         str,
         typer.Option(
@@ -111,19 +118,27 @@ def simulate(
         ),
     ] = False,
     aim: Annotated[int | None, typer.Option(hidden=True, min=0, max=2**31 - 1)] = None,
+    wiring: Annotated[Path | None, typer.Option(hidden=True)] = None,
 ) -> None:
-    """Put the simulated drives of a joystick on a bus, in real time, until Ctrl-C. A simulation.
+    """Put simulated drives on a bus, in real time, until Ctrl-C: those of a configuration, or a joystick's.
 
     Every CANopen tool can talk to them: `ebac drive scan` in another terminal, canopen, candump. They move the
-    simulated device and hand, so positions and torques on the bus are those of the joystick. A hand of a scenario
-    file starts its path when the command starts; virtual world and delay of the file are not used, since they belong
-    to the loop that connects over the bus.
+    simulated device and hand, so positions and torques on the bus are those of the device.
+
+    With a configuration of `ebac run` they have its node ids, its device, and the dictionary that each drive's
+    profile or data sheet describes; [zero] and [signs] are right for them, or [simulated.zero] and [simulated.signs]
+    where the file has these. They begin without settings, like new drives, and the hand of [simulated.hand] starts
+    when a motor first has power. Interface and channel are those of the options: the bus of the file may be a real
+    one. A hand of a scenario file starts its path when the command starts. Virtual world and delay of the files are
+    not used, since they belong to the loop that connects over the bus.
 
     **Examples**
 
     * `sudo ip link add vcan0 type vcan && sudo ip link set vcan0 up`, once, then
 
     * `ebac drive simulate --channel vcan0`
+
+    * `ebac demo joystick`, then `ebac drive simulate joystick.toml --channel vcan0`: the drives of a configuration.
 
     * `ebac drive scan --interface socketcan --channel vcan0`, in another terminal.
 
@@ -134,48 +149,52 @@ def simulate(
     * `ebac wall --out first`, then `ebac drive simulate --scenario first/scenario.toml --channel vcan0`: the hand of
       a scenario.
     """
-    from ebac._core import RealTime, SharedForce, SharedHandTarget
-    from ebac.drives import read_eds
+    from ebac._core import DriveWiring, RealTime, SharedForce, SharedHandTarget
     from ebac.drives.simulate import Simulation
     from ebac.hardware.backends import Request, sensor_of
-    from ebac.sensor import SensorConfig
 
-    if not all(1 <= counts <= MOST_COUNTS for counts in sensor_counts):
-        given = " ".join(f"{counts:g}" for counts in sensor_counts)
-        output.fail(f"--sensor-counts = {given}: each must lie in [1, {MOST_COUNTS:g}]")
     if realtime not in MODES:
         output.fail(unknown(f"--realtime {realtime}", realtime, MODES))
     grants: list[Grant] = []
-    with output.refusing():
-        plant = simulated.plant_of(scenario, device, hand, seed)
-        setup = plant.setup()
-        if zero and len(zero) != plant.device.axes:
+    with telling():
+        if configuration is None:
+            plant = simulated.plant_of(scenario, device, hand, seed)
+            found = described.by_options(plant, first, zero, eds, sensor_counts, wiring)
+        else:
+            elsewhere = {"--first": first, "--scenario": scenario, "--device": device, "--zero": zero or None,
+                         "--sensor-counts": sensor_counts}  # fmt: skip
+            described.refuse(elsewhere, configuration)
+            found = described.by_configuration(configuration, hand, seed, eds)
+        if sensor and found.sensor is None:
             raise ValueError(
-                f"--zero: {output.plural(len(zero), 'number')} for {plant.device.axes} axes; give it once for each axis"
+                f"--sensor: {configuration} has no table [sensor]; add one, or leave --sensor out"
             )
+        setup = found.scenario.setup()
         loop = RealTime(priority=beside, lock_memory=lock_memory)
         request = Request.beside(realtime, loop)
         cell = None if aim is None else SharedHandTarget(aim)
     with telling(), simulated.signalled() as over:
-        known = SensorConfig(counts_per_force=sensor_counts[0], counts_per_torque=sensor_counts[1])
         shared_force = SharedForce([0.0, 0.0, 0.0])
         more = {
-            "first": first,
+            "wiring": DriveWiring(**found.wiring),
             "force": shared_force,
-            "wait_for_power": wait_for_power,
+            "wait_for_power": wait_for_power or configuration is not None,
             "aim": cell,
-            "zero": zero or [],
-            "sheet": [] if eds is None else read_eds(eds).rows(first),
         }
+        measured = found.sensor if sensor else None
         with (
-            sensor_of(known if sensor else None, shared_force, request, grants) as found,
-            _at_work(setup, interface, channel, bitrate, more, request, grants) as work,
+            sensor_of(measured, shared_force, request, grants, port=found.sensor_port) as at,
+            _at_work(
+                setup, interface, channel, bitrate or found.bitrate, more, request, grants
+            ) as work,
         ):
-            also = "" if found is None else f" and a force sensor at {found.host}:{found.port}"
-            ids = ", ".join(str(first + axis) for axis in range(plant.device.axes))
+            also = "" if at is None else f" and a force sensor at {at.host}:{at.port}"
+            ids = ", ".join(str(node) for node in found.wiring["nodes"])
             typer.echo(  # one line, for whoever waits for it
                 f"Simulated drives, nodes {ids}, on {interface} {channel}{also}. Ctrl-C stops them."
             )
+            for line in found.about:
+                output.say(line)
             _tell(grants, as_json=until_eof)
             sys.stdout.flush()
             if until_eof:
@@ -190,35 +209,6 @@ def simulate(
     refused = f", {counts.refused} refused by the bus" if counts.refused else ""
     lost = f", {counts.lost} lost before they were read" if counts.lost else ""
     output.say(f"Stopped: {counts.received} frames received, {counts.sent} sent{refused}{lost}.")
-
-
-def inject(
-    where: BusOptions,
-    fault: Annotated[
-        list[str] | None,
-        typer.Argument(
-            help="over-voltage, under-voltage, short-circuit, over-temperature, motor-temperature, encoder-lost, "
-            "brake-stuck, torque-off (STO), enable-missing, silent.",
-            show_default="none: all are over",
-        ),
-    ] = None,
-    node: Annotated[
-        int, typer.Option("--node", "-n", help="Node id of the simulated drive.", min=1, max=127)
-    ] = 1,
-) -> None:
-    """Put a simulated drive into the named faults, and clear all others. Real drives are refused.
-
-    **Examples**, with `ebac drive simulate` in another terminal
-
-    * `ebac drive inject under-voltage --node 1 --interface socketcan --channel vcan0`
-
-    * `ebac drive inject --interface ebac --channel joystick`: no fault
-    """
-    from ebac.drives import inject as put
-
-    with opened(where) as bus:
-        put(bus.drive(node, timeout=where.timeout), fault or [])
-    output.say(f"Node {node}: {', '.join(fault) if fault else 'no fault is injected'}.")
 
 
 @contextmanager
