@@ -278,3 +278,18 @@ def test_profiles_are_listed_and_printed(tmp_path: Path) -> None:
     assert result.exit_code == 2
     assert "did you mean" in said(result)
     assert "maxon-epos4" in said(result)
+
+
+def test_the_wiring_of_a_run_reaches_drives_in_another_process(own: Path) -> None:
+    """`ebac run --simulated` on a virtual CAN interface writes it for `ebac drive simulate`."""
+    file = own.parent / "wiring.json"
+    wiring = wiring_of(Configuration.load(own))
+    file.write_text(json.dumps(wiring), encoding="utf-8")
+    bus = ["--interface", "virtual", "--channel", "wired", "--seconds", "0.1"]
+    result = command("simulate", *bus, "--wiring", file)
+    assert result.exit_code == 0, result.output
+    assert "Simulated drives, nodes 9, 5, on" in said(result)
+    file.write_text("[1]", encoding="utf-8")
+    result = command("simulate", *bus, "--wiring", file)
+    assert result.exit_code == 2
+    assert "is no file that `ebac run` wrote" in said(result)
