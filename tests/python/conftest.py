@@ -8,6 +8,7 @@ machine kept it or what answers it waiting, twice at most after any other failur
 """
 
 import fcntl
+import gc
 import importlib.util
 import os
 import re
@@ -73,6 +74,13 @@ def pytest_xdist_auto_num_workers() -> int | None:
         return None
     affinity = getattr(os, "sched_getaffinity", None)
     return 1 + (len(affinity(0)) if affinity else os.cpu_count() or 1)
+
+
+def pytest_collection_finish() -> None:
+    """Keep what was imported out of garbage collections: they took a tenth of the time and freed none of it."""
+    gc.collect()
+    gc.freeze()
+    gc.set_threshold(20_000, 20, 20)
 
 
 @pytest.fixture(scope="module", autouse=True)

@@ -300,7 +300,9 @@ def test_three_processes_with_a_cut(tmp_path: Path) -> None:
 @LINUX
 @pytest.mark.slow
 @pytest.mark.real_time
-@pytest.mark.parametrize("killed", ["master", "network", "slave"])
+@pytest.mark.parametrize(
+    "killed", ["master", "slave", pytest.param("network", marks=pytest.mark.weekly)]
+)
 def test_a_killed_process_leaves_the_others_safe(tmp_path: Path, killed: str) -> None:
     done: list[int] = []
     began: list[float] = []
