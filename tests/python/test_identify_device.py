@@ -74,7 +74,7 @@ def test_a_force_of_the_other_sign_is_named_and_never_turned_silently(
 ) -> None:
     log = Recording.from_trace(trace)
     wrong = fit_device(log.flipped())
-    assert wrong.explained < 0.8 < wrong.other_sign
+    assert wrong.explained < 0.8 < wrong.other_signs["force"]
     assert "--flip-force" in wrong.misses[0]
     assert wrong.misses[0] in repr(wrong)
     assert fit_device(log).misses == ()

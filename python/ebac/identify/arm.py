@@ -10,16 +10,18 @@ from time import perf_counter
 import numpy as np
 from numpy.typing import NDArray
 
+from ebac._util.arguments import number, whole
 from ebac.identify.fit import Fitted, fitted
 from ebac.identify.guess import regression, solve
 from ebac.identify.informativeness import FASTEST
 from ebac.identify.intervals import Z95
 from ebac.identify.parameters import BEFORE_LEVELS, HAND, Parameters, kind, lay_out
 from ebac.identify.problem import Problem
-from ebac.identify.recording import Recording, require_recordings
+from ebac.identify.recording import Recording
+from ebac.identify.recording_list import require_recordings, with_own_names
 from ebac.identify.response import guess_by_response
 from ebac.identify.result import ArmResult
-from ebac.identify.target import Target
+from ebac.identify.target import Target, require_target
 from ebac.identify.unbiased import disagreement
 from ebac.identify.validation import POOR
 
@@ -79,16 +81,17 @@ def fit_arm(
     Raises
     ------
     ValueError
-        For a recording without force, a name that does not exist, a value out of range, or a single recording whose
-        encoder count hardly changes, so that its fit cannot be tested.
+        For a recording without force, or there twice, an unknown name, a value out of range, or a single recording
+        whose encoder count hardly changes, so that its fit cannot be tested.
     """
     began = perf_counter()
-    require_recordings(recordings, "fit_arm")
+    require_recordings(recordings, "fit_arm", several=True)
     if isinstance(recordings, Recording):
         recordings = [recordings]
     if targets is None or isinstance(targets, Target):
         targets = [targets or Target.held()] * len(recordings)
     _check(recordings, targets, starts, robust)
+    recordings = with_own_names(recordings)
     parameters = lay_out(
         [t.levels for t in targets],
         fixed=fixed or {},
@@ -194,13 +197,17 @@ def _check(
 ) -> None:
     if not recordings:
         raise ValueError("no recordings: give at least one")
+    if len(set(map(id, recordings))) < len(recordings):
+        raise ValueError("recordings: one is there twice; give each once")
+    for r, target in zip(recordings, targets, strict=False):
+        require_target(r, target, "fit_arm")
     if len(targets) != len(recordings):
         raise ValueError(
             f"{len(targets)} targets for {len(recordings)} recordings: give one each, or one for all"
         )
-    if starts < 1:
+    if whole("starts", starts) < 1:
         raise ValueError(f"starts = {starts}: must be at least 1")
-    if robust is not None and not robust > 0:
+    if robust is not None and not number("robust", robust) > 0:
         raise ValueError(f"robust = {robust}: must be positive, in standard deviations")
 
 

@@ -25,7 +25,8 @@ from ebac.identify.fit import Fitted, fitted
 from ebac.identify.intervals import Z95
 from ebac.identify.joint import usual_lever
 from ebac.identify.parameters import BOUNDS
-from ebac.identify.recording import Recording, require_recordings
+from ebac.identify.recording import Recording
+from ebac.identify.recording_list import require_recordings
 from ebac.identify.validation import POOR, flip_advice, seems_flipped
 
 #: Standard gravity [m/s^2].
@@ -124,11 +125,6 @@ class DeviceResult:
         return tuple(out)
 
     @property
-    def other_sign(self) -> float | None:
-        """Share of the motion explained with the opposite sign of the hand's force, if that was tried."""
-        return self.other_signs.get("force")
-
-    @property
     def misses(self) -> tuple[str, ...]:
         """What the model does not explain, one sentence each."""
         turned = max(self.other_signs, key=lambda key: self.other_signs[key], default="")
@@ -211,10 +207,12 @@ def fit_device(recording: Recording, *, current_lag: float | None = None) -> Dev
     Raises
     ------
     ValueError
-        When the recording has neither force, or does not slide long enough in both directions.
+        When the recording has neither force, or does not slide long enough in both directions; for a lag out of range.
     """
     require_recordings(recording, "fit_device", rotary=True)
-    lag = recording.current_lag if current_lag is None else current_lag
+    if current_lag is not None:
+        recording = replace(recording, current_lag=current_lag)
+    lag = recording.current_lag
     if recording.rotary:
         lever = usual_lever(recording, lag)
         handle = recording.at_lever(lever)

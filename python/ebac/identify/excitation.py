@@ -11,7 +11,7 @@ Values = NDArray[np.float64]
 
 
 def _times(seconds: float, dt: float) -> Values:
-    if not (dt > 0 and seconds >= 2 * dt):
+    if not (dt > 0 and 2 * dt <= seconds < np.inf):
         raise ValueError(
             f"seconds = {seconds} s, dt = {dt} s: need at least two steps of a positive time"
         )
@@ -99,7 +99,7 @@ def crest(values: Values) -> float:
 
 def path(t: Values, x: Values) -> Recorded:
     """Return a signal [m] as the intended path of a hand."""
-    return Recorded(t=t.tolist(), x=x.tolist())
+    return Recorded(t=np.asarray(t).tolist(), x=np.asarray(x).tolist())
 
 
 def _below_nyquist(frequency: float, dt: float) -> None:

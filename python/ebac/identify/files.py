@@ -55,6 +55,10 @@ def _csv(path: Path) -> Table:
     if len(lines) < 2:
         raise ValueError(f"{path.name}: lines = {len(lines)}: needs a heading and rows below it")
     mark = max("\t;,", key=lines[0].count)
+    if mark not in lines[0] and len(lines[1].split()) > 1:
+        raise ValueError(
+            f"{path.name}: its columns have spaces between them; put commas, semicolons or tabs there"
+        )
     if mark != ",":  # then a comma within a number is a decimal one
         lines[1:] = [line.replace(",", ".") for line in lines[1:]]
     names = [name.strip() for name in next(csv.reader(lines[:1], delimiter=mark))]

@@ -9,14 +9,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ebac._util.arguments import unknown
+from ebac._util.arguments import unknown, unknown_name
 from ebac.identify.guess import regression, solve
 from ebac.identify.intervals import Z95
 from ebac.identify.parameters import HAND, Parameters, kind
 from ebac.identify.plausible import without_place
-from ebac.identify.recording import Recording, require_recordings
+from ebac.identify.recording import Recording
+from ebac.identify.recording_list import require_recordings
 from ebac.identify.response import Densities, densities
-from ebac.identify.target import Target, longest
+from ebac.identify.target import Target, longest, require_target
 
 Values = NDArray[np.float64]
 
@@ -66,6 +67,8 @@ class LogCheck:
 
     def determines(self, name: str) -> bool:
         """Whether the log would determine a parameter."""
+        if name not in self.deviation:
+            raise unknown_name("parameter", name, self.deviation)
         return self.deviation[name] * Z95 <= DETERMINED
 
     def bands_in_words(self) -> str:
@@ -120,7 +123,9 @@ def check_log(
     for name in ask:
         if name not in ASKED:
             raise ValueError(unknown(f"parameter {name}", name, list(ASKED)))
-    recording, target = longest(recording, target or Target.held())
+    target = Target.held() if target is None else target
+    require_target(recording, target, "check_log")
+    recording, target = longest(recording, target)
     guess, _ = solve([regression(recording, target)])
     found = densities(recording, target, guess[3:])
     hand = np.asarray(guess[:3])

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from ebac._util.arguments import number
 from ebac.identify import unrecorded_motor
 from ebac.identify.search import least_squares, squares, weights
 from ebac.identify.signals import Fold, folded
@@ -114,6 +115,8 @@ def profile(result: ArmResult, name: str, level: float) -> tuple[float, float]:
     p = result.parameters
     if name not in p.names or p.names.index(name) not in p.free:
         raise ValueError(f"profile of {name}: must be a fitted parameter")
+    if not 0 < number("level", level) < np.inf:
+        raise ValueError(f"level = {level:g}: must be positive, in deviations squared")
     index = p.names.index(name)
     gains = result.problem.gains(result.values, result.force_noise)
     moved = result.problem.moved

@@ -2,20 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from ebac._util.arguments import require_path, unknown
+from ebac._util.arguments import number, require_path, unknown
+from ebac._util.report import plural
 from ebac._util.text_file import says_simulated
 from ebac.identify.columns import QUANTITIES, assign, listed, name_and_unit
 from ebac.identify.files import Columns, Table, archive_of, read_columns
+from ebac.identify.load_options import refuse_unused, words_by_signal
 from ebac.identify.of_trace import path_of, signals_of, trace_facts, where_met
 from ebac.identify.plausible import plausible
-from ebac.identify.recording import Recording, count_of
+from ebac.identify.recording import LEAST_ROWS, Recording, count_of
 from ebac.identify.rotary import Conversion, in_si
 from ebac.identify.rows import on_rows
 from ebac.trace import Trace
@@ -61,7 +63,7 @@ def load(
     count : float, optional
         Step of the encoder at the handle [m], for a rotary log [rad], 0 for none; default: found in the position.
     axis : int
-        Axis of a trace; other files have one axis.
+        Axis of a trace, with `columns` too, where these do not name another; other files have one axis.
     flip_force : bool
         Whether the force of the hand is logged with the opposite sign: positive if the handle pushes the hand to +x.
     flip_motor : bool
@@ -84,6 +86,8 @@ def load(
     ------
     FileNotFoundError
         When there is no such file.
+    TypeError
+        For an option of another type.
     ValueError
         When it cannot be read, a column is missing or is not numeric, or a unit is unknown; for an option that does not
         apply to this file.
@@ -93,7 +97,10 @@ def load(
     if not path.exists():
         raise FileNotFoundError(2, "there is no such file", str(path))
     if path.is_dir():
-        raise ValueError(f"{path.name}: is a folder; give a file in it")
+        raise ValueError(f"{path}: is a folder; give a file in it")
+    if rate is not None and not 0 < number("rate", rate) < np.inf:
+        raise ValueError(f"rate = {rate:g} Hz: must be greater than 0")
+    columns, units = words_by_signal("columns", columns), words_by_signal("units", units)
     how = Conversion(
         lever=lever,
         torque_constant=torque_constant,
@@ -103,7 +110,7 @@ def load(
     )
     trace, origin, wrong = _trace(path)
     if trace is not None and not columns:
-        _refuse_unused(
+        refuse_unused(
             path.name,
             rate=rate,
             units=units or None,
@@ -115,9 +122,9 @@ def load(
         found = _of_trace(trace, path.name, axis, wrong)
     else:
         if trace is None:
-            _refuse_unused(path.name, axis=axis or None)
-        table = _flat(trace) if trace is not None else read_columns(path)
-        found = _recording(path.name, table, columns or {}, units or {}, rate, how)
+            refuse_unused(path.name, axis=axis or None)
+        table = read_columns(path) if trace is None else _flat(trace, axis, columns.values())
+        found = _recording(path.name, table, columns, units, rate, how)
         if trace is not None:
             found = replace(found, path=path_of(trace, axis))
     changes: dict[str, Any] = {"origin": origin}
@@ -126,29 +133,11 @@ def load(
             changes[name] = value
     if how.step is not None:
         changes.setdefault("count", how.step)
-    if count or how.step:
-        _in_steps(found, changes["count"])
     found = replace(found, **changes)
+    if found.count and (count or how.step):
+        _in_steps(found, found.count)
     turned = [name for name, on in (("force", flip_force), ("motor", flip_motor)) if on]
     return found.flipped(*turned) if turned else found
-
-
-#: Options that not every file has a use for, and why not.
-UNUSED = {
-    "rate": "the log has times of its own",
-    "units": "the log names its units",
-    "lever": "the log is of a handle, in m and N",
-    "counts_per_turn": "the log is of a handle, in m and N",
-    "torque_constant": "the log is of a handle, in m and N",
-    "force_constant": "the log is of a handle, in m and N",
-    "axis": "the file has one axis; name its columns instead: columns={'x': 'NAME'}",
-}
-
-
-def _refuse_unused(name: str, **given: object) -> None:
-    for option, value in given.items():
-        if value is not None:
-            raise ValueError(f"{name}: {option} = {value}: {UNUSED[option]}")
 
 
 def _in_steps(r: Recording, count: float) -> None:
@@ -200,8 +189,12 @@ def _of_trace(trace: Trace, name: str, axis: int, wrong: list[str]) -> Recording
     return Recording(name=name, remarks=(*facts.pop("remarks"), *wrong), **facts, **values)
 
 
-def _flat(trace: Trace) -> Table:
-    return Table(columns={name: np.array(values, dtype=float) for name, _, values in trace.flat()})
+def _flat(trace: Trace, axis: int, asked: Collection[str]) -> Table:
+    """Return the columns of one axis by their names, and those of any axis that are asked for."""
+    own = {name: trace.axis(name, axis) for name in trace}
+    named = {name.lower() for name in asked}
+    own |= {name: values for name, _, values in trace.flat() if name.lower() in named}
+    return Table(columns={name: np.array(values, dtype=float) for name, values in own.items()})
 
 
 def _recording(
@@ -267,6 +260,8 @@ def _example(headings: Sequence[str], chosen: Mapping[str, str]) -> str:
 def _evenly(name: str, signals: Columns, remarks: list[str]) -> Columns:
     """Return the signals on rows of equal time steps, see `on_rows`; a log that cannot be is refused."""
     t = signals["t"]
+    if len(t) < LEAST_ROWS:
+        raise ValueError(f"{name}: {plural(len(t), 'row')}; needs at least {LEAST_ROWS}")
     for key, values in signals.items():
         wrong = np.flatnonzero(~np.isfinite(values))
         if wrong.size:
@@ -275,9 +270,9 @@ def _evenly(name: str, signals: Columns, remarks: list[str]) -> Columns:
                 "heading; cut these rows out or fill them"
             )
     step = np.diff(t)
-    if step.size == 0 or not (step > 0).all():
-        where = int(np.argmin(step > 0)) + 2 if step.size else 1
+    if not (step > 0).all():
         raise ValueError(
-            f"{name}: t does not rise in row {where}; sort the log by time, or give times with more digits"
+            f"{name}: t does not rise in row {int(np.argmin(step > 0)) + 2}; sort the log by time, or give times "
+            "with more digits"
         )
     return on_rows(name, signals, remarks)

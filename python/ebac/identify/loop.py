@@ -10,10 +10,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ebac._core import Device, Hand, Step, Timing, Wall
+from ebac._util.arguments import number, refuse_unknown, require
 from ebac._util.wrong_calls import plain_constructor
 from ebac.identify.arm import fit_arm
 from ebac.identify.device import DeviceResult, fit_device
-from ebac.identify.recording import Recording, require_recordings
+from ebac.identify.recording import Recording
+from ebac.identify.recording_list import require_recordings
 from ebac.identify.result import ArmResult
 from ebac.identify.signals import rough
 from ebac.identify.target import Target
@@ -23,6 +25,8 @@ from ebac.scenario import Scenario
 APPROACH = 0.01
 #: How deep it wants to press unless known [m], and its largest pull as a share of the motor's force.
 DEPTH, PULL = 0.03, 0.8
+#: What `fit_loop` takes for `fit_arm`.
+OF_ARM = ("fixed", "bounds", "free", "own", "starts", "robust", "seed")
 #: Fewest rows with a commanded force from which a wall is estimated.
 LEAST_TOUCHED = 50
 
@@ -45,9 +49,14 @@ class LoopModel:
         return self.pressing(self.arm.hand)
 
     def pressing(self, hand: Hand, *, depth: float | None = None, seed: int = 1) -> Scenario:
-        """Return a scenario in which a hand presses on this wall, its target `depth` [m] behind the surface."""
+        """Return a scenario in which a hand presses on this wall, its target `depth` [m] behind the surface.
+
+        Less deep where the hand would pull with more than the motor can hold.
+        """
+        if depth is not None and not 0 < number("depth", depth) < np.inf:
+            raise ValueError(f"depth = {depth:g} m: must be positive")
         most = PULL * min(self.device.peak_force, 35.0)
-        deep = min(depth or DEPTH, most / max(hand.stiffness, 1e-9))
+        deep = min(DEPTH if depth is None else depth, most / max(hand.stiffness, 1e-9))
         return Scenario(
             hand=hand.replace(path=Step(target=APPROACH + deep)),
             device=self.device,
@@ -86,14 +95,19 @@ def fit_loop(
     timing : Timing, optional
         Sample time [s] and transport delay [samples]; default: one sample.
     **arm
-        As for `fit_arm`: fixed, bounds, free, own, starts, robust.
+        As for `fit_arm`: fixed, bounds, free, own, starts, robust, seed.
 
     Raises
     ------
+    TypeError
+        For a parameter that does not exist, or a part of another type.
     ValueError
         As for `fit_arm`.
     """
-    require_recordings(recordings, "fit_loop")
+    require_recordings(recordings, "fit_loop", several=True)
+    refuse_unknown("fit_loop", arm, OF_ARM)
+    for part, kind in ((device, Device), (wall, Wall), (timing, Timing)):
+        require(part, (kind, type(None)), "ebac.identify.fit_loop", f"a {kind.__name__}")
     result = fit_arm(recordings, targets, **arm)
     first = recordings if isinstance(recordings, Recording) else recordings[0]
     remarks: list[str] = []
@@ -144,10 +158,8 @@ def _merged(device: Device, found: DeviceResult | None, r: Recording, remarks: l
             mechanics = mechanics.replace(damping=determined_values["B_h"])
         if "coulomb" in determined_values:
             mechanics = mechanics.replace(coulomb=determined_values["coulomb"])
-        remarks.append(
-            "device: "
-            + ", ".join(f"{n} = {v:.4g} {estimates[n].unit}" for n, v in determined_values.items())
-        )
+        values = [f"{n} = {v:.4g} {estimates[n].unit}" for n, v in determined_values.items()]
+        remarks.append(f"device: {', '.join(values) or 'as given, the log determines none of it'}")
     return device.replace(sensor=sensor, mechanics=mechanics)
 
 

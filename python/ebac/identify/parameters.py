@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ebac._util.arguments import unknown
+from ebac._util.arguments import number, shown, unknown
 
 #: What a hand is made of in eq. (4).
 HAND = ("M0", "B0", "K0")
@@ -92,6 +92,8 @@ def lay_out(
 
     Raises
     ------
+    TypeError
+        For a value that is no number.
     ValueError
         For a name that does not exist, or a number out of range.
     """
@@ -138,7 +140,9 @@ def _limits(
     low, high = widest = BOUNDS[short]
     given = bounds.get(name, bounds.get(short))
     if given is not None:
-        low, high = given
+        if np.shape(given) != (2,):
+            raise TypeError(f"bounds of {name} = {shown(given)}: must be two numbers, low and high")
+        low, high = (number(f"bounds of {name}", bound) for bound in given)
     if not widest[0] <= low < high <= widest[1]:
         unit = UNITS[short]
         raise ValueError(
@@ -150,7 +154,7 @@ def _limits(
         held = USUALLY_FIXED.get(short)
     if held is None:
         return low, high, np.nan
-    if not low <= held <= high:
+    if not low <= number(name, held) <= high:
         raise ValueError(
             f"{name} = {held:g} {UNITS[short]}: must lie in [{low:g}, {high:g}] {UNITS[short]}"
         )

@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING, Any, Self
 import numpy as np
 from numpy.typing import NDArray
 
-from ebac._util.arguments import require, unknown
+from ebac._util.arguments import number, require, shown, unknown
+from ebac._util.report import plural
 from ebac._util.wrong_calls import plain_constructor
 from ebac.identify.of_trace import signals_of, trace_facts
 
@@ -71,8 +72,11 @@ class Recording:
 
     Raises
     ------
+    TypeError
+        When a column is no array of numbers.
     ValueError
-        When a column contains a value that is not a number, is constant, too short or of a different length.
+        When a column contains a value that is not a number, is constant, too short or of a different length, or a lag
+        or count is out of range.
     """
 
     name: str
@@ -95,13 +99,15 @@ class Recording:
 
     def __post_init__(self) -> None:
         """Check lengths, numbers and times."""
-        n = len(self.t)
+        for name, values in self._columns().items():
+            object.__setattr__(self, name, _numbers(f"{self.name}: {name}", values))
+        n = self.t.size
         if n < LEAST_ROWS:
-            raise ValueError(f"{self.name}: {n} rows; needs at least {LEAST_ROWS}")
+            raise ValueError(f"{self.name}: {plural(n, 'row')}; needs at least {LEAST_ROWS}")
         for name, values in self._columns().items():
             if values.shape != (n,):
                 raise ValueError(
-                    f"{self.name}: {name} has the shape {values.shape}, t has ({n},); give one value a row"
+                    f"{self.name}: {name} has the shape {values.shape}: must be ({n},), one value a row of t"
                 )
             wrong = np.flatnonzero(~np.isfinite(values))
             if wrong.size:
@@ -123,10 +129,15 @@ class Recording:
             raise ValueError(
                 f"{self.name}: x is constant at {self.x[0]:g} {self.units[0]}: nothing moved, or it is the wrong column"
             )
-        for name in ("lag", "current_lag"):
-            if not 0 <= getattr(self, name) <= 0.1:
+        for name, unit, most in (
+            ("lag", "s", 0.1),
+            ("current_lag", "s", 0.1),
+            ("count", self.units[0], 1.0),
+        ):
+            value = number(f"{self.name}: {name}", getattr(self, name))
+            if not 0 <= value <= most:
                 raise ValueError(
-                    f"{self.name}: {name} = {getattr(self, name):g} s: must lie in [0, 0.1] s"
+                    f"{self.name}: {name} = {value:g} {unit}: must lie in [0, {most:g}] {unit}"
                 )
 
     @property
@@ -225,6 +236,9 @@ class Recording:
     @classmethod
     def from_trace(cls, trace: Trace, *, axis: int = 0, name: str = "trace") -> Self:
         """Return the recording of one axis of a `Trace`; count and lag are taken from its scenario, if it has one."""
+        from ebac.trace import Trace
+
+        require(trace, Trace, "ebac.identify.Recording.from_trace", "a Trace")
         columns: dict[str, Any] = signals_of(trace, axis)
         facts = trace_facts(trace, axis)
         if not facts["count"]:
@@ -240,20 +254,15 @@ class Recording:
         )
 
 
-def require_recordings(value: object, function: str, *, rotary: bool = False) -> None:
-    """Raise TypeError unless a value is a Recording, or a list of them; ValueError for a rotary one, unless allowed."""
-    for one in value if isinstance(value, (list, tuple)) else [value]:
-        require(
-            one,
-            Recording,
-            f"ebac.identify.{function}",
-            "a Recording, as ebac.identify.load returns it",
-        )
-        if isinstance(one, Recording) and one.rotary and not rotary:
-            raise ValueError(
-                f"{one.name}: is of a rotary device, in rad and N m; eq. (4) is of a hand at a handle. "
-                "Give the radius at which it holds [m]: lever=0.05, --lever 0.05 or recording.at_lever(0.05)"
-            )
+def _numbers(name: str, values: Any) -> NDArray[Any]:
+    """Return a column as an array of floats; flags stay flags."""
+    try:
+        array = np.asarray(values)
+    except ValueError:  # rows of several lengths
+        array = np.empty(0, dtype=object)
+    if array.dtype.kind not in "fiub":
+        raise TypeError(f"{name} = {shown(values)}: must be an array of numbers")
+    return array if array.dtype.kind == "b" else array.astype(float, copy=False)
 
 
 def count_of(x: NDArray[np.float64]) -> float:

@@ -7,8 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ebac.identify.recording import Recording, require_recordings
-from ebac.identify.target import Target, indicators, lagged
+from ebac.identify.recording import Recording
+from ebac.identify.recording_list import require_recordings
+from ebac.identify.target import Target, indicators, lagged, require_target
 
 Values = NDArray[np.float64]
 Lines = NDArray[np.complex128]
@@ -169,11 +170,17 @@ def frequency_response(
     Raises
     ------
     ValueError
-        Without force, or when the recording is too short for four segments.
+        Without force, when the recording is too short for four segments, or for another number of levels than the
+        target has.
     """
     require_recordings(recording, "frequency_response")
-    target = target or Target.held()
-    levels = np.zeros(target.levels) if levels is None else np.asarray(levels)
+    target = Target.held() if target is None else target
+    require_target(recording, target, "frequency_response")
+    levels = np.zeros(target.levels) if levels is None else np.asarray(levels, dtype=float)
+    if levels.shape != (target.levels,):
+        raise ValueError(
+            f"levels has the shape {levels.shape}: must be ({target.levels},), a place [m] for each level of the target"
+        )
     if len(recording.stretches) > 1:
         part = max(recording.stretches, key=lambda rows: rows.stop - rows.start)
         target, used = target.cut(recording, part)

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ebac._core import Hand, Recorded, Step
-from ebac._util.arguments import unknown_name
+from ebac._util.arguments import require, unknown_name
 from ebac.identify import informativeness, unrecorded_motor, validation
 from ebac.identify.arm_record import arm_record
 from ebac.identify.estimate import Estimate
@@ -218,10 +218,10 @@ class ArmResult:
 
         For a recording that was not fitted, M0, B0, K0 and delay are kept; the target and the initial state are fitted.
         """
-        rows = []
-        for i, r in enumerate(self.recordings):
-            rows.append(judge(r, self.simulated(i), held=False))
-        for r, target in (longest(*pair) for pair in held_out):
+        rows = [judge(r, self.simulated(i), held=False) for i, r in enumerate(self.recordings)]
+        for pair in held_out:
+            require(pair, tuple, "predictions", "pairs (Recording, Target)")
+            r, target = longest(*pair)
             record = arm_record(r, target)
             hand = self.values[self.parameters.places[0]][:4]
             base = np.concatenate([hand, np.zeros(len(OWN) + target.levels)])

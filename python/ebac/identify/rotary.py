@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from math import pi
 from typing import TYPE_CHECKING
 
+from ebac._util.arguments import number
 from ebac._util.headings import FACTORS
 from ebac.identify.columns import QUANTITIES, name_and_unit, quantity_of
 
@@ -23,6 +24,7 @@ RANGES = {
     "counts_per_turn": (1.0, 1e10, ""),
     "torque_constant": (1e-6, 1e4, "N m/A"),
     "force_constant": (1e-6, 1e6, "N for one A or V"),
+    "count": (0.0, 1.0, "m or rad"),
 }
 #: What a drive logs in place of a force or a torque, and its unit.
 COMMANDS = {"current": "A", "voltage": "V"}
@@ -47,7 +49,7 @@ class Conversion:
         """Check the ranges."""
         for name, (low, high, unit) in RANGES.items():
             value = getattr(self, name)
-            if value is not None and not low <= value <= high:
+            if value is not None and not low <= number(name, value) <= high:
                 unit = f" {unit}" if unit else ""
                 raise ValueError(f"{name} = {value:g}{unit}: must lie in [{low:g}, {high:g}]{unit}")
         if self.force_constant is not None and self.torque_constant is not None:

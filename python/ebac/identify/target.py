@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from itertools import pairwise
 from numbers import Real
 from typing import TypeAlias
 
@@ -45,8 +46,12 @@ class Target:
             )
         if sorted(set(self.segments)) != list(range(self.levels)):
             raise ValueError(f"Target.segments = {self.segments}: name each level from 0 on")
-        if any(b <= a for a, b in zip(self.switches, self.switches[1:], strict=False)):
-            raise ValueError("Target.switches: must rise")
+        for before, at in pairwise((-np.inf, *self.switches)):
+            if not before < at < np.inf:
+                raise ValueError(f"Target.switches = {self.switches} s: must rise")
+        if self.path is not None and not np.isfinite(self.path).all():
+            row = int(np.argmin(np.isfinite(self.path)))
+            raise ValueError(f"Target.path: is no number in row {row} (counted from 0)")
 
     @property
     def levels(self) -> int:
@@ -85,6 +90,7 @@ class Target:
         """Return a target with level 0 in the first half of each period and level 1 in the second, like `Tapping`."""
         number("Target.tapping: frequency", frequency)
         number("Target.tapping: seconds", seconds)
+        number("Target.tapping: start", start)
         if not (frequency > 0 and seconds > 0):
             raise ValueError(
                 f"Target.tapping: frequency = {frequency} Hz, seconds = {seconds} s: must be positive"
@@ -106,13 +112,14 @@ class Target:
     @classmethod
     def of(cls, hand: Hand, t: NDArray[np.float64]) -> Target:
         """Return what an experimenter knows of a simulated hand's target: its times, not its levels."""
+        require(hand, Hand, "Target.of", "a Hand")
         return cls.along(hand.path[0], t)
 
     @classmethod
     def along(cls, path: Path, t: NDArray[np.float64]) -> Target:
         """Return the target that follows the path of a hand along one axis."""
         start, end = float(t[0]), float(t[-1])
-        dt = (end - start) / (len(t) - 1)
+        dt = float(np.median(np.diff(t)))  # a log may pause
         if isinstance(path, Step):
             return cls.steps(path.at) if start < path.at < end else cls.held()
         if isinstance(path, Tapping):
@@ -122,6 +129,17 @@ class Target:
             at = tuple(s for s in (ticks * dt).tolist() if s < end - 0.5 * dt)
             return cls(switches=at, segments=taps.segments[: len(at) + 1])
         return cls.following(_positions(path, t))
+
+
+def require_target(recording: Recording, target: object, function: str) -> None:
+    """Raise TypeError unless it is a Target, ValueError unless its path has a value for each row of the recording."""
+    require(target, Target, f"ebac.identify.{function}", "a Target, such as Target.held()")
+    path, rows = getattr(target, "path", None), len(recording.t)
+    if path is not None and np.shape(path) != (rows,):
+        raise ValueError(
+            f"{recording.name}: the path of its target has the shape {np.shape(path)}: must be ({rows},), one value "
+            "a row"
+        )
 
 
 def longest(recording: Recording, target: Target) -> tuple[Recording, Target]:

@@ -72,9 +72,9 @@ def arm(
 
     to.folder()
     with output.refusing():
-        pairs = [target.of(reading.load(path)) for path in logs]
+        every = given.given_logs([*logs, *(hold_out or [])], reading, target)
+        pairs, others = every[: len(logs)], every[len(logs) :]
         recordings, targets = [r for r, _ in pairs], [one for _, one in pairs]
-        others = [target.of(reading.load(path)) for path in hold_out or []]
         result = fit_arm(
             recordings,
             targets,

@@ -38,9 +38,17 @@ def check(
         ),
     ] = None,
     seed: Annotated[int, typer.Option(help="Seed of all of them.", min=0)] = 1,
-    seconds: Annotated[float, typer.Option(help="Length of each log [s].", min=1, max=1000)] = 10.0,
+    seconds: Annotated[
+        float | None,
+        typer.Option(
+            help="Length of each log [s], not with gains.", show_default="10", min=1, max=1000
+        ),
+    ] = None,
     workers: Annotated[
-        int | None, typer.Option(help="Processes.", show_default="one per core", min=1, max=1024)
+        int | None,
+        typer.Option(
+            help="Processes, not with gains.", show_default="one per core", min=1, max=1024
+        ),
     ] = None,
     as_json: output.AsJson = False,
 ) -> None:
@@ -58,10 +66,13 @@ def check(
     """
     many = LOGS[what] if logs is None else logs
     output.keeping("nothing is written by this command; fewer --logs take less time")
-    if what is What.GAINS:
-        _gains(many, seed, as_json)
-    else:
-        _intervals(what, many, seed, seconds, workers, as_json)
+    if what is not What.GAINS:
+        _intervals(what, many, seed, 10.0 if seconds is None else seconds, workers, as_json)
+        return
+    for option, value in (("--seconds", seconds), ("--workers", workers)):
+        if value is not None:
+            output.fail(f"{option} {value:g}: is for arm and device only, leave it out with gains")
+    _gains(many, seed, as_json)
 
 
 def _intervals(

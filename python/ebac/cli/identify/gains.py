@@ -118,7 +118,7 @@ def gains(
             noise_gain=noise_gain,
             energy=energy,
         )
-        pairs = [target.of(reading.load(path)) for path in logs]
+        pairs = given.given_logs(logs, reading, target)
         recordings, targets = [r for r, _ in pairs], [one for _, one in pairs]
         timing = Timing(dt=round(recordings[0].dt, 9), delay=delay)
         loop = fit_loop(

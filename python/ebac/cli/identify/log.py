@@ -38,7 +38,7 @@ def log(
 
     with output.refusing():
         wanted = output.words(ask)
-        pairs = [target.of(reading.load(path)) for path in logs]
+        pairs = given.given_logs(logs, reading, target)
         found = [check_log(*pair, ask=wanted or ("M0", "B0", "K0")) for pair in pairs]
     rows = [row for one in found for row in one.rows()]
     if as_json:

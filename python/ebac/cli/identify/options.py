@@ -167,11 +167,11 @@ class Reading:
         ),
     ] = None
     lag: Annotated[
-        float | None, _log("Lag of the force sensor [s].", "of the trace, else 0", min=0, max=1)
+        float | None, _log("Lag of the force sensor [s].", "of the trace, else 0", min=0, max=0.1)
     ] = None
     current_lag: Annotated[
         float | None,
-        _log("Lag of the motor's current loop [s].", "of the trace, else 0.0003", min=0, max=1),
+        _log("Lag of the motor's current loop [s].", "of the trace, else 0.0003", min=0, max=0.1),
     ] = None
     lever: Annotated[
         float | None,
@@ -229,7 +229,9 @@ class Reading:
 
         for option, lag in (("--lag", self.lag), ("--current-lag", self.current_lag)):
             if lag is not None and 0 < lag < LEAST_LAG:
-                raise ValueError(f"{option} = {lag:g} s: must be 0, or lie in [{LEAST_LAG:g}, 1] s")
+                raise ValueError(
+                    f"{option} = {lag:g} s: must be 0, or lie in [{LEAST_LAG:g}, 0.1] s"
+                )
         return load(
             path,
             columns=pairs(self.column, "--column"),
@@ -246,6 +248,26 @@ class Reading:
             torque_constant=self.torque_constant,
             force_constant=self.force_constant,
         )
+
+
+def given_logs(
+    paths: Sequence[Path], reading: Reading, target: TargetOptions
+) -> list[tuple[Recording, Target]]:
+    """Read logs, each with its target; no two recordings have one name.
+
+    Raises
+    ------
+    ValueError
+        For a file that is there twice: its rows count once.
+    """
+    from ebac.identify.recording_list import with_own_names
+
+    places = [path.resolve() for path in paths]
+    for i, (path, place) in enumerate(zip(paths, places, strict=True)):
+        if place in places[:i]:
+            raise ValueError(f"{path}: is given twice; give each log once")
+    recordings = with_own_names([reading.load(path) for path in paths])
+    return [target.of(r) for r in recordings]
 
 
 def line(e: Estimate) -> dict[str, str]:

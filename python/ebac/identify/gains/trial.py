@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from ebac._util.arguments import number
 from ebac._util.wrong_calls import plain_constructor
 from ebac.identify.gains.press_trials import Presses, noise_gain, run_presses
 from ebac.laws import design
@@ -55,10 +56,12 @@ class Limits:
         units = {"overshoot": "m", "force": "N", "current": "A", "noise_gain": "", "energy": "J"}
         for name, unit in units.items():
             value = getattr(self, name)
-            if value is not None and not (value > 0 or (name == "energy" and value == 0)):
-                raise ValueError(
-                    f"Limits.{name} = {value:g} {unit}".rstrip() + ": must be positive"
-                )
+            if value is None:
+                continue
+            number(f"Limits.{name}", value)
+            if not (value > 0 or (name == "energy" and value == 0)):
+                must = "at least 0" if name == "energy" else "positive"
+                raise ValueError(f"Limits.{name} = {value:g} {unit}".rstrip() + f": must be {must}")
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
