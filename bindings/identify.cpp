@@ -128,8 +128,12 @@ py::array_t<double> drifts(const ArmRecord& record, const Numbers& theta, const 
   require_same(record, gains);
   auto errors = rows_of(record);
   auto out = rows_of(record);
-  record.innovations(ArmGuess::from(view, record.inputs()), gains,
-                     {errors.mutable_data(), record.rows()}, {out.mutable_data(), record.rows()});
+  const std::span<double> left(errors.mutable_data(), record.rows());
+  const std::span<double> drift(out.mutable_data(), record.rows());
+  {
+    const OthersRun release;
+    record.innovations(ArmGuess::from(view, record.inputs()), gains, left, drift);
+  }
   return out;
 }
 

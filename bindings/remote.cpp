@@ -12,6 +12,7 @@
 #include "ebac/model/environment.hpp"
 #include "ebac/remote/master_world.hpp"
 #include "ebac/remote/slave_worlds.hpp"
+#include "endpoint.hpp"
 #include "fields.hpp"
 #include "from_system.hpp"
 
@@ -24,10 +25,6 @@ using gastroscope::DrivenScope;
 using LinkPtr = std::shared_ptr<LinkEnd>;
 using Lumens = std::shared_ptr<gastroscope::Lumen>;
 using EventRow = std::tuple<double, int, double>;
-
-sensor::Endpoint endpoint(const char* what, const std::string& host, int port) {
-  return sensor::resolve(host, static_cast<std::uint16_t>(port), what);
-}
 
 LinkPtr link_of(LinkEnd::Role role, const LinkParams& params, double dt, const std::string& host,
                 int port, const std::optional<std::pair<std::string, int>>& peer) {

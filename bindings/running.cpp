@@ -135,10 +135,11 @@ void bind_stepped_run(py::module_& m) {
             return run.advance(ticks);
           },
           py::arg("ticks"), "Take so many ticks, fewer where the run ends; return how many.")
-      .def("aim_now", &SteppedRun::aim, py::arg("target"),
+      // They wait for `advance`, which may wait for Python: a world may be a function of it.
+      .def("aim_now", &SteppedRun::aim, py::arg("target"), py::call_guard<OthersRun>(),
            "Set the target of the hand [m] before the next tick, without a note; NaN leaves an "
            "axis unchanged.")
-      .def("switch_off", &SteppedRun::switch_off,
+      .def("switch_off", &SteppedRun::switch_off, py::call_guard<OthersRun>(),
            "Disable the drives. Raises RuntimeError when one stays on.");
 }
 

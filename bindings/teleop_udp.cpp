@@ -5,6 +5,7 @@
 
 #include "bind.hpp"
 #include "ebac/teleop/udp_sides.hpp"
+#include "endpoint.hpp"
 #include "fields.hpp"
 #include "from_system.hpp"
 #include "others_run.hpp"
@@ -13,15 +14,10 @@ namespace ebac::python {
 
 namespace {
 
-using sensor::Endpoint;
 using teleop::Report;
 using teleop::UdpMaster;
 using teleop::UdpNetwork;
 using teleop::UdpSlave;
-
-Endpoint endpoint(const char* what, const std::string& host, int port) {
-  return sensor::resolve(host, static_cast<std::uint16_t>(port), what);
-}
 
 template <class Side>
 void add_run(py::class_<Side>& cls) {

@@ -147,6 +147,19 @@ def test_a_fault_is_named_and_shown(run: Run) -> None:
     assert "fault 4 (law not finite)" in columns.axes[0].get_legend_handles_labels()[1]
 
 
+def test_columns_without_numbers_are_said_to_have_none_and_wrong_ones_are_refused(run: Run) -> None:
+    trace = run("ebac", seconds=1.0)
+    assert np.isnan(trace["law.beta"]).all()
+    (legend,) = [ax.get_legend() for ax in plot_columns(trace, ["law.beta"]).axes]
+    assert [text.get_text() for text in legend.get_texts()] == ["law.beta: no numbers"]
+    with pytest.raises(TypeError, match=r"names = 'x'.*such as \['x'\]"):
+        plot_columns(trace, "x")
+    with pytest.raises(TypeError, match="plot_columns takes a Trace"):
+        plot_columns("x", ["x"])  # type: ignore[arg-type]
+    with pytest.raises(ValueError, match=r"names = .*is empty"):
+        plot_columns(trace, [])
+
+
 def test_a_run_without_fault_has_no_mark(run: Run) -> None:
     shown = [t.get_text() for t in plot_trace(run("eba")).axes[0].get_legend().get_texts()]
     assert not any("fault" in text or "ramped" in text for text in shown)

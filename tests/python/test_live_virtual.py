@@ -1,6 +1,8 @@
 """A session on a virtual clock: what it gives depends on orders and their ticks, not on the machine."""
 
 import json
+import subprocess
+import sys
 import time
 from pathlib import Path
 
@@ -49,6 +51,28 @@ def test_in_steps_it_is_the_run_of_ebac_run_virtual_to_the_bit() -> None:
     assert run.report is not None
     assert run.report.ended_by == "stop"
     assert float(np.abs(run.tail(5)["f_applied"]).max()) == 0
+
+
+#: A world in Python is called by one thread, while another one aims: each waited for what the other one had.
+TWO_THREADS = """
+from threading import Thread
+from ebac import datasets, worlds
+from ebac.hardware import Configuration
+from ebac.hardware.virtual_device import VirtualDevice
+
+known = Configuration.from_toml(datasets.joystick_text("joystick"), name="joystick")
+device = VirtualDevice(known, delay=1)
+run = device.start(known.design(), worlds.FunctionWorld(lambda x, v: None))
+work = Thread(target=lambda: run.advance(2000))
+work.start()
+while work.is_alive():
+    run.aim_now([0.01, 0.0, 0.0])
+device.close()
+"""
+
+
+def test_the_hand_is_aimed_from_another_thread_while_a_world_in_python_is_called() -> None:
+    subprocess.run([sys.executable, "-c", TWO_THREADS], check=True, timeout=60)
 
 
 def test_the_same_orders_give_the_same_bits_however_time_is_cut(tmp_path: Path) -> None:

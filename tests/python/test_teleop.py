@@ -18,6 +18,7 @@ from ebac import Hand, MinimumJerk, Scenario, Sine, Timing, gastroscope, teleop
 from ebac._util.child_processes import end
 from ebac.plot import plot_teleop, plot_teleop_runs
 from ebac.teleop import Link, Packet, SlaveModel
+from ebac.teleop.processes import Slave
 
 GOLDEN = Path(__file__).parents[1] / "golden" / "teleop.npz"
 ROUGH = Link(delay=0.05, jitter=0.01, loss=0.1, reorder=0.02)
@@ -261,9 +262,22 @@ def test_study_and_its_figures() -> None:
     )
     assert [row.contact for row in found.rows] == ["free", "soft"] * 2
     assert all(row.bounded == row.runs == 1 for row in found.rows)
-    assert len(plot_teleop(found).axes) == 6
-    runs = [teleop.simulate("ebac", seconds=3)]
-    assert len(plot_teleop_runs(runs).axes) == 3
+    figure = plot_teleop(found)
+    assert len(figure.axes) == 6
+    shown = [line.get_xdata()[0] for line in figure.axes[0].get_lines()[:2]]
+    assert shown == pytest.approx([50 - 1.25, 50 + 1.25])  # beside the delay, one on each side
+    with pytest.raises(KeyError, match="no network is called 'ruff'; there are: rough"):
+        plot_teleop(found, "ruff")
+    figure = plot_teleop_runs([teleop.simulate("ebac", seconds=3)])
+    assert len(figure.axes) == 3
+    assert "simulated" in figure.get_suptitle()
+    with pytest.raises(ValueError, match=r"runs = .*: is empty"):
+        plot_teleop_runs([])
+
+
+def test_a_port_that_is_none_is_refused_and_not_another_one() -> None:
+    with pytest.raises(ValueError, match=r"slave: port = 70000: must lie in \[0, 65535\]"):
+        Slave(SlaveModel(), teleop.SCHEMES["ebac"], host="127.0.0.1", port=70000)
 
 
 def ebac(*words: str) -> subprocess.Popen:

@@ -145,7 +145,10 @@ def plot_device(result: DeviceResult) -> Picture:
 def _correlations(ax: Axes, result: ArmResult, name: str) -> None:
     tests = result.tests.get(name)
     if tests is None:
-        return  # a stretch with too few readings
+        ax.text(
+            0.5, 0.5, "too few readings to test the errors", ha="center", transform=ax.transAxes
+        )
+        return
     ax.axhspan(-tests.band, tests.band, color="0.9", label="95 % of white errors")
     ax.plot(np.arange(1, len(tests.auto) + 1), tests.auto, color="#0072b2", label="with themselves")
     ax.plot(np.arange(len(tests.cross)), tests.cross, color="#d55e00", label="with the force")

@@ -4,7 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
+import numpy as np
+
 from ebac._util import formatting
+from ebac._util.arguments import require, several
 from ebac.plot.marks import mark_end, title
 from ebac.plot.style import Numbers, Picture, dress, legend, line, new_figure
 from ebac.trace import Trace
@@ -35,14 +38,14 @@ def plot_columns(trace: Trace, names: Sequence[str]) -> Picture:
     ValueError
         When the trace is too short, or no column is named.
     """
+    require(trace, Trace, "ebac.plot.plot_columns", "a Trace")
+    names = several("plot_columns: names", names)
     if len(trace) < 2:
         raise ValueError(f"the trace has {len(trace)} rows: a figure needs at least 2")
     panels: dict[str, list[str]] = {}
     for name in dict.fromkeys(names):
         trace[name]  # refuses a column that is not there
         panels.setdefault(trace.columns[name].unit, []).append(name)
-    if not panels:
-        raise ValueError("no column is named: give one or more")
     figure = new_figure(9.5, 0.8 + 2.4 * len(panels))
     grid = figure.subplots(len(panels), 1, sharex=True, squeeze=False)
     for ax, (unit, columns) in zip(grid[:, 0], panels.items(), strict=True):
@@ -64,4 +67,5 @@ def _lines(trace: Trace, columns: Sequence[str]) -> Iterator[tuple[str, Numbers]
     for name in columns:
         for axis in range(1 if trace[name].ndim == 1 else trace.axes):
             label = name if trace[name].ndim == 1 else f"{name}, axis {axis}"
-            yield label, trace.axis(name, axis)
+            values = trace.axis(name, axis)
+            yield label if np.isfinite(values).any() else f"{label}: no numbers", values

@@ -60,7 +60,7 @@ def plot_engines(found: Engines) -> Picture:
     for ax in grid.flat:
         dress(ax, ax.get_ylabel())
     for ax in grid[-1]:
-        ax.set_xlabel("t [s]")
+        ax.set_xlabel("time [s]")
     handles, labels = grid[0, 0].get_legend_handles_labels()
     figure_legend(figure, handles, labels, columns=3)
     from ebac._util import formatting

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ebac._util.arguments import several, unknown_name
 from ebac.plot.style import Picture, dress, figure_legend, line, new_figure
 
 if TYPE_CHECKING:
@@ -22,6 +23,8 @@ LOOKS = {
     "ebac": ("#009e73", "^"),
     "two-port-ebac": ("#d55e00", "P"),
 }
+#: From the marks of one scheme to those of the next [ms].
+ASIDE = 2.5
 #: Below, a swing is drawn as this [mm].
 LEAST = 0.005
 
@@ -35,7 +38,15 @@ def plot_teleop(found: Study, network: str = "rough") -> Picture:
         What `ebac.teleop.study` returned.
     network : str
         Which of its networks.
+
+    Raises
+    ------
+    KeyError
+        For a network that the study does not have.
     """
+    networks = list(dict.fromkeys(row.network for row in found.rows))
+    if network not in networks:
+        raise unknown_name("network", network, networks)
     rows = [row for row in found.rows if row.network == network]
     contacts = list(dict.fromkeys(row.contact for row in rows))
     figure = new_figure(1.2 + 3.0 * len(contacts), 8.0)
@@ -46,7 +57,8 @@ def plot_teleop(found: Study, network: str = "rough") -> Picture:
             colour, marker = LOOKS.get(one.name, (f"C{number}", "x"))
             look = {"color": colour, "marker": marker, "label": one.name, "ms": 4, "lw": 1.2}
             # A little aside, so that equal ones do not cover each other.
-            delay = [1e3 * row.delay_s + 2.5 * (number - 2.5) for row in mine]
+            aside = ASIDE * (number - 0.5 * (len(found.schemes) - 1))
+            delay = [1e3 * row.delay_s + aside for row in mine]
             for ax, values in zip(grid[:, column], _values(mine), strict=True):
                 ax.plot(delay, values, **look)
         stiffness = next(row.stiffness_N_per_m for row in rows if row.contact == contact)
@@ -95,8 +107,9 @@ def plot_teleop_runs(runs: Sequence[Run]) -> Picture:
     Parameters
     ----------
     runs : sequence of Run
-        What `ebac.teleop.simulate` returned.
+        What `ebac.teleop.simulate` returned; at least one.
     """
+    several("plot_teleop_runs: runs", runs)
     figure = new_figure(1.2 + 2.4 * len(runs), 7.0)
     grid = figure.subplots(3, len(runs), squeeze=False, sharex=True, sharey="row")
     for column, run in enumerate(runs):
@@ -123,4 +136,5 @@ def plot_teleop_runs(runs: Sequence[Run]) -> Picture:
     handles, labels = grid[0, 0].get_legend_handles_labels()
     more, texts = grid[2, 0].get_legend_handles_labels()
     figure_legend(figure, [*handles, *more], [*labels, *texts], columns=4)
+    figure.suptitle("Teleoperation, simulated", fontsize="medium")
     return figure
