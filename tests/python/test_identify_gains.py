@@ -1,6 +1,7 @@
 """Gains from a log: what is chosen keeps its constraints, costs no more than the default, and runs in a scenario."""
 
 import json
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -43,6 +44,12 @@ def loop(trace: ebac.Trace):
     return fit_loop(recording, Target.of(trace.scenario.hand, recording.t))
 
 
+@pytest.fixture
+def few_looks(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A ninth of the first looks, where it does not matter how good the choice is."""
+    monkeypatch.setattr("ebac.identify.gains.search.LOOKS", (0.0, 0.25))
+
+
 @pytest.fixture(scope="module")
 def chosen(loop):
     return fit_gains(loop, "tca", evaluations=15)
@@ -79,7 +86,7 @@ def test_the_choice_keeps_all_and_costs_less(chosen) -> None:
 
 
 @pytest.mark.parametrize("law", ["ebac", "tca-damped"])
-@pytest.mark.slow
+@pytest.mark.usefixtures("few_looks")
 def test_nothing_of_a_sound_default_is_given_back(loop, law: str) -> None:
     """Of defaults that keep all constraints: settling, swing and noise are each no worse."""
     found = fit_gains(loop, law, limits=Limits(energy=0.2), evaluations=6)
@@ -92,6 +99,7 @@ def test_nothing_of_a_sound_default_is_given_back(loop, law: str) -> None:
     assert set(found.default.ratios.values()) == {1.0}
 
 
+@pytest.mark.usefixtures("few_looks")
 def test_a_default_that_breaks_a_constraint_is_turned_down(loop) -> None:
     """The choice costs no more than what is left of it."""
     found = fit_gains(loop, "tca-damped", evaluations=6)
@@ -121,17 +129,19 @@ def test_the_law_runs_in_a_scenario(chosen) -> None:
     assert contact.swing_m < 0.25e-3
 
 
+@pytest.mark.usefixtures("few_looks")
 def test_a_tighter_constraint_holds(loop) -> None:
-    found = fit_gains(loop, "ebac", limits=Limits(noise_gain=0.05), evaluations=10)
+    found = fit_gains(loop, "ebac", limits=Limits(noise_gain=0.05), vary=0.0, evaluations=10)
     assert found.chosen.noise_gain <= 0.05
     assert found.chosen.kp <= 0.05
 
 
+@pytest.mark.usefixtures("few_looks")
 def test_what_no_gains_keep_is_refused(loop) -> None:
     with pytest.raises(
         ValueError, match=r"no pair of gains keeps the constraints: broken are .*force"
     ):
-        fit_gains(loop, "ebac", limits=Limits(force=0.1), evaluations=2)
+        fit_gains(loop, "ebac", limits=Limits(force=0.1), vary=0.0, evaluations=2)
 
 
 @pytest.mark.parametrize(
@@ -290,8 +300,11 @@ def test_equal_is_what_noise_changes_and_never_is_never() -> None:
     assert compare(chosen, default, scatter, 1e-3) == {"better": 2, "equal": 3, "worse": 2}
 
 
-@pytest.mark.slow
-def test_the_command_writes_a_report_and_json(tmp_path: Path, trace: ebac.Trace) -> None:
+@pytest.mark.usefixtures("few_looks")
+def test_the_command_writes_a_report_and_json(
+    tmp_path: Path, trace: ebac.Trace, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(identify, "fit_gains", partial(fit_gains, evaluations=3))
     trace.to_npz(tmp_path / "log.npz")
     out = tmp_path / "report"
     run = CliRunner().invoke(
@@ -316,7 +329,7 @@ def test_the_command_refuses_a_law_without_force_loop(tmp_path: Path, trace: eba
     assert "has no force loop" in " ".join(run.stderr.split())
 
 
-@pytest.mark.slow
+@pytest.mark.usefixtures("few_looks")
 def test_the_check_shows_units_and_gives_plain_numbers(monkeypatch: pytest.MonkeyPatch) -> None:
     cases = check_gains(1, seed=4, evaluations=3)
     monkeypatch.setattr("ebac.identify.gains.check.check_gains", lambda *_, **__: cases)

@@ -289,6 +289,7 @@ def test_a_command_is_run_with_fewer_hands_before_its_output_goes_elsewhere() ->
     assert "--hands" in as_run("ebac study > table.txt").partition(">")[0]
     assert as_run("ebac wall --law tca") == "ebac wall --law tca --seconds 1"
     assert as_run("ebac laws") == "ebac laws"
+    assert as_run("ebac study -c holds --law ebac").startswith("ebac study -c hold-K20 --law ebac")
 
 
 def test_a_block_of_python_is_run_with_fewer_hands() -> None:
