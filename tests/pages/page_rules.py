@@ -130,7 +130,7 @@ RULES = (
         fewer="--points 2 --seconds 1 --law ebac --law tca",
     ),
     Rule(
-        r"^ebac zwidth\b.*--hands [1-9]\d",
+        r"^ebac zwidth\b.*--hands \d",
         SLOW,
         "takes minutes",
         fewer="--points 2 --seconds 1 --delay 1 --hands 1",
@@ -139,6 +139,12 @@ RULES = (
     Rule(r"^ebac gastroscopy study\b", SLOW, "takes minutes", fewer="--physicians 2 --seconds 2"),
     Rule(r"^ebac gastroscopy (master|slave)", SLOW, "takes its time", fewer="--seconds 1"),
     Rule(r"^ebac gastroscopy\b", SLOW, "takes seconds", fewer="--seconds 2"),
+    Rule(
+        r"^ebac shapes$",
+        SLOW,
+        "takes half a minute",
+        fewer="--law ebac --device joystick --world sphere,texture",
+    ),
     Rule(r"^ebac shapes\b", SLOW, "takes half a minute", fewer="--law ebac --device joystick"),
     Rule(r"^ebac random-worlds\b", SLOW, "takes seconds", fewer="--hands 2"),
     Rule(r"^ebac map\b", SLOW, "takes seconds", fewer="--side 8"),
@@ -159,9 +165,9 @@ RULES = (
     Rule(r"^ebac wall\b.*--log ", SHORT, "writes and draws what it simulates", "--seconds 2.5"),
     Rule(r"^ebac wall\b", SHORT, "writes and draws what it simulates", "--seconds 1"),
     Rule(
-        r"^ebac identify gains.*--out",
+        r"^ebac identify gains.*(--out|--law)",
         NEVER,
-        "takes 2 s of a core; test_identify_gains.py runs it so, and without --out it is run here",
+        "takes 2 s of a core; test_identify_gains.py runs it so, and without them it is run here",
     ),
     Rule(r"^ebac identify gains", SLOW, "takes seconds"),
 )
