@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 import ebac
 from ebac import faults, paper
 from ebac._util import formatting
-from ebac._util.report import report
+from ebac._util.report import cell, report
 from ebac.operators import Operators
 from ebac.studies import ablation, study, worst
 from ebac.studies.maps import stability_map
@@ -262,3 +262,12 @@ def test_arrays_and_texts_are_no_part_of_a_repr(tmp_path: Path) -> None:
         assert shown in text
         assert text.count("\n") < 20
         assert len(text) < 1500
+
+
+def test_numbers_and_flags_of_numpy_read_like_those_of_python() -> None:
+    assert [cell("good", np.bool_(True)), cell("x_m", np.float64(0.5))] == ["True", "500.000"]
+
+
+@pytest.mark.parametrize(("value", "text"), [(9999.4, "9999"), (9999.6, "10000"), (12345, "12345")])
+def test_a_number_of_five_digits_is_written_out(value: float, text: str) -> None:
+    assert formatting.quantity(value, "N/m") == f"{text} N/m"

@@ -70,7 +70,7 @@ def listed(title: str, result: Any, lines: Iterable[tuple[str, str, str, str]]) 
 def _number(value: float, decimals: int, more: int, signed: bool, exact: bool) -> str:
     sign = "+" if signed and value != 0 else ""
     if exact or value == 0:
-        long = 1e4 <= abs(value) < 1e7
+        long = 9999.5 <= abs(value) < 1e7  # from where four digits round to five
         return "0" if value == 0 else f"{value:{sign}.{'0f' if long else '4g'}}"
     if abs(value) >= 1000:
         return f"{value:{sign}.0f}"

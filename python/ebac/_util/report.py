@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+import numpy as np
+
 from ebac._util import formatting
 
 #: Rows of a table; longer ones are cut in the middle. With several tables each has fewer, but not below the fewest.
@@ -128,6 +130,7 @@ def cell(key: str, value: Any) -> str:
     """Return a value as people read it below the heading of its key."""
     if value is None:
         return "-"
+    value = value.item() if isinstance(value, np.generic) else value
     if isinstance(value, bool | str):
         return str(value)
     if isinstance(value, Mapping):
