@@ -379,7 +379,10 @@ def test_a_fault_is_told_and_its_log_kept(monkeypatch: pytest.MonkeyPatch, tmp_p
             "drive simulate --aim 99999999999999999999",
             "--aim = 99999999999999999999: must lie in [0,",
         ),
-        ("identify arm file.csv --lag 1e-300", "--lag = 1e-300 s: must be 0, or lie in [1e-06, 0.1]"),
+        (
+            "identify arm file.csv --lag 1e-300",
+            "--lag = 1e-300 s: must be 0, or lie in [1e-06, 0.1]",
+        ),
     ],
 )
 def test_bad_input_is_refused_in_one_sentence(words: str, expected: str, tmp_path: Path) -> None:

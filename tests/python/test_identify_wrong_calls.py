@@ -95,6 +95,7 @@ def write(path: Path, *, mark: str = ",", rows: int = ROWS) -> Path:
         ({"lag": "1"}, "lag = '1': must be a number"),
         ({"columns": ["t", "x"]}, "columns = .*names by signal"),
         ({"units": {"x": 3}}, "units = .*names by signal"),
+        ({"columns": {"x": "x", "force": "x"}}, "column 'x' is given for x and for force"),
     ],
 )
 def test_a_wrong_option_of_a_file_is_refused_by_name(
@@ -130,6 +131,14 @@ def test_taps_fall_on_ticks_where_a_log_pauses() -> None:
     whole = Target.along(taps, T)
     paused = Target.along(taps, T[(T < 0.5) | (T > 1.2)])
     assert paused.switches == whole.switches
+
+
+def test_a_target_is_that_of_the_axis() -> None:
+    hand = ebac.Hand(path=(ebac.Step(target=0.0), ebac.Step(target=0.02, at=0.5)))
+    assert Target.of(hand, T).switches == ()
+    assert Target.of(hand, T, axis=1).switches == (0.5,)
+    with pytest.raises(ValueError, match=r"axis = 3: must lie in \[0, 2\]"):
+        Target.of(hand, T, axis=3)
 
 
 def test_a_press_is_as_deep_as_asked() -> None:

@@ -112,16 +112,21 @@ def assign(
     Raises
     ------
     ValueError
-        For a given column that does not exist.
+        For a given column that does not exist, or that is given for two signals.
     """
-    chosen, remarks = {}, []
+    chosen: dict[str, str] = {}
+    remarks = []
     for signal, name in given.items():
         bare = {name_and_unit(signal, h)[0].lower(): h for h in headings}
         if name not in headings and name.lower() not in bare:
             raise ValueError(
                 f"{file}: there is no column {name!r} for {signal}; there are: {listed(headings)}"
             )
-        chosen[signal] = name if name in headings else bare[name.lower()]
+        column = name if name in headings else bare[name.lower()]
+        if column in chosen.values():
+            first = next(key for key, other in chosen.items() if other == column)
+            raise ValueError(f"{file}: column {column!r} is given for {first} and for {signal}")
+        chosen[signal] = column
     for signal, names in NAMES.items():
         if signal in chosen:
             continue

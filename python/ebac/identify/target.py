@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ebac._core import Hand, MinimumJerk, Recorded, Sine, Step, Tapping
-from ebac._util.arguments import number, require
+from ebac._util.arguments import number, require, whole
 from ebac._util.wrong_calls import plain_constructor
 from ebac.identify.recording import Recording
 
@@ -110,10 +110,12 @@ class Target:
         return cls(path=np.asarray(path, dtype=float))
 
     @classmethod
-    def of(cls, hand: Hand, t: NDArray[np.float64]) -> Target:
-        """Return what an experimenter knows of a simulated hand's target: its times, not its levels."""
+    def of(cls, hand: Hand, t: NDArray[np.float64], axis: int = 0) -> Target:
+        """Return what an experimenter knows of a simulated hand's target along an axis: its times, not its levels."""
         require(hand, Hand, "Target.of", "a Hand")
-        return cls.along(hand.path[0], t)
+        if not 0 <= whole("axis", axis) < len(hand.path):
+            raise ValueError(f"axis = {axis}: must lie in [0, {len(hand.path) - 1}]")
+        return cls.along(hand.path[axis], t)
 
     @classmethod
     def along(cls, path: Path, t: NDArray[np.float64]) -> Target:
