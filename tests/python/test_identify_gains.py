@@ -1,6 +1,7 @@
 """Gains from a log: what is chosen keeps its constraints, costs no more than the default, and runs in a scenario."""
 
 import json
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
@@ -14,6 +15,7 @@ import ebac
 from ebac import identify
 from ebac.cli import app
 from ebac.identify import Limits, Recording, Target, fit_gains, fit_loop
+from ebac.identify.figures import plot_gains
 from ebac.identify.gains.check import MEASURES, check_gains
 from ebac.identify.gains.press_trials import arms_around, force_loop_laws, noise_gain, run_presses
 from ebac.identify.gains.search import blocked_step, by_rule, by_tangent
@@ -123,6 +125,12 @@ def test_other_hands_find_something_to_spare(chosen) -> None:
     assert spare(c.presses, 0.1, none)["energy"] == pytest.approx(-numbers["least_energy_J"] / 1e-6)
 
 
+def test_of_several_axes_the_one_that_presses_is_drawn(loop, chosen) -> None:
+    two = replace(loop, device=loop.device.replace(kinematics=ebac.Linear(axes=2)))
+    motion, *_ = plot_gains(replace(chosen, loop=two)).axes
+    assert len(motion.get_legend_handles_labels()[1]) == 3  # default, rule, choice
+
+
 def test_the_law_runs_in_a_scenario(chosen) -> None:
     contact = ebac.contact(ebac.simulate(chosen.scenario, chosen.law))
     assert contact.settled_s is not None
@@ -155,6 +163,14 @@ def test_what_no_gains_keep_is_refused(loop) -> None:
 def test_bad_wishes_are_refused(loop, change: dict, message: str) -> None:
     with pytest.raises(ValueError, match=message):
         fit_gains(loop, **change)
+
+
+def test_axes_that_are_not_straight_are_refused_with_what_to_give_instead(loop) -> None:
+    joystick = ebac.presets.device("joystick")
+    with pytest.raises(ValueError, match=r"device = a Gimbal: .*Linear\(radius=0.1\)"):
+        fit_gains(replace(loop, device=joystick))
+    straight = joystick.replace(kinematics=ebac.Linear(radius=joystick.radius))
+    assert (straight.axes, straight.count) == (1, joystick.count)
 
 
 @pytest.mark.parametrize("name", ["overshoot", "force", "current", "noise_gain", "energy"])

@@ -172,8 +172,8 @@ def plot_gains(result: GainsResult) -> Picture:
         trace = simulate(scenario, Variant(result.name, {"kp": c.kp, "kd": c.kd}))
         style = {"color": COLOURS[c.name], "lw": 1.0, "label": _label(c)}
         surface = scenario.environment.position  # type: ignore[union-attr]
-        line(motion, trace["t"], 1e3 * (trace["true.x"] - surface), **style)
-        line(force, trace["t"], trace["f_applied"], **style)
+        line(motion, trace["t"], 1e3 * (trace.axis("true.x") - surface), **style)
+        line(force, trace["t"], trace.axis("f_applied"), **style)
     motion.axhline(0, color="0.6", lw=0.8)
     dress(motion, "depth in the wall [mm]")
     motion.set_ylim(bottom=-4)

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-from ebac._core import Hand
+from ebac._core import Hand, Linear
 from ebac._util.arguments import require
 from ebac.identify.gains.press_trials import arms_around, force_loop_laws
 from ebac.identify.gains.search import GainsSearch
@@ -139,8 +139,8 @@ def fit_gains(
     Raises
     ------
     ValueError
-        When the log does not determine the hand, the law has no force loop, a number is out of range, or no pair keeps
-        the constraints; the message names them.
+        When the log does not determine the hand, the law has no force loop, the axes of the device are not straight, a
+        number is out of range, or no pair keeps the constraints; the message names them.
     """
     require(
         loop,
@@ -157,6 +157,12 @@ def fit_gains(
         raise ValueError(f"vary = {vary:g}: must lie in [0, 3]")
     if evaluations < 1:
         raise ValueError(f"evaluations = {evaluations}: must be at least 1")
+    device = loop.device
+    if not isinstance(device.kinematics, Linear):
+        raise ValueError(
+            f"device = a {type(device.kinematics).__name__}: presses are simulated on a straight axis; give fit_loop "
+            f"device.replace(kinematics=ebac.Linear(radius={device.radius:g}))"
+        )
     hands = arms_around(loop.arm, vary)
     scenarios = tuple(
         loop.pressing(hand, depth=depth, seed=1 + i * len(DEPTHS) + j)
