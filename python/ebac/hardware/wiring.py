@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from ebac.drives.dictionary import dictionary
+from ebac.hardware.dictionary import dictionary
 
 if TYPE_CHECKING:
     from ebac.hardware.configuration import Configuration
