@@ -200,7 +200,7 @@ def test_bias_shows_before_and_after(simulated: SimulatedSensor) -> None:
     code, out, err = run("bias", *at(simulated), "--records", "20")
     assert code == 0, err
     assert "before" in out
-    assert "Standard deviation before: 0 N, 0 N m." in out
+    assert "Standard deviation before: 0.0000 N, 0.00000 N m." in out
 
 
 def test_bias_takes_no_load_without_being_told(tmp_path: Path) -> None:

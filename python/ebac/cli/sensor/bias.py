@@ -98,7 +98,7 @@ def bias(
         )
     output.show(grid)
     output.say(
-        f"Standard deviation before: {before.force_spread:.3g} N, {before.torque_spread:.3g} N m."
+        f"Standard deviation before: {before.force_spread:.4f} N, {before.torque_spread:.5f} N m."
     )
     if mean is None:
         output.say(
