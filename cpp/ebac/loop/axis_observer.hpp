@@ -132,7 +132,7 @@ class AxisObserver {
   /// Share of the last 0.1 s in which the measured force bent more than its declared noise does.
   double rough() const EBAC_RT { return rough_; }
 
-  /// Share of the last 50 ms in which the reading was more than a count from where the model put it.
+  /// Share of the last 50 ms in which the reading was more than 1.5 counts from where the model put it.
   double contradicted() const EBAC_RT { return contradicted_; }
 
  private:
