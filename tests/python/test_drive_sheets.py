@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 from ebac import _core, drives
+from ebac.hardware.dictionary import dictionary
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "sheets"))
 sys.path.insert(0, str(Path(__file__).parents[1] / "buses"))
@@ -184,6 +185,16 @@ def test_objects_of_a_profile_are_numbers_that_command_nothing(
 def test_what_a_drive_may_lack_is_checked(tmp_path: Path, line: str, message: str) -> None:
     with pytest.raises(drives.ProfileError, match=message):
         written(tmp_path, f"{line}\n")
+
+
+def test_a_raw_number_is_not_shown_in_the_unit_of_the_standard() -> None:
+    """An EPOS4 has its rated torque (0x6076) in 1e-6 N m, not in mN m: 52993 are 53 mN m."""
+    (node,) = drives.load("maxon-epos4", nodes=[5]).nodes
+    with drives.DriveBus(SimulatedBus(_core.SimulatedDrive(node=5, sheet=dictionary(node)))) as bus:
+        rows = {c.object.name: c.row() for c in drives.plan(bus.drive(5), node).changes}
+    assert (rows["rated_torque"]["wanted"], rows["rated_torque"]["unit"]) == (52993, "")
+    assert "1e-6 N m" in rows["rated_torque"]["why"]
+    assert rows["sync_period"]["unit"] == "us"
 
 
 def test_a_negative_object_is_written_as_its_type(tmp_path: Path) -> None:

@@ -85,7 +85,9 @@ def _own(source: Source, at: Where, name: str, obj: Object, given: Any) -> Setti
         raise source.refuse(
             at, f"objects: {name} = {given!r}: must be a whole number, as the drive holds it"
         )
-    typed = dataclasses.replace(obj, kind=kind, unit=obj.unit if kind == obj.kind else "")
+    # A maker may count in another unit than the standard: the EPOS4 has its rated torque in 1e-6 N m.
+    unit = obj.unit if obj.hexadecimal and kind == obj.kind else ""
+    typed = dataclasses.replace(obj, kind=kind, unit=unit)
     try:
         typed.encode(value)
     except ValueError as error:
