@@ -160,6 +160,17 @@ def test_a_device_of_which_nothing_is_determined_is_said_to_be_as_given() -> Non
     assert remarks == ["device: as given, the log determines none of it"]
 
 
+@pytest.mark.parametrize("option", ["--column", "--unit", "--fix"])
+def test_a_name_given_twice_is_refused(option: str, tmp_path: Path) -> None:
+    log = tmp_path / "log.csv"
+    rows = np.column_stack([T, X, -300 * X])
+    np.savetxt(log, rows, delimiter=",", header="t [s],x [m],force [N]", comments="")
+    words = ["identify", "arm", str(log), option, "x=1", option, "x=2"]
+    done = CliRunner().invoke(app, words)
+    assert done.exit_code == 2
+    assert f"{option} x=2: x is given twice; give it once" in " ".join(done.output.split())
+
+
 def test_logs_of_one_name_keep_their_own_tests_and_remarks(tmp_path: Path) -> None:
     paths = []
     for day, seed in (("monday", 1), ("tuesday", 2)):

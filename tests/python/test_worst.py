@@ -260,6 +260,7 @@ def test_a_law_that_is_told_otherwise_is_not_replayed_by_a_scenario() -> None:
         (("--evaluations", "3"), "--evaluations = 3: must lie in [40, "),
         (("--law", "ebc"), "--law ebc: no such name"),
         (("--change", "kp"), "--change kp: must be NAME=VALUE"),
+        (("--change", "kp=0,kp=1"), "--change kp=0,kp=1: kp is given twice; give it once"),
         (
             ("--change", "guard=off", "--change", "kp=0"),
             "--change kp=0: one law is searched, and --change guard=off was given already; "

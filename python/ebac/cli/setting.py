@@ -30,6 +30,8 @@ def parse_change(text: str) -> dict[str, Any]:
     changes: dict[str, Any] = {}
     for part in text.split(","):
         name, equals, value = (word.strip() for word in part.partition("="))
+        if name in changes:
+            raise ValueError(f"--change {text}: {name} is given twice; give it once")
         try:
             changes[name] = value == "on" if value in ("on", "off") else float(value)
         except ValueError:

@@ -127,6 +127,8 @@ def pairs(given: list[str] | None, option: str) -> dict[str, str]:
         name, mark, value = text.partition("=")
         if not mark or not name or not value:
             raise ValueError(f"{option} {text}: write NAME=VALUE")
+        if name in out:
+            raise ValueError(f"{option} {text}: {name} is given twice; give it once")
         out[name] = value
     return out
 
