@@ -16,8 +16,11 @@ import pytest
 from typer.testing import CliRunner
 
 from ebac import drives
+from ebac._core import Joystick
+from ebac.can.channels import resting_joystick
 from ebac.cli import app
 from ebac.drives import bus as bus_module
+from ebac.drives.simulate import Simulation
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 Run = Callable[..., Any]
@@ -271,6 +274,23 @@ def test_simulate_serves_until_its_time_is_over() -> None:
     assert result.exit_code == 0, result.output
     assert "Simulated drives, nodes 1, 2, on" in said(result)
     assert "Stopped: 0 frames received, 2 sent." in said(result)  # boot-up of both
+
+
+def test_simulate_refuses_a_channel_whose_node_ids_are_taken() -> None:
+    """Two drives with one node id would answer every request twice, and each would be set up by half."""
+    words = ["drive", "simulate", "--interface", "virtual", "--channel", "full", "--seconds", "0.2"]
+    with (
+        can.Bus(interface="virtual", channel="full") as bus,
+        Simulation(bus, Joystick(resting_joystick().setup())),
+    ):
+        result = CliRunner().invoke(app, words)
+        free = CliRunner().invoke(app, [*words, "--first", "3"])
+    assert result.exit_code == 1
+    assert (
+        "virtual full: there are drives with these node ids already: 1, 2; end the other"
+        in said(result)
+    )
+    assert free.exit_code == 0, free.output
 
 
 @pytest.mark.real_time  # multicast drops frames that nobody takes in time

@@ -9,6 +9,7 @@ from __future__ import annotations
 import threading
 import time
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from types import TracebackType
 from typing import TYPE_CHECKING, Protocol, Self
@@ -40,6 +41,8 @@ _SIMULATED = 0x65626163
 
 #: Longest wait for a frame [s]: heartbeats and timers of the drives are this late at most.
 _WAIT = 1e-3
+#: How long to listen for drives that are there already [s]: two of their heartbeats.
+_LISTEN = 0.25
 
 
 def inject(drive: Drive, names: Sequence[str]) -> None:
@@ -70,6 +73,43 @@ def inject(drive: Drive, names: Sequence[str]) -> None:
     bits = sum({CONDITIONS[name] for name in names})
     for sub, part in ((0x5F01, bits >> 8), (0x5F00, bits & 0xFF)):
         drive.sdo.download(Object(name="conditions", index=sub, kind="u8"), bytes([part]))
+
+
+def refuse_taken(bus: can.BusABC, name: str, nodes: Sequence[int]) -> None:
+    """Look whether somebody on a bus has one of these node ids already.
+
+    Parameters
+    ----------
+    bus : can.BusABC
+        An open bus of python-can. Each id is asked for its device type (0x1000); nothing is written.
+    name : str
+        Of the bus, for messages.
+    nodes : sequence of int
+        Ids that are to be free.
+
+    Raises
+    ------
+    BusError
+        When a node with one of these ids answers or sends a heartbeat.
+    """
+    import can
+
+    with suppress(can.CanError):  # nobody acknowledges: nobody is there
+        for node in nodes:
+            request = bytes([0x40, 0x00, 0x10, 0, 0, 0, 0, 0])
+            bus.send(can.Message(arbitration_id=0x600 + node, data=request, is_extended_id=False))
+    end = time.monotonic() + _LISTEN
+    taken = set()
+    while (left := end - time.monotonic()) > 0:
+        message = bus.recv(left)
+        if message is not None and message.arbitration_id & ~0x7F in (0x580, 0x700):
+            taken.add(message.arbitration_id & 0x7F)
+    if found := sorted(taken & set(nodes)):
+        ids = ", ".join(map(str, found))
+        raise BusError(
+            f"{name}: there are drives with these node ids already: {ids}; end the other "
+            "`ebac drive simulate`, or give another channel"
+        )
 
 
 class SimulatedNodes(Protocol):

@@ -6,7 +6,7 @@ import json
 import sys
 import threading
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from math import inf
 from pathlib import Path
@@ -182,16 +182,17 @@ def simulate(
             "aim": cell,
         }
         measured = found.sensor if sensor else None
+        ids = found.wiring["nodes"]
         with (
             sensor_of(measured, shared_force, request, grants, port=found.sensor_port) as at,
             _at_work(
-                setup, interface, channel, bitrate or found.bitrate, more, request, grants
+                setup, interface, channel, bitrate or found.bitrate, ids, more, request, grants
             ) as work,
         ):
             also = "" if at is None else f" and a force sensor at {at.host}:{at.port}"
-            ids = ", ".join(str(node) for node in found.wiring["nodes"])
+            named = ", ".join(str(node) for node in ids)
             typer.echo(  # one line, for whoever waits for it
-                f"Simulated drives, nodes {ids}, on {interface} {channel}{also}. Ctrl-C stops them."
+                f"Simulated drives, nodes {named}, on {interface} {channel}{also}. Ctrl-C stops them."
             )
             for line in found.about:
                 output.say(line)
@@ -217,6 +218,7 @@ def _at_work(
     interface: str,
     channel: str,
     bitrate: int | None,
+    ids: Sequence[int],
     more: dict[str, Any],
     request: Request,
     grants: list[Grant],
@@ -225,7 +227,7 @@ def _at_work(
     from ebac._core import Joystick, SocketCanJoystick
     from ebac.drives import BusError
     from ebac.drives.bus import open_bus
-    from ebac.drives.simulate import Simulation
+    from ebac.drives.simulate import Simulation, refuse_taken
     from ebac.hardware.backends import at_work
 
     known_interface(interface)
@@ -243,11 +245,10 @@ def _at_work(
             yield served
         return
     nodes = Joystick(setup, **more)
-    with (
-        open_bus(interface=interface, channel=channel, bitrate=bitrate) as bus,
-        Simulation(bus, nodes) as simulation,
-    ):
-        yield simulation
+    with open_bus(interface=interface, channel=channel, bitrate=bitrate) as bus:
+        refuse_taken(bus, f"{interface} {channel}", ids)
+        with Simulation(bus, nodes) as simulation:
+            yield simulation
 
 
 def _tell(grants: list[Grant], *, as_json: bool) -> None:
