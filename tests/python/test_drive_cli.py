@@ -1,5 +1,6 @@
 """`ebac drive` on the simulated drives: tables, JSON, refusals, exit codes."""
 
+import errno
 import json
 import os
 import re
@@ -274,6 +275,22 @@ def test_simulate_serves_until_its_time_is_over() -> None:
     assert result.exit_code == 0, result.output
     assert "Simulated drives, nodes 1, 2, on" in said(result)
     assert "Stopped: 0 frames received, 2 sent." in said(result)  # boot-up of both
+
+
+def test_simulate_without_can_in_the_kernel_names_a_bus_that_it_takes(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Not the interface `ebac`, which this command refuses."""
+
+    def no_can(*_given: Any, **_more: Any) -> None:
+        raise OSError(errno.EAFNOSUPPORT, "there is the loopback bus: can.Bus(interface='ebac')")
+
+    monkeypatch.setattr("ebac._core.SocketCanJoystick", no_can)
+    result = CliRunner().invoke(app, ["drive", "simulate", "--channel", "vcan0"])
+    assert result.exit_code == 1
+    assert "CAN interface 'vcan0': this kernel has no CAN sockets" in said(result)
+    assert "take --interface udp_multicast" in said(result)
+    assert "interface='ebac'" not in said(result)
 
 
 def test_simulate_refuses_a_channel_whose_node_ids_are_taken() -> None:

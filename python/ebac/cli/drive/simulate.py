@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import json
 import sys
 import threading
@@ -240,6 +241,12 @@ def _at_work(
         try:
             served = SocketCanJoystick(channel, setup, **more)
         except OSError as error:
+            if error.errno == errno.EAFNOSUPPORT:
+                raise BusError(
+                    f"CAN interface {channel!r}: this kernel has no CAN sockets; load them: "
+                    "`sudo modprobe can can_raw`. For all but a loop take "
+                    "--interface udp_multicast --channel 239.74.163.2"
+                ) from error
             raise BusError(error.strerror or str(error)) from error
         with at_work(served, request, "the simulated drives", grants):
             yield served
