@@ -30,7 +30,7 @@ LONG = {
     "tune tca --evaluations 100000": "the best so far was printed",
 }
 #: Processor time after which a command is at its work [s].
-BUSY = 1.5
+BUSY = 2.0
 
 
 def start(words: str, folder: Path) -> subprocess.Popen[str]:

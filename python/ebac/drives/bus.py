@@ -223,7 +223,7 @@ def _telling(interface: str | None, channel: str | None) -> Iterator[None]:
 def _remedy(number: int | None) -> str:
     if number == errno.EAFNOSUPPORT:
         return (
-            "this kernel has no SocketCAN: load the modules (`sudo modprobe can can_raw`). Simulated drives do "
+            "this kernel has no SocketCAN: load its module (`sudo modprobe can_raw`). Simulated drives do "
             "without: `ebac run --simulated`, or elsewhere --interface ebac --channel joystick"
         )
     if number == errno.ENODEV:

@@ -22,7 +22,8 @@ _REMEDIES = {
         "sensor serves one at a time"
     ),
     LinkState.REFUSED: (
-        "nobody listens at that port; check the address, or start one: `ebac sensor simulate`"
+        "nobody listens at that port; check the address and that the sensor has power, or start a simulated one on "
+        "this machine: `ebac sensor simulate`"
     ),
     LinkState.UNREACHABLE: (
         "no way leads to that address; check the cable and that this machine is in its network "
