@@ -9,6 +9,7 @@ import typer
 
 from ebac.cli import output
 from ebac.cli.identify import options as given
+from ebac.cli.identify import report as reporting
 from ebac.cli.identify.arm_results import show, write
 
 if TYPE_CHECKING:
@@ -19,7 +20,7 @@ def arm(
     logs: given.Logs,
     reading: given.Reading,
     target: given.TargetOptions,
-    to: given.ReportOptions,
+    to: reporting.ReportOptions,
     fix: given.Fix = None,
     free: Annotated[
         list[str] | None,

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from ebac.cli import output
-from ebac.cli.identify import options as given
+from ebac.cli.identify import report as reporting
 
 if TYPE_CHECKING:
     from ebac.identify import ArmResult
@@ -74,7 +74,7 @@ def show(
 
 
 def write(
-    to: given.ReportOptions,
+    to: reporting.ReportOptions,
     result: ArmResult,
     predictions: Any,
     opinions: Any,
@@ -95,11 +95,11 @@ def write(
         f"{o.name}: direct {o.direct:.4g} {o.unit}, by instruments {o.unbiased:.4g} {o.unit}"
         for o in opinions
     ]
-    return given.report(
+    return reporting.report(
         to,
         "arm",
         title="The arm of eq. (4)",
-        rows=[given.line(e) for e in result.shown],
+        rows=[reporting.line(e) for e in result.shown],
         careful=careful(result),
         notes=notes,
         draw=[partial(plot_arm, result, i) for i in range(len(result.recordings))],

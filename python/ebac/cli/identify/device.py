@@ -9,6 +9,7 @@ import typer
 
 from ebac.cli import output
 from ebac.cli.identify import options as given
+from ebac.cli.identify import report as reporting
 
 if TYPE_CHECKING:
     from ebac.identify import DeviceResult
@@ -17,7 +18,7 @@ if TYPE_CHECKING:
 def device(
     log: Annotated[Path, typer.Argument(help="MCAP, CSV, .mat or .npz.", show_default=False)],
     reading: given.Reading,
-    to: given.ReportOptions,
+    to: reporting.ReportOptions,
     as_json: output.AsJson = False,
 ) -> None:
     """Identify a device: mass, damping, Coulomb and Stribeck friction, weight, and tau_static of eq. (2).
@@ -95,14 +96,14 @@ def _static(result: DeviceResult) -> list[str]:
     ]
 
 
-def _write(to: given.ReportOptions, result: DeviceResult) -> list[str]:
+def _write(to: reporting.ReportOptions, result: DeviceResult) -> list[str]:
     from ebac.identify.figures import plot_device
 
-    return given.report(
+    return reporting.report(
         to,
         "device",
         title="The device of eq. (6)",
-        rows=[given.line(e) for e in result.estimates.values()],
+        rows=[reporting.line(e) for e in result.estimates.values()],
         careful=[f"{name} is not determined by this log." for name in result.undetermined],
         notes=[*result.recording.remarks, *_notes(result)],
         draw=[lambda: plot_device(result)],

@@ -9,6 +9,7 @@ import typer
 from ebac.cli import completion, output
 from ebac.cli.by_name import one_law
 from ebac.cli.identify import options as given
+from ebac.cli.identify import report as reporting
 
 if TYPE_CHECKING:
     from ebac.identify import GainsResult
@@ -20,7 +21,7 @@ def gains(
     logs: given.Logs,
     reading: given.Reading,
     target: given.TargetOptions,
-    to: given.ReportOptions,
+    to: reporting.ReportOptions,
     law: Annotated[
         str,
         typer.Option(
@@ -182,11 +183,11 @@ def _notes(result: GainsResult) -> list[str]:
     ]
 
 
-def _write(to: given.ReportOptions, result: GainsResult) -> list[str]:
+def _write(to: reporting.ReportOptions, result: GainsResult) -> list[str]:
     from ebac.identify.figures import plot_gains
 
     hand = [str(e) for e in result.loop.arm.estimates.values() if e.name in ("M0", "B0", "K0")]
-    return given.report(
+    return reporting.report(
         to,
         "gains",
         title=f"K_p and K_d of eq. (2) for {result.name}",
