@@ -16,6 +16,7 @@ from ebac import drives
 from ebac._core import DriveWiring, Joystick, LoopbackHub, LoopbackJoystick, SimulatedDrive
 from ebac.can.channels import standing
 from ebac.cli import app
+from ebac.drives.profile import read_source
 from ebac.hardware import Configuration, Signs, find_signs
 from ebac.hardware.dictionary import dictionary
 from ebac.hardware.wiring import wired_with_signs, wiring_of
@@ -78,6 +79,25 @@ def test_every_profile_goes_onto_the_drive_that_is_simulated_for_it(
             assert drive.look(obj) is None
         for one in node.profile.objects:
             assert drive.look(one.object) == one.value
+
+
+@pytest.mark.parametrize(
+    ("kind", "value"),
+    [("u8", 0xFF), ("i8", -0x80), ("u16", 0xFFFF), ("i16", -0x8000), ("u32", 0xFFFFFFFF), ("i32", -0x80000000)],
+)  # fmt: skip
+def test_an_object_of_the_maker_is_as_wide_as_its_type(
+    kind: str, value: int, tmp_path: Path
+) -> None:
+    file = tmp_path / "own.toml"
+    text = read_source("generic-cia402").text
+    own = f'"0x3002:1" = {{ value = {value}, type = "{kind}" }}'
+    file.write_text(f"{text}\n[objects]\n{own}\n", encoding="utf-8")
+    (node,) = drives.load(file, nodes=[5]).nodes
+    simulated = SimulatedDrive(node=5, sheet=dictionary(node))
+    with drives.DriveBus(SimulatedBus(simulated, per_frame=1e-3)) as bus:
+        drives.apply(bus.drive(5), node, backups=drives.Backups(tmp_path))
+        drives.verify(bus.drive(5), node)
+        assert bus.drive(5).look(node.profile.objects[0].object) == value
 
 
 def test_drives_have_the_ids_zero_and_signs_of_the_configuration(own: Path) -> None:

@@ -5,12 +5,9 @@ from __future__ import annotations
 from dataclasses import replace
 
 from ebac._core import SimulatedDrive
-from ebac.drives.eds import TYPES, Row, Sheet, SheetEntry, parse_eds
+from ebac.drives.eds import Row, Sheet, SheetEntry, parse_eds
 from ebac.drives.network import Node
 from ebac.drives.objects import Object
-
-#: Bytes of a number by its kind.
-_SIZES = dict(TYPES.values())
 
 
 def dictionary(node: Node) -> list[Row]:
@@ -35,5 +32,5 @@ def dictionary(node: Node) -> list[Row]:
 
 def _writable(obj: Object) -> SheetEntry:
     return SheetEntry(
-        index=obj.index, sub=obj.sub, name=obj.name, kind=obj.kind, size=_SIZES[obj.kind]
+        index=obj.index, sub=obj.sub, name=obj.name, kind=obj.kind, size=obj.bits // 8
     )
