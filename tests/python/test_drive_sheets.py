@@ -141,6 +141,19 @@ def test_a_simulated_drive_has_what_its_sheet_has_and_no_more() -> None:
             drive.write((0x1014, 0), 0x85)
 
 
+def test_a_name_of_ours_is_not_that_of_a_sheet() -> None:
+    """A run reads "position" and writes "mode": whatever a maker calls so is something else."""
+    entries = {
+        (0x2000 + i, 0): drives.SheetEntry(index=0x2000 + i, name=name)
+        for i, name in enumerate(("position", "Home"))
+    }
+    sheet_ = drives.Sheet(name="own", entries=entries)
+    with drives.DriveBus(SimulatedBus(_core.SimulatedDrive())) as bus:
+        drive = bus.drive(1, eds=sheet_)
+        assert drive.object("position").index == 0x6064
+        assert drive.object("Home").index == 0x2001
+
+
 def test_a_sheet_of_another_maker_is_told() -> None:
     simulated = _core.SimulatedDrive(node=1, sheet=read("elmo").rows(1))
     other = r"by vendor 0x9A, and tmcm\.eds is for vendor 0x286"

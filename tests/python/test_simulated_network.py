@@ -182,6 +182,26 @@ def test_signs_are_found_on_drives_that_stand_on_a_bus_of_their_own(own: Path) -
 # --- a network file with data sheets ---
 
 
+def test_a_run_refuses_a_drive_of_another_maker_than_its_data_sheet(own: Path) -> None:
+    (own.parent / "epos4.eds").write_text(sheet("epos4"), encoding="utf-8")
+    text = NETWORK.replace('"maxon-epos4"', '"maxon-epos4"\neds = "epos4.eds"')
+    (own.parent / "net.toml").write_text(text, encoding="utf-8")
+    known = Configuration.load(own)
+    wired = wired_with_signs(known)
+    vendor = {(0x1018, 1): 0x286}
+    wired["sheets"][0] = [(*r[:7], vendor.get(r[:2], r[7]), r[8]) for r in wired["sheets"][0]]
+    channel = f"other-{os.getpid()}"
+    here = known.replace(interface="ebac", channel=channel, setup="apply")
+
+    def nodes(hub: LoopbackHub) -> LoopbackJoystick:
+        setup = here.scenario(seconds=10).setup()
+        return LoopbackJoystick(hub, setup, wiring=DriveWiring(**wired))
+
+    says = r"node 9 is by vendor 0x286, and .*epos4\.eds is for vendor 0xFB"
+    with standing(channel, nodes), pytest.raises(drives.DriveError, match=says):
+        ebac.Device.open(here)
+
+
 def test_a_node_may_have_the_data_sheet_of_its_maker(tmp_path: Path) -> None:
     (tmp_path / "epos4.eds").write_text(sheet("epos4"), encoding="utf-8")
     file = tmp_path / "net.toml"

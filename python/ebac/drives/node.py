@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from ebac._util.arguments import unknown
 from ebac.drives.eds import Sheet, read_eds
 from ebac.drives.errors import BusError, DriveError, Refused, WrongAnswer
-from ebac.drives.objects import Object, find
+from ebac.drives.objects import Object, find, known
 from ebac.drives.sdo import Sdo
 
 if TYPE_CHECKING:
@@ -49,14 +49,14 @@ class Node:
         return f"{type(self).__name__}(node={self.node})"
 
     def object(self, what: str | int | tuple[int, int] | Object) -> Object:
-        """Return an object by name, index, or (index, sub-index); by the EDS where one was given.
+        """Return an object by name, index, or (index, sub-index); a name that is not known here by the EDS.
 
         Raises
         ------
         KeyError
             For an unknown name; the message suggests the nearest.
         """
-        if isinstance(what, str):
+        if isinstance(what, str) and what not in known():
             entry = self._sheet(what)
             if entry is not None:
                 return entry

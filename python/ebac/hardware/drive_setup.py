@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from contextlib import contextmanager
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from ebac.drives import Backups, DriveBus, DriveError, Node, apply, verify
@@ -30,11 +31,7 @@ def nodes_of(configuration: Configuration, *, simulate: bool) -> tuple[Node, ...
         dt = max(dt, _SHORTEST)
     longest = _SYNCS * dt if simulate else _MISSED * dt
     return tuple(
-        Node(
-            id=node.id,
-            name=node.name,
-            profile=node.profile.with_deadline(longest).replace(sync__period=dt),
-        )
+        replace(node, profile=node.profile.with_deadline(longest).replace(sync__period=dt))
         for node in configuration.drives.nodes
     )
 
@@ -43,7 +40,7 @@ def nodes_of(configuration: Configuration, *, simulate: bool) -> tuple[Node, ...
 def drives_at(backend: Backend, nodes: Sequence[Node]) -> Iterator[list[Drive]]:
     """Give the drives of a backend; the bus is closed after the block, so that Python receives no process data."""
     with DriveBus.open(interface=backend.interface, channel=backend.channel) as bus:
-        yield [bus.drive(node.id, timeout=backend.patience) for node in nodes]
+        yield [bus.drive(node.id, eds=node.sheet, timeout=backend.patience) for node in nodes]
 
 
 def set_up(
@@ -69,11 +66,12 @@ def set_up(
     NotVerified
         When a drive holds something else than its profile.
     DriveError
-        When a drive does not answer or obey.
+        When a drive does not answer or obey, or is by another maker than its data sheet.
     """
     with drives_at(backend, nodes) as drives:
         for drive, node in zip(drives, nodes, strict=True):
             _rest(drive)
+            drive.check_sheet()
             if write:
                 apply(drive, node, backups=backups)
             else:
