@@ -21,7 +21,7 @@ from ebac._core import Joystick
 from ebac.can.channels import resting_joystick
 from ebac.cli import app
 from ebac.drives import bus as bus_module
-from ebac.drives.simulate import Simulation
+from ebac.drives.simulate import Simulation, refuse_taken
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 Run = Callable[..., Any]
@@ -308,6 +308,27 @@ def test_simulate_refuses_a_channel_whose_node_ids_are_taken() -> None:
         in said(result)
     )
     assert free.exit_code == 0, free.output
+
+
+def test_each_node_id_is_asked_for_and_a_bus_that_fails_is_an_error_of_the_bus(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    asked: list[int] = []
+
+    def full(message: can.Message, *_: Any) -> None:
+        asked.append(message.arbitration_id)
+        raise (OSError if len(asked) == 1 else can.CanOperationError)("nobody acknowledges")
+
+    def down(*_: Any) -> None:
+        raise can.CanOperationError("no such device")
+
+    with can.Bus(interface="virtual", channel="none") as bus:
+        monkeypatch.setattr(bus, "send", full)
+        refuse_taken(bus, "virtual none", [1, 2])
+        assert asked == [0x601, 0x602]
+        monkeypatch.setattr(bus, "recv", down)
+        with pytest.raises(drives.BusError, match=r"virtual none: the bus failed \(no such device"):
+            refuse_taken(bus, "virtual none", [1, 2])
 
 
 @pytest.mark.real_time  # multicast drops frames that nobody takes in time

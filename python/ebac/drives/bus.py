@@ -22,6 +22,8 @@ if TYPE_CHECKING:
 
 #: How long an SDO answer may take [s]. Drives answer within a few ms; a busy laptop does not.
 TIMEOUT = 0.3
+#: SDO request for the device type (0x1000), which every node has.
+READ_DEVICE_TYPE = bytes([0x40, 0x00, 0x10, 0, 0, 0, 0, 0])
 
 
 @plain_constructor
@@ -163,10 +165,9 @@ class DriveBus:
         """
         import can
 
-        read_device_type = bytes([0x40, 0x00, 0x10, 0, 0, 0, 0, 0])
         for node in nodes:
             try:
-                self.network.send_message(0x600 + node, read_device_type)
+                self.network.send_message(0x600 + node, READ_DEVICE_TYPE)
             except (can.CanError, OSError, RuntimeError) as error:
                 self.monitor.check_receiving(f"asking node {node}")
                 raise BusError(

@@ -15,6 +15,8 @@ from types import TracebackType
 from typing import TYPE_CHECKING, Protocol, Self
 
 from ebac._util.arguments import unknown
+from ebac.drives.bus import READ_DEVICE_TYPE
+from ebac.drives.bus_monitor import BusMonitor
 from ebac.drives.errors import BusError, DriveError
 from ebac.drives.objects import Object
 
@@ -43,6 +45,7 @@ _SIMULATED = 0x65626163
 _WAIT = 1e-3
 #: How long to listen for drives that are there already [s]: two of their heartbeats.
 _LISTEN = 0.25
+_FAILED = "{}: the bus failed ({}); is the interface still up?"
 
 
 def inject(drive: Drive, names: Sequence[str]) -> None:
@@ -90,21 +93,26 @@ def refuse_taken(bus: can.BusABC, name: str, nodes: Sequence[int]) -> None:
     Raises
     ------
     BusError
-        When a node with one of these ids answers or sends a heartbeat.
+        When a node with one of these ids answers or sends a heartbeat, and when the bus fails.
     """
     import can
 
-    with suppress(can.CanError):  # nobody acknowledges: nobody is there
-        for node in nodes:
-            request = bytes([0x40, 0x00, 0x10, 0, 0, 0, 0, 0])
-            bus.send(can.Message(arbitration_id=0x600 + node, data=request, is_extended_id=False))
+    for node in nodes:
+        request = can.Message(
+            arbitration_id=0x600 + node, data=READ_DEVICE_TYPE, is_extended_id=False
+        )
+        with suppress(can.CanError, OSError):  # nobody acknowledges: nobody is there
+            bus.send(request)
+    monitor = BusMonitor()
     end = time.monotonic() + _LISTEN
-    taken = set()
     while (left := end - time.monotonic()) > 0:
-        message = bus.recv(left)
-        if message is not None and message.arbitration_id & ~0x7F in (0x580, 0x700):
-            taken.add(message.arbitration_id & 0x7F)
-    if found := sorted(taken & set(nodes)):
+        try:
+            message = bus.recv(left)
+        except (can.CanError, OSError) as error:
+            raise BusError(_FAILED.format(name, error)) from error
+        if message is not None:
+            monitor(message)
+    if found := sorted(set(monitor.nodes(asked=True)) & set(nodes)):
         ids = ", ".join(map(str, found))
         raise BusError(
             f"{name}: there are drives with these node ids already: {ids}; end the other "
@@ -201,9 +209,7 @@ class Simulation:
             When the bus has failed.
         """
         if self._failure is not None:
-            raise BusError(
-                f"{self.bus.channel_info}: the bus failed ({self._failure}); is the interface still up?"
-            ) from self._failure
+            raise BusError(_FAILED.format(self.bus.channel_info, self._failure)) from self._failure
 
     def _work(self) -> None:
         last = time.monotonic()
