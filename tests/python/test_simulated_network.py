@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import socket
 import subprocess
 import sys
 from pathlib import Path
@@ -278,6 +279,20 @@ def test_files_that_are_no_configuration_are_named(own: Path) -> None:
     result = command("simulate", own, "--sensor")
     assert result.exit_code == 2
     assert "mine.toml has no table [sensor]" in said(result)
+
+
+def test_a_taken_port_of_the_sensor_is_named_and_nothing_is_said_to_be_unreadable(
+    own: Path,
+) -> None:
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as other:
+        other.bind(("127.0.0.1", 0))
+        port = other.getsockname()[1]
+        text = own.read_text(encoding="utf-8")
+        own.write_text(text.replace("[sensor]", f"[sensor]\nport = {port}"), encoding="utf-8")
+        bus = ["--interface", "virtual", "--channel", "own", "--seconds", "0.1"]
+        result = command("simulate", own, *bus, "--sensor")
+    assert result.exit_code == 1
+    assert f"Error: UDP at 127.0.0.1:{port}: the port is taken" in said(result)
 
 
 @pytest.mark.real_time  # multicast drops frames that nobody takes in time

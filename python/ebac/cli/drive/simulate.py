@@ -20,6 +20,7 @@ from ebac.cli import options, output, simulated
 from ebac.cli.drive import described
 from ebac.cli.drive.options import Bitrate, SheetFile, known_interface, telling
 from ebac.cli.machine.grants import show_refused
+from ebac.cli.sensor.options import telling as telling_of_sensor
 
 if TYPE_CHECKING:
     from ebac._core import Grant, Setup, SocketCanJoystick
@@ -174,7 +175,7 @@ def simulate(
         loop = RealTime(priority=beside, lock_memory=lock_memory)
         request = Request.beside(realtime, loop)
         cell = None if aim is None else SharedHandTarget(aim)
-    with telling(), simulated.signalled() as over:
+    with telling(), telling_of_sensor(), simulated.signalled() as over:
         shared_force = SharedForce([0.0, 0.0, 0.0])
         more = {
             "wiring": DriveWiring(**found.wiring),
