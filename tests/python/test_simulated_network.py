@@ -234,6 +234,17 @@ def test_a_drive_of_a_known_maker_names_its_profile(tmp_path: Path) -> None:
     assert caught.value.__notes__ == ["Its maker is maxon: see the profile maxon-epos4"]
 
 
+def test_what_is_missing_is_told_by_a_drive_that_does_not_tell_its_maker() -> None:
+    rows = drives.parse_eds(sheet("epos4"), name="epos4.eds").rows(1)
+    secret = [(*r[:2], "wo", *r[3:]) if r[:2] == (0x1018, 1) else r for r in rows]
+    (node,) = drives.load("copley-accelnet", nodes=[1]).nodes
+    with (
+        drives.DriveBus(SimulatedBus(SimulatedDrive(node=1, sheet=secret))) as bus,
+        pytest.raises(drives.Missing, match="lacks 9 objects of the profile"),
+    ):
+        drives.plan(bus.drive(1), node)
+
+
 # --- the commands ---
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from contextlib import suppress
 from dataclasses import dataclass
 from typing import Any
 
@@ -143,9 +144,10 @@ def read_held(drive: Drive, wanted: Iterable[Group]) -> dict[tuple[int, int], by
             held |= _other_entries(drive, group, held)
     if lacking:
         missing = Missing(drive.node, lacking)
-        vendor = drive.look("vendor_id")
-        if vendor in _MAKERS:
-            missing.add_note(f"Its maker is {_MAKERS[vendor]}")
+        with suppress(DriveError):  # what is missing is more than who made it
+            vendor = drive.look("vendor_id")
+            if vendor in _MAKERS:
+                missing.add_note(f"Its maker is {_MAKERS[vendor]}")
         raise missing
     return held
 
