@@ -358,6 +358,13 @@ def test_what_a_process_prints_is_read_while_it_goes_on_and_stays_whole() -> Non
         assert first_lines(child, len(lines), 1.0) == lines
 
 
+def test_half_a_character_at_the_end_of_what_is_printed_is_no_error() -> None:
+    with TemporaryFile() as out:
+        out.write("5 µs, 3 µ".encode()[:-1])
+        out.flush()
+        assert text(out).startswith("5 µs, 3 ")
+
+
 def test_the_first_lines_of_a_process_are_waited_for_but_not_for_ever() -> None:
     """Whatever it complains meanwhile."""
     code = (

@@ -38,7 +38,8 @@ def started(words: Sequence[str], **more: Any) -> Iterator[Child]:
 def text(file: IO[bytes]) -> str:
     """Return what a process has printed so far."""
     # Not by seek and read: the process writes where this file stands.
-    return os.pread(file.fileno(), os.fstat(file.fileno()).st_size, 0).decode()
+    data = os.pread(file.fileno(), os.fstat(file.fileno()).st_size, 0)
+    return data.decode(errors="replace")  # the last character may not yet be whole
 
 
 def first_lines(child: Child, count: int, seconds: float) -> list[str]:
