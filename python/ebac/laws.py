@@ -288,7 +288,7 @@ def _tuned_rows(ending: str) -> list[dict[str, Any]]:
 
 
 def reserve_of(law: CoreLaw | PythonLaw, scenario: Scenario) -> float | None:
-    """Return the energy [J] that a law's account begins with in a scenario; None for a law without an account.
+    """Return the energy [J] that a law's account begins with in a scenario; None for a law without a reserve.
 
     Less where the law acts on the estimate of a state observer.
     """

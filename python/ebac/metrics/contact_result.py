@@ -31,7 +31,7 @@ LINES = (
     ("limit cycle", "limit_cycle", "Hz", "none"),
     ("least energy", "least_energy_J", "J", "-"),
     ("drawn", "drawn_J", "J", ""),
-    ("most energy drawn", "most_drawn_J", "J", "-"),
+    ("drawn in any window", "most_drawn_J", "J", "-"),
     ("force limited", "clamped_share", "share", "-"),
 )
 
@@ -59,11 +59,11 @@ class Contact:
     least_energy_J : float or None
         Lowest physical port energy, integral of (f v + b v^2 + friction); None without a simulation.
     drawn_J : float or None
-        In a world that moves, energy taken out of the port beyond all that the hand had put in and beyond what the
-        surfaces did, which the least energy counts: `ebac.metrics.drawn`. None where nothing moved.
+        In a world that moves, energy drawn beyond all that the hand had put in and beyond what the surfaces did, which
+        the least energy counts: `ebac.metrics.drawn`. None where nothing moved.
     most_drawn_J : float or None
-        Most energy taken out of the port in any window beyond what an ideal wall stores at the window's start, max
-        over t1 < t2 of W(t1) - W(t2) - K depth(t1)^2 / 2; 0 for an ideal wall, None without a simulation.
+        Energy drawn in any window beyond what an ideal wall stores at the window's start, max over t1 < t2 of
+        W(t1) - W(t2) - K depth(t1)^2 / 2; 0 for an ideal wall, None without a simulation.
     clamped_share : float or None
         Share of ticks in which the law limited its force; None for a law without such a limit.
     force_step_N : float

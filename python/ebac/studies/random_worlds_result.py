@@ -41,12 +41,12 @@ class RandomWorldRow:
         The longest such time of all hands: the largest value of the column `law.starved`, which rises in ticks in
         which less than half passes in one direction, and falls ten times faster in others.
     drawn_J : float
-        Energy that the hand that drew most took out of the port beyond all that it had put in and what moving
-        surfaces did: `ebac.metrics.drawn`.
+        Largest energy drawn by a hand, beyond all that it had put in and what moving surfaces did:
+        `ebac.metrics.drawn`.
     reserve_J : float or None
-        Reserve of the law, with which its account starts; None for a law without an account.
+        Reserve of the law, with which its account starts; None for a law without a reserve.
     beyond_reserve : int or None
-        Hands that drew more than that; None for a law without an account.
+        Hands that drew more than that; None for a law without a reserve.
     faults : int
         Hands whose run ended by a fault.
     worst_hand : int

@@ -36,7 +36,7 @@ class Worst:
     declared : float or None
         Largest pull the law counts with [N], None for a law that declares none.
     reserve : float or None
-        Reserve of the law, e(0) of eq. (3) [J]; None for a law without an account.
+        Reserve of the law, e(0) of eq. (3) [J]; None for a law without a reserve.
     hands : tuple of WorstHand
         One per family.
     """

@@ -71,9 +71,7 @@ def zwidth(
     ] = 1e5,
     epsilon: Annotated[
         float,
-        typer.Option(
-            help="Energy a law may take out of the port [J].", rich_help_panel=options.RUN
-        ),
+        typer.Option(help="Energy that a hand may draw [J].", rich_help_panel=options.RUN),
     ] = 1e-3,
     hands: Annotated[
         int,

@@ -76,7 +76,7 @@ class StabilityMap:
         Parameters
         ----------
         epsilon : float
-            Energy [J] that may be taken out of the port.
+            Energy [J] that a hand may draw.
         """
         energy = (self["least_energy_J"] >= -epsilon) & ~self._lost
         return {

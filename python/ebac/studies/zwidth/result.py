@@ -43,7 +43,7 @@ class ZWidth:
     least, top : float
         Ends of the search [N/m]: a limit of `top` means "at least"; below `least` it is 0.
     epsilon : float
-        Energy that may be taken out [J].
+        Energy that a hand may draw [J].
     hands : int
         Random hands of each family for which the energy criterion must hold as well.
     limits : dict of str to array, shape (laws, delays, m)

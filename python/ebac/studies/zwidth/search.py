@@ -71,9 +71,9 @@ def zwidth(
     rungs : int
         Of the ladder, at least 2.
     epsilon : float
-        Energy [J] that may be taken out of the port.
+        Energy [J] that a hand may draw.
     hands : int
-        Random hands of each family of `ebac worst`, [0, 1000], that may not take out more either: they tap, swing,
+        Random hands of each family of `ebac worst`, [0, 1000], that may not draw more either: they tap, swing,
         shake, push at random, press and let go. The same seven times `hands` on every wall; one that pulls harder than
         20 N in its run is not counted, as are most position drives on a stiff wall; a run that a fault ends always is.
     threads, executor, progress
@@ -157,7 +157,7 @@ class _Search:
         return held
 
     def drawn(self, law: AnyLaw, tasks: list[tuple[Point, float]], asked: Flags) -> Numbers:
-        """Return the most energy that a random hand takes out, for each wall that is asked for; else 0 [J]."""
+        """Return the most energy that a random hand draws, for each wall that is asked for; else 0 [J]."""
         walls = [self._scenario(p, k, 0.0) for (p, k), ask in zip(tasks, asked, strict=True) if ask]
         runs = [family.make(wall, values) for wall in walls for family, values in self.explorers]
         most = np.zeros(len(tasks))
