@@ -245,8 +245,8 @@ def _at_work(
             if error.errno == errno.EAFNOSUPPORT:
                 raise BusError(
                     f"CAN interface {channel!r}: this kernel has no CAN sockets; load them: "
-                    "`sudo modprobe can_raw`. For all but a loop take "
-                    "--interface udp_multicast --channel 239.74.163.2"
+                    "`sudo modprobe can_raw`. All commands but those with a configuration (`ebac run`, `ebac drive "
+                    "signs` and `zero`) also take --interface udp_multicast --channel 239.74.163.2"
                 ) from error
             raise BusError(error.strerror or str(error)) from error
         with at_work(served, request, "the simulated drives", grants):
