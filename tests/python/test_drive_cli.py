@@ -310,6 +310,13 @@ def test_simulate_refuses_a_channel_whose_node_ids_are_taken() -> None:
     assert free.exit_code == 0, free.output
 
 
+def test_simulate_refuses_a_first_node_id_whose_last_one_is_none() -> None:
+    words = ["drive", "simulate", "--interface", "virtual", "--channel", "last", "--seconds", "0.1"]
+    result = CliRunner().invoke(app, [*words, "--device", "joystick-3", "--first", "126"])
+    assert result.exit_code == 2
+    assert "--first = 126: must lie in [1, 125] for 3 drives" in said(result)
+
+
 def test_each_node_id_is_asked_for_and_a_bus_that_fails_is_an_error_of_the_bus(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:

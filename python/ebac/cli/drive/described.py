@@ -116,6 +116,8 @@ def by_options(
             f"--sensor-counts = {per_force:g} {per_torque:g}: each must lie in [1, {MOST_COUNTS:g}]"
         )
     nodes = [(first or 1) + axis for axis in range(axes)]
+    if nodes[-1] > 127:
+        raise ValueError(f"--first = {first}: must lie in [1, {128 - axes}] for {axes} drives")
     sheet = None if eds is None else read_eds(eds)
     own = {
         "nodes": nodes,
