@@ -141,6 +141,12 @@ def test_a_simulated_drive_has_what_its_sheet_has_and_no_more() -> None:
             drive.write((0x1014, 0), 0x85)
 
 
+def test_a_sheet_prints_what_it_is_of_and_not_its_hundreds_of_entries() -> None:
+    found = read("epos4")
+    assert "epos4.eds" in repr(found)
+    assert len(repr(found)) < 300
+
+
 def test_a_name_of_ours_is_not_that_of_a_sheet() -> None:
     """A run reads "position" and writes "mode": whatever a maker calls so is something else."""
     entries = {

@@ -121,7 +121,7 @@ class Sheet:
     product: int = 0
     vendor_name: str = ""
     product_name: str = ""
-    entries: Mapping[tuple[int, int], SheetEntry] = field(default_factory=dict)
+    entries: Mapping[tuple[int, int], SheetEntry] = field(default_factory=dict, repr=False)
 
     def find(self, name: str) -> SheetEntry | None:
         """Return the entry of that name, "Motor data.Torque constant"; None where there is none."""
