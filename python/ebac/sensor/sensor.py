@@ -124,12 +124,12 @@ class Sensor:
         return self._reading()
 
     def rest(self, records: int = 200, *, timeout: float = 1.0) -> Rest:
-        """Return mean and spread of what acts, over the next good records and for 0.2 s at least.
+        """Return mean and spread of what acts, until so many records have come and for 0.2 s at least.
 
         Parameters
         ----------
         records : int
-            How many, 1 to 1e6.
+            How many, 1 to 1e6. Good ones count, and of those that come between two looks the newest.
         timeout : float
             Longest wait for each good record [s].
 
