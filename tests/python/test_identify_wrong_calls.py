@@ -34,8 +34,8 @@ WRONG: dict[str, tuple[Callable[[], Any], str]] = {
     "two devices": (lambda: identify.fit_device([LOG]), "fit_device takes a Recording"),  # type: ignore[arg-type]
     "lag": (lambda: identify.fit_device(LOG, current_lag=-1), r"current_lag = -1 s: must lie"),
     "levels": (lambda: identify.frequency_response(LOG, levels=np.zeros(2)), r"must be \(1,\)"),
-    "falls": (lambda: Target.steps(2, 1), r"switches = \(2, 1\) s: must rise"),
-    "never": (lambda: Target.steps(float("nan")), "switches = .* must rise"),
+    "falls": (lambda: Target.steps(2, 1), r"switches = \(2, 1\) s: must be finite and rise"),
+    "never": (lambda: Target.steps(float("nan")), "switches = .* must be finite and rise"),
     "path": (lambda: Target.following(np.full(9, np.nan)), "path: is no number in row 0"),
     "short path": (
         lambda: identify.check_log(LOG, Target.following(np.zeros(10))),
@@ -90,6 +90,7 @@ def write(path: Path, *, mark: str = ",", rows: int = ROWS) -> Path:
     [
         ({"rate": 0}, "rate = 0 Hz: must be greater than 0"),
         ({"rate": float("nan")}, "rate = nan Hz"),
+        ({"rate": float("inf")}, "rate = inf Hz: must be greater than 0, and finite"),
         ({"rate": "1000"}, "rate = '1000': must be a number"),
         ({"count": -1e-5}, "count = -1e-05 m or rad: must lie in"),
         ({"lag": "1"}, "lag = '1': must be a number"),

@@ -116,7 +116,7 @@ def profile(result: ArmResult, name: str, level: float) -> tuple[float, float]:
     if name not in p.names or p.names.index(name) not in p.free:
         raise ValueError(f"profile of {name}: must be a fitted parameter")
     if not 0 < number("level", level) < np.inf:
-        raise ValueError(f"level = {level:g}: must be positive, in deviations squared")
+        raise ValueError(f"level = {level:g}: must be positive and finite, in deviations squared")
     index = p.names.index(name)
     gains = result.problem.gains(result.values, result.force_noise)
     moved = result.problem.moved

@@ -99,7 +99,7 @@ def load(
     if path.is_dir():
         raise ValueError(f"{path}: is a folder; give a file in it")
     if rate is not None and not 0 < number("rate", rate) < np.inf:
-        raise ValueError(f"rate = {rate:g} Hz: must be greater than 0")
+        raise ValueError(f"rate = {rate:g} Hz: must be greater than 0, and finite")
     columns, units = words_by_signal("columns", columns), words_by_signal("units", units)
     how = Conversion(
         lever=lever,

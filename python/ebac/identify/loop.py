@@ -54,7 +54,7 @@ class LoopModel:
         Less deep where the hand would pull with more than the motor can hold.
         """
         if depth is not None and not 0 < number("depth", depth) < np.inf:
-            raise ValueError(f"depth = {depth:g} m: must be positive")
+            raise ValueError(f"depth = {depth:g} m: must be positive and finite")
         most = PULL * min(self.device.peak_force, 35.0)
         deep = min(DEPTH if depth is None else depth, most / max(hand.stiffness, 1e-9))
         return Scenario(

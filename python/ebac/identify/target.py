@@ -48,7 +48,7 @@ class Target:
             raise ValueError(f"Target.segments = {self.segments}: name each level from 0 on")
         for before, at in pairwise((-np.inf, *self.switches)):
             if not before < at < np.inf:
-                raise ValueError(f"Target.switches = {self.switches} s: must rise")
+                raise ValueError(f"Target.switches = {self.switches} s: must be finite and rise")
         if self.path is not None and not np.isfinite(self.path).all():
             row = int(np.argmin(np.isfinite(self.path)))
             raise ValueError(f"Target.path: is no number in row {row} (counted from 0)")
