@@ -1,6 +1,7 @@
 """Wrong calls of `ebac.identify` are refused with the thing, its value, its range; none is taken in silence."""
 
 import json
+import shutil
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
@@ -46,7 +47,8 @@ WRONG: dict[str, tuple[Callable[[], Any], str]] = {
         r"path of its target has the shape \(10,\)",
     ),
     "no target": (lambda: identify.fit_arm(LOG, "held"), "takes a Target, such as Target.held"),  # type: ignore[arg-type]
-    "twice": (lambda: identify.fit_arm([LOG, LOG]), "there twice"),
+    "twice": (lambda: identify.fit_arm([LOG, LOG]), "holds the same rows as .*; give each log once"),
+    "a copy": (lambda: identify.fit_arm([LOG, replace(LOG, name="b")]), "b: holds the same rows as"),
     "starts": (lambda: identify.fit_arm(LOG, starts=1.5), "starts = 1.5: must be a whole number"),  # type: ignore[arg-type]
     "robust": (lambda: identify.fit_arm(LOG, robust="huber"), "robust = 'huber': must be a number"),  # type: ignore[arg-type]
     "fixed": (lambda: identify.fit_arm(LOG, fixed={"M0": "1"}), "M0 = '1': must be a number"),  # type: ignore[dict-item]
@@ -192,7 +194,11 @@ def test_logs_of_one_name_keep_their_own_tests_and_remarks(tmp_path: Path) -> No
     assert list(json.loads(done.stdout)["remarks"]) == ["tap.npz (log 1)", "tap.npz (log 2)"]
     again = CliRunner().invoke(app, ["identify", "arm", str(paths[0]), "--hold-out", str(paths[0])])
     assert again.exit_code == 2
-    assert "tap.npz: is given twice" in " ".join(again.output.split())
+    assert f"{paths[0]}: holds the same rows as {paths[0]}" in " ".join(again.output.split())
+    copy = shutil.copy(paths[0], tmp_path)
+    again = CliRunner().invoke(app, ["identify", "arm", str(paths[0]), str(copy)])
+    assert again.exit_code == 2
+    assert f"{copy}: holds the same rows as {paths[0]}" in " ".join(again.output.split())
 
 
 def test_a_check_of_gains_refuses_what_it_does_not_use() -> None:

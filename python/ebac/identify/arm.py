@@ -18,7 +18,7 @@ from ebac.identify.intervals import Z95
 from ebac.identify.parameters import BEFORE_LEVELS, HAND, Parameters, kind, lay_out
 from ebac.identify.problem import Problem
 from ebac.identify.recording import Recording
-from ebac.identify.recording_list import require_recordings, with_own_names
+from ebac.identify.recording_list import refuse_copies, require_recordings, with_own_names
 from ebac.identify.response import guess_by_response
 from ebac.identify.result import ArmResult
 from ebac.identify.target import Target, require_target
@@ -197,8 +197,7 @@ def _check(
 ) -> None:
     if not recordings:
         raise ValueError("no recordings: give at least one")
-    if len(set(map(id, recordings))) < len(recordings):
-        raise ValueError("recordings: one is there twice; give each once")
+    refuse_copies(recordings, [r.name for r in recordings])
     for r, target in zip(recordings, targets, strict=False):
         require_target(r, target, "fit_arm")
     if len(targets) != len(recordings):

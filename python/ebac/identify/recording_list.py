@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from itertools import combinations
+
+import numpy as np
 
 from ebac._util.arguments import require
 from ebac.identify.recording import Recording
@@ -16,6 +19,14 @@ def with_own_names(recordings: Sequence[Recording]) -> list[Recording]:
         replace(r, name=f"{r.name} (log {i})") if names.count(r.name) > 1 else r
         for i, r in enumerate(recordings, 1)
     ]
+
+
+def refuse_copies(recordings: Sequence[Recording], names: Sequence[object]) -> None:
+    """Raise ValueError where two recordings hold the same rows: they would count as two, and narrow the intervals."""
+    every = [(name, r.channels()) for name, r in zip(names, recordings, strict=True)]
+    for (first, a), (second, b) in combinations(every, 2):
+        if a.keys() == b.keys() and all(np.array_equal(a[key], b[key]) for key in a):
+            raise ValueError(f"{second}: holds the same rows as {first}; give each log once")
 
 
 def require_recordings(

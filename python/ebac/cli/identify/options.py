@@ -228,13 +228,10 @@ def given_logs(
     Raises
     ------
     ValueError
-        For a file that is there twice: its rows count once.
+        For a log that is there twice, as one file or as a copy: its rows count once.
     """
-    from ebac.identify.recording_list import with_own_names
+    from ebac.identify.recording_list import refuse_copies, with_own_names
 
-    places = [path.resolve() for path in paths]
-    for i, (path, place) in enumerate(zip(paths, places, strict=True)):
-        if place in places[:i]:
-            raise ValueError(f"{path}: is given twice; give each log once")
-    recordings = with_own_names([reading.load(path) for path in paths])
-    return [target.of(r) for r in recordings]
+    recordings = [reading.load(path) for path in paths]
+    refuse_copies(recordings, paths)
+    return [target.of(r) for r in with_own_names(recordings)]
