@@ -8,7 +8,7 @@ from collections.abc import Callable
 
 import pytest
 
-from ebac.worlds import Body, Cavity, Mesh, Placed, Plane, Sphere, Union, World
+from ebac.worlds import Body, Cavity, Layered, Mesh, Placed, Plane, Sphere, Union, World
 from ebac.worlds.solids import DEEPEST, Solid
 
 
@@ -30,6 +30,9 @@ def test_a_file_that_is_no_path_is_refused(file: object) -> None:
             lambda: Body(soild=Sphere()),  # type: ignore[call-arg]
             "Body has no parameter 'soild', did you mean 'solid'; it has: solid, material",
         ),
+        (lambda: World(body=3), "World takes its bodies in order, not by name: body"),  # type: ignore[call-arg]
+        (lambda: Union(solid=3), "Union takes its solids in order, not by name: solid"),  # type: ignore[call-arg]
+        (lambda: Layered(layer=3), "Layered takes its layers in order, not by name: layer"),  # type: ignore[call-arg]
         (lambda: Cavity(), "Cavity needs solid; it has: solid"),  # type: ignore[call-arg]
         (
             lambda: Placed(Sphere(), to=(0.0, 0.0, 0.0)),  # type: ignore[call-arg]

@@ -57,6 +57,11 @@ WRONG: dict[str, tuple[Callable[[], Any], str]] = {
     "wall": (lambda: identify.fit_loop(LOG, wall=3), "takes a Wall, not 3"),  # type: ignore[arg-type]
     "timing": (lambda: identify.fit_loop(LOG, timing=3), "takes a Timing, not 3"),  # type: ignore[arg-type]
     "endless": (lambda: identify.excitation.chirp(1.0, seconds=np.inf), "seconds = inf s"),
+    "amplitude": (lambda: identify.excitation.steps(np.nan), "amplitude = nan: must be finite"),
+    "endless amplitude": (lambda: identify.excitation.multisine(np.inf), "amplitude = inf: must be"),
+    "no amplitude": (lambda: identify.excitation.tapping("a", 1), "amplitude = 'a': must be a number"),  # type: ignore[arg-type]
+    "no band": (lambda: identify.excitation.chirp(1, low="a"), "low = 'a': must be a number"),  # type: ignore[arg-type]
+    "no tries": (lambda: identify.excitation.multisine(1, tries=1.5), "tries = 1.5: must be a whole"),  # type: ignore[arg-type]
     "limits": (lambda: identify.Limits(force="a"), "Limits.force = 'a': must be a number"),  # type: ignore[arg-type]
     "energy": (lambda: identify.Limits(energy=-1), "Limits.energy = -1 J: must be at least 0"),
 }  # fmt: skip
@@ -199,6 +204,36 @@ def test_logs_of_one_name_keep_their_own_tests_and_remarks(tmp_path: Path) -> No
     again = CliRunner().invoke(app, ["identify", "arm", str(paths[0]), str(copy)])
     assert again.exit_code == 2
     assert f"{copy}: holds the same rows as {paths[0]}" in " ".join(again.output.split())
+
+
+@pytest.fixture(scope="module")
+def arm() -> identify.ArmResult:
+    path = ebac.Tapping(target=0.02, rest=-0.01, frequency=1.0)
+    scenario = ebac.Scenario(hand=ebac.Hand(path=path), seconds=2.0)
+    return identify.fit_arm(Recording.from_trace(ebac.simulate(scenario, "direct")))
+
+
+@pytest.mark.parametrize(
+    ("call", "message"),
+    [
+        (lambda arm: arm.simulated(3), r"recording = 3: must lie in \[0, 0\]"),
+        (lambda arm: arm.simulated(-1), r"recording = -1: must lie in \[0, 0\]"),
+        (lambda arm: arm.drifts("a"), "recording = 'a': must be a whole number"),
+        (
+            lambda arm: arm.predictions([LOG]),
+            r"takes pairs \(Recording, Target\), .* not Recording",
+        ),
+        (lambda arm: arm.predictions(LOG), r"takes pairs \(Recording, Target\), .* not Recording"),
+        (lambda arm: arm.predictions([(LOG,)]), r"takes pairs \(Recording, Target\)"),
+        (lambda arm: arm.predictions([(3, Target.held())]), "takes a Recording, .* not 3"),
+        (lambda arm: arm.predictions([(LOG, 3)]), "takes a Target, .* not 3"),
+    ],
+)
+def test_a_wrong_call_of_a_result_is_refused_by_name(
+    arm: identify.ArmResult, call: Callable[[Any], Any], message: str
+) -> None:
+    with pytest.raises((TypeError, ValueError), match=message):
+        call(arm)
 
 
 def test_a_check_of_gains_refuses_what_it_does_not_use() -> None:

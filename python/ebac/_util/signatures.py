@@ -53,9 +53,12 @@ def core_sentence(
 def python_sentence(cls: type, values: tuple[Any, ...], given: dict[str, Any]) -> str:
     """Return what is wrong with the call of a constructor written in Python."""
     kinds = inspect.Parameter
+    parameters = list(inspect.signature(cls).parameters.values())
+    if given and parameters[0].kind is kinds.VAR_POSITIONAL:
+        return f"{cls.__name__} takes its {parameters[0].name} in order, not by name: {next(iter(given))}"
     takes = [
         _Parameter(p.name, "Any", p.default is kinds.empty, p.kind is kinds.KEYWORD_ONLY)
-        for p in inspect.signature(cls).parameters.values()
+        for p in parameters
     ]
     return _sentence(cls.__name__, takes, values, given)
 

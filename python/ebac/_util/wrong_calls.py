@@ -77,7 +77,7 @@ def plain_constructor(cls: Class) -> Class:
                 raise
         from ebac._util.signatures import python_sentence
 
-        raise TypeError(python_sentence(cls, values, given))
+        raise TypeError(python_sentence(type(self), values, given))
 
     setattr(cls, "__init__", by_name)  # noqa: B010
     return cls

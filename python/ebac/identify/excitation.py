@@ -6,12 +6,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ebac._core import Recorded
+from ebac._util.arguments import number, whole
 
 Values = NDArray[np.float64]
 
 
-def _times(seconds: float, dt: float) -> Values:
-    if not (dt > 0 and 2 * dt <= seconds < np.inf):
+def _times(amplitude: float, seconds: float, dt: float) -> Values:
+    if not np.isfinite(number("amplitude", amplitude)):
+        raise ValueError(f"amplitude = {amplitude}: must be finite")
+    if not (number("dt", dt) > 0 and 2 * dt <= number("seconds", seconds) < np.inf):
         raise ValueError(
             f"seconds = {seconds} s, dt = {dt} s: need at least two steps of a positive time"
         )
@@ -22,8 +25,8 @@ def steps(
     amplitude: float, *, seconds: float = 10.0, hold: float = 1.0, dt: float = 1e-3
 ) -> tuple[Values, Values]:
     """Return times [s] and a square wave between 0 and `amplitude`, each level held for `hold` [s]."""
-    t = _times(seconds, dt)
-    if not hold >= dt:
+    t = _times(amplitude, seconds, dt)
+    if not number("hold", hold) >= dt:
         raise ValueError(f"hold = {hold} s: must be at least one step, {dt} s")
     level: Values = np.floor(t / hold + 1e-9) % 2
     return t, amplitude * level
@@ -33,7 +36,7 @@ def tapping(
     amplitude: float, frequency: float, *, seconds: float = 10.0, dt: float = 1e-3
 ) -> tuple[Values, Values]:
     """Return times [s] and a square wave of `frequency` [Hz] between `amplitude` and 0."""
-    t = _times(seconds, dt)
+    t = _times(amplitude, seconds, dt)
     _below_nyquist(frequency, dt)
     return t, amplitude * ((frequency * t) % 1 < 0.5).astype(float)
 
@@ -47,7 +50,7 @@ def chirp(
     dt: float = 1e-3,
 ) -> tuple[Values, Values]:
     """Return times [s] and a sine whose frequency rises from `low` to `high` [Hz] at a constant rate in octaves."""
-    t = _times(seconds, dt)
+    t = _times(amplitude, seconds, dt)
     _band(low, high, dt)
     rate = np.log(high / low) / seconds
     return t, amplitude * np.sin(2 * np.pi * low / rate * np.expm1(rate * t))
@@ -68,7 +71,7 @@ def multisine(
     The phases are those of Schroeder (1970), or the best of `tries` small changes of them. The crest factor, peak over
     root mean square, is below 2.
     """
-    t = _times(seconds, dt)
+    t = _times(amplitude, seconds, dt)
     _band(low, high, dt)
     lines = np.arange(max(1, int(np.ceil(low * seconds))), int(np.floor(high * seconds)) + 1)
     if lines.size == 0:
@@ -77,14 +80,14 @@ def multisine(
         )
     k = np.arange(lines.size)
     phase = -np.pi * k * (k - 1) / lines.size
-    draw = np.random.Generator(np.random.PCG64(seed))
+    draw = np.random.Generator(np.random.PCG64(whole("seed", seed)))
     waves = 2 * np.pi * np.outer(lines / seconds, t)
 
     def made(p: Values) -> Values:
         return np.asarray(np.cos(waves + p[:, None]).sum(axis=0))
 
     best, at = made(phase), phase
-    for _ in range(tries):
+    for _ in range(whole("tries", tries)):
         trial = at + 0.3 * draw.standard_normal(lines.size)
         wave = made(trial)
         if crest(wave) < crest(best):
@@ -103,12 +106,12 @@ def path(t: Values, x: Values) -> Recorded:
 
 
 def _below_nyquist(frequency: float, dt: float) -> None:
-    if not 0 < frequency < 0.5 / dt:
+    if not 0 < number("frequency", frequency) < 0.5 / dt:
         raise ValueError(f"frequency = {frequency} Hz: must lie in (0, {0.5 / dt:g}) Hz")
 
 
 def _band(low: float, high: float, dt: float) -> None:
-    if not 0 < low < high < 0.5 / dt:
+    if not 0 < number("low", low) < number("high", high) < 0.5 / dt:
         raise ValueError(
             f"low = {low} Hz, high = {high} Hz: must lie in (0, {0.5 / dt:g}) Hz, low first"
         )

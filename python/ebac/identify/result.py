@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ebac._core import Hand, Recorded, Step
-from ebac._util.arguments import require, unknown_name
+from ebac._util.arguments import require, shown, unknown_name, whole
 from ebac.identify import informativeness, unrecorded_motor, validation
 from ebac.identify.arm_record import arm_record
 from ebac.identify.estimate import Estimate
@@ -19,7 +19,8 @@ from ebac.identify.intervals import Z95
 from ebac.identify.parameters import BEFORE_LEVELS, HAND, OWN, Parameters, kind
 from ebac.identify.problem import Problem
 from ebac.identify.recording import Recording
-from ebac.identify.target import Target, longest
+from ebac.identify.recording_list import require_recordings
+from ebac.identify.target import Target, longest, require_target
 from ebac.identify.validation import (
     Prediction,
     ResidualTests,
@@ -190,6 +191,7 @@ class ArmResult:
 
     def simulated(self, recording: int = 0) -> NDArray[np.float64]:
         """Return the position [m] simulated with this hand from a recording's force and the best initial state."""
+        recording = self._index(recording)
         theta = self.values[self.parameters.places[recording]]
         r = self.recordings[recording]
         record = self.problem.records[recording]
@@ -199,6 +201,16 @@ class ArmResult:
             )
         return best_start(record, theta, r.x)
 
+    def _index(self, recording: int) -> int:
+        """Return the number of a recording that was fitted, counted from 0."""
+        last = len(self.recordings) - 1
+        if not 0 <= whole("recording", recording) <= last:
+            raise ValueError(
+                f"recording = {recording}: must lie in [0, {last}], the number of a recording that was fitted, counted "
+                "from 0; predictions([(recording, target)]) takes others"
+            )
+        return recording
+
     @property
     def drift(self) -> float:
         """Estimated drift of the force [N/sqrt(s)]; 0 for none."""
@@ -206,6 +218,7 @@ class ArmResult:
 
     def drifts(self, recording: int = 0) -> NDArray[np.float64]:
         """Return the estimated error of a recording's force due to drift at each row [N]; positive: too high."""
+        recording = self._index(recording)
         place = self.problem.parameters.places[recording]
         gains = self.problem.gains(self.values, self.force_noise)[recording]
         out = self.problem.records[recording].drifts(self.values[place], gains)
@@ -219,8 +232,14 @@ class ArmResult:
         For a recording that was not fitted, M0, B0, K0 and delay are kept; the target and the initial state are fitted.
         """
         rows = [judge(r, self.simulated(i), held=False) for i, r in enumerate(self.recordings)]
+        wanted = "pairs (Recording, Target), such as [(recording, Target.held())]"
+        require(held_out, Sequence, "ArmResult.predictions", wanted)
+        pair: Any
         for pair in held_out:
-            require(pair, tuple, "predictions", "pairs (Recording, Target)")
+            if not isinstance(pair, tuple) or len(pair) != 2:
+                raise TypeError(f"ArmResult.predictions takes {wanted}, not {shown(pair)}")
+            require_recordings(pair[0], "ArmResult.predictions")
+            require_target(*pair, "ArmResult.predictions")
             r, target = longest(*pair)
             record = arm_record(r, target)
             hand = self.values[self.parameters.places[0]][:4]

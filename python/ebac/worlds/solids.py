@@ -149,6 +149,7 @@ class Tube(Part):
         return cls(ends + slope[i] * s * (1 - s) ** 2 - slope[i + 1] * (1 - s) * s**2, radius)
 
 
+@plain_constructor
 class _Several(Part):
     solids: tuple[Solid, ...]
 

@@ -21,6 +21,7 @@ MOST_LAYERS = 6
 MOST_BODIES = 64
 
 
+@plain_constructor
 @dataclass(frozen=True, init=False)
 class Layered(Part):
     """Tissue in layers, from the surface inwards; each gives way at its `puncture` force.
@@ -114,6 +115,7 @@ class Touch(NamedTuple):
     stored: float
 
 
+@plain_constructor
 class World(_core._World):
     """Bodies in space, which the handle meets as a point.
 
