@@ -52,6 +52,17 @@ def test_each_wrong_sign_is_found_and_left_to_the_person(tmp_path: Path) -> None
 
 @pytest.mark.real_time
 @pytest.mark.slow
+def test_signs_are_found_at_25_hertz(tmp_path: Path) -> None:
+    """Where a push is a dozen rows long."""
+    path = wired(tmp_path, [-1, 1], [1, -1])
+    path.write_text(path.read_text(encoding="utf-8").replace("dt = 1e-3", "dt = 0.04"), "utf-8")
+    _, rows = signs(path)
+    assert [row["motor"] for row in rows] == [-1, 1], rows
+    assert [row["encoder"] for row in rows] == [1, -1], rows
+
+
+@pytest.mark.real_time
+@pytest.mark.slow
 def test_each_wrong_sign_is_found_and_repaired(tmp_path: Path) -> None:
     """A motor, an encoder, and both of one axis."""
     motor, encoder = [-1, 1, -1], [1, -1, -1]
@@ -112,6 +123,14 @@ def test_the_table_names_the_node_of_each_axis(capsys: pytest.CaptureFixture[str
     heads, *rows = [line.split() for line in capsys.readouterr().out.splitlines() if line.strip()]
     assert heads[:2] == ["axis", "node"]
     assert [row[:2] for row in rows if row[0] in "01"] == [["0", "5"], ["1", "4"]]
+
+
+def test_a_bus_that_does_not_open_is_reported_once(tmp_path: Path) -> None:
+    path = wired(tmp_path, [1, 1], [1, 1])
+    path.write_text(path.read_text(encoding="utf-8").replace('"can0"', '"nocan7"'), "utf-8")
+    done = CliRunner().invoke(app, ["drive", "signs", str(path), "--yes"])
+    assert done.exit_code == 1
+    assert done.output.count("Error:") == 1, done.output
 
 
 def test_before_there_is_power_the_command_names_axes_and_nodes() -> None:

@@ -163,10 +163,10 @@ def _wait(run: Run, look: Callable[[Run], None], there: Callable[[], bool], seco
 
 def _push(run: Run, look: Callable[[Run], None], axis: int, force: float) -> tuple[float, float]:
     """Push one axis; return its way [m] and the change of the measured force [N], both for a positive force."""
-    before = _mean(run, axis, 50)
+    before = _mean(run, axis, 0.05)
     run.change(_wall(axis, force))
-    _wait(run, look, lambda: bool(abs(_mean(run, axis, 1)[0] - before[0]) > FAR), PUSH)
-    after = _mean(run, axis, 20)
+    _wait(run, look, lambda: bool(abs(_mean(run, axis, 0.0)[0] - before[0]) > FAR), PUSH)
+    after = _mean(run, axis, 0.02)
     run.change(Free())
     _wait(run, look, lambda: False, PAUSE)
     way, reaction = (after - before) * math.copysign(1.0, force)
@@ -185,8 +185,10 @@ def _wall(axis: int, force: float) -> Wall | World:
     return Wall(stiffness=stiffness, position=_BEHIND, angle=angle)
 
 
-def _mean(run: Run, axis: int, rows: int) -> NDArray[np.float64]:
-    last = run.tail(rows)
+def _mean(run: Run, axis: int, seconds: float) -> NDArray[np.float64]:
+    """Return the mean position and force of the last rows: as long at any rate, at least one row."""
+    last = run.tail(100)
+    last = last[last["t"][-1] - seconds :]
     columns = [np.reshape(last[name], (len(last), -1))[:, axis] for name in ("x", "f_meas")]
     return np.array([column.mean() for column in columns])
 

@@ -64,6 +64,8 @@ def signs(
             rows = find_signs(known, simulate=simulated, current=current, look=key)
     except LoopFault as error:
         output.fail(f"{str(error).partition('; see')[0]}; nothing was written", code=output.FAILED)
+    except typer.Exit:  # a RuntimeError of its own, of an end that was reported
+        raise
     except RuntimeError as error:
         output.fail(str(error), code=output.FAILED)
     motor = [row.motor for row in rows if row.motor is not None]
