@@ -1,6 +1,7 @@
 """`ebac drive` on the simulated drives: tables, JSON, refusals, exit codes."""
 
 import errno
+import gc
 import json
 import os
 import re
@@ -336,6 +337,42 @@ def test_each_node_id_is_asked_for_and_a_bus_that_fails_is_an_error_of_the_bus(
         monkeypatch.setattr(bus, "recv", down)
         with pytest.raises(drives.BusError, match=r"virtual none: the bus failed \(no such device"):
             refuse_taken(bus, "virtual none", [1, 2])
+
+
+def test_simulate_looks_for_taken_node_ids_on_socketcan_too(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """By python-can, before the drives of C++ are there; here it meets another bus."""
+
+    def virtual(**_given: Any) -> can.BusABC:
+        return can.Bus(interface="virtual", channel="can9")
+
+    monkeypatch.setattr(bus_module, "open_bus", virtual)
+    with virtual() as bus, Simulation(bus, Joystick(resting_joystick().setup())):
+        result = CliRunner().invoke(app, ["drive", "simulate", "--channel", "can9"])
+    assert result.exit_code == 1
+    assert "socketcan can9: there are drives with these node ids already: 1, 2;" in said(result)
+
+
+@pytest.mark.parametrize("command", ["scan", "simulate"])
+def test_a_bus_that_does_not_open_leaves_one_message(
+    command: str, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
+) -> None:
+    """python-can warns of a bus half made, when it is freed."""
+
+    class HalfMade(can.BusABC):
+        send: Any = None
+
+        def __init__(self, **_given: Any) -> None:
+            super().__init__("x")
+            raise OSError(errno.ENODEV, "No such device")
+
+    monkeypatch.setattr(can, "Bus", HalfMade)
+    result = CliRunner().invoke(app, ["drive", command, "--interface", "slcan", "--channel", "x"])
+    assert "interface slcan, channel x: No such device; there is no such interface" in said(result)
+    del result
+    gc.collect()
+    assert "shut down" not in caplog.text
 
 
 @pytest.mark.real_time  # multicast drops frames that nobody takes in time

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import errno
 import time
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager, suppress
+from collections.abc import Sequence
+from contextlib import suppress
 from pathlib import Path
 from types import TracebackType
 from typing import TYPE_CHECKING, Any, Self
@@ -188,37 +188,34 @@ def open_bus(
 
     chosen: dict[str, Any] = {"interface": interface, "channel": channel, "bitrate": bitrate}
     given = {name: value for name, value in chosen.items() if value is not None}
-    with _telling(interface, channel):
+    try:
         return can.Bus(**given)
+    except Exception as error:
+        # Without its frames: they keep a bus half made, which python-can reports when it is freed at last.
+        raise _in_words(error, interface, channel) from error.with_traceback(None)
 
 
-@contextmanager
-def _telling(interface: str | None, channel: str | None) -> Iterator[None]:
-    """Turn what python-can raises while it opens a bus into one error with a remedy."""
+def _in_words(error: Exception, interface: str | None, channel: str | None) -> BusError:
+    """Return what python-can raised while it opened a bus as one error with a remedy."""
     import can
 
     asked = f"interface {interface or 'from python-can'}, channel {channel or 'from python-can'}"
-    try:
-        yield
-    except can.CanInterfaceNotImplementedError as error:
+    if isinstance(error, can.CanInterfaceNotImplementedError):
         if interface is None:
-            raise BusError(
+            return BusError(
                 "no CAN interface is chosen: give --interface and --channel, or set CAN_INTERFACE and "
                 "CAN_CHANNEL, or write them to ~/.canrc (python-can's configuration)"
-            ) from error
+            )
         known = ", ".join(sorted(can.VALID_INTERFACES))
-        raise BusError(
-            f"interface {interface!r} is not usable: {error}. There are: {known}"
-        ) from error
-    except OSError as error:
-        raise BusError(f"{asked}: {error.strerror or error}; {_remedy(error.errno)}") from error
-    except (can.CanError, ValueError, TypeError, NotImplementedError) as error:
-        raise BusError(f"{asked}: cannot be opened ({error})") from error.with_traceback(None)
-    except Exception as error:  # what a maker's library raises that is missing
-        raise BusError(
-            f"{asked}: its driver is missing or does not load ({type(error).__name__}: {error}); install the maker's "
-            "driver and its library for Python, or choose another interface"
-        ) from error.with_traceback(None)
+        return BusError(f"interface {interface!r} is not usable: {error}. There are: {known}")
+    if isinstance(error, OSError):
+        return BusError(f"{asked}: {error.strerror or error}; {_remedy(error.errno)}")
+    if isinstance(error, (can.CanError, ValueError, TypeError, NotImplementedError)):
+        return BusError(f"{asked}: cannot be opened ({error})")
+    return BusError(  # what a maker's library raises that is missing
+        f"{asked}: its driver is missing or does not load ({type(error).__name__}: {error}); install the maker's "
+        "driver and its library for Python, or choose another interface"
+    )
 
 
 def _remedy(number: int | None) -> str:

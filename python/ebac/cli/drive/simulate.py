@@ -240,6 +240,13 @@ def _at_work(
         )
     if interface == "socketcan":
         try:
+            bus = open_bus(interface=interface, channel=channel)
+        except BusError:
+            pass  # reported below, with the remedies for drives
+        else:
+            with bus:
+                refuse_taken(bus, f"{interface} {channel}", ids)
+        try:
             served = SocketCanJoystick(channel, setup, **more)
         except OSError as error:
             if error.errno == errno.EAFNOSUPPORT:
