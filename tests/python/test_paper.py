@@ -105,7 +105,7 @@ def test_eq3_holds_for_the_completed_law_within_its_reserve_only() -> None:
     assert holds == {"eba": False, "eba-account": True, "ebac": True, "ebac-printed": False}
     found = values("eq3")
     assert -found["e(0) that the completed EBAC declares"] <= found[
-        "ebac: least port energy over 3 x 60 hands"
+        "ebac: least energy over 3 x 60 hands"
     ] <= 0  # fmt: skip
 
 

@@ -78,7 +78,7 @@ def eq3() -> Finding:
         title="Eq. (3): passivity",
         claim="The integral of F V, plus the initial energy e(0), is never negative, for all F and V.",
         rows=[
-            row(f"{law}: least port energy over {len(CONDITIONS)} x 60 hands", least[law], "J")
+            row(f"{law}: least energy over {len(CONDITIONS)} x 60 hands", least[law], "J")
             for law in LAWS
         ]
         + [row("e(0) that the completed EBAC declares", reserve, "J")],
@@ -196,7 +196,7 @@ def _limits(outside: int, locked: int, energy: float | None) -> list[Row]:
     return [
         row("moving ticks with beta outside its limits, wall of 100 N/m", float(outside), "1"),
         row("ticks of contact with beta held at 0, wall of 100 N/m", float(locked), "1"),
-        row("least port energy with constant limits of +-b/T", energy, "J"),
+        row("least energy with constant limits of +-b/T", energy, "J"),
     ]
 
 

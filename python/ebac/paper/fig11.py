@@ -124,7 +124,7 @@ def _rows(law: str, measured: Contact, force_settled_s: float | None, target: fl
         row(f"{law}: force swing", measured.force_swing_N, "N"),
         row(f"{law}: position settled", measured.settled_s, "s"),
         row(f"{law}: force settled", force_settled_s, "s"),
-        row(f"{law}: least port energy", measured.least_energy_J, "J"),
+        row(f"{law}: least energy", measured.least_energy_J, "J"),
     ]
 
 

@@ -94,7 +94,7 @@ def _rows(what: str, measured: Contact, trace: Trace) -> list[Row]:
         row(f"{what}: beyond the ideal", measured.deviation_m, "m"),
         row(f"{what}: settled", measured.settled_s, "s"),
         row(f"{what}: F_d zero in contact for", _silent(trace)[0], "s"),
-        row(f"{what}: least port energy", measured.least_energy_J, "J"),
+        row(f"{what}: least energy", measured.least_energy_J, "J"),
     ]
 
 
