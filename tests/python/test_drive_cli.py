@@ -91,6 +91,19 @@ def test_scan_and_show(drive: Run) -> None:
     assert "tpdo1_cob_id" in drive("show", "-n", "1", "--all").stdout
 
 
+def test_show_has_the_units_of_the_maker(drive: Run, monkeypatch: pytest.MonkeyPatch) -> None:
+    """An EPOS4 has its rated torque in 1e-6 N m, CiA 402 in mN m."""
+    real = drives.Drive.look
+
+    def look(self: drives.Drive, obj: Any) -> Any:
+        return 0xFB if getattr(obj, "name", obj) == "vendor_id" else real(self, obj)
+
+    monkeypatch.setattr(drives.Drive, "look", look)
+    objects = {row["name"]: row for row in drive("show", "-n", "2", "--json")["rows"]}
+    assert objects["rated_torque"]["unit"] == "1e-6 N m"
+    assert objects["rated_current"]["unit"] == "mA"
+
+
 @pytest.mark.parametrize("width", [60, 80, 100, 160])
 def test_show_crops_nothing_and_decodes_bits(
     drive: Run, monkeypatch: pytest.MonkeyPatch, width: int

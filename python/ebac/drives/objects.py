@@ -161,6 +161,9 @@ _TABLE: tuple[tuple[str, int, int, str, str, str], ...] = (
     ("supported_modes", 0x6502, 0, "u32", "bits", "bit n - 1: mode n"),
 )  # fmt: skip
 
+#: Units of a maker that are not those of the table: by vendor id (0x1018:1) and name.
+OWN_UNITS: dict[object, dict[str, str]] = {0xFB: {"rated_torque": "1e-6 N m"}}  # maxon EPOS4
+
 
 def _pdo_objects() -> Iterator[Object]:
     for kind, comm, mapping in (("rpdo", 0x1400, 0x1600), ("tpdo", 0x1800, 0x1A00)):

@@ -112,7 +112,9 @@ def holdings(drive: Drive, everything: bool) -> Iterator[dict[str, Any]]:
         When the drive does not answer any more; all before has been yielded.
     """
     from ebac.drives import Refused, WrongAnswer
+    from ebac.drives.objects import OWN_UNITS
 
+    own: dict[str, str] = {}
     for obj in _objects(drive, everything):
         try:
             value = drive.look(obj)
@@ -124,12 +126,14 @@ def holdings(drive: Drive, everything: bool) -> Iterator[dict[str, Any]]:
             if value is None:
                 continue
             text = _text(obj, value)
+        if obj.name == "vendor_id":  # comes before what has a unit
+            own = OWN_UNITS.get(value, {})
         yield {
             "node": drive.node,
             "object": obj.where,
             "name": obj.name,
             "value": value,
-            "unit": "" if obj.hexadecimal or value is None else obj.unit,
+            "unit": "" if obj.hexadecimal or value is None else own.get(obj.name, obj.unit),
             "meaning": obj.meaning,
             "text": text,
         }
