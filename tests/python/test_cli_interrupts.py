@@ -127,6 +127,45 @@ def test_an_interruption_after_a_run_names_its_log(
     assert f"`ebac log plot ebac-run/{log.name}`" in " ".join(result.output.split())
 
 
+#: Sends itself Ctrl-C at each event of Python's calls, from the start of a campaign to its third look at the progress.
+EVERY_MOMENT = """
+import signal, sys
+from ebac.faults import run_campaign
+
+def interrupted_at(event):
+    left, looks = [event], []
+    def count(*_):
+        left[0] -= 1
+        if left[0] == 0:
+            signal.raise_signal(signal.SIGINT)
+    def look(done, cases):
+        looks.append(done)
+        if len(looks) == 3:
+            sys.setprofile(None)
+            raise KeyboardInterrupt
+    sys.setprofile(count)
+    try:
+        run_campaign(100_000, threads=1, step=look)
+    except KeyboardInterrupt:
+        sys.setprofile(None)
+    return left[0] <= 0
+
+event = 1
+while interrupted_at(event):
+    event += 1
+print(event)
+"""
+
+
+def test_ctrl_c_is_never_lost_while_a_campaign_runs(tmp_path: Path) -> None:
+    """A lock of `threading` that it leaves taken kept the work from its end, and the command with it."""
+    done = subprocess.run(
+        [sys.executable, "-c", EVERY_MOMENT], cwd=tmp_path, capture_output=True, text=True, timeout=60
+    )  # fmt: skip
+    assert done.returncode == 0, done.stderr
+    assert int(done.stdout) > 20
+
+
 @pytest.mark.slow
 def test_what_was_interrupted_is_resumed(tmp_path: Path) -> None:
     words = "map --side 30 --seconds 5"  # long enough to be interrupted after its first points

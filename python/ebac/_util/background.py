@@ -2,23 +2,46 @@
 
 from __future__ import annotations
 
-import threading
+import _thread
 from collections.abc import Callable
-from concurrent.futures import Future
-from typing import TypeVar
+from typing import Generic, TypeVar
 
 T = TypeVar("T")
 
 
-def aside(work: Callable[[], T], *, name: str) -> Future[T]:
-    """Start `work` in a thread called `name`; what it returns or raises is the future's."""
-    future: Future[T] = Future()
+class Background(Generic[T]):
+    """Work in a thread of its own, which starts at once; one thread may wait for it.
 
-    def run() -> None:
-        try:
-            future.set_result(work())
-        except BaseException as error:  # raised in the thread that waits
-            future.set_exception(error)
+    Neither a `Thread` nor a `Future`: these take locks in Python code. Ctrl-C in a wrong moment leaves such a lock
+    taken, and then the work waits for ever to hand over its result.
+    """
 
-    threading.Thread(target=run, name=name, daemon=True).start()
-    return future
+    def __init__(self, work: Callable[[], T]) -> None:
+        self._result: list[T] = []
+        self._raised: BaseException | None = None
+        self._done = False
+        self._over = _thread.allocate_lock()
+        self._over.acquire()
+
+        def run() -> None:
+            try:
+                self._result.append(work())
+            except BaseException as error:  # raised in the thread that waits
+                self._raised = error
+            self._done = True
+            self._over.release()
+
+        _thread.start_new_thread(run, ())
+
+    def wait(self, seconds: float = -1.0) -> bool:
+        """Return whether it is done, after waiting for that: so long at most [s], or as long as it takes."""
+        if not self._done:
+            self._over.acquire(timeout=seconds)
+        return self._done
+
+    def result(self) -> T:
+        """Wait for the work; return what it returned, or raise what it raised."""
+        self.wait()
+        if self._raised is not None:
+            raise self._raised
+        return self._result[0]

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from concurrent.futures import wait
 from dataclasses import dataclass
 from typing import Any
 
@@ -11,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ebac import _core
-from ebac._util.background import aside
+from ebac._util.background import Background
 from ebac.trace import Trace
 
 
@@ -172,16 +171,16 @@ def _run(
     cases: int, seed: int, threads: int, step: Callable[[int, int], None] | None
 ) -> tuple[dict[str, NDArray[Any]], list[str]]:
     progress = _core.SweepProgress()
-    campaign = aside(
-        lambda: _core._fault_campaign(cases, seed, threads, progress), name="ebac faults"
-    )
+    campaign = None
     try:
-        while not wait([campaign], timeout=0.05).done:
+        campaign = Background(lambda: _core._fault_campaign(cases, seed, threads, progress))
+        while not campaign.wait(0.05):
             if step is not None:
                 step(progress.done, cases)
     except BaseException:
         progress.cancel()
-        wait([campaign])
+        if campaign is not None:
+            campaign.wait()
         raise
     if step is not None:
         step(progress.done, cases)

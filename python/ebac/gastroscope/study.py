@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from concurrent.futures import wait
 from dataclasses import asdict, dataclass, replace
 from statistics import NormalDist
 from typing import Any
@@ -14,7 +13,7 @@ from numpy.typing import NDArray
 from ebac import _core
 from ebac._core import Device, Hand, Linear, Master
 from ebac._util.arguments import number, several, whole
-from ebac._util.background import aside
+from ebac._util.background import Background
 from ebac.gastroscope.procedure import Procedure, core_law
 from ebac.laws import AnyLaw, law_name
 
@@ -213,13 +212,9 @@ def _run(
 ) -> dict[str, NDArray[np.float64]]:
     state = _core.SweepProgress()
     procedures, setups, laws = zip(*todo, strict=True)
-    work = aside(
-        lambda: _core._run_procedures(procedures, setups, laws, threads, state),
-        name="gastroscopies",
-    )
     try:
-        while not work.done():
-            wait([work], timeout=0.2)
+        work = Background(lambda: _core._run_procedures(procedures, setups, laws, threads, state))
+        while not work.wait(0.2):
             if progress is not None:
                 progress(state.done, len(todo))
     except BaseException:

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 def run(repeats: int, *, as_json: bool) -> None:
     """Measure and print the results."""
-    from ebac._util.background import aside
+    from ebac._util.background import Background
     from ebac.peers import bus, exchange, sdo
 
     with output.progress(exchange.STEPS + bus.STEPS + sdo.STEPS, quiet=as_json) as step:
@@ -26,7 +26,7 @@ def run(repeats: int, *, as_json: bool) -> None:
             return rows + sdo.compare_reads(step=step)
 
         # A call into the core takes seconds; this thread receives Ctrl-C meanwhile.
-        rows = aside(compare, name="ebac bench").result()
+        rows = Background(compare).result()
     if as_json:
         typer.echo(output.document("bench", [row.row() for row in rows]))
     else:

@@ -16,15 +16,14 @@ if TYPE_CHECKING:
 
 def run(repeats: int, chai3d: Path | None, *, as_json: bool) -> None:
     """Measure and print the results."""
-    from ebac._util.background import aside
+    from ebac._util.background import Background
     from ebac.peers import worlds
 
     try:
         with output.progress(worlds.STEPS, quiet=as_json) as step:
             # The grid of a million triangles takes a minute; this thread receives Ctrl-C meanwhile.
-            rows, missing = aside(
-                lambda: worlds.compare_worlds(chai3d=chai3d, repeats=repeats, step=step),
-                name="ebac bench",
+            rows, missing = Background(
+                lambda: worlds.compare_worlds(chai3d=chai3d, repeats=repeats, step=step)
             ).result()
     except (ImportError, RuntimeError) as error:
         output.fail(str(error))

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from concurrent.futures import Executor, Future, as_completed, wait
+from concurrent.futures import Executor, Future, as_completed
 from typing import TypeAlias
 
 from ebac._core import RunLimits
-from ebac._util.background import aside
+from ebac._util.background import Background
 from ebac._util.cores import usable_cores
 from ebac.studies.sweeps.measure import Columns, Run, Watch, empty, measure
 from ebac.studies.sweeps.store import Store
@@ -64,15 +64,15 @@ class Job:
         threads = self.threads or usable_cores()
         for i, part in left.items():
             watch = Watch()
-            future = _start(self._bundle(part), threads, self.limits, watch)
+            work = _start(self._bundle(part), threads, self.limits, watch)
             try:
-                while not wait([future], LOOK).done:
+                while not work.wait(LOOK):
                     self.progress(self.done + watch.done, len(self.runs))
             except KeyboardInterrupt:
                 watch.core.cancel()
-                self.keep(part, future.result())
+                self.keep(part, work.result())
                 raise
-            yield i, future.result()
+            yield i, work.result()
 
     def _elsewhere(
         self, executor: Executor, left: dict[int, range]
@@ -101,6 +101,6 @@ def _measure(
     return measure(runs, threads=threads, limits=limits, watch=watch or Watch())
 
 
-def _start(runs: list[Run], threads: int, limits: RunLimits, watch: Watch) -> Future[Columns]:
+def _start(runs: list[Run], threads: int, limits: RunLimits, watch: Watch) -> Background[Columns]:
     """Measure a bundle in another thread of this process."""
-    return aside(lambda: _measure(runs, threads, limits, watch), name="ebac sweep")
+    return Background(lambda: _measure(runs, threads, limits, watch))
