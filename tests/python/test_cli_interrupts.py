@@ -166,6 +166,26 @@ def test_ctrl_c_is_never_lost_while_a_campaign_runs(tmp_path: Path) -> None:
     assert int(done.stdout) > 20
 
 
+#: Sends itself Ctrl-C where Python drops it.
+IN_A_CALLBACK = """
+import signal, time, weakref
+from ebac.cli.output import interruptible
+
+with interruptible():
+    thing = set()
+    reference = weakref.ref(thing, lambda _: signal.raise_signal(signal.SIGINT))
+    del thing
+    time.sleep(30)
+"""
+
+
+def test_ctrl_c_that_python_drops_is_sent_again(tmp_path: Path) -> None:
+    done = subprocess.run(
+        [sys.executable, "-c", IN_A_CALLBACK], cwd=tmp_path, capture_output=True, text=True, timeout=20
+    )  # fmt: skip
+    assert "Stopped by Ctrl-C" in done.stderr
+
+
 @pytest.mark.slow
 def test_what_was_interrupted_is_resumed(tmp_path: Path) -> None:
     words = "map --side 30 --seconds 5"  # long enough to be interrupted after its first points

@@ -2,8 +2,13 @@
 
 from __future__ import annotations
 
+import _thread
 import errno
 import json
+import os
+import signal
+import sys
+import time
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager
 from math import isfinite
@@ -107,12 +112,36 @@ def interruptible() -> Iterator[None]:
     """Turn Ctrl-C into the end of the command: a sentence and exit code 130, no traceback."""
     _kept.clear()
     try:
-        yield
+        with _none_lost():
+            yield
     except KeyboardInterrupt as stopped:
         happened = f"Stopped by Ctrl-C: {stopped}" if str(stopped) else "Stopped by Ctrl-C"
         kept = _kept[0]() if _kept else _NOTHING
         console(stderr=True).print(f"{happened}; {kept}.", markup=False, soft_wrap=True)
         raise typer.Exit(INTERRUPTED) from None
+
+
+@contextmanager
+def _none_lost() -> Iterator[None]:
+    """Send Ctrl-C again that Python drops: it may come in a callback of a reference, of which each import has one."""
+    before = sys.unraisablehook
+
+    def hook(lost: sys.UnraisableHookArgs) -> None:
+        if issubclass(lost.exc_type, KeyboardInterrupt):
+            _thread.start_new_thread(_send_again, ())
+        else:
+            before(lost)
+
+    sys.unraisablehook = hook
+    try:
+        yield
+    finally:
+        sys.unraisablehook = before
+
+
+def _send_again() -> None:
+    time.sleep(0.01)  # the callback has ended
+    os.kill(os.getpid(), signal.SIGINT)
 
 
 @contextmanager
