@@ -186,8 +186,10 @@ void bind_observer(py::module_& m) {
       m, "Observer",
       "State of the device from encoder, force sensor and currents, estimated in every tick of a "
       "loop.");
-  cls.def_static("of", &ObserverParams::of, py::arg("device"), py::arg("timing"),
-                 "Return the observer of a device whose commands act with the delay of `timing`.");
+  cls.def_static(
+      "of", &ObserverParams::of, py::arg("device"), py::arg("timing"),
+      "Return the observer of a device whose commands act with the delay of `timing`. It "
+      "counts with 0.8 of the device's Coulomb friction.");
 }
 
 }  // namespace

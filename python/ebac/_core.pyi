@@ -7454,6 +7454,8 @@ class Observer:
         device mass at the handle, M_h [kg], 0.001 to 100.
     damping : float
         viscous damping of the device, B_h [N s/m], 0 to 500.
+    friction : float
+        Coulomb friction of the device, no more than there is [N], 0 to 100.
     count : float
         one encoder count at the handle [m], 1e-09 to 0.01.
     current_lag : float
@@ -7478,7 +7480,7 @@ class Observer:
     @staticmethod
     def of(device: Device, timing: Timing) -> Observer:
         """
-        Return the observer of a device whose commands act with the delay of `timing`.
+        Return the observer of a device whose commands act with the delay of `timing`. It counts with 0.8 of the device's Coulomb friction.
         """
     def __eq__(self, other: typing.Any) -> bool: ...
     def __hash__(self) -> int: ...
@@ -7487,6 +7489,7 @@ class Observer:
         *,
         mass: float = 0.25,
         damping: float = 2.0,
+        friction: float = 0.0,
         count: float = 3.07e-05,
         current_lag: float = 0.0003,
         force_lag: float = 0.0008,
@@ -7544,6 +7547,11 @@ class Observer:
     def force_noise(self) -> float:
         """
         standard deviation of its noise; sets the bandwidth [N], 1e-04 to 10
+        """
+    @property
+    def friction(self) -> float:
+        """
+        Coulomb friction of the device, no more than there is [N], 0 to 100
         """
     @property
     def mass(self) -> float:

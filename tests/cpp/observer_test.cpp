@@ -181,6 +181,39 @@ TEST(Observer, FindsAConstantForceItIsNotTold) {
   EXPECT_NEAR(trace->sample(900).axis[0].port.est.disturbance, weight, 0.1 * weight);
 }
 
+/// A device that friction holds against a push rests in the estimate, and one that slides against it slides as fast:
+/// nothing is left for the disturbance to learn.
+TEST(Observer, KnowsTheFrictionOfTheDevice) {
+  ebac::DeviceModel device;
+  device.mechanics.coulomb = 0.5;
+  const auto params = ObserverParams::of(device, Timing{});
+  EXPECT_DOUBLE_EQ(params.friction, 0.4);
+  SignalChain chain(device, Wall{.position = 1}, {.on = true, .acts = true, .params = params});
+  Axis axis;
+  std::int64_t counts = 0;
+  const auto tick = [&](int way, double force, double dt = 1e-3) {
+    const Reading reading{.counts = {counts += way}, .force = {force}};
+    return observe(chain, axis, reading, dt);
+  };
+  tick(0, 0, 0);
+  for (const double push : {0.39, -0.39}) {
+    ebac::Estimate est;
+    for (int k = 0; k < 300; ++k) est = tick(0, push);
+    EXPECT_NEAR(est.v, 0, 1e-9) << push;
+    EXPECT_NEAR(est.v_act, 0, 1e-9) << push;
+    EXPECT_NEAR(est.disturbance, 0, 1e-3 * params.friction) << push;
+  }
+  for (const int way : {20, -20}) {
+    const double v = way * params.count / 1e-3;
+    const double push = params.damping * v + std::copysign(params.friction, v);
+    ebac::Estimate est;
+    for (int k = 0; k < 1000; ++k) est = tick(way, push);
+    EXPECT_NEAR(est.v, v, 0.01 * std::abs(v));
+    EXPECT_NEAR(est.v_act, v, 0.01 * std::abs(v));
+    EXPECT_NEAR(est.disturbance, 0, 0.02 * params.friction);
+  }
+}
+
 /// What makes the estimate fade, in 20 ms, and what it says of it.
 TEST(Observer, FadesWhereTheForceIsOldOrTheSensorSaysSo) {
   const DeviceModel device;

@@ -15,14 +15,16 @@ namespace ebac {
 /// State of one axis from encoder, force sensor and current: where the device is within an encoder
 /// count, how fast it moves without lag, and both for the instant at which the next command acts.
 ///
-/// The device obeys M v' = F_h - b v - f + D, with the force of the hand F_h, the motor's force f
-/// behind its current loop, and a slow disturbance D (friction, weight, bias of the sensor). The
-/// sensor shows F_M = G F_h with G = 1/(force_lag s + 1). Passed through G, the equation holds for
-/// what is measured:
+/// The device obeys M v' = F_h - b v - r - f + D, with the force of the hand F_h, Coulomb friction r,
+/// the motor's force f behind its current loop, and a slow disturbance D (weight, bias of the sensor,
+/// friction that is not declared). The sensor shows F_M = G F_h with G = 1/(force_lag s + 1). Passed
+/// through G, the equation holds for what is measured, but for r, which is taken to be that of u:
 ///
-///   M u' = F_M + D - b u - G f,    u = G v,    v = u + force_lag u'
+///   M u' = F_M + D - b u - r - G f,    u = G v,    v = u + force_lag u'
 ///
-/// so the lag costs no noise. A force that is old when it is read, as one that came over a network,
+/// so the lag costs no noise. Friction takes what would stop the device within the tick, and at most
+/// the friction there is: a device that is held rests in the estimate, too, as in the time stepping of
+/// Moreau. A force that is old when it is read, as one that came over a network,
 /// is behind G by its age as well: its mean age joins force_lag, and a reading older or newer than
 /// that is moved to it along the line through the last two records.
 ///
@@ -88,7 +90,7 @@ class AxisObserver {
     before_last_ = measured_;
     measured_ = measured;
     follow_hand(measured);
-    const double a = (force - params_.damping * u_ - motor) * per_mass_;
+    const double a = slowed(force - params_.damping * u_ - motor, u_, dt) * per_mass_;
     const double before = x_;
     x_ += (u_ + (0.5 * dt + motor_.sensor_lag()) * a) * dt;
     u_ += a * dt;
@@ -112,7 +114,7 @@ class AxisObserver {
     double ahead = params_.force_lag;
     const auto advance = [&](double force, double time) EBAC_RT {
       const double grown = trend_ * (ahead + 0.5 * time);
-      const double a = (hand + grown - params_.damping * v - force) * per_mass_;
+      const double a = slowed(hand + grown - params_.damping * v - force, v, time) * per_mass_;
       x += (v + 0.5 * a * time) * time;
       v += a * time;
       ahead += time;
@@ -173,7 +175,15 @@ class AxisObserver {
   };
 
   double acceleration() const EBAC_RT {
-    return (measured_ + disturbance_ - params_.damping * u_ - motor_.shown()) * per_mass_;
+    const double pull = measured_ + disturbance_ - params_.damping * u_ - motor_.shown();
+    return slowed(pull, u_, dt_) * per_mass_;
+  }
+
+  /// What friction leaves of `pull` [N] at a velocity, over a time.
+  double slowed(double pull, double v, double time) const EBAC_RT {
+    if (params_.friction == 0 || time == 0) return pull;
+    const double stopping = pull + mass_ * v / time;
+    return pull - std::clamp(stopping, -params_.friction, params_.friction);
   }
 
   /// While the force is old, the encoder counts in full and D holds what the force has changed by.

@@ -15,6 +15,7 @@ namespace ebac {
 struct ObserverParams {
   double mass = 0.25;         // kg
   double damping = 2.0;       // N s/m
+  double friction = 0.0;      // N
   double count = 3.07e-5;     // m
   double current_lag = 3e-4;  // s
   double force_lag = 8e-4;    // s
@@ -23,10 +24,12 @@ struct ObserverParams {
   int delay = 1;              // samples
   bool every_law = false;
 
-  /// Of a device and the delay of its commands.
+  /// Of a device and the delay of its commands. It counts with 0.8 of the declared friction: with more than there is,
+  /// the estimate rests while the device moves, and walls are lost; what is missing it learns as a disturbance.
   static ObserverParams of(const DeviceModel& device, const Timing& timing) EBAC_RT {
     return {.mass = device.mass(),
             .damping = device.mechanics.damping,
+            .friction = 0.8 * device.mechanics.coulomb,
             .count = device.facts().count,
             .current_lag = device.drive.current_lag,
             .force_lag = device.sensor.lag,
@@ -41,6 +44,8 @@ struct ObserverParams {
         F{"mass", &ObserverParams::mass, "kg", "device mass at the handle, M_h", 1e-3, 100},
         F{"damping", &ObserverParams::damping, "N s/m", "viscous damping of the device, B_h", 0,
           500},
+        F{"friction", &ObserverParams::friction, "N",
+          "Coulomb friction of the device, no more than there is", 0, 100},
         F{"count", &ObserverParams::count, "m", "one encoder count at the handle", 1e-9, 0.01},
         F{"current_lag", &ObserverParams::current_lag, "s",
           "time constant of the drive's current loop", 0, 0.1},

@@ -107,13 +107,18 @@ _SLOW = to.slow_press(3.0)
 _PUMPS = [to.pump(1e-3 * mm, hz) for mm in (0.1, 0.3, 1, 2, 4) for hz in (0.5, 1, 2, 4, 8, 15, 30)]
 _WAVES = (to.waves(5e-3, 1.0, 40.0), to.scenario(seconds=60.0))
 _LET_GO_LATE = to.hand(release_at=5.0)
+_FRICTION, _FRICTION_1 = (to.device("mechanics", coulomb=newton) for newton in (0.3, 1.0))
 
 _ROBUSTNESS = [
     _robust("surface", "the hand starts on the wall's surface, without free air", to.approach(0.0)),
     _robust("surface-K20", "the same at 20 kN/m", to.approach(0.0), at=(1, 2, 20e3)),
     _robust("hold", "the hand presses for 120 s", to.scenario(seconds=120.0)),
-    _robust("friction-0.3", "Coulomb friction 0.3 N", to.device("mechanics", coulomb=0.3)),
-    _robust("friction-1", "Coulomb friction 1 N", to.device("mechanics", coulomb=1.0)),
+    _robust("friction-0.3", "Coulomb friction 0.3 N", _FRICTION),
+    _robust("friction-1", "Coulomb friction 1 N", _FRICTION_1),
+    _robust("friction-0.3-untold", "0.3 N that the device does not declare", to.untold(_FRICTION)),
+    _robust("friction-1-untold", "1 N that the device does not declare", to.untold(_FRICTION_1)),
+    _robust("told-friction+50", "0.3 N of friction, the device declares 0.45 N",
+            to.untold(_FRICTION, told=to.device("mechanics", coulomb=0.45))),
     _robust("encoder-12bit", "4096 counts a turn, a quarter of the count", to.device("encoder", counts_per_turn=4096)),
     _robust("force-noise", "force sensor noise 0.2 N", to.device("sensor", noise=0.2)),
     _robust("jitter", "ticks up to 30 % of a sample early or late", to.scenario(jitter=0.3)),
@@ -176,8 +181,15 @@ _SENSOR = [
     _robust("backlash", "the same with 0.05 mm of play",
             to.device("mechanics", cable_stiffness=1e5, backlash=5e-5)),
 ]  # fmt: skip
-_TOLD = ("told-mass+50", "told-mass-50", "told-delay-1-of-2")
-_OTHER = ("device-0.1kg", "encoder-12bit", "friction-1", "force-noise", "jitter")
+_TOLD = ("told-mass+50", "told-mass-50", "told-friction+50", "told-delay-1-of-2")
+_OTHER = (
+    "device-0.1kg",
+    "encoder-12bit",
+    "friction-1",
+    "friction-1-untold",
+    "force-noise",
+    "jitter",
+)
 
 _MODELS = (
     ("reflex", "hands with a stretch reflex of 40 ms, see ebac.hands.Reflex", Reflex()),
