@@ -84,7 +84,7 @@ def test_a_contact_shows_what_is_drawn_beyond_the_work_of_the_wall() -> None:
         ebac.simulate(OBSERVED.replace(environment=ebac.Wall(), seconds=2.0), "ebac")
     )
     assert still.drawn_J is None
-    assert "  drawn" not in str(still)
+    assert "  drawn   " not in str(still)
 
 
 @pytest.mark.parametrize("observer", [True, False])

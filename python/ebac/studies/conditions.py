@@ -115,10 +115,6 @@ _ROBUSTNESS = [
     _robust("hold", "the hand presses for 120 s", to.scenario(seconds=120.0)),
     _robust("friction-0.3", "Coulomb friction 0.3 N", _FRICTION),
     _robust("friction-1", "Coulomb friction 1 N", _FRICTION_1),
-    _robust("friction-0.3-untold", "0.3 N that the device does not declare", to.untold(_FRICTION)),
-    _robust("friction-1-untold", "1 N that the device does not declare", to.untold(_FRICTION_1)),
-    _robust("told-friction+50", "0.3 N of friction, the device declares 0.45 N",
-            to.untold(_FRICTION, told=to.device("mechanics", coulomb=0.45))),
     _robust("encoder-12bit", "4096 counts a turn, a quarter of the count", to.device("encoder", counts_per_turn=4096)),
     _robust("force-noise", "force sensor noise 0.2 N", to.device("sensor", noise=0.2)),
     _robust("jitter", "ticks up to 30 % of a sample early or late", to.scenario(jitter=0.3)),
@@ -157,7 +153,7 @@ _ROBUSTNESS = [
             to.scenario(seconds=20.0), drives=_PUMPS),
 ]  # fmt: skip
 
-_SENSOR = [
+_FAILING = [
     _robust("sensor-stale", "the force sensor falls silent at 1 s", to.device("sensor", stops_at=1.0)),
     _robust("sensor-gap", "the force sensor falls silent from 1 to 1.5 s, during the contact",
             to.device("sensor", stops_at=1.0, resumes_at=1.5)),
@@ -177,11 +173,15 @@ _SENSOR = [
             to.device("sensor", period=1.3e-3)),
     _robust("sensor-delay", "the force sensor shows the force of 1 ms ago, and its age is not known",
             to.device("sensor", delay=1e-3)),
+    _robust("friction-1-untold", "1 N of Coulomb friction that the device does not declare",
+            to.untold(_FRICTION_1)),
+    _robust("told-friction+50", "0.3 N of friction, the device declares 0.45 N",
+            to.untold(_FRICTION, declared=to.device("mechanics", coulomb=0.45))),
     _robust("cable", "a cable of 100 kN/m between motor and lever", to.device("mechanics", cable_stiffness=1e5)),
     _robust("backlash", "the same with 0.05 mm of play",
             to.device("mechanics", cable_stiffness=1e5, backlash=5e-5)),
 ]  # fmt: skip
-_TOLD = ("told-mass+50", "told-mass-50", "told-friction+50", "told-delay-1-of-2")
+_TOLD = ("told-mass+50", "told-mass-50", "told-delay-1-of-2")
 _OTHER = (
     "device-0.1kg",
     "encoder-12bit",
@@ -228,7 +228,8 @@ _HELD = [
 
 #: Every condition by its name.
 CONDITIONS: dict[str, Condition] = {
-    c.name: c for c in (*_FIVE, *_CELLS, *_ROBUSTNESS, *_SENSOR, *_HANDS, *_DAMPED, *_HOLDS, *_HELD)
+    c.name: c
+    for c in (*_FIVE, *_CELLS, *_ROBUSTNESS, *_FAILING, *_HANDS, *_DAMPED, *_HOLDS, *_HELD)
 }
 
 #: Shorter names of conditions: d2K20 is d2b2K20, as d1K10 has a damping of 2 N s/m.
@@ -245,7 +246,7 @@ GROUPS: dict[str, tuple[str, ...]] = {
         for d in (0, 1, 2) for b in (1, 2, 4) for k in (2, 5, 10, 20)
     ),
     "robustness": tuple(c.name for c in _ROBUSTNESS),
-    "failures": (*(c.name for c in _SENSOR), *_TOLD, *_OTHER),
+    "failures": (*(c.name for c in _FAILING), *_TOLD, *_OTHER),
     "hands": tuple(c.name for c in _HANDS),
     "damped-walls": tuple(c.name for c in _DAMPED),
     "holds": ("hold", *(c.name for c in _HOLDS)),

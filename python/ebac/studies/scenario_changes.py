@@ -53,11 +53,11 @@ def device(part: str, **values: Any) -> Change:
     )
 
 
-def untold(change: Change, *, told: Change | None = None) -> Change:
-    """Change a scenario without a word to its observer, if it has one, or `told` another change."""
+def untold(change: Change, *, declared: Change | None = None) -> Change:
+    """Change a scenario; its observer, if it has one, is designed before, or for another change that is `declared`."""
 
     def hidden(s: Scenario) -> Scenario:
-        observer = (s if told is None else told(s)).designed_observer()
+        observer = (s if declared is None else declared(s)).designed_observer()
         return change(s).replace(observer=False if observer is None else observer)
 
     return hidden
