@@ -3587,7 +3587,7 @@ class AxisTruth:
     f_sensor : float
         hand force behind the sensor's lag [N].
     energy : float
-        physical port energy: integral of (f_motor v + b v^2 + friction |v|) dt [J].
+        physical port energy: integral of (f_motor v + b v^2 + friction |v|) dt, without the work that carries the weight of the device [J].
     """
     @staticmethod
     def fields() -> list[Field]:
@@ -3619,7 +3619,7 @@ class AxisTruth:
     @property
     def energy(self) -> float:
         """
-        physical port energy: integral of (f_motor v + b v^2 + friction |v|) dt [J]
+        physical port energy: integral of (f_motor v + b v^2 + friction |v|) dt, without the work that carries the weight of the device [J]
         """
     @property
     def f_hand(self) -> float:

@@ -147,6 +147,46 @@ def test_work_and_damped_are_right_while_a_wall_is_held(
         assert (trace["damped"] <= damped + 1e-9).all()
 
 
+@pytest.mark.parametrize(
+    ("kinematics", "most"),
+    [
+        (ebac.Linear(), 5e-4),
+        (ebac.Gimbal(), 3e-3),  # J; its torque is that for the pose of two ticks before
+    ],
+)
+@pytest.mark.parametrize("gravity", [9.81, -9.81])
+def test_to_carry_the_weight_of_the_device_is_no_work_of_the_law(
+    gravity: float, kinematics: ebac.Linear | ebac.Gimbal, most: float
+) -> None:
+    """It filled the account by 54 mJ or emptied it, until the next wall was gone; 56 mJ seemed to be drawn."""
+
+    def swayed(mechanics: ebac.Mechanics) -> ebac.Trace:
+        carries = ebac.Compensation(gravity_mass=mechanics.handle_mass)
+        device = ebac.Device(mechanics=mechanics, compensation=carries, kinematics=kinematics)
+        sways = ebac.Hand(path=ebac.Sine(amplitude=0.05, frequency=0.5))
+        scenario = ebac.Scenario(
+            device=device, hand=sways, environment=ebac.Free(), seconds=6.0, observer=False
+        )
+        return ebac.simulate(scenario, "ebac")
+
+    light, heavy = swayed(ebac.Mechanics()), swayed(ebac.Mechanics(gravity=gravity))
+    assert np.abs(heavy.axis("f_applied")).max() > 0.3
+    for column in ("law.energy", "true.energy", "work"):
+        beside = np.abs(heavy.axis(column) - light.axis(column))
+        assert beside.max() < most, column
+
+
+@pytest.mark.parametrize("gravity", [9.81, -9.81])
+def test_a_slow_press_keeps_its_wall_where_the_motor_carries_the_weight(gravity: float) -> None:
+    mechanics = ebac.Mechanics(gravity=gravity)
+    carries = ebac.Compensation(gravity_mass=mechanics.handle_mass)
+    base = ebac.Scenario(device=ebac.Device(mechanics=mechanics, compensation=carries))
+    [row] = ebac.study(ebac.Operators.grid()[::12], ["ebac"], ["slow-press"], base=base).rows
+    assert row.exact_and_still == row.hands == 5
+    assert row.most_drawn_J is not None
+    assert row.most_drawn_J < 1e-3
+
+
 def test_damping_that_compensation_has_spent_is_not_counted() -> None:
     spent = ebac.Compensation(friction=1.0, friction_speed=0.1)
     device = ebac.Device(compensation=spent)

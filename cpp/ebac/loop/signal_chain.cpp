@@ -23,9 +23,12 @@ SignalChain::SignalChain(const DeviceModel& device, const Environment& environme
       amp_per_torque_(1 / torque_per_amp_),
       force_per_amp_(torque_per_amp_ / radius_),
       peak_current_(device.drive.peak_current(device.motor)),
-      gravity_(device.mechanics.gravity),
+      carried_weight_(device.compensation.gravity_mass * device.mechanics.gravity),
       linear_(std::holds_alternative<Linear>(device.kinematics)),
-      compensates_(device.compensation.active()) {}
+      compensates_(device.compensation.active()),
+      carries_(carried_weight_ != 0) {
+  if (linear_) carried_.fill(carried_weight_);
+}
 
 void SignalChain::change(const Environment& environment) EBAC_RT { environment_ = environment; }
 
@@ -36,10 +39,13 @@ void SignalChain::forward_general(const Reading& reading, double dt, std::span<A
   const Axes v = j * of_all(axes, &Axis::joint, &Joint::dq);
   for (auto i = static_cast<Eigen::Index>(axes.size()); i < kMaxAxes; ++i) j(i, i) = 1;
   const Axes torque = torque_per_amp_ * of_all(axes, &Axis::joint, &Joint::current_applied);
-  const Axes f = j.transpose().inverse() * torque;
+  const Jacobian to_handle = j.transpose().inverse();
+  const Axes f = to_handle * torque;
+  const Axes carried = carries_ ? Axes(to_handle * weight_at(q)) : Axes::Zero();
   for (std::size_t i = 0; i < axes.size(); ++i) {
     const auto e = static_cast<Eigen::Index>(i);
     axes[i].port.f_meas = reading.force[i];
+    carried_[i] = carried[e];
     enter(axes[i].port, dt, x[e], v[e], f[e]);
   }
 }
@@ -50,10 +56,25 @@ ContactForce SignalChain::meet_in_space(const External& world, const Axes& x, co
   return space.felt(world.contact(space.at(), space.velocity(v), t));
 }
 
+/// Torque that carries the compensated weight.
+Axes SignalChain::weight_at(const Axes& q) const EBAC_RT {
+  return weight(kinematics_, q, carried_weight_);
+}
+
+void SignalChain::put_own_force(std::span<Axis> axes) EBAC_RT {
+  for (std::size_t i = 0; i < axes.size(); ++i) {
+    whole_[i] = axes[i].port.f_applied;
+    axes[i].port.f_applied -= carried_[i];
+  }
+}
+
+void SignalChain::put_whole_force(std::span<Axis> axes) EBAC_RT {
+  for (std::size_t i = 0; i < axes.size(); ++i) axes[i].port.f_applied = whole_[i];
+}
+
 /// tau_static of eq. (2).
 Axes SignalChain::compensate(double dt, std::span<const Axis> axes) EBAC_RT {
-  Axes tau = weight(kinematics_, of_all(axes, &Axis::joint, &Joint::q),
-                    compensation_.gravity_mass * gravity_);
+  Axes tau = weight_at(of_all(axes, &Axis::joint, &Joint::q));
   for (std::size_t i = 0; i < axes.size(); ++i) {
     const auto e = static_cast<Eigen::Index>(i);
     const double v = travel_[e] * axes[i].joint.dq;

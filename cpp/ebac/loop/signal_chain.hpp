@@ -50,7 +50,16 @@ class SignalChain {
   }
 
   /// f_applied, dx -> work, unsure, damped: the energy account, whatever the law
-  void account(std::span<Axis> axes) EBAC_RT { account_.take(axes, observer_.on()); }
+  void account(std::span<Axis> axes) EBAC_RT { account_.take(axes, carried_, observer_.on()); }
+
+  /// Shows the law the applied force without what carries the weight of the device: the work of that goes into the
+  /// height of the handle and comes back, whatever the law does.
+  void show_own_force(std::span<Axis> axes) EBAC_RT {
+    if (carries_) put_own_force(axes);
+  }
+  void show_whole_force(std::span<Axis> axes) EBAC_RT {
+    if (carries_) put_whole_force(axes);
+  }
 
   /// x, v at time t -> f_env, world_v
   ContactForce contact(double t, std::span<Axis> axes) const EBAC_RT;
@@ -76,6 +85,9 @@ class SignalChain {
                              double t) const EBAC_RT;
   void forward_general(const Reading& reading, double dt, std::span<Axis> axes) EBAC_RT;
   void drive_general(double dt, std::span<Axis> axes) EBAC_RT;
+  void put_own_force(std::span<Axis> axes) EBAC_RT;
+  void put_whole_force(std::span<Axis> axes) EBAC_RT;
+  Axes weight_at(const Axes& q) const EBAC_RT;
   void send(Joint& joint, double tau) const EBAC_RT;
   Axes compensate(double dt, std::span<const Axis> axes) EBAC_RT;
 
@@ -94,10 +106,13 @@ class SignalChain {
   double amp_per_torque_;  // A/(N m)
   double force_per_amp_;   // N/A, at the handle of a linear device
   double peak_current_;    // A
-  double gravity_;         // m/s^2
+  double carried_weight_;  // N, by the compensation
   double dt_ = 0;          // s, since the last tick; 0 in the first
   bool linear_;
   bool compensates_;
+  bool carries_;                            // weight
+  std::array<double, kMaxAxes> carried_{};  // N, at the handle, of the last reading
+  std::array<double, kMaxAxes> whole_{};    // N, applied forces while the law is shown its own
   std::array<VelocityState, kMaxAxes> velocity_{};
   std::array<double, kMaxAxes> counts_age_{};    // s, of the last reading
   std::array<bool, kMaxAxes> counted_{};         // whether new counts came

@@ -64,7 +64,9 @@ template <AxesController Law, std::size_t N>
 void render(SignalChain& chain, Law& law, const Instant& now, std::span<Axis, N> axes) EBAC_RT {
   chain.account(axes);
   const ContactForce contact = chain.contact(now.t, axes);
+  chain.show_own_force(axes);
   law.step(axes, contact);
+  chain.show_whole_force(axes);
   chain.heed(drained_of(law), now.dt, axes);
   chain.drive(now.dt, axes);
 }

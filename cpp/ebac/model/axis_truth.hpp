@@ -24,7 +24,9 @@ struct AxisTruth {
         F{"f_motor", &AxisTruth::f_motor, "N", "motor force behind the current loop; resists +x"},
         F{"f_sensor", &AxisTruth::f_sensor, "N", "hand force behind the sensor's lag"},
         F{"energy", &AxisTruth::energy, "J",
-          "physical port energy: integral of (f_motor v + b v^2 + friction |v|) dt"},
+          "physical port energy: integral of (f_motor v + b v^2 + friction |v|) dt, without the "
+          "work that carries "
+          "the weight of the device"},
     };
   }
 };

@@ -15,6 +15,7 @@ struct AxisParameters {
   double device_damping = 2;    // N s/m
   double coulomb = 0;           // N
   double weight = 0;            // N, along +x
+  double carried = 0;           // N, of it, by the motor
   double current_lag = 3e-4;    // s
   double sensor_lag = 8e-4;     // s
   double hand_mass = 0.15;      // kg
@@ -118,7 +119,7 @@ inline void ExactAxis::arrive(Vector w, double u, double load) EBAC_RT {
 
 /// Energy of one slide, from the equation of motion times v: int (f_motor v + b v^2 + f_coulomb
 /// |v|) = -m d(v^2)/2 - B0 int v^2 - k int xi v + weight dx, with int xi v = d(xi^2)/2 + r int xi,
-/// and int xi from the equation of motion itself.
+/// and int xi from the equation of motion itself. What the motor does to carry weight is left out.
 inline void ExactAxis::account(const Vector& before, const Vector& after, double square,
                                double time) EBAC_RT {
   const double r = before[kR];
@@ -131,7 +132,7 @@ inline void ExactAxis::account(const Vector& before, const Vector& after, double
     spring -= r * (mass_ * dv + damping_ * dx + lag + before[kF] * time);
   }
   const double kinetic = 0.5 * mass_ * (after[kV] * after[kV] - before[kV] * before[kV]);
-  truth_.energy += p_.weight * dx - kinetic - p_.hand_damping * square - spring;
+  truth_.energy += (p_.weight - p_.carried) * dx - kinetic - p_.hand_damping * square - spring;
 }
 
 }  // namespace ebac

@@ -17,6 +17,7 @@ AxisParameters axis_parameters(const DeviceModel& device, const Hand& hand) {
           .device_damping = device.mechanics.damping,
           .coulomb = device.mechanics.coulomb,
           .weight = device.mechanics.handle_mass * device.mechanics.gravity,
+          .carried = device.compensation.gravity_mass * device.mechanics.gravity,
           .current_lag = resolved(device.drive.current_lag),
           .sensor_lag = resolved(device.sensor.lag),
           .hand_mass = hand.mass,

@@ -43,6 +43,7 @@ JointDynamics::JointDynamics(const DeviceModel& device, const Hand& hand)
       rotor_mass_(least_rotor_mass(device)),
       damping_(device.mechanics.damping),
       gravity_(device.mechanics.gravity),
+      carried_weight_(device.compensation.gravity_mass * device.mechanics.gravity),
       hand_mass_(hand.mass),
       hand_damping_(hand.damping),
       hand_stiffness_(hand.stiffness),
@@ -80,7 +81,7 @@ Motion JointDynamics::motion(const JointState& z, const Load& load,
   mass.diagonal() += handle_mass_ * at.inertia;
 
   m.rate.col(kQ) = dq;
-  m.rate.col(kEnergy) = motor.cwiseProduct(speed);
+  m.rate.col(kEnergy) = (motor - carried_weight_ * at.weight).cwiseProduct(speed);
   if (compliant_) {
     const Axes cable = cable_torque(z, contact.flank);
     m.rate.col(kDq) = accelerate(mass, lever - cable, unused);

@@ -100,6 +100,7 @@ class JointDynamics {
   double rotor_mass_;      // kg, felt at the handle; the least of all axes
   double damping_;         // N s/m
   double gravity_;         // m/s^2
+  double carried_weight_;  // N, by the motor
   double hand_mass_;       // kg
   double hand_damping_;    // N s/m
   double hand_stiffness_;  // N/m
