@@ -8,6 +8,7 @@ import subprocess
 import sys
 import threading
 import time
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -16,7 +17,8 @@ from typer.testing import CliRunner
 
 import ebac
 from ebac.cli import app
-from ebac.hardware import Configuration
+from ebac.drives import ProfileError
+from ebac.hardware import Configuration, OpenDevice
 
 pytestmark = pytest.mark.real_time
 
@@ -220,6 +222,14 @@ def test_what_cannot_be_is_refused(config: Path, more: list[str], words: str) ->
     result = CliRunner().invoke(app, ["run", str(config), "--simulated", *more])
     assert result.exit_code == 2
     assert words in " ".join(result.output.split())
+
+
+def test_a_rehearsal_refuses_a_bus_load_that_hardware_refuses(config: Path) -> None:
+    """Its own bus, inside this process, has no bit rate."""
+    known = Configuration.load(config)
+    slow = known.replace(drives=replace(known.drives, bitrate=100_000))
+    with pytest.raises(ProfileError, match=r"bus load 516 % of 100 kbit/s, worst case: refused"):
+        OpenDevice(slow, simulate=True)
 
 
 def test_a_configuration_is_refused_with_its_line(tmp_path: Path) -> None:

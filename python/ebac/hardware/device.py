@@ -110,10 +110,11 @@ class OpenDevice:
         self._cleared: Report | None = None  # of the fault that `reset` was called for
         self._detached = detached
         self._nodes = drive_setup.nodes_of(configuration, simulate=simulate)
-        network = replace(configuration.drives, nodes=self._nodes)
-        check_stall(network)
-        loaded = not simulate and configuration.interface == "socketcan"
-        if loaded and (warning := network.check_load()) is not None:
+        network = configuration.drives
+        check_stall(replace(network, nodes=self._nodes))
+        real = replace(network, nodes=drive_setup.nodes_of(configuration, simulate=False))
+        loaded = configuration.interface == "socketcan"  # a bus inside this process has no bit rate
+        if loaded and (warning := real.check_load()) is not None:
             warnings.warn(warning, stacklevel=2)
         with ExitStack() as stack:
             self.interrupts = stack.enter_context(Interrupts())
