@@ -211,6 +211,7 @@ ROOMS = [
         "paper",
         "datasets",
         "cli",
+        "__main__",
     ),
 ]
 

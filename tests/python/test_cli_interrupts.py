@@ -35,7 +35,7 @@ BUSY = 2.0
 
 def start(words: str, folder: Path) -> subprocess.Popen[str]:
     return subprocess.Popen(
-        [sys.executable, "-m", "ebac.cli", *words.split()],
+        [sys.executable, "-m", "ebac", *words.split()],
         cwd=folder,
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,

@@ -26,7 +26,7 @@ class Child(NamedTuple):
 @contextmanager
 def started(words: Sequence[str], **more: Any) -> Iterator[Child]:
     """Start `ebac` with these words, and `more` for Popen; it ends with the block at the latest."""
-    command = [sys.executable, "-m", "ebac.cli", *words]
+    command = [sys.executable, "-m", "ebac", *words]
     with TemporaryFile() as out, TemporaryFile() as err:
         process = subprocess.Popen(command, stdout=out, stderr=err, **more)
         try:

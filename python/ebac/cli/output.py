@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, Annotated, Any, NoReturn, TypeAlias
 
 import typer
 
+from ebac._util.program import started
 from ebac.cli.tables import filled as filled
 from ebac.cli.tables import show as show
 from ebac.cli.tables import table as table
@@ -111,6 +112,7 @@ def keeping(text: str | Callable[[], str]) -> None:
 def interruptible() -> Iterator[None]:
     """Turn Ctrl-C into the end of the command: a sentence and exit code 130, no traceback."""
     _kept.clear()
+    started()
     try:
         with _none_lost():
             yield
