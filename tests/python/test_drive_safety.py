@@ -189,6 +189,14 @@ def test_every_diagnosis_tells_of_the_bus_itself() -> None:
     assert "1 error frames, node 2 restarted 1 times, node 3 answered 1 requests twice" in text
 
 
+def test_a_request_that_a_bus_brings_back_is_no_traffic() -> None:
+    """As udp_multicast does, where it looks like a frame of another node."""
+    monitor = BusMonitor()
+    monitor(can.Message(arbitration_id=0x605, data=bytes(8), is_extended_id=False))
+    assert monitor.describe(0) == "nothing at all"
+    assert monitor.advice(5, 0)[0] == "the bit rate of interface and drives"
+
+
 def test_two_nodes_of_one_id_are_told(bus: drives.DriveBus, open_bus: Open) -> None:
     """A second node answers what the first one has answered already."""
     drive, twin = bus.drive(1), open_bus()
