@@ -308,6 +308,17 @@ def test_what_lies_in_the_grey_area_is_exact_and_still_and_not_always_good() -> 
     assert "Ring: exact and still, but its force is not quiet" in title
 
 
+def test_a_study_of_several_conditions_names_what_they_share_and_explains_each() -> None:
+    found = study(
+        Operators.grid()[:1], ["tca"], ["d1K10", "d2b2K20"], base=ebac.Scenario(seconds=0.5)
+    )
+    title = dict(plot_study(found))["hands"].get_suptitle()
+    first, *lines = title.split("\n")
+    assert first.endswith("the reference device (0.25 kg, 2 N s/m); 1 kHz, state observer")
+    assert lines[0] == "d1K10: 1 sample of delay, device damping 2 N s/m, wall 10 kN/m"
+    assert lines[1] == "d2b2K20: 2 samples of delay, device damping 2 N s/m, wall 20 kN/m"
+
+
 @pytest.mark.slow
 def test_every_study_has_a_title_that_says_simulated() -> None:
     few = Operators.sample(3, seed=1)

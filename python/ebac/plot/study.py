@@ -89,15 +89,29 @@ def _scatter(study: Study, conditions: list[str], *, narrow: bool) -> Picture:
         if place + columns >= len(panels):
             ax.set_xlabel("swing, peak to peak [mm]")
             ax.tick_params(labelbottom=True)
-    device, _, *rest = formatting.describe(study.scenarios[0]).split("; ")
     figure.suptitle(
-        f"How {len(study.operators)} hands come to rest, one mark each, simulated: {device}; {rest[1]}\n"
+        f"How {len(study.operators)} hands come to rest, one mark each, simulated: {_setting(study, conditions)}\n"
         "Grey area: exact and still, which is a rest within 2 encoder counts of the ideal, or as far as friction "
         "holds it, and a swing of less than 0.25 mm\nDot: a good hand. Ring: exact and still, but its force is not "
         "quiet. Cross: not exact and still, the worst with their row in the population (#)",
         fontsize="medium",
     )
     return figure
+
+
+def _setting(study: Study, conditions: list[str]) -> str:
+    """Return what the conditions share of device, virtual world and timing, and what each one is."""
+    places = [study.runs(next(iter(study.laws)), name)[0] for name in conditions]
+    device, _, world, timing, _ = zip(
+        *(formatting.describe(study.scenarios[place]).split("; ") for place in places), strict=True
+    )
+    changed = "" if len(set(device)) == 1 else ", changed as each condition says"
+    same = [device[0] + changed, *({*world} if len({*world}) == 1 else ())]
+    first, *others = (one.split(", ") for one in timing)
+    same.append(", ".join(word for word in first if all(word in other for other in others)))
+    summaries = {c.name: c.summary for c in study.conditions}
+    lines = [f"{name}: {summaries[name]}" for name in conditions if len(conditions) > 1]
+    return "\n".join(["; ".join(same), *lines])
 
 
 def _panel(ax: Axes, study: Study, law: str, condition: str) -> None:
