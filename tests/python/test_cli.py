@@ -338,6 +338,14 @@ def test_a_fault_is_told_and_its_log_kept(monkeypatch: pytest.MonkeyPatch, tmp_p
         ("wall --scenario sine.toml --hand-target 0.1", "Sine path, which has no target"),
         ("wall --out file", "is a file"),
         ("wall --out file/below", "is a file or lies inside one"),
+        *(
+            (f"{command} --seconds 0.1 --out {folder}", f"--out {folder}: {end}")
+            for command in ("wall", "map --side 2", "study", "ablation")
+            for folder, end in (
+                ("/proc/x", "cannot be written (No such file or directory); give another folder"),
+                ("file", "is a file or lies inside one; give the name of a folder"),
+            )
+        ),
         ("wall --no-files --out x", "exclude each other"),
         ("wall --stifness 3", "--wall-stiffness"),
         ("paper fig12", "did you mean 'fig"),

@@ -71,15 +71,18 @@ _FULL = (errno.ENOSPC, errno.EFBIG, getattr(errno, "EDQUOT", errno.ENOSPC))
 
 
 @contextmanager
-def refusing() -> Iterator[None]:
-    """Turn what the library says about bad input into the end of the command."""
+def refusing(out: Path | None = None) -> Iterator[None]:
+    """Turn what the library says about bad input, or about the folder `out`, into the end of the command."""
     try:
         yield
-    except FileNotFoundError as error:
-        fail(_missing(Path(error.filename)))
     except OSError as error:
-        where = "" if error.filename is None else f"{error.filename}: "
+        file = None if error.filename is None else Path(str(error.filename))
+        if file and out and (file.is_relative_to(out) or out.is_relative_to(file)):
+            _fail_folder(out, error)
+        if file and isinstance(error, FileNotFoundError):
+            fail(_missing(file))
         verb = "written" if error.errno in _FULL else "read"
+        where = f"{file}: " if file else ""
         fail(f"{where}cannot be {verb} ({error.strerror or error})")
     except ImportError as error:  # of an extra; any other is a mistake of ours
         if "pip install" not in str(error):
@@ -180,10 +183,14 @@ def results(out: Path | None) -> Iterator[Path | None]:
     try:
         with filled(out) as draft:
             yield draft
-    except (FileExistsError, NotADirectoryError):
-        fail(f"--out {out}: is a file or lies inside one; give the name of a folder")
     except OSError as error:
-        fail(f"--out {out}: cannot be written ({error.strerror}); give another folder")
+        _fail_folder(out, error)
+
+
+def _fail_folder(out: Path, error: OSError) -> NoReturn:
+    if isinstance(error, (FileExistsError, NotADirectoryError)):
+        fail(f"--out {out}: is a file or lies inside one; give the name of a folder")
+    fail(f"--out {out}: cannot be written ({error.strerror}); give another folder")
 
 
 def document(command: str, rows: Sequence[Mapping[str, Any]], **more: Any) -> str:

@@ -107,7 +107,7 @@ def _run(people: Any, given: dict[str, Any], folder: Path | None, *, quiet: bool
 
     with (
         output.resumable("ablation", folder),
-        output.refusing(),
+        output.refusing(folder),
         output.counting("simulating", quiet=quiet) as progress,
     ):
         return run_ablation(people, progress=progress, **given)

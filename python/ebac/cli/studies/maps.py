@@ -124,7 +124,7 @@ def _run(
     kept = None if folder is None else folder / BUNDLES.format(law)
     with (
         output.resumable("map", folder),
-        output.refusing(),
+        output.refusing(folder),
         output.counting(f"mapping {law}", quiet=quiet) as progress,
     ):
         return stability_map(law, out=kept, resume=resume, progress=progress, **given)

@@ -122,7 +122,7 @@ def _run(
 
     with (
         output.resumable("study", folder),
-        output.refusing(),
+        output.refusing(folder),
         output.counting("simulating", quiet=quiet) as progress,
     ):
         bundles = None if folder is None else folder / study_results.BUNDLES
