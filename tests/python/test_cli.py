@@ -410,6 +410,13 @@ def test_bad_input_is_refused_in_one_sentence(words: str, expected: str, tmp_pat
     assert (tmp_path / "file").read_text() == "kept"
 
 
+@pytest.mark.parametrize("words", ["map --side 2 --seconds 0.1", "study --seconds 0.1"])
+def test_no_files_writes_none(words: str, tmp_path: Path) -> None:
+    assert "--no-files and --out exclude" in refusal(*words.split(), "--no-files", "--out", "x")
+    ebac_command(*words.split(), "--no-files")
+    assert not list(tmp_path.iterdir())
+
+
 def test_a_failure_leaves_the_folder_as_it_was(
     monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:

@@ -97,6 +97,9 @@ class ResultOptions(FigureOptions):
             "--force", help="Write to a folder that already contains files.", rich_help_panel=PANEL
         ),
     ] = False
+    no_files: Annotated[
+        bool, typer.Option("--no-files", help="Write no files.", rich_help_panel=PANEL)
+    ] = False
 
     def folder(self, command: str, *, as_json: bool, resume: str = "") -> Path | None:
         """Return the folder to write to, None for none; one that has files ends the command.
@@ -111,6 +114,13 @@ class ResultOptions(FigureOptions):
             The folder of runs to continue from, in that of --out or in the last of this command; "" starts anew.
         """
         self.check()
+        if self.no_files:
+            for option, given in (("--out", self.out is not None), ("--resume", resume)):
+                if given:
+                    output.fail(
+                        f"--no-files and {option} exclude each other: leave one of them out"
+                    )
+            return None
         if self.out is None:
             if resume and as_json:
                 output.fail("--resume continues in a folder: give it with --out")

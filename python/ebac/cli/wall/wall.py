@@ -46,9 +46,6 @@ def wall(
             rich_help_panel=PANEL,
         ),
     ] = None,
-    no_files: Annotated[
-        bool, typer.Option("--no-files", help="Write no files.", rich_help_panel=PANEL)
-    ] = False,
     as_json: output.AsJson = False,
 ) -> None:
     """Simulate a hand at a virtual wall under several laws.
@@ -75,8 +72,6 @@ def wall(
 
     * `ebac wall --out first`, then `ebac wall --scenario first/scenario.toml --seed 7`: another seed
     """
-    if no_files and to.out is not None:
-        output.fail("--no-files and --out exclude each other: leave one of them out")
     with output.refusing():
         names = by_name.law_names(law or DEFAULT_LAWS)
         logs = wall_results.log_names(log, names, force=to.force)
@@ -85,7 +80,7 @@ def wall(
         warning = ""
         if through is not None:
             chosen, warning = _on_bus(chosen, through)
-    folder = None if no_files else to.folder("wall", as_json=as_json)
+    folder = to.folder("wall", as_json=as_json)
     if warning and not as_json:
         output.say(f"Warning: {warning}.", style="yellow")
     _run(chosen, names, through, folder, logs, to, as_json)
