@@ -291,6 +291,11 @@ def test_a_node_that_falls_silent_is_told_from_one_that_never_was(bus: drives.Dr
     assert "node 1 was there before: has it lost power, or its cable" in said_by_nobody(bus, 1)
 
 
+def test_a_channel_that_is_no_multicast_address_is_named() -> None:
+    with pytest.raises(drives.BusError, match=r"a multicast address such as 239\.74\.163\.2$"):
+        drives.DriveBus.open(interface="udp_multicast", channel="1.2.3.4")
+
+
 def other_frames(channel: str, frames: list[tuple[int, bytes]], stop: threading.Event) -> None:
     with can.Bus(interface="virtual", channel=channel) as other:
         while not stop.is_set():

@@ -9,6 +9,7 @@ from math import isfinite
 from typing import Any
 
 from ebac._util.arguments import unknown
+from ebac._util.headings import FACTORS
 
 #: Options of a scenario, and the options that set the same where a command varies it.
 VARIED = {
@@ -73,7 +74,7 @@ def _wrong_value(param: Any, name: str, message: str, words: Sequence[str]) -> s
         text = next((v for v in given if _is_text(v, whole=whole)), None)
         if text is not None:
             within = f"; {_must(low, high, unit)}" if (low, high) != (None, None) else ""
-            return f"{name} = {text}: must be {kind}{_in(unit)}{within}"
+            return f"{name} = {text}: must be {kind}{_in(unit)}{within}{_converted(text, unit)}"
         value = next((v for v in given if not _inside(v, low, high)), given[0] if given else "")
         return f"{name} = {value}{unit}: {_must(low, high, unit)}"
     choices = _choices(param)
@@ -82,6 +83,15 @@ def _wrong_value(param: Any, name: str, message: str, words: Sequence[str]) -> s
         return unknown(f"{name} {value}", value, choices)
     value = f" {given[0]}" if given else ""
     return f"{name}{value}: {message[0].lower()}{message[1:]}"
+
+
+def _converted(text: str, unit: str) -> str:
+    """Return the number that a value with a unit is in the unit of its option; "" where that is not known."""
+    found = re.fullmatch(r"([-+]?\d+\.?\d*(?:e[-+]?\d+)?) *(\D.*)", text)
+    for units in FACTORS.values():
+        if found and found[2] in units and unit.strip() in units:
+            return f"; give {float(found[1]) * units[found[2]] / units[unit.strip()]:.10g}"
+    return ""
 
 
 def values_of(param: Any, words: Sequence[str]) -> Iterator[str]:

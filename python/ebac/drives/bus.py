@@ -211,7 +211,10 @@ def _in_words(error: Exception, interface: str | None, channel: str | None) -> B
     if isinstance(error, OSError):
         return BusError(f"{asked}: {error.strerror or error}; {_remedy(error.errno)}")
     if isinstance(error, (can.CanError, ValueError, TypeError, NotImplementedError)):
-        return BusError(f"{asked}: cannot be opened ({error})")
+        group = "; its channel is a multicast address such as 239.74.163.2"
+        return BusError(
+            f"{asked}: cannot be opened ({error}){group * (interface == 'udp_multicast')}"
+        )
     return BusError(  # what a maker's library raises that is missing
         f"{asked}: its driver is missing or does not load ({type(error).__name__}: {error}); install the maker's "
         "driver and its library for Python, or choose another interface"
