@@ -402,6 +402,16 @@ def test_a_repaired_log_is_read_by_the_official_reader(
     assert log.events == read(path).events
 
 
+def test_a_log_without_a_row_is_not_repaired(
+    small: tuple[bytes, ebac.Trace, list[int]], tmp_path: Path
+) -> None:
+    whole, _, ends = small
+    path = cut_log(tmp_path, whole[: ends[0] - 1])
+    with pytest.raises(ValueError, match="nothing can be recovered: no row"):
+        repair(path)
+    assert not (tmp_path / "cut.repaired.mcap").exists()
+
+
 def test_repair_never_writes_over_anything(
     small: tuple[bytes, ebac.Trace, list[int]], tmp_path: Path
 ) -> None:

@@ -41,7 +41,7 @@ def repair(
     FileExistsError
         When `out` exists: nothing is ever written over.
     FileNotFoundError, ValueError
-        As `read`; ValueError also for an `out` that does not end in .mcap.
+        As `read`; ValueError also for an `out` that does not end in .mcap, and where no row can be read.
     """
     path = Path(path)
     out = repaired_name(path) if out is None else Path(out)
@@ -49,6 +49,8 @@ def repair(
     if out.exists():
         raise FileExistsError(17, "File exists", str(out))
     log = read(path, progress=progress)
+    if not len(log.trace) and not log.events:
+        raise ValueError(f"{path}: nothing can be recovered: no row of it can be read")
     data = {name: log.trace[name] for name in log.trace}
     try:
         with LogWriter(out, layout=Layout.of(data, log.trace.columns), about=log.about) as new:
