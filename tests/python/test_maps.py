@@ -171,6 +171,22 @@ def test_the_figure_has_four_panels(kind: str, tmp_path: Path) -> None:
     figure.savefig(tmp_path / "map.png", dpi=40)
 
 
+def test_the_figure_names_a_line_only_where_there_is_one_and_shows_walls_in_kN_per_m() -> None:
+    limits = set()
+    for law in ("direct", "ebac"):
+        figure = plot_map(small(law))
+        for ax in figure.axes[1:4]:
+            assert ("limit (line)" in ax.get_title()) == any(
+                len(one.get_paths()[0].vertices) for one in ax.collections[1:]
+            )
+            limits.add("limit (line)" in ax.get_title())
+    assert limits == {True, False}
+    figure.draw_without_rendering()
+    verdicts = figure.axes[2]
+    assert verdicts.get_ylabel() == "wall stiffness K [kN/m]"
+    assert "100" in [tick.get_text() for tick in verdicts.get_yticklabels()]
+
+
 # --- ebac map ---
 
 

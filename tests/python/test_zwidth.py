@@ -2,6 +2,7 @@
 
 import json
 from concurrent.futures import ThreadPoolExecutor
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -247,6 +248,13 @@ def test_the_figure_has_every_law_and_ceiling(found: ZWidth) -> None:
     assert labels[:2] == ["direct", "eba"]
     assert len(labels) == 2 + 3
     figure.savefig("/dev/null", format="svg")
+
+
+def test_a_law_that_renders_nothing_says_so_at_its_bar(found: ZWidth) -> None:
+    limits = {name: np.array([values[0], 0 * values[1]]) for name, values in found.limits.items()}
+    bars = plot_zwidth(replace(found, limits=limits)).axes[-1]
+    [none] = bars.texts
+    assert (none.get_text(), none.xy) == ("none", (0, 1))  # type: ignore[attr-defined]
 
 
 # --- ebac zwidth ---

@@ -8,6 +8,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.colors import BoundaryNorm, ListedColormap, LogNorm
 from matplotlib.figure import Figure
+from matplotlib.ticker import FuncFormatter
 
 from ebac._util import formatting
 from ebac.metrics import STILL_SWING
@@ -90,10 +91,13 @@ def _panel(
         *_edges(found), inside, cmap="viridis_r", norm=LogNorm(*shown), rasterized=True
     )
     bar = figure.colorbar(image, ax=ax, pad=0.02, extend="both")
-    if inside.min() < limit < inside.max():
-        ax.contour(*_surface(found, np.log(inside)), [np.log(limit)], **LINE)
+    xs, ys, smooth = _surface(found, np.log(inside))
+    line = ""
+    if smooth.min() < np.log(limit) < smooth.max():
+        ax.contour(xs, ys, smooth, [np.log(limit)], **LINE)
         bar.ax.axhline(limit, color="black", lw=1.4)
-    ax.set_title(f"{title}; limit (line): {limit:.3g}", fontsize="medium")
+        line = " (line)"
+    ax.set_title(f"{title}; limit{line}: {limit:.3g}", fontsize="medium")
 
 
 def _surface(found: StabilityMap, values: Numbers) -> tuple[Numbers, Numbers, Numbers]:
@@ -134,7 +138,11 @@ def _cells(centres: Numbers, logarithmic: bool) -> Numbers:
 
 
 def _axis(ax: Axes, quantity: MapAxis, which: str) -> None:
-    getattr(ax, f"set_{which}label")(quantity.label)
+    kilo = quantity.unit == "N/m" and quantity.low >= 1e3  # a wall, not a hand
+    unit = f"[{'k' * kilo}{quantity.unit}]"
+    getattr(ax, f"set_{which}label")(quantity.label.replace(f"[{quantity.unit}]", unit))
     if quantity.logarithmic:
         getattr(ax, f"set_{which}scale")("log")
-        getattr(ax, f"{which}axis").set_major_formatter("{x:,g}")
+    if quantity.logarithmic or kilo:
+        shown = FuncFormatter(lambda value, _: f"{value / 1000**kilo:,g}")
+        getattr(ax, f"{which}axis").set_major_formatter(shown)

@@ -19,7 +19,11 @@ ROWS = {"quiet": "quiet", "energy": "at most {} mJ", "usable": "usable"}
 #: The ceilings: how each is drawn.
 CEILINGS: dict[str, dict[str, Any]] = {
     "linear loop, no law": {"color": "black", "ls": (0, (5, 3)), "lw": 1.4},
-    "(b + B) / (T/2 + t_d), hand on": {"color": "black", "ls": (0, (1, 2)), "lw": 1.4},
+    "linear loop by formula (Gil et al. 2009), hand on": {
+        "color": "black",
+        "ls": (0, (1, 2)),
+        "lw": 1.4,
+    },
     "passive without a law": {"color": "0.45", "ls": (0, (6, 2, 1, 2)), "lw": 1.4},
 }
 
@@ -35,7 +39,8 @@ def plot_zwidth(found: ZWidth) -> Picture:
     Returns
     -------
     Figure
-        One column of panels per delay. A law without a line never holds, however soft the wall.
+        One column of panels per delay. A law without a line never holds, however soft the wall; one with "none" is
+        never quiet.
     """
     columns = len(found.delays)
     bars = 0.9 + 0.26 * len(found.laws)
@@ -112,6 +117,9 @@ def _areas(ax: Axes, found: ZWidth, delay: int) -> None:
     for criterion, thick, alpha in (("quiet", 0.75, 0.3), ("usable", 0.45, 1.0)):
         areas = [found.area(criterion, law, delay) / width for law in found.laws]
         ax.barh(places, areas, thick, color=shades, alpha=alpha, label=criterion)
+        for place, area in zip(places, areas, strict=True):
+            if criterion == "quiet" and area == 0:
+                ax.annotate("none", (0, place), (4, 0), textcoords="offset points", va="center")
     ax.set_xlim(0, 1.02e-3 * found.top)
     ax.set_xlabel("mean K [kN/m]; pale: quiet, full: usable")
     dress(ax, "")
