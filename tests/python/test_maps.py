@@ -171,7 +171,7 @@ def test_the_figure_has_four_panels(kind: str, tmp_path: Path) -> None:
     figure.savefig(tmp_path / "map.png", dpi=40)
 
 
-def test_the_figure_names_a_line_only_where_there_is_one_and_shows_walls_in_kN_per_m() -> None:
+def test_the_figure_names_a_line_only_where_there_is_one_and_has_walls_in_kilonewtons() -> None:
     limits = set()
     for law in ("direct", "ebac"):
         figure = plot_map(small(law))
