@@ -357,6 +357,9 @@ def test_lines_of_a_title_are_of_one_length_and_keep_units() -> None:
     assert len(lines) == 2
     assert abs(len(lines[0]) - len(lines[1])) < 12
     assert "10\N{NO-BREAK SPACE}kN/m" in lines[0]
+    for width in range(8, 30):
+        one = balanced("the reference hand (0.15 kg, 6 N s/m, 0.1 N m)", width)
+        assert all(end in one.replace("\N{NO-BREAK SPACE}", " ") for end in ("6 N s/m", "0.1 N m"))
 
 
 def test_a_case_of_faults_names_fault_and_law() -> None:

@@ -217,7 +217,7 @@ def _fit_text(text: Text, room: float, renderer: RendererAgg, undo: Undo) -> Non
 
 def balanced(text: str, most: int) -> str:
     """Return text in as few lines as fit, of about one length; a number keeps its unit beside it."""
-    glued = re.sub(r"(?<=\d) (?=[A-Za-zµ%])", "\N{NO-BREAK SPACE}", text)
+    glued = re.sub(r"(?<=\d) (?=[A-Za-zµ%])|(?<=N) (?=s/m|m\b)", "\N{NO-BREAK SPACE}", text)
     lines = wrap(glued, most)
     for narrower in range(most - 1, 0, -1):
         tried = wrap(glued, narrower, break_long_words=False)

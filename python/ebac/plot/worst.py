@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from textwrap import fill
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -77,7 +76,7 @@ def _title(found: Worst, hand: WorstHand) -> str:
     world = f"{device}; {wall}; {timing}"
     return (
         f"law {found.law}, {found.condition.name}, simulated: {world}\nthe worst hand of the family "
-        f"{hand.family.name} draws {formatting.quantity(hand.energy_J, 'J')}{reserve}\n{fill(values, 120)}"
+        f"{hand.family.name} draws {formatting.quantity(hand.energy_J, 'J')}{reserve}\n{values}"
     )
 
 
