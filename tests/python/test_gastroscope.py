@@ -16,6 +16,7 @@ from typer.testing import CliRunner
 from ebac import Trace, gastroscope, logs
 from ebac.cli import app
 from ebac.gastroscope import Lumen, Master, Patient, Procedure, Scope, Slave, camera
+from ebac.plot import plot_gastroscopy_study
 from ebac.worlds import Cavity, Tube
 
 bends = st.floats(-2.5, 2.5)
@@ -150,6 +151,9 @@ def test_a_study_pairs_physicians_and_does_not_depend_on_threads() -> None:
     effect = one.effects[0]
     assert effect.low_N <= effect.difference_N <= effect.high_N
     assert 0 <= effect.power <= 1
+    figure = plot_gastroscopy_study(two)
+    assert figure.get_suptitle().startswith("3 simulated physicians, each with and without force")
+    assert [len(line.get_xdata()) for line in figure.axes[0].lines] == [3, 3]
 
 
 @pytest.mark.parametrize(

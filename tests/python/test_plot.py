@@ -41,7 +41,7 @@ def test_a_log_without_the_columns_of_a_loop_is_drawn_with_what_it_has(
     trace = ebac.load(ebac.datasets.write(name, tmp_path))
     figure = trace.plot()
     assert figure.get_suptitle() == "a run, simulated"
-    assert labels(figure) == ["[mm]", "[N]"]
+    assert labels(figure) == ["position [mm]", "force [N]"]
 
 
 def test_one_column_of_panels_per_axis_in_use(run: Run) -> None:

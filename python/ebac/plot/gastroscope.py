@@ -16,6 +16,8 @@ if TYPE_CHECKING:
 
 #: Before a touch, at which the camera still sees more than the wall [s].
 BEFORE = 3.0
+#: Fewer values than this are drawn one by one: they make no box.
+FEW = 5
 WALL, WAY, TARGET, LIMIT = "#c98c8c", "#0072b2", "#d55e00", "#cc0000"
 
 
@@ -144,13 +146,20 @@ def plot_gastroscopy_study(found: GastroscopyStudy) -> Picture:
     figure = new_figure(11, 4.5)
     left, right = figure.subplots(1, 2, width_ratios=(1.7, 1))
     keys = list(found.runs)
-    left.boxplot([found.runs[key]["most_section"] for key in keys], widths=0.6, sym=".")
+    forces = [found.runs[key]["most_section"] for key in keys]
+    count = len(forces[0])
+    if count < FEW:
+        for place, values in enumerate(forces, 1):
+            left.plot(np.full(count, place), values, "k.")
+    else:
+        left.boxplot(forces, widths=0.6, sym=".")
     left.set_xticks(
         range(1, len(keys) + 1),
         [f"{law}\n{1e3 * delay:g} ms\n{'with' if fed else 'without'}" for law, delay, fed in keys],
         fontsize="x-small",
     )
     dress(left, "largest force on tissue [N]")
+    left.set_xlim(0.5, len(keys) + 0.5)
     for k, effect in enumerate(found.effects):
         own = colour(effect.law)
         right.plot([effect.low_N, effect.high_N], [k, k], color=own, lw=2)
@@ -160,6 +169,10 @@ def plot_gastroscopy_study(found: GastroscopyStudy) -> Picture:
     right.set_yticks(range(len(names)), names)
     right.invert_yaxis()
     dress(right, "")
+    right.margins(x=0.08)
     right.set_xlabel("with feedback less without [N], mean and 95 %")
-    figure.suptitle("Force feedback over simulated physicians", fontsize="medium")
+    figure.suptitle(
+        f"{count} simulated physicians, each with and without force feedback, by law and delay of the link",
+        fontsize="medium",
+    )
     return figure

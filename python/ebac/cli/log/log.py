@@ -226,6 +226,7 @@ def plot(
 
         chosen = output.words(column)
         figure = plot_columns(trace, chosen) if chosen else plot_trace(trace)
+        figure.suptitle(f"{file.name}: {figure.get_suptitle()}", fontsize="medium")
         files = [out] if out else [free_file(file.with_suffix(f".{e}")) for e in style.formats()]
         for picture in files:
             style.write(figure, picture)
