@@ -95,6 +95,17 @@ def test_walls_fit_any_column(laws: tuple[str, ...], width: str | None, run: Run
     check_inside(figure, None if width is None else millimetres(width) / 25.4)
 
 
+@pytest.mark.parametrize("laws", [("tca", "ebac"), ("direct", "tca", "eba", "ebac")])
+def test_walls_name_the_laws_of_the_observer_and_the_peak_force(
+    laws: tuple[str, ...], run: Run
+) -> None:
+    figure = plot_walls([run(law) for law in laws])
+    assert "1 sample of delay, state observer used by ebac only;" in figure.get_suptitle()
+    labels = [text.get_text() for text in figure.legends[0].get_texts()]
+    assert labels.count("peak force of the motor, 42.4 N") == 1
+    assert "observer" not in plot_walls([run("tca")]).get_suptitle()
+
+
 def test_a_run_fits_any_column(run: Run) -> None:
     figure = plot_trace(run("ebac", seconds=1.0))
     assert "law ebac, simulated" in figure.get_suptitle()

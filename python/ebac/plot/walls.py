@@ -7,9 +7,10 @@ from textwrap import fill
 from typing import Any
 
 import numpy as np
+from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 
-from ebac.metrics import EXACT_COUNTS, TAIL_SHARE, allowed_deviation, ideal_rest
+from ebac.metrics import EXACT_COUNTS, TAIL_SHARE, allowed_deviation, ideal_rest, observer_use
 from ebac.plot.marks import fault_name, heading, mark_end
 from ebac.plot.style import (
     IDEAL,
@@ -23,6 +24,7 @@ from ebac.plot.style import (
     line,
     new_figure,
 )
+from ebac.scenario import Scenario
 from ebac.trace import Trace
 
 #: More laws than this get panels of their own.
@@ -59,9 +61,20 @@ def plot_walls(traces: Sequence[Trace]) -> Picture:
     if ideal is not None and near is not None:
         _near(near, traces, ideal)
     if traces[0].scenario is not None:
-        figure.suptitle(heading(traces[0].scenario, traces[0].origin), fontsize="medium")
+        figure.suptitle(_heading(traces, traces[0].scenario), fontsize="medium")
     figure.align_ylabels()
     return figure
+
+
+def _heading(traces: Sequence[Trace], scenario: Scenario) -> str:
+    """Return device, hand, wall and time; with a state observer, which of the laws use it."""
+    uses = {trace.law: observer_use(trace) for trace in traces}
+    users = [law for law, use in uses.items() if use is not None and use.fallback.get("off", 0) < 1]
+    text = heading(scenario, traces[0].origin)
+    if len(users) == len(traces):
+        return text
+    by = f", state observer used by {', '.join(users)} only" if users else ""
+    return text.replace(", state observer", by)
 
 
 def _together(traces: Sequence[Trace], rows: list[str], near: bool) -> tuple[Picture, Axes | None]:
@@ -91,7 +104,7 @@ def _together(traces: Sequence[Trace], rows: list[str], near: bool) -> tuple[Pic
     axes["x end"].set_title("the end of the run", fontsize="medium")
     for name in (rows[-1], "f end"):
         axes[name].set_xlabel("time [s]")
-    marks = dict(zip(*reversed(axes["x"].get_legend_handles_labels()), strict=True))
+    marks = _marks(axes["x"]) | _marks(axes["f"]) | _marks(axes["f end"])
     order = [_label(trace) for trace in traces]
     order += [label for label in marks if label not in order]
     figure_legend(figure, [marks[label] for label in order], order)
@@ -128,10 +141,14 @@ def _apart(traces: Sequence[Trace], rows: list[str], near: bool) -> tuple[Pictur
             ax.tick_params(labelbottom=last, labelleft=left)
             if last:
                 ax.set_xlabel("time [s]")
-    handles, labels = first["x"].get_legend_handles_labels()
-    if labels:
-        figure_legend(figure, handles, labels)
+    marks = {label: mark for ax in figure.axes for label, mark in _marks(ax).items()}
+    if marks:
+        figure_legend(figure, list(marks.values()), list(marks))
     return figure, figure.add_subplot(grid[-1, :]) if near else None
+
+
+def _marks(ax: Axes) -> dict[str, Artist]:
+    return dict(zip(*reversed(ax.get_legend_handles_labels()), strict=True))
 
 
 def _label(trace: Trace) -> str:
@@ -171,7 +188,13 @@ def _lines(ax: Axes, row: str, part: Trace, label: str) -> None:
     if row == "x":
         line(ax, part["t"], 1e3 * _place(part), lw=1.3, **style)
     elif row == "f":
-        line(ax, part["t"], part.axis("f_applied"), lw=1.3, **style)
+        force = part.axis("f_applied")
+        line(ax, part["t"], force, lw=1.3, **style)
+        peak = part.scenario.device.peak_force if part.scenario else np.inf
+        for edge in (peak, -peak):
+            if np.any(np.sign(edge) * force > 0.999 * peak):
+                text = f"peak force of the motor, {peak:.3g} N"
+                ax.axhline(edge, color="0.35", lw=1, ls=":", zorder=1.9, label=text)
     elif _has_beta(part):
         ax.plot(part["t"], 1e-3 * part.axis("law.beta"), ".", ms=2.5, **style)
     mark_end(ax, part, label=False)
