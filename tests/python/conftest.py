@@ -199,7 +199,7 @@ _LATE = re.compile(
     r"fault (?:9 \(drive silent|10 \(drive emergency|11 \(heartbeat lost|14 \(overspeed"
     r"|16 \(force stale|19 \(overruns)\)"
     r"|error code 0x8130, heartbeat"
-    r"|ticks could not be kept and were skipped(?=[\s\S]*fault 21 \(starved)"
+    r"|ticks? could not be kept and (?:was|were) skipped(?=[\s\S]*fault 21 \(starved)"
 )
 #: How often a test is repeated at most: after a stall, and after any other failure.
 _STALLS, _OTHERS = 7, 2

@@ -61,6 +61,19 @@ def test_a_virtual_run_tells_that_its_clock_is_virtual() -> None:
     assert "on a virtual clock: every tick in time" in " ".join(done.stdout.split())
 
 
+@pytest.mark.parametrize(
+    ("skipped", "words"),
+    [(1, "1 tick could not be kept and was"), (2, "2 ticks could not be kept")],
+)
+def test_skipped_ticks_are_counted_in_words(
+    skipped: int, words: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    results = import_module("ebac.cli.run.results")
+    names = [name for _, *three in results._TIMES for name in three if name]
+    results._show_times(SimpleNamespace(**dict.fromkeys(names, 0.0), skipped=skipped))
+    assert words in " ".join(capsys.readouterr().out.split())
+
+
 def test_a_run_whose_parameters_changed_has_no_verdict(capsys: pytest.CaptureFixture[str]) -> None:
     results = import_module("ebac.cli.run.results")
     known = Configuration.load(EXAMPLE).replace(seconds=1.0)

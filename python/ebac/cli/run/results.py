@@ -255,4 +255,6 @@ def _show_times(times: Times) -> None:
         grid.add_row(label, *("-" if v is None else f"{1e6 * v:,.1f} µs" for v in values))
     output.show(grid)
     if times.skipped:
-        output.say(f"{times.skipped:,} ticks could not be kept and were skipped.", style="yellow")
+        were = "was" if times.skipped == 1 else "were"
+        ticks = output.plural(times.skipped, "tick")
+        output.say(f"{ticks} could not be kept and {were} skipped.", style="yellow")
