@@ -323,11 +323,12 @@ def test_a_study_of_several_conditions_names_what_they_share_and_explains_each()
     found = study(
         Operators.grid()[:1], ["tca"], ["d1K10", "d2b2K20"], base=ebac.Scenario(seconds=0.5)
     )
-    title = dict(plot_study(found))["hands"].get_suptitle()
-    first, *lines = title.split("\n")
+    figure = dict(plot_study(found))["hands"]
+    first, *lines = figure.get_suptitle().split("\n")
     assert first.endswith("the reference device (0.25 kg, 2 N s/m); 1 kHz, state observer")
     assert lines[0] == "d1K10: 1 sample of delay, device damping 2 N s/m, wall 10 kN/m"
     assert lines[1] == "d2b2K20: 2 samples of delay, device damping 2 N s/m, wall 20 kN/m"
+    check_inside(figure)
 
 
 @pytest.mark.slow

@@ -212,7 +212,9 @@ def _fit_text(text: Text, room: float, renderer: RendererAgg, undo: Undo) -> Non
     undo.append(lambda: text.set_text(words))
     longest = max(len(one) for one in words.split("\n"))
     most = max(12, int(longest * room / width) - 1)
-    text.set_text("\n".join(balanced(one, most) for one in words.split("\n")))
+    while most >= 12 and text.get_window_extent(renderer).width > room:
+        text.set_text("\n".join(balanced(one, most) for one in words.split("\n")))
+        most -= 1  # a line of wide letters may need it
 
 
 def balanced(text: str, most: int) -> str:

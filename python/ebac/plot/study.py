@@ -101,10 +101,13 @@ def _scatter(study: Study, conditions: list[str], *, narrow: bool) -> Picture:
 
 def _setting(study: Study, conditions: list[str]) -> str:
     """Return what the conditions share of device, virtual world and timing, and what each one is."""
-    places = [study.runs(next(iter(study.laws)), name)[0] for name in conditions]
-    device, _, world, timing, _ = zip(
-        *(formatting.describe(study.scenarios[place]).split("; ") for place in places), strict=True
-    )
+    law = next(iter(study.laws))
+    runs = np.concatenate([study.runs(law, name) for name in conditions]) % len(study.scenarios)
+    device, world, timing = zip(
+        *((parts[0], "; ".join(parts[2:-2]), parts[-2])
+          for parts in (formatting.describe(study.scenarios[run]).split("; ") for run in runs)),
+        strict=True,
+    )  # fmt: skip
     changed = "" if len(set(device)) == 1 else ", changed as each condition says"
     same = [device[0] + changed, *({*world} if len({*world}) == 1 else ())]
     first, *others = (one.split(", ") for one in timing)
