@@ -13,7 +13,7 @@ import typer
 from typer.core import TyperCommand, TyperGroup
 
 from ebac._util.arguments import did_you_mean
-from ebac.cli import by_option, options, output, wrong_input
+from ebac.cli import by_option, interrupts, options, output, wrong_input
 
 #: Panels of the options of a scenario.
 SCENARIO = (options.WALL, options.HAND, options.DEVICE, options.RUN)
@@ -61,7 +61,7 @@ class Command(TyperCommand):
         """Run the command."""
         by_option.current.clear()
         by_option.current.update({p.name: wrong_input.option_name(p) for p in self.params})
-        with output.interruptible():
+        with interrupts.interruptible():
             return super().invoke(ctx)
 
 

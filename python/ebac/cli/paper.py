@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from ebac._util.arguments import unknown
-from ebac.cli import output
+from ebac.cli import interrupts, output
 from ebac.cli.files import ResultOptions
 
 if TYPE_CHECKING:
@@ -52,7 +52,7 @@ def paper(
     with output.refusing():
         names = _names(item or ["all"])
     folder = to.folder("paper", as_json=as_json)
-    output.keeping("nothing was written; name the items you need, as in `ebac paper eq1 fig5`")
+    interrupts.keeping("nothing was written; name the items you need, as in `ebac paper eq1 fig5`")
     files: list[str] = []
     with (
         output.results(folder) as draft,

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from ebac.cli import output
+from ebac.cli import interrupts, output
 from ebac.cli.files import ResultOptions
 
 if TYPE_CHECKING:
@@ -175,7 +175,7 @@ def _simulated(
     sizes: dict[str, Any] = {name: alignment * getattr(plain, name) for name in names}
     sources = plain.replace(slack=plain.slack if slack is None else slack, **sizes)
     folder = to.folder("track", as_json=as_json)
-    output.keeping("nothing was written; fewer --runs take less time")
+    interrupts.keeping("nothing was written; fewer --runs take less time")
     with output.counting("drawing joysticks", quiet=as_json) as progress:
         budget = error_budget(sources=sources, runs=runs, seed=seed, progress=progress)
     document = output.document("track", _rows(budget), **_assumed(budget))

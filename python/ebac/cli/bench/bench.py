@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from ebac.cli import options, output
+from ebac.cli import interrupts, options, output
 from ebac.cli.bench import can, logs, peers, worlds
 
 if TYPE_CHECKING:
@@ -104,7 +104,7 @@ def bench(
         output.fail(f"--chai3d {chai3d}: {reason}")
     if chai3d is not None and not with_worlds:
         output.fail("--chai3d is a part of --worlds: give that, too")
-    output.keeping("nothing was written; fewer --repeats take less time")
+    interrupts.keeping("nothing was written; fewer --repeats take less time")
     if with_worlds:
         worlds.run(repeats, chai3d, as_json=as_json)
         return

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Annotated, Any, TypeAlias
 import typer
 
 from ebac._util.arguments import unknown
-from ebac.cli import output
+from ebac.cli import interrupts, output
 
 if TYPE_CHECKING:
     from ebac.drives import Drive, DriveBus, Network, Sheet
@@ -153,7 +153,7 @@ def telling() -> Iterator[None]:
             notes = getattr(error, "__notes__", [])
             if not notes:
                 raise
-            output.fail(". ".join(notes), code=output.INTERRUPTED)
+            output.fail(". ".join(notes), code=interrupts.INTERRUPTED)
 
 
 @contextmanager

@@ -6,7 +6,7 @@ from typing import Any
 
 import typer
 
-from ebac.cli import by_option, output, wrong_input
+from ebac.cli import by_option, interrupts, wrong_input
 from ebac.cli.command import Group, add, expanded
 from ebac.cli.gastroscopy import chain, drives, navigate, study
 
@@ -18,7 +18,7 @@ class OwnAndStudy(Group):
         """Run the navigation, or the study."""
         by_option.current.clear()
         by_option.current.update({p.name: wrong_input.option_name(p) for p in self.params})
-        with output.interruptible():
+        with interrupts.interruptible():
             return super().invoke(ctx)
 
 

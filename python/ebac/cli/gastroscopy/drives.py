@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from ebac.cli import by_name, options, output, simulated
+from ebac.cli import by_name, interrupts, options, output, simulated
 from ebac.cli.drive.options import Yes, telling
 from ebac.cli.gastroscopy.side_table import show
 from ebac.cli.gastroscopy.teller import Teller
@@ -216,7 +216,7 @@ def _known(given: Mapping[str, Path | None], on_simulated: bool) -> list[Configu
 def _keep(log: Path | None) -> None:
     """Whatever ends the command: the log is there."""
     if log is not None:
-        output.keeping(f"look at the rows with `ebac log info {log}`")
+        interrupts.keeping(f"look at the rows with `ebac log info {log}`")
 
 
 def _ready(port: int, announce: bool, teller: Teller | None) -> None:

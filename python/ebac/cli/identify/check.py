@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from ebac.cli import output
+from ebac.cli import interrupts, output
 
 if TYPE_CHECKING:
     from ebac.identify.check import Check
@@ -65,7 +65,7 @@ def check(
     * `ebac identify check device --logs 4`
     """
     many = LOGS[what] if logs is None else logs
-    output.keeping("nothing is written by this command; fewer --logs take less time")
+    interrupts.keeping("nothing is written by this command; fewer --logs take less time")
     if what is not What.GAINS:
         _intervals(what, many, seed, 10.0 if seconds is None else seconds, workers, as_json)
         return

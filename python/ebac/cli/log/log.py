@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, TypeAlias
 
 import typer
 
-from ebac.cli import output
+from ebac.cli import interrupts, output
 from ebac.cli.command import Group, add
 from ebac.cli.files import FigureOptions, free_file, new_file
 from ebac.cli.log import info as log_info
@@ -106,7 +106,7 @@ def export(
         extension(out, tuple(FORMATS))
         check_profile(out, profile)
     new_file("OUT", out, force=force)
-    output.keeping("nothing was written")
+    interrupts.keeping("nothing was written")
     if profile == Profile.ROS2:
         _export_ros2(file, out, start, stop, as_json=as_json)
         return

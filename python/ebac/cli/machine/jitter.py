@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from ebac._util.arguments import unknown
-from ebac.cli import output
+from ebac.cli import interrupts, output
 from ebac.cli.files import ResultOptions
 from ebac.cli.machine.grants import show_refused
 
@@ -56,7 +56,7 @@ def jitter(
     folder = to.folder("jitter", as_json=as_json)
     if realtime not in MODES:
         output.fail(unknown(f"--realtime {realtime}", realtime, MODES))
-    output.keeping("nothing was written; a shorter measurement: --seconds")
+    interrupts.keeping("nothing was written; a shorter measurement: --seconds")
     with output.refusing():
         asked = RealTime(priority=priority, cpu=cpu, stay_awake=stay_awake)
         what: Any = {"seconds": seconds, "rate": rate, "mode": realtime, "options": asked}

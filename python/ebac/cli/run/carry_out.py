@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import typer
 
-from ebac.cli import output
+from ebac.cli import interrupts, output
 from ebac.cli.drive.options import telling
 from ebac.cli.files import FigureOptions
 from ebac.cli.run import engine, results
@@ -70,7 +70,7 @@ def run_in_real_time(
 def _keep(log: Path | None) -> None:
     """From here on, whatever ends the command: the log is there."""
     if log is not None and log.exists():
-        output.keeping(
+        interrupts.keeping(
             f"look at the rows with `ebac log info {log}`, plot them with `ebac log plot {log}`"
         )
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from ebac.cli import by_name, options, output, setting
+from ebac.cli import by_name, interrupts, options, output, setting
 from ebac.cli.files import ResultOptions
 from ebac.cli.studies import replaced, study_results
 
@@ -106,7 +106,7 @@ def _run(people: Any, given: dict[str, Any], folder: Path | None, *, quiet: bool
     from ebac.studies import ablation as run_ablation
 
     with (
-        output.resumable("ablation", folder),
+        interrupts.resumable("ablation", folder),
         output.refusing(folder),
         output.counting("simulating", quiet=quiet) as progress,
     ):

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ebac.cli import options, output
+from ebac.cli import interrupts, options, output
 from ebac.cli.files import ResultOptions
 
 if TYPE_CHECKING:
@@ -45,7 +45,7 @@ def faults(
     from ebac.faults import run_campaign
 
     folder = to.folder("faults", as_json=as_json)
-    output.keeping(
+    interrupts.keeping(
         f"nothing was written; fewer --cases take less time, and --seed {seed} gives the same ones"
     )
     with output.refusing(), output.counting("injecting faults", quiet=as_json) as step:

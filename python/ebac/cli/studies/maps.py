@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from ebac._util.arguments import unknown
-from ebac.cli import by_name, options, output
+from ebac.cli import by_name, interrupts, options, output
 from ebac.cli.files import ResultOptions
 
 if TYPE_CHECKING:
@@ -123,7 +123,7 @@ def _run(
 
     kept = None if folder is None else folder / BUNDLES.format(law)
     with (
-        output.resumable("map", folder),
+        interrupts.resumable("map", folder),
         output.refusing(folder),
         output.counting(f"mapping {law}", quiet=quiet) as progress,
     ):

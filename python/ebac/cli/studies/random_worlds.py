@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ebac.cli import by_name, completion, options, output
+from ebac.cli import by_name, completion, interrupts, options, output
 from ebac.cli.files import ResultOptions
 
 if TYPE_CHECKING:
@@ -111,7 +111,7 @@ def random_worlds(
     with output.refusing():
         names = by_name.law_names(law or ["ebac"])
         folder = to.folder("random-worlds", as_json=as_json)
-        output.keeping(
+        interrupts.keeping(
             "nothing was written; the same command starts from the beginning, and fewer --hands, --kind or --device "
             "take less time"
         )

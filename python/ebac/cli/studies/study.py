@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from ebac.cli import by_name, options, output, setting
+from ebac.cli import by_name, interrupts, options, output, setting
 from ebac.cli.files import PANEL, ResultOptions
 from ebac.cli.studies import replaced, study_results
 
@@ -121,7 +121,7 @@ def _run(
     from ebac.studies import study as run_study
 
     with (
-        output.resumable("study", folder),
+        interrupts.resumable("study", folder),
         output.refusing(folder),
         output.counting("simulating", quiet=quiet) as progress,
     ):

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ebac.cli import by_name, completion, options, output
+from ebac.cli import by_name, completion, interrupts, options, output
 from ebac.cli.studies import replaced
 
 if TYPE_CHECKING:
@@ -102,7 +102,7 @@ def tune(
     elif found:
         _show(found)
     if stopped:
-        output.keeping("the best so far was printed" if found else "nothing was tried yet")
+        interrupts.keeping("the best so far was printed" if found else "nothing was tried yet")
         raise KeyboardInterrupt
 
 

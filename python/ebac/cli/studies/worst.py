@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ebac.cli import by_name, options, output, setting
+from ebac.cli import by_name, interrupts, options, output, setting
 from ebac.cli.files import ResultOptions
 from ebac.cli.studies import replaced
 
@@ -86,7 +86,7 @@ def worst(
         replaced.tell(base, [wanted])
         families = output.words(family)
         folder = to.folder("worst", as_json=as_json)
-        output.keeping(
+        interrupts.keeping(
             "nothing was written; the same command starts from the beginning, and fewer --family or --evaluations "
             "take less time"
         )

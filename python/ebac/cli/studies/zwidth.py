@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from ebac.cli import by_name, options, output, setting
+from ebac.cli import by_name, interrupts, options, output, setting
 from ebac.cli.files import ResultOptions
 
 if TYPE_CHECKING:
@@ -116,7 +116,7 @@ def zwidth(
         base = base.replace(**setting.given(seed=seed))
         _check(most_damping, least, top, epsilon)
         folder = to.folder("zwidth", as_json=as_json)
-        output.keeping(
+        interrupts.keeping(
             "nothing was written; the same command starts from the beginning, and fewer --law, --delay or --points "
             "take less time"
         )
