@@ -169,7 +169,7 @@ def test_ctrl_c_is_never_lost_while_a_campaign_runs(tmp_path: Path) -> None:
 #: Sends itself Ctrl-C where Python drops it.
 IN_A_CALLBACK = """
 import signal, time, weakref
-from ebac.cli.output import interruptible
+from ebac.cli.interrupts import interruptible
 
 with interruptible():
     thing = set()
