@@ -6,7 +6,7 @@ import re
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, TypeAlias
 
 import typer
 
@@ -18,6 +18,13 @@ if TYPE_CHECKING:
 
 PANEL = "Results"
 FORMATS = ("png", "pdf", "svg")
+
+Force: TypeAlias = Annotated[
+    bool,
+    typer.Option(
+        "--force", help="Write to a folder that already contains files.", rich_help_panel=PANEL
+    ),
+]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -91,12 +98,7 @@ class ResultOptions(FigureOptions):
             rich_help_panel=PANEL,
         ),
     ] = None
-    force: Annotated[
-        bool,
-        typer.Option(
-            "--force", help="Write to a folder that already contains files.", rich_help_panel=PANEL
-        ),
-    ] = False
+    force: Force = False
     no_files: Annotated[
         bool, typer.Option("--no-files", help="Write no files.", rich_help_panel=PANEL)
     ] = False

@@ -56,10 +56,8 @@ class BusMonitor:
         if message.is_error_frame or message.is_remote_frame or message.is_extended_id:
             return
         now, cob, data = time.monotonic(), message.arbitration_id, bytes(message.data)
-        if (
-            cob & 0x780 == 0x600
-        ):  # a request by SDO, which no drive sends; some buses bring back our own
-            return
+        if cob & 0x780 == 0x600:
+            return  # a request by SDO: no drive sends one, and some buses bring back our own
         node = cob & 0x7F
         with self._lock:
             self._frames.append((now, cob))

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from ebac.cli import output
-from ebac.cli.files import PANEL, FigureOptions, free_folder
+from ebac.cli.files import PANEL, FigureOptions, Force, free_folder
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -32,12 +32,7 @@ class ReportOptions(FigureOptions):
             rich_help_panel=PANEL,
         ),
     ] = None
-    force: Annotated[
-        bool,
-        typer.Option(
-            "--force", help="Write to a folder that already contains files.", rich_help_panel=PANEL
-        ),
-    ] = False
+    force: Force = False
 
     def folder(self) -> Path | None:
         """Return the folder to write to, None for none; one that has files ends the command."""
