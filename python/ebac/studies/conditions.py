@@ -111,7 +111,7 @@ _FRICTION, _FRICTION_1 = (to.device("mechanics", coulomb=newton) for newton in (
 
 _ROBUSTNESS = [
     _robust("surface", "the hand starts on the wall's surface, without free air", to.approach(0.0)),
-    _robust("surface-K20", "the same at 20 kN/m", to.approach(0.0), at=(1, 2, 20e3)),
+    _robust("surface-K20", "the hand starts on the surface of a wall of 20 kN/m", to.approach(0.0), at=(1, 2, 20e3)),
     _robust("hold", "the hand presses for 120 s", to.scenario(seconds=120.0)),
     _robust("friction-0.3", "Coulomb friction 0.3 N", _FRICTION),
     _robust("friction-1", "Coulomb friction 1 N", _FRICTION_1),
@@ -144,11 +144,12 @@ _ROBUSTNESS = [
     _robust("slow-press-K20", "slow press at 20 kN/m", _SLOW, at=(1, 2, 20e3)),
     _robust("slow-press-d2K20", "slow press at 2 samples of delay and 20 kN/m", _SLOW, at=(2, 2, 20e3)),
     _robust("slow-waves", "the target swings 5 mm at 1 Hz for 40 s, then rests", *_WAVES),
-    _robust("slow-waves-K20", "the same at 20 kN/m", *_WAVES, at=(1, 2, 20e3)),
+    _robust("slow-waves-K20", "slow waves at 20 kN/m", *_WAVES, at=(1, 2, 20e3)),
     _robust("let-go", "impact, then the hand lets go at 3 s", to.hand(release_at=3.0)),
     _robust("slow-let-go", "slow press, then the hand lets go at 5 s", _SLOW, _LET_GO_LATE),
-    _robust("slow-let-go-d2", "the same at 2 samples of delay", _SLOW, _LET_GO_LATE, at=(2, 2, 10e3)),
-    _robust("slow-let-go-K20", "the same at 20 kN/m", _SLOW, _LET_GO_LATE, at=(1, 2, 20e3)),
+    _robust("slow-let-go-d2", "slow press at 2 samples of delay, then the hand lets go",
+            _SLOW, _LET_GO_LATE, at=(2, 2, 10e3)),
+    _robust("slow-let-go-K20", "slow press at 20 kN/m, then the hand lets go", _SLOW, _LET_GO_LATE, at=(1, 2, 20e3)),
     _robust("pumping", "no hands: a drive of 20 kN/m pumps 20 s at 2 mm depth, 0.1 to 4 mm, 0.5 to 30 Hz",
             to.scenario(seconds=20.0), drives=_PUMPS),
 ]  # fmt: skip
@@ -167,7 +168,7 @@ _FAILING = [
             to.device("sensor", range=5.0)),
     _robust("sensor-bias", "the force sensor shows 2 N more", to.device("sensor", bias=2.0)),
     _robust("sensor-slow", "the force sensor has a lag of 3 ms", to.device("sensor", lag=3e-3)),
-    _robust("sensor-slow-untold", "the same, and the observer assumes 0.8 ms",
+    _robust("sensor-slow-untold", "the force sensor has a lag of 3 ms, and the observer assumes 0.8 ms",
             to.untold(to.device("sensor", lag=3e-3))),
     _robust("sensor-records", "the force sensor gives a record every 1.3 ms, its age known",
             to.device("sensor", period=1.3e-3)),
@@ -178,7 +179,7 @@ _FAILING = [
     _robust("told-friction+50", "0.3 N of friction, the device declares 0.45 N",
             to.untold(_FRICTION, declared=to.device("mechanics", coulomb=0.45))),
     _robust("cable", "a cable of 100 kN/m between motor and lever", to.device("mechanics", cable_stiffness=1e5)),
-    _robust("backlash", "the same with 0.05 mm of play",
+    _robust("backlash", "a cable of 100 kN/m with 0.05 mm of play",
             to.device("mechanics", cable_stiffness=1e5, backlash=5e-5)),
 ]  # fmt: skip
 _TOLD = ("told-mass+50", "told-mass-50", "told-delay-1-of-2")
@@ -223,7 +224,7 @@ _HOLDS = [
 _HELD = [
     _robust("hold-10min", "no hands: one of 0.05 kg, 20 N s/m, 1000 N/m moves 30 mm in 3 s and holds for 10 min",
             drives=[to.held(600.0)]),
-    _robust("hold-1h", "the same for an hour", drives=[to.held(3600.0)]),
+    _robust("hold-1h", "no hands: the one of hold-10min holds for an hour", drives=[to.held(3600.0)]),
 ]  # fmt: skip
 
 #: Every condition by its name.
