@@ -234,6 +234,20 @@ INSTANTIATE_TEST_SUITE_P(Estimators, Speed,
                                            Velocity{LowPass{.time_constant = 2e-3}},
                                            Velocity{AdaptiveWindow{}}));
 
+TEST(CompensationInFlight, ActsAfterTheDelayInTheShareOfTheCommandThatWasSent) {
+  CompensationInFlight compensation(1);
+  const auto next = [&](double given, double asked, double sent) {
+    compensation.give(Axes::Constant(given));
+    return compensation.advance(0, asked, sent);
+  };
+  EXPECT_EQ(next(1, 4, 4), 0);     // the command of this tick acts over the next interval
+  EXPECT_EQ(next(1, 4, 2), 1);     // sent by half: a soft start, or a limit
+  EXPECT_EQ(next(1, 4, -3), 0.5);  // the edge of the workspace pushed back
+  EXPECT_EQ(next(1, 0, 0), 0);     // at rest
+  EXPECT_EQ(next(1, -4, -8), 0);
+  EXPECT_EQ(next(1, 4, 4), 1);
+}
+
 /// Everything a tick needs, in a world that is met, left and met again.
 struct Parts {
   Setup setup{.environment = Wall{.damping = 5}};

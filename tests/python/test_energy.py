@@ -187,6 +187,60 @@ def test_a_slow_press_keeps_its_wall_where_the_motor_carries_the_weight(gravity:
     assert row.most_drawn_J < 1e-3
 
 
+@pytest.mark.parametrize("observer", [False, True])
+@pytest.mark.parametrize("delay", [0, 1, 2])
+@given(
+    friction=st.floats(0.0, 0.5), inertia=st.floats(0.0, 0.004), gravity_mass=st.floats(0.0, 0.2)
+)
+@settings(max_examples=5)
+def test_static_compensation_is_no_work_of_the_law(
+    friction: float, inertia: float, gravity_mass: float, delay: int, observer: bool
+) -> None:
+    """Of the force that acted, the account has the command of the law, to the bit of what is left by a sum."""
+    given_back = ebac.Compensation(friction=friction, inertia=inertia, gravity_mass=gravity_mass)
+    mechanics = ebac.Mechanics(coulomb=0.5, gravity=9.81)
+    device = ebac.Device(mechanics=mechanics, compensation=given_back)
+    timing = ebac.Timing(delay=delay)
+    scenario = ebac.Scenario(device=device, timing=timing, seconds=0.3, observer=observer)
+    trace = ebac.simulate(scenario, "ebac")
+    own = np.roll(trace["f_cmd"], delay + 1)
+    own[: delay + 1] = 0
+    assert np.abs(trace["f_cmd"]).max() < 0.8 * device.peak_force
+    moved = trace["est.dx"] if observer else trace["dx"]
+    assert np.abs(trace["work"] - np.cumsum(own * moved)).max() < 1e-9
+
+
+@pytest.mark.parametrize("observer", [False, True])
+def test_friction_given_back_in_full_leaves_the_account_of_the_law_alone(observer: bool) -> None:
+    """It was charged for the push and not given what friction takes: -120 mJ in 6 s, and the next wall was gone."""
+    device = ebac.Device(
+        mechanics=ebac.Mechanics(coulomb=0.3), compensation=ebac.Compensation(friction=0.3)
+    )
+    sways = ebac.Hand(path=ebac.Sine(amplitude=0.05, frequency=0.5))
+    free = ebac.Scenario(
+        device=device, hand=sways, environment=ebac.Free(), seconds=6.0, observer=observer
+    )
+    trace = ebac.simulate(free, "ebac")
+    assert np.abs(trace["f_applied"]).max() > 0.29
+    assert np.abs(trace["work"]).max() < 1e-9
+    assert trace["law.energy"].min() > trace["law.energy"][0] - 1e-9
+    assert trace["true.energy"].min() > -1e-4
+
+
+def test_a_slow_press_keeps_its_wall_where_friction_is_given_back() -> None:
+    device = ebac.Device(
+        mechanics=ebac.Mechanics(coulomb=0.3), compensation=ebac.Compensation(friction=0.3)
+    )
+    conditions = ["slow-press", "slow-press-K20"]
+    study = ebac.study(
+        ebac.Operators.grid()[::12], ["ebac"], conditions, base=ebac.Scenario(device=device)
+    )
+    for row in study.rows:
+        assert row.exact_and_still == row.hands == 5
+        assert row.most_drawn_J is not None
+        assert row.most_drawn_J < 1e-3
+
+
 def test_damping_that_compensation_has_spent_is_not_counted() -> None:
     spent = ebac.Compensation(friction=1.0, friction_speed=0.1)
     device = ebac.Device(compensation=spent)

@@ -104,6 +104,7 @@ class PerAxis : public Replaceable<Law> {
   {
     return {law, law, law};
   }
+  const Timing& timing() const EBAC_RT { return laws_[0].timing(); }
   /// Whether it is made for the observer's estimate.
   bool observed() const EBAC_RT { return observed_of(laws_[0]); }
   double starved() const EBAC_RT {

@@ -90,11 +90,11 @@ Result run_case(InjectedFault injected, std::shared_ptr<Trace>* rows) {
   Referee referee(made, injected);
   TestBench bench(made, injected, referee);
   const auto updates = std::make_unique<ParameterUpdates<FaultyLaw>>(law);
-  FaultyLoop loop(FaultyDevice(bench), FaultyClock(kDt, injected, law, *updates),
-                  FaultyLaw(law, injected),
-                  SignalChain(made.known, setup.environment, observing(setup.observer, law)),
-                  setup.device.axes(),
-                  {.plan = made.plan, .limiter = SafetyLimiter(made.limits, setup.device, kDt)});
+  FaultyLoop loop(
+      FaultyDevice(bench), FaultyClock(kDt, injected, law, *updates), FaultyLaw(law, injected),
+      SignalChain(made.known, setup.environment, observing(setup.observer, law), setup.timing),
+      setup.device.axes(),
+      {.plan = made.plan, .limiter = SafetyLimiter(made.limits, setup.device, kDt)});
   const std::shared_ptr<Trace> trace = loop.make_trace(kRows);
   loop.run(*trace, updates.get());
 

@@ -21,13 +21,13 @@ class EnergyAccount {
   /// `dt` is the time since the last tick, 0 in the first.
   void set_tick(double dt) EBAC_RT { b_ = dt > 0 ? damping_ / dt : 0.0; }
 
-  /// The interval that ended with this tick, without the force that carries the weight of the device; with the
-  /// estimate of the observer where there is one.
-  void take(std::span<Axis> axes, const std::array<double, kMaxAxes>& carried,
+  /// The interval that ended with this tick, without the static compensation in the applied force; with the estimate of
+  /// the observer where there is one.
+  void take(std::span<Axis> axes, const std::array<double, kMaxAxes>& given_back,
             bool observed) EBAC_RT {
     for (std::size_t i = 0; i < axes.size(); ++i) {
       Port& port = axes[i].port;
-      const double f = port.f_applied - carried[i];
+      const double f = port.f_applied - given_back[i];
       const double bound = observed ? port.est.bound : half_count_;
       // By summation by parts: what the last position leaves open, and every change of the force.
       changes_[i] += bound_[i] * std::abs(f - acted_[i]);

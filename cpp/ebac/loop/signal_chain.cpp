@@ -7,7 +7,7 @@
 namespace ebac {
 
 SignalChain::SignalChain(const DeviceModel& device, const Environment& environment,
-                         const Observing& observing)
+                         const Observing& observing, const Timing& timing)
     : kinematics_(device.kinematics),
       encoder_(device.encoder),
       estimator_(device.velocity),
@@ -26,9 +26,7 @@ SignalChain::SignalChain(const DeviceModel& device, const Environment& environme
       carried_weight_(device.compensation.gravity_mass * device.mechanics.gravity),
       linear_(std::holds_alternative<Linear>(device.kinematics)),
       compensates_(device.compensation.active()),
-      carries_(carried_weight_ != 0) {
-  if (linear_) carried_.fill(carried_weight_);
-}
+      compensation_in_flight_(timing.delay) {}
 
 void SignalChain::change(const Environment& environment) EBAC_RT { environment_ = environment; }
 
@@ -41,11 +39,12 @@ void SignalChain::forward_general(const Reading& reading, double dt, std::span<A
   const Axes torque = torque_per_amp_ * of_all(axes, &Axis::joint, &Joint::current_applied);
   const Jacobian to_handle = j.transpose().inverse();
   const Axes f = to_handle * torque;
-  const Axes carried = carries_ ? Axes(to_handle * weight_at(q)) : Axes::Zero();
+  const Axes given_back =
+      compensates_ ? Axes(to_handle * compensation_that_acts(axes)) : Axes::Zero();
   for (std::size_t i = 0; i < axes.size(); ++i) {
     const auto e = static_cast<Eigen::Index>(i);
     axes[i].port.f_meas = reading.force[i];
-    carried_[i] = carried[e];
+    given_back_[i] = given_back[e];
     enter(axes[i].port, dt, x[e], v[e], f[e]);
   }
 }
@@ -56,6 +55,17 @@ ContactForce SignalChain::meet_in_space(const External& world, const Axes& x, co
   return space.felt(world.contact(space.at(), space.velocity(v), t));
 }
 
+/// Of the torque over the last interval.
+Axes SignalChain::compensation_that_acts(std::span<const Axis> axes) EBAC_RT {
+  Axes torque = Axes::Zero();
+  for (std::size_t i = 0; i < axes.size(); ++i) {
+    const Joint& joint = axes[i].joint;  // the command of the last tick, as it was sent
+    torque[static_cast<Eigen::Index>(i)] =
+        compensation_in_flight_.advance(i, joint.tau, torque_per_amp_ * joint.current);
+  }
+  return torque;
+}
+
 /// Torque that carries the compensated weight.
 Axes SignalChain::weight_at(const Axes& q) const EBAC_RT {
   return weight(kinematics_, q, carried_weight_);
@@ -64,7 +74,7 @@ Axes SignalChain::weight_at(const Axes& q) const EBAC_RT {
 void SignalChain::put_own_force(std::span<Axis> axes) EBAC_RT {
   for (std::size_t i = 0; i < axes.size(); ++i) {
     whole_[i] = axes[i].port.f_applied;
-    axes[i].port.f_applied -= carried_[i];
+    axes[i].port.f_applied -= given_back_[i];
   }
 }
 
@@ -91,7 +101,11 @@ Axes SignalChain::compensate(double dt, std::span<const Axis> axes) EBAC_RT {
 void SignalChain::drive_general(double dt, std::span<Axis> axes) EBAC_RT {
   const Axes q = of_all(axes, &Axis::joint, &Joint::q);
   Axes tau = transpose(kinematics_, q, of_all(axes, &Axis::port, &Port::f_cmd));
-  if (compensates_) tau += compensate(dt, axes);
+  if (compensates_) {
+    const Axes given_back = compensate(dt, axes);
+    compensation_in_flight_.give(given_back);
+    tau += given_back;
+  }
   for (std::size_t i = 0; i < axes.size(); ++i)
     send(axes[i].joint, tau[static_cast<Eigen::Index>(i)]);
 }

@@ -4,6 +4,8 @@
 #include <span>
 
 #include "ebac/core/concepts.hpp"
+#include "ebac/core/timing.hpp"
+#include "ebac/loop/compensation_in_flight.hpp"
 #include "ebac/loop/energy_account.hpp"
 #include "ebac/loop/of_all.hpp"
 #include "ebac/loop/state_observer.hpp"
@@ -16,8 +18,9 @@ namespace ebac {
 /// with their memory. Its functions are the stages of `tick`, in order.
 class SignalChain {
  public:
+  /// `timing` has the delay after which a command acts.
   SignalChain(const DeviceModel& device, const Environment& environment,
-              const Observing& observing = {});
+              const Observing& observing = {}, const Timing& timing = {});
 
   /// Another virtual world, from this tick on. An external one is used as it is; the poster keeps it, so that none is
   /// freed here.
@@ -50,15 +53,15 @@ class SignalChain {
   }
 
   /// f_applied, dx -> work, unsure, damped: the energy account, whatever the law
-  void account(std::span<Axis> axes) EBAC_RT { account_.take(axes, carried_, observer_.on()); }
+  void account(std::span<Axis> axes) EBAC_RT { account_.take(axes, given_back_, observer_.on()); }
 
-  /// Shows the law the applied force without what carries the weight of the device: the work of that goes into the
-  /// height of the handle and comes back, whatever the law does.
+  /// Shows the law the applied force without the static compensation in it, which is no doing of the law: the work that
+  /// carries weight comes back, and what is given back of friction and inertia the device itself takes.
   void show_own_force(std::span<Axis> axes) EBAC_RT {
-    if (carries_) put_own_force(axes);
+    if (compensates_) put_own_force(axes);
   }
   void show_whole_force(std::span<Axis> axes) EBAC_RT {
-    if (carries_) put_whole_force(axes);
+    if (compensates_) put_whole_force(axes);
   }
 
   /// x, v at time t -> f_env, world_v
@@ -84,6 +87,7 @@ class SignalChain {
   ContactForce meet_in_space(const External& world, const Axes& x, const Axes& v,
                              double t) const EBAC_RT;
   void forward_general(const Reading& reading, double dt, std::span<Axis> axes) EBAC_RT;
+  Axes compensation_that_acts(std::span<const Axis> axes) EBAC_RT;
   void drive_general(double dt, std::span<Axis> axes) EBAC_RT;
   void put_own_force(std::span<Axis> axes) EBAC_RT;
   void put_whole_force(std::span<Axis> axes) EBAC_RT;
@@ -106,13 +110,13 @@ class SignalChain {
   double amp_per_torque_;  // A/(N m)
   double force_per_amp_;   // N/A, at the handle of a linear device
   double peak_current_;    // A
-  double carried_weight_;  // N, by the compensation
+  double carried_weight_;  // N
   double dt_ = 0;          // s, since the last tick; 0 in the first
   bool linear_;
   bool compensates_;
-  bool carries_;                            // weight
-  std::array<double, kMaxAxes> carried_{};  // N, at the handle, of the last reading
-  std::array<double, kMaxAxes> whole_{};    // N, applied forces while the law is shown its own
+  CompensationInFlight compensation_in_flight_;
+  std::array<double, kMaxAxes> given_back_{};  // N, static compensation in the applied force
+  std::array<double, kMaxAxes> whole_{};       // N, applied forces while the law is shown its own
   std::array<VelocityState, kMaxAxes> velocity_{};
   std::array<double, kMaxAxes> counts_age_{};    // s, of the last reading
   std::array<bool, kMaxAxes> counted_{};         // whether new counts came
@@ -140,7 +144,7 @@ inline void SignalChain::measure(const Reading& reading, double dt, std::span<Ax
 }
 
 inline void SignalChain::forward(const Reading& reading, double dt, std::span<Axis> axes) EBAC_RT {
-  if (linear_) {  // the general case below, with J = R
+  if (linear_ && !compensates_) {  // the general case below, with J = R
     for (std::size_t i = 0; i < axes.size(); ++i) {
       Port& port = axes[i].port;
       const Joint& joint = axes[i].joint;

@@ -26,7 +26,7 @@ class MasterSide {
         dt_(setup.timing.dt),
         lag_(static_cast<std::uint32_t>(setup.timing.delay) + 1),
         device_(setup),
-        chain_(setup.device, Free{}),
+        chain_(setup.device, Free{}, {}, setup.timing),
         law_(law),
         watch_(coupling, dt_),
         receiver_(static_cast<int>(std::lround(coupling.buffer / dt_))),
@@ -68,6 +68,7 @@ class MasterSide {
     const Instant now{.t = static_cast<double>(tick_) * dt_, .dt = tick_ > 0 ? dt_ : 0.0};
     const Reading reading = sense(chain_, device_, now, sample_, axes);
     chain_.account(axes);
+    chain_.show_own_force(axes);
     Port& port = axes[0].port;
     observe(port);
     watch_.tick(other_lost_);
@@ -77,6 +78,7 @@ class MasterSide {
     net_[tick_ % net_.size()] = net;
     port.f_env = net + inject(port);
     port.f_cmd = law_.step(port);
+    chain_.show_whole_force(axes);
     chain_.drive(now.dt, axes);
     if (sample_.fault == Fault::kNone) sample_.fault = judge(reading, axes);
     if (sample_.fault != Fault::kNone) rest(axes);
