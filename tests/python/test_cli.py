@@ -255,10 +255,12 @@ def test_wall_runs_every_law_once() -> None:
     assert list(wall_rows("--law", "all", "--law", "tca", "--seconds", "0.1")) == list(ebac.LAWS)
 
 
-def test_the_friction_of_the_device_is_an_option() -> None:
-    words = ["wall", "--law", "ebac", "--seconds", "0.1", "--json", "--device-coulomb", "0.5"]
+def test_the_friction_of_the_device_and_its_compensation_are_options() -> None:
+    words = ["wall", "--law", "ebac", "--seconds", "0.1", "--json"]
+    words += ["--device-friction-compensation", "0.4", "--device-coulomb", "0.5"]
     told = json.loads(CliRunner().invoke(app, words).stdout)
     assert told["scenario"]["device"]["mechanics"]["coulomb"] == 0.5
+    assert told["scenario"]["device"]["compensation"]["friction"] == 0.4
     refused = CliRunner().invoke(app, [*words[:-1], "-1"])
     assert refused.exit_code == 2
     assert "--device-coulomb = -1 N: must lie in [0, 100] N" in " ".join(refused.output.split())

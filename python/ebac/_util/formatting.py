@@ -121,6 +121,8 @@ def _device(device: Device) -> str:
     )
     coulomb = device.mechanics.coulomb
     friction = f", friction {coulomb:g} N" if coulomb else ""
+    if given_back := device.compensation.friction:
+        friction += f", {given_back:g} N of friction compensated"
     noise = f", sensor noise {device.sensor.noise:g} N" if device.sensor.noise else ""
     permille = ", torque in per mille" if device.drive.permille else ""
     return f"{name} ({device.mass:.4g} kg, {device.mechanics.damping:g} N s/m{friction}{noise}{permille})"

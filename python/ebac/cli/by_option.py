@@ -21,6 +21,7 @@ OPTIONS = {
     "Tapping.target": "--hand-target",
     "ForceSensor.noise": "--device-noise",
     "Mechanics.coulomb": "--device-coulomb",
+    "Compensation.friction": "--device-friction-compensation",
     "Timing.delay": "--delay",
     "Scenario.jitter": "--jitter",
     "Scenario.seconds": "--seconds",

@@ -172,6 +172,10 @@ class DeviceOptions:
         float | None,
         option(text="Coulomb friction of the device [N]", default="0", panel=DEVICE),
     ] = None
+    device_friction_compensation: Annotated[
+        float | None,
+        option(text="Friction that its motor compensates [N]", default="0", panel=DEVICE),
+    ] = None
     device_permille: Annotated[
         bool | None,
         option(
@@ -246,7 +250,7 @@ def _scenario_of(given: dict[str, Any], seconds: float | None) -> Scenario:
         device=setting.choose_device(
             base.device, given.get("device"),
             noise=given.get("device_noise"), coulomb=given.get("device_coulomb"),
-            permille=given.get("device_permille"),
+            friction_compensation=given.get("device_friction_compensation"), permille=given.get("device_permille"),
         ),
         hand=hand_of(base.hand, given),
         environment=setting.choose_engine(wall_of(base.environment, given), given),

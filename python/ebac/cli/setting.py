@@ -152,15 +152,18 @@ def choose_device(
     *,
     noise: float | None = None,
     coulomb: float | None = None,
+    friction_compensation: float | None = None,
     permille: bool | None = None,
 ) -> Device:
-    """Return the device of that name, or `device`, with sensor noise [N], Coulomb friction [N] and drive as given."""
+    """Return the device of that name, or `device`, with noise, friction, its compensation [N] and drive as given."""
     chosen = known_device(name) if name is not None else device
     changes: dict[str, Any] = {}
     if noise is not None:
         changes["sensor"] = chosen.sensor.replace(noise=noise)
     if coulomb is not None:
         changes["mechanics"] = chosen.mechanics.replace(coulomb=coulomb)
+    if friction_compensation is not None:
+        changes["compensation"] = chosen.compensation.replace(friction=friction_compensation)
     if permille is not None:
         changes["drive"] = chosen.drive.replace(permille=permille)
     return chosen.replace(**changes) if changes else chosen
