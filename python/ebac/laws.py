@@ -4,11 +4,8 @@ from __future__ import annotations
 
 import dataclasses
 import inspect
-import json
 import re
 from collections.abc import Mapping, Sequence
-from functools import cache
-from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, Protocol, TypeAlias, cast, runtime_checkable
 
 from ebac import _core
@@ -30,6 +27,7 @@ from ebac._core import (
 )
 from ebac._util.arguments import require, unknown_name
 from ebac._util.wrong_calls import plain_constructor
+from ebac.tuned_laws import tuned, tuned_laws
 
 if TYPE_CHECKING:
     from ebac.scenario import Scenario
@@ -256,35 +254,6 @@ def changed(law: AnyLaw, **changes: Any) -> AnyLaw:
         raise TypeError(f"{law!r} cannot be changed: a law in Python must be a dataclass for that")
     own: Any = law
     return cast(PythonLaw, dataclasses.replace(own, **changes))
-
-
-@cache
-def tuned_laws() -> tuple[str, ...]:
-    """Return the names of the laws with tuned parameters: "tca-damped-tuned", "tca-damped-tuned-observer" and so on."""
-    return tuple(dict.fromkeys(f"{row['law']}{end}" for end in _TUNED for row in _tuned_rows(end)))
-
-
-def tuned(name: str, delay: int) -> tuple[str, dict[str, Any]]:
-    """Return the law behind a name of `tuned_laws`, and its parameters for the nearest delay [samples].
-
-    They were searched for the reference device at 1 kHz with `ebac tune all --device-noise 0.03 --json`, and with
-    `--observer-every-law`; other devices need a search of their own.
-    """
-    law, end, more = name.partition("-tuned")
-    rows = [row for row in _tuned_rows(end + more) if row["law"] == law]
-    nearest = min(rows, key=lambda row: abs(row["delay"] - delay))
-    return law, dict(nearest["changes"])
-
-
-#: What `ebac tune` found, by the ending of the laws' names.
-_TUNED = {"-tuned": "tuned_rivals.json", "-tuned-observer": "tuned_rivals_observer.json"}
-
-
-@cache
-def _tuned_rows(ending: str) -> list[dict[str, Any]]:
-    text = Path(__file__).with_name(_TUNED[ending]).read_text(encoding="utf-8")
-    rows: list[dict[str, Any]] = json.loads(text)["rows"]
-    return rows
 
 
 def reserve_of(law: CoreLaw | PythonLaw, scenario: Scenario) -> float | None:

@@ -186,6 +186,7 @@ ROOMS = [
     *(
         "_util",
         "presets",
+        "tuned_laws",
         "laws",
         "specs",
         "hands",

@@ -17,7 +17,8 @@ def one_law(name: str, option: str = "--law") -> str:
 
 def law_names(given: Sequence[str], option: str = "--law") -> list[str]:
     """Return the laws of names in any case, separated by commas, each once, in the order given; `all` is every law."""
-    from ebac.laws import LAWS, tuned_laws
+    from ebac.laws import LAWS
+    from ebac.tuned_laws import tuned_laws
 
     known = (*LAWS, *tuned_laws())
     names: list[str] = []

@@ -24,7 +24,8 @@ def several(complete: Callable[[str], list[str]]) -> Callable[[str], list[str]]:
 @several
 def laws(incomplete: str) -> list[str]:
     """Return the laws that begin so."""
-    from ebac.laws import LAWS, tuned_laws
+    from ebac.laws import LAWS
+    from ebac.tuned_laws import tuned_laws
 
     return _begun(incomplete.lower(), (*LAWS, *tuned_laws(), "all"))
 
