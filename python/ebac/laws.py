@@ -123,14 +123,25 @@ class Variant:
         A name of `LAWS`, or a class of the core.
     changes : mapping
         Parameters by name, in their SI units.
+
+    Raises
+    ------
+    KeyError
+        For a name that is no law.
+    ValueError
+        For a parameter out of range.
+    TypeError
+        For something that is no law, a parameter that it does not have, or a value of a wrong type.
     """
 
     law: str | type[CoreLaw]
     changes: Mapping[str, Any]
 
     def __post_init__(self) -> None:
-        """Check the changes."""
+        """Check law and changes."""
+        require(self.law, (str, type), "Variant", "a law of ebac.LAWS or its class")
         require(self.changes, Mapping, "Variant", "changes by name, as in {'kp': 0.2}")
+        _class_of(self.law)(**self.changes)
 
     @property
     def name(self) -> str:
@@ -178,25 +189,28 @@ def design(
     """
     if isinstance(law, Variant):
         return design(law.law, device, timing, **{**law.changes, **changes})
-    if isinstance(law, str):
-        if law in tuned_laws():
-            law, found = tuned(law, timing.delay)
-            changes = {**found, **changes}
-        if law not in LAWS:
-            raise unknown_name("law", law, [*LAWS, *tuned_laws()])
-        law = LAWS[law]
-    if isinstance(law, type):
-        if not hasattr(law, "_simulate"):
-            raise TypeError(
-                f"{law.__name__} is a class: give an instance of it, {law.__name__}(...)"
-            )
+    if isinstance(law, (str, type)):
+        if isinstance(law, str) and law in tuned_laws():
+            changes = {**tuned(law, timing.delay)[1], **changes}
         try:
-            return law.design(device, timing, **changes)
+            return _class_of(law).design(device, timing, **changes)
         except ValueError as error:
             raise ValueError(_by_cause(str(error), device, changes)) from None
     if changes:
         raise TypeError(f"{law!r} is finished: make it with {', '.join(changes)}, or give its name")
     return checked(law)
+
+
+def _class_of(law: str | type) -> type[CoreLaw]:
+    """Return the class of a law, which may go by its name or that of one with tuned parameters."""
+    if isinstance(law, str):
+        name = law.partition("-tuned")[0] if law in tuned_laws() else law
+        if name not in LAWS:
+            raise unknown_name("law", law, [*LAWS, *tuned_laws()])
+        return LAWS[name]
+    if not hasattr(law, "_simulate"):
+        raise TypeError(f"{law.__name__} is a class: give an instance of it, {law.__name__}(...)")
+    return cast("type[CoreLaw]", law)
 
 
 def checked(law: Any) -> CoreLaw | PythonLaw:

@@ -45,8 +45,33 @@ def test_a_variant_is_designed_anew_with_its_changes_on_top() -> None:
         assert made == ebac.design("ebac", ebac.Device(), timing, kp=0.0, guard=False)
     assert ebac.design(law, ebac.Device(), timing, kp=0.2).as_dict()["kp"] == 0.2  # type: ignore[union-attr]
     assert changed(law, kp=0.3) == Variant("ebac", {"kp": 0.3, "guard": False})
-    with pytest.raises(ValueError, match=r"EBAC.kp = 3: must lie in \[0, 0.5\]"):
-        ebac.design(Variant("ebac", {"kp": 3.0}), ebac.Device(), ebac.Timing())
+
+
+@pytest.mark.parametrize(
+    ("law", "changes", "kind", "message"),
+    [
+        ("ebac", {"kp": 3.0}, ValueError, r"EBAC.kp = 3: must lie in \[0, 0.5\]"),
+        ("ebac", {"kpp": 0.2}, TypeError, "EBAC has no parameter 'kpp', did you mean 'kp'; it has"),
+        ("ebac", {"guard": 2.0}, TypeError, "EBAC.guard = 2.0: must be bool"),
+        ("tca-damped-tuned", {"kpp": 0.2}, TypeError, "TCADamped has no parameter 'kpp'"),
+        (ebac.EBA, {"kp": 0.2}, TypeError, "EBA has no parameter 'kp'"),
+        ("ebak", {}, KeyError, "no law is called 'ebak', did you mean"),
+        (int, {}, TypeError, r"int is a class: give an instance of it, int\(...\)"),
+        (ebac.EBA(), {}, TypeError, "Variant takes a law of ebac.LAWS or its class, not EBA"),
+    ],
+)
+def test_a_variant_that_cannot_be_is_refused_when_it_is_made(
+    law: Any, changes: dict[str, Any], kind: type[Exception], message: str
+) -> None:
+    with pytest.raises(kind, match=message):
+        Variant(law, changes)
+
+
+def test_a_variant_of_tuned_parameters_keeps_the_others() -> None:
+    law = Variant("tca-damped-tuned", {"kp": 0.1})
+    made: Any = ebac.design(law, ebac.Device(), ebac.Timing())
+    tuned: Any = ebac.design("tca-damped-tuned", ebac.Device(), ebac.Timing())
+    assert made == tuned.replace(kp=0.1)
 
 
 def test_a_variant_runs_wherever_a_law_does() -> None:
