@@ -351,6 +351,16 @@ def test_a_fault_is_told_and_its_log_kept(monkeypatch: pytest.MonkeyPatch, tmp_p
                 ("file", "is a file or lies inside one; give the name of a folder"),
             )
         ),
+        *(
+            (
+                f"{command} /proc/x.{end}",
+                f"/proc/x.{end}: cannot be written (No such file or directory); give another file",
+            )
+            for command, end in (
+                ("wall --law ebac --seconds 0.1 --no-files --log", "mcap"),
+                ("specs --figure", "png"),
+            )
+        ),
         ("wall --no-files --out x", "exclude each other"),
         ("wall --stifness 3", "--wall-stiffness"),
         ("paper fig12", "did you mean 'fig"),

@@ -79,7 +79,10 @@ def test_bad_input_is_refused_in_a_sentence(room: Path) -> None:
     for words, said in (
         (["amr"], "did you mean 'arm'"),
         (["arm", "--out", "file"], "--out file: is a file; give the name of a folder"),
-        (["arm", "--out", "file/folder"], "cannot be written"),
+        (
+            ["arm", "--out", "file/folder"],
+            "is a file or lies inside one; give the name of a folder",
+        ),
     ):
         result = CliRunner().invoke(app, ["demo", *words])
         assert result.exit_code == 2

@@ -257,6 +257,19 @@ def test_export_refuses(recorded: Path) -> None:
     )
 
 
+@pytest.mark.parametrize(
+    ("command", "option", "file"),
+    [("export", "", "x.csv"), ("repair", "--out", "x.mcap"), ("plot", "--out", "x.png")],
+)
+def test_a_file_that_cannot_be_written_is_named_with_the_remedy(
+    recorded: Path, command: str, option: str, file: str
+) -> None:
+    out = f"/proc/{file}"
+    said = invoke(command, recorded, *filter(None, (option, out)), code=2)
+    wanted = "cannot be written (No such file or directory); give another file"
+    assert f"{option or 'OUT'} {out}: {wanted}" in said
+
+
 def test_a_log_without_rows_is_told_and_exported(tmp_path: Path) -> None:
     trace = ebac.simulate(ebac.Scenario(seconds=0.1), "ebac")
     path = tmp_path / "none.mcap"

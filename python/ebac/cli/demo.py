@@ -68,12 +68,11 @@ def _write(name: str, folder: Path, force: bool) -> str:
 
     if folder.is_file():
         output.fail(f"--out {folder}: is a file; give the name of a folder")
-    try:
-        return str(write(name, folder, force=force))
-    except FileExistsError as error:
-        output.fail(f"{error.filename} exists; --force replaces it, --out writes elsewhere")
-    except OSError as error:
-        output.fail(f"--out {folder}: cannot be written ({error.strerror}); give another folder")
+    with output.writing(f"--out {folder}", "folder"):
+        try:
+            return str(write(name, folder, force=force))
+        except FileExistsError as error:
+            output.fail(f"{error.filename} exists; --force replaces it, --out writes elsewhere")
 
 
 def _row(one: Dataset) -> dict[str, Any]:

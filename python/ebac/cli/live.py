@@ -242,10 +242,8 @@ def write_page(page: Path, *, force: bool, as_json: bool) -> None:
         wasm = module()
     except FileNotFoundError as error:
         output.fail(str(error))
-    try:
+    with output.writing(f"--page {page}"):
         text = written(page, wasm=wasm)
-    except OSError as error:
-        output.fail(f"--page {page}: cannot be written ({error.strerror}); give another file")
     size = len(text.encode())
     if as_json:
         typer.echo(output.document("live", [], written=[str(page)], size_bytes=size))

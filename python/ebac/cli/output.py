@@ -70,7 +70,7 @@ def refusing(out: Path | None = None) -> Iterator[None]:
     except OSError as error:
         file = None if error.filename is None else Path(str(error.filename))
         if file and out and (file.is_relative_to(out) or out.is_relative_to(file)):
-            _fail_folder(out, error)
+            cannot_write(f"--out {out}", error, "folder")
         if file and isinstance(error, FileNotFoundError):
             fail(_missing(file))
         verb = "written" if error.errno in _FULL else "read"
@@ -101,17 +101,24 @@ def results(out: Path | None) -> Iterator[Path | None]:
     if out is None:
         yield None
         return
+    with writing(f"--out {out}", "folder"), filled(out) as draft:
+        yield draft
+
+
+@contextmanager
+def writing(where: str, kind: str = "file") -> Iterator[None]:
+    """End the command when a file or folder cannot be written; `where` is its option and path."""
     try:
-        with filled(out) as draft:
-            yield draft
+        yield
     except OSError as error:
-        _fail_folder(out, error)
+        cannot_write(where, error, kind)
 
 
-def _fail_folder(out: Path, error: OSError) -> NoReturn:
-    if isinstance(error, (FileExistsError, NotADirectoryError)):
-        fail(f"--out {out}: is a file or lies inside one; give the name of a folder")
-    fail(f"--out {out}: cannot be written ({error.strerror}); give another folder")
+def cannot_write(where: str, error: OSError, kind: str = "file") -> NoReturn:
+    """End the command with what cannot be written, why, and the remedy; `kind` is file or folder."""
+    if kind == "folder" and isinstance(error, (FileExistsError, NotADirectoryError)):
+        fail(f"{where}: is a file or lies inside one; give the name of a folder")
+    fail(f"{where}: cannot be written ({error.strerror or error}); give another {kind}")
 
 
 def document(command: str, rows: Sequence[Mapping[str, Any]], **more: Any) -> str:

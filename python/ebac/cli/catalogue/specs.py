@@ -63,5 +63,6 @@ def _draw(device: str, figure: Path | None) -> list[str]:
 
     drawn = plot_workspace(setting.known_device(device))
     file = files.free_file(figure)
-    save(drawn, file)
+    with output.writing(f"--figure {file}"):
+        save(drawn, file)
     return [str(file)]

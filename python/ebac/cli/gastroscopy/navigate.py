@@ -205,12 +205,8 @@ def _write(folder: Path, found: Gastroscopy, to: ResultOptions) -> list[str]:
 
 
 def _write_log(found: Gastroscopy, log: Path) -> None:
-    try:
+    with output.refusing(), output.writing(f"--log {log}"):
         found.save(log)
-    except ModuleNotFoundError as error:
-        output.fail(f"--log {log}: {error}")
-    except OSError as error:
-        output.fail(f"--log {log}: cannot be written ({error.strerror})")
 
 
 def _show(found: Gastroscopy) -> None:

@@ -112,13 +112,12 @@ def export(
         return
     read = _read(file, start, stop, quiet=as_json)
     trace = read.trace
-    with output.refusing(), output.counting(f"writing {out.name}", quiet=as_json) as progress:
-        try:
-            trace.save(out, progress=progress)
-        except ModuleNotFoundError as error:
-            output.fail(str(error))
-        except OSError as error:
-            output.fail(f"{out}: cannot be written ({error.strerror})")
+    with (
+        output.refusing(),
+        output.writing(f"OUT {out}"),
+        output.counting(f"writing {out.name}", quiet=as_json) as progress,
+    ):
+        trace.save(out, progress=progress)
     if as_json:
         row = {"file": str(out), "rows": len(trace), "bytes": out.stat().st_size}
         typer.echo(output.document("log export", [row], **log_info.condition(read)))
@@ -156,7 +155,7 @@ def repair(
         except OSError as error:
             if str(error.filename) == str(file):
                 raise
-            output.fail(f"{error.filename}: cannot be written ({error.strerror})")
+            output.cannot_write(f"--out {error.filename}", error)
     if as_json:
         row = {
             "file": str(new.path),
@@ -229,7 +228,8 @@ def plot(
         figure.suptitle(f"{file.name}: {figure.get_suptitle()}", fontsize="medium")
         files = [out] if out else [free_file(file.with_suffix(f".{e}")) for e in style.formats()]
         for picture in files:
-            style.write(figure, picture)
+            with output.writing(f"--out {picture}"):
+                style.write(figure, picture)
     for picture in files:
         output.path(picture)
     output.say(f"{output.plural(len(trace), 'row')} drawn.")

@@ -15,16 +15,12 @@ def free_stem(folder: Path | None) -> Path | None:
     if folder is None:
         return None
     now = time.strftime("run-%Y%m%d-%H%M%S", time.gmtime())
-    try:
+    with output.writing(f"--out {folder}", "folder"):
         folder.mkdir(parents=True, exist_ok=True)
         for number in count(1):
             stem = folder / (now if number == 1 else f"{now}-{number}")
             if not stem.with_suffix(".mcap").exists() and _claimed(stem):
                 break
-    except (FileExistsError, NotADirectoryError):
-        output.fail(f"--out {folder}: is a file or lies inside one; give the name of a folder")
-    except OSError as error:
-        output.fail(f"--out {folder}: cannot be written ({error.strerror}); give another folder")
     return stem
 
 

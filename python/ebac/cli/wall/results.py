@@ -93,12 +93,8 @@ def write_logs(logs: list[Path], traces: list[Trace], step: Callable[[str], None
     """Write the log of each trace, if logs are wanted."""
     for path, trace in zip(logs, traces, strict=False):  # no logs, no pairs
         step(f"writing {path.name}")
-        try:
+        with output.writing(f"--log {path}"):
             trace.save(path)
-        except ModuleNotFoundError as error:
-            output.fail(f"--log {path}: {error}")
-        except OSError as error:
-            output.fail(f"--log {path}: cannot be written ({error.strerror})")
 
 
 def in_world(traces: list[Trace]) -> list[WorldContact]:
