@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -8,13 +9,17 @@
 
 namespace ebac::python {
 
+/// Refuses a list that is not one value for each axis.
+inline void check_axes(const std::string& name, std::size_t given, int axes) {
+  if (given == static_cast<std::size_t>(axes)) return;
+  throw std::invalid_argument(name + " has " + std::to_string(given) +
+                              (given == 1 ? " value" : " values") + ": must have " +
+                              std::to_string(axes) + ", one for each axis");
+}
+
 /// A point or a force with as many entries as the device has axes.
 inline Axes as_axes(const std::vector<double>& values, int axes, const char* what) {
-  if (values.size() != static_cast<std::size_t>(axes)) {
-    throw std::invalid_argument(std::string(what) + " has " + std::to_string(values.size()) +
-                                " values: must have " + std::to_string(axes) +
-                                ", one for each axis");
-  }
+  check_axes(what, values.size(), axes);
   Axes all = Axes::Zero();
   for (std::size_t i = 0; i < values.size(); ++i) all[static_cast<Eigen::Index>(i)] = values[i];
   return all;

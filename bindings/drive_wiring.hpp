@@ -8,6 +8,7 @@
 #include <tuple>
 #include <vector>
 
+#include "axes_argument.hpp"
 #include "ebac/core/check.hpp"
 #include "ebac/simulated_drives/wiring.hpp"
 #include "zero.hpp"
@@ -56,20 +57,11 @@ struct DriveWiring {
   std::vector<int> encoder;                   // 1 or -1
 };
 
-/// Refuses a list that is not one value for each axis.
-template <class T>
-void check_axes(const std::string& name, const std::vector<T>& given, int axes) {
-  if (given.empty() || given.size() == static_cast<std::size_t>(axes)) return;
-  throw std::invalid_argument("drive." + name + ": " + std::to_string(given.size()) +
-                              " values for a device of " + std::to_string(axes) +
-                              " axes: give one for each");
-}
-
 /// A wiring that can be, with the sheets that it refers to.
 class CheckedWiring {
  public:
   CheckedWiring(const DriveWiring& given, int axes) {
-    check_axes("sheets", given.sheets, axes);
+    if (!given.sheets.empty()) check_axes("drive.sheets", given.sheets.size(), axes);
     wiring_.zero = zero_of("drive", "zero", given.zero, axes);
     wiring_.motor = signs("motor", given.motor, axes);
     wiring_.encoder = signs("encoder", given.encoder, axes);
@@ -86,7 +78,7 @@ class CheckedWiring {
 
  private:
   void nodes(const std::vector<int>& given, int axes) {
-    check_axes("nodes", given, axes);
+    if (!given.empty()) check_axes("drive.nodes", given.size(), axes);
     for (std::size_t i = 0; i < given.size(); ++i) {
       wiring_.node[i] = checked_node(given[i]);
       for (std::size_t j = 0; j < i; ++j) {
@@ -99,8 +91,9 @@ class CheckedWiring {
   }
   static std::array<int, kMaxAxes> signs(const std::string& name, const std::vector<int>& given,
                                          int axes) {
-    check_axes(name, given, axes);
     std::array<int, kMaxAxes> signs{1, 1, 1};
+    if (given.empty()) return signs;
+    check_axes("drive." + name, given.size(), axes);
     for (std::size_t i = 0; i < given.size(); ++i) {
       if (given[i] != 1 && given[i] != -1) {
         throw std::invalid_argument("drive." + name + " = " + std::to_string(given[i]) +

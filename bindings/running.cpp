@@ -7,6 +7,7 @@
 #include <thread>
 #include <tuple>
 
+#include "axes_argument.hpp"
 #include "bind.hpp"
 #include "open_socketcan.hpp"
 #include "others_run.hpp"
@@ -26,11 +27,7 @@ constexpr std::chrono::milliseconds kLook{2};
 std::array<int, kMaxAxes> signs_of(const char* name, const std::vector<int>& given, int axes) {
   std::array<int, kMaxAxes> signs{1, 1, 1};
   if (given.empty()) return signs;
-  if (given.size() != static_cast<std::size_t>(axes)) {
-    throw std::invalid_argument("RunSetup." + std::string(name) + ": " +
-                                std::to_string(given.size()) + " signs for a device of " +
-                                std::to_string(axes) + " axes: give one for each");
-  }
+  check_axes("RunSetup." + std::string(name), given.size(), axes);
   std::ranges::copy(given, signs.begin());
   return signs;
 }
@@ -40,11 +37,7 @@ can::CanopenSetup drives_of(const DeviceModel& device, const std::vector<int>& n
                             const std::vector<int>& encoder_sign,
                             const std::vector<std::int64_t>& encoder_zero, const Values& more) {
   can::CanopenSetup drives{.axes = device.axes(), .motor = device.motor, .drive = device.drive};
-  if (nodes.size() != static_cast<std::size_t>(drives.axes)) {
-    throw std::invalid_argument("RunSetup.nodes: " + std::to_string(nodes.size()) +
-                                " drives for a device of " + std::to_string(drives.axes) +
-                                " axes: give one for each");
-  }
+  check_axes("RunSetup.nodes", nodes.size(), drives.axes);
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     if (nodes[i] < 1 || nodes[i] > can::kLastNode) {
       throw std::invalid_argument(

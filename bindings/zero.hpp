@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "axes_argument.hpp"
 #include "ebac/core/check.hpp"
 #include "ebac/core/realtime.hpp"
 
@@ -19,11 +20,7 @@ inline std::array<std::int32_t, kMaxAxes> zero_of(const std::string& owner, cons
   using Counts = std::numeric_limits<std::int32_t>;
   std::array<std::int32_t, kMaxAxes> zero{};
   if (given.empty()) return zero;
-  if (given.size() != static_cast<std::size_t>(axes)) {
-    throw std::invalid_argument(owner + "." + name + ": " + std::to_string(given.size()) +
-                                " numbers for a device of " + std::to_string(axes) +
-                                " axes: give one for each");
-  }
+  check_axes(owner + "." + name, given.size(), axes);
   for (std::size_t i = 0; i < given.size(); ++i) {
     if (given[i] < Counts::min() || given[i] > Counts::max()) {
       throw std::invalid_argument(range_message(owner, name, static_cast<double>(given[i]),

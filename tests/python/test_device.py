@@ -200,7 +200,7 @@ def test_limits_hold_for_every_joint(k: Any) -> None:
 
 
 def test_a_point_with_too_few_axes_is_refused() -> None:
-    with pytest.raises(ValueError, match="q has 1 values: must have 2, one for each axis"):
+    with pytest.raises(ValueError, match="q has 1 value: must have 2, one for each axis"):
         ebac.Gimbal().forward([0.1])
     with pytest.raises(ValueError, match="f has 3 values: must have 2"):
         ebac.Gimbal().transpose([0.0, 0.0], [1.0, 2.0, 3.0])

@@ -137,9 +137,10 @@ def test_a_sign_turns_current_and_counts(motor: int, encoder: int) -> None:
     ("wiring", "says"),
     [
         ({"nodes": [1, 1]}, r"drive\.nodes: 1 is the id of two drives"),
-        ({"nodes": [1]}, r"drive\.nodes: 1 values for a device of 2 axes"),
+        ({"nodes": [1]}, r"drive\.nodes has 1 value: must have 2, one for each axis"),
         ({"motor": [1, 2]}, r"drive\.motor = 2: must be 1 or -1"),
-        ({"sheets": [[]]}, r"drive\.sheets: 1 values for a device of 2 axes"),
+        ({"motor": [1]}, r"drive\.motor has 1 value: must have 2, one for each axis"),
+        ({"sheets": [[]]}, r"drive\.sheets has 1 value: must have 2, one for each axis"),
     ],
 )
 def test_a_wiring_that_cannot_be_is_refused(wiring: dict[str, object], says: str) -> None:

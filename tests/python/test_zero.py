@@ -318,7 +318,7 @@ def test_the_command_refuses_a_wall_around_the_handle() -> None:
 @pytest.mark.parametrize(
     ("zero", "words"),
     [
-        ([1], r"drive\.zero: 1 numbers for a device of 2 axes"),
+        ([1], r"drive\.zero has 1 value: must have 2, one for each axis"),
         (
             [0, MOST + 1],
             r"drive\.zero = 2147483648 counts: must lie in \[-2147483648, 2147483647\]",
