@@ -4,6 +4,7 @@
 #include <pybind11/stl.h>
 
 #include "bind.hpp"
+#include "ebac/core/check.hpp"
 #include "ebac/loop/observer_params.hpp"
 #include "fields.hpp"
 
@@ -38,8 +39,16 @@ void bind_encoder(py::module_& m) {
   capstan.def_property_readonly("ratio", &Capstan::ratio, "Motor angle over joint angle.");
 }
 
+/// Refuses what no estimate can be made with; NaN is outside any range.
+void check_estimate(const char* name, double value, const char* unit, double low, double high) {
+  if (value >= low && value <= high) return;
+  throw std::invalid_argument(range_message("estimate_velocity", name, value, unit, low, high));
+}
+
 py::array_t<double> estimate(const Velocity& estimator, const py::array_t<double>& x, double dt,
                              double count) {
+  check_estimate("dt", dt, "s", 1e-6, 3600);
+  check_estimate("count", count, "m", 0, 1);
   py::array_t<double> v(x.size());
   const auto in = x.unchecked<1>();
   auto out = v.mutable_unchecked<1>();
@@ -59,8 +68,8 @@ void bind_velocity(py::module_& m) {
       m, "AdaptiveWindow", "First-order adaptive windowing (Janabi-Sharifi, Hayward, Chen 2000).");
   m.def("estimate_velocity", &estimate, py::arg("estimator"), py::arg("x"), py::arg("dt"),
         py::arg("count"),
-        "Velocity [m/s] from positions x [m], shape (n,), sampled every dt [s] with an encoder "
-        "step of count [m].");
+        "Velocity [m/s] from positions x [m], shape (n,), sampled every dt [s], 1e-6 to 3600, with "
+        "an encoder step of count [m], 0 to 1.");
 }
 
 void bind_parts(py::module_& m) {

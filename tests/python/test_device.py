@@ -296,6 +296,20 @@ def test_the_estimator_of_a_trace_is_the_one_of_the_device(estimator: Any) -> No
     assert trace["v"] == pytest.approx(trace["dq"] * device.radius)
 
 
+@pytest.mark.parametrize(
+    ("dt", "count", "message"),
+    [
+        (0.0, 3e-5, r"estimate_velocity.dt = 0 s: must lie in \[1e-06, 3600\] s"),
+        (-1e-3, 3e-5, r"estimate_velocity.dt = -0.001 s: must lie in"),
+        (math.nan, 3e-5, r"estimate_velocity.dt = nan s: must lie in"),
+        (1e-3, -3e-5, r"estimate_velocity.count = -3e-05 m: must lie in \[0, 1\] m"),
+    ],
+)
+def test_a_velocity_without_time_is_refused(dt: float, count: float, message: str) -> None:
+    with pytest.raises(ValueError, match=message):
+        ebac.estimate_velocity(ebac.LowPass(), np.zeros(3), dt, count)
+
+
 # --- force sensor ---
 
 
