@@ -1,5 +1,6 @@
 """The configuration of a run: every refusal names file, line, value, unit, range and remedy."""
 
+import re
 from pathlib import Path
 
 import pytest
@@ -24,6 +25,24 @@ def test_the_example_is_what_it_says() -> None:
     assert known.law == "ebac"
     assert known.hand.path[0] == ebac.MinimumJerk(target=0.04, at=0.5, duration=1.0)
     assert known.text == EXAMPLE.read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize(
+    ("name", "why"),
+    [
+        (
+            "nope.toml",
+            "there is no such file; give the path of a configuration, of which `ebac demo",
+        ),
+        (".", r"cannot be read \(Is a directory\); give the path of a configuration"),
+    ],
+)
+def test_a_file_that_cannot_be_read_is_said_in_a_sentence(
+    tmp_path: Path, name: str, why: str
+) -> None:
+    path = tmp_path / name
+    with pytest.raises(ConfigurationError, match=f"^{re.escape(str(path))}: {why}"):
+        ebac.Device.open(path)
 
 
 def test_an_empty_one_is_the_paper_s_joystick() -> None:

@@ -155,7 +155,8 @@ def read_source(name: str | Path) -> Source:
             "a profile: `ebac drive profile generic-cia402` prints one to start from"
         ) from None
     except (OSError, ValueError) as error:  # ValueError: no text, or no name of a file
-        raise ProfileError(f"{str(path)!r}: cannot be read ({error})") from None
+        why = getattr(error, "strerror", None) or error
+        raise ProfileError(f"{str(path)!r}: cannot be read ({why})") from None
 
 
 def read_profile(source: Source, *, base: Profile | None = None, at: Where = ()) -> Profile:

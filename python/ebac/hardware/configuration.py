@@ -148,14 +148,22 @@ class Configuration:
 
         Raises
         ------
-        FileNotFoundError
-            When there is no such file.
         ConfigurationError
-            For an invalid entry; the message contains file, line, key, value, unit, range and remedy.
+            When the file cannot be read, or for an invalid entry; the message contains file, line, key, value, unit,
+            range and remedy.
         """
         require_path(path, "Configuration.load")
         try:
             text = read_text(path)
+        except FileNotFoundError:
+            raise ConfigurationError(
+                f"{path}: there is no such file; give the path of a configuration, of which "
+                "`ebac demo joystick` writes one"
+            ) from None
+        except OSError as error:
+            raise ConfigurationError(
+                f"{path}: cannot be read ({error.strerror or error}); give the path of a configuration"
+            ) from None
         except ValueError as error:
             raise ConfigurationError(f"{path}: {error}") from None
         return cls.from_toml(text, name=str(path))
