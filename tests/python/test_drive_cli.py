@@ -91,17 +91,28 @@ def test_scan_and_show(drive: Run) -> None:
     assert "tpdo1_cob_id" in drive("show", "-n", "1", "--all").stdout
 
 
-def test_show_has_the_units_of_the_maker(drive: Run, monkeypatch: pytest.MonkeyPatch) -> None:
-    """An EPOS4 has its rated torque in 1e-6 N m, CiA 402 in mN m."""
+@pytest.mark.parametrize(
+    ("vendor", "torque", "velocity"),
+    [
+        (0, "mN m", "0.1 counts/s"),  # simulated
+        (0xAB, "mN m", "0.1 counts/s"),  # Copley
+        (0xFB, "1e-6 N m", "raw units"),  # maxon EPOS4, whose unit of velocity can be set
+        (0x286, "mN m", "raw units"),  # Trinamic
+    ],
+)
+def test_show_has_the_units_of_the_maker(
+    drive: Run, monkeypatch: pytest.MonkeyPatch, vendor: int, torque: str, velocity: str
+) -> None:
     real = drives.Drive.look
 
     def look(self: drives.Drive, obj: Any) -> Any:
-        return 0xFB if getattr(obj, "name", obj) == "vendor_id" else real(self, obj)
+        return vendor if getattr(obj, "name", obj) == "vendor_id" else real(self, obj)
 
     monkeypatch.setattr(drives.Drive, "look", look)
     objects = {row["name"]: row for row in drive("show", "-n", "2", "--json")["rows"]}
-    assert objects["rated_torque"]["unit"] == "1e-6 N m"
+    assert objects["rated_torque"]["unit"] == torque
     assert objects["rated_current"]["unit"] == "mA"
+    assert objects["velocity"]["unit"] == velocity
 
 
 @pytest.mark.parametrize("width", [60, 80, 100, 160])

@@ -147,7 +147,7 @@ _TABLE: tuple[tuple[str, int, int, str, str, str], ...] = (
     ("mode", 0x6060, 0, "i8", "", "mode asked: 4 profile torque, 10 cyclic torque"),
     ("mode_display", 0x6061, 0, "i8", "", "mode that acts"),
     ("position", 0x6064, 0, "i32", "counts", "of the encoder"),
-    ("velocity", 0x606C, 0, "i32", "0.1 counts/s", "of the encoder (unit of Copley)"),
+    ("velocity", 0x606C, 0, "i32", "raw units", "of the motor, in a unit of the maker"),
     ("target_torque", 0x6071, 0, "i16", "per mille of rated", "torque asked"),
     ("max_torque", 0x6072, 0, "u16", "per mille of rated", "largest torque"),
     ("max_current", 0x6073, 0, "u16", "per mille of rated", "largest current"),
@@ -162,7 +162,11 @@ _TABLE: tuple[tuple[str, int, int, str, str, str], ...] = (
 )  # fmt: skip
 
 #: Units of a maker that are not those of the table: by vendor id (0x1018:1) and name.
-OWN_UNITS: dict[object, dict[str, str]] = {0xFB: {"rated_torque": "1e-6 N m"}}  # maxon EPOS4
+OWN_UNITS: dict[object, dict[str, str]] = {
+    0: {"velocity": "0.1 counts/s"},  # the simulated drive
+    0xAB: {"velocity": "0.1 counts/s"},  # Copley
+    0xFB: {"rated_torque": "1e-6 N m"},  # maxon EPOS4
+}
 
 
 def _pdo_objects() -> Iterator[Object]:
