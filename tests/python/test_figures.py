@@ -314,9 +314,19 @@ def test_what_lies_in_the_grey_area_is_exact_and_still_and_not_always_good() -> 
     [rings] = [line for line in ax.lines if line.get_markerfacecolor() == "none"]
     assert len(rings.get_xydata()) == found.columns["exact_and_still"].sum() > 0
     assert all(box.contains(x, y) for x, y in rings.get_xydata())
-    title = " ".join(scatter.get_suptitle().split())
-    assert "Grey area: exact and still" in title
-    assert "Ring: exact and still, but its force is not quiet" in title
+    [key] = scatter.legends
+    said = [" ".join(text.get_text().split()) for text in key.get_texts()]
+    assert said[0].startswith("exact and still: a rest within 2 encoder counts of the ideal")
+    assert said[2] == "exact and still, force not quiet"
+
+
+def test_the_hands_of_one_law_have_a_title_of_few_lines() -> None:
+    found = study(Operators.grid()[:1], ["tca"], ["d1K10"], base=ebac.Scenario(seconds=0.5))
+    figure = dict(plot_study(found))["hands"]
+    with fitted(figure):
+        assert len(figure.get_suptitle().split("\n")) <= 4
+    check_inside(figure)
+    check_inside(figure.narrow(), millimetres("single") / 25.4)  # type: ignore[misc]
 
 
 def test_a_study_of_several_conditions_names_what_they_share_and_explains_each() -> None:

@@ -9,13 +9,15 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.colors import LogNorm
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
 from matplotlib.patheffects import withStroke
 from matplotlib.ticker import FuncFormatter
 from numpy.typing import NDArray
 
 from ebac._util import formatting
 from ebac.metrics import STILL_SWING
-from ebac.plot.style import Picture, colour, new_figure
+from ebac.plot.style import Picture, colour, figure_legend, new_figure
 
 if TYPE_CHECKING:
     from ebac.studies import Study
@@ -24,6 +26,11 @@ if TYPE_CHECKING:
 PAGE, ABREAST, NAMED = 5, 5, 4
 #: What is shown of swing and deviation [mm]; beyond lies on the edge.
 LEAST_SWING, MOST = 1e-4, 100.0
+#: Where a hand is exact and still; the mark of a good one, of one whose force is not quiet, and of any other.
+EXACT = "0.88"
+GOOD: dict[str, Any] = {"marker": "o", "ms": 4, "mew": 0, "alpha": 0.6}
+RING: dict[str, Any] = {"marker": "o", "ms": 4, "mew": 0.9, "mfc": "none"}
+CROSS: dict[str, Any] = {"marker": "x", "ms": 5, "mew": 1.1}
 #: Room for a letter of a name in a table [inch], and the slope of names below it [degree].
 LETTER, SLOPE = 0.085, 30
 
@@ -90,13 +97,27 @@ def _scatter(study: Study, conditions: list[str], *, narrow: bool) -> Picture:
             ax.set_xlabel("swing, peak to peak [mm]")
             ax.tick_params(labelbottom=True)
     figure.suptitle(
-        f"How {len(study.operators)} hands come to rest, one mark each, simulated: {_setting(study, conditions)}\n"
-        "Grey area: exact and still, which is a rest within 2 encoder counts of the ideal, or as far as friction "
-        "holds it, and a swing of less than 0.25 mm\nDot: a good hand. Ring: exact and still, but its force is not "
-        "quiet. Cross: not exact and still, the worst with their row in the population (#)",
+        f"How {len(study.operators)} hands come to rest, one mark each, simulated: {_setting(study, conditions)}",
         fontsize="medium",
     )
+    _explain(figure)
     return figure
+
+
+def _explain(figure: Picture) -> None:
+    """Say below the panels what area and marks mean."""
+    marks = [Line2D([], [], ls="", color="0.3", **style) for style in (GOOD, RING, CROSS)]
+    figure_legend(
+        figure,
+        [Patch(color=EXACT), *marks],
+        [
+            "exact and still: a rest within 2 encoder counts of the ideal,\n"
+            "or as far as friction holds it, and a swing below 0.25 mm",
+            "good: exact, still and quiet in force",
+            "exact and still, force not quiet",
+            "not exact and still; #5: row 5 of the population",
+        ],
+    )
 
 
 def _setting(study: Study, conditions: list[str]) -> str:
@@ -123,15 +144,15 @@ def _panel(ax: Axes, study: Study, law: str, condition: str) -> None:
     swing = np.clip(1e3 * part["swing_m"], LEAST_SWING, MOST)
     deviation = np.clip(1e3 * (part["rest_m"] - part["ideal_m"]), -MOST, MOST)
     band = 1e3 * float(np.median(part["allowed_m"]))
-    ax.fill_between([LEAST_SWING, 1e3 * STILL_SWING], -band, band, color="0.88", lw=0)
+    ax.fill_between([LEAST_SWING, 1e3 * STILL_SWING], -band, band, color=EXACT, lw=0)
     good, there = part["good"], part["exact_and_still"]
-    marks: tuple[tuple[NDArray[np.bool_], str, dict[str, Any]], ...] = (
-        (good, "o", {"ms": 4, "mew": 0, "alpha": 0.6}),
-        (there & ~good, "o", {"ms": 4, "mew": 0.9, "mfc": "none"}),
-        (~there, "x", {"ms": 5, "mew": 1.1}),
+    marks: tuple[tuple[NDArray[np.bool_], dict[str, Any]], ...] = (
+        (good, GOOD),
+        (there & ~good, RING),
+        (~there, CROSS),
     )
-    for which, mark, style in marks:
-        ax.plot(swing[which], deviation[which], mark, color=colour(law), **style)
+    for which, style in marks:
+        ax.plot(swing[which], deviation[which], ls="", color=colour(law), **style)
     ax.set_xscale("log")
     ax.set_yscale("symlog", linthresh=0.1)
     ax.set_xlim(LEAST_SWING / 2, 2 * MOST)
