@@ -76,6 +76,19 @@ def test_a_sensor_that_fails_ends_the_run_by_name(
     assert report.drives == ("switch on disabled",) * 2
 
 
+def test_a_simulated_sensor_has_the_bias_of_the_device_and_no_zero_of_its_own() -> None:
+    known = configuration()
+    assert known.sensor is not None
+    biased = known.replace(
+        device=known.device.replace(sensor=known.device.sensor.replace(bias=2.0)),
+        sensor=known.sensor.replace(bias=(3.0, 0.0, 0.0, 0.0, 0.0, 0.0)),
+    )
+    with ebac.Device.open(biased, simulate=True) as device:
+        trace = device.run("tca", ebac.Free(), seconds=0.1)
+    assert trace["f_meas"][5, 0] == pytest.approx(2.0, abs=0.5)
+    assert biased.simulate(seconds=0.1)["f_meas"][5, 0] == pytest.approx(2.0, abs=0.5)
+
+
 def test_a_run_without_its_sensor_does_not_begin(desk: Desk) -> None:
     device, sensor = desk
     sensor.inject(EmulatorTrouble(silent=True))

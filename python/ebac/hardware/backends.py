@@ -220,7 +220,8 @@ def sensor_of(
 ) -> Iterator[SensorConfig | None]:
     """Put a simulated sensor that measures a shared force on this machine's own network; None for none.
 
-    It scales counts as the configured one does, and is mounted in the same way. `grants` gets what its thread got;
+    It scales counts as the configured one does, and is mounted in the same way. It has no offset that the configured
+    `bias` would take off, so its own is 0; `device.sensor.bias` is in the force. `grants` gets what its thread got;
     `port` 0 is any free UDP port.
     """
     if known is None:
