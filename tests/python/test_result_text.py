@@ -21,7 +21,7 @@ from ebac.studies.measures import MEASURES
 from ebac.studies.zwidth import zwidth
 from ebac.tracking import RecordedPath, error_budget, evaluate
 from ebac.worlds import Body, Placed, Sphere, World
-from ebac.worlds.mesh import GridError
+from ebac.worlds.triangles import GridError
 
 Run = Callable[..., ebac.Trace]
 SHORT = ebac.Scenario(seconds=1.0)

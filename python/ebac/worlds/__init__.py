@@ -29,7 +29,8 @@ from ebac.worlds.engine_process import EngineProcess
 from ebac.worlds.engine_thread import EngineError, EngineThread
 from ebac.worlds.engines import Bridge, BridgeReport, FunctionWorld
 from ebac.worlds.force_depth import ForceDepth, force_depth
-from ebac.worlds.mesh import GridError, HeightField, Mesh
+from ebac.worlds.height_field import HeightField
+from ebac.worlds.mesh import Mesh
 from ebac.worlds.mujoco import MujocoEngine
 from ebac.worlds.presets import PRESETS, WorldPreset, preset
 from ebac.worlds.serving import serve_engine
@@ -43,6 +44,7 @@ from ebac.worlds.solids import (
     Union,
     distance,
 )
+from ebac.worlds.triangles import GridError
 from ebac.worlds.world import Body, Layered, Touch, World
 
 __all__ = [

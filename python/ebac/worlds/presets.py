@@ -22,7 +22,8 @@ from ebac._core import (
     Torus,
 )
 from ebac._util.arguments import require, unknown
-from ebac.worlds.mesh import HeightField, Mesh
+from ebac.worlds.height_field import HeightField
+from ebac.worlds.mesh import Mesh
 from ebac.worlds.solids import Cavity, Difference, Placed, Solid, Textured, Tube, Union
 from ebac.worlds.world import Body, Layered, World
 

@@ -11,7 +11,8 @@ from numpy.typing import ArrayLike, NDArray
 from ebac import _core
 from ebac._core import Box, Capsule, Cylinder, Plane, Sphere, Texture, Torus
 from ebac._util.wrong_calls import plain_constructor
-from ebac.worlds.mesh import HeightField, Mesh
+from ebac.worlds.height_field import HeightField
+from ebac.worlds.mesh import Mesh
 from ebac.worlds.part import Part, array, three
 
 Shape: TypeAlias = Box | Capsule | Cylinder | Plane | Sphere | Torus
