@@ -28,13 +28,10 @@ from ebac._core import (
     Wall,
     _World,
 )
-from ebac._util import serialisation
 from ebac._util.arguments import keywords_only, refuse_unknown, require, require_path
-from ebac._util.foreign_worlds import foreign
-from ebac._util.mesh_paths import seen_from, seen_from_here
 from ebac._util.text_file import read_text
-from ebac._util.toml import parsed
-from ebac.hands import as_hand, is_own
+from ebac.hands import as_hand
+from ebac.scenario_text import parts_of, text_of
 
 __all__ = [
     "Environment",
@@ -53,9 +50,6 @@ _SOLIDS = (Box, Capsule, Cylinder, Plane, Sphere, Torus)
 #: The observer that every law acts on.
 EVERY_LAW: Final = "every-law"
 _PARTS = ("device", "hand", "environment", "timing", "seconds", "jitter", "seed", "observer")
-
-#: Tables that only a configuration of `ebac run` has.
-_OF_A_RUN = frozenset(("bus", "limits", "run", "signs", "simulated", "zero"))
 
 
 def as_environment(given: Any) -> Any:
@@ -205,27 +199,7 @@ class Scenario:
         ValueError
             When its hand or world is one of your own: code is not written to a file.
         """
-        import tomli_w
-
-        if is_own(self.hand.model):
-            raise ValueError(
-                f"Scenario.hand.model = {self.hand.model!r}: a hand of your own cannot be written to TOML; "
-                "write the scenario with a model of ebac.hands, or none"
-            )
-
-        world = foreign(self.environment)
-        if world is not None and not world.has_text:
-            raise ValueError(
-                f"Scenario.environment = {self.environment!r}: a function cannot be written to TOML; write the "
-                "scenario with a World, a wall, or a Bridge to a World"
-            )
-        values = {f.name: getattr(self, f.name) for f in dataclasses.fields(self)}
-        numbers = {k: v for k, v in values.items() if isinstance(v, (int, float, str))}
-        parts = {k: serialisation.to_document(v) for k, v in values.items() if k not in numbers}
-        document = numbers | parts
-        if folder is not None:
-            document = seen_from(document, Path(folder))
-        return "# ebac scenario; SI units throughout\n" + tomli_w.dumps(document)
+        return text_of(self, None if folder is None else Path(folder))
 
     @classmethod
     def from_toml(cls, text: str, *, folder: str | Path | None = None) -> Self:
@@ -245,18 +219,7 @@ class Scenario:
         """
         require(text, str, "Scenario.from_toml", "text")
         try:
-            table = parsed(text)
-        except ValueError as error:
-            raise ValueError(f"not a TOML document: {error}") from None
-        if not _OF_A_RUN.isdisjoint(table):
-            raise ValueError(
-                "this is a configuration of `ebac run`, not a scenario: `ebac run FILE --virtual` simulates it; for a "
-                "scenario copy its tables [device], [timing], [environment], and [simulated.hand] as [hand]"
-            )
-        if folder is not None:
-            table = seen_from_here(table, Path(folder))
-        try:
-            return cls(**serialisation.read_table(table, dataclasses.fields(cls), "scenario"))
+            return cls(**parts_of(text, cls, None if folder is None else Path(folder)))
         except TypeError as error:
             raise ValueError(str(error)) from None
 

@@ -192,6 +192,7 @@ ROOMS = [
         "hands",
         "operators",
         "worlds",
+        "scenario_text",
         "scenario",
         "trace",
         "simulation",

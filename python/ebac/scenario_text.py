@@ -1,0 +1,59 @@
+"""A scenario as TOML text, written and read."""
+
+from __future__ import annotations
+
+import dataclasses
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from ebac._util import serialisation
+from ebac._util.foreign_worlds import foreign
+from ebac._util.mesh_paths import seen_from, seen_from_here
+from ebac._util.toml import parsed
+from ebac.hands import is_own
+
+if TYPE_CHECKING:
+    from ebac.scenario import Scenario
+
+#: Tables that only a configuration of `ebac run` has.
+_OF_A_RUN = frozenset(("bus", "limits", "run", "signs", "simulated", "zero"))
+
+
+def text_of(scenario: Scenario, folder: Path | None) -> str:
+    """Return the text, see `Scenario.to_toml`."""
+    import tomli_w
+
+    if is_own(scenario.hand.model):
+        raise ValueError(
+            f"Scenario.hand.model = {scenario.hand.model!r}: a hand of your own cannot be written to TOML; "
+            "write the scenario with a model of ebac.hands, or none"
+        )
+    world = foreign(scenario.environment)
+    if world is not None and not world.has_text:
+        raise ValueError(
+            f"Scenario.environment = {scenario.environment!r}: a function cannot be written to TOML; write the "
+            "scenario with a World, a wall, or a Bridge to a World"
+        )
+    values = {f.name: getattr(scenario, f.name) for f in dataclasses.fields(scenario)}
+    numbers = {k: v for k, v in values.items() if isinstance(v, (int, float, str))}
+    others = {k: serialisation.to_document(v) for k, v in values.items() if k not in numbers}
+    document = numbers | others
+    if folder is not None:
+        document = seen_from(document, folder)
+    return "# ebac scenario; SI units throughout\n" + tomli_w.dumps(document)
+
+
+def parts_of(text: str, kind: type[Scenario], folder: Path | None) -> dict[str, Any]:
+    """Return the parts of a scenario that a text names, see `Scenario.from_toml`."""
+    try:
+        table = parsed(text)
+    except ValueError as error:
+        raise ValueError(f"not a TOML document: {error}") from None
+    if not _OF_A_RUN.isdisjoint(table):
+        raise ValueError(
+            "this is a configuration of `ebac run`, not a scenario: `ebac run FILE --virtual` simulates it; for a "
+            "scenario copy its tables [device], [timing], [environment], and [simulated.hand] as [hand]"
+        )
+    if folder is not None:
+        table = seen_from_here(table, folder)
+    return serialisation.read_table(table, dataclasses.fields(kind), "scenario")
