@@ -100,6 +100,14 @@ Values values_of(const FieldTable& table, const void* owner) {
   return values;
 }
 
+Units units_of(const FieldTable& table) {
+  Units units;
+  for (const FieldRow& field : table.rows) {
+    if (field.unit != "1") units[py::str(std::string(field.name))] = std::string(field.unit);
+  }
+  return units;
+}
+
 bool set_field(const FieldTable& table, void* target, const std::string& owner,
                const std::string& name, py::handle value) {
   const FieldRow* field = table.find(name);

@@ -30,6 +30,15 @@ Values values_of(const T& owner) {
   return values_of(field_table<T>(), &owner);
 }
 
+using Units = py::typing::Dict<py::str, py::str>;
+
+/// Units of the fields by their names; a pure number has none.
+Units units_of(const FieldTable& table);
+template <Described T>
+Units units_of() {
+  return units_of(field_table<T>());
+}
+
 /// Sets the field `name` of `target`; false when it has none of that name.
 bool set_field(const FieldTable& table, void* target, const std::string& owner,
                const std::string& name, py::handle value);

@@ -129,6 +129,7 @@ void bind_navigation(py::module_& m) {
       .def_property_readonly("ended", &Navigation::ended)
       .def("row", [](Navigation& run) { return values_of(run.row()); })
       .def("findings", [](const Navigation& run) { return values_of(run.findings()); })
+      .def_static("units", &units_of<Findings>)
       .def("state", [](const Navigation& run) { return state_of(run.slave()); });
 }
 

@@ -63,6 +63,7 @@ void bind_link(py::module_& m) {
           py::arg("fault"))
       .def("leave", &LinkEnd::leave)
       .def("report", &report_of)
+      .def_static("units", &units_of<LinkReport>)
       .def("events", &events_of, py::arg("start") = 0)
       .def_property_readonly(
           "port", [](const LinkEnd& link) { return static_cast<int>(link.local().port); });

@@ -34,6 +34,7 @@ void add_run(py::class_<Side>& cls) {
            return values;
          },
          py::arg("seconds"), "Run for a time [s]; return what it has met since it was made.")
+      .def_static("units", &units_of<Report>, "Units of what `run` returns, by name.")
       .def_property_readonly(
           "port", [](const Side& side) { return static_cast<int>(side.local().port); },
           "The UDP port it is bound to.");

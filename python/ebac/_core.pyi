@@ -8341,6 +8341,11 @@ class TeleopPacket:
         """
 
 class _UdpMaster:
+    @staticmethod
+    def units() -> dict[str, str]:
+        """
+        Units of what `run` returns, by name.
+        """
     def __init__(
         self,
         *,
@@ -8368,6 +8373,11 @@ class _UdpMaster:
         """
 
 class _UdpNetwork:
+    @staticmethod
+    def units() -> dict[str, str]:
+        """
+        Units of what `run` returns, by name.
+        """
     def __init__(
         self,
         *,
@@ -8394,6 +8404,11 @@ class _UdpNetwork:
         """
 
 class _UdpSlave:
+    @staticmethod
+    def units() -> dict[str, str]:
+        """
+        Units of what `run` returns, by name.
+        """
     def __init__(
         self,
         *,
@@ -9210,6 +9225,8 @@ class _Procedure:
     ) -> None: ...
 
 class _Navigation:
+    @staticmethod
+    def units() -> dict[str, str]: ...
     def __init__(self, procedure: _Procedure, setup: Setup, law: ebac.laws.CoreLaw) -> None: ...
     def advance(self, ticks: typing.SupportsInt | typing.SupportsIndex) -> None: ...
     def findings(self) -> dict[str, typing.Any]: ...
@@ -9669,6 +9686,8 @@ class Gears:
         """
 
 class _LinkEnd:
+    @staticmethod
+    def units() -> dict[str, str]: ...
     def consent(self) -> None: ...
     def events(
         self, start: typing.SupportsInt | typing.SupportsIndex = 0

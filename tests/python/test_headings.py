@@ -8,7 +8,7 @@ import pytest
 
 import ebac
 from ebac import logs
-from ebac._util.headings import FACTORS, signal_heading, split_heading
+from ebac._util.headings import FACTORS, signal_heading, split_heading, with_units
 from ebac.identify import load
 from ebac.tracking import read_path
 
@@ -176,3 +176,8 @@ def test_a_trace_with_round_brackets_is_a_trace(tmp_path: Path) -> None:
     other = logs.load(tmp_path / "round.csv")
     assert other.columns["x"].unit == "m"
     np.testing.assert_array_equal(other["x"], trace["x"])
+
+
+def test_units_stand_in_the_keys_of_json() -> None:
+    found = with_units({"impulse": 2.0, "force": 1.0, "count": 3}, {"impulse": "N s", "force": "N"})
+    assert found == {"impulse_N_s": 2.0, "force_N": 1.0, "count": 3}

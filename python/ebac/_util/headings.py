@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Collection
+from collections.abc import Collection, Mapping
 from math import pi
+from typing import Any
 
 #: What one of a unit is in SI, by quantity.
 FACTORS: dict[str, dict[str, float]] = {
@@ -105,6 +106,14 @@ def signal_heading(heading: str) -> tuple[str, str, float]:
         if unit in units:
             return name, next(iter(units)), units[unit]
     return name, unit or "1", 1.0
+
+
+def with_units(values: Mapping[str, Any], units: Mapping[str, str]) -> dict[str, Any]:
+    """Return values with their units in the keys, as JSON has them: `impulse_N_s`; a pure number keeps its name."""
+    return {
+        f"{name}_{units[name].replace(' ', '_')}" if name in units else name: value
+        for name, value in values.items()
+    }
 
 
 def standard_unit(unit: str | None, units: Collection[str]) -> str:

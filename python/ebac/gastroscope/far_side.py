@@ -10,6 +10,7 @@ from typing import Any
 from ebac import _core
 from ebac._core import Fault
 from ebac._core import TeleopPacket as Packet
+from ebac._util.headings import with_units
 from ebac.worlds.engines import ForeignWorld
 
 #: Names of the four axes, with their units and those of their loads.
@@ -19,17 +20,6 @@ AXES = (
     ("bend_x", "rad", "N_m"),
     ("bend_y", "rad", "N_m"),
 )
-#: Units of the report's numbers.
-UNITS = {
-    "seconds": "s",
-    "away": "s",
-    "round_trip": "s",
-    "longest_round_trip": "s",
-    "energy_in": "J",
-    "energy_out": "J",
-    "most_force": "N",
-    "force_when_lost": "N",
-}
 #: What an event means, at the master and at the slave; {} is its value.
 _WORDS = {
     1: ("running: the slave follows", "running: follows the master"),
@@ -202,15 +192,13 @@ def fault_name(number: int) -> str:
 
 def report_row(report: dict[str, Any]) -> dict[str, Any]:
     """Return a report of a link's end with units in its keys."""
-    row: dict[str, Any] = {}
+    row = with_units(report, _core._LinkEnd.units())
     for key, value in report.items():
         if isinstance(value, (list, tuple)):
             row[key] = {
                 f"{name}_{load if 'load' in key else unit}": number
                 for (name, unit, load), number in zip(AXES, value, strict=True)
             }
-        else:
-            row[f"{key}_{UNITS[key]}" if key in UNITS else key] = value
     return row
 
 

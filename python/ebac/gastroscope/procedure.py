@@ -144,6 +144,11 @@ class Gastroscopy:
     rows: dict[str, NDArray[np.float64]]
 
     @property
+    def units(self) -> dict[str, str]:
+        """Units of the findings, by name; a pure number has none."""
+        return dict(_core._Navigation.units())
+
+    @property
     def within_limit(self) -> bool:
         """Whether no force of the bending section passed the patient's limit."""
         return bool(self.findings["most_section"] <= self.procedure.lumen.patient.force_limit)

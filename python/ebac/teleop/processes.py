@@ -19,22 +19,6 @@ STATES = (
     "LINK LOST: the slave holds, the master's force fades to zero",
     "link is back, waiting for the hand's consent",
 )
-#: Units of what `run` returns.
-UNITS = {
-    "seconds": "s",
-    "away": "s",
-    "round_trip": "s",
-    "longest_round_trip": "s",
-    "latest": "s",
-    "position": "m",
-    "farthest": "m",
-    "moved_when_lost": "m",
-    "force": "N",
-    "most_force": "N",
-    "most_force_at": "s",
-    "most_force_since": "s",
-    "force_when_lost": "N",
-}
 
 
 class _Side:
@@ -50,6 +34,11 @@ class _Side:
     def run(self, seconds: float) -> dict[str, Any]:
         """Run for a time in this thread [s]; return what it has met so far, as `ebac teleop master --json`."""
         return dict(self._core.run(seconds))
+
+    @property
+    def units(self) -> dict[str, str]:
+        """Units of what `run` returns, by name; a pure number has none."""
+        return dict(self._core.units())
 
 
 class Master(_Side):

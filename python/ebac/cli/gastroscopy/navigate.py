@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from ebac._util.headings import with_units
 from ebac.cli import by_name, options, output
 from ebac.cli.files import PANEL, ResultOptions
 from ebac.cli.gastroscopy.watch import watch
@@ -171,24 +172,8 @@ def gastroscopy(
         output.list_files(folder, files)
 
 
-#: Findings with the unit that stands in their key.
-UNITS = {
-    "seconds": "s",
-    "path": "m",
-    "most_tip": "N",
-    "most_section": "N",
-    "most_tube": "N",
-    "impulse": "N_s",
-    "over_limit": "s",
-    "most_felt": "N",
-    "least_energy": "J",
-    "hand_work": "J",
-    "deepest": "m",
-}
-
-
 def _document(found: Gastroscopy) -> str:
-    row = {f"{k}_{UNITS[k]}" if k in UNITS else k: v for k, v in found.findings.items()}
+    row = with_units(found.findings, found.units)
     return output.document("gastroscopy", [{"law": found.law, **row}])
 
 

@@ -10,6 +10,7 @@ from typing import Annotated, Any
 
 import typer
 
+from ebac._util.headings import with_units
 from ebac.cli import options, output, simulated
 from ebac.cli.teleop.consent import Consent
 from ebac.cli.teleop.options import LinkOptions
@@ -173,18 +174,13 @@ def _run(name: str, side: Any, seconds: float | None, as_json: bool, by_hand: bo
                 output.say(_line(report))
     if as_json:
         # One line, so that a program may read it while others write.
-        typer.echo(json.dumps({"command": f"teleop {name}", **_named(report)}))
+        typer.echo(json.dumps({"command": f"teleop {name}", **_named(report, side.units)}))
     else:
         output.say(f"Stopped: {_line(report).strip()}")
 
 
-def _named(report: dict[str, Any]) -> dict[str, Any]:
-    from ebac.teleop.processes import UNITS
-
-    return {
-        f"{key}_{UNITS[key]}" if key in UNITS else key: int(value) if key == "fault" else value
-        for key, value in report.items()
-    }
+def _named(report: dict[str, Any], units: dict[str, str]) -> dict[str, Any]:
+    return with_units({**report, "fault": int(report["fault"])}, units)
 
 
 def _tell(text: str, as_json: bool) -> None:
