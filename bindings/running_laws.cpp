@@ -12,8 +12,8 @@ RealTimeRun::RealTimeRun(can::AnyBus bus, const AnyLaw& law, const RunSetup& set
   LoopOptions options{.plan = setup.plan};
   if (setup.limits) options.limiter = SafetyLimiter(*setup.limits, setup.device, setup.dt);
   All laws(law);
-  const SignalChain chain(setup.device, setup.environment, observing(setup.observer, laws),
-                          law.timing());
+  const SignalChain chain(setup.device, setup.environment, laws.timing(),
+                          observing(setup.observer, laws));
   auto loop = std::make_unique<Work>(hardware(setup), rt::MonotonicClock(setup.dt), std::move(laws),
                                      chain, setup.device.axes(), options);
   trace_ = loop->make_trace(setup.rows, setup.ring);

@@ -29,8 +29,8 @@ SteppedRun::SteppedRun(const AnyLaw& law, Setup setup, const std::optional<can::
 SteppedRun::Work SteppedRun::loop(const AnyLaw& law, const Setup& setup,
                                   const std::optional<can::TimedBus>& bus) {
   All laws(law);
-  const SignalChain chain(setup.device, setup.environment, observing(setup.observer, laws),
-                          setup.timing);
+  const SignalChain chain(setup.device, setup.environment, laws.timing(),
+                          observing(setup.observer, laws));
   return {Drives(can::device_through_can<SimulatedDevice>(setup, bus)),
           VirtualClock(setup.timing.dt, setup.jitter, setup.seed),
           std::move(laws),

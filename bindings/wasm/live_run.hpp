@@ -98,7 +98,7 @@ class LiveRun {
  private:
   LiveRun(const Setup& setup, PerAxis<AnyLaw> law)
       : device_(setup),
-        chain_(setup.device, setup.environment, observing(setup.observer, law), setup.timing),
+        chain_(setup.device, setup.environment, law.timing(), observing(setup.observer, law)),
         law_(std::move(law)),
         clock_(setup.timing.dt, setup.jitter, setup.seed),
         wall_(std::get<Wall>(setup.environment)),

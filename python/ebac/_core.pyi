@@ -447,7 +447,7 @@ class Port:
     f_meas : float
         force the F/T sensor measures (F_M) [N].
     work : float
-        energy the virtual side absorbed, sum of f_applied dx; dx of the observer where there is one [J].
+        energy the virtual side absorbed, sum of f_applied dx without static compensation; dx of the observer where there is one [J].
     unsure : float
         largest error of work: the position's, half a count or est.bound, times every change of the force; for a rigid device [J].
     damped : float
@@ -562,7 +562,7 @@ class Port:
     @property
     def work(self) -> float:
         """
-        energy the virtual side absorbed, sum of f_applied dx; dx of the observer where there is one [J]
+        energy the virtual side absorbed, sum of f_applied dx without static compensation; dx of the observer where there is one [J]
         """
     @work.setter
     def work(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
@@ -3709,6 +3709,7 @@ class ReplayLog:
         f_env: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
         f_cmd: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
         current: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
+        gain: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
     ) -> None: ...
     def __len__(self) -> int: ...
     @property

@@ -726,7 +726,7 @@ TEST(InTheLoop, AFaultOfAnotherStageStopsTheDrives) {
     void reset() EBAC_RT {}
   };
   Loop loop(bench.device, VirtualClock(kTick, 0, 1), Broken{},
-            SignalChain(DeviceModel{}, Environment{Free{}}), 1);
+            SignalChain(DeviceModel{}, Environment{Free{}}, {}), 1);
   const auto trace = loop.make_trace(100);
   loop.run(*trace);
   ASSERT_EQ(trace->size(), 15);

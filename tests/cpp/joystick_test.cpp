@@ -116,7 +116,7 @@ void expect_same_rows(const char* name, Setup setup) {
   commission(*joystick);
   Loop loop(OnTheBus(joystick, setup.device),
             VirtualClock(setup.timing.dt, setup.jitter, setup.seed), PerAxis<AnyLaw>(law),
-            SignalChain(setup.device, setup.environment), setup.device.axes());
+            SignalChain(setup.device, setup.environment, setup.timing), setup.device.axes());
   const auto bussed = loop.make_trace(row_count(setup));
   loop.run(*bussed);
 

@@ -87,8 +87,8 @@ struct LoopRun {
 
   LoopRun(FakeDevice device, double force, const LoopOptions& options, FakeClock clock = {}) {
     device.asked = &asked;
-    Loop loop(device, clock, FakeLaw{force, &asked}, SignalChain(kDevice, Environment{Free{}}), 1,
-              options);
+    Loop loop(device, clock, FakeLaw{force, &asked}, SignalChain(kDevice, Environment{Free{}}, {}),
+              1, options);
     const auto trace = loop.make_trace(2000);
     EXPECT_TRUE(loop.run(*trace));
     end = loop.state();

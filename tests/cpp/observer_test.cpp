@@ -130,7 +130,7 @@ TEST(Observer, SeesThroughTheAgeOfTheForce) {
 TEST(Observer, TakesCountsForWhenTheyWereLatched) {
   const DeviceModel device;
   const auto params = ObserverParams::of(device, Timing{});
-  SignalChain chain(device, Wall{.position = 1}, {.on = true, .acts = true, .params = params});
+  SignalChain chain(device, Wall{.position = 1}, {}, {.on = true, .acts = true, .params = params});
   Axis axis;
   const auto tick = [&](const Reading& reading, double dt) {
     return observe(chain, axis, reading, dt);
@@ -188,7 +188,7 @@ TEST(Observer, KnowsTheFrictionOfTheDevice) {
   device.mechanics.coulomb = 0.5;
   const auto params = ObserverParams::of(device, Timing{});
   EXPECT_DOUBLE_EQ(params.friction, 0.4);
-  SignalChain chain(device, Wall{.position = 1}, {.on = true, .acts = true, .params = params});
+  SignalChain chain(device, Wall{.position = 1}, {}, {.on = true, .acts = true, .params = params});
   Axis axis;
   std::int64_t counts = 0;
   const auto tick = [&](int way, double force, double dt = 1e-3) {
@@ -227,7 +227,7 @@ TEST(Observer, FadesWhereTheForceIsOldOrTheSensorSaysSo) {
                          Case{0, SensorStatus::kDisconnected, Fallback::kForceStatus},
                          Case{0, SensorStatus::kSaturated, Fallback::kForceStatus},
                          Case{0.5 * params.force_age, SensorStatus::kGood, Fallback::kNone}}) {
-    SignalChain chain(device, Wall{}, {.on = true, .acts = true, .params = params});
+    SignalChain chain(device, Wall{}, {}, {.on = true, .acts = true, .params = params});
     Axis axis;
     const auto tick = [&](const Reading& reading, double dt) {
       return observe(chain, axis, reading, dt);

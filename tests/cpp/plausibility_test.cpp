@@ -141,7 +141,7 @@ Found fault_of(const ebac::Setup& setup, const Wrong& wrong, const AnyLaw& law,
   limits.speed = limits.end = limits.edge = 10;  // only the forces judge
   limits.watch_motion = watch_motion;
   Loop loop(WrongDevice(setup, wrong), VirtualClock(kDt, 0, 1), PerAxis(law),
-            SignalChain(setup.device, setup.environment), 1,
+            SignalChain(setup.device, setup.environment, setup.timing), 1,
             {.limiter = SafetyLimiter(limits, setup.device, kDt)});
   const auto trace = loop.make_trace(row_count(setup));
   loop.run(*trace);

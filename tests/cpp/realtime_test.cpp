@@ -117,7 +117,8 @@ TEST(Bus, LoopThroughItDoesNotAllocate) {
   auto device = can::device_through_can<SimulatedDevice>(setup);
   device.enable();
   Loop loop(std::move(device), VirtualClock(setup.timing.dt, 0, 1),
-            PerAxis<Ebac>(designed<Ebac>(setup)), SignalChain(setup.device, setup.environment), 2);
+            PerAxis<Ebac>(designed<Ebac>(setup)),
+            SignalChain(setup.device, setup.environment, setup.timing), 2);
   const auto trace = loop.make_trace(kTicks);
   const std::size_t before = allocations;
   loop.run(*trace);
@@ -132,7 +133,8 @@ TEST(Sensor, LoopWithOneOnTheNetworkDoesNotAllocate) {
   sensor::WithForceSensor device(sensor::ForcePublisher(SimulatedDevice(setup), cell),
                                  sensor::StepSensor(cell));
   Loop loop(std::move(device), VirtualClock(setup.timing.dt, 0, 1),
-            PerAxis<Ebac>(designed<Ebac>(setup)), SignalChain(setup.device, setup.environment), 1);
+            PerAxis<Ebac>(designed<Ebac>(setup)),
+            SignalChain(setup.device, setup.environment, setup.timing), 1);
   const auto trace = loop.make_trace(kTicks);
   const std::size_t before = allocations;
   loop.run(*trace);
@@ -226,7 +228,7 @@ TEST(Realtime, ABridgeToAnEngineDoesNotAllocate) {
 }
 
 TEST(Realtime, AnotherWorldFreesNothing) {
-  SignalChain chain(DeviceModel{}, bodies());
+  SignalChain chain(DeviceModel{}, bodies(), {});
   const Environment next = fresh(bodies());
   const std::size_t before = frees;
   chain.change(next);

@@ -109,7 +109,7 @@ struct Live {
       std::make_shared<ParameterUpdates<PerAxis<Direct>>>(law);
   std::unique_ptr<LiveLoop> loop = std::make_unique<LiveLoop>(
       SimulatedDevice(setup), MonotonicClock(1e-3), PerAxis<Direct>(law),
-      SignalChain(setup.device, setup.environment), 1,
+      SignalChain(setup.device, setup.environment, setup.timing), 1,
       LoopOptions{.plan = {.soft_start = 0.01, .ramp_down = 0.01, .arm = true}});
   std::shared_ptr<Trace> trace = loop->make_trace(3000);
 };

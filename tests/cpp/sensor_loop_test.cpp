@@ -35,8 +35,8 @@ Device device_of(const Setup& setup, const Mounting& mounting = {}) {
 auto loop_of(const Setup& setup, const AnyLaw& law, const Mounting& mounting = {}) {
   return Loop<Device, VirtualClock, PerAxis<AnyLaw>>(
       device_of(setup, mounting), VirtualClock(setup.timing.dt, setup.jitter, setup.seed),
-      PerAxis<AnyLaw>(law), SignalChain(setup.device, setup.environment), setup.device.axes(),
-      setup.loop);
+      PerAxis<AnyLaw>(law), SignalChain(setup.device, setup.environment, setup.timing),
+      setup.device.axes(), setup.loop);
 }
 
 void expect_the_same_run(const char* name, const Setup& setup) {

@@ -156,7 +156,7 @@ TEST(ThroughCan, AFaultOfARealDriveEndsTheRunAtRest) {
     device.enable();
     Loop loop(std::move(device), VirtualClock(1e-3, 0, 1),
               PerAxis<AnyLaw>(designed_law("direct", brief())),
-              SignalChain(DeviceModel{}, Environment{Wall{.position = -0.01}}), 1);
+              SignalChain(DeviceModel{}, Environment{Wall{.position = -0.01}}, {}), 1);
     auto first = loop.make_trace(5);
     loop.run(*first);
     EXPECT_EQ(loop.sample().fault, Fault::kNone);

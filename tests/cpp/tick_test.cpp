@@ -7,6 +7,7 @@
 #include <limits>
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "ebac/control/ebac.hpp"
@@ -31,6 +32,7 @@ struct Scripted {
     ++tick;
   }
   void reset() EBAC_RT { tick = 0; }
+  Timing timing() const EBAC_RT { return {}; }
 };
 
 /// Returns the readings of a script, the last one for ever, and records its commands.
@@ -94,7 +96,7 @@ struct LoopRun {
   LoopRun(const std::vector<Reading>& readings, const Scripted& law, const DeviceModel& model = {},
           const Environment& environment = Wall{}) {
     Loop loop(FakeDevice{readings, &currents}, VirtualClock(1e-3, 0, 1), law,
-              SignalChain(model, environment), 1);
+              SignalChain(model, environment, {}), 1);
     trace = loop.make_trace(1000);
     loop.run(*trace);
   }
@@ -210,7 +212,7 @@ TEST_P(Speed, DoesNotLeapWhereAnswersAreMissing) {
   constexpr int kPace = 10;  // counts a tick: 0.3 m/s
   DeviceModel model;
   model.velocity = GetParam();
-  SignalChain chain(model, Free{});
+  SignalChain chain(model, Free{}, {});
   std::array<Axis, 1> axes{};
   const double pace = kPace * model.encoder.count() / model.capstan.ratio() / kDt;
   Reading reading;
@@ -234,24 +236,28 @@ INSTANTIATE_TEST_SUITE_P(Estimators, Speed,
                                            Velocity{LowPass{.time_constant = 2e-3}},
                                            Velocity{AdaptiveWindow{}}));
 
-TEST(CompensationInFlight, ActsAfterTheDelayInTheShareOfTheCommandThatWasSent) {
+TEST(CompensationInFlight, ActsAfterTheDelayWithTheGainWithWhichItWasSent) {
   CompensationInFlight compensation(1);
-  const auto next = [&](double given, double asked, double sent) {
+  using Acted = std::pair<double, double>;  // N m, gain
+  const auto next = [&](double given, double gain) {
     compensation.give(Axes::Constant(given));
-    return compensation.advance(0, asked, sent);
+    compensation.sent(gain);
+    compensation.advance();
+    return Acted(compensation.motion()[0], compensation.gain());
   };
-  EXPECT_EQ(next(1, 4, 4), 0);     // the command of this tick acts over the next interval
-  EXPECT_EQ(next(1, 4, 2), 1);     // sent by half: a soft start, or a limit
-  EXPECT_EQ(next(1, 4, -3), 0.5);  // the edge of the workspace pushed back
-  EXPECT_EQ(next(1, 0, 0), 0);     // at rest
-  EXPECT_EQ(next(1, -4, -8), 0);
-  EXPECT_EQ(next(1, 4, 4), 1);
+  EXPECT_EQ(next(2, 0.5), Acted(0, 0));  // this command acts over the next interval
+  EXPECT_EQ(next(4, 1), Acted(1, 0.5));
+  EXPECT_EQ(next(kNaN, 0), Acted(4, 1));  // not sent: of a fault
+  compensation.advance();                 // at rest no command is given
+  EXPECT_EQ(Acted(compensation.motion()[0], compensation.gain()), Acted(0, 0));
+  EXPECT_EQ(next(3, 1), Acted(0, 0));
+  EXPECT_EQ(next(3, 1), Acted(3, 1));
 }
 
 /// Everything a tick needs, in a world that is met, left and met again.
 struct Parts {
   Setup setup{.environment = Wall{.damping = 5}};
-  SignalChain chain{setup.device, setup.environment};
+  SignalChain chain{setup.device, setup.environment, setup.timing};
   PerAxis<Ebac> law{Ebac(Ebac::Params::design(setup.device.facts(), setup.timing), setup.timing)};
   SimulatedDevice device{[this] {
     setup.hand.path[0] = Tapping{};

@@ -21,7 +21,7 @@ Loop2 loop_on(const can::TimedBus& bus) {
   auto device = can::device_through_can<SimulatedDevice>(setup, bus);
   device.enable();
   return {std::move(device), VirtualClock(1e-3, 0, 1), PerAxis<Direct>(Direct({}, setup.timing)),
-          SignalChain(setup.device, Environment{Wall{.position = -0.01}}), 2};
+          SignalChain(setup.device, Environment{Wall{.position = -0.01}}, {}), 2};
 }
 
 const can::BusRow& row(Loop2& loop, std::size_t axis) {

@@ -241,6 +241,35 @@ def test_a_slow_press_keeps_its_wall_where_friction_is_given_back() -> None:
         assert row.most_drawn_J < 1e-3
 
 
+@pytest.mark.parametrize("peak_ratio", [10.0, 1.0])
+def test_to_carry_weight_stores_nothing_where_the_motor_is_at_its_peak(peak_ratio: float) -> None:
+    """With the share of the cut command, 0.2 W came in that nobody gave: what carries the weight must come back."""
+    device = ebac.Device(
+        mechanics=ebac.Mechanics(gravity=9.81),
+        compensation=ebac.Compensation(gravity_mass=0.25),
+        drive=ebac.Drive(peak_ratio=peak_ratio),
+    )
+    sways = ebac.Hand(stiffness=1000.0, path=ebac.Sine(amplitude=0.03, frequency=6.0))
+    trace = ebac.simulate(ebac.Scenario(device=device, hand=sways, seconds=5.0), "ebac")
+    if peak_ratio == 1:
+        assert np.abs(trace["f_applied"]).max() == pytest.approx(device.peak_force)
+    own = trace["f_applied"] - 9.81 * 0.25
+    own[:2] = 0  # no command acts yet
+    assert np.abs(trace["work"] - np.cumsum(own * trace["est.dx"])).max() < 1e-9
+
+
+def test_a_soft_start_brings_compensation_in_softly() -> None:
+    device = ebac.Device(
+        mechanics=ebac.Mechanics(coulomb=0.3, gravity=9.81),
+        compensation=ebac.Compensation(friction=0.3, gravity_mass=0.25),
+    )
+    sways = ebac.Hand(path=ebac.Sine(amplitude=0.05, frequency=0.5))
+    free = ebac.Scenario(device=device, hand=sways, environment=ebac.Free(), seconds=1.0)
+    trace = ebac.simulate(free, "ebac", soft_start=0.5)
+    assert np.abs(trace["work"]).max() < 1e-4
+    assert trace["law.energy"].min() > 1.9e-3
+
+
 def test_damping_that_compensation_has_spent_is_not_counted() -> None:
     spent = ebac.Compensation(friction=1.0, friction_speed=0.1)
     device = ebac.Device(compensation=spent)

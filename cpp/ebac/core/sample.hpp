@@ -144,7 +144,7 @@ struct Port {
   double f_cmd = 0;      // N, command of the law (F_d, force loop included)
   double f_applied = 0;  // N, acted over the last interval: after limits, after the delay
   double f_meas = 0;     // N, force sensor (F_M)
-  double work = 0;       // J, W_k = sum of f_applied dx
+  double work = 0;       // J, W_k = sum of f_applied dx, static compensation left out
   double unsure = 0;     // J, largest error of `work` by what is not known of the position
   double damped = 0;     // J, energy the device's own damping dissipated
   double world_v = 0;    // m/s, of the surface of a virtual world that moves
@@ -163,9 +163,9 @@ struct Port {
           "force that acted over the last interval, after limits and delay"},
         F{"f_meas", &Port::f_meas, "N", "force the F/T sensor measures (F_M)"},
         F{"work", &Port::work, "J",
-          "energy the virtual side absorbed, sum of f_applied dx; dx of the observer where there "
-          "is "
-          "one"},
+          "energy the virtual side absorbed, sum of f_applied dx without static compensation; dx "
+          "of "
+          "the observer where there is one"},
         F{"unsure", &Port::unsure, "J",
           "largest error of work: the position's, half a count or est.bound, times every change of "
           "the force; for a rigid device"},

@@ -92,7 +92,7 @@ Result run_case(InjectedFault injected, std::shared_ptr<Trace>* rows) {
   const auto updates = std::make_unique<ParameterUpdates<FaultyLaw>>(law);
   FaultyLoop loop(
       FaultyDevice(bench), FaultyClock(kDt, injected, law, *updates), FaultyLaw(law, injected),
-      SignalChain(made.known, setup.environment, observing(setup.observer, law), setup.timing),
+      SignalChain(made.known, setup.environment, law.timing(), observing(setup.observer, law)),
       setup.device.axes(),
       {.plan = made.plan, .limiter = SafetyLimiter(made.limits, setup.device, kDt)});
   const std::shared_ptr<Trace> trace = loop.make_trace(kRows);

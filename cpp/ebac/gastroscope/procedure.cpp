@@ -131,7 +131,7 @@ struct Navigation::Parts {
         law(any),
         device(setup),
         clock(setup.timing.dt, setup.jitter, setup.seed),
-        chain(setup.device, setup.environment, observing(setup.observer, law), setup.timing),
+        chain(setup.device, setup.environment, law.timing(), observing(setup.observer, law)),
         watch(procedure.lumen->params(), setup.timing.dt),
         dt(setup.timing.dt),
         count(row_count(setup)) {

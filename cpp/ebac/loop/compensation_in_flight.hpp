@@ -10,31 +10,51 @@
 
 namespace ebac {
 
-/// Static compensation on its way to the motors: how much of the torque that acts is compensation, and not the law's.
+/// Static compensation on its way to the motors: what of it is in the torque that acts. It has the gain with which its
+/// command was sent, that of a soft start or stop; a command that a limit cuts counts as one of the law that was cut.
 class CompensationInFlight {
  public:
   /// `delay`: ticks from computing a command to its acting.
-  explicit CompensationInFlight(int delay) EBAC_RT
-      : in_flight_{CommandsInFlight(delay + 1), CommandsInFlight(delay + 1),
-                   CommandsInFlight(delay + 1)} {
-    static_assert(kMaxAxes == 3);
+  explicit CompensationInFlight(int delay) EBAC_RT : gain_(delay + 1) {
+    motion_.fill(CommandsInFlight(delay + 1));
   }
 
-  /// Compensation within the command of this tick [N m].
-  void give(const Axes& torque) EBAC_RT { given_ = torque; }
-
-  /// The tick after it: of that command `sent` was sent, of `asked` [N m], as where the force comes in softly or a limit
-  /// cut it; compensation has the same share. Returns the compensation within the torque of the last interval [N m].
-  double advance(std::size_t axis, double asked, double sent) EBAC_RT {
-    const double share = asked == 0 ? 0.0 : std::clamp(sent / asked, 0.0, 1.0);
-    CommandsInFlight& commands = in_flight_[axis];
-    commands.push(share * given_[static_cast<Eigen::Index>(axis)]);
-    return commands[0];
+  /// Compensation of friction and inertia within the command of this tick [N m].
+  void give(const Axes& motion) EBAC_RT {
+    given_ = motion;
+    gain_of_given_ = 1;
   }
+
+  /// Another gain with which it was sent; 0 where it was not.
+  void sent(double gain) EBAC_RT { gain_of_given_ = std::min(gain_of_given_, gain); }
+
+  /// The next tick: what acted over the interval that ended with it.
+  void advance() EBAC_RT {
+    for (std::size_t i = 0; i < kMaxAxes; ++i) {
+      const double torque = given_[static_cast<Eigen::Index>(i)];
+      motion_[i].push(gain_of_given_ > 0 ? gain_of_given_ * torque : 0.0);
+    }
+    gain_.push(gain_of_given_);
+    gain_of_given_ = 0;
+  }
+
+  /// Compensation of friction and inertia that acted [N m], and the gain of what carried weight: that of the weight is
+  /// counted where the device is, as only then its work comes back.
+  Axes motion() const EBAC_RT {
+    Axes torque;
+    for (std::size_t i = 0; i < kMaxAxes; ++i) {
+      torque[static_cast<Eigen::Index>(i)] = motion_[i][0];
+    }
+    return torque;
+  }
+  double gain() const EBAC_RT { return gain_[0]; }
 
  private:
   Axes given_ = Axes::Zero();
-  std::array<CommandsInFlight, kMaxAxes> in_flight_;
+  double gain_of_given_ = 0;  // nothing is given yet
+  CommandsInFlight gain_;
+  std::array<CommandsInFlight, kMaxAxes> motion_{CommandsInFlight(0), CommandsInFlight(0),
+                                                 CommandsInFlight(0)};
 };
 
 }  // namespace ebac

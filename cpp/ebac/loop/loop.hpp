@@ -116,6 +116,11 @@ class Loop {
  private:
   /// Whether the clock has columns in the trace.
   static constexpr bool kTimed = requires { typename C::State; };
+  /// Whether the device is a log: in flight is what it says was sent, not what is commanded now.
+  static constexpr bool kRecorded = requires(const D& log, double& one) {
+    one = log.gain();
+    one = log.sent(0);
+  };
 
   /// A tick, and its row if there is room for one.
   void step(ParameterUpdates<Law>* updates, std::byte* row) EBAC_RT {
@@ -152,12 +157,17 @@ class Loop {
       const int limited = limiter_.limit(axes, run_state_.gain(), now.dt);
       // What is stored now keeps the row waiting: see copy_words.
       if (limited != sample_.limited) sample_.limited = limited;
+      chain_.sent(gain());
     } else {
       shut(now, axes);
+      chain_.sent(0);
     }
     stop_device();
     if constexpr (kTimed) clock_.finish();
     if (row != nullptr) append(row, axes.size());
+    if constexpr (kRecorded) {
+      for (std::size_t i = 0; i < axes.size(); ++i) axes[i].joint.current = device_.sent(i);
+    }
   }
 
   /// Not part of the tick's one function: a simulation has no updates.
@@ -189,6 +199,15 @@ class Loop {
     sample_.fault = found;
     run_state_.fail(found);
     sample_.state = static_cast<int>(run_state_.state());
+  }
+
+  /// With which the force of this tick goes out; of a log, with which it went.
+  double gain() const EBAC_RT {
+    if constexpr (kRecorded) {
+      return device_.gain();
+    } else {
+      return run_state_.gain();
+    }
   }
 
   /// Zero force: of a fault, of a stop, before the run.

@@ -7,7 +7,7 @@
 namespace ebac {
 
 SignalChain::SignalChain(const DeviceModel& device, const Environment& environment,
-                         const Observing& observing, const Timing& timing)
+                         const Timing& timing, const Observing& observing)
     : kinematics_(device.kinematics),
       encoder_(device.encoder),
       estimator_(device.velocity),
@@ -40,7 +40,7 @@ void SignalChain::forward_general(const Reading& reading, double dt, std::span<A
   const Jacobian to_handle = j.transpose().inverse();
   const Axes f = to_handle * torque;
   const Axes given_back =
-      compensates_ ? Axes(to_handle * compensation_that_acts(axes)) : Axes::Zero();
+      compensates_ ? Axes(to_handle * compensation_that_acted(q)) : Axes::Zero();
   for (std::size_t i = 0; i < axes.size(); ++i) {
     const auto e = static_cast<Eigen::Index>(i);
     axes[i].port.f_meas = reading.force[i];
@@ -55,15 +55,10 @@ ContactForce SignalChain::meet_in_space(const External& world, const Axes& x, co
   return space.felt(world.contact(space.at(), space.velocity(v), t));
 }
 
-/// Of the torque over the last interval.
-Axes SignalChain::compensation_that_acts(std::span<const Axis> axes) EBAC_RT {
-  Axes torque = Axes::Zero();
-  for (std::size_t i = 0; i < axes.size(); ++i) {
-    const Joint& joint = axes[i].joint;  // the command of the last tick, as it was sent
-    torque[static_cast<Eigen::Index>(i)] =
-        compensation_in_flight_.advance(i, joint.tau, torque_per_amp_ * joint.current);
-  }
-  return torque;
+/// Torque of the static compensation over the last interval.
+Axes SignalChain::compensation_that_acted(const Axes& q) EBAC_RT {
+  compensation_in_flight_.advance();
+  return compensation_in_flight_.motion() + compensation_in_flight_.gain() * weight_at(q);
 }
 
 /// Torque that carries the compensated weight.
@@ -82,9 +77,9 @@ void SignalChain::put_whole_force(std::span<Axis> axes) EBAC_RT {
   for (std::size_t i = 0; i < axes.size(); ++i) axes[i].port.f_applied = whole_[i];
 }
 
-/// tau_static of eq. (2).
-Axes SignalChain::compensate(double dt, std::span<const Axis> axes) EBAC_RT {
-  Axes tau = weight_at(of_all(axes, &Axis::joint, &Joint::q));
+/// tau_static of eq. (2), but for the weight.
+Axes SignalChain::compensate_motion(double dt, std::span<const Axis> axes) EBAC_RT {
+  Axes tau = Axes::Zero();
   for (std::size_t i = 0; i < axes.size(); ++i) {
     const auto e = static_cast<Eigen::Index>(i);
     const double v = travel_[e] * axes[i].joint.dq;
@@ -93,7 +88,7 @@ Axes SignalChain::compensate(double dt, std::span<const Axis> axes) EBAC_RT {
           ((v - speed_[i]) / dt - acceleration_[i]) * dt / (compensation_.inertia_lag + dt);
     }
     speed_[i] = v;
-    tau[e] += travel_[e] * compensation_.force(v, acceleration_[i]);
+    tau[e] = travel_[e] * compensation_.force(v, acceleration_[i]);
   }
   return tau;
 }
@@ -102,9 +97,9 @@ void SignalChain::drive_general(double dt, std::span<Axis> axes) EBAC_RT {
   const Axes q = of_all(axes, &Axis::joint, &Joint::q);
   Axes tau = transpose(kinematics_, q, of_all(axes, &Axis::port, &Port::f_cmd));
   if (compensates_) {
-    const Axes given_back = compensate(dt, axes);
-    compensation_in_flight_.give(given_back);
-    tau += given_back;
+    const Axes motion = compensate_motion(dt, axes);
+    compensation_in_flight_.give(motion);
+    tau += weight_at(q) + motion;
   }
   for (std::size_t i = 0; i < axes.size(); ++i)
     send(axes[i].joint, tau[static_cast<Eigen::Index>(i)]);

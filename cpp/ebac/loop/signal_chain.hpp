@@ -19,8 +19,8 @@ namespace ebac {
 class SignalChain {
  public:
   /// `timing` has the delay after which a command acts.
-  SignalChain(const DeviceModel& device, const Environment& environment,
-              const Observing& observing = {}, const Timing& timing = {});
+  SignalChain(const DeviceModel& device, const Environment& environment, const Timing& timing,
+              const Observing& observing = {});
 
   /// Another virtual world, from this tick on. An external one is used as it is; the poster keeps it, so that none is
   /// freed here.
@@ -70,6 +70,11 @@ class SignalChain {
   /// f_cmd -> tau -> current: transpose, static compensation of eq. (2), the drive's peak
   void drive(double dt, std::span<Axis> axes) EBAC_RT;
 
+  /// The gain of a soft start or stop with which these currents are sent, if not whole; 0 where they are not.
+  void sent(double gain) EBAC_RT {
+    if (compensates_) compensation_in_flight_.sent(gain);
+  }
+
  private:
   /// Values that depend on the time since the last tick alone.
   void set_tick(double dt) EBAC_RT {
@@ -87,13 +92,13 @@ class SignalChain {
   ContactForce meet_in_space(const External& world, const Axes& x, const Axes& v,
                              double t) const EBAC_RT;
   void forward_general(const Reading& reading, double dt, std::span<Axis> axes) EBAC_RT;
-  Axes compensation_that_acts(std::span<const Axis> axes) EBAC_RT;
+  Axes compensation_that_acted(const Axes& q) EBAC_RT;
   void drive_general(double dt, std::span<Axis> axes) EBAC_RT;
   void put_own_force(std::span<Axis> axes) EBAC_RT;
   void put_whole_force(std::span<Axis> axes) EBAC_RT;
   Axes weight_at(const Axes& q) const EBAC_RT;
   void send(Joint& joint, double tau) const EBAC_RT;
-  Axes compensate(double dt, std::span<const Axis> axes) EBAC_RT;
+  Axes compensate_motion(double dt, std::span<const Axis> axes) EBAC_RT;
 
   Kinematics kinematics_;
   Encoder encoder_;

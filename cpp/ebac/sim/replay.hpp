@@ -17,7 +17,7 @@ std::shared_ptr<Trace> replay(std::shared_ptr<const ReplayLog> log, Law law,
   const std::size_t rows = log->rows();
   const int axes = static_cast<int>(log->axes);
   ReplayClock clock(log);
-  const SignalChain chain(device, environment, observing(log->observer, law), law.timing());
+  const SignalChain chain(device, environment, law.timing(), observing(log->observer, law));
   Loop<ReplayDevice, ReplayClock, Law> loop(ReplayDevice(std::move(log)), std::move(clock),
                                             std::move(law), chain, axes);
   auto trace = loop.make_trace(rows);

@@ -47,6 +47,7 @@ struct ReplayRow {
   Fault fault = Fault::kNone;  // of the device; kNone where a law or the world was at fault
   double force_age = 0;        // s
   SensorStatus force_status = SensorStatus::kGood;
+  double gain = 1;  // of soft start or stop, with which the currents of this tick were sent
 };
 
 /// The ticks of a log. Row i has `axes` entries in `axis`, from i * axes on.
@@ -83,6 +84,10 @@ class ReplayDevice {
     }
     return reading;
   }
+
+  /// Of the tick: the current that was sent [A], and the gain of soft start or stop in it.
+  double sent(std::size_t axis) const EBAC_RT { return state(axis).current; }
+  double gain() const EBAC_RT { return log_->row[at_].gain; }
 
   const State& state(std::size_t axis) const EBAC_RT {
     return log_->axis[at_ * log_->axes + axis].recorded;

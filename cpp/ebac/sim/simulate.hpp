@@ -13,8 +13,8 @@ namespace ebac {
 /// The loop of a simulated run.
 template <AxesController Law>
 Loop<SimulatedDevice, VirtualClock, Law> simulated_loop(const Setup& setup, Law law) {
-  const SignalChain chain(setup.device, setup.environment, observing(setup.observer, law),
-                          setup.timing);
+  const SignalChain chain(setup.device, setup.environment, law.timing(),
+                          observing(setup.observer, law));
   return {SimulatedDevice(setup), VirtualClock(setup.timing.dt, setup.jitter, setup.seed),
           std::move(law),         chain,
           setup.device.axes(),    setup.loop};

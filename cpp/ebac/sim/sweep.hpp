@@ -102,7 +102,7 @@ Outcome measure_run(const Setup& setup, const Scalar& scalar, const RunLimits& l
   const bool* clamped = clamped_of(law);
   SimulatedDevice device(setup);
   VirtualClock clock(setup.timing.dt, setup.jitter, setup.seed);
-  SignalChain chain(setup.device, setup.environment, observing(setup.observer, law), setup.timing);
+  SignalChain chain(setup.device, setup.environment, law.timing(), observing(setup.observer, law));
   StoredEnergy stored(setup.environment, setup.device.kinematics);
   Sample sample{};
   sample.axes = setup.device.axes();

@@ -113,8 +113,8 @@ std::shared_ptr<Trace> simulate_through_can(const Setup& setup, Law law, std::si
                                             const std::optional<TimedBus>& timed = {}) {
   auto device = device_through_can<Plant>(setup, timed);
   device.enable();
-  const SignalChain chain(setup.device, setup.environment, observing(setup.observer, law),
-                          setup.timing);
+  const SignalChain chain(setup.device, setup.environment, law.timing(),
+                          observing(setup.observer, law));
   Loop loop(std::move(device), VirtualClock(setup.timing.dt, setup.jitter, setup.seed),
             std::move(law), chain, setup.device.axes(), setup.loop);
   auto trace = loop.make_trace(rows);

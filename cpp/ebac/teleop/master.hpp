@@ -26,7 +26,7 @@ class MasterSide {
         dt_(setup.timing.dt),
         lag_(static_cast<std::uint32_t>(setup.timing.delay) + 1),
         device_(setup),
-        chain_(setup.device, Free{}, {}, setup.timing),
+        chain_(setup.device, Free{}, law.timing()),
         law_(law),
         watch_(coupling, dt_),
         receiver_(static_cast<int>(std::lround(coupling.buffer / dt_))),
@@ -81,7 +81,10 @@ class MasterSide {
     chain_.show_whole_force(axes);
     chain_.drive(now.dt, axes);
     if (sample_.fault == Fault::kNone) sample_.fault = judge(reading, axes);
-    if (sample_.fault != Fault::kNone) rest(axes);
+    if (sample_.fault != Fault::kNone) {
+      rest(axes);
+      chain_.sent(0);
+    }
     ++tick_;
     return {
         .from_slave = false,

@@ -14,6 +14,7 @@ from ebac.laws import AnyLaw, CoreLaw, design, law_name
 from ebac.logs.log import Log
 
 if TYPE_CHECKING:
+    from ebac._core import Device
     from ebac.scenario import Scenario
     from ebac.trace import Trace
 
@@ -44,8 +45,8 @@ def replay(
 
     Encoder counts, currents applied, measured forces and the time of each tick come from the log; estimation,
     kinematics, virtual world, law and limits are those of the loop. The law that was recorded, with its parameters,
-    gives the recorded commands to the bit, for a log from its first tick on without gaps. At a gap the time of the
-    tick is that since the row before.
+    gives the recorded commands to the bit, for a log from its first tick on without gaps (to rounding where static
+    compensation has a soft start). At a gap the time of the tick is that since the row before.
 
     **Limits of a replay**: nothing the law commands reaches hand or device. Whether a contact is stable, where
     it would rest, and how the hand would have answered stay unknown; energies are those of the recorded force along
@@ -85,7 +86,7 @@ def replay(
             "replay: the log has no scenario, so device and virtual world are unknown; give scenario=..."
         )
     _check(recorded)
-    source = _source(recorded)
+    source = _source(recorded, scenario.device)
     source.observer = scenario.designed_observer()
     finished = design(law, scenario.device, scenario.known_timing, **changes)
     if isinstance(finished, CoreLaw):
@@ -131,7 +132,7 @@ def _check(recorded: Trace) -> None:
         raise ValueError("replay: the log has no rows")
 
 
-def _source(recorded: Trace) -> _core.ReplayLog:
+def _source(recorded: Trace, device: Device) -> _core.ReplayLog:
     t = recorded["t"]
     dt = recorded.axis("dt").copy()
     gap = np.flatnonzero(np.diff(recorded["tick"]) != 1) + 1
@@ -151,8 +152,28 @@ def _source(recorded: Trace) -> _core.ReplayLog:
         ).astype(np.uint32),
         # What a stage of the loop found, the loop finds again, or not: that is for the new law to show.
         fault=np.where(fault >= int(_core.Fault.DEVICE), fault, 0),
+        gain=_gain(recorded, device),
         **each,
     )
+
+
+def _gain(recorded: Trace, device: Device) -> NDArray[np.float64]:
+    """Return the gain of soft start or stop with which the currents of each row were sent."""
+    gain = np.ones(len(recorded))
+    if "limited" not in recorded or "tau" not in recorded:
+        return gain
+    peak = device.drive.peak_current(device.motor)
+    asked = _per_axis(recorded, "tau") / (device.motor.torque_constant * device.capstan.ratio)
+    asked = np.clip(asked, -peak, peak)
+    gain[(asked == 0).all(axis=1)] = 0  # nothing is asked of motors that are given nothing
+    ramped = np.flatnonzero(recorded["limited"] & int(_core.Limited.RAMP))
+    most = np.abs(asked).argmax(axis=1)[ramped]
+    asked, sent = (of[ramped, most] for of in (asked, _per_axis(recorded, "current")))
+    known = (recorded["limited"][ramped] == int(_core.Limited.RAMP)) & (asked != 0)
+    if known.any():  # where another limit cut as well it is between those before and after
+        shares = np.clip(sent[known] / asked[known], 0.0, 1.0)
+        gain[ramped] = np.interp(recorded["t"][ramped], recorded["t"][ramped][known], shares)
+    return gain
 
 
 def _counts_age(recorded: Trace, dt: NDArray[np.float64]) -> NDArray[np.float64]:
