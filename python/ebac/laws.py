@@ -25,7 +25,7 @@ from ebac._core import (
     Wall,
     _World,
 )
-from ebac._util.arguments import require, unknown_name
+from ebac._util.arguments import refuse_unknown, require, unknown_name
 from ebac._util.wrong_calls import plain_constructor
 from ebac.tuned_laws import tuned, tuned_laws
 
@@ -141,7 +141,9 @@ class Variant:
         """Check law and changes."""
         require(self.law, (str, type), "Variant", "a law of ebac.LAWS or its class")
         require(self.changes, Mapping, "Variant", "changes by name, as in {'kp': 0.2}")
-        _class_of(self.law)(**self.changes)
+        kind = _class_of(self.law)
+        refuse_unknown(kind.__name__, self.changes, [field.name for field in kind.fields()])
+        kind(**self.changes)
 
     @property
     def name(self) -> str:
@@ -236,11 +238,28 @@ def checked(law: Any) -> CoreLaw | PythonLaw:
 
 def _by_cause(message: str, device: Device | DeviceFacts, changes: Mapping[str, Any]) -> str:
     """Return what is wrong with a design, by the number of the device that it follows from."""
-    found = re.match(r"(\w+\.force_noise) = \S+ N: (.*)", message)
-    if found is None or "force_noise" in changes or not isinstance(device, Device):
+    found = re.match(r"(\w+\.(force_noise|damping)) = \S+ N(?: s/m)?: (.*)", message)
+    if found is None or found[2] in changes or not isinstance(device, Device):
         return message
+    if found[2] == "damping":
+        return _spent_by_compensation(device, found[1]) or message
     noise = device.sensor.noise
-    return f"ForceSensor.noise = {noise:g} N: {found[2]}, as {found[1]} follows from it"
+    return f"ForceSensor.noise = {noise:g} N: {found[3]}, as {found[1]} follows from it"
+
+
+def _spent_by_compensation(device: Device, parameter: str) -> str | None:
+    """Return which compensation takes the damping that a law is designed from, if one does."""
+    given, mechanics, left = device.compensation, device.mechanics, device.facts.damping
+    leaves = f"leaves {left:.3g} N s/m of the device's damping of {mechanics.damping:g} N s/m for {parameter}"
+    if given.friction > mechanics.coulomb:
+        return (
+            f"Compensation.friction = {given.friction:g} N: more than the Coulomb friction of the device, "
+            f"{mechanics.coulomb:g} N, which {leaves}; compensate less, or declare the friction that is surely there"
+        )
+    if given.inertia > 0:
+        remedy = "compensate less, or raise Compensation.inertia_lag"
+        return f"Compensation.inertia = {given.inertia:g} kg: {leaves}; {remedy}"
+    return None
 
 
 def changed(law: AnyLaw, **changes: Any) -> AnyLaw:

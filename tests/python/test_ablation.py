@@ -52,6 +52,7 @@ def test_a_variant_is_designed_anew_with_its_changes_on_top() -> None:
     [
         ("ebac", {"kp": 3.0}, ValueError, r"EBAC.kp = 3: must lie in \[0, 0.5\]"),
         ("ebac", {"kpp": 0.2}, TypeError, "EBAC has no parameter 'kpp', did you mean 'kp'; it has"),
+        ("ebac", {"timing": 1}, TypeError, "EBAC has no parameter 'timing'"),
         ("ebac", {"guard": 2.0}, TypeError, "EBAC.guard = 2.0: must be bool"),
         ("tca-damped-tuned", {"kpp": 0.2}, TypeError, "TCADamped has no parameter 'kpp'"),
         (ebac.EBA, {"kp": 0.2}, TypeError, "EBA has no parameter 'kp'"),

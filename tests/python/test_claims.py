@@ -181,6 +181,18 @@ def test_axes_are_told_apart() -> None:
 # --- strategies ---
 
 
+def test_static_compensation_of_a_recording_is_no_energy_drawn() -> None:
+    device = ebac.Device(
+        mechanics=ebac.Mechanics(coulomb=0.3, gravity=9.81),
+        compensation=ebac.Compensation(friction=0.3, gravity_mass=0.25),
+    )
+    sways = ebac.Hand(path=ebac.Sine(amplitude=0.05, frequency=0.2))
+    free = ebac.Scenario(device=device, hand=sways, environment=ebac.Free(), seconds=6.0)
+    recorded = ebac.replay(ebac.simulate(free, "ebac"), "ebac")  # without true.energy
+    assert (recorded["f_applied"] * recorded["dx"]).cumsum().min() < -0.05
+    assert_passive(recorded, reserve=2e-3, damping=device.facts.damping)
+
+
 @settings(max_examples=25)
 @given(data=st.data())
 def test_what_is_drawn_can_be_simulated(data: st.DataObject) -> None:

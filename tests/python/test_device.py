@@ -551,8 +551,17 @@ def test_given_back_inertia_is_charged_as_damping() -> None:
 
 def test_energy_laws_refuse_a_device_whose_damping_is_spent() -> None:
     device = ebac.Device(compensation=ebac.Compensation(inertia=0.1))
-    with pytest.raises(ValueError, match=r"EBA\.damping = -18 N s/m: must lie in \[0\.01, 500\]"):
+    message = (
+        r"Compensation\.inertia = 0\.1 kg: leaves -18 N s/m of .* 2 N s/m for EBA\.damping; .* less"
+    )
+    with pytest.raises(ValueError, match=message):
         ebac.simulate(ebac.Scenario(device=device), "eba")
+    device = ebac.Device(compensation=ebac.Compensation(friction=0.3))
+    message = r"Compensation\.friction = 0\.3 N: more than the Coulomb friction of the device, 0 N, .* -13 N s/m"
+    with pytest.raises(ValueError, match=message):
+        ebac.simulate(ebac.Scenario(device=device), "eba")
+    with pytest.raises(ValueError, match=r"EBA\.damping = 0 N s/m: must lie in \[0\.01, 500\]"):
+        ebac.simulate(ebac.Scenario(device=device), "eba", damping=0.0)
 
 
 @pytest.mark.parametrize("law", ["eba-account", "force-bounding"])

@@ -136,7 +136,7 @@ def _plain(message: str, wrong: str | None, error: Any) -> str:
 
 
 def _too_many(context: Any) -> str:
-    name = context.command_path.partition(" ")[2]
+    name = context.command_path.removeprefix("python -m ").partition(" ")[2]
     remedy = f"{INSTEAD.get(name, 'quote a value that has spaces')}, or see --help"
     if any(param.param_type_name == "argument" for param in context.command.params):
         return f"too many words; {remedy}"
