@@ -89,9 +89,9 @@ def describe(scenario: Scenario) -> str:
     samples = "1 sample" if timing.delay == 1 else f"{timing.delay} samples"
     jitter = f", jitter {100 * scenario.jitter:g} %" if scenario.jitter else ""
     used = scenario.designed_observer()
-    observer = "" if used is None else ", state observer"
-    if used is not None and used.every_law:
-        observer += " for every law"
+    observer = ""
+    if used is not None:
+        observer = f", state observer for {'every law' if used.every_law else 'laws made for it'}"
     return "; ".join(
         (
             _device(scenario.device),
@@ -123,7 +123,8 @@ def _device(device: Device) -> str:
     friction = f", friction {coulomb:g} N" if coulomb else ""
     if given_back := device.compensation.friction:
         friction += f", {given_back:g} N of friction compensated"
-    noise = f", sensor noise {device.sensor.noise:g} N" if device.sensor.noise else ""
+    level = device.sensor.noise
+    noise = f", sensor noise {level:g} N" if level else ", sensor without noise"
     permille = ", torque in per mille" if device.drive.permille else ""
     return f"{name} ({device.mass:.4g} kg, {device.mechanics.damping:g} N s/m{friction}{noise}{permille})"
 

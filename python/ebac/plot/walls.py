@@ -74,7 +74,7 @@ def _heading(traces: Sequence[Trace], scenario: Scenario) -> str:
     if len(users) == len(traces):
         return text
     by = f", state observer used by {', '.join(users)} only" if users else ""
-    return text.replace(", state observer", by)
+    return text.replace(", state observer for laws made for it", by)
 
 
 def _together(traces: Sequence[Trace], rows: list[str], near: bool) -> tuple[Picture, Axes | None]:
