@@ -82,7 +82,7 @@ def spec_sheet(device: Device) -> list[Spec]:
         Spec(name="viscous damping", value=device.mechanics.damping, unit="N s/m", paper=None,
              how="B_h of eq. (6)"),
         Spec(name="Coulomb friction", value=device.mechanics.coulomb, unit="N", paper=None,
-             how="not given in the paper"),
+             how="declared", remark="not given in the paper"),
         *_of_the_slide(device),
     ]  # fmt: skip
 

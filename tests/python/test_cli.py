@@ -369,6 +369,9 @@ def test_a_fault_is_told_and_its_log_kept(monkeypatch: pytest.MonkeyPatch, tmp_p
         ("laws --rate 1", "--rate = 1 Hz"),
         ("laws --device bob", "joystick"),
         ("specs --device bob", "joystick"),
+        ("specs --device joystick --scenario corner.toml", "give one of the two"),
+        ("specs --scenario none.toml", "none.toml: there is no such file"),
+        ("specs --scenario negative.toml", "Wall.stiffness = -1 N/m"),
         ("bench --repeats 0", "--repeats"),
         ("wal", "wal"),
         (
@@ -500,6 +503,30 @@ def test_specs() -> None:
     values = {row["name"]: row["value"] for row in answer["rows"]}
     assert values["continuous force"] == pytest.approx(10.6)
     assert "0.0307 mm" in ebac_command("specs").stdout
+
+
+def test_specs_of_the_device_file_of_its_page() -> None:
+    page = Path(__file__).parents[2] / "docs" / "how-to" / "describe_your_device.md"
+    text = page.read_text(encoding="utf-8")
+    (file,) = re.findall(r"```toml\n(# device\.toml\n.*?)```", text, re.DOTALL)
+    (shown,) = re.findall(r"```text\n(.*?)```", text, re.DOTALL)
+    Path("device.toml").write_text(file, encoding="utf-8")
+    answer = document("specs", "--scenario", "device.toml")
+    assert answer["device"] == "device.toml"
+    values = {row["name"]: row["value"] for row in answer["rows"]}
+    assert values["mass at the handle"] == pytest.approx(0.1775)
+    assert values["continuous force"] == pytest.approx(7.5)
+    assert values["continuous current"] == pytest.approx(1.176, rel=1e-3)
+    printed = " ".join(ebac_command("specs", "--scenario", "device.toml").stdout.split())
+    assert " ".join(shown.split()) in printed
+    assert "device.toml, what it leaves out is that of the reference device" in printed
+    assert "paper" not in printed
+
+
+def test_specs_of_a_device_file_draw_its_workspace() -> None:
+    ebac.Scenario(device=ebac.presets.device("joystick")).save("mine.toml")
+    ebac_command("specs", "--scenario", "mine.toml", "--figure", "workspace.png")
+    assert Path("workspace.png").is_file()
 
 
 def test_presets() -> None:

@@ -3,27 +3,41 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from ebac.cli import completion, files, output, setting
 
+if TYPE_CHECKING:
+    from ebac._core import Device
+    from ebac.specs import Spec
+
+_DEFAULT = "joystick"
+
 
 def specs(
     device: Annotated[
-        str,
+        str | None,
         typer.Option(
-            help="A device by name, see `ebac presets`.", autocompletion=completion.devices
+            help="A device by name, see `ebac presets`.",
+            show_default=_DEFAULT,
+            autocompletion=completion.devices,
         ),
-    ] = "joystick",
+    ] = None,
+    scenario: Annotated[
+        Path | None,
+        typer.Option(
+            help="The device of a scenario in TOML, such as one of your own.", show_default=False
+        ),
+    ] = None,
     figure: Annotated[
         Path | None,
         typer.Option(help="Draw the workspace to this file: png, pdf or svg.", show_default=False),
     ] = None,
     as_json: output.AsJson = False,
 ) -> None:
-    """Print the data sheet of a device, beside the paper's numbers.
+    """Print the data sheet of a device; that of a built-in one beside the paper's numbers.
 
     **Examples**
 
@@ -31,37 +45,77 @@ def specs(
 
     * `ebac specs --device reference`: one straight axis
 
+    * `ebac presets reference > device.toml`, then `ebac specs --scenario device.toml`: the device of a file
+
     * `ebac specs --device joystick-3 --figure workspace.png`: three axes, and a figure of the workspace
     """
-    from ebac import presets
-    from ebac._util import formatting
     from ebac.specs import spec_sheet
 
     with output.refusing():
-        sheet = spec_sheet(setting.known_device(device))
-        drawn = _draw(device, figure)
+        name, chosen = _chosen(device, scenario)
+        sheet = spec_sheet(chosen)
+        drawn = _draw(chosen, figure)
     if as_json:
         rows = [spec.row() for spec in sheet]
-        typer.echo(output.document("specs", rows, device=device, written=drawn))
+        typer.echo(output.document("specs", rows, device=name, written=drawn))
         return
+    if scenario is None:
+        _show_beside_paper(sheet)
+    else:
+        _show(sheet)
+    output.say(f"Device: {name}, {_source(name, scenario)}.")
+    for file in drawn:
+        output.say(f"Its workspace: {file}.")
+
+
+def _chosen(name: str | None, scenario: Path | None) -> tuple[str, Device]:
+    """Return the device that is asked for, and what it is called."""
+    if scenario is None:
+        name = name or _DEFAULT
+        return name, setting.known_device(name)
+    if name is not None:
+        raise ValueError(
+            f"--device {name}: the device of --scenario {scenario} is printed; give one of the two"
+        )
+    return str(scenario), setting.base_scenario(scenario).device
+
+
+def _source(name: str, scenario: Path | None) -> str:
+    from ebac import presets
+
+    if scenario is None:
+        return presets.DEVICES[name.lower()].source
+    return "what it leaves out is that of the reference device"
+
+
+def _show_beside_paper(sheet: list[Spec]) -> None:
+    from ebac._util import formatting
+
     grid = output.table(["", "here", "paper", "how"], numbers=(1, 2))
     for spec in sheet:
         how = f"{spec.how}; {spec.remark}" if spec.remark else spec.how
         value, paper = (formatting.quantity(v, spec.unit) for v in (spec.value, spec.paper))
         grid.add_row(spec.name, value, paper, how)
     output.show(grid)
-    output.say(f"Device: {device}, {presets.DEVICES[device.lower()].source}.")
-    for file in drawn:
-        output.say(f"Its workspace: {file}.")
 
 
-def _draw(device: str, figure: Path | None) -> list[str]:
+def _show(sheet: list[Spec]) -> None:
+    """Print the sheet of a device that is not the paper's: remarks compare it with the paper."""
+    from ebac._util import formatting
+
+    grid = output.table(["", "here", "how"], numbers=(1,))
+    for spec in sheet:
+        grid.add_row(spec.name, formatting.quantity(spec.value, spec.unit), spec.how)
+    output.show(grid)
+
+
+def _draw(device: Device, figure: Path | None) -> list[str]:
     """Draw the workspace, if asked to; return the names of the files."""
     if figure is None:
         return []
     from ebac.plot import plot_workspace, save
 
-    drawn = plot_workspace(setting.known_device(device))
+    drawn = plot_workspace(device)
     file = files.free_file(figure)
     with output.writing(f"--figure {file}"):
         save(drawn, file)
