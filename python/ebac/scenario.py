@@ -49,6 +49,8 @@ _SOLIDS = (Box, Capsule, Cylinder, Plane, Sphere, Torus)
 
 #: The observer that every law acts on.
 EVERY_LAW: Final = "every-law"
+#: What its numbers are.
+_NUMBERS = {"seconds": "a number in s", "jitter": "a number", "seed": "a whole number"}
 _PARTS = ("device", "hand", "environment", "timing", "seconds", "jitter", "seed", "observer")
 
 
@@ -137,7 +139,7 @@ class Scenario:
         for name, types in parts.items():
             value = getattr(self, name)
             if not isinstance(value, types) or (isinstance(value, bool) and bool not in types):
-                names = " or ".join(
+                names = _NUMBERS.get(name) or " or ".join(
                     repr(EVERY_LAW) if t is str else t.__name__.lstrip("_") for t in types
                 )
                 raise TypeError(f"Scenario.{name} = {value!r}: must be {names}")

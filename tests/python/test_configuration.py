@@ -125,6 +125,17 @@ def test_an_empty_one_is_the_paper_s_joystick() -> None:
         ("speed = 1\n", 1, "speed: no such name"),
         ("bus = 3\n", 1, "bus = 3: must be a table"),
         ("[device.kinematics]\ntype = 'Linear'\naxes = 1\n", None, "2 drives, the device 1 axes"),
+        (
+            "[device.kinematics]\ntype = 'Linear'\n",
+            None,
+            "It has no table of a configuration of `ebac run`, such as [bus]: if it is a scenario or a device",
+        ),
+        (
+            "[limits]\nspeed = 0,5\n",
+            None,
+            "not a TOML document: Expected newline or end of document after a statement (at line 2, column 10); "
+            "give numbers a decimal point: 0.5",
+        ),
         ("[device.motor]\ntorque_constant = 0.06\n", None, "motor.torque_constant = 0.0538"),
         ("[device.motor]\ntorque_constant = 0.06\n", None, "node 1 of the built-in joystick has"),
         ("[sensor]\nhost = '10.0.0.1'\nport = 70000\n", 3, "port = 70000"),

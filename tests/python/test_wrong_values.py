@@ -95,7 +95,7 @@ def trace() -> Any:
             "teleop.simulate: seed = 1.5: must be a whole number",
         ),
         (lambda t: E.EBAC(timing=3), "EBAC.timing = 3: must be a Timing"),
-        (lambda t: E.EBAC(kp=[1]), "EBAC.kp = [1]: must be float"),
+        (lambda t: E.EBAC(kp=[1]), "EBAC.kp = [1]: must be a number"),
         (
             lambda t: E.EBAC.design(3, E.Timing()),
             "EBAC.design: facts = 3: must be a Device or DeviceFacts",

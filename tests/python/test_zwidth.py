@@ -301,7 +301,7 @@ def test_the_command_puts_other_parameters_of_a_law_beside_it() -> None:
         "ebac, guard=off",
         "ebac, kp=0,pull=40",
     ]
-    assert "--change kp=0: changes one law, not 2" in command(
+    assert "--change kp=0: changes one law, not 2; give one --law, as --law ebac" in command(
         "--law", "ebac,eba", "--change", "kp=0", code=2
     )
 

@@ -5,6 +5,7 @@ A part that may be of several types carries its type's name under `type`.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Mapping
 from importlib import import_module
 from typing import Any
@@ -139,4 +140,5 @@ def _build(cls: type, table: Mapping[str, Any], where: str) -> Any:
     try:
         return made(**given)
     except (ValueError, TypeError) as error:
-        raise ValueError(f"{where}: {error}") from None
+        said = re.sub(": must be bool$", ": must be true or false", str(error))
+        raise ValueError(f"{where}: {said}") from None

@@ -22,6 +22,15 @@ def parsed(text: str) -> dict[str, Any]:
     except tomllib.TOMLDecodeError as error:
         twice = re.match(r"Cannot declare \((.*)\) twice(.*)", str(error))
         if twice is None:
-            raise
+            raise ValueError(f"{error}{_comma(text, str(error))}") from None
         table = ".".join(re.findall("'([^']*)'", twice[1]))
         raise ValueError(f"the table [{table}] is there twice{twice[2]}; merge the two") from None
+
+
+def _comma(text: str, message: str) -> str:
+    """Return a hint where the line of an error has a decimal comma; "" where it has none."""
+    line = re.search(r"\(at line (\d+)", message)
+    if line is None:
+        return ""
+    found = re.search(r"=\s*([-+]?\d+),(\d+)", text.split("\n")[int(line[1]) - 1])
+    return f"; give numbers a decimal point: {found[1]}.{found[2]}" if found else ""

@@ -93,6 +93,16 @@ def read(source: Source) -> dict[str, Any]:
     return values
 
 
+def _maybe_scenario(source: Source) -> str:
+    """Return a hint where nothing but the parts of a scenario is there; "" otherwise."""
+    if not source.table.keys() <= {"device", "timing", "environment", "observer"}:
+        return ""
+    return (
+        ". It has no table of a configuration of `ebac run`, such as [bus]: if it is a scenario or a device, `ebac "
+        "wall --scenario` takes it, and `ebac demo joystick` writes a configuration for its tables"
+    )
+
+
 def _bus(source: Source) -> dict[str, Any]:
     from ebac.drives.network import load
 
@@ -272,7 +282,8 @@ def _fit(source: Source, values: Mapping[str, Any]) -> None:
         raise source.refuse(
             ("bus", "drives"),
             f"bus.drives: {drives.name} has {len(drives.nodes)} drives, the device {axes} axes: must "
-            "be as many; give another network file, or a device with as many axes",
+            "be as many; give another network file, or a device with as many axes"
+            + _maybe_scenario(source),
         )
     for node in drives.nodes:
         for key, mine, name in _SAME:

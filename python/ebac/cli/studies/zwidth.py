@@ -138,7 +138,7 @@ def _laws(names: list[str], changes: list[str]) -> dict[str, str | Variant]:
     laws: dict[str, str | Variant] = {name: name for name in names}
     if changes and len(names) != 1:
         raise ValueError(
-            f"--change {changes[0]}: changes one law, not {len(names)}; add --law NAME"
+            f"--change {changes[0]}: changes one law, not {len(names)}; give one --law, as --law {names[0]}"
         )
     for change in changes:
         laws[f"{names[0]}, {change}"] = Variant(names[0], setting.parse_change(change))
