@@ -245,6 +245,23 @@ def test_the_worst_hand_is_written_so_that_it_can_be_replayed(tmp_path: Path) ->
     assert f"ebac wall --law ebac --scenario out/worst-{rows[0]['family']}.toml" in shown
 
 
+def test_a_short_search_says_that_it_proves_less() -> None:
+    words = ("--family", "impact", "--no-files", "--evaluations")
+    shown = " ".join(command(*words, 40).stdout.split())
+    assert "A short search, 40 runs per family: it proves less" in shown
+    assert "The default is --evaluations 2000." in shown
+    assert "short search" not in command(*words, 2000).stdout
+
+
+def test_the_table_names_the_pull_that_the_law_is_made_for() -> None:
+    words = ("--family", "press-and-go", "--no-files", "--evaluations", 40)
+    assert "within the law's 20 N" in " ".join(command(*words).stdout.split())
+    assert "within the law's 10 N" in " ".join(
+        command(*words, "--change", "pull=10").stdout.split()
+    )
+    assert "within the law's" not in command(*words, "--law", "tca").stdout  # it declares none
+
+
 def test_a_law_that_is_told_otherwise_is_not_replayed_by_a_scenario() -> None:
     words = ("--family", "impact", "--evaluations", 40, "--out", "out", "--change", "guard=off")
     assert "Replay from Python" in " ".join(command(*words).stdout.split())

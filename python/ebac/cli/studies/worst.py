@@ -65,7 +65,8 @@ def worst(
     """Find the hand that draws the most energy from a controller.
 
     A simulation. The energy drawn is minus the least energy of the port. Seven families of hands are searched:
-    random hands, generations bred from the best, then NLopt. A hand that pulls harder than allowed does not count.
+    random hands, generations bred from the best, then NLopt. A hand that pulls harder than allowed does not count. The
+    last column says whether its pull is within the largest one that the law is made for, its parameter `pull`.
 
     **Examples**
 
@@ -97,7 +98,7 @@ def worst(
             )  # fmt: skip
 
     def show() -> None:
-        _show(found)
+        _show(found, evaluations)
         if folder is not None:
             _tell_replay(found, folder, name, changed=bool(change))
 
@@ -144,20 +145,22 @@ def _file(hand: WorstHand) -> str:
     return f"worst-{hand.family.name}"
 
 
-def _show(found: Worst) -> None:
+def _show(found: Worst, evaluations: int) -> None:
     from ebac._util import formatting
+    from ebac.studies.worst import EVALUATIONS
 
     headings = [
         "family",
         "drawn",
         "drawn in any window",
         "hardest pull",
-        "within what the law counts with",
         "runs",
     ]
-    grid = output.table(headings, numbers=(1, 2, 3, 5))
+    if found.declared is not None:
+        headings.append(f"within the law's {found.declared:g} N")
+    grid = output.table(headings, numbers=(1, 2, 3, 4))
     for hand in found.hands:
-        within = {None: "-", True: "yes", False: "[red]no[/]"}[found.within(hand)]
+        within = {None: [], True: ["yes"], False: ["[red]no[/]"]}[found.within(hand)]
         beyond = found.reserve is not None and hand.energy_J > found.reserve
         drawn = formatting.quantity(hand.energy_J, "J")
         grid.add_row(
@@ -165,8 +168,8 @@ def _show(found: Worst) -> None:
             f"[red]{drawn}[/]" if beyond else drawn,
             formatting.quantity(hand.most_drawn_J, "J"),
             formatting.quantity(hand.most_pull_N, "N"),
-            within,
             str(hand.runs),
+            *within,
         )  # fmt: skip
     output.show(grid)
     top = found.hands[0]
@@ -175,6 +178,11 @@ def _show(found: Worst) -> None:
         span = f"[{formatting.quantity(p.low, p.unit)}, {formatting.quantity(p.high, p.unit)}]"
         output.say(f"  {p.name} = {formatting.quantity(top.values[p.name], p.unit)} of {span}")
     output.say(_verdict(found, top))
+    if evaluations < EVALUATIONS:
+        output.say(
+            f"A short search, {evaluations} runs per family: it proves less, since more runs find worse hands. "
+            f"The default is --evaluations {EVALUATIONS}."
+        )
     output.say(
         "Simulated, not measured; a search shows what exists, never that nothing worse does.",
         style="bold",
