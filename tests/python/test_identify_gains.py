@@ -336,6 +336,25 @@ def test_the_command_writes_a_report_and_json(
     assert (out / "gains.png").stat().st_size > 10_000
 
 
+@pytest.mark.usefixtures("few_looks")
+def test_the_command_prints_what_it_guessed_of_the_log(
+    tmp_path: Path, trace: ebac.Trace, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(identify, "fit_gains", partial(fit_gains, evaluations=3))
+    names = {"t": "t", "x": "x", "force": "f_meas", "motor": "f_applied", "desired": "f_env"}
+    rows = np.array([trace[column] for column in names.values()]).T
+    log = tmp_path / "log.csv"
+    np.savetxt(log, rows, delimiter=",", header=",".join(names), comments="")
+    run = CliRunner().invoke(
+        app, ["identify", "gains", str(log), "--tapping", "1.5", "--law", "tca-damped"]
+    )
+    assert run.exit_code == 0, run.output
+    said = " ".join(run.stdout.split())
+    for column in names:
+        assert f"log.csv: {column}: guessed to be column '{column}'" in said
+    assert "log.csv: target of the hand: taps at 1.5 Hz" in said
+
+
 def test_the_command_refuses_a_law_without_force_loop(tmp_path: Path, trace: ebac.Trace) -> None:
     trace.to_npz(tmp_path / "log.npz")
     run = CliRunner().invoke(

@@ -145,6 +145,10 @@ def test_the_command_says_so_and_ends_with_1(tmp_path: Path, trace: ebac.Trace) 
     run = CliRunner().invoke(app, ["identify", "log", str(tmp_path / "rich.csv"), "--lag", "8e-4"])
     assert run.exit_code == 0, run.output
     assert "excites" in run.stdout
+    for column in ("t", "x", "force", "target"):
+        assert f"rich.csv: {column}: guessed to be column '{column}'" in " ".join(
+            run.stdout.split()
+        )
 
 
 def test_the_many_lines_of_a_tap_are_told_in_few_words() -> None:

@@ -132,7 +132,7 @@ def gains(
         rows = more.pop("rows")
         typer.echo(output.document("identify gains", rows, **more))
         return
-    for text in (*(f"{r.name}: {r.remarks[-1]}" for r in recordings), *loop.remarks):
+    for text in (*(f"{r.name}: {text}" for r in recordings for text in r.remarks), *loop.remarks):
         output.say(text, style="dim")
     table = _cells(result)  # a pair of gains is a column: eleven of them would not fit side by side
     heading, *names = table[0]

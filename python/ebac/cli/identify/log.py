@@ -46,7 +46,8 @@ def log(
         typer.echo(output.document("identify log", rows, bands_Hz=bands))
     else:
         for one, (r, _) in zip(found, pairs, strict=True):
-            output.say(f"{one.name}: {r.remarks[-1]}", style="dim")
+            for text in r.remarks:
+                output.say(f"{one.name}: {text}", style="dim")
             output.say(f"{one.name}: excites {one.bands_in_words()}")
             grid = output.table(["", "determined", "expected deviation", ""], numbers=(2,))
             for row in one.rows():
