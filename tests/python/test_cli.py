@@ -11,7 +11,7 @@ from typer.testing import CliRunner
 
 import ebac
 from ebac._util import formatting
-from ebac.cli import app
+from ebac.cli import app, doubtful_device
 
 COMMANDS = ("wall", "paper", "laws", "specs", "presets", "bench")
 WALL_KEYS = [
@@ -509,7 +509,7 @@ def test_specs_of_the_device_file_of_its_page() -> None:
     page = Path(__file__).parents[2] / "docs" / "how-to" / "describe_your_device.md"
     text = page.read_text(encoding="utf-8")
     (file,) = re.findall(r"```toml\n(# device\.toml\n.*?)```", text, re.DOTALL)
-    (shown,) = re.findall(r"```text\n(.*?)```", text, re.DOTALL)
+    shown, _ = re.findall(r"```text\n(.*?)```", text, re.DOTALL)
     Path("device.toml").write_text(file, encoding="utf-8")
     answer = document("specs", "--scenario", "device.toml")
     assert answer["device"] == "device.toml"
@@ -521,6 +521,63 @@ def test_specs_of_the_device_file_of_its_page() -> None:
     assert " ".join(shown.split()) in printed
     assert "device.toml, what it leaves out is that of the reference device" in printed
     assert "paper" not in printed
+
+
+@pytest.mark.parametrize(
+    ("typed", "found"),
+    [
+        ({"rated_torque = 30e-3": "rated_torque = 30"}, ["1176 A, but rated_current = 1.2 A"]),
+        ({"rated_torque = 30e-3": "rated_torque = 30", "rated_current = 1.2": ""},
+         ["rated_torque / torque_constant = 1176 A: usual are 0.05 to 50 A"]),
+        ({"torque_constant = 25.5e-3": "torque_constant = 25.5"}, ["0.001176 A, but rated_current = 1.2 A"]),
+        ({"handle_mass = 0.09": "handle_mass = 9"}, []),
+        ({"torque_constant = 25.5e-3": "torque_constant = 25.5", "rated_torque = 30e-3": "rated_torque = 30"},
+         ["peak force at the handle = 3e+04 N: usual are 0.1 to 1000 N"]),
+        ({"rated_current = 1.2 ": "rated_current = 2.2 "}, []),
+        ({"rated_current = 1.2 ": "rated_current = 2.5 "}, ["= 1.176 A, but rated_current = 2.5 A"]),
+        ({}, []),
+    ],
+)  # fmt: skip
+def test_a_device_in_wrong_units_is_noted(typed: dict[str, str], found: list[str]) -> None:
+    page = Path(__file__).parents[2] / "docs" / "how-to" / "describe_your_device.md"
+    text = page.read_text(encoding="utf-8")
+    (file,) = re.findall(r"```toml\n(# device\.toml\n.*?)```", text, re.DOTALL)
+    for right, wrong in typed.items():
+        assert right in file
+        file = file.replace(right, wrong)
+    Path("device.toml").write_text(file, encoding="utf-8")
+    said = " ".join(ebac_command("specs", "--scenario", "device.toml").stderr.split())
+    assert ("Note: device.toml: " in said) == bool(found)
+    for part in found:
+        assert part in said
+    if list(typed.values()) == ["rated_torque = 30"]:  # as on the page
+        (noted,) = re.findall(r"```text\n(Note: .*?)\n```", text, re.DOTALL)
+        assert noted in said
+
+
+def test_a_simulation_notes_a_device_in_wrong_units() -> None:
+    Path("device.toml").write_text("[device.motor]\ntorque_constant = 25.5\n", encoding="utf-8")
+    words = ("wall", "--law", "direct", "--seconds", "0.1", "--no-files", "--json")
+    result = ebac_command(*words, "--scenario", "device.toml")
+    assert "torque_constant = 0.002078 A: usual are 0.05 to 50 A" in " ".join(result.stderr.split())
+    assert json.loads(result.stdout)["command"] == "wall"
+
+
+def test_a_run_notes_a_device_in_wrong_units() -> None:
+    ebac_command("demo", "joystick")
+    with Path("joystick.toml").open("a", encoding="utf-8") as file:
+        file.write("\n[device.mechanics]\nhandle_mass = 90.0\n")
+    words = ("run", "joystick.toml", "--virtual", "--law", "direct", "--seconds", "0.1")
+    result = CliRunner().invoke(app, list(words))
+    assert "mass at the handle = 90.14 kg" in " ".join(result.stderr.split())
+
+
+def test_the_mass_of_a_device_in_grams_is_noted_and_no_built_in_device_is() -> None:
+    heavy = ebac.Device(mechanics=ebac.Mechanics(handle_mass=90))
+    (said,) = doubtful_device.doubts(heavy)
+    assert "mass at the handle = 90.14 kg: usual are 0.001 to 20 kg" in said
+    for preset in ebac.presets.DEVICES.values():
+        assert doubtful_device.doubts(preset.device) == []
 
 
 def test_specs_of_a_device_file_draw_its_workspace() -> None:

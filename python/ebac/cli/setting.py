@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ebac import presets
-from ebac.cli import by_name, by_option
+from ebac.cli import by_name, by_option, doubtful_device
 
 if TYPE_CHECKING:
     from ebac._core import Device, Hand, Timing
@@ -19,10 +19,14 @@ RATES = (10.0, 1e5)
 
 
 def base_scenario(file: Path | None) -> Scenario:
-    """Return the scenario to start from."""
+    """Return the scenario to start from; what of its device is likely in a wrong unit is said on stderr."""
     from ebac.scenario import Scenario
 
-    return Scenario() if file is None else Scenario.load(file)
+    if file is None:
+        return Scenario()
+    found = Scenario.load(file)
+    doubtful_device.tell(file, found.device)
+    return found
 
 
 def parse_change(text: str) -> dict[str, Any]:

@@ -1,0 +1,54 @@
+"""Numbers of a device file that are possible, but more likely in a wrong unit."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from ebac.cli import output
+
+if TYPE_CHECKING:
+    from ebac._core import Device
+
+#: The current of the data sheet and the one that follows from torques differ by this factor at most.
+FACTOR = 2.0
+#: What handles and their motors have; a number beyond is possible.
+CURRENT, FORCE, MASS = (0.05, 50.0), (0.1, 1e3), (1e-3, 20.0)
+
+
+def tell(file: Path | str, device: Device) -> None:
+    """Say on stderr what of a device is likely in a wrong unit."""
+    for text in doubts(device):
+        output.note(f"{file}: {text}")
+
+
+def doubts(device: Device) -> list[str]:
+    """Return a sentence for each number that is likely in a wrong unit: its value, what is usual, and where to look."""
+    motor = device.motor
+    current, given = motor.current(motor.rated_torque), motor.rated_current
+    ratio = "device.motor: rated_torque / torque_constant"
+    look = "rated_torque is in N m (mN m x 1e-3), torque_constant in N m/A (mN m/A x 1e-3)"
+    found = []
+    # A file need not have a rated current: that of the reference says nothing of another motor.
+    if given != type(motor)().rated_current and not given / FACTOR <= current <= given * FACTOR:
+        found.append(
+            f"{ratio} = {current:.4g} A, but rated_current = {given:.4g} A: should agree within a factor of "
+            f"{FACTOR:g}; {look}"
+        )
+    elif not CURRENT[0] <= current <= CURRENT[1]:
+        found.append(f"{ratio} = {current:.4g} A: {_usual(CURRENT, 'A')}; {look}")
+    if not FORCE[0] <= device.peak_force <= FORCE[1]:
+        found.append(
+            f"device: peak force at the handle = {device.peak_force:.4g} N: {_usual(FORCE, 'N')}; rated_torque is in "
+            "N m (mN m x 1e-3), the radii of capstan and lever in m (mm x 1e-3)"
+        )
+    if not MASS[0] <= device.mass <= MASS[1]:
+        found.append(
+            f"device: mass at the handle = {device.mass:.4g} kg: {_usual(MASS, 'kg')}; handle_mass is in kg "
+            "(g x 1e-3), rotor_inertia in kg m^2 (g cm^2 x 1e-7)"
+        )
+    return found
+
+
+def _usual(span: tuple[float, float], unit: str) -> str:
+    return f"usual are {span[0]:g} to {span[1]:g} {unit}"
