@@ -38,8 +38,7 @@ class CompensationInFlight {
     gain_of_given_ = 0;
   }
 
-  /// Compensation of friction and inertia that acted [N m], and the gain of what carried weight: that of the weight is
-  /// counted where the device is, as only then its work comes back.
+  /// Compensation of friction and inertia that acted [N m].
   Axes motion() const EBAC_RT {
     Axes torque;
     for (std::size_t i = 0; i < kMaxAxes; ++i) {
@@ -47,6 +46,7 @@ class CompensationInFlight {
     }
     return torque;
   }
+  /// Gain of what carried weight. The weight itself counts where the device is: only so its work comes back.
   double gain() const EBAC_RT { return gain_[0]; }
 
  private:

@@ -282,28 +282,6 @@ class Loop {
     if constexpr (kTimed) copy_states(row + clock_at_, clock_, axes);
   }
 
-  /// What was just written is copied a word at a time: a vector of two such words waits until they have left the store
-  /// queue.
-  template <class T>
-  static void copy_words(std::byte* to, const T& from) EBAC_RT {
-    constexpr std::size_t kWord = sizeof(std::uint64_t);
-    static_assert(sizeof(T) % kWord == 0);
-    const auto* words = reinterpret_cast<const std::byte*>(&from);
-    [&]<std::size_t... I>(std::index_sequence<I...>) {
-      (std::memcpy(to + I * kWord, words + I * kWord, kWord), ...);
-    }(std::make_index_sequence<sizeof(T) / kWord>());
-  }
-
-  template <class Part>
-  static void copy_states(std::byte* row, const Part& part, std::size_t axes) EBAC_RT {
-    using State = Part::State;
-    if constexpr (State::fields().size() > 0) {
-      for (std::size_t i = 0; i < axes; ++i) {
-        std::memcpy(row + i * sizeof(State), &part.state(i), sizeof(State));
-      }
-    }
-  }
-
   D device_;
   C clock_;
   Law law_;
