@@ -23,6 +23,12 @@ const char* python_type(FieldKind kind) {
   return "int";
 }
 
+/// The same in the words of a message.
+const char* plain_type(FieldKind kind) {
+  if (kind == FieldKind::kDouble) return "a number";
+  return kind == FieldKind::kInt ? "a whole number" : python_type(kind);
+}
+
 void assign(const FieldRow& field, void* target, py::handle value) {
   switch (field.kind) {
     case FieldKind::kDouble:
@@ -120,7 +126,7 @@ bool set_field(const FieldTable& table, void* target, const std::string& owner,
           range_message(owner, name, value.cast<double>(), field->unit, field->low, field->high));
     }
     throw py::type_error(owner + "." + name + " = " + py::cast<std::string>(py::repr(value)) +
-                         ": must be " + python_type(field->kind) +
+                         ": must be " + plain_type(field->kind) +
                          (field->unit == "1" ? "" : " in " + std::string(field->unit)));
   }
   return true;

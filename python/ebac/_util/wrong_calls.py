@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable
 from enum import Enum
 from functools import wraps
@@ -10,10 +9,6 @@ from types import ModuleType
 from typing import Any, TypeVar
 
 Class = TypeVar("Class", bound=type)
-
-#: What the core says of a parameter of a wrong type, and what people call that type.
-_WRONG_TYPE = re.compile(r"([A-Z]\w*\.\w+ = .*: must be )(float|int)( in [^:]+)?", re.DOTALL)
-_KINDS = {"float": "a number", "int": "a whole number"}
 
 
 def wrap_members(module: ModuleType) -> None:
@@ -50,8 +45,6 @@ def wrapped(function: Any, label: str, name: str) -> Any:
             return call(*values, **given)
         except TypeError as error:
             if "(): incompatible " not in str(error)[:80]:
-                if wrong := _WRONG_TYPE.fullmatch(str(error)):
-                    error.args = (wrong[1] + _KINDS[wrong[2]] + (wrong[3] or ""),)
                 raise
             text = str(error)
         from ebac._util.signatures import core_sentence
