@@ -196,7 +196,7 @@ def test_a_slow_press_keeps_its_wall_where_the_motor_carries_the_weight(gravity:
 def test_static_compensation_is_no_work_of_the_law(
     friction: float, inertia: float, gravity_mass: float, delay: int, observer: bool
 ) -> None:
-    """Of the force that acted, the account has the command of the law, to the bit of what is left by a sum."""
+    """Of the force that acted, the account has the command of the law alone."""
     given_back = ebac.Compensation(friction=friction, inertia=inertia, gravity_mass=gravity_mass)
     mechanics = ebac.Mechanics(coulomb=0.5, gravity=9.81)
     device = ebac.Device(mechanics=mechanics, compensation=given_back)
