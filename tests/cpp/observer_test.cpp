@@ -172,13 +172,35 @@ TEST(Observer, FollowsTheReadingsWhereTheForceIsWrongByFar) {
   }
 }
 
-/// Weight and bias of the sensor go to the disturbance.
+/// The bias of a sensor goes to the disturbance.
 TEST(Observer, FindsAConstantForceItIsNotTold) {
   ebac::Setup setup = observed(1);
-  setup.device.mechanics.gravity = 2;  // m/s^2
+  setup.device.sensor.bias = 0.3;  // N
   const auto trace = simulate_any(setup, designed_law("ebac", setup));
-  const double weight = 2 * setup.device.mechanics.handle_mass;  // the rotor is balanced
-  EXPECT_NEAR(trace->sample(900).axis[0].port.est.disturbance, weight, 0.1 * weight);
+  EXPECT_NEAR(trace->sample(900).axis[0].port.est.disturbance, -0.3, 0.05);
+}
+
+/// The weight is in the disturbance from the first tick, and follows the pose of a gimbal: while it was learned the
+/// velocity was off by 0.1 m/s.
+TEST(Observer, KnowsTheWeightOfTheDevice) {
+  for (const ebac::Kinematics& kinematics :
+       {ebac::Kinematics(ebac::Linear{}), ebac::Kinematics(ebac::Gimbal{})}) {
+    for (const double gravity : {9.81, -9.81}) {
+      ebac::Setup setup = observed(1);
+      setup.device.kinematics = kinematics;
+      setup.device.mechanics.handle_mass = 0.5;
+      setup.device.mechanics.gravity = gravity;
+      setup.observer = ObserverParams::of(setup.device, setup.timing);
+      const auto trace = simulate_any(setup, designed_law("ebac", setup));
+      for (std::size_t i = 1; i < trace->size(); ++i) {
+        const Axis axis = trace->sample(i).axis[0];
+        const double pulls = gravity * 0.5 * weight(kinematics, Axes(axis.joint.q, 0, 0), 1)[0] /
+                             travel(kinematics)[0];
+        ASSERT_NEAR(axis.port.est.disturbance, pulls, 0.1) << i;
+        ASSERT_NEAR(axis.port.est.v, value_in(*trace, i, "true.v"), 0.02) << i;
+      }
+    }
+  }
 }
 
 /// A device that friction holds against a push rests in the estimate, and one that slides against it slides as fast:

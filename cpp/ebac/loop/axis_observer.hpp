@@ -16,9 +16,10 @@ namespace ebac {
 /// count, how fast it moves without lag, and both for the instant at which the next command acts.
 ///
 /// The device obeys M v' = F_h - b v - r - f + D, with the force of the hand F_h, Coulomb friction r,
-/// the motor's force f behind its current loop, and a slow disturbance D (weight, bias of the sensor,
-/// friction that is not declared). The sensor shows F_M = G F_h with G = 1/(force_lag s + 1). Passed
-/// through G, the equation holds for what is measured, but for r, which is taken to be that of u:
+/// the motor's force f behind its current loop, and a slow disturbance D: the declared weight, and what
+/// is not declared (bias of the sensor, more friction). The sensor shows F_M = G F_h with G =
+/// 1/(force_lag s + 1). Passed through G, the equation holds for what is measured, but for r, which is
+/// taken to be that of u:
 ///
 ///   M u' = F_M + D - b u - r - G f,    u = G v,    v = u + force_lag u'
 ///
@@ -57,7 +58,8 @@ class AxisObserver {
   void start(double x) EBAC_RT {
     x_ = reading_ = x;
     pace_ = unread_ = astray_ = 0;
-    u_ = v_ = disturbance_ = 0;
+    u_ = v_ = 0;
+    disturbance_ = weight_;
     motor_ = MotorForce(params_.current_lag);
     measured_ = before_last_ = calm_ = trend_ = contradicted_ = rough_ = 0;
     moving_ = 1;
@@ -73,6 +75,13 @@ class AxisObserver {
   void set_mass_share(double share) EBAC_RT {
     mass_ = params_.mass * share;
     per_mass_ = 1 / mass_;
+  }
+
+  /// The part of D that is known: the weight of the device along this axis [N].
+  void set_weight(double weight) EBAC_RT {
+    disturbance_ += weight - weight_;
+    undoubted_ += weight - weight_;
+    weight_ = weight;
   }
 
   /// Takes one tick: the encoder [m], if it was read anew, the force sensor [N], and the force that
@@ -268,6 +277,7 @@ class AxisObserver {
   double u_ = 0;            // m/s, the velocity behind the sensor's lag
   double v_ = 0;            // m/s
   double disturbance_ = 0;  // N
+  double weight_ = 0;       // N, of the device, in it
   double measured_ = 0;     // N
   double before_last_ = 0;  // N, the reading before
   double contradicted_ = 0;

@@ -15,9 +15,13 @@ StateObserver::StateObserver(const DeviceModel& device, const Observing& observi
       force_per_amp_(device.motor.torque_constant * device.capstan.ratio() / travel_.array()),
       handle_mass_(device.mechanics.handle_mass),
       slide_mass_(device.mass(device.axes() - 1)),
+      handle_weight_(handle_mass_ * device.mechanics.gravity),
       observing_(observing),
       observer_{AxisObserver(observing.params), AxisObserver(observing.params),
-                AxisObserver(observing.params)} {}
+                AxisObserver(observing.params)} {
+  if (!linear_) return;  // the pose has it
+  for (AxisObserver& observer : observer_) observer.set_weight(handle_weight_);
+}
 
 /// The mass of an axis over that of the first in the middle. The pose changes the handle's part of it.
 double StateObserver::mass_share(const Pose& at, Eigen::Index axis) const EBAC_RT {
@@ -38,6 +42,7 @@ void StateObserver::step_general(const Reading& reading, const std::array<bool, 
   for (std::size_t i = 0; i < axes.size(); ++i) {
     const auto e = static_cast<Eigen::Index>(i);
     observer_[i].set_mass_share(mass_share(here, e));
+    observer_[i].set_weight(handle_weight_ * here.weight[e] / travel_[e]);
     const AxisObserver& observer =
         follow(i, axes[i].joint, along[e] / travel_[e], reading, counted[i], dt);
     now[e] = observer.x() / travel_[e];

@@ -65,10 +65,11 @@ class StateObserver {
 
   Kinematics kinematics_;
   bool linear_;
-  Axes travel_;         // m, way at the handle per joint angle
-  Axes force_per_amp_;  // N/A, at the handle
-  double handle_mass_;  // kg
-  double slide_mass_;   // kg, on the last axis, in the middle
+  Axes travel_;           // m, way at the handle per joint angle
+  Axes force_per_amp_;    // N/A, at the handle
+  double handle_mass_;    // kg
+  double slide_mass_;     // kg, on the last axis, in the middle
+  double handle_weight_;  // N
   Observing observing_;
   std::array<AxisObserver, kMaxAxes> observer_;
   bool forgot_ = false;  // begins in this tick
