@@ -196,6 +196,7 @@ def test_on_hardware_no_target_is_taken() -> None:
     assert "no simulated hand" in " ".join(result.output.split())
 
 
+@pytest.mark.slow
 def test_the_command_changes_parameters_at_their_times(tmp_path: Path) -> None:
     text = EXAMPLE.read_text(encoding="utf-8").replace("silent = 10", "silent = 1000")
     limits = "overruns = 100000\nforce_age = 10.0\njump = 1.0\nspeed = 100.0"

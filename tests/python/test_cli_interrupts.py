@@ -157,6 +157,7 @@ print(event)
 """
 
 
+@pytest.mark.slow
 def test_ctrl_c_is_never_lost_while_a_campaign_runs(tmp_path: Path) -> None:
     """A lock of `threading` that it leaves taken kept the work from its end, and the command with it."""
     done = subprocess.run(

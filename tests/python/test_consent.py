@@ -102,6 +102,7 @@ def test_another_machine_is_not_asked_from_a_loopback_address() -> None:
 
 @LINUX
 @pytest.mark.real_time
+@pytest.mark.slow
 def test_a_side_says_that_what_comes_is_of_another_protocol() -> None:
     older = bytes([*b"ET", 2, 0, *bytes(52)])
 

@@ -117,6 +117,7 @@ def left() -> set[str]:
     return {path.name for path in Path("/dev/shm").glob(f"ebac-engine-{os.getpid()}-*")}
 
 
+@pytest.mark.slow
 def test_the_world_of_a_program_is_felt_and_the_program_is_ended(room: Path) -> None:
     done = run(room, f"{sys.executable} engine.py", "--json")
     assert done.returncode == 0, done.stderr
@@ -156,12 +157,14 @@ def test_one_that_never_posts_is_told(room: Path) -> None:
     assert "posted nothing. No force was rendered." in " ".join(done.stdout.split())
 
 
+@pytest.mark.slow
 def test_one_that_hangs_is_told_while_the_run_goes_on(room: Path) -> None:
     done = here(room, words(written(room, HANGING), seconds=3))
     assert done.exit_code == 0, done.stderr
     assert "the engine has stopped posting: its force has faded to zero" in done.stderr
 
 
+@pytest.mark.slow
 def test_what_an_engine_has_started_is_ended_with_it(room: Path) -> None:
     """A shell about it, and a child that does not end when it is asked to."""
     (room / "other.py").write_text(PARENT)

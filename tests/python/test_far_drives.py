@@ -361,6 +361,7 @@ def test_wrong_input_is_refused(words: list[str], said: str) -> None:
 
 @LINUX
 @pytest.mark.real_time
+@pytest.mark.slow
 def test_a_slave_alone_waits_and_ends_by_its_time() -> None:
     ended = command("slave", "--simulated", "--port", "0", "--seconds", "1", "--json")
     row = json.loads(ended.stdout)

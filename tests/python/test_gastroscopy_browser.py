@@ -23,6 +23,7 @@ def live() -> Iterator[Any]:
         yield server
 
 
+@pytest.mark.slow
 def test_what_runs_in_real_time_is_what_is_simulated(live: Any) -> None:
     time.sleep(1.0)
     live.session.pause()

@@ -235,6 +235,7 @@ def test_a_device_that_is_forgotten_stops(tmp_path: Path, until: Until) -> None:
     assert ebac.logs.read(tmp_path / "run.mcap").condition.complete
 
 
+@pytest.mark.slow
 def test_long_runs_keep_the_last_rows_in_memory_and_all_on_disk(tmp_path: Path) -> None:
     known = configuration(memory=1.0)
     with ebac.Device.open(known, simulate=True) as device:

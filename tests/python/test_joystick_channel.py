@@ -98,6 +98,7 @@ def test_a_notifier_hears_what_goes_on_and_time_passes(channel: str) -> None:
     assert stamps == sorted(stamps)
 
 
+@pytest.mark.slow
 def test_ebac_drive_scans_it() -> None:
     where = ["--interface", "ebac", "--channel", "joystick"]
     result = CliRunner().invoke(app, ["drive", "scan", *where, "--timeout", "5", "--json"])

@@ -233,6 +233,7 @@ def test_values_out_of_range_are_answered_and_change_nothing(server: Any) -> Non
     assert server.session.choices == before
 
 
+@pytest.mark.slow
 def test_a_page_that_goes_while_it_drags_leaves_a_hand_that_lets_go(server: Any) -> None:
     async def opened() -> None:
         async with socket(server) as page:

@@ -118,6 +118,7 @@ def test_every_name_can_be_chosen() -> None:
             assert Choices().with_changes({name: value}).row()[name] == value
 
 
+@pytest.mark.slow
 def test_dragging_moves_the_handle_and_leaving_lets_the_force_fade(session: Session) -> None:
     session.start()
     until(lambda: session.run is not None and session.run.ticks > 400)
@@ -203,6 +204,7 @@ def test_whatever_goes_wrong_beside_it_the_dead_man_key_is_watched(tmp_path: Pat
             assert session._watch.is_alive()
 
 
+@pytest.mark.slow
 def test_frames_have_rows_words_and_history(session: Session) -> None:
     frames = Frames(session)
     assert frames.frame()["verdict"]["head"] == "At rest"

@@ -148,6 +148,7 @@ def acts_on_the_estimate_where_the_force_is_young(trace: ebac.Trace) -> None:
 
 
 @pytest.mark.real_time
+@pytest.mark.slow
 def test_a_sensor_that_falls_silent_fades_it_out_and_in_and_the_wall_holds(
     open_with_sensor: Opened, at_tick: AtTick, tmp_path: Path
 ) -> None:

@@ -77,6 +77,7 @@ def find(root: Path, what: str) -> realtime.Finding:
     return next(f for f in realtime.examine(root=root) if f.what == what)
 
 
+@pytest.mark.slow
 def test_the_doctor_reads_a_machine(tmp_path: Path) -> None:
     write(
         tmp_path,
@@ -154,6 +155,7 @@ def test_turns_are_pooled() -> None:
     assert (pooled.counts.tolist(), pooled.beyond, pooled.most) == ([2, 2, 4], 1, 5e-3)
 
 
+@pytest.mark.slow
 def test_both_programs_take_turns() -> None:
     turns: list[tuple[int, int]] = []
     found, other = realtime.beside_cyclictest(

@@ -60,6 +60,7 @@ def log_of(out: Path) -> Path:
     raise AssertionError("it never recorded")
 
 
+@pytest.mark.slow
 def test_a_run_gives_rows_verdict_figure_and_a_log_that_others_read(
     config: Path, tmp_path: Path
 ) -> None:

@@ -203,6 +203,7 @@ def test_bias_shows_before_and_after(simulated: SimulatedSensor) -> None:
     assert "Standard deviation before: 0.0000 N, 0.00000 N m." in out
 
 
+@pytest.mark.slow
 def test_bias_takes_no_load_without_being_told(tmp_path: Path) -> None:
     options = EmulatorOptions(load=20)
     with SimulatedSensor(options=options) as heavy:

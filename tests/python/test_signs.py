@@ -79,6 +79,7 @@ def test_each_wrong_sign_is_found_and_repaired(tmp_path: Path) -> None:
 
 
 @pytest.mark.real_time
+@pytest.mark.slow
 def test_without_a_sensor_the_two_together_are_found(tmp_path: Path) -> None:
     known = Configuration.load(wired(tmp_path, [-1, 1], [1, -1], sensor=False))
     rows = find_signs(known, simulate=True)
@@ -88,6 +89,7 @@ def test_without_a_sensor_the_two_together_are_found(tmp_path: Path) -> None:
 
 
 @pytest.mark.real_time
+@pytest.mark.slow
 def test_a_long_soft_start_does_not_weaken_the_pushes(tmp_path: Path) -> None:
     known = Configuration.load(wired(tmp_path, [1, 1], [1, 1], sensor=False))
     rows = find_signs(known.replace(soft_start=30.0), simulate=True)

@@ -159,6 +159,7 @@ def test_a_run_is_simulated_on_drives_of_other_makers(own: Path) -> None:
 
 
 @pytest.mark.real_time
+@pytest.mark.slow
 def test_signs_are_found_on_drives_that_stand_on_a_bus_of_their_own(own: Path) -> None:
     """As with `ebac drive simulate FILE` and `ebac drive signs FILE`, without its --simulated."""
     known = Configuration.load(own)

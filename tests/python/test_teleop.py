@@ -332,6 +332,7 @@ def test_processes_run_at_1_khz_only() -> None:
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="UDP of the library is Linux's")
+@pytest.mark.slow
 def test_a_restarted_master_waits_for_consent() -> None:
     from ebac import Free
     from ebac.laws import design
@@ -371,6 +372,7 @@ def test_a_restarted_master_waits_for_consent() -> None:
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="UDP of the library is Linux's")
+@pytest.mark.slow
 def test_a_slave_that_was_held_up_does_not_hit() -> None:
     """0.3 s late, it finds the stick 5 mm away: the way there was one blow of 30 N, its limit."""
     from ebac import Free
