@@ -203,5 +203,17 @@ TEST(ExactPlant, HandLetsGo) {
   EXPECT_NEAR(plant.truth(0).v, held.v * std::exp(-0.1 * slope), 1e-12);
 }
 
+TEST(ExactPlant, TimeBelowAQuantumMovesNothing) {
+  Hand hand;
+  hand.path[0] = MinimumJerk{};
+  ExactPlant plant(DeviceModel{}, hand, kTick);
+  plant.advance(Axes::Zero(), 0.2, kQuanta);
+  const AxisTruth before = plant.truth(0);
+  plant.advance(Axes::Zero(), 0.2 + kTick, 0);
+  EXPECT_EQ(plant.truth(0).x, before.x);
+  EXPECT_EQ(plant.truth(0).v, before.v);
+  EXPECT_EQ(plant.truth(0).energy, before.energy);
+}
+
 }  // namespace
 }  // namespace ebac::exact_plant_test

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <memory>
 #include <string_view>
 
@@ -202,6 +203,17 @@ TEST(Joystick, FaultStopsItsAxisWithinTheTick) {
   static_cast<void>(alone.exchange({.current = {0}, .elapsed = 0.6e-3}));
   EXPECT_GT(alone.state(0).v, 0);
   EXPECT_EQ(joystick.plant().state(0).v, alone.state(0).v);
+}
+
+/// Without a SYNC the plant moves in steps, of which the last may be no more than a rounding.
+TEST(Joystick, GoesOnByAnyTimeWithoutSync) {
+  ebac::Setup setup;
+  setup.hand.path[0] = MinimumJerk{};
+  for (int ms = 1; ms <= 200; ++ms) {
+    Joystick<SimulatedDevice> joystick(plant_of(setup), setup.device);
+    joystick.elapse(1e-3 * ms);
+    EXPECT_TRUE(std::isfinite(joystick.plant().state(0).x)) << ms << " ms";
+  }
 }
 
 }  // namespace

@@ -30,6 +30,7 @@ class ExactPlant {
   }
   /// The same by who knows how many axes there are.
   void advance(const Axes& current, double t, std::int64_t quanta, std::size_t axes) EBAC_RT {
+    if (quanta <= 0) return;
     if (!released_ && t >= hand_.release_at) let_go();
     const double time = tick_ * static_cast<double>(quanta) / static_cast<double>(kQuanta);
     for (std::size_t i = 0; i < axes; ++i) {
