@@ -26,7 +26,8 @@ struct Encoder {
 
   /// The unwrapped count nearest to `last` that the counter would show as `raw`.
   std::int64_t unwrap(std::int64_t raw, std::int64_t last) const EBAC_RT {
-    return last + wrap(raw - last);
+    const auto way = static_cast<std::uint64_t>(raw) - static_cast<std::uint64_t>(last);
+    return last + wrap(static_cast<std::int64_t>(way));
   }
 
   std::int64_t wrap(std::int64_t counts) const EBAC_RT {

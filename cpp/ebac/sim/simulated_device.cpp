@@ -36,9 +36,6 @@ void SimulatedDevice::feel(const P& plant, Reading& reading) EBAC_RT {
   });
   reading.force = shown_;
   reading.force_age = records_.age();
-  if (device_.sensor.disconnects && device_.sensor.stopped(t_)) {
-    reading.force_status = SensorStatus::kDisconnected;
-  }
 }
 
 template <class P>
@@ -57,6 +54,9 @@ Reading SimulatedDevice::latch(const P& plant, std::size_t axes) EBAC_RT {
     if (std::abs(reading.force[i]) >= device_.sensor.range) {
       reading.force_status = SensorStatus::kSaturated;
     }
+  }
+  if (!prompt_ && device_.sensor.disconnects && device_.sensor.stopped(t_)) {
+    reading.force_status = SensorStatus::kDisconnected;
   }
   return reading;
 }

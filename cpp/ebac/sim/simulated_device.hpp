@@ -31,6 +31,7 @@ class SimulatedDevice {
         axes_(static_cast<std::size_t>(setup.device.axes())),
         peak_current_(setup.device.drive.peak_current(setup.device.motor)),
         prompt_(setup.device.sensor.prompt()),
+        records_(setup.device.sensor, setup.timing.dt),
         tick_(setup.timing.dt),
         delay_(static_cast<std::size_t>(setup.timing.delay)) {
     Noise chance(setup.seed, /*stream=*/2);
