@@ -6,6 +6,8 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
+#include <future>
+#include <memory>
 #include <thread>
 
 #include "ebac/sensor/emulator_server.hpp"
@@ -283,6 +285,19 @@ TEST(EmulatorServer, IsUsedFromManyThreads) {
   watching.join();
   sensor.stop();
   EXPECT_GE(client.state(0).received, 300);
+}
+
+/// A hand that takes longer to simulate than the sensor's period: the sensor falls behind, and still ends.
+TEST(EmulatorServer, StopsWhereItsSourceIsTooSlow) {
+  auto sensor =
+      std::make_unique<EmulatorServer>(kAnyPort, RdtEmulator<Endpoint>({.rate = 1000}), [](double) {
+        std::this_thread::sleep_for(milliseconds{2});
+        return EmulatorServer::Force{};
+      });
+  sensor->start();
+  std::this_thread::sleep_for(milliseconds{20});
+  auto stopping = std::async(std::launch::async, [&] { sensor->stop(); });
+  ASSERT_EQ(stopping.wait_for(seconds{10}), std::future_status::ready);
 }
 
 }  // namespace

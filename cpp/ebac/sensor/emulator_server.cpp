@@ -49,7 +49,7 @@ void EmulatorServer::work() noexcept {
     if (left.count() > 0) socket_.wait(std::min<std::chrono::nanoseconds>(left, kLongestNap));
     hear();
     if (const EmulatorTrouble* trouble = trouble_.take()) emulator_.set(*trouble);
-    for (; due <= Steady::now(); due += period) {
+    for (; due <= Steady::now() && !over_.load(std::memory_order_relaxed); due += period) {
       const auto missed = (Steady::now() - due) / period;
       if (missed > kMostMissed) due += (missed - kMostMissed) * period;
       sample(period);
