@@ -1,4 +1,8 @@
 // The node itself: NMT, heartbeats, EMCY, faults on request, and the torque it makes of a target.
+#include <string>
+#include <vector>
+
+#include "ebac/canopen/eds.hpp"
 #include "transcript.hpp"
 
 namespace ebac::can::simulated_drive_test {
@@ -390,6 +394,14 @@ TEST(Torque, ScaleIsThatOfTheMotorData) {
   enable(drive);
   must(drive, 0x6071, 0, 500);
   EXPECT_NEAR(drive.current(), copley_current(500, 10600, 5380), 1e-15);
+}
+
+/// Of an object that the data sheet of another drive has in part, only that part is written and counted.
+TEST(SimulatedDriveEds, CountsTheSubIndicesItShows) {
+  const std::vector<SheetEntry> sheet{{.index = 0x1018, .sub = 0}, {.index = 0x1018, .sub = 1}};
+  const std::string text = eds(SimulatedDrive({.sheet = sheet}).objects());
+  EXPECT_NE(text.find("ObjectType=0x9\nSubNumber=2\n"), std::string::npos);
+  EXPECT_EQ(text.find("[1018sub2]"), std::string::npos);
 }
 
 }  // namespace

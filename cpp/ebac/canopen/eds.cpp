@@ -94,12 +94,21 @@ void write_value(std::ostream& out, const ObjectDictionary& objects, std::size_t
   }
 }
 
+/// How many entries of an object the drive has.
+std::size_t shown(const ObjectDictionary& objects, const Object& object) {
+  std::size_t count = 0;
+  for (std::size_t slot = object.first; slot < std::size_t{object.first} + object.count; ++slot) {
+    count += objects.hidden(slot) ? 0 : 1;
+  }
+  return count;
+}
+
 void write_object(std::ostream& out, const ObjectDictionary& objects, const Object& object) {
   const std::string section = hex(object.index, 4);
   out << "\n[" << section << "]\nParameterName=" << object.name << "\nObjectType=0x"
       << hex(static_cast<std::int64_t>(object.shape), 1) << "\n";
   if (object.shape == Shape::kVar) return write_value(out, objects, object.first);
-  out << "SubNumber=" << object.count << "\n";
+  out << "SubNumber=" << shown(objects, object) << "\n";
   for (std::size_t slot = object.first; slot < std::size_t{object.first} + object.count; ++slot) {
     if (objects.hidden(slot)) continue;
     const Entry& entry = kDriveTable.entry[slot];
@@ -107,13 +116,6 @@ void write_object(std::ostream& out, const ObjectDictionary& objects, const Obje
         << "\nObjectType=0x7\n";
     write_value(out, objects, slot);
   }
-}
-
-bool all_hidden(const ObjectDictionary& objects, const Object& object) {
-  for (std::size_t slot = object.first; slot < std::size_t{object.first} + object.count; ++slot) {
-    if (!objects.hidden(slot)) return false;
-  }
-  return true;
 }
 
 /// CiA 306 sorts: mandatory ones, optional ones of the standards, the manufacturer's.
@@ -133,7 +135,7 @@ std::string eds(const ObjectDictionary& objects) {
     std::vector<const Object*> members;
     for (std::size_t i = 0; i < kDriveTable.objects; ++i) {
       const Object& object = kDriveTable.object[i];
-      if (list_of(object.index) == list && !all_hidden(objects, object)) members.push_back(&object);
+      if (list_of(object.index) == list && shown(objects, object) > 0) members.push_back(&object);
     }
     out << "\n[" << kLists[list] << "]\nSupportedObjects=" << members.size() << "\n";
     for (std::size_t i = 0; i < members.size(); ++i) {
