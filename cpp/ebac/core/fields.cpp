@@ -13,7 +13,7 @@ double FieldRow::number(const void* owner) const {
     case FieldKind::kInt:
       return in<int>(owner);
     case FieldKind::kFault:
-      return static_cast<double>(in<std::uint32_t>(owner));
+      return static_cast<double>(in<Fault>(owner));
     case FieldKind::kBool:
       return in<bool>(owner) ? 1 : 0;
   }
