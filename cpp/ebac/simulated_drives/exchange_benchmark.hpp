@@ -1,14 +1,12 @@
 #pragma once
 
-#include <algorithm>
-#include <chrono>
-#include <limits>
+#include <cstdint>
 #include <vector>
 
+#include "ebac/core/best_time.hpp"
 #include "ebac/simulated_drives/through_can.hpp"
 
-/// Time of an exchange on the bus, without Python inside: nanoseconds per exchange, the best of
-/// several runs, since noise only adds.
+/// Time of an exchange on the bus, without Python inside [ns].
 namespace ebac::can {
 
 /// A plant that rests, so that the bus and its two sides are all there is to time.
@@ -52,20 +50,15 @@ struct NoWait {
 
 template <Device D>
 double time_exchanges(D& device, int ticks, int repeats) {
-  double best = std::numeric_limits<double>::infinity();
   [[maybe_unused]] volatile std::int64_t sink = 0;  // so that the work is not optimised away
-  for (int i = 0; i < repeats; ++i) {
-    const auto start = std::chrono::steady_clock::now();
+  return best_nanoseconds(repeats, static_cast<std::size_t>(ticks), [&] {
     std::int64_t sum = 0;
     for (int k = 0; k < ticks; ++k) {
       const double current = 0.01 * (k % 100);  // A
       sum += device.exchange({.current = {current, -current}, .elapsed = 1e-3}).counts[0];
     }
     sink = sum;
-    const std::chrono::duration<double, std::nano> taken = std::chrono::steady_clock::now() - start;
-    best = std::min(best, taken.count() / ticks);
-  }
-  return best;
+  });
 }
 
 /// `exchange` over a bus in one thread with two simulated drives at its other end.
