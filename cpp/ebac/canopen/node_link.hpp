@@ -130,7 +130,6 @@ class NodeLink {
   bool answered() const EBAC_RT { return answered_; }
   /// Whether answers come that this drive cannot have sent: more than one a tick, of other contents.
   bool duplicated() const EBAC_RT { return twice_ > 2 * kTwice; }
-  bool heard() const EBAC_RT { return heard_; }      // process data, ever
   bool alarmed() const EBAC_RT { return alarmed_; }  // an emergency stands
   double quiet() const EBAC_RT { return quiet_; }    // s, since the last heartbeat
   bool left() const EBAC_RT { return row_.heartbeat >= 0 && row_.heartbeat != kOperational; }

@@ -41,8 +41,6 @@ class Physician {
 
   Phase phase() const EBAC_RT { return phase_; }
   std::size_t touched() const EBAC_RT { return touched_; }
-  /// Targets behind, touched or given up.
-  std::size_t passed() const EBAC_RT { return next_; }
   /// Where a target is now [m].
   Vec target_at(std::size_t i, const LumenMotion& motion) const EBAC_RT;
   const View& seen() const EBAC_RT { return seen_; }

@@ -38,7 +38,6 @@ class Slave {
   const Bend& pulled() const EBAC_RT { return pulled_; }
   const LumenMotion& motion() const EBAC_RT { return motion_; }
   const InsertionTube& tube() const EBAC_RT { return tube_; }
-  const InsertionTube::Base& base() const EBAC_RT { return at_; }
 
   /// Force of the wall on the camera, on any point of the section at most, on any place of the tube
   /// at most [N].

@@ -72,7 +72,6 @@ class RdtEmulator {
     leave(send);
   }
 
-  bool streaming() const EBAC_RT { return streaming_; }
   const EmulatorCounts& counts() const EBAC_RT { return counts_; }
   const EmulatorOptions& options() const EBAC_RT { return options_; }
 

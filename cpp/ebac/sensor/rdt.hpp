@@ -11,8 +11,6 @@
 /// wire is big endian.
 namespace ebac::sensor {
 
-inline constexpr std::uint16_t kRdtPort = 49152;
-
 /// Commands of a client.
 enum class RdtCommand : std::uint16_t {
   kStop = 0,

@@ -126,8 +126,6 @@ class Layered {
   void reset() EBAC_RT { punctured_ = 0; }
 
   std::size_t punctured() const EBAC_RT { return punctured_; }
-  std::size_t count() const EBAC_RT { return count_; }
-  const Layer& layer(std::size_t i) const EBAC_RT { return layers_[i]; }
 
  private:
   std::array<Layer, kMost> layers_{};
