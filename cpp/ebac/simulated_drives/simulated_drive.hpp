@@ -114,9 +114,6 @@ class SimulatedDrive {
   bool motor_on() const EBAC_RT {
     return state_ == DriveState::kOperationEnabled || state_ == DriveState::kQuickStopActive;
   }
-  bool in_fault() const EBAC_RT {
-    return state_ == DriveState::kFault || state_ == DriveState::kFaultReaction;
-  }
   /// The slope by which an option code takes the torque off [permille/s].
   double slope_of(std::int64_t option) const EBAC_RT;
   bool hindered() const EBAC_RT { return torque_off_ || enable_missing_; }

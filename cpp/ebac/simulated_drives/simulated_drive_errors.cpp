@@ -22,14 +22,14 @@ bool at_once(Cause cause) EBAC_RT {
 /// Stops the motor by 0x605E, or at once, and stays stopped.
 void SimulatedDrive::trip(Cause cause) EBAC_RT {
   raise(cause);
-  if (!in_fault()) state_ = DriveState::kFaultReaction;
+  if (!faulty(state_)) state_ = DriveState::kFaultReaction;
   leaving_ = DriveState::kOperationEnabled;
   if (at_once(cause) || slope_of(objects_.get<0x605E>()) >= PowerStage::kAtOnce) stage_.off();
 }
 
 /// Ends a reported cause. A cause that stopped the drive waits for its reset.
 void SimulatedDrive::cure(Cause cause) EBAC_RT {
-  if (!in_fault() && errors_.forget(cause)) push_emcy(0);
+  if (!faulty(state_) && errors_.forget(cause)) push_emcy(0);
 }
 
 void SimulatedDrive::reset_errors() EBAC_RT {
@@ -82,7 +82,7 @@ void SimulatedDrive::set_condition(Condition condition, bool present) EBAC_RT {
   }
   if (condition == Condition::kTorqueOff || condition == Condition::kEnableMissing) {
     (condition == Condition::kTorqueOff ? torque_off_ : enable_missing_) = present;
-    if (hindered() && !in_fault() && state_ != DriveState::kNotReady) {
+    if (hindered() && !faulty(state_) && state_ != DriveState::kNotReady) {
       state_ = DriveState::kSwitchOnDisabled;
       stage_.off();
     }

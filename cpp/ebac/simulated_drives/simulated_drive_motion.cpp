@@ -153,7 +153,7 @@ std::uint32_t SimulatedDrive::events() const EBAC_RT {
   std::uint32_t bits = errors_.events();
   if (stage_.limited()) bits |= facts_of(Cause::kOverload).event;
   if (!motor_on()) bits |= 1U << 12 | 1U << 15;  // disabled by software, bridge off
-  if (in_fault()) bits |= 1U << 22;
+  if (faulty(state_)) bits |= 1U << 22;
   return bits;
 }
 
