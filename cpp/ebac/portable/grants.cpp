@@ -21,14 +21,6 @@ Grant ask_memory() { return refused("memory", "all pages locked"); }
 void release_memory() noexcept {}
 Grant touch_stack(int bytes) { return refused("stack", std::to_string(bytes) + " bytes touched"); }
 
-Report ask(const Options& options) {
-  Report report;
-  if (options.stack > 0) report.grants.push_back(touch_stack(options.stack));
-  if (options.cpu >= 0) report.grants.push_back(ask_cpu(options.cpu));
-  report.grants.push_back(ask_priority(options.priority));
-  return report;
-}
-
 AwakeCpus::~AwakeCpus() = default;
 Grant AwakeCpus::ask() { return refused("sleep", "idle CPUs that do not sleep"); }
 

@@ -112,12 +112,4 @@ Grant touch_stack(int bytes) {
   return {"stack", std::to_string(bytes) + " bytes touched", true, "", ""};
 }
 
-Report ask(const Options& options) {
-  Report report;
-  if (options.stack > 0) report.grants.push_back(touch_stack(options.stack));
-  if (options.cpu >= 0) report.grants.push_back(ask_cpu(options.cpu));
-  report.grants.push_back(ask_priority(options.priority));
-  return report;
-}
-
 }  // namespace ebac::rt

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "ebac/rt/options.hpp"
 #include "ebac/rt/report.hpp"
 
 /// Real-time resources of a thread. Nothing here throws on a refusal: it is reported.
@@ -17,9 +16,5 @@ Grant ask_memory();
 void release_memory() noexcept;
 /// Touches `bytes` of the stack of the calling thread.
 Grant touch_stack(int bytes);
-
-/// Requests the resources in `options` for the calling thread. Locked memory belongs to the process
-/// and CPU sleep to the machine: both are requested separately.
-Report ask(const Options& options);
 
 }  // namespace ebac::rt

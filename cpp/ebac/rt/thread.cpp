@@ -12,6 +12,20 @@
 
 namespace ebac::rt {
 
+namespace {
+
+/// Requests the resources of the calling thread. Locked memory belongs to the process and CPU sleep
+/// to the machine: both are requested separately.
+Report ask(const Options& options) {
+  Report report;
+  if (options.stack > 0) report.grants.push_back(touch_stack(options.stack));
+  if (options.cpu >= 0) report.grants.push_back(ask_cpu(options.cpu));
+  report.grants.push_back(ask_priority(options.priority));
+  return report;
+}
+
+}  // namespace
+
 std::string refusals(const Report& report) {
   std::string text;
   for (const Grant& grant : report.grants) {
