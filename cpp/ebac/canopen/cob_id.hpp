@@ -13,6 +13,10 @@ inline constexpr NodeId kLastNode = 127;
 inline constexpr std::uint32_t kNmt = 0x000;
 inline constexpr std::uint32_t kSync = 0x080;
 
+// Of a COB-ID in the object dictionary (CiA 301, 7.5.2.33).
+inline constexpr std::int64_t kInvalid = 1LL << 31;
+inline constexpr std::int64_t kNoRemote = 1LL << 30;
+
 constexpr std::uint32_t emcy(NodeId node) EBAC_RT { return 0x080U + node; }
 /// `number` 1 to 4, from the node.
 constexpr std::uint32_t tpdo(int number, NodeId node) EBAC_RT {

@@ -1,19 +1,18 @@
 #pragma once
 
 #include "ebac/canopen/cia402.hpp"
+#include "ebac/canopen/cob_id.hpp"
 #include "ebac/canopen/object_table.hpp"
 
 /// The one table of the simulated drive: its SDO server, its PDO mapping and its EDS read it.
 namespace ebac::can {
 
-inline constexpr std::size_t kPdos = 4;              // in each direction
-inline constexpr std::size_t kMapped = 8;            // entries of one PDO
-inline constexpr std::size_t kHistory = 8;           // errors kept in 0x1003
-inline constexpr std::size_t kProducers = 4;         // heartbeats watched, 0x1016
-inline constexpr std::size_t kTexts = 2;             // writable strings
-inline constexpr std::size_t kTextRoom = 40;         // bytes of one
-inline constexpr std::int64_t kInvalid = 1LL << 31;  // of a COB-ID
-inline constexpr std::int64_t kNoRemote = 1LL << 30;
+inline constexpr std::size_t kPdos = 4;       // in each direction
+inline constexpr std::size_t kMapped = 8;     // entries of one PDO
+inline constexpr std::size_t kHistory = 8;    // errors kept in 0x1003
+inline constexpr std::size_t kProducers = 4;  // heartbeats watched, 0x1016
+inline constexpr std::size_t kTexts = 2;      // writable strings
+inline constexpr std::size_t kTextRoom = 40;  // bytes of one
 
 namespace detail {
 

@@ -7,6 +7,7 @@
 #include "ebac/can/frame.hpp"
 #include "ebac/canopen/cia402.hpp"
 #include "ebac/canopen/cob_id.hpp"
+#include "ebac/canopen/nmt.hpp"
 #include "ebac/canopen/pdo_plan.hpp"
 #include "ebac/core/fields.hpp"
 
@@ -57,7 +58,7 @@ struct BusRow {
 /// One drive as the loop sees it: commands sent, answers received, and errors in between.
 class NodeLink {
  public:
-  static constexpr int kOperational = 0x05;  // NMT state in a heartbeat
+  static constexpr int kOperational = static_cast<int>(NmtState::kOperational);
 
   /// `zero`: the position that counts as 0.
   explicit NodeLink(NodeId node, std::int32_t zero = 0) EBAC_RT

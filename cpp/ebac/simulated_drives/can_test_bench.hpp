@@ -78,7 +78,7 @@ class CanTestBench {
   const D& plant() const EBAC_RT { return other_.plant(); }
 
  private:
-  static constexpr std::uint8_t kStartNode = 0x01;
+  static constexpr auto kStartNode = static_cast<std::uint8_t>(NmtCommand::kStart);
   static constexpr std::uint8_t kAllNodes = 0;
 
   static std::size_t station_of(int node) EBAC_RT {
