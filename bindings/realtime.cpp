@@ -41,7 +41,7 @@ void bind_options(py::module_& m) {
            }),
            py::kw_only(), py::arg("name"), py::arg("asked"), py::arg("granted"), py::arg("why"),
            py::arg("remedy"))
-      .def_readonly("name", &rt::Grant::name, "priority, cpu, memory or stack.")
+      .def_readonly("name", &rt::Grant::name, "priority, cpu, memory, stack or sleep.")
       .def_readonly("asked", &rt::Grant::asked, "Requested resource.")
       .def_readonly("granted", &rt::Grant::granted, "Whether it was granted.")
       .def_readonly("why", &rt::Grant::why, "Reason of a refusal; empty if granted.")

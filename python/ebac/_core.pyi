@@ -810,7 +810,7 @@ class Grant:
     @property
     def name(self) -> str:
         """
-        priority, cpu, memory or stack.
+        priority, cpu, memory, stack or sleep.
         """
     @property
     def remedy(self) -> str:

@@ -38,10 +38,10 @@ class LoopbackHub {
   std::shared_ptr<Shared> shared_;
 };
 
-/// One end of a loopback bus. No call allocates, locks or throws, and any thread may call any of
-/// them at any time. A sent frame enters one small queue for all; a sender that finds no other
-/// thread delivering delivers until the queue is empty, so a sender delayed by the system delays no
-/// other sender. Closes itself.
+/// One end of a loopback bus. No call allocates or throws, and any thread may call any of them at
+/// any time. A sent frame enters one small queue for all; a sender that finds no other thread
+/// delivering delivers until the queue is empty. A sender that the system holds up makes no other
+/// one wait; only the frames behind its own do. Closes itself.
 class LoopbackBus {
  public:
   LoopbackBus() = default;  // an end of nothing: closed
@@ -60,7 +60,7 @@ class LoopbackBus {
 
   BusState state() const noexcept;
   BusCounts counts() const noexcept;
-  /// Leaves the bus; a thread waiting in `receive` returns.
+  /// Leaves the bus, once no thread delivers; a thread waiting in `receive` returns.
   void close() noexcept;
 
  private:

@@ -10,8 +10,8 @@
 #include "ebac/teleop/master.hpp"
 #include "ebac/teleop/slave.hpp"
 
-/// Master, slave and network as processes of their own, over UDP, at 1 kHz. A side runs for some time in the
-/// caller's thread; nothing is allocated meanwhile.
+/// Master, slave and network as processes of their own, over UDP, at 1 kHz. Each runs for some time in the
+/// caller's thread; master and slave allocate nothing meanwhile.
 namespace ebac::teleop {
 
 /// What a process has met since it was made.
