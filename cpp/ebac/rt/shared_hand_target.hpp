@@ -7,9 +7,8 @@
 #include <new>
 #include <utility>
 
-#include "ebac/core/concepts.hpp"
+#include "ebac/loop/device_around.hpp"
 #include "ebac/loop/parameter_updates.hpp"
-#include "ebac/loop/row_parts.hpp"
 #include "ebac/rt/shared_memory.hpp"
 
 namespace ebac::rt {
@@ -65,12 +64,14 @@ class TargetSubscriber {
 };
 
 /// A device of a loop whose hand is simulated elsewhere: passes new targets on with the next
-/// exchange, if there is a shared target. Forwards all other calls to the device.
+/// exchange, if there is a shared target.
 template <Device D>
-class TargetPublisher {
+class TargetPublisher : public DeviceAround<D> {
+  using DeviceAround<D>::device_;
+
  public:
   explicit TargetPublisher(D device, std::shared_ptr<SharedHandTarget> cell = nullptr)
-      : device_(std::move(device)), cell_(std::move(cell)) {}
+      : DeviceAround<D>(std::move(device)), cell_(std::move(cell)) {}
 
   Reading exchange(const Command& command) EBAC_RT {
     if (new_ && cell_ != nullptr) cell_->post(aim_);
@@ -83,17 +84,7 @@ class TargetPublisher {
     new_ = true;
   }
 
-  void enable() EBAC_RT { device_.enable(); }
-  void disable() EBAC_RT { device_.disable(); }
-  void stop() EBAC_RT { device_.stop(); }
-  bool running() const EBAC_RT { return device_.running(); }
-  bool at_rest() const EBAC_RT { return device_.at_rest(); }
-
-  D& device() EBAC_RT { return device_; }
-  auto parts() const EBAC_RT { return row_parts(device_); }
-
  private:
-  D device_;
   std::shared_ptr<SharedHandTarget> cell_;
   HandTarget aim_;
   bool new_ = false;

@@ -5,15 +5,16 @@
 #include <tuple>
 #include <utility>
 
-#include "ebac/core/concepts.hpp"
-#include "ebac/loop/row_parts.hpp"
+#include "ebac/loop/device_around.hpp"
 #include "ebac/rt/monotonic_clock.hpp"
 
 namespace ebac::rt {
 
 /// A device that records the duration of its exchange; the rest of a tick is computing time.
 template <Device D>
-class Timed {
+class Timed : public DeviceAround<D> {
+  using DeviceAround<D>::device_;
+
  public:
   struct State {
     double exchange = 0;  // s
@@ -24,7 +25,7 @@ class Timed {
   };
   static constexpr std::string_view kPrefix = "time.";
 
-  explicit Timed(D device) : device_(std::move(device)) {}
+  explicit Timed(D device) : DeviceAround<D>(std::move(device)) {}
 
   Reading exchange(const Command& command) EBAC_RT {
     const std::int64_t begun = MonotonicClock::now();
@@ -32,23 +33,11 @@ class Timed {
     state_.exchange = static_cast<double>(MonotonicClock::now() - begun) * 1e-9;
     return reading;
   }
-  void enable() EBAC_RT { device_.enable(); }
-  void disable() EBAC_RT { device_.disable(); }
-  void aim(std::size_t axis, double target) EBAC_RT
-    requires requires(D& d) { d.aim(axis, target); }
-  {
-    device_.aim(axis, target);
-  }
-  void stop() EBAC_RT { device_.stop(); }
-  bool running() const EBAC_RT { return device_.running(); }
-  bool at_rest() const EBAC_RT { return device_.at_rest(); }
 
-  D& device() EBAC_RT { return device_; }
   const State& state(std::size_t) const EBAC_RT { return state_; }
   auto parts() const EBAC_RT { return std::tuple_cat(row_parts(device_), std::tie(*this)); }
 
  private:
-  D device_;
   State state_{};
 };
 

@@ -3,8 +3,7 @@
 #include <tuple>
 #include <utility>
 
-#include "ebac/core/concepts.hpp"
-#include "ebac/loop/row_parts.hpp"
+#include "ebac/loop/device_around.hpp"
 
 namespace ebac::sensor {
 
@@ -16,16 +15,18 @@ concept PolledSensor = requires(S sensor, const S& view, double elapsed, Reading
   { view.health() } noexcept -> std::same_as<SensorStatus>;
 };
 
-/// A device whose force comes from a separate sensor. Forwards all other calls to the device.
-/// Enabling it requests the stream of the sensor, again if there was one.
+/// A device whose force comes from a separate sensor. Enabling it requests the stream of the sensor,
+/// again if there was one.
 ///
 /// While it is being enabled, no force is commanded, and the sensor may take `patience` seconds to
 /// send a valid record: only then does the device run. Afterwards the limits judge each record.
 template <Device D, PolledSensor S>
-class WithForceSensor {
+class WithForceSensor : public DeviceAround<D> {
+  using DeviceAround<D>::device_;
+
  public:
   explicit WithForceSensor(D device, S sensor, double patience = 0.5)
-      : device_(std::move(device)), sensor_(std::move(sensor)), patience_(patience) {}
+      : DeviceAround<D>(std::move(device)), sensor_(std::move(sensor)), patience_(patience) {}
 
   Reading exchange(const Command& command) EBAC_RT {
     Reading reading = device_.exchange(command);
@@ -50,43 +51,18 @@ class WithForceSensor {
     awaited_ = true;
     waited_ = 0;
   }
-  void disable() EBAC_RT
-    requires requires(D& d) {
-      { d.disable() } noexcept;
-    }
-  {
-    device_.disable();
-  }
-  void stop() EBAC_RT
-    requires requires(D& d) { d.stop(); }
-  {
-    device_.stop();
-  }
   bool running() const EBAC_RT
     requires requires(const D& d) { d.running(); }
   {
     return device_.running() && !awaited_;
   }
-  bool at_rest() const EBAC_RT
-    requires requires(const D& d) { d.at_rest(); }
-  {
-    return device_.at_rest();
-  }
-  void aim(std::size_t axis, double target) EBAC_RT
-    requires requires(D& d) { d.aim(axis, target); }
-  {
-    device_.aim(axis, target);
-  }
 
   auto parts() const EBAC_RT { return std::tuple_cat(row_parts(device_), std::tie(sensor_)); }
 
-  D& device() EBAC_RT { return device_; }
-  const D& device() const EBAC_RT { return device_; }
   S& sensor() EBAC_RT { return sensor_; }
   const S& sensor() const EBAC_RT { return sensor_; }
 
  private:
-  D device_;
   S sensor_;
   double patience_;       // s
   double waited_ = 0;     // s
