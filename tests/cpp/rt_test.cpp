@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
+#include <memory>
 #include <stdexcept>
 #include <thread>
 
@@ -56,6 +58,23 @@ TEST(Thread, ReportsWhatItGotAndHowToGetTheRest) {
     EXPECT_NE(cpu.remedy.find("taskset -c 1023"), std::string::npos) << cpu.remedy;
   }
   EXPECT_EQ(runs, 1);
+}
+
+TEST(Thread, SeveralMayWaitForItsEnd) {
+  constexpr int kWaiting = 2;
+  const auto thread = std::make_shared<Thread>(
+      Mode::kOff, Options{}, [] { std::this_thread::sleep_for(std::chrono::milliseconds{50}); });
+  const auto ended = std::make_shared<std::atomic<int>>(0);
+  for (int i = 0; i < kWaiting; ++i) {
+    std::thread([thread, ended] {
+      thread->join();
+      ++*ended;
+    }).detach();  // one that waits for ever is not waited for
+  }
+  for (int k = 0; k < 1000 && *ended < kWaiting; ++k) {
+    std::this_thread::sleep_for(std::chrono::milliseconds{10});
+  }
+  EXPECT_EQ(*ended, kWaiting);
 }
 
 TEST(Thread, KeepsCpusAwakeOnlyWhereThatIsAsked) {

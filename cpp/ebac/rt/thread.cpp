@@ -82,6 +82,7 @@ Thread::~Thread() {
 }
 
 void Thread::join() {
+  const std::scoped_lock one_by_one(joining_);
   if (thread_.joinable()) thread_.join();
 }
 

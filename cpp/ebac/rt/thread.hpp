@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <mutex>
 #include <thread>
 
 #include "ebac/rt/options.hpp"
@@ -22,6 +23,7 @@ class Thread {
   Thread(Thread&&) = delete;
   Thread& operator=(Thread&&) = delete;
 
+  /// Waits for the end of the work; from any thread, and from several.
   void join();
   const Report& report() const { return report_; }
 
@@ -30,6 +32,7 @@ class Thread {
 
   Report report_;
   bool locked_ = false;
+  std::mutex joining_;
   std::thread thread_;
 };
 
