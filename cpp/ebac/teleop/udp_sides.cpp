@@ -187,7 +187,7 @@ void UdpNetwork::tick() noexcept {
     if (!from_slave) master_ = in.from;
     Item item{.data = in.data, .size = in.size};
     Channel<Item>& way = from_slave ? back_ : there_;
-    const bool passed = !cut_ && item.size > 0 && way.send(item);
+    const bool passed = !cut_.load(std::memory_order_relaxed) && item.size > 0 && way.send(item);
     if (!passed) ++report_.arrivals.missing;
     if (passed && way.hit()) {
       const std::uint64_t bit = bits_.bits() % (8 * item.size);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -131,8 +132,8 @@ class UdpNetwork {
 
   Report run(double seconds) noexcept;
   sensor::Endpoint local() const noexcept { return socket_.local(); }
-  /// Cuts both ways, or mends them.
-  void cut(bool on) noexcept { cut_ = on; }
+  /// Cuts both ways, or mends them; from any thread.
+  void cut(bool on) noexcept { cut_.store(on, std::memory_order_relaxed); }
 
  private:
   struct Item {
@@ -147,7 +148,7 @@ class UdpNetwork {
   Channel<Item> there_;
   Channel<Item> back_;
   Noise bits_;
-  bool cut_ = false;
+  std::atomic<bool> cut_{false};
   Pace pace_;
   Report report_{};
 };
