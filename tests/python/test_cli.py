@@ -255,15 +255,19 @@ def test_wall_runs_every_law_once() -> None:
     assert list(wall_rows("--law", "all", "--law", "tca", "--seconds", "0.1")) == list(ebac.LAWS)
 
 
-def test_the_friction_of_the_device_and_its_compensation_are_options() -> None:
-    words = ["wall", "--law", "ebac", "--seconds", "0.1", "--json"]
+def test_friction_its_compensation_and_the_encoder_of_the_device_are_options() -> None:
+    words = ["wall", "--law", "ebac", "--seconds", "0.1", "--json", "--device-counts", "4096"]
     words += ["--device-friction-compensation", "0.4", "--device-coulomb", "0.5"]
     told = json.loads(CliRunner().invoke(app, words).stdout)
+    assert told["scenario"]["device"]["encoder"]["counts_per_turn"] == 4096
     assert told["scenario"]["device"]["mechanics"]["coulomb"] == 0.5
     assert told["scenario"]["device"]["compensation"]["friction"] == 0.4
     refused = CliRunner().invoke(app, [*words[:-1], "-1"])
     assert refused.exit_code == 2
     assert "--device-coulomb = -1 N: must lie in [0, 100] N" in " ".join(refused.output.split())
+    refused = CliRunner().invoke(app, ["wall", "--no-files", "--device-counts", "0"])
+    assert refused.exit_code == 2
+    assert "--device-counts = 0" in " ".join(refused.output.split())
 
 
 def test_a_thing_that_does_not_exist_is_null() -> None:

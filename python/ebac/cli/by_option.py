@@ -22,6 +22,7 @@ OPTIONS = {
     "ForceSensor.noise": "--device-noise",
     "Mechanics.coulomb": "--device-coulomb",
     "Compensation.friction": "--device-friction-compensation",
+    "Encoder.counts_per_turn": "--device-counts",
     "Timing.delay": "--delay",
     "Scenario.jitter": "--jitter",
     "Scenario.seconds": "--seconds",

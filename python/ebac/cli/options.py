@@ -176,6 +176,10 @@ class DeviceOptions:
         float | None,
         option(text="Friction that its motor compensates [N]", default="0", panel=DEVICE),
     ] = None
+    device_counts: Annotated[
+        int | None,
+        option(text="Encoder counts per turn of the motor", default="1024", panel=DEVICE),
+    ] = None
     device_permille: Annotated[
         bool | None,
         option(
@@ -247,11 +251,7 @@ def _scenario_of(given: dict[str, Any], seconds: float | None) -> Scenario:
     if length is None and file is None:
         length = seconds
     return base.replace(
-        device=setting.choose_device(
-            base.device, given.get("device"),
-            noise=given.get("device_noise"), coulomb=given.get("device_coulomb"),
-            friction_compensation=given.get("device_friction_compensation"), permille=given.get("device_permille"),
-        ),
+        device=setting.choose_device(base.device, given),
         hand=hand_of(base.hand, given),
         environment=setting.choose_engine(wall_of(base.environment, given), given),
         timing=setting.choose_timing(base.timing, given.get("rate"), given.get("delay")),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -150,27 +151,25 @@ def choose_hand(
     return chosen.replace(**changes) if changes else chosen
 
 
-def choose_device(
-    device: Device,
-    name: str | None,
-    *,
-    noise: float | None = None,
-    coulomb: float | None = None,
-    friction_compensation: float | None = None,
-    permille: bool | None = None,
-) -> Device:
-    """Return the device of that name, or `device`, with noise, friction, its compensation [N] and drive as given."""
+#: Options that change a part of the device: the part, and what of it.
+DEVICE_PARTS = {
+    "device_noise": ("sensor", "noise"),
+    "device_coulomb": ("mechanics", "coulomb"),
+    "device_friction_compensation": ("compensation", "friction"),
+    "device_counts": ("encoder", "counts_per_turn"),
+    "device_permille": ("drive", "permille"),
+}
+
+
+def choose_device(device: Device, options: Mapping[str, Any]) -> Device:
+    """Return the device that an option names, or `device`, with the parts that options change."""
+    name = options.get("device")
     chosen = known_device(name) if name is not None else device
-    changes: dict[str, Any] = {}
-    if noise is not None:
-        changes["sensor"] = chosen.sensor.replace(noise=noise)
-    if coulomb is not None:
-        changes["mechanics"] = chosen.mechanics.replace(coulomb=coulomb)
-    if friction_compensation is not None:
-        changes["compensation"] = chosen.compensation.replace(friction=friction_compensation)
-    if permille is not None:
-        changes["drive"] = chosen.drive.replace(permille=permille)
-    return chosen.replace(**changes) if changes else chosen
+    for option, (part, field) in DEVICE_PARTS.items():
+        if options.get(option) is not None:
+            changed = getattr(chosen, part).replace(**{field: options[option]})
+            chosen = chosen.replace(**{part: changed})
+    return chosen
 
 
 def choose_timing(timing: Timing, rate: float | None, delay: int | None) -> Timing:
