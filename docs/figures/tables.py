@@ -15,6 +15,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import adversaries as hostile
+import device_tables as devices
 import identify_tables as identified
 import law_tables as laws
 import population_tables as populations
@@ -53,6 +54,7 @@ TABLES: dict[str, Callable[[Printed], str]] = {
     "worst": laws.worst,
     "zwidth": rivals.z_width,
     "zwidth-explored": rivals.z_width_explored,
+    "zwidth-devices": devices.encoder_and_friction,
     "adversaries": hostile.adversaries,
     "walls": story.walls,
     "identify-arm": identified.arm,
