@@ -182,5 +182,14 @@ TEST(ThroughCan, RefusesWhatABusCannotDo) {
   EXPECT_NO_THROW(run({.timing = {.dt = 5e-4}}));  // one drive at 2 kHz: 57 %
 }
 
+TEST(ThroughCan, RefusesADelayThatItCannotKeep) {
+  const auto setup = brief();
+  for (const int delay : {0, 9}) {
+    EXPECT_THROW(can::ThroughCan(SimulatedDevice(setup), setup.device, Timing{.delay = delay}),
+                 std::invalid_argument)
+        << delay;
+  }
+}
+
 }  // namespace
 }  // namespace ebac::through_can_test

@@ -37,12 +37,19 @@ std::string explain_times(int axes, const Timing& timing, const TimedBus& bus) {
   return text.str();
 }
 
-void check_through_can(int axes, const Timing& timing, const std::optional<TimedBus>& timed) {
-  if (timing.delay < 1) {
-    throw std::invalid_argument(
-        "Timing.delay = 0 samples: over a CAN bus a command acts one tick later at the earliest; "
-        "must lie in [1, 8] samples");
+std::size_t exchanges_held(const Timing& timing) {
+  constexpr int kMost = 8;
+  if (timing.delay >= 1 && timing.delay <= kMost) {
+    return static_cast<std::size_t>(timing.delay - 1);
   }
+  throw std::invalid_argument("Timing.delay = " + std::to_string(timing.delay) +
+                              " samples: over a CAN bus a command acts one tick later at the "
+                              "earliest; must lie in [1, " +
+                              std::to_string(kMost) + "] samples");
+}
+
+void check_through_can(int axes, const Timing& timing, const std::optional<TimedBus>& timed) {
+  static_cast<void>(exchanges_held(timing));
   const TimedBus bus = timed.value_or(TimedBus{});
   if (bus.broken > axes) {
     throw std::invalid_argument("TimedBus.broken = " + std::to_string(bus.broken) +
@@ -52,7 +59,7 @@ void check_through_can(int axes, const Timing& timing, const std::optional<Timed
   const BusLoad load = load_of(axes, timing, bus);
   static_cast<void>(check_load(load));
   if (!timed || least_exchange(load, bus) <= bus.answer_share * timing.dt) return;
-  throw std::invalid_argument("TimedBus.answer_share = " + std::to_string(bus.answer_share) + ": " +
+  throw std::invalid_argument("TimedBus.answer_share = " + shortest(bus.answer_share) + ": " +
                               explain_times(axes, timing, bus));
 }
 

@@ -21,6 +21,10 @@ namespace ebac::can {
 /// How long the loop waits, and how long answers take: with the remedy.
 std::string explain_times(int axes, const Timing& timing, const TimedBus& bus);
 
+/// Exchanges by which commands are held back, so that with the tick of the bus the delay is that of
+/// `timing`. Throws std::invalid_argument, with the remedy, where no bus can keep that.
+std::size_t exchanges_held(const Timing& timing);
+
 /// A plant behind a bus as one device of the loop. The drives add one tick of delay; `delay` ticks
 /// in all are kept by holding the commands back.
 template <Device D>
@@ -29,7 +33,7 @@ class ThroughCan {
   ThroughCan(D plant, const DeviceModel& device, const Timing& timing,
              const std::optional<TimedBus>& timed = {})
       : bench_(std::make_unique<CanTestBench<D>>(std::move(plant), device, timing.dt, timed)),
-        held_(static_cast<std::size_t>(timing.delay - 1)),
+        held_(exchanges_held(timing)),
         times_(timed ? ": " + explain_times(device.axes(), timing, *timed) : "") {}
 
   Reading exchange(const Command& command) EBAC_RT { return bench_->exchange(hold(command)); }
