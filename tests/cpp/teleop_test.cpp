@@ -53,6 +53,34 @@ TEST(TeleopReceiver, AJumpOfMoreThanAMinuteIsNotTaken) {
   EXPECT_EQ(receiver.arrivals().foreign, 1);
 }
 
+TEST(TeleopReceiver, AWildNumberThatComesFirstIsForgotten) {
+  for (const int buffer : {0, 20}) {
+    Receiver receiver(buffer);
+    const auto take = [&](std::uint32_t n) { receiver.take({.sequence = n, .value = 1.0 * n}); };
+    take(0xFFFFFF00U);
+    receiver.play();
+    EXPECT_EQ(receiver.newest(), 0) << "told to the other side, it would pass for a restart";
+    for (std::uint32_t n = 1; n <= 100; ++n) {
+      take(n);
+      receiver.play();
+    }
+    EXPECT_EQ(receiver.newest(), 100);
+    EXPECT_NEAR(receiver.play().value, 100 - buffer, 2);
+    EXPECT_EQ(receiver.arrivals().received, 100);
+    EXPECT_EQ(receiver.arrivals().late, 0);
+    EXPECT_EQ(receiver.arrivals().missing, 0);
+    EXPECT_EQ(receiver.arrivals().foreign, 1);
+  }
+}
+
+TEST(TeleopReceiver, TheFirstNumberMayBeAnyOne) {  // the other side has long been sending
+  Receiver receiver;
+  for (const std::uint32_t n : {700'000U, 700'001U})
+    receiver.take({.sequence = n, .value = 1.0 * n});
+  EXPECT_EQ(receiver.play().value, 700'001);
+  EXPECT_EQ(receiver.newest(), 700'001);
+}
+
 TEST(TeleopLink, OnlyAConsentLeadsBackToRunning) {
   LinkWatch watch(Coupling{.timeout = 0.5, .fade = 0.2}, kDt);
   const auto run = [&](double seconds, bool hears) {

@@ -26,7 +26,8 @@ struct Arrivals {
         F{"missing", &Arrivals::missing, "1", "sequence numbers that have not come, so far"},
         F{"late", &Arrivals::late, "1", "packets overtaken by a later one"},
         F{"doubled", &Arrivals::doubled, "1", "packets that had come before"},
-        F{"foreign", &Arrivals::foreign, "1", "packets of an earlier session: not used"},
+        F{"foreign", &Arrivals::foreign, "1",
+          "packets of an earlier session, or far from all others of this one: not used"},
     };
   }
 };
@@ -42,18 +43,26 @@ class Receiver {
   void reset() EBAC_RT {
     for (Packet& packet : ring_) packet.sequence = 0;
     newest_ = 0;
+    sure_ = false;
     play_ = 0;
   }
 
   void take(const Packet& packet) EBAC_RT {
     if (packet.sequence == 0) return;
-    Packet& place = ring_[packet.sequence % kRing];
-    if (place.sequence == packet.sequence) {
+    if (ring_[packet.sequence % kRing].sequence == packet.sequence) {
       ++arrivals_.doubled;
       return;
     }
-    if (newest_ > 0 && is_news(packet) && packet.sequence - newest_ > kJump) return refuse();
-    if (packet.sequence + kRing <= newest_) return;  // its place is another's
+    if (is_far(packet)) {
+      if (!sure_) {
+        forget_first();
+      } else if (is_news(packet)) {
+        return refuse();
+      } else {
+        return;  // its place is another's
+      }
+    }
+    sure_ = newest_ > 0;
     ++arrivals_.received;
     if (packet.sequence > newest_) {
       arrivals_.missing += packet.sequence - newest_ - 1;
@@ -62,7 +71,7 @@ class Receiver {
       ++arrivals_.late;
       --arrivals_.missing;
     }
-    place = packet;
+    ring_[packet.sequence % kRing] = packet;
   }
   void refuse() EBAC_RT { ++arrivals_.foreign; }
   /// Whether it is newer than all before: a repeated packet is no sign of life.
@@ -84,7 +93,8 @@ class Receiver {
     return at(play_);
   }
 
-  std::uint32_t newest() const EBAC_RT { return newest_; }
+  /// The newest number, once two packets have had one near it.
+  std::uint32_t newest() const EBAC_RT { return sure_ ? newest_ : 0; }
   const Arrivals& arrivals() const EBAC_RT { return arrivals_; }
 
  private:
@@ -93,6 +103,19 @@ class Receiver {
       60'000;  // packets: a minute; more within a session is none of its own
   static constexpr double kFollow = 0.002;  // of the distance, in each tick
   static constexpr double kFar = 200;       // packets
+
+  bool is_far(const Packet& packet) const EBAC_RT {
+    if (newest_ == 0) return false;
+    return is_news(packet) ? packet.sequence - newest_ > kJump : packet.sequence + kRing <= newest_;
+  }
+  /// The first packet of a session may have any number, as the other side may long have been sending.
+  /// Where the second is far from it, the first was none of this session.
+  void forget_first() EBAC_RT {
+    --arrivals_.received;
+    arrivals_.missing -= newest_ - 1;
+    refuse();
+    reset();
+  }
 
   bool has(std::uint32_t sequence) const EBAC_RT {
     return ring_[sequence % kRing].sequence == sequence;
@@ -122,6 +145,7 @@ class Receiver {
   double buffer_;  // packets
   std::array<Packet, kRing> ring_{};
   std::uint32_t newest_ = 0;
+  bool sure_ = false;  // that it is one of this session: a second number was near it
   double play_ = 0;
   Arrivals arrivals_{};
 };
