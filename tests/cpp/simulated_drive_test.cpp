@@ -404,5 +404,36 @@ TEST(SimulatedDriveEds, CountsTheSubIndicesItShows) {
   EXPECT_EQ(text.find("[1018sub2]"), std::string::npos);
 }
 
+/// What another drive's data sheet has and the table has not is served by SDO, and written.
+TEST(SimulatedDriveEds, HasTheObjectsThatOnlyTheDataSheetHas) {
+  const std::vector<SheetEntry> sheet{
+      {.index = 0x1018, .sub = 0},
+      {.index = 0x1018, .sub = 7, .access = Access::kRo, .high = 0xFFFFFFFF},
+      {.index = 0x3000, .width = 2, .low = -5, .high = 32767, .initial = -2, .has_initial = true},
+      {.index = 0x3001, .sub = 0, .access = Access::kRo, .width = 1, .high = 255},
+      {.index = 0x3001, .sub = 0xA, .mappable = true, .width = 0, .text = "a name"},
+      {.index = 0x6071, .mappable = false, .width = 2}};
+  const std::string text = eds(SimulatedDrive({.sheet = sheet}).objects());
+  const auto has = [&](const std::string& part) {
+    EXPECT_NE(text.find(part), std::string::npos) << part << "\nis not in\n" << text;
+  };
+  has("[ManufacturerObjects]\nSupportedObjects=2\n1=0x3000\n2=0x3001\n");
+  has("[1018]\nParameterName=Identity object\nObjectType=0x9\nSubNumber=2\n");
+  has("[1018sub7]\nParameterName=Sub-index 7\nObjectType=0x7\nDataType=0x0007\nAccessType=ro\n"
+      "PDOMapping=0\n");
+  has("[3000]\nParameterName=Object 0x3000\nObjectType=0x7\nDataType=0x0003\nAccessType=rw\n"
+      "DefaultValue=-2\nPDOMapping=0\nLowLimit=-5\n");
+  has("[3001]\nParameterName=Object 0x3001\nObjectType=0x9\nSubNumber=2\n");
+  has("[3001subA]\nParameterName=Sub-index 10\nObjectType=0x7\nDataType=0x0009\nAccessType=rw\n"
+      "DefaultValue=a name\nPDOMapping=1\n");
+  const std::size_t torque = text.find("[6071]");
+  ASSERT_NE(torque, std::string::npos);
+  EXPECT_NE(text.find("PDOMapping=0", torque), std::string::npos) << "the drive refuses to map it";
+}
+
+TEST(SimulatedDriveEds, SaysThatTheDriveAnswersLss) {
+  EXPECT_NE(eds(SimulatedDrive().objects()).find("LSS_Supported=1\n"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace ebac::can::simulated_drive_test

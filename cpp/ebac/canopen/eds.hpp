@@ -6,8 +6,8 @@
 
 namespace ebac::can {
 
-/// The electronic data sheet (CiA 306) of a drive, with its own defaults; identifiers that depend
-/// on the node stand as $NODEID.
+/// The electronic data sheet (CiA 306) of a drive, of all that it serves and with its own defaults;
+/// identifiers that depend on the node stand as $NODEID.
 std::string eds(const ObjectDictionary& objects);
 
 }  // namespace ebac::can

@@ -94,6 +94,8 @@ class ObjectDictionary {
     const bool found = at < extra_.size() && extra_[at].index == index && extra_[at].sub == sub;
     return found ? at : kNoSlot;
   }
+  /// All of them, in rising order.
+  std::span<const SheetEntry> extras() const { return extra_; }
   const SheetEntry& extra_entry(std::size_t at) const EBAC_RT { return extra_[at]; }
   /// Copies its value to `out`; the number of bytes.
   std::size_t read_extra(std::size_t at, std::span<std::uint8_t> out) const EBAC_RT {
