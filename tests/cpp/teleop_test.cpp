@@ -204,6 +204,14 @@ TEST(TeleopResume, ASecondMasterDoesNotTakeARunningSlave) {
   EXPECT_NEAR(far.place(), 0.01, 1e-6);
 }
 
+TEST(TeleopResume, AForgedSessionIsNone) {
+  Far far;
+  far.hear(0.01);
+  EXPECT_FALSE(far.slave.take({.session = 0xFFFFFFFF, .sequence = 1, .value = 0.5, .run = 7}));
+  EXPECT_TRUE(far.hear(0.01));
+  EXPECT_EQ(far.slave.watch().state(), LinkState::kRunning);
+}
+
 TEST(TeleopResume, ARestartedSlaveWaitsForConsent) {
   Far far;
   far.from.session = 3;

@@ -10,10 +10,9 @@ namespace ebac::remote {
 
 namespace {
 
-constexpr int kMostAtOnce = 256;                // datagrams in a tick
-constexpr double kLongestTick = 10;             // s
-constexpr std::uint32_t kSessions = 1'000'000;  // no hand consents more often
-constexpr std::size_t kLastWords = 8;           // events kept for the other end's fault or end
+constexpr int kMostAtOnce = 256;       // datagrams in a tick
+constexpr double kLongestTick = 10;    // s
+constexpr std::size_t kLastWords = 8;  // events kept for the other end's fault or end
 
 std::int64_t now() EBAC_RT {
   return std::chrono::nanoseconds(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -31,13 +30,12 @@ LinkEnd::LinkEnd(Role role, const LinkParams& params, double dt, const sensor::E
     : slave_(role == Role::kSlave),
       params_(params),
       dt_(dt),
-      watch_(watched(params), dt),
+      session_(role, watched(params), dt, slave_ ? 0 : std::random_device{}()),
       socket_(at),
-      peer_(peer),
-      run_(slave_ ? 0 : std::random_device{}()) {
+      peer_(peer) {
   told_ = {.from_slave = slave_,
-           .session = session_,
-           .run = run_};  // said by whoever leaves before its first tick
+           .session = session_.number(),
+           .run = session_.run()};  // said by whoever leaves before its first tick
 }
 
 void LinkEnd::begin(double t, double elapsed) EBAC_RT {
@@ -49,66 +47,35 @@ void LinkEnd::begin(double t, double elapsed) EBAC_RT {
       if (error == EAGAIN) break;
       continue;
     }
-    const auto packet = teleop::decode(in.bytes());
-    if (!packet) {
+    if (const auto packet = teleop::decode(in.bytes())) {
+      hear(*packet, in.from);
+    } else {
       ++report_.refused;
-    } else if (packet->from_slave == slave_) {
-      receiver_.refuse();
-    } else if (slave_ ? obeys(*packet) : belongs(*packet)) {
-      if (slave_) peer_ = in.from;
-      take(*packet);
-    } else if (slave_ && bound_ && packet->run != run_ && watch_.lost()) {
-      peer_ = in.from;  // a restarted master learns that its hand has to consent
     }
   }
-  const teleop::LinkState before = watch_.state();
+  const teleop::LinkState before = watch().state();
   if (consent_.exchange(false, std::memory_order_relaxed) || back_ > params_.consent_after) agree();
   // A loop that was held up is behind the clock, and so is not the silence.
   behind_ = std::min(behind_ + elapsed, kLongestTick);
   do {
-    watch_.tick(other_lost_);
+    session_.tick();
     behind_ -= dt_;
   } while (behind_ > 0.5 * dt_);
-  back_ = watch_.state() == teleop::LinkState::kBack ? back_ + elapsed : 0.0;
+  back_ = watch().state() == teleop::LinkState::kBack ? back_ + elapsed : 0.0;
   tell(before);
 }
 
-/// The master's rule: what belongs to its run and session.
-bool LinkEnd::belongs(const teleop::Packet& packet) EBAC_RT {
-  if (packet.run != run_ && packet.lost && packet.session >= session_ &&
-      packet.session < session_ + kSessions) {
-    slave_session_ = packet.session;  // a slave that an earlier run has left behind
-    watch_.lose();
-    watch_.heard();
+void LinkEnd::hear(const teleop::Packet& packet, const sensor::Endpoint& from) EBAC_RT {
+  const bool bound = session_.bound();
+  const teleop::Heed heed = session_.judge(packet);
+  if (heed == teleop::Heed::kRefused) return;
+  if (slave_) peer_ = from;
+  if (heed == teleop::Heed::kAnswered) return;
+  if (heed == teleop::Heed::kBegun) {
+    begin_session();
+    if (bound) note(EventOf::kConsent, session_.number());  // a restarted slave saw none
   }
-  if (packet.run == run_ && packet.session == session_) return true;
-  receiver_.refuse();
-  return false;
-}
-
-/// The slave's: one master, and another only after the link was lost and a hand has consented.
-bool LinkEnd::obeys(const teleop::Packet& packet) EBAC_RT {
-  const bool other = bound_ && packet.run != run_;
-  if ((other ? !watch_.lost() : packet.session < session_) ||
-      packet.session >= session_ + kSessions) {
-    receiver_.refuse();
-    return false;
-  }
-  if (other && packet.session <= session_) {
-    receiver_.refuse();
-    watch_.heard();
-    return false;
-  }
-  if (packet.session > session_) {
-    begin_session(packet.session);
-    if (bound_)
-      note(EventOf::kConsent, session_);  // a restarted slave joins a session it saw no consent to
-  }
-  bound_ = true;
-  run_ = packet.run;
-  // It has heard what this slave never sent: the slave was restarted.
-  if (packet.echo > told_.sequence) watch_.lose();
-  return true;
+  take(packet);
 }
 
 void LinkEnd::take(const teleop::Packet& packet) EBAC_RT {
@@ -121,39 +88,32 @@ void LinkEnd::take(const teleop::Packet& packet) EBAC_RT {
     far_ended_ = true;
     note(packet.fault != 0 ? EventOf::kFarFault : EventOf::kFarLeft, packet.fault);
   }
-  other_lost_ = packet.lost;
-  // What says goodbye does not come back.
-  if (!far_ended_ && (watch_.lost() || receiver_.is_news(packet))) watch_.heard();
-  receiver_.take(packet);
-  heard_ = receiver_.play();
+  session_.take(packet, /*alive=*/!far_ended_);  // what says goodbye does not come back
+  heard_ = session_.play();
 }
 
-void LinkEnd::begin_session(std::uint32_t session) EBAC_RT {
-  session_ = session;
-  told_.sequence = 0;
-  receiver_.reset();
+void LinkEnd::begin_session() EBAC_RT {
   heard_ = {};
-  watch_.begin();
-  other_lost_ = far_ended_ = false;
+  far_ended_ = false;
   sent_at_.fill(0);
 }
 
 void LinkEnd::agree() EBAC_RT {
-  if (slave_ || watch_.state() != teleop::LinkState::kBack) return;
+  if (!session_.consent()) return;
   back_ = 0;
-  begin_session(std::max(session_, slave_session_) + 1);
-  note(EventOf::kConsent, session_);
+  begin_session();
+  note(EventOf::kConsent, session_.number());
 }
 
 void LinkEnd::tell(teleop::LinkState before) EBAC_RT {
-  const teleop::LinkState state = watch_.state();
+  const teleop::LinkState state = watch().state();
   if (far_ended_) return;  // has been told
-  if (watch_.losses() > report_.losses) note(EventOf::kLost, watch_.silent());
+  if (watch().losses() > report_.losses) note(EventOf::kLost, watch().silent());
   if (state == teleop::LinkState::kLost && before == teleop::LinkState::kWaiting &&
-      watch_.losses() == report_.losses) {
-    note(EventOf::kLost, watch_.silent());  // consented, but nobody answers
+      watch().losses() == report_.losses) {
+    note(EventOf::kLost, watch().silent());  // consented, but nobody answers
   }
-  report_.losses = watch_.losses();
+  report_.losses = watch().losses();
   if (state == before) return;
   if (state == teleop::LinkState::kRunning) note(EventOf::kRunning);
   if (state == teleop::LinkState::kBack) note(EventOf::kBack);
@@ -170,27 +130,26 @@ void LinkEnd::note(EventOf what, double value) EBAC_RT {
 void LinkEnd::end(const Four& value, const Four& at) EBAC_RT {
   const std::uint32_t fault = fault_.load(std::memory_order_relaxed);
   told_ = {.from_slave = slave_,
-           .lost = watch_.lost() || fault != 0,
-           .session = session_,
-           .sequence = told_.sequence,
+           .lost = watch().lost() || fault != 0,
+           .session = session_.number(),
            .value = value[0],
            .energy = report_.energy_in,
-           .run = run_,
+           .run = session_.run(),
            .fault = fault,
            .more = {value[1], value[2], value[3]},
            .at = at};
   send();
   report_.seconds = t_;
-  report_.arrivals = receiver_.arrivals();
-  report_.state = static_cast<int>(watch_.state());
-  report_.session = static_cast<int>(session_);
-  report_.away = watch_.away();
+  report_.arrivals = session_.receiver().arrivals();
+  report_.state = static_cast<int>(watch().state());
+  report_.session = static_cast<int>(session_.number());
+  report_.away = watch().away();
   shown_.post(report_);
 }
 
 void LinkEnd::send() EBAC_RT {
-  ++told_.sequence;
-  told_.echo = receiver_.newest();
+  told_.sequence = session_.next();
+  told_.echo = session_.receiver().newest();
   told_.stamp = now();
   sent_at_[told_.sequence % sent_at_.size()] = told_.stamp;
   if (!peer_) return;

@@ -9,9 +9,8 @@
 #include "ebac/core/check.hpp"
 #include "ebac/loop/mailbox.hpp"
 #include "ebac/sensor/udp.hpp"
-#include "ebac/teleop/link_watch.hpp"
 #include "ebac/teleop/packet.hpp"
-#include "ebac/teleop/receiver.hpp"
+#include "ebac/teleop/session.hpp"
 
 /// Master and slave on drives: the far side of a network as the world of a loop.
 namespace ebac::remote {
@@ -103,12 +102,11 @@ struct LinkReport {
   }
 };
 
-/// One end of the link, called from the tick of one loop. The rules are those of `teleop::MasterSide` and `SlaveSide`: a
-/// lost link needs a hand's consent at the master, a restarted master, too, and the slave answers who sends it good
-/// packets.
+/// One end of the link, called from the tick of one loop. Its rules are those of `teleop::Session`; the slave answers who
+/// sends it good packets.
 class LinkEnd {
  public:
-  enum class Role { kMaster, kSlave };
+  using Role = teleop::Role;
 
   /// The slave has no `peer`. Throws std::system_error where the port cannot be had.
   LinkEnd(Role role, const LinkParams& params, double dt, const sensor::Endpoint& at,
@@ -122,15 +120,15 @@ class LinkEnd {
   void end(const Four& value, const Four& at) EBAC_RT;
   void note(EventOf what, double value = 0) EBAC_RT;
 
-  bool running() const EBAC_RT { return watch_.state() == teleop::LinkState::kRunning; }
-  bool lost() const EBAC_RT { return watch_.lost(); }
-  double share() const EBAC_RT { return watch_.share(); }
-  std::uint32_t session() const EBAC_RT { return session_; }
+  bool running() const EBAC_RT { return watch().state() == teleop::LinkState::kRunning; }
+  bool lost() const EBAC_RT { return watch().lost(); }
+  double share() const EBAC_RT { return watch().share(); }
+  std::uint32_t session() const EBAC_RT { return session_.number(); }
   /// The newest of this session; sequence 0 before the first.
   const teleop::Packet& heard() const EBAC_RT { return heard_; }
   LinkReport& report() EBAC_RT { return report_; }
   /// This side cannot go on in this session.
-  void lose() EBAC_RT { watch_.lose(); }
+  void lose() EBAC_RT { session_.lose(); }
 
   // --- from any one other thread ---
 
@@ -148,10 +146,10 @@ class LinkEnd {
   sensor::Endpoint local() const noexcept { return socket_.local(); }
 
  private:
+  const teleop::LinkWatch& watch() const EBAC_RT { return session_.watch(); }
+  void hear(const teleop::Packet& packet, const sensor::Endpoint& from) EBAC_RT;
   void take(const teleop::Packet& packet) EBAC_RT;
-  bool belongs(const teleop::Packet& packet) EBAC_RT;
-  bool obeys(const teleop::Packet& packet) EBAC_RT;
-  void begin_session(std::uint32_t session) EBAC_RT;
+  void begin_session() EBAC_RT;
   void agree() EBAC_RT;
   void tell(const teleop::LinkState before) EBAC_RT;
   void send() EBAC_RT;
@@ -159,17 +157,11 @@ class LinkEnd {
   bool slave_;
   LinkParams params_;
   double dt_;
-  teleop::LinkWatch watch_;
-  teleop::Receiver receiver_;
+  teleop::Session session_;
   sensor::UdpSocket socket_;
   std::optional<sensor::Endpoint> peer_;
   teleop::Packet heard_{};
   teleop::Packet told_{};  // the last one sent
-  std::uint32_t run_;
-  bool bound_ = false;  // the slave, to that run
-  std::uint32_t session_ = 1;
-  std::uint32_t slave_session_ = 0;
-  bool other_lost_ = false;
   bool far_ended_ = false;
   double t_ = 0;                              // s
   double back_ = 0;                           // s, since the link is back

@@ -9,9 +9,8 @@
 #include "ebac/loop/tick.hpp"
 #include "ebac/sim/simulated_device.hpp"
 #include "ebac/teleop/coupling.hpp"
-#include "ebac/teleop/link_watch.hpp"
 #include "ebac/teleop/packet.hpp"
-#include "ebac/teleop/receiver.hpp"
+#include "ebac/teleop/session.hpp"
 
 namespace ebac::teleop {
 
@@ -28,35 +27,18 @@ class MasterSide {
         device_(setup),
         chain_(setup.device, Free{}, law.timing()),
         law_(law),
-        watch_(coupling, dt_),
-        receiver_(static_cast<int>(std::lround(coupling.buffer / dt_))),
-        run_(run) {
+        session_(Role::kMaster, coupling, dt_, run) {
     sample_.axes = 1;
     law_.reset();
   }
 
   void take(const Packet& packet) EBAC_RT {
-    if (packet.from_slave && packet.run != run_ && packet.lost && packet.session >= session_) {
-      slave_session_ = packet.session;  // a slave that an earlier run has left behind
-      watch_.lose();
-      watch_.heard();
-    }
-    if (!packet.from_slave || packet.run != run_ || packet.session != session_) {
-      return receiver_.refuse();
-    }
-    other_lost_ = packet.lost;
-    if (watch_.lost() || receiver_.is_news(packet)) watch_.heard();
-    receiver_.take(packet);
+    if (session_.judge(packet) == Heed::kTaken) session_.take(packet);
   }
 
   /// The hand agrees to go on after the link was lost: a new session, whose accounts begin at zero.
   bool consent() EBAC_RT {
-    if (watch_.state() != LinkState::kBack) return false;
-    session_ = std::max(session_, slave_session_) + 1;
-    sequence_ = 0;
-    receiver_.reset();
-    watch_.begin();
-    other_lost_ = false;
+    if (!session_.consent()) return false;
     port_ = {};
     wave_sum_ = used_wave_ = used_energy_ = smooth_ = last_ = 0;
     law_.reset();
@@ -71,10 +53,10 @@ class MasterSide {
     chain_.show_own_force(axes);
     Port& port = axes[0].port;
     observe(port);
-    watch_.tick(other_lost_);
-    if (watch_.state() == LinkState::kRunning) begun_ = true;
+    session_.tick();
+    if (watch().state() == LinkState::kRunning) begun_ = true;
     if (!begun_) origin_ = port.x;
-    const double net = watch_.share() * asked(port, receiver_.play());
+    const double net = watch().share() * asked(port, session_.play());
     net_[tick_ % net_.size()] = net;
     port.f_env = net + inject(port);
     port.f_cmd = law_.step(port);
@@ -88,15 +70,15 @@ class MasterSide {
     ++tick_;
     return {
         .from_slave = false,
-        .lost = watch_.lost() || sample_.fault != Fault::kNone,  // nobody follows a stick at rest
-        .session = session_,
-        .sequence = ++sequence_,
-        .echo = receiver_.newest(),
+        .lost = watch().lost() || sample_.fault != Fault::kNone,  // nobody follows a stick at rest
+        .session = session_.number(),
+        .sequence = session_.next(),
+        .echo = receiver().newest(),
         .stamp = stamp,
         .value = port.x - origin_,
         .energy = waves() ? port_.in - port_.out + port_.dissipated + used_energy_ : port_.in,
         .wave = wave_sum_,
-        .run = run_};
+        .run = session_.run()};
   }
 
   /// Another place for the hand [m].
@@ -106,9 +88,9 @@ class MasterSide {
   const Port& device_port() const EBAC_RT { return sample_.axis[0].port; }
   const AxisTruth& truth() const EBAC_RT { return device_.state(0); }
   const PortEnergy& port() const EBAC_RT { return port_; }
-  const LinkWatch& watch() const EBAC_RT { return watch_; }
-  const Receiver& receiver() const EBAC_RT { return receiver_; }
-  std::uint32_t session() const EBAC_RT { return session_; }
+  const LinkWatch& watch() const EBAC_RT { return session_.watch(); }
+  const Receiver& receiver() const EBAC_RT { return session_.receiver(); }
+  std::uint32_t session() const EBAC_RT { return session_.number(); }
   double asked_now() const EBAC_RT { return net_[(tick_ + net_.size() - 1) % net_.size()]; }
 
  private:
@@ -155,18 +137,12 @@ class MasterSide {
   SimulatedDevice device_;
   SignalChain chain_;
   AnyLaw law_;
-  LinkWatch watch_;
-  Receiver receiver_;
+  Session session_;
   Sample sample_{};
   PortEnergy port_{};
   std::array<double, 16> net_{};  // N
   std::uint32_t tick_ = 0;
-  std::uint32_t session_ = 1;
-  std::uint32_t sequence_ = 0;
-  std::uint32_t run_;
-  std::uint32_t slave_session_ = 0;  // of a slave that belongs to another run
   bool begun_ = false;
-  bool other_lost_ = false;
   double origin_ = 0;       // m
   double damped_ = 0;       // J
   double wave_sum_ = 0;     // sqrt(W) s

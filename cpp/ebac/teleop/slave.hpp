@@ -9,9 +9,8 @@
 #include "ebac/core/fields.hpp"
 #include "ebac/core/realtime.hpp"
 #include "ebac/teleop/coupling.hpp"
-#include "ebac/teleop/link_watch.hpp"
 #include "ebac/teleop/packet.hpp"
-#include "ebac/teleop/receiver.hpp"
+#include "ebac/teleop/session.hpp"
 
 namespace ebac::teleop {
 
@@ -61,59 +60,43 @@ class SlaveSide {
       : model_(checked(model, "SlaveModel")),
         coupling_(checked(coupling, "Coupling")),
         dt_(dt),
-        watch_(coupling, dt),
-        receiver_(static_cast<int>(std::lround(coupling.buffer / dt))) {
+        session_(Role::kSlave, coupling, dt) {
     if (scheme() == Scheme::kWaves) coupling_.damping = coupling_.impedance;  // matched
   }
 
-  /// Whether its sender is to be answered. A master of another run, one that was restarted, is heard only after this
-  /// one's link is lost, and obeyed only from a session on that a hand has consented to.
+  /// Whether its sender is to be answered.
   bool take(const Packet& packet) EBAC_RT {
-    const bool other = bound_ && packet.run != run_;
-    if (packet.from_slave || (other ? !watch_.lost() : packet.session < session_)) {
-      receiver_.refuse();
-      return false;
-    }
-    if (other && packet.session <= session_) {
-      receiver_.refuse();
-      watch_.heard();
-      return true;
-    }
-    if (packet.session > session_) begin(packet.session);
-    if (other) known_ = false;
-    bound_ = true;
-    run_ = packet.run;
-    // It has heard what this slave never sent: the slave was restarted.
-    if (packet.echo > sequence_) watch_.lose();
-    other_lost_ = packet.lost;
-    if (watch_.lost() || receiver_.is_news(packet)) watch_.heard();
-    receiver_.take(packet);
-    return true;
+    const bool other = session_.bound() && packet.run != session_.run();
+    const Heed heed = session_.judge(packet);
+    if (heed == Heed::kBegun) begin();
+    if (heed == Heed::kBegun && other) known_ = false;
+    if (heed == Heed::kTaken || heed == Heed::kBegun) session_.take(packet);
+    return heed != Heed::kRefused;
   }
 
   /// One tick; returns what to send.
   Packet step(std::int64_t stamp) EBAC_RT {
-    watch_.tick(other_lost_);
-    const Packet in = receiver_.play();
-    const double v = watch_.state() == LinkState::kRunning ? follow(in) : 0.0;
+    session_.tick();
+    const Packet in = session_.play();
+    const double v = watch().state() == LinkState::kRunning ? follow(in) : 0.0;
     move(v);
     return {.from_slave = true,
-            .lost = watch_.lost(),
-            .session = session_,
-            .sequence = ++sequence_,
-            .echo = receiver_.newest(),
+            .lost = watch().lost(),
+            .session = session_.number(),
+            .sequence = session_.next(),
+            .echo = receiver().newest(),
             .stamp = stamp,
             .value = coupling_.measured ? state_.met : state_.force,
             .energy = scheme() == Scheme::kWaves ? wave_energy_ : port_.in,
             .wave = wave_sum_,
-            .run = run_};
+            .run = session_.run()};
   }
 
   const State& state() const EBAC_RT { return state_; }
   const PortEnergy& port() const EBAC_RT { return port_; }
-  const LinkWatch& watch() const EBAC_RT { return watch_; }
-  const Receiver& receiver() const EBAC_RT { return receiver_; }
-  std::uint32_t session() const EBAC_RT { return session_; }
+  const LinkWatch& watch() const EBAC_RT { return session_.watch(); }
+  const Receiver& receiver() const EBAC_RT { return session_.receiver(); }
+  std::uint32_t session() const EBAC_RT { return session_.number(); }
   /// Energy given to the controller since the start, sum of force times speed of its target [J].
   double given() const EBAC_RT { return given_; }
 
@@ -123,11 +106,7 @@ class SlaveSide {
 
   Scheme scheme() const EBAC_RT { return static_cast<Scheme>(coupling_.scheme); }
 
-  void begin(std::uint32_t session) EBAC_RT {
-    session_ = session;
-    sequence_ = 0;
-    receiver_.reset();
-    watch_.begin();
+  void begin() EBAC_RT {
     port_ = {};
     aligned_ = false;
     if (!(coupling_.realign > 0)) known_ = false;
@@ -224,16 +203,10 @@ class SlaveSide {
   SlaveModel model_;
   Coupling coupling_;
   double dt_;  // s
-  LinkWatch watch_;
-  Receiver receiver_;
+  Session session_;
   State state_{};
   PortEnergy port_{};
-  std::uint32_t session_ = 1;
-  std::uint32_t sequence_ = 0;
-  bool other_lost_ = false;
-  std::uint32_t run_ = 0;  // of the master
-  bool bound_ = false;     // to that run
-  bool known_ = true;      // zero_
+  bool known_ = true;  // zero_
   bool aligned_ = true;
   double zero_ = 0;         // m, where the master's zero lies
   double last_ = 0;         // m, or sqrt(W) s
