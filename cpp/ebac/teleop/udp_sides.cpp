@@ -116,7 +116,9 @@ void UdpMaster::tick() EBAC_RT {
     side_.take(*packet);
   });
   back_ = side_.watch().state() == LinkState::kBack ? back_ + kSecond : 0.0;
-  if (back_ > consent_after_) side_.consent();
+  if (consent_.exchange(false, std::memory_order_relaxed) || back_ > consent_after_) {
+    side_.consent();
+  }
   const Packet out = side_.step(now());
   sent_at_[out.sequence % sent_at_.size()] = out.stamp;
   socket_.send(encode(out), peer_);
@@ -130,6 +132,7 @@ void UdpMaster::tick() EBAC_RT {
     report_.force_when_lost = std::max(report_.force_when_lost, std::abs(report_.force));
   }
   report_.fault = side_.sample().fault;
+  is_back_.store(side_.watch().state() == LinkState::kBack, std::memory_order_relaxed);
 }
 
 UdpSlave::UdpSlave(const SlaveModel& model, const Coupling& coupling, const sensor::Endpoint& at)

@@ -85,7 +85,13 @@ class UdpMaster {
             const sensor::Endpoint& at, const sensor::Endpoint& peer, double consent_after);
 
   Report run(double seconds) noexcept;
-  bool consent() EBAC_RT { return side_.consent(); }
+  /// The hand agrees to go on, from the next tick on; false where the link is not back. From any
+  /// thread.
+  bool consent() noexcept {
+    const bool back = is_back_.load(std::memory_order_relaxed);
+    if (back) consent_.store(true, std::memory_order_relaxed);
+    return back;
+  }
   sensor::Endpoint local() const noexcept { return socket_.local(); }
 
  private:
@@ -96,6 +102,8 @@ class UdpMaster {
   sensor::UdpSocket socket_;
   sensor::Endpoint peer_;
   double consent_after_;                      // s
+  std::atomic<bool> is_back_{false};          // the link, at the end of the last tick
+  std::atomic<bool> consent_{false};          // given since
   double back_ = 0;                           // s, since the link is back
   double calm_ = 0;                           // s, since the fade ended
   double running_ = 0;                        // s, since the link began to run
