@@ -1,6 +1,6 @@
 #include "bind.hpp"
 
-PYBIND11_MODULE(_core, m, pybind11::mod_gil_not_used()) {
+PYBIND11_MODULE(_core, m) {
   m.doc() = "The C++ core of ebac. Use it through the package `ebac`.";
   ebac::python::bind_leaving();
   ebac::python::bind_core(m);
