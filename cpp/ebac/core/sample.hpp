@@ -96,7 +96,7 @@ enum class Fallback : std::int32_t {
   kAccount = 5,      // the law's energy account runs out with it, while the device rests
 };
 
-/// State of the device at one port, from encoder, force sensor and current: see `Observer`.
+/// State of the device at one port, from encoder, force sensor and current: see `StateObserver`.
 struct Estimate {
   double x = 0;            // m
   double dx = 0;           // m, since the last tick
