@@ -4,7 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <concepts>
+#include <cstdint>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "ebac/control/direct.hpp"
@@ -680,6 +683,24 @@ TEST(Answers, RefusedFramesAreCounted) {
   EXPECT_EQ(bench.row(1).refused, 2);
   EXPECT_EQ(bench.row(0).missing, 1);
 }
+
+/// Polls until the budget is spent, by the time that `Now` returns in ns.
+template <class Now>
+  requires requires(Now now) {
+    { now() } noexcept -> std::same_as<std::int64_t>;
+  }
+class PollFor {
+ public:
+  PollFor(Now now, std::int64_t budget) EBAC_RT : now_(std::move(now)), budget_(budget) {}  // ns
+
+  void begin(double) EBAC_RT { end_ = now_() + budget_; }
+  bool more() EBAC_RT { return now_() < end_; }
+
+ private:
+  Now now_;
+  std::int64_t budget_;   // ns
+  std::int64_t end_ = 0;  // ns
+};
 
 /// Time that passes by 10 us whenever it is asked.
 struct Counter {

@@ -7,6 +7,7 @@
 #include "ebac/can/bus.hpp"
 #include "ebac/can/frame.hpp"
 #include "ebac/canopen/cob_id.hpp"
+#include "ebac/core/realtime.hpp"
 
 /// The other side of a bus, with scripted answers: for behaviour that real drives never show.
 namespace ebac::can {
@@ -105,6 +106,32 @@ struct ScriptedDrives {
         break;
     }
   }
+};
+
+/// Lets the other side, which lives in the same thread, do its work once; afterwards every answer
+/// has arrived. `run(elapsed)` receives the time since the last exchange [s].
+template <class Other>
+  requires requires(Other other, double elapsed) {
+    { other.run(elapsed) } noexcept;
+  }
+class RunOther {
+ public:
+  explicit RunOther(Other& other) EBAC_RT : other_(&other) {}
+
+  void begin(double elapsed) EBAC_RT {
+    elapsed_ = elapsed;
+    ran_ = false;
+  }
+  bool more() EBAC_RT {
+    if (ran_) return false;
+    other_->run(elapsed_);
+    return ran_ = true;
+  }
+
+ private:
+  Other* other_;
+  double elapsed_ = 0;  // s
+  bool ran_ = false;
 };
 
 }  // namespace ebac::can
