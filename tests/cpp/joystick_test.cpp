@@ -8,7 +8,6 @@
 #include <string_view>
 
 #include "designed_law.hpp"
-#include "ebac/can/node_server.hpp"
 #include "ebac/sim/any_law.hpp"
 #include "ebac/sim/simulate.hpp"
 #include "same_bits.hpp"
@@ -144,30 +143,19 @@ TEST(Joystick, EqualsItOnTwoCoupledAxes) {
   expect_same_rows("ebac", setup);
 }
 
-/// A bus whose other end is the test.
-struct Wire {
-  FrameQueue<64> to_node;
-  FrameQueue<64> from_node;
-  bool send(const Frame& out) EBAC_RT { return from_node.push(out); }
-  bool receive(Frame& in) EBAC_RT { return to_node.pop(in); }
-  BusState state() const EBAC_RT { return BusState::kUp; }
-};
-
-TEST(Serve, CarriesFramesBothWays) {
+TEST(Joystick, OnlyTheDriveThatIsAskedAnswers) {
   ebac::Setup setup;
   setup.device.kinematics = Gimbal{};
   Joystick<SimulatedDevice> joystick(plant_of(setup), setup.device);
-  Wire wire;
-  wire.to_node.push(frame(sdo_request(2), {0x40, 0x00, 0x10, 0, 0, 0, 0, 0}));
-  wire.to_node.push(frame(sdo_request(3), {0x40, 0x00, 0x10, 0, 0, 0, 0, 0}));  // no such node
-  serve(wire, joystick);
+  joystick.receive(frame(sdo_request(2), {0x40, 0x00, 0x10, 0, 0, 0, 0, 0}));
+  joystick.receive(frame(sdo_request(3), {0x40, 0x00, 0x10, 0, 0, 0, 0, 0}));  // no such node
   Frame said;
   for (const Frame& expected : {frame(heartbeat(1), {0}), frame(heartbeat(2), {0}),
                                 frame(sdo_answer(2), {0x43, 0x00, 0x10, 0, 0x92, 1, 2, 0})}) {
-    ASSERT_TRUE(wire.from_node.pop(said));
+    ASSERT_TRUE(joystick.take(said));
     EXPECT_EQ(said, expected);
   }
-  EXPECT_FALSE(wire.from_node.pop(said));
+  EXPECT_FALSE(joystick.take(said));
 }
 
 TEST(Joystick, FollowsTheTimeWithoutSync) {

@@ -22,22 +22,6 @@ concept Node = requires(N node, const Frame& in, Frame& out) {
   { node.take(out) } noexcept -> std::same_as<bool>;
 };
 
-/// Passes waiting frames to the node and its answers to the bus, without waiting. A frame that the
-/// bus refuses is lost and counted by the bus.
-template <Bus B, Node N>
-void serve(B& bus, N& node) EBAC_RT {
-  Frame frame;
-  const auto answer = [&]() EBAC_RT {
-    Frame out;
-    while (node.take(out)) static_cast<void>(bus.send(out));
-  };
-  answer();
-  while (bus.receive(frame)) {
-    node.receive(frame);
-    answer();
-  }
-}
-
 /// A bus on whose end a thread can also wait.
 template <class B>
 concept WaitingBus =
