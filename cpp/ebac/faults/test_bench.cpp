@@ -182,14 +182,4 @@ Reading TestBench::heeded(Reading reading) const EBAC_RT {
   return reading;
 }
 
-bool TestBench::off() EBAC_RT {
-  for (std::size_t i = 0; i < axes(); ++i) {
-    const can::DriveState state = drive(i).state();
-    const bool on =
-        state == can::DriveState::kOperationEnabled || state == can::DriveState::kQuickStopActive;
-    if (on || drive(i).current() != 0) return false;
-  }
-  return true;
-}
-
 }  // namespace ebac::faults

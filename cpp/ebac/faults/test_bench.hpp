@@ -32,7 +32,7 @@ class TestBench {
   std::size_t axes() EBAC_RT { return other_.joystick().axes(); }
   const SimulatedDevice& plant() const EBAC_RT { return other_.plant().simulated(); }
   /// No motor has current, and none may get any.
-  bool off() EBAC_RT;
+  bool off() const EBAC_RT { return other_.joystick().off(); }
   /// Asks for current, if the fault is one of a loop that does so before its drives are enabled.
   Command pressed(const Command& command) const EBAC_RT;
   /// What a loop hears that does not heed its device.

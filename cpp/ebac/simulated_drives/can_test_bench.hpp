@@ -59,16 +59,8 @@ class CanTestBench {
     return reading;
   }
 
-  /// Whether no drive has power: by itself, not by what the loop hears of it.
-  bool off() const EBAC_RT {
-    for (std::size_t i = 0; i < joystick().axes(); ++i) {
-      const SimulatedDrive& drive = joystick().drive(i);
-      const bool on = drive.state() == DriveState::kOperationEnabled ||
-                      drive.state() == DriveState::kQuickStopActive;
-      if (on || drive.current() != 0) return false;
-    }
-    return true;
-  }
+  /// Whether no drive has power.
+  bool off() const EBAC_RT { return joystick().off(); }
 
   Can& can() EBAC_RT { return can_; }
   const Can& can() const EBAC_RT { return can_; }

@@ -87,6 +87,13 @@ class Joystick {
   std::size_t axes() const EBAC_RT { return axes_; }
   SimulatedDrive& drive(std::size_t axis) EBAC_RT { return drive_[axis]; }
   const SimulatedDrive& drive(std::size_t axis) const EBAC_RT { return drive_[axis]; }
+  /// Whether no drive has power: by itself, not by what a loop hears of it.
+  bool off() const EBAC_RT {
+    for (std::size_t i = 0; i < axes_; ++i) {
+      if (drive_[i].motor_on() || drive_[i].current() != 0) return false;
+    }
+    return true;
+  }
   const D& plant() const EBAC_RT { return plant_; }
   D& plant() EBAC_RT { return plant_; }
   /// The last reading of the plant, with values that no drive sends, such as the force.

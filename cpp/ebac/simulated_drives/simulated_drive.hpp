@@ -61,6 +61,10 @@ class SimulatedDrive {
   NodeId node() const EBAC_RT { return objects_.node(); }
   NmtState nmt() const EBAC_RT { return nmt_; }
   DriveState state() const EBAC_RT { return state_; }
+  /// Whether the motor is under control.
+  bool motor_on() const EBAC_RT {
+    return state_ == DriveState::kOperationEnabled || state_ == DriveState::kQuickStopActive;
+  }
   const ObjectDictionary& objects() const EBAC_RT { return objects_; }
   std::uint64_t frames_refused() const EBAC_RT { return out_.refused(); }
 
@@ -111,9 +115,6 @@ class SimulatedDrive {
   void refresh() EBAC_RT;
   std::uint16_t status() const EBAC_RT;
   std::uint32_t events() const EBAC_RT;
-  bool motor_on() const EBAC_RT {
-    return state_ == DriveState::kOperationEnabled || state_ == DriveState::kQuickStopActive;
-  }
   /// The slope by which an option code takes the torque off [permille/s].
   double slope_of(std::int64_t option) const EBAC_RT;
   bool hindered() const EBAC_RT { return torque_off_ || enable_missing_; }
