@@ -168,6 +168,12 @@ TEST(SimulatedWire, RefusesWhatNoBusIs) {
   EXPECT_THROW(SimulatedWire({.stations = 0}), std::invalid_argument);
   EXPECT_THROW(SimulatedWire({.bit_rate = 5e6}), std::invalid_argument);
   EXPECT_THROW(SimulatedWire({.error_rate = 2}), std::invalid_argument);
+  try {
+    SimulatedWire({.bit_rate = 5e6});
+  } catch (const std::invalid_argument& error) {
+    EXPECT_STREQ(error.what(),
+                 "SimulatedWire.bit_rate = 5e+06 bit/s: must lie in [10000, 1e+06] bit/s");
+  }
   SimulatedWire wire({});
   for (int i = 0; i < 64; ++i) EXPECT_TRUE(wire.send(0, {.id = 1}, 0));
   EXPECT_FALSE(wire.send(0, {.id = 1}, 0));

@@ -171,7 +171,7 @@ def test_models_are_values(model: object) -> None:
 def test_wrong_models_are_refused() -> None:
     with pytest.raises(ValueError, match=r"FingerPad: Hand.mass = 0 kg: must be positive"):
         ebac.Hand(mass=0, model=FingerPad())
-    with pytest.raises(ValueError, match=r"LetGo.closed_at"):
+    with pytest.raises(ValueError, match=r"LetGo.closed_at = 1 s: must lie"):
         ebac.Hand(model=LetGo(open_at=2, closed_at=1))
     with pytest.raises(TypeError, match=r"Hand.model = 3: must be Reflex"):
         ebac.Hand(model=3)

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "ebac/core/check.hpp"
 #include "ebac/model/delay_line.hpp"
 #include "ebac/model/hand.hpp"
 #include "ebac/model/hardening_spring.hpp"
@@ -173,11 +174,11 @@ class LetGoForce final : public BodyBehind {
  public:
   LetGoForce(const LetGo& p, const Hand& hand) : BodyBehind("LetGo", hand), p_(p) {
     if (!(p.closed_at >= p.open_at + p.ramp)) {
-      throw std::invalid_argument("LetGo.closed_at = " + std::to_string(p.closed_at) +
+      throw std::invalid_argument("LetGo.closed_at = " + shortest(p.closed_at) +
                                   " s: must lie at least a ramp after open_at");
     }
     if (!(p.period >= p.closed_at - p.open_at + p.ramp)) {
-      throw std::invalid_argument("LetGo.period = " + std::to_string(p.period) +
+      throw std::invalid_argument("LetGo.period = " + shortest(p.period) +
                                   " s: must be long enough to open and to close");
     }
   }

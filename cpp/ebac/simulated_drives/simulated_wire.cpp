@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
-#include <string>
 
 #include "ebac/can/frame_length.hpp"
+#include "ebac/core/check.hpp"
 
 namespace ebac::can {
 
@@ -13,18 +13,16 @@ namespace {
 
 void check_range(const char* name, double value, double low, double high, const char* unit) {
   if (value >= low && value <= high) return;
-  throw std::invalid_argument("SimulatedWire." + std::string(name) + " = " + std::to_string(value) +
-                              unit + ": must lie in [" + std::to_string(low) + ", " +
-                              std::to_string(high) + "]" + unit);
+  throw std::invalid_argument(range_message("SimulatedWire", name, value, unit, low, high));
 }
 
 }  // namespace
 
 SimulatedWire::SimulatedWire(const WireOptions& options)
     : bit_(1e9 / options.bit_rate), random_(options.seed, /*stream=*/3) {
-  check_range("stations", static_cast<double>(options.stations), 1, 256, "");
-  check_range("bit_rate", options.bit_rate, 1e4, 1e6, " bit/s");
-  check_range("error_rate", options.error_rate, 0, 1, "");
+  check_range("stations", static_cast<double>(options.stations), 1, 256, "1");
+  check_range("bit_rate", options.bit_rate, 1e4, 1e6, "bit/s");
+  check_range("error_rate", options.error_rate, 0, 1, "1");
   station_.resize(options.stations);
   for (Station& one : station_) {
     one.error_rate = options.error_rate;

@@ -2,9 +2,12 @@
 
 #include <cmath>
 #include <sstream>
+#include <stdexcept>
+#include <string>
 #include <vector>
 
 #include "ebac/canopen/pdo_plan.hpp"
+#include "ebac/core/check.hpp"
 
 namespace ebac::can {
 
