@@ -59,10 +59,10 @@ Target Hand::moving_target(int axis, double t, double dt) const EBAC_RT {
       },
       path[static_cast<std::size_t>(axis)]);
   if (tremor_amplitude > 0) {
-    const Sine tremor{.centre = 0, .amplitude = tremor_amplitude, .frequency = tremor_frequency};
-    const double x = tremor.position(t);
+    const Sine shake = tremor();
+    const double x = shake.position(t);
     result.x += x;
-    result.rate += (tremor.position(t + dt) - x) / dt;
+    result.rate += (shake.position(t + dt) - x) / dt;
   }
   return result;
 }
@@ -71,8 +71,7 @@ double Hand::pull(int axis, double t, double x) const EBAC_RT {
   if (t >= release_at) return 0;
   const double wanted = std::visit([&](const auto& p) EBAC_RT { return p.position(t); },
                                    path[static_cast<std::size_t>(axis)]);
-  const Sine tremor{.centre = 0, .amplitude = tremor_amplitude, .frequency = tremor_frequency};
-  const double away = wanted - x + (tremor_amplitude > 0 ? tremor.position(t) : 0.0);
+  const double away = wanted - x + (tremor_amplitude > 0 ? tremor().position(t) : 0.0);
   return stiffness * std::abs(away);
 }
 

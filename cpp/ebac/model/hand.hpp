@@ -139,6 +139,10 @@ struct Hand {
   }
 
   Target moving_target(int axis, double t, double dt) const EBAC_RT;
+  /// What is on top of the path of every axis.
+  Sine tremor() const EBAC_RT {
+    return {.centre = 0, .amplitude = tremor_amplitude, .frequency = tremor_frequency};
+  }
 
   /// Whether its force is that of eq. (4).
   bool linear() const EBAC_RT { return std::holds_alternative<std::monostate>(model); }
