@@ -1,7 +1,7 @@
 #pragma once
 
 #include <cstddef>
-#include <ebac/core/concepts.hpp>
+#include <ebac/core/device.hpp>
 #include <ebac/loop/mailbox.hpp>
 #include <ebac/model/kinematics.hpp>
 #include <memory>

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <array>
-#include <ebac/core/concepts.hpp>
+#include <ebac/core/controller.hpp>
 #include <string_view>
 
 /// A law of your own: the world's force plus a virtual damper while in contact.

@@ -10,7 +10,8 @@
 #include <cmath>
 #include <vector>
 
-#include "ebac/core/concepts.hpp"
+#include "ebac/core/clock.hpp"
+#include "ebac/core/device.hpp"
 
 namespace ebac::loop_test {
 namespace {

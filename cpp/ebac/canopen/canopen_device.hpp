@@ -11,7 +11,7 @@
 #include "ebac/canopen/node_link.hpp"
 #include "ebac/canopen/torque.hpp"
 #include "ebac/canopen/torque_watch.hpp"
-#include "ebac/core/concepts.hpp"
+#include "ebac/core/device.hpp"
 
 namespace ebac::can {
 

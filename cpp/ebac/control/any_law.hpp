@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "ebac/control/fixed_params.hpp"
-#include "ebac/core/concepts.hpp"
+#include "ebac/core/controller.hpp"
 
 /// A law whose type is known at run time only: one virtual call for each port and tick. What runs
 /// laws is compiled once for all of them; who knows the type uses the law itself and pays nothing.

@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "ebac/control/beta.hpp"
-#include "ebac/core/concepts.hpp"
+#include "ebac/core/controller.hpp"
 
 namespace ebac {
 

@@ -5,7 +5,7 @@
 
 #include "ebac/control/affordable_force.hpp"
 #include "ebac/control/eba.hpp"
-#include "ebac/core/concepts.hpp"
+#include "ebac/core/controller.hpp"
 
 namespace ebac {
 

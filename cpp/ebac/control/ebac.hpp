@@ -7,7 +7,7 @@
 #include "ebac/control/ebac_by_observer.hpp"
 #include "ebac/control/ebac_params.hpp"
 #include "ebac/control/ebac_shared.hpp"
-#include "ebac/core/concepts.hpp"
+#include "ebac/core/controller.hpp"
 
 namespace ebac {
 

@@ -7,7 +7,7 @@
 
 #include "ebac/control/beta.hpp"
 #include "ebac/control/force_feedback.hpp"
-#include "ebac/core/concepts.hpp"
+#include "ebac/core/controller.hpp"
 
 namespace ebac {
 

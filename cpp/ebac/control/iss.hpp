@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "ebac/control/injection.hpp"
-#include "ebac/core/concepts.hpp"
+#include "ebac/core/controller.hpp"
 
 namespace ebac {
 

@@ -10,7 +10,7 @@
 #include "ebac/control/contact_estimator.hpp"
 #include "ebac/control/injection.hpp"
 #include "ebac/control/recovery.hpp"
-#include "ebac/core/concepts.hpp"
+#include "ebac/core/controller.hpp"
 
 namespace ebac {
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <string_view>
 
-#include "ebac/core/concepts.hpp"
+#include "ebac/core/controller.hpp"
 
 namespace ebac {
 

@@ -12,7 +12,7 @@
 #include "ebac/control/force_blend.hpp"
 #include "ebac/control/shared_account.hpp"
 #include "ebac/control/turned_ports.hpp"
-#include "ebac/core/concepts.hpp"
+#include "ebac/core/controller.hpp"
 
 namespace ebac {
 

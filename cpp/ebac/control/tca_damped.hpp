@@ -6,7 +6,7 @@
 
 #include "ebac/control/force_feedback.hpp"
 #include "ebac/control/injection.hpp"
-#include "ebac/core/concepts.hpp"
+#include "ebac/core/controller.hpp"
 
 namespace ebac {
 

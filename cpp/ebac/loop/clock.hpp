@@ -3,7 +3,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "ebac/core/concepts.hpp"
+#include "ebac/core/clock.hpp"
 #include "ebac/model/linear_flow.hpp"
 #include "ebac/model/noise.hpp"
 

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <utility>
 
-#include "ebac/core/concepts.hpp"
+#include "ebac/core/device.hpp"
 #include "ebac/loop/row_parts.hpp"
 
 namespace ebac {

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "ebac/core/concepts.hpp"
+#include "ebac/core/controller.hpp"
 #include "ebac/loop/observer_params.hpp"
 
 namespace ebac {

@@ -3,7 +3,8 @@
 #include <array>
 #include <span>
 
-#include "ebac/core/concepts.hpp"
+#include "ebac/core/clock.hpp"
+#include "ebac/core/device.hpp"
 #include "ebac/loop/impulse_balance.hpp"
 
 namespace ebac {

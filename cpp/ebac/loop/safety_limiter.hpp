@@ -7,7 +7,8 @@
 #include <span>
 #include <string_view>
 
-#include "ebac/core/concepts.hpp"
+#include "ebac/core/clock.hpp"
+#include "ebac/core/device.hpp"
 #include "ebac/loop/impulse_balance.hpp"
 #include "ebac/model/limits.hpp"
 #include "ebac/model/thermal.hpp"

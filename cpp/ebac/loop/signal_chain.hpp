@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <span>
 
-#include "ebac/core/concepts.hpp"
+#include "ebac/core/device.hpp"
 #include "ebac/core/timing.hpp"
 #include "ebac/loop/compensation_in_flight.hpp"
 #include "ebac/loop/energy_account.hpp"

@@ -6,7 +6,7 @@
 #include <optional>
 #include <span>
 
-#include "ebac/core/concepts.hpp"
+#include "ebac/core/device.hpp"
 #include "ebac/core/realtime.hpp"
 #include "ebac/loop/account_watch.hpp"
 #include "ebac/loop/axis_observer.hpp"

@@ -4,7 +4,9 @@
 #include <span>
 
 #include "ebac/control/per_axis.hpp"
-#include "ebac/core/concepts.hpp"
+#include "ebac/core/clock.hpp"
+#include "ebac/core/controller.hpp"
+#include "ebac/core/device.hpp"
 #include "ebac/loop/signal_chain.hpp"
 
 namespace ebac {

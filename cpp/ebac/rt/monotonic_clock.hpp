@@ -9,7 +9,7 @@
 #include <string_view>
 #include <thread>
 
-#include "ebac/core/concepts.hpp"
+#include "ebac/core/clock.hpp"
 
 namespace ebac::rt {
 

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <span>
 
-#include "ebac/core/concepts.hpp"
+#include "ebac/core/device.hpp"
 #include "ebac/model/kinematics.hpp"
 #include "ebac/sensor/mounting.hpp"
 #include "ebac/sensor/rdt.hpp"

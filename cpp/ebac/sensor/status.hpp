@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string_view>
 
-#include "ebac/core/concepts.hpp"
+#include "ebac/core/device.hpp"
 
 namespace ebac::sensor {
 

@@ -9,7 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "ebac/core/concepts.hpp"
+#include "ebac/core/clock.hpp"
+#include "ebac/core/device.hpp"
 #include "ebac/loop/observer_params.hpp"
 
 /// A recorded log as hardware: its counts, applied currents and forces drive a law open loop.

@@ -7,7 +7,7 @@
 #include <utility>
 #include <variant>
 
-#include "ebac/core/concepts.hpp"
+#include "ebac/core/device.hpp"
 #include "ebac/model/exact_plant.hpp"
 #include "ebac/model/force_records.hpp"
 #include "ebac/model/stepped_plant.hpp"

@@ -4,7 +4,7 @@
 #include <memory>
 #include <utility>
 
-#include "ebac/core/concepts.hpp"
+#include "ebac/core/device.hpp"
 #include "ebac/loop/row_parts.hpp"
 
 namespace ebac {

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <utility>
 
-#include "ebac/core/concepts.hpp"
+#include "ebac/core/device.hpp"
 #include "ebac/model/device.hpp"
 #include "ebac/simulated_drives/simulated_drive.hpp"
 #include "ebac/simulated_drives/wiring.hpp"
