@@ -9,21 +9,14 @@
 #include <utility>
 
 #include "ebac/core/check.hpp"
+#include "ebac/loop/loop_options.hpp"
 #include "ebac/loop/parameter_updates.hpp"
 #include "ebac/loop/plausibility.hpp"
 #include "ebac/loop/row_parts.hpp"
-#include "ebac/loop/run_state_machine.hpp"
-#include "ebac/loop/safety_limiter.hpp"
 #include "ebac/loop/tick.hpp"
 #include "ebac/loop/trace.hpp"
 
 namespace ebac {
-
-/// Options of a loop: start and end of a run, and its safety limits.
-struct LoopOptions {
-  RunPlan plan{};
-  SafetyLimiter limiter{};
-};
 
 /// Runs ticks and records their rows: Arm, Run, Stop, then Idle or Fault. A fault latches: its row
 /// and the next ones, `stop_ticks` in all, command zero force, the device is stopped if it has

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "ebac/core/timing.hpp"
-#include "ebac/loop/loop.hpp"
+#include "ebac/loop/loop_options.hpp"
 #include "ebac/loop/observer_params.hpp"
 #include "ebac/model/device.hpp"
 #include "ebac/model/environment.hpp"
