@@ -141,6 +141,16 @@ def test_a_simulated_drive_has_what_its_sheet_has_and_no_more() -> None:
             drive.write((0x1014, 0), 0x85)
 
 
+@pytest.mark.parametrize("maker", SHAPES)
+def test_the_sheet_that_a_simulated_drive_gives_has_the_entries_of_its_own(maker: str) -> None:
+    given = read(maker)
+    own = drives.parse_eds(_core.SimulatedDrive(node=1, sheet=given.rows(1)).eds()).entries
+    assert own.keys() == given.entries.keys()
+    assert {key for key, entry in own.items() if entry.mappable} <= {
+        key for key, entry in given.entries.items() if entry.mappable
+    }
+
+
 def test_a_sheet_prints_what_it_is_of_and_not_its_hundreds_of_entries() -> None:
     found = read("epos4")
     assert "epos4.eds" in repr(found)
