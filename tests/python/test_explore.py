@@ -12,8 +12,10 @@ from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 
 import ebac
+from ebac._util.gaps import alone
 from ebac.explore.pack import even, packed
 from ebac.explore.thin import bands
+from ebac.plot.style import COLOURS
 
 pytest.importorskip("bokeh")
 
@@ -45,6 +47,12 @@ def test_thinning_keeps_least_and_most_of_all_and_of_every_bin(values: Any, bins
     assert (np.diff(thin.t) > 0).all()
 
 
+def test_a_number_between_two_gaps_is_alone() -> None:
+    nan = np.nan
+    found = alone(np.array([1.0, nan, 2.0, nan, nan, 3.0, 4.0, nan, 5.0]))
+    assert np.array_equal(found, [1, nan, 2, nan, nan, nan, nan, nan, 5], equal_nan=True)
+
+
 @given(values=values)
 def test_packing_loses_no_bit(values: Any) -> None:
     planes = np.frombuffer(zlib.decompress(packed(values)), np.uint8).reshape(4, -1)
@@ -74,6 +82,13 @@ def test_chosen_columns_make_panels_in_their_order(minute: ebac.Trace) -> None:
         (("v",), "v [m/s]"),
         (("f_cmd", "f_meas"), "f_cmd, f_meas [N]"),
     ]
+
+
+def test_an_axis_has_room_for_its_label(minute: ebac.Trace) -> None:
+    (panel,) = minute.explore(["law.beta", "law.beta_min", "law.beta_max"]).panels
+    assert panel.label == "stiffness [kN/m]"  # the legend has the names
+    (panel,) = minute.explore(["f_env", "f_meas", "f_cmd", "f_applied", "law.f_d"]).panels
+    assert panel.label == "force [N]"
 
 
 @pytest.mark.parametrize(
@@ -156,3 +171,41 @@ def test_in_a_browser_a_zoom_draws_the_window_anew_and_keeps_its_peaks(
         assert shown[name]["least"] == pytest.approx(float(part.min()), rel=1e-6)
     page.screenshot(path=tmp_path / "zoomed.png")
     assert not errors
+
+
+def covered(picture: Path, law: str = "ebac") -> float:
+    """Return how much of a screenshot has the colour of a law, as a fraction."""
+    from matplotlib.colors import to_rgb
+    from matplotlib.image import imread
+
+    pixels = imread(picture)[..., :3]
+    return float((np.abs(pixels - to_rgb(COLOURS[law])).max(axis=-1) < 0.1).mean())
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("stop", [2.0, 10.0], ids=["every row", "bins"])
+def test_in_a_browser_a_curve_is_a_line_and_its_gaps_stay_open(
+    browser: Any, stop: float, tmp_path: Path
+) -> None:
+    trace = ebac.simulate(ebac.Scenario(seconds=stop), "ebac")
+    data = {name: trace[name].copy() for name in trace}
+    t = trace["t"]
+    data["true.x"] = np.where((t / stop < 0.2) | (t / stop > 0.8), 5e-3 * np.sin(7 * t), np.nan)
+    data["law.beta"] = np.where(np.arange(len(t)) % 50 == 0, 1e4, np.nan)  # each row alone
+    made = ebac.Trace(data=data, columns=trace.columns, axes=1, law="ebac")
+    page = browser.new_page(viewport={"width": 1000, "height": 560})
+    made.explore("true.x", "law.beta").save(tmp_path / "run.html")
+    page.goto((tmp_path / "run.html").as_uri())
+    page.wait_for_function("window.ebac_exploration")
+    page.wait_for_timeout(300)
+    picture = tmp_path / "run.png"
+    page.screenshot(path=picture, clip={"x": 400, "y": 60, "width": 200, "height": 180})
+    assert covered(picture) == 0  # the gap of the position
+    for _ in range(3):
+        page.screenshot(path=picture)
+        assert 0.0002 < covered(picture) < 0.02
+        before = page.evaluate("ebac_exploration.drawn")
+        page.mouse.move(150, 120)
+        page.mouse.wheel(0, -240)
+        page.wait_for_function(f"ebac_exploration.drawn > {before}")
+        page.wait_for_timeout(300)

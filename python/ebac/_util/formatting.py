@@ -24,6 +24,10 @@ SHOWN: dict[str, tuple[float, str, int]] = {
     "share": (100, "%", 0),
 }
 
+#: What has a unit, where that is plain.
+QUANTITY_OF = {"m": "position", "m/s": "velocity", "N": "force", "N/m": "stiffness", "J": "energy", "W": "power",
+               "A": "current"}  # fmt: skip
+
 #: A shorter run has no end at which to judge rest and swing [s].
 JUDGED_FROM = 0.5
 

@@ -26,6 +26,7 @@ from bokeh.models import (
 from bokeh.plotting import figure
 from bokeh.resources import INLINE
 
+from ebac._util.gaps import alone
 from ebac.explore.exploration import PANEL
 from ebac.explore.pack import even, packed
 from ebac.explore.panels import Panel
@@ -107,17 +108,19 @@ def _draw(
         active_scroll="xwheel_zoom",
         active_drag="xpan",
         output_backend="canvas",
+        lod_threshold=None,  # what is drawn is thinned already; Bokeh would leave nine of ten places out
         min_border_left=75,
     )
     sources = []
     for name, values, shade in zip(panel.names, panel.values, colours(panel, law), strict=True):
         thin = bands(values, t)
         scale = np.arcsinh if panel.decades else np.asarray
-        source = ColumnDataSource(
-            {**vars(thin), "low": scale(thin.least), "high": scale(thin.most)}
-        )
+        low, high = scale(thin.least), scale(thin.most)
+        source = ColumnDataSource({**vars(thin), "low": low, "high": high, "alone": alone(high)})
         shown = {"source": source, "legend_label": name}
-        plot.varea("t", "low", "high", fill_color=shade, **shown)
+        # Strokes, not an area: that closes over gaps, and over rows without a least it fills to a chord.
+        plot.segment("t", "low", "t", "high", line_color=shade, line_width=2, **shown)
+        plot.scatter("t", "alone", size=3, color=shade, **shown)
         plot.line("t", "low", line_color=shade, line_join="bevel", **shown)
         line = plot.line("t", "high", name=name, line_color=shade, line_join="bevel", **shown)
         unit = "" if panel.unit == "1" else f" {panel.unit}"

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ebac._util.formatting import SHOWN
+from ebac._util.formatting import QUANTITY_OF, SHOWN
 from ebac.trace import Trace
 
 #: Panels of an exploration that names no columns: a title and what it shows where the trace has it.
@@ -19,6 +19,8 @@ USUAL: tuple[tuple[str, tuple[str, ...]], ...] = (
     ("energy", ("law.energy", "law.account", "true.energy")),
     ("force limited", ("law.clamped",)),
 )
+#: The letters that the axis of a panel has room for; names that are longer stand in the legend alone.
+ROOM = 20
 #: A unit that runs over decades is drawn on an asinh scale: straight to 1, logarithmic beyond.
 DECADES = frozenset({"kN/m"})
 
@@ -47,7 +49,7 @@ class Panel:
     @property
     def label(self) -> str:
         """Title and unit, as the axis has it."""
-        return self.title if self.unit == "1" else f"{self.title} [{self.unit}]"
+        return self.title if self.unit == "1" else f"{self.title} [{self.unit}]".strip()
 
     @property
     def decades(self) -> bool:
@@ -75,7 +77,7 @@ def chosen(trace: Trace, groups: Iterable[str | Sequence[str]], axis: int) -> li
 
 
 def panel(trace: Trace, names: Sequence[str], axis: int, title: str = "") -> Panel:
-    """Return the panel of some columns; its title is their names where none is given."""
+    """Return the panel of some columns; its title is their names, or what has their unit, where none is given."""
     if not names:
         raise ValueError(
             "a panel without a column: name at least one, as in explore('x', ['f_cmd'])"
@@ -86,8 +88,10 @@ def panel(trace: Trace, names: Sequence[str], axis: int, title: str = "") -> Pan
         listed = ", ".join(f"{name} [{unit}]" for name, unit in units.items())
         raise ValueError(f"one panel has one unit, not {listed}: put them into panels of their own")
     factor, unit = _read_in(units[names[0]], columns)
+    listed = ", ".join(names)
+    brief = listed if len(listed) <= ROOM else QUANTITY_OF.get(units[names[0]], "")
     return Panel(
-        title=title or ", ".join(names),
+        title=title or brief,
         unit=unit,
         names=tuple(names),
         values=tuple((factor * values).astype(np.float32) for values in columns),

@@ -55,6 +55,12 @@ function bands(values, at, start, stop, bins) {
   return {t, least, most};
 }
 
+// What stands between two gaps, of which no line shows anything; elsewhere NaN.
+function alone(drawn) {
+  const known = (row) => row >= 0 && row < drawn.length && drawn[row] === drawn[row];
+  return drawn.map((value, row) => (known(row - 1) || known(row + 1) ? NaN : value));
+}
+
 function draw({sources, decades, window_, plots}) {
   const began = performance.now();
   const bins = Math.max(200, Math.round(plots[0].inner_width || 1000));
@@ -63,7 +69,8 @@ function draw({sources, decades, window_, plots}) {
   sources.forEach((source, place) => {
     const {t, least, most} = bands(columns.values[place], columns.at, start, stop, bins);
     const scale = (values) => (decades[place] ? values.map(Math.asinh) : values);
-    source.data = {t, least, most, low: scale(least), high: scale(most)};
+    const high = scale(most);
+    source.data = {t, least, most, low: scale(least), high, alone: alone(high)};
   });
   // For those who measure, and for the tests.
   const drawn = (window.ebac_exploration?.drawn ?? 0) + 1;

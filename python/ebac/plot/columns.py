@@ -15,10 +15,6 @@ from ebac.trace import Trace
 #: Okabe and Ito's palette, which every eye distinguishes; then again, dashed.
 _SHADES = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e6ab02", "#56b4e9", "#000000")
 
-#: What has a unit, where that is plain.
-_QUANTITIES = {"m": "position", "m/s": "velocity", "N": "force", "N/m": "stiffness", "J": "energy", "W": "power",
-               "A": "current"}  # fmt: skip
-
 
 def plot_columns(trace: Trace, names: Sequence[str]) -> Picture:
     """Draw columns over time, one panel for each unit.
@@ -58,7 +54,9 @@ def plot_columns(trace: Trace, names: Sequence[str]) -> Picture:
             style = "-" if i < len(_SHADES) else "--"
             shade = _SHADES[i % len(_SHADES)]
             line(ax, trace["t"], factor * values, color=shade, ls=style, lw=1.0, label=label)
-        dress(ax, f"{_QUANTITIES.get(unit, '')} [{shown}]".strip() if unit != "1" else "")
+        dress(
+            ax, f"{formatting.QUANTITY_OF.get(unit, '')} [{shown}]".strip() if unit != "1" else ""
+        )
         mark_end(ax, trace)
         legend(ax)
     grid[-1, 0].set_xlabel("time [s]")
