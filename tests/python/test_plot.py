@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from matplotlib.image import imread
 
 import ebac
-from ebac.plot import COLOURS, DPI, colour, plot_trace, plot_walls
+from ebac.plot import COLOURS, DPI, colour, plot_columns, plot_trace, plot_walls
 from ebac.plot.save import PRINT_DPI, fitted, millimetres, save
 from ebac.plot.style import MOST_POINTS, _extremes
 
@@ -67,6 +67,31 @@ def test_beta_panel_is_bounded(run: Run) -> None:
     )
     assert panel.get_yscale() == "symlog"
     assert max(map(abs, panel.get_ylim())) <= 6e4
+
+
+def test_chosen_columns_of_beta_are_drawn_as_in_the_panel_of_a_run(run: Run) -> None:
+    trace = run("ebac", observer=False)
+    (panel,) = plot_columns(trace, ["law.beta", "law.beta_max"]).axes
+    assert panel.get_ylabel() == "stiffness [kN/m]"
+    assert panel.get_yscale() == "symlog"
+    assert panel.get_xlim() == pytest.approx((-0.06, 6.06), abs=0.01)  # the whole log
+    beta = panel.lines[0]
+    assert beta.get_marker() == "."  # a line shows nothing of a row between two gaps
+    assert np.nanmax(beta.get_ydata()) == pytest.approx(1e-3 * np.nanmax(trace["law.beta"]))
+    assert [text.get_text() for text in panel.get_legend().get_texts()] == [
+        "law.beta",
+        "law.beta_max, shown to 100 kN/m",
+    ]
+
+
+def test_a_value_between_two_gaps_of_a_column_is_a_dot(run: Run) -> None:
+    whole = run("tca")
+    data = {name: whole[name].copy() for name in whole}
+    data["f_meas"] = np.where(np.arange(len(whole)) == 1000, 3.0, np.nan)
+    gaps = ebac.Trace(data=data, columns=whole.columns, axes=1)
+    (panel,) = plot_columns(gaps, ["f_meas"]).axes
+    shown = [line for line in panel.lines if line.get_marker() == "."]
+    assert [np.nanmax(line.get_ydata()) for line in shown] == [3.0]
 
 
 def test_a_log_without_simulation_can_be_drawn(run: Run) -> None:

@@ -5,15 +5,21 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 import numpy as np
+from matplotlib.axes import Axes
 
 from ebac._util import formatting
 from ebac._util.arguments import require, several
+from ebac._util.gaps import alone
+from ebac.plot.decades import limit_of, set_decades
 from ebac.plot.marks import mark_end, title
 from ebac.plot.style import Numbers, Picture, dress, legend, line, new_figure
 from ebac.trace import Trace
 
 #: Okabe and Ito's palette, which every eye distinguishes; then again, dashed.
 _SHADES = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e6ab02", "#56b4e9", "#000000")
+
+#: Endings of columns that are bounds of another.
+_BOUNDS = ("_min", "_max")
 
 
 def plot_columns(trace: Trace, names: Sequence[str]) -> Picture:
@@ -50,19 +56,54 @@ def plot_columns(trace: Trace, names: Sequence[str]) -> Picture:
     grid = figure.subplots(len(panels), 1, sharex=True, squeeze=False)
     for ax, (unit, columns) in zip(grid[:, 0], panels.items(), strict=True):
         factor, shown, _ = formatting.SHOWN.get(unit, (1, unit, 0))
-        for i, (label, values) in enumerate(_lines(trace, columns)):
-            style = "-" if i < len(_SHADES) else "--"
-            shade = _SHADES[i % len(_SHADES)]
-            line(ax, trace["t"], factor * values, color=shade, ls=style, lw=1.0, label=label)
+        if unit == "N/m":
+            shown = "kN/m"
+            _dots(ax, trace, columns)
+        else:
+            for i, (label, values) in enumerate(_lines(trace, columns)):
+                _line(ax, trace["t"], factor * values, i, label)
         dress(
             ax, f"{formatting.QUANTITY_OF.get(unit, '')} [{shown}]".strip() if unit != "1" else ""
         )
         mark_end(ax, trace)
         legend(ax)
+    first, last = float(trace["t"][0]), float(trace["t"][-1])
+    room = 0.01 * (last - first)
+    grid[-1, 0].set_xlim(first - room, last + room)  # all of it, where a column has no number, too
     grid[-1, 0].set_xlabel("time [s]")
     figure.align_ylabels()
     figure.suptitle(title(trace), fontsize="medium")
     return figure
+
+
+def _line(ax: Axes, t: Numbers, values: Numbers, i: int, label: str) -> None:
+    """Draw a column as a line, and as dots what stands between two gaps."""
+    style = "-" if i < len(_SHADES) else "--"
+    shade = _SHADES[i % len(_SHADES)]
+    line(ax, t, values, color=shade, ls=style, lw=1.0, label=label)
+    dots = alone(values)
+    if np.isfinite(dots).any():
+        ax.plot(t, dots, ".", ms=2.5, color=shade)
+
+
+def _dots(ax: Axes, trace: Trace, columns: Sequence[str]) -> None:
+    """Draw columns in N/m as the panel of beta of a run: as far as what lies between bounds goes, bounds cut."""
+    drawn = {label: values / 1e3 for label, values in _lines(trace, columns)}
+    inner = [v for label, v in drawn.items() if not label.partition(",")[0].endswith(_BOUNDS)]
+    limit = limit_of(inner or drawn.values())
+    for i, (label, values) in enumerate(drawn.items()):
+        cut = f"{label}, shown to {limit:g} kN/m" if (np.abs(values) > limit).any() else label
+        shade = _SHADES[i % len(_SHADES)]
+        ax.plot(
+            trace["t"],
+            np.clip(values, -limit, limit),
+            ".",
+            ms=3,
+            color=shade,
+            label=cut,
+            zorder=2.5 - 0.01 * i,  # a bound often equals what it bounds
+        )
+    set_decades(ax, limit)
 
 
 def _lines(trace: Trace, columns: Sequence[str]) -> Iterator[tuple[str, Numbers]]:

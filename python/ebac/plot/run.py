@@ -7,10 +7,10 @@ from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.ticker import FuncFormatter
 
 from ebac._util.arguments import require
 from ebac.plot.columns import plot_columns
+from ebac.plot.decades import limit_of, set_decades
 from ebac.plot.marks import mark_end, title, used_axes
 from ebac.plot.style import (
     QUANTITIES,
@@ -140,8 +140,7 @@ def _span(values: Numbers) -> tuple[float, float]:
 
 def _beta(ax: Axes, trace: Trace, axis: int) -> None:
     t, beta = trace["t"], trace.axis("law.beta", axis) / 1e3
-    known = np.abs(beta[np.isfinite(beta)])
-    limit = min(1e4, 10.0 ** np.ceil(np.log10(max(1.0, 5 * known.max(initial=0.0)))))
+    limit = limit_of([beta])
     for name, label in (("law.beta_max", "upper bound"), ("law.beta_min", "lower bound")):
         if name in trace:
             bound = np.clip(trace.axis(name, axis) / 1e3, -limit, limit)
@@ -157,11 +156,7 @@ def _beta(ax: Axes, trace: Trace, axis: int) -> None:
     ax.plot(t, taken, ".", ms=3.5, color=colour(trace.law), label=r"$\beta$ taken")
     if "law.clamped" in trace:
         _ticks(ax, t[trace.axis("law.clamped", axis) != 0])
-    decades = [10.0**n for n in range(round(np.log10(limit)) + 1)]
-    ax.set_yscale("symlog", linthresh=1)
-    ax.set_ylim(-6 * limit, 3 * limit)
-    ax.set_yticks([-step for step in decades] + [0.0] + decades)
-    ax.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+    set_decades(ax, limit)
     mark_end(ax, trace, label=False)
     dress(ax, r"$\beta$ [kN/m]")
     legend(ax)
