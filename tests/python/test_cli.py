@@ -439,6 +439,12 @@ def test_no_files_writes_none(words: str, tmp_path: Path) -> None:
     assert not list(tmp_path.iterdir())
 
 
+def test_a_study_without_files_names_none_as_written(tmp_path: Path) -> None:
+    words = ("study", "--law", "direct", "--seconds", "0.6")
+    assert "Without --no-files failures.csv names all 60." in refusal(*words, "--no-files", code=0)
+    assert "Without" not in refusal(*words, code=0)
+
+
 def test_a_failure_leaves_the_folder_as_it_was(
     monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:

@@ -105,7 +105,7 @@ def study(
     to.report(
         folder, "study", study_results.document(found), as_json=as_json,
         fill=lambda draft: study_results.fill(draft, found, traces, to, quiet=as_json),
-        show=lambda: study_results.show(found),
+        show=lambda: study_results.show(found, files=folder is not None),
     )  # fmt: skip
 
 

@@ -61,8 +61,8 @@ def spread(failures: list[Failure], most: int) -> list[Failure]:
     return [failure for failure in turns if failure is not None][:most]
 
 
-def show(study: Study) -> None:
-    """Print the table, and which hands failed."""
+def show(study: Study, *, files: bool) -> None:
+    """Print the table, and which hands failed; `files` says whether there are files that name all."""
     from ebac._util import formatting
 
     headings = [
@@ -100,7 +100,7 @@ def show(study: Study) -> None:
         )
         last = row.condition
     output.show(grid)
-    _show_failures(study.failures)
+    _show_failures(study.failures, files=files)
     output.say("Simulated, not measured. settled: median of those that settle.", style="bold")
 
 
@@ -111,7 +111,7 @@ def _count(count: int | None, row: StudyRow) -> str:
     return f"[{style}]{count}[/]"
 
 
-def _show_failures(failures: list[Failure]) -> None:
+def _show_failures(failures: list[Failure], *, files: bool) -> None:
     if not failures:
         output.say("Every hand is good.", style="green")
         return
@@ -123,7 +123,12 @@ def _show_failures(failures: list[Failure]) -> None:
             f"{failure.law}, {failure.condition}: {output.plural(count, 'hand')} not good, {hand}: {failure.why}"
         )
     if len(failures) > min(SHOWN, len(counted)):
-        output.say(f"failures.csv names all {len(failures)}.")
+        all_of_them = f"names all {len(failures)}."
+        output.say(
+            f"failures.csv {all_of_them}"
+            if files
+            else f"Without --no-files failures.csv {all_of_them}"
+        )
 
 
 def _counted(failures: list[Failure]) -> Counter[tuple[str, str]]:
