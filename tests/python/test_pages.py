@@ -322,3 +322,10 @@ def test_blocks_are_read_in_order_and_commands_one_by_one(tmp_path: Path) -> Non
     assert (first.kind, first.text, first.line) == ("sh", "ebac wall", 4)
     assert second.text.split() == ["ebac", "map", "--side", "4"]
     assert (third.kind, third.tests, third.line) == ("python", True, 11)
+
+
+@pytest.mark.parametrize("name", ["damped.hpp", "module.cpp"])
+def test_the_law_of_the_page_is_that_of_the_example(name: str) -> None:
+    page = (ROOT / "docs/how-to/write_a_law.md").read_text(encoding="utf-8")
+    example = (ROOT / "examples/out_of_tree_law" / name).read_text(encoding="utf-8")
+    assert f"```cpp\n{example}```" in page
