@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -12,7 +11,7 @@ import numpy as np
 
 from ebac._core import Wall
 from ebac._util import formatting
-from ebac._util.arguments import require, unknown
+from ebac._util.arguments import number, require, unknown
 from ebac.metrics import contact
 from ebac.scenario import Scenario
 from ebac.simulation import LoopFault, simulate
@@ -87,6 +86,40 @@ def moved(scenario: Scenario, values: dict[str, Any]) -> Scenario:
     )
 
 
+def checked(values: Mapping[str, Any], laws: Sequence[str], where: str) -> dict[str, Any]:
+    """Return values that the sliders can take; `where` begins the message of one that they cannot.
+
+    Raises
+    ------
+    ValueError
+        For a slider that there is not, a value out of its range, a law that is not among `laws`.
+    TypeError
+        For what is not a number.
+    """
+    ranges = {one.name: one for one in SLIDERS}
+    found: dict[str, Any] = {}
+    for name, value in values.items():
+        if name == "law":
+            if value not in laws:
+                raise ValueError(unknown(f"{where}: law = {value!r}", str(value), laws))
+            found[name] = value
+            continue
+        if name not in ranges:
+            raise ValueError(unknown(f"{where}: slider {name!r}", name, ["law", *ranges]))
+        one = ranges[name]
+        at = number(f"{where}: {name}", value)
+        near = 1e-9 * (one.high - one.low)  # a slider over decades ends at 10**log10(high)
+        if not one.low - near <= at <= one.high + near:
+            raise ValueError(
+                f"{where}: {name} = {at:g} {one.unit}: must lie in [{one.low:g}, {one.high:g}] {one.unit}"
+            )
+        if one.step == 1 and at != int(at):
+            raise ValueError(f"{where}: {name} = {at:g} {one.unit}: must be a whole number")
+        at = min(max(at, one.low), one.high)
+        found[name] = int(at) if one.step == 1 else at
+    return found
+
+
 def picture(trace: Trace) -> dict[str, Any]:
     """Return what the page draws: panels of lines, as float32 bytes."""
     from ebac.plot.style import colour as colour_of
@@ -140,22 +173,22 @@ def sliders(
     Returns
     -------
     anywidget.AnyWidget
-        With `values`, where the sliders stand (units in the names; may be set), `scenario` and `trace`, what was
-        simulated last, `verdict` and `error`.
+        With `values`, where the sliders stand (units in the names; set all or some of them), `scenario` and
+        `trace`, what was simulated last, `verdict` and `error`.
 
     Raises
     ------
     TypeError
         For a world that is no wall.
     ValueError
-        For a law that is not among `laws`.
+        For a law that is not among `laws`, a scenario beyond the sliders, and later for `values` that are refused.
     ImportError
         Without anywidget.
     """
     try:
         from anywidget import AnyWidget
         from traitlets import Any as Anything
-        from traitlets import Dict, Int, List, Unicode
+        from traitlets import Dict, Int, List, TraitError, Unicode, validate
     except ImportError as error:
         raise ImportError("sliders need anywidget: pip install 'ebac[notebook]'") from error
     start = Scenario(seconds=2.0) if scenario is None else scenario
@@ -163,8 +196,10 @@ def sliders(
     if not isinstance(start.environment, Wall):
         kind = type(start.environment).__name__
         raise TypeError(f"ebac.explore.sliders: the environment is a {kind}: must be a Wall")
-    if law not in laws:
-        raise ValueError(unknown(f"ebac.explore.sliders: law = {law!r}", law, laws))
+    at_first = checked(values_of(start, law), laws, "ebac.explore.sliders")
+
+    class WrongValues(TraitError, ValueError):  # traitlets sets back what a TraitError refuses
+        pass
 
     class Sliders(AnyWidget):
         """Sliders over a simulated press."""
@@ -179,6 +214,14 @@ def sliders(
         serial = Int().tag(sync=True)  # of the answer: the page may send the next values
         scenario = Anything()
         trace = Anything()
+
+        @validate("values")
+        def _merged(self, proposal: Mapping[str, Any]) -> dict[str, Any]:
+            try:
+                given = checked(proposal["value"], self.laws, "values")
+            except (ValueError, TypeError) as error:
+                raise WrongValues(str(error)) from None
+            return {**self.values, **given}
 
         def run(self, _change: object = None) -> None:
             """Simulate what the sliders say."""
@@ -204,15 +247,8 @@ def sliders(
     made = Sliders(
         controls=[asdict(one) for one in SLIDERS],
         laws=list(laws),
-        values=values_of(start, law),
+        values=at_first,
     )
-    for one in SLIDERS:
-        at = made.values[one.name]
-        if not math.isfinite(at) or not one.low <= at <= one.high:
-            raise ValueError(
-                f"ebac.explore.sliders: {one.label} = {at:g} {one.unit}: must lie in "
-                f"[{one.low:g}, {one.high:g}] {one.unit}"
-            )
     made.observe(made.run, names="values")
     made.run()
     return made
