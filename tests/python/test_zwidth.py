@@ -1,6 +1,7 @@
 """Which walls can be rendered: the exact linear loop, the ceilings, the search."""
 
 import json
+import re
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from pathlib import Path
@@ -10,6 +11,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from matplotlib.lines import Line2D
 from typer.testing import CliRunner
 
 import ebac
@@ -246,7 +248,8 @@ def test_the_figure_has_every_law_and_ceiling(found: ZWidth) -> None:
     figure = plot_zwidth(found)
     labels = [text.get_text() for text in figure.legends[0].get_texts()]
     assert labels[:2] == ["direct", "eba"]
-    assert len(labels) == 2 + 3
+    assert len(labels) == 2 + 1 + 3
+    assert "end of the search, 100 kN/m" in labels
     figure.savefig("/dev/null", format="svg")
 
 
@@ -255,6 +258,30 @@ def test_a_law_that_renders_nothing_says_so_at_its_bar(found: ZWidth) -> None:
     bars = plot_zwidth(replace(found, limits=limits)).axes[-1]
     [none] = bars.texts
     assert (none.get_text(), none.xy) == ("none", (0, 1))  # type: ignore[attr-defined]
+
+
+def test_borders_that_coincide_all_remain_visible_and_a_law_without_one_is_named(
+    found: ZWidth,
+) -> None:
+    same = np.full_like(found.limits["quiet"][0], found.top)
+    three = replace(
+        found,
+        laws=("direct", "eba", "ebac"),
+        limits={name: np.array([same, same, 0 * same]) for name in found.limits},
+    )
+    panel = plot_zwidth(three).axes[0]
+    assert panel.get_title(loc="left") == "no wall: ebac"
+    first, second = (line for line in panel.lines if line.is_dashed() and line.get_lw() == 2)
+    assert first.get_color() != second.get_color()
+    shown = [set(on(line)) for line in (first, second)]
+    assert not shown[0] & shown[1]
+    assert len(shown[0] | shown[1]) == 8
+
+
+def on(line: Line2D) -> list[int]:
+    """Return where a dashed line is drawn, in the first eight widths of a line."""
+    start, (dash, gap) = line._unscaled_dash_pattern  # type: ignore[attr-defined]
+    return [place for place in range(8) if (place + start) % (dash + gap) < dash]
 
 
 # --- ebac zwidth ---
@@ -280,8 +307,35 @@ def test_the_command_writes_a_folder(tmp_path: Path) -> None:
     text = command(*SMALL, "--out", str(tmp_path / "out"))
     assert "stiffness times damping, in kN/m N s/m. Delay in samples." in " ".join(text.split())
     assert "linear loop, no law" in text
+    assert "usable at B = 0" in " ".join(text.split())
+    assert re.search(r"direct +[\d.]+ kN/m ", text)
+    assert "a wall at 0 mm" in text
+    assert "sample of delay" not in text
     names = {path.name for path in (tmp_path / "out").iterdir()}
     assert names == {"zwidth.png", "zwidth.json", "zwidth.csv", "scores.csv", "scenario.toml"}
+
+
+def test_words_for_the_end_of_a_wall_are_explained() -> None:
+    words = ("--law", "direct,ebac", "--delay", "1", "--points", "2", "--seconds", "1")
+    text = " ".join(command(*words, "--no-files").split())
+    assert "top: the search ends at 100 kN/m before any wall is lost" in text
+    assert "100 kN/m or more" in text
+
+
+@pytest.mark.parametrize(("given", "seconds"), [("", 3), ("seconds = 1.0\n", 1)])
+def test_a_device_file_without_a_length_has_that_of_the_command(
+    given: str, seconds: float, tmp_path: Path
+) -> None:
+    file, out = tmp_path / "device.toml", tmp_path / "out"
+    file.write_text(f"{given}[device.mechanics]\nhandle_mass = 0.1\n", encoding="utf-8")
+    words = ("--law", "direct", "--delay", "1", "--points", "2", "--out", str(out))
+    command("--scenario", str(file), *words)
+    assert ebac.Scenario.load(out / "scenario.toml").seconds == seconds
+
+
+def test_a_top_below_the_least_is_named() -> None:
+    text = " ".join(command("--top", "50", code=2).split())
+    assert "--top = 50 N/m: must lie above --least = 100 N/m" in text
 
 
 def test_random_hands_are_named_where_the_result_is_shown(tmp_path: Path) -> None:
@@ -308,5 +362,5 @@ def test_the_command_puts_other_parameters_of_a_law_beside_it() -> None:
 
 def test_the_command_refuses() -> None:
     assert "did you mean 'direct'" in " ".join(command("--law", "dirct", code=2).split())
-    assert "--least = 100 N/m: must lie in (0, 1) N/m, below --top" in command("--top", "1", code=2)
+    assert "--least = -1 N/m: must lie in (0, 100000) N/m" in command("--least", "-1", code=2)
     assert "--top = -1 N/m" in command("--top", "-1", code=2)

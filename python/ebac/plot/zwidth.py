@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from textwrap import wrap
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -9,11 +10,14 @@ from matplotlib.axes import Axes
 from matplotlib.ticker import MaxNLocator
 
 from ebac._util import formatting
+from ebac.plot.shared_lines import draw_shared
 from ebac.plot.style import Numbers, Picture, colours, dress, figure_legend, new_figure
 
 if TYPE_CHECKING:
     from ebac.studies.zwidth import ZWidth
 
+#: Width of a border [points].
+WIDTH = 2.0
 #: The criteria drawn, a row of panels each.
 ROWS = {"quiet": "quiet", "energy": "at most {} mJ", "usable": "usable"}
 #: The ceilings: how each is drawn.
@@ -39,8 +43,8 @@ def plot_zwidth(found: ZWidth) -> Picture:
     Returns
     -------
     Figure
-        One column of panels per delay. A law without a line never holds, however soft the wall; one with "none" is
-        never quiet.
+        One column of panels per delay. A law that holds no wall, however soft, is named above the panel; one with
+        "none" at its bar is never quiet. Where borders coincide, their dashes take turns.
     """
     columns = len(found.delays)
     bars = 0.9 + 0.26 * len(found.laws)
@@ -52,8 +56,11 @@ def plot_zwidth(found: ZWidth) -> Picture:
         for ax, criterion in zip(grid[:, d], ROWS, strict=False):
             _borders(ax, found, criterion, d)
         _areas(grid[-1, d], found, delay)
+    absent = [ax.get_title(loc="left") for ax in grid[0]]
+    above = "\n" * max(name.count("\n") + 1 if name else 0 for name in absent)
+    for ax, delay in zip(grid[0], found.delays, strict=True):
         samples = "1 sample" if delay == 1 else f"{delay} samples"
-        grid[0, d].set_title(f"delay {samples}", fontsize="medium", fontweight="bold")
+        ax.set_title(f"delay {samples}{above}", fontsize="medium", fontweight="bold")
     for row, text in enumerate(ROWS.values()):
         words = text.format(f"{1e3 * found.epsilon:g}")
         dress(grid[row, 0], f"{words}\nup to K [kN/m]")
@@ -76,10 +83,21 @@ def plot_zwidth(found: ZWidth) -> Picture:
 
 
 def _borders(ax: Axes, found: ZWidth, criterion: str, d: int) -> None:
-    for i, (law, shade) in enumerate(colours(found.laws).items()):
-        limit = found.limits[criterion][i, d]
-        wide = 1.4 + 0.35 * (len(found.laws) - 1 - i)  # laws that share a border all remain visible
-        ax.plot(found.dampings, _kilo(limit), ".-", ms=4, color=shade, lw=wide, label=law)
+    shades = colours(found.laws)
+    for law, shade in shades.items():
+        ax.plot([], [], color=shade, lw=WIDTH, label=law)
+    drawn = [_kilo(found.limits[criterion][i, d]) for i in range(len(shades))]
+    draw_shared(ax, found.dampings, drawn, list(shades.values()), WIDTH)
+    ax.axhline(
+        1e-3 * found.top,
+        color="0.6",
+        lw=0.8,
+        zorder=0,
+        label=f"end of the search, {1e-3 * found.top:g} kN/m",
+    )
+    if absent := [law for law, limit in zip(shades, drawn, strict=True) if np.isnan(limit).all()]:
+        text = "\n".join(wrap(f"no wall: {', '.join(absent)}", 44))
+        ax.set_title(text, fontsize="x-small", color="0.35", loc="left", pad=3)
     ceilings = [(found.dampings, found.spectral[d]), *_ceilings(found, d)]
     for (name, style), (dampings, ceiling) in zip(CEILINGS.items(), ceilings, strict=True):
         ax.plot(dampings, _kilo(ceiling), **style, label=name)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections import Counter
 from dataclasses import dataclass
 from pathlib import Path
@@ -23,7 +24,10 @@ DAMPING, STIFFNESS, ENERGY = 1e4, 1e7, 1e3
 @dataclass(frozen=True, kw_only=True)
 class _Run(options.RunOptions):
     seconds: Annotated[
-        float | None, options.option(text="Length of a run [s]", default="3", panel=options.RUN)
+        float | None,
+        options.option(
+            text="Length of a run [s]", default="3, or as in the file", panel=options.RUN
+        ),
     ] = None
 
 
@@ -92,7 +96,7 @@ def zwidth(
     A simulation, over wall damping and delay, of a press and a tap. Criteria: *still*, no limit cycle; *quiet*, still
     and no vibration of the force above three detection thresholds; *energy*, at most epsilon given out by the port,
     with --hands to random hands as well; *usable*, quiet, energy and at least half of the requested stiffness at rest.
-    The score is the area under the border.
+    The score is the area under the border; beside it stands the stiffest usable wall without damping, B = 0.
 
     **Examples**
 
@@ -153,8 +157,13 @@ def _check(most_damping: float, least: float, top: float, epsilon: float) -> Non
         )
     if not 0 < top <= STIFFNESS:
         raise ValueError(f"--top = {top:g} N/m: must lie in (0, {STIFFNESS:g}] N/m")
-    if not 0 < least < top:
+    if least <= 0:
         raise ValueError(f"--least = {least:g} N/m: must lie in (0, {top:g}) N/m, below --top")
+    if not least < top:
+        raise ValueError(
+            f"--top = {top:g} N/m: must lie above --least = {least:g} N/m, where the search begins; give another "
+            "--top or --least"
+        )
     if not 0 < epsilon <= ENERGY:
         raise ValueError(f"--epsilon = {epsilon:g} J: must lie in (0, {ENERGY:g}] J")
 
@@ -184,24 +193,38 @@ def _show(found: ZWidth) -> None:
         style="bold",
     )
     grid = output.table(
-        ["delay", "law", *CRITERIA, "usable walls end by"], numbers=range(2, 2 + len(CRITERIA))
+        [
+            "delay",
+            "law",
+            *CRITERIA,
+            f"usable at B = {found.dampings[0]:g}",
+            "usable walls end by",
+        ],
+        numbers=range(2, 3 + len(CRITERIA)),
     )
+    words: set[str] = set()
     for number, delay in enumerate(found.delays):
         if number:
             grid.add_section()
-        linear = f"{found.area('spectral', '', delay) / 1e3:.0f}        "
+        blank = " " * 8 * ("direct" in found.laws)
+        linear = f"{found.area('spectral', '', delay) / 1e3:.0f}{blank}"
         grid.add_row(str(delay), "linear loop, no law", linear)
         for row in found.scores():
             if row["delay_samples"] == delay:
                 ends = Counter(found.ended_by(row["law"], delay))
-                cells = (_cell(row, name) for name in CRITERIA)
-                grid.add_row(str(delay), row["law"], *cells, _ended(ends))
+                cells = (_cell(row, name, beside="direct" in found.laws) for name in CRITERIA)
+                stiffest = float(found.limits["usable"][found.laws.index(row["law"]), number, 0])
+                grid.add_row(
+                    str(delay), row["law"], *cells, _stiffest(stiffest, found.top), _ended(ends)
+                )
+                words |= set(ends)
     output.show(grid)
     full, most = found.top / 1e3, found.dampings[-1]
     beside = " In brackets, times that of direct." if "direct" in found.laws else ""
     output.say(
         f"Both axes are linear, up to {full:g} kN/m and {most:g} N s/m: {full * most:.0f} kN/m N s/m is all of it."
-        f"{beside} What walls end by is counted over {len(found.dampings)} wall dampings."
+        f"{beside} Usable at B = {found.dampings[0]:g}: the stiffest usable wall of that damping. "
+        f"What walls end by is counted over {len(found.dampings)} wall dampings{_explained(words, full)}."
     )
     if found.hands:
         output.say(
@@ -209,10 +232,34 @@ def _show(found: ZWidth) -> None:
             "counted."
         )
     output.say(
-        "Simulation. Wall stiffness, wall damping and delay vary; everything else as in:",
+        "Simulation. Wall stiffness, wall damping and delay vary as above; everything else:",
         style="bold",
     )
-    output.indented(formatting.describe(found.base).replace("; ", "\n"))
+    output.indented(_shared(formatting.describe(found.base)).replace("; ", "\n"))
+
+
+def _shared(described: str) -> str:
+    """Return the description of a scenario without what a search of walls varies."""
+    return re.sub(
+        r", \d+ samples? of delay", "", re.sub(r"; a wall of [^;]* at ", "; a wall at ", described)
+    )
+
+
+def _stiffest(limit: float, top: float) -> str:
+    if limit >= top:
+        return f"{top / 1e3:g} kN/m or more"
+    return f"{limit / 1e3:.3g} kN/m" if limit > 0 else "none"
+
+
+def _explained(words: set[str], full: float) -> str:
+    """Return what the words for the end of a wall mean, of those that a table has."""
+    from ebac.studies.zwidth.result import AT_TOP, TOO_SOFT
+
+    meanings = {
+        TOO_SOFT: "a stiffer wall shows less than half of its stiffness at rest",
+        AT_TOP: f"the search ends at {full:g} kN/m before any wall is lost (--top)",
+    }
+    return "".join(f"; {word}: {meanings[word]}" for word in meanings if word in words)
 
 
 def _ended(ends: Counter[str]) -> str:
@@ -222,7 +269,9 @@ def _ended(ends: Counter[str]) -> str:
     return ", ".join(f"{word} {n}" for word, n in ends.most_common())
 
 
-def _cell(row: dict[str, Any], name: str) -> str:
+def _cell(row: dict[str, Any], name: str, *, beside: bool) -> str:
+    if not beside:
+        return f"{row[f'{name}_area'] / 1e3:.0f}"
     times = row[f"{name}_times_direct"]
     behind = "" if times is None else f"({times:.1f})"
     return f"{row[f'{name}_area'] / 1e3:.0f} {behind:>7}"
