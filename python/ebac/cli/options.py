@@ -248,7 +248,7 @@ def _scenario_of(given: dict[str, Any], seconds: float | None) -> Scenario:
     file = given.get("scenario")
     base = setting.base_scenario(file)
     length = given.get("seconds")
-    if length is None and file is None:
+    if length is None and not (file and setting.has_seconds(file)):
         length = seconds
     return base.replace(
         device=setting.choose_device(base.device, given),

@@ -30,6 +30,14 @@ def base_scenario(file: Path | None) -> Scenario:
     return found
 
 
+def has_seconds(file: Path) -> bool:
+    """Return whether a scenario that can be read says how long a run is; else each command has a length of its own."""
+    from ebac._util.text_file import read_text
+    from ebac._util.toml import parsed
+
+    return "seconds" in parsed(read_text(file))
+
+
 def parse_change(text: str) -> dict[str, Any]:
     """Return the parameters of `--change`: "kp=0,guard=off"."""
     changes: dict[str, Any] = {}

@@ -29,7 +29,10 @@ def _end(text: str) -> Any:
 @dataclass(frozen=True, kw_only=True)
 class _Setup(options.ScenarioOptions):
     seconds: Annotated[
-        float | None, options.option(text="Length of a run [s]", default="2", panel=options.RUN)
+        float | None,
+        options.option(
+            text="Length of a run [s]", default="2, or as in the file", panel=options.RUN
+        ),
     ] = None
 
 
