@@ -590,6 +590,48 @@ def test_the_mass_of_a_device_in_grams_is_noted_and_no_built_in_device_is() -> N
         assert doubtful_device.doubts(preset.device) == []
 
 
+@pytest.mark.parametrize(
+    ("table", "words"),
+    [
+        (
+            "[device.encoder]\ncounts_per_turn = 20",
+            "a count of the encoder = 1.57 mm at the handle",
+        ),
+        (
+            "[device.capstan]\ndrum_radius = 0.12",
+            "drum_radius = 0.12 m is larger than sector_radius",
+        ),
+        (
+            "[environment]\ntype = 'Wall'\nstiffness = 10.0",
+            "environment.stiffness: a wall of 10 N/m",
+        ),
+    ],
+)
+def test_a_file_with_an_unusual_part_is_noted(table: str, words: str) -> None:
+    Path("device.toml").write_text(table, encoding="utf-8")
+    given = ("wall", "--law", "direct", "--seconds", "0.1", "--no-files", "--json")
+    result = ebac_command(*given, "--scenario", "device.toml")
+    assert re.search(rf"^Note: device\.toml: [^\n]*{words}", result.stderr, re.MULTILINE)
+
+
+@pytest.mark.parametrize(
+    ("given", "words"),
+    [
+        (
+            "wall --wall-stiffness 10",
+            "--wall-stiffness: a wall of 10 N/m: usual are 50 to 500000 N/m",
+        ),
+        ("study --condition d1K10,d1K10000", "condition d1K10000: a wall of 1e+07 N/m: usual are"),
+        ("study --condition d1b1K2000", "so that 2000 N/m is d1b1K2."),
+    ],
+)
+def test_a_wall_in_a_wrong_unit_is_noted(given: str, words: str) -> None:
+    small = ("--law", "direct", "--seconds", "0.1", "--no-files", "--json")
+    result = ebac_command(*given.split(), *small)
+    assert result.stderr.count("Note:") == 1
+    assert words in result.stderr
+
+
 def test_specs_of_a_device_file_draw_its_workspace() -> None:
     ebac.Scenario(device=ebac.presets.device("joystick")).save("mine.toml")
     ebac_command("specs", "--scenario", "mine.toml", "--figure", "workspace.png")

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 
 from ebac._util.arguments import unknown
+from ebac.cli import doubtful_wall
 
 
 def one_law(name: str, option: str = "--law") -> str:
@@ -78,6 +79,7 @@ def condition_names(given: Sequence[str]) -> list[str]:
             conditions([name])
         except ValueError as error:
             raise ValueError(f"--{error}") from None
+    doubtful_wall.tell_conditions(names)
     return names
 
 

@@ -14,6 +14,8 @@ if TYPE_CHECKING:
 FACTOR = 2.0
 #: What handles and their motors have; a number beyond is possible.
 CURRENT, FORCE, MASS = (0.05, 50.0), (0.1, 1e3), (1e-3, 20.0)
+#: Coarsest count of an encoder at the handle [m] that is usual.
+COUNT = 2e-4
 
 
 def tell(file: Path | str, device: Device) -> None:
@@ -41,6 +43,18 @@ def doubts(device: Device) -> list[str]:
         found.append(
             f"device: peak force at the handle = {device.peak_force:.4g} N: {_usual(FORCE, 'N')}; rated_torque is in "
             "N m (mN m x 1e-3), the radii of capstan and lever in m (mm x 1e-3)"
+        )
+    if device.count > COUNT:
+        found.append(
+            f"device: a count of the encoder = {1e3 * device.count:.3g} mm at the handle: usual are at most "
+            f"{1e3 * COUNT:g} mm; device.encoder: counts_per_turn is that of the motor after quadrature, 4 x lines, "
+            "and the radii are in m (mm x 1e-3)"
+        )
+    drum, sector = device.capstan.drum_radius, device.capstan.sector_radius
+    if drum > sector:
+        found.append(
+            f"device.capstan: drum_radius = {drum:g} m is larger than sector_radius = {sector:g} m: the handle is "
+            "faster than the motor and has less torque; the drum is that on the motor"
         )
     if not MASS[0] <= device.mass <= MASS[1]:
         found.append(

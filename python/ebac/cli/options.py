@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Annotated, Any, TypeAlias
 
 import typer
 
-from ebac.cli import completion, output, setting
+from ebac.cli import completion, doubtful_wall, output, setting
 
 if TYPE_CHECKING:
     from ebac._core import Hand
@@ -237,9 +237,7 @@ def scenario_of(*groups: Any, seconds: float | None = None) -> Scenario:
 
     A mesh that is met for the first time shows a bar.
     """
-    given: dict[str, Any] = {}
-    for group in groups:
-        given |= vars(group)
+    given = {name: value for group in groups for name, value in vars(group).items()}
     with output.counting_meshes():
         return _scenario_of(given, seconds)
 
@@ -274,6 +272,7 @@ def _observer_of(given: dict[str, Any]) -> Any:
 def wall_of(environment: Environment, group: Any) -> Environment:
     """Return the wall with what its options change, or the world of --world."""
     given = group if isinstance(group, dict) else vars(group)
+    doubtful_wall.tell_option(given.get("wall_stiffness"))
     if given.get("world") is not None:
         return setting.choose_world(
             given["world"],

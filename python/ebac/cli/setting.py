@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ebac import presets
-from ebac.cli import by_name, by_option, doubtful_device
+from ebac.cli import by_name, by_option, doubtful_device, doubtful_wall
 
 if TYPE_CHECKING:
     from ebac._core import Device, Hand, Timing
@@ -20,13 +20,14 @@ RATES = (10.0, 1e5)
 
 
 def base_scenario(file: Path | None) -> Scenario:
-    """Return the scenario to start from; what of its device is likely in a wrong unit is said on stderr."""
+    """Return the scenario to start from; what of its device and wall is likely in a wrong unit is said on stderr."""
     from ebac.scenario import Scenario
 
     if file is None:
         return Scenario()
     found = Scenario.load(file)
     doubtful_device.tell(file, found.device)
+    doubtful_wall.tell_file(file, found.environment)
     return found
 
 
