@@ -26,6 +26,7 @@ from ebac._core import (
     _World,
 )
 from ebac._util.arguments import refuse_unknown, require, unknown_name
+from ebac._util.copying import refuse_uncopyable
 from ebac._util.wrong_calls import plain_constructor
 from ebac.tuned_laws import tuned, tuned_laws
 
@@ -187,7 +188,7 @@ def design(
     ValueError
         For a parameter out of range.
     TypeError
-        For something that is no law, or whose `step` or `reset` takes other arguments.
+        For something that is no law, whose `step` or `reset` takes other arguments, or that cannot be copied.
     """
     if isinstance(law, Variant):
         return design(law.law, device, timing, **{**law.changes, **changes})
@@ -216,7 +217,7 @@ def _class_of(law: str | type) -> type[CoreLaw]:
 
 
 def checked(law: Any) -> CoreLaw | PythonLaw:
-    """Return a finished law. Raises TypeError unless it has step(port) and reset()."""
+    """Return a finished law. Raises TypeError unless it has step(port) and reset(), and can be copied."""
     if not isinstance(law, PythonLaw) or isinstance(law, type):
         raise TypeError(f"{law!r} is no law: it needs step(port) -> float and reset()")
     if isinstance(law, CoreLaw):
@@ -233,6 +234,7 @@ def checked(law: Any) -> CoreLaw | PythonLaw:
                 f"{type(law).__name__}.{name}({', '.join(takes.parameters)}) is called with {what}: write it as "
                 f"{name}({', '.join(['self', *given])})"
             ) from None
+    refuse_uncopyable(law, "law")
     return law
 
 

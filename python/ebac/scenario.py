@@ -29,8 +29,9 @@ from ebac._core import (
     _World,
 )
 from ebac._util.arguments import keywords_only, refuse_unknown, require, require_path
+from ebac._util.copying import refuse_uncopyable
 from ebac._util.text_file import read_text
-from ebac.hands import as_hand
+from ebac.hands import as_hand, is_own
 from ebac.scenario_text import parts_of, text_of
 
 __all__ = [
@@ -262,8 +263,12 @@ class Scenario:
         ------
         ValueError
             When the device has too few axes for its environment or its hand.
+        TypeError
+            When a hand in Python cannot be copied.
         """
         self._check_axes()
+        if is_own(self.hand.model):
+            refuse_uncopyable(self.hand.model, "hand")
         return Setup(
             device=self.device,
             hand=self.hand,

@@ -1,6 +1,9 @@
 """Wrong arguments of the functions and classes of one run: a sentence of ours, never another library's."""
 
 import inspect
+import pickle
+import sys
+import threading
 from collections.abc import Callable, Iterator
 from enum import Enum
 from typing import Any
@@ -230,6 +233,61 @@ def test_a_name_that_is_none_is_answered_with_the_nearest_and_with_what_lists_al
     assert len(near("law-1x", many)) == 3
     assert near("virt", ["tca", "virtual-coupling"]) == ["virtual-coupling"]
     assert near("zzz", few) == []
+    assert near("bet", ["law.beta", "x"]) == ["law.beta"]
+
+
+def test_a_name_that_is_none_is_no_text_in_quotes() -> None:
+    with pytest.raises(KeyError) as caught:
+        ebac.simulate(S(), "ebca")
+    assert str(caught.value).startswith("no law is called 'ebca', did you mean ")
+    assert str(pickle.loads(pickle.dumps(caught.value))) == str(caught.value)
+
+
+class Locked:
+    """A law that keeps what has no copy."""
+
+    def __init__(self) -> None:
+        self.gain = 1.0
+        self.lock = threading.Lock()
+
+    def step(self, port: ebac.Port) -> float:
+        return port.f_env
+
+    def reset(self) -> None:
+        pass
+
+
+class LockedHand(ebac.hands.OwnHand):
+    """A hand that keeps what has no copy."""
+
+    def __init__(self) -> None:
+        self.lock = threading.Lock()
+
+    def force(self, t: float, x: float, v: float) -> float:
+        return 0.0
+
+
+def test_a_law_or_hand_that_has_no_copy_is_refused_by_the_attribute() -> None:
+    words = r"Locked\.lock: cannot be copied \(cannot pickle '_thread.lock' object\), and each axis and each run has a "
+    for search in (ebac.simulate, lambda scenario, law: ebac.worst(law, "d1K10")):
+        with pytest.raises(TypeError, match=words + "deep copy of a law"):
+            search(S(seconds=0.1), Locked())
+    with pytest.raises(TypeError, match=r"LockedHand\.lock: cannot be copied"):
+        ebac.simulate(S(seconds=0.1, hand=LockedHand()), "ebac")
+
+
+def test_a_search_takes_one_condition() -> None:
+    with pytest.raises(TypeError, match="worst: condition takes one condition, such as 'd1K10'"):
+        ebac.worst("ebac", ["d1K10"])  # type: ignore[arg-type]
+
+
+def test_a_table_without_pandas_says_what_to_install(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "pandas", None)
+    trace = ebac.simulate(S(seconds=0.1), "direct")
+    with pytest.raises(ImportError, match="to_pandas needs pandas: pip install pandas"):
+        trace.to_pandas()
+    with pytest.raises(ImportError, match="to_pandas needs pandas: pip install pandas"):
+        ebac.Operators.grid().to_pandas()
 
 
 @pytest.mark.parametrize("kind", LISTED_BY)

@@ -140,7 +140,12 @@ def near(name: object, known: Iterable[str]) -> list[str]:
     if given in lower:
         return [lower[given]]
     close = difflib.get_close_matches(given, lower, 3)
-    begun = [other for other in lower if len(given) > 2 and other.startswith(given)]
+    begun = [
+        other
+        for other in lower
+        if len(given) > 2
+        and any(part.startswith(given) for part in (other, other.rpartition(".")[2]))
+    ]
     return [lower[other] for other in dict.fromkeys([*close, *begun])][:3]
 
 
@@ -182,10 +187,20 @@ def named(kind: str, name: object, known: Mapping[str, Value]) -> Value:
     return known[name]
 
 
+class UnknownNameError(KeyError):
+    """A `KeyError` whose text is its message; that of a `KeyError` is the message in quotes."""
+
+    def __str__(self) -> str:
+        """Return the message."""
+        return str(self.args[0]) if self.args else ""
+
+
 def unknown_name(kind: str, name: object, known: Iterable[str]) -> KeyError:
     """Return the error for a name that does not exist, worded as by `unknown`."""
     names = list(known)
-    return KeyError(f"no {kind} is called {name!r}{did_you_mean(name, names)}; {_all(names, kind)}")
+    return UnknownNameError(
+        f"no {kind} is called {name!r}{did_you_mean(name, names)}; {_all(names, kind)}"
+    )
 
 
 def _all(names: list[str], kind: str) -> str:

@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cache
 
-from ebac._util.arguments import did_you_mean
+from ebac._util.arguments import UnknownNameError, did_you_mean
 from ebac._util.wrong_calls import plain_constructor
 
 #: Type of CiA 301: its struct code. The length is that of the type.
@@ -225,7 +225,7 @@ def find(what: str | int | tuple[int, int] | Object) -> Object:
         return what
     if isinstance(what, str):
         if what not in known():
-            raise KeyError(
+            raise UnknownNameError(
                 f"object {what!r}: no such name{did_you_mean(what, known())}; `ebac drive show --all` lists them, "
                 "and any object goes by its index, 0x6041 or (0x2383, 12)"
             )
@@ -233,7 +233,9 @@ def find(what: str | int | tuple[int, int] | Object) -> Object:
     key = (what, 0) if isinstance(what, int) else what
     index, sub = key
     if not (0 <= index <= 0xFFFF and 0 <= sub <= 0xFF):
-        raise KeyError(f"object {key}: index must lie in [0, 0xFFFF], sub-index in [0, 0xFF]")
+        raise UnknownNameError(
+            f"object {key}: index must lie in [0, 0xFFFF], sub-index in [0, 0xFF]"
+        )
     return _by_key().get(key) or Object(name=f"object_{index:04X}_{sub}", index=index, sub=sub)
 
 

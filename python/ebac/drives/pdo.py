@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from ebac._util.arguments import unknown
+from ebac._util.arguments import UnknownNameError, unknown
 from ebac.drives.load import Traffic
 from ebac.drives.objects import ENTRIES, PDOS, find
 from ebac.drives.profile_fields import BY_NAME
@@ -133,7 +133,7 @@ def _objects(source: Source, name: str, given: Any) -> tuple[str, ...]:
     for i, item in enumerate(given):
         try:
             if not isinstance(item, str) or find(item).kind == "str":
-                raise KeyError(f"object {item!r}: is no number that can be mapped")
+                raise UnknownNameError(f"object {item!r}: is no number that can be mapped")
         except KeyError as error:
             message = f"pdo.{name}.objects[{i}]: {error.args[0]}"
             raise source.refuse((*path, i), message) from None

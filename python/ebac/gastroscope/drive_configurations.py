@@ -5,6 +5,8 @@ from __future__ import annotations
 from importlib.resources import files
 from typing import TYPE_CHECKING
 
+from ebac._util.arguments import UnknownNameError
+
 if TYPE_CHECKING:
     from ebac.hardware import Configuration
 
@@ -23,6 +25,8 @@ def configuration(part: str) -> Configuration:
     from ebac.hardware import Configuration
 
     if part not in ("master", "feed", "bend"):
-        raise KeyError(f"no configuration of a gastroscope is called {part!r}: master, feed, bend")
+        raise UnknownNameError(
+            f"no configuration of a gastroscope is called {part!r}: master, feed, bend"
+        )
     text = (files("ebac.datasets") / f"gastroscope-{part}.toml").read_text(encoding="utf-8")
     return Configuration.from_toml(text, name=f"gastroscope-{part}.toml")

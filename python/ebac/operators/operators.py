@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ebac._core import Hand, Step, Wall
 from ebac._util.arguments import require, unknown, whole
+from ebac._util.need import need
 from ebac._util.wrong_calls import plain_constructor
 from ebac.operators.columns import APPROACH, OPERATOR_COLUMNS, check, in_si, numbers, read_csv
 
@@ -206,6 +207,7 @@ class Operators:
 
     def to_pandas(self) -> pd.DataFrame:
         """Return a DataFrame, one operator a row."""
+        need("pandas", "Operators.to_pandas")
         import pandas as pd
 
         return pd.DataFrame(self.columns())

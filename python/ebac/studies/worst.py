@@ -8,6 +8,7 @@ from functools import partial
 from typing import Any
 
 from ebac._util import formatting
+from ebac._util.arguments import require
 from ebac._util.cores import usable_cores
 from ebac.laws import AnyLaw, design, law_name, reserve_of
 from ebac.scenario import Scenario
@@ -146,6 +147,8 @@ def worst(
 
     Raises
     ------
+    TypeError
+        For several conditions.
     ValueError
         For a number out of range, a family or condition that does not exist, or a condition that changes the hand.
     """
@@ -180,6 +183,7 @@ def replays(condition: Condition, scenario: Scenario) -> bool:
 
 
 def _condition(given: str | Condition, base: Scenario) -> Condition:
+    require(given, (str, Condition), "worst: condition", "one condition, such as 'd1K10'")
     chosen = conditions([given])
     if len(chosen) != 1:
         names = ", ".join(one.name for one in chosen)

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from ebac import _core
 from ebac._util.arguments import unknown_name, whole
+from ebac._util.need import need
 from ebac.scenario import Scenario
 from ebac.trace.columns import ColumnInfo, column_infos, row_views
 from ebac.trace.time_slice import rows_between
@@ -189,6 +190,7 @@ class Trace:
 
     def to_pandas(self) -> pd.DataFrame:
         """Return a DataFrame indexed by time [s]; units under `attrs["units"]`."""
+        need("pandas", "trace.to_pandas")
         import pandas as pd
 
         columns = list(self.flat())

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ebac._util.arguments import unknown_name
+from ebac._util.need import need
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -84,6 +85,7 @@ class SweepResult:
 
     def to_pandas(self) -> pd.DataFrame:
         """Return a DataFrame, one run a row."""
+        need("pandas", "SweepResult.to_pandas")
         import pandas as pd
 
         return pd.DataFrame(self.columns)
