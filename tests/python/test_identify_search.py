@@ -11,7 +11,6 @@ from numpy.typing import NDArray
 
 import ebac
 from ebac.identify import Recording, Target, fit_arm
-from ebac.identify.arm import better_guess
 from ebac.identify.bias import NEAR, lowest
 from ebac.identify.cases import draw
 from ebac.identify.check import run_case
@@ -19,6 +18,7 @@ from ebac.identify.level_forces import LevelForces
 from ebac.identify.parameters import lay_out
 from ebac.identify.problem import Problem
 from ebac.identify.search import least_squares
+from ebac.identify.start import better_guess
 from ebac.identify.target import indicators, lagged
 from ebac.identify.unbiased import second_opinion
 

@@ -19,10 +19,11 @@ from recorded_arm import LEVELS, TASKS, recorded
 from scipy.optimize import least_squares as scipy_least_squares
 
 from ebac import identify
-from ebac.identify.arm import _without_pauses, better_guess
+from ebac.identify.arm import _without_pauses
 from ebac.identify.level_forces import LevelForces
 from ebac.identify.parameters import lay_out
 from ebac.identify.search import least_squares
+from ebac.identify.start import better_guess
 
 Values: TypeAlias = NDArray[np.float64]
 Model: TypeAlias = Callable[[Values], tuple[Values, Values]]

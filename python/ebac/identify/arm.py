@@ -11,21 +11,20 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ebac._util.arguments import number, whole
-from ebac.identify.fit import Fitted, fitted
-from ebac.identify.guess import regression, solve
+from ebac.identify.fit import Fitted
 from ebac.identify.informativeness import FASTEST
 from ebac.identify.intervals import Z95
+from ebac.identify.late_force import Late, late_force
 from ebac.identify.parameters import BEFORE_LEVELS, HAND, Parameters, kind, lay_out
 from ebac.identify.problem import Problem
 from ebac.identify.recording import Recording
 from ebac.identify.recording_list import refuse_copies, require_recordings, with_own_names
-from ebac.identify.response import guess_by_response
 from ebac.identify.result import ArmResult
+from ebac.identify.start import better_guess
 from ebac.identify.target import Target, require_target
 from ebac.identify.unbiased import disagreement
 from ebac.identify.validation import POOR
-
-Values = NDArray[np.float64]
+from ebac.identify.whole_ticks import fitted_over_ticks
 
 #: Starts of a search whose first outcome determines a part of the hand only, or one that answers within a few rows.
 AGAIN = 4
@@ -101,17 +100,21 @@ def fit_arm(
     )
     problem = _without_pauses(recordings, targets, parameters)
     guesses = [better_guess(problem)]
-    fit = fitted(problem, guesses, starts=starts, robust=robust, seed=seed)
+    fit = fitted_over_ticks(problem, guesses, starts=starts, robust=robust, seed=seed)
     result = _result(fit, robust, began)
     if starts < AGAIN and (_partly_determined(result) or _too_fast(result)):
-        again = fitted(problem, guesses, starts=AGAIN, robust=robust, seed=seed, before=fit)
+        again = fitted_over_ticks(
+            problem, guesses, starts=AGAIN, robust=robust, seed=seed, before=fit
+        )
         if again is not fit:
             result = _result(again, robust, began)
     if result.explained < POOR:
         turned = replace(problem, recordings=tuple(r.flipped() for r in problem.recordings))
         guesses = [better_guess(turned)]
         other = _result(
-            fitted(turned, guesses, starts=starts, robust=robust, seed=seed), robust, began
+            fitted_over_ticks(turned, guesses, starts=starts, robust=robust, seed=seed),
+            robust,
+            began,
         )
         result = replace(result, other_sign=other.explained)
     return result
@@ -155,11 +158,15 @@ def _result(fit: Fitted, robust: float | None, began: float) -> ArmResult:
         evaluations=fit.found.evaluations,
         seconds=perf_counter() - began,
     )
-    return _widened(result)
+    lost = {kind(name) for name in result.undetermined}
+    return _widened(result, late_force(fit, robust, determined=not lost.issuperset(HAND)))
 
 
-def _widened(result: ArmResult) -> ArmResult:
-    """Return the result with intervals that hold a contradicting regression too, where the errors have structure."""
+def _widened(result: ArmResult, late: Late | None) -> ArmResult:
+    """Return the result with intervals that hold the values of a late force too, or of a contradicting regression."""
+    if late is not None:
+        off = (late.values - result.values)[result.parameters.free]
+        return replace(result, covariance=result.covariance + np.outer(off, off), late=late)
     if all(t.white and t.independent for t in result.tests.values()):
         return result
     if {result.parameters.names[i] for i in result.parameters.free}.issubset(result.undetermined):
@@ -208,45 +215,6 @@ def _check(
         raise ValueError(f"starts = {starts}: must be at least 1")
     if robust is not None and not number("robust", robust) > 0:
         raise ValueError(f"robust = {robust}: must be positive, in standard deviations")
-
-
-def better_guess(problem: Problem) -> Values:
-    """Return the likelier one of two guesses: by regression over time, and by the spectra of the longest recording."""
-    by_time = first_guess(problem)
-    first = int(np.argmax([len(r.t) for r in problem.recordings]))
-    place = problem.parameters.places[first]
-    recording, target = problem.recordings[first], problem.targets[first]
-    try:
-        found = guess_by_response(recording, target, by_time[place[BEFORE_LEVELS:]])
-    except ValueError:  # too short for spectra
-        return by_time
-    if found is None or not (found > 0).all():
-        return by_time
-    other = by_time.copy()
-    other[place[:3]] = found
-    other = problem.parameters.clip(other)
-    noise, record = float(problem.shown[first]), problem.records[first]
-    both = np.array([by_time[place], other[place]])
-    costs = record.judge(both, both, [(noise, 0.0, 0.0)] * 2)
-    return other if costs[1] < costs[0] else by_time
-
-
-def first_guess(problem: Problem) -> Values:
-    """Return where a search starts, by linear regression, within the bounds."""
-    parts = [regression(r, t) for r, t in zip(problem.recordings, problem.targets, strict=True)]
-    found, _ = solve(parts)
-    found = np.where(np.isfinite(found), found, 0.0)
-    values = np.zeros(len(problem.parameters.names))
-    positive = [(0.02, 5.0), (0.3, 100.0), (5.0, 5e3)]
-    hand = [float(np.clip(v, *limits)) for v, limits in zip(found[:3], positive, strict=True)]
-    before = 3
-    for place, part, r in zip(problem.parameters.places, parts, problem.recordings, strict=True):
-        count = part.columns.shape[1] - 3
-        reach = float(np.abs(r.x).max()) + 0.5
-        levels = np.clip(found[before : before + count], -reach, reach)
-        values[place] = [*hand, *np.zeros(BEFORE_LEVELS - 3), *levels]
-        before += count
-    return problem.parameters.clip(values)
 
 
 def with_counts(problem: Problem, found: NDArray[np.float64]) -> NDArray[np.float64]:

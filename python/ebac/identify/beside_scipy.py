@@ -7,8 +7,9 @@ from time import perf_counter, process_time
 
 import numpy as np
 
-from ebac.identify.arm import first_guess, fit_arm
+from ebac.identify.arm import fit_arm
 from ebac.identify.result import ArmResult
+from ebac.identify.start import first_guess
 
 
 @dataclass(frozen=True, kw_only=True)

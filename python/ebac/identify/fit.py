@@ -81,7 +81,7 @@ def fitted(
     within = before.problem if before else beside[0] if beside else problem
     draw, first = np.random.Generator(np.random.PCG64(seed)), best
     for _ in range(starts - 1):
-        other = _search(within, _elsewhere(best.values, problem.parameters, draw), robust)
+        other = search_from(within, _elsewhere(best.values, problem.parameters, draw), robust)
         if other.likelihood < best.likelihood - (ROUGHLY if within.drift else LIKELIER):
             best = other
     if before is not None and best is first:
@@ -122,7 +122,7 @@ def _from_guesses(
         lasting = 0 < drift < NOT_A_DRIFT * largest_drift(problem)
         if lasting:
             at = problem.drifting(drift)
-            along.append((at, _search(at, guess, robust)))
+            along.append((at, search_from(at, guess, robust)))
             start = along[-1][1].values
         steady.append(_unless_drifting(problem, start, robust, drifts=lasting))
     if None in steady:
@@ -130,7 +130,7 @@ def _from_guesses(
         beside = beside_drift(at, point.values, point.force_noise, robust)
         if beside is not None:
             return point, beside
-        steady = [_search(problem, guess, robust) for guess in guesses]
+        steady = [search_from(problem, guess, robust) for guess in guesses]
     found = [point for point in steady if point is not None]
     return min(found, key=lambda point: point.likelihood), None
 
@@ -181,7 +181,7 @@ class Point:
     evaluations: int
 
 
-def _search(problem: Problem, start: Values, robust: float | None) -> Point:
+def search_from(problem: Problem, start: Values, robust: float | None) -> Point:
     """Make the filter for the guess, search with it, until the two agree."""
     point = _unless_drifting(problem, start, robust, drifts=False)
     assert point is not None

@@ -16,6 +16,7 @@ from ebac.identify import informativeness, unrecorded_motor, validation
 from ebac.identify.arm_record import arm_record
 from ebac.identify.estimate import Estimate
 from ebac.identify.intervals import Z95
+from ebac.identify.late_force import Late
 from ebac.identify.parameters import BEFORE_LEVELS, HAND, OWN, Parameters, kind
 from ebac.identify.problem import Problem
 from ebac.identify.recording import Recording
@@ -51,6 +52,8 @@ class ArmResult:
     seconds: float
     #: M0, B0, K0 of a regression that contradicts the fit; the intervals hold both.
     regression: Mapping[str, float] = field(default_factory=dict)
+    #: A delay or a lag of the force that makes the log clearly likelier; the intervals hold the values with it, too.
+    late: Late | None = None
     #: VAF of a fit to the force of the other sign, where this one explains little of the motion.
     other_sign: float | None = None
 
@@ -273,6 +276,7 @@ class ArmResult:
             "inseparable": [list(pair) for pair in self.inseparable],
             "undetermined": list(self.undetermined),
             "impossible": list(self.impossible),
+            "force_late_s": self.late.delay if self.late else None,
             "misses": list(self.misses),
             "notes": list(self.notes),
             "force_noise_N": self.force_noise.tolist(),

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ebac.identify.intervals import Z95, loose_inverse, normal_tail
-from ebac.identify.parameters import BEFORE_LEVELS
+from ebac.identify.parameters import BEFORE_LEVELS, HAND, kind
 from ebac.identify.plausible import without_place
 
 if TYPE_CHECKING:
@@ -209,6 +209,18 @@ def misses(result: ArmResult) -> tuple[str, ...]:
             "The hand has no stiffness, so nothing ties it to a place: this is the device, or what it renders, seen "
             "with the force of the other sign. --flip-force turns it, in Python load(..., flip_force=True); "
             "ebac identify device estimates the device."
+        )
+    if result.late:
+        p = result.parameters
+        other = ", ".join(
+            f"{name} = {float(result.late.values[p.names.index(name)]):.4g} {e.unit} instead of {e.value:.4g}"
+            for name, e in result.estimates.items()
+            if kind(name) in HAND and not e.fixed
+        )
+        out.append(
+            f"{result.late.sentence}, which the log was not said to be: with that, the fit gives {other}, and "
+            f"-2 log L is lower by {result.late.gain:.3g}. {result.late.remedy} takes it into account. The intervals "
+            "hold both values."
         )
     if result.regression:
         other = ", ".join(

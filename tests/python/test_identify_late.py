@@ -1,0 +1,110 @@
+"""A force that comes late or through a filter, undeclared: it is said, and the intervals hold what it does."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from ebac import Device, ForceSensor, Free, Hand, Scenario, Step, identify, simulate
+from ebac.datasets.logs import NOISE, Perturbation
+from ebac.identify import Recording, excitation
+from ebac.identify.parameters import lay_out
+from ebac.identify.problem import Problem
+from ebac.identify.whole_ticks import delays, profile
+
+TRUE = {"M0": 0.35, "B0": 6.0, "K0": 300.0}
+
+
+@pytest.fixture(scope="module")
+def pushed() -> Recording:
+    """Return a log as that of `ebac demo arm`, of 6 s."""
+    _, force = excitation.multisine(6.0, low=0.3, high=20.0, seconds=6.0, tries=0)
+    scenario = Scenario(
+        device=Device(sensor=ForceSensor(noise=NOISE)),
+        hand=Hand(mass=0.35, damping=6.0, stiffness=300.0, path=Step(target=0.0)),
+        environment=Free(),
+        seconds=6.0,
+    )
+    return Recording.from_trace(simulate(scenario, Perturbation(force)))
+
+
+def late(values: NDArray[np.float64], rows: int) -> NDArray[np.float64]:
+    return np.concatenate([np.full(rows, values[0]), values[:-rows]])
+
+
+def filtered(values: NDArray[np.float64], lag: float) -> NDArray[np.float64]:
+    out, keep = np.empty_like(values), np.exp(-1e-3 / lag)
+    state = values[0]
+    for i, value in enumerate(values):
+        state = value + (state - value) * keep
+        out[i] = state
+    return out
+
+
+def force_of(recording: Recording) -> NDArray[np.float64]:
+    assert recording.force is not None
+    return recording.force
+
+
+def holds(result: identify.ArmResult) -> bool:
+    return all(result[n].low <= true <= result[n].high for n, true in TRUE.items())
+
+
+def test_a_right_log_is_not_late(pushed: Recording) -> None:
+    for recording in (pushed, replace(pushed, motor=None)):
+        result = identify.fit_arm(recording)
+        assert result.late is None
+        assert result.misses == ()
+
+
+@pytest.mark.parametrize("motor", [True, False])
+def test_a_force_three_rows_late_is_named(pushed: Recording, motor: bool) -> None:
+    recording = replace(pushed, force=late(force_of(pushed), 3))
+    result = identify.fit_arm(recording if motor else replace(recording, motor=None))
+    assert result.late is not None
+    assert result.late.delay == pytest.approx(3e-3, abs=1e-4)
+    assert result.late.lag is None
+    assert "The force seems to be 3 ms late" in result.misses[0]
+    assert "--free delay" in result.misses[0]
+    assert holds(result)
+    assert result.to_dict()["force_late_s"] == result.late.delay
+
+
+def test_a_position_ten_rows_late_is_named(pushed: Recording) -> None:
+    result = identify.fit_arm(replace(pushed, x=late(pushed.x, 10)))
+    assert result.late is not None
+    assert result.late.delay == pytest.approx(-10e-3, abs=2e-4)
+    assert "The position seems to be 10 ms late" in result.misses[0]
+
+
+def test_a_filter_is_told_from_a_delay(pushed: Recording) -> None:
+    recording = replace(pushed, force=filtered(force_of(pushed), 2e-3))
+    result = identify.fit_arm(recording)
+    assert result.late is not None
+    assert result.late.lag == pytest.approx(2e-3, rel=0.25)
+    assert "--lag 0.00" in result.misses[0]
+    assert holds(result)
+    declared = identify.fit_arm(replace(recording, lag=2e-3))
+    assert declared.late is None
+
+
+def test_a_delay_that_is_given_is_not_late(pushed: Recording) -> None:
+    recording = replace(pushed, force=late(force_of(pushed), 3))
+    assert identify.fit_arm(recording, fixed={"delay": 3e-3}).late is None
+    free = identify.fit_arm(recording, free=["delay"])
+    assert free.late is None
+    assert free["delay"].value == pytest.approx(3e-3, abs=1e-4)
+    assert free["delay"].low <= 3e-3 <= free["delay"].high
+    for name, true in TRUE.items():
+        assert free[name].value == pytest.approx(true, rel=0.01)
+
+
+def test_a_delay_is_searched_over_whole_ticks(pushed: Recording) -> None:
+    recording = replace(pushed, force=late(force_of(pushed), 3))
+    parameters = lay_out([1], fixed={}, bounds={}, free=["delay"], own=())
+    problem = Problem(
+        recordings=(recording,), targets=(identify.Target.held(),), parameters=parameters
+    )
+    (delay,) = delays(problem)
+    assert profile(problem, (delay,), None).ticks == {delay: 3}
