@@ -12,7 +12,8 @@ A first look::
 
 from ebac.identify import excitation
 from ebac.identify.arm import fit_arm
-from ebac.identify.device import DeviceResult, fit_device
+from ebac.identify.device import fit_device
+from ebac.identify.device_result import DeviceResult
 from ebac.identify.estimate import Estimate
 from ebac.identify.gains.gains import GainsResult, fit_gains
 from ebac.identify.gains.trial import Limits

@@ -77,8 +77,16 @@ class Guess:
     columns: Values
 
 
-def driven(r: Recording, current_lag: float, lever: float | None = None) -> Drive:
+def driven(
+    r: Recording,
+    current_lag: float,
+    lever: float | None = None,
+    *,
+    without: NDArray[np.bool_] | None = None,
+) -> Drive:
     """Return what drives the device; one seen at a `lever` [m] is rotary in what is refused.
+
+    Rows `without` are left out, and those beside them.
 
     Raises
     ------
@@ -95,6 +103,9 @@ def driven(r: Recording, current_lag: float, lever: float | None = None) -> Driv
     slow = max(SLOWEST, COUNTS * r.count / (0.5 * edge * r.dt))
     parts = [_stretch(r.rows(rows), current_lag, edge, slow) for rows in r.stretches]
     found = {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
+    if without is not None:
+        found["slides"] &= ~(np.convolve(without, np.ones(5), mode="same") > 0)
+        found["sign"] = np.where(found["slides"], found["sign"], 0.0)
     slides, sign = found["slides"], found["sign"]
     if slides.sum() < LEAST_SLIDING:
         fast = f"{slow / lever:.2g} rad/s" if lever else f"{1e3 * slow:.2g} mm/s"

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-    from ebac.identify.device import DeviceResult
+    from ebac.identify.device_result import DeviceResult
     from ebac.identify.gains.gains import GainsResult
     from ebac.identify.gains.trial import Candidate
     from ebac.identify.result import ArmResult

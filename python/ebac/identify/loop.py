@@ -13,7 +13,8 @@ from ebac._core import Device, Hand, Step, Timing, Wall
 from ebac._util.arguments import number, refuse_unknown, require
 from ebac._util.wrong_calls import plain_constructor
 from ebac.identify.arm import fit_arm
-from ebac.identify.device import DeviceResult, fit_device
+from ebac.identify.device import fit_device
+from ebac.identify.device_result import DeviceResult
 from ebac.identify.recording import Recording
 from ebac.identify.recording_list import require_recordings
 from ebac.identify.result import ArmResult

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from ebac._core import Hand, Recorded, Step
 from ebac._util.arguments import require, shown, unknown_name, whole
-from ebac.identify import informativeness, unrecorded_motor, validation
+from ebac.identify import informativeness, limits, unrecorded_motor, validation
 from ebac.identify.arm_record import arm_record
 from ebac.identify.estimate import Estimate
 from ebac.identify.intervals import Z95
@@ -162,7 +162,8 @@ class ArmResult:
     @property
     def notes(self) -> tuple[str, ...]:
         """Which missing information widens the intervals, one sentence each."""
-        return unrecorded_motor.notes(self.recordings, self.parameters, self.values)
+        motor = unrecorded_motor.notes(self.recordings, self.parameters, self.values)
+        return (*motor, *limits.notes(self.recordings))
 
     @cached_property
     def hand(self) -> Hand:

@@ -12,6 +12,7 @@ from weakref import WeakKeyDictionary
 import numpy as np
 from numpy.typing import NDArray
 
+from ebac.identify.limits import at_limits
 from ebac.identify.recording import Recording
 from ebac.identify.target import Target, lagged
 
@@ -101,12 +102,19 @@ def readings(recording: Recording) -> Readings:
 
 @_once
 def unknown_force(recording: Recording) -> NDArray[np.float64]:
-    """Return the standard deviation of the force that bridges lost rows [N], for each row; 0 where it was recorded.
+    """Return the standard deviation of what is not known of the force [N], for each row; 0 where it was recorded.
 
-    What a straight line over as many rows misses elsewhere in the log, all of them the same way.
+    Where it bridges lost rows, what a straight line over as many rows misses elsewhere in the log, all of them the same
+    way. Where the reading stands at a limit, the force may be any beyond, and half a tick before and after.
     """
     out = np.zeros(len(recording.t))
-    if recording.known is None or recording.known.all() or recording.force is None:
+    if recording.force is None:
+        return out
+    cut = at_limits(recording.force)
+    if cut.any():
+        around = np.convolve(cut, np.ones(3), mode="same") > 0
+        out[around] = float(np.ptp(recording.force))
+    if recording.known is None or recording.known.all():
         return out
     force = recording.force
     steps = np.diff(np.concatenate([[0], ~recording.known, [0]]).astype(int))
@@ -115,7 +123,7 @@ def unknown_force(recording: Recording) -> NDArray[np.float64]:
         lost = int(last - first)
         if lost not in missed:
             missed[lost] = _missed(force, lost)
-        out[first - 1 : last] = missed[lost]
+        out[first - 1 : last] = np.maximum(out[first - 1 : last], missed[lost])
     return out
 
 
