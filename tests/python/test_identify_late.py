@@ -1,14 +1,19 @@
 """A force that comes late or through a filter, undeclared: it is said, and the intervals hold what it does."""
 
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
 from numpy.typing import NDArray
+from typer.testing import CliRunner
 
 from ebac import Device, ForceSensor, Free, Hand, Scenario, Step, identify, simulate
+from ebac.cli import app
+from ebac.datasets import write
 from ebac.datasets.logs import NOISE, Perturbation
 from ebac.identify import Recording, excitation
+from ebac.identify.cases import draw
 from ebac.identify.parameters import lay_out
 from ebac.identify.problem import Problem
 from ebac.identify.whole_ticks import delays, profile
@@ -108,3 +113,26 @@ def test_a_delay_is_searched_over_whole_ticks(pushed: Recording) -> None:
     )
     (delay,) = delays(problem)
     assert profile(problem, (delay,), None).ticks == {delay: 3}
+
+
+def test_the_wrong_sign_of_a_moving_target_is_named(tmp_path: Path) -> None:
+    write("tapping", tmp_path)
+    log = ["identify", "arm", str(tmp_path / "tapping.mcap")]
+    wrong = CliRunner().invoke(app, [*log, "--flip-force"])
+    said = " ".join(wrong.output.split())
+    assert wrong.exit_code == 1, "nothing is determined"
+    assert "the log seems to hold the force on the hand" in said
+    assert "deviations apart" not in said
+    right = CliRunner().invoke(app, log)
+    assert right.exit_code == 0
+    assert "--flip-force" not in right.output
+
+
+def test_a_press_that_determines_nothing_gets_no_advice_to_turn_a_right_force() -> None:
+    case = draw(6, 5, 5.0)  # 57 % explained, with the other sign 99.8 %: that is the wall
+    trace = simulate(case.scenario, case.law)
+    assert trace["f_meas"][-1] > 0, "the hand presses"
+    recording = Recording.from_trace(trace)
+    result = identify.fit_arm(recording, identify.Target.of(case.scenario.hand, recording.t))
+    assert result.flip == ""
+    assert not any("--flip-force" in text for text in result.misses)

@@ -20,6 +20,7 @@ from ebac.identify.problem import Problem
 from ebac.identify.recording import Recording
 from ebac.identify.recording_list import refuse_copies, require_recordings, with_own_names
 from ebac.identify.result import ArmResult
+from ebac.identify.sign import likely_flip
 from ebac.identify.start import better_guess
 from ebac.identify.target import Target, require_target
 from ebac.identify.unbiased import disagreement
@@ -108,15 +109,20 @@ def fit_arm(
         )
         if again is not fit:
             result = _result(again, robust, began)
-    if result.explained < POOR:
+    if result.explained < POOR or result.nothing_determined:
         turned = replace(problem, recordings=tuple(r.flipped() for r in problem.recordings))
         guesses = [better_guess(turned)]
         other = _result(
             fitted_over_ticks(turned, guesses, starts=starts, robust=robust, seed=seed),
             robust,
             began,
+            late=False,
         )
-        result = replace(result, other_sign=other.explained)
+        result = replace(
+            result,
+            other_sign=other.explained,
+            flip=likely_flip(recordings, targets, result, other),
+        )
     return result
 
 
@@ -145,7 +151,7 @@ def _without_pauses(
     )
 
 
-def _result(fit: Fitted, robust: float | None, began: float) -> ArmResult:
+def _result(fit: Fitted, robust: float | None, began: float, *, late: bool = True) -> ArmResult:
     result = ArmResult(
         problem=fit.problem,
         values=fit.values,
@@ -158,15 +164,15 @@ def _result(fit: Fitted, robust: float | None, began: float) -> ArmResult:
         evaluations=fit.found.evaluations,
         seconds=perf_counter() - began,
     )
-    lost = {kind(name) for name in result.undetermined}
-    return _widened(result, late_force(fit, robust, determined=not lost.issuperset(HAND)))
+    found = late_force(fit, robust, determined=not result.nothing_determined) if late else None
+    return _widened(result, found)
 
 
 def _widened(result: ArmResult, late: Late | None) -> ArmResult:
     """Return the result with intervals that hold the values of a late force too, or of a contradicting regression."""
     if late is not None:
         off = (late.values - result.values)[result.parameters.free]
-        return replace(result, covariance=result.covariance + np.outer(off, off), late=late)
+        return replace(result, covariance=result.covariance + np.diag(off**2), late=late)
     if all(t.white and t.independent for t in result.tests.values()):
         return result
     if {result.parameters.names[i] for i in result.parameters.free}.issubset(result.undetermined):

@@ -102,10 +102,17 @@ def _with_text(file: str, names: list[str], rows: list[list[str]]) -> Table:
 
 def _is_number(text: str) -> bool:
     try:
-        float(text)
+        _float(text)
     except ValueError:
         return False
     return True
+
+
+def _float(text: str) -> float:
+    """Return a number as files have it; Python's own 1_0 for 10 is none."""
+    if "_" in text:
+        raise ValueError(text)
+    return float(text)
 
 
 def _number(cell: str, file: str, row: int, column: str) -> float:
@@ -113,7 +120,7 @@ def _number(cell: str, file: str, row: int, column: str) -> float:
     if text in ("", "-"):
         return float("nan")
     try:
-        return float(text)
+        return _float(text)
     except ValueError:
         raise ValueError(
             f"{file}: {text!r} in row {row}, column {column!r}, is no number"
@@ -129,20 +136,31 @@ def archive_of(path: Path) -> Iterator[Any]:
     ValueError
         When it is none.
     """
-    try:
-        archive = np.load(path, allow_pickle=False)
-        names = archive.files
-    except (AttributeError, BadZipFile, EOFError, ValueError):
-        raise ValueError(f"{path.name}: is no NumPy archive; write it by numpy.savez") from None
-    with archive:
-        if not names:
-            raise ValueError(f"{path.name}: holds no arrays")
-        yield archive
+    with path.open("rb") as file:  # NumPy leaves a file open that is none of its own
+        try:
+            archive = np.load(file, allow_pickle=False)
+            names = archive.files
+        except (AttributeError, BadZipFile, EOFError, ValueError):
+            raise ValueError(f"{path.name}: is no NumPy archive; write it by numpy.savez") from None
+        with archive:
+            if not names:
+                raise ValueError(f"{path.name}: holds no arrays")
+            yield archive
 
 
 def _npz(path: Path) -> Table:
     with archive_of(path) as archive:
-        return Table(columns=_series({name: archive[name] for name in archive.files}))
+        return Table(columns=_series({name: _array(path, archive, name) for name in archive.files}))
+
+
+def _array(path: Path, archive: Any, name: str) -> Any:
+    try:
+        return archive[name]
+    except (BadZipFile, EOFError, ValueError) as error:
+        reason = "is cut or damaged"
+        if "pickle" in str(error):
+            reason = "holds objects of Python, which are not read; store an array of numbers"
+        raise ValueError(f"{path.name}: {name} {reason}") from None
 
 
 def _mat(path: Path) -> Table:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ebac.identify.parameters import kind
 from ebac.identify.recording import LEAST_ROWS
 
 if TYPE_CHECKING:
@@ -25,6 +26,21 @@ SLOWEST = 0.1
 
 #: A hand goes back to its place within so long, B0/K0 [s].
 RETURNS = 3.0
+
+
+#: What human arms, hands and fingers have, by far: M0 [kg], B0 [N s/m], K0 [N/m].
+HUMAN = {"M0": (0.01, 10.0), "B0": (0.05, 300.0), "K0": (3.0, 2e4)}
+
+
+def is_hand(parameters: Parameters, values: NDArray[np.float64]) -> bool:
+    """Return whether all values of each hand are within what humans have, and none at a bound of its search."""
+    for place in parameters.places:
+        for i in place[:3].tolist():
+            low, high = HUMAN[kind(parameters.names[i])]
+            inside = low <= values[i] <= high
+            if not (inside and parameters.low[i] < values[i] < parameters.high[i]):
+                return False
+    return True
 
 
 def without_place(

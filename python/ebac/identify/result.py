@@ -54,8 +54,10 @@ class ArmResult:
     regression: Mapping[str, float] = field(default_factory=dict)
     #: A delay or a lag of the force that makes the log clearly likelier; the intervals hold the values with it, too.
     late: Late | None = None
-    #: VAF of a fit to the force of the other sign, where this one explains little of the motion.
+    #: VAF of a fit to the force of the other sign, where this one explains little or determines nothing of the hand.
     other_sign: float | None = None
+    #: What says that the force has the other sign: "fit", "spectra", or "" for nothing.
+    flip: str = ""
 
     @property
     def parameters(self) -> Parameters:
@@ -94,6 +96,13 @@ class ArmResult:
         return informativeness.undetermined(
             self.parameters, self.values, half, self.correlation, self._span, dt
         )
+
+    @cached_property
+    def nothing_determined(self) -> bool:
+        """Whether the log determines none of M0, B0 and K0 that was to be fitted."""
+        names = [self.parameters.names[i] for i in self.parameters.free]
+        hand = {name for name in names if kind(name) in HAND}
+        return bool(hand) and hand.issubset(self.undetermined)
 
     @cached_property
     def impossible(self) -> tuple[str, ...]:
@@ -177,7 +186,7 @@ class ArmResult:
         lost = [n for n in self.undetermined if kind(n) in HAND]
         if lost:
             remedy = "; record one with more excitation, or fix some of the values"
-            if validation.seems_flipped(self.explained, self.other_sign):
+            if self.flip:
                 remedy = f". {self.misses[0]}"
             raise ValueError(
                 f"{', '.join(lost)}: not determined by this log, so there is no hand to simulate{remedy}"

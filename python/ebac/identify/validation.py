@@ -191,26 +191,30 @@ def flip_advice(sentence: str, explained: float, other_sign: float, turned: str 
 def misses(result: ArmResult) -> tuple[str, ...]:
     """Return what the model misses, a sentence each; nothing where structure in the errors changes no result."""
     out = []
-    if result.other_sign is not None:
-        if seems_flipped(result.explained, result.other_sign):
-            out.append(
-                flip_advice(
-                    "The hand explains {} of the motion (VAF)", result.explained, result.other_sign
-                )
+    if result.flip == "fit" and result.other_sign is not None:
+        out.append(
+            flip_advice(
+                "The hand explains {} of the motion (VAF)", result.explained, result.other_sign
             )
-        else:
-            out.append(
-                f"The hand explains only {100 * result.explained:.3g} % of the motion (VAF), with the force of the "
-                f"other sign {100 * result.other_sign:.3g} %: is "
-                "the target of the hand the right one (--switch, --tapping)?"
-            )
+        )
+    elif result.flip:
+        out.append(
+            "Motion and force follow the target as those of a hand only with the force of the other sign: --flip-force "
+            "turns it, in Python load(..., flip_force=True). A fit to that force does not determine the hand either: "
+            "record one with more motion."
+        )
+    elif result.explained < POOR:
+        out.append(
+            f"The hand explains only {100 * result.explained:.3g} % of the motion (VAF): is the target of the hand the "
+            "right one (--switch, --tapping)?"
+        )
     if without_place(result.parameters, result.values, Z95 * result.deviation):
         out.append(
             "The hand has no stiffness, so nothing ties it to a place: this is the device, or what it renders, seen "
             "with the force of the other sign. --flip-force turns it, in Python load(..., flip_force=True); "
             "ebac identify device estimates the device."
         )
-    if result.late:
+    if result.late and not result.flip:
         p = result.parameters
         other = ", ".join(
             f"{name} = {float(result.late.values[p.names.index(name)]):.4g} {e.unit} instead of {e.value:.4g}"

@@ -67,7 +67,8 @@ def arm(
 
     * `ebac demo tapping`, then `ebac identify arm tapping.mcap --out report`
 
-    Exit code 1 when the result is not a plausible hand, because it explains less of the motion than no hand would.
+    Exit code 1 when the log determines nothing of the hand, or when the result is not a plausible one, because it
+    explains less of the motion than no hand would.
     """
     from ebac.identify import fit_arm
 
@@ -109,6 +110,8 @@ def arm(
             output.list_files(to.out, files)
     if result.impossible:
         output.fail(f"This is no hand: {'; '.join(result.impossible)}.", code=output.FAILED)
+    if result.nothing_determined:
+        raise typer.Exit(output.FAILED)
 
 
 def _profiles(result: ArmResult) -> dict[str, tuple[float, float]]:

@@ -59,6 +59,12 @@ def show(
             f"{p.recording} ({kind}): from the force alone VAF {100 * p.vaf:.2f} %, NRMSE {100 * p.nrmse:.2f} %"
         )
     for o in opinions:
+        if o.name in result.undetermined:
+            output.say(
+                f"{o.name}: direct not determined, by instruments {o.unbiased:.4g} +- "
+                f"{1.96 * o.unbiased_deviation:.2g} {o.unit}"
+            )
+            continue
         output.say(
             f"{o.name}: direct {o.direct:.4g}, by instruments {o.unbiased:.4g} "
             f"+- {1.96 * o.unbiased_deviation:.2g} {o.unit}: {abs(o.apart):.1f} deviations apart"

@@ -57,7 +57,8 @@ def device(
         grid.add_row(e.name, f"{e.value:.4g}", f"{e.low:.4g} to {e.high:.4g}", e.unit, word)
     output.show(output.filled(grid))
     for text in _notes(result):
-        output.say(text)
+        if not (result.impossible and text in result.misses):  # the error says it
+            output.say(text)
     if to.out is not None:
         output.list_files(to.out, files)
     _end(result)

@@ -1,0 +1,49 @@
+"""The sign of the force of the hand: by what a target that moves shows, and by a fit to the force of the other sign."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from ebac.identify.informativeness import check_log
+from ebac.identify.parameters import HAND, kind
+from ebac.identify.plausible import is_hand
+from ebac.identify.recording import Recording
+from ebac.identify.target import Target
+from ebac.identify.validation import POOR
+
+if TYPE_CHECKING:
+    from ebac.identify.result import ArmResult
+
+
+def likely_flip(
+    recordings: Sequence[Recording],
+    targets: Sequence[Target],
+    result: ArmResult,
+    other: ArmResult,
+) -> str:
+    """Return what says that the force has the other sign: "fit", "spectra", or "" for nothing.
+
+    How much of the motion a fit explains does not decide it: with the wrong sign it models device and wall, and that
+    explains all of it. Where a target moves, motion and force follow it, and these show the sign. Where none does,
+    the fit to the force of the other sign must be one of a hand.
+    """
+    sound = _is_sound(other)
+    if any(target.switches or target.path is not None for target in targets):
+        if not any(_other_sign(r, target) for r, target in zip(recordings, targets, strict=True)):
+            return ""
+        return "fit" if sound else "spectra"
+    return "fit" if sound and other.explained > max(POOR, result.explained) else ""
+
+
+def _is_sound(result: ArmResult) -> bool:
+    """Return whether a fit is that of a hand, all of it determined."""
+    lost = {kind(name) for name in result.undetermined}
+    return not lost.intersection(HAND) and is_hand(result.parameters, result.values)
+
+
+def _other_sign(recording: Recording, target: Target) -> bool:
+    try:
+        return check_log(recording, target).other_sign
+    except ValueError:  # too short for spectra
+        return False
