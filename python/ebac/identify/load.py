@@ -245,6 +245,11 @@ def _recording(
     even: dict[str, Any] = dict(_evenly(name, signals, remarks))
     guessed = any(text.startswith("x: no unit") for text in remarks)
     plausible(name, even, rotary=rotary, guessed=guessed)
+    if "motor" in even and np.ptp(even["motor"]) == 0:
+        still = even.pop("motor")[0]
+        remarks.append(
+            f"column {chosen['motor']!r} is left out: the motor is constant at {still:g}"
+        )
     found = count_of(signals["x"])  # of the readings, before anything is put between them
     step = f"{1e3 * found:.4g} {'mrad' if rotary else 'mm'}"
     remarks.append(f"encoder step of {step} found in x" if found else "x shows no encoder step")

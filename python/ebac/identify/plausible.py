@@ -29,18 +29,19 @@ RETURNS = 3.0
 
 
 #: What human arms, hands and fingers have, by far: M0 [kg], B0 [N s/m], K0 [N/m].
-HUMAN = {"M0": (0.01, 10.0), "B0": (0.05, 300.0), "K0": (3.0, 2e4)}
+HUMAN = {"M0": (0.01, 10.0), "B0": (0.2, 300.0), "K0": (10.0, 2e4)}
 
 
 def is_hand(parameters: Parameters, values: NDArray[np.float64]) -> bool:
-    """Return whether all values of each hand are within what humans have, and none at a bound of its search."""
-    for place in parameters.places:
-        for i in place[:3].tolist():
-            low, high = HUMAN[kind(parameters.names[i])]
-            inside = low <= values[i] <= high
-            if not (inside and parameters.low[i] < values[i] < parameters.high[i]):
-                return False
-    return True
+    """Return whether all values of each hand are within what humans have; those that are given are not asked."""
+    free = parameters.free.tolist()
+    return all(
+        low <= values[i] <= high
+        for place in parameters.places
+        for i in place[:3].tolist()
+        for low, high in (HUMAN[kind(parameters.names[i])],)
+        if i in free
+    )
 
 
 def without_place(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from math import inf
 from typing import TYPE_CHECKING
 
 from ebac.identify.informativeness import check_log
@@ -14,6 +15,9 @@ from ebac.identify.validation import POOR
 
 if TYPE_CHECKING:
     from ebac.identify.result import ArmResult
+
+#: Spectra that are less precise may be those of a hand whose target is not what was said.
+PRECISE = 0.05
 
 
 def likely_flip(
@@ -30,9 +34,9 @@ def likely_flip(
     """
     sound = _is_sound(other)
     if any(target.switches or target.path is not None for target in targets):
-        if not any(_other_sign(r, target) for r, target in zip(recordings, targets, strict=True)):
-            return ""
-        return "fit" if sound else "spectra"
+        pairs = zip(recordings, targets, strict=True)
+        known = min((_other_sign(r, target) for r, target in pairs), default=inf)
+        return "fit" if sound and known < inf else "spectra" if known < PRECISE else ""
     return "fit" if sound and other.explained > max(POOR, result.explained) else ""
 
 
@@ -42,8 +46,14 @@ def _is_sound(result: ArmResult) -> bool:
     return not lost.intersection(HAND) and is_hand(result.parameters, result.values)
 
 
-def _other_sign(recording: Recording, target: Target) -> bool:
+def _other_sign(recording: Recording, target: Target) -> float:
+    """Return how precisely the spectra show a hand with the force of the other sign only; infinite where they do not.
+
+    As the largest expected deviation, relative to its value.
+    """
     try:
-        return check_log(recording, target).other_sign
+        if check_log(recording, target).other_sign:
+            return max(check_log(recording.flipped(), target).deviation.values())
     except ValueError:  # too short for spectra
-        return False
+        pass
+    return inf

@@ -8,9 +8,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ebac.identify import motor_check
 from ebac.identify.intervals import Z95, loose_inverse, normal_tail
 from ebac.identify.parameters import BEFORE_LEVELS, HAND, kind
-from ebac.identify.plausible import without_place
+from ebac.identify.plausible import is_hand, without_place
 
 if TYPE_CHECKING:
     from ebac.identify.recording import Recording
@@ -214,6 +215,13 @@ def misses(result: ArmResult) -> tuple[str, ...]:
             "with the force of the other sign. --flip-force turns it, in Python load(..., flip_force=True); "
             "ebac identify device estimates the device."
         )
+    if not (result.flip or result.nothing_determined):
+        out += motor_check.doubts(result.recordings)
+        if not is_hand(result.parameters, result.values):
+            out.append(
+                "No arm or hand is like that: usual are 0.01 to 10 kg, 0.2 to 300 N s/m, 10 to 2e4 N/m. Are the "
+                "units of x and force right (--unit x=mm)?"
+            )
     if result.late and not result.flip:
         p = result.parameters
         other = ", ".join(
