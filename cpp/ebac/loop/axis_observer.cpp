@@ -13,9 +13,9 @@ void AxisObserver::set_tick(double dt) EBAC_RT {
   motor_.set_tick(params_.force_lag + records_.mean_age(), dt);
   const double w = std::sqrt(std::sqrt(12.0) * params_.force_noise / (mass_ * params_.count));
   within_ = std::clamp(w * w * dt * dt / kDithered, 0.5, 1.0);
-  full_ = Gains::of(w, 0.5, dt);
-  in_motion_ = Gains::of(0.4 * w, 0.5, dt);
-  at_rest_ = Gains::of(0.6 * within_ * w, 0.1, dt);
+  full_ = ObserverGains::of(w, 0.5, dt);
+  in_motion_ = ObserverGains::of(0.4 * w, 0.5, dt);
+  at_rest_ = ObserverGains::of(0.6 * within_ * w, 0.1, dt);
   resting_ = std::max(0.0, 1 - dt / kRests);
   const double kept =
       std::exp(-dt / (kCalm * std::sqrt(params_.force_noise / ObserverParams::kLeastNoise)));

@@ -8,6 +8,7 @@
 #include "ebac/core/realtime.hpp"
 #include "ebac/loop/force_history.hpp"
 #include "ebac/loop/motor_force.hpp"
+#include "ebac/loop/observer_gains.hpp"
 #include "ebac/loop/observer_params.hpp"
 
 namespace ebac {
@@ -167,22 +168,6 @@ class AxisObserver {
   static constexpr double kLearn = 2;         // from here to 1/2 more, all gains rise to those of w
   static constexpr double kPatience = 3.5e-3;  // s, half a period of a cable's resonance of 140 Hz
 
-  /// Gains of the three states: 1, 1/s, 1/s^2 (of D times the mass).
-  struct Gains {
-    double x = 0, v = 0, d = 0;
-
-    /// Poles at two times `bandwidth` for x and u, one at `slow` of it for D.
-    static Gains of(double bandwidth, double slow, double dt) EBAC_RT {
-      const double z = std::exp(-bandwidth * dt);
-      const double q = std::exp(-slow * bandwidth * dt);
-      return {1 - z * z * q, ((1 - z) * (1 - z) + (1 - q) * (1 - z) * (1 + z)) / dt,
-              (1 - z) * (1 - z) * (1 - q) / (dt * dt)};
-    }
-    Gains towards(const Gains& other, double share) const EBAC_RT {
-      return {x + share * (other.x - x), v + share * (other.v - v), d + share * (other.d - d)};
-    }
-  };
-
   double acceleration() const EBAC_RT {
     const double pull = measured_ + disturbance_ - params_.damping * u_ - motor_.shown();
     return slowed(pull, u_, dt_) * per_mass_;
@@ -235,7 +220,7 @@ class AxisObserver {
     const double innovation = off - (1 - noisy) * (1 - share) * within;
     contradicted_ += ((std::abs(off) > 1.5 * count ? 1.0 : 0.0) - contradicted_) * forget_;
     moving_ = std::max(std::min(1.0, std::abs(u_) * (1 / kMoving)), moving_ * resting_);
-    Gains gain = at_rest_.towards(in_motion_, moving_);
+    ObserverGains gain = at_rest_.towards(in_motion_, moving_);
     const double wrong = std::max(noisy, std::min(1.0, kLearn * (contradicted_ - kBears)));
     if (wrong > 0) gain = gain.towards(full_, wrong);
     x_ += gain.x * innovation;
@@ -295,7 +280,7 @@ class AxisObserver {
   double bends_ = 0;      // N, mean size of second differences of the measured force
   double noise_ = 0;      // N, standard deviation of the measured force
   double moving_ = 1;     // 1 in motion, 0 at rest
-  Gains in_motion_{}, at_rest_{}, full_{};
+  ObserverGains in_motion_{}, at_rest_{}, full_{};
   double within_ = 1;                                  // share of an innovation within a count
   double per_noise_ = 1;                               // 1/N, of the declared noise
   double resting_ = 0, calming_ = 0, roughening_ = 0;  // share kept, share taken, per tick
