@@ -13,6 +13,8 @@ if TYPE_CHECKING:
 
 #: What walls have [N/m]: a hand has 300, and no device of this package renders half a meganewton per metre.
 USUAL = (50.0, 500e3)
+#: A wall beyond is refused [N/m].
+MOST = 1e7
 
 
 def tell_option(stiffness: float | None) -> None:
@@ -46,6 +48,8 @@ def tell_conditions(names: Iterable[str]) -> None:
 
 def doubt(stiffness: float) -> str:
     """Return what is unusual about a stiffness [N/m]; nothing where it is usual."""
-    if USUAL[0] <= stiffness <= USUAL[1]:
+    if not (
+        0 < stiffness < USUAL[0] or USUAL[1] < stiffness <= MOST
+    ):  # others are usual, or refused
         return ""
     return f"a wall of {stiffness:g} N/m: usual are {USUAL[0]:g} to {USUAL[1]:g} N/m"
