@@ -56,6 +56,13 @@ def test_two_runs_of_one_second_have_names_of_their_own(
     assert [file.name for file in tmp_path.iterdir()] == ["run-now-4.mcap"]
 
 
+def test_a_run_prints_what_it_ran_with() -> None:
+    done = CliRunner().invoke(app, [*RUN, "--no-files", "--wall-stiffness", "5000"])
+    text = " ".join(done.stdout.split())
+    assert "Run with: a device (0.25 kg, 2 N s/m, sensor without noise) a hand (0.15 kg" in text
+    assert "a wall of 5 kN/m at 10 mm 1 kHz, 1 sample of delay 1 s, seed 1" in text
+
+
 def test_a_virtual_run_tells_that_its_clock_is_virtual() -> None:
     done = CliRunner().invoke(app, [*RUN, "--no-files"])
     assert "on a virtual clock: every tick in time" in " ".join(done.stdout.split())

@@ -221,6 +221,8 @@ def show(result: Result) -> None:
         output.say(f"{result.engine}{still}")
     if result.times is not None:
         _show_times(result.times)
+    output.say("Run with:")
+    output.indented(_setup(result))
     report = result.report
     kept = (
         "no log"
@@ -246,6 +248,18 @@ def show(result: Result) -> None:
         output.say(
             "Drives, device and hand were simulated; clock, thread and bus were real.", style="bold"
         )
+
+
+def _setup(result: Result) -> str:
+    """Return device, hand, virtual world and timing, a line each: of an engine no world, of a person no hand."""
+    from ebac._util import formatting
+
+    scenario = without_engine(result.configuration).scenario()
+    device, hand, world, timing, *length = formatting.describe(scenario).split("; ")
+    lines = [device]
+    lines += [hand] if result.simulated else []
+    lines += [world] if result.engine is None else []
+    return "\n".join([*lines, timing, *(length if result.simulated else [])])
 
 
 def _show_times(times: Times) -> None:
