@@ -31,6 +31,7 @@ from ebac._core import (
 from ebac._util.arguments import keywords_only, refuse_unknown, require, require_path
 from ebac._util.copying import refuse_uncopyable
 from ebac._util.text_file import read_text
+from ebac._util.toml_lines import located
 from ebac.hands import as_hand, is_own
 from ebac.scenario_text import parts_of, text_of
 
@@ -239,13 +240,15 @@ class Scenario:
         FileNotFoundError
             When there is no such file.
         ValueError
-            As `from_toml`, with the file's name.
+            As `from_toml`, with the file's name and the line.
         """
         require_path(path, "Scenario.load")
+        text = ""
         try:
-            return cls.from_toml(read_text(path), folder=Path(path).parent)
+            text = read_text(path)
+            return cls.from_toml(text, folder=Path(path).parent)
         except ValueError as error:
-            raise ValueError(f"{path}: {error}") from None
+            raise ValueError(located(path, text, str(error))) from None
 
     def designed_observer(self) -> Observer | None:
         """Return the observer of a run, or None without one."""

@@ -256,7 +256,7 @@ def test_a_wrong_document_is_refused_and_the_message_says_where(text: str, messa
 def test_the_message_names_the_file(tmp_path: Path) -> None:
     path = tmp_path / "bad.toml"
     path.write_text("secnds = 1")
-    with pytest.raises(ValueError, match=r"bad\.toml: scenario\.secnds: no such name"):
+    with pytest.raises(ValueError, match=r"bad\.toml, line 1: scenario\.secnds: no such name"):
         ebac.Scenario.load(path)
     with pytest.raises(FileNotFoundError):
         ebac.Scenario.load(tmp_path / "none.toml")
@@ -433,3 +433,22 @@ def test_a_path_for_an_axis_the_device_does_not_have_is_refused() -> None:
     hand = ebac.Hand(path=[ebac.Step(), ebac.Step(target=0.01)])
     with pytest.raises(ValueError, match=r"hand\.path\[1\] = Step.*the device has 1 axes"):
         ebac.simulate(ebac.Scenario(hand=hand), "direct")
+
+
+@pytest.mark.parametrize(
+    ("text", "line", "words"),
+    [
+        ("[device.motor]\n\ntorque_constant = -1\n", 3, "Motor.torque_constant = -1 N m/A"),
+        ("seconds = 1.0\n[timing]\ndt = 1e-3\ndely = 1\n", 4, "no parameter 'dely'"),
+        ("# of mine\nsecnds = 3\n", 2, "scenario.secnds: no such name"),
+        ("[[hand.path]]\ntype = 'Step'\ntarget = 99\n", 3, "Step.target = 99 m"),
+        ("[environment]\ntype = 'Wal'\n", 2, "scenario.environment.type = 'Wal'"),
+    ],
+)
+def test_an_error_of_a_file_names_its_line(
+    text: str, line: int, words: str, tmp_path: Path
+) -> None:
+    file = tmp_path / "s.toml"
+    file.write_text(text, encoding="utf-8")
+    with pytest.raises(ValueError, match=rf"s\.toml, line {line}: .*{words}"):
+        ebac.Scenario.load(file)

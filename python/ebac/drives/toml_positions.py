@@ -2,25 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
-from typing import Any, TypeAlias
+from typing import Any
 
 from ebac._util.toml import parsed
+from ebac._util.toml_lines import Path, line_of
 from ebac.drives.errors import ProfileError
 
-#: Where a value stands: names of tables and keys, and places in lists.
-Path: TypeAlias = tuple[str | int, ...]
+__all__ = [
+    "Path",
+    "Source",
+    "dotted",
+]
 
 
 @dataclass(frozen=True, kw_only=True)
 class Source:
-    """A TOML document and its name.
-
-    The standard library's parser keeps no positions, and no kept-up parser of Python does. But the
-    first n lines of a document are a document themselves unless they end within a value: a key
-    stands where it first appears among them.
-    """
+    """A TOML document and its name."""
 
     name: str
     text: str
@@ -36,17 +34,7 @@ class Source:
 
     def line(self, path: Path) -> int | None:
         """Return the line on which a key stands, from 1; None when it stands nowhere."""
-        lines = [f"{line}\n" for line in self.text.split("\n")]
-        begin = 1
-        for end in range(1, len(lines) + 1):
-            try:
-                table = parsed("".join(lines[:end]))
-            except ValueError:
-                continue  # within a value of several lines
-            if path in set(_paths(table)):
-                return begin
-            begin = end + 1
-        return None
+        return line_of(self.text, path)
 
     def refuse(self, path: Path, what: str) -> ProfileError:
         """Return the error for what stands at `path`."""
@@ -59,14 +47,3 @@ def dotted(path: Path) -> str:
     """Return a path as people write it: node[0].motor.torque_constant."""
     text = "".join(f"[{part}]" if isinstance(part, int) else f".{part}" for part in path)
     return text.removeprefix(".")
-
-
-def _paths(value: Any, path: Path = ()) -> Iterator[Path]:
-    if path:
-        yield path
-    if isinstance(value, Mapping):
-        for name, item in value.items():
-            yield from _paths(item, (*path, name))
-    elif isinstance(value, list):
-        for i, item in enumerate(value):
-            yield from _paths(item, (*path, i))

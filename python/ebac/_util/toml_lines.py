@@ -1,0 +1,64 @@
+"""On which line of a TOML document a key stands."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping
+from typing import Any, TypeAlias
+
+from ebac._util.toml import parsed
+
+#: Where a value stands: names of tables and keys, and places in lists.
+Path: TypeAlias = tuple[str | int, ...]
+
+#: How an error of a scenario begins: "scenario.hand.path[0]: ...".
+_PLACE = re.compile(r"scenario((?:\.\w+|\[\d+\])+)")
+#: The key that it is about: "Motor.torque_constant = ...", "Motor has no parameter 'torqe_constant'".
+_KEY = re.compile(r"\b[A-Z]\w*\.([a-z]\w*)|has no parameter '(\w+)'")
+
+
+def line_of(text: str, path: Path) -> int | None:
+    """Return the line on which a key stands, from 1; None when it stands nowhere.
+
+    The standard library's parser keeps no positions, and no kept-up parser of Python does. But the first n lines of a
+    document are a document themselves unless they end within a value: a key stands where it first appears among them.
+    """
+    lines = [f"{line}\n" for line in text.split("\n")]
+    begin = 1
+    for end in range(1, len(lines) + 1):
+        try:
+            table = parsed("".join(lines[:end]))
+        except ValueError:
+            continue  # within a value of several lines
+        if path in set(_paths(table)):
+            return begin
+        begin = end + 1
+    return None
+
+
+def located(file: object, text: str, message: str) -> str:
+    """Return a message of a scenario with its file and, where it names a key of the text, the line."""
+    line = _line_of_error(text, message)
+    return f"{file}: {message}" if line is None else f"{file}, line {line}: {message}"
+
+
+def _line_of_error(text: str, message: str) -> int | None:
+    place, key = _PLACE.match(message), _KEY.search(message)
+    parts = [] if place is None else re.findall(r"\w+", place[1])
+    table = tuple(int(part) if part.isdigit() else part for part in parts)
+    paths = [table] if table else []
+    if key is not None:
+        paths.insert(0, (*table, key[1] or key[2]))
+    found = (line_of(text, path) for path in paths)
+    return next((line for line in found if line is not None), None)
+
+
+def _paths(value: Any, path: Path = ()) -> Iterator[Path]:
+    if path:
+        yield path
+    if isinstance(value, Mapping):
+        for name, item in value.items():
+            yield from _paths(item, (*path, name))
+    elif isinstance(value, list):
+        for i, item in enumerate(value):
+            yield from _paths(item, (*path, i))
