@@ -45,7 +45,7 @@ def log(
         bands = {one.name: [list(band) for band in one.bands] for one in found}
         typer.echo(output.document("identify log", rows, bands_Hz=bands))
     else:
-        for one, (r, _) in zip(found, pairs, strict=True):
+        for one, (r, target_of) in zip(found, pairs, strict=True):
             for text in r.remarks:
                 output.say(f"{one.name}: {text}", style="dim")
             output.say(f"{one.name}: excites {one.bands_in_words()}")
@@ -59,5 +59,10 @@ def log(
                     row["remedy"],
                 )
             output.show(output.filled(grid))
+            if len(target_of.switches) == 1:
+                output.say(
+                    f"{one.name}: the target changes once. The forecast says what the spectra could show at best; a "
+                    "fit often determines less. Let the hand press several times, or tap."
+                )
     if not all(row["told"] for row in rows):
         raise typer.Exit(output.FAILED)
