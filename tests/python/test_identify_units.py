@@ -36,4 +36,4 @@ def test_a_motor_that_never_changes_is_left_out(tmp_path: Path, arm: Recording) 
     np.savetxt(log, columns, delimiter=",", header="t [s],x [m],force [N],motor [N]", comments="")
     recording = identify.load(log)
     assert recording.motor is None
-    assert "column 'motor [N]' is left out: the motor is constant at 0" in recording.remarks
+    assert "motor is left out: constant at 0 N" in recording.remarks

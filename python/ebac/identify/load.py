@@ -127,6 +127,9 @@ def load(
         found = _recording(path.name, table, columns, units, rate, how)
         if trace is not None:
             found = replace(found, path=path_of(trace, axis))
+        elif found.motor is not None and np.ptp(found.motor) == 0:
+            left_out = f"motor is left out: constant at {found.motor[0]:g} {found.units[1]}"
+            found = replace(found, motor=None, remarks=(*found.remarks, left_out))
     changes: dict[str, Any] = {"origin": origin}
     for name, value in (("lag", lag), ("current_lag", current_lag), ("count", count)):
         if value is not None:
@@ -245,11 +248,6 @@ def _recording(
     even: dict[str, Any] = dict(_evenly(name, signals, remarks))
     guessed = any(text.startswith("x: no unit") for text in remarks)
     plausible(name, even, rotary=rotary, guessed=guessed)
-    if "motor" in even and np.ptp(even["motor"]) == 0:
-        still = even.pop("motor")[0]
-        remarks.append(
-            f"column {chosen['motor']!r} is left out: the motor is constant at {still:g}"
-        )
     found = count_of(signals["x"])  # of the readings, before anything is put between them
     step = f"{1e3 * found:.4g} {'mrad' if rotary else 'mm'}"
     remarks.append(f"encoder step of {step} found in x" if found else "x shows no encoder step")
