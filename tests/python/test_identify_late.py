@@ -6,32 +6,22 @@ from pathlib import Path
 import numpy as np
 import pytest
 from numpy.typing import NDArray
+from pushed_arm import TRUE, pushed_arm
 from typer.testing import CliRunner
 
-from ebac import Device, ForceSensor, Free, Hand, Scenario, Step, identify, simulate
+from ebac import identify, simulate
 from ebac.cli import app
 from ebac.datasets import write
-from ebac.datasets.logs import NOISE, Perturbation
-from ebac.identify import Recording, excitation
+from ebac.identify import Recording
 from ebac.identify.cases import draw
 from ebac.identify.parameters import lay_out
 from ebac.identify.problem import Problem
 from ebac.identify.whole_ticks import delays, profile
 
-TRUE = {"M0": 0.35, "B0": 6.0, "K0": 300.0}
-
 
 @pytest.fixture(scope="module")
 def pushed() -> Recording:
-    """Return a log as that of `ebac demo arm`, of 6 s."""
-    _, force = excitation.multisine(6.0, low=0.3, high=20.0, seconds=6.0, tries=0)
-    scenario = Scenario(
-        device=Device(sensor=ForceSensor(noise=NOISE)),
-        hand=Hand(mass=0.35, damping=6.0, stiffness=300.0, path=Step(target=0.0)),
-        environment=Free(),
-        seconds=6.0,
-    )
-    return Recording.from_trace(simulate(scenario, Perturbation(force)))
+    return pushed_arm()
 
 
 def late(values: NDArray[np.float64], rows: int) -> NDArray[np.float64]:
