@@ -30,7 +30,7 @@ PAGES = tuple(
     for name in (
         "explanation/evidence.md",
         "explanation/story.md",
-        "explanation/robustness.md",
+        "explanation/criteria.md",
         "explanation/identification.md",
         "how-to/evaluate_tracking.md",
     )
