@@ -29,6 +29,12 @@ PAGES = tuple(
     DOCS / name
     for name in (
         "explanation/evidence.md",
+        "explanation/rivals.md",
+        "explanation/robustness.md",
+        "explanation/zwidth.md",
+        "explanation/friction.md",
+        "explanation/ablation.md",
+        "explanation/speed.md",
         "explanation/story.md",
         "explanation/criteria.md",
         "explanation/identification.md",

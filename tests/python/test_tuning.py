@@ -181,7 +181,7 @@ def test_a_delay_that_was_not_searched_takes_the_nearest() -> None:
 
 @pytest.mark.parametrize("ending", TABLES)
 def test_the_tables_hold_what_their_laws_do_today(ending: str) -> None:
-    """Where a law or a measure has changed: the commands of docs/explanation/evidence.md, Rivals at their best."""
+    """Where a law or a measure has changed: the commands of docs/explanation/rivals.md."""
     (row,) = (r for r in TABLES[ending] if r["law"] == "tca-damped" and r["delay"] == 1)
     base = NOISY.replace(observer="every-law" if row["observer"] else True)
     law = f"tca-damped{ending}"
