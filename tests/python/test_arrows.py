@@ -9,6 +9,7 @@ import re
 import subprocess
 import sys
 from collections.abc import Iterator
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -61,6 +62,7 @@ EXCEPTIONS = {
 SOURCES = sorted(CPP.rglob("*.[hc]pp"))
 
 
+@cache
 def includes(path: Path) -> list[str]:
     return re.findall(
         r'^\s*#\s*include\s*[<"]([^>"]+)[>"]', path.read_text(encoding="utf-8"), re.MULTILINE
@@ -138,6 +140,36 @@ def test_includes_make_no_circle() -> None:
 
     for path in CPP.rglob("*.hpp"):
         visit(path)
+
+
+def test_a_file_includes_what_it_names() -> None:
+    """A bundle compiles several files as one, and so hides what one of them leaves out."""
+    left_out = r'//.*|"(\\.|[^"\\\n])*"|^\s*#\s*include.*'
+    code = {
+        path: re.sub(left_out, "", path.read_text(encoding="utf-8"), flags=re.M) for path in SOURCES
+    }
+    scope = {
+        path: "".join(re.findall(r"^namespace (ebac[\w:]*)", text, re.M)[:1])
+        for path, text in code.items()
+    }
+    types = r"(?:class|struct|enum class|concept) ([A-Z]\w+)(?: final)?(?=[ :;]*[{:=])"
+    defined = re.compile(rf"^(?:{types}|using ([A-Z]\w+) =|#define ([A-Z]\w+))", re.M)
+    within = re.compile(r"\b(?:class|struct|typename|using|concept) ([A-Z]\w+)")
+    inner = {path: set(within.findall(text)) for path, text in code.items()}
+    homes: dict[str, set[Path]] = {}
+    for path in CPP.rglob("*.hpp"):
+        for found in defined.findall(code[path]):
+            homes.setdefault("".join(found), set()).add(path)
+    assert len(homes) > 200
+    wrong = []
+    for path in SOURCES:
+        seen = reached([path])
+        known = set().union(*(inner[other] for other in seen))
+        for name in set(re.findall(r"(?<![:.])\b[A-Z]\w+", code[path])) & set(homes):
+            places = {home for home in homes[name] if scope[path].startswith(scope[home])}
+            if places and not places & seen and name not in known:
+                wrong.append(f"{path.relative_to(CPP)}: {name}, {min(places).relative_to(CPP)}")
+    assert not wrong
 
 
 def test_the_headers_of_a_tick_know_nothing_slow() -> None:

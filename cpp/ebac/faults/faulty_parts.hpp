@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "ebac/control/ebac.hpp"
+#include "ebac/control/per_axis.hpp"
 #include "ebac/faults/injected_fault.hpp"
 #include "ebac/faults/wiring.hpp"
 #include "ebac/loop/parameter_updates.hpp"

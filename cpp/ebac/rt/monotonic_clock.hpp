@@ -10,6 +10,8 @@
 #include <thread>
 
 #include "ebac/core/clock.hpp"
+#include "ebac/core/fields.hpp"
+#include "ebac/core/realtime.hpp"
 
 namespace ebac::rt {
 
