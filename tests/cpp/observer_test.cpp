@@ -181,7 +181,7 @@ TEST(Observer, FindsAConstantForceItIsNotTold) {
 }
 
 /// The weight is in the disturbance from the first tick, and follows the pose of a gimbal: while it was learned the
-/// velocity was off by 0.1 m/s.
+/// velocity was off by 0.1 m/s. The handle falls until the motor carries it; the sensor's lag made that 13 mm/s more.
 TEST(Observer, KnowsTheWeightOfTheDevice) {
   for (const ebac::Kinematics& kinematics :
        {ebac::Kinematics(ebac::Linear{}), ebac::Kinematics(ebac::Gimbal{})}) {
@@ -197,9 +197,24 @@ TEST(Observer, KnowsTheWeightOfTheDevice) {
         const double pulls = gravity * 0.5 * weight(kinematics, Axes(axis.joint.q, 0, 0), 1)[0] /
                              travel(kinematics)[0];
         ASSERT_NEAR(axis.port.est.disturbance, pulls, 0.1) << i;
-        ASSERT_NEAR(axis.port.est.v, value_in(*trace, i, "true.v"), 0.02) << i;
+        ASSERT_NEAR(axis.port.est.v, value_in(*trace, i, "true.v"), 4e-3) << i;
       }
     }
+  }
+}
+
+/// A hand that carries the device when the loop begins has done so before.
+TEST(Observer, BeginsWithTheForceThatIsThere) {
+  ebac::DeviceModel device;
+  device.mechanics.handle_mass = 1.5;
+  device.mechanics.gravity = 9.81;
+  const double weight = 1.5 * 9.81;
+  const auto params = ObserverParams::of(device, Timing{});
+  SignalChain chain(device, Wall{.position = 1}, {}, {.on = true, .acts = true, .params = params});
+  Axis axis;
+  for (int k = 0; k < 20; ++k) {
+    const Reading reading{.force = {-weight}};
+    EXPECT_NEAR(observe(chain, axis, reading, k == 0 ? 0 : 1e-3).v, 0, 1e-9) << k;
   }
 }
 

@@ -56,13 +56,17 @@ class AxisObserver {
         motor_(params.current_lag),
         in_flight_(params.delay) {}
 
-  void start(double x) EBAC_RT {
+  /// At rest at `x` [m], with the hand's `force` [N] if it is more than noise. What else has held the device lets go
+  /// now; seen through G, it fades.
+  void start(double x, double force) EBAC_RT {
+    const double held = std::abs(force) > kHigh * params_.force_noise ? force : 0;
     x_ = reading_ = x;
     pace_ = unread_ = astray_ = 0;
     u_ = v_ = 0;
     disturbance_ = weight_;
-    motor_ = MotorForce(params_.current_lag);
-    measured_ = before_last_ = calm_ = trend_ = contradicted_ = rough_ = 0;
+    motor_ = MotorForce(params_.current_lag, held + weight_);
+    measured_ = before_last_ = calm_ = held;
+    trend_ = contradicted_ = rough_ = 0;
     moving_ = 1;
     bends_ = kHigh * params_.force_noise;
     noise_ = params_.force_noise;

@@ -11,7 +11,10 @@ namespace ebac {
 /// the sensor's lag as well.
 class MotorForce {
  public:
-  explicit MotorForce(double current_lag) EBAC_RT : current_lag_(current_lag), acts_(current_lag) {}
+  /// `shown` [N]: what the sensor still shows of a force that has just ended.
+  explicit MotorForce(double current_lag, double shown = 0) EBAC_RT : current_lag_(current_lag),
+                                                                      acts_(current_lag),
+                                                                      shown_(shown) {}
 
   void set_tick(double sensor_lag, double dt) EBAC_RT {
     // Lags so close that their partial fractions lose digits are taken apart.
@@ -41,7 +44,7 @@ class MotorForce {
   double current_lag_;  // s
   LaggedForce acts_;
   double sensor_lag_ = 0;  // s
-  double shown_ = 0;       // N
+  double shown_;           // N
   Transient sensor_;
   double cross_ = 0;
 };

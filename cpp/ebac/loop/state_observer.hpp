@@ -94,7 +94,7 @@ inline const AxisObserver& StateObserver::follow(std::size_t axis, const Joint& 
     observer.step(counted ? std::optional(encoder) : std::nullopt, {force, reading.force_age},
                   force_per_amp_[e] * joint.current_applied, dt);
   } else {
-    observer.start(s);
+    observer.start(s, force);
   }
   return observer;
 }
