@@ -33,6 +33,14 @@ class ContactEstimator {
     last_v_ = port.v;
   }
 
+  /// The forces seen so far have changed by `change` [N] without a motion.
+  void turn(double change) EBAC_RT {
+    if (last_env_ == 0) return;
+    last_env_ += change;
+    here_.force += change;
+    there_.force += change;
+  }
+
   /// Takes one tick; `direction` is that of the motion beyond one count: -1, 0, +1.
   void watch(const Port& port, int direction) EBAC_RT {
     if (port.f_env == 0) {

@@ -52,6 +52,11 @@ class DynamicStiffness {
     return force - softer * share_ * change / (large * large);
   }
 
+  /// The force has changed by `change` [N] without a motion.
+  void turn(double change) EBAC_RT {
+    slow_ += change;
+    slower_ += change;
+  }
   /// The next force may be of a contact that has lasted.
   void forget() EBAC_RT { unknown_ = true; }
   void retune(const DynamicStiffness& next) EBAC_RT {

@@ -17,17 +17,23 @@ namespace ebac {
 class EasedFrame {
  public:
   ContactForce ease(const ContactForce& contact, double dt) EBAC_RT {
+    turned_ = Axes::Zero();
     if (!pushed_) return follow(contact);
     ContactForce eased = contact;
     eased.frame = towards(numbered_as_before(contact.frame), dt);
     eased.set_force(contact.force);
     eased.turned = true;
+    turned_ = eased.frame * force_ - frame_ * force_;
     return follow(eased);
   }
+
+  /// By how much the force of the last tick has changed along each direction because that has turned since [N].
+  const Axes& turned() const EBAC_RT { return turned_; }
 
   /// The directions of a contact that shares none.
   const ContactForce& follow(const ContactForce& contact) EBAC_RT {
     frame_ = contact.frame;
+    force_ = contact.force;
     pushed_ = !contact.force.isZero(0);
     return contact;
   }
@@ -60,7 +66,9 @@ class EasedFrame {
   static constexpr double kSlowest = 0.1;  // rad/s, so that it arrives
 
   Jacobian frame_ = Jacobian::Identity();
-  bool pushed_ = false;  // in the last tick
+  Axes force_ = Axes::Zero();   // N, of the last tick
+  Axes turned_ = Axes::Zero();  // N
+  bool pushed_ = false;         // in the last tick
 };
 
 }  // namespace ebac

@@ -70,6 +70,12 @@ class Ebac {
   /// What the account holds beyond its reserve [J], and another such amount for it.
   double surplus() const EBAC_RT { return shared_.ledger.surplus(); }
   void settle(double surplus) EBAC_RT { shared_.ledger.settle(surplus); }
+  /// The direction has turned, and with it the force of the last tick has changed by `change` [N].
+  void turn(double change) EBAC_RT {
+    encoder_.turn(change);
+    observer_.turn(change);
+    if (shared_.state.f_d != 0) shared_.state.f_d += change;
+  }
   void retune(const Ebac& next) EBAC_RT {
     shared_.params = next.params();
     encoder_.retune(next.params(), next.encoder_);

@@ -53,6 +53,9 @@ class EbacByEncoder {
     recovery_ = next.recovery_;
   }
 
+  /// The force of the last tick has changed by `change` [N], as the direction has turned.
+  void turn(double change) EBAC_RT { contact_.turn(change); }
+
   /// Stiffness at which the last contact can have stored energy [N/m].
   double stored_at() const EBAC_RT { return contact_.stored_at(); }
 

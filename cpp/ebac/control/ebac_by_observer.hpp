@@ -34,6 +34,9 @@ class EbacByObserver {
     return shared.reserve_at_rest() > shared.params.observed_reserve;
   }
 
+  /// The force of the last tick has changed by `change` [N], as the direction has turned.
+  void turn(double change) EBAC_RT { force_.turn(change); }
+
   /// Nothing is known of the contact.
   void forget() EBAC_RT { force_.forget(); }
 

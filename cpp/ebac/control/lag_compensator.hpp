@@ -109,6 +109,13 @@ class LagCompensator {
     return command;
   }
 
+  /// The direction has turned, and with it the force of the last tick has changed by `change` [N].
+  void turn(double change) EBAC_RT {
+    if (last_env_ == 0) return;
+    contact_.turn(change);
+    last_env_ += change;
+    state_.f_d += change;
+  }
   void retune(const LagCompensator& next) EBAC_RT {
     params_ = next.params_;
     recovery_ = next.recovery_;

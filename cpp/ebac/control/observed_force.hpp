@@ -64,6 +64,12 @@ class ObservedForce {
     return force;
   }
 
+  /// The force of the last tick has changed by `change` [N], as the direction has turned.
+  void turn(double change) EBAC_RT {
+    slope_.turn(change);
+    dynamic_.turn(change);
+  }
+
   /// Nothing is known of the contact.
   void forget() EBAC_RT {
     slope_.forget();

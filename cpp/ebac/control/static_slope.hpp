@@ -18,6 +18,10 @@ class StaticSlope {
 
   double value() const EBAC_RT { return slope_; }  // N/m, 0 where unknown
 
+  /// The last force has changed by `change` [N] without a motion.
+  void turn(double change) EBAC_RT {
+    if (force_ != 0) force_ += change;
+  }
   void forget() EBAC_RT { *this = StaticSlope(least_); }
 
   /// Force [N] at position [m] and velocity [m/s]; `surface` is the way of the world's surface since
