@@ -80,6 +80,11 @@ def worst(
     from ebac.studies.worst import worst as search
 
     with output.refusing():
+        if length.seconds is not None:
+            raise ValueError(
+                f"--seconds {length.seconds:g}: each family of hands has a length of its own, 2 to 8 s; "
+                "leave it out, and simulate what was found for longer: ebac wall --scenario FILE.toml --seconds"
+            )
         name = by_name.one_law(law)
         chosen = Variant(name, setting.parse_change(_one(change))) if change else name
         base = options.scenario_of(device, length)
