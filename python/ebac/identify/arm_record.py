@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ebac._core import ArmRecord
+from ebac.identify.missing import force_of_hand
 from ebac.identify.recording import Recording
 from ebac.identify.signals import readings, ripple, unknown_force
 from ebac.identify.target import Target
@@ -18,17 +19,13 @@ def arm_record(recording: Recording, target: Target) -> ArmRecord:
     ValueError
         When it has no force of the hand.
     """
-    if recording.force is None:
-        raise ValueError(
-            f"{recording.name}: has no force of the hand; eq. (4) needs one: name its column, or identify from "
-            "a log that has one"
-        )
+    force = force_of_hand(recording)
     _check_switches(recording, target)
     t0 = float(recording.t[0])
     read = readings(recording)
     return ArmRecord(
         x=read.x,
-        force=recording.force,
+        force=force,
         variance=read.variance,
         early=read.early,
         known=np.zeros(len(recording.t)) if target.path is None else target.path,

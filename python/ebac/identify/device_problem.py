@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ebac._core import ArmRecord
+from ebac.identify.missing import left_for
 from ebac.identify.parameters import BOUNDS, Parameters
 from ebac.identify.problem import Problem
 from ebac.identify.recording import Recording
@@ -95,7 +96,7 @@ def driven(
     """
     if r.motor is None and r.force is None:
         raise ValueError(
-            f"{r.name}: has neither the motor's force nor the hand's; name one of these columns"
+            f"{r.name}: has neither the motor's force nor the hand's{left_for('motor', r)}"
         )
     if r.force is None:
         r = replace(r, lag=0.0)

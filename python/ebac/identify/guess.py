@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ebac.identify.intervals import newey_west
+from ebac.identify.missing import force_of_hand
 from ebac.identify.recording import Recording
 from ebac.identify.signals import Fold, every, folded, kernels, smoothed
 from ebac.identify.target import Target, indicators, lagged
@@ -39,8 +40,7 @@ def regression(recording: Recording, target: Target) -> Regression:
     ValueError
         When the recording has no force.
     """
-    if recording.force is None:
-        raise ValueError(f"{recording.name}: has no force of the hand; name its column")
+    force = force_of_hand(recording)
     h, step = kernels(recording.dt), every(recording.dt)
     x = lagged(recording.x, recording.dt, recording.lag)
     moved = [smoothed(x, h[i], step) for i in (2, 1, 0)]
@@ -48,7 +48,7 @@ def regression(recording: Recording, target: Target) -> Regression:
         moved[2] -= smoothed(lagged(target.path, recording.dt, recording.lag), h[0], step)
     levels = [smoothed(row, h[0], step) for row in indicators(recording, target)]
     return Regression(
-        force=smoothed(recording.force, h[0], step),
+        force=smoothed(force, h[0], step),
         columns=np.array([*moved, *levels]).T,
         taps=h.shape[1],
         step=step,

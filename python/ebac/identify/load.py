@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Mapping
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -12,9 +12,10 @@ import numpy as np
 from ebac._util.arguments import number, require_path, unknown
 from ebac._util.report import plural
 from ebac._util.text_file import says_simulated
-from ebac.identify.columns import QUANTITIES, assign, listed, name_and_unit
+from ebac.identify.columns import QUANTITIES, assign, listed
 from ebac.identify.files import Columns, Table, archive_of, read_columns
 from ebac.identify.load_options import refuse_unused, words_by_signal
+from ebac.identify.missing import which_is_it
 from ebac.identify.of_trace import path_of, signals_of, trace_facts, where_met
 from ebac.identify.plausible import plausible
 from ebac.identify.recording import LEAST_ROWS, Recording, count_of
@@ -219,11 +220,10 @@ def _recording(
         if column in words:
             raise ValueError(words[column])
     remarks += [f"column {column!r} is left out: it contains text" for column in words]
+    left = [heading for heading in raw if heading not in chosen.values()]
     if "x" not in chosen:
-        raise ValueError(
-            f"{name}: found no position among {listed(list(raw))}; which is it? For example "
-            f"columns={{'x': {_example(list(raw), chosen)!r}}}"
-        )
+        ask = f"; {which_is_it('x', left)}" if left else ", and no other column"
+        raise ValueError(f"{name}: found no position among {listed(list(raw))}{ask}")
     signals: dict[str, Any]
     signals, rotary, said = in_si(
         name, raw, chosen, units, how, guessed=chosen.keys() - columns.keys()
@@ -240,7 +240,10 @@ def _recording(
         remarks.append(f"t: {rate:g} rows a second as asked, column {chosen['t']!r} is not used")
     if "t" not in signals:
         if rate is None:
-            raise ValueError(f"{name}: has no time; say how many rows a second: rate=... or --rate")
+            ask = f"{which_is_it('t', left)}. Or " if left else ""
+            raise ValueError(
+                f"{name}: found no time among {listed(list(raw))}; {ask}say how many rows a second: rate=... or --rate"
+            )
         signals["t"] = np.arange(len(signals["x"])) / rate
     ours = {heading.partition(" [")[0]: values for heading, values in raw.items()}
     if "desired" in signals and {"est.x_act", "est.weight"} <= set(ours):
@@ -251,13 +254,9 @@ def _recording(
     found = count_of(signals["x"])  # of the readings, before anything is put between them
     step = f"{1e3 * found:.4g} {'mrad' if rotary else 'mm'}"
     remarks.append(f"encoder step of {step} found in x" if found else "x shows no encoder step")
-    return Recording(name=name, count=found, remarks=tuple(remarks), rotary=rotary, **even)
-
-
-def _example(headings: Sequence[str], chosen: Mapping[str, str]) -> str:
-    """Return the first column that is no other signal, by its name without unit."""
-    left = (h for h in headings if h not in chosen.values())
-    return next((name_and_unit("x", h)[0] for h in left), "NAME")
+    return Recording(
+        name=name, count=found, remarks=tuple(remarks), rotary=rotary, unread=tuple(left), **even
+    )
 
 
 def _evenly(name: str, signals: Columns, remarks: list[str]) -> Columns:

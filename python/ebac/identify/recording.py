@@ -65,6 +65,8 @@ class Recording:
         Target path of the hand, from the scenario in the log.
     remarks : tuple of str
         What was guessed or changed when the log was read.
+    unread : tuple of str
+        Headings of the other columns of its file.
     origin : str
         Origin of the data for figures: "recorded", "simulated", or the origin stated in the log.
     rotary : bool
@@ -94,6 +96,7 @@ class Recording:
     current_lag: float = 3e-4
     path: Path | None = None
     remarks: tuple[str, ...] = field(default=())
+    unread: tuple[str, ...] = field(default=())
     origin: str = "recorded"
     rotary: bool = False
 

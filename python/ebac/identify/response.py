@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from ebac.identify.missing import force_of_hand
 from ebac.identify.recording import Recording
 from ebac.identify.recording_list import require_recordings
 from ebac.identify.target import Target, indicators, lagged, require_target
@@ -124,8 +125,7 @@ def densities(recording: Recording, target: Target, levels: Values) -> Densities
     ValueError
         Without force, or when the recording is too short for four segments.
     """
-    if recording.force is None:
-        raise ValueError(f"{recording.name}: has no force of the hand; name its column")
+    force = force_of_hand(recording)
     rows, dt = len(recording.t), recording.dt
     segment = min(round(SEGMENT / dt), 2 * rows // (FEWEST + 1)) // 2 * 2
     if segment < 16:
@@ -136,7 +136,7 @@ def densities(recording: Recording, target: Target, levels: Values) -> Densities
     if target.path is not None:
         wanted = wanted + lagged(target.path, dt, recording.lag)
     x = lagged(recording.x, dt, recording.lag)
-    signals = np.array([x, x - wanted, -recording.force, wanted])
+    signals = np.array([x, x - wanted, -force, wanted])
     frequency, density, count = spectra(signals, dt, segment)
     use = (frequency > 0) & (frequency <= min(HIGHEST, 0.4 / dt))
     return Densities(

@@ -1,0 +1,51 @@
+"""What is said where a log lacks a signal: what is left of its columns, and how to name one."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from ebac.identify.columns import listed, name_and_unit, quantity_of
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from ebac.identify.recording import Recording
+
+
+def which_is_it(signal: str, left: Sequence[str]) -> str:
+    """Return the question which of the headings that are left is a signal, the likeliest as an example."""
+    example = name_and_unit(signal, max(left, key=lambda h: _is_likely(signal, h)))[0]
+    return f"which is it? For example columns={{{signal!r}: {example!r}}}"
+
+
+def _is_likely(signal: str, heading: str) -> bool:
+    """Return whether the unit or the name of a heading is of a quantity that the signal may be."""
+    try:
+        return quantity_of("", signal, heading, name_and_unit(signal, heading)[1])[0] is not None
+    except ValueError:  # another unit
+        return False
+
+
+def left_for(signal: str, r: Recording) -> str:
+    """Return what follows after the name of a signal that a recording lacks: its channels, and what else was there."""
+    found = f", only {', '.join(r.channels())}"
+    if r.unread:
+        return f"{found}; the file also has {listed(r.unread)}; {which_is_it(signal, r.unread)}"
+    return f"{found}; name its column, columns={{{signal!r}: 'NAME'}}, or identify from a log that has one"
+
+
+def force_of_hand(r: Recording) -> NDArray[np.float64]:
+    """Return the force of the hand in a recording [N].
+
+    Raises
+    ------
+    ValueError
+        When it has none; the message names the columns that are left.
+    """
+    if r.force is None:
+        raise ValueError(
+            f"{r.name}: has no force of the hand, which eq. (4) needs{left_for('force', r)}"
+        )
+    return r.force
