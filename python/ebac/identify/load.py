@@ -14,6 +14,7 @@ from ebac._util.report import plural
 from ebac._util.text_file import says_simulated
 from ebac.identify.columns import QUANTITIES, assign, listed
 from ebac.identify.files import Columns, Table, archive_of, read_columns
+from ebac.identify.held_force import without_held
 from ebac.identify.load_options import refuse_unused, words_by_signal
 from ebac.identify.missing import which_is_it
 from ebac.identify.of_trace import path_of, signals_of, trace_facts, where_met
@@ -248,7 +249,7 @@ def _recording(
     ours = {heading.partition(" [")[0]: values for heading, values in raw.items()}
     if "desired" in signals and {"est.x_act", "est.weight"} <= set(ours):
         signals |= where_met(signals["x"], ours["est.x_act"], ours["est.weight"])
-    even: dict[str, Any] = dict(_evenly(name, signals, remarks))
+    even: dict[str, Any] = dict(_evenly(name, without_held(signals, remarks), remarks))
     guessed = any(text.startswith("x: no unit") for text in remarks)
     plausible(name, even, rotary=rotary, guessed=guessed)
     found = count_of(signals["x"])  # of the readings, before anything is put between them

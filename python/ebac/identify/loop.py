@@ -121,12 +121,15 @@ def fit_loop(
             if wall is None
             else f"wall: {wall.stiffness:.4g} N/m, from the force asked for"
         )
+    if timing is None:
+        timing = Timing(dt=round(first.dt, 9))
+        remarks.append(f"timing: a tick of {1e3 * timing.dt:.4g} ms, the step of the log")
     return LoopModel(
         arm=result,
         device=known,
         found=found,
         wall=wall or Wall(),
-        timing=timing or Timing(dt=round(first.dt, 9)),
+        timing=timing,
         remarks=tuple(remarks),
     )
 
