@@ -2,12 +2,19 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+from itertools import pairwise
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from ebac.cli import output
 from ebac.cli.identify import options as given
+
+if TYPE_CHECKING:
+    from ebac.identify import Target
+
+#: Taps as a metronome has them are as evenly spaced as this [s].
+EVEN = 1e-6
 
 
 def log(
@@ -59,10 +66,30 @@ def log(
                     row["remedy"],
                 )
             output.show(output.filled(grid))
-            if len(target_of.switches) == 1:
-                output.say(
-                    f"{one.name}: the target changes once. The forecast says what the spectra could show at best; a "
-                    "fit often determines less. Let the hand press several times, or tap."
-                )
+            if text := _of_target(target_of, all(row["told"] for row in one.rows())):
+                output.say(f"{one.name}: {text}")
     if not all(row["told"] for row in rows):
         raise typer.Exit(output.FAILED)
+
+
+def _of_target(target: Target, told: bool) -> str:
+    """Return what the target that was given means for the forecast; `told`: of which all is determined."""
+    if len(target.switches) == 1:
+        return (
+            "the target changes once. The forecast says what the spectra could show at best; a fit often determines "
+            "less. Let the hand press several times, or tap."
+        )
+    if told or target.path is not None:
+        return ""
+    other = "record the path that it was shown as a column target, or give its times by --switch"
+    if not target.switches:
+        return (
+            f"the hand was taken as held in one place. If it moved on its own, as in taps, {other}."
+        )
+    steps = [b - a for a, b in pairwise(target.switches)]
+    if max(steps) - min(steps) < EVEN:
+        return (
+            "the target is that of a metronome. Taps must be on the beat within 3 ms, those of a person are off by 10 "
+            f"to 30 ms: if a person tapped, {other}."
+        )
+    return ""
