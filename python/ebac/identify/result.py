@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from ebac._core import Hand, Recorded, Step
 from ebac._util.arguments import require, shown, unknown_name, whole
-from ebac.identify import informativeness, limits, unrecorded_motor, validation
+from ebac.identify import arm_shown, informativeness, limits, unrecorded_motor, validation
 from ebac.identify.arm_record import arm_record
 from ebac.identify.estimate import Estimate
 from ebac.identify.intervals import Z95
@@ -279,54 +279,12 @@ class ArmResult:
 
     def to_dict(self) -> dict[str, Any]:
         """Return plain numbers in SI units, for JSON."""
-        return {
-            "rows": [vars(e) for e in self.estimates.values()],
-            "correlation": self.correlation.tolist(),
-            "free": [self.parameters.names[i] for i in self.parameters.free],
-            "inseparable": [list(pair) for pair in self.inseparable],
-            "undetermined": list(self.undetermined),
-            "impossible": list(self.impossible),
-            "force_late_s": self.late.delay if self.late else None,
-            "misses": list(self.misses),
-            "notes": list(self.notes),
-            "force_noise_N": self.force_noise.tolist(),
-            "force_drift_N_per_sqrt_s": self.drift,
-            "predictions": [vars(p) for p in self.predictions()],
-            "residuals": {
-                name: {
-                    "white": t.white,
-                    "whiteness_p": t.whiteness_p,
-                    "independent": t.independent,
-                    "independence_p": t.independence_p,
-                }
-                for name, t in self.tests.items()
-            },
-            "converged": self.converged,
-            "evaluations": self.evaluations,
-            "seconds_s": self.seconds,
-        }
+        return arm_shown.numbers(self)
 
     def _repr_html_(self) -> str:
         """Return the figure, the estimates and what to be careful about, for a notebook."""
-        from ebac._util import notebook
-
-        names = ", ".join(r.name for r in self.recordings)
-        careful = "; ".join(
-            f"{a} and {b} cannot be separated ({r:+.3f})" for a, b, r in self.inseparable
-        )
-        title = f"Arm of eq. (4) from {names}" + (f". {careful}" if careful else "")
-        return notebook.result(title, [e.row() for e in self.shown], self.plot)
+        return arm_shown.page(self)
 
     def __repr__(self) -> str:
         """Return the estimates, one a line, and what to be careful about."""
-        names = ", ".join(r.name for r in self.recordings)
-        lines = [f"Arm of eq. (4) from {names}:"]
-        lines += [f"  {e}" for e in self.shown]
-        lines += [
-            f"  {a} and {b} cannot be separated in this log (correlation {r:+.3f})"
-            for a, b, r in self.inseparable
-        ]
-        lines += [f"  {text}" for text in (*self.misses, *self.notes)]
-        if not self.converged:
-            lines.append("  the search did not converge")
-        return "\n".join(lines)
+        return arm_shown.text(self)
