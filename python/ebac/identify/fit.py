@@ -14,6 +14,7 @@ from ebac.identify.beside_drift import NOT_A_DRIFT, BesideDrift, beside_drift
 from ebac.identify.bias import drifting, largest_drift, likely_drift, likely_noise, without_noise
 from ebac.identify.intervals import covariance
 from ebac.identify.level_forces import LevelForces
+from ebac.identify.moving_target import of_late_paths
 from ebac.identify.parameters import Parameters, kind
 from ebac.identify.problem import Problem
 from ebac.identify.search import Found, least_squares
@@ -154,6 +155,7 @@ def _spread(
         both = problem.jacobian(values, gains, np.concatenate([moved, unseen.which]))
         jacobian, beside = both[: len(moved)], both[len(moved) :]
     beside *= unseen.deviation[:, None]
+    beside = np.vstack([beside, of_late_paths(problem, values, gains, errors)])
     lengths = [len(r.t) for r in problem.recordings]
     sure = problem.doubt.deviation
     found = covariance(jacobian, errors, lengths, robust, sure, pretended, beside, problem.folds)
