@@ -3,10 +3,8 @@
 import re
 from pathlib import Path
 
-import ebac
-
-PACKAGE = Path(ebac.__file__).parent
 ROOT = Path(__file__).parents[2]
+PACKAGE = ROOT / "python" / "ebac"
 #: Words of a paragraph or of an item of a list, at most: a longer one is read by nobody.
 LONGEST = 150
 #: Files that were renamed; a name of this list is no name of a file again.

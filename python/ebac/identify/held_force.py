@@ -1,4 +1,4 @@
-"""A force that was read less often than its log has rows, and held between: only the rows with a new reading tell."""
+"""A force that was read less often than its log has rows, and held between: only the rows with a new reading count."""
 
 from __future__ import annotations
 

@@ -72,14 +72,14 @@ def log(
         raise typer.Exit(output.FAILED)
 
 
-def _of_target(target: Target, told: bool) -> str:
-    """Return what the target that was given means for the forecast; `told`: of which all is determined."""
+def _of_target(target: Target, determined: bool) -> str:
+    """Return what the target that was given means for the forecast; `determined`: whether all of it is."""
     if len(target.switches) == 1:
         return (
             "the target changes once. The forecast says what the spectra could show at best; a fit often determines "
             "less. Let the hand press several times, or tap."
         )
-    if told or target.path is not None:
+    if determined or target.path is not None:
         return ""
     other = "record the path that it was shown as a column target, or give its times by --switch"
     if not target.switches:
