@@ -189,6 +189,14 @@ def test_wall_tells_in_words_and_units() -> None:
     assert "1 sample of delay" in text
 
 
+def test_wall_says_why_nothing_is_judged_exact() -> None:
+    said = ebac_command("wall", "--hand", "open", "--seconds", 1, "--no-files").output
+    assert "Not judged exact, there is no ideal rest: the hand has no stiffness." in said
+    said = ebac_command("wall", "--device", "joystick", "--seconds", 1, "--no-files").output
+    assert "ideal rest" in said
+    assert "Not judged" not in said
+
+
 def test_wall_scenario_round_trip() -> None:
     given = [
         "--wall-stiffness",
@@ -271,7 +279,7 @@ def test_friction_its_compensation_and_the_encoder_of_the_device_are_options() -
 
 
 def test_a_thing_that_does_not_exist_is_null() -> None:
-    rows = wall_rows("--law", "tca", "--device", "joystick", "--seconds", "1")
+    rows = wall_rows("--law", "tca", "--hand", "open", "--seconds", "1")
     assert rows["tca"]["ideal_m"] is None
     assert rows["tca"]["clamped_share"] is None
 
@@ -398,6 +406,10 @@ def test_a_fault_is_told_and_its_log_kept(monkeypatch: pytest.MonkeyPatch, tmp_p
         ("wall --law tca;ebac", "--law tca;ebac"),
         ("wall --format=", "--format: is empty; must be png, pdf or svg"),
         ("study --seed -1", "--seed = -1: must be at least 0"),
+        (
+            "study --device-friction 1",
+            "did you mean --device-coulomb or --device-friction-compensation; see",
+        ),
         ("study --delay 2", "--delay: there is no such option here, --condition sets it"),
         ("study --hand-mass 2", "--hand-mass: there is no such option here, --population sets it"),
         ("worst --hand finger", "--hand: there is no such option here, --family sets it"),

@@ -302,6 +302,11 @@ def test_a_still_contact_that_is_not_quiet_says_so(run: Any) -> None:
 
 # --- the ideal ---
 
+#: A handle that tips the lever of 100 mm over: 3 kg of 9.81 m/s^2 are 294 N/m away from the middle.
+TIPS = ebac.Device(
+    kinematics=ebac.Gimbal(), mechanics=ebac.Mechanics(handle_mass=3.0, gravity=9.81)
+)
+
 
 @given(
     stiffness=st.floats(50, 2000),
@@ -336,7 +341,11 @@ def test_the_ideal_is_where_all_forces_balance(
         {"hand": ebac.Hand(path=ebac.Tapping())},
         {"hand": ebac.Hand(path=ebac.Recorded(t=[0.0, 6.0], x=[0.0, 1.0]))},  # as long as the run
         {"hand": ebac.presets.hand("open")},
-        {"device": ebac.presets.device("joystick")},
+        {
+            "device": ebac.Device(kinematics=ebac.Gimbal()),
+            "hand": ebac.Hand(path=(ebac.Step(), ebac.Sine())),
+        },
+        {"device": TIPS, "hand": ebac.Hand(stiffness=20)},
     ],
 )
 def test_there_is_no_ideal_where_nothing_comes_to_rest(changes: dict[str, Any]) -> None:

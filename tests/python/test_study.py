@@ -54,6 +54,16 @@ def test_a_hand_that_only_clicks_is_exact_and_still_and_not_good() -> None:
     assert all(failure.why.startswith("force not quiet: ") for failure in found.failures)
 
 
+def test_the_command_does_not_call_good_what_it_does_not_judge() -> None:
+    words = "study --law ebac --condition tapping-6Hz --population random --hands 2 --no-files"
+    said = " ".join(CliRunner().invoke(app, words.split()).output.split())
+    assert (
+        "tapping-6Hz: hands are not judged good or exact, there is no ideal rest: the target of the hand"
+        in said
+    )
+    assert "hand is good" not in said
+
+
 def test_what_never_rests_is_neither_good_nor_bad(few: Study) -> None:
     for row in few.rows[2:]:
         assert row.good is None

@@ -235,7 +235,10 @@ def test_progress_comes_to_its_end(hands: int) -> None:
         ({"rungs": 1}, "rungs = 1: must be at least 2"),
         ({"epsilon": -1.0}, "epsilon = -1.0 J"),
         ({"hands": -1}, r"hands = -1: must lie in \[0, 1000\]"),
-        ({"base": ebac.Scenario(environment=ebac.Free())}, "needs a scenario with a wall"),
+        (
+            {"base": ebac.Scenario(environment=ebac.Free())},
+            "with an ideal rest; here there is no wall: give a wall",
+        ),
     ],
 )
 def test_bad_input_is_refused(changes: dict[str, Any], message: str) -> None:

@@ -19,6 +19,9 @@ VARIED = {
     r"--device-(mass|damping|inertia|radius|count|motor|encoder)": ("--scenario",),
 }
 
+#: Options by words that people use for them, which look like others.
+MEANT = {"--device-friction": ("--device-coulomb", "--device-friction-compensation")}
+
 #: What people look for who give an argument to a command that takes none.
 INSTEAD = {
     "bus load": "`ebac drive plan FILE` prints the load of a network file or profile",
@@ -119,9 +122,11 @@ def _unknown_option(wrong: str, command: Any) -> str:
     bare = {name[2:]: name for name in known}  # two dashes are no likeness
     tails = {name.partition("-")[2]: name for name in bare if "-" in name}
     word = wrong.lstrip("-")
-    close = get_close_matches(word, bare, 2) or [
-        tails[tail] for tail in get_close_matches(word, tails, 2)
-    ]
+    close = (
+        [name[2:] for name in MEANT.get(wrong, ()) if name in known]
+        or get_close_matches(word, bare, 2)
+        or [tails[tail] for tail in get_close_matches(word, tails, 2)]
+    )
     hint = f", did you mean {_or([bare[name] for name in close])}" if close else ""
     return f"{wrong}: there is no such option{hint}; see --help"
 

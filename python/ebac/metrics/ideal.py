@@ -6,9 +6,17 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ebac._core import Free, Hand, Linear, MinimumJerk, Recorded, Step, Wall, _World
+from ebac._core import Free, Hand, Linear, Recorded, Wall, _World
 from ebac._util.arguments import require
 from ebac._util.foreign_worlds import foreign
+from ebac.metrics.balance import balance
+from ebac.metrics.lever_rest import (
+    comes_to_rest,
+    held_by_friction,
+    left_weight,
+    lever_rest,
+    tipping,
+)
 from ebac.scenario import Scenario
 
 if TYPE_CHECKING:
@@ -33,7 +41,7 @@ def allowed_deviation(scenario: Scenario) -> float:
 
     Friction of up to f_c holds a hand and an *ideal* wall anywhere within f_c / (K0 + K) of their balance, so a rest
     within that band is no fault of a law. f_c is the friction at standstill; K counts only where the ideal rest
-    lies inside the wall.
+    lies inside the wall. Friction is in the joints: on a lever that leans it holds a little more than f_c.
     """
     scenario = without_engine(scenario)
     mechanics, wall = scenario.device.mechanics, scenario.environment
@@ -48,8 +56,13 @@ def allowed_deviation(scenario: Scenario) -> float:
         stiffness = (hand.steady(ideal - SMALL) - hand.steady(ideal + SMALL)) / (2 * SMALL)
     if isinstance(wall, Wall) and ideal > wall.position:
         stiffness += wall.stiffness
+    place = lever_rest(scenario)
+    if place is not None:
+        stiffness -= tipping(scenario.device, place)
     if isinstance(wall, _World) and (rest := _in_world(scenario)) is not None:
-        stiffness = rest.stiffness
+        stiffness, place = rest.stiffness, rest.place
+    if place is not None:
+        friction = held_by_friction(scenario.device, place)
     return counts + friction / stiffness
 
 
@@ -58,6 +71,8 @@ def ideal_rest(scenario: Scenario) -> float | None:
 
     None where there is no such point: no straight wall at rest across the first axis, or a hand without rest. With a
     model of `ebac.hands` it is where the steady force of the model and the wall balance; None for a hand of your own.
+    On a gimbal weight pulls the handle away from the middle, see `lever_rest`; None there too where the target of
+    another axis does not come to rest, or where the weight tips the lever over.
     In a `worlds.World` it is where a slow hand comes to rest; None with friction, motion or puncture. Behind a
     `worlds.Bridge` it is that of the world the engine computes; None for a function.
     """
@@ -73,22 +88,15 @@ def ideal_rest(scenario: Scenario) -> float | None:
     path = hand.path[0]
     if not isinstance(wall, Wall) or wall.angle != 0 or wall.motion_amplitude != 0:
         return None
-    if np.isfinite(hand.release_at):
-        return None
-    if isinstance(path, Recorded):
-        if path.t[-1] >= scenario.seconds:
-            return None
-        target = path.x[-1]
-    elif isinstance(path, (Step, MinimumJerk)):
-        target = path.target
-    else:
+    if np.isfinite(hand.release_at) or not comes_to_rest(path, scenario.seconds):
         return None
     if not isinstance(scenario.device.kinematics, Linear):
-        return None
-    mechanics, given = scenario.device.mechanics, scenario.device.compensation
-    weight = (mechanics.handle_mass - given.gravity_mass) * mechanics.gravity
+        place = lever_rest(scenario)
+        return None if place is None else float(place[0])
+    weight = left_weight(scenario.device)
     if hand.model is not None:
         return _balance(hand, wall, weight)
+    target = path.x[-1] if isinstance(path, Recorded) else getattr(path, "target", np.nan)
     pull = hand.stiffness * target + weight
     if hand.stiffness == 0 or pull <= hand.stiffness * wall.position:
         return pull / hand.stiffness if hand.stiffness > 0 else None
@@ -108,11 +116,4 @@ def _balance(hand: Hand, wall: Wall, weight: float) -> float | None:
         depth = max(x - wall.position, 0.0)
         return hand.steady(x) + weight - wall.stiffness * depth
 
-    low, high = -LARGEST_REST, LARGEST_REST
-    if not left(low) > 0 > left(high):  # NaN too: a hand that never rests, or is not known
-        return None
-    while True:
-        middle = (low + high) / 2
-        if middle in (low, high):
-            return middle
-        low, high = (middle, high) if left(middle) > 0 else (low, middle)
+    return balance(left, -LARGEST_REST, LARGEST_REST)

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ebac._core import Device, Gimbal, Layer, Linear, MinimumJerk, Step
+from ebac.metrics.lever_rest import FLATTEST, left_weight
 from ebac.scenario import Scenario
 from ebac.worlds import Body, Layered, World
 
@@ -18,8 +19,6 @@ STEPS = 60
 CORRECTIONS, MOST_CORRECTIONS = 20, 5000
 #: Left of the forces that balance [N].
 BALANCED = 1e-7
-#: Lowest handle of a gimbal over its joints, as a share of the lever; the core's (`PortSpace`).
-FLATTEST = 1e-2
 #: Half of the way over which a slope is taken [m].
 SMALL = 1e-7
 
@@ -52,8 +51,7 @@ def world_rest(scenario: Scenario, start: NDArray[np.float64] | None = None) -> 
         return None
     goal = np.zeros(device.axes)
     goal[: len(paths)] = [path.target for path in paths]  # type: ignore[union-attr]
-    mechanics, given = device.mechanics, device.compensation
-    heavy = (mechanics.handle_mass - given.gravity_mass) * mechanics.gravity
+    heavy = left_weight(device)
     straight = isinstance(device.kinematics, Linear)
     weight = heavy * (np.ones(3) if straight else np.array([0.0, 0.0, -1.0]))
     world.reset()

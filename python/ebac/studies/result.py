@@ -143,6 +143,16 @@ class Study:
         )
 
     @cached_property
+    def unjudged(self) -> dict[str, str]:
+        """Conditions under which no hand is judged good or exact, and why: some hand has no ideal rest."""
+        from ebac.metrics.unjudged import no_ideal_rest
+
+        unknown = np.flatnonzero(~np.isfinite(self.columns["ideal_m"][: len(self.scenarios)]))
+        names = self.columns["condition"]
+        first = {str(names[i]): self.scenarios[i] for i in unknown[::-1].tolist()}
+        return {c.name: no_ideal_rest(first[c.name]) for c in self.conditions if c.name in first}
+
+    @cached_property
     def failures(self) -> list[Failure]:
         """Every run that was not good where there is a point of rest, or that diverged or stopped on a fault."""
         return list(self._failures())

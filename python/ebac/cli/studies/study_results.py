@@ -100,7 +100,7 @@ def show(study: Study, *, files: bool) -> None:
         )
         last = row.condition
     output.show(grid)
-    _show_failures(study.failures, files=files)
+    _show_failures(study, files=files)
     output.say("Simulated, not measured. settled: median of those that settle.", style="bold")
 
 
@@ -111,9 +111,17 @@ def _count(count: int | None, row: StudyRow) -> str:
     return f"[{style}]{count}[/]"
 
 
-def _show_failures(failures: list[Failure], *, files: bool) -> None:
+def _show_failures(study: Study, *, files: bool) -> None:
+    failures, unjudged = study.failures, study.unjudged
+    for condition, why in unjudged.items():
+        output.say(
+            f"{condition}: hands are not judged good or exact, there is no ideal rest: {why}. Look at least energy and "
+            "drawn in any window."
+        )
     if not failures:
-        output.say("Every hand is good.", style="green")
+        if len(unjudged) < len(study.conditions):
+            every = "Every other hand is good." if unjudged else "Every hand is good."
+            output.say(every, style="green")
         return
     counted = _counted(failures)
     for failure in spread(failures, min(SHOWN, len(counted))):

@@ -148,9 +148,12 @@ def show(
 ) -> None:
     """Print the table, a few laws at a time, that of the bodies, and what was simulated."""
     from ebac._util import formatting
+    from ebac.metrics.unjudged import no_ideal_rest
     from ebac.metrics.world_contact import LINES as BODY_LINES
 
     show_contacts(contacts)
+    if why := no_ideal_rest(scenario):
+        output.say(f"Not judged exact, there is no ideal rest: {why}.")
     for first in range(0, len(bodies or []), LAWS_ABREAST):
         part = slice(first, first + LAWS_ABREAST)
         laws = [contact.law for contact in contacts[part]]

@@ -70,7 +70,7 @@ class SweepResult:
 
     @property
     def exact(self) -> NDArray[np.bool_]:
-        """Whether each run rests within `allowed_m` of the ideal."""
+        """Whether each run rests within `allowed_m` of the ideal; False, too, where there is none: `ideal_m` is NaN."""
         return np.asarray(np.abs(self.deviation_m) <= self["allowed_m"])
 
     @property

@@ -13,6 +13,7 @@ from ebac._core import LinearLoop, Timing, Wall
 from ebac._util.arguments import require
 from ebac.laws import LAWS, AnyLaw
 from ebac.metrics import EXACT_COUNTS, ideal_rest
+from ebac.metrics.unjudged import no_ideal_rest
 from ebac.scenario import Scenario
 from ebac.studies.families import PULL, families
 from ebac.studies.sweeps import SweepResult, sweep
@@ -224,8 +225,8 @@ def _check(
 ) -> None:
     if not isinstance(base.environment, Wall) or ideal_rest(base) is None:
         raise ValueError(
-            "zwidth: needs a scenario with a wall straight across the first axis of a linear device, "
-            "and a hand with a target that does not let go"
+            f"zwidth: needs a scenario with an ideal rest; here {no_ideal_rest(base) or 'there is no wall'}: give a "
+            "wall straight across the first axis, and a hand with a target that does not let go"
         )
     rising = np.asarray(dampings, float)
     if rising.ndim != 1 or len(rising) < 2 or rising[0] < 0 or not (np.diff(rising) > 0).all():
