@@ -1,6 +1,7 @@
 """The device from a log: mass, damping, friction, weight come back, by either force; what does not slide is refused."""
 
 import json
+import math
 from pathlib import Path
 
 import numpy as np
@@ -52,14 +53,24 @@ def test_everything_comes_back(trace: ebac.Trace) -> None:
     assert holds(e["weight"], 2.0 * device.mechanics.handle_mass)
     assert found.undetermined == ()
     assert 0.3 < found.compensation.friction <= 0.42
-    assert found.compensation.gravity_mass == 0  # it pulls along +x: nothing to carry
     assert found.stribeck_speed is None
 
 
-def test_weight_against_x_is_compensated() -> None:
-    found = fit_device(Recording.from_trace(moved(gravity=-4.0)))
-    weight = 4 * ebac.Mechanics().handle_mass
+@pytest.mark.parametrize("gravity", [2.0, -4.0])
+def test_weight_either_way_is_carried(gravity: float) -> None:
+    """It once said gravity_mass = 0 beside a weight along +x, which a handle carries as well."""
+    found = fit_device(Recording.from_trace(moved(gravity=gravity)))
+    weight = abs(gravity) * ebac.Mechanics().handle_mass
     assert 0.9 * weight < found.compensation.gravity_mass * 9.80665 <= 1.01 * weight
+    assert found.gravity == math.copysign(9.80665, gravity)
+    still = ebac.Device(
+        mechanics=ebac.Mechanics(gravity=found.gravity, handle_mass=weight / 9.80665),
+        compensation=found.compensation.replace(friction=0.0),
+    )
+    nobody = ebac.Hand(mass=0, damping=0, stiffness=0)
+    drift = ebac.Scenario(device=still, hand=nobody, environment=ebac.Free(), seconds=0.5)
+    speed = abs(ebac.simulate(drift, "direct")["true.v"][-1])
+    assert speed < 0.1 * weight / 2.0  # of what the weight alone comes to against 2 N s/m
 
 
 def test_the_hand_alone_tells_where_no_motor_acts(trace: ebac.Trace) -> None:

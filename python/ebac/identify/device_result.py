@@ -130,8 +130,9 @@ class DeviceResult:
     def compensation(self) -> Compensation:
         """Return tau_static of eq. (2), from the lower bounds of the estimates.
 
-        These are the lower bounds of friction and of the weight against +x, and zero for an impossible device. Inertia
-        is not compensated, because that costs damping; see `Compensation`.
+        These are the lower bounds of friction and of the weight, and zero for an impossible device. A weight is carried
+        with the sign of `Mechanics.gravity`, which `gravity` gives. Inertia is not compensated, because that costs
+        damping; see `Compensation`.
 
         Raises
         ------
@@ -146,8 +147,14 @@ class DeviceResult:
         if self.impossible:
             return Compensation()
         friction = max(0.0, self.estimates["coulomb"].low)
-        weight = max(0.0, -self.estimates["weight"].high)
+        found = self.estimates["weight"]
+        weight = max(0.0, found.low, -found.high)
         return Compensation(friction=friction, gravity_mass=weight / GRAVITY)
+
+    @property
+    def gravity(self) -> float:
+        """`Mechanics.gravity` with which the weight is carried [m/s^2]: positive where it pulls along +x."""
+        return GRAVITY if self.estimates["weight"].value > 0 else -GRAVITY
 
     def to_dict(self) -> dict[str, Any]:
         """Return plain numbers in SI units, for JSON."""

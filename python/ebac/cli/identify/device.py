@@ -91,9 +91,15 @@ def _static(result: DeviceResult) -> list[str]:
     if result.recording.rotary:
         return []
     static = result.compensation
+    carried = (
+        f" The weight is carried with Mechanics(gravity={result.gravity:.5g} m/s^2), along "
+        f"{'+x' if result.gravity > 0 else '-x'}."
+        if static.gravity_mass > 0
+        else ""
+    )
     return [
         f"For the device: Compensation(friction={static.friction:.4g} N, gravity_mass={static.gravity_mass:.4g} kg), "
-        "the lower bounds of what was found.",
+        f"the lower bounds of what was found.{carried}",
     ]
 
 
