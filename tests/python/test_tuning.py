@@ -199,3 +199,17 @@ def test_the_command_searches_and_prints_what_was_found() -> None:
     assert answer["complete"]
     shown = CliRunner().invoke(app, [*words.split(), "--observer-every-law"]).stdout
     assert "eba, 1 sample of delay, on the observer: share = " in shown.replace("\n", " ")
+
+
+def test_the_command_writes_what_it_prints_where_it_is_told_to(tmp_path: Path) -> None:
+    folder = tmp_path / "tuned"
+    words = f"tune tca-damped -c d1K10 --hands 2 --evaluations 3 --json --out {folder}"
+    said = CliRunner().invoke(app, words.split())
+    assert said.exit_code == 0, said.output
+    assert json.loads((folder / "tune.json").read_text()) == json.loads(said.stdout)
+    lines = (folder / "tune.csv").read_text().splitlines()
+    assert lines[0].startswith("law,parameters,condition,hands,good,")
+    assert [line.split(",")[1] for line in lines[1:]] == ["designed", "tuned"]
+    again = CliRunner().invoke(app, words.split())
+    assert again.exit_code == 2
+    assert "has files; give a new folder" in again.output

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated
+from dataclasses import asdict
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from ebac.cli import by_name, completion, interrupts, options, output
+from ebac.cli.files import PANEL, Force, free_folder
 from ebac.cli.studies import replaced
 
 if TYPE_CHECKING:
@@ -50,6 +53,16 @@ def tune(
         int, typer.Option(help="Seed of noise and jitter.", min=0, rich_help_panel=_SEARCH)
     ] = 1,
     threads: options.Threads = None,
+    out: Annotated[
+        Path | None,
+        typer.Option(
+            "--out",
+            "-o",
+            help="Folder for the results, new or empty: tune.json, and tune.csv with the table; written only if given.",
+            rich_help_panel=PANEL,
+        ),
+    ] = None,
+    force: Force = False,
     as_json: output.AsJson = False,
 ) -> None:
     """Search the best parameters of a law.
@@ -66,7 +79,7 @@ def tune(
 
     * `ebac tune tca-damped --condition d1K10 --hands 4 --evaluations 8`: a short search
 
-    * `ebac tune tca-damped --device-noise 0.03 --observer-every-law`
+    * `ebac tune tca-damped --device-noise 0.03 --observer-every-law --out tuned`
 
     * `ebac tune all --device-noise 0.03 --json > tuned_rivals.json`: how the tuned laws of this package were made
     """
@@ -77,6 +90,7 @@ def tune(
 
     found: list[Tuned] = []
     stopped = False
+    folder = None if out is None else free_folder(out, force=force)
     with output.refusing():
         names = by_name.law_names([law], "LAW")
         if law.lower() == "all":
@@ -96,14 +110,33 @@ def tune(
                     found += interrupted.result
                     stopped = True
                     break
+    text = output.document("tune", [one.row() for one in found], complete=not stopped)
+    if folder is not None and found:
+        with output.results(folder) as draft:
+            _write(draft, text, found)
     if as_json:
-        rows = [one.row() for one in found]
-        typer.echo(output.document("tune", rows, complete=not stopped))
+        typer.echo(text)
     elif found:
         _show(found)
+        if folder is not None:
+            output.list_files(folder, ["tune.csv", "tune.json"])
     if stopped:
         interrupts.keeping("the best so far was printed" if found else "nothing was tried yet")
         raise KeyboardInterrupt
+
+
+def _write(draft: Path | None, text: str, found: list[Tuned]) -> None:
+    """Write the JSON document, and a row for each law, condition, and design or tuned."""
+    if draft is None:
+        return
+    rows: list[dict[str, Any]] = [
+        {"law": one.law, "parameters": what, **asdict(row)}
+        for one in found
+        for both in zip(one.default, one.test, strict=True)
+        for what, row in zip(("designed", "tuned"), both, strict=True)
+    ]
+    (draft / "tune.json").write_text(text + "\n", encoding="utf-8")
+    output.csv_table(draft / "tune.csv", rows)
 
 
 def _show(found: list[Tuned]) -> None:
