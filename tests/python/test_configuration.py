@@ -70,7 +70,7 @@ def test_an_empty_one_is_the_paper_s_joystick() -> None:
             "[limits]\nspeed = 1.0\n[device.motor]\ntorque_constant = 54\n",
             3,
             "device.motor: rated_torque = 0.053 N m and torque_constant = 54 N m/A give limits.continuous_current = "
-            "0.000981",
+            "0.000981481 A: must",
         ),
         (
             "[limits]\nspeed = 1.0\n[device.motor]\nrated_torque = 53\n",

@@ -5,7 +5,7 @@ COLOURS = {
     "direct": "#444444",
     "tca": "#d55e00",
     "tca-damped": "#661100",
-    "lag-compensator": "#a65335",
+    "lag-compensator": "#61783f",
     "passivity-control": "#88ccee",
     "iss": "#641f63",
     "virtual-coupling": "#e6ab02",

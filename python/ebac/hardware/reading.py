@@ -252,6 +252,8 @@ def _by_device(device: Device, name: str, wrong: str) -> tuple[tuple[str, ...], 
     if name != "continuous_current":
         return ("device",), f"device: limits.{name}, which follows from it, {wrong}"
     motor = device.motor
+    value, unit = wrong.removeprefix("= ").split(" ", 1)
+    wrong = f"= {float(value):.6g} {unit}"
     return ("device", "motor"), (
         f"device.motor: rated_torque = {motor.rated_torque:g} N m and torque_constant = {motor.torque_constant:g} N m/A"
         f" give limits.continuous_current {wrong}; correct the motor: 1 mN m is 0.001 N m, 1 mN m/A is 0.001 N m/A"

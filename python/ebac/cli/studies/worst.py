@@ -205,7 +205,7 @@ def _verdict(found: Worst, top: WorstHand) -> str:
     if top.energy_J <= found.reserve:
         return f"{drawn}; {reserve}: within it."
     drawn = f"{drawn}; {reserve}: beyond it."
-    return f"{drawn} One count times all changes of the force, which no encoder sees, is {unseen}."
+    return f"{drawn} An account of encoder counts may miss {unseen}: one count times all changes of the force."
 
 
 def _tell_replay(found: Worst, folder: Path, law: str, *, changed: bool) -> None:
