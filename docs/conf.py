@@ -21,6 +21,7 @@ extensions = [
     "sphinx.ext.duration",
     "public_names",  # `.. public::`: all of a package's public names, none forgotten
     "error_tables",  # tables of faults and errors, from the code
+    "trace_columns",  # tables of the columns of a trace, from the core
     "short_contents",  # the navigation, from titles alone
     "repository_links",  # links to files of the repository that are no pages
     "whole_properties",  # no types in docstrings of properties
