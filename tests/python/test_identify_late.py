@@ -105,6 +105,7 @@ def test_a_delay_is_searched_over_whole_ticks(pushed: Recording) -> None:
     assert profile(problem, (delay,), None).ticks == {delay: 3}
 
 
+@pytest.mark.slow
 def test_the_wrong_sign_of_a_moving_target_is_named(tmp_path: Path) -> None:
     write("tapping", tmp_path)
     log = ["identify", "arm", str(tmp_path / "tapping.mcap")]

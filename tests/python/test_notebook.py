@@ -5,6 +5,7 @@ import sys
 from typing import Any
 
 import numpy as np
+import pytest
 
 import ebac
 from ebac._util import formatting, notebook, report
@@ -29,6 +30,7 @@ def results() -> list[Any]:
     ]
 
 
+@pytest.mark.slow
 def test_every_result_shows_a_table_and_a_picture() -> None:
     for result in results():
         shows(result)

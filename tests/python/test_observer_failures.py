@@ -222,6 +222,7 @@ def test_a_hand_that_shakes_the_account_empty_is_not_lent_more(frequency: float)
     assert "account" not in use.fallback
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("condition", "family", "seed"),
     [

@@ -41,6 +41,7 @@ TEST = """
 """
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("more", [(), ("-n", "1")], ids=["here", "in a worker"])
 def test_a_stall_is_repeated_more_often_and_what_is_not_of_the_clock_never(
     pytester: pytest.Pytester, more: tuple[str, ...]
