@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import assume, given
 from hypothesis import strategies as st
 
 import ebac
@@ -39,7 +39,12 @@ def on_lever(
 def test_an_exact_law_rests_at_the_ideal_of_a_lever(
     lever: str, gravity: float, coulomb: float, stiffness: float, target: float, aside: float
 ) -> None:
-    """A long simulation of `ebac`: exact, with the weight of the handle or without, however the handle leans."""
+    """A long simulation of `ebac`: exact, with the weight of the handle or without, however the handle leans.
+
+    Near the surface the band of friction has a bend, on straight axes, too: what holds a hand before the wall is
+    f_c / K0, what holds it inside f_c / (K0 + K).
+    """
+    assume(abs(stiffness * (target - 0.01)) > 2 * coulomb + 0.3)  # N, with what weight may add
     path = (ebac.Step(target=target), ebac.Step(target=aside))
     scenario = on_lever(
         LEVERS[lever], gravity=gravity, coulomb=coulomb, stiffness=stiffness, path=path
@@ -51,6 +56,9 @@ def test_an_exact_law_rests_at_the_ideal_of_a_lever(
 @given(target=st.floats(-0.004, 0.004), position=st.floats(-0.002, 0.002), coulomb=st.floats(0, 1))
 def test_a_long_lever_is_a_straight_axis(target: float, position: float, coulomb: float) -> None:
     """At small angles, without weight."""
+    assume(
+        abs(target - position) > 1e-6
+    )  # at the surface itself the last digit decides whose stiffness counts
     bent = on_lever(ebac.Gimbal(), coulomb=coulomb, path=ebac.Step(target=target))
     bent = bent.replace(environment=ebac.Wall(position=position))
     straight = bent.replace(device=bent.device.replace(kinematics=ebac.Linear()))
