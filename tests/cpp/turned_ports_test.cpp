@@ -6,6 +6,9 @@
 #include <cmath>
 #include <span>
 
+#include "ebac/control/ebac.hpp"
+#include "ebac/control/lag_compensator.hpp"
+#include "ebac/control/per_axis.hpp"
 #include "ebac/model/noise.hpp"
 #include "rounds.hpp"
 
@@ -89,6 +92,37 @@ TEST(TurnedPorts, WorkOfACommandBelongsToTheDirectionInWhichItWasGiven) {
   ports.step(std::span(axes), along(0.8), 1, ask);
   EXPECT_NEAR(work[0], 2 * std::cos(0.3) * 1e-3, 1e-15);
   EXPECT_NEAR(work[1], 0, 1e-15);
+}
+
+/// Greatest error of the command [N] while the directions of a contact at rest turn by 2 rad/s.
+template <class Law>
+double error_while_turning(const Law& law) {
+  PerAxis<Law> laws(law);
+  std::array<Axis, 2> axes{};
+  const Axes push(10, 2, 0);
+  double error = 0;
+  for (int tick = 0; tick < 5000; ++tick) {
+    const double angle = 2e-3 * std::max(0, tick - 4000);
+    ContactForce contact = ContactForce::along_normal(Axes(std::cos(angle), std::sin(angle), 0), 1);
+    contact.set_force(push);
+    contact.shared = contact.turned = true;
+    for (std::size_t i = 0; i < axes.size(); ++i) {
+      Port& port = axes[i].port;
+      port.dt = tick > 0 ? 1e-3 : 0.0;
+      port.est.weight = 1;
+      port.f_applied = port.f_cmd;
+    }
+    laws.step(std::span(axes), contact);
+    for (int i = 0; tick >= 4000 && i < 2; ++i) {
+      error = std::max(error, std::abs(axes[static_cast<std::size_t>(i)].port.f_cmd - push[i]));
+    }
+  }
+  return error;
+}
+
+TEST(TurnedPorts, WhatALawRemembersOfAForceTurnsWithTheDirections) {
+  EXPECT_LT(error_while_turning(LagCompensator({})), 1e-9);
+  EXPECT_LT(error_while_turning(Ebac({.guard = false})), 1e-9);
 }
 
 }  // namespace
