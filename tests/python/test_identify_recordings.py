@@ -121,7 +121,7 @@ def test_no_option_is_left_out_in_silence(tmp_path: Path) -> None:
     assert "count = 0.001 m" in result.stderr
 
 
-@pytest.mark.parametrize("level", ["drift", "rough"])
+@pytest.mark.parametrize("level", [pytest.param("drift", marks=pytest.mark.weekly), "rough"])
 @pytest.mark.slow
 def test_intervals_hold_the_truth(level: str) -> None:
     """On ten logs; `python tests/recordings/measure.py` takes 240 of three levels."""

@@ -203,6 +203,7 @@ def test_a_hand_without_stiffness_is_the_robot_seen_from_the_other_side(arm_log:
 
 
 @pytest.mark.slow
+@pytest.mark.weekly
 def test_the_script_judges_what_is_in_the_folder(
     axis_log: Path, arm_log: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
