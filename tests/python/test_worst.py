@@ -285,7 +285,7 @@ def test_a_law_that_is_told_otherwise_is_not_replayed_by_a_scenario() -> None:
         ),
         (("--condition", "five"), "give one"),
         (("--pull", "-1"), "pull = -1 N: must lie in"),
-        (("--seconds", "60"), "--seconds 60: each family of hands has a length of its own"),
+        (("--seconds", "60"), "--seconds = 60 s: each family of hands has a length of its own"),
     ],
 )
 def test_what_cannot_be_asked_is_refused(

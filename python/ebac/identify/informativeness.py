@@ -29,9 +29,7 @@ REMEDIES = {
     "K0": "let the target move, or press and hold in several places",
 }
 #: What to do where the log seems to hold the force of the other sign: a hand whose target moved unsaid looks alike.
-FLIP = (
-    "give the target if the hand moved on its own; else --flip-force: it is the force on the hand"
-)
+FLIP = "give the target if the hand moved on its own; else --flip-force: the force acts on the hand"
 #: A line is excited where the motion stands so far above what the encoder's step alone would show.
 ABOVE = 10.0
 #: More bands than this are represented by a few of them: a tap has a line at every harmonic.

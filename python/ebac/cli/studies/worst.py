@@ -82,7 +82,7 @@ def worst(
     with output.refusing():
         if length.seconds is not None:
             raise ValueError(
-                f"--seconds {length.seconds:g}: each family of hands has a length of its own, 2 to 8 s; "
+                f"--seconds = {length.seconds:g} s: each family of hands has a length of its own, 2 to 8 s; "
                 "leave it out, and simulate what was found for longer: ebac wall --scenario FILE.toml --seconds"
             )
         name = by_name.one_law(law)
