@@ -7,7 +7,7 @@
 #include <string>
 
 #include "ebac/core/check.hpp"
-#include "ebac/model/delay_line.hpp"
+#include "ebac/model/path_history.hpp"
 #include "ebac/model/hand.hpp"
 #include "ebac/model/hardening_spring.hpp"
 
@@ -52,7 +52,7 @@ class ReflexForce final : public HandForce {
   double stiffness_;
   double damping_;
   double frequency_;  // rad/s
-  DelayLine past_;
+  PathHistory past_;
 };
 
 /// The body of a hand behind a contact with the handle: states y [m] and y' [m/s].

@@ -9,9 +9,9 @@
 namespace ebac {
 
 /// Where the handle was: points of its path at most a 64th of the delay apart, cubic between them.
-class DelayLine {
+class PathHistory {
  public:
-  explicit DelayLine(double delay) : delay_(delay) {}
+  explicit PathHistory(double delay) : delay_(delay) {}
 
   void add(const HandMotion& at) EBAC_RT {
     if (count_ > 0 && at.t < point(count_ - 1).t + delay_ / kParts) return;
