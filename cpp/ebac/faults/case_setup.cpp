@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "ebac/faults/faulty_parts.hpp"
+#include "ebac/faults/wiring.hpp"
 
 namespace ebac::faults {
 

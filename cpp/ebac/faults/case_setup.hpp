@@ -1,9 +1,9 @@
 #pragma once
 
 #include "ebac/faults/watching.hpp"
-#include "ebac/faults/wiring.hpp"
 #include "ebac/model/limits.hpp"
 #include "ebac/sim/setup.hpp"
+#include "ebac/simulated_drives/wiring.hpp"
 
 namespace ebac::faults {
 
@@ -13,7 +13,7 @@ struct CaseSetup {
   DeviceModel known{};  // to the loop
   Limits limits{};
   RunPlan plan{};
-  Wiring wiring{};
+  can::Wiring wiring{};
   Watching watching{};
 };
 

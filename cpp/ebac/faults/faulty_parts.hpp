@@ -7,7 +7,6 @@
 #include "ebac/control/ebac.hpp"
 #include "ebac/control/per_axis.hpp"
 #include "ebac/faults/injected_fault.hpp"
-#include "ebac/faults/wiring.hpp"
 #include "ebac/loop/parameter_updates.hpp"
 #include "ebac/sim/simulated_device.hpp"
 
@@ -15,21 +14,16 @@ namespace ebac::faults {
 
 inline constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
 
-/// The simulated plant as it is wired, with an encoder that may jump or freeze, and a motor that
-/// may be reversed.
+/// The simulated plant, with an encoder that may jump or freeze, and a motor that may be reversed.
 class FaultyPlant {
  public:
-  FaultyPlant(SimulatedDevice plant, const Wiring& wiring, const InjectedFault& injected)
-      : plant_(std::move(plant)), wiring_(wiring), injected_(&injected) {}
+  FaultyPlant(SimulatedDevice plant, const InjectedFault& injected)
+      : plant_(std::move(plant)), injected_(&injected) {}
 
   Reading exchange(Command command) EBAC_RT {
-    for (std::size_t i = 0; i < kMaxAxes; ++i) command.current[i] *= wiring_.motor_sign[i];
     double& current = command.current[injected_->axis];
     if (injected_->on(Kind::kTorqueReversed)) current = -current;
     Reading reading = plant_.exchange(command);
-    for (std::size_t i = 0; i < kMaxAxes; ++i) {
-      reading.counts[i] = wiring_.encoder_sign[i] * reading.counts[i] + wiring_.encoder_zero[i];
-    }
     std::int64_t& counts = reading.counts[injected_->axis];
     if (injected_->on(Kind::kEncoderFrozen)) counts = counts_;
     counts_ = counts;
@@ -43,7 +37,6 @@ class FaultyPlant {
 
  private:
   SimulatedDevice plant_;
-  Wiring wiring_;
   const InjectedFault* injected_;
   std::int64_t counts_ = 0;  // as last shown
 };

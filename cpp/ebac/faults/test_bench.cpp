@@ -14,9 +14,9 @@ constexpr can::LoopTimes kTimes{.dt = 1e-3, .answer = 0.7e-3, .response = 50e-6}
 can::CanopenSetup can_setup(const CaseSetup& made) {
   const bool guarded = made.watching.guarded > 0;
   return {.axes = made.setup.device.axes(),
-          .motor_sign = made.wiring.motor_sign,
-          .encoder_sign = made.wiring.encoder_sign,
-          .encoder_zero = made.wiring.encoder_zero,
+          .motor_sign = made.wiring.motor,
+          .encoder_sign = made.wiring.encoder,
+          .encoder_zero = made.wiring.zero,
           .motor = made.setup.device.motor,
           .drive = made.setup.device.drive,
           .heartbeat_timeout = made.watching.timeout,
@@ -53,8 +53,8 @@ TestBench::TestBench(const CaseSetup& made, InjectedFault& injected, Referee& re
       referee_(&referee),
       wiring_(made.wiring),
       bus_(bus_of(made.setup, injected)),
-      other_(FaultyPlant(plant_of(made.setup), made.wiring, injected), made.setup.device, bus_,
-             kTimes),
+      other_(FaultyPlant(plant_of(made.setup), injected), made.setup.device, bus_, kTimes,
+             made.wiring),
       near_(bus_, injected, referee),
       can_(near_, can::OnOtherSide(other_), can_setup(made)) {
   const auto most =
@@ -111,8 +111,7 @@ void TestBench::intrude() EBAC_RT {
   can::SimulatedDrive& drive = this->drive(injected_->axis);
   const auto size = static_cast<std::int16_t>(500 + injected_->chance % 1001);
   const int asked = can_.state(injected_->axis).target_permille;
-  const int way =
-      asked != 0 ? asked : wiring_.motor_sign[injected_->axis];  // resists where none is
+  const int way = asked != 0 ? asked : wiring_.motor[injected_->axis];  // resists where none is
   const auto torque = static_cast<std::int16_t>(way < 0 ? -size : size);
   if (injected_->on(Kind::kSecondMaster)) {
     can::Frame frame{.id = can::rpdo(1, drive.node()), .size = can::kRpdoSize};
@@ -124,7 +123,9 @@ void TestBench::intrude() EBAC_RT {
     can::Frame frame{.id = can::tpdo(1, drive.node()), .size = can::kTpdoSize};
     const can::BusRow& row = can_.state(injected_->axis);
     const auto off = static_cast<std::uint32_t>(1 + injected_->chance % 64);
-    const std::int64_t counts = other_.joystick().reading().counts[injected_->axis];
+    const std::int64_t counts =
+        wiring_.encoder[injected_->axis] * other_.joystick().reading().counts[injected_->axis] +
+        wiring_.zero[injected_->axis];
     can::put(frame.data, 0, static_cast<std::uint16_t>(row.statusword));
     can::put(frame.data, 2, static_cast<std::uint32_t>(counts) + off);
     can::put(frame.data, 6, static_cast<std::int16_t>(row.actual_permille));
@@ -162,7 +163,7 @@ void TestBench::watch(double elapsed) EBAC_RT {
   std::array<Seen, kMaxAxes> seen{};
   for (std::size_t i = 0; i < axes(); ++i) {
     const AxisTruth& truth = plant().state(i);
-    seen[i] = {.current = wiring_.motor_sign[i] * drive(i).current(),
+    seen[i] = {.current = wiring_.motor[i] * drive(i).current(),
                .enabled = drive(i).state() == can::DriveState::kOperationEnabled,
                .x = truth.x,
                .v = truth.v};

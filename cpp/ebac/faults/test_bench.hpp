@@ -47,7 +47,7 @@ class TestBench {
 
   InjectedFault* injected_;
   Referee* referee_;
-  Wiring wiring_;
+  can::Wiring wiring_;
   can::VirtualBus bus_;
   Other other_;
   FaultyBus near_;

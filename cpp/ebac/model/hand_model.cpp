@@ -7,9 +7,9 @@
 #include <string>
 
 #include "ebac/core/check.hpp"
-#include "ebac/model/path_history.hpp"
 #include "ebac/model/hand.hpp"
 #include "ebac/model/hardening_spring.hpp"
+#include "ebac/model/path_history.hpp"
 
 namespace ebac {
 

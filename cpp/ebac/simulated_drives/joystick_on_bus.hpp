@@ -55,8 +55,9 @@ struct LoopTimes {
 template <Device D>
 class JoystickOnBus {
  public:
-  JoystickOnBus(D plant, const DeviceModel& device, VirtualBus& bus, const LoopTimes& times = {})
-      : joystick_(Still<D>(std::move(plant)), device, Wiring{}, kPeakTime),
+  JoystickOnBus(D plant, const DeviceModel& device, VirtualBus& bus, const LoopTimes& times = {},
+                const Wiring& wiring = {})
+      : joystick_(Still<D>(std::move(plant)), device, wiring, kPeakTime),
         bus_(&bus),
         times_(times) {}
 
