@@ -311,7 +311,7 @@ def test_the_command_writes_a_folder(tmp_path: Path) -> None:
     assert "stiffness times damping, in kN/m N s/m. Delay in samples." in " ".join(text.split())
     assert "linear loop, no law" in text
     assert "usable at B = 0" in " ".join(text.split())
-    assert re.search(r"direct +[\d.]+ kN/m ", text)
+    assert re.search(r"direct +[(\d.) ]+ \d+ % +[\d.]+ kN/m ", text)
     assert "a wall at 0 mm" in text
     assert "sample of delay" not in text
     names = {path.name for path in (tmp_path / "out").iterdir()}

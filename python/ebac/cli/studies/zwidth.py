@@ -197,11 +197,13 @@ def _show(found: ZWidth) -> None:
             "delay",
             "law",
             *CRITERIA,
+            "of all",
             f"usable at B = {found.dampings[0]:g}",
             "usable walls end by",
         ],
-        numbers=range(2, 3 + len(CRITERIA)),
+        numbers=range(2, 4 + len(CRITERIA)),
     )
+    full, most = found.top / 1e3, found.dampings[-1]
     words: set[str] = set()
     for number, delay in enumerate(found.delays):
         if number:
@@ -213,16 +215,22 @@ def _show(found: ZWidth) -> None:
             if row["delay_samples"] == delay:
                 ends = Counter(found.ended_by(row["law"], delay))
                 cells = (_cell(row, name, beside="direct" in found.laws) for name in CRITERIA)
+                share = f"{100 * row['usable_area'] / (1e3 * full * most):.0f} %"
                 stiffest = float(found.limits["usable"][found.laws.index(row["law"]), number, 0])
                 grid.add_row(
-                    str(delay), row["law"], *cells, _stiffest(stiffest, found.top), _ended(ends)
+                    str(delay),
+                    row["law"],
+                    *cells,
+                    share,
+                    _stiffest(stiffest, found.top),
+                    _ended(ends),
                 )
                 words |= set(ends)
     output.show(grid)
-    full, most = found.top / 1e3, found.dampings[-1]
     beside = " In brackets, times that of direct." if "direct" in found.laws else ""
     output.say(
-        f"Both axes are linear, up to {full:g} kN/m and {most:g} N s/m: {full * most:.0f} kN/m N s/m is all of it."
+        f"Both axes are linear, up to {full:g} kN/m and {most:g} N s/m: {full * most:.0f} kN/m N s/m is all of it. "
+        "Of all: what of it is usable."
         f"{beside} Usable at B = {found.dampings[0]:g}: the stiffest usable wall of that damping. "
         f"What walls end by is counted over {len(found.dampings)} wall dampings{_explained(words, full)}."
     )
