@@ -197,8 +197,8 @@ def _show(found: ZWidth) -> None:
             "delay",
             "law",
             *CRITERIA,
-            "of all",
-            f"usable at B = {found.dampings[0]:g}",
+            "share",
+            "stiffest",
             "usable walls end by",
         ],
         numbers=range(2, 4 + len(CRITERIA)),
@@ -230,8 +230,8 @@ def _show(found: ZWidth) -> None:
     beside = " In brackets, times that of direct." if "direct" in found.laws else ""
     output.say(
         f"Both axes are linear, up to {full:g} kN/m and {most:g} N s/m: {full * most:.0f} kN/m N s/m is all of it. "
-        "Of all: what of it is usable."
-        f"{beside} Usable at B = {found.dampings[0]:g}: the stiffest usable wall of that damping. "
+        f"Share: the part of it that is usable.{beside} "
+        f"Stiffest: the stiffest usable wall with a damping of {found.dampings[0]:g} N s/m. "
         f"What walls end by is counted over {len(found.dampings)} wall dampings{_explained(words, full)}."
     )
     if found.hands:
