@@ -198,7 +198,8 @@ void bind_observer(py::module_& m) {
   cls.def_static(
       "of", &ObserverParams::of, py::arg("device"), py::arg("timing"),
       "Return the observer of a device whose commands act with the delay of `timing`. It "
-      "counts with 0.8 of the device's Coulomb friction.");
+      "counts with 0.8 of the device's Coulomb friction, and of a fine encoder with counts of "
+      "1.1 N dt^2 / mass.");
 }
 
 }  // namespace

@@ -7458,7 +7458,7 @@ class Observer:
     friction : float
         Coulomb friction of the device, no more than there is [N], 0 to 100.
     count : float
-        one encoder count at the handle [m], 1e-09 to 0.01.
+        one encoder count at the handle, or of a finer encoder 1.1 N dt^2 / mass [m], 1e-09 to 0.01.
     current_lag : float
         time constant of the drive's current loop [s], 0 to 0.1.
     force_lag : float
@@ -7481,7 +7481,7 @@ class Observer:
     @staticmethod
     def of(device: Device, timing: Timing) -> Observer:
         """
-        Return the observer of a device whose commands act with the delay of `timing`. It counts with 0.8 of the device's Coulomb friction.
+        Return the observer of a device whose commands act with the delay of `timing`. It counts with 0.8 of the device's Coulomb friction, and of a fine encoder with counts of 1.1 N dt^2 / mass.
         """
     def __eq__(self, other: typing.Any) -> bool: ...
     def __hash__(self) -> int: ...
@@ -7512,7 +7512,7 @@ class Observer:
     @property
     def count(self) -> float:
         """
-        one encoder count at the handle [m], 1e-09 to 0.01
+        one encoder count at the handle, or of a finer encoder 1.1 N dt^2 / mass [m], 1e-09 to 0.01
         """
     @property
     def current_lag(self) -> float:

@@ -246,6 +246,10 @@ def test_it_is_designed_from_device_and_timing() -> None:
     observer = ebac.Observer.of(NOISY, timing)
     assert observer.mass == NOISY.mass
     assert observer.count == NOISY.count
+    fine = NOISY.replace(encoder=ebac.Encoder(counts_per_turn=65536))
+    slow = ebac.Timing(dt=2e-3)
+    assert ebac.Observer.of(fine, timing).count == pytest.approx(1.1e-6 / fine.mass)
+    assert ebac.Observer.of(fine, slow).count == pytest.approx(4.4e-6 / fine.mass)
     assert observer.delay == 2
     assert OBSERVED.replace(timing=timing).designed_observer() == observer
     assert OBSERVED.replace(observer=False).designed_observer() is None

@@ -237,3 +237,18 @@ def test_no_hand_that_a_search_finds_draws_more_than_the_reserve(
     found = ebac.worst("ebac", condition, family=[family], seed=seed, base=BASE)
     assert found.reserve == 2e-3
     assert 0.5e-3 < found.hands[0].energy_J < found.reserve
+
+
+@pytest.mark.parametrize("counts_per_turn", [12_000, 65_536])
+@pytest.mark.parametrize("condition", ["d1K10", "d2b2K20"])
+def test_a_finer_encoder_is_no_reason_to_fall_back(condition: str, counts_per_turn: int) -> None:
+    """A force that jumps between two readings moved the estimate over counts, and 8 to 21 mJ were drawn."""
+    device = BASE.device.replace(encoder=ebac.Encoder(counts_per_turn=counts_per_turn))
+    found = ebac.worst(
+        "ebac", condition, family=["swinging", "periodic"], evaluations=150,
+        base=BASE.replace(device=device),
+    )  # fmt: skip
+    assert found.hands[0].energy_J < 2.3e-3
+    use = ebac.observer_use(found.trace())
+    assert use is not None
+    assert use.trusted > 0.9

@@ -7,6 +7,7 @@
 #include "ebac/control/motion_guard.hpp"
 #include "ebac/control/observed_force.hpp"
 #include "ebac/control/observed_work.hpp"
+#include "ebac/core/observer_count.hpp"
 #include "ebac/core/realtime.hpp"
 
 namespace ebac {
@@ -17,8 +18,10 @@ class EbacByObserver {
  public:
   EbacByObserver(const EbacParams& params, const Timing& timing) EBAC_RT
       : force_(params, timing),
-        work_(params.count, params.force_noise),
-        guard_(params.damping, params.mass, params.count / 2, timing.longest(), kKnown) {}
+        work_(observer_count(params.count, params.mass, timing.dt), params.force_noise),
+        guard_(params.damping, params.mass,
+               observer_count(params.count, params.mass, timing.dt) / 2, timing.longest(), kKnown) {
+  }
 
   void retune(const EbacByObserver& next) EBAC_RT { force_.retune(next.force_); }
 

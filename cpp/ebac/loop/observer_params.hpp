@@ -4,6 +4,7 @@
 #include <array>
 
 #include "ebac/core/fields.hpp"
+#include "ebac/core/observer_count.hpp"
 #include "ebac/core/realtime.hpp"
 #include "ebac/core/timing.hpp"
 #include "ebac/model/device.hpp"
@@ -25,12 +26,13 @@ struct ObserverParams {
   bool every_law = false;
 
   /// Of a device and the delay of its commands. It counts with 0.8 of the declared friction: with more than there is,
-  /// the estimate rests while the device moves, and walls are lost; what is missing it learns as a disturbance.
+  /// the estimate rests while the device moves, and walls are lost; what is missing it learns as a disturbance. Of a fine
+  /// encoder it reckons with a coarser count (`observer_count`).
   static ObserverParams of(const DeviceModel& device, const Timing& timing) EBAC_RT {
     return {.mass = device.mass(),
             .damping = device.mechanics.damping,
             .friction = 0.8 * device.mechanics.coulomb,
-            .count = device.facts().count,
+            .count = observer_count(device.facts().count, device.mass(), timing.dt),
             .current_lag = device.drive.current_lag,
             .force_lag = device.sensor.lag,
             .force_noise = device.facts().force_noise,
@@ -46,7 +48,8 @@ struct ObserverParams {
           500},
         F{"friction", &ObserverParams::friction, "N",
           "Coulomb friction of the device, no more than there is", 0, 100},
-        F{"count", &ObserverParams::count, "m", "one encoder count at the handle", 1e-9, 0.01},
+        F{"count", &ObserverParams::count, "m",
+          "one encoder count at the handle, or of a finer encoder 1.1 N dt^2 / mass", 1e-9, 0.01},
         F{"current_lag", &ObserverParams::current_lag, "s",
           "time constant of the drive's current loop", 0, 0.1},
         F{"force_lag", &ObserverParams::force_lag, "s", "time constant of the force sensor", 0,
