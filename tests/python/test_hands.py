@@ -285,6 +285,20 @@ ALL = pytest.param(ebac.Operators.grid(), id="60", marks=[pytest.mark.slow, pyte
 MANY = [pytest.param(SOME, id="5"), FOURTH, ALL]
 
 
+def test_a_light_device_keeps_damped_walls() -> None:
+    """0.1 kg: with all of the virtual damper on top of the wall's damping 41 and 31 of 60 were exact and still."""
+    light = ebac.Device(
+        sensor=ebac.ForceSensor(noise=0.03),
+        motor=ebac.Motor(rotor_inertia=0.9e-6),
+        mechanics=ebac.Mechanics(handle_mass=0.064),
+    )
+    assert light.mass == pytest.approx(0.1, rel=0.01)
+    found = ebac.study(
+        ebac.Operators.grid(), ["ebac"], ["B40K1", "B40K3"], base=ebac.Scenario(device=light)
+    )
+    assert [row.exact_and_still for row in found.rows] == [60, 60]
+
+
 @pytest.mark.parametrize("hands", MANY)
 def test_damped_walls_are_as_good_as_without_a_law(hands: ebac.Operators) -> None:
     """In each of the 25 cells all hands are exact and still, and at least as many good as under `direct`."""

@@ -25,7 +25,8 @@ namespace ebac {
 /// Without a count of noise in the velocity, mass and delay alone bound the damper: B_v = 0.55 M /
 /// ((d + 0.8) T + current_lag). Twice as much loses walls where the observer is told half of the
 /// mass or a wrong lag of the sensor. On a soft world, of slope K, it is at most sqrt(K (M + heaviest
-/// hand)), half of critical for that hand: more would only make it slow. The world may be shown at its
+/// hand)), half of critical for that hand: more would only make it slow. Where the world has a damping
+/// B of its own, B and the damper are at most 1.5 B_v together. The world may be shown at its
 /// whole stiffness while moving.
 class ObservedForce {
  public:
@@ -55,7 +56,9 @@ class ObservedForce {
   double force(const Port& port, double energy) EBAC_RT {
     injected_ = 0;
     shown_ = dynamic_.shown(port.f_env, softer(port.f_env, energy));
-    const double damped = half_period_.step(shown_ + std::min(damping_, enough_) * port.est.v_act);
+    const double bears = std::max(kMost * damping_ - slope_.damping(), 0.0);
+    const double damper = std::min(std::min(damping_, enough_), bears);
+    const double damped = half_period_.step(shown_ + damper * port.est.v_act);
     beyond_ = 0;
     if (port.f_env == 0) return 0;
     const double force = port.f_env > 0 ? std::max(damped, 0.0) : std::min(damped, 0.0);
@@ -99,6 +102,7 @@ class ObservedForce {
 
  private:
   static constexpr double kPhaseLag = 0.55;  // rad of delay at w
+  static constexpr double kMost = 1.5;       // of B_v, with the world's damping
   static constexpr double kSpare = 0.3;      // ticks of delay, for facts that are wrong
   static constexpr double kNoCount = 1e-12;  // m: the velocity has no noise of counts
   static constexpr double kLeast = 0.02;     // counts: a smaller motion shows no slope

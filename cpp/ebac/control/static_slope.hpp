@@ -10,13 +10,14 @@ namespace ebac {
 /// Stiffness of a world as its force shows it, without what its damping adds: dF = K dx + B dv, with
 /// dx against the world's surface. B is what two successive changes agree on, where they differ in
 /// direction; K follows from the last. A steeper K counts at once, a softer one is followed over 50
-/// ticks.
+/// ticks. B is believed over 50 ticks, and a smaller one at once.
 class StaticSlope {
  public:
   /// Changes below `least` [m] show nothing.
   explicit StaticSlope(double least) EBAC_RT : least_(least) {}
 
-  double value() const EBAC_RT { return slope_; }  // N/m, 0 where unknown
+  double value() const EBAC_RT { return slope_; }     // N/m, 0 where unknown
+  double damping() const EBAC_RT { return surely_; }  // N s/m, what the world's damping surely is
 
   /// The last force has changed by `change` [N] without a motion.
   void turn(double change) EBAC_RT {
@@ -32,13 +33,14 @@ class StaticSlope {
     force_ = force;
     x_ = x;
     v_ = v;
-    if (force == 0) slope_ = damping_ = df_ = dx_ = dv_ = 0;
+    if (force == 0) slope_ = damping_ = surely_ = df_ = dx_ = dv_ = 0;
     if (!both || std::abs(dx) <= least_) return false;
     const double turn = dx_ * dv - dx * dv_;
     if (std::abs(turn) > kTurned * (std::abs(dx_ * dv) + std::abs(dx * dv_))) {
       const double bend = dx_ * df - dx * df_;
       const bool damped = std::abs(bend) > kSame * std::abs(dx * df_);
       damping_ = damped ? std::max(0.0, bend / turn) : 0.0;
+      surely_ = std::min(surely_ + kForget * (damping_ - surely_), damping_);
     }
     df_ = df;
     dx_ = dx;
@@ -56,6 +58,7 @@ class StaticSlope {
 
   double least_;                    // m
   double slope_ = 0, damping_ = 0;  // N/m, N s/m
+  double surely_ = 0;               // N s/m, of the damping, as long as it lasts
   double force_ = 0, x_ = 0, v_ = 0;
   double df_ = 0, dx_ = 0, dv_ = 0;
 };
