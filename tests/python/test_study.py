@@ -363,3 +363,17 @@ def test_the_conditions_are_listed() -> None:
     rows = json.loads(result.stdout)["rows"]
     assert [row["condition"] for row in rows] == list(CONDITIONS)
     assert rows[0]["groups"] == ["five", "all"]
+
+
+def test_the_seed_of_the_base_is_that_of_the_study() -> None:
+    """It was not used, without a word."""
+    device = ebac.Device(sensor=ebac.ForceSensor(noise=0.03))
+    hands = ebac.Operators.grid()[:2]
+
+    def drawn(base_seed: int, seed: int | None = None) -> list[float]:
+        base = ebac.Scenario(device=device, seconds=0.5, seed=base_seed)
+        found = ebac.study(hands, ["ebac"], ["d1K10"], base=base, seed=seed)
+        return [float(x) for x in found.result["ripple_N"]]
+
+    assert drawn(2) == drawn(1, 2) != drawn(1)
+    assert drawn(2, 1) == drawn(1)

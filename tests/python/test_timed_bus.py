@@ -32,12 +32,12 @@ def test_a_broken_node_must_be_one_of_the_device() -> None:
         ebac.simulate(ebac.Scenario(seconds=0.1), through="can", bus=TimedBus(broken=2))
 
 
-def test_a_watch_below_a_millisecond_is_none_the_less_a_watch() -> None:
-    """Simulated drives watch in whole milliseconds, and 0 would be no watch."""
-    scenario = ebac.Scenario(seconds=0.2)
-    for silence in (3e-4, 1e-3):  # a tick is as long: no torque comes in time
+def test_drives_that_let_go_within_a_tick_are_refused() -> None:
+    """A tick of 5 ms ended by "raise bus.answer_share", which does not help."""
+    for dt, silence in ((1e-3, 3e-4), (1e-3, 1e-3), (5e-3, 5e-3)):
+        scenario = ebac.Scenario(seconds=0.2, timing=ebac.Timing(dt=dt))
         with pytest.raises(
-            ValueError, match="the simulated drives did not reach operation enabled"
+            ValueError, match=f"torque_silence = {silence:g} s: .* after a tick of {dt:g} s"
         ):
             ebac.simulate(scenario, through="can", bus=TimedBus(torque_silence=silence))
 

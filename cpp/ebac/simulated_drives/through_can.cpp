@@ -8,6 +8,7 @@
 
 #include "ebac/canopen/pdo_plan.hpp"
 #include "ebac/core/check.hpp"
+#include "ebac/core/six_digits.hpp"
 
 namespace ebac::can {
 
@@ -58,6 +59,14 @@ void check_through_can(int axes, const Timing& timing, const std::optional<Timed
     throw std::invalid_argument("TimedBus.broken = " + std::to_string(bus.broken) +
                                 ": must lie in [0, " + std::to_string(axes) +
                                 "], the nodes of this device; 0 breaks none");
+  }
+  if (timed && bus.torque_silence > 0 && bus.torque_silence <= timing.dt) {
+    throw std::invalid_argument("TimedBus.torque_silence = " + shortest(bus.torque_silence) +
+                                " s: a drive lets go of a torque after that time, and the next "
+                                "one comes after a tick of " +
+                                six_digits(timing.dt) +
+                                " s; must be longer than timing.dt, or 0, which watches none: "
+                                "shorten timing.dt, or let the drives watch for longer");
   }
   const BusLoad load = load_of(axes, timing, bus);
   static_cast<void>(check_load(load));

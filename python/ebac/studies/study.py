@@ -31,7 +31,7 @@ def study(
     conditions: Sequence[str | Condition] = ("d1K10",),
     *,
     base: Scenario | None = None,
-    seed: int = 1,
+    seed: int | None = None,
     threads: int | None = None,
     executor: Executor | None = None,
     out: str | Path | None = None,
@@ -51,7 +51,7 @@ def study(
     base : Scenario, optional
         What conditions change; default: the reference scenario.
     seed : int
-        Gives each hand its noise and jitter, the same under every law.
+        Gives each hand its noise and jitter, the same under every law; default: that of `base`.
     threads, executor, out, resume, progress
         As in `sweep`.
 
@@ -73,7 +73,8 @@ def study(
         for c, p in zip(chosen, parts, strict=True)
     ]
     # A hand has one seed under all conditions.
-    scenarios = [s.replace(seed=seed_of(seed, i)) for part in parts for i, s in enumerate(part)]
+    first = seed if seed is not None else (base or Scenario()).seed
+    scenarios = [s.replace(seed=seed_of(first, i)) for part in parts for i, s in enumerate(part)]
     lengths = [len(part) for part in parts]
     believed = [c.believed(s) for c, part in zip(chosen, parts, strict=True) for s in part]
     result = sweep(
