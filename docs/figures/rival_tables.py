@@ -100,9 +100,17 @@ class Form:
         rows: list[Row] = json.loads(file.read_text("utf-8"))["rows"]
         return rows
 
-    def of(self, law: str) -> list[Row]:
-        """Return how a tuned law does on the test hands, under one condition after the other."""
-        return [part for row in self.rows() if row["law"] == law for part in row["test"]]
+    def of(self, law: str, printed: Printed) -> list[Row]:
+        """Return how a tuned law, or `ebac`, does on the test hands, under one condition after the other."""
+        tuned = law != "ebac"
+        device = ebac.Device(sensor=ebac.ForceSensor(noise=0.03))
+        observed: Any = "every-law" if tuned else True
+        base = ebac.Scenario(device=device, observer=observed if self.word == "yes" else False)
+        name = f"{law}{self.ending}" if tuned else law
+        found = ebac.study(
+            ebac.Operators.grid(), name, TUNING_CONDITIONS, base=base, threads=printed.threads
+        )
+        return [asdict(row) for row in rows_of(found, name)]
 
 
 FORMS = (
@@ -125,13 +133,14 @@ def tuned(printed: Printed) -> str:
         "worst hand [mJ]",
     ]
     rows = [
-        [code(law), form.word, *_all_six(form.of(law)),
-         *_given_out(printed, f"{law}{form.ending}", form.rivals, form.of(law))]
+        [code(law), form.word, *_all_six(parts),
+         *_given_out(printed, f"{law}{form.ending}", form.rivals, parts)]
         for law in RANGES
         for form in FORMS
+        for parts in (form.of(law, printed),)
     ]  # fmt: skip
     for form in FORMS:
-        own = _own(form, printed)
+        own = form.of("ebac", printed)
         given_out = _given_out(printed, "ebac", form.own, own)
         rows.append([code("ebac"), form.word, *_all_six(own), *given_out])
     return table(heads, rows)
@@ -140,22 +149,11 @@ def tuned(printed: Printed) -> str:
 def tuned_cells(printed: Printed) -> str:
     """The good hands of the same, condition by condition."""
     heads = ["law", "observer", *(code(name) for name in TUNING_CONDITIONS)]
-    found = [(law, form, form.of(law)) for law in RANGES for form in FORMS]
-    found += [("ebac", form, _own(form, printed)) for form in FORMS]
+    found = [(law, form, form.of(law, printed)) for law in (*RANGES, "ebac") for form in FORMS]
     rows = [
         [code(law), form.word, *(_counts([part]) for part in parts)] for law, form, parts in found
     ]
     return table(heads, rows)
-
-
-def _own(form: Form, printed: Printed) -> list[Row]:
-    """Return `ebac`, judged as the tuned laws are."""
-    device = ebac.Device(sensor=ebac.ForceSensor(noise=0.03))
-    base = ebac.Scenario(device=device, observer=form.word == "yes")
-    found = ebac.study(
-        ebac.Operators.grid(), "ebac", TUNING_CONDITIONS, base=base, threads=printed.threads
-    )
-    return [asdict(row) for row in rows_of(found, "ebac")]
 
 
 def _all_six(parts: list[Row]) -> list[str]:

@@ -373,7 +373,7 @@ def test_the_seed_of_the_base_is_that_of_the_study() -> None:
     def drawn(base_seed: int, seed: int | None = None) -> list[float]:
         base = ebac.Scenario(device=device, seconds=0.5, seed=base_seed)
         found = ebac.study(hands, ["ebac"], ["d1K10"], base=base, seed=seed)
-        return [float(x) for x in found.result["ripple_N"]]
+        return [float(x) for x in found.result()["ripple_N"]]
 
     assert drawn(2) == drawn(1, 2) != drawn(1)
     assert drawn(2, 1) == drawn(1)

@@ -36,7 +36,6 @@ def test_hands_force_swing_and_energy_of_the_rivals_stand_in_one_table(
 
     laws = dict(list(rival_tables.RANGES.items())[:2])
     monkeypatch.setattr(rival_tables, "RANGES", laws)
-    monkeypatch.setattr(rival_tables, "_own", lambda form, _: form.of(next(iter(laws))))
     for name, columns in (("tuned", 9), ("tuned-cells", 8)):
         lines = tables.TABLES[name](Kept()).splitlines()  # type: ignore[arg-type]
         cells = [[cell.strip() for cell in line.strip("|").split("|")] for line in lines]

@@ -261,9 +261,10 @@ def _stiffest(limit: float, top: float) -> str:
 
 def _explained(words: set[str], full: float) -> str:
     """Return what the words for the end of a wall mean, of those that a table has."""
-    from ebac.studies.zwidth.result import AT_TOP, TOO_SOFT
+    from ebac.studies.zwidth.result import AT_TOP, TOO_SOFT, VIBRATION
 
     meanings = {
+        VIBRATION: "the force is not quiet, as where the guard holds it back",
         TOO_SOFT: "a stiffer wall shows less than half of its stiffness at rest",
         AT_TOP: f"the search ends at {full:g} kN/m before any wall is lost (--top)",
     }

@@ -20,8 +20,9 @@ CRITERIA: dict[str, str] = {
     "usable": "quiet, energy, and at least half of the stiffness shown at rest",
 }
 
+VIBRATION = "vibration"
 #: What ends a usable border, by the criterion that ends at the same stiffness.
-ENDS: dict[str, str] = {"still": "limit cycle", "quiet": "vibration", "energy": "energy"}
+ENDS: dict[str, str] = {"still": "limit cycle", "quiet": VIBRATION, "energy": "energy"}
 #: The same where the search ends first, and where none of these does: less than half of the stiffness is shown.
 AT_TOP, TOO_SOFT = "top", "too soft"
 
