@@ -44,6 +44,13 @@ TEST(TeleopReceiver, CountsWhatIsLateDoubledAndMissing) {
   EXPECT_EQ(receiver.play().value, 5);  // the newest, not the last that came
 }
 
+TEST(TeleopReceiver, BeforeTheFirstPacketNoneIsMissing) {
+  Receiver receiver;
+  for (const std::uint32_t n : {5'000U, 5'001U, 4'999U, 5'003U}) receiver.take({.sequence = n});
+  EXPECT_EQ(receiver.arrivals().missing, 1);
+  EXPECT_EQ(receiver.arrivals().late, 1);
+}
+
 TEST(TeleopReceiver, AJumpOfMoreThanAMinuteIsNotTaken) {
   Receiver receiver;
   for (const std::uint32_t n : {70'000U, 70'001U, 0xFFFFFF00U, 70'002U}) {

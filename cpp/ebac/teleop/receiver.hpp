@@ -23,7 +23,8 @@ struct Arrivals {
     using F = Field<Arrivals>;
     return std::array{
         F{"received", &Arrivals::received, "1", "packets of the session"},
-        F{"missing", &Arrivals::missing, "1", "sequence numbers that have not come, so far"},
+        F{"missing", &Arrivals::missing, "1",
+          "sequence numbers after the first that have not come, so far"},
         F{"late", &Arrivals::late, "1", "packets overtaken by a later one"},
         F{"doubled", &Arrivals::doubled, "1", "packets that had come before"},
         F{"foreign", &Arrivals::foreign, "1",
@@ -65,11 +66,14 @@ class Receiver {
     sure_ = newest_ > 0;
     ++arrivals_.received;
     if (packet.sequence > newest_) {
-      arrivals_.missing += packet.sequence - newest_ - 1;
+      if (newest_ == 0)
+        first_ = packet.sequence;
+      else
+        arrivals_.missing += packet.sequence - newest_ - 1;
       newest_ = packet.sequence;
     } else {
       ++arrivals_.late;
-      --arrivals_.missing;
+      if (packet.sequence > first_) --arrivals_.missing;
     }
     ring_[packet.sequence % kRing] = packet;
   }
@@ -112,7 +116,6 @@ class Receiver {
   /// Where the second is far from it, the first was none of this session.
   void forget_first() EBAC_RT {
     --arrivals_.received;
-    arrivals_.missing -= newest_ - 1;
     refuse();
     reset();
   }
@@ -144,6 +147,7 @@ class Receiver {
 
   double buffer_;  // packets
   std::array<Packet, kRing> ring_{};
+  std::uint32_t first_ = 0;  // number of the first packet
   std::uint32_t newest_ = 0;
   bool sure_ = false;  // that it is one of this session: a second number was near it
   double play_ = 0;

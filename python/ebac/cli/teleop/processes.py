@@ -171,16 +171,31 @@ def _run(name: str, side: Any, seconds: float | None, as_json: bool, by_hand: bo
                 side.consent()
             if time.monotonic() - reported > REPORT and not as_json:
                 reported = time.monotonic()
-                output.say(_line(report))
+                output.say(_line(_own(name, report)))
     if as_json:
         # One line, so that a program may read it while others write.
-        typer.echo(json.dumps({"command": f"teleop {name}", **_named(report, side.units)}))
+        typer.echo(json.dumps({"command": f"teleop {name}", **_named(_own(name, report), side.units)}))
     else:
-        output.say(f"Stopped: {_line(report).strip()}")
+        output.say(f"Stopped: {_line(_own(name, report)).strip()}")
+
+
+#: What a side does not measure: only the master hears its own packets come back, and a network is no side.
+NOT_MEASURED = {
+    "master": ("moved_when_lost",),
+    "slave": ("round_trip", "longest_round_trip", "force_when_lost", "fault"),
+    "network": (
+        "losses", "state", "session", "away", "round_trip", "longest_round_trip", "position", "farthest", "force",
+        "most_force", "most_force_at", "most_force_since", "force_when_lost", "moved_when_lost", "fault",
+    ),
+}  # fmt: skip
+
+
+def _own(name: str, report: dict[str, Any]) -> dict[str, Any]:
+    return {**report, **dict.fromkeys(NOT_MEASURED[name])}
 
 
 def _named(report: dict[str, Any], units: dict[str, str]) -> dict[str, Any]:
-    return with_units({**report, "fault": int(report["fault"])}, units)
+    return with_units({**report, "fault": None if report["fault"] is None else int(report["fault"])}, units)
 
 
 def _tell(text: str, as_json: bool) -> None:
@@ -189,8 +204,16 @@ def _tell(text: str, as_json: bool) -> None:
 
 def _line(report: dict[str, Any]) -> str:
     came = report["arrivals"]
-    return (
-        f"{report['seconds']:8.1f} s  {report['sent']:,} sent, {came['received']:,} received, {came['missing']:,} "
-        f"missing, {report['refused']:,} damaged, link lost {report['losses']} times, round trip "
-        f"{1e3 * report['round_trip']:.0f} ms, largest force {report['most_force']:.1f} N"
-    )
+    parts = [
+        f"{report['seconds']:8.1f} s  {report['sent']:,} sent",
+        f"{came['received']:,} received",
+        f"{came['missing']:,} missing",
+        f"{report['refused']:,} damaged",
+    ]
+    if report["losses"] is not None:
+        parts.append(f"link lost {report['losses']} times")
+    if report["round_trip"] is not None:
+        parts.append(f"round trip {1e3 * report['round_trip']:.0f} ms")
+    if report["most_force"] is not None:
+        parts.append(f"largest force {report['most_force']:.1f} N")
+    return ", ".join(parts)
