@@ -1,5 +1,6 @@
 #include "python_hand.hpp"
 
+#include <cmath>
 #include <limits>
 #include <string>
 #include <utility>
@@ -24,14 +25,18 @@ double PythonHand::force(const HandMotion& at, const HandState&) const EBAC_RT {
   if (*raised_) return kNone;
   try {
     const py::object answer = object_.attr("force")(at.t, at.x, at.v);
+    const auto wrong = [&](const char* wanted) {
+      const py::str text("{}.force returned {!r}: must return the force on the handle [N], a {}");
+      return std::string(text.format(py::type::of(object_).attr("__name__"), answer, wanted));
+    };
+    double force = kNone;
     try {
-      return answer.cast<double>();
+      force = answer.cast<double>();
     } catch (const py::cast_error&) {
-      const py::str text(
-          "{}.force returned {!r}: must return the force on the handle [N], a number");
-      throw py::type_error(
-          std::string(text.format(py::type::of(object_).attr("__name__"), answer)));
+      throw py::type_error(wrong("number"));
     }
+    if (!std::isfinite(force)) throw py::value_error(wrong("finite number"));
+    return force;
   } catch (...) {
     *raised_ = std::current_exception();
     return kNone;

@@ -60,7 +60,7 @@ class OwnHand:
         Within a step it is asked for several times, at instants that may lie before the last one: it must not change
         the object. What it raises ends the run: `simulate` raises a `LoopFault` that names it.
         """
-        raise NotImplementedError
+        raise NotImplementedError("it has no method force(self, t, x, v) that returns a force [N]")
 
     def advance(self, t: float, x: float, v: float) -> None:
         """Change your own state: a step has ended; `t` only rises here."""

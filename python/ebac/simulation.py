@@ -5,6 +5,8 @@ from __future__ import annotations
 import warnings
 from typing import Any
 
+import numpy as np
+
 from ebac import _core
 from ebac._util.arguments import require
 from ebac._util.fault_remedies import REMEDIES
@@ -44,6 +46,7 @@ class LoopFault(RuntimeError):
         trace: Trace,
         hand: BaseException | None = None,
         world: BaseException | None = None,
+        limits: _core.Limits | None = None,
     ) -> None:
         self.fault = fault
         self.trace = trace
@@ -58,10 +61,25 @@ class LoopFault(RuntimeError):
             cause = f"{what} raised {type(world).__name__}: {world}"
         elif fault is _core.Fault.LAW_NOT_FINITE:
             cause = f"{cause}: {trace.law or 'the law'} gave no finite force"
+        elif limits is not None:
+            cause += _beyond(fault, trace, row, limits)
         super().__init__(
             f"fault {int(fault)} ({cause}) in tick {trace['tick'][row]}, t = {trace['t'][row]:.6g} s: "
             "the command was set to zero and the loop stopped; see .trace for the rows before it"
         )
+
+
+def _beyond(fault: _core.Fault, trace: Trace, row: int, limits: _core.Limits) -> str:
+    """Return which axis was beyond which limit, as far as the row of the fault shows it."""
+    column, limit, scale, unit, name = {
+        _core.Fault.OVERSPEED: ("v", limits.speed, 1.0, "m/s", "Limits.speed"),
+        _core.Fault.WORKSPACE: ("x", limits.end, 1e3, "mm", "Limits.end"),
+    }.get(fault, ("x", np.inf, 1.0, "", ""))
+    values = np.atleast_1d(trace[column][row])
+    axis = int(np.abs(values).argmax())
+    if not abs(values[axis]) > limit:
+        return ""
+    return f": axis {axis} at {scale * values[axis]:.4g} {unit}, beyond {name} = {scale * limit:.4g} {unit}"
 
 
 def simulate(
@@ -132,8 +150,8 @@ def simulate(
     world = foreign(scenario.environment)
     mine = None if world is None else world.for_run()
     setup = (scenario if mine is None else scenario.replace(environment=mine)).setup()
+    allowed = limits if isinstance(limits, _core.Limits) else None
     if limits is not False or soft_start != 0:
-        allowed = limits if isinstance(limits, _core.Limits) else None
         if limits is True:
             allowed = _core.Limits.of(scenario.device)
         setup = _core._with_loop(setup, soft_start=soft_start, limits=allowed)
@@ -150,7 +168,7 @@ def simulate(
         raise own
     if fault is not _core.Fault.NONE:
         error = _hand_error(setup)
-        raise LoopFault(fault, trace, error, own) from error or own
+        raise LoopFault(fault, trace, error, own, allowed) from error or own
     if mine is not None and (remark := mine.remark()):
         warnings.warn(remark, stacklevel=2)
     return trace

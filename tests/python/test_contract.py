@@ -14,6 +14,7 @@ import ebac
 from ebac.testing import LawContract, assert_passive
 from ebac.testing.contract import FieldContract
 from ebac.testing.contract.passivity import PUMP, least_energy
+from ebac.testing.contract.subject import Subject
 
 #: Holds its last force when the motion stops, to the letter of the paper.
 FREEZES = "ebac-printed"
@@ -258,3 +259,9 @@ def test_the_hostile_world_does_break_a_law_without_a_bound(delay: int) -> None:
 def test_a_simulated_wall_does_break_a_law_without_a_bound() -> None:
     with pytest.raises(AssertionError, match=r"not passive: the port energy falls to -\d"):
         assert_passive(ebac.simulate(ebac.Scenario(seconds=1.0), Spring()))
+
+
+def test_a_law_that_needs_arguments_is_told_how_a_contract_makes_it() -> None:
+    with pytest.raises(TypeError) as refused:
+        Subject.of(After, LawContract)
+    assert "write law = lambda: After(...)" in refused.value.__notes__[0]

@@ -372,3 +372,15 @@ def test_a_damped_wall_is_exact_on_the_encoder_alone(cell: str) -> None:
     """The velocity of single counts would tear F_d down with every count outwards."""
     runs = CONDITIONS[cell].scenarios(ebac.Operators.grid(), ebac.Scenario(observer=False))
     assert ebac.sweep(runs, "ebac").exact_and_still.sum() >= 50
+
+
+class Lost(OwnHand):
+    """A hand whose force is no number from some time on."""
+
+    def force(self, t: float, x: float, v: float) -> float:
+        return 1.0 if t < 0.02 else float("nan")
+
+
+def test_a_hand_whose_force_is_no_number_is_named() -> None:
+    with pytest.raises(ebac.LoopFault, match=r"Lost\.force returned nan: must return .* finite"):
+        ebac.simulate(ebac.Scenario(hand=Lost(), seconds=0.1))

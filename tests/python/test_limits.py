@@ -100,6 +100,7 @@ def test_leaving_the_workspace_is_a_fault_with_zero_force() -> None:
             scenario(hand=hand, environment=ebac.Free()), limits=Limits(speed=50, jump=0.5)
         )
     assert stopped.value.fault is _core.Fault.WORKSPACE
+    assert re.search(r"axis 0 at \d+(\.\d+)? mm, beyond Limits\.end = ", str(stopped.value))
     trace = stopped.value.trace
     row = int((trace["fault"] != 0).argmax())
     assert (trace["state"][row:] == int(_core.LoopState.STOP)).all()
@@ -113,6 +114,8 @@ def test_a_fast_hand_is_named() -> None:
     with pytest.raises(ebac.LoopFault) as stopped:
         ebac.simulate(scenario(hand=hand, environment=ebac.Free()), limits=True)
     assert stopped.value.fault is _core.Fault.OVERSPEED
+    text = r"\(overspeed: axis 0 at [12]\.\d+ m/s, beyond Limits\.speed = 1\.5 m/s\) in tick"
+    assert re.search(text, str(stopped.value))
     remedy = stopped.value.remedy  # the handle may be pulled by a motor of the wrong sign
     assert remedy.startswith("keep your hand off")
     assert remedy.index("drive signs") < remedy.index("right") < remedy.index("grip")

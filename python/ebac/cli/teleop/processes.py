@@ -174,7 +174,9 @@ def _run(name: str, side: Any, seconds: float | None, as_json: bool, by_hand: bo
                 output.say(_line(_own(name, report)))
     if as_json:
         # One line, so that a program may read it while others write.
-        typer.echo(json.dumps({"command": f"teleop {name}", **_named(_own(name, report), side.units)}))
+        typer.echo(
+            json.dumps({"command": f"teleop {name}", **_named(_own(name, report), side.units)})
+        )
     else:
         output.say(f"Stopped: {_line(_own(name, report)).strip()}")
 
@@ -195,7 +197,9 @@ def _own(name: str, report: dict[str, Any]) -> dict[str, Any]:
 
 
 def _named(report: dict[str, Any], units: dict[str, str]) -> dict[str, Any]:
-    return with_units({**report, "fault": None if report["fault"] is None else int(report["fault"])}, units)
+    return with_units(
+        {**report, "fault": None if report["fault"] is None else int(report["fault"])}, units
+    )
 
 
 def _tell(text: str, as_json: bool) -> None:

@@ -59,4 +59,8 @@ class Numbers:
             law.step(port)
         law.step(Port(x=x, dt=1e-3))
         for _ in range(3):
-            assert law.step(Port(x=x, dt=1e-3)) == 0
+            force = law.step(Port(x=x, dt=1e-3))
+            assert force == 0, (
+                f"{force:g} N at rest in free air, at {1e3 * x:g} mm; a law that may keep a force there has "
+                "holds_force = True in its LawContract"
+            )

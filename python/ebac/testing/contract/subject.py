@@ -84,7 +84,16 @@ def _made(given: Any, device: Device | DeviceFacts, timing: Timing) -> Any:
     elif isinstance(given, PythonLaw) and not isinstance(given, type):
         law = copy.deepcopy(given)
     elif callable(given):
-        law = given()
+        try:
+            law = given()
+        except TypeError as error:
+            if isinstance(given, type) and "argument" in str(error):
+                name = given.__name__
+                error.add_note(
+                    f"A contract makes the law without arguments: write law = lambda: {name}(...), or "
+                    f"give {name} a classmethod design(facts, timing)."
+                )
+            raise
     else:
         law = given
     return checked(law)
