@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import warnings
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -23,17 +24,8 @@ def text_of(scenario: Scenario, folder: Path | None) -> str:
     """Return the text, see `Scenario.to_toml`."""
     import tomli_w
 
-    if is_own(scenario.hand.model):
-        raise ValueError(
-            f"Scenario.hand.model = {scenario.hand.model!r}: a hand of your own cannot be written to TOML; "
-            "write the scenario with a model of ebac.hands, or none"
-        )
-    world = foreign(scenario.environment)
-    if world is not None and not world.has_text:
-        raise ValueError(
-            f"Scenario.environment = {scenario.environment!r}: a function cannot be written to TOML; write the "
-            "scenario with a World, a wall, or a Bridge to a World"
-        )
+    if reason := _why_not(scenario):
+        raise ValueError(reason)
     values = {f.name: getattr(scenario, f.name) for f in dataclasses.fields(scenario)}
     numbers = {k: v for k, v in values.items() if isinstance(v, (int, float, str))}
     others = {k: serialisation.to_document(v) for k, v in values.items() if k not in numbers}
@@ -41,6 +33,33 @@ def text_of(scenario: Scenario, folder: Path | None) -> str:
     if folder is not None:
         document = seen_from(document, folder)
     return "# ebac scenario; SI units throughout\n" + tomli_w.dumps(document)
+
+
+def text_for_file(scenario: Scenario | None) -> str:
+    """Return the text that goes into the file of a trace; empty without a scenario, or where it has no text."""
+    return "" if scenario is None or _why_not(scenario) else scenario.to_toml()
+
+
+def warn_without_text(scenario: Scenario | None, path: str | Path, stacklevel: int) -> None:
+    """Warn that a trace is saved without its scenario, where code of one's own is part of it."""
+    if scenario is not None and (reason := _why_not(scenario)):
+        warnings.warn(f"{path}: saved without its scenario. {reason}", stacklevel=stacklevel + 1)
+
+
+def _why_not(scenario: Scenario) -> str:
+    """Return why a scenario cannot be written to TOML, empty if it can."""
+    if is_own(scenario.hand.model):
+        return (
+            f"Scenario.hand.model = {scenario.hand.model!r}: a hand of your own cannot be written to TOML; "
+            "write the scenario with a model of ebac.hands, or none"
+        )
+    world = foreign(scenario.environment)
+    if world is not None and not world.has_text:
+        return (
+            f"Scenario.environment = {scenario.environment!r}: a function cannot be written to TOML; write the "
+            "scenario with a World, a wall, or a Bridge to a World"
+        )
+    return ""
 
 
 def parts_of(text: str, kind: type[Scenario], folder: Path | None) -> dict[str, Any]:

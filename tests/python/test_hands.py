@@ -3,6 +3,7 @@
 import copy
 import json
 import pickle
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -14,6 +15,8 @@ from ebac.cli import app
 from ebac.hands import FingerPad, LetGo, NonlinearGrip, OwnHand, Reflex
 from ebac.studies import CONDITIONS, GROUPS, Condition
 from ebac.studies import scenario_changes as to
+from ebac.testing.golden import TraceRegression
+from ebac.worlds import FunctionWorld
 
 PRESETS = [Reflex(), FingerPad(), NonlinearGrip(), LetGo(open_at=0.4, closed_at=0.6)]
 MODELS = pytest.mark.parametrize("model", PRESETS, ids=lambda m: type(m).__name__)
@@ -384,3 +387,34 @@ class Lost(OwnHand):
 def test_a_hand_whose_force_is_no_number_is_named() -> None:
     with pytest.raises(ebac.LoopFault, match=r"Lost\.force returned nan: must return .* finite"):
         ebac.simulate(ebac.Scenario(hand=Lost(), seconds=0.1))
+
+
+@pytest.mark.parametrize("own", ["hand", "world"])
+@pytest.mark.parametrize("ending", ["npz", "mcap", "h5", "mat", "parquet"])
+def test_a_run_with_code_of_ones_own_is_saved_without_its_scenario(
+    own: str, ending: str, tmp_path: Path
+) -> None:
+    parts = {
+        "hand": {"hand": Spring()},
+        "world": {"environment": FunctionWorld(lambda x, v: [1e3 * x[0], 0, 0])},
+    }
+    trace = ebac.simulate(ebac.Scenario(seconds=0.1, **parts[own]), "ebac")
+    file = tmp_path / f"run.{ending}"
+    with pytest.warns(
+        UserWarning, match=rf"run\.{ending}: saved without its scenario\. .*cannot be"
+    ) as told:
+        trace.save(file)
+    assert len(told) == 1
+    assert told[0].filename == __file__
+    again = ebac.load(file)
+    assert again.scenario is None
+    assert again.origin == trace.origin
+    assert again["x"] == pytest.approx(trace["x"], abs=0)
+    with pytest.warns(UserWarning, match=r"a\.npz: saved without its scenario"):
+        trace.to_npz(tmp_path / "a.npz")
+
+
+def test_a_golden_trace_may_have_a_hand_of_ones_own(tmp_path: Path) -> None:
+    trace = ebac.simulate(ebac.Scenario(seconds=0.1, hand=Spring()), "ebac")
+    golden = TraceRegression(folder=tmp_path, name="spring", update=True, pictures=tmp_path)
+    assert golden.check(trace).divergences == ()

@@ -10,9 +10,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from ebac._util.foreign_worlds import foreign
 from ebac._util.wrong_calls import plain_constructor
 from ebac.scenario import Scenario
+from ebac.scenario_text import text_for_file
 
 SCENARIO_FILE = "scenario.toml"
 #: Attached to the log of a run on drives: where each axis stood before it had power, and the zero of its encoder.
@@ -102,10 +102,8 @@ class About:
     @property
     def attachments(self) -> dict[str, str]:
         """Text files inside the log by their names."""
-        world = None if self.scenario is None else foreign(self.scenario.environment)
-        no_text = self.scenario is None or (world is not None and not world.has_text)
-        own = {} if self.scenario is None or no_text else {SCENARIO_FILE: self.scenario.to_toml()}
-        return {**own, **self.files}
+        text = text_for_file(self.scenario)
+        return {**({SCENARIO_FILE: text} if text else {}), **self.files}
 
     def __repr__(self) -> str:
         """Return one line: law, version, attachments."""

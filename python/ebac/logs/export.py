@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ebac.scenario_text import text_for_file
+
 if TYPE_CHECKING:
     from ebac.trace import Trace
 
@@ -26,7 +28,7 @@ def facts(trace: Trace) -> dict[str, str]:
         "law_repr": trace.law_repr,
         "origin": trace.origin,
         "axes": str(trace.axes),
-        "scenario": trace.scenario.to_toml() if trace.scenario else "",
+        "scenario": text_for_file(trace.scenario),
         **versions(),
     }
 

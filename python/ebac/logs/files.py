@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 from ebac._util.arguments import require_path
 from ebac.logs.about import SIMULATED_DRIVES, SIMULATED_FILE, About
 from ebac.logs.layout import Layout
+from ebac.scenario_text import warn_without_text
 
 if TYPE_CHECKING:
     from ebac.trace import Trace
@@ -65,6 +66,7 @@ def save(
         When the file cannot be written.
     """
     from ebac.logs import export, ros2
+    from ebac.trace.files import write_npz
 
     require_path(path, "Trace.save")
     path = Path(path)
@@ -72,7 +74,7 @@ def save(
     check_profile(path, profile)
     writers: dict[str, Callable[[Trace, Path, Progress], Any]] = {
         ".mcap": ros2.write_trace if profile == "ros2" else write_mcap,
-        ".npz": lambda t, p, _: t.to_npz(p),
+        ".npz": lambda t, p, _: write_npz(t, p),
         ".csv": lambda t, p, progress: t.to_csv(p, progress=progress),
         ".parquet": export.to_parquet,
         ".mat": export.to_mat,
@@ -80,6 +82,8 @@ def save(
     }
     with draft(path) as name:
         writers[known](trace, name, progress or (lambda done, total: None))
+    if known != ".csv":  # which holds no scenario
+        warn_without_text(trace.scenario, path, stacklevel=3)
 
 
 @contextmanager

@@ -48,7 +48,9 @@ def from_mat(path: Path) -> Trace:
             found = loadmat(file, simplify_cells=True)
         except (ValueError, TypeError, NotImplementedError, OSError) as error:
             raise ValueError(f"{path}: not a MATLAB file ({_first(error)})") from None
-    about = {name: str(text) for name, text in _part(found, "about").items()}
+    about = {  # MATLAB has an empty array for a text without letters
+        name: text if isinstance(text, str) else "" for name, text in _part(found, "about").items()
+    }
     units, meanings, names = (_part(found, part) for part in ("units", "meanings", "names"))
     data, columns = {}, {}
     for short in units:

@@ -16,6 +16,7 @@ from ebac.testing.compare import Comparison, compare
 from ebac.testing.metric import Metrics, check_names, differences, metrics_of
 from ebac.testing.tolerance import Tolerance
 from ebac.trace import Trace
+from ebac.trace.files import write_npz
 
 if TYPE_CHECKING:
     import pytest
@@ -117,7 +118,7 @@ class TraceRegression:
         metrics_file = where.with_name(where.name + ".json")
         missing = [f for f in (golden_file, metrics_file)[: 1 + metrics] if not f.exists()]
         if self.update or golden_file in missing:
-            _whole(golden_file, found.to_npz)
+            _whole(golden_file, lambda path: write_npz(found, path))
         if came_to is not None and (self.update or metrics_file in missing):
             text = json.dumps(came_to, indent=2, allow_nan=False) + "\n"
             _whole(metrics_file, lambda path: path.write_text(text, encoding="utf-8"))

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ebac.scenario import scenario_of_log
+from ebac.scenario_text import text_for_file
 from ebac.trace.columns import ColumnInfo
 
 if TYPE_CHECKING:
@@ -53,7 +54,7 @@ def write_npz(trace: Trace, path: str | Path) -> None:
         "law": trace.law,
         "law_repr": trace.law_repr,
         "origin": trace.origin,
-        "scenario": trace.scenario.to_toml() if trace.scenario else None,
+        "scenario": text_for_file(trace.scenario) or None,
         "columns": {c.name: [c.unit, c.meaning] for c in trace.columns.values()},
     }
     with Path(path).open("wb") as file:  # a file, because NumPy appends .npz to a name

@@ -208,7 +208,7 @@ class Trace:
         """Write a file, the format by its extension: .mcap, .npz, .csv, .parquet, .mat or .h5.
 
         A log, .mcap, opens in PlotJuggler and Foxglove and holds all a trace has. The file appears when it is whole,
-        and replaces one of that name.
+        and replaces one of that name. A scenario with a hand or world of one's own is left out, with a warning.
 
         Parameters
         ----------
@@ -255,10 +255,15 @@ class Trace:
         write_csv(self, path, progress)
 
     def to_npz(self, path: str | Path) -> None:
-        """Write a compressed NumPy archive: the columns, and units, scenario and law under `about`."""
+        """Write a compressed NumPy archive: the columns, and units, scenario and law under `about`.
+
+        A scenario with a hand or world of one's own is left out, with a warning.
+        """
+        from ebac.scenario_text import warn_without_text
         from ebac.trace.files import write_npz
 
         write_npz(self, path)
+        warn_without_text(self.scenario, path, stacklevel=2)
 
     @classmethod
     def from_npz(cls, path: str | Path) -> Self:
