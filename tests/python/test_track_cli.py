@@ -9,7 +9,8 @@ import pytest
 from typer.testing import CliRunner
 
 from ebac.cli import app
-from ebac.tracking import fit_circle
+from ebac.plot import plot_tracking
+from ebac.tracking import RecordedPath, evaluate, fit_circle
 
 
 @pytest.fixture(autouse=True)
@@ -52,6 +53,7 @@ def test_json_has_the_documented_keys_and_writes_nothing() -> None:
     assert list(row) == [
         "file", "read", "shape", "points", "outliers", "independent_points", "sd_m", "error_m", "rms_m", "largest_m",
         "radius_m", "radius_sd_m", "arc_deg", "centre_m", "centre_sd_m",
+        "out_of_plane_rms_m", "out_of_plane_largest_m",
     ]  # fmt: skip
     assert row["radius_m"] == pytest.approx(fit_circle(points()).radius)
     assert [f.name for f in Path().iterdir()] == ["circle.csv"]
@@ -115,3 +117,56 @@ def test_bad_input_is_refused_and_nothing_is_written(arguments: list[str], messa
     assert done.exit_code == 2
     assert message in " ".join(done.stderr.split())
     assert not Path("ebac-track").exists()
+
+
+def ring(height: float) -> Any:
+    """A ring of 40 mm in space [m] whose height goes up and down three times."""
+    turn = np.linspace(0, 2 * np.pi, 400, endpoint=False)
+    return np.column_stack([0.04 * np.cos(turn), 0.04 * np.sin(turn), height * np.sin(3 * turn)])
+
+
+def write_space(name: str, path: Any) -> None:
+    rows = "\n".join(",".join(map(repr, row)) for row in (1e3 * path).tolist())
+    Path(name).write_text(f"x [mm],y [mm],z [mm]\n{rows}\n")
+
+
+def test_a_ring_that_leaves_its_plane_is_told() -> None:
+    write_space("bent.csv", ring(2e-3))
+    (row,) = json.loads(ebac_command("bent.csv", "--json").stdout)["rows"]
+    assert row["out_of_plane_rms_m"] == pytest.approx(2e-3 / np.sqrt(2), rel=1e-3)
+    assert row["out_of_plane_largest_m"] == pytest.approx(2e-3, rel=1e-3)
+    done = ebac_command("bent.csv")
+    said = " ".join(done.stderr.split())
+    assert "leaves the plane of its circle by 1.41 mm rms, 2 mm at most" in said
+    assert "out of its plane" in " ".join(done.stdout.split())
+    assert "out of its plane 1.41 mm rms" in repr(fit_circle(ring(2e-3)))
+
+
+def test_a_ring_in_its_plane_is_not_blamed() -> None:
+    noise = 1e-4 * np.random.default_rng(1).standard_normal((400, 3))
+    write_space("flat.csv", ring(0) + noise)
+    write("plane.csv")
+    for name in ("flat.csv", "plane.csv"):
+        assert "leaves the plane" not in ebac_command(name, "--no-files").stderr
+
+
+def test_a_figure_in_space_names_what_it_shows() -> None:
+    way = np.outer(np.linspace(0, 0.05, 300), [0.6, 0, 0.8])
+    line = way + 1e-4 * np.random.default_rng(1).standard_normal((300, 3))
+    for path, x in ((line, "along the fit [mm]"), (ring(0), "in the plane of the fit [mm]")):
+        found = evaluate(RecordedPath(points=path, name="a", remark=""))
+        figure = plot_tracking(found)
+        left, _, right = figure.axes
+        assert left.get_xlabel() == x
+        if found.shape == "line":
+            edge = max(patch.get_x() + patch.get_width() for patch in right.patches)
+            assert edge == pytest.approx(1e3 * found.fit.deviation.largest_m)
+            assert min(patch.get_x() for patch in right.patches) >= 0
+            assert "normal, same SD" not in [drawn.get_label() for drawn in right.lines]
+            assert right.get_xlabel() == "distance from the line [mm]"
+
+
+def test_a_spiral_is_no_circle_for_auto() -> None:
+    rising = ring(0)
+    rising[:, 2] = np.linspace(0, 0.3, 400)
+    assert evaluate(RecordedPath(points=rising, name="a", remark="")).shape == "line"

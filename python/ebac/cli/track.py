@@ -155,6 +155,11 @@ def _show(found: list[Tracking]) -> None:
         else:
             fitted = (f"radius {formatting.quantity(fit.radius, 'm')} +- {1.96e3 * fit.radius_sd_m:.2g} mm, "
                     f"{row['arc_deg']:.0f} deg of it")  # fmt: skip
+            if len(fit.centre) == 3:
+                rms, largest = (
+                    formatting.quantity(row[f"out_of_plane_{k}_m"], "m") for k in ("rms", "largest")
+                )
+                fitted += f"; out of its plane {rms} rms, largest {largest}"
         lengths = [formatting.quantity(row[k], "m") for k in ("sd_m", "error_m", "largest_m")]
         grid.add_row(
             t.path.name, t.shape, *lengths, str(row["points"]), str(row["outliers"]), fitted
@@ -162,6 +167,8 @@ def _show(found: list[Tracking]) -> None:
     output.show(grid)
     for t in found:
         output.say(f"{t.path.name}: {t.path.remark}.")
+        if t.remark:
+            output.note(t.remark)
     output.say("+- is a 95 % interval that counts correlated points for what they are worth.")
 
 

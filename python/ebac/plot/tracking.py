@@ -51,13 +51,16 @@ def _draw_tracking(tracking: Tracking, *, narrow: bool) -> Picture:
     shown = (nearest + factor * across)[counted]
     middle.plot(*(1e3 * draw.T), color=FIT, lw=1.2, label="fit")
     middle.plot(*(1e3 * shown.T), color=PATH, lw=0.8, label=f"deviation {factor:g} times as large")
+    names = _axis_names(tracking)
     for ax in (left, middle):
         ax.set_aspect("equal", adjustable="datalim")
-        dress(ax, "y [mm]")
-        ax.set_xlabel("x [mm]")
+        dress(ax, names[1])
+        ax.set_xlabel(names[0])
         legend(ax, columns=3)
     _histogram(right, fit)
     what = f"circle of radius {1e3 * fit.radius:.3f} mm" if isinstance(fit, CircleFit) else "line"
+    if isinstance(fit, CircleFit) and len(fit.centre) == 3:
+        what += f", out of its plane {1e3 * fit.out_of_plane_rms_m:.3f} mm rms"
     left_out = f" and {d.outliers} outliers" if d.outliers else ""
     figure.suptitle(
         f"{tracking.path.name}: {what}, SD {1e3 * d.sd_m:.3f} mm, path error {1e3 * d.error_m:.3f} mm, "
@@ -65,6 +68,15 @@ def _draw_tracking(tracking: Tracking, *, narrow: bool) -> Picture:
         fontsize="medium",
     )
     return figure
+
+
+def _axis_names(tracking: Tracking) -> tuple[str, str]:
+    """Return what the axes show: those of the file, or in space two of the fit."""
+    if tracking.path.points.shape[1] == 2:
+        return "x [mm]", "y [mm]"
+    if isinstance(tracking.fit, LineFit):
+        return "along the fit [mm]", "across the fit, one of two directions [mm]"
+    return "in the plane of the fit [mm]", "in the plane, across [mm]"
 
 
 def _factor(size: float, largest: float) -> float:
@@ -100,21 +112,26 @@ def _flat(tracking: Tracking) -> tuple[Numbers, Numbers, Numbers]:
 
 
 def _histogram(ax: Axes, fit: LineFit | CircleFit) -> None:
-    d = fit.deviation
-    kept = 1e3 * (fit.residuals if fit.residuals.ndim == 1 else fit.residuals[:, 0])[fit.inliers]
+    d, in_space = fit.deviation, fit.residuals.ndim == 2
+    kept = 1e3 * fit.residuals[fit.inliers]
+    if in_space:  # two directions across a line: the distance has no sign and no normal curve
+        kept = np.hypot(kept[:, 0], kept[:, 1])
     ax.hist(kept, bins=min(60, max(10, len(kept) // 20)), density=True, color="0.8")
     sd = 1e3 * d.sd_m
-    if sd > 0:
+    if sd > 0 and not in_space:
         x = np.linspace(-4 * sd, 4 * sd, 200)
         normal = np.exp(-0.5 * (x / sd) ** 2) / (sd * np.sqrt(2 * np.pi))
         ax.plot(x, normal, color="0.35", lw=1, label="normal, same SD")
-    for value, colour, name in ((sd, FIT, "±SD"), (1e3 * d.error_m, PATH, "±path error")):
-        ax.axvline(value, color=colour, lw=1.2, label=name)
-        ax.axvline(-value, color=colour, lw=1.2)
+    sign = "" if in_space else "±"
+    for value, colour, name in ((sd, FIT, "SD"), (1e3 * d.error_m, PATH, "path error")):
+        ax.axvline(value, color=colour, lw=1.2, label=sign + name)
+        if not in_space:
+            ax.axvline(-value, color=colour, lw=1.2)
     dress(ax, "density [1/mm]")
-    ax.set_xlabel(
+    sides = (
         "outside (+), inside (-) [mm]" if isinstance(fit, CircleFit) else "left (+), right (-) [mm]"
     )
+    ax.set_xlabel("distance from the line [mm]" if in_space else sides)
     legend(ax, columns=3)
 
 

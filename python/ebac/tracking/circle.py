@@ -55,12 +55,24 @@ class CircleFit:
     arc_rad: float
     inliers: np.ndarray[tuple[int, ...], np.dtype[np.bool_]]
 
+    @property
+    def out_of_plane_rms_m(self) -> float:
+        """Root mean square of the counted distances from the plane [m]; `deviation` does not hold them."""
+        return float(np.sqrt((self.out_of_plane[self.inliers] ** 2).mean()))
+
+    @property
+    def out_of_plane_largest_m(self) -> float:
+        """Largest of the counted distances from the plane [m]."""
+        return float(np.abs(self.out_of_plane[self.inliers]).max())
+
     def __repr__(self) -> str:
         """Return one line: radius, centre, arc, deviation, points counted."""
         centre = ", ".join(f"{1e3 * value:.4f}" for value in self.centre.tolist())
+        plane = f", out of its plane {1e3 * self.out_of_plane_rms_m:.3g} mm rms"
         return (
             f"<CircleFit: radius {1e3 * self.radius:.4g} mm, centre ({centre}) mm, "
-            f"arc {np.degrees(self.arc_rad):.4g} deg; SD {1e3 * self.deviation.sd_m:.3g} mm of "
+            f"arc {np.degrees(self.arc_rad):.4g} deg; SD {1e3 * self.deviation.sd_m:.3g} mm"
+            f"{plane if len(self.centre) == 3 else ''} of "
             f"{int(self.inliers.sum())} of {len(self.inliers)} points; distances in .residuals>"
         )
 

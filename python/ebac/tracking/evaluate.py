@@ -18,6 +18,8 @@ SHAPES = ("auto", "line", "circle")
 LEAST_ARC = np.pi / 2
 #: ... and lies this much nearer to it than to a line.
 NEARER = 0.5
+#: So many standard deviations out of the plane of a circle are told: a path with equal errors in space has one.
+OUT_OF_PLANE = 2.0
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
@@ -31,6 +33,20 @@ class Tracking:
     def shape(self) -> str:
         """What was fitted: "line" or "circle"."""
         return "line" if isinstance(self.fit, LineFit) else "circle"
+
+    @property
+    def remark(self) -> str:
+        """What the numbers leave out: a path that leaves the plane of its circle; empty if nothing."""
+        fit = self.fit
+        if isinstance(fit, LineFit):
+            return ""
+        rms, largest = fit.out_of_plane_rms_m, fit.out_of_plane_largest_m
+        if rms <= OUT_OF_PLANE * fit.deviation.sd_m + 1e-9:  # 1 nm: rounding
+            return ""
+        return (
+            f"{self.path.name} leaves the plane of its circle by {1e3 * rms:.3g} mm rms, {1e3 * largest:.3g} mm at "
+            "most; SD, path error and largest are radial and do not count that"
+        )
 
     def __repr__(self) -> str:
         """Return the fit and how far the path lies from it."""
@@ -74,6 +90,8 @@ class Tracking:
                 "arc_deg": degrees(fit.arc_rad),
                 "centre_m": [float(v) for v in fit.centre],
                 "centre_sd_m": fit.centre_sd_m,
+                "out_of_plane_rms_m": fit.out_of_plane_rms_m,
+                "out_of_plane_largest_m": fit.out_of_plane_largest_m,
             }
         return row | more
 
@@ -122,5 +140,6 @@ def _fit(path: RecordedPath, shape: str, robust: bool) -> LineFit | CircleFit:
         line = fit_line(path.points, robust=robust)
     except ValueError:
         return circle
-    near = circle.deviation.sd_m <= NEARER * line.deviation.sd_m
+    away = np.hypot(circle.deviation.sd_m, circle.out_of_plane_rms_m)
+    near = away <= NEARER * line.deviation.sd_m
     return circle if near and circle.arc_rad >= LEAST_ARC else line

@@ -26,7 +26,7 @@ class LineFit:
     along : array, shape (n,)
         Way along it from `point` [m].
     deviation : Deviation
-        The distances in numbers, p = 2.
+        The distances in numbers, p = 2: in space each point gives two distances for 4 fitted numbers.
     direction_sd_rad, offset_sd_m : float
         Standard deviation of its direction [rad] and of `point` across it [m], from `deviation.independent` points.
     inliers : array of bool, shape (n,)
