@@ -272,3 +272,9 @@ def test_other_positions_do_not_take_the_place_of_the_handle(tmp_path: Path) -> 
     found = load(tmp_path / "log.csv")
     assert found.x == pytest.approx(X, rel=1e-4, abs=1e-9)
     assert found.target is None
+
+
+def test_a_column_of_decimal_commas_is_named(tmp_path: Path) -> None:
+    (tmp_path / "log.csv").write_text('t [s],x [mm],force [N]\n0,"1,5",2\n0.001,"1,6",2\n')
+    with pytest.raises(ValueError, match=r"'1,5' in row 1, column 'x \[mm\]', .*; write 1\.5"):
+        load(tmp_path / "log.csv")

@@ -268,6 +268,10 @@ def test_units_are_read_or_guessed_and_said(
         ("x,y\n1,2\n3,nan\n", "column y, row 2: nan is not finite"),
         ("x,y\n1,2\n3\n", "row 2 has 1 values, the heading 2"),
         ("x [mm],y [m]\n1,2\n", "have several units"),
+        (
+            "x y\n1 2\n",
+            "its columns have spaces between them; put commas, semicolons or tabs there",
+        ),
     ],
 )
 def test_a_bad_file_is_told_by_name_and_place(tmp_path: Path, text: str, message: str) -> None:
@@ -277,6 +281,14 @@ def test_a_bad_file_is_told_by_name_and_place(tmp_path: Path, text: str, message
         read_path(file)
     assert str(caught.value).startswith(f"{file}: ")
     assert message in str(caught.value)
+
+
+@pytest.mark.parametrize("mark", [";", "\t"])
+def test_semicolons_tabs_and_decimal_commas_are_read(tmp_path: Path, mark: str) -> None:
+    file = tmp_path / "a.csv"
+    rows = ["x [mm]; y [mm]", "1,5;2", "", "3.5;-4,25e1"]
+    file.write_text("\n".join(rows).replace(";", mark))
+    assert read_path(file).points == pytest.approx(np.array([[1.5, 2], [3.5, -42.5]]) / 1e3)
 
 
 def test_what_is_no_text_is_refused(tmp_path: Path) -> None:

@@ -37,3 +37,23 @@ def read_text(path: str | Path) -> str:
         f"is no text in UTF-8 (line {line}, byte 0x{data[wrong]:02x}); save it in UTF-8, or check that it is the "
         "right file"
     )
+
+
+def delimited(lines: list[str]) -> tuple[str, list[str]]:
+    """Return the mark between the columns of a CSV file, and its lines, the heading first.
+
+    Where the mark is no comma, a comma below the heading is a decimal one and becomes a point.
+
+    Raises
+    ------
+    ValueError
+        When there are spaces between the columns.
+    """
+    mark = max(",;\t", key=lines[0].count)
+    if mark not in lines[0] and len(lines) > 1 and len(lines[1].split()) > 1:
+        raise ValueError(
+            "its columns have spaces between them; put commas, semicolons or tabs there"
+        )
+    if mark != ",":
+        lines = [lines[0], *(line.replace(",", ".") for line in lines[1:])]
+    return mark, lines

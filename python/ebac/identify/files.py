@@ -13,7 +13,7 @@ from zipfile import BadZipFile
 import numpy as np
 from numpy.typing import NDArray
 
-from ebac._util.text_file import read_text
+from ebac._util.text_file import delimited, read_text
 
 Columns: TypeAlias = dict[str, NDArray[np.float64]]
 
@@ -54,13 +54,10 @@ def _csv(path: Path) -> Table:
     lines = [line for line in lines if line.strip() and not line.startswith(("#", "%"))]
     if len(lines) < 2:
         raise ValueError(f"{path.name}: lines = {len(lines)}: needs a heading and rows below it")
-    mark = max("\t;,", key=lines[0].count)
-    if mark not in lines[0] and len(lines[1].split()) > 1:
-        raise ValueError(
-            f"{path.name}: its columns have spaces between them; put commas, semicolons or tabs there"
-        )
-    if mark != ",":  # then a comma within a number is a decimal one
-        lines[1:] = [line.replace(",", ".") for line in lines[1:]]
+    try:
+        mark, lines = delimited(lines)
+    except ValueError as error:
+        raise ValueError(f"{path.name}: {error}") from None
     names = [name.strip() for name in next(csv.reader(lines[:1], delimiter=mark))]
     if all(_is_number(name) for name in names):
         raise ValueError(
@@ -89,7 +86,7 @@ def _with_text(file: str, names: list[str], rows: list[list[str]]) -> Table:
     text: dict[str, str] = {}
     mixed: dict[str, str] = {}
     for name, column in zip(names, zip(*rows, strict=True), strict=True):
-        numbers = any(_is_number(cell.strip()) for cell in column)
+        numbers = any(_is_number(cell.strip().replace(",", ".")) for cell in column)
         try:
             values = [_number(cell, file, row, name) for row, cell in enumerate(column, 1)]
         except ValueError as error:
@@ -122,8 +119,10 @@ def _number(cell: str, file: str, row: int, column: str) -> float:
     try:
         return _float(text)
     except ValueError:
+        point = text.replace(",", ".")
+        remedy = f"; write {point}" if _is_number(point) else ""
         raise ValueError(
-            f"{file}: {text!r} in row {row}, column {column!r}, is no number"
+            f"{file}: {text!r} in row {row}, column {column!r}, is no number{remedy}"
         ) from None
 
 

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ebac._util.headings import FACTORS, split_heading
-from ebac._util.text_file import read_text
+from ebac._util.text_file import delimited, read_text
 
 #: Free motion of a hand before contact with the wall, unless given [m].
 APPROACH = 0.010
@@ -87,10 +87,14 @@ def _known(heading: str) -> tuple[str, float]:
 
 
 def read_csv(path: str | Path) -> dict[str, list[str]]:
-    """Return the columns of a CSV file by the names in its heading, as text; lines that start with # are left out."""
+    """Return the columns of a CSV file by the names in its heading, as text; lines that start with # are left out.
+
+    Between columns are commas, semicolons or tabs; with the latter two a number may have a decimal comma.
+    """
     try:
-        text = (line for line in StringIO(read_text(path), newline="") if not line.startswith("#"))
-        lines = [row for row in csv.reader(text) if any(cell.strip() for cell in row)]
+        text = [line for line in StringIO(read_text(path), newline="") if not line.startswith("#")]
+        mark, text = delimited([line for line in text if line.strip()] or [""])
+        lines = [row for row in csv.reader(text, delimiter=mark) if any(c.strip() for c in row)]
     except csv.Error as error:
         raise ValueError(str(error)) from None
     if not lines:

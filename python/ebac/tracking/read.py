@@ -58,7 +58,7 @@ def read_path(
     Parameters
     ----------
     file : path
-        `.npz` or text with a heading and commas.
+        `.npz`, or text with a heading and commas, semicolons or tabs between the columns.
     columns : sequence of str, optional
         Two or three columns; default: x, y and z by their usual names.
     unit : str, optional
