@@ -18,7 +18,7 @@ SHAPES = ("auto", "line", "circle")
 LEAST_ARC = np.pi / 2
 #: ... and lies this much nearer to it than to a line.
 NEARER = 0.5
-#: So many standard deviations out of the plane of a circle are told: a path with equal errors in space has one.
+#: Beyond so many standard deviations out of the plane of a circle a remark follows: equal errors in space give one.
 OUT_OF_PLANE = 2.0
 
 
