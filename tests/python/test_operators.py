@@ -174,3 +174,11 @@ def test_a_missing_value_in_a_dataframe_is_named() -> None:
 def test_an_operator_has_a_name() -> None:
     assert Operators(**GOOD).name(1) == "0.2 kg, 3 N s/m, 200 N/m, 30 mm"
     assert "2 Operators" in repr(Operators(**GOOD))
+
+
+def test_semicolons_and_decimal_commas_are_read(tmp_path: Path) -> None:
+    people = Operators.sample(5, seed=1)
+    people.to_csv(tmp_path / "hands.csv")
+    text = (tmp_path / "hands.csv").read_text()
+    (tmp_path / "de.csv").write_text(text.replace(",", ";").replace(".", ","))
+    assert Operators.from_csv(tmp_path / "de.csv") == people
