@@ -197,6 +197,14 @@ def test_wall_says_why_nothing_is_judged_exact() -> None:
     assert "Not judged" not in said
 
 
+def test_a_wall_that_the_motor_cannot_bear_says_so() -> None:
+    """It was "too deep by 18.2 mm", as if the law were at fault."""
+    words = ("wall", "--law", "ebac", "--seconds", "1", "--no-files")
+    strong = " ".join(ebac_command(*words, "--hand-stiffness", "5000").stdout.split())
+    assert "the ideal rest needs 133 N, and the motor gives 42.4 N at most" in strong
+    assert "No law can be exact" not in ebac_command(*words).stdout
+
+
 def test_wall_scenario_round_trip() -> None:
     given = [
         "--wall-stiffness",

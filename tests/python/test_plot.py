@@ -145,6 +145,18 @@ def test_walls_without_an_ideal_has_no_panel_for_it(run: Run) -> None:
         assert shown.count("position [mm]") == 1
 
 
+def test_walls_have_no_panel_without_a_curve(run: Run) -> None:
+    """A motor at its peak: ebac on the observer has no beta, and rests far from the ideal rest."""
+    hand = ebac.Hand(stiffness=5000.0)
+    shown = labels(
+        plot_walls([run("ebac", hand=hand, seconds=2.0), run("tca", hand=hand, seconds=2.0)])
+    )
+    assert not any("ideal rest" in label for label in shown)
+    figure = plot_walls([run("eba", hand=hand, seconds=2.0)])
+    limits = {ax.get_ylabel(): ax.get_xlim() for ax in figure.axes if ax.get_ylabel()}
+    assert limits[r"$\beta$ [kN/m]"] == limits["position [mm]"]
+
+
 def test_too_short_is_refused(run: Run) -> None:
     with pytest.raises(ValueError, match="0 rows"):
         plot_trace(run("tca").rows(0, 0))

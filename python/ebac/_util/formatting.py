@@ -135,10 +135,13 @@ def _device(device: Device) -> str:
 
 def _hand(hand: Hand) -> str:
     from ebac import presets
+    from ebac.hands import is_own
 
     known = [f"the {name} hand" for name, p in presets.HANDS.items() if p.hand == hand]
     path = hand.path[0]
-    if isinstance(path, Step):
+    if is_own(hand.model):
+        goal = "a force of its own"
+    elif isinstance(path, Step):
         goal = f"target {1e3 * path.target:g} mm"
     else:
         goal = f"a {type(path).__name__} path"

@@ -45,7 +45,7 @@ def plot_walls(traces: Sequence[Trace]) -> Picture:
     -------
     Figure
         Position, force and beta over time, up to three laws together and more in panels of their
-        own; below, the end at the scale of encoder counts, where the scenario has an ideal rest.
+        own; below, the end at the scale of encoder counts, where a law comes near an ideal rest.
 
     Raises
     ------
@@ -55,9 +55,12 @@ def plot_walls(traces: Sequence[Trace]) -> Picture:
     if not traces or min(len(trace) for trace in traces) < 10:
         raise ValueError("a figure of walls needs at least one trace, each of at least 10 rows")
     ideal = ideal_rest(traces[0].scenario) if traces[0].scenario else None
-    rows = [row for row in ROWS if row != "beta" or any(map(_has_beta, traces))]
+    contact = _first_contact(traces)
+    begun = [_parts(trace, contact)[0] for trace in traces]
+    rows = [row for row in ROWS if row != "beta" or any(map(_has_beta, begun))]
     draw = _together if len(traces) <= TOGETHER else _apart
-    figure, near = draw(traces, rows, near=ideal is not None)
+    rests = ideal is not None and any(_offset(trace, ideal) is not None for trace in traces)
+    figure, near = draw(traces, rows, near=rests)
     if ideal is not None and near is not None:
         _near(near, traces, ideal)
     if traces[0].scenario is not None:
@@ -98,6 +101,8 @@ def _together(traces: Sequence[Trace], rows: list[str], near: bool) -> tuple[Pic
         dress(axes[f"{row} end"], "")
         axes[f"{row} end"].sharey(axes[row])
         axes[f"{row} end"].tick_params(labelleft=False)
+    if "beta" in rows:
+        axes["beta"].sharex(axes["x"])
     landmarks(axes["x"], traces[0])
     landmarks(axes["x end"], traces[0])
     axes["x"].set_title("first contact with the wall", fontsize="medium")
@@ -200,10 +205,24 @@ def _lines(ax: Axes, row: str, part: Trace, label: str) -> None:
     mark_end(ax, part, label=False)
 
 
+def _band(trace: Trace) -> float:
+    """Return what an exact law may be off [mm]."""
+    return 1e3 * (allowed_deviation(trace.scenario) if trace.scenario else 0.0)
+
+
+def _offset(trace: Trace, ideal: float) -> tuple[Numbers, Numbers] | None:
+    """Return times [s] and places beyond the ideal rest [mm] of the last 30 %; None where they are off the scale."""
+    t, band = trace["t"], _band(trace)
+    part = trace[float(t[-1] - TAIL_SHARE * (t[-1] - t[0])) :]
+    offset = 1e3 * (_place(part) - ideal)
+    near = np.ptp(offset) < 10 * band and abs(offset.mean()) < 5 * band
+    return (part["t"], offset) if near else None
+
+
 def _near(ax: Axes, traces: Sequence[Trace], ideal: float) -> None:
     """Draw the last 30 % around the ideal point, at the scale of encoder counts."""
     scenario = traces[0].scenario
-    band = 1e3 * (allowed_deviation(scenario) if scenario else 0.0)
+    band = _band(traces[0])
     friction = scenario is not None and band > 1.001e3 * EXACT_COUNTS * scenario.device.count
     more = " and friction" if friction else ""
     ax.axhspan(-band, band, color="0.92", label=f"within {EXACT_COUNTS} encoder counts{more}")
@@ -211,13 +230,11 @@ def _near(ax: Axes, traces: Sequence[Trace], ideal: float) -> None:
     ax.set_ylim(-5 * band, 5 * band)
     away = []
     for trace in traces:
-        t = trace["t"]
-        part = trace[float(t[-1] - TAIL_SHARE * (t[-1] - t[0])) :]
-        offset = 1e3 * (_place(part) - ideal)
-        if np.ptp(offset) < 10 * band and abs(offset.mean()) < 5 * band:
-            line(ax, part["t"], offset, color=colour(trace.law), lw=1.2, label=trace.law)
-        else:
+        offset = _offset(trace, ideal)
+        if offset is None:
             away.append(trace.law)
+        else:
+            line(ax, *offset, color=colour(trace.law), lw=1.2, label=trace.law)
     dress(ax, "beyond the\nideal rest [mm]")
     ax.set_xlabel("time [s]")
     if away:

@@ -154,6 +154,8 @@ def show(
     show_contacts(contacts)
     if why := no_ideal_rest(scenario):
         output.say(f"Not judged exact, there is no ideal rest: {why}.")
+    elif weak := _beyond_the_motor(scenario):
+        output.say(weak)
     for first in range(0, len(bodies or []), LAWS_ABREAST):
         part = slice(first, first + LAWS_ABREAST)
         laws = [contact.law for contact in contacts[part]]
@@ -165,6 +167,20 @@ def show(
             "through a CAN bus in this process, with simulated CANopen drives, torque in whole thousandths of the "
             "rated one: the same to the bit without the bus by --device-permille"
         )
+
+
+def _beyond_the_motor(scenario: Scenario) -> str:
+    """Return that no law can be exact, where the ideal rest needs more than the peak force; else nothing."""
+    from ebac import Linear
+    from ebac.metrics.ideal import ideal_rest
+
+    ideal, peak = ideal_rest(scenario), scenario.device.peak_force
+    if ideal is None or not isinstance(scenario.device.kinematics, Linear):
+        return ""
+    force = abs(scenario.hand.steady(ideal))
+    if not force > peak:
+        return ""
+    return f"No law can be exact: the ideal rest needs {force:.3g} N, and the motor gives {peak:.3g} N at most."
 
 
 def show_fallbacks(traces: list[Trace]) -> None:
