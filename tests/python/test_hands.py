@@ -394,6 +394,7 @@ def test_a_hand_whose_force_is_no_number_is_named() -> None:
 def test_a_run_with_code_of_ones_own_is_saved_without_its_scenario(
     own: str, ending: str, tmp_path: Path
 ) -> None:
+    pytest.importorskip({"h5": "h5py", "mat": "scipy", "parquet": "pyarrow"}.get(ending, "numpy"))
     parts = {
         "hand": {"hand": Spring()},
         "world": {"environment": FunctionWorld(lambda x, v: [1e3 * x[0], 0, 0])},
