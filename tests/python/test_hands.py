@@ -377,6 +377,14 @@ def test_a_damped_wall_is_exact_on_the_encoder_alone(cell: str) -> None:
     assert ebac.sweep(runs, "ebac").exact_and_still.sum() >= 50
 
 
+def test_a_hand_of_ones_own_has_no_target_in_titles() -> None:
+    """It ignores `path`, whose default target is 40 mm."""
+    figure = ebac.simulate(ebac.Scenario(hand=Spring(), seconds=0.1)).plot()
+    title = figure.get_suptitle()
+    assert "a force of its own" in title
+    assert "target" not in title
+
+
 class Lost(OwnHand):
     """A hand whose force is no number from some time on."""
 
