@@ -195,6 +195,7 @@ def test_rows_and_scores(found: ZWidth) -> None:
     border = found.limits["quiet"][0, 0]
     assert direct["quiet_area"] == pytest.approx(10 * border.mean())
     assert direct["quiet_times_direct"] == 1
+    assert direct["usable_share"] == pytest.approx(found.limits["usable"][0, 0].mean() / found.top)
 
 
 def test_a_border_says_what_it_ends_by(found: ZWidth) -> None:
@@ -203,6 +204,14 @@ def test_a_border_says_what_it_ends_by(found: ZWidth) -> None:
     assert set(found.ended_by("direct", 0)) <= {"limit cycle", "vibration", "energy"}
     low = search(laws="direct", delays=(0,), dampings=(0.0, 0.1), top=300.0)
     assert low.ended_by("direct", 0) == ["top", "top"]
+    assert low.share("direct", 0) == 1
+
+
+def test_the_share_of_a_single_damping(found: ZWidth) -> None:
+    one = replace(
+        found, dampings=found.dampings[:1], limits={n: x[..., :1] for n, x in found.limits.items()}
+    )
+    assert one.share("direct", 0) == found.limits["usable"][0, 0, 0] / found.top
     words = {"still": "limit cycle", "quiet": "vibration", "energy": "energy"}
     for row in found.rows():
         criterion = next(

@@ -215,7 +215,7 @@ def _show(found: ZWidth) -> None:
             if row["delay_samples"] == delay:
                 ends = Counter(found.ended_by(row["law"], delay))
                 cells = (_cell(row, name, beside="direct" in found.laws) for name in CRITERIA)
-                share = f"{100 * row['usable_area'] / (1e3 * full * most):.0f} %"
+                share = f"{100 * row['usable_share']:.0f} %"
                 stiffest = float(found.limits["usable"][found.laws.index(row["law"]), number, 0])
                 grid.add_row(
                     str(delay),

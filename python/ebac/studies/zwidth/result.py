@@ -90,6 +90,14 @@ class ZWidth:
         )
         return float(np.trapezoid(np.minimum(border, self.top), self.dampings))
 
+    def share(self, law: str, delay: int) -> float:
+        """Return the part of all walls up to `top` that is usable, 0 to 1; of one damping, the part of its walls."""
+        width = float(self.dampings[-1] - self.dampings[0])
+        if width == 0:
+            limit = self.limits["usable"][self.laws.index(law), self.delays.index(delay), 0]
+            return float(limit) / self.top
+        return self.area("usable", law, delay) / (self.top * width)
+
     def ended_by(self, law: str, delay: int) -> list[str]:
         """Return what the walls above the usable border are lost by, for each wall damping.
 
@@ -109,7 +117,7 @@ class ZWidth:
         return [of(j) for j in range(len(self.dampings))]
 
     def scores(self) -> list[dict[str, Any]]:
-        """Return one row per law and delay: the area by criterion, and how many times that of `direct`."""
+        """Return one row per law and delay: areas by criterion, how many times those of `direct`, usable share."""
         rows = []
         for law in self.laws:
             for delay in self.delays:
@@ -119,6 +127,7 @@ class ZWidth:
                     row[f"{name}_area"] = area
                     own = self.area(name, "direct", delay) if "direct" in self.laws else 0.0
                     row[f"{name}_times_direct"] = area / own if own > 0 else None
+                row["usable_share"] = self.share(law, delay)
                 rows.append(row)
         return rows
 
