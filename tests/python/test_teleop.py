@@ -275,6 +275,18 @@ def test_study_and_its_figures() -> None:
         plot_teleop_runs([])
 
 
+def test_a_run_prints_its_results() -> None:
+    run = teleop.simulate("ebac", back=Link(delay=0.02, loss=0.1), seconds=3)
+    text = str(run)
+    assert "there 50 ms of delay; back 20 ms of delay, 10 % lost" in text
+    assert f"  force at rest       {run.rest_N:.2f} N\n" in text
+    assert f"  transparency        {run.transparency:.4g}\n" in text
+    assert len(text.splitlines()) < 20
+    assert repr(run).startswith("<Run of ebac: swings, passive at the master's port, not at both")
+    assert "<img" in run._repr_html_()
+    assert "rest [N]" in run._repr_html_()
+
+
 def test_a_port_that_is_none_is_refused_and_not_another_one() -> None:
     with pytest.raises(ValueError, match=r"slave: port = 70000: must lie in \[0, 65535\]"):
         Slave(SlaveModel(), teleop.SCHEMES["ebac"], host="127.0.0.1", port=70000)

@@ -6,7 +6,18 @@ from collections.abc import Iterable
 from math import degrees, floor, isfinite, log10
 from typing import TYPE_CHECKING, Any
 
-from ebac._core import Corner, Device, Disc, Gimbal, Hand, SlidingGimbal, Step, Wall, _World
+from ebac._core import (
+    Corner,
+    Device,
+    Disc,
+    Gimbal,
+    Hand,
+    MinimumJerk,
+    SlidingGimbal,
+    Step,
+    Wall,
+    _World,
+)
 
 if TYPE_CHECKING:
     from ebac.metrics import Contact
@@ -99,7 +110,7 @@ def describe(scenario: Scenario) -> str:
     return "; ".join(
         (
             _device(scenario.device),
-            _hand(scenario.hand),
+            described_hand(scenario.hand),
             _environment(scenario.environment),
             f"{_kilo(1 / timing.dt, 'Hz')}, {samples} of delay{jitter}{observer}",
             f"{scenario.seconds:g} s, seed {scenario.seed}",
@@ -133,7 +144,8 @@ def _device(device: Device) -> str:
     return f"{name} ({device.mass:.4g} kg, {device.mechanics.damping:g} N s/m{friction}{noise}{permille})"
 
 
-def _hand(hand: Hand) -> str:
+def described_hand(hand: Hand) -> str:
+    """Return a hand in words: "a hand (0.3 kg, 4 N s/m, 300 N/m, target 45 mm)"."""
     from ebac import presets
     from ebac.hands import is_own
 
@@ -141,7 +153,7 @@ def _hand(hand: Hand) -> str:
     path = hand.path[0]
     if is_own(hand.model):
         goal = "a force of its own"
-    elif isinstance(path, Step):
+    elif isinstance(path, (Step, MinimumJerk)):
         goal = f"target {1e3 * path.target:g} mm"
     else:
         goal = f"a {type(path).__name__} path"

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -12,8 +12,9 @@ import numpy.typing as npt
 from ebac import _core
 from ebac._core import STILL_SWING, TAIL_SHARE, Free, Hand, Link, MinimumJerk, SlaveModel
 from ebac._util.arguments import number, require, shown, unknown_name, whole
-from ebac.laws import AnyLaw, CoreLaw, design
+from ebac.laws import AnyLaw, CoreLaw, design, law_name
 from ebac.scenario import Scenario
+from ebac.teleop import run_text
 from ebac.teleop.schemes import Scheme, chosen_scheme
 
 #: A stick that swings farther does not rest [m].
@@ -22,7 +23,7 @@ NO_REST = 5e-3
 SPARE = 1e-3
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True, repr=False)
 class Run:
     """A run of both sides.
 
@@ -30,10 +31,16 @@ class Run:
     ----------
     scheme : Scheme
         What ran.
+    law : str
+        Of the master, by name.
     columns : dict of str to ndarray
         Each of shape (ticks,); names, units and meanings by `Run.fields`.
     slave : SlaveModel
         With the environment it met.
+    there, back : Link
+        The network to the slave and back.
+    hand : Hand
+        At the master.
     at_master, at_slave : dict of str to int
         Packets received, missing, late, doubled, foreign.
     whole : bool
@@ -41,8 +48,12 @@ class Run:
     """
 
     scheme: Scheme
-    columns: dict[str, npt.NDArray[np.float64]] = field(repr=False)
+    law: str
+    columns: dict[str, npt.NDArray[np.float64]]
     slave: SlaveModel
+    there: Link
+    back: Link
+    hand: Hand
     at_master: dict[str, int]
     at_slave: dict[str, int]
     whole: bool
@@ -123,6 +134,23 @@ class Run:
         """Largest force on the environment [N]."""
         return float(self["met"].max())
 
+    def __repr__(self) -> str:
+        """Return the verdict and the main numbers in one line."""
+        return run_text.one_line(self)
+
+    def __str__(self) -> str:
+        """Return the verdict, the conditions and every number with its unit, one a line."""
+        return run_text.listed(self)
+
+    def _repr_html_(self) -> str:
+        """Return a figure and the numbers, for a notebook."""
+        from ebac._util import notebook
+        from ebac.plot import plot_teleop_runs
+
+        title = f"Teleoperation under {self.scheme.name}, simulated: {run_text.verdict(self)}"
+        rows = [{name: getattr(self, name) for _, name, _, _ in run_text.LINES}]
+        return notebook.result(title, rows, lambda: plot_teleop_runs([self]))
+
 
 def simulate(
     scheme: str | Scheme = "ebac",
@@ -191,22 +219,27 @@ def simulate(
     made = design(law or chosen.law, given.device, given.known_timing)
     if not isinstance(made, CoreLaw):
         raise TypeError(f"law = {made!r}: must be a law of the core, not one written in Python")
-    one_way = there or Link()
+    to_slave = there or Link()
+    to_master = back or to_slave
     model = slave or SlaveModel()
     columns = _core._simulate_teleop(
         made,
         setup,
         coupling=chosen.coupling,
         slave=model,
-        there=one_way,
-        back=back or one_way,
+        there=to_slave,
+        back=to_master,
         consent_after=consent_after,
     )
     at_master, at_slave = columns.pop("at_master"), columns.pop("at_slave")
     return Run(
         scheme=chosen,
+        law=law_name(law or chosen.law),
         columns=columns,
         slave=model,
+        there=to_slave,
+        back=to_master,
+        hand=path,
         at_master=at_master,
         at_slave=at_slave,
         whole=columns.pop("whole"),
