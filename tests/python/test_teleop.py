@@ -268,11 +268,41 @@ def test_study_and_its_figures() -> None:
     assert shown == pytest.approx([50 - 1.25, 50 + 1.25])  # beside the delay, one on each side
     with pytest.raises(KeyError, match="no network is called 'ruff'; there are: rough"):
         plot_teleop(found, "ruff")
-    figure = plot_teleop_runs([teleop.simulate("ebac", seconds=3)])
-    assert len(figure.axes) == 3
-    assert "simulated" in figure.get_suptitle()
+    assert "log beyond -1 mJ" in figure.axes[2].get_ylabel()
     with pytest.raises(ValueError, match=r"runs = .*: is empty"):
         plot_teleop_runs([])
+
+
+def test_runs_are_drawn_with_their_conditions_and_a_colour_for_each_thing() -> None:
+    figure = plot_teleop_runs([teleop.simulate(name, seconds=3) for name in ("waves", "ebac")])
+    assert figure.get_suptitle().splitlines() == [
+        "Teleoperation, simulated",
+        "each way 50 ms of delay; contact of 500 N/m at 20 mm; a hand (0.15 kg, 6 N s/m, 300 N/m, target 45 mm)",
+    ]
+    titles = [ax.get_title() for ax in figure.axes[:2]]
+    assert titles == ["waves\nlaw direct", "ebac\nlaw ebac"]
+    named = {line.get_label(): line.get_color() for line in figure.axes[0].get_lines()}
+    named |= {line.get_label(): line.get_color() for line in figure.axes[4].get_lines()}
+    assert len(named) == len(set(named.values())) == 4
+    assert "log beyond" in figure.axes[4].get_ylabel()
+
+
+def test_a_run_that_shakes_does_not_hide_the_others_and_is_said_to_be_cut() -> None:
+    hard, far = SlaveModel(contact_stiffness=20e3), Link(delay=0.2)
+    runs = [
+        teleop.simulate(name, slave=hard, there=far, seconds=5)
+        for name in ("position-force", "waves")
+    ]
+    figure = plot_teleop_runs(runs)
+    shaking, calm = figure.axes[:2]
+    assert [text.get_text()[:4] for text in shaking.texts] == ["cut:"]
+    assert not calm.texts
+    low, high = calm.get_ylim()
+    assert 1e-3 * low < runs[1]["true_x"].min()
+    assert runs[1]["true_x"].max() < 1e-3 * high
+    assert high - low < 3 * 1e3 * np.ptp(runs[1]["true_x"])
+    alone = plot_teleop_runs(runs[:1])
+    assert not alone.axes[0].texts  # nothing else is there to be hidden
 
 
 def test_a_run_prints_its_results() -> None:

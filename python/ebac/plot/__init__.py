@@ -25,7 +25,8 @@ from ebac.plot.style import (
     new_figure,
 )
 from ebac.plot.sweep import plot_sweep
-from ebac.plot.teleop import plot_teleop, plot_teleop_runs
+from ebac.plot.teleop import plot_teleop
+from ebac.plot.teleop_runs import plot_teleop_runs
 from ebac.plot.tissue import plot_tissue
 from ebac.plot.tracking import plot_budget, plot_tracking
 from ebac.plot.walls import plot_walls

@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ebac._util.arguments import several, unknown_name
-from ebac.plot.style import Picture, dress, figure_legend, line, new_figure
+from ebac._util.arguments import unknown_name
+from ebac.plot.style import Picture, dress, figure_legend, new_figure
 
 if TYPE_CHECKING:
-    from ebac.teleop.run import Run
     from ebac.teleop.study import Study, StudyRow
 
 #: Okabe and Ito's colours; a marker of its own for each scheme as well.
@@ -78,7 +76,7 @@ def plot_teleop(found: Study, network: str = "rough") -> Picture:
         grid[:, 0],
         (
             "shaking of the stick [mm]\ndashed: still below",
-            "least energy of\nboth ports [mJ]",
+            "least energy of both ports [mJ],\nlog beyond -1 mJ",
             "transparency",
         ),
         strict=True,
@@ -99,42 +97,3 @@ def _values(rows: list[StudyRow]) -> tuple[list[float], list[float], list[float]
         [1e3 * row.least_network_J for row in rows],
         [row.transparency for row in rows],
     )
-
-
-def plot_teleop_runs(runs: Sequence[Run]) -> Picture:
-    """Draw a column for each run: positions, forces and energies of both ports over time.
-
-    Parameters
-    ----------
-    runs : sequence of Run
-        What `ebac.teleop.simulate` returned; at least one.
-    """
-    several("plot_teleop_runs: runs", runs)
-    figure = new_figure(1.2 + 2.4 * len(runs), 7.0)
-    grid = figure.subplots(3, len(runs), squeeze=False, sharex=True, sharey="row")
-    for column, run in enumerate(runs):
-        t = run["t"]
-        above, middle, below = grid[:, column]
-        line(above, t, 1e3 * run["true_x"], color="#0072b2", label="master")
-        line(above, t, 1e3 * run["slave_x"], color="#d55e00", label="slave")
-        line(middle, t, run["force"], color="#0072b2")
-        line(middle, t, run["met"], color="#d55e00")
-        line(below, t, 1e3 * run["energy"], color="#0072b2", label="master's port")
-        line(below, t, 1e3 * run["network"], color="#009e73", label="both ports")
-        above.set_title(run.scheme.name, fontsize="medium")
-        below.set_xlabel("time [s]")
-    for ax in grid.flat:
-        dress(ax, "")
-    # One that shakes would hide the others.
-    grid[0, 0].set_ylim(-10, 70)
-    grid[1, 0].set_ylim(-5, 25)
-    grid[2, 0].set_yscale("symlog", linthresh=10)
-    for ax, text in zip(
-        grid[:, 0], ("position [mm]", "force at both ends [N]", "energy taken in [mJ]"), strict=True
-    ):
-        ax.set_ylabel(text)
-    handles, labels = grid[0, 0].get_legend_handles_labels()
-    more, texts = grid[2, 0].get_legend_handles_labels()
-    figure_legend(figure, [*handles, *more], [*labels, *texts], columns=4)
-    figure.suptitle("Teleoperation, simulated", fontsize="medium")
-    return figure
