@@ -53,6 +53,22 @@ def test_a_function_is_the_wall_that_it_computes(world: worlds.FunctionWorld | B
     assert ebac.contact(trace).swing_m == pytest.approx(ebac.contact(expected).swing_m, abs=1e-12)
 
 
+@pytest.mark.parametrize(
+    ("world", "known"),
+    [
+        (FunctionWorld(spring), False),
+        (Bridge(plane, timing=EngineTiming(rate=1000)), False),
+        (Bridge(WALL, timing=EngineTiming(rate=1000)), True),
+    ],
+)
+def test_what_a_function_stores_is_not_known(world: FunctionWorld | Bridge, known: bool) -> None:
+    scenario = SHORT.replace(environment=world)
+    met = ebac.contact(ebac.simulate(scenario, "ebac"))
+    assert (met.most_drawn_J is not None) == known
+    assert ("drawn in any window -" in str(met)) != known
+    assert np.isfinite(ebac.sweep([scenario], "ebac")["most_drawn_J"][0]) == known
+
+
 def test_a_touch_has_a_normal_of_its_own() -> None:
     def rough(x: np.ndarray, v: np.ndarray) -> Touch | None:
         depth = x[0] - 0.01

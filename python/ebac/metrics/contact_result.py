@@ -63,7 +63,8 @@ class Contact:
         the least energy counts: `ebac.metrics.drawn`. None where nothing moved.
     most_drawn_J : float or None
         Energy drawn in any window beyond what an ideal wall stores at the window's start, max over t1 < t2 of
-        W(t1) - W(t2) - K depth(t1)^2 / 2; 0 for an ideal wall, None without a simulation.
+        W(t1) - W(t2) - K depth(t1)^2 / 2; 0 for an ideal wall. None without a simulation, and in a world that is a
+        function, or an engine of a function: what it stores is not known.
     clamped_share : float or None
         Share of ticks in which the law limited its force; None for a law without such a limit.
     force_step_N : float

@@ -17,10 +17,12 @@ from ebac._core import (
 )  # of a run, its end, over which rest and swing are taken
 from ebac._core import _measure_contact, _stored_energy
 from ebac._util.arguments import require
+from ebac._util.foreign_worlds import foreign
 from ebac.hands import is_own
 from ebac.metrics.contact_result import Contact
 from ebac.metrics.energy_drawn import drawn
 from ebac.metrics.ideal import allowed_deviation, ideal_rest, without_engine
+from ebac.scenario import Environment
 from ebac.trace import Trace
 
 #: A handle that met nothing for so long at the end of a run has left the surface [s]; a law that shakes meets the wall
@@ -82,7 +84,7 @@ def contact(trace: Trace, *, axis: int = 0, truth: bool = True) -> Contact:
     true, with_energy = (truth and name in trace for name in ("true.x", "true.energy"))
     energy = _columns(trace, "true.energy").sum(axis=1) if with_energy else None
     stored = None
-    if trace.scenario is not None and true:
+    if trace.scenario is not None and true and _known(trace.scenario.environment):
         world = without_engine(trace.scenario).environment
         kinematics = trace.scenario.device.kinematics
         stored = _stored_energy(world, kinematics, _columns(trace, "true.x"), trace["t"])
@@ -120,6 +122,12 @@ def contact(trace: Trace, *, axis: int = 0, truth: bool = True) -> Contact:
         **{column: known[name] for column, name in COLUMNS.items()},
         **{name: known[name] for name in FLAGS},
     )
+
+
+def _known(environment: Environment) -> bool:
+    """Return whether it is known what a world stores: not of a function, or of an engine that stands for no bodies."""
+    world = foreign(environment)
+    return world is None or world.ideal() is not None
 
 
 def moves_with_hand(trace: Trace, axis: int = 0) -> bool:
