@@ -50,6 +50,12 @@ def results() -> dict[str, Callable[[], Any]]:
     }
 
 
+def test_a_vibration_that_is_none_is_printed_as_0() -> None:
+    assert formatting.quantity(1.8e-12, "threshold") == "0"
+    assert formatting.quantity(19.816, "threshold") == "19.82"
+    assert formatting.force_verdict(True, 0.1, 0, 1.8e-12).endswith("vibration 0 thresholds")
+
+
 def test_a_contact_with_bodies_and_the_error_of_a_grid_have_units_and_few_digits() -> None:
     ball = Placed(Sphere(), at=(0.03, 0.002, 0.0))
     plane = ebac.Device(kinematics=ebac.Linear(axes=2))
@@ -57,6 +63,11 @@ def test_a_contact_with_bodies_and_the_error_of_a_grid_have_units_and_few_digits
     trace = ebac.simulate(pressed, "ebac")
     met = ebac.metrics.world_contact(trace)
     assert repr(met) == str(met)
+    far = World(Body(solid=Placed(Sphere(), at=(0.3, 0.0, 0.0))))
+    missed = ebac.metrics.world_contact(
+        ebac.simulate(SHORT.replace(environment=far, device=plane), "ebac")
+    )
+    assert "  deepest             -\n  depth               -\n" in repr(missed)
     assert f"  deepest             {formatting.quantity(met.deepest_m, 'm')}\n" in repr(met)
     assert re.search(r"\n  normal error        [\d.]+ deg\n  friction share      -\n", repr(met))
     error = GridError(
@@ -156,6 +167,8 @@ def test_a_short_run_is_not_judged(run: Run) -> None:
 def test_a_run_in_free_air_has_no_contact(run: Run) -> None:
     free = ebac.contact(run("ebac", environment=ebac.Free(), seconds=1.0))
     assert free.verdict == "no contact"
+    assert "  rest                -\n  ideal rest          -\n" in str(free)
+    assert "; rest -, swing" in repr(free)
     assert (
         ebac.contact(run("ebac", environment=ebac.Wall(position=1.0), seconds=1.0)).touched is False
     )

@@ -34,6 +34,10 @@ SHOWN: dict[str, tuple[float, str, int]] = {
     "A": (1, "A", 4),
     "share": (100, "%", 0),
 }
+#: A smaller vibration is printed as 0 [detection thresholds].
+LEAST_VIBRATION = 1e-3
+#: What a contact does not have where the virtual world never acted.
+OF_CONTACT = {"rest_m", "ideal_m", "deviation_m", "allowed_m", "depth_m", "deepest_m"}
 
 #: What has a unit, where that is plain.
 QUANTITY_OF = {"m": "position", "m/s": "velocity", "N": "force", "N/m": "stiffness", "J": "energy", "W": "power",
@@ -51,7 +55,8 @@ def quantity(value: float | None, unit: str, *, signed: bool = False, none: str 
     value : float or None
         In SI units; None gives `none`.
     unit : str
-        SI unit; "1" for a pure number, "share" for one shown in per cent.
+        SI unit; "1" for a pure number, "share" for one shown in per cent, "threshold" for a vibration in
+        detection thresholds.
     signed : bool
         Whether to show a plus sign.
     none : str
@@ -59,6 +64,8 @@ def quantity(value: float | None, unit: str, *, signed: bool = False, none: str 
     """
     if value is None or not isfinite(value):
         return none
+    if unit == "threshold":
+        value, unit = value if value >= LEAST_VIBRATION else 0.0, "1"
     factor, shown, decimals = SHOWN.get(unit, (1, "" if unit == "1" else unit, 3))
     more = 1 if unit in ("m", "J") else 3
     text = _number(value * factor, decimals, more, signed, exact=unit not in SHOWN)
@@ -77,9 +84,15 @@ def cell(value: float | None, unit: str, *, none: str = "-") -> str:
 
 def listed(title: str, result: Any, lines: Iterable[tuple[str, str, str, str]]) -> str:
     """Return a title and the numbers of a result, one a line: label, attribute, SI unit, what to print for none."""
-    shown = [f"  {label:<20}{quantity(getattr(result, name), unit, none=none)}"
+    shown = [f"  {label:<20}{quantity(of_contact(result, name), unit, none=none)}"
              for label, name, unit, none in lines]  # fmt: skip
     return "\n".join([title, *shown])
+
+
+def of_contact(result: Any, name: str) -> Any:
+    """Return a number of a result; None for what a contact without contact does not have."""
+    untouched = getattr(result, "touched", None) is False
+    return None if untouched and name in OF_CONTACT else getattr(result, name)
 
 
 def _number(value: float, decimals: int, more: int, signed: bool, exact: bool) -> str:
@@ -275,8 +288,9 @@ def force_verdict(
     """
     settled = quantity(settled_s, "s", none="never")
     counted = "no jump" if jumps == 0 else f"{jumps:.0f} jump{'s' if jumps > 1 else ''}"
-    known = perceived is not None and isfinite(perceived)
-    vibration = f"{perceived:.3g} thresholds" if known else "not known"
+    vibration = "not known"
+    if perceived is not None and isfinite(perceived):
+        vibration = f"{perceived if perceived >= LEAST_VIBRATION else 0:.3g} thresholds"
     return (
         f"{'quiet' if quiet else 'not quiet'}: settled {settled}, {counted}, vibration {vibration}"
     )

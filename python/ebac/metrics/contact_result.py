@@ -26,7 +26,7 @@ LINES = (
     ("ripple, rms", "ripple_rms_N", "N", "-"),
     ("above 20 Hz, rms", "ripple_high_N", "N", "-"),
     ("force jumps", "jumps", "1", "-"),
-    ("vibration/threshold", "perceived", "1", "-"),
+    ("vibration/threshold", "perceived", "threshold", "-"),
     ("deepest", "peak_m", "m", "-"),
     ("limit cycle", "limit_cycle", "Hz", "none"),
     ("least energy", "least_energy_J", "J", "-"),
@@ -186,8 +186,9 @@ class Contact:
     def __repr__(self) -> str:
         """Return the verdict and the main numbers in one line."""
         settled = formatting.quantity(self.settled_s, "s", none="never")
+        rest = formatting.quantity(formatting.of_contact(self, "rest_m"), "m")
         return (
-            f"<Contact of {self.law or 'a run'}: {self.verdict}; rest {formatting.quantity(self.rest_m, 'm')}, "
+            f"<Contact of {self.law or 'a run'}: {self.verdict}; rest {rest}, "
             f"swing {formatting.quantity(self.swing_m, 'm')}, settled {settled}; "
             f"force {self.force_verdict}>"
         )
@@ -200,7 +201,7 @@ class Contact:
             f"  force {self.force_verdict}",
         ]
         for label, name, unit, none in LINES:
-            value = getattr(self, name)
+            value = formatting.of_contact(self, name)
             if value is None and not none:
                 continue
             shown = formatting.quantity(value, unit, signed=name in signed, none=none)
@@ -211,7 +212,7 @@ class Contact:
         """Return a table for a notebook."""
         from ebac._util.notebook import table
 
-        return table([asdict(self)])
+        return table([{name: formatting.of_contact(self, name) for name in asdict(self)}])
 
     @property
     def deviation_m(self) -> float | None:

@@ -57,6 +57,11 @@ class WorldContact:
     came_through: int
     stored_J: float
 
+    @property
+    def touched(self) -> bool:
+        """Whether the handle was ever in contact."""
+        return self.touched_share > 0
+
     def __repr__(self) -> str:
         """Return every number with its unit, one a line."""
         return formatting.listed(

@@ -31,7 +31,7 @@ LINES = (
     ("force settled", "force_settled_s", "s", "never"),
     ("ripple", "ripple_N", "N", "-"),
     ("force jumps", "jumps", "1", "-"),
-    ("vibration/threshold", "perceived", "1", "-"),
+    ("vibration/threshold", "perceived", "threshold", "-"),
     ("deepest", "peak_m", "m", "-"),
     ("limit cycle", "limit_cycle", "Hz", "none"),
     ("least energy", "least_energy_J", "J", "-"),
@@ -219,7 +219,7 @@ def _lines(lines: Lines, columns: Mapping[str, object]) -> Table:
 
     grid = output.table(["", *columns], numbers=range(1, 99))
     for label, name, unit, none in lines:
-        cells = [getattr(one, name) for one in columns.values()]
+        cells = [formatting.of_contact(one, name) for one in columns.values()]
         if not none and all(cell is None for cell in cells):
             continue
         signed = name == "deviation_m"
