@@ -334,12 +334,15 @@ def test_a_study_of_several_conditions_names_what_they_share_and_explains_each()
         Operators.grid()[:1], ["tca"], ["d1K10", "d2b2K20"], base=ebac.Scenario(seconds=0.5)
     )
     figure = dict(plot_study(found))["hands"]
-    first, *lines = figure.get_suptitle().split("\n")
-    assert first.endswith(
+    assert figure.get_suptitle().endswith(
         "the reference device (0.25 kg, 2 N s/m, sensor without noise); 1 kHz, state observer for laws made for it"
     )
-    assert lines[0] == "d1K10: 1 sample of delay, device damping 2 N s/m, wall 10 kN/m"
-    assert lines[1] == "d2b2K20: 2 samples of delay, device damping 2 N s/m, wall 20 kN/m"
+    assert "\n" not in figure.get_suptitle()
+    [key] = figure.legends
+    assert [text.get_text() for text in key.get_texts()][-2:] == [
+        "d1K10: 1 sample of delay, device damping 2 N s/m, wall 10 kN/m",
+        "d2b2K20: 2 samples of delay, device damping 2 N s/m, wall 20 kN/m",
+    ]
     check_inside(figure)
 
 

@@ -97,31 +97,32 @@ def _scatter(study: Study, conditions: list[str], *, narrow: bool) -> Picture:
             ax.set_xlabel("swing, peak to peak [mm]")
             ax.tick_params(labelbottom=True)
     figure.suptitle(
-        f"How {len(study.operators)} hands come to rest, one mark each, simulated: {_setting(study, conditions)}",
+        f"How {len(study.operators)} hands come to rest, simulated: {_setting(study, conditions)}",
         fontsize="medium",
     )
-    _explain(figure)
+    _explain(figure, _summaries(study, conditions))
     return figure
 
 
-def _explain(figure: Picture) -> None:
-    """Say below the panels what area and marks mean."""
+def _explain(figure: Picture, conditions: list[str]) -> None:
+    """Explain area, marks and conditions below the panels."""
     marks = [Line2D([], [], ls="", color="0.3", **style) for style in (GOOD, RING, CROSS)]
     figure_legend(
         figure,
-        [Patch(color=EXACT), *marks],
+        [Patch(color=EXACT), *marks, *(Line2D([], [], ls="") for _ in conditions)],
         [
             "exact and still: a rest within 2 encoder counts of the ideal,\n"
             "or as far as friction holds it, and a swing below 0.25 mm",
             "good: exact, still and quiet in force",
             "exact and still, force not quiet",
             "not exact and still; #5: row 5 of the population",
+            *conditions,
         ],
     )
 
 
 def _setting(study: Study, conditions: list[str]) -> str:
-    """Return what the conditions share of device, virtual world and timing, and what each one is."""
+    """Return what the conditions share of device, virtual world and timing."""
     law = next(iter(study.laws))
     runs = np.concatenate([study.runs(law, name) for name in conditions]) % len(study.scenarios)
     device, world, timing = zip(
@@ -133,9 +134,13 @@ def _setting(study: Study, conditions: list[str]) -> str:
     same = [device[0] + changed, *({*world} if len({*world}) == 1 else ())]
     first, *others = (one.split(", ") for one in timing)
     same.append(", ".join(word for word in first if all(word in other for other in others)))
+    return "; ".join(filter(None, same))
+
+
+def _summaries(study: Study, conditions: list[str]) -> list[str]:
+    """Return what each of several conditions is, in a line."""
     summaries = {c.name: c.summary for c in study.conditions}
-    lines = [f"{name}: {summaries[name]}" for name in conditions if len(conditions) > 1]
-    return "\n".join(["; ".join(same), *lines])
+    return [f"{name}: {summaries[name]}" for name in conditions if len(conditions) > 1]
 
 
 def _panel(ax: Axes, study: Study, law: str, condition: str) -> None:
